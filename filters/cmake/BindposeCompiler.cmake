@@ -1,0 +1,16 @@
+# Warnings for our own targets, ccache when there, and how a portable Release is compiled.
+find_program(BINDPOSE_CCACHE ccache)
+mark_as_advanced(BINDPOSE_CCACHE)
+if(BINDPOSE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${BINDPOSE_CCACHE}")
+  set(CMAKE_C_COMPILER_LAUNCHER "${BINDPOSE_CCACHE}")
+endif()
+
+# Deterministic across machines: no -march=native, no contraction of a*b+c into fused operations.
+add_compile_options(-ffp-contract=off)
+
+# bindpose_warnings(TARGET): the warnings every target of ours is compiled with.
+function(bindpose_warnings target)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wshadow -Wno-sign-compare -Wno-unused-parameter)
+endfunction()

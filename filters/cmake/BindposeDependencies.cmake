@@ -1,0 +1,80 @@
+# What the system has. Required: VTK, Eigen, TBB, nlohmann-json. Everything heavy is optional; the
+# feature that misses it says which package would give it.
+
+# Python before VTK, and the system's own: another interpreter on PATH has no VTK and no numpy.
+if(BINDPOSE_WRAP_PYTHON)
+  if(NOT DEFINED Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
+    set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python that the package is built for")
+  endif()
+  find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter Development.Module)
+endif()
+
+set(bindpose_vtk_components
+  CommonCore CommonDataModel CommonExecutionModel CommonMath CommonMisc CommonTransforms
+  CommonComputationalGeometry
+  FiltersCore FiltersExtraction FiltersGeneral FiltersGeometry FiltersModeling FiltersSources
+  ImagingCore InteractionStyle InteractionWidgets
+  IOCore IOGeometry IOImage IOLegacy IOPLY IOXML
+  RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2)
+if(BINDPOSE_WRAP_PYTHON)
+  list(APPEND bindpose_vtk_components WrappingPythonCore Python)
+endif()
+find_package(VTK 9.1 REQUIRED COMPONENTS ${bindpose_vtk_components}
+  OPTIONAL_COMPONENTS GUISupportQt)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(TBB REQUIRED)
+find_package(nlohmann_json 3.10 REQUIRED)
+find_package(CLI11 2.1 REQUIRED)
+
+# ---- CHOLMOD (its supernodal module is GPL) ----
+set(bindpose_has_cholmod OFF)
+if(BINDPOSE_WITH_CHOLMOD AND NOT BINDPOSE_PERMISSIVE)
+  find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
+  find_library(CHOLMOD_LIBRARY cholmod)
+  mark_as_advanced(CHOLMOD_INCLUDE_DIR CHOLMOD_LIBRARY)
+  if(CHOLMOD_INCLUDE_DIR AND CHOLMOD_LIBRARY)
+    set(bindpose_has_cholmod ON)
+    if(NOT TARGET SuiteSparse::CHOLMOD)
+      add_library(SuiteSparse::CHOLMOD UNKNOWN IMPORTED)
+      set_target_properties(SuiteSparse::CHOLMOD PROPERTIES
+        IMPORTED_LOCATION "${CHOLMOD_LIBRARY}"
+        INTERFACE_INCLUDE_DIRECTORIES "${CHOLMOD_INCLUDE_DIR}")
+    endif()
+  endif()
+endif()
+
+# ---- bindpose-mesher: CGAL (GPL) and TetGen (AGPL), in a process of their own ----
+set(bindpose_has_mesher OFF)
+if(BINDPOSE_WITH_MESHER AND NOT BINDPOSE_PERMISSIVE)
+  find_package(CGAL 5.5 QUIET)
+  find_path(TETGEN_INCLUDE_DIR tetgen.h)
+  find_library(TETGEN_LIBRARY NAMES tet)
+  mark_as_advanced(TETGEN_INCLUDE_DIR TETGEN_LIBRARY)
+  if(CGAL_FOUND AND TETGEN_INCLUDE_DIR AND TETGEN_LIBRARY)
+    set(bindpose_has_mesher ON)
+    if(NOT TARGET TetGen::TetGen)
+      add_library(TetGen::TetGen UNKNOWN IMPORTED)
+      set_target_properties(TetGen::TetGen PROPERTIES
+        IMPORTED_LOCATION "${TETGEN_LIBRARY}"
+        INTERFACE_INCLUDE_DIRECTORIES "${TETGEN_INCLUDE_DIR}"
+        INTERFACE_COMPILE_DEFINITIONS TETLIBRARY)
+    endif()
+  endif()
+endif()
+
+# ---- Qt viewer ----
+set(bindpose_has_qt OFF)
+if(BINDPOSE_WITH_QT AND TARGET VTK::GUISupportQt)
+  find_package(Qt5 5.15 QUIET COMPONENTS Widgets)
+  if(Qt5_FOUND)
+    set(bindpose_has_qt ON)
+  endif()
+endif()
+
+# ---- Tests and benchmarks ----
+if(BINDPOSE_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+endif()
+if(BINDPOSE_BUILD_BENCHMARKS)
+  find_package(benchmark QUIET)
+endif()

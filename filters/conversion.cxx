@@ -1,0 +1,581 @@
+// Between VTK's datasets and the kernels' matrices. Coordinates and connectivity are shared where
+// the layout allows: doubles side by side, 64-bit connectivity of triangles or tets only.
+#include "conversion.h"
+
+#include "vtkCell.h"
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
+#include "vtkCellData.h"
+#include "vtkCellTypes.h"
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkPolygon.h"
+#include "vtkStringArray.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+static_assert(sizeof(Index) == sizeof(vtkTypeInt64), "connectivity is shared");
+
+/// Shares a cell array's connectivity when all its cells have as many points as Matrix columns.
+template <typename Matrix>
+bool share_connectivity(vtkCellArray* cells, SharedMatrix<Matrix>& matrix)
+{
+  constexpr vtkIdType size = Matrix::ColsAtCompileTime;
+  if (!cells || cells->GetNumberOfCells() == 0 || !cells->IsStorage64Bit() ||
+    cells->IsHomogeneous() != size ||
+    cells->GetNumberOfConnectivityIds() != size * cells->GetNumberOfCells())
+  {
+    return false;
+  }
+  auto* connectivity = cells->GetConnectivityArray64();
+  matrix.share(connectivity, reinterpret_cast<const Index*>(connectivity->GetPointer(0)),
+    cells->GetNumberOfCells(), size);
+  return true;
+}
+
+/// Fan for triangles and quads, ear cutting for larger polygons; a polygon that cannot be cut
+/// (degenerate) is fanned, which keeps its winding number.
+void triangulate_polygon(vtkIdType count, const vtkIdType* ids, vtkPoints* points,
+  std::vector<std::array<Index, 3>>& triangles)
+{
+  if (count > 4)
+  {
+    vtkNew<vtkPolygon> polygon;
+    polygon->GetPointIds()->SetNumberOfIds(count);
+    polygon->GetPoints()->SetDataTypeToDouble();
+    polygon->GetPoints()->SetNumberOfPoints(count);
+    for (vtkIdType k = 0; k < count; ++k)
+    {
+      polygon->GetPointIds()->SetId(k, k);
+      polygon->GetPoints()->SetPoint(k, points->GetPoint(ids[k]));
+    }
+    vtkNew<vtkIdList> cut;
+    if (polygon->Triangulate(cut) && cut->GetNumberOfIds() == 3 * (count - 2))
+    {
+      for (vtkIdType t = 0; t + 2 < cut->GetNumberOfIds(); t += 3)
+      {
+        triangles.push_back({ ids[cut->GetId(t)], ids[cut->GetId(t + 1)], ids[cut->GetId(t + 2)] });
+      }
+      return;
+    }
+  }
+  for (vtkIdType k = 1; k + 1 < count; ++k)
+  {
+    triangles.push_back({ ids[0], ids[k], ids[k + 1] });
+  }
+}
+
+bool ids_in_range(vtkIdType count, const vtkIdType* ids, vtkIdType number_of_points)
+{
+  for (vtkIdType k = 0; k < count; ++k)
+  {
+    if (ids[k] < 0 || ids[k] >= number_of_points)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+Status split_cells(vtkPointSet* data, SurfaceInput& surface)
+{
+  vtkNew<vtkIdList> cell_points;
+  std::vector<std::array<Index, 3>> triangles;
+  const vtkIdType cells = data->GetNumberOfCells();
+  vtkPoints* points = data->GetPoints();
+  const vtkIdType number_of_points = data->GetNumberOfPoints();
+  for (vtkIdType cell = 0; cell < cells; ++cell)
+  {
+    const int type = data->GetCellType(cell);
+    const bool strip = type == VTK_TRIANGLE_STRIP;
+    const bool ring = type == VTK_TRIANGLE || type == VTK_QUAD || type == VTK_POLYGON;
+    if (!strip && !ring && type != VTK_PIXEL)
+    {
+      surface.ignored_cells += 1;
+      continue;
+    }
+    data->GetCellPoints(cell, cell_points);
+    vtkIdType count = cell_points->GetNumberOfIds();
+    std::vector<vtkIdType> ids(cell_points->GetPointer(0), cell_points->GetPointer(0) + count);
+    if (!ids_in_range(count, ids.data(), number_of_points))
+    {
+      return Status::invalid_input("cell " + std::to_string(cell) +
+        " names a point that does not exist (there are " + std::to_string(number_of_points) + ")");
+    }
+    if (strip)
+    {
+      for (vtkIdType k = 0; k + 2 < count; ++k)
+      {
+        const vtkIdType flip = k % 2;
+        triangles.push_back({ ids[k], ids[k + 1 + flip], ids[k + 2 - flip] });
+      }
+    }
+    else
+    {
+      if (type == VTK_PIXEL)
+      {
+        std::swap(ids[2], ids[3]);
+      }
+      triangulate_polygon(count, ids.data(), points, triangles);
+    }
+    surface.triangulated_cells += count != 3;
+    surface.cell_of_triangle.resize(triangles.size(), cell);
+  }
+  Triangles matrix(static_cast<Index>(triangles.size()), 3);
+  for (Index t = 0; t < matrix.rows(); ++t)
+  {
+    matrix.row(t) << triangles[t][0], triangles[t][1], triangles[t][2];
+  }
+  surface.triangles.own(std::move(matrix));
+  return {};
+}
+} // namespace
+
+SharedMatrix<Points> to_points(vtkDataSet* data)
+{
+  SharedMatrix<Points> matrix;
+  auto* set = vtkPointSet::SafeDownCast(data);
+  vtkDataArray* array = set && set->GetPoints() ? set->GetPoints()->GetData() : nullptr;
+  if (auto* doubles = vtkDoubleArray::SafeDownCast(array))
+  {
+    matrix.share(doubles, doubles->GetPointer(0), doubles->GetNumberOfTuples(), 3);
+    return matrix;
+  }
+  const vtkIdType count = data ? data->GetNumberOfPoints() : 0;
+  Points points(count, 3);
+  for (vtkIdType v = 0; v < count; ++v)
+  {
+    data->GetPoint(v, points.data() + 3 * v);
+  }
+  matrix.own(std::move(points));
+  return matrix;
+}
+
+Status to_surface(vtkDataSet* data, SurfaceInput& surface)
+{
+  surface = SurfaceInput();
+  auto* set = vtkPointSet::SafeDownCast(data);
+  if (!set)
+  {
+    return Status::invalid_input(data
+        ? std::string("a surface mesh is needed, but the input is a ") + data->GetClassName()
+        : "there is no input surface");
+  }
+  if (set->GetNumberOfPoints() == 0 || set->GetNumberOfCells() == 0)
+  {
+    return Status::invalid_input("the surface is empty: it has " +
+      std::to_string(set->GetNumberOfPoints()) + " points and " +
+      std::to_string(set->GetNumberOfCells()) + " cells");
+  }
+  surface.points = to_points(set);
+  auto* polydata = vtkPolyData::SafeDownCast(set);
+  const bool only_polys = polydata && polydata->GetNumberOfPolys() == polydata->GetNumberOfCells();
+  if (!only_polys || !share_connectivity(polydata->GetPolys(), surface.triangles))
+  {
+    Status status = split_cells(set, surface);
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  if (surface.triangles.view().rows() == 0)
+  {
+    return Status::invalid_input("the input has no triangles or polygons, only " +
+      std::to_string(set->GetNumberOfCells()) + " cells of other kinds");
+  }
+  return check_mesh(surface.points.view(), surface.triangles.view());
+}
+
+Status to_tets(vtkDataSet* data, TetInput& tets)
+{
+  tets = TetInput();
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
+  if (!grid)
+  {
+    return Status::invalid_input(data
+        ? std::string("a tet mesh is needed, but the input is a ") + data->GetClassName()
+        : "there is no input tet mesh");
+  }
+  if (grid->GetNumberOfPoints() == 0 || grid->GetNumberOfCells() == 0)
+  {
+    return Status::invalid_input("the tet mesh is empty");
+  }
+  for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+  {
+    if (grid->GetCellType(cell) != VTK_TETRA)
+    {
+      return Status::invalid_input("cell " + std::to_string(cell) + " is a " +
+        vtkCellTypes::GetClassNameFromTypeId(grid->GetCellType(cell)) + ", not a tet");
+    }
+  }
+  tets.points = to_points(grid);
+  if (!share_connectivity(grid->GetCells(), tets.tets))
+  {
+    Tets matrix(grid->GetNumberOfCells(), 4);
+    vtkNew<vtkIdList> ids;
+    for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
+    {
+      grid->GetCellPoints(cell, ids);
+      for (int k = 0; k < 4; ++k)
+      {
+        matrix(cell, k) = ids->GetId(k);
+      }
+    }
+    tets.tets.own(std::move(matrix));
+  }
+  return check_mesh(tets.points.view(), tets.tets.view());
+}
+
+SharedMatrix<Weights> to_matrix(vtkDataArray* array)
+{
+  SharedMatrix<Weights> matrix;
+  if (auto* doubles = vtkDoubleArray::SafeDownCast(array))
+  {
+    matrix.share(doubles, doubles->GetPointer(0), doubles->GetNumberOfTuples(),
+      doubles->GetNumberOfComponents());
+    return matrix;
+  }
+  if (array)
+  {
+    Weights copy(array->GetNumberOfTuples(), array->GetNumberOfComponents());
+    for (vtkIdType v = 0; v < array->GetNumberOfTuples(); ++v)
+    {
+      array->GetTuple(v, copy.data() + v * copy.cols());
+    }
+    matrix.own(std::move(copy));
+  }
+  return matrix;
+}
+
+vtkSmartPointer<vtkPoints> to_vtk_points(PointsView points)
+{
+  auto result = vtkSmartPointer<vtkPoints>::New();
+  result->SetDataTypeToDouble();
+  result->SetNumberOfPoints(points.rows());
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    result->SetPoint(v, points(v, 0), points(v, 1), points(v, 2));
+  }
+  return result;
+}
+
+namespace
+{
+template <typename View>
+vtkSmartPointer<vtkCellArray> to_cell_array(const View& elements)
+{
+  vtkNew<vtkTypeInt64Array> offsets;
+  vtkNew<vtkTypeInt64Array> connectivity;
+  offsets->SetNumberOfValues(elements.rows() + 1);
+  connectivity->SetNumberOfValues(elements.size());
+  for (Index e = 0; e <= elements.rows(); ++e)
+  {
+    offsets->SetValue(e, e * elements.cols());
+  }
+  for (Index k = 0; k < elements.size(); ++k)
+  {
+    connectivity->SetValue(k, elements.data()[k]);
+  }
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  cells->SetData(offsets, connectivity);
+  return cells;
+}
+} // namespace
+
+vtkSmartPointer<vtkPolyData> to_polydata(PointsView points, TrianglesView triangles)
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(to_vtk_points(points));
+  result->SetPolys(to_cell_array(triangles));
+  return result;
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(PointsView points, TetsView tets)
+{
+  auto result = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  result->SetPoints(to_vtk_points(points));
+  result->SetCells(VTK_TETRA, to_cell_array(tets));
+  return result;
+}
+
+// ---- Handles -----------------------------------------------------------------------------------
+
+namespace
+{
+double cell_value(vtkPolyData* data, const char* name, vtkIdType cell, double fallback)
+{
+  vtkDataArray* array = data->GetCellData()->GetArray(name);
+  return array && cell < array->GetNumberOfTuples() ? array->GetComponent(cell, 0) : fallback;
+}
+} // namespace
+
+Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells)
+{
+  handles.clear();
+  if (cells)
+  {
+    cells->clear();
+  }
+  if (!data || data->GetNumberOfCells() == 0)
+  {
+    return Status::invalid_input("there is no handle");
+  }
+  auto* names = vtkStringArray::SafeDownCast(data->GetCellData()->GetAbstractArray("HandleName"));
+  std::vector<Index> handle_of_cell(static_cast<std::size_t>(data->GetNumberOfCells()), -1);
+  std::vector<Index> parents;
+  vtkNew<vtkIdList> ids;
+  int points = 0;
+  int bones = 0;
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    data->GetCellPoints(cell, ids);
+    const vtkIdType size = ids->GetNumberOfIds();
+    const std::string where = "handle cell " + std::to_string(cell);
+    const double fallback_kind = size == 2 ? 1 : 0;
+    const int kind = static_cast<int>(cell_value(data, "HandleKind", cell, fallback_kind));
+    if (kind < -1 || kind > 3)
+    {
+      return Status::invalid_input(where + " has an unknown HandleKind " + std::to_string(kind));
+    }
+    Handle handle;
+    handle.kind = static_cast<HandleKind>(kind);
+    if (handle.kind == HandleKind::cage_element)
+    {
+      continue;
+    }
+    const bool bone = handle.kind == HandleKind::bone;
+    if (size != (bone ? 2 : 1) ||
+      !ids_in_range(size, ids->GetPointer(0), data->GetNumberOfPoints()))
+    {
+      return Status::invalid_input(
+        where + " has " + std::to_string(size) + " points; a bone has 2, every other handle 1");
+    }
+    data->GetPoint(ids->GetId(0), handle.head.data());
+    data->GetPoint(ids->GetId(size - 1), handle.tail.data());
+    handle.name =
+      names && cell < names->GetNumberOfValues() ? names->GetValue(cell) : vtkStdString();
+    const int number = bone ? ++bones : ++points;
+    if (handle.name.empty())
+    {
+      handle.name = (bone ? "b" : "p") + std::to_string(number);
+    }
+    handle.region_id = static_cast<Index>(cell_value(data, "RegionId", cell, 0));
+    parents.push_back(static_cast<Index>(cell_value(data, "Parent", cell, -1)));
+    handle_of_cell[cell] = static_cast<Index>(handles.size());
+    handles.push_back(handle);
+    if (cells)
+    {
+      cells->push_back(cell);
+    }
+  }
+  // Parent names a cell in the dataset, a handle in the kernel.
+  for (std::size_t i = 0; i < handles.size(); ++i)
+  {
+    const Index cell = parents[i];
+    if (cell < -1 || cell >= static_cast<Index>(handle_of_cell.size()) ||
+      (cell >= 0 && handle_of_cell[cell] < 0))
+    {
+      return Status::invalid_input("handle '" + handles[i].name + "' has a parent " +
+        std::to_string(cell) + " that is not a handle");
+    }
+    handles[i].parent = cell < 0 ? -1 : handle_of_cell[cell];
+  }
+  return check_handles(handles);
+}
+
+vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles)
+{
+  const auto count = static_cast<vtkIdType>(handles.size());
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> verts;
+  vtkNew<vtkCellArray> lines;
+  vtkNew<vtkStringArray> names;
+  vtkNew<vtkIntArray> kinds;
+  vtkNew<vtkIdTypeArray> parents;
+  vtkNew<vtkIdTypeArray> regions;
+  names->SetName("HandleName");
+  kinds->SetName("HandleKind");
+  parents->SetName("Parent");
+  regions->SetName("RegionId");
+  // A polydata numbers its vertices before its lines: bones take the cells behind all others.
+  std::vector<Index> order;
+  for (const bool bones : { false, true })
+  {
+    for (vtkIdType i = 0; i < count; ++i)
+    {
+      if ((handles[i].kind == HandleKind::bone) == bones)
+      {
+        order.push_back(i);
+      }
+    }
+  }
+  std::vector<Index> cell_of(handles.size());
+  for (std::size_t cell = 0; cell < order.size(); ++cell)
+  {
+    cell_of[order[cell]] = static_cast<Index>(cell);
+  }
+  for (const Index i : order)
+  {
+    const Handle& handle = handles[i];
+    const vtkIdType head = points->InsertNextPoint(handle.head.data());
+    if (handle.kind == HandleKind::bone)
+    {
+      const vtkIdType ends[2] = { head, points->InsertNextPoint(handle.tail.data()) };
+      lines->InsertNextCell(2, ends);
+    }
+    else
+    {
+      verts->InsertNextCell(1, &head);
+    }
+    names->InsertNextValue(handle.name);
+    kinds->InsertNextValue(static_cast<int>(handle.kind));
+    parents->InsertNextValue(handle.parent < 0 ? -1 : cell_of[handle.parent]);
+    regions->InsertNextValue(handle.region_id);
+  }
+  result->SetPoints(points);
+  result->SetVerts(verts);
+  result->SetLines(lines);
+  result->GetCellData()->AddArray(names);
+  result->GetCellData()->AddArray(kinds);
+  result->GetCellData()->AddArray(parents);
+  result->GetCellData()->AddArray(regions);
+  std::vector<Index> cells(handles.size());
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    cells[i] = static_cast<Index>(i);
+  }
+  set_pose(result, cells, Pose(handles.size()));
+  return result;
+}
+
+Status to_pose(
+  vtkPolyData* data, const Handles& handles, const std::vector<Index>& cells, Pose& pose)
+{
+  pose.assign(handles.size(), HandlePose());
+  vtkDataArray* transforms = data->GetCellData()->GetArray("Transform");
+  vtkDataArray* twists = data->GetCellData()->GetArray("Twist");
+  if (transforms && transforms->GetNumberOfComponents() != 12)
+  {
+    return Status::invalid_input("the cell array Transform has " +
+      std::to_string(transforms->GetNumberOfComponents()) +
+      " components; it needs 12 (3x4, row-major)");
+  }
+  if (twists && twists->GetNumberOfComponents() != 2)
+  {
+    return Status::invalid_input("the cell array Twist has " +
+      std::to_string(twists->GetNumberOfComponents()) + " components; it needs 2 (degrees)");
+  }
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    const vtkIdType cell = cells[i];
+    const int mode = static_cast<int>(cell_value(data, "Mode", cell, 0));
+    if (mode < 0 || mode > 2)
+    {
+      return Status::invalid_input(
+        "handle '" + handles[i].name + "' has an unknown Mode " + std::to_string(mode));
+    }
+    pose[i].mode = static_cast<HandleMode>(mode);
+    if (transforms)
+    {
+      transforms->GetTuple(cell, pose[i].transform.data());
+    }
+    if (twists)
+    {
+      twists->GetTuple(cell, pose[i].twist.data());
+    }
+    pose[i].stretch = cell_value(data, "Stretch", cell, 1.0);
+    if (!pose[i].transform.allFinite() || !pose[i].twist.allFinite() ||
+      !std::isfinite(pose[i].stretch))
+    {
+      return Status::invalid_input(
+        "the pose of handle '" + handles[i].name + "' has a number that is not finite");
+    }
+  }
+  return {};
+}
+
+void set_pose(vtkPolyData* data, const std::vector<Index>& cells, const Pose& pose)
+{
+  const vtkIdType count = data->GetNumberOfCells();
+  vtkNew<vtkIntArray> modes;
+  vtkNew<vtkDoubleArray> transforms;
+  vtkNew<vtkDoubleArray> stretches;
+  vtkNew<vtkDoubleArray> twists;
+  modes->SetName("Mode");
+  transforms->SetName("Transform");
+  stretches->SetName("Stretch");
+  twists->SetName("Twist");
+  transforms->SetNumberOfComponents(12);
+  twists->SetNumberOfComponents(2);
+  modes->SetNumberOfTuples(count);
+  transforms->SetNumberOfTuples(count);
+  stretches->SetNumberOfTuples(count);
+  twists->SetNumberOfTuples(count);
+  Pose of_cell(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < cells.size(); ++i)
+  {
+    of_cell[cells[i]] = pose[i];
+  }
+  for (vtkIdType cell = 0; cell < count; ++cell)
+  {
+    modes->SetValue(cell, static_cast<int>(of_cell[cell].mode));
+    transforms->SetTuple(cell, of_cell[cell].transform.data());
+    stretches->SetValue(cell, of_cell[cell].stretch);
+    twists->SetTuple(cell, of_cell[cell].twist.data());
+  }
+  data->GetCellData()->AddArray(modes);
+  data->GetCellData()->AddArray(transforms);
+  data->GetCellData()->AddArray(stretches);
+  data->GetCellData()->AddArray(twists);
+}
+
+std::vector<vtkObject*> bind_objects(vtkPolyData* handles)
+{
+  std::vector<vtkObject*> objects{ handles->GetPoints() ? handles->GetPoints()->GetData() : nullptr,
+    handles->GetVerts(), handles->GetLines(), handles->GetPolys() };
+  for (const char* name : { "HandleName", "HandleKind", "Parent", "RegionId" })
+  {
+    objects.push_back(handles->GetCellData()->GetAbstractArray(name));
+  }
+  return objects;
+}
+
+std::vector<vtkObject*> bind_objects(vtkPointSet* mesh, const std::vector<std::string>& array_names)
+{
+  std::vector<vtkObject*> objects{ mesh->GetPoints() ? mesh->GetPoints()->GetData() : nullptr };
+  if (auto* polydata = vtkPolyData::SafeDownCast(mesh))
+  {
+    objects.push_back(polydata->GetPolys());
+    objects.push_back(polydata->GetStrips());
+  }
+  else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(mesh))
+  {
+    objects.push_back(grid->GetCells());
+    objects.push_back(grid->GetCellTypesArray());
+  }
+  for (const std::string& name : array_names)
+  {
+    objects.push_back(mesh->GetPointData()->GetAbstractArray(name.c_str()));
+  }
+  return objects;
+}
+
+} // namespace bindpose

@@ -1,0 +1,159 @@
+#include "base/laplacian.h"
+
+#include <cmath>
+#include <vector>
+
+namespace bindpose
+{
+
+namespace
+{
+template <typename Elements, typename Cotangents, std::size_t EdgeCount>
+SparseMatrix assemble(Index vertex_count, const Elements& elements, const Cotangents& c,
+  const int (&edges)[EdgeCount][2])
+{
+  std::vector<Eigen::Triplet<double, int>> entries;
+  entries.reserve(static_cast<std::size_t>(elements.rows()) * EdgeCount * 4);
+  for (Index e = 0; e < elements.rows(); ++e)
+  {
+    for (std::size_t k = 0; k < EdgeCount; ++k)
+    {
+      const int i = static_cast<int>(elements(e, edges[k][0]));
+      const int j = static_cast<int>(elements(e, edges[k][1]));
+      const double w = c(e, static_cast<Index>(k));
+      entries.emplace_back(i, j, -w);
+      entries.emplace_back(j, i, -w);
+      entries.emplace_back(i, i, w);
+      entries.emplace_back(j, j, w);
+    }
+  }
+  SparseMatrix matrix(vertex_count, vertex_count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+} // namespace
+
+Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> cotangent_weights(
+  PointsView points, TrianglesView triangles)
+{
+  Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> c(triangles.rows(), 3);
+  c.setZero();
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    const Vec3 p[3] = { points.row(triangles(t, 0)), points.row(triangles(t, 1)),
+      points.row(triangles(t, 2)) };
+    const double two_areas = (p[1] - p[0]).cross(p[2] - p[0]).norm();
+    for (int k = 0; k < 3 && two_areas > 0.0; ++k)
+    {
+      const Vec3 u = p[(k + 1) % 3] - p[k];
+      const Vec3 v = p[(k + 2) % 3] - p[k];
+      const double half_cot = 0.5 * u.dot(v) / two_areas;
+      c(t, k) = std::isfinite(half_cot) ? half_cot : 0.0;
+    }
+  }
+  return c;
+}
+
+Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> cotangent_weights(
+  PointsView points, TetsView tets)
+{
+  Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> c(tets.rows(), 6);
+  c.setZero();
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    const Vec3 p[4] = { points.row(tets(t, 0)), points.row(tets(t, 1)), points.row(tets(t, 2)),
+      points.row(tets(t, 3)) };
+    const double six_volumes = (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]);
+    if (six_volumes == 0.0)
+    {
+      continue;
+    }
+    // grad phi_i = g_i / (6 V) with g_i the inward normal of the facet opposite to i, of length
+    // twice the facet's area.
+    Vec3 g[4];
+    g[1] = (p[2] - p[0]).cross(p[3] - p[0]);
+    g[2] = (p[3] - p[0]).cross(p[1] - p[0]);
+    g[3] = (p[1] - p[0]).cross(p[2] - p[0]);
+    g[0] = -(g[1] + g[2] + g[3]);
+    const double scale = 1.0 / (6.0 * std::abs(six_volumes));
+    for (int k = 0; k < 6; ++k)
+    {
+      const double w = -scale * g[tet_edges[k][0]].dot(g[tet_edges[k][1]]);
+      c(t, k) = std::isfinite(w) ? w : 0.0;
+    }
+  }
+  return c;
+}
+
+SparseMatrix stiffness_matrix(PointsView points, TrianglesView triangles)
+{
+  constexpr int edges[3][2] = { { 1, 2 }, { 2, 0 }, { 0, 1 } };
+  return assemble(points.rows(), triangles, cotangent_weights(points, triangles), edges);
+}
+
+SparseMatrix stiffness_matrix(PointsView points, TetsView tets)
+{
+  return assemble(points.rows(), tets, cotangent_weights(points, tets), tet_edges);
+}
+
+Eigen::VectorXd lumped_mass(PointsView points, TrianglesView triangles)
+{
+  Eigen::VectorXd mass = Eigen::VectorXd::Zero(points.rows());
+  const auto c = cotangent_weights(points, triangles);
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    const Vec3 p[3] = { points.row(triangles(t, 0)), points.row(triangles(t, 1)),
+      points.row(triangles(t, 2)) };
+    const double area = 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
+    const bool obtuse = c(t, 0) < 0.0 || c(t, 1) < 0.0 || c(t, 2) < 0.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      double share;
+      if (obtuse)
+      {
+        share = c(t, k) < 0.0 ? area / 2.0 : area / 4.0;
+      }
+      else
+      {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        share =
+          0.25 * (c(t, j) * (p[i] - p[k]).squaredNorm() + c(t, i) * (p[j] - p[k]).squaredNorm());
+      }
+      mass[triangles(t, k)] += share;
+    }
+  }
+  return mass;
+}
+
+Eigen::VectorXd lumped_mass(PointsView points, TetsView tets)
+{
+  Eigen::VectorXd mass = Eigen::VectorXd::Zero(points.rows());
+  const Eigen::VectorXd volumes = tet_volumes(points, tets);
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      mass[tets(t, k)] += 0.25 * std::abs(volumes[t]);
+    }
+  }
+  return mass;
+}
+
+SparseMatrix harmonic_energy(const SparseMatrix& stiffness, const Eigen::VectorXd& mass, int k)
+{
+  const Eigen::VectorXd inverse_mass =
+    mass.unaryExpr([](double m) { return m > 0.0 ? 1.0 / m : 0.0; });
+  SparseMatrix q = stiffness;
+  for (int power = 1; power < k; ++power)
+  {
+    q = SparseMatrix(stiffness * inverse_mass.asDiagonal() * q).eval();
+  }
+  if (k > 2)
+  {
+    // A product of three is symmetric only up to round-off.
+    q = SparseMatrix(0.5 * (q + SparseMatrix(q.transpose())));
+  }
+  return q;
+}
+
+} // namespace bindpose

@@ -1,0 +1,286 @@
+#include "base/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+namespace bindpose
+{
+
+namespace
+{
+template <typename Elements>
+Status check_elements(PointsView points, const Elements& elements, const char* element_name)
+{
+  for (Index e = 0; e < elements.rows(); ++e)
+  {
+    for (Index k = 0; k < elements.cols(); ++k)
+    {
+      const Index v = elements(e, k);
+      if (v < 0 || v >= points.rows())
+      {
+        return Status::invalid_input(std::string(element_name) + " " + std::to_string(e) +
+          " names vertex " + std::to_string(v) + ", but there are " +
+          std::to_string(points.rows()) + " vertices");
+      }
+      if (!points.row(v).allFinite())
+      {
+        return Status::invalid_input("vertex " + std::to_string(v) +
+          " has a coordinate that is not a finite number (used by " + element_name + " " +
+          std::to_string(e) + ")");
+      }
+    }
+  }
+  return {};
+}
+
+/// Union-find with path halving; the smaller id is the root, so component ids follow vertex ids.
+class DisjointSets
+{
+public:
+  explicit DisjointSets(Index count) : parent_(static_cast<std::size_t>(count))
+  {
+    std::iota(this->parent_.begin(), this->parent_.end(), Index(0));
+  }
+  Index find(Index v)
+  {
+    while (this->parent_[v] != v)
+    {
+      this->parent_[v] = this->parent_[this->parent_[v]];
+      v = this->parent_[v];
+    }
+    return v;
+  }
+  void unite(Index a, Index b)
+  {
+    a = this->find(a);
+    b = this->find(b);
+    if (a != b)
+    {
+      this->parent_[std::max(a, b)] = std::min(a, b);
+    }
+  }
+
+private:
+  std::vector<Index> parent_;
+};
+
+template <typename Elements>
+Components components_of(Index vertex_count, const Elements& elements)
+{
+  DisjointSets sets(vertex_count);
+  std::vector<char> used(static_cast<std::size_t>(vertex_count), 0);
+  for (Index e = 0; e < elements.rows(); ++e)
+  {
+    for (Index k = 0; k < elements.cols(); ++k)
+    {
+      used[elements(e, k)] = 1;
+      sets.unite(elements(e, 0), elements(e, k));
+    }
+  }
+  Components result;
+  result.of_vertex.assign(static_cast<std::size_t>(vertex_count), -1);
+  for (Index v = 0; v < vertex_count; ++v)
+  {
+    if (used[v])
+    {
+      const Index root = sets.find(v);
+      result.of_vertex[v] = root == v ? result.count++ : result.of_vertex[root];
+    }
+  }
+  return result;
+}
+} // namespace
+
+void Box::add(const Vec3& p)
+{
+  this->lower = this->lower.cwiseMin(p);
+  this->upper = this->upper.cwiseMax(p);
+}
+
+Box bounding_box(PointsView points)
+{
+  Box box;
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    box.add(points.row(v));
+  }
+  return box;
+}
+
+Box bounding_box(PointsView points, TrianglesView triangles)
+{
+  Box box;
+  for (Index k = 0; k < triangles.size(); ++k)
+  {
+    box.add(points.row(triangles.data()[k]));
+  }
+  return box;
+}
+
+Status check_mesh(PointsView points, TrianglesView triangles)
+{
+  return check_elements(points, triangles, "triangle");
+}
+
+Status check_mesh(PointsView points, TetsView tets)
+{
+  return check_elements(points, tets, "tet");
+}
+
+double signed_volume(PointsView points, TrianglesView triangles)
+{
+  // About the box's centre: far from the origin the determinants would cancel.
+  const Vec3 c = triangles.rows() ? bounding_box(points, triangles).center() : Vec3::Zero();
+  double six_volumes = 0.0;
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    const Vec3 p0 = points.row(triangles(t, 0)).transpose() - c;
+    const Vec3 p1 = points.row(triangles(t, 1)).transpose() - c;
+    const Vec3 p2 = points.row(triangles(t, 2)).transpose() - c;
+    six_volumes += p0.dot(p1.cross(p2));
+  }
+  return six_volumes / 6.0;
+}
+
+double surface_area(PointsView points, TrianglesView triangles)
+{
+  double two_areas = 0.0;
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    const Vec3 p0 = points.row(triangles(t, 0));
+    const Vec3 p1 = points.row(triangles(t, 1));
+    const Vec3 p2 = points.row(triangles(t, 2));
+    two_areas += (p1 - p0).cross(p2 - p0).norm();
+  }
+  return 0.5 * two_areas;
+}
+
+double tet_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+{
+  return (b - a).cross(c - a).dot(d - a) / 6.0;
+}
+
+Eigen::VectorXd tet_volumes(PointsView points, TetsView tets)
+{
+  Eigen::VectorXd volumes(tets.rows());
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    volumes[t] = tet_volume(points.row(tets(t, 0)), points.row(tets(t, 1)), points.row(tets(t, 2)),
+      points.row(tets(t, 3)));
+  }
+  return volumes;
+}
+
+Triangles boundary_triangles(TetsView tets)
+{
+  // Facet k lies opposite to vertex k, ordered to point away from it.
+  constexpr int facet[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
+  struct Facet
+  {
+    std::array<Index, 3> key;
+    Index tet;
+    int side;
+  };
+  std::vector<Facet> facets;
+  facets.reserve(static_cast<std::size_t>(tets.rows()) * 4);
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      std::array<Index, 3> key{ tets(t, facet[k][0]), tets(t, facet[k][1]), tets(t, facet[k][2]) };
+      std::sort(key.begin(), key.end());
+      facets.push_back({ key, t, k });
+    }
+  }
+  std::sort(facets.begin(), facets.end(),
+    [](const Facet& x, const Facet& y) { return x.key != y.key ? x.key < y.key : x.tet < y.tet; });
+  std::vector<Facet> single;
+  for (std::size_t i = 0; i < facets.size();)
+  {
+    std::size_t j = i + 1;
+    while (j < facets.size() && facets[j].key == facets[i].key)
+    {
+      ++j;
+    }
+    if (j == i + 1)
+    {
+      single.push_back(facets[i]);
+    }
+    i = j;
+  }
+  std::sort(single.begin(), single.end(),
+    [](const Facet& x, const Facet& y)
+    { return x.tet != y.tet ? x.tet < y.tet : x.side < y.side; });
+  Triangles result(static_cast<Index>(single.size()), 3);
+  for (Index i = 0; i < result.rows(); ++i)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      result(i, k) = tets(single[i].tet, facet[single[i].side][k]);
+    }
+  }
+  return result;
+}
+
+std::vector<Edge> mesh_edges(TrianglesView triangles)
+{
+  std::vector<Edge> edges;
+  edges.reserve(static_cast<std::size_t>(triangles.rows()) * 3);
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index from = triangles(t, k);
+      const Index to = triangles(t, (k + 1) % 3);
+      if (from != to)
+      {
+        edges.push_back({ std::min(from, to), std::max(from, to), 1, from < to ? 1 : -1 });
+      }
+    }
+  }
+  std::sort(edges.begin(), edges.end(),
+    [](const Edge& x, const Edge& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < edges.size(); ++i)
+  {
+    if (edges[i].a == edges[last].a && edges[i].b == edges[last].b)
+    {
+      edges[last].uses += 1;
+      edges[last].net_direction += edges[i].net_direction;
+    }
+    else
+    {
+      edges[++last] = edges[i];
+    }
+  }
+  edges.resize(edges.empty() ? 0 : last + 1);
+  return edges;
+}
+
+EdgeCounts count_edges(TrianglesView triangles)
+{
+  EdgeCounts counts;
+  for (const Edge& edge : mesh_edges(triangles))
+  {
+    counts.edges += 1;
+    counts.boundary += edge.uses == 1;
+    counts.nonmanifold += edge.uses >= 3;
+    counts.misoriented += edge.uses == 2 && edge.net_direction != 0;
+    counts.closed = counts.closed && edge.net_direction == 0;
+  }
+  return counts;
+}
+
+Components connected_components(Index vertex_count, TrianglesView triangles)
+{
+  return components_of(vertex_count, triangles);
+}
+
+Components connected_components(Index vertex_count, TetsView tets)
+{
+  return components_of(vertex_count, tets);
+}
+
+} // namespace bindpose

@@ -1,0 +1,134 @@
+#ifndef bindpose_base_mesh_h
+#define bindpose_base_mesh_h
+
+#include "base/status.h"
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace bindpose
+{
+
+/// Vertex and element ids. 64 bit, as vtkIdType is, so that connectivity is shared, not copied.
+using Index = std::int64_t;
+
+/// One position, direction or displacement.
+using Vec3 = Eigen::Vector3d;
+
+/// #V x 3 coordinates, x y z of a vertex side by side (the layout of vtkPoints).
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+/// #F x 3 vertex ids, counter-clockwise seen from outside.
+using Triangles = Eigen::Matrix<Index, Eigen::Dynamic, 3, Eigen::RowMajor>;
+/// #T x 4 vertex ids, positive volume (VTK's order: the fourth vertex lies on the side that the
+/// normal of the first three points to).
+using Tets = Eigen::Matrix<Index, Eigen::Dynamic, 4, Eigen::RowMajor>;
+/// #V x #handles, one row a vertex (the layout of a VTK array with #handles components).
+using Weights = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// Read-only view of a matrix in its own layout: of a matrix above or of an Eigen::Map of foreign
+/// memory, never a copy. Unlike Eigen::Ref it takes nothing else, so that functions can be
+/// overloaded for triangles and tets; evaluate an expression before you pass it.
+template <typename Matrix>
+class MatrixView : public Eigen::Map<const Matrix>
+{
+public:
+  MatrixView(const Matrix& matrix)
+    : Eigen::Map<const Matrix>(matrix.data(), matrix.rows(), matrix.cols())
+  {
+  }
+  MatrixView(const Eigen::Map<const Matrix>& map) : Eigen::Map<const Matrix>(map) {}
+  MatrixView(const Eigen::Map<Matrix>& map)
+    : Eigen::Map<const Matrix>(map.data(), map.rows(), map.cols())
+  {
+  }
+};
+using PointsView = MatrixView<Points>;
+using TrianglesView = MatrixView<Triangles>;
+using TetsView = MatrixView<Tets>;
+using WeightsView = MatrixView<Weights>;
+
+struct TriangleMesh
+{
+  Points points;
+  Triangles triangles;
+};
+
+struct TetMesh
+{
+  Points points;
+  Tets tets;
+};
+
+/// An axis-aligned box; empty (lower > upper) until a point is added.
+struct Box
+{
+  Vec3 lower = Vec3::Constant(1e300);
+  Vec3 upper = Vec3::Constant(-1e300);
+
+  void add(const Vec3& p);
+  bool empty() const { return (this->lower.array() > this->upper.array()).any(); }
+  Vec3 size() const { return this->empty() ? Vec3::Zero() : Vec3(this->upper - this->lower); }
+  Vec3 center() const { return 0.5 * (this->lower + this->upper); }
+  /// Length of the diagonal, the unit in which Bindpose states lengths. 0 for an empty box.
+  double diagonal() const { return this->size().norm(); }
+};
+
+Box bounding_box(PointsView points);
+/// Only vertices that an element uses: a stray point must not stretch the box.
+Box bounding_box(PointsView points, TrianglesView triangles);
+
+/// invalid_input, naming the first offender, when a used coordinate is not finite or a vertex id
+/// is out of range. An empty mesh is valid here; who needs triangles says so.
+Status check_mesh(PointsView points, TrianglesView triangles);
+Status check_mesh(PointsView points, TetsView tets);
+
+/// Signed volume by the divergence theorem: exact for closed, outward oriented surfaces.
+double signed_volume(PointsView points, TrianglesView triangles);
+double surface_area(PointsView points, TrianglesView triangles);
+
+double tet_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+/// #T signed volumes.
+Eigen::VectorXd tet_volumes(PointsView points, TetsView tets);
+
+/// Facets that belong to one tet only, oriented outwards.
+Triangles boundary_triangles(TetsView tets);
+
+/// A triangle mesh's edge with what its triangles say about it.
+struct Edge
+{
+  Index a = 0, b = 0; ///< vertex ids, a < b
+  int uses = 0; ///< triangles at the edge
+  int net_direction = 0; ///< (#triangles that run a->b) - (#triangles that run b->a)
+};
+
+/// All edges, sorted by (a, b). Edges of a vertex with itself (degenerate triangles) are left out.
+std::vector<Edge> mesh_edges(TrianglesView triangles);
+
+/// What the edges tell of a surface.
+struct EdgeCounts
+{
+  Index edges = 0;
+  Index boundary = 0; ///< used by one triangle
+  Index nonmanifold = 0; ///< used by three triangles or more
+  Index misoriented = 0; ///< used by two triangles that run the same way
+  /// Closed in the sense of the winding number: every edge's directions cancel.
+  bool closed = true;
+};
+EdgeCounts count_edges(TrianglesView triangles);
+
+/// Connected components by shared vertices.
+struct Components
+{
+  Index count = 0;
+  std::vector<Index> of_vertex; ///< #V component ids from 0, -1 for a vertex that nothing uses
+};
+Components connected_components(Index vertex_count, TrianglesView triangles);
+Components connected_components(Index vertex_count, TetsView tets);
+
+} // namespace bindpose
+
+#endif

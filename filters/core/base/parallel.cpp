@@ -1,0 +1,64 @@
+// One TBB task per block. Which thread takes a block is left to TBB; what a block is, and the order
+// in which partial sums are added, is not.
+#include "base/parallel.h"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
+#include <numeric>
+
+namespace bindpose
+{
+
+bool parallel_for(ExecutionContext& context, Index count, Index block_size,
+  const std::function<void(Index, Index)>& body)
+{
+  if (count <= 0)
+  {
+    return !context.cancelled();
+  }
+  const Index block = std::max<Index>(1, block_size);
+  const Index blocks = (count + block - 1) / block;
+  std::atomic<Index> done{ 0 };
+  std::atomic<bool> stopped{ false };
+  const auto run = [&](Index b)
+  {
+    if (stopped.load(std::memory_order_relaxed) || context.cancelled())
+    {
+      stopped.store(true, std::memory_order_relaxed);
+      return;
+    }
+    body(b * block, std::min(count, (b + 1) * block));
+    const Index n = done.fetch_add(1, std::memory_order_relaxed) + 1;
+    context.progress(static_cast<double>(n) / static_cast<double>(blocks));
+  };
+  if (context.threads() == 1 || blocks == 1)
+  {
+    for (Index b = 0; b < blocks && !stopped; ++b)
+    {
+      run(b);
+    }
+  }
+  else
+  {
+    tbb::task_arena arena(context.threads() > 0 ? context.threads() : tbb::task_arena::automatic);
+    arena.execute(
+      [&] { tbb::parallel_for(Index(0), blocks, Index(1), run, tbb::simple_partitioner()); });
+  }
+  return !stopped;
+}
+
+double parallel_sum(ExecutionContext& context, Index count, Index block_size,
+  const std::function<double(Index, Index)>& body)
+{
+  const Index block = std::max<Index>(1, block_size);
+  std::vector<double> partial(
+    static_cast<std::size_t>((std::max<Index>(count, 0) + block - 1) / block), 0.0);
+  parallel_for(context, count, block,
+    [&](Index begin, Index end)
+    { partial[static_cast<std::size_t>(begin / block)] = body(begin, end); });
+  return std::accumulate(partial.begin(), partial.end(), 0.0);
+}
+
+} // namespace bindpose

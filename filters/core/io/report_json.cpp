@@ -1,0 +1,93 @@
+#include "io/report_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+template <typename T>
+bool has_json_form(const T& value)
+{
+  if constexpr (std::is_same_v<T, double>)
+  {
+    return std::isfinite(value);
+  }
+  return true;
+}
+
+/// The object that the dots before the last part of the key lead to.
+Json& object_of(Json& root, const std::string& key, std::string& last)
+{
+  Json* at = &root;
+  std::size_t begin = 0;
+  for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', begin))
+  {
+    at = &(*at)[key.substr(begin, dot - begin)];
+    begin = dot + 1;
+  }
+  last = key.substr(begin);
+  return *at;
+}
+} // namespace
+
+std::string to_json(const Report& report, int indent)
+{
+  Json root = Json::object();
+  for (const auto& [key, value] : report.entries())
+  {
+    const std::size_t brackets = key.find("[]");
+    std::visit(
+      [&, &name = key](const auto& v)
+      {
+        using T = std::decay_t<decltype(v)>;
+        if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>)
+        {
+          if (has_json_form(v))
+          {
+            std::string last;
+            Json& object = object_of(root, name, last);
+            object[last] = v;
+          }
+        }
+        else
+        {
+          // A list: of values ("h[]", "h") or a column of a list of objects ("h[].x").
+          const bool column = brackets != std::string::npos && brackets + 2 < name.size();
+          std::string last;
+          Json& object = object_of(root, name.substr(0, brackets), last);
+          Json& list = object[last];
+          if (list.is_null())
+          {
+            list = Json::array();
+          }
+          for (std::size_t i = 0; i < v.size(); ++i)
+          {
+            const bool fits = has_json_form(v[i]);
+            if (!column)
+            {
+              list.push_back(fits ? Json(v[i]) : Json());
+              continue;
+            }
+            if (list.size() <= i)
+            {
+              list.push_back(Json::object());
+            }
+            if (fits)
+            {
+              list[i][name.substr(brackets + 3)] = v[i];
+            }
+          }
+        }
+      },
+      value);
+  }
+  return root.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+} // namespace bindpose

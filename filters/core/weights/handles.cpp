@@ -1,0 +1,106 @@
+#include "weights/handles.h"
+
+#include <set>
+
+namespace bindpose
+{
+
+const char* to_string(HandleKind kind)
+{
+  switch (kind)
+  {
+    case HandleKind::cage_element:
+      return "cage_element";
+    case HandleKind::bone:
+      return "bone";
+    case HandleKind::cage_vertex:
+      return "cage_vertex";
+    case HandleKind::region:
+      return "region";
+    case HandleKind::point:
+      break;
+  }
+  return "point";
+}
+
+namespace
+{
+Status check_parents(const Handles& handles)
+{
+  const auto count = static_cast<Index>(handles.size());
+  for (const Handle& handle : handles)
+  {
+    Index steps = 0;
+    for (Index up = handle.parent; up != -1; up = handles[up].parent)
+    {
+      if (up < 0 || up >= count)
+      {
+        return Status::invalid_input("handle '" + handle.name + "' has a parent number " +
+          std::to_string(up) + ", but there are " + std::to_string(count) + " handles");
+      }
+      if (++steps > count)
+      {
+        return Status::invalid_input("handle '" + handle.name + "' is its own ancestor");
+      }
+    }
+  }
+  return {};
+}
+} // namespace
+
+Status check_handles(const Handles& handles)
+{
+  if (handles.empty())
+  {
+    return Status::invalid_input("there is no handle");
+  }
+  std::set<std::string> names;
+  Box box;
+  for (const Handle& handle : handles)
+  {
+    if (handle.name.empty())
+    {
+      return Status::invalid_input("a handle has no name");
+    }
+    if (!names.insert(handle.name).second)
+    {
+      return Status::invalid_input("two handles are named '" + handle.name + "'");
+    }
+    if (!handle.head.allFinite() || !handle.tail.allFinite())
+    {
+      return Status::invalid_input(
+        "handle '" + handle.name + "' has a coordinate that is not a finite number");
+    }
+    if (handle.kind == HandleKind::bone && handle.head == handle.tail)
+    {
+      return Status::invalid_input("bone '" + handle.name + "' has length zero");
+    }
+    box.add(handle.head);
+    box.add(handle.tail);
+  }
+  const double same = 1e-9 * box.diagonal();
+  for (std::size_t i = 0; i < handles.size(); ++i)
+  {
+    for (std::size_t j = i + 1; j < handles.size(); ++j)
+    {
+      const Handle& a = handles[i];
+      const Handle& b = handles[j];
+      // A region is where its label is, a bone may begin at a point: only like kinds can coincide.
+      if (a.kind != b.kind || a.kind == HandleKind::region || a.kind == HandleKind::cage_element)
+      {
+        continue;
+      }
+      const bool same_way = (a.head - b.head).norm() <= same && (a.tail - b.tail).norm() <= same;
+      const bool opposite_way =
+        (a.head - b.tail).norm() <= same && (a.tail - b.head).norm() <= same;
+      if (same_way || opposite_way)
+      {
+        return Status::invalid_input(
+          "handles '" + a.name + "' and '" + b.name + "' are at the same place");
+      }
+    }
+  }
+  return check_parents(handles);
+}
+
+} // namespace bindpose

@@ -1,0 +1,50 @@
+#ifndef bindpose_weights_handles_h
+#define bindpose_weights_handles_h
+
+#include "base/mesh.h"
+
+#include <string>
+#include <vector>
+
+namespace bindpose
+{
+
+/// The integers are those of the cell array HandleKind.
+enum class HandleKind : int
+{
+  cage_element = -1, ///< a cage's edge or face: owns no column, ties its ends linearly together
+  point = 0,
+  bone = 1,
+  cage_vertex = 2,
+  region = 3
+};
+
+/// One handle: one cell of the handle dataset and, unless it is a cage element, one column of the
+/// weights, in the order of the cells.
+struct Handle
+{
+  std::string name;
+  HandleKind kind = HandleKind::point;
+  /// Point, cage vertex: its place. Bone: its head. Region: its pivot.
+  Vec3 head = Vec3::Zero();
+  /// Bone: its tail; all others: equal to head.
+  Vec3 tail = Vec3::Zero();
+  /// Index of the parent in the handle list, or -1.
+  Index parent = -1;
+  /// Region: the label in the mesh's point array RegionId (> 0; 0 means free).
+  Index region_id = 0;
+};
+
+using Handles = std::vector<Handle>;
+
+/// "point", "bone", "cage_vertex", "region", "cage_element".
+const char* to_string(HandleKind kind);
+
+/// invalid_input, naming the handle, for: no handle at all, an empty or doubled name, a coordinate
+/// that is not finite, a bone of length zero, two handles at the same place (closer than 1e-9 of
+/// the handles' extent or exactly equal when they have none), a parent out of range or in a cycle.
+Status check_handles(const Handles& handles);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,176 @@
+#include "report_field_data.h"
+
+#include "base/execution.h"
+
+#include "vtkDataObject.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+#include "vtkStringArray.h"
+
+#include <sys/resource.h>
+
+namespace bindpose
+{
+
+namespace
+{
+const std::string prefix = "Report.";
+
+vtkSmartPointer<vtkAbstractArray> make_array(const Report::Value& value)
+{
+  return std::visit(
+    [](const auto& v) -> vtkSmartPointer<vtkAbstractArray>
+    {
+      using T = std::decay_t<decltype(v)>;
+      const auto fill = [](auto array, const auto& values)
+      {
+        for (const auto& x : values)
+        {
+          array->InsertNextValue(x);
+        }
+        return array;
+      };
+      if constexpr (std::is_same_v<T, std::int64_t>)
+      {
+        return fill(vtkSmartPointer<vtkIdTypeArray>::New(), std::vector<std::int64_t>{ v });
+      }
+      else if constexpr (std::is_same_v<T, double>)
+      {
+        return fill(vtkSmartPointer<vtkDoubleArray>::New(), std::vector<double>{ v });
+      }
+      else if constexpr (std::is_same_v<T, std::string>)
+      {
+        return fill(vtkSmartPointer<vtkStringArray>::New(), std::vector<std::string>{ v });
+      }
+      else if constexpr (std::is_same_v<T, std::vector<std::int64_t>>)
+      {
+        return fill(vtkSmartPointer<vtkIdTypeArray>::New(), v);
+      }
+      else if constexpr (std::is_same_v<T, std::vector<double>>)
+      {
+        return fill(vtkSmartPointer<vtkDoubleArray>::New(), v);
+      }
+      else
+      {
+        return fill(vtkSmartPointer<vtkStringArray>::New(), v);
+      }
+    },
+    value);
+}
+
+/// A list's key says so: a list of one must not come back as a number.
+bool is_list(const std::string& key)
+{
+  return key.find("[]") != std::string::npos;
+}
+
+template <typename Value, typename Array>
+Report::Value values_of(const std::string& key, Array* array)
+{
+  std::vector<Value> values;
+  for (vtkIdType i = 0; i < array->GetNumberOfValues(); ++i)
+  {
+    values.push_back(array->GetValue(i));
+  }
+  if (values.size() == 1 && !is_list(key))
+  {
+    return values.front();
+  }
+  return values;
+}
+} // namespace
+
+void attach_report(vtkDataObject* data, const Report& report)
+{
+  vtkFieldData* field = data->GetFieldData();
+  if (!field)
+  {
+    vtkNew<vtkFieldData> fresh;
+    data->SetFieldData(fresh);
+    field = data->GetFieldData();
+  }
+  for (int i = field->GetNumberOfArrays() - 1; i >= 0; --i)
+  {
+    const char* name = field->GetAbstractArray(i)->GetName();
+    if (name && std::string(name).compare(0, prefix.size(), prefix) == 0)
+    {
+      field->RemoveArray(i);
+    }
+  }
+  for (const auto& [key, value] : report.entries())
+  {
+    vtkSmartPointer<vtkAbstractArray> array = make_array(value);
+    array->SetName((prefix + key).c_str());
+    field->AddArray(array);
+  }
+}
+
+Report read_report(vtkDataObject* data)
+{
+  Report report;
+  vtkFieldData* field = data ? data->GetFieldData() : nullptr;
+  for (int i = 0; field && i < field->GetNumberOfArrays(); ++i)
+  {
+    vtkAbstractArray* array = field->GetAbstractArray(i);
+    const std::string name = array->GetName() ? array->GetName() : "";
+    if (name.compare(0, prefix.size(), prefix) != 0)
+    {
+      continue;
+    }
+    const std::string key = name.substr(prefix.size());
+    if (auto* texts = vtkStringArray::SafeDownCast(array))
+    {
+      report.set(key, values_of<std::string>(key, texts));
+    }
+    else if (auto* reals = vtkDoubleArray::SafeDownCast(array))
+    {
+      report.set(key, values_of<double>(key, reals));
+    }
+    else if (auto* numbers = vtkDataArray::SafeDownCast(array))
+    {
+      vtkNew<vtkIdTypeArray> integers; // files bring them back as another integer type
+      integers->DeepCopy(numbers);
+      report.set(key, values_of<std::int64_t>(key, integers.Get()));
+    }
+  }
+  return report;
+}
+
+Status upstream_failure(vtkDataObject* data)
+{
+  const Report report = read_report(data);
+  const std::string word = report.text("status", "ok");
+  Status status;
+  for (const StatusCode code : { StatusCode::invalid_input, StatusCode::cancelled,
+         StatusCode::unavailable, StatusCode::internal_error })
+  {
+    if (word == to_string(code))
+    {
+      status = Status::failure(code, report.text("message"));
+    }
+  }
+  return status;
+}
+
+void complete_report(Status& status, const ExecutionContext& context)
+{
+  Report report;
+  report.set("status", to_string(status.code));
+  report.set("message", status.message);
+  if (!status.warnings.empty())
+  {
+    report.set("warnings[]", status.warnings);
+  }
+  report.merge(status.report);
+  report.merge(context.seconds());
+  report.set("seconds.total", context.elapsed_seconds());
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  report.set("peak_memory_bytes", Report::Value(std::int64_t(usage.ru_maxrss) * 1024));
+  status.report = std::move(report);
+}
+
+} // namespace bindpose

@@ -1,0 +1,190 @@
+// The one place where kernels meet the pipeline: an execution context is made from the
+// algorithm's progress and abort, Execute() is called, and its status becomes report, error event
+// and error code.
+//
+// Why GetMTime is overridden: in VTK 9.1 a filter whose RequestData failed or was aborted counts as
+// executed; the executive would hand on its empty output for ever.
+#include "vtkBindposeAlgorithm.h"
+
+#include "base/execution.h"
+#include "base/status.h"
+#include "io/report_json.h"
+#include "report_field_data.h"
+
+#include "vtkCommand.h"
+#include "vtkDataObject.h"
+#include "vtkDataSet.h"
+#include "vtkErrorCode.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkVersionMacros.h"
+
+#include <exception>
+#include <new>
+
+vtkBindposeAlgorithm::vtkBindposeAlgorithm() : LastStatus(new bindpose::Status)
+{
+  this->SetNumberOfInputPorts(1);
+  this->SetNumberOfOutputPorts(1);
+}
+
+vtkBindposeAlgorithm::~vtkBindposeAlgorithm() = default;
+
+int vtkBindposeAlgorithm::GetStatus()
+{
+  return static_cast<int>(this->LastStatus->code);
+}
+
+std::string vtkBindposeAlgorithm::GetStatusAsString()
+{
+  return bindpose::to_string(this->LastStatus->code);
+}
+
+std::string vtkBindposeAlgorithm::GetStatusMessage()
+{
+  return this->LastStatus->message;
+}
+
+std::string vtkBindposeAlgorithm::GetReportJSON()
+{
+  return bindpose::to_json(this->LastStatus->report);
+}
+
+vtkDataObject* vtkBindposeAlgorithm::GetInput(int port)
+{
+  return this->GetNumberOfInputConnections(port) > 0 ? this->GetInputDataObject(port, 0) : nullptr;
+}
+
+vtkDataSet* vtkBindposeAlgorithm::GetOutput(int port)
+{
+  return vtkDataSet::SafeDownCast(this->GetOutputDataObject(port));
+}
+
+vtkMTimeType vtkBindposeAlgorithm::GetMTime()
+{
+  if (!this->ExecuteAgain)
+  {
+    return this->Superclass::GetMTime();
+  }
+  this->RetryTime.Modified();
+  return this->RetryTime.GetMTime();
+}
+
+vtkTypeBool vtkBindposeAlgorithm::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
+  {
+    return this->RequestData(input, output);
+  }
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
+  {
+    return this->RequestDataObject(request, input, output);
+  }
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_INFORMATION()))
+  {
+    return this->RequestInformation(request, input, output);
+  }
+  if (request->Has(vtkStreamingDemandDrivenPipeline::REQUEST_UPDATE_EXTENT()))
+  {
+    return this->RequestUpdateExtent(request, input, output);
+  }
+  return this->Superclass::ProcessRequest(request, input, output);
+}
+
+int vtkBindposeAlgorithm::RequestDataObject(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+{
+  return 1;
+}
+
+int vtkBindposeAlgorithm::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+{
+  return 1;
+}
+
+int vtkBindposeAlgorithm::RequestUpdateExtent(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+{
+  return 1;
+}
+
+int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformationVector* output)
+{
+  bindpose::ExecutionContext context(
+    [this](double fraction, const std::string& phase)
+    {
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 0)
+      this->CheckAbort();
+#endif
+      this->SetProgressText(phase.c_str());
+      this->UpdateProgress(fraction);
+    },
+    [this]() { return this->GetAbortExecute() != 0; });
+  context.set_threads(this->NumberOfThreads);
+
+  bindpose::Status status;
+  for (int port = 0; port < this->GetNumberOfInputPorts() && status.usable(); ++port)
+  {
+    for (int i = 0; i < input[port]->GetNumberOfInformationObjects() && status.usable(); ++i)
+    {
+      status =
+        bindpose::upstream_failure(vtkDataObject::GetData(input[port]->GetInformationObject(i)));
+    }
+  }
+  if (status.usable())
+  {
+    try
+    {
+      status = this->Execute(input, output, context);
+    }
+    catch (const std::bad_alloc&)
+    {
+      status = bindpose::Status::failure(bindpose::StatusCode::internal_error, "out of memory");
+    }
+    catch (const std::exception& error)
+    {
+      status = bindpose::Status::failure(bindpose::StatusCode::internal_error, error.what());
+    }
+  }
+
+  bindpose::complete_report(status, context);
+  const bool cancelled = status.code == bindpose::StatusCode::cancelled;
+  for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+  {
+    vtkDataObject* data = vtkDataObject::GetData(output->GetInformationObject(port));
+    if (!data)
+    {
+      continue;
+    }
+    if (!status.usable())
+    {
+      data->Initialize();
+    }
+    bindpose::attach_report(data, status.report);
+  }
+  *this->LastStatus = status;
+  this->ExecuteAgain = !status.usable();
+  this->SetErrorCode(
+    status.usable() || cancelled ? vtkErrorCode::NoError : vtkErrorCode::UserError);
+  if (!status.usable() && !cancelled)
+  {
+    vtkErrorMacro(<< status.message);
+  }
+  for (const std::string& warning : status.warnings)
+  {
+    vtkWarningMacro(<< warning);
+  }
+  return 1;
+}
+
+void vtkBindposeAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
+  os << indent << "Status: " << this->GetStatusAsString() << "\n";
+  os << indent << "StatusMessage: " << this->LastStatus->message << "\n";
+  os << indent << "Report: " << this->GetReportJSON() << "\n";
+}

@@ -1,0 +1,49 @@
+#include "base/status.h"
+#include "io/report_json.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace bindpose;
+
+TEST(Report, KeepsOrderAndReplacesInPlace)
+{
+  Report report;
+  report.set("b", 1);
+  report.set("a", 2);
+  report.set("b", 3);
+  ASSERT_EQ(report.entries().size(), 2u);
+  EXPECT_EQ(report.entries()[0].first, "b");
+  EXPECT_EQ(report.number("b", 0), 3.0);
+  report.add("a", 0.5);
+  EXPECT_EQ(report.number("a", 0), 2.5);
+  report.erase("b");
+  EXPECT_EQ(report.find("b"), nullptr);
+  EXPECT_EQ(report.text("a", "none"), "none");
+}
+
+TEST(Report, BecomesNestedJson)
+{
+  Report report;
+  report.set("status", "ok");
+  report.set("counts.vertices", 8);
+  report.set("counts.triangles", 12);
+  report.set("handles[].name", Report::Value(std::vector<std::string>{ "a", "b\"" }));
+  report.set("handles[].constrained_vertices", Report::Value(std::vector<std::int64_t>{ 1, 5 }));
+  report.set("warnings[]", Report::Value(std::vector<std::string>{ "one" }));
+  report.set("bad", Report::Value(std::nan("")));
+  EXPECT_EQ(to_json(report, -1),
+    R"({"status":"ok","counts":{"vertices":8,"triangles":12},)"
+    R"("handles":[{"name":"a","constrained_vertices":1},{"name":"b\"","constrained_vertices":5}],)"
+    R"("warnings":["one"]})");
+}
+
+TEST(Status, UsableMeansThereIsAResult)
+{
+  EXPECT_TRUE(Status().usable());
+  EXPECT_TRUE(Status::failure(StatusCode::not_converged, "x").usable());
+  EXPECT_FALSE(Status::failure(StatusCode::not_converged, "x").ok());
+  EXPECT_FALSE(Status::cancelled().usable());
+  EXPECT_STREQ(to_string(StatusCode::not_converged), "not_converged");
+}

@@ -11,6 +11,7 @@
 #include "io/obj.h"
 #include "io/off.h"
 #include "io/ply.h"
+#include "io/stl.h"
 #include "io/text_scanner.h"
 
 #include "vtkCallbackCommand.h"
@@ -18,6 +19,7 @@
 #include "vtkCellArrayIterator.h"
 #include "vtkCommand.h"
 #include "vtkErrorCode.h"
+#include "vtkExecutive.h"
 #include "vtkGenericDataObjectReader.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
@@ -26,7 +28,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkRectilinearGrid.h"
-#include "vtkSTLReader.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnstructuredGrid.h"
@@ -143,6 +144,7 @@ template <typename Reader>
 void watch(ErrorCatcher& errors, Reader* reader)
 {
   errors.Watch(reader);
+  errors.Watch(reader->GetExecutive()); // it reports a failed request once more
   if constexpr (std::is_base_of_v<vtkXMLReader, Reader>)
   {
     // An XML reader works through two objects of its own.
@@ -363,7 +365,7 @@ bindpose::Status vtkMeshFileReader::Execute(
   }
   else if (format == "stl")
   {
-    status = read_by_vtk<vtkSTLReader>(path, data);
+    status = read_polygons(path, bindpose::read_stl, data);
   }
   else if (format == "vtp")
   {

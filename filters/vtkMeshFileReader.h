@@ -12,8 +12,9 @@
  * | .vtk | VTK's old format | what the file holds |
  * | .mesh | MEDIT, ASCII: tets, else triangles | vtkUnstructuredGrid, vtkPolyData |
  *
- * OFF, OBJ, PLY and MEDIT files are read by Bindpose itself: coordinates are doubles, and vertices
- * stay shared whatever texture coordinates and normals the file carries; those are not read.
+ * OFF, OBJ, PLY, STL and MEDIT files are read by Bindpose itself: coordinates are doubles, and
+ * vertices stay shared whatever texture coordinates and normals the file carries; those are not
+ * read.
  *
  * A missing, empty, truncated or wrong file, and coordinates that are not finite in the text
  * formats, give INVALID_INPUT with one sentence that names the file (and line, where there are

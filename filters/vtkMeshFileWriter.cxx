@@ -11,6 +11,7 @@
 #include "io/obj.h"
 #include "io/off.h"
 #include "io/ply.h"
+#include "io/stl.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
@@ -26,7 +27,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkSTLWriter.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkXMLImageDataWriter.h"
 #include "vtkXMLPolyDataWriter.h"
@@ -97,18 +97,6 @@ Status to_polygons(vtkDataSet* data, bindpose::PolygonMesh& mesh)
   return status;
 }
 
-Status write_stl(vtkDataSet* data, const std::string& path)
-{
-  bindpose::SurfaceInput input;
-  Status status = bindpose::to_surface(data, input);
-  if (!status.ok())
-  {
-    return status;
-  }
-  return write_by_vtk<vtkSTLWriter>(
-    bindpose::to_polydata(input.points.view(), input.triangles.view()), path);
-}
-
 Status write_medit(vtkDataSet* data, const std::string& path)
 {
   bindpose::TetInput tets;
@@ -164,10 +152,6 @@ Status write(vtkDataSet* data, const std::string& format, const std::string& arr
   {
     return write_by_vtk<vtkGenericDataObjectWriter>(data, path);
   }
-  if (format == "stl")
-  {
-    return write_stl(data, path);
-  }
   if (format == "mesh")
   {
     return write_medit(data, path);
@@ -184,6 +168,7 @@ Status write(vtkDataSet* data, const std::string& format, const std::string& arr
   }
   return format == "off" ? bindpose::write_off(path, mesh)
     : format == "obj"    ? bindpose::write_obj(path, mesh)
+    : format == "stl"    ? bindpose::write_stl(path, mesh)
                          : bindpose::write_ply(path, mesh);
 }
 } // namespace

@@ -4,6 +4,7 @@
 #include "io/obj.h"
 #include "io/off.h"
 #include "io/ply.h"
+#include "io/stl.h"
 #include "io/text_scanner.h"
 
 #include "support/files.h"
@@ -239,6 +240,35 @@ TEST_F(TextFiles, PlyAsciiAndBigEndian)
   ASSERT_EQ(read_ply(this->folder.write("b.ply", text), this->mesh).message, "");
   EXPECT_EQ(this->mesh.points, (Points(3, 3) << 0, 0, 0, 1, 0, 0, 0, 1, -2).finished());
   EXPECT_EQ(this->mesh.corners, (std::vector<Index>{ 0, 1, 2 }));
+}
+
+TEST_F(TextFiles, StlIsWeldedAndSizedExactly)
+{
+  const TriangleMesh torus = test::torus(20, 10, 1.0, 0.25);
+  ASSERT_TRUE(write_stl(this->folder / "t.stl", to_polygons(torus.points, torus.triangles)).ok());
+  ASSERT_EQ(read_stl(this->folder / "t.stl", this->mesh).message, "");
+  EXPECT_EQ(this->mesh.points.rows(), torus.points.rows());
+  const Triangles triangles = fan_triangles(this->mesh);
+  EXPECT_TRUE(count_edges(triangles).closed);
+  EXPECT_NEAR(signed_volume(this->mesh.points, triangles),
+    signed_volume(torus.points, torus.triangles), 1e-6);
+  const std::string whole = this->folder.read("t.stl");
+  EXPECT_THAT(
+    read_stl(this->folder.write("p.stl", whole.substr(0, whole.size() - 1)), this->mesh).message,
+    HasSubstr("p.stl is no STL file"));
+
+  const std::string text =
+    "solid my vertex\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+    "vertex 0 1 -0.0\nendloop\nendfacet\nfacet normal 0 0 1\n outer loop\n vertex 1 0 0\n"
+    "vertex 1 1 0.1\nvertex 0 1 0\nendloop\nendfacet\nendsolid my vertex\n";
+  ASSERT_EQ(read_stl(this->folder.write("a.stl", text), this->mesh).message, "");
+  EXPECT_EQ(this->mesh.corners, (std::vector<Index>{ 0, 1, 2, 1, 3, 2 }));
+  EXPECT_EQ(this->mesh.points(3, 2), 0.1);
+  const auto error = [this](const std::string& broken)
+  { return read_stl(this->folder.write("b.stl", broken), this->mesh).message; };
+  EXPECT_THAT(error(text.substr(0, 120)), HasSubstr("b.stl, line"));
+  EXPECT_THAT(error("solid x\nendsolid x\n"), HasSubstr("no triangle"));
+  EXPECT_THAT(error("solid x\nvertex 0 nan 0\n"), HasSubstr("line 2"));
 }
 
 TEST_F(TextFiles, MeditReadsTetsAndSkipsTheRest)

@@ -157,6 +157,7 @@ int parse_arguments(int argc, char** argv, Arguments& arguments)
     std::cerr << "bindpose: '" << argv[1] << "' is no verb (see bindpose --help)\n";
     return 1;
   }
+  arguments.words.assign(argv + 1, argv + argc);
   try
   {
     app.parse(argc, argv);

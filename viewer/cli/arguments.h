@@ -13,6 +13,8 @@ class Arguments
 {
 public:
   std::string verb;
+  /// The command line as it was typed, without the program's name.
+  std::vector<std::string> words;
   std::map<std::string, std::vector<std::string>> values;
 
   bool has(const std::string& key) const { return this->values.count(key) > 0; }

@@ -215,9 +215,18 @@ vtkSmartPointer<vtkDataSet> Session::read(const std::string& path)
   return reader->GetOutput();
 }
 
+vtkSmartPointer<vtkDataSet> Session::read_any(const std::string& path)
+{
+  if (file_extension(path) == "tgf")
+  {
+    return this->read_handles(path, nullptr);
+  }
+  return this->read(path);
+}
+
 vtkSmartPointer<vtkPolyData> Session::read_handles(const std::string& value, vtkDataSet* surface)
 {
-  if (value != "auto" && !starts_with(value, "auto:"))
+  if ((value != "auto" && !starts_with(value, "auto:")) || !surface)
   {
     vtkNew<vtkHandleFileReader> reader;
     reader->SetFileName(value.c_str());

@@ -55,6 +55,8 @@ public:
 
   /// Reads a mesh, volume or handle file; null when it fails.
   vtkSmartPointer<vtkDataSet> read(const std::string& path);
+  /// The same for handle files (.tgf), too.
+  vtkSmartPointer<vtkDataSet> read_any(const std::string& path);
   /// The value of --handles: a file, or auto[:N] points on the surface; null when it fails.
   vtkSmartPointer<vtkPolyData> read_handles(const std::string& value, vtkDataSet* surface);
 

@@ -277,15 +277,7 @@ void run_info(Session& session)
 {
   const std::string path = session.arguments().text("FILE");
   const std::string format = file_extension(path);
-  vtkSmartPointer<vtkDataSet> data;
-  if (format == "tgf")
-  {
-    data = session.read_handles(path, nullptr);
-  }
-  else
-  {
-    data = session.read(path);
-  }
+  const auto data = session.read_any(path);
   if (!data)
   {
     return;

@@ -80,20 +80,24 @@ void add_option(CLI::App& app, const Option& option, Arguments& arguments)
   {
     help += std::string(" (default: ") + option.fallback + ")";
   }
-  CLI::Option* parsed = app.add_option_function<std::vector<std::string>>(
-    option.name,
-    [&arguments, &option](const std::vector<std::string>& words)
-    { arguments.values[option.key()] = words; },
-    help);
-  parsed->type_name(option.value)->required(option.required)->type_size(1);
+  CLI::Option* parsed = nullptr;
   if (option.repeated)
   {
-    parsed->expected(1, CLI::detail::expected_max_vector_size);
+    parsed = app.add_option_function<std::vector<std::string>>(
+      option.name,
+      [&arguments, &option](const std::vector<std::string>& words)
+      { arguments.values[option.key()] = words; },
+      help);
   }
   else
   {
-    parsed->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+    parsed = app.add_option_function<std::string>(
+      option.name,
+      [&arguments, &option](const std::string& word) { arguments.values[option.key()] = { word }; },
+      help);
+    parsed->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   }
+  parsed->type_name(option.value)->required(option.required);
   add_check(parsed, option);
 }
 

@@ -51,6 +51,11 @@ std::string vtkBindposeAlgorithm::GetReportJSON()
   return bindpose::to_json(this->LastStatus->report);
 }
 
+std::string vtkBindposeAlgorithm::GetReportJSONOf(vtkDataObject* data)
+{
+  return bindpose::to_json(bindpose::read_report(data));
+}
+
 vtkDataObject* vtkBindposeAlgorithm::GetInput(int port)
 {
   return this->GetNumberOfInputConnections(port) > 0 ? this->GetInputDataObject(port, 0) : nullptr;

@@ -23,6 +23,18 @@ TEST(Report, KeepsOrderAndReplacesInPlace)
   EXPECT_EQ(report.text("a", "none"), "none");
 }
 
+TEST(Report, NumbersKeepTheirKind)
+{
+  Report report;
+  report.set("seconds.total", 0.25);
+  report.set("iterations", 3);
+  report.set("bytes", std::int64_t(5000000000));
+  EXPECT_EQ(report.number("seconds.total", 0), 0.25);
+  EXPECT_EQ(report.number("bytes", 0), 5e9);
+  EXPECT_TRUE(std::holds_alternative<double>(*report.find("seconds.total")));
+  EXPECT_TRUE(std::holds_alternative<std::int64_t>(*report.find("iterations")));
+}
+
 TEST(Report, BecomesNestedJson)
 {
   Report report;

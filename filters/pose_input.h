@@ -14,4 +14,9 @@ struct vtkPoseAlgorithm::PoseInput
   const bindpose::Pose& pose;
 };
 
+struct vtkPoseAlgorithm::PosedPoints
+{
+  bindpose::Points points;
+};
+
 #endif

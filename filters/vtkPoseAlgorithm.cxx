@@ -10,20 +10,14 @@
 #include "bind_key.h"
 #include "pose_input.h"
 
-#include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkFloatArray.h"
+#include "vtkDataArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
-
-#include <cmath>
-#include <sstream>
 
 using namespace bindpose;
 
@@ -51,59 +45,16 @@ std::string names_of(vtkDataSet* data)
   return names.empty() ? "none" : names;
 }
 
-/// The weights must be numbers, one component a handle; returns how far a row sum is from 1.
-Status check_weights(WeightsView weights, const Handles& handles, double& row_sum_error)
+vtkSmartPointer<vtkDataArray> to_normals(const Points& normals, vtkDataArray* like)
 {
-  row_sum_error = 0.0;
-  if (weights.cols() != static_cast<Index>(handles.size()))
-  {
-    return Status::invalid_input("the weights have " + std::to_string(weights.cols()) +
-      " components, but there are " + std::to_string(handles.size()) + " handles");
-  }
-  for (Index v = 0; v < weights.rows(); ++v)
-  {
-    const double sum = weights.row(v).sum();
-    if (!std::isfinite(sum))
-    {
-      return Status::invalid_input(
-        "the weights of vertex " + std::to_string(v) + " are not finite numbers");
-    }
-    row_sum_error = std::max(row_sum_error, std::abs(sum - 1.0));
-  }
-  return {};
-}
-
-/// Area-weighted normals of the posed polygons, in the type the mesh had.
-vtkSmartPointer<vtkDataArray> posed_normals(vtkPolyData* mesh, PointsView posed, vtkDataArray* old)
-{
-  SurfaceInput surface;
-  if (!to_surface(mesh, surface).ok())
-  {
-    return old;
-  }
-  const TrianglesView triangles = surface.triangles.view();
-  Points normals = Points::Zero(posed.rows(), 3);
-  for (Index t = 0; t < triangles.rows(); ++t)
-  {
-    const Vec3 a = posed.row(triangles(t, 0));
-    const Vec3 b = posed.row(triangles(t, 1));
-    const Vec3 c = posed.row(triangles(t, 2));
-    const Vec3 n = (b - a).cross(c - a);
-    for (int k = 0; k < 3; ++k)
-    {
-      normals.row(triangles(t, k)) += n.transpose();
-    }
-  }
   vtkSmartPointer<vtkDataArray> result;
-  result.TakeReference(old->NewInstance());
-  result->SetName(old->GetName());
+  result.TakeReference(like->NewInstance());
+  result->SetName(like->GetName());
   result->SetNumberOfComponents(3);
-  result->SetNumberOfTuples(posed.rows());
-  for (Index v = 0; v < posed.rows(); ++v)
+  result->SetNumberOfTuples(normals.rows());
+  for (Index v = 0; v < normals.rows(); ++v)
   {
-    const double length = normals.row(v).norm();
-    const Vec3 n = length > 0.0 ? Vec3(normals.row(v).transpose() / length) : Vec3(0, 0, 1);
-    result->SetTuple(v, n.data());
+    result->SetTuple(v, normals.data() + 3 * v);
   }
   return result;
 }
@@ -206,19 +157,11 @@ Status vtkPoseAlgorithm::Execute(
     {
       return Status::invalid_input("the mesh has a coordinate that is not a finite number");
     }
-    double row_sum_error = 0.0;
-    status = check_weights(bound.weights.view(), bound.handles, row_sum_error);
-    if (!status.ok())
+    const WeightsView view = bound.weights.view();
+    if (view.cols() != static_cast<Index>(bound.handles.size()))
     {
-      return status;
-    }
-    bound.status.report.set("row_sum_error", Report::Value(row_sum_error));
-    if (row_sum_error > 1e-6)
-    {
-      std::ostringstream text;
-      text << "the weights do not sum to one at every vertex (off by up to " << row_sum_error
-           << "): the shape will not rest at rest";
-      bound.status.warnings.push_back(text.str());
+      return Status::invalid_input("the weights have " + std::to_string(view.cols()) +
+        " components, but there are " + std::to_string(bound.handles.size()) + " handles");
     }
   }
   Pose pose;
@@ -245,24 +188,24 @@ Status vtkPoseAlgorithm::Execute(
     this->NumberOfBinds += 1;
   }
 
-  vtkNew<vtkDoubleArray> coordinates;
-  coordinates->SetNumberOfComponents(3);
-  coordinates->SetNumberOfTuples(mesh->GetNumberOfPoints());
-  Status deformed = this->Deform(pose_input, context, coordinates->GetPointer(0));
+  PosedPoints posed;
+  Status deformed = this->Deform(pose_input, context, posed);
   if (!deformed.usable())
   {
     return deformed;
   }
-  vtkNew<vtkPoints> points;
-  points->SetData(coordinates);
   result->ShallowCopy(mesh);
-  result->SetPoints(points);
+  result->SetPoints(to_vtk_points(posed.points));
   auto* polydata = vtkPolyData::SafeDownCast(result);
-  if (vtkDataArray* normals = polydata ? polydata->GetPointData()->GetNormals() : nullptr)
+  if (vtkDataArray* rest = polydata ? polydata->GetPointData()->GetNormals() : nullptr)
   {
-    const Eigen::Map<const Points> posed(
-      coordinates->GetPointer(0), coordinates->GetNumberOfTuples(), 3);
-    polydata->GetPointData()->SetNormals(posed_normals(polydata, posed, normals));
+    PosedPoints normals;
+    const Status turned = this->DeformNormals(pose_input, context, posed, normals);
+    if (!turned.usable())
+    {
+      return turned;
+    }
+    polydata->GetPointData()->SetNormals(to_normals(normals.points, rest));
   }
 
   Status total = deformed;
@@ -280,6 +223,39 @@ Status vtkPoseAlgorithm::Execute(
       total.warnings.begin(), bound.status.warnings.begin(), bound.status.warnings.end());
   }
   return total;
+}
+
+Status vtkPoseAlgorithm::DeformNormals(
+  const PoseInput& input, ExecutionContext&, const PosedPoints& posed, PosedPoints& normals)
+{
+  SurfaceInput surface;
+  const Status status = to_surface(input.mesh, surface);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const TrianglesView triangles = surface.triangles.view();
+  const Points& p = posed.points;
+  Points& n = normals.points;
+  n.setZero(p.rows(), 3);
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    const Vec3 a = p.row(triangles(t, 0));
+    const Vec3 b = p.row(triangles(t, 1));
+    const Vec3 c = p.row(triangles(t, 2));
+    const Vec3 area = (b - a).cross(c - a);
+    for (int k = 0; k < 3; ++k)
+    {
+      n.row(triangles(t, k)) += area.transpose();
+    }
+  }
+  for (Index v = 0; v < n.rows(); ++v)
+  {
+    const double length = n.row(v).norm();
+    n.row(v) =
+      length > 0.0 ? Vec3(n.row(v).transpose() / length).transpose() : Vec3(0, 0, 1).transpose();
+  }
+  return {};
 }
 
 void vtkPoseAlgorithm::PrintSelf(ostream& os, vtkIndent indent)

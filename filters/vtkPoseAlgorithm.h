@@ -5,7 +5,7 @@
  * Port 0 is the mesh at rest with its weights (any vtkPointSet, point array `Weights` with a
  * component a handle), port 1 the handles with their pose (see filters/README.md). The output is
  * the mesh with moved points (doubles); cells and arrays are the input's own objects. Point normals
- * of a vtkPolyData (the active ones, when it has some) are computed anew from the posed polygons.
+ * of a vtkPolyData (the active ones, when it has some) follow.
  *
  * **Bind and pose.** What depends on the rest mesh, the weights or the rest handles only is done
  * once, in Bind(), and kept; moving handles (Transform, Mode, Stretch, Twist) runs Deform() alone.
@@ -14,8 +14,7 @@
  * counts.
  *
  * **Errors**: no mesh, no handles, no array of that name, as many components as handles are not
- * there, weights that are not finite. Rows that do not sum to one are used as they are, with a
- * warning.
+ * there, weights that are not finite. Rows that do not sum to one are a warning.
  */
 
 #ifndef vtkPoseAlgorithm_h
@@ -52,6 +51,8 @@ protected:
 
   /// Mesh, weights, handles and pose as the kernels want them; valid during a call.
   struct PoseInput;
+  /// A bindpose::Points, #V x 3.
+  struct PosedPoints;
 
   /**
    * Takes what does not depend on the pose. What it needs later it keeps itself; views of the input
@@ -59,9 +60,14 @@ protected:
    */
   virtual bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) = 0;
 
-  /// Writes the posed points (#V x 3).
+  /// Computes the posed points.
   virtual bindpose::Status Deform(
-    const PoseInput& input, bindpose::ExecutionContext& context, double* posed) = 0;
+    const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) = 0;
+
+  /// Computes the posed normals of a vtkPolyData that has some, after Deform(). Here: area-weighted
+  /// normals of the posed polygons.
+  virtual bindpose::Status DeformNormals(const PoseInput& input,
+    bindpose::ExecutionContext& context, const PosedPoints& posed, PosedPoints& normals);
 
   /// Setters of bind parameters call this instead of Modified().
   void BindModified();

@@ -37,11 +37,11 @@ public:
     std::vector<double>, std::vector<std::string>>;
 
   void set(const std::string& key, Value value);
-  /// Whole numbers stay whole, others are doubles: no overload takes one for the other.
-  template <typename Number, std::enable_if_t<std::is_arithmetic_v<Number>, bool> = true>
+  /// Any number: whole ones stay whole, others are doubles.
+  template <typename Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
   void set(const std::string& key, Number value)
   {
-    using Stored = std::conditional_t<std::is_floating_point_v<Number>, double, std::int64_t>;
+    using Stored = std::conditional_t<std::is_integral_v<Number>, std::int64_t, double>;
     this->set(key, Value(static_cast<Stored>(value)));
   }
   void set(const std::string& key, const char* value) { this->set(key, Value(std::string(value))); }

@@ -26,13 +26,12 @@ TEST(Report, KeepsOrderAndReplacesInPlace)
 TEST(Report, NumbersKeepTheirKind)
 {
   Report report;
-  report.set("seconds.total", 0.25);
-  report.set("iterations", 3);
-  report.set("bytes", std::int64_t(5000000000));
-  EXPECT_EQ(report.number("seconds.total", 0), 0.25);
-  EXPECT_EQ(report.number("bytes", 0), 5e9);
-  EXPECT_TRUE(std::holds_alternative<double>(*report.find("seconds.total")));
-  EXPECT_TRUE(std::holds_alternative<std::int64_t>(*report.find("iterations")));
+  report.set("seconds", 0.25);
+  report.set("count", std::size_t(7));
+  report.set("huge", std::int64_t(1) << 40);
+  EXPECT_EQ(report.number("seconds", 0), 0.25);
+  EXPECT_EQ(std::get<std::int64_t>(*report.find("count")), 7);
+  EXPECT_EQ(std::get<std::int64_t>(*report.find("huge")), std::int64_t(1) << 40);
 }
 
 TEST(Report, BecomesNestedJson)

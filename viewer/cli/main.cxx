@@ -31,7 +31,8 @@ vtkStandardNewMacro(SilentOutputWindow);
 
 void run(Session& session)
 {
-  const std::pair<const char*, void (*)(Session&)> functions[] = { { "info", run_info } };
+  const std::pair<const char*, void (*)(Session&)> functions[] = { { "info", run_info },
+    { "winding", run_winding } };
   for (const auto& [name, function] : functions)
   {
     if (session.arguments().verb == name && session.check_report())

@@ -47,8 +47,6 @@
 #include "BindposeFiltersModule.h" // for export macro
 #include "vtkBindposeAlgorithm.h"
 
-class vtkImageData;
-
 class BINDPOSEFILTERS_EXPORT vtkWindingNumberField : public vtkBindposeAlgorithm
 {
 public:

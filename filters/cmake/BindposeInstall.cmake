@@ -1,5 +1,8 @@
 # find_package(Bindpose) for others: the VTK modules, the kernels and what they need.
 include(CMakePackageConfigHelpers)
+string(REPLACE "VTK::" "" bindpose_required_vtk_components "${bindpose_required_modules}")
+list(FILTER bindpose_required_vtk_components EXCLUDE REGEX "^Bindpose::")
+string(REPLACE ";" " " bindpose_required_vtk_components "${bindpose_required_vtk_components}")
 set(bindpose_config_dir "${CMAKE_INSTALL_LIBDIR}/cmake/Bindpose")
 configure_package_config_file(
   "${CMAKE_CURRENT_LIST_DIR}/BindposeConfig.cmake.in"

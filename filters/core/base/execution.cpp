@@ -79,6 +79,20 @@ Phase::~Phase()
   this->context_.phase_ = this->outer_name_;
 }
 
+ProgressRange::ProgressRange(ExecutionContext& context, double begin, double end)
+  : context_(context), outer_begin_(context.begin_), outer_end_(context.end_)
+{
+  const double length = this->outer_end_ - this->outer_begin_;
+  context.begin_ = this->outer_begin_ + begin * length;
+  context.end_ = this->outer_begin_ + end * length;
+}
+
+ProgressRange::~ProgressRange()
+{
+  this->context_.begin_ = this->outer_begin_;
+  this->context_.end_ = this->outer_end_;
+}
+
 double Phase::seconds() const
 {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->start_).count();

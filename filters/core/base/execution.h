@@ -49,6 +49,7 @@ public:
 
 private:
   friend class Phase;
+  friend class ProgressRange;
   void emit(double fraction_of_whole, bool force);
 
   ProgressCallback progress_;
@@ -83,6 +84,21 @@ private:
   std::string outer_name_;
   double outer_begin_, outer_end_;
   std::chrono::steady_clock::time_point start_;
+};
+
+/// Scope of a step of the current phase that has no name of its own: maps progress into
+/// [begin, end] of the enclosing phase or range, so that steps one after another never go back.
+class ProgressRange
+{
+public:
+  ProgressRange(ExecutionContext& context, double begin, double end);
+  ~ProgressRange();
+  ProgressRange(const ProgressRange&) = delete;
+  ProgressRange& operator=(const ProgressRange&) = delete;
+
+private:
+  ExecutionContext& context_;
+  double outer_begin_, outer_end_;
 };
 
 } // namespace bindpose

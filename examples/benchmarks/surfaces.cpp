@@ -1,0 +1,123 @@
+#include "surfaces.h"
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+
+namespace bindpose::benchmarks
+{
+
+namespace
+{
+/// Rings of latitude with one vertex at each pole.
+TriangleMesh rings(Index triangles)
+{
+  const Index across = std::max<Index>(4, std::llround(std::sqrt(0.25 * triangles)));
+  const Index around = 2 * across;
+  constexpr double pi = 3.14159265358979323846;
+  TriangleMesh mesh;
+  mesh.points.resize(around * (across - 1) + 2, 3);
+  const Index south = around * (across - 1);
+  mesh.points.row(south) << 0, 0, -1;
+  mesh.points.row(south + 1) << 0, 0, 1;
+  mesh.triangles.resize(2 * around * (across - 1), 3);
+  Index count = 0;
+  for (Index i = 0; i < across - 1; ++i)
+  {
+    const double latitude = pi * (static_cast<double>(i + 1) / static_cast<double>(across) - 0.5);
+    for (Index j = 0; j < around; ++j)
+    {
+      const double longitude = 2.0 * pi * static_cast<double>(j) / static_cast<double>(around);
+      const double bump = 1.0 + 0.1 * std::sin(9.0 * longitude) * std::pow(std::cos(latitude), 2.0);
+      mesh.points.row(i * around + j) << bump * std::cos(latitude) * std::cos(longitude),
+        bump * std::cos(latitude) * std::sin(longitude), std::sin(latitude);
+      const Index next = (j + 1) % around;
+      if (i == 0)
+      {
+        mesh.triangles.row(count++) << south, next, j;
+      }
+      else
+      {
+        const Index below = (i - 1) * around;
+        const Index here = i * around;
+        mesh.triangles.row(count++) << below + j, below + next, here + next;
+        mesh.triangles.row(count++) << below + j, here + next, here + j;
+      }
+      if (i == across - 2)
+      {
+        mesh.triangles.row(count++) << south + 1, i * around + j, i * around + next;
+      }
+    }
+  }
+  return mesh;
+}
+} // namespace
+
+TriangleMesh bumpy_sphere(Index triangles)
+{
+  return rings(triangles);
+}
+
+TriangleMesh open_bumpy_sphere(Index triangles)
+{
+  TriangleMesh mesh = rings(triangles);
+  Index kept = 0;
+  for (Index t = 0; t < mesh.triangles.rows(); ++t)
+  {
+    if (mesh.points(mesh.triangles(t, 0), 2) < 0.8)
+    {
+      mesh.triangles.row(kept++) = mesh.triangles.row(t).eval();
+    }
+  }
+  mesh.triangles.conservativeResize(kept, 3);
+  return mesh;
+}
+
+TriangleMesh patches(Index triangles)
+{
+  const TriangleMesh whole = rings(triangles);
+  constexpr Index patch = 64; // consecutive triangles share corners, others do not
+  TriangleMesh mesh;
+  std::map<std::pair<Index, Index>, Index> ids;
+  std::vector<Vec3> points;
+  mesh.triangles.resize(whole.triangles.rows(), 3);
+  for (Index t = 0; t < whole.triangles.rows(); ++t)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index v = whole.triangles(t, k);
+      const auto [entry, fresh] =
+        ids.insert({ { t / patch, v }, static_cast<Index>(points.size()) });
+      if (fresh)
+      {
+        points.emplace_back(
+          whole.points.row(v) * (1.0 + 1e-4 * static_cast<double>(t / patch % 7)));
+      }
+      mesh.triangles(t, k) = entry->second;
+    }
+  }
+  mesh.points.resize(static_cast<Index>(points.size()), 3);
+  for (Index v = 0; v < mesh.points.rows(); ++v)
+  {
+    mesh.points.row(v) = points[v].transpose();
+  }
+  return mesh;
+}
+
+Points scattered_points(Index count)
+{
+  Points points(count, 3);
+  std::uint64_t state = 1; // splitmix64: the same numbers on every machine
+  for (Index i = 0; i < points.size(); ++i)
+  {
+    state += 0x9e3779b97f4a7c15ull;
+    std::uint64_t z = state;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+    z ^= z >> 31;
+    points.data()[i] = 2.4 * static_cast<double>(z >> 11) * 0x1.0p-53 - 1.2;
+  }
+  return points;
+}
+
+} // namespace bindpose::benchmarks

@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# One command from a fresh clone to a bent mesh: installs what is missing, builds, and runs the whole
+# way (winding number, tets, weights, poses) on a real, unclean mesh. See --help.
+set -euo pipefail
+program=quickstart.sh
+
+usage()
+{
+  cat <<'TEXT'
+usage: examples/quickstart.sh [MESH] [options]
+
+Takes MESH (off, obj, ply, stl, vtp; default: elephant-with-holes.off of the Debian package
+libcgal-demo) the whole way to posed shapes and writes datasets, pictures and report.json.
+
+options:
+  --handles FILE|auto[:N]  handles as .tgf or .vtp, or N (8) points spread over the surface
+                           (default: the elephant's skeleton; auto for any other MESH)
+  --pose FILE              pose sequence as JSON (default: made from the handles)
+  --output DIR             where to write (default: quickstart-output)
+  --headless               do not open the viewer at the end, even with a display
+  --no-install             install nothing; say what is missing
+  --help                   this text
+TEXT
+}
+
+install=yes
+arguments=()
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --help | -h) usage; exit 0 ;;
+    --no-install) install=no ;;
+    *) arguments+=("$1") ;;
+  esac
+  shift
+done
+
+. "$(dirname "${BASH_SOURCE[0]}")/setup.sh"
+install_packages "$build_packages"
+build
+exec /usr/bin/python3 "$root/examples/quickstart.py" --build "$build_dir" ${arguments[@]+"${arguments[@]}"}

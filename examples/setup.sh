@@ -1,0 +1,105 @@
+# Sourced by examples/quickstart.sh and tests/run.sh: what to install and how to build. Not a command.
+
+# Package and what it is for, asked of dpkg one by one: nothing is installed twice or for fun.
+build_packages="
+g++:compiler
+cmake:configures_the_build
+ninja-build:runs_the_build
+ccache:makes_the_next_build_fast
+libvtk9-dev:VTK,_the_pipeline_and_the_pictures
+python3-vtk9:VTK_in_Python
+python3-dev:the_Python_package
+python3-numpy:the_Python_package
+libvtk9-qt-dev:the_viewer
+qtbase5-dev:the_viewer
+libqt5opengl5-dev:the_viewer
+libeigen3-dev:matrices
+libtbb-dev:threads
+libopenblas-serial-dev:fast_dense_kernels_under_CHOLMOD
+libsuitesparse-dev:CHOLMOD,_the_sparse_solver
+libcgal-dev:exact_intersections_in_bindpose-mesher
+libtet1.5-dev:TetGen_in_bindpose-mesher
+libcli11-dev:command_line_options
+nlohmann-json3-dev:reports_and_poses
+xvfb:pictures_without_a_display
+xauth:pictures_without_a_display
+libgl1-mesa-dri:pictures_without_a_graphics_card
+libcgal-demo:example_meshes,_elephant-with-holes.off_among_them
+"
+test_packages="
+libgtest-dev:C++_tests
+libgmock-dev:C++_tests
+libbenchmark-dev:benchmarks
+python3-pytest:Python_tests
+clang-format-14:the_format_check
+clang-tidy-14:the_naming_check
+git:the_format_check_looks_at_tracked_files
+"
+
+die()
+{
+  echo "$program: $1" >&2
+  exit "${2:-2}"
+}
+
+is_installed()
+{
+  [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]
+}
+
+# install_packages "LIST": says what is missing and why, then installs it (unless --no-install).
+install_packages()
+{
+  local entry name missing=""
+  for entry in $1; do
+    name=${entry%%:*}
+    if ! is_installed "$name"; then
+      if [ -z "$missing" ]; then
+        echo "Missing Debian packages:"
+      fi
+      printf '  %-24s %s\n' "$name" "$(echo "${entry#*:}" | tr _ ' ')"
+      missing="$missing $name"
+    fi
+  done
+  if [ -z "$missing" ]; then
+    return 0
+  fi
+  if [ "${install:-yes}" = no ]; then
+    die "these packages are missing and --no-install was given; install them with: apt-get install --no-install-recommends$missing"
+  fi
+  command -v apt-get >/dev/null || die "this system has no apt-get; install the packages above by hand"
+  local as_root=""
+  if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null || die "installing needs root; run: apt-get install --no-install-recommends$missing"
+    as_root="sudo"
+  fi
+  echo "Installing them with apt-get$([ -n "$as_root" ] && echo " (sudo)") ..."
+  $as_root apt-get update -qq || echo "$program: apt-get update failed; trying with the lists at hand" >&2
+  # shellcheck disable=SC2086
+  $as_root env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $missing \
+    >"$log_dir/apt.log" 2>&1 || { tail -5 "$log_dir/apt.log" >&2; die "apt-get install failed; the log is $log_dir/apt.log"; }
+}
+
+# build [CMAKE OPTIONS…]: configures once and when options are given, builds what has changed.
+build()
+{
+  local jobs
+  jobs=$(nproc)
+  # CGAL and VTK want about 1.5 GB a compiler: fewer at once where memory is short.
+  local gigabytes
+  gigabytes=$(awk '/MemAvailable/ { print int($2 / 1572864) }' /proc/meminfo)
+  if [ "$gigabytes" -lt "$jobs" ]; then
+    jobs=$(( gigabytes > 1 ? gigabytes : 1 ))
+  fi
+  if [ ! -f "$build_dir/build.ninja" ] || [ $# -gt 0 ]; then
+    cmake -S "$root" -B "$build_dir" -G Ninja -DCMAKE_BUILD_TYPE=Release "$@" >"$log_dir/configure.log" 2>&1 ||
+      { tail -20 "$log_dir/configure.log" >&2; die "configuring failed; the log is $log_dir/configure.log" 5; }
+    sed -n '/-- Bindpose /,/Licence of bindpose-mesher/p' "$log_dir/configure.log"
+  fi
+  NINJA_STATUS="[%f/%t] " ninja -C "$build_dir" -j "$jobs" || die "the build failed" 5
+}
+
+root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+build_dir="$root/build"
+log_dir="$build_dir/logs"
+mkdir -p "$log_dir"

@@ -1,0 +1,50 @@
+#ifndef bindpose_base_parallel_sort_h
+#define bindpose_base_parallel_sort_h
+
+#include "base/parallel.h"
+
+#include <algorithm>
+
+namespace bindpose
+{
+
+/// Sorts on the context's threads: blocks, then pairs of blocks merged until one is left. The same
+/// result for any number of threads (it is stable). Looks at cancel before each block and merge;
+/// the reason why large kernels do not call std::sort.
+/// @return false when cancelled; the items are then in no particular order, all of them.
+template <typename Items, typename Less>
+bool parallel_sort(ExecutionContext& context, Items& items, const Less& less)
+{
+  const Index count = static_cast<Index>(items.size());
+  constexpr Index block = Index(1) << 15;
+  const auto at = [&](Index i) { return items.begin() + std::min(i, count); };
+  {
+    const ProgressRange range(context, 0.0, 0.5);
+    if (!parallel_for(context, count, block,
+          [&](Index begin, Index end) { std::stable_sort(at(begin), at(end), less); }))
+    {
+      return false;
+    }
+  }
+  double done = 0.5;
+  for (Index width = block; width < count; width *= 2)
+  {
+    const ProgressRange range(context, done, done + 0.5 * (1.0 - done));
+    done += 0.5 * (1.0 - done);
+    const Index pairs = (count + 2 * width - 1) / (2 * width);
+    if (!parallel_for(context, pairs, 1,
+          [&](Index pair, Index)
+          {
+            const Index begin = 2 * pair * width;
+            std::inplace_merge(at(begin), at(begin + width), at(begin + 2 * width), less);
+          }))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,547 @@
+// Build: merge equal vertices, drop triangles that use a vertex twice, count edges, choose a
+// method, make its structures. Evaluate: each point on its own, so that neither threads nor the
+// extent of a grid can change a bit.
+//
+// Coordinates are shifted by the box's centre along each axis only where the mesh lies far from 0
+// compared with its size (there the subtraction is exact: Sterbenz), and scaled by a power of two.
+// So the kernels see the very mesh that was given, of size about 1 and near the origin.
+#include "inside/winding_number.h"
+
+#include "base/parallel.h"
+#include "base/parallel_sort.h"
+#include "inside/signed_crossings.h"
+#include "inside/solid_angle.h"
+#include "inside/winding_tree.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <numeric>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Below this many triangles their plain sum costs no more than a structure.
+constexpr Index few_triangles = 24;
+/// Up to this many open edges their sum costs less than descending the tree. (Nor does the tree pay
+/// where most edges are open. Measured: 14 ns an open edge, 20 ns a triangle, 40 us the tree.)
+constexpr Index few_open_edges = 1500;
+/// Beyond this distance, in units of the mesh, the winding number is 0 in double precision.
+constexpr double far_away = 1e20;
+
+/// What makes coordinates small without rounding: x -> (x - shift) * scale.
+struct Frame
+{
+  Vec3 shift = Vec3::Zero();
+  double scale = 1.0;
+  double tolerance = 0.0; ///< after scaling
+
+  Frame() = default;
+  explicit Frame(const Box& box)
+  {
+    const Vec3 half = 0.5 * box.size();
+    const Vec3 center = box.lower + half;
+    for (int k = 0; k < 3; ++k)
+    {
+      this->shift[k] = std::abs(center[k]) > 2.0 * half[k] ? center[k] : 0.0;
+    }
+    const double largest =
+      std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
+    const double radius = half.maxCoeff();
+    if (radius > 0.0)
+    {
+      this->scale = std::ldexp(1.0, -std::ilogb(radius));
+    }
+    this->tolerance = largest * this->scale * 0x1.0p-49;
+  }
+  Vec3 operator()(const Vec3& p) const { return (p - this->shift) * this->scale; }
+};
+
+struct Welded
+{
+  Points points; ///< in the frame, equal points once
+  Triangles triangles; ///< without those that use a vertex twice
+  Index merged_vertices = 0;
+  Index degenerate_triangles = 0;
+  Index duplicate_triangles = 0;
+};
+
+/// True when the corners lie on one line, as exactly as doubles hold it.
+bool is_flat(const Vec3& a, const Vec3& b, const Vec3& c)
+{
+  const Vec3 u = b - a;
+  const Vec3 v = c - a;
+  return u.cross(v).norm() <= 1e-15 * u.norm() * v.norm();
+}
+
+bool weld(PointsView points, TrianglesView triangles, const Frame& frame, ExecutionContext& context,
+  Welded& welded)
+{
+  std::vector<char> used(static_cast<std::size_t>(points.rows()), 0);
+  for (Index k = 0; k < triangles.size(); ++k)
+  {
+    used[triangles.data()[k]] = 1;
+  }
+  struct Vertex
+  {
+    Vec3 at;
+    Index id;
+  };
+  std::vector<Vertex> vertices;
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    if (used[v])
+    {
+      vertices.push_back({ frame(points.row(v)), v });
+    }
+  }
+  {
+    const ProgressRange range(context, 0.0, 0.6);
+    if (!parallel_sort(context, vertices,
+          [](const Vertex& x, const Vertex& y)
+          {
+            return std::lexicographical_compare(
+              x.at.data(), x.at.data() + 3, y.at.data(), y.at.data() + 3);
+          }))
+    {
+      return false;
+    }
+  }
+  std::vector<Index> id_of(static_cast<std::size_t>(points.rows()), -1);
+  Index count = 0;
+  welded.points.resize(static_cast<Index>(vertices.size()), 3);
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+  {
+    if (i == 0 || vertices[i].at != vertices[i - 1].at)
+    {
+      welded.points.row(count++) = vertices[i].at.transpose();
+    }
+    id_of[vertices[i].id] = count - 1;
+  }
+  welded.points.conservativeResize(count, 3);
+  welded.merged_vertices = static_cast<Index>(vertices.size()) - count;
+
+  Index kept = 0;
+  welded.triangles.resize(triangles.rows(), 3);
+  std::vector<std::array<Index, 3>> corners;
+  corners.reserve(static_cast<std::size_t>(triangles.rows()));
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    std::array<Index, 3> ids{ id_of[triangles(t, 0)], id_of[triangles(t, 1)],
+      id_of[triangles(t, 2)] };
+    if (ids[0] == ids[1] || ids[1] == ids[2] || ids[2] == ids[0])
+    {
+      welded.degenerate_triangles += 1;
+      continue;
+    }
+    // A flat one has no angle, but its edges hold those of its neighbours together.
+    welded.degenerate_triangles +=
+      is_flat(welded.points.row(ids[0]), welded.points.row(ids[1]), welded.points.row(ids[2]));
+    welded.triangles.row(kept++) << ids[0], ids[1], ids[2];
+    std::sort(ids.begin(), ids.end());
+    corners.push_back(ids);
+  }
+  welded.triangles.conservativeResize(kept, 3);
+  {
+    const ProgressRange range(context, 0.6, 1.0);
+    if (!parallel_sort(context, corners, std::less<>()))
+    {
+      return false;
+    }
+  }
+  for (std::size_t i = 1; i < corners.size(); ++i)
+  {
+    welded.duplicate_triangles += corners[i] == corners[i - 1];
+  }
+  return true;
+}
+
+/// mesh_edges(), but on all threads and cancellable.
+bool find_edges(const Triangles& triangles, ExecutionContext& context, std::vector<Edge>& edges)
+{
+  edges.clear();
+  edges.reserve(static_cast<std::size_t>(triangles.rows()) * 3);
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index from = triangles(t, k);
+      const Index to = triangles(t, (k + 1) % 3);
+      edges.push_back({ std::min(from, to), std::max(from, to), 1, from < to ? 1 : -1 });
+    }
+  }
+  if (!parallel_sort(context, edges,
+        [](const Edge& x, const Edge& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; }))
+  {
+    return false;
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 1; i < edges.size(); ++i)
+  {
+    if (edges[i].a == edges[kept].a && edges[i].b == edges[kept].b)
+    {
+      edges[kept].uses += 1;
+      edges[kept].net_direction += edges[i].net_direction;
+    }
+    else
+    {
+      edges[++kept] = edges[i];
+    }
+  }
+  edges.resize(edges.empty() ? 0 : kept + 1);
+  return true;
+}
+
+double direct_sum(
+  PointsView points, TrianglesView triangles, const Vec3& p, double tolerance, bool* on_surface)
+{
+  SolidAngleSum sum(p, tolerance);
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    sum.add(points.row(triangles(t, 0)), points.row(triangles(t, 1)), points.row(triangles(t, 2)));
+  }
+  if (on_surface)
+  {
+    *on_surface = sum.on_surface();
+  }
+  return sum.winding_number();
+}
+} // namespace
+
+const char* to_string(WindingMethod method)
+{
+  switch (method)
+  {
+    case WindingMethod::automatic:
+      return "automatic";
+    case WindingMethod::direct:
+      return "direct";
+    case WindingMethod::hierarchical:
+      return "hierarchical";
+    case WindingMethod::crossings:
+      return "crossings";
+  }
+  return "automatic";
+}
+
+Index SampleGrid::size(int axis) const
+{
+  return std::max<Index>(0, this->extent[2 * axis + 1] - this->extent[2 * axis] + 1);
+}
+
+struct WindingNumber::Parts
+{
+  Status status;
+  WindingMethod method = WindingMethod::direct;
+  Frame frame;
+  Points points;
+  Triangles triangles;
+  WindingTree tree;
+  SignedCrossings crossings;
+
+  void choose(WindingMethod wanted, Index open_edges);
+  double at(const Vec3& point, bool* on_surface) const;
+};
+
+WindingNumber::WindingNumber() : parts_(new Parts) {}
+WindingNumber::WindingNumber(PointsView points, TrianglesView triangles) : parts_(new Parts)
+{
+  ExecutionContext context;
+  this->build(points, triangles, context);
+}
+WindingNumber::~WindingNumber() = default;
+WindingNumber::WindingNumber(WindingNumber&&) noexcept = default;
+WindingNumber& WindingNumber::operator=(WindingNumber&&) noexcept = default;
+
+void WindingNumber::Parts::choose(WindingMethod wanted, Index open_edges)
+{
+  const Index count = this->triangles.rows();
+  std::string reason = "asked for";
+  this->method = wanted;
+  if (wanted == WindingMethod::automatic)
+  {
+    const std::string numbers =
+      std::to_string(count) + " triangles, " + std::to_string(open_edges) + " open edges: ";
+    if (count <= few_triangles)
+    {
+      this->method = WindingMethod::direct;
+      reason = numbers + "too few for a structure to pay";
+    }
+    else if (2 * open_edges > 3 * count)
+    {
+      this->method = WindingMethod::direct;
+      reason = numbers + "a soup that hardly shares an edge, nothing beats the plain sum";
+    }
+    else if (open_edges <= few_open_edges || 2 * open_edges >= count)
+    {
+      this->method = WindingMethod::crossings;
+      reason = numbers +
+        (open_edges ? "cheapest to sum these beside the crossings of a ray"
+                    : "closed, the crossings of a ray are all there is");
+    }
+    else
+    {
+      this->method = WindingMethod::hierarchical;
+      reason = numbers + "too many open edges to sum them at every point";
+    }
+  }
+  this->status.report.set("method", to_string(this->method));
+  this->status.report.set("method_reason", reason);
+}
+
+Status WindingNumber::build(
+  PointsView points, TrianglesView triangles, ExecutionContext& context, const Options& options)
+{
+  this->parts_.reset(new Parts);
+  Parts& parts = *this->parts_;
+  Status& status = parts.status;
+  status = check_mesh(points, triangles);
+  if (status.ok() && triangles.rows() > std::numeric_limits<std::int32_t>::max() / 4)
+  {
+    status = Status::invalid_input(
+      "the surface has " + std::to_string(triangles.rows()) + " triangles, more than 2^29");
+  }
+  if (status.ok() && (options.max_leaf_size < 1 || options.max_leaf_size > 10000))
+  {
+    status = Status::invalid_input(
+      "max_leaf_size must be 1 … 10000, not " + std::to_string(options.max_leaf_size));
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+
+  Report& report = status.report;
+  parts.frame = triangles.rows() ? Frame(bounding_box(points, triangles)) : Frame();
+  Welded welded;
+  std::vector<Edge> edges;
+  bool done = true;
+  {
+    const ProgressRange range(context, 0.0, 0.3);
+    done = weld(points, triangles, parts.frame, context, welded);
+  }
+  parts.points = std::move(welded.points);
+  parts.triangles = std::move(welded.triangles);
+  if (done)
+  {
+    const ProgressRange range(context, 0.3, 0.6);
+    done = find_edges(parts.triangles, context, edges);
+  }
+  if (done)
+  {
+    Index boundary = 0, nonmanifold = 0, open = 0;
+    for (const Edge& edge : edges)
+    {
+      boundary += edge.uses == 1;
+      nonmanifold += edge.uses > 2;
+      open += edge.net_direction != 0;
+    }
+    report.set("counts.vertices", points.rows());
+    report.set("counts.triangles", triangles.rows());
+    report.set("counts.boundary_edges", boundary);
+    report.set("counts.nonmanifold_edges", nonmanifold);
+    report.set("counts.open_edges", open);
+    report.set(
+      "counts.components", connected_components(parts.points.rows(), parts.triangles).count);
+    report.set("counts.merged_vertices", welded.merged_vertices);
+    report.set("counts.degenerate_triangles", welded.degenerate_triangles);
+    report.set("counts.duplicate_triangles", welded.duplicate_triangles);
+    report.set("volume", signed_volume(points, triangles));
+    parts.choose(options.method, open);
+    if (parts.triangles.rows() == 0)
+    {
+      status.warnings.push_back(triangles.rows() == 0
+          ? "the surface has no triangle: its winding number is 0 everywhere"
+          : "all triangles are degenerate: the winding number is 0 everywhere");
+      parts.method = WindingMethod::direct;
+    }
+  }
+  if (done && parts.method != WindingMethod::direct)
+  {
+    const ProgressRange range(context, 0.6, 0.9);
+    done = parts.tree.build(
+      parts.points, parts.triangles, parts.frame.tolerance, options.max_leaf_size, context);
+  }
+  if (done && parts.method == WindingMethod::crossings)
+  {
+    const ProgressRange range(context, 0.9, 1.0);
+    done =
+      parts.crossings.build(parts.points, parts.triangles, edges, parts.frame.tolerance, context);
+  }
+  if (!done)
+  {
+    this->parts_.reset(new Parts);
+    this->parts_->status = Status::cancelled();
+  }
+  return this->parts_->status;
+}
+
+const Status& WindingNumber::status() const
+{
+  return this->parts_->status;
+}
+
+WindingMethod WindingNumber::method() const
+{
+  return this->parts_->method;
+}
+
+Index WindingNumber::memory() const
+{
+  return static_cast<Index>(sizeof(double)) * this->parts_->points.size() +
+    static_cast<Index>(sizeof(Index)) * this->parts_->triangles.size() +
+    this->parts_->tree.memory() + this->parts_->crossings.memory();
+}
+
+double WindingNumber::Parts::at(const Vec3& point, bool* on_surface) const
+{
+  if (on_surface)
+  {
+    *on_surface = false;
+  }
+  if (!point.allFinite())
+  {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const Vec3 p = this->frame(point);
+  if (this->triangles.rows() == 0 || !(p.cwiseAbs().maxCoeff() < far_away))
+  {
+    return 0.0;
+  }
+  if (this->method == WindingMethod::direct)
+  {
+    return direct_sum(this->points, this->triangles, p, this->frame.tolerance, on_surface);
+  }
+  double winding_number = 0.0;
+  if (this->method == WindingMethod::crossings && this->crossings.evaluate(p, winding_number))
+  {
+    return winding_number;
+  }
+  SolidAngleSum sum(p, this->frame.tolerance);
+  this->tree.add_to(sum, p);
+  if (on_surface)
+  {
+    *on_surface = sum.on_surface();
+  }
+  return sum.winding_number();
+}
+
+double WindingNumber::evaluate_at(const Vec3& point, bool* on_surface) const
+{
+  return this->parts_->at(point, on_surface);
+}
+
+template <typename PointAt>
+Status WindingNumber::evaluate_points(
+  Index count, const PointAt& point_at, ExecutionContext& context, double* out) const
+{
+  const Parts& parts = *this->parts_;
+  if (!parts.status.ok())
+  {
+    return parts.status;
+  }
+  // A few milliseconds a block, so that a cancel is seen in time; a tree may be no more than a
+  // list.
+  const Index cost = parts.method == WindingMethod::crossings
+    ? 100 + static_cast<Index>(parts.status.report.number("counts.open_edges", 0.0))
+    : parts.triangles.rows();
+  const Index block = std::clamp<Index>(200000 / std::max<Index>(1, cost), 1, 1024);
+  std::atomic<Index> touching{ 0 };
+  std::atomic<Index> not_finite{ 0 };
+  const bool done = parallel_for(context, count, block,
+    [&](Index begin, Index end)
+    {
+      Index touching_here = 0, not_finite_here = 0;
+      for (Index i = begin; i < end; ++i)
+      {
+        bool on_surface = false;
+        out[i] = parts.at(point_at(i), &on_surface);
+        touching_here += on_surface;
+        not_finite_here += std::isnan(out[i]);
+      }
+      touching += touching_here;
+      not_finite += not_finite_here;
+    });
+  if (!done)
+  {
+    return Status::cancelled();
+  }
+  Status status;
+  status.report.set("counts.queries", count);
+  status.report.set("counts.on_surface", touching.load());
+  if (not_finite > 0)
+  {
+    status.report.set("counts.not_finite", not_finite.load());
+    status.warnings.push_back(std::to_string(not_finite.load()) + " of " + std::to_string(count) +
+      " points have a coordinate that is not a finite number; their winding number is NaN");
+  }
+  return status;
+}
+
+Status WindingNumber::evaluate(PointsView queries, ExecutionContext& context, double* out) const
+{
+  return this->evaluate_points(
+    queries.rows(), [&](Index i) -> Vec3 { return queries.row(i); }, context, out);
+}
+
+Status WindingNumber::evaluate(const SampleGrid& grid, ExecutionContext& context, double* out) const
+{
+  const Index nx = grid.size(0);
+  const Index ny = grid.size(1);
+  return this->evaluate_points(
+    grid.count(),
+    [&](Index i)
+    {
+      return grid.point(
+        grid.extent[0] + i % nx, grid.extent[2] + i / nx % ny, grid.extent[4] + i / nx / ny);
+    },
+    context, out);
+}
+
+Status WindingNumber::evaluate(
+  PointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const
+{
+  out.resize(queries.rows());
+  return this->evaluate(queries, context, out.data());
+}
+
+Status WindingNumber::evaluate(
+  const SampleGrid& grid, ExecutionContext& context, Eigen::VectorXd& out) const
+{
+  out.resize(grid.count());
+  return this->evaluate(grid, context, out.data());
+}
+
+double winding_number_direct(
+  PointsView points, TrianglesView triangles, const Vec3& point, bool* on_surface)
+{
+  if (on_surface)
+  {
+    *on_surface = false;
+  }
+  if (triangles.rows() == 0 || !point.allFinite())
+  {
+    return point.allFinite() ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+  }
+  const Frame frame(bounding_box(points, triangles));
+  const Vec3 p = frame(point);
+  if (!(p.cwiseAbs().maxCoeff() < far_away))
+  {
+    return 0.0;
+  }
+  SolidAngleSum sum(p, frame.tolerance);
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    sum.add(frame(points.row(triangles(t, 0))), frame(points.row(triangles(t, 1))),
+      frame(points.row(triangles(t, 2))));
+  }
+  if (on_surface)
+  {
+    *on_surface = sum.on_surface();
+  }
+  return sum.winding_number();
+}
+
+} // namespace bindpose

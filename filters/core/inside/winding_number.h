@@ -1,0 +1,129 @@
+#ifndef bindpose_inside_winding_number_h
+#define bindpose_inside_winding_number_h
+
+#include "base/execution.h"
+#include "base/mesh.h"
+
+#include <array>
+#include <memory>
+
+namespace bindpose
+{
+
+/// How winding numbers are computed. All ways give the same numbers up to round-off.
+enum class WindingMethod
+{
+  automatic, ///< the fastest for this surface, by its counts
+  direct, ///< sum over all triangles; no build; ~20 ns x #F a point
+  hierarchical, ///< tree of boxes with caps; tens of microseconds a point for 100k triangles
+  crossings ///< one ray and the boundary edges; ~0.1 us + 15 ns x #open edges a point
+};
+
+/// "automatic", "direct", "hierarchical", "crossings".
+const char* to_string(WindingMethod method);
+
+/// Samples in a box, x fastest: sample (i, j, k) of the extent lies at origin + spacing * (i, j,
+/// k). The value of a sample depends on its point only, so any sub-extent gets the same bits.
+struct SampleGrid
+{
+  Vec3 origin = Vec3::Zero();
+  Vec3 spacing = Vec3::Ones();
+  /// First and last index along x, y, z, inclusive, as in VTK. Empty by default.
+  std::array<Index, 6> extent{ 0, -1, 0, -1, 0, -1 };
+
+  /// Number of samples along an axis, never negative.
+  Index size(int axis) const;
+  Index count() const { return this->size(0) * this->size(1) * this->size(2); }
+  Vec3 point(Index i, Index j, Index k) const
+  {
+    return this->origin +
+      this->spacing.cwiseProduct(
+        Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
+  }
+};
+
+/// Generalized winding number of a triangle mesh (Jacobson, Kavan, Sorkine-Hornung, 2013): how many
+/// times the surface wraps around a point, 1/(4 pi) times the signed solid angle of all triangles.
+///
+/// Any triangles will do: closed, open, crossing, doubled, non-manifold, a soup; their orientation
+/// is what counts (counter-clockwise seen from outside gives +1 inside). Closed surfaces give whole
+/// numbers, open ones fall off smoothly through their holes.
+///
+/// - **On the surface**: triangles that touch the point count 0, the principal value: 1/2 on a
+///   face, 1/4 on an edge and 1/8 at a vertex of a cube. A triangle touches a point within a few
+///   units in the last place of the largest coordinate (2^-49 of it).
+/// - **Degenerate triangles** count 0 and are counted in the report; equal vertices are merged.
+/// - **Precision**: double; coordinates are shifted and scaled without rounding. About 1e-14 plus
+///   1e-16 times the sum of the triangles' unsigned shares.
+/// - **Cost**: build O(#F log #F), 86k triangles 0.1 s, about 200 bytes a triangle; see
+///   WindingMethod for a point's cost.
+///
+/// Build once, evaluate often; evaluation is thread-safe and deterministic for any thread count.
+class WindingNumber
+{
+public:
+  struct Options
+  {
+    WindingMethod method = WindingMethod::automatic;
+    /// Triangles of a tree node that is not split further, 1 … 10000.
+    Index max_leaf_size = 64;
+  };
+
+  WindingNumber();
+  /// Builds on all cores; how it went is in status().
+  WindingNumber(PointsView points, TrianglesView triangles);
+  ~WindingNumber();
+  WindingNumber(WindingNumber&&) noexcept;
+  WindingNumber& operator=(WindingNumber&&) noexcept;
+
+  /// Takes a copy of what it needs: #V x 3 points, #F x 3 ids.
+  /// invalid_input: a coordinate that is not finite, an id out of range, 2^31 triangles or more.
+  /// An empty mesh is valid and winds 0 times around everything; a warning says so.
+  /// The status reports method, method_reason, counts.vertices, .triangles, .boundary_edges (used
+  /// by one triangle), .nonmanifold_edges, .open_edges (directions do not cancel: what makes the
+  /// winding number fractional), .components, .merged_vertices, .degenerate_triangles,
+  /// .duplicate_triangles, and volume (by the divergence theorem).
+  Status build(
+    PointsView points, TrianglesView triangles, ExecutionContext& context, const Options& options);
+  Status build(PointsView points, TrianglesView triangles, ExecutionContext& context)
+  {
+    return this->build(points, triangles, context, Options());
+  }
+
+  /// The last build's status.
+  const Status& status() const;
+  /// What automatic chose, or what was asked for.
+  WindingMethod method() const;
+  /// Bytes held.
+  Index memory() const;
+
+  /// Winding numbers of #Q x 3 points. A point that is not finite gets NaN, and a warning. Reports
+  /// counts.queries, counts.on_surface and, when there are any, counts.not_finite.
+  /// cancelled: `out` is not complete.
+  Status evaluate(PointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const;
+  /// The same for a grid's samples, x fastest.
+  Status evaluate(const SampleGrid& grid, ExecutionContext& context, Eigen::VectorXd& out) const;
+  /// The same into memory of the caller's for #Q or grid.count() numbers.
+  Status evaluate(PointsView queries, ExecutionContext& context, double* out) const;
+  Status evaluate(const SampleGrid& grid, ExecutionContext& context, double* out) const;
+
+  /// At one point; NaN when it is not finite. Thread-safe, allocates nothing.
+  double evaluate_at(const Vec3& point, bool* on_surface = nullptr) const;
+
+private:
+  struct Parts;
+  template <typename PointAt>
+  Status evaluate_points(
+    Index count, const PointAt& point_at, ExecutionContext& context, double* out) const;
+
+  std::unique_ptr<Parts> parts_;
+};
+
+/// Reference: the plain sum over all triangles, no build, the same principal values. 0 without
+/// triangles; the mesh must be valid (check_mesh). Cost: ~25 ns x #F.
+double winding_number_direct(
+  PointsView points, TrianglesView triangles, const Vec3& point, bool* on_surface = nullptr);
+
+} // namespace bindpose
+
+#endif

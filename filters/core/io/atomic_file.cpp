@@ -1,0 +1,152 @@
+// A temporary file "TARGET.PID-N.part" in the same folder, so that the final rename is atomic.
+#include "io/atomic_file.h"
+
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <mutex>
+#include <set>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Temporary files that exist now. The process owns the files, so it owns their list: this is the
+/// one state shared between instances.
+struct Registry
+{
+  std::mutex mutex;
+  std::set<std::string> paths;
+};
+
+Registry& registry()
+{
+  static Registry instance;
+  return instance;
+}
+
+Status cannot_write(const std::string& path, const std::string& reason)
+{
+  return Status::invalid_input("cannot write " + path + ": " + reason);
+}
+
+Status check_target(const std::string& target, bool overwrite)
+{
+  struct stat info = {};
+  if (target.empty())
+  {
+    return Status::invalid_input("there is no name for the output file");
+  }
+  if (stat(target.c_str(), &info) != 0)
+  {
+    return errno == ENOENT ? Status() : cannot_write(target, std::strerror(errno));
+  }
+  if (S_ISDIR(info.st_mode))
+  {
+    return cannot_write(target, "it is a directory");
+  }
+  if (!S_ISREG(info.st_mode))
+  {
+    return cannot_write(target, "it is not a regular file");
+  }
+  if (!overwrite)
+  {
+    return cannot_write(target, "it exists already (allow it with overwrite)");
+  }
+  return {};
+}
+} // namespace
+
+AtomicFile::~AtomicFile()
+{
+  this->discard();
+}
+
+Status AtomicFile::open(const std::string& target, bool overwrite)
+{
+  this->discard();
+  Status status = check_target(target, overwrite);
+  if (!status.ok())
+  {
+    return status;
+  }
+  static std::atomic<int> count{ 0 };
+  const std::string temporary =
+    target + "." + std::to_string(getpid()) + "-" + std::to_string(++count) + ".part";
+  Registry& files = registry();
+  const std::lock_guard<std::mutex> lock(files.mutex);
+  const int descriptor = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
+  if (descriptor < 0)
+  {
+    return cannot_write(target, std::strerror(errno));
+  }
+  ::close(descriptor);
+  files.paths.insert(temporary);
+  this->target_ = target;
+  this->temporary_ = temporary;
+  this->overwrite_ = overwrite;
+  return {};
+}
+
+Status AtomicFile::commit()
+{
+  if (this->temporary_.empty())
+  {
+    return Status::failure(StatusCode::internal_error, "a file is committed that was not opened");
+  }
+  Status status = check_target(this->target_, this->overwrite_); // another may have made it since
+  if (status.ok())
+  {
+    Registry& files = registry();
+    const std::lock_guard<std::mutex> lock(files.mutex);
+    if (std::rename(this->temporary_.c_str(), this->target_.c_str()) != 0)
+    {
+      status = cannot_write(this->target_, std::strerror(errno));
+    }
+    else
+    {
+      files.paths.erase(this->temporary_);
+      this->temporary_.clear();
+    }
+  }
+  this->discard();
+  return status;
+}
+
+void AtomicFile::discard()
+{
+  if (this->temporary_.empty())
+  {
+    return;
+  }
+  Registry& files = registry();
+  const std::lock_guard<std::mutex> lock(files.mutex);
+  ::unlink(this->temporary_.c_str());
+  files.paths.erase(this->temporary_);
+  this->temporary_.clear();
+}
+
+Status AtomicFile::check(const std::string& target, bool overwrite)
+{
+  AtomicFile file;
+  return file.open(target, overwrite);
+}
+
+void AtomicFile::discard_all()
+{
+  Registry& files = registry();
+  const std::lock_guard<std::mutex> lock(files.mutex);
+  for (const std::string& path : files.paths)
+  {
+    ::unlink(path.c_str());
+  }
+  files.paths.clear();
+}
+
+} // namespace bindpose

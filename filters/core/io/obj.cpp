@@ -1,0 +1,134 @@
+// OBJ: "v x y z" and "f a b c …", ids from 1, each corner "a", "a/t", "a//n" or "a/t/n".
+#include "io/obj.h"
+
+#include "io/text_scanner.h"
+
+namespace bindpose
+{
+
+namespace
+{
+Status read_vertex(TextScanner& scanner, std::vector<Vec3>& points)
+{
+  Vec3 p;
+  for (int k = 0; k < 3; ++k)
+  {
+    Status status = scanner.read_number("a vertex coordinate", p[k]);
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  points.push_back(p);
+  return {};
+}
+
+Status read_face(TextScanner& scanner, Index vertices, PolygonMesh& mesh)
+{
+  const std::size_t begin = mesh.corners.size();
+  std::string_view word;
+  while (scanner.next_word(word))
+  {
+    const std::string_view number = word.substr(0, word.find('/'));
+    Index id = 0;
+    if (!parse_index(number, id))
+    {
+      return scanner.error("a vertex id of a face is expected");
+    }
+    const Index vertex = id < 0 ? vertices + id : id - 1;
+    if (id == 0 || vertex < 0)
+    {
+      return scanner.error("a face names vertex " + std::to_string(id) + ", which does not exist");
+    }
+    mesh.corners.push_back(vertex);
+  }
+  if (mesh.corners.size() < begin + 3)
+  {
+    mesh.corners.resize(begin);
+    mesh.skipped += 1;
+    return {};
+  }
+  mesh.end_polygon();
+  return {};
+}
+} // namespace
+
+Status read_obj(const std::string& path, PolygonMesh& mesh)
+{
+  mesh = PolygonMesh();
+  std::string text;
+  Status status = read_file(path, text);
+  if (!status.ok())
+  {
+    return status;
+  }
+  TextScanner scanner(path, text);
+  std::vector<Vec3> points;
+  while (status.ok() && scanner.next_line())
+  {
+    std::string_view word;
+    scanner.next_word(word);
+    if (word == "v")
+    {
+      status = read_vertex(scanner, points);
+    }
+    else if (word == "f")
+    {
+      status = read_face(scanner, static_cast<Index>(points.size()), mesh);
+    }
+  }
+  if (status.ok() && (points.empty() || mesh.polygon_count() == 0))
+  {
+    status = Status::invalid_input(path + " is not a usable OBJ file: it has " +
+      std::to_string(points.size()) + " vertices and " + std::to_string(mesh.polygon_count()) +
+      " faces");
+  }
+  // Faces may come before their vertices: ids are compared with the final number.
+  for (const Index vertex : mesh.corners)
+  {
+    if (status.ok() && vertex >= static_cast<Index>(points.size()))
+    {
+      status = Status::invalid_input(path + ": a face names vertex " + std::to_string(vertex + 1) +
+        ", but there are " + std::to_string(points.size()) + " vertices");
+    }
+  }
+  if (!status.ok())
+  {
+    mesh = PolygonMesh();
+    return status;
+  }
+  mesh.points.resize(static_cast<Index>(points.size()), 3);
+  for (Index v = 0; v < mesh.points.rows(); ++v)
+  {
+    mesh.points.row(v) = points[v].transpose();
+  }
+  return status;
+}
+
+Status write_obj(const std::string& path, const PolygonMesh& mesh)
+{
+  std::string text;
+  for (Index v = 0; v < mesh.points.rows(); ++v)
+  {
+    text += 'v';
+    for (int k = 0; k < 3; ++k)
+    {
+      text += ' ';
+      append_number(text, mesh.points(v, k));
+    }
+    text += '\n';
+  }
+  for (Index f = 0; f < mesh.polygon_count(); ++f)
+  {
+    text += 'f';
+    for (Index c = mesh.offsets[f]; c < mesh.offsets[f + 1]; ++c)
+    {
+      text += ' ';
+      append_index(text, mesh.corners[c] + 1);
+    }
+    text += '\n';
+  }
+  return write_file(path, text);
+}
+
+} // namespace bindpose

@@ -1,0 +1,191 @@
+// STL is a soup of triangles. Binary: 80 bytes, a count, 50 bytes a triangle. Text: the words
+// "vertex x y z" between others. A binary file may begin with "solid" as well, so its size decides.
+#include "io/stl.h"
+
+#include "io/text_scanner.h"
+
+#include <array>
+#include <cstring>
+#include <unordered_map>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr std::size_t header_size = 84;
+constexpr std::size_t triangle_size = 50;
+
+/// Gives equal places the same vertex id, in order of first appearance.
+class Welder
+{
+public:
+  Index id_of(const Vec3& p)
+  {
+    const Key key{ p.x() + 0.0, p.y() + 0.0, p.z() + 0.0 }; // -0 + 0 is +0
+    const auto [entry, fresh] =
+      this->ids_.insert({ key, static_cast<Index>(this->points_.size()) });
+    if (fresh)
+    {
+      this->points_.push_back(p);
+    }
+    return entry->second;
+  }
+  const std::vector<Vec3>& points() const { return this->points_; }
+
+private:
+  using Key = std::array<double, 3>;
+  struct Hash
+  {
+    std::size_t operator()(const Key& key) const
+    {
+      std::uint64_t hash = 0;
+      for (const double x : key)
+      {
+        std::uint64_t bits;
+        std::memcpy(&bits, &x, sizeof(bits));
+        hash = (hash ^ (bits >> 29) ^ bits) * 0x9e3779b97f4a7c15ull;
+      }
+      return hash ^ (hash >> 32);
+    }
+  };
+  std::unordered_map<Key, Index, Hash> ids_; // only looked up, never walked through
+  std::vector<Vec3> points_;
+};
+
+Status read_binary(
+  const std::string& path, const std::string& text, Index count, Welder& welder, PolygonMesh& mesh)
+{
+  const char* at = text.data() + header_size;
+  for (Index t = 0; t < count; ++t, at += triangle_size)
+  {
+    float values[12]; // the normal first
+    std::memcpy(values, at, sizeof(values));
+    for (int corner = 1; corner < 4; ++corner)
+    {
+      const Vec3 p(values[3 * corner], values[3 * corner + 1], values[3 * corner + 2]);
+      if (!p.allFinite())
+      {
+        return Status::invalid_input(path + ": triangle " + std::to_string(t) +
+          " has a coordinate that is not a finite number");
+      }
+      mesh.corners.push_back(welder.id_of(p));
+    }
+    mesh.end_polygon();
+  }
+  return {};
+}
+
+Status read_text(
+  const std::string& path, const std::string& text, Welder& welder, PolygonMesh& mesh)
+{
+  TextScanner scanner(path, text, 0);
+  std::string_view word;
+  if (!scanner.next_word_of_text(word) || word != "solid")
+  {
+    return Status::invalid_input(path +
+      " is no STL file: it is not as long as it says, nor does it begin with the word solid");
+  }
+  scanner.rest_of_line();
+  bool ended = false;
+  while (scanner.next_word_of_text(word))
+  {
+    ended = word == "endsolid";
+    if (ended)
+    {
+      scanner.rest_of_line(); // its name, which may be any word
+    }
+    if (word != "vertex")
+    {
+      continue;
+    }
+    Vec3 p;
+    for (int k = 0; k < 3; ++k)
+    {
+      Status status = scanner.read_number("a vertex coordinate", p[k]);
+      if (!status.ok())
+      {
+        return status;
+      }
+    }
+    mesh.corners.push_back(welder.id_of(p));
+    if (mesh.corners.size() % 3 == 0)
+    {
+      mesh.end_polygon();
+    }
+  }
+  if (!ended || mesh.corners.size() % 3 != 0)
+  {
+    return scanner.error("the file ends without the word endsolid: it is truncated");
+  }
+  return {};
+}
+} // namespace
+
+Status read_stl(const std::string& path, PolygonMesh& mesh)
+{
+  mesh = PolygonMesh();
+  std::string text;
+  Status status = read_file(path, text);
+  if (!status.ok())
+  {
+    return status;
+  }
+  std::uint32_t count = 0;
+  if (text.size() >= header_size)
+  {
+    std::memcpy(&count, text.data() + header_size - sizeof(count), sizeof(count));
+  }
+  Welder welder;
+  const bool binary = text.size() >= header_size &&
+    text.size() - header_size == static_cast<std::size_t>(count) * triangle_size;
+  status =
+    binary ? read_binary(path, text, count, welder, mesh) : read_text(path, text, welder, mesh);
+  if (status.ok() && mesh.corners.empty())
+  {
+    status = Status::invalid_input(path + " holds no triangle");
+  }
+  if (!status.ok())
+  {
+    mesh = PolygonMesh();
+    return status;
+  }
+  mesh.points.resize(static_cast<Index>(welder.points().size()), 3);
+  for (Index v = 0; v < mesh.points.rows(); ++v)
+  {
+    mesh.points.row(v) = welder.points()[v].transpose();
+  }
+  return status;
+}
+
+Status write_stl(const std::string& path, const PolygonMesh& mesh)
+{
+  const Triangles triangles = fan_triangles(mesh);
+  std::string text = "binary STL, triangles only";
+  text.resize(header_size - sizeof(std::uint32_t), ' ');
+  const auto append = [&text](auto value)
+  {
+    char raw[sizeof(value)];
+    std::memcpy(raw, &value, sizeof(value));
+    text.append(raw, sizeof(value));
+  };
+  append(static_cast<std::uint32_t>(triangles.rows()));
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    const Vec3 a = mesh.points.row(triangles(t, 0));
+    const Vec3 b = mesh.points.row(triangles(t, 1));
+    const Vec3 c = mesh.points.row(triangles(t, 2));
+    const Vec3 normal = (b - a).cross(c - a).stableNormalized();
+    for (const Vec3& v : { normal, a, b, c })
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        append(static_cast<float>(v[k]));
+      }
+    }
+    append(std::uint16_t(0));
+  }
+  return write_file(path, text);
+}
+
+} // namespace bindpose

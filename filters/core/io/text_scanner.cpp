@@ -1,0 +1,269 @@
+// Reads text files word by word. Numbers go through std::from_chars: quick, and a decimal point
+// is a point in every locale.
+#include "io/text_scanner.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <limits>
+#include <memory>
+
+#include <sys/stat.h>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr std::string_view blanks = " \t\r\f\v";
+
+std::string system_reason()
+{
+  return std::strerror(errno); // NUL-terminated, never null
+}
+
+struct CloseFile
+{
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using FilePointer = std::unique_ptr<std::FILE, CloseFile>;
+
+std::string_view without_plus(std::string_view text)
+{
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-' && text[1] != '+')
+  {
+    text.remove_prefix(1);
+  }
+  return text;
+}
+
+template <typename T>
+bool parse(std::string_view text, T& value)
+{
+  text = without_plus(text);
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  return result.ec == std::errc() && result.ptr == end && !text.empty();
+}
+
+/// A word for an error text: short, and printable whatever the file holds.
+std::string quoted(std::string_view word)
+{
+  std::string text = "'";
+  for (const char c : word.substr(0, 32))
+  {
+    text += c >= ' ' && c <= '~' ? c : '?';
+  }
+  return text + (word.size() > 32 ? "…'" : "'");
+}
+} // namespace
+
+Status read_file(const std::string& path, std::string& content)
+{
+  content.clear();
+  struct stat info = {};
+  if (stat(path.c_str(), &info) != 0)
+  {
+    return Status::invalid_input("cannot open " + path + ": " + system_reason());
+  }
+  if (S_ISDIR(info.st_mode))
+  {
+    return Status::invalid_input("cannot read " + path + ": it is a directory");
+  }
+  const FilePointer file(std::fopen(path.c_str(), "rb"));
+  if (!file)
+  {
+    return Status::invalid_input("cannot open " + path + ": " + system_reason());
+  }
+  content.reserve(static_cast<std::size_t>(info.st_size) + 1);
+  char block[1 << 16];
+  for (;;)
+  {
+    const std::size_t count = std::fread(block, 1, sizeof(block), file.get());
+    content.append(block, count);
+    if (count < sizeof(block))
+    {
+      break;
+    }
+  }
+  if (std::ferror(file.get()))
+  {
+    return Status::invalid_input("cannot read " + path + ": " + system_reason());
+  }
+  if (content.empty())
+  {
+    return Status::invalid_input(path + " is empty");
+  }
+  return {};
+}
+
+Status write_file(const std::string& path, std::string_view content)
+{
+  FilePointer file(std::fopen(path.c_str(), "wb"));
+  if (!file)
+  {
+    return Status::invalid_input("cannot write " + path + ": " + system_reason());
+  }
+  const bool written = std::fwrite(content.data(), 1, content.size(), file.get()) == content.size();
+  // Closing writes what is buffered: a full disk may show only here.
+  if (std::fclose(file.release()) != 0 || !written)
+  {
+    return Status::invalid_input("cannot write " + path + ": " + system_reason());
+  }
+  return {};
+}
+
+bool parse_number(std::string_view text, double& value)
+{
+  text = without_plus(text);
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  if (result.ptr != end || text.empty())
+  {
+    return false;
+  }
+  if (result.ec == std::errc::result_out_of_range)
+  {
+    // Nearer to 0 than a double can be (1e-400), or too large. A number with a decimal point before
+    // its first other digit and no exponent cannot be too large.
+    const std::size_t exponent = text.find_first_of("eE");
+    const bool tiny = exponent == std::string_view::npos
+      ? text.find_first_of("123456789") > text.find('.')
+      : text.substr(exponent + 1, 1) == "-";
+    const double magnitude = tiny ? 0.0 : std::numeric_limits<double>::infinity();
+    value = text[0] == '-' ? -magnitude : magnitude;
+    return true;
+  }
+  return result.ec == std::errc();
+}
+
+bool parse_index(std::string_view text, Index& value)
+{
+  return parse(text, value);
+}
+
+void append_number(std::string& text, double value)
+{
+  char digits[32];
+  const auto result = std::to_chars(digits, digits + sizeof(digits), value);
+  text.append(digits, result.ptr);
+}
+
+void append_index(std::string& text, Index value)
+{
+  char digits[24];
+  const auto result = std::to_chars(digits, digits + sizeof(digits), value);
+  text.append(digits, result.ptr);
+}
+
+TextScanner::TextScanner(std::string path, std::string_view text, char comment)
+  : path_(std::move(path)), text_(text), comment_(comment)
+{
+}
+
+bool TextScanner::next_line()
+{
+  while (this->next_ < this->text_.size())
+  {
+    const std::size_t end = std::min(this->text_.find('\n', this->next_), this->text_.size());
+    this->line_ = this->text_.substr(this->next_, end - this->next_);
+    this->next_ = std::min(end + 1, this->text_.size());
+    this->line_number_ += 1;
+    if (this->comment_)
+    {
+      this->line_ = this->line_.substr(0, this->line_.find(this->comment_));
+    }
+    if (this->line_.find_first_not_of(blanks) != std::string_view::npos)
+    {
+      return true;
+    }
+  }
+  this->line_ = {};
+  return false;
+}
+
+bool TextScanner::next_word(std::string_view& word)
+{
+  const std::size_t begin = this->line_.find_first_not_of(blanks);
+  if (begin == std::string_view::npos)
+  {
+    return false;
+  }
+  this->line_.remove_prefix(begin);
+  const std::size_t end = std::min(this->line_.find_first_of(blanks), this->line_.size());
+  word = this->line_.substr(0, end);
+  this->line_.remove_prefix(end);
+  return true;
+}
+
+bool TextScanner::next_word_of_text(std::string_view& word)
+{
+  while (!this->next_word(word))
+  {
+    if (!this->next_line())
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::string_view TextScanner::rest_of_line()
+{
+  std::string_view rest = this->line_;
+  this->line_ = {};
+  const std::size_t begin = rest.find_first_not_of(blanks);
+  if (begin == std::string_view::npos)
+  {
+    return {};
+  }
+  return rest.substr(begin, rest.find_last_not_of(blanks) + 1 - begin);
+}
+
+Status TextScanner::read_index(const char* what, Index limit, Index& value)
+{
+  std::string_view word;
+  if (!this->next_word_of_text(word))
+  {
+    return this->error(std::string("the file ends where ") + what + " is expected");
+  }
+  if (!parse_index(word, value))
+  {
+    return this->error(std::string(what) + " is expected, but here stands " + quoted(word));
+  }
+  if (value < 0 || value >= limit)
+  {
+    return this->error(std::string(what) + " is out of range: " + quoted(word) + " (limit " +
+      std::to_string(limit) + ")");
+  }
+  return {};
+}
+
+Status TextScanner::read_number(const char* what, double& value)
+{
+  std::string_view word;
+  if (!this->next_word_of_text(word))
+  {
+    return this->error(std::string("the file ends where ") + what + " is expected");
+  }
+  if (!parse_number(word, value))
+  {
+    return this->error(std::string(what) + " is expected, but here stands " + quoted(word));
+  }
+  if (!std::isfinite(value))
+  {
+    return this->error(std::string(what) + " is not a finite number: " + quoted(word));
+  }
+  return {};
+}
+
+Status TextScanner::error(const std::string& sentence) const
+{
+  return Status::invalid_input(
+    this->path_ + ", line " + std::to_string(this->line_number_) + ": " + sentence);
+}
+
+} // namespace bindpose

@@ -1,0 +1,158 @@
+// TGF: nodes, a line with a single #, edges. Ids are any integers; edges name nodes by them.
+#include "io/tgf.h"
+
+#include "io/text_scanner.h"
+
+#include <cmath>
+#include <map>
+
+namespace bindpose
+{
+
+namespace
+{
+using Ids = std::map<Index, Index>;
+
+Status read_node(TextScanner& scanner, std::string_view first, Ids& ids, Tgf& graph)
+{
+  Index id = 0;
+  if (!parse_index(first, id))
+  {
+    return scanner.error("a node's line begins with its id, an integer");
+  }
+  if (!ids.insert({ id, static_cast<Index>(graph.nodes.size()) }).second)
+  {
+    return scanner.error("node " + std::to_string(id) + " is there twice");
+  }
+  Tgf::Node node;
+  node.line = scanner.line();
+  for (int k = 0; k < 3; ++k)
+  {
+    std::string_view word;
+    double value = 0.0;
+    if (!scanner.next_word(word) || !parse_number(word, value))
+    {
+      return scanner.error(
+        "node " + std::to_string(id) + " needs three coordinates, and all of them numbers");
+    }
+    if (!std::isfinite(value))
+    {
+      return scanner.error(
+        "node " + std::to_string(id) + " has a coordinate that is not a finite number");
+    }
+    node.position[k] = value;
+  }
+  node.text = std::string(scanner.rest_of_line());
+  graph.nodes.push_back(node);
+  return {};
+}
+
+Status read_edge(TextScanner& scanner, std::string_view first, const Ids& ids, Tgf& graph)
+{
+  Tgf::Edge edge;
+  edge.line = scanner.line();
+  std::string_view words[2] = { first, {} };
+  Index* ends[2] = { &edge.from, &edge.to };
+  scanner.next_word(words[1]);
+  for (int k = 0; k < 2; ++k)
+  {
+    Index id = 0;
+    if (!parse_index(words[k], id))
+    {
+      return scanner.error("an edge's line begins with the ids of two nodes");
+    }
+    const auto node = ids.find(id);
+    if (node == ids.end())
+    {
+      return scanner.error("an edge names node " + std::to_string(id) + ", which does not exist");
+    }
+    *ends[k] = node->second;
+  }
+  if (edge.from == edge.to)
+  {
+    return scanner.error("an edge goes from a node to itself");
+  }
+  bool* flags[3] = { &edge.bone, &edge.pseudo, &edge.cage };
+  for (bool* flag : flags)
+  {
+    std::string_view word;
+    if (!scanner.next_word(word))
+    {
+      break;
+    }
+    if (word != "0" && word != "1")
+    {
+      return scanner.error("an edge's flags is_bone, is_pseudo, is_cage are 0 or 1");
+    }
+    *flag = word == "1";
+  }
+  graph.edges.push_back(edge);
+  return {};
+}
+} // namespace
+
+Status read_tgf(const std::string& path, Tgf& graph)
+{
+  graph = Tgf();
+  std::string text;
+  Status status = read_file(path, text);
+  if (!status.ok())
+  {
+    return status;
+  }
+  TextScanner scanner(path, text, 0); // # parts nodes and edges: no comments
+  Ids ids;
+  bool in_edges = false;
+  while (status.ok() && scanner.next_line())
+  {
+    std::string_view word;
+    scanner.next_word(word);
+    if (word[0] == '#')
+    {
+      if (in_edges)
+      {
+        break; // libigl ignores what comes behind a second one
+      }
+      in_edges = true;
+      continue;
+    }
+    status = in_edges ? read_edge(scanner, word, ids, graph) : read_node(scanner, word, ids, graph);
+  }
+  if (status.ok() && graph.nodes.empty())
+  {
+    status = scanner.error("the file has no node");
+  }
+  if (!status.ok())
+  {
+    graph = Tgf();
+  }
+  return status;
+}
+
+Status write_tgf(const std::string& path, const Tgf& graph)
+{
+  std::string text;
+  for (std::size_t i = 0; i < graph.nodes.size(); ++i)
+  {
+    append_index(text, static_cast<Index>(i) + 1);
+    for (int k = 0; k < 3; ++k)
+    {
+      text += ' ';
+      append_number(text, graph.nodes[i].position[k]);
+    }
+    text += (graph.nodes[i].text.empty() ? "" : " ") + graph.nodes[i].text + '\n';
+  }
+  text += "#\n";
+  for (const Tgf::Edge& edge : graph.edges)
+  {
+    append_index(text, edge.from + 1);
+    text += ' ';
+    append_index(text, edge.to + 1);
+    text += edge.bone ? " 1" : " 0";
+    text += edge.pseudo ? " 1" : " 0";
+    text += edge.cage ? " 1\n" : " 0\n";
+  }
+  return write_file(path, text);
+}
+
+} // namespace bindpose

@@ -1,0 +1,54 @@
+/**
+ * @class   vtkFarthestPointHandles
+ * @brief   spreads point handles p1, p2, … evenly over a surface
+ *
+ * The first handle is the vertex farthest from the vertices' centroid, each next one the vertex
+ * farthest in space from all handles before it; ties go to the smaller point id, so the same
+ * surface always gives the same handles, and fewer handles are the first of more. Good for a first
+ * look at weights on a mesh that has no skeleton yet: handles land on tips (fingers, ears, feet)
+ * first.
+ *
+ * Input: a surface (vtkPointSet with 2D cells). Output: a handle dataset in the rest pose.
+ * INVALID_INPUT when the surface has fewer different vertices than handles asked for.
+ * Cost: NumberOfHandles passes over the points.
+ *
+ * Report: `counts.vertices`, `counts.handles`, `handles[].name`, `handles[].kind`,
+ * `handles[].vertex` (point id on the surface).
+ */
+
+#ifndef vtkFarthestPointHandles_h
+#define vtkFarthestPointHandles_h
+
+#include "BindposeFiltersModule.h" // for export macro
+#include "vtkBindposeAlgorithm.h"
+
+class BINDPOSEFILTERS_EXPORT vtkFarthestPointHandles : public vtkBindposeAlgorithm
+{
+public:
+  static vtkFarthestPointHandles* New();
+  vtkTypeMacro(vtkFarthestPointHandles, vtkBindposeAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /// Number of handles, at least 1. Default: 8.
+  vtkSetClampMacro(NumberOfHandles, int, 1, VTK_INT_MAX);
+  vtkGetMacro(NumberOfHandles, int);
+  ///@}
+
+protected:
+  vtkFarthestPointHandles() = default;
+  ~vtkFarthestPointHandles() override = default;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
+    bindpose::ExecutionContext& context) override;
+
+private:
+  vtkFarthestPointHandles(const vtkFarthestPointHandles&) = delete;
+  void operator=(const vtkFarthestPointHandles&) = delete;
+
+  int NumberOfHandles = 8;
+};
+
+#endif

@@ -1,0 +1,209 @@
+// A .tgf graph becomes handles: first the nodes without a bone, then the bones, parents from shared
+// nodes. A .vtp file goes through vtkMeshFileReader and gets the arrays it misses.
+#include "vtkHandleFileReader.h"
+
+#include "base/execution.h"
+#include "conversion.h"
+#include "file_kind.h"
+#include "io/tgf.h"
+#include "report_field_data.h"
+#include "vtkMeshFileReader.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
+#include "vtkCommand.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+vtkStandardNewMacro(vtkHandleFileReader);
+
+namespace
+{
+using bindpose::Handle;
+using bindpose::HandleKind;
+using bindpose::Handles;
+using bindpose::Index;
+using bindpose::Status;
+
+Handles to_handles(const bindpose::Tgf& graph)
+{
+  std::vector<char> in_bone(graph.nodes.size(), 0);
+  for (const auto& edge : graph.edges)
+  {
+    if (edge.bone)
+    {
+      in_bone[edge.from] = in_bone[edge.to] = 1;
+    }
+  }
+  Handles handles;
+  for (std::size_t i = 0; i < graph.nodes.size(); ++i)
+  {
+    if (in_bone[i])
+    {
+      continue;
+    }
+    Handle point;
+    point.head = point.tail = graph.nodes[i].position;
+    point.name = graph.nodes[i].text;
+    if (point.name.empty())
+    {
+      point.name = "p" + std::to_string(handles.size() + 1);
+    }
+    handles.push_back(point);
+  }
+  const std::size_t points = handles.size();
+  std::vector<const bindpose::Tgf::Edge*> bones;
+  for (const auto& edge : graph.edges)
+  {
+    if (edge.bone)
+    {
+      bones.push_back(&edge);
+    }
+  }
+  for (const auto* edge : bones)
+  {
+    Handle bone;
+    bone.kind = HandleKind::bone;
+    bone.name = "b" + std::to_string(handles.size() - points + 1);
+    bone.head = graph.nodes[edge->from].position;
+    bone.tail = graph.nodes[edge->to].position;
+    for (std::size_t other = 0; other < bones.size() && bone.parent < 0; ++other)
+    {
+      if (bones[other] != edge && bones[other]->to == edge->from)
+      {
+        bone.parent = static_cast<Index>(points + other);
+      }
+    }
+    handles.push_back(bone);
+  }
+  return handles;
+}
+
+Status read_tgf(const std::string& path, vtkPolyData* output)
+{
+  bindpose::Tgf graph;
+  Status status = bindpose::read_tgf(path, graph);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const Handles handles = to_handles(graph);
+  status = check_handles(handles);
+  if (!status.ok())
+  {
+    status.message = path + ": " + status.message;
+    return status;
+  }
+  output->ShallowCopy(bindpose::to_polydata(handles));
+  Index others = 0;
+  for (const auto& edge : graph.edges)
+  {
+    others += !edge.bone;
+  }
+  if (others > 0)
+  {
+    status.warnings.push_back(path + ": " + std::to_string(others) +
+      " edges that are no bones (pseudo or cage edges) make no handle");
+  }
+  return status;
+}
+
+Status read_vtp(const std::string& path, vtkPolyData* output)
+{
+  vtkNew<vtkMeshFileReader> reader;
+  vtkNew<vtkCallbackCommand> silent; // our status repeats what the reader says
+  reader->AddObserver(vtkCommand::ErrorEvent, silent);
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  Status status = bindpose::upstream_failure(reader->GetOutput());
+  if (!status.ok())
+  {
+    return status;
+  }
+  auto* data = vtkPolyData::SafeDownCast(reader->GetOutput());
+  Handles handles;
+  std::vector<Index> cells;
+  bindpose::Pose pose;
+  status = bindpose::to_handles(data, handles, &cells);
+  if (status.ok())
+  {
+    status = bindpose::to_pose(data, handles, cells, pose);
+  }
+  if (!status.ok())
+  {
+    status.message = path + ": " + status.message;
+    return status;
+  }
+  output->ShallowCopy(data);
+  if (static_cast<Index>(handles.size()) == data->GetNumberOfCells())
+  {
+    // Every cell is a handle: cells of the complete dataset and of the file agree.
+    auto complete = bindpose::to_polydata(handles);
+    for (int i = 0; i < complete->GetCellData()->GetNumberOfArrays(); ++i)
+    {
+      vtkAbstractArray* array = complete->GetCellData()->GetAbstractArray(i);
+      if (!output->GetCellData()->GetAbstractArray(array->GetName()))
+      {
+        output->GetCellData()->AddArray(array);
+      }
+    }
+  }
+  bindpose::set_pose(output, cells, pose);
+  return status;
+}
+} // namespace
+
+vtkHandleFileReader::vtkHandleFileReader()
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+vtkHandleFileReader::~vtkHandleFileReader()
+{
+  this->SetFileName(nullptr);
+}
+
+int vtkHandleFileReader::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
+  return 1;
+}
+
+bindpose::Status vtkHandleFileReader::Execute(
+  vtkInformationVector**, vtkInformationVector* output, bindpose::ExecutionContext& context)
+{
+  bindpose::Phase phase(context, "read");
+  const std::string path = this->FileName ? this->FileName : "";
+  auto* data = vtkPolyData::GetData(output);
+  Status status = bindpose::check_extension(path, GetFileExtensions());
+  if (status.ok())
+  {
+    status = bindpose::file_extension(path) == "tgf" ? read_tgf(path, data) : read_vtp(path, data);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  Handles handles;
+  bindpose::to_handles(data, handles);
+  std::vector<std::string> names;
+  std::vector<std::string> kinds;
+  for (const Handle& handle : handles)
+  {
+    names.push_back(handle.name);
+    kinds.emplace_back(to_string(handle.kind));
+  }
+  status.report.set("counts.handles", static_cast<int>(handles.size()));
+  status.report.set("handles[].name", names);
+  status.report.set("handles[].kind", kinds);
+  return status;
+}
+
+void vtkHandleFileReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+}

@@ -1,0 +1,398 @@
+// The ending chooses the reader. Our own kernels read the formats that VTK lacks or reads with a
+// loss (floats, vertices doubled where normals differ); for the others a VTK reader runs with
+// observers on it, so that its errors become the one sentence of our status. What comes out is
+// checked before it goes on: VTK's readers hand on ids out of range.
+#include "vtkMeshFileReader.h"
+
+#include "base/execution.h"
+#include "conversion.h"
+#include "file_kind.h"
+#include "io/medit.h"
+#include "io/obj.h"
+#include "io/off.h"
+#include "io/ply.h"
+#include "io/stl.h"
+#include "io/text_scanner.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
+#include "vtkCommand.h"
+#include "vtkErrorCode.h"
+#include "vtkExecutive.h"
+#include "vtkGenericDataObjectReader.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStructuredGrid.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkXMLImageDataReader.h"
+#include "vtkXMLPolyDataReader.h"
+#include "vtkXMLUnstructuredGridReader.h"
+
+#include <algorithm>
+
+vtkStandardNewMacro(vtkMeshFileReader);
+
+namespace
+{
+using bindpose::Index;
+using bindpose::Status;
+
+/// Collects the first error or warning of a VTK reader instead of printing it.
+class ErrorCatcher
+{
+public:
+  ErrorCatcher()
+  {
+    this->Command->SetClientData(this);
+    this->Command->SetCallback(
+      [](vtkObject*, unsigned long, void* self, void* text)
+      {
+        auto& first = static_cast<ErrorCatcher*>(self)->First;
+        if (first.empty() && text)
+        {
+          first = static_cast<const char*>(text);
+        }
+      });
+  }
+  void Watch(vtkObject* object)
+  {
+    object->AddObserver(vtkCommand::ErrorEvent, this->Command);
+    object->AddObserver(vtkCommand::WarningEvent, this->Command);
+  }
+  vtkCommand* GetCommand() { return this->Command; }
+  bool Caught() const { return !this->First.empty(); }
+
+  /// What follows "vtkClass (0x…): " in VTK's message, on one line.
+  std::string Sentence() const
+  {
+    std::string text = this->First;
+    const std::size_t object = text.find("): ");
+    if (object != std::string::npos)
+    {
+      text.erase(0, object + 3);
+    }
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    text.erase(text.find_last_not_of(" .") + 1);
+    return text;
+  }
+
+private:
+  vtkNew<vtkCallbackCommand> Command;
+  std::string First;
+};
+
+vtkSmartPointer<vtkPolyData> to_polydata(const bindpose::PolygonMesh& mesh)
+{
+  vtkNew<vtkCellArray> polygons;
+  polygons->AllocateExact(mesh.polygon_count(), static_cast<vtkIdType>(mesh.corners.size()));
+  for (Index f = 0; f < mesh.polygon_count(); ++f)
+  {
+    polygons->InsertNextCell(mesh.offsets[f + 1] - mesh.offsets[f],
+      reinterpret_cast<const vtkIdType*>(mesh.corners.data() + mesh.offsets[f]));
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(bindpose::to_vtk_points(mesh.points));
+  data->SetPolys(polygons);
+  return data;
+}
+
+using ReadPolygons = Status (*)(const std::string&, bindpose::PolygonMesh&);
+
+Status read_polygons(const std::string& path, ReadPolygons read, vtkDataObject* output)
+{
+  bindpose::PolygonMesh mesh;
+  Status status = read(path, mesh);
+  if (!status.ok())
+  {
+    return status;
+  }
+  output->ShallowCopy(to_polydata(mesh));
+  if (mesh.skipped > 0)
+  {
+    status.report.set("counts.skipped_cells", mesh.skipped);
+  }
+  return status;
+}
+
+Status read_medit(const std::string& path, vtkDataObject* output)
+{
+  bindpose::MeditMesh mesh;
+  Status status = bindpose::read_medit(path, mesh);
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (vtkUnstructuredGrid::SafeDownCast(output))
+  {
+    output->ShallowCopy(bindpose::to_unstructured_grid(mesh.points, mesh.tets));
+  }
+  else
+  {
+    output->ShallowCopy(bindpose::to_polydata(mesh.points, mesh.triangles));
+  }
+  return status;
+}
+
+template <typename Reader>
+void watch(ErrorCatcher& errors, Reader* reader)
+{
+  errors.Watch(reader);
+  errors.Watch(reader->GetExecutive()); // it reports a failed request once more
+  if constexpr (std::is_base_of_v<vtkXMLReader, Reader>)
+  {
+    // An XML reader works through two objects of its own.
+    reader->SetReaderErrorObserver(errors.GetCommand());
+    reader->SetParserErrorObserver(errors.GetCommand());
+  }
+}
+
+/// Runs one of VTK's readers.
+template <typename Reader>
+Status read_by_vtk(const std::string& path, vtkDataObject* output)
+{
+  ErrorCatcher errors;
+  vtkNew<Reader> reader;
+  watch(errors, reader.Get());
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  vtkDataObject* data = reader->GetOutputDataObject(0);
+  if (errors.Caught() || reader->GetErrorCode() != vtkErrorCode::NoError || !data)
+  {
+    return Status::invalid_input(
+      path + " cannot be read: " + (errors.Caught() ? errors.Sentence() : "it is broken"));
+  }
+  if (!output->IsA(data->GetClassName()))
+  {
+    return Status::invalid_input(path + " holds a " + data->GetClassName() + ", which is not read");
+  }
+  output->ShallowCopy(data);
+  return {};
+}
+
+Status check_ids(const std::string& path, vtkCellArray* cells, vtkIdType points)
+{
+  if (!cells)
+  {
+    return {};
+  }
+  auto iterator = vtk::TakeSmartPointer(cells->NewIterator());
+  for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+  {
+    vtkIdType size = 0;
+    const vtkIdType* ids = nullptr;
+    iterator->GetCurrentCell(size, ids);
+    for (vtkIdType k = 0; k < size; ++k)
+    {
+      if (ids[k] < 0 || ids[k] >= points)
+      {
+        return Status::invalid_input(path + ": a cell names point " + std::to_string(ids[k]) +
+          ", but there are " + std::to_string(points) + " points");
+      }
+    }
+  }
+  return {};
+}
+
+Status check_output(const std::string& path, vtkDataObject* output)
+{
+  auto* data = vtkDataSet::SafeDownCast(output);
+  if (!data || data->GetNumberOfPoints() == 0)
+  {
+    return Status::invalid_input(path + " holds no points");
+  }
+  Status status;
+  if (auto* surface = vtkPolyData::SafeDownCast(data))
+  {
+    for (vtkCellArray* cells :
+      { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+    {
+      status = status.ok() ? check_ids(path, cells, data->GetNumberOfPoints()) : status;
+    }
+  }
+  else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
+  {
+    status = check_ids(path, grid->GetCells(), data->GetNumberOfPoints());
+  }
+  status.report.set("counts.vertices", data->GetNumberOfPoints());
+  status.report.set("counts.cells", data->GetNumberOfCells());
+  return status;
+}
+
+/// A MEDIT file with tets is a grid, one without is a surface. Its keywords stand on lines of
+/// their own, so a search of the text is enough.
+bool has_tets(const std::string& path)
+{
+  std::string text;
+  return bindpose::read_file(path, text).ok() && text.find("Tetrahedra") != std::string::npos;
+}
+
+/// What the file will give; a broken file gives a polydata, whose report says what is wrong.
+vtkSmartPointer<vtkDataObject> make_output(const std::string& path)
+{
+  const std::string extension = bindpose::file_extension(path);
+  if (extension == "vtu" || (extension == "mesh" && has_tets(path)))
+  {
+    return vtkSmartPointer<vtkUnstructuredGrid>::New();
+  }
+  if (extension == "vti")
+  {
+    return vtkSmartPointer<vtkImageData>::New();
+  }
+  if (extension == "vtk")
+  {
+    ErrorCatcher errors;
+    vtkNew<vtkGenericDataObjectReader> reader;
+    errors.Watch(reader);
+    reader->SetFileName(path.c_str());
+    std::string text;
+    switch (bindpose::read_file(path, text).ok() ? reader->ReadOutputType() : -1)
+    {
+      case VTK_UNSTRUCTURED_GRID:
+        return vtkSmartPointer<vtkUnstructuredGrid>::New();
+      case VTK_STRUCTURED_POINTS:
+      case VTK_IMAGE_DATA:
+        return vtkSmartPointer<vtkImageData>::New();
+      case VTK_RECTILINEAR_GRID:
+        return vtkSmartPointer<vtkRectilinearGrid>::New();
+      case VTK_STRUCTURED_GRID:
+        return vtkSmartPointer<vtkStructuredGrid>::New();
+      default:
+        break;
+    }
+  }
+  return vtkSmartPointer<vtkPolyData>::New();
+}
+} // namespace
+
+vtkMeshFileReader::vtkMeshFileReader()
+{
+  this->SetNumberOfInputPorts(0);
+}
+
+vtkMeshFileReader::~vtkMeshFileReader()
+{
+  this->SetFileName(nullptr);
+}
+
+int vtkMeshFileReader::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataSet");
+  return 1;
+}
+
+int vtkMeshFileReader::RequestDataObject(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
+{
+  const auto fresh = make_output(this->FileName ? this->FileName : "");
+  vtkInformation* info = output->GetInformationObject(0);
+  vtkDataObject* old = vtkDataObject::GetData(info);
+  if (!old || std::string(old->GetClassName()) != fresh->GetClassName())
+  {
+    info->Set(vtkDataObject::DATA_OBJECT(), fresh);
+  }
+  return 1;
+}
+
+int vtkMeshFileReader::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
+{
+  // Downstream asks an image by extents: it needs the whole one beforehand.
+  const std::string path = this->FileName ? this->FileName : "";
+  std::string text;
+  if (bindpose::file_extension(path) != "vti" || !bindpose::read_file(path, text).ok())
+  {
+    return 1;
+  }
+  ErrorCatcher errors;
+  vtkNew<vtkXMLImageDataReader> reader;
+  watch(errors, reader.Get());
+  reader->SetFileName(path.c_str());
+  reader->UpdateInformation();
+  vtkInformation* from = reader->GetOutputInformation(0);
+  if (!errors.Caught() && from->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+  {
+    vtkInformation* to = output->GetInformationObject(0);
+    to->CopyEntry(from, vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT());
+    to->CopyEntry(from, vtkDataObject::ORIGIN());
+    to->CopyEntry(from, vtkDataObject::SPACING());
+  }
+  return 1;
+}
+
+bindpose::Status vtkMeshFileReader::Execute(
+  vtkInformationVector**, vtkInformationVector* output, bindpose::ExecutionContext& context)
+{
+  const std::string path = this->FileName ? this->FileName : "";
+  vtkDataObject* data = vtkDataObject::GetData(output);
+  bindpose::Phase phase(context, "read");
+  Status status = bindpose::check_extension(path, GetFileExtensions());
+  const std::string format = bindpose::file_extension(path);
+  std::string text;
+  if (status.ok())
+  {
+    // Says in one way for all formats: missing, a directory, unreadable, empty.
+    status = bindpose::read_file(path, text);
+    text.clear();
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (format == "off")
+  {
+    status = read_polygons(path, bindpose::read_off, data);
+  }
+  else if (format == "obj")
+  {
+    status = read_polygons(path, bindpose::read_obj, data);
+  }
+  else if (format == "ply")
+  {
+    status = read_polygons(path, bindpose::read_ply, data);
+  }
+  else if (format == "mesh")
+  {
+    status = read_medit(path, data);
+  }
+  else if (format == "stl")
+  {
+    status = read_polygons(path, bindpose::read_stl, data);
+  }
+  else if (format == "vtp")
+  {
+    status = read_by_vtk<vtkXMLPolyDataReader>(path, data);
+  }
+  else if (format == "vtu")
+  {
+    status = read_by_vtk<vtkXMLUnstructuredGridReader>(path, data);
+  }
+  else if (format == "vti")
+  {
+    status = read_by_vtk<vtkXMLImageDataReader>(path, data);
+  }
+  else
+  {
+    status = read_by_vtk<vtkGenericDataObjectReader>(path, data);
+  }
+  if (status.ok())
+  {
+    const bindpose::Report report = status.report;
+    status = check_output(path, data);
+    status.report.merge(report);
+    status.report.set("format", format);
+  }
+  return status;
+}
+
+void vtkMeshFileReader::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+}

@@ -1,0 +1,242 @@
+// The ending chooses the writer; each writes to the temporary file of an AtomicFile, which is
+// renamed when all went well.
+#include "vtkMeshFileWriter.h"
+
+#include "base/execution.h"
+#include "conversion.h"
+#include "file_kind.h"
+#include "io/atomic_file.h"
+#include "io/dmat.h"
+#include "io/medit.h"
+#include "io/obj.h"
+#include "io/off.h"
+#include "io/ply.h"
+#include "io/stl.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
+#include "vtkCommand.h"
+#include "vtkDataArray.h"
+#include "vtkErrorCode.h"
+#include "vtkGenericDataObjectWriter.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkXMLImageDataWriter.h"
+#include "vtkXMLPolyDataWriter.h"
+#include "vtkXMLUnstructuredGridWriter.h"
+
+vtkStandardNewMacro(vtkMeshFileWriter);
+
+namespace
+{
+using bindpose::Status;
+
+template <typename Writer>
+void choose_encoding(Writer* writer)
+{
+  if constexpr (std::is_base_of_v<vtkXMLWriter, Writer>)
+  {
+    // Raw bytes behind the header: base64 would cost a third more; LZ4 is as quick as the disk.
+    writer->SetDataModeToAppended();
+    writer->EncodeAppendedDataOff();
+    writer->SetCompressorTypeToLZ4();
+  }
+  else
+  {
+    writer->SetFileTypeToBinary();
+  }
+}
+
+template <typename Writer>
+Status write_by_vtk(vtkDataSet* data, const std::string& path)
+{
+  vtkNew<Writer> writer;
+  choose_encoding(writer.Get());
+  vtkNew<vtkCallbackCommand> silent; // the status tells it; an observer keeps VTK from printing
+  writer->AddObserver(vtkCommand::ErrorEvent, silent);
+  writer->SetInputDataObject(data);
+  writer->SetFileName(path.c_str());
+  if (writer->Write() == 0 || writer->GetErrorCode() != vtkErrorCode::NoError)
+  {
+    return Status::invalid_input(vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode()));
+  }
+  return {};
+}
+
+/// Keeps polygons; other 2D cells (strips, an unstructured grid's) become triangles.
+Status to_polygons(vtkDataSet* data, bindpose::PolygonMesh& mesh)
+{
+  auto* surface = vtkPolyData::SafeDownCast(data);
+  if (surface && surface->GetNumberOfPolys() > 0 && surface->GetNumberOfStrips() == 0)
+  {
+    mesh.points = bindpose::to_points(data).view();
+    auto iterator = vtk::TakeSmartPointer(surface->GetPolys()->NewIterator());
+    for (iterator->GoToFirstCell(); !iterator->IsDoneWithTraversal(); iterator->GoToNextCell())
+    {
+      vtkIdType size = 0;
+      const vtkIdType* ids = nullptr;
+      iterator->GetCurrentCell(size, ids);
+      mesh.corners.insert(mesh.corners.end(), ids, ids + size);
+      mesh.end_polygon();
+    }
+    return {};
+  }
+  bindpose::SurfaceInput input;
+  Status status = bindpose::to_surface(data, input);
+  if (status.ok())
+  {
+    mesh = bindpose::to_polygons(input.points.view(), input.triangles.view());
+  }
+  return status;
+}
+
+Status write_medit(vtkDataSet* data, const std::string& path)
+{
+  bindpose::TetInput tets;
+  if (bindpose::to_tets(data, tets).ok())
+  {
+    return bindpose::write_medit(
+      path, tets.points.view(), bindpose::Triangles(0, 3), tets.tets.view());
+  }
+  bindpose::SurfaceInput input;
+  Status status = bindpose::to_surface(data, input);
+  return status.ok()
+    ? bindpose::write_medit(path, input.points.view(), input.triangles.view(), bindpose::Tets(0, 4))
+    : status;
+}
+
+Status write_dmat(vtkDataSet* data, const std::string& array_name, const std::string& path)
+{
+  vtkDataArray* array = data->GetPointData()->GetArray(array_name.c_str());
+  if (!array)
+  {
+    return Status::invalid_input("the data has no point array '" + array_name + "'");
+  }
+  return bindpose::write_dmat(path, bindpose::to_matrix(array).view());
+}
+
+Status needs(vtkDataSet* data, const char* class_name, const std::string& format, const char* what)
+{
+  return data->IsA(class_name) ? Status()
+                               : Status::invalid_input("a ." + format + " file holds " + what +
+                                   ", but the data is a " + data->GetClassName());
+}
+
+Status write(vtkDataSet* data, const std::string& format, const std::string& array_name,
+  const std::string& path)
+{
+  Status status;
+  if (format == "vtp")
+  {
+    status = needs(data, "vtkPolyData", format, "surfaces and handles (vtkPolyData)");
+    return status.ok() ? write_by_vtk<vtkXMLPolyDataWriter>(data, path) : status;
+  }
+  if (format == "vtu")
+  {
+    status = needs(data, "vtkUnstructuredGrid", format, "tets (vtkUnstructuredGrid)");
+    return status.ok() ? write_by_vtk<vtkXMLUnstructuredGridWriter>(data, path) : status;
+  }
+  if (format == "vti")
+  {
+    status = needs(data, "vtkImageData", format, "volumes (vtkImageData)");
+    return status.ok() ? write_by_vtk<vtkXMLImageDataWriter>(data, path) : status;
+  }
+  if (format == "vtk")
+  {
+    return write_by_vtk<vtkGenericDataObjectWriter>(data, path);
+  }
+  if (format == "mesh")
+  {
+    return write_medit(data, path);
+  }
+  if (format == "dmat")
+  {
+    return write_dmat(data, array_name, path);
+  }
+  bindpose::PolygonMesh mesh;
+  status = to_polygons(data, mesh);
+  if (!status.ok())
+  {
+    return status;
+  }
+  return format == "off" ? bindpose::write_off(path, mesh)
+    : format == "obj"    ? bindpose::write_obj(path, mesh)
+    : format == "stl"    ? bindpose::write_stl(path, mesh)
+                         : bindpose::write_ply(path, mesh);
+}
+} // namespace
+
+vtkMeshFileWriter::vtkMeshFileWriter()
+{
+  this->SetNumberOfOutputPorts(0);
+  this->SetArrayName("Weights");
+}
+
+vtkMeshFileWriter::~vtkMeshFileWriter()
+{
+  this->SetFileName(nullptr);
+  this->SetArrayName(nullptr);
+}
+
+int vtkMeshFileWriter::Write()
+{
+  this->Modified();
+  this->UpdateWholeExtent();
+  return this->GetStatus() <= NOT_CONVERGED ? 1 : 0;
+}
+
+int vtkMeshFileWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  return 1;
+}
+
+bindpose::Status vtkMeshFileWriter::Execute(
+  vtkInformationVector** input, vtkInformationVector*, bindpose::ExecutionContext& context)
+{
+  bindpose::Phase phase(context, "write");
+  const std::string path = this->FileName ? this->FileName : "";
+  Status status = bindpose::check_extension(path, GetFileExtensions());
+  vtkDataSet* data = vtkDataSet::GetData(input[0]);
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (!data || data->GetNumberOfPoints() == 0)
+  {
+    return Status::invalid_input("there is nothing to write to " + path);
+  }
+  bindpose::AtomicFile file;
+  status = file.open(path, this->Overwrite);
+  if (!status.ok())
+  {
+    return status;
+  }
+  status = write(
+    data, bindpose::file_extension(path), this->ArrayName ? this->ArrayName : "", file.temporary());
+  if (!status.ok())
+  {
+    // The text may name the temporary file, which is no name for a user.
+    const std::size_t at = status.message.find(file.temporary());
+    status.message = at == std::string::npos
+      ? "cannot write " + path + ": " + status.message
+      : status.message.replace(at, file.temporary().size(), path);
+    return status;
+  }
+  return context.cancelled() ? Status::cancelled() : file.commit();
+}
+
+void vtkMeshFileWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Overwrite: " << (this->Overwrite ? "on" : "off") << "\n";
+  os << indent << "ArrayName: " << (this->ArrayName ? this->ArrayName : "(none)") << "\n";
+}

@@ -1,0 +1,452 @@
+// The ways to compute winding numbers agree with each other and with twins that share no code, on
+// soups made to hurt; and they keep their promises on threads, extents and cancel.
+#include "inside/winding_number.h"
+
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <thread>
+
+using namespace bindpose;
+
+namespace
+{
+constexpr WindingMethod ways[] = { WindingMethod::direct, WindingMethod::hierarchical,
+  WindingMethod::crossings };
+
+WindingNumber make(const TriangleMesh& mesh, WindingMethod method, Index leaf = 64)
+{
+  ExecutionContext context;
+  WindingNumber::Options options;
+  options.method = method;
+  options.max_leaf_size = leaf;
+  WindingNumber winding;
+  const Status status = winding.build(mesh.points, mesh.triangles, context, options);
+  EXPECT_TRUE(status.ok()) << status.message;
+  return winding;
+}
+
+using Lattice = Eigen::Matrix<std::int64_t, 3, 1>;
+
+/// For points on the lattice of 1/8: sums what is not touched in long double, decides what is
+/// touched in whole numbers.
+double lattice_twin(const TriangleMesh& mesh, const Vec3& p)
+{
+  using Long3 = Eigen::Matrix<long double, 3, 1>;
+  long double sum = 0.0L;
+  for (Index t = 0; t < mesh.triangles.rows(); ++t)
+  {
+    std::array<Lattice, 3> v;
+    std::array<Long3, 3> x;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3 d = mesh.points.row(mesh.triangles(t, k)).transpose() - p;
+      v[k] = (d * 8.0).cast<std::int64_t>();
+      x[k] = d.cast<long double>();
+    }
+    const std::int64_t side = v[0].dot(v[1].cross(v[2]));
+    if (side == 0)
+    {
+      continue; // in the plane: touched or seen edge on, nothing in both cases
+    }
+    const long double la = x[0].norm(), lb = x[1].norm(), lc = x[2].norm();
+    sum += std::atan2(x[0].dot(x[1].cross(x[2])),
+      la * lb * lc + x[0].dot(x[1]) * lc + x[1].dot(x[2]) * la + x[2].dot(x[0]) * lb);
+  }
+  return static_cast<double>(sum / 6.283185307179586476925286766559L);
+}
+
+/// Random triangles on a lattice of 1/4 in a box of side 2: coplanar, crossing, touching, flat,
+/// doubled, flipped.
+TriangleMesh lattice_soup(test::Random& random, Index triangles)
+{
+  TriangleMesh mesh;
+  const Index vertices = 4 + random.below(triangles);
+  mesh.points.resize(vertices, 3);
+  for (Index v = 0; v < vertices; ++v)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      mesh.points(v, k) = static_cast<double>(random.below(9)) / 4.0 - 1.0;
+    }
+  }
+  mesh.triangles.resize(triangles, 3);
+  for (Index t = 0; t < triangles; ++t)
+  {
+    const double kind = random.uniform();
+    if (t > 0 && kind < 0.1)
+    {
+      mesh.triangles.row(t) = mesh.triangles.row(random.below(t));
+    }
+    else if (t > 0 && kind < 0.2)
+    {
+      const Index other = random.below(t);
+      mesh.triangles.row(t) << mesh.triangles(other, 1), mesh.triangles(other, 0),
+        mesh.triangles(other, 2);
+    }
+    else
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        mesh.triangles(t, k) = random.below(vertices);
+      }
+    }
+  }
+  return mesh;
+}
+
+/// Points on the lattice of 1/8: many on vertices, edges, faces, below and above them.
+Vec3 lattice_point(test::Random& random)
+{
+  return Vec3(static_cast<double>(random.below(21)), static_cast<double>(random.below(21)),
+           static_cast<double>(random.below(21))) /
+    8.0 -
+    Vec3::Constant(1.25);
+}
+
+/// A bumpy closed surface with holes and a second sheet through it.
+TriangleMesh unclean_surface(int levels, double hole)
+{
+  TriangleMesh mesh = test::sphere(levels);
+  for (Index v = 0; v < mesh.points.rows(); ++v)
+  {
+    const Vec3 p = mesh.points.row(v);
+    mesh.points.row(v) *= 1.0 + 0.2 * std::sin(7.0 * p.x()) * std::cos(5.0 * p.y() + p.z());
+  }
+  Index kept = 0;
+  for (Index t = 0; t < mesh.triangles.rows(); ++t)
+  {
+    if (mesh.points.row(mesh.triangles(t, 0)).dot(Vec3(0.6, 0.0, 0.8)) < 1.0 - hole)
+    {
+      mesh.triangles.row(kept++) = mesh.triangles.row(t).eval();
+    }
+  }
+  mesh.triangles.conservativeResize(kept, 3);
+  return test::join(mesh, test::translated(test::torus(30, 15, 0.7, 0.3), Vec3(0.6, 0.1, 0.2)));
+}
+
+double worst_difference(
+  const TriangleMesh& mesh, const WindingNumber& winding, const std::vector<Vec3>& points)
+{
+  double worst = 0.0;
+  for (const Vec3& p : points)
+  {
+    worst = std::max(worst,
+      std::abs(winding.evaluate_at(p) - winding_number_direct(mesh.points, mesh.triangles, p)));
+  }
+  return worst;
+}
+} // namespace
+
+TEST(WindingMethods, AgreeWithWholeNumbersOnLatticeSoups)
+{
+  test::Random random(2024);
+  for (int round = 0; round < 150; ++round)
+  {
+    const TriangleMesh mesh = lattice_soup(random, 1 + random.below(60));
+    std::vector<WindingNumber> windings;
+    for (const WindingMethod method : ways)
+    {
+      windings.push_back(make(mesh, method, 1 + random.below(6)));
+    }
+    for (int q = 0; q < 60; ++q)
+    {
+      const Vec3 p = lattice_point(random);
+      const double expected = lattice_twin(mesh, p);
+      for (const WindingNumber& winding : windings)
+      {
+        ASSERT_NEAR(winding.evaluate_at(p), expected, 1e-12)
+          << to_string(winding.method()) << ", round " << round << ", at " << p.transpose();
+      }
+    }
+  }
+}
+
+TEST(WindingMethods, AgreeOnRandomSoups)
+{
+  test::Random random(99);
+  for (const Index triangles : { 3, 40, 400 })
+  {
+    TriangleMesh mesh{ Points(3 * triangles, 3), Triangles(triangles, 3) };
+    for (Index t = 0; t < triangles; ++t)
+    {
+      const Vec3 center = random.in_box(Vec3::Constant(-1), Vec3::Constant(1));
+      for (int k = 0; k < 3; ++k)
+      {
+        mesh.points.row(3 * t + k) =
+          (center + 0.3 * random.in_box(Vec3::Constant(-1), Vec3::Constant(1))).transpose();
+        mesh.triangles(t, k) = 3 * t + k;
+      }
+    }
+    std::vector<Vec3> points;
+    for (int i = 0; i < 100; ++i)
+    {
+      const Index t = random.below(triangles);
+      const Vec3 a = mesh.points.row(3 * t);
+      const Vec3 b = mesh.points.row(3 * t + 1);
+      const Vec3 c = mesh.points.row(3 * t + 2);
+      points.insert(points.end(),
+        { random.in_box(Vec3::Constant(-2), Vec3::Constant(2)), a, 0.5 * (a + b), (a + b + c) / 3.0,
+          0.5 * (a + b) + Vec3(1e-10, 0, 0), a - Vec3(0, 0, 0.25), 0.5 * (b + c) - Vec3(0, 0, 1e-7),
+          a + Vec3(0, 1e-9, -1e-9) });
+    }
+    for (const WindingMethod method : ways)
+    {
+      EXPECT_LE(worst_difference(mesh, make(mesh, method, 8), points), 1e-12)
+        << to_string(method) << ", " << triangles;
+    }
+  }
+}
+
+TEST(WindingMethods, AgreeOnUncleanSurfaces)
+{
+  test::Random random(5);
+  for (const double hole : { -1.0, 0.1, 0.6 }) // -1: none
+  {
+    const TriangleMesh mesh = unclean_surface(4, hole);
+    std::vector<Vec3> points;
+    for (int i = 0; i < 60; ++i)
+    {
+      const Index t = random.below(mesh.triangles.rows());
+      const Vec3 a = mesh.points.row(mesh.triangles(t, 0));
+      const Vec3 b = mesh.points.row(mesh.triangles(t, 1));
+      const Vec3 c = mesh.points.row(mesh.triangles(t, 2));
+      const Vec3 m = (a + b + c) / 3.0;
+      const Vec3 n = (b - a).cross(c - a).normalized();
+      points.insert(points.end(),
+        { random.in_box(Vec3::Constant(-1.5), Vec3::Constant(1.5)), a, m, 0.5 * (a + b),
+          m + 1e-4 * n, m - 1e-4 * n, m + 1e-9 * n, m - 1e-9 * n });
+    }
+    for (const WindingMethod method : ways)
+    {
+      EXPECT_LE(worst_difference(mesh, make(mesh, method), points), 1e-12)
+        << to_string(method) << ", hole " << hole;
+    }
+  }
+}
+
+TEST(WindingMethods, RaysThroughVerticesAndEdgesOfClosedSurfaces)
+{
+  // Straight above and below vertices and edge midpoints, along every axis.
+  TriangleMesh mesh = test::sphere(2);
+  for (int turn = 0; turn < 3; ++turn)
+  {
+    mesh.points.col(turn) *= 0.5; // another shortest axis each time
+    const WindingNumber winding = make(mesh, WindingMethod::crossings);
+    for (Index t = 0; t < mesh.triangles.rows(); ++t)
+    {
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        for (const double factor : { -2.0, -0.3, 0.2, 3.0 })
+        {
+          const Vec3 a = mesh.points.row(mesh.triangles(t, 0));
+          const Vec3 b = mesh.points.row(mesh.triangles(t, 1));
+          for (Vec3 p : { a, Vec3(0.5 * (a + b)) })
+          {
+            p[axis] *= factor;
+            const double w = winding_number_direct(mesh.points, mesh.triangles, p);
+            ASSERT_NEAR(winding.evaluate_at(p), w, 1e-12) << p.transpose();
+          }
+        }
+      }
+    }
+    mesh.points.col(turn) *= 2.0;
+  }
+}
+
+TEST(WindingMethods, ThinTrianglesDoNotFlip)
+{
+  // A box 1e-7 thin: its long sides are slivers, the point is nearer to them than their width.
+  TriangleMesh mesh = test::cube();
+  mesh.points.col(0) *= 1e-7;
+  mesh.points.col(1) *= 1e-4;
+  for (const WindingMethod method : ways)
+  {
+    const WindingNumber winding = make(mesh, method, 2);
+    for (const double z : { -1.0 + 1e-12, -0.4, 0.3, 1.0 - 1e-12 })
+    {
+      for (const double x : { -0.99999, 0.0, 0.5 })
+      {
+        EXPECT_NEAR(winding.evaluate_at(Vec3(x * 1e-7, 0.9e-4, z)), 1.0, 1e-12);
+        EXPECT_NEAR(winding.evaluate_at(Vec3(x * 1e-7, 1.000001e-4, z)), 0.0, 1e-12);
+      }
+      EXPECT_NEAR(winding.evaluate_at(Vec3(1.00001e-7, 0.9e-4, z)), 0.0, 1e-12);
+    }
+  }
+}
+
+TEST(WindingMethods, AutomaticChoosesByCounts)
+{
+  EXPECT_EQ(make(test::cube(), WindingMethod::automatic).method(), WindingMethod::direct);
+  EXPECT_EQ(make(test::sphere(3), WindingMethod::automatic).method(), WindingMethod::crossings);
+  // Groups of triangles with corners of their own, pulled apart: a soup of triangles, of patches.
+  const TriangleMesh sphere = test::sphere(5);
+  for (const Index group : { 1, 64 })
+  {
+    const Index count = sphere.triangles.rows();
+    TriangleMesh apart{ Points(3 * count, 3), sphere.triangles };
+    std::map<std::pair<Index, Index>, Index> ids;
+    for (Index t = 0; t < count; ++t)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        const Index v = sphere.triangles(t, k);
+        const Index id =
+          ids.insert({ { t / group, v }, static_cast<Index>(ids.size()) }).first->second;
+        apart.points.row(id) = sphere.points.row(v) * (1.0 + 1e-9 * static_cast<double>(t / group));
+        apart.triangles(t, k) = id;
+      }
+    }
+    apart.points.conservativeResize(static_cast<Index>(ids.size()), 3);
+    const WindingNumber winding = make(apart, WindingMethod::automatic);
+    EXPECT_EQ(winding.method(), group == 1 ? WindingMethod::direct : WindingMethod::hierarchical);
+    EXPECT_NEAR(winding.evaluate_at(Vec3(0.1, 0.2, 0.3)), 1.0, 1e-4);
+  }
+}
+
+TEST(WindingMethods, SameBitsForAnyThreadsAndExtent)
+{
+  const TriangleMesh mesh = unclean_surface(3, 0.3);
+  SampleGrid grid;
+  grid.origin = Vec3(-1.3, -1.2, -1.1);
+  grid.spacing = Vec3(0.13, 0.12, 0.11);
+  grid.extent = { -2, 20, 0, 19, 1, 18 };
+  SampleGrid part = grid;
+  part.extent = { 3, 11, 2, 19, 7, 8 };
+  for (const WindingMethod method : ways)
+  {
+    const WindingNumber winding = make(mesh, method);
+    ExecutionContext one;
+    one.set_threads(1);
+    Eigen::VectorXd expected;
+    ASSERT_TRUE(winding.evaluate(grid, one, expected).ok());
+    ASSERT_EQ(expected.size(), 23 * 20 * 18);
+    for (const int threads : { 0, 2, 5 })
+    {
+      ExecutionContext many;
+      many.set_threads(threads);
+      Eigen::VectorXd values;
+      ASSERT_TRUE(winding.evaluate(grid, many, values).ok());
+      EXPECT_EQ(std::memcmp(values.data(), expected.data(), sizeof(double) * values.size()), 0);
+      // A build on other threads makes the same structure.
+      ExecutionContext again;
+      again.set_threads(threads);
+      WindingNumber::Options options;
+      options.method = method;
+      WindingNumber rebuilt;
+      ASSERT_TRUE(rebuilt.build(mesh.points, mesh.triangles, again, options).ok());
+      ASSERT_TRUE(rebuilt.evaluate(grid, again, values).ok());
+      EXPECT_EQ(std::memcmp(values.data(), expected.data(), sizeof(double) * values.size()), 0);
+    }
+    ExecutionContext context;
+    Eigen::VectorXd values;
+    ASSERT_TRUE(winding.evaluate(part, context, values).ok());
+    Index at = 0;
+    for (Index k = 7; k <= 8; ++k)
+    {
+      for (Index j = 2; j <= 19; ++j)
+      {
+        for (Index i = 3; i <= 11; ++i)
+        {
+          const double whole = expected[((k - 1) * 20 + j) * 23 + i + 2];
+          ASSERT_EQ(values[at], whole);
+          ASSERT_EQ(winding.evaluate_at(part.point(i, j, k)), whole);
+          ++at;
+        }
+      }
+    }
+    EXPECT_EQ(at, values.size());
+  }
+}
+
+TEST(WindingMethods, OnePointMayBeAskedFromManyThreads)
+{
+  const TriangleMesh mesh = unclean_surface(3, 0.3);
+  const WindingNumber winding = make(mesh, WindingMethod::automatic);
+  const Vec3 p(0.1, 0.2, 0.3);
+  const double expected = winding.evaluate_at(p);
+  std::vector<std::thread> threads;
+  std::atomic<int> wrong{ 0 };
+  for (int i = 0; i < 4; ++i)
+  {
+    threads.emplace_back(
+      [&]
+      {
+        for (int k = 0; k < 500; ++k)
+        {
+          wrong += winding.evaluate_at(p) != expected;
+        }
+      });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  EXPECT_EQ(wrong, 0);
+}
+
+TEST(WindingMethods, ProgressGoesForwardAndCancelStops)
+{
+  const TriangleMesh mesh = unclean_surface(6, 0.3);
+  Points queries(1000000, 3);
+  queries.setConstant(0.01);
+  for (const WindingMethod method : ways)
+  {
+    std::vector<double> fractions;
+    ExecutionContext watched(
+      [&](double fraction, const std::string&) { fractions.push_back(fraction); }, nullptr);
+    WindingNumber::Options options;
+    options.method = method;
+    WindingNumber winding;
+    ASSERT_TRUE(winding.build(mesh.points, mesh.triangles, watched, options).ok());
+    EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point asked{};
+    ExecutionContext context(
+      [&](double fraction, const std::string&)
+      {
+        if (fraction > 0.0 && asked == Clock::time_point())
+        {
+          asked = Clock::now();
+          context.request_cancel();
+        }
+      },
+      nullptr);
+    Eigen::VectorXd w;
+    const Status status = winding.evaluate(queries, context, w);
+    EXPECT_EQ(status.code, StatusCode::cancelled) << to_string(method);
+    ASSERT_NE(asked, Clock::time_point());
+    EXPECT_LT(std::chrono::duration<double>(Clock::now() - asked).count(), 0.2);
+  }
+}
+
+TEST(WindingMethods, BuildCanBeCancelledAnywhere)
+{
+  const TriangleMesh mesh = unclean_surface(5, 0.3);
+  int asked_in_all = 0;
+  {
+    ExecutionContext context(nullptr, [&] { return ++asked_in_all < 0; });
+    context.set_threads(1);
+    WindingNumber winding;
+    ASSERT_TRUE(winding.build(mesh.points, mesh.triangles, context).ok());
+  }
+  ASSERT_GT(asked_in_all, 10);
+  for (int stop = 1; stop <= asked_in_all; stop += 1 + asked_in_all / 20)
+  {
+    int asked = 0;
+    ExecutionContext context(nullptr, [&] { return ++asked >= stop; });
+    context.set_threads(1);
+    WindingNumber winding;
+    EXPECT_EQ(winding.build(mesh.points, mesh.triangles, context).code, StatusCode::cancelled);
+    EXPECT_EQ(winding.evaluate_at(Vec3::Zero()), 0.0);
+    Eigen::VectorXd w;
+    ExecutionContext fresh;
+    EXPECT_EQ(winding.evaluate(mesh.points, fresh, w).code, StatusCode::cancelled);
+  }
+}

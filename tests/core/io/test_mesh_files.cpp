@@ -1,0 +1,323 @@
+// OFF, OBJ, PLY and MEDIT: what is written reads back bit for bit; variants that exist in the wild
+// are understood; everything else is one sentence with the line, never a crash.
+#include "io/medit.h"
+#include "io/obj.h"
+#include "io/off.h"
+#include "io/ply.h"
+#include "io/stl.h"
+#include "io/text_scanner.h"
+
+#include "support/files.h"
+#include "support/meshes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <clocale>
+
+using namespace bindpose;
+using testing::HasSubstr;
+
+namespace
+{
+using Read = Status (*)(const std::string&, PolygonMesh&);
+using Write = Status (*)(const std::string&, const PolygonMesh&);
+
+struct Format
+{
+  const char* extension;
+  Read read;
+  Write write;
+};
+
+class PolygonFiles : public testing::TestWithParam<Format>
+{
+protected:
+  test::Folder folder;
+};
+
+/// Coordinates that only shortest-digits printing survives.
+PolygonMesh awkward_mesh()
+{
+  PolygonMesh mesh = to_polygons(
+    test::sphere(2, 1.0 / 3.0, Vec3(1e6, -1e-9, 1e-300)).points, test::sphere(2).triangles);
+  mesh.corners.insert(mesh.corners.end(), { 0, 1, 2, 3, 4 });
+  mesh.end_polygon();
+  return mesh;
+}
+} // namespace
+
+TEST_P(PolygonFiles, ReadBackWhatWasWritten)
+{
+  const PolygonMesh mesh = awkward_mesh();
+  const std::string path = this->folder / "mesh.x";
+  ASSERT_TRUE(GetParam().write(path, mesh).ok());
+  PolygonMesh back;
+  const Status status = GetParam().read(path, back);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(back.points, mesh.points);
+  EXPECT_EQ(back.offsets, mesh.offsets);
+  EXPECT_EQ(back.corners, mesh.corners);
+}
+
+TEST_P(PolygonFiles, EveryTruncationIsAnErrorOrAMesh)
+{
+  ASSERT_TRUE(
+    GetParam()
+      .write(this->folder / "whole", to_polygons(test::cube().points, test::cube().triangles))
+      .ok());
+  const std::string whole = this->folder.read("whole");
+  for (std::size_t size = 0; size < whole.size(); ++size)
+  {
+    PolygonMesh mesh;
+    const Status status = GetParam().read(this->folder.write("part", whole.substr(0, size)), mesh);
+    if (status.ok())
+    {
+      // Only the last digits or whole faces of a format without counts can be missing.
+      for (const Index corner : mesh.corners)
+      {
+        EXPECT_LT(corner, mesh.points.rows());
+      }
+      continue;
+    }
+    EXPECT_EQ(status.code, StatusCode::invalid_input);
+    EXPECT_THAT(status.message, HasSubstr("part"));
+    EXPECT_EQ(mesh.points.rows(), 0);
+  }
+}
+
+TEST_P(PolygonFiles, GarbledBytesNeverCrash)
+{
+  ASSERT_TRUE(
+    GetParam()
+      .write(this->folder / "whole", to_polygons(test::cube().points, test::cube().triangles))
+      .ok());
+  const std::string whole = this->folder.read("whole");
+  test::Random random(7);
+  for (int round = 0; round < 2000; ++round)
+  {
+    std::string text = whole;
+    for (int k = 0; k < 4; ++k)
+    {
+      text[random.below(static_cast<Index>(text.size()))] =
+        static_cast<char>(random.below(round % 2 ? 256 : 64));
+    }
+    PolygonMesh mesh;
+    const Status status = GetParam().read(this->folder.write("garbled", text), mesh);
+    EXPECT_TRUE(status.ok() || !status.message.empty());
+    for (const Index corner : mesh.corners)
+    {
+      ASSERT_TRUE(corner >= 0 && corner < mesh.points.rows());
+    }
+  }
+}
+
+TEST_P(PolygonFiles, MissingFolderAndEmptyFilesAreNamed)
+{
+  PolygonMesh mesh;
+  EXPECT_THAT(GetParam().read(this->folder / "none", mesh).message, HasSubstr("No such file"));
+  EXPECT_THAT(GetParam().read(this->folder.path(), mesh).message, HasSubstr("directory"));
+  EXPECT_THAT(GetParam().read(this->folder.write("e", ""), mesh).message, HasSubstr("is empty"));
+  EXPECT_THAT(GetParam().write(this->folder / "no/such", mesh).message, HasSubstr("cannot write"));
+  EXPECT_THAT(GetParam().write("/dev/full", awkward_mesh()).message, HasSubstr("No space left"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Formats, PolygonFiles,
+  testing::Values(Format{ "off", read_off, write_off }, Format{ "obj", read_obj, write_obj },
+    Format{ "ply", read_ply, write_ply }),
+  [](const auto& format) { return format.param.extension; });
+
+namespace
+{
+class TextFiles : public testing::Test
+{
+protected:
+  std::string off_error(const std::string& text)
+  {
+    return read_off(this->folder.write("m.off", text), this->mesh).message;
+  }
+  std::string medit_error(const std::string& text)
+  {
+    return read_medit(this->folder.write("m.mesh", text), this->medit).message;
+  }
+  test::Folder folder;
+  PolygonMesh mesh;
+  MeditMesh medit;
+};
+
+const std::string square = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+} // namespace
+
+TEST_F(TextFiles, OffVariantsOfTheWild)
+{
+  const Points corners = (Points(4, 3) << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0).finished();
+  for (const std::string& text : { "OFF\n4 2 0\n" + square + "3 0 1 2\n3 0 2 3\n",
+         "OFF 4 2 5\n" + square + "3 0 1 2\n3 0 2 3\n", // counts behind the word
+         "OFF\n4 2\n" + square + "3 0 1 2\n3 0 2 3", // no edges, no last newline
+         "# made by hand\nOFF # really\n\n4 2 0 # counts\n" + square + "3 0 1 2 # lower\n3 0 2 3\n",
+         std::string("COFF\r\n4 2 0\r\n0 0 0 255 0 0 255\r\n1 0 0 0 0 0 0\r\n1 1 0 1 1 1 1\r\n"
+                     "0 1 0 1 1 1 1\r\n3 0 1 2\r\n3 0 2 3\r\n"),
+         std::string("NOFF\n4 2 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 1 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n"
+                     "3 0 2 3\n"),
+         std::string("STCNOFF\n4 2 0\n0 0 0 0 0 1 0 0 0 0 .5 .5\n1 0 0 0 0 1 0 0 0 0 1 1\n"
+                     "1 1 0 0 0 1 0 0 0 0 .5 .5\n0 1 0 0 0 1 0 0 0 0 1 1\n3 0 1 2\n3 0 2 3\n"),
+         "OFF\n4 2 0\n" + square + "3 0 1 2 255 0 0\n3 0 2 3 0.5 0.5 0.5\ntrailing words\n",
+         "OFF\n4 3 0\n" + square + "3 0 1 2\n2 0 1\n3 0 2 3\n" }) // an edge as a face: skipped
+  {
+    ASSERT_EQ(this->off_error(text), "") << text;
+    EXPECT_EQ(this->mesh.points, corners);
+    EXPECT_EQ(this->mesh.corners, (std::vector<Index>{ 0, 1, 2, 0, 2, 3 }));
+    EXPECT_EQ(fan_triangles(this->mesh).rows(), 2);
+  }
+  EXPECT_EQ(this->mesh.skipped, 1);
+  ASSERT_EQ(this->off_error("OFF\n4 1 0\n" + square + "4 0 1 2 3\n"), "");
+  const Triangles fan = fan_triangles(this->mesh);
+  EXPECT_EQ(fan, (Triangles(2, 3) << 0, 1, 2, 0, 2, 3).finished());
+}
+
+TEST_F(TextFiles, OffErrorsNameTheLine)
+{
+  EXPECT_THAT(
+    this->off_error("hello world\n"), HasSubstr("m.off, line 1: this is not an OFF file"));
+  EXPECT_THAT(this->off_error("OFF BINARY\n1 1 1\n"), HasSubstr("binary"));
+  EXPECT_THAT(this->off_error("4OFF\n1 1 1\n"), HasSubstr("dimensions"));
+  EXPECT_THAT(this->off_error("OFF\n-3 1 0\n"), HasSubstr("line 2"));
+  EXPECT_THAT(this->off_error("OFF\n4 x 0\n" + square), HasSubstr("'x'"));
+  EXPECT_THAT(this->off_error("OFF\n4 1 0\n0 0 0\n1 nan 0\n1 1 0\n0 1 0\n3 0 1 2\n"),
+    HasSubstr("line 4: a vertex coordinate is not a finite number: 'nan'"));
+  EXPECT_THAT(this->off_error("OFF\n4 1 0\n0 0 0\n1 1e999 0\n1 1 0\n0 1 0\n3 0 1 2\n"),
+    HasSubstr("line 4: a vertex coordinate is not a finite number"));
+  EXPECT_THAT(
+    this->off_error("OFF\n4 1 0\n0 0 0\n1 0,5 0\n1 1 0\n0 1 0\n3 0 1 2\n"), HasSubstr("line 4"));
+  EXPECT_THAT(this->off_error("OFF\n4 1 0\n" + square + "3 0 1 4\n"),
+    HasSubstr("line 7: a vertex id of a face is out of range: '4'"));
+  EXPECT_THAT(this->off_error("OFF\n4 1 0\n" + square + "3 0 1 -1\n"), HasSubstr("line 7"));
+  EXPECT_THAT(this->off_error("OFF\n4 2 0\n" + square + "3 0 1 2\n"), HasSubstr("the file ends"));
+  EXPECT_THAT(this->off_error("OFF\n1000000000 2 0\n" + square), HasSubstr("truncated"));
+  EXPECT_THAT(this->off_error("OFF\n4 99999999999999999999 0\n" + square), HasSubstr("line 2"));
+}
+
+TEST_F(TextFiles, ObjCornersIdsAndErrors)
+{
+  const auto read = [this](const std::string& text)
+  { return read_obj(this->folder.write("m.obj", text), this->mesh).message; };
+  ASSERT_EQ(read("# cube\nmtllib a.mtl\nv 0 0 0 1.0\nv 1 0 0\nvt 0 0\nvn 0 0 1\nv 1 1 0\n"
+                 "f 1/1/1 2//1 3/1\nv 0 1 0\nf -4 -2 -1\nl 1 2\n"),
+    "");
+  EXPECT_EQ(this->mesh.corners, (std::vector<Index>{ 0, 1, 2, 0, 2, 3 }));
+  EXPECT_EQ(this->mesh.points.rows(), 4);
+  EXPECT_THAT(read("v 0 0 0\nv 1 0 0\nv 1 inf 0\nf 1 2 3\n"), HasSubstr("m.obj, line 3"));
+  EXPECT_THAT(read("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 0\n"), HasSubstr("line 4"));
+  EXPECT_THAT(read("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 7\n"), HasSubstr("vertex 7"));
+  EXPECT_THAT(read("v 0 0 0\nf a b c\n"), HasSubstr("line 2"));
+  EXPECT_THAT(read("v 0 0 0\n"), HasSubstr("0 faces"));
+}
+
+TEST_F(TextFiles, PlyAsciiAndBigEndian)
+{
+  ASSERT_EQ(read_ply(this->folder.write("a.ply",
+                       "ply\nformat ascii 1.0\ncomment made by hand\nelement vertex 3\n"
+                       "property float x\nproperty float y\nproperty float z\n"
+                       "property uchar red\nelement face 1\nproperty uchar flag\n"
+                       "property list uchar int vertex_indices\nelement other 1\n"
+                       "property list uchar float stuff\nend_header\n"
+                       "0 0 0 255\n1 0 0 255\n0 1 0.1 255\n7 3 0 1 2\n2 0.5 0.5\n"),
+              this->mesh)
+              .message,
+    "");
+  EXPECT_EQ(this->mesh.points(2, 2), 0.1); // text is read as double whatever the type says
+  EXPECT_EQ(this->mesh.corners, (std::vector<Index>{ 0, 1, 2 }));
+
+  std::string text = "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty float x\n"
+                     "property float y\nproperty float z\nelement face 1\n"
+                     "property list uchar ushort vertex_index\nend_header\n";
+  for (const char* value : { "\0\0\0\0", "\0\0\0\0", "\0\0\0\0", "\x3f\x80\0\0", "\0\0\0\0",
+         "\0\0\0\0", "\0\0\0\0", "\x3f\x80\0\0", "\xc0\0\0\0" })
+  {
+    text.append(value, 4);
+  }
+  text.append("\3\0\0\0\1\0\2", 7);
+  ASSERT_EQ(read_ply(this->folder.write("b.ply", text), this->mesh).message, "");
+  EXPECT_EQ(this->mesh.points, (Points(3, 3) << 0, 0, 0, 1, 0, 0, 0, 1, -2).finished());
+  EXPECT_EQ(this->mesh.corners, (std::vector<Index>{ 0, 1, 2 }));
+}
+
+TEST_F(TextFiles, StlIsWeldedAndSizedExactly)
+{
+  const TriangleMesh torus = test::torus(20, 10, 1.0, 0.25);
+  ASSERT_TRUE(write_stl(this->folder / "t.stl", to_polygons(torus.points, torus.triangles)).ok());
+  ASSERT_EQ(read_stl(this->folder / "t.stl", this->mesh).message, "");
+  EXPECT_EQ(this->mesh.points.rows(), torus.points.rows());
+  const Triangles triangles = fan_triangles(this->mesh);
+  EXPECT_TRUE(count_edges(triangles).closed);
+  EXPECT_NEAR(signed_volume(this->mesh.points, triangles),
+    signed_volume(torus.points, torus.triangles), 1e-6);
+  const std::string whole = this->folder.read("t.stl");
+  EXPECT_THAT(
+    read_stl(this->folder.write("p.stl", whole.substr(0, whole.size() - 1)), this->mesh).message,
+    HasSubstr("p.stl is no STL file"));
+
+  const std::string text =
+    "solid my vertex\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
+    "vertex 0 1 -0.0\nendloop\nendfacet\nfacet normal 0 0 1\n outer loop\n vertex 1 0 0\n"
+    "vertex 1 1 0.1\nvertex 0 1 0\nendloop\nendfacet\nendsolid my vertex\n";
+  ASSERT_EQ(read_stl(this->folder.write("a.stl", text), this->mesh).message, "");
+  EXPECT_EQ(this->mesh.corners, (std::vector<Index>{ 0, 1, 2, 1, 3, 2 }));
+  EXPECT_EQ(this->mesh.points(3, 2), 0.1);
+  const auto error = [this](const std::string& broken)
+  { return read_stl(this->folder.write("b.stl", broken), this->mesh).message; };
+  EXPECT_THAT(error(text.substr(0, 120)), HasSubstr("b.stl, line"));
+  EXPECT_THAT(error("solid x\nendsolid x\n"), HasSubstr("no triangle"));
+  EXPECT_THAT(error("solid x\nvertex 0 nan 0\n"), HasSubstr("line 2"));
+}
+
+TEST_F(TextFiles, MeditReadsTetsAndSkipsTheRest)
+{
+  ASSERT_EQ(this->medit_error("MeshVersionFormatted 2\nDimension\n3\n# comment\nVertices\n4\n"
+                              "0 0 0 1\n1 0 0 1\n0 1 0 1\n0 0 1 1\nEdges\n1\n1 2 0\n"
+                              "Tetrahedra\n1\n1 2 3 4 9\nCorners 2\n1\n2\n"
+                              "Triangles\n1\n1 3 2 0\nEnd\nwhatever\n"),
+    "");
+  EXPECT_EQ(this->medit.tets, (Tets(1, 4) << 0, 1, 2, 3).finished());
+  EXPECT_EQ(this->medit.triangles, (Triangles(1, 3) << 0, 2, 1).finished());
+  EXPECT_THAT(this->medit_error("OFF\n1 2 3\n"), HasSubstr("MeshVersionFormatted"));
+  EXPECT_THAT(this->medit_error("MeshVersionFormatted 1\nDimension 3\nVertices\n2\n0 0 0 0\n1 nan"),
+    HasSubstr("line 6"));
+  EXPECT_THAT(this->medit_error("MeshVersionFormatted 1\nDimension 3\nVertices\n1\n0 0 0 0\n"
+                                "Tetrahedra\n1\n1 1 1 2 0\nEnd\n"),
+    HasSubstr("tet 1 names vertex 2"));
+  EXPECT_THAT(
+    this->medit_error("MeshVersionFormatted 1\nDimension 3\nEnd\n"), HasSubstr("no vertex"));
+}
+
+TEST_F(TextFiles, MeditReadsBackWhatWasWritten)
+{
+  const TetMesh box = test::tet_box(3, 2, 1, Vec3(1e-7, 0, 1), Vec3(1.0 / 3, 2, 1e9));
+  const Triangles boundary = boundary_triangles(box.tets);
+  ASSERT_TRUE(write_medit(this->folder / "b.mesh", box.points, boundary, box.tets).ok());
+  ASSERT_TRUE(read_medit(this->folder / "b.mesh", this->medit).ok());
+  EXPECT_EQ(this->medit.points, box.points);
+  EXPECT_EQ(this->medit.tets, box.tets);
+  EXPECT_EQ(this->medit.triangles, boundary);
+}
+
+TEST_F(TextFiles, NumbersHaveAPointInEveryLocale)
+{
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  std::setlocale(LC_ALL, "de_DE.UTF-8"); // stays as it is where the locale is not installed
+  double value = 0;
+  EXPECT_TRUE(parse_number("+1.5e-3", value));
+  EXPECT_EQ(value, 1.5e-3);
+  std::string text;
+  append_number(text, 0.1);
+  EXPECT_EQ(text, "0.1");
+  std::setlocale(LC_ALL, before.c_str());
+  EXPECT_TRUE(parse_number("1e-400", value));
+  EXPECT_EQ(value, 0.0);
+  EXPECT_TRUE(parse_number("-1e400", value));
+  EXPECT_EQ(value, -std::numeric_limits<double>::infinity());
+  for (const char* word : { "", "+", "+-1", "1,5", "0x10", "1e", "one", "1 " })
+  {
+    EXPECT_FALSE(parse_number(word, value)) << word;
+  }
+}

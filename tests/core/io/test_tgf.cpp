@@ -1,0 +1,62 @@
+// TGF: nodes and edges survive the round trip; what is wrong is named with its line.
+#include "io/tgf.h"
+
+#include "support/files.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+using testing::HasSubstr;
+
+namespace
+{
+class TgfFiles : public testing::Test
+{
+protected:
+  std::string error(const std::string& text)
+  {
+    return read_tgf(this->folder.write("h.tgf", text), this->graph).message;
+  }
+  test::Folder folder;
+  Tgf graph;
+};
+} // namespace
+
+TEST_F(TgfFiles, NodesAndEdges)
+{
+  ASSERT_EQ(this->error("1 0 0 0\n2 1.5 -2e-1 0 left hand\n10 1 1 1\n#\n1 2 1 0 0\n2 10\n"
+                        "1 10 0 1 0\n# \nignored\n"),
+    "");
+  ASSERT_EQ(this->graph.nodes.size(), 3u);
+  EXPECT_EQ(this->graph.nodes[1].position, Vec3(1.5, -0.2, 0));
+  EXPECT_EQ(this->graph.nodes[1].text, "left hand");
+  ASSERT_EQ(this->graph.edges.size(), 3u);
+  EXPECT_EQ(this->graph.edges[1].to, 2);
+  EXPECT_TRUE(this->graph.edges[1].bone);
+  EXPECT_FALSE(this->graph.edges[2].bone);
+  EXPECT_TRUE(this->graph.edges[2].pseudo);
+
+  ASSERT_TRUE(write_tgf(this->folder / "again.tgf", this->graph).ok());
+  Tgf again;
+  ASSERT_TRUE(read_tgf(this->folder / "again.tgf", again).ok());
+  EXPECT_EQ(again.nodes[1].text, "left hand");
+  EXPECT_EQ(again.nodes[1].position, this->graph.nodes[1].position);
+  EXPECT_EQ(again.edges[2].from, 0);
+  EXPECT_TRUE(again.edges[2].pseudo);
+}
+
+TEST_F(TgfFiles, ErrorsNameTheLine)
+{
+  EXPECT_THAT(this->error("1 0 0 0\n1 0 0 1\n"), HasSubstr("h.tgf, line 2: node 1 is there twice"));
+  EXPECT_THAT(this->error("1 0 0\n"), HasSubstr("line 1: node 1 needs three coordinates"));
+  EXPECT_THAT(this->error("1 0 nan 0\n"), HasSubstr("not a finite number"));
+  EXPECT_THAT(this->error("a 0 0 0\n"), HasSubstr("line 1"));
+  EXPECT_THAT(this->error("1 0 0 0\n2 1 0 0\n#\n1 3\n"), HasSubstr("line 4: an edge names node 3"));
+  EXPECT_THAT(this->error("1 0 0 0\n#\n1 1\n"), HasSubstr("to itself"));
+  EXPECT_THAT(this->error("1 0 0 0\n2 1 0 0\n#\n1\n"), HasSubstr("line 4"));
+  EXPECT_THAT(this->error("1 0 0 0\n2 1 0 0\n#\n1 2 yes\n"), HasSubstr("flags"));
+  EXPECT_THAT(this->error("#\n"), HasSubstr("no node"));
+  EXPECT_THAT(this->error(""), HasSubstr("is empty"));
+  EXPECT_TRUE(this->graph.nodes.empty());
+}

@@ -1,0 +1,162 @@
+// Handles from files and from the surface itself.
+#include "conversion.h"
+#include "vtkFarthestPointHandles.h"
+#include "vtkHandleFileReader.h"
+#include "vtkMeshFileWriter.h"
+
+#include "support/files.h"
+#include "support/meshes.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
+#include "vtkCommand.h"
+#include "vtkDataArray.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+using testing::HasSubstr;
+
+namespace
+{
+class HandleFiles : public testing::Test
+{
+protected:
+  HandleFiles() { this->Reader->AddObserver(vtkCommand::ErrorEvent, this->Silent); }
+  Handles Read(const std::string& path)
+  {
+    this->Reader->SetFileName(path.c_str());
+    this->Reader->Update();
+    Handles handles;
+    to_handles(vtkPolyData::SafeDownCast(this->Reader->GetOutput()), handles);
+    return handles;
+  }
+  std::string ReadError(const std::string& text)
+  {
+    EXPECT_TRUE(this->Read(this->Folder.write("h.tgf", text)).empty());
+    return this->Reader->GetStatusMessage();
+  }
+
+  test::Folder Folder;
+  vtkNew<vtkCallbackCommand> Silent;
+  vtkNew<vtkHandleFileReader> Reader;
+};
+} // namespace
+
+TEST_F(HandleFiles, TgfGivesPointsThenBones)
+{
+  const Handles handles = this->Read(this->Folder.write(
+    "h.tgf", "1 0 0 0\n2 1 0 0\n3 2 0 0\n4 5 5 5 left hand\n5 6 6 6\n6 2 1 0\n#\n2 3\n1 2\n2 6\n"));
+  ASSERT_EQ(this->Reader->GetStatusMessage(), "");
+  ASSERT_EQ(handles.size(), 5u);
+  const char* names[] = { "left hand", "p2", "b1", "b2", "b3" };
+  const Index parents[] = { -1, -1, 3, -1, 3 };
+  for (int i = 0; i < 5; ++i)
+  {
+    EXPECT_EQ(handles[i].name, names[i]);
+    EXPECT_EQ(handles[i].parent, parents[i]) << names[i];
+    EXPECT_EQ(handles[i].kind, i < 2 ? HandleKind::point : HandleKind::bone);
+  }
+  EXPECT_EQ(handles[2].head, Vec3(1, 0, 0));
+  EXPECT_EQ(handles[2].tail, Vec3(2, 0, 0));
+  EXPECT_THAT(this->Reader->GetReportJSON(), HasSubstr("\"left hand\""));
+}
+
+TEST_F(HandleFiles, VtpKeepsNamesParentsAndPose)
+{
+  this->Read(this->Folder.write("h.tgf", "1 0 0 0\n2 1 0 0\n3 2 0 0\n4 5 5 5 tip\n#\n1 2\n2 3\n"));
+  vtkNew<vtkPolyData> posed;
+  posed->ShallowCopy(this->Reader->GetOutput());
+  Pose pose(3);
+  pose[1].mode = HandleMode::position;
+  pose[2].transform(0, 3) = 1.0 / 3.0;
+  pose[2].stretch = 2.0;
+  set_pose(posed, { 0, 1, 2 }, pose);
+  vtkNew<vtkMeshFileWriter> writer;
+  writer->SetInputData(posed);
+  writer->SetFileName((this->Folder / "h.vtp").c_str());
+  ASSERT_EQ(writer->Write(), 1);
+
+  const Handles handles = this->Read(this->Folder / "h.vtp");
+  ASSERT_EQ(this->Reader->GetStatusMessage(), "");
+  ASSERT_EQ(handles.size(), 3u);
+  EXPECT_EQ(handles[0].name, "tip");
+  EXPECT_EQ(handles[1].name, "b1");
+  EXPECT_EQ(handles[2].name, "b2");
+  EXPECT_EQ(handles[2].parent, 1);
+  Pose back;
+  ASSERT_TRUE(
+    to_pose(vtkPolyData::SafeDownCast(this->Reader->GetOutput()), handles, { 0, 1, 2 }, back).ok());
+  EXPECT_EQ(back[1].mode, HandleMode::position);
+  EXPECT_EQ(back[2].transform(0, 3), 1.0 / 3.0);
+  EXPECT_EQ(back[2].stretch, 2.0);
+}
+
+TEST_F(HandleFiles, PlainVtpGetsTheMissingArrays)
+{
+  this->Read(this->Folder.write("h.tgf", "1 0 0 0\n2 1 0 0\n3 5 5 5\n#\n1 2\n"));
+  vtkNew<vtkPolyData> plain;
+  plain->CopyStructure(this->Reader->GetOutput());
+  vtkNew<vtkMeshFileWriter> writer;
+  writer->SetInputData(plain);
+  writer->SetFileName((this->Folder / "plain.vtp").c_str());
+  ASSERT_EQ(writer->Write(), 1);
+  const Handles handles = this->Read(this->Folder / "plain.vtp");
+  ASSERT_EQ(handles.size(), 2u);
+  EXPECT_EQ(handles[1].name, "b1");
+  for (const char* name :
+    { "HandleName", "HandleKind", "Parent", "RegionId", "Mode", "Transform", "Stretch", "Twist" })
+  {
+    EXPECT_NE(this->Reader->GetOutput()->GetCellData()->GetAbstractArray(name), nullptr) << name;
+  }
+}
+
+TEST_F(HandleFiles, UnusableHandlesAreNamed)
+{
+  EXPECT_THAT(this->ReadError("1 0 0 0\n2 0 0 0\n#\n"), HasSubstr("'p1' and 'p2'"));
+  EXPECT_THAT(this->ReadError("1 0 0 0 a\n2 1 0 0 a\n#\n"), HasSubstr("named 'a'"));
+  EXPECT_THAT(this->ReadError("1 0 0 0\n2 0 0 0\n#\n1 2\n"), HasSubstr("length zero"));
+  EXPECT_THAT(this->ReadError("1 0 0 0\n2 1 0 0\n3 0 1 0\n#\n1 2\n2 3\n3 1\n"),
+    HasSubstr("its own ancestor"));
+  EXPECT_THAT(this->ReadError("1 0 zero 0\n"), HasSubstr("h.tgf, line 1"));
+  EXPECT_TRUE(this->Read(this->Folder / "none.tgf").empty());
+  EXPECT_THAT(this->Reader->GetStatusMessage(), HasSubstr("No such file"));
+  EXPECT_TRUE(this->Read(this->Folder.write("h.json", "{}")).empty());
+  EXPECT_THAT(this->Reader->GetStatusMessage(), HasSubstr("unknown ending"));
+  EXPECT_TRUE(this->Read(this->Folder.write("broken.vtp", "<VTKFile")).empty());
+  EXPECT_THAT(this->Reader->GetStatusMessage(), HasSubstr("broken.vtp"));
+  const TriangleMesh mesh = test::cube();
+  vtkNew<vtkMeshFileWriter> writer;
+  writer->SetInputData(to_polydata(mesh.points, mesh.triangles));
+  writer->SetFileName((this->Folder / "cube.vtp").c_str());
+  ASSERT_EQ(writer->Write(), 1);
+  EXPECT_TRUE(this->Read(this->Folder / "cube.vtp").empty());
+  EXPECT_THAT(this->Reader->GetStatusMessage(), HasSubstr("3 points"));
+}
+
+TEST(FarthestPointHandles, LieOnTheSurface)
+{
+  const TriangleMesh mesh = test::cube();
+  vtkNew<vtkFarthestPointHandles> filter;
+  vtkNew<vtkCallbackCommand> silent;
+  filter->AddObserver(vtkCommand::ErrorEvent, silent);
+  filter->SetInputData(to_polydata(mesh.points, mesh.triangles));
+  filter->SetNumberOfHandles(3);
+  filter->Update();
+  Handles handles;
+  ASSERT_TRUE(to_handles(vtkPolyData::SafeDownCast(filter->GetOutput()), handles).ok());
+  ASSERT_EQ(handles.size(), 3u);
+  EXPECT_EQ(handles[0].name, "p1");
+  EXPECT_EQ(handles[0].head, Vec3(mesh.points.row(0)));
+  EXPECT_EQ(handles[1].head, Vec3(mesh.points.row(7)));
+  filter->SetNumberOfHandles(9);
+  filter->Update();
+  EXPECT_EQ(filter->GetStatus(), vtkFarthestPointHandles::INVALID_INPUT);
+  EXPECT_THAT(filter->GetStatusMessage(), HasSubstr("only 8"));
+  filter->SetNumberOfHandles(8);
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 8);
+}

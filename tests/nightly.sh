@@ -1,0 +1,66 @@
+#!/usr/bin/env bash
+# What is too long for tests/run.sh: sanitizers, the build without GPL and AGPL parts, naming on all
+# files, the quickstart, every surface of libcgal-demo through the mesher. Ends with a summary.
+# usage: tests/nightly.sh [asan|permissive|tidy|quickstart|surfaces …]   (default: all)
+set -uo pipefail
+program=nightly.sh
+install=yes
+. "$(dirname "${BASH_SOURCE[0]}")/../examples/setup.sh"
+install_packages "$build_packages $test_packages"
+build -DBINDPOSE_BUILD_TESTS=ON
+
+summary=()
+# part NAME COMMAND…: runs one part, keeps its log, notes how it ended.
+part()
+{
+  local name=$1 start=$SECONDS verdict=passed
+  shift
+  echo "== $name"
+  "$@" >"$log_dir/nightly-$name.log" 2>&1 || verdict="FAILED (see $log_dir/nightly-$name.log)"
+  tail -4 "$log_dir/nightly-$name.log"
+  summary+=("$(printf '%-12s %5d s  %s' "$name" $((SECONDS - start)) "$verdict")")
+}
+
+under_xvfb()
+{
+  xvfb-run -a -s "-screen 0 1280x1024x24" "$@"
+}
+
+asan()
+{
+  cmake --preset asan -S "$root" && ninja -C "$root/build-asan" || return 1
+  # VTK's and Mesa's one-time allocations are not ours to free.
+  export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 BINDPOSE_FUZZ_FACTOR=${BINDPOSE_FUZZ_FACTOR:-20}
+  under_xvfb ctest --test-dir "$root/build-asan" --no-tests=error --output-on-failure -j "$(nproc)" -R '^(core|filters)\.'
+}
+
+permissive()
+{
+  cmake -S "$root" -B "$root/build-permissive" -G Ninja -DBINDPOSE_PERMISSIVE=ON -DBINDPOSE_BUILD_TESTS=ON &&
+    ninja -C "$root/build-permissive" || return 1
+  under_xvfb ctest --test-dir "$root/build-permissive" --no-tests=error --output-on-failure -j "$(nproc)" -R '^(core|filters)\.'
+}
+
+tidy()
+{
+  /usr/bin/python3 "$root/tests/support/check_style.py" --build "$build_dir" --tidy all
+}
+
+quickstart()
+{
+  "$root/examples/quickstart.sh" --headless --output "$build_dir/nightly-quickstart"
+}
+
+surfaces()
+{
+  /usr/bin/python3 "$root/tests/support/all_surfaces.py" --build "$build_dir"
+}
+
+parts=("$@")
+[ $# -gt 0 ] || parts=(asan permissive tidy quickstart surfaces)
+for name in "${parts[@]}"; do
+  part "$name" "$name"
+done
+printf '\n%s\n' "Summary"
+printf '  %s\n' "${summary[@]}"
+! printf '%s\n' "${summary[@]}" | grep -q FAILED

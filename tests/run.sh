@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# Installs what the tests need, builds, and runs all of them under Xvfb. See --help.
+set -euo pipefail
+program=run.sh
+
+usage()
+{
+  cat <<'TEXT'
+usage: tests/run.sh [options] [-- CTEST OPTIONS…]
+
+options:
+  --bless NAME   make the picture that render test NAME draws now its baseline, then stop
+  --no-install   install nothing; say what is missing
+  --help         this text
+
+Everything after -- goes to ctest, for example: tests/run.sh -- -R weights
+A skipped test counts as a failure.
+TEXT
+}
+
+install=yes
+bless=""
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --help | -h) usage; exit 0 ;;
+    --no-install) install=no ;;
+    --bless) bless=${2:?--bless needs the name of a render test}; shift ;;
+    --) shift; break ;;
+    *) usage >&2; exit 1 ;;
+  esac
+  shift
+done
+
+. "$(dirname "${BASH_SOURCE[0]}")/../examples/setup.sh"
+install_packages "$build_packages $test_packages"
+build -DBINDPOSE_BUILD_TESTS=ON
+
+under_xvfb()
+{
+  xvfb-run -a -s "-screen 0 1280x1024x24" "$@"
+}
+
+if [ -n "$bless" ]; then
+  BINDPOSE_BLESS="$bless" under_xvfb ctest --test-dir "$build_dir" --no-tests=error --output-on-failure -R "^render\\.$bless\$"
+  exit
+fi
+
+log="$log_dir/ctest.log"
+status=0
+under_xvfb ctest --test-dir "$build_dir" --no-tests=error --output-on-failure -j "$(nproc)" "$@" 2>&1 | tee "$log" || status=$?
+if grep -qE '\*\*\*(Skipped|Not Run)' "$log"; then
+  echo "$program: a test was skipped; here that is a failure" >&2
+  status=1
+fi
+exit "$status"

@@ -1,0 +1,177 @@
+// Balls are a twice subdivided icosahedron, made once. A bone is an octahedron: head, a square
+// waist around the axis near the head, tail; each of its 8 sides owns its three corners, so that
+// the shading is flat.
+#include "handle_shapes.h"
+
+#include "vtkCellArray.h"
+#include "vtkFloatArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkTypeInt64Array.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace bindpose
+{
+namespace
+{
+struct Ball
+{
+  std::vector<Eigen::Vector3d> vertices;
+  std::vector<std::array<int, 3>> triangles;
+};
+
+Ball make_ball(int levels)
+{
+  const double t = 0.5 * (1.0 + std::sqrt(5.0));
+  Ball ball;
+  ball.vertices = { { -1, t, 0 }, { 1, t, 0 }, { -1, -t, 0 }, { 1, -t, 0 }, { 0, -1, t },
+    { 0, 1, t }, { 0, -1, -t }, { 0, 1, -t }, { t, 0, -1 }, { t, 0, 1 }, { -t, 0, -1 },
+    { -t, 0, 1 } };
+  ball.triangles = { { 0, 11, 5 }, { 0, 5, 1 }, { 0, 1, 7 }, { 0, 7, 10 }, { 0, 10, 11 },
+    { 1, 5, 9 }, { 5, 11, 4 }, { 11, 10, 2 }, { 10, 7, 6 }, { 7, 1, 8 }, { 3, 9, 4 }, { 3, 4, 2 },
+    { 3, 2, 6 }, { 3, 6, 8 }, { 3, 8, 9 }, { 4, 9, 5 }, { 2, 4, 11 }, { 6, 2, 10 }, { 8, 6, 7 },
+    { 9, 8, 1 } };
+  for (int level = 0; level < levels; ++level)
+  {
+    std::map<std::pair<int, int>, int> middles;
+    const auto middle = [&](int a, int b)
+    {
+      const auto key = std::minmax(a, b);
+      const auto found = middles.find(key);
+      if (found != middles.end())
+      {
+        return found->second;
+      }
+      ball.vertices.push_back(ball.vertices[a] + ball.vertices[b]);
+      return middles[key] = static_cast<int>(ball.vertices.size()) - 1;
+    };
+    std::vector<std::array<int, 3>> finer;
+    for (const auto& [a, b, c] : ball.triangles)
+    {
+      const int ab = middle(a, b);
+      const int bc = middle(b, c);
+      const int ca = middle(c, a);
+      finer.insert(finer.end(), { { a, ab, ca }, { b, bc, ab }, { c, ca, bc }, { ab, bc, ca } });
+    }
+    ball.triangles = finer;
+    for (Eigen::Vector3d& vertex : ball.vertices)
+    {
+      vertex.normalize();
+    }
+  }
+  return ball;
+}
+} // namespace
+
+long long HandleShapes::add_vertex(
+  const Eigen::Vector3d& place, const Eigen::Vector3d& normal, const Colour& colour)
+{
+  for (int k = 0; k < 3; ++k)
+  {
+    this->points_.push_back(static_cast<float>(place[k]));
+    this->normals_.push_back(static_cast<float>(normal[k]));
+    this->colours_.push_back(
+      static_cast<unsigned char>(std::lround(255.0 * std::clamp(colour[k], 0.0, 1.0))));
+  }
+  return static_cast<long long>(this->points_.size() / 3) - 1;
+}
+
+void HandleShapes::add_ball(const Eigen::Vector3d& center, double radius, const Colour& colour)
+{
+  static const Ball ball = make_ball(2);
+  const auto first = static_cast<long long>(this->points_.size() / 3);
+  for (const Eigen::Vector3d& vertex : ball.vertices)
+  {
+    this->add_vertex(center + radius * vertex, vertex, colour);
+  }
+  for (const auto& triangle : ball.triangles)
+  {
+    for (const int corner : triangle)
+    {
+      this->triangles_.push_back(first + corner);
+    }
+  }
+}
+
+void HandleShapes::add_bone(const Eigen::Vector3d& head, const Eigen::Vector3d& tail,
+  double half_width, const Colour& colour, double margin)
+{
+  const double length = (tail - head).norm();
+  if (!(length > 0.0))
+  {
+    return;
+  }
+  const Eigen::Vector3d axis = (tail - head) / length;
+  const Eigen::Vector3d u = axis.unitOrthogonal();
+  const Eigen::Vector3d v = axis.cross(u);
+  const Eigen::Vector3d waist = head + 0.125 * length * axis;
+  const double w = half_width + margin;
+  const Eigen::Vector3d ends[2] = { head - margin * axis, tail + 2.0 * margin * axis };
+  const Eigen::Vector3d corners[4] = { waist + w * u, waist + w * v, waist - w * u, waist - w * v };
+  for (int side = 0; side < 4; ++side)
+  {
+    const Eigen::Vector3d& a = corners[side];
+    const Eigen::Vector3d& b = corners[(side + 1) % 4];
+    for (const bool at_tail : { false, true })
+    {
+      const Eigen::Vector3d& first = at_tail ? a : b;
+      const Eigen::Vector3d& second = at_tail ? b : a;
+      const Eigen::Vector3d& third = ends[at_tail ? 1 : 0];
+      const Eigen::Vector3d normal = (second - first).cross(third - first).normalized();
+      for (const Eigen::Vector3d* corner : { &first, &second, &third })
+      {
+        this->triangles_.push_back(this->add_vertex(*corner, normal, colour));
+      }
+    }
+  }
+}
+
+vtkSmartPointer<vtkPolyData> HandleShapes::polydata() const
+{
+  const auto count = static_cast<vtkIdType>(this->points_.size() / 3);
+  vtkNew<vtkFloatArray> places;
+  places->SetNumberOfComponents(3);
+  places->SetNumberOfTuples(count);
+  std::copy(this->points_.begin(), this->points_.end(), places->GetPointer(0));
+  vtkNew<vtkFloatArray> normals;
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(count);
+  std::copy(this->normals_.begin(), this->normals_.end(), normals->GetPointer(0));
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetName("Colours");
+  colours->SetNumberOfComponents(3);
+  colours->SetNumberOfTuples(count);
+  std::copy(this->colours_.begin(), this->colours_.end(), colours->GetPointer(0));
+  const auto triangles = static_cast<vtkIdType>(this->triangles_.size() / 3);
+  vtkNew<vtkTypeInt64Array> offsets;
+  offsets->SetNumberOfValues(triangles + 1);
+  for (vtkIdType t = 0; t <= triangles; ++t)
+  {
+    offsets->SetValue(t, 3 * t);
+  }
+  vtkNew<vtkTypeInt64Array> connectivity;
+  connectivity->SetNumberOfValues(3 * triangles);
+  std::copy(this->triangles_.begin(), this->triangles_.end(), connectivity->GetPointer(0));
+
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetData(places);
+  vtkNew<vtkCellArray> cells;
+  cells->SetData(offsets, connectivity);
+  result->SetPoints(points);
+  result->SetPolys(cells);
+  result->GetPointData()->SetNormals(normals);
+  result->GetPointData()->SetScalars(colours);
+  return result;
+}
+
+} // namespace bindpose

@@ -1,0 +1,46 @@
+#ifndef handle_shapes_h
+#define handle_shapes_h
+
+#include "vtkSmartPointer.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <vector>
+
+class vtkPolyData;
+
+namespace bindpose
+{
+
+/// Red, green, blue in [0, 1].
+using Colour = std::array<double, 3>;
+
+/// Collects the balls and bones of a handle set into one polydata with point normals and a colour
+/// per point, wound outwards: one actor draws any number of handles.
+class HandleShapes
+{
+public:
+  /// A smooth ball of 320 triangles.
+  void add_ball(const Eigen::Vector3d& center, double radius, const Colour& colour);
+  /// An elongated octahedron with flat sides, 1/8 of its length behind the head at its widest.
+  /// @param half_width  distance of the four waist corners from the axis, world units
+  /// @param margin      moves every corner outwards (for the outline hull), world units
+  void add_bone(const Eigen::Vector3d& head, const Eigen::Vector3d& tail, double half_width,
+    const Colour& colour, double margin = 0.0);
+
+  vtkSmartPointer<vtkPolyData> polydata() const;
+
+private:
+  long long add_vertex(
+    const Eigen::Vector3d& place, const Eigen::Vector3d& normal, const Colour& colour);
+
+  std::vector<float> points_;
+  std::vector<float> normals_;
+  std::vector<unsigned char> colours_;
+  std::vector<long long> triangles_;
+};
+
+} // namespace bindpose
+
+#endif

@@ -1,6 +1,7 @@
 #ifndef file_kind_h
 #define file_kind_h
 
+#include "BindposeFiltersModule.h" // for export macro
 #include "base/status.h"
 
 #include <string>
@@ -9,13 +10,13 @@ namespace bindpose
 {
 
 /// Ending of a path in lower case without its dot ("vtp"); empty when there is none.
-std::string file_extension(const std::string& path);
+BINDPOSEFILTERS_EXPORT std::string file_extension(const std::string& path);
 
 /// Word of a list whose words are parted by blanks?
-bool is_listed(const std::string& word, const std::string& list);
+BINDPOSEFILTERS_EXPORT bool is_listed(const std::string& word, const std::string& list);
 
 /// invalid_input: there is no file name, or its ending is not in the list.
-Status check_extension(const std::string& path, const std::string& list);
+BINDPOSEFILTERS_EXPORT Status check_extension(const std::string& path, const std::string& list);
 
 } // namespace bindpose
 

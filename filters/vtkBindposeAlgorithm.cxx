@@ -51,6 +51,11 @@ std::string vtkBindposeAlgorithm::GetReportJSON()
   return bindpose::to_json(this->LastStatus->report);
 }
 
+std::string vtkBindposeAlgorithm::GetReportJSONOf(vtkDataObject* data)
+{
+  return bindpose::to_json(bindpose::read_report(data));
+}
+
 vtkDataObject* vtkBindposeAlgorithm::GetInput(int port)
 {
   return this->GetNumberOfInputConnections(port) > 0 ? this->GetInputDataObject(port, 0) : nullptr;
@@ -125,7 +130,15 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
     [this]() { return this->GetAbortExecute() != 0; });
   context.set_threads(this->NumberOfThreads);
 
+  // With a composite input the executive calls once per block. The first failure is the outcome of
+  // them all, and a cancel ends them all.
+  const bool later_block = this->GetProgressShift() > 0.0;
+  const bool failed_before = later_block && !this->LastStatus->usable();
   bindpose::Status status;
+  if (failed_before && this->LastStatus->code == bindpose::StatusCode::cancelled)
+  {
+    status = bindpose::Status::cancelled();
+  }
   for (int port = 0; port < this->GetNumberOfInputPorts() && status.usable(); ++port)
   {
     for (int i = 0; i < input[port]->GetNumberOfInformationObjects() && status.usable(); ++i)
@@ -148,6 +161,11 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
     {
       status = bindpose::Status::failure(bindpose::StatusCode::internal_error, error.what());
     }
+    catch (...)
+    {
+      status = bindpose::Status::failure(
+        bindpose::StatusCode::internal_error, "an exception of an unknown type");
+    }
   }
 
   bindpose::complete_report(status, context);
@@ -165,10 +183,13 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
     }
     bindpose::attach_report(data, status.report);
   }
-  *this->LastStatus = status;
-  this->ExecuteAgain = !status.usable();
-  this->SetErrorCode(
-    status.usable() || cancelled ? vtkErrorCode::NoError : vtkErrorCode::UserError);
+  if (!failed_before)
+  {
+    *this->LastStatus = status;
+    this->ExecuteAgain = !status.usable();
+    this->SetErrorCode(
+      status.usable() || cancelled ? vtkErrorCode::NoError : vtkErrorCode::UserError);
+  }
   if (!status.usable() && !cancelled)
   {
     vtkErrorMacro(<< status.message);

@@ -64,6 +64,9 @@ public:
   /// Report of the last execution as a JSON object; "{}" before the first.
   std::string GetReportJSON();
 
+  /// The same of the report that a data object carries, whoever made it; "{}" when it has none.
+  static std::string GetReportJSONOf(vtkDataObject* data);
+
   ///@{
   /**
    * Threads to use; 0 (default) for all cores. Results do not depend on it, so changing it does

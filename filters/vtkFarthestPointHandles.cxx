@@ -54,8 +54,7 @@ bindpose::Status vtkFarthestPointHandles::Execute(
     return status;
   }
   vtkDataObject::GetData(output)->ShallowCopy(bindpose::to_polydata(handles));
-  status.report.set(
-    "counts.vertices", bindpose::Report::Value(std::int64_t(surface.points.view().rows())));
+  status.report.set("counts.vertices", surface.points.view().rows());
   status.report.set("counts.handles", static_cast<int>(handles.size()));
   status.report.set("handles[].name", names);
   status.report.set("handles[].kind", std::vector<std::string>(handles.size(), "point"));

@@ -116,7 +116,7 @@ Status read_polygons(const std::string& path, ReadPolygons read, vtkDataObject* 
   output->ShallowCopy(to_polydata(mesh));
   if (mesh.skipped > 0)
   {
-    status.report.set("counts.skipped_cells", bindpose::Report::Value(mesh.skipped));
+    status.report.set("counts.skipped_cells", mesh.skipped);
   }
   return status;
 }
@@ -220,10 +220,8 @@ Status check_output(const std::string& path, vtkDataObject* output)
   {
     status = check_ids(path, grid->GetCells(), data->GetNumberOfPoints());
   }
-  status.report.set(
-    "counts.vertices", bindpose::Report::Value(std::int64_t(data->GetNumberOfPoints())));
-  status.report.set(
-    "counts.cells", bindpose::Report::Value(std::int64_t(data->GetNumberOfCells())));
+  status.report.set("counts.vertices", data->GetNumberOfPoints());
+  status.report.set("counts.cells", data->GetNumberOfCells());
   return status;
 }
 

@@ -1,5 +1,41 @@
-"""Bindpose: from any triangle mesh to a shape that bends in real time."""
+"""Bindpose: from any triangle mesh to a shape that bends in real time.
+
+Functions on numpy arrays and VTK datasets (PyVista's objects are VTK datasets)::
+
+    import bindpose
+
+    surface = bindpose.read("elephant.off")
+    handles = bindpose.read_handles("elephant.tgf")
+    weights = bindpose.weights(surface, handles)
+    posed = bindpose.deform(weights, handles, "pose.json", method="reduced-arap")
+    bindpose.write(posed, "posed.vtp")
+
+Every filter is here as a VTK class, too (``bindpose.vtkWindingNumberField``, …), for pipelines that
+stay alive; ``bindpose.run`` turns a filter's status into an exception.
+
+What goes in comes out: arrays for arrays, a VTK dataset for a VTK dataset. ``bindpose.report(result)``
+tells the numbers of either.
+"""
 
 import vtkmodules.vtkCommonCore  # noqa: F401  VTK first: our library finds its symbols there
 
 from .BindposeFilters import *  # noqa: F401,F403
+
+try:
+    from .BindposeWidgets import *  # noqa: F401,F403
+except ModuleNotFoundError:
+    pass  # built without pictures
+
+from .errors import (
+    BindposeError,
+    BindposeWarning,
+    Cancelled,
+    InvalidInput,
+    NotConvergedWarning,
+    Unavailable,
+)
+from .files import read, read_handles, write
+from .functions import deform, tetrahedralize, weights, winding_number
+from .handle_sets import farthest_point_handles, handles
+from .meshes import Array, Tets
+from .running import report, run

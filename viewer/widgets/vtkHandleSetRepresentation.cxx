@@ -533,10 +533,18 @@ void vtkHandleSetRepresentation::BuildRepresentation()
   self.VisibleLabels = 0;
   const bindpose::Colour mode_colours[3] = { to_colour(this->FullColor),
     to_colour(this->PositionColor), to_colour(this->FreeColor) };
-  const auto pixel_at = [this](const Vector3d& place)
+  // World length of a pixel at a place.
+  vtkCamera* camera = this->Renderer->GetActiveCamera();
+  const Vector3d eye(camera->GetPosition());
+  const Vector3d sight(camera->GetDirectionOfProjection());
+  const double height = std::max(this->Renderer->GetSize()[1], 1);
+  const auto pixel_at = [&](const Vector3d& place)
   {
-    Vector3d copy = place;
-    return this->SizeHandlesInPixels(this->PixelScale, copy.data());
+    const double half_height = camera->GetParallelProjection()
+      ? camera->GetParallelScale()
+      : std::max(sight.dot(place - eye), 0.0) *
+        std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
+    return this->PixelScale * 2.0 * half_height / height;
   };
   for (vtkIdType cell = 0; cell < self.CountCells(); ++cell)
   {

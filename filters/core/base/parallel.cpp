@@ -2,9 +2,11 @@
 // in which partial sums are added, is not.
 #include "base/parallel.h"
 
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <numeric>
 
@@ -42,7 +44,9 @@ bool parallel_for(ExecutionContext& context, Index count, Index block_size,
   }
   else
   {
-    tbb::task_arena arena(context.threads() > 0 ? context.threads() : tbb::task_arena::automatic);
+    // More threads than cores gain nothing, and TBB would print a warning.
+    const int cores = tbb::info::default_concurrency();
+    tbb::task_arena arena(context.threads() > 0 ? std::min(context.threads(), cores) : cores);
     arena.execute(
       [&] { tbb::parallel_for(Index(0), blocks, Index(1), run, tbb::simple_partitioner()); });
   }

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -36,7 +37,13 @@ public:
     std::vector<double>, std::vector<std::string>>;
 
   void set(const std::string& key, Value value);
-  void set(const std::string& key, int value) { this->set(key, Value(std::int64_t(value))); }
+  /// Any number: whole ones stay whole, others are doubles.
+  template <typename Number, std::enable_if_t<std::is_arithmetic_v<Number>, int> = 0>
+  void set(const std::string& key, Number value)
+  {
+    using Stored = std::conditional_t<std::is_integral_v<Number>, std::int64_t, double>;
+    this->set(key, Value(static_cast<Stored>(value)));
+  }
   void set(const std::string& key, const char* value) { this->set(key, Value(std::string(value))); }
   /// Adds to a number that may not be there yet (seconds of a phase that runs several times).
   void add(const std::string& key, double value);

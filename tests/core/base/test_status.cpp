@@ -23,6 +23,17 @@ TEST(Report, KeepsOrderAndReplacesInPlace)
   EXPECT_EQ(report.text("a", "none"), "none");
 }
 
+TEST(Report, NumbersKeepTheirKind)
+{
+  Report report;
+  report.set("seconds", 0.25);
+  report.set("count", std::size_t(7));
+  report.set("huge", std::int64_t(1) << 40);
+  EXPECT_EQ(report.number("seconds", 0), 0.25);
+  EXPECT_EQ(std::get<std::int64_t>(*report.find("count")), 7);
+  EXPECT_EQ(std::get<std::int64_t>(*report.find("huge")), std::int64_t(1) << 40);
+}
+
 TEST(Report, BecomesNestedJson)
 {
   Report report;

@@ -1,0 +1,489 @@
+// The JSON library reads the text; everything it would let pass (keys nobody knows, keys given
+// twice, numbers out of range) is refused here, because a pose that is half understood moves the
+// wrong thing. Names are resolved while reading, transforms are built afterwards, since a parent's
+// transform may stand later in the file.
+#include "pose/pose_file.h"
+
+#include "pose/rotation_fit.h"
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <initializer_list>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+namespace bindpose
+{
+
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+/// One sentence about what is wrong; becomes invalid_input in parse_pose_file().
+struct PoseFileError : std::runtime_error
+{
+  using std::runtime_error::runtime_error;
+};
+
+[[noreturn]] void fail(const std::string& where, const std::string& what)
+{
+  throw PoseFileError("the pose file: " + where + what);
+}
+
+const char* article(const Json& value)
+{
+  switch (value.type())
+  {
+    case Json::value_t::null:
+      return "null";
+    case Json::value_t::object:
+      return "an object";
+    case Json::value_t::array:
+      return "a list";
+    case Json::value_t::string:
+      return "a text";
+    case Json::value_t::boolean:
+      return "true or false";
+    default:
+      return "a number";
+  }
+}
+
+void check_object(
+  const Json& value, const std::string& where, std::initializer_list<const char*> known)
+{
+  if (!value.is_object())
+  {
+    fail(where, std::string(" is ") + article(value) + "; it must be an object");
+  }
+  for (const auto& item : value.items())
+  {
+    bool found = false;
+    std::string list;
+    for (const char* key : known)
+    {
+      found = found || item.key() == key;
+      list += (list.empty() ? "" : ", ") + std::string(key);
+    }
+    if (!found)
+    {
+      fail(where, " has an unknown key '" + item.key() + "' (known: " + list + ")");
+    }
+  }
+}
+
+double number(const Json& value, const std::string& where)
+{
+  if (!value.is_number())
+  {
+    fail(where, std::string(" is ") + article(value) + "; it must be a number");
+  }
+  const auto x = value.get<double>();
+  if (!std::isfinite(x))
+  {
+    fail(where, " is not a finite number");
+  }
+  return x;
+}
+
+double positive_number(const Json& value, const std::string& where)
+{
+  const double x = number(value, where);
+  if (!(x > 0.0))
+  {
+    fail(where, " must be greater than 0");
+  }
+  return x;
+}
+
+template <int Size>
+Eigen::Matrix<double, Size, 1> numbers(const Json& value, const std::string& where)
+{
+  if (!value.is_array() || value.size() != Size)
+  {
+    fail(where, " must be a list of " + std::to_string(Size) + " numbers");
+  }
+  Eigen::Matrix<double, Size, 1> result;
+  for (int i = 0; i < Size; ++i)
+  {
+    result[i] = number(value[static_cast<std::size_t>(i)], where);
+  }
+  return result;
+}
+
+std::string word(
+  const Json& value, const std::string& where, std::initializer_list<const char*> known)
+{
+  std::string list;
+  for (const char* choice : known)
+  {
+    if (value.is_string() && value.get<std::string>() == choice)
+    {
+      return choice;
+    }
+    list += (list.empty() ? "" : ", ") + std::string(choice);
+  }
+  fail(where, " must be one of " + list);
+}
+
+Eigen::Matrix3d read_rotation(const Json& value, const std::string& where)
+{
+  check_object(value, where, { "axis", "degrees" });
+  if (!value.contains("axis") || !value.contains("degrees"))
+  {
+    fail(where, " needs both axis and degrees");
+  }
+  Vec3 axis = numbers<3>(value["axis"], where + ".axis");
+  const double degrees = number(value["degrees"], where + ".degrees");
+  const double largest = axis.cwiseAbs().maxCoeff();
+  if (largest == 0.0)
+  {
+    fail(where, ".axis has length zero");
+  }
+  axis = (axis / largest).normalized(); // the largest first: squares of 1e-200 are zero
+  return Eigen::AngleAxisd(degrees * (EIGEN_PI / 180.0), axis).toRotationMatrix();
+}
+
+HandleEdit read_handle(const Json& value, const std::string& where, Index index, const Handle& rest)
+{
+  check_object(value, where,
+    { "mode", "translate", "rotate", "scale", "space", "head", "tail", "stretch", "twist" });
+  HandleEdit edit;
+  edit.handle = index;
+  for (const auto& item : value.items())
+  {
+    const std::string& key = item.key();
+    const Json& entry = item.value();
+    const std::string at = where + "." + key;
+    const bool for_bones = key == "head" || key == "tail" || key == "stretch" || key == "twist";
+    if (for_bones && rest.kind != HandleKind::bone)
+    {
+      fail(at, std::string(" is for bones, but the handle is a ") + to_string(rest.kind));
+    }
+    if (key == "mode")
+    {
+      const std::string mode = word(entry, at, { "full", "position", "free" });
+      edit.mode = mode == "free" ? HandleMode::free
+        : mode == "position"     ? HandleMode::position
+                                 : HandleMode::full;
+    }
+    else if (key == "translate")
+    {
+      edit.translate = numbers<3>(entry, at);
+    }
+    else if (key == "rotate")
+    {
+      edit.rotation = read_rotation(entry, at);
+    }
+    else if (key == "scale")
+    {
+      edit.scale = positive_number(entry, at);
+    }
+    else if (key == "space")
+    {
+      edit.parent_space = word(entry, at, { "world", "parent" }) == "parent";
+    }
+    else if (key == "head")
+    {
+      edit.head = numbers<3>(entry, at);
+    }
+    else if (key == "tail")
+    {
+      edit.tail = numbers<3>(entry, at);
+    }
+    else if (key == "stretch")
+    {
+      edit.stretch = positive_number(entry, at);
+    }
+    else
+    {
+      edit.twist = numbers<2>(entry, at);
+    }
+  }
+  if (edit.head || edit.tail)
+  {
+    if (edit.translate || edit.rotation || edit.scale)
+    {
+      fail(where, " has head or tail and also translate, rotate or scale; give one or the other");
+    }
+    if (edit.head.value_or(rest.head) == edit.tail.value_or(rest.tail))
+    {
+      fail(where, " is posed to length zero");
+    }
+  }
+  return edit;
+}
+
+std::vector<HandleEdit> read_pose(const Json& value, const std::string& where,
+  const std::map<std::string, Index>& index_of, const Handles& handles)
+{
+  check_object(value, where, { "handles" });
+  if (!value.contains("handles"))
+  {
+    fail(where, " is empty; it needs the key 'handles'");
+  }
+  if (!value["handles"].is_object())
+  {
+    fail(where, ".handles must be an object of handle names");
+  }
+  std::vector<HandleEdit> edits;
+  for (const auto& item : value["handles"].items())
+  {
+    const auto found = index_of.find(item.key());
+    if (found == index_of.end())
+    {
+      fail(where, " names a handle '" + item.key() + "' that does not exist");
+    }
+    edits.push_back(read_handle(item.value(), where + " handle '" + item.key() + "'", found->second,
+      handles[static_cast<std::size_t>(found->second)]));
+  }
+  return edits;
+}
+
+/// The library keeps the last of equal keys without a word; this refuses them.
+Json parse_without_doubled_keys(const std::string& text)
+{
+  std::vector<std::set<std::string>> keys;
+  const Json::parser_callback_t watch = [&](int, Json::parse_event_t event, Json& parsed)
+  {
+    if (event == Json::parse_event_t::object_start)
+    {
+      keys.emplace_back();
+    }
+    else if (event == Json::parse_event_t::object_end)
+    {
+      keys.pop_back();
+    }
+    else if (event == Json::parse_event_t::key &&
+      !keys.back().insert(parsed.get<std::string>()).second)
+    {
+      fail("the key '" + parsed.get<std::string>() + "'", " is given twice");
+    }
+    return true;
+  };
+  return Json::parse(text, watch);
+}
+} // namespace
+
+Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequence& sequence)
+{
+  sequence = PoseSequence();
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+  {
+    return Status::invalid_input("the pose file is empty");
+  }
+  std::map<std::string, Index> index_of;
+  for (std::size_t i = 0; i < handles.size(); ++i)
+  {
+    index_of[handles[i].name] = static_cast<Index>(i);
+  }
+  try
+  {
+    const Json root = parse_without_doubled_keys(text);
+    if (!root.is_object() || !root.contains("frames"))
+    {
+      sequence.frames.push_back(read_pose(root, "the pose", index_of, handles));
+      return {};
+    }
+    check_object(root, "the sequence", { "frames", "fps" });
+    if (root.contains("fps"))
+    {
+      sequence.frames_per_second = positive_number(root["fps"], "fps");
+    }
+    if (!root["frames"].is_array() || root["frames"].empty())
+    {
+      fail("frames", " must be a list of at least one pose");
+    }
+    for (const Json& frame : root["frames"])
+    {
+      const std::string where = "frame " + std::to_string(sequence.frames.size());
+      sequence.frames.push_back(read_pose(frame, where, index_of, handles));
+    }
+  }
+  catch (const PoseFileError& error)
+  {
+    sequence = PoseSequence();
+    return Status::invalid_input(error.what());
+  }
+  catch (const nlohmann::json::exception& error)
+  {
+    sequence = PoseSequence();
+    // "[json.exception.parse_error.101] parse error at line 1, …": the part for people.
+    const std::string what = error.what();
+    const std::size_t end = what.find("] ");
+    return Status::invalid_input("the pose file is not valid JSON: " +
+      (end == std::string::npos ? what : what.substr(end + 2)));
+  }
+  return {};
+}
+
+Affine affine_about(const Vec3& pivot, const Eigen::Matrix3d& linear, const Vec3& translation)
+{
+  Affine result;
+  result.leftCols<3>() = linear;
+  result.col(3) = translation + (pivot - linear * pivot);
+  return result;
+}
+
+Eigen::Matrix3d minimal_arc(const Vec3& from, const Vec3& to)
+{
+  const Vec3 a = from.stableNormalized();
+  const Vec3 b = to.stableNormalized();
+  const Vec3 half = a + b;
+  if (half.norm() > 1e-12)
+  {
+    // Two reflections: about a's plane, then about that of the bisector.
+    const Vec3 h = half.normalized();
+    return (2.0 * h * h.transpose() - Eigen::Matrix3d::Identity()) *
+      (2.0 * a * a.transpose() - Eigen::Matrix3d::Identity());
+  }
+  Index smallest = 0;
+  a.cwiseAbs().minCoeff(&smallest);
+  const Vec3 axis = a.cross(Vec3::Unit(smallest)).normalized();
+  return 2.0 * axis * axis.transpose() - Eigen::Matrix3d::Identity();
+}
+
+Pose apply_edits(const std::vector<HandleEdit>& edits, const Handles& handles, const Pose& base)
+{
+  Pose pose = base;
+  std::vector<const HandleEdit*> edit_of(handles.size(), nullptr);
+  for (const HandleEdit& edit : edits)
+  {
+    const auto h = static_cast<std::size_t>(edit.handle);
+    const Handle& rest = handles[h];
+    HandlePose& posed = pose[h];
+    edit_of[h] = &edit;
+    posed.mode = edit.mode.value_or(posed.mode);
+    posed.twist = edit.twist.value_or(posed.twist);
+    if (edit.head || edit.tail)
+    {
+      const Vec3 head = edit.head.value_or(rest.head);
+      const Vec3 bone = edit.tail.value_or(rest.tail) - head;
+      posed.transform =
+        affine_about(rest.head, minimal_arc(rest.tail - rest.head, bone), head - rest.head);
+      posed.stretch = bone.norm() / (rest.tail - rest.head).norm();
+    }
+    else if (edit.translate || edit.rotation || edit.scale)
+    {
+      const Eigen::Matrix3d linear =
+        edit.scale.value_or(1.0) * edit.rotation.value_or(Eigen::Matrix3d::Identity());
+      posed.transform = affine_about(rest.head, linear, edit.translate.value_or(Vec3::Zero()));
+    }
+    posed.stretch = edit.stretch.value_or(posed.stretch);
+  }
+  // Parents before children, whatever their order in the list.
+  std::vector<bool> done(handles.size(), false);
+  for (std::size_t start = 0; start < handles.size(); ++start)
+  {
+    std::vector<std::size_t> chain;
+    for (auto h = static_cast<Index>(start); h >= 0 && !done[static_cast<std::size_t>(h)];
+         h = handles[static_cast<std::size_t>(h)].parent)
+    {
+      chain.push_back(static_cast<std::size_t>(h));
+    }
+    for (auto h = chain.rbegin(); h != chain.rend(); ++h)
+    {
+      done[*h] = true;
+      const Index parent = handles[*h].parent;
+      if (!edit_of[*h] || !edit_of[*h]->parent_space || parent < 0)
+      {
+        continue;
+      }
+      const Affine& up = pose[static_cast<std::size_t>(parent)].transform;
+      const Affine local = pose[*h].transform;
+      pose[*h].transform.leftCols<3>() = up.leftCols<3>() * local.leftCols<3>();
+      pose[*h].transform.col(3) = up.leftCols<3>() * local.col(3) + up.col(3);
+    }
+  }
+  return pose;
+}
+
+namespace
+{
+Json list(const Eigen::VectorXd& values)
+{
+  Json result = Json::array();
+  for (const double value : values)
+  {
+    result.push_back(value);
+  }
+  return result;
+}
+
+Json format_handle(const HandlePose& posed, const Handle& rest, std::vector<std::string>& warnings)
+{
+  const Eigen::Matrix3d linear = posed.transform.leftCols<3>();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  fit_rotation(linear.transpose(), rotation);
+  double scale = (rotation.transpose() * linear).trace() / 3.0;
+  const double misfit = (linear - scale * rotation).norm();
+  if (misfit > 1e-9 * linear.norm() || !(scale > 0.0))
+  {
+    warnings.push_back("the transform of handle '" + rest.name +
+      "' has a shear, an uneven scale or a reflection that a pose file cannot hold; its nearest "
+      "rotation and scale were written");
+    scale = scale > 0.0 ? scale : 1.0;
+  }
+  Json entry;
+  entry["mode"] = to_string(posed.mode);
+  entry["translate"] = list(posed.transform * rest.head.homogeneous() - rest.head);
+  const Eigen::AngleAxisd turn(rotation);
+  if (turn.angle() != 0.0)
+  {
+    entry["rotate"] = { { "axis", list(turn.axis()) },
+      { "degrees", turn.angle() * (180.0 / EIGEN_PI) } };
+  }
+  if (std::abs(scale - 1.0) > 1e-15)
+  {
+    entry["scale"] = scale;
+  }
+  if (rest.kind == HandleKind::bone)
+  {
+    entry["stretch"] = posed.stretch;
+    entry["twist"] = list(posed.twist);
+  }
+  return entry;
+}
+} // namespace
+
+Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second,
+  const Handles& handles, std::string& text)
+{
+  Status status;
+  Json frames = Json::array();
+  for (const Pose& pose : poses)
+  {
+    if (pose.size() != handles.size())
+    {
+      return Status::invalid_input("a pose has " + std::to_string(pose.size()) +
+        " handles, but there are " + std::to_string(handles.size()));
+    }
+    Json frame;
+    frame["handles"] = Json::object();
+    for (std::size_t h = 0; h < handles.size(); ++h)
+    {
+      frame["handles"][handles[h].name] = format_handle(pose[h], handles[h], status.warnings);
+    }
+    frames.push_back(std::move(frame));
+  }
+  if (frames.empty())
+  {
+    return Status::invalid_input("there is no pose to write");
+  }
+  Json root;
+  if (frames.size() == 1)
+  {
+    root = frames.front();
+  }
+  else
+  {
+    root["frames"] = std::move(frames);
+    root["fps"] = frames_per_second;
+  }
+  text = root.dump(2) + "\n";
+  return status;
+}
+
+} // namespace bindpose

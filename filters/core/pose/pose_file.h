@@ -1,0 +1,75 @@
+#ifndef bindpose_pose_pose_file_h
+#define bindpose_pose_pose_file_h
+
+#include "pose/pose.h"
+#include "weights/handles.h"
+
+#include <optional>
+#include <string>
+
+namespace bindpose
+{
+
+/// What a pose file says of one handle. What it does not say is empty.
+struct HandleEdit
+{
+  Index handle = 0; ///< index in the handle list
+  std::optional<HandleMode> mode;
+  std::optional<Vec3> translate;
+  std::optional<Eigen::Matrix3d> rotation; ///< of "rotate": axis and degrees
+  std::optional<double> scale;
+  bool parent_space = false; ///< "space": "parent"
+  std::optional<Vec3> head, tail; ///< bones: posed ends
+  std::optional<double> stretch; ///< bones: posed length / rest length
+  std::optional<Eigen::Vector2d> twist; ///< bones: degrees at head and tail
+};
+
+/// A pose file as read: one list of edits a frame; each frame starts from the base pose again.
+struct PoseSequence
+{
+  std::vector<std::vector<HandleEdit>> frames;
+  double frames_per_second = 24.0;
+};
+
+/// Reads the text of a POSE.json: one pose
+///
+///     {"handles": {NAME: {"mode": "full|position|free", "translate": [x, y, z],
+///                         "rotate": {"axis": [x, y, z], "degrees": d}, "scale": s,
+///                         "space": "world|parent",
+///                         "head": [x, y, z], "tail": [x, y, z], "stretch": s,
+///                         "twist": [deg, deg]}}}
+///
+/// or a sequence {"frames": [pose, …], "fps": n}. All keys of a handle are optional; the last four
+/// are for bones, and head or tail exclude translate, rotate and scale.
+///
+/// Strict: an empty or broken text, an unknown handle or key, a key given twice, a wrong type, a
+/// number that is not finite, a rotation axis of length zero, a scale, stretch or fps that is not
+/// positive, a bone posed to length zero: invalid_input with one sentence that names it.
+Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequence& sequence);
+
+/// The pose that a frame asks for. A handle with pivot c (point, bone head, cage vertex, region
+/// pivot) moves x -> c + translate + R * scale * (x - c), absolute, not on top of the base pose.
+/// A bone with head or tail given (the other one rests) moves rigidly by the minimal arc from rest
+/// to posed direction, and its stretch is the ratio of lengths unless given. "space": "parent"
+/// applies the parent's posed transform afterwards. What the frame does not mention keeps the base
+/// pose; an entry without any of translate, rotate, scale, head, tail keeps the base transform.
+/// base must have one entry a handle; handles must have passed check_handles().
+Pose apply_edits(const std::vector<HandleEdit>& edits, const Handles& handles, const Pose& base);
+
+/// Writes poses as the text of a POSE.json: a single one as a pose, several as a sequence. Reading
+/// it back gives the same poses to round-off, whatever the base pose. A transform with a shear, an
+/// uneven scale or a reflection has no words in the file: its nearest rotation and scale are
+/// written and a warning names the handle.
+Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second,
+  const Handles& handles, std::string& text);
+
+/// The rotation by the smaller angle that takes one direction to another, neither of length zero.
+/// Opposite directions: half a turn about an axis that depends on `from` only.
+Eigen::Matrix3d minimal_arc(const Vec3& from, const Vec3& to);
+
+/// The affine map x -> pivot + translation + linear * (x - pivot).
+Affine affine_about(const Vec3& pivot, const Eigen::Matrix3d& linear, const Vec3& translation);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,22 @@
+#ifndef pose_input_h
+#define pose_input_h
+
+#include "conversion.h"
+#include "vtkPoseAlgorithm.h"
+
+/// What vtkPoseAlgorithm hands to its subclasses.
+struct vtkPoseAlgorithm::PoseInput
+{
+  vtkPointSet* mesh;
+  bindpose::PointsView points; ///< #V x 3, at rest
+  bindpose::WeightsView weights; ///< #V x #handles
+  const bindpose::Handles& handles;
+  const bindpose::Pose& pose;
+};
+
+struct vtkPoseAlgorithm::PosedPoints
+{
+  bindpose::Points points;
+};
+
+#endif

@@ -1,0 +1,266 @@
+// Conversion, the bind cache and the output are the same for every way to pose; only what a bind
+// keeps and how points are moved differ.
+//
+// The cache key holds the modification times of the arrays that a bind reads, never those of a
+// dataset: editing `Transform` raises the handle dataset's time, and a filter upstream that runs
+// again raises its output's, though neither changes what was bound.
+#include "vtkPoseAlgorithm.h"
+
+#include "base/execution.h"
+#include "bind_key.h"
+#include "pose_input.h"
+
+#include "vtkDataArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+using namespace bindpose;
+
+struct vtkPoseAlgorithm::Cache
+{
+  bool valid = false;
+  BindKey key;
+  Handles handles;
+  std::vector<Index> cells;
+  SharedMatrix<Points> points;
+  SharedMatrix<Weights> weights;
+  Status status; // of the bind: its report and warnings stand on every output
+};
+
+namespace
+{
+std::string names_of(vtkDataSet* data)
+{
+  std::string names;
+  for (int i = 0; i < data->GetPointData()->GetNumberOfArrays(); ++i)
+  {
+    const char* name = data->GetPointData()->GetArrayName(i);
+    names += std::string(i ? ", " : "") + (name ? name : "(unnamed)");
+  }
+  return names.empty() ? "none" : names;
+}
+
+vtkSmartPointer<vtkDataArray> to_normals(const Points& normals, vtkDataArray* like)
+{
+  vtkSmartPointer<vtkDataArray> result;
+  result.TakeReference(like->NewInstance());
+  result->SetName(like->GetName());
+  result->SetNumberOfComponents(3);
+  result->SetNumberOfTuples(normals.rows());
+  for (Index v = 0; v < normals.rows(); ++v)
+  {
+    result->SetTuple(v, normals.data() + 3 * v);
+  }
+  return result;
+}
+} // namespace
+
+vtkPoseAlgorithm::vtkPoseAlgorithm() : Bound(new Cache)
+{
+  this->SetNumberOfInputPorts(2);
+  this->BindTime.Modified();
+}
+
+vtkPoseAlgorithm::~vtkPoseAlgorithm() = default;
+
+void vtkPoseAlgorithm::SetArrayName(const std::string& name)
+{
+  if (this->ArrayName != name)
+  {
+    this->ArrayName = name;
+    this->BindModified();
+  }
+}
+
+void vtkPoseAlgorithm::BindModified()
+{
+  this->BindTime.Modified();
+  this->Modified();
+}
+
+int vtkPoseAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkPolyData");
+  return 1;
+}
+
+int vtkPoseAlgorithm::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPointSet");
+  return 1;
+}
+
+int vtkPoseAlgorithm::RequestDataObject(
+  vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
+{
+  vtkDataObject* mesh = vtkDataObject::GetData(input[0], 0);
+  vtkInformation* info = output->GetInformationObject(0);
+  vtkDataObject* current = vtkDataObject::GetData(info);
+  if (mesh && (!current || !current->IsA(mesh->GetClassName())))
+  {
+    vtkSmartPointer<vtkDataObject> fresh;
+    fresh.TakeReference(mesh->NewInstance());
+    info->Set(vtkDataObject::DATA_OBJECT(), fresh);
+  }
+  return 1;
+}
+
+Status vtkPoseAlgorithm::Execute(
+  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+{
+  auto* mesh = vtkPointSet::GetData(input[0], 0);
+  auto* handle_data = vtkPolyData::GetData(input[1], 0);
+  auto* result = vtkPointSet::GetData(output, 0);
+  if (!mesh || mesh->GetNumberOfPoints() == 0)
+  {
+    return Status::invalid_input("the mesh to pose is empty");
+  }
+  vtkDataArray* weights = mesh->GetPointData()->GetArray(this->ArrayName.c_str());
+  if (!weights)
+  {
+    return Status::invalid_input("the mesh has no point array '" + this->ArrayName +
+      "' with weights (its point arrays: " + names_of(mesh) + ")");
+  }
+  if (!handle_data)
+  {
+    return Status::invalid_input("there is no handle");
+  }
+
+  BindKey key;
+  key.add(this->BindTime.GetMTime());
+  for (vtkObject* object : bind_objects(mesh, { this->ArrayName }))
+  {
+    key.add(object);
+  }
+  for (vtkObject* object : bind_objects(handle_data))
+  {
+    key.add(object);
+  }
+  Cache& bound = *this->Bound;
+  const bool bind = !bound.valid || bound.key != key;
+  if (bind)
+  {
+    bound = Cache();
+    Status status = to_handles(handle_data, bound.handles, &bound.cells);
+    if (!status.ok())
+    {
+      return status;
+    }
+    bound.points = to_points(mesh);
+    bound.weights = to_matrix(weights);
+    if (!bound.points.view().allFinite())
+    {
+      return Status::invalid_input("the mesh has a coordinate that is not a finite number");
+    }
+    const WeightsView view = bound.weights.view();
+    if (view.cols() != static_cast<Index>(bound.handles.size()))
+    {
+      return Status::invalid_input("the weights have " + std::to_string(view.cols()) +
+        " components, but there are " + std::to_string(bound.handles.size()) + " handles");
+    }
+  }
+  Pose pose;
+  Status status = to_pose(handle_data, bound.handles, bound.cells, pose);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const PoseInput pose_input{ mesh, bound.points.view(), bound.weights.view(), bound.handles,
+    pose };
+  if (bind)
+  {
+    Phase phase(context, "bind", 0.0, 0.8);
+    const Status made = this->Bind(pose_input, context);
+    if (!made.usable())
+    {
+      return made;
+    }
+    bound.status.report.merge(made.report);
+    bound.status.warnings.insert(
+      bound.status.warnings.end(), made.warnings.begin(), made.warnings.end());
+    bound.key = key;
+    bound.valid = true;
+    this->NumberOfBinds += 1;
+  }
+
+  PosedPoints posed;
+  Status deformed = this->Deform(pose_input, context, posed);
+  if (!deformed.usable())
+  {
+    return deformed;
+  }
+  result->ShallowCopy(mesh);
+  result->SetPoints(to_vtk_points(posed.points));
+  auto* polydata = vtkPolyData::SafeDownCast(result);
+  if (vtkDataArray* rest = polydata ? polydata->GetPointData()->GetNormals() : nullptr)
+  {
+    PosedPoints normals;
+    const Status turned = this->DeformNormals(pose_input, context, posed, normals);
+    if (!turned.usable())
+    {
+      return turned;
+    }
+    polydata->GetPointData()->SetNormals(to_normals(normals.points, rest));
+  }
+
+  Status total = deformed;
+  Report report;
+  report.set("counts.vertices", static_cast<int>(mesh->GetNumberOfPoints()));
+  report.set("counts.handles", static_cast<int>(bound.handles.size()));
+  report.set("binds", this->NumberOfBinds);
+  report.merge(bound.status.report);
+  report.merge(deformed.report);
+  total.report = report;
+  // A bind's warnings are said once, when it is made.
+  if (bind)
+  {
+    total.warnings.insert(
+      total.warnings.begin(), bound.status.warnings.begin(), bound.status.warnings.end());
+  }
+  return total;
+}
+
+Status vtkPoseAlgorithm::DeformNormals(
+  const PoseInput& input, ExecutionContext&, const PosedPoints& posed, PosedPoints& normals)
+{
+  SurfaceInput surface;
+  const Status status = to_surface(input.mesh, surface);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const TrianglesView triangles = surface.triangles.view();
+  const Points& p = posed.points;
+  Points& n = normals.points;
+  n.setZero(p.rows(), 3);
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    const Vec3 a = p.row(triangles(t, 0));
+    const Vec3 b = p.row(triangles(t, 1));
+    const Vec3 c = p.row(triangles(t, 2));
+    const Vec3 area = (b - a).cross(c - a);
+    for (int k = 0; k < 3; ++k)
+    {
+      n.row(triangles(t, k)) += area.transpose();
+    }
+  }
+  for (Index v = 0; v < n.rows(); ++v)
+  {
+    const double length = n.row(v).norm();
+    n.row(v) =
+      length > 0.0 ? Vec3(n.row(v).transpose() / length).transpose() : Vec3(0, 0, 1).transpose();
+  }
+  return {};
+}
+
+void vtkPoseAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ArrayName: " << this->ArrayName << "\n";
+  os << indent << "NumberOfBinds: " << this->NumberOfBinds << "\n";
+}

@@ -1,0 +1,93 @@
+/**
+ * @class   vtkPoseAlgorithm
+ * @brief   what the filters of pose time share: ports, bind cache, output
+ *
+ * Port 0 is the mesh at rest with its weights (any vtkPointSet, point array `Weights` with a
+ * component a handle), port 1 the handles with their pose (see filters/README.md). The output is
+ * the mesh with moved points (doubles); cells and arrays are the input's own objects. Point normals
+ * of a vtkPolyData (the active ones, when it has some) follow.
+ *
+ * **Bind and pose.** What depends on the rest mesh, the weights or the rest handles only is done
+ * once, in Bind(), and kept; moving handles (Transform, Mode, Stretch, Twist) runs Deform() alone.
+ * The bind is made again when points, cells, the weights array or the handles' rest arrays change,
+ * told by their own modification times, or a bind parameter of the filter. GetNumberOfBinds()
+ * counts.
+ *
+ * **Errors**: no mesh, no handles, no array of that name, as many components as handles are not
+ * there, weights that are not finite. Rows that do not sum to one are a warning.
+ */
+
+#ifndef vtkPoseAlgorithm_h
+#define vtkPoseAlgorithm_h
+
+#include "BindposeFiltersModule.h" // for export macro
+#include "vtkBindposeAlgorithm.h"
+#include <memory> // for std::unique_ptr
+
+class vtkPointSet;
+
+class BINDPOSEFILTERS_EXPORT vtkPoseAlgorithm : public vtkBindposeAlgorithm
+{
+public:
+  vtkAbstractTypeMacro(vtkPoseAlgorithm, vtkBindposeAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /// Name of the point array of weights. Default "Weights". A bind parameter.
+  void SetArrayName(const std::string& name);
+  std::string GetArrayName() { return this->ArrayName; }
+  ///@}
+
+  /// How often Bind() has run.
+  vtkGetMacro(NumberOfBinds, int);
+
+  /// Handles and their pose: SetInputData(1, handles).
+  void SetHandlesData(vtkDataObject* handles) { this->SetInputData(1, handles); }
+  void SetHandlesConnection(vtkAlgorithmOutput* handles) { this->SetInputConnection(1, handles); }
+
+protected:
+  vtkPoseAlgorithm();
+  ~vtkPoseAlgorithm() override;
+
+  /// Mesh, weights, handles and pose as the kernels want them; valid during a call.
+  struct PoseInput;
+  /// A bindpose::Points, #V x 3.
+  struct PosedPoints;
+
+  /**
+   * Takes what does not depend on the pose. What it needs later it keeps itself; views of the input
+   * are valid during the call only. Its report is attached to every output until the next bind.
+   */
+  virtual bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) = 0;
+
+  /// Computes the posed points.
+  virtual bindpose::Status Deform(
+    const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) = 0;
+
+  /// Computes the posed normals of a vtkPolyData that has some, after Deform(). Here: area-weighted
+  /// normals of the posed polygons.
+  virtual bindpose::Status DeformNormals(const PoseInput& input,
+    bindpose::ExecutionContext& context, const PosedPoints& posed, PosedPoints& normals);
+
+  /// Setters of bind parameters call this instead of Modified().
+  void BindModified();
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
+    bindpose::ExecutionContext& context) override;
+
+private:
+  vtkPoseAlgorithm(const vtkPoseAlgorithm&) = delete;
+  void operator=(const vtkPoseAlgorithm&) = delete;
+
+  std::string ArrayName = "Weights";
+  int NumberOfBinds = 0;
+  vtkTimeStamp BindTime;
+  struct Cache;
+  std::unique_ptr<Cache> Bound;
+};
+
+#endif

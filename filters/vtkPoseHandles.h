@@ -1,0 +1,77 @@
+/**
+ * @class   vtkPoseHandles
+ * @brief   applies a pose file to handles
+ *
+ * Reads a pose (or one frame of a sequence) from JSON and writes it into the cell arrays `Mode`,
+ * `Transform`, `Stretch` and `Twist` of the handles:
+ * <pre>
+ *   {"handles": {NAME: {"mode": "full|position|free", "translate": [x, y, z],
+ *     "rotate": {"axis": [x, y, z], "degrees": d}, "scale": s, "space": "world|parent",
+ *     "head": [x, y, z], "tail": [x, y, z], "stretch": s, "twist": [deg, deg]}}}
+ *   {"frames": [pose, …], "fps": n}
+ * </pre>
+ * A handle with pivot c moves x -> c + translate + R S (x - c), absolute; "space": "parent" applies
+ * the parent's transform afterwards. Handles that the pose does not mention keep what the input
+ * says. Without FileName and PoseJSON the input is passed on.
+ *
+ * All other arrays are the input's own objects, so that filters behind it keep their bind.
+ */
+
+#ifndef vtkPoseHandles_h
+#define vtkPoseHandles_h
+
+#include "BindposeFiltersModule.h" // for export macro
+#include "vtkBindposeAlgorithm.h"
+
+class BINDPOSEFILTERS_EXPORT vtkPoseHandles : public vtkBindposeAlgorithm
+{
+public:
+  static vtkPoseHandles* New();
+  vtkTypeMacro(vtkPoseHandles, vtkBindposeAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /// The pose as text. Default: empty.
+  void SetPoseJSON(const std::string& text);
+  std::string GetPoseJSON() { return this->PoseJSON; }
+  ///@}
+
+  ///@{
+  /// The pose as a file, read anew at each execution; when set, PoseJSON is not used.
+  vtkSetFilePathMacro(FileName);
+  vtkGetFilePathMacro(FileName);
+  ///@}
+
+  ///@{
+  /// Frame of a sequence. Default 0; a frame that is not there is an error.
+  vtkSetMacro(Frame, int);
+  vtkGetMacro(Frame, int);
+  ///@}
+
+  ///@{
+  /// Of the sequence read by the last Update(): a single pose is one frame; 0 before.
+  vtkGetMacro(NumberOfFrames, int);
+  vtkGetMacro(FramesPerSecond, double);
+  ///@}
+
+protected:
+  vtkPoseHandles();
+  ~vtkPoseHandles() override;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
+    bindpose::ExecutionContext& context) override;
+
+private:
+  vtkPoseHandles(const vtkPoseHandles&) = delete;
+  void operator=(const vtkPoseHandles&) = delete;
+
+  std::string PoseJSON;
+  char* FileName = nullptr;
+  int Frame = 0;
+  int NumberOfFrames = 0;
+  double FramesPerSecond = 0.0;
+};
+
+#endif

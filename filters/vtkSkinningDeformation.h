@@ -1,0 +1,65 @@
+/**
+ * @class   vtkSkinningDeformation
+ * @brief   poses a mesh by blending its handles' transforms
+ *
+ * Moves every point of the mesh by the transforms of the handles, blended with the point's weights:
+ * - **linear blend** (Magnenat-Thalmann et al. 1988): v' = sum_j w_j T_j v. Fast and exact for
+ *   affine handles; twists by large angles lose volume.
+ * - **dual quaternion** (Kavan et al. 2008): blends rigid motions; scale and shear are blended
+ *   linearly before. Twists keep their radius.
+ *
+ * Ports, arrays, bind cache and errors: vtkPoseAlgorithm. Handles whose mode is position count as a
+ * translation, free ones as identity (with a warning): skinning finds nothing by itself, see
+ * vtkReducedARAP. Works on any vtkPointSet, FE meshes included.
+ *
+ * Report: seconds.bind, seconds.skin, counts, row_sum_error.
+ */
+
+#ifndef vtkSkinningDeformation_h
+#define vtkSkinningDeformation_h
+
+#include "BindposeFiltersModule.h" // for export macro
+#include "vtkPoseAlgorithm.h"
+
+class BINDPOSEFILTERS_EXPORT vtkSkinningDeformation : public vtkPoseAlgorithm
+{
+public:
+  static vtkSkinningDeformation* New();
+  vtkTypeMacro(vtkSkinningDeformation, vtkPoseAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum MethodType
+  {
+    LINEAR_BLEND = 0,
+    DUAL_QUATERNION = 1
+  };
+
+  ///@{
+  /// How transforms are blended. Default LINEAR_BLEND. A pose parameter: changing it keeps the
+  /// bind.
+  vtkSetClampMacro(Method, int, LINEAR_BLEND, DUAL_QUATERNION);
+  vtkGetMacro(Method, int);
+  void SetMethodToLinearBlend() { this->SetMethod(LINEAR_BLEND); }
+  void SetMethodToDualQuaternion() { this->SetMethod(DUAL_QUATERNION); }
+  ///@}
+
+protected:
+  vtkSkinningDeformation();
+  ~vtkSkinningDeformation() override;
+
+  bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) override;
+  bindpose::Status Deform(
+    const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) override;
+  bindpose::Status DeformNormals(const PoseInput& input, bindpose::ExecutionContext& context,
+    const PosedPoints& posed, PosedPoints& normals) override;
+
+private:
+  vtkSkinningDeformation(const vtkSkinningDeformation&) = delete;
+  void operator=(const vtkSkinningDeformation&) = delete;
+
+  int Method = LINEAR_BLEND;
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif

@@ -1,0 +1,338 @@
+"""The stages as functions."""
+
+import json
+import os
+import warnings as python_warnings
+
+import numpy as np
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from . import BindposeFilters as filters
+from .errors import BindposeWarning, InvalidInput, Unavailable
+from .handle_sets import to_handles
+from .meshes import (
+    Array,
+    Tets,
+    add_point_array,
+    is_dataset,
+    is_tets,
+    point_array,
+    points_of,
+    shallow_copy,
+    tets_of,
+    to_dataset,
+    to_vtk_points,
+)
+from .running import run
+
+_WINDING = {"auto": "AUTO", "exact": "EXACT"}
+_TETRAHEDRALIZE = {"auto": "AUTO", "cdt": "CDT", "remesh": "REMESH", "embed": "EMBED"}
+_SKINNING = {"lbs": "LINEAR_BLEND", "dqs": "DUAL_QUATERNION"}
+
+
+def _choice(value, choices, what):
+    if value not in choices:
+        raise InvalidInput(f"{what} is one of {', '.join(choices)}, not {value!r}")
+    return value
+
+
+def winding_number(surface, points_or_grid=None, *, method="auto", bounds=None, padding=0.1,
+                   threads=0, progress=None):
+    """Winding number of a surface: 1 inside, 0 outside, in between where it is open.
+
+    Parameters
+    ----------
+    surface : vtkDataSet or (vertices, triangles)
+    points_or_grid : optional
+        Where to evaluate: an array of points (#P, 3); a VTK dataset, at whose points; a number of
+        samples along the longest side of a grid of cubic voxels; three numbers, the dimensions of a
+        grid. Default: 64 samples.
+    method : {"auto", "exact"}
+    bounds : six numbers, optional
+        Box of a grid. Default: the surface's with padding.
+    padding : float
+        Free space around the surface, as a fraction of its diagonal.
+    threads : int
+        0 for all cores; the result does not depend on it.
+    progress : callable, optional
+        See `bindpose.run`.
+
+    Returns
+    -------
+    Array, vtkImageData or vtkDataSet
+        (#P,) values for points; an image for a grid; a copy of the dataset. Datasets have the point
+        array ``WindingNumber``.
+
+    Raises
+    ------
+    InvalidInput
+        Not a surface, coordinates that are not finite, vertex ids out of range.
+
+    Notes
+    -----
+    Jacobson, Kavan, Sorkine-Hornung, "Robust inside-outside segmentation using generalized winding
+    numbers", 2013.
+    """
+    field = filters.vtkWindingNumberField()
+    field.SetInputData(0, to_dataset(surface))
+    field.SetMethod(getattr(field, _WINDING[_choice(method, _WINDING, "method")]))
+    field.SetPadding(padding)
+    field.SetNumberOfThreads(threads)
+    if bounds is not None:
+        field.SetBounds(*bounds)
+    as_array = False
+    if points_or_grid is None:
+        pass
+    elif is_dataset(points_or_grid):
+        field.SetInputData(1, points_or_grid)
+    elif np.ndim(points_or_grid) == 0:
+        field.SetSamplesAlongLongestSide(int(points_or_grid))
+    elif np.ndim(points_or_grid) == 1 and np.shape(points_or_grid) == (3,) and all(
+            isinstance(n, (int, np.integer)) for n in points_or_grid):
+        field.SetDimensions(*map(int, points_or_grid))
+    else:
+        cloud = vtkPolyData()
+        cloud.SetPoints(to_vtk_points(points_or_grid))
+        field.SetInputData(1, cloud)
+        as_array = True
+    report = run(field, progress)
+    result = field.GetOutput()
+    return Array(point_array(result, "WindingNumber"), report) if as_array else result
+
+
+def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, resolution=40, time_limit=120.0,
+                   memory_limit=0, threads=0, progress=None):
+    """Fill the inside of a surface, however unclean, with tets.
+
+    Parameters
+    ----------
+    surface : vtkDataSet or (vertices, triangles)
+    method : {"auto", "cdt", "remesh", "embed"}
+        ``cdt`` keeps the surface's vertices, ``remesh`` follows the winding number, ``embed`` merely
+        holds the surface. ``auto`` tries cdt, then remesh; the report says which and why.
+    winding_threshold : float
+        Inside is where the winding number is at least this.
+    resolution : int
+        Cells along the longest side for remesh and embed.
+    time_limit : float
+        Seconds for the meshing process.
+    memory_limit : int
+        MiB for the meshing process; 0 for none.
+    threads, progress
+        See `winding_number`.
+
+    Returns
+    -------
+    Tets or vtkUnstructuredGrid
+        Arrays for arrays; a dataset has the point array ``OriginalPointIds`` and the cell array
+        ``WindingNumber``.
+
+    Raises
+    ------
+    InvalidInput
+        Not a surface, or one that encloses nothing.
+    Unavailable
+        The meshing program is not there; the text names the packages.
+    """
+    filler = filters.vtkTetrahedralizeSurface()
+    filler.SetInputData(0, to_dataset(surface))
+    filler.SetMethod(getattr(filler, _TETRAHEDRALIZE[_choice(method, _TETRAHEDRALIZE, "method")]))
+    filler.SetWindingThreshold(winding_threshold)
+    filler.SetResolution(int(resolution))
+    filler.SetTimeLimit(time_limit)
+    filler.SetMemoryLimit(memory_limit)
+    filler.SetNumberOfThreads(threads)
+    report = run(filler, progress)
+    result = filler.GetOutput()
+    if is_dataset(surface):
+        return result
+    return Tets(points_of(result), tets_of(result), point_array(result, "OriginalPointIds"), report)
+
+
+def _make_weights(method):
+    if method == "bounded-biharmonic":
+        return filters.vtkBoundedBiharmonicWeights()
+    if method == "monotone":
+        return filters.vtkMonotoneWeights()
+    result = filters.vtkUnconstrainedWeights()
+    result.SetMethod(getattr(result, method.upper()))
+    return result
+
+
+def _fill_or_embed(data, threads, progress):
+    """Tets of the inside; where there is none, a lattice that holds the surface will do for weights."""
+    try:
+        return tetrahedralize(data, threads=threads, progress=progress)
+    except (InvalidInput, Unavailable) as first:
+        try:
+            tets = tetrahedralize(data, method="embed", threads=threads, progress=progress)
+        except (InvalidInput, Unavailable):
+            raise first from None
+        python_warnings.warn(
+            f"the surface could not be filled ({first}); the weights are solved on a lattice that holds it",
+            BindposeWarning, stacklevel=3)
+        return tets
+
+
+def _carry_labels(surface, tets, name):
+    """Labels of the surface on those of the tets' vertices that come from it."""
+    labels, originals = point_array(surface, name), point_array(tets, "OriginalPointIds")
+    if labels is None:
+        raise InvalidInput(f"the surface has no point array {name!r}")
+    carried = np.where(originals >= 0, labels[np.maximum(originals, 0)], 0).astype(np.int64)
+    if not (carried > 0).any():
+        raise InvalidInput("the tets share no labelled point with the surface; solve with domain='surface'")
+    copy = shallow_copy(tets)
+    add_point_array(copy, name, carried)
+    return copy
+
+
+def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", regions=None, tolerance=1e-6,
+            maximum_iterations=100, threads=0, progress=None):
+    """Smooth weights, one function a handle, at the mesh's own points.
+
+    Parameters
+    ----------
+    mesh : vtkDataSet or (vertices, elements)
+        A surface or tets.
+    handles : vtkPolyData, str or path-like
+        A handle dataset (see `bindpose.handles`), a .tgf or .vtp file, or "auto:N" for N points
+        spread over the surface.
+    method : {"bounded-biharmonic", "monotone", "biharmonic", "triharmonic", "harmonic"}
+    domain : {"auto", "volume", "surface"}
+        Where to solve for a surface: in its volume, through tets, or on itself. ``auto`` is
+        ``volume``. Tets are solved on directly.
+    regions : str, optional
+        Point array of labels that the handle dataset's regions (``RegionId``) refer to.
+        Default: ``RegionId``, on meshes that have it.
+    tolerance : float
+        Of the certificate: relative gap and natural residual of each column.
+    maximum_iterations : int
+    threads, progress
+        See `winding_number`.
+
+    Returns
+    -------
+    Array or vtkDataSet
+        For arrays (#V, #handles) with ``names`` of the columns; for a dataset a copy of the mesh with
+        the point array ``Weights``, a component a handle. Rows sum to one.
+
+    Raises
+    ------
+    InvalidInput
+        A mesh or handles that cannot be used; the text names the first offender.
+
+    Warns
+    -----
+    NotConvergedWarning
+        A column's certificate is above the tolerance; the result is kept.
+    BindposeWarning
+        A handle lies outside, or the surface could not be filled and a lattice held it instead.
+
+    Notes
+    -----
+    Jacobson, Baran, Popović, Sorkine, "Bounded biharmonic weights for real-time deformation", 2011;
+    Jacobson, Weinkauf, Sorkine, "Smooth shape-aware functions with controlled extrema", 2012.
+    """
+    methods = ("bounded-biharmonic", "monotone", "biharmonic", "triharmonic", "harmonic")
+    _choice(method, methods, "method")
+    _choice(domain, ("auto", "volume", "surface"), "domain")
+    data = to_dataset(mesh)
+    handle_data = to_handles(handles, data)
+    solved_on = data
+    label_name = regions or "RegionId"
+    if is_tets(data):
+        if domain == "surface":
+            raise InvalidInput("the mesh holds tets: domain 'surface' needs a surface")
+    elif domain != "surface":
+        solved_on = _fill_or_embed(data, threads, progress)
+        if regions or data.GetPointData().GetArray(label_name):
+            solved_on = _carry_labels(data, solved_on, label_name)
+    solver = _make_weights(method)
+    solver.SetInputData(0, solved_on)
+    solver.SetInputData(1, handle_data)
+    solver.SetRegionArrayName(label_name)
+    solver.SetTolerance(tolerance)
+    solver.SetMaximumIterations(int(maximum_iterations))
+    solver.SetNumberOfThreads(threads)
+    report = run(solver, progress)
+    transfer = filters.vtkTransferWeights()
+    transfer.SetInputData(0, data)
+    transfer.SetInputData(1, solver.GetOutput())
+    transfer.SetNumberOfThreads(threads)
+    report = {**run(transfer), **report}
+    result = transfer.GetOutput()
+    if is_dataset(mesh):
+        return result
+    array = result.GetPointData().GetArray("Weights")
+    names = [array.GetComponentName(j) for j in range(array.GetNumberOfComponents())]
+    return Array(point_array(result, "Weights"), report, names)
+
+
+def _make_deformation(method):
+    if method == "reduced-arap":
+        return filters.vtkReducedARAP()
+    skinning = filters.vtkSkinningDeformation()
+    skinning.SetMethod(getattr(skinning, _SKINNING[method]))
+    return skinning
+
+
+def deform(mesh, handles, pose, *, method="lbs", weights=None, threads=0, progress=None):
+    """Bend a mesh with weights to a pose, or to a sequence of poses.
+
+    Parameters
+    ----------
+    mesh : vtkDataSet or (vertices, elements)
+        A dataset with the point array ``Weights``, or arrays beside `weights`.
+    handles : vtkPolyData, str or path-like
+        The handles that the weights were made for.
+    pose : dict, str or path-like
+        ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}``
+        or ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file.
+    method : {"lbs", "dqs", "reduced-arap"}
+        Linear blend skinning, dual quaternions, or reduced as-rigid-as-possible.
+    weights : (#V, #handles) array, optional
+        For a mesh of arrays.
+    threads, progress
+        See `winding_number`.
+
+    Returns
+    -------
+    Array or vtkDataSet, or a list of them
+        Posed coordinates (#V, 3) for arrays, a posed copy for a dataset; a list, one a frame, for a
+        sequence.
+
+    Raises
+    ------
+    InvalidInput
+        Weights that do not fit, an unknown handle in the pose, a broken pose.
+    """
+    _choice(method, ("lbs", "dqs", "reduced-arap"), "method")
+    data = to_dataset(mesh)
+    if weights is not None:
+        data = shallow_copy(data)
+        add_point_array(data, "Weights", np.asarray(weights, dtype=float), getattr(weights, "names", ()))
+    poser = filters.vtkPoseHandles()
+    poser.SetInputData(0, to_handles(handles, data))
+    if isinstance(pose, (str, os.PathLike)):
+        poser.SetFileName(os.fspath(pose))
+    else:
+        try:
+            poser.SetPoseJSON(json.dumps(pose))
+        except TypeError as error:
+            raise InvalidInput(f"the pose is no JSON object: {error}") from None
+    bender = _make_deformation(method)
+    bender.SetInputData(0, data)
+    bender.SetInputConnection(1, poser.GetOutputPort())
+    bender.SetNumberOfThreads(threads)
+    results = []
+    run(poser)
+    frames = poser.GetNumberOfFrames()
+    for frame in range(frames):
+        poser.SetFrame(frame)
+        run(poser)
+        report = run(bender, progress)
+        posed = bender.GetOutput()
+        results.append(shallow_copy(posed) if is_dataset(mesh) else Array(points_of(posed), report))
+    sequence = frames > 1
+    return results if sequence else results[0]

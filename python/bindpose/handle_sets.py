@@ -1,0 +1,118 @@
+"""Handles from arrays, files and the surface itself."""
+
+import os
+
+import numpy as np
+from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkIntArray, vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+
+from .BindposeFilters import vtkFarthestPointHandles
+from .errors import InvalidInput
+from .files import read_handles
+from .meshes import is_dataset, to_dataset, to_vtk_points
+from .running import run
+
+
+def handles(points=None, bones=None, names=None, parents=None):
+    """Make a handle dataset from arrays.
+
+    Parameters
+    ----------
+    points : (#P, 3) array of float, optional
+        Point handles.
+    bones : (#B, 2, 3) array of float, optional
+        Head and tail of each bone.
+    names : sequence of str, optional
+        Names of the points, then of the bones. Default: p1, p2, …, b1, b2, …
+    parents : sequence of int, optional
+        For each point, then each bone, the number of its parent in this order, or -1. Default: a bone
+        whose head is the tail of another has that one as parent.
+
+    Returns
+    -------
+    vtkPolyData
+        One cell a handle, one column of the weights: points, then bones, with the cell arrays
+        ``HandleName``, ``HandleKind`` and ``Parent``.
+
+    Raises
+    ------
+    InvalidInput
+        Arrays of a wrong shape, too many or too few names.
+    """
+    points = np.zeros((0, 3)) if points is None else np.array(points, dtype=float, ndmin=2)
+    bones = np.zeros((0, 2, 3)) if bones is None else np.array(bones, dtype=float, ndmin=3)
+    if points.ndim != 2 or points.shape[1] != 3:
+        raise InvalidInput("points are an array #P x 3")
+    if bones.ndim != 3 or bones.shape[1:] != (2, 3):
+        raise InvalidInput("bones are an array #B x 2 x 3: head and tail of each")
+    count = len(points) + len(bones)
+    if count == 0:
+        raise InvalidInput("there is no handle")
+    if names is None:
+        names = [f"p{i + 1}" for i in range(len(points))] + [f"b{i + 1}" for i in range(len(bones))]
+    if parents is None:
+        parents = [-1] * len(points) + [_parent(bones, i, len(points)) for i in range(len(bones))]
+    if len(names) != count or len(parents) != count:
+        raise InvalidInput(
+            f"there are {count} handles, but {len(names)} names and {len(parents)} parents")
+
+    data = vtkPolyData()
+    data.SetPoints(to_vtk_points(np.concatenate([points, bones.reshape(-1, 3)])))
+    vertices, lines = vtkCellArray(), vtkCellArray()
+    for i in range(len(points)):
+        vertices.InsertNextCell(1, [i])
+    for i in range(len(bones)):
+        head = len(points) + 2 * i
+        lines.InsertNextCell(2, [head, head + 1])
+    data.SetVerts(vertices)
+    data.SetLines(lines)
+    kinds = [0] * len(points) + [1] * len(bones)
+    columns = ((vtkStringArray(), "HandleName", map(str, names)), (vtkIntArray(), "HandleKind", kinds),
+               (vtkIdTypeArray(), "Parent", map(int, parents)))
+    for array, name, values in columns:
+        array.SetName(name)
+        for value in values:
+            array.InsertNextValue(value)
+        data.GetCellData().AddArray(array)
+    return data
+
+
+def _parent(bones, bone, first):
+    for other, (_head, tail) in enumerate(bones):
+        if other != bone and np.array_equal(tail, bones[bone][0]):
+            return first + other
+    return -1
+
+
+def farthest_point_handles(surface, count=8):
+    """Spread point handles p1, p2, … evenly over a surface, tips first.
+
+    Parameters
+    ----------
+    surface : vtkDataSet or (vertices, triangles)
+    count : int
+
+    Returns
+    -------
+    vtkPolyData
+        A handle dataset.
+    """
+    spread = vtkFarthestPointHandles()
+    spread.SetInputData(to_dataset(surface))
+    spread.SetNumberOfHandles(int(count))
+    run(spread)
+    return spread.GetOutput()
+
+
+def to_handles(value, surface):
+    """What functions take for handles: a dataset, a file, or "auto[:N]"."""
+    if is_dataset(value):
+        return value
+    if isinstance(value, str) and (value == "auto" or value.startswith("auto:")):
+        count = value[5:] or "8"
+        if not count.isdigit() or int(count) < 1:
+            raise InvalidInput(f"handles {value!r}: behind auto: stands how many, at least 1")
+        return farthest_point_handles(surface, int(count))
+    if isinstance(value, (str, os.PathLike)):
+        return read_handles(value)
+    raise InvalidInput("handles are a handle dataset (see bindpose.handles), a file or 'auto:N'")

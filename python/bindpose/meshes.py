@@ -1,0 +1,151 @@
+"""Between numpy arrays and VTK datasets."""
+
+from typing import NamedTuple
+
+import numpy as np
+from vtkmodules.util import numpy_support
+from vtkmodules.vtkCommonCore import vtkPoints
+from vtkmodules.vtkCommonDataModel import (
+    VTK_TETRA,
+    vtkCellArray,
+    vtkDataObject,
+    vtkPolyData,
+    vtkUnstructuredGrid,
+)
+
+from .errors import InvalidInput
+
+
+class Array(np.ndarray):
+    """A numpy array that remembers how it was computed.
+
+    Attributes
+    ----------
+    report : dict
+        See `bindpose.report`.
+    names : list of str
+        For weights: the handle of each column.
+    """
+
+    def __new__(cls, values, report=None, names=None):
+        array = np.asarray(values).view(cls)
+        array.report = report or {}
+        array.names = list(names or [])
+        return array
+
+    def __array_finalize__(self, source):
+        self.report = getattr(source, "report", {})
+        self.names = getattr(source, "names", [])
+
+
+class Tets(NamedTuple):
+    """A tet mesh as arrays; ``vertices, tets = result[:2]`` works.
+
+    Attributes
+    ----------
+    vertices : (#V, 3) array of float
+    tets : (#T, 4) array of int
+        Vertex ids, positive volume.
+    original_ids : (#V,) array of int
+        Vertex of the surface that each vertex is, -1 for new ones.
+    report : dict
+        See `bindpose.report`.
+    """
+
+    vertices: np.ndarray
+    tets: np.ndarray
+    original_ids: np.ndarray
+    report: dict
+
+
+def is_dataset(mesh):
+    """A VTK dataset (PyVista's are), not arrays."""
+    return isinstance(mesh, vtkDataObject)
+
+
+def to_vtk_points(points):
+    """(#V, 3) coordinates as vtkPoints of doubles; a copy."""
+    try:
+        values = np.array(points, dtype=float, order="C", ndmin=2)
+    except (TypeError, ValueError) as error:
+        raise InvalidInput(f"points are an array of numbers, #V x 3: {error}") from None
+    if values.ndim != 2 or values.shape[1] != 3:
+        raise InvalidInput(f"points are an array #V x 3, not {' x '.join(map(str, values.shape))}")
+    result = vtkPoints()
+    result.SetData(numpy_support.numpy_to_vtk(values, deep=True))
+    return result
+
+
+def _to_cells(elements):
+    count, size = elements.shape
+    cells = vtkCellArray()
+    offsets = np.arange(0, count * size + 1, size, dtype=np.int64)
+    cells.SetData(
+        numpy_support.numpy_to_vtkIdTypeArray(offsets, deep=True),
+        numpy_support.numpy_to_vtkIdTypeArray(np.ascontiguousarray(elements, dtype=np.int64).ravel(), deep=True),
+    )
+    return cells
+
+
+def to_dataset(mesh):
+    """A mesh as a VTK dataset.
+
+    Parameters
+    ----------
+    mesh : vtkDataSet or (vertices, elements)
+        Arrays #V x 3 and #F x 3 (triangles) or #T x 4 (tets).
+    """
+    if is_dataset(mesh):
+        return mesh
+    try:
+        vertices, elements = mesh[0], np.asarray(mesh[1])
+    except (TypeError, IndexError, KeyError):
+        raise InvalidInput("a mesh is a VTK dataset or a pair of arrays (vertices, elements)") from None
+    if elements.ndim != 2 or elements.shape[1] not in (3, 4) or elements.dtype.kind not in "iu":
+        raise InvalidInput("elements are whole numbers, #F x 3 for triangles or #T x 4 for tets")
+    triangles = elements.shape[1] == 3
+    data = vtkPolyData() if triangles else vtkUnstructuredGrid()
+    data.SetPoints(to_vtk_points(vertices))
+    if triangles:
+        data.SetPolys(_to_cells(elements))
+    else:
+        data.SetCells(VTK_TETRA, _to_cells(elements))
+    return data
+
+
+def is_tets(data):
+    """Tets, by the first cell; filters look at the others."""
+    return data.GetNumberOfCells() > 0 and data.GetCellType(0) == VTK_TETRA
+
+
+def points_of(data):
+    """(#V, 3) coordinates of a point set; a copy."""
+    return np.array(numpy_support.vtk_to_numpy(data.GetPoints().GetData()), dtype=float)
+
+
+def tets_of(data):
+    """(#T, 4) vertex ids; a copy."""
+    connectivity = numpy_support.vtk_to_numpy(data.GetCells().GetConnectivityArray())
+    return np.array(connectivity, dtype=np.int64).reshape(-1, 4)
+
+
+def point_array(data, name):
+    """A point array as numpy, by name; a copy, None when absent."""
+    array = data.GetPointData().GetArray(name)
+    return None if array is None else np.array(numpy_support.vtk_to_numpy(array))
+
+
+def add_point_array(data, name, values, component_names=()):
+    """Attaches an array to the dataset's points."""
+    array = numpy_support.numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+    array.SetName(name)
+    for number, component in enumerate(component_names):
+        array.SetComponentName(number, component)
+    data.GetPointData().AddArray(array)
+
+
+def shallow_copy(data):
+    """A dataset of the same kind that shares the arrays and may get more of its own."""
+    copy = data.NewInstance()
+    copy.ShallowCopy(data)
+    return copy

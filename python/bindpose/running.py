@@ -1,0 +1,114 @@
+"""Runs filters and turns their status into exceptions, warnings and a report."""
+
+import contextlib
+import json
+import signal
+import threading
+import warnings as python_warnings
+
+from .errors import BindposeError, BindposeWarning, Cancelled, InvalidInput, NotConvergedWarning, Unavailable
+
+_ERRORS = {error.status: error for error in (InvalidInput, Cancelled, Unavailable, BindposeError)}
+
+
+@contextlib.contextmanager
+def _deferred_interrupt():
+    """Ctrl-C as a flag: VTK would end the process on an exception in an observer.
+
+    Yields a list that is no longer empty once Ctrl-C was pressed.
+    """
+    pressed = []
+    main = threading.current_thread() is threading.main_thread()
+    if not main or signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
+        yield pressed
+        return
+    signal.signal(signal.SIGINT, lambda *_: pressed.append(True))
+    try:
+        yield pressed
+    finally:
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        if pressed:
+            raise KeyboardInterrupt
+
+
+def run(algorithm, progress=None):
+    """Bring a filter of Bindpose up to date and say how it went.
+
+    Parameters
+    ----------
+    algorithm : vtkBindposeAlgorithm
+        Any of the package's filters; a ``vtkMeshFileWriter`` writes.
+    progress : callable, optional
+        Called with (fraction in [0, 1], name of the phase). Returning False cancels.
+
+    Returns
+    -------
+    dict
+        The filter's report.
+
+    Raises
+    ------
+    InvalidInput, Cancelled, Unavailable, BindposeError
+        What the filter's status says, with its sentence.
+    KeyboardInterrupt
+        After Ctrl-C, which cancels the filter.
+
+    Warns
+    -----
+    NotConvergedWarning
+        The result is kept.
+    BindposeWarning
+        One for each warning of the filter.
+    """
+    failed = []
+    with _deferred_interrupt() as pressed:
+
+        def on_progress(caller, _event):
+            try:
+                phase = caller.GetProgressText() or ""
+                if pressed or (progress and progress(caller.GetProgress(), phase) is False):
+                    caller.SetAbortExecute(1)
+            except Exception as error:  # pylint: disable=broad-except  raised again below
+                failed.append(error)
+                caller.SetAbortExecute(1)
+
+        observers = [algorithm.AddObserver("ProgressEvent", on_progress)]
+        for event in ("ErrorEvent", "WarningEvent"):  # else VTK prints what is raised below
+            observers.append(algorithm.AddObserver(event, lambda *_: None))
+        try:
+            algorithm.Write() if algorithm.IsA("vtkMeshFileWriter") else algorithm.Update()
+        finally:
+            for observer in observers:
+                algorithm.RemoveObserver(observer)
+    if failed:
+        raise failed[0]
+    status = algorithm.GetStatusAsString()
+    result = json.loads(algorithm.GetReportJSON())
+    if status not in ("ok", "not_converged"):
+        raise _ERRORS[status](algorithm.GetStatusMessage(), result)
+    for sentence in result.get("warnings", []):
+        python_warnings.warn(sentence, BindposeWarning, stacklevel=3)
+    if status == "not_converged":
+        python_warnings.warn(algorithm.GetStatusMessage(), NotConvergedWarning, stacklevel=3)
+    return result
+
+
+def report(result):
+    """The numbers of a result: certificates, counts, seconds by phase.
+
+    Parameters
+    ----------
+    result : vtkDataObject, Array or Tets
+        What a function or filter of this package returned, or a file read back.
+
+    Returns
+    -------
+    dict
+        Nested by the dots of the keys (``report(w)["seconds"]["solve"]``); empty for data that
+        carries none.
+    """
+    if hasattr(result, "report"):
+        return result.report
+    from .BindposeFilters import vtkBindposeAlgorithm  # after VTK, when somebody asks
+
+    return json.loads(vtkBindposeAlgorithm.GetReportJSONOf(result))

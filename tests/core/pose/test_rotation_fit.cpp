@@ -1,0 +1,195 @@
+// Best rotations against Eigen's SVD, and what happens where the best one is not unique.
+#include "pose/rotation_fit.h"
+
+#include "support/meshes.h"
+
+#include <Eigen/SVD>
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+
+namespace
+{
+Eigen::Matrix3d random_matrix(test::Random& random)
+{
+  Eigen::Matrix3d s;
+  for (int i = 0; i < 9; ++i)
+  {
+    s(i / 3, i % 3) = random.uniform(-1.0, 1.0);
+  }
+  return s;
+}
+
+Eigen::Matrix3d random_rotation(test::Random& random)
+{
+  const Vec3 axis = random.in_box(-Vec3::Ones(), Vec3::Ones()).normalized();
+  return Eigen::AngleAxisd(random.uniform(-3.0, 3.0), axis).toRotationMatrix();
+}
+
+/// The largest tr(R S) over rotations.
+double best_trace(const Eigen::Matrix3d& s)
+{
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(s, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const double sign = (svd.matrixV() * svd.matrixU().transpose()).determinant() < 0.0 ? -1.0 : 1.0;
+  return svd.singularValues()[0] + svd.singularValues()[1] + sign * svd.singularValues()[2];
+}
+
+/// det +1, orthogonal, and as good as the SVD's.
+void expect_best(const Eigen::Matrix3d& s, const Eigen::Matrix3d& r)
+{
+  ASSERT_LT((r * r.transpose() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff(), 1e-13);
+  ASSERT_GT(r.determinant(), 0.999999);
+  ASSERT_LE(best_trace(s) - (r * s).trace(), 1e-13 * s.norm()) << s;
+}
+} // namespace
+
+// SPEC D38
+TEST(RotationFit, HundredThousandRandomMatricesAreAsGoodAsTheirSvd)
+{
+  constexpr Index count = 100000;
+  test::Random random(3);
+  std::vector<double> s(9 * count), r(9 * count, 0.0);
+  for (Index k = 0; k < count; ++k)
+  {
+    Eigen::Matrix3d matrix = random_matrix(random);
+    if (k % 4 == 1) // close to a reflection
+    {
+      matrix = random_rotation(random) * Vec3(1.0, 0.9, -0.5).asDiagonal() * matrix;
+    }
+    if (k % 4 == 2) // sizes from 1e-20 to 1e20
+    {
+      matrix *= std::pow(10.0, random.uniform(-20.0, 20.0));
+    }
+    if (k % 4 == 3) // thin: singular values apart by up to 1e12
+    {
+      matrix = random_rotation(random) *
+        Vec3(1.0, std::pow(10.0, random.uniform(-6.0, 0.0)),
+          std::pow(10.0, random.uniform(-12.0, 0.0)))
+          .asDiagonal() *
+        random_rotation(random);
+    }
+    for (int e = 0; e < 9; ++e)
+    {
+      s[e * count + k] = matrix(e / 3, e % 3);
+      r[e * count + k] = e % 4 == 0 ? 1.0 : 0.0;
+    }
+  }
+  fit_rotations(count, count, s.data(), r.data());
+  for (Index k = 0; k < count; ++k)
+  {
+    Eigen::Matrix3d matrix, rotation;
+    for (int e = 0; e < 9; ++e)
+    {
+      matrix(e / 3, e % 3) = s[e * count + k];
+      rotation(e / 3, e % 3) = r[e * count + k];
+    }
+    expect_best(matrix, rotation);
+  }
+}
+
+TEST(RotationFit, StretchedRotationsComeBackAsTheyWere)
+{
+  test::Random random(5);
+  for (int i = 0; i < 10000; ++i)
+  {
+    const Eigen::Matrix3d q = random_rotation(random);
+    const Eigen::Matrix3d a = random_rotation(random);
+    const Eigen::Matrix3d stretch = a *
+      Vec3(random.uniform(0.1, 2), random.uniform(0.1, 2), random.uniform(0.1, 2)).asDiagonal() *
+      a.transpose();
+    Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
+    fit_rotation(stretch * q.transpose(), r);
+    ASSERT_LT((r - q).cwiseAbs().maxCoeff(), 1e-12);
+  }
+}
+
+TEST(RotationFit, HalfTurnsAreFoundFromRest)
+{
+  for (const Vec3& axis : { Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1), Vec3(1, 2, 3) })
+  {
+    const Eigen::Matrix3d q = Eigen::AngleAxisd(EIGEN_PI, axis.normalized()).toRotationMatrix();
+    Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
+    fit_rotation(Vec3(1, 2, 3).asDiagonal() * q.transpose(), r);
+    EXPECT_LT((r - q).cwiseAbs().maxCoeff(), 1e-14);
+  }
+}
+
+TEST(RotationFit, ReflectionsGiveTheBestRotation)
+{
+  test::Random random(7);
+  for (int i = 0; i < 1000; ++i)
+  {
+    Eigen::Matrix3d s = random_rotation(random) * Vec3(3, 2, -1).asDiagonal();
+    Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
+    fit_rotation(s, r);
+    expect_best(s, r);
+    // Two equal sizes: a circle of best rotations. All three equal: a sphere.
+    s = random_rotation(random) * Vec3(3, 1, -1).asDiagonal();
+    fit_rotation(s, r);
+    expect_best(s, r);
+    fit_rotation(-random_rotation(random), r);
+    ASSERT_NEAR(r.determinant(), 1.0, 1e-13);
+  }
+}
+
+TEST(RotationFit, NothingToGoByKeepsThePreviousRotation)
+{
+  test::Random random(9);
+  const Eigen::Matrix3d before = random_rotation(random);
+  Eigen::Matrix3d r = before;
+  fit_rotation(Eigen::Matrix3d::Zero(), r);
+  EXPECT_EQ(r, before);
+  Eigen::Matrix3d broken = Eigen::Matrix3d::Identity();
+  broken(1, 2) = std::nan("");
+  fit_rotation(broken, r);
+  EXPECT_EQ(r, before);
+}
+
+TEST(RotationFit, RankOneTakesTheNearestOfTheBest)
+{
+  test::Random random(11);
+  for (int i = 0; i < 1000; ++i)
+  {
+    const Eigen::Matrix3d before = random_rotation(random);
+    const Vec3 rest = random.in_box(-Vec3::Ones(), Vec3::Ones());
+    // The previous rotation is among the best: it stays.
+    Eigen::Matrix3d r = before;
+    fit_rotation(rest * (before * rest).transpose(), r);
+    ASSERT_LT((r - before).cwiseAbs().maxCoeff(), 1e-12);
+    // It is not: the nearest of the best is the minimal arc from where the previous took the edge.
+    const Vec3 posed = random.in_box(-Vec3::Ones(), Vec3::Ones());
+    fit_rotation(rest * posed.transpose(), r);
+    expect_best(rest * posed.transpose(), r);
+    const Eigen::Quaterniond arc = Eigen::Quaterniond::FromTwoVectors(before * rest, posed);
+    ASSERT_LT((r - arc * before).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+TEST(RotationFit, BatchesAndSinglesAgreeToTheBit)
+{
+  test::Random random(13);
+  constexpr Index count = 29, stride = 31;
+  std::vector<double> s(9 * stride), r(9 * stride, 0.0);
+  for (Index k = 0; k < count; ++k)
+  {
+    const Eigen::Matrix3d matrix = random_matrix(random);
+    for (int e = 0; e < 9; ++e)
+    {
+      s[e * stride + k] = matrix(e / 3, e % 3);
+    }
+  }
+  fit_rotations(count, stride, s.data(), r.data());
+  for (Index k = 0; k < count; ++k)
+  {
+    Eigen::Matrix3d matrix, single = Eigen::Matrix3d::Identity();
+    for (int e = 0; e < 9; ++e)
+    {
+      matrix(e / 3, e % 3) = s[e * stride + k];
+    }
+    fit_rotation(matrix, single);
+    for (int e = 0; e < 9; ++e)
+    {
+      EXPECT_EQ(single(e / 3, e % 3), r[e * stride + k]);
+    }
+  }
+}

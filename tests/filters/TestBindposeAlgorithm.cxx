@@ -1,0 +1,404 @@
+// The contract that all filters share: report, failure, cancel, execute again.
+#include "TestFilter.h"
+
+#include "conversion.h"
+#include "report_field_data.h"
+#include "support/meshes.h"
+
+#include "vtkErrorCode.h"
+#include "vtkFieldData.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkSphereSource.h"
+#include "vtkTrivialProducer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <sstream>
+#include <thread>
+
+using namespace bindpose;
+using bindpose::test::Listener;
+using bindpose::test::TestFilter;
+using testing::HasSubstr;
+
+namespace
+{
+vtkSmartPointer<vtkPolyData> cube()
+{
+  const TriangleMesh mesh = test::cube();
+  return to_polydata(mesh.points, mesh.triangles);
+}
+
+Status fail(StatusCode code)
+{
+  return Status::failure(code, "the dog ate it");
+}
+} // namespace
+
+TEST(BindposeAlgorithm, ReportsOnTheOutput)
+{
+  vtkNew<TestFilter> filter;
+  vtkNew<Listener> listener;
+  listener->listen(filter);
+  filter->SetInputData(cube());
+  EXPECT_EQ(filter->GetReportJSON(), "{}");
+  filter->Work = [](vtkPolyData*, ExecutionContext& context)
+  {
+    const Phase phase(context, "solve");
+    Status status;
+    status.report.set("iterations", 7);
+    status.warnings.emplace_back("the input is old");
+    return status;
+  };
+  filter->Update();
+  EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::OK);
+  EXPECT_EQ(filter->GetStatusAsString(), "ok");
+  EXPECT_EQ(filter->GetStatusMessage(), "");
+  const Report report = read_report(filter->GetOutput());
+  EXPECT_EQ(report.text("status"), "ok");
+  EXPECT_EQ(report.number("iterations", 0), 7);
+  EXPECT_GE(report.number("seconds.solve", -1), 0.0);
+  EXPECT_GE(report.number("seconds.total", -1), report.number("seconds.solve", 0));
+  EXPECT_GT(report.number("peak_memory_bytes", 0), 1e6);
+  EXPECT_THAT(filter->GetReportJSON(), HasSubstr("\"iterations\""));
+  ASSERT_EQ(listener->warnings.size(), 1u);
+  EXPECT_THAT(listener->warnings[0], HasSubstr("the input is old"));
+  EXPECT_TRUE(listener->errors.empty());
+  EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 12);
+
+  std::ostringstream text;
+  filter->Print(text);
+  for (const char* word : { "NumberOfThreads: 0", "Status: ok", "StatusMessage:", "iterations" })
+  {
+    EXPECT_THAT(text.str(), HasSubstr(word));
+  }
+}
+
+TEST(BindposeAlgorithm, ExecutesOnlyWhenSomethingChanged)
+{
+  vtkNew<TestFilter> filter;
+  const auto input = cube();
+  filter->SetInputData(input);
+  filter->Update();
+  filter->Update();
+  EXPECT_EQ(filter->Executions, 1);
+  filter->SetNumberOfThreads(1); // results do not depend on it
+  EXPECT_EQ(filter->GetNumberOfThreads(), 1);
+  filter->Update();
+  EXPECT_EQ(filter->Executions, 1);
+  input->GetPoints()->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->Executions, 2);
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->Executions, 3);
+}
+
+TEST(BindposeAlgorithm, NotConvergedIsAResult)
+{
+  vtkNew<TestFilter> filter;
+  vtkNew<Listener> listener;
+  listener->listen(filter);
+  filter->SetInputData(cube());
+  filter->Work = [](vtkPolyData*, ExecutionContext&) { return fail(StatusCode::not_converged); };
+  filter->Update();
+  filter->Update();
+  EXPECT_EQ(filter->Executions, 1);
+  EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::NOT_CONVERGED);
+  EXPECT_EQ(filter->GetStatusMessage(), "the dog ate it");
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 12);
+  EXPECT_TRUE(listener->errors.empty());
+}
+
+TEST(BindposeAlgorithm, FailureEmptiesOutputsAndPassesOn)
+{
+  vtkNew<TestFilter> first;
+  vtkNew<TestFilter> second;
+  vtkNew<Listener> listener;
+  vtkNew<Listener> downstream;
+  listener->listen(first);
+  downstream->listen(second);
+  first->SetInputData(cube());
+  second->SetInputConnection(first->GetOutputPort());
+  second->Update();
+  EXPECT_EQ(second->GetOutput()->GetNumberOfCells(), 12);
+
+  for (const StatusCode code :
+    { StatusCode::invalid_input, StatusCode::unavailable, StatusCode::internal_error })
+  {
+    listener->errors.clear();
+    downstream->errors.clear();
+    first->Executions = second->Executions = 0;
+    first->Work = [code](vtkPolyData*, ExecutionContext&) { return fail(code); };
+    first->Modified();
+    second->Update();
+    EXPECT_EQ(first->Executions, 1);
+    EXPECT_EQ(second->Executions, 0) << "nothing to work on";
+    EXPECT_EQ(first->GetStatus(), static_cast<int>(code));
+    EXPECT_EQ(second->GetStatus(), static_cast<int>(code));
+    EXPECT_EQ(second->GetStatusMessage(), "the dog ate it");
+    for (vtkBindposeAlgorithm* filter : { first.Get(), second.Get() })
+    {
+      EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+      EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
+      EXPECT_EQ(read_report(filter->GetOutput()).text("status"), to_string(code));
+      EXPECT_EQ(read_report(filter->GetOutput()).text("message"), "the dog ate it");
+      EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError);
+    }
+    ASSERT_EQ(listener->errors.size(), 1u);
+    EXPECT_THAT(listener->errors[0], HasSubstr("the dog ate it"));
+    EXPECT_EQ(downstream->errors.size(), 1u);
+
+    // Nothing changed, but a failure is tried again …
+    second->Update();
+    EXPECT_EQ(first->Executions, 2);
+  }
+  // … and nothing of it stays once it works.
+  first->Work = nullptr;
+  second->Update();
+  EXPECT_EQ(first->GetStatus(), vtkBindposeAlgorithm::OK);
+  EXPECT_EQ(second->GetStatus(), vtkBindposeAlgorithm::OK);
+  EXPECT_EQ(second->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_EQ(second->GetOutput()->GetNumberOfCells(), 12);
+  EXPECT_EQ(read_report(second->GetOutput()).text("status"), "ok");
+  first->Executions = second->Executions = 0;
+  second->Update();
+  EXPECT_EQ(first->Executions + second->Executions, 0);
+}
+
+TEST(BindposeAlgorithm, ExceptionsAreInternalErrors)
+{
+  vtkNew<TestFilter> filter;
+  vtkNew<Listener> listener;
+  listener->listen(filter);
+  filter->SetInputData(cube());
+  filter->Work = [](vtkPolyData*, ExecutionContext&) -> Status
+  { throw std::runtime_error("bad luck"); };
+  filter->Update();
+  EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::INTERNAL_ERROR);
+  EXPECT_EQ(filter->GetStatusMessage(), "bad luck");
+  filter->Work = [](vtkPolyData*, ExecutionContext&) -> Status { throw std::bad_alloc(); };
+  filter->Update();
+  EXPECT_EQ(filter->GetStatusMessage(), "out of memory");
+  filter->Work = [](vtkPolyData*, ExecutionContext&) -> Status { throw 5; };
+  filter->Update();
+  EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::INTERNAL_ERROR);
+  EXPECT_FALSE(filter->GetStatusMessage().empty());
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_EQ(listener->errors.size(), 3u);
+}
+
+TEST(BindposeAlgorithm, ObserverCancelsAndTheNextUpdateExecutesAgain)
+{
+  vtkNew<TestFilter> first;
+  vtkNew<TestFilter> second;
+  vtkNew<Listener> listener;
+  vtkNew<Listener> downstream;
+  listener->listen(first);
+  downstream->listen(second);
+  first->SetInputData(cube());
+  second->SetInputConnection(first->GetOutputPort());
+  first->Work = [](vtkPolyData*, ExecutionContext& context)
+  {
+    const Phase phase(context, "count");
+    for (int i = 0; i < 500; ++i)
+    {
+      if (context.cancelled())
+      {
+        return Status::cancelled();
+      }
+      context.progress(i / 500.0);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    return Status();
+  };
+  listener->on_progress = [&](vtkAlgorithm* algorithm)
+  {
+    if (algorithm->GetProgress() > 0.1)
+    {
+      algorithm->SetAbortExecute(1);
+    }
+  };
+  second->Update();
+  EXPECT_EQ(first->GetStatus(), vtkBindposeAlgorithm::CANCELLED);
+  EXPECT_EQ(second->GetStatus(), vtkBindposeAlgorithm::CANCELLED);
+  EXPECT_EQ(first->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_EQ(read_report(second->GetOutput()).text("status"), "cancelled");
+  EXPECT_TRUE(listener->errors.empty()) << "a wish is no error";
+  EXPECT_TRUE(downstream->errors.empty());
+  EXPECT_EQ(first->GetErrorCode(), vtkErrorCode::NoError);
+  EXPECT_THAT(listener->phases, testing::Contains("count"));
+
+  listener->on_progress = nullptr;
+  second->Update();
+  EXPECT_EQ(first->Executions, 2);
+  EXPECT_EQ(first->GetStatus(), vtkBindposeAlgorithm::OK);
+  EXPECT_EQ(second->GetOutput()->GetNumberOfCells(), 12);
+  second->Update();
+  EXPECT_EQ(first->Executions, 2);
+}
+
+TEST(BindposeAlgorithm, AnotherThreadCancelsInTime)
+{
+  vtkNew<TestFilter> filter;
+  filter->SetInputData(cube());
+  std::atomic<bool> running{ false };
+  filter->Work = [&](vtkPolyData*, ExecutionContext& context)
+  {
+    running = true;
+    const auto start = std::chrono::steady_clock::now();
+    while (std::chrono::steady_clock::now() - start < std::chrono::seconds(20))
+    {
+      if (context.cancelled())
+      {
+        return Status::cancelled();
+      }
+    }
+    return Status();
+  };
+  std::chrono::steady_clock::time_point asked;
+  std::thread user(
+    [&]
+    {
+      while (!running)
+      {
+        std::this_thread::yield();
+      }
+      asked = std::chrono::steady_clock::now();
+      filter->SetAbortExecute(1);
+    });
+  filter->Update();
+  const auto ended = std::chrono::steady_clock::now();
+  user.join();
+  EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::CANCELLED);
+  EXPECT_LT(std::chrono::duration<double>(ended - asked).count(), 0.2);
+}
+
+TEST(BindposeAlgorithm, ReportsOfEarlierStagesAreReplaced)
+{
+  vtkNew<TestFilter> first;
+  vtkNew<TestFilter> second;
+  first->SetInputData(cube());
+  first->Work = [](vtkPolyData*, ExecutionContext&)
+  {
+    Status status;
+    status.report.set("iterations", 7);
+    return status;
+  };
+  second->SetInputConnection(first->GetOutputPort());
+  second->Update();
+  EXPECT_EQ(read_report(first->GetOutput()).number("iterations", -1), 7);
+  EXPECT_EQ(read_report(second->GetOutput()).number("iterations", -1), -1)
+    << "the key does not apply to the second";
+}
+
+TEST(BindposeAlgorithm, BlocksOfACompositeInput)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  for (unsigned int b = 0; b < 3; ++b)
+  {
+    blocks->SetBlock(b, cube());
+  }
+  vtkNew<TestFilter> filter;
+  vtkNew<Listener> listener;
+  listener->listen(filter);
+  filter->SetInputDataObject(0, blocks);
+  filter->Update();
+  EXPECT_EQ(filter->Executions, 3);
+  EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::OK);
+  auto* output = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  ASSERT_NE(output, nullptr);
+  ASSERT_EQ(output->GetNumberOfBlocks(), 3u);
+  for (unsigned int b = 0; b < 3; ++b)
+  {
+    auto* block = vtkPolyData::SafeDownCast(output->GetBlock(b));
+    ASSERT_NE(block, nullptr);
+    EXPECT_EQ(block->GetNumberOfCells(), 12);
+    EXPECT_EQ(read_report(block).text("status"), "ok");
+  }
+
+  // The middle one fails: it is empty and says why, the others are there, the filter has failed.
+  filter->Executions = 0;
+  filter->Work = [&](vtkPolyData*, ExecutionContext&)
+  { return filter->Executions == 2 ? fail(StatusCode::invalid_input) : Status(); };
+  filter->Modified();
+  filter->Update();
+  EXPECT_EQ(filter->Executions, 3);
+  EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
+  EXPECT_EQ(filter->GetErrorCode(), vtkErrorCode::UserError);
+  EXPECT_EQ(listener->errors.size(), 1u);
+  output = vtkMultiBlockDataSet::SafeDownCast(filter->GetOutputDataObject(0));
+  for (unsigned int b = 0; b < 3; ++b)
+  {
+    auto* block = vtkPolyData::SafeDownCast(output->GetBlock(b));
+    EXPECT_EQ(block->GetNumberOfCells(), b == 1 ? 0 : 12);
+    EXPECT_EQ(read_report(block).text("status"), b == 1 ? "invalid_input" : "ok");
+  }
+
+  // Cancelled in the second: the third is not begun, and the next Update() does all of them.
+  filter->Executions = 0;
+  filter->Work = [&](vtkPolyData*, ExecutionContext& context)
+  {
+    if (filter->Executions == 2)
+    {
+      filter->SetAbortExecute(1);
+    }
+    return context.cancelled() ? Status::cancelled() : Status();
+  };
+  filter->Update();
+  EXPECT_EQ(filter->Executions, 2);
+  EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::CANCELLED);
+  filter->Executions = 0;
+  filter->Work = nullptr;
+  filter->Update();
+  EXPECT_EQ(filter->Executions, 3);
+  EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::OK);
+}
+
+TEST(BindposeAlgorithm, CancelledCompositesPassOn)
+{
+  vtkNew<vtkMultiBlockDataSet> blocks;
+  blocks->SetBlock(0, cube());
+  blocks->SetBlock(1, cube());
+  vtkNew<TestFilter> first;
+  vtkNew<TestFilter> second;
+  vtkNew<Listener> listener;
+  vtkNew<Listener> downstream;
+  listener->listen(first);
+  downstream->listen(second);
+  first->SetInputDataObject(0, blocks);
+  second->SetInputConnection(first->GetOutputPort());
+  first->Work = [](vtkPolyData*, ExecutionContext&) { return fail(StatusCode::invalid_input); };
+  second->Update();
+  EXPECT_EQ(first->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
+  EXPECT_EQ(second->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
+  EXPECT_EQ(second->Executions, 0);
+  first->Work = nullptr;
+  second->Update();
+  EXPECT_EQ(second->Executions, 2);
+  EXPECT_EQ(second->GetStatus(), vtkBindposeAlgorithm::OK);
+}
+
+TEST(BindposeAlgorithm, InputsThatAreMissingOrOfTheWrongKind)
+{
+  vtkNew<TestFilter> filter;
+  vtkNew<Listener> listener;
+  EXPECT_EQ(filter->GetInput(), nullptr);
+  filter->SetInputData(cube());
+  EXPECT_EQ(filter->GetInput(), filter->GetInputDataObject(0, 0));
+  filter->SetInputData(nullptr);
+  EXPECT_EQ(filter->GetNumberOfInputConnections(0), 0);
+  vtkObject::GlobalWarningDisplayOff(); // VTK's executive complains, which is right
+  filter->Update();
+  vtkObject::GlobalWarningDisplayOn();
+  EXPECT_EQ(filter->Executions, 0);
+  filter->SetInputData(cube());
+  filter->Update();
+  EXPECT_EQ(filter->Executions, 1);
+}

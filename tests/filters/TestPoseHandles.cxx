@@ -1,0 +1,162 @@
+// A pose file becomes pose arrays; everything a bind depends on stays the input's own.
+#include "vtkPoseHandles.h"
+
+#include "conversion.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
+#include "vtkCommand.h"
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+
+using namespace bindpose;
+
+namespace
+{
+/// A point p and two bones in a row along y: b1 from 0 to 1, b2 from 1 to 2.
+vtkSmartPointer<vtkPolyData> arm()
+{
+  Handles handles(3);
+  handles[0].name = "p";
+  handles[0].head = handles[0].tail = Vec3(1, 0, 0);
+  handles[1].name = "b1";
+  handles[1].kind = HandleKind::bone;
+  handles[1].tail = Vec3(0, 1, 0);
+  handles[2].name = "b2";
+  handles[2].kind = HandleKind::bone;
+  handles[2].head = Vec3(0, 1, 0);
+  handles[2].tail = Vec3(0, 2, 0);
+  handles[2].parent = 1;
+  return to_polydata(handles);
+}
+
+Pose pose_of(vtkPolyData* data)
+{
+  Handles handles;
+  std::vector<Index> cells;
+  Pose pose;
+  EXPECT_TRUE(to_handles(data, handles, &cells).ok());
+  EXPECT_TRUE(to_pose(data, handles, cells, pose).ok());
+  return pose;
+}
+
+Vec3 moved(const Affine& t, const Vec3& p)
+{
+  return t.leftCols<3>() * p + t.col(3);
+}
+
+/// Updates and gives the error sentence, empty without one; nothing goes to the terminal.
+std::string update(vtkPoseHandles* filter)
+{
+  vtkNew<vtkCallbackCommand> keep;
+  std::string text;
+  keep->SetClientData(&text);
+  keep->SetCallback([](vtkObject*, unsigned long, void* client, void* data)
+    { *static_cast<std::string*>(client) = static_cast<const char*>(data); });
+  const unsigned long tag = filter->AddObserver(vtkCommand::ErrorEvent, keep);
+  filter->Update();
+  filter->RemoveObserver(tag);
+  return text;
+}
+} // namespace
+
+TEST(PoseHandles, WithoutAPoseTheInputPasses)
+{
+  vtkNew<vtkPoseHandles> filter;
+  filter->SetInputData(arm());
+  EXPECT_EQ(update(filter), "");
+  EXPECT_EQ(
+    pose_of(vtkPolyData::SafeDownCast(filter->GetOutput()))[2].transform, identity_affine());
+  EXPECT_EQ(filter->GetNumberOfFrames(), 1);
+}
+
+TEST(PoseHandles, AParentTakesItsChildAlongOnlyWhenAsked)
+{
+  const char* const turned = R"({"handles": {
+    "b1": {"rotate": {"axis": [0, 0, 1], "degrees": 90}},
+    "b2": {"space": "SPACE", "rotate": {"axis": [0, 0, 1], "degrees": 90}}}})";
+  for (const std::string space : { "parent", "world" })
+  {
+    std::string text = turned;
+    text.replace(text.find("SPACE"), 5, space);
+    vtkNew<vtkPoseHandles> filter;
+    filter->SetInputData(arm());
+    filter->SetPoseJSON(text);
+    ASSERT_EQ(update(filter), "");
+    const Pose pose = pose_of(vtkPolyData::SafeDownCast(filter->GetOutput()));
+    EXPECT_NEAR((moved(pose[1].transform, Vec3(0, 1, 0)) - Vec3(-1, 0, 0)).norm(), 0.0, 1e-15);
+    // Alone b2 turns about its own rest head; with its parent that head moves to (-1, 0, 0).
+    const Vec3 tip = space == "parent" ? Vec3(-1, -1, 0) : Vec3(-1, 1, 0);
+    EXPECT_NEAR((moved(pose[2].transform, Vec3(0, 2, 0)) - tip).norm(), 0.0, 1e-15) << space;
+  }
+}
+
+TEST(PoseHandles, FramesOfAFile)
+{
+  const std::string path = testing::TempDir() + "bindpose_frames.json";
+  std::ofstream(path) << R"({"fps": 12, "frames": [
+    {"handles": {"p": {"translate": [1, 0, 0]}}},
+    {"handles": {"p": {"mode": "position", "translate": [2, 0, 0]}}}]})";
+  vtkNew<vtkPoseHandles> filter;
+  filter->SetInputData(arm());
+  filter->SetFileName(path.c_str());
+  filter->SetFrame(1);
+  ASSERT_EQ(update(filter), "");
+  EXPECT_EQ(filter->GetNumberOfFrames(), 2);
+  EXPECT_EQ(filter->GetFramesPerSecond(), 12.0);
+  const Pose pose = pose_of(vtkPolyData::SafeDownCast(filter->GetOutput()));
+  EXPECT_EQ(pose[0].mode, HandleMode::position);
+  EXPECT_EQ(pose[0].transform(0, 3), 2.0);
+  filter->SetFrame(2);
+  const std::string error = update(filter);
+  EXPECT_NE(error.find("no frame 2"), std::string::npos) << error;
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  std::remove(path.c_str());
+  filter->SetFrame(0);
+  EXPECT_NE(update(filter).find("cannot be read"), std::string::npos);
+}
+
+TEST(PoseHandles, WhatABindDependsOnIsTheInputsOwn)
+{
+  const auto handles = arm();
+  vtkNew<vtkPoseHandles> filter;
+  filter->SetInputData(handles);
+  const auto before = bind_objects(handles);
+  for (int degrees = 0; degrees < 100; degrees += 7)
+  {
+    filter->SetPoseJSON(R"({"handles": {"b1": {"rotate": {"axis": [0, 0, 1], "degrees": )" +
+      std::to_string(degrees) + "}}}}");
+    ASSERT_EQ(update(filter), "");
+    EXPECT_EQ(bind_objects(vtkPolyData::SafeDownCast(filter->GetOutput())), before);
+  }
+}
+
+TEST(PoseHandles, WhatIsWrongIsNamed)
+{
+  const std::pair<const char*, const char*> cases[] = {
+    { R"({"handles": {"knee": {}}})", "knee" },
+    { R"({"handles": {"p": {"rotation": 3}}})", "rotation" },
+    { R"({"handles": {"p": {"translate": [1, 2]}}})", "translate" },
+    { R"({"handles": {"p": {"scale": 0}}})", "scale" },
+    { R"({"handles": {"p": {"mode": "loose"}}})", "mode must be" },
+    { R"({"handles": {"p": {"rotate": {"axis": [0, 0, 0], "degrees": 5}}}})", "axis" },
+    { R"({"handles": )", "" },
+  };
+  for (const auto& [text, word] : cases)
+  {
+    vtkNew<vtkPoseHandles> filter;
+    filter->SetInputData(arm());
+    filter->SetPoseJSON(text);
+    const std::string error = update(filter);
+    EXPECT_FALSE(error.empty()) << text;
+    EXPECT_NE(error.find(word), std::string::npos) << error;
+    EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
+    EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  }
+}

@@ -1,0 +1,281 @@
+// Skinning as a filter: identity, rigid motion and joints as the kernel promises, bind once, clear
+// errors.
+#include "vtkSkinningDeformation.h"
+
+#include "conversion.h"
+#include "vtkPoseHandles.h"
+
+#include "support/meshes.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
+#include "vtkCommand.h"
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataNormals.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace bindpose;
+
+namespace
+{
+/// Two bones along z that meet at the origin.
+vtkSmartPointer<vtkPolyData> two_bones()
+{
+  Handles handles(2);
+  handles[0].name = "lower";
+  handles[1].name = "upper";
+  for (int k = 0; k < 2; ++k)
+  {
+    handles[k].kind = HandleKind::bone;
+    handles[k].head = Vec3(0, 0, k - 1.0);
+    handles[k].tail = Vec3(0, 0, k);
+  }
+  return to_polydata(handles);
+}
+
+/// Weights that go linearly from the lower to the upper bone within |z| < 1/2; half and half at 0.
+vtkSmartPointer<vtkDoubleArray> weights_of(PointsView points)
+{
+  auto weights = vtkSmartPointer<vtkDoubleArray>::New();
+  weights->SetName("Weights");
+  weights->SetNumberOfComponents(2);
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    const double w = std::min(1.0, std::max(0.0, 0.5 + points(v, 2)));
+    const double row[2] = { 1.0 - w, w };
+    weights->InsertNextTuple(row);
+  }
+  return weights;
+}
+
+/// A tube of radius 1 around z from -1 to 1, with a ring of points at z = 0, weights and normals.
+vtkSmartPointer<vtkPolyData> tube()
+{
+  TriangleMesh mesh = test::grid(24, 8, 2.0 * std::acos(-1.0), 2.0);
+  for (Index v = 0; v < mesh.points.rows(); ++v)
+  {
+    const double angle = mesh.points(v, 0);
+    const double z = mesh.points(v, 1) - 1.0;
+    mesh.points.row(v) << std::cos(angle), std::sin(angle), z;
+  }
+  const auto data = to_polydata(mesh.points, mesh.triangles);
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData(data);
+  normals->SplittingOff();
+  normals->ConsistencyOff();
+  normals->Update();
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->ShallowCopy(normals->GetOutput());
+  result->GetPointData()->AddArray(weights_of(mesh.points));
+  return result;
+}
+
+std::string turn_upper(double degrees, const char* axis)
+{
+  return R"({"handles": {"upper": {"rotate": {"axis": )" + std::string(axis) + R"(, "degrees": )" +
+    std::to_string(degrees) + "}}}}";
+}
+
+class SkinningDeformation : public testing::Test
+{
+protected:
+  SkinningDeformation()
+  {
+    this->mesh = tube();
+    this->handles = two_bones();
+    this->pose->SetInputData(this->handles);
+    this->filter->SetInputData(0, this->mesh);
+    this->filter->SetInputConnection(1, this->pose->GetOutputPort());
+    vtkNew<vtkCallbackCommand> keep;
+    keep->SetClientData(&this->error);
+    keep->SetCallback([](vtkObject*, unsigned long, void* client, void* data)
+      { *static_cast<std::string*>(client) = static_cast<const char*>(data); });
+    this->filter->AddObserver(vtkCommand::ErrorEvent, keep);
+    this->filter->AddObserver(vtkCommand::WarningEvent, keep);
+  }
+
+  /// Largest distance from the axis over the ring of points at z = 0, where both weights are 1/2.
+  double ring_radius()
+  {
+    double radius = 0.0;
+    for (vtkIdType v = 0; v < this->mesh->GetNumberOfPoints(); ++v)
+    {
+      double rest[3];
+      double p[3];
+      this->mesh->GetPoint(v, rest);
+      this->filter->GetOutput()->GetPoint(v, p);
+      if (std::abs(rest[2]) < 1e-9)
+      {
+        radius = std::max(radius, std::hypot(p[0], p[1]));
+      }
+    }
+    return radius;
+  }
+
+  vtkSmartPointer<vtkPolyData> mesh;
+  vtkSmartPointer<vtkPolyData> handles;
+  vtkNew<vtkPoseHandles> pose;
+  vtkNew<vtkSkinningDeformation> filter;
+  std::string error;
+};
+} // namespace
+
+TEST_F(SkinningDeformation, RestStaysAtRestAndArraysAreShared)
+{
+  this->filter->Update();
+  vtkDataSet* output = this->filter->GetOutput();
+  ASSERT_EQ(output->GetNumberOfPoints(), this->mesh->GetNumberOfPoints());
+  for (vtkIdType v = 0; v < output->GetNumberOfPoints(); ++v)
+  {
+    double p[3];
+    double q[3];
+    output->GetPoint(v, p);
+    this->mesh->GetPoint(v, q);
+    EXPECT_EQ(Vec3(p[0], p[1], p[2]), Vec3(q[0], q[1], q[2]));
+  }
+  EXPECT_EQ(
+    output->GetPointData()->GetArray("Weights"), this->mesh->GetPointData()->GetArray("Weights"));
+  EXPECT_EQ(vtkPolyData::SafeDownCast(output)->GetPolys(), this->mesh->GetPolys());
+}
+
+TEST_F(SkinningDeformation, ATwistedJointShrinksUnderLinearBlendAndKeepsItsRadiusUnderDual)
+{
+  const std::pair<double, double> shrunk[] = { { 90.0, std::sqrt(0.5) }, { 120.0, 0.5 } };
+  for (const auto& [degrees, radius] : shrunk)
+  {
+    this->pose->SetPoseJSON(turn_upper(degrees, "[0, 0, 1]"));
+    this->filter->SetMethodToLinearBlend();
+    this->filter->Update();
+    EXPECT_NEAR(this->ring_radius(), radius, 1e-6); // the mesh's points are floats
+    this->filter->SetMethodToDualQuaternion();
+    this->filter->Update();
+    EXPECT_NEAR(this->ring_radius(), 1.0, 1e-6);
+  }
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
+}
+
+TEST_F(SkinningDeformation, NormalsTurnWithARigidMotion)
+{
+  for (const int method :
+    { vtkSkinningDeformation::LINEAR_BLEND, vtkSkinningDeformation::DUAL_QUATERNION })
+  {
+    this->filter->SetMethod(method);
+    this->handles->GetCellData()->GetArray("Parent")->SetComponent(1, 0, 0);
+    this->pose->SetPoseJSON(R"({"handles": {"lower": {"rotate": {"axis": [1, 0, 0], "degrees": 90}},
+      "upper": {"space": "parent", "translate": [0, 0, 0]}}})");
+    this->handles->GetCellData()->GetArray("Parent")->Modified();
+    this->handles->Modified();
+    this->filter->Update();
+    vtkDataArray* before = this->mesh->GetPointData()->GetNormals();
+    vtkDataArray* after = this->filter->GetOutput()->GetPointData()->GetNormals();
+    ASSERT_NE(before, after);
+    for (vtkIdType v = 0; v < before->GetNumberOfTuples(); v += 5)
+    {
+      double n[3];
+      double m[3];
+      before->GetTuple(v, n);
+      after->GetTuple(v, m);
+      EXPECT_NEAR(m[0], n[0], 1e-6);
+      EXPECT_NEAR(m[1], -n[2], 1e-6);
+      EXPECT_NEAR(m[2], n[1], 1e-6);
+    }
+  }
+}
+
+TEST_F(SkinningDeformation, AHundredDragsBindOnce)
+{
+  for (int k = 0; k < 100; ++k)
+  {
+    this->pose->SetPoseJSON(turn_upper(k, "[1, 0, 0]"));
+    this->filter->Update();
+  }
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
+  // Editing the transform in place, as a widget does, does not bind either.
+  this->filter->SetInputData(1, this->handles);
+  this->filter->Update();
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
+  vtkDataArray* transforms = this->handles->GetCellData()->GetArray("Transform");
+  for (int k = 0; k < 100; ++k)
+  {
+    transforms->SetComponent(1, 3, 0.01 * k);
+    transforms->Modified();
+    this->handles->Modified();
+    this->filter->Update();
+  }
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
+  double bounds[6];
+  this->filter->GetOutput()->GetBounds(bounds);
+  EXPECT_NEAR(bounds[1], 1.99, 1e-6);
+  // Other weights do.
+  this->mesh->GetPointData()->GetArray("Weights")->Modified();
+  this->mesh->Modified();
+  this->filter->Update();
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 2);
+}
+
+TEST_F(SkinningDeformation, TetsArePosedToo)
+{
+  const TetMesh box = test::tet_box(2, 2, 2, Vec3(-1, -1, -1), Vec3(1, 1, 1));
+  const auto grid = to_unstructured_grid(box.points, box.tets);
+  grid->GetPointData()->AddArray(weights_of(box.points));
+  this->filter->SetInputData(0, grid);
+  this->pose->SetPoseJSON(R"({"handles": {"lower": {"translate": [1, 2, 3]},
+    "upper": {"translate": [1, 2, 3]}}})");
+  this->filter->Update();
+  auto* output = vtkUnstructuredGrid::SafeDownCast(this->filter->GetOutput());
+  ASSERT_NE(output, nullptr);
+  EXPECT_EQ(output->GetNumberOfCells(), 48);
+  double p[3];
+  output->GetPoint(0, p);
+  EXPECT_NEAR((Vec3(p[0], p[1], p[2]) - Vec3(0, 1, 2)).norm(), 0.0, 1e-14);
+}
+
+TEST_F(SkinningDeformation, WhatDoesNotFitIsNamed)
+{
+  const auto fails_with = [this](const std::string& words)
+  {
+    this->error.clear();
+    this->filter->Update();
+    EXPECT_NE(this->error.find(words), std::string::npos) << this->error;
+    EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
+    EXPECT_EQ(this->filter->GetOutput()->GetNumberOfPoints(), 0);
+  };
+  this->filter->SetArrayName("W");
+  fails_with("no point array 'W'");
+  this->filter->SetArrayName("Weights");
+
+  Handles one(1);
+  one[0].name = "only";
+  const auto single = to_polydata(one);
+  this->filter->SetInputData(1, single);
+  fails_with("2 components, but there are 1 handles");
+  this->filter->SetInputConnection(1, this->pose->GetOutputPort());
+
+  vtkDataArray* weights = this->mesh->GetPointData()->GetArray("Weights");
+  weights->SetComponent(3, 0, std::nan(""));
+  weights->Modified();
+  this->mesh->Modified();
+  fails_with("vertex 3");
+  weights->SetComponent(3, 0, 5.0);
+  weights->Modified();
+  this->mesh->Modified();
+  this->error.clear();
+  this->filter->Update();
+  EXPECT_NE(this->error.find("do not sum to one"), std::string::npos) << this->error;
+  EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::OK);
+}
+
+TEST_F(SkinningDeformation, AFreeHandleIsNamedInAWarning)
+{
+  this->pose->SetPoseJSON(R"({"handles": {"upper": {"mode": "free"}}})");
+  this->filter->Update();
+  EXPECT_NE(this->error.find("upper"), std::string::npos) << this->error;
+  EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::OK);
+}

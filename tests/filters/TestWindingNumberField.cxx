@@ -1,0 +1,558 @@
+// The field on grids and at points, as the pipeline asks for it.
+#include "TestFilter.h"
+
+#include "conversion.h"
+#include "inside/winding_number.h"
+#include "report_field_data.h"
+#include "support/meshes.h"
+#include "vtkWindingNumberField.h"
+
+#include "vtkCellArray.h"
+#include "vtkContourFilter.h"
+#include "vtkDoubleArray.h"
+#include "vtkErrorCode.h"
+#include "vtkImageData.h"
+#include "vtkMultiBlockDataSet.h"
+#include "vtkNew.h"
+#include "vtkPlaneSource.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkSphereSource.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <limits>
+#include <sstream>
+
+using namespace bindpose;
+using bindpose::test::Listener;
+using bindpose::test::TestFilter;
+using testing::HasSubstr;
+
+namespace
+{
+vtkSmartPointer<vtkPolyData> data_of(const TriangleMesh& mesh)
+{
+  return to_polydata(mesh.points, mesh.triangles);
+}
+
+vtkImageData* image_of(vtkWindingNumberField* field)
+{
+  return vtkImageData::SafeDownCast(field->GetOutput());
+}
+
+vtkDoubleArray* array_of(vtkDataSet* data)
+{
+  return data ? vtkDoubleArray::SafeDownCast(data->GetPointData()->GetArray("WindingNumber"))
+              : nullptr;
+}
+} // namespace
+
+TEST(WindingNumberField, GridCoversThePaddedBounds)
+{
+  vtkNew<vtkWindingNumberField> field;
+  TriangleMesh mesh = test::cube();
+  mesh.points.col(0) *= 2.0; // 4 x 2 x 2
+  mesh.points.conservativeResize(9, 3);
+  mesh.points.row(8) << 100, 100, 100; // nobody uses it
+  field->SetInputData(data_of(mesh));
+  field->SetSamplesAlongLongestSide(41);
+  field->Update();
+  vtkImageData* image = image_of(field);
+  ASSERT_NE(image, nullptr);
+  const double padding = 0.1 * std::sqrt(24.0);
+  const double spacing = (4.0 + 2.0 * padding) / 40.0;
+  int dimensions[3];
+  image->GetDimensions(dimensions);
+  EXPECT_EQ(dimensions[0], 41);
+  EXPECT_EQ(dimensions[1], static_cast<int>(std::ceil((2.0 + 2.0 * padding) / spacing)) + 1);
+  EXPECT_EQ(dimensions[2], dimensions[1]);
+  double bounds[6];
+  image->GetBounds(bounds);
+  for (int k = 0; k < 3; ++k)
+  {
+    EXPECT_NEAR(image->GetSpacing()[k], spacing, 1e-14);
+    EXPECT_LE(bounds[2 * k], (k == 0 ? -2.0 : -1.0) - padding + 1e-12);
+    EXPECT_GE(bounds[2 * k + 1], (k == 0 ? 2.0 : 1.0) + padding - 1e-12);
+    EXPECT_NEAR(bounds[2 * k] + bounds[2 * k + 1], 0.0, 1e-12) << "centred";
+  }
+  vtkDoubleArray* values = array_of(image);
+  ASSERT_NE(values, nullptr);
+  EXPECT_EQ(image->GetPointData()->GetScalars(), values);
+  ASSERT_EQ(values->GetNumberOfTuples(), image->GetNumberOfPoints());
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    double p[3];
+    image->GetPoint(i, p);
+    const Vec3 in(0.5 * p[0], p[1], p[2]);
+    const double distance = in.cwiseAbs().maxCoeff() - 1.0;
+    if (std::abs(distance) > 1e-9)
+    {
+      ASSERT_NEAR(values->GetValue(i), distance < 0.0 ? 1.0 : 0.0, 1e-12);
+    }
+  }
+  const Report report = read_report(image);
+  EXPECT_EQ(report.text("status"), "ok");
+  EXPECT_EQ(report.number("counts.triangles", 0), 12);
+  EXPECT_EQ(report.number("counts.vertices", 0), 9);
+  EXPECT_EQ(report.number("counts.boundary_edges", -1), 0);
+  EXPECT_EQ(report.number("counts.components", -1), 1);
+  EXPECT_EQ(report.number("counts.queries", -1), image->GetNumberOfPoints());
+  EXPECT_NEAR(report.number("volume", 0), 16.0, 1e-12);
+  // A sum over samples is the volume up to one layer of voxels.
+  EXPECT_NEAR(report.number("winding_volume", 0), 16.0, 40.0 * spacing);
+  EXPECT_GE(report.number("seconds.build", -1), 0.0);
+  EXPECT_GT(report.number("seconds.evaluate", -1), 0.0);
+  EXPECT_FALSE(report.text("method").empty());
+  EXPECT_FALSE(report.text("method_reason").empty());
+}
+
+TEST(WindingNumberField, DimensionsAndBoundsAsAskedFor)
+{
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputData(data_of(test::cube()));
+  field->SetDimensions(5, 9, 3);
+  field->SetBounds(0, 4, 0, 4, 0, 4);
+  field->Update();
+  vtkImageData* image = image_of(field);
+  int dimensions[3];
+  image->GetDimensions(dimensions);
+  EXPECT_THAT(dimensions, testing::ElementsAre(5, 9, 3));
+  EXPECT_THAT(std::vector<double>(image->GetSpacing(), image->GetSpacing() + 3),
+    testing::ElementsAre(1.0, 0.5, 2.0));
+  EXPECT_THAT(std::vector<double>(image->GetOrigin(), image->GetOrigin() + 3),
+    testing::ElementsAre(0.0, 0.0, 0.0));
+  EXPECT_NEAR(array_of(image)->GetValue(0), 1.0, 1e-15);
+  EXPECT_EQ(array_of(image)->GetValue(1), 0.5) << "on a face";
+
+  field->SetBounds(1, 0, 1, 0, 1, 0); // none: cubic voxels around the surface
+  field->SetDimensions(11, 21, 11);
+  field->Update();
+  image = image_of(field);
+  EXPECT_EQ(image->GetSpacing()[0], image->GetSpacing()[1]);
+  EXPECT_LE(image->GetBounds()[0], -1.0);
+  EXPECT_LE(image->GetBounds()[2], image->GetBounds()[0]);
+
+  field->SetBounds(-1, 1, -1, 1, 0.25, 0.25); // one slice
+  field->SetDimensions(3, 3, 1);
+  field->Update();
+  image = image_of(field);
+  EXPECT_EQ(image->GetNumberOfPoints(), 9);
+  EXPECT_DOUBLE_EQ(image->GetOrigin()[2], 0.25);
+  EXPECT_NEAR(array_of(image)->GetValue(4), 1.0, 1e-15);
+  EXPECT_EQ(read_report(image).find("winding_volume"), nullptr);
+}
+
+TEST(WindingNumberField, SubExtentsHaveTheSameBits)
+{
+  vtkNew<vtkSphereSource> sphere; // a real upstream pipeline
+  sphere->SetThetaResolution(24);
+  sphere->SetPhiResolution(16);
+  sphere->SetEndTheta(300.0); // open
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputConnection(sphere->GetOutputPort());
+  field->SetSamplesAlongLongestSide(20);
+  field->UpdateInformation();
+  vtkInformation* info = field->GetOutputInformation(0);
+  int whole[6];
+  info->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
+  EXPECT_EQ(info->Get(vtkAlgorithm::CAN_PRODUCE_SUB_EXTENT()), 1);
+  ASSERT_EQ(*std::max_element(whole, whole + 6), 19);
+  field->Update();
+  vtkNew<vtkImageData> all;
+  all->DeepCopy(image_of(field));
+  EXPECT_THAT(
+    std::vector<int>(all->GetExtent(), all->GetExtent() + 6), testing::ElementsAreArray(whole));
+  EXPECT_NE(read_report(all).find("winding_volume"), nullptr);
+
+  vtkNew<vtkWindingNumberField> other;
+  other->SetInputConnection(sphere->GetOutputPort());
+  other->SetSamplesAlongLongestSide(20);
+  for (const std::array<int, 6>& part :
+    { std::array<int, 6>{ 0, 5, 0, 19, 3, 4 }, std::array<int, 6>{ 7, 7, 2, 11, 0, whole[5] } })
+  {
+    int extent[6];
+    std::copy(part.begin(), part.end(), extent);
+    other->UpdateExtent(extent);
+    vtkImageData* image = image_of(other);
+    ASSERT_THAT(std::vector<int>(image->GetExtent(), image->GetExtent() + 6),
+      testing::ElementsAreArray(part));
+    vtkDoubleArray* values = array_of(image);
+    ASSERT_EQ(values->GetNumberOfTuples(), image->GetNumberOfPoints());
+    for (int k = part[4]; k <= part[5]; ++k)
+    {
+      for (int j = part[2]; j <= part[3]; ++j)
+      {
+        for (int i = part[0]; i <= part[1]; ++i)
+        {
+          int at[3] = { i, j, k };
+          ASSERT_EQ(values->GetValue(image->ComputePointId(at)),
+            array_of(all)->GetValue(all->ComputePointId(at)));
+        }
+      }
+    }
+    EXPECT_EQ(read_report(image).find("winding_volume"), nullptr) << "only of the whole";
+  }
+  // Pieces, as filters with unstructured output ask for them.
+  vtkNew<vtkContourFilter> contour;
+  contour->SetInputConnection(other->GetOutputPort());
+  contour->SetValue(0, 0.5);
+  vtkIdType points = 0;
+  for (int piece = 0; piece < 2; ++piece)
+  {
+    contour->UpdatePiece(piece, 2, 0);
+    EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), 0);
+    EXPECT_GT(image_of(other)->GetNumberOfPoints(), 0);
+    EXPECT_LT(image_of(other)->GetNumberOfPoints(), all->GetNumberOfPoints());
+    points += image_of(other)->GetNumberOfPoints();
+  }
+  EXPECT_GE(points, all->GetNumberOfPoints()); // pieces share a plane of points
+}
+
+TEST(WindingNumberField, PointsOfAnyDataset)
+{
+  const TriangleMesh mesh = test::open_cube();
+  const TetMesh box = test::tet_box(4, 4, 4, Vec3::Constant(-0.8), Vec3::Constant(0.8));
+  const auto tets = to_unstructured_grid(box.points, box.tets);
+  vtkNew<vtkDoubleArray> ids;
+  ids->SetName("Height");
+  for (vtkIdType v = 0; v < tets->GetNumberOfPoints(); ++v)
+  {
+    ids->InsertNextValue(tets->GetPoint(v)[2]);
+  }
+  tets->GetPointData()->AddArray(ids);
+
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputData(data_of(mesh));
+  field->SetPointsData(tets);
+  field->Update();
+  auto* result = vtkUnstructuredGrid::SafeDownCast(field->GetOutput());
+  ASSERT_NE(result, nullptr);
+  EXPECT_EQ(result->GetNumberOfCells(), tets->GetNumberOfCells());
+  EXPECT_EQ(result->GetPointData()->GetArray("Height"), ids.Get());
+  ASSERT_NE(array_of(result), nullptr);
+  for (Index v = 0; v < box.points.rows(); ++v)
+  {
+    EXPECT_NEAR(array_of(result)->GetValue(v),
+      winding_number_direct(mesh.points, mesh.triangles, box.points.row(v)), 1e-12);
+  }
+  EXPECT_EQ(read_report(result).find("winding_volume"), nullptr);
+  EXPECT_EQ(tets->GetPointData()->GetArray("WindingNumber"), nullptr) << "input untouched";
+
+  // An image as points: its extents are honoured, too.
+  vtkNew<vtkImageData> image;
+  image->SetExtent(2, 6, 0, 4, -3, 3);
+  image->SetOrigin(-1.0, -0.7, 0.1);
+  image->SetSpacing(0.3, 0.3, 0.3);
+  field->SetPointsData(image);
+  field->Update();
+  auto* as_image = vtkImageData::SafeDownCast(field->GetOutput());
+  ASSERT_NE(as_image, nullptr);
+  EXPECT_THAT(std::vector<int>(as_image->GetExtent(), as_image->GetExtent() + 6),
+    testing::ElementsAre(2, 6, 0, 4, -3, 3));
+  ASSERT_EQ(array_of(as_image)->GetNumberOfTuples(), 5 * 5 * 7);
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    EXPECT_NEAR(array_of(as_image)->GetValue(i),
+      winding_number_direct(mesh.points, mesh.triangles, Vec3(image->GetPoint(i))), 1e-12);
+  }
+
+  // And back to a grid.
+  field->SetInputConnection(1, nullptr);
+  field->SetSamplesAlongLongestSide(8);
+  field->Update();
+  ASSERT_NE(image_of(field), nullptr);
+  EXPECT_EQ(image_of(field)->GetDimensions()[0], 8);
+}
+
+TEST(WindingNumberField, PointsThatAreNotFiniteAreCounted)
+{
+  vtkNew<vtkPolyData> points;
+  vtkNew<vtkPoints> coordinates;
+  coordinates->InsertNextPoint(0, 0, 0);
+  coordinates->InsertNextPoint(std::numeric_limits<float>::quiet_NaN(), 0, 0);
+  points->SetPoints(coordinates);
+  vtkNew<vtkWindingNumberField> field;
+  vtkNew<Listener> listener;
+  listener->listen(field);
+  field->SetInputData(data_of(test::cube()));
+  field->SetPointsData(points);
+  field->Update();
+  EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK);
+  EXPECT_NEAR(array_of(field->GetOutput())->GetValue(0), 1.0, 1e-15);
+  EXPECT_TRUE(std::isnan(array_of(field->GetOutput())->GetValue(1)));
+  EXPECT_EQ(read_report(field->GetOutput()).number("counts.not_finite", 0), 1);
+  ASSERT_EQ(listener->warnings.size(), 1u);
+}
+
+TEST(WindingNumberField, QuadsStripsAndOtherCells)
+{
+  // A cube of six quads, one of them upside down, and a line that is ignored.
+  const TriangleMesh mesh = test::cube();
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(to_vtk_points(mesh.points));
+  vtkNew<vtkCellArray> polys;
+  const vtkIdType quads[6][4] = { { 0, 4, 6, 2 }, { 1, 3, 7, 5 }, { 0, 1, 5, 4 }, { 2, 6, 7, 3 },
+    { 0, 2, 3, 1 }, { 4, 5, 7, 6 } };
+  for (const auto& quad : quads)
+  {
+    polys->InsertNextCell(4, quad);
+  }
+  vtkNew<vtkCellArray> lines;
+  const vtkIdType ends[2] = { 0, 7 };
+  lines->InsertNextCell(2, ends);
+  data->SetPolys(polys);
+  data->SetLines(lines);
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputData(data);
+  field->SetDimensions(1, 1, 1);
+  field->Update();
+  ASSERT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK) << field->GetStatusMessage();
+  ASSERT_EQ(image_of(field)->GetNumberOfPoints(), 1);
+  EXPECT_NEAR(array_of(image_of(field))->GetValue(0), 1.0, 1e-15);
+  const Report report = read_report(field->GetOutput());
+  EXPECT_EQ(report.number("counts.triangulated_cells", 0), 6);
+  EXPECT_EQ(report.number("counts.ignored_cells", 0), 1);
+  EXPECT_EQ(report.number("counts.triangles", 0), 12);
+}
+
+TEST(WindingNumberField, ExecutesOnlyWhenSomethingChanged)
+{
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkWindingNumberField> field;
+  vtkNew<Listener> upstream;
+  vtkNew<Listener> listener;
+  upstream->listen(sphere);
+  listener->listen(field);
+  field->SetInputConnection(sphere->GetOutputPort());
+  field->SetSamplesAlongLongestSide(8);
+  field->Update();
+  EXPECT_EQ(listener->starts, 1);
+  EXPECT_EQ(upstream->starts, 1) << "asking for its bounds must not execute it twice";
+  field->Update();
+  field->UpdateInformation();
+  field->Update();
+  EXPECT_EQ(listener->starts, 1);
+  field->SetSamplesAlongLongestSide(8); // the same
+  field->SetNumberOfThreads(1);
+  field->Update();
+  EXPECT_EQ(listener->starts, 1);
+  field->SetPadding(0.2);
+  field->Update();
+  EXPECT_EQ(listener->starts, 2);
+  EXPECT_EQ(upstream->starts, 1);
+  // The surface grows: so does the grid.
+  const double before = image_of(field)->GetLength();
+  sphere->SetRadius(2.0 * sphere->GetRadius());
+  field->Update();
+  EXPECT_EQ(listener->starts, 3);
+  EXPECT_EQ(upstream->starts, 2);
+  EXPECT_NEAR(image_of(field)->GetLength(), 2.0 * before, 1e-6);
+}
+
+TEST(WindingNumberField, AbortFromAnObserverThenAgain)
+{
+  vtkNew<vtkWindingNumberField> field;
+  vtkNew<Listener> listener;
+  listener->listen(field);
+  field->SetInputData(data_of(test::open_cube()));
+  field->SetSamplesAlongLongestSide(200);
+  field->SetNumberOfThreads(1);
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point asked{};
+  listener->on_progress = [&](vtkAlgorithm* algorithm)
+  {
+    if (algorithm->GetProgress() > 0.25 && asked == Clock::time_point())
+    {
+      asked = Clock::now();
+      algorithm->SetAbortExecute(1);
+    }
+  };
+  field->Update();
+  ASSERT_NE(asked, Clock::time_point()) << "it was faster than its progress";
+  EXPECT_LT(std::chrono::duration<double>(Clock::now() - asked).count(), 0.2);
+  EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::CANCELLED);
+  EXPECT_EQ(field->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(array_of(field->GetOutput()), nullptr);
+  EXPECT_EQ(read_report(field->GetOutput()).text("status"), "cancelled");
+  EXPECT_TRUE(listener->errors.empty());
+  EXPECT_TRUE(std::is_sorted(listener->progress.begin(), listener->progress.end() - 1));
+  EXPECT_THAT(listener->phases, testing::Contains("build"));
+  EXPECT_THAT(listener->phases, testing::Contains("evaluate"));
+
+  listener->on_progress = nullptr;
+  const int starts = listener->starts;
+  field->SetSamplesAlongLongestSide(20);
+  field->Update();
+  EXPECT_EQ(listener->starts, starts + 1);
+  EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK);
+  EXPECT_EQ(image_of(field)->GetDimensions()[0], 20);
+  EXPECT_EQ(array_of(image_of(field))->GetNumberOfTuples(), 20 * 20 * 20);
+}
+
+TEST(WindingNumberField, BadSurfacesFailCleanlyForTheWholeChain)
+{
+  const TriangleMesh cube = test::cube();
+  vtkNew<vtkPolyData> empty;
+  vtkNew<vtkPolyData> no_triangles; // points and a line
+  no_triangles->SetPoints(to_vtk_points(cube.points));
+  vtkNew<vtkCellArray> lines;
+  const vtkIdType ends[2] = { 0, 7 };
+  lines->InsertNextCell(2, ends);
+  no_triangles->SetLines(lines);
+  TriangleMesh nan = cube;
+  nan.points(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  TriangleMesh far_id = cube;
+  far_id.triangles(0, 0) = 99;
+  const std::vector<std::pair<vtkSmartPointer<vtkPolyData>, std::string>> cases{
+    { empty.Get(), "empty" }, { no_triangles.Get(), "no triangles" }, { data_of(nan), "vertex 3" },
+    { data_of(far_id), "vertex 99" }
+  };
+  for (const bool first_good : { false, true })
+  {
+    for (const auto& [bad, word] : cases)
+    {
+      vtkNew<vtkWindingNumberField> field;
+      vtkNew<TestFilter> next;
+      vtkNew<vtkContourFilter> contour;
+      vtkNew<Listener> listener;
+      vtkNew<Listener> downstream;
+      listener->listen(field);
+      downstream->listen(next);
+      field->SetSamplesAlongLongestSide(12);
+      next->SetInputConnection(field->GetOutputPort());
+      contour->SetInputConnection(field->GetOutputPort());
+      contour->SetValue(0, 0.5);
+      if (first_good)
+      {
+        field->SetInputData(data_of(cube));
+        next->Update();
+        contour->Update();
+        EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), 0);
+        EXPECT_EQ(next->GetStatus(), vtkBindposeAlgorithm::OK);
+      }
+      field->SetInputData(bad);
+      next->Update();
+      EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
+      EXPECT_THAT(field->GetStatusMessage(), HasSubstr(word));
+      EXPECT_EQ(field->GetErrorCode(), vtkErrorCode::UserError);
+      ASSERT_EQ(listener->errors.size(), 1u);
+      EXPECT_THAT(listener->errors[0], HasSubstr(word));
+      EXPECT_EQ(field->GetOutput()->GetNumberOfPoints(), 0);
+      EXPECT_EQ(read_report(field->GetOutput()).text("status"), "invalid_input");
+      EXPECT_EQ(next->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
+      EXPECT_EQ(next->GetStatusMessage(), field->GetStatusMessage());
+      EXPECT_EQ(downstream->errors.size(), 1u);
+      // Filters of others must survive, and not keep what they had.
+      contour->Update();
+      EXPECT_EQ(contour->GetOutput()->GetNumberOfCells(), 0);
+
+      field->SetInputData(data_of(cube));
+      next->Update();
+      contour->Update();
+      EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK);
+      EXPECT_EQ(next->GetStatus(), vtkBindposeAlgorithm::OK);
+      EXPECT_GT(contour->GetOutput()->GetNumberOfCells(), 0);
+    }
+  }
+}
+
+TEST(WindingNumberField, BadGridsAreNamed)
+{
+  vtkNew<vtkWindingNumberField> field;
+  vtkNew<Listener> listener;
+  listener->listen(field);
+  field->SetInputData(data_of(test::cube()));
+  field->SetDimensions(4, 0, 4);
+  field->Update();
+  EXPECT_THAT(field->GetStatusMessage(), HasSubstr("dimensions"));
+  field->SetDimensions(2000000, 2000000, 2000000);
+  field->Update();
+  EXPECT_THAT(field->GetStatusMessage(), HasSubstr("samples"));
+  field->SetDimensions(4, 4, 4);
+  field->SetBounds(0, std::numeric_limits<double>::infinity(), 0, 1, 0, 1);
+  field->Update();
+  EXPECT_THAT(field->GetStatusMessage(), HasSubstr("bounds"));
+  EXPECT_EQ(listener->errors.size(), 3u);
+  EXPECT_EQ(field->GetOutput()->GetNumberOfPoints(), 0);
+}
+
+TEST(WindingNumberField, FlatAndTinySurfacesHaveAGrid)
+{
+  vtkNew<vtkPlaneSource> plane;
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputConnection(plane->GetOutputPort());
+  field->SetSamplesAlongLongestSide(9);
+  field->Update();
+  EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK);
+  EXPECT_GT(image_of(field)->GetDimensions()[2], 1);
+
+  TriangleMesh point = test::cube();
+  point.points.setConstant(3.0); // all in one place
+  vtkNew<Listener> listener;
+  listener->listen(field);
+  field->SetInputData(data_of(point));
+  field->Update();
+  EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK);
+  EXPECT_EQ(image_of(field)->GetNumberOfPoints(), 1);
+  EXPECT_EQ(listener->warnings.size(), 1u);
+}
+
+TEST(WindingNumberField, BlocksOfACompositeInput)
+{
+  for (const unsigned int count : { 1u, 3u })
+  {
+    vtkNew<vtkMultiBlockDataSet> blocks;
+    for (unsigned int b = 0; b < count; ++b)
+    {
+      blocks->SetBlock(b, data_of(test::cube(-1.0 - b, 1.0 + b)));
+    }
+    vtkNew<vtkWindingNumberField> field;
+    field->SetInputDataObject(0, blocks);
+    field->SetSamplesAlongLongestSide(10 + static_cast<int>(count));
+    for (int round = 0; round < 2; ++round)
+    {
+      field->Modified();
+      field->Update();
+      EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK) << field->GetStatusMessage();
+      auto* output = vtkMultiBlockDataSet::SafeDownCast(field->GetOutputDataObject(0));
+      ASSERT_NE(output, nullptr);
+      ASSERT_EQ(output->GetNumberOfBlocks(), count);
+      for (unsigned int b = 0; b < count; ++b)
+      {
+        auto* image = vtkImageData::SafeDownCast(output->GetBlock(b));
+        ASSERT_NE(image, nullptr);
+        EXPECT_EQ(image->GetDimensions()[0], 10 + static_cast<int>(count));
+        EXPECT_LT(image->GetBounds()[0], -1.0 - b);
+        EXPECT_NEAR(read_report(image).number("volume", 0), std::pow(2.0 + 2.0 * b, 3), 1e-9);
+      }
+    }
+    // The same filter on a plain surface again.
+    vtkNew<vtkSphereSource> sphere;
+    sphere->SetRadius(5.0);
+    field->SetInputConnection(sphere->GetOutputPort());
+    field->Update();
+    ASSERT_NE(image_of(field), nullptr);
+    EXPECT_LT(image_of(field)->GetBounds()[0], -4.9);
+    EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK);
+  }
+}
+
+TEST(WindingNumberField, PrintsAllItsParameters)
+{
+  vtkNew<vtkWindingNumberField> field;
+  field->SetMethodToExact();
+  field->SetDimensions(1, 2, 3);
+  std::ostringstream text;
+  field->Print(text);
+  for (const char* word : { "Method: EXACT", "Dimensions: 1 2 3", "SamplesAlongLongestSide: 64",
+         "Bounds: 0 -1 0 -1 0 -1", "Padding: 0.1", "Status: ok" })
+  {
+    EXPECT_THAT(text.str(), HasSubstr(word));
+  }
+}

@@ -1,0 +1,42 @@
+"""Arrays to datasets and back."""
+
+import bindpose
+import numpy as np
+import pytest
+import shapes
+from bindpose import meshes
+
+
+def test_triangles_and_tets():
+    vertices, faces = shapes.cube()
+    surface = meshes.to_dataset((vertices, faces))
+    assert surface.GetNumberOfCells() == 12 and not meshes.is_tets(surface)
+    assert np.array_equal(meshes.points_of(surface), np.array(vertices))
+    tets = meshes.to_dataset((np.eye(4, 3), np.array([[3, 0, 1, 2]], dtype=np.int32)))
+    assert meshes.is_tets(tets)
+    assert np.array_equal(meshes.tets_of(tets), [[3, 0, 1, 2]])
+    assert meshes.to_dataset(surface) is surface
+
+
+def test_the_arrays_stay_the_callers():
+    vertices = np.array(shapes.cube()[0], dtype=float)
+    surface = meshes.to_dataset((vertices, shapes.cube()[1]))
+    vertices[:] = 7
+    assert surface.GetBounds() == (-1, 1, -1, 1, -1, 1)
+
+
+@pytest.mark.parametrize("mesh", [
+    5, "mesh", (np.zeros((3, 3)),), (np.zeros((3, 2)), [[0, 1, 2]]), (np.zeros((3, 3)), [[0, 1]]),
+    (np.zeros((3, 3)), [[0.5, 1, 2]]), ([["a", "b", "c"]], [[0, 0, 0]]),
+])
+def test_what_is_no_mesh(mesh):
+    with pytest.raises(bindpose.InvalidInput):
+        meshes.to_dataset(mesh)
+
+
+def test_arrays_remember_their_report():
+    array = bindpose.Array([[1.0, 2.0]], {"status": "ok"}, ["a", "b"])
+    assert bindpose.report(array) == {"status": "ok"}
+    assert array.names == ["a", "b"]
+    assert (2 * array).tolist() == [[2.0, 4.0]]
+    assert bindpose.report(array.copy()) == {"status": "ok"}

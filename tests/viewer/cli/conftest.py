@@ -1,0 +1,10 @@
+"""The fixture that every test of the program takes."""
+
+import pytest
+from driver import Folder
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """An empty folder with the meshes of shapes.py, written on demand."""
+    return Folder(tmp_path)

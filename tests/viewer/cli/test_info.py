@@ -1,0 +1,80 @@
+"""info: the numbers of known meshes."""
+
+import math
+
+import pytest
+import shapes
+
+
+def test_cube(folder):
+    folder.off("cube.off", shapes.cube())
+    run = folder.run("info", "cube.off").is_good()
+    assert run.err == ""
+    assert run.new_files == []
+    for line in ("points              8", "triangles           12", "closed              yes", "volume              8"):
+        assert line in run.out
+    report = folder.run("info", "cube.off", "--report", "-").is_good().report
+    assert report["status"] == "ok"
+    assert report["format"] == "off"
+    counts = report["counts"]
+    assert (counts["vertices"], counts["triangles"], counts["components"]) == (8, 12, 1)
+    assert counts["boundary_edges"] == counts["nonmanifold_edges"] == 0
+    assert report["volume"] == pytest.approx(8.0, rel=1e-14)
+    assert report["area"] == pytest.approx(24.0, rel=1e-14)
+    assert report["bounds"] == [-1, 1, -1, 1, -1, 1]
+    assert report["diagonal"] == pytest.approx(2 * math.sqrt(3))
+    assert report["seconds"]["total"] > 0 and report["peak_memory_bytes"] > 0
+
+
+def test_unclean_surfaces(folder):
+    def counts(mesh):
+        folder.off("m.off", mesh)
+        report = folder.run("info", "m.off", "--report", "-").is_good().report
+        return report, report["counts"]
+
+    report, c = counts(shapes.open_cube())
+    assert c["boundary_edges"] == 4 and report["closed"] == "no" and "volume" not in report
+    report, c = counts(shapes.flipped(shapes.cube()))
+    assert report["volume"] == pytest.approx(-8.0) and c["misoriented_edges"] == 0
+    report, c = counts(shapes.doubled(shapes.cube()))
+    assert c["nonmanifold_edges"] == 18 and report["volume"] == pytest.approx(16.0)
+    report, c = counts(shapes.quads())
+    assert c["triangles"] == 12 and c["triangulated_cells"] == 6 and report["volume"] == pytest.approx(8.0)
+    report, c = counts(shapes.flat())
+    assert c["boundary_edges"] == 4 and report["area"] == pytest.approx(1.0)
+    report, c = counts(shapes.one_triangle())
+    assert c["triangles"] == 1 and c["boundary_edges"] == 3
+    vertices, faces = shapes.cube()
+    report, c = counts((vertices, faces + [[0, 0, 1]]))
+    assert c["degenerate_triangles"] == 1
+
+
+def test_handles(folder):
+    folder.write("h.tgf", shapes.TWO_BONES)
+    run = folder.run("info", "h.tgf").is_good()
+    assert "bone  b2  parent b1" in run.out
+    report = folder.run("info", "h.tgf", "--report", "-").is_good().report
+    assert report["handles"] == [{"name": "b1", "kind": "bone"}, {"name": "b2", "kind": "bone"}]
+
+
+def test_tets(folder):
+    folder.write("t.mesh", "MeshVersionFormatted 2 Dimension 3 Vertices 4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+                           "Tetrahedra 1\n1 2 3 4 0\nEnd\n")
+    report = folder.run("info", "t.mesh", "--report", "-").is_good().report
+    assert report["counts"]["tets"] == 1 and report["counts"]["boundary_triangles"] == 4
+    assert report["volume"] == pytest.approx(1 / 6)
+
+
+def test_report_file(folder):
+    folder.off("cube.off", shapes.cube())
+    assert folder.run("info", "cube.off", "--report", "r.json").is_good().new_files == ["r.json"]
+    folder.run("info", "cube.off", "--report", "r.json").is_refused("r.json", "exists already")
+    folder.run("info", "cube.off", "--report", "r.json", "--overwrite").is_good()
+    folder.run("info", "cube.off", "--report", "no/r.json").is_refused("no/r.json")
+
+
+def test_report_of_a_failure(folder):
+    run = folder.run("info", "none.off", "--report", "-").is_refused("none.off")
+    assert run.report["status"] == "invalid_input"
+    assert "none.off" in run.report["message"]
+    assert "volume" not in run.report

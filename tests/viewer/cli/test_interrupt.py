@@ -1,0 +1,58 @@
+"""Ctrl-C: exit code 4, soon, and nothing half-written."""
+
+import os
+import pty
+import signal
+import subprocess
+import time
+
+import pytest
+import shapes
+from driver import PROGRAM
+
+LONG = ["winding", "sphere.off", "--grid", "1200", "-o", "field.vti"]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_cancel(folder, number):
+    folder.off("sphere.off", shapes.sphere(60, 30))
+    process = subprocess.Popen([PROGRAM, *LONG, "--report", "r.json"], cwd=folder.path, stdout=subprocess.PIPE,
+                               stderr=subprocess.PIPE, text=True)
+    time.sleep(0.7)
+    assert process.poll() is None, "this machine is too fast for the test"
+    process.send_signal(number)
+    asked = time.monotonic()
+    _out, err = process.communicate(timeout=60)
+    assert process.returncode == 4
+    assert time.monotonic() - asked < 5  # 200 ms on a machine that does nothing else
+    assert err == "bindpose winding: cancelled\n"
+    assert sorted(os.listdir(folder.path)) == ["r.json", "sphere.off"]
+    assert '"cancelled"' in (folder / "r.json").read_text()
+
+
+def test_progress_is_for_terminals_only(folder):
+    folder.off("sphere.off", shapes.sphere(60, 30))
+    words = ["winding", "sphere.off", "--grid", "96", "-o", "a.vti", "--overwrite"]
+    assert folder.run(*words).is_good().err == ""
+
+    def on_a_terminal(*more):
+        ours, theirs = pty.openpty()
+        process = subprocess.Popen([PROGRAM, *words, *more], cwd=folder.path, stderr=theirs)
+        os.close(theirs)
+        text = b""
+        while True:
+            try:
+                block = os.read(ours, 4096)
+            except OSError:  # the other side is closed
+                break
+            if not block:
+                break
+            text += block
+        os.close(ours)
+        assert process.wait() == 0
+        return text.decode()
+
+    shown = on_a_terminal()
+    assert " %  " in shown and "winding" in shown and "evaluate" in shown
+    assert shown.endswith("\r\x1b[K")  # and is gone at the end
+    assert on_a_terminal("--quiet") == ""

@@ -1,0 +1,47 @@
+"""Words that the program does not know, and what it says about itself."""
+
+import pytest
+
+VERBS = ["info", "winding", "tetrahedralize", "weights", "deform", "render", "view"]
+
+
+def test_help_lists_all_verbs(folder):
+    run = folder.run("--help").is_good()
+    for verb in VERBS:
+        assert f"\n  {verb} " in run.out
+    assert "option-table" not in run.out
+    assert folder.run("--version").is_good().out.startswith("bindpose 0.")
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_each_verb_has_help(folder, verb):
+    run = folder.run(verb, "--help").is_good()
+    for option in ("--report FILE", "--threads N", "--quiet", "--overwrite"):
+        assert option in run.out
+
+
+@pytest.mark.parametrize("words, sentence", [
+    ([], "there is no verb"),
+    (["dance"], "'dance' is no verb"),
+    (["info"], "FILE is required"),
+    (["winding", "a.off"], "--output is required"),
+    (["info", "a.off", "--loud"], "--loud"),
+    (["info", "a.off", "b.off"], "b.off"),
+    (["info", "a.off", "--threads", "many"], "'many' is no whole number"),
+    (["info", "a.off", "--threads", "-2"], "'-2' is no whole number"),
+    (["info", "a.off", "--report"], "--report"),
+    (["winding", "a.off", "-o", "b.vti", "--grid", "1"], "at least 2"),
+    (["winding", "a.off", "-o", "b.vti", "--grid", "1e9"], "no whole number"),
+    (["winding", "a.off", "-o", "b.vti", "--method", "guess"], "'guess' is none of auto|exact"),
+    (["winding", "a.off", "-o", "b.vti", "--method", "auto", "--method", "exact"], "--method"),
+    (["tetrahedralize", "a.off", "-o", "b.vtu", "--winding-threshold", "nan"], "no finite number"),
+    (["weights", "a.off", "-o", "b.vtp"], "--handles is required"),
+    (["deform", "a.vtp", "--handles", "h.tgf", "-o", "b.vtp"], "--pose is required"),
+])
+def test_usage_errors_are_one_line(folder, words, sentence):
+    run = folder.run(*words)
+    assert run.code == 1
+    assert run.out == ""
+    assert run.err.count("\n") == 1 and run.err.startswith("bindpose")
+    assert sentence in run.err
+    assert run.new_files == []

@@ -1,0 +1,196 @@
+// Turns the option table into a CLI11 parser and what it parsed into Arguments.
+#include "cli/arguments.h"
+
+#include "cli/option_table.h"
+#include "io/text_scanner.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cmath>
+#include <iostream>
+#include <limits>
+
+namespace bindpose::cli
+{
+
+namespace
+{
+std::vector<std::string> split(const std::string& text, char separator)
+{
+  std::vector<std::string> words;
+  std::istringstream stream(text);
+  for (std::string word; std::getline(stream, word, separator);)
+  {
+    words.push_back(word);
+  }
+  return words;
+}
+
+void add_check(CLI::Option* parsed, const Option& option)
+{
+  if (option.kind == OptionKind::choice)
+  {
+    parsed->check(
+      [choices = split(option.choices, '|'), &option](const std::string& word)
+      {
+        const bool known = std::find(choices.begin(), choices.end(), word) != choices.end();
+        return known ? std::string() : "'" + word + "' is none of " + option.choices;
+      });
+  }
+  else if (option.kind == OptionKind::integer)
+  {
+    parsed->check(
+      [&option](const std::string& word)
+      {
+        Index value = 0;
+        const bool good = parse_index(word, value) && value >= option.minimum &&
+          value <= std::numeric_limits<int>::max();
+        return good
+          ? std::string()
+          : "'" + word + "' is no whole number of at least " + std::to_string(option.minimum);
+      });
+  }
+  else if (option.kind == OptionKind::number)
+  {
+    parsed->check(
+      [](const std::string& word)
+      {
+        double value = 0;
+        const bool good = parse_number(word, value) && std::isfinite(value);
+        return good ? std::string() : "'" + word + "' is no finite number";
+      });
+  }
+}
+
+void add_option(CLI::App& app, const Option& option, Arguments& arguments)
+{
+  if (option.kind == OptionKind::flag)
+  {
+    app.add_flag_callback(
+      option.name, [&arguments, &option]() { arguments.values[option.key()] = { "on" }; },
+      option.help);
+    return;
+  }
+  std::string help = option.help;
+  if (option.kind == OptionKind::choice)
+  {
+    help += std::string(" {") + option.choices + "}";
+  }
+  if (option.fallback[0])
+  {
+    help += std::string(" (default: ") + option.fallback + ")";
+  }
+  CLI::Option* parsed = nullptr;
+  if (option.repeated)
+  {
+    parsed = app.add_option_function<std::vector<std::string>>(
+      option.name,
+      [&arguments, &option](const std::vector<std::string>& words)
+      { arguments.values[option.key()] = words; },
+      help);
+  }
+  else
+  {
+    parsed = app.add_option_function<std::string>(
+      option.name,
+      [&arguments, &option](const std::string& word) { arguments.values[option.key()] = { word }; },
+      help);
+    parsed->multi_option_policy(CLI::MultiOptionPolicy::Throw);
+  }
+  parsed->type_name(option.value)->required(option.required);
+  add_check(parsed, option);
+}
+
+void fill_defaults(const std::vector<Option>& options, Arguments& arguments)
+{
+  for (const Option& option : options)
+  {
+    if (option.fallback[0] && !arguments.has(option.key()))
+    {
+      arguments.values[option.key()] = { option.fallback };
+    }
+  }
+}
+} // namespace
+
+std::string Arguments::text(const std::string& key) const
+{
+  const auto entry = this->values.find(key);
+  return entry == this->values.end() || entry->second.empty() ? "" : entry->second.front();
+}
+
+const std::vector<std::string>& Arguments::list(const std::string& key) const
+{
+  static const std::vector<std::string> none;
+  const auto entry = this->values.find(key);
+  return entry == this->values.end() ? none : entry->second;
+}
+
+int parse_arguments(int argc, char** argv, Arguments& arguments)
+{
+  CLI::App app("Any triangle mesh to a shape that a person bends: winding number, tets, weights, "
+               "poses.");
+  app.name("bindpose");
+  app.set_version_flag("--version", BINDPOSE_VERSION);
+  app.require_subcommand(1);
+  app.footer("bindpose VERB --help tells the options of a verb.");
+  for (const Verb& verb : verbs())
+  {
+    CLI::App* sub = app.add_subcommand(verb.name, verb.summary);
+    sub->callback([&arguments, &verb]() { arguments.verb = verb.name; });
+    for (const Option& option : verb.options)
+    {
+      add_option(*sub, option, arguments);
+    }
+    for (const Option& option : common_options())
+    {
+      add_option(*sub, option, arguments);
+    }
+  }
+  app.add_subcommand("option-table", "the table of all options as Markdown")
+    ->group("")
+    ->callback([&arguments]() { arguments.verb = "option-table"; });
+  if (argc < 2)
+  {
+    std::cerr << "bindpose: there is no verb (see bindpose --help)\n";
+    return 1;
+  }
+  if (argv[1][0] != '-' &&
+    app.get_subcommands([&](const CLI::App* sub) { return sub->get_name() == argv[1]; }).empty())
+  {
+    std::cerr << "bindpose: '" << argv[1] << "' is no verb (see bindpose --help)\n";
+    return 1;
+  }
+  arguments.words.assign(argv + 1, argv + argc);
+  try
+  {
+    app.parse(argc, argv);
+  }
+  catch (const CLI::Success& wish) // --help, --version
+  {
+    return app.exit(wish);
+  }
+  catch (const CLI::ParseError& error)
+  {
+    std::string who = "bindpose";
+    for (const CLI::App* sub : app.get_subcommands())
+    {
+      who += " " + sub->get_name();
+    }
+    std::string sentence = error.what();
+    std::replace(sentence.begin(), sentence.end(), '\n', ' ');
+    std::cerr << who << ": " << sentence << " (see " << who << " --help)\n";
+    return 1;
+  }
+  for (const Verb& verb : verbs())
+  {
+    if (arguments.verb == verb.name)
+    {
+      fill_defaults(verb.options, arguments);
+    }
+  }
+  fill_defaults(common_options(), arguments);
+  return -1;
+}
+
+} // namespace bindpose::cli

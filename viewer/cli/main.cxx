@@ -1,0 +1,78 @@
+// The program bindpose: parses by the option table, runs the verb, ends with its exit code:
+// 0 done, 1 usage, 2 bad input, 3 not converged, 4 cancelled, 5 internal.
+#include "cli/arguments.h"
+#include "cli/interrupt.h"
+#include "cli/option_table.h"
+#include "cli/session.h"
+#include "cli/verbs.h"
+
+#include "vtkLogger.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkOutputWindow.h"
+
+#include <exception>
+#include <iostream>
+#include <new>
+
+namespace
+{
+using namespace bindpose;
+using namespace bindpose::cli;
+
+/// VTK prints many lines where the program promises one; what matters is in the status.
+class SilentOutputWindow : public vtkOutputWindow
+{
+public:
+  static SilentOutputWindow* New();
+  vtkTypeMacro(SilentOutputWindow, vtkOutputWindow);
+  void DisplayText(const char*) override {}
+};
+vtkStandardNewMacro(SilentOutputWindow);
+
+void run(Session& session)
+{
+  const std::pair<const char*, void (*)(Session&)> functions[] = { { "info", run_info },
+    { "winding", run_winding }, { "render", run_render }, { "view", run_view } };
+  for (const auto& [name, function] : functions)
+  {
+    if (session.arguments().verb == name && session.check_report())
+    {
+      function(session);
+    }
+  }
+}
+} // namespace
+
+int main(int argc, char** argv)
+{
+  catch_interrupts();
+  vtkNew<SilentOutputWindow> silent;
+  vtkOutputWindow::SetInstance(silent);
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // it has a way of its own
+  Arguments arguments;
+  const int early = parse_arguments(argc, argv, arguments);
+  if (early >= 0)
+  {
+    return early;
+  }
+  if (arguments.verb == "option-table")
+  {
+    std::cout << option_table_markdown();
+    return 0;
+  }
+  Session session(arguments);
+  try
+  {
+    run(session);
+  }
+  catch (const std::bad_alloc&)
+  {
+    session.fail(Status::failure(StatusCode::internal_error, "out of memory"));
+  }
+  catch (const std::exception& error)
+  {
+    session.fail(Status::failure(StatusCode::internal_error, error.what()));
+  }
+  return session.finish();
+}

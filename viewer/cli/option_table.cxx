@@ -1,0 +1,150 @@
+// The words of the command line. To add an option, add a row here; the verb reads it by its key.
+#include "cli/option_table.h"
+
+namespace bindpose::cli
+{
+
+std::string Option::key() const
+{
+  const std::string names = this->name;
+  const std::size_t dashes = names.rfind("--");
+  return dashes == std::string::npos ? names : names.substr(dashes + 2);
+}
+
+const std::vector<Verb>& verbs()
+{
+  using Kind = OptionKind;
+  static const Option surface{ "SURFACE", "", Kind::text, "", "",
+    "surface: obj, off, ply, stl, vtp, vtk or mesh", true };
+  static const Option handles{ "--handles", "HANDLES", Kind::text, "", "",
+    "handles: .tgf, .vtp, or auto[:N] for N (8) points spread over the surface", true };
+  static const std::vector<Verb> table{
+    { "info", "say what a file holds",
+      { { "FILE", "", Kind::text, "", "", "any mesh, volume or handle file", true } } },
+    { "winding", "winding number of a surface, on a grid or at points",
+      { surface,
+        { "--grid", "N", Kind::integer, "64", "", "samples along the longest side, cubic voxels",
+          false, false, 2 },
+        { "--points", "DATASET", Kind::text, "", "",
+          "evaluate at the points of this file instead of on a grid" },
+        { "--method", "METHOD", Kind::choice, "auto", "auto|exact", "how to evaluate" },
+        { "-o,--output", "OUT", Kind::text, "", "",
+          ".vti for a grid; the ending of DATASET's kind (.vtp, .vtu, .vti) for points", true } } },
+    { "tetrahedralize", "fill the inside of a surface with tets",
+      { surface,
+        { "--method", "METHOD", Kind::choice, "auto", "auto|cdt|remesh|embed",
+          "cdt keeps the surface's vertices, remesh follows the winding number, embed merely holds "
+          "the surface; auto tries cdt, then remesh" },
+        { "--winding-threshold", "NUMBER", Kind::number, "0.5", "",
+          "inside is where the winding number is at least this" },
+        { "-o,--output", "OUT", Kind::text, "", "", ".vtu, .vtk or .mesh", true } } },
+    { "weights", "smooth weights, one function a handle",
+      { { "MESH", "", Kind::text, "", "", "surface, or tets as .vtu, .vtk or .mesh", true },
+        handles,
+        { "--regions", "ARRAY", Kind::text, "", "",
+          "point array of labels; each label above 0 is a region handle" },
+        { "--method", "METHOD", Kind::choice, "bounded-biharmonic",
+          "bounded-biharmonic|monotone|biharmonic|harmonic", "which weights" },
+        { "--domain", "DOMAIN", Kind::choice, "auto", "auto|volume|surface",
+          "solve in the volume (through tets) or on the surface; auto is volume" },
+        { "-o,--output", "OUT", Kind::text, "", "",
+          ".vtp or .dmat: weights at the surface's own points; .vtu: tets with weights", true } } },
+    { "deform", "bend a mesh with weights to a pose or a sequence of poses",
+      { { "MESH_WITH_WEIGHTS", "", Kind::text, "", "", "what the verb weights wrote", true },
+        { "--handles", "HANDLES", Kind::text, "", "", "handles: .tgf or .vtp", true },
+        { "--pose", "POSE", Kind::text, "", "", "pose or sequence as .json", true },
+        { "--method", "METHOD", Kind::choice, "lbs", "lbs|dqs|reduced-arap",
+          "linear blend, dual quaternions, or reduced as-rigid-as-possible" },
+        { "-o,--output", "OUT", Kind::text, "", "",
+          "mesh file; a sequence gives OUT_0000, OUT_0001, … and OUT.pvd", true } } },
+    { "render", "picture of one or more datasets",
+      { { "FILE", "", Kind::text, "", "", "surfaces, tets, volumes; one tile each", true, true },
+        { "-o,--output", "OUT", Kind::text, "", "", ".png", true },
+        { "--array", "NAME", Kind::text, "", "", "colour by this array" },
+        { "--component", "NAME", Kind::text, "", "", "component of the array, by name or number" },
+        { "--handles", "HANDLES", Kind::text, "", "", "draw these handles, too" },
+        { "--handle-names", "", Kind::flag, "", "", "write the name beside each handle" },
+        { "--range", "LOWER,UPPER", Kind::text, "", "",
+          "values at the ends of the colours; else from the data, 0,1 for weights" },
+        { "--columns", "N", Kind::integer, "0", "", "tiles in a row; 0: as square as possible" },
+        { "--size", "WxH", Kind::text, "1200x900", "", "pixels of the whole picture" },
+        { "--up", "AXIS", Kind::choice, "auto", "auto|x|y|z", "axis that points up; auto is y" },
+        { "--azimuth", "DEGREES", Kind::number, "0", "", "look from farther to the right" },
+        { "--elevation", "DEGREES", Kind::number, "0", "", "look from higher up" },
+        { "--zoom", "FACTOR", Kind::number, "1", "", "larger in the picture" },
+        { "--section", "FRACTION", Kind::number, "0.5", "",
+          "where tets are cut and volumes are sliced, from 0 (back) to 1 (front)" },
+        { "--edges", "", Kind::flag, "", "", "draw the edges of surface triangles" },
+        { "--title", "TEXT", Kind::text, "", "", "above the picture" } } },
+    { "view", "window to look at datasets and drag handles",
+      { { "FILE", "", Kind::text, "", "", "meshes and handles", false, true } } },
+  };
+  return table;
+}
+
+const std::vector<Option>& common_options()
+{
+  using Kind = OptionKind;
+  static const std::vector<Option> table{
+    { "--report", "FILE", Kind::text, "", "",
+      "write the numbers as JSON; - for the standard output" },
+    { "--threads", "N", Kind::integer, "0", "",
+      "threads to use, 0 for all cores; results do not depend on it" },
+    { "--quiet", "", Kind::flag, "", "", "no progress, no warnings" },
+    { "--overwrite", "", Kind::flag, "", "", "replace existing files" },
+  };
+  return table;
+}
+
+namespace
+{
+std::string row(const Option& option)
+{
+  std::string text = "| `";
+  const std::string names = option.name;
+  const std::size_t comma = names.find(',');
+  text += comma == std::string::npos ? names : names.substr(0, comma);
+  if (option.repeated)
+  {
+    text += "…";
+  }
+  text += option.value[0] ? std::string(" ") + option.value + "`" : "`";
+  text += " | ";
+  if (option.kind == OptionKind::choice)
+  {
+    std::string choices = option.choices;
+    for (std::size_t at = choices.find('|'); at != std::string::npos; at = choices.find('|', at))
+    {
+      choices.replace(at, 1, ", ");
+    }
+    text += choices;
+  }
+  text += " | ";
+  text += option.required ? "required" : option.fallback;
+  return text + " | " + option.help + " |\n";
+}
+
+const char* const table_head = "| option | choices | default | meaning |\n|---|---|---|---|\n";
+} // namespace
+
+std::string option_table_markdown()
+{
+  std::string text;
+  for (const Verb& verb : verbs())
+  {
+    text += std::string("### `bindpose ") + verb.name + "`: " + verb.summary + "\n\n" + table_head;
+    for (const Option& option : verb.options)
+    {
+      text += row(option);
+    }
+    text += '\n';
+  }
+  text += std::string("### Every verb\n\n") + table_head;
+  for (const Option& option : common_options())
+  {
+    text += row(option);
+  }
+  return text;
+}
+
+} // namespace bindpose::cli

@@ -1,0 +1,346 @@
+#include "cli/session.h"
+
+#include "base/mesh.h"
+#include "cli/interrupt.h"
+#include "conversion.h"
+#include "file_kind.h"
+#include "io/atomic_file.h"
+#include "io/report_json.h"
+#include "io/text_scanner.h"
+#include "report_field_data.h"
+#include "vtkBindposeAlgorithm.h"
+#include "vtkFarthestPointHandles.h"
+#include "vtkHandleFileReader.h"
+#include "vtkMeshFileReader.h"
+#include "vtkMeshFileWriter.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+
+#include <iostream>
+
+#include <sys/resource.h>
+
+namespace bindpose::cli
+{
+
+int exit_code(StatusCode code)
+{
+  switch (code)
+  {
+    case StatusCode::ok:
+      return 0;
+    case StatusCode::invalid_input:
+    case StatusCode::unavailable:
+      return 2;
+    case StatusCode::not_converged:
+      return 3;
+    case StatusCode::cancelled:
+      return 4;
+    case StatusCode::internal_error:
+      break;
+  }
+  return 5;
+}
+
+namespace
+{
+/// Where the progress of one algorithm goes.
+struct Stage
+{
+  ProgressBar* bar;
+  std::string name;
+  double begin;
+  double end;
+};
+
+void on_progress(vtkObject* caller, unsigned long, void* stage_data, void*)
+{
+  auto* algorithm = static_cast<vtkAlgorithm*>(caller);
+  const auto* stage = static_cast<Stage*>(stage_data);
+  if (interrupted())
+  {
+    algorithm->SetAbortExecute(1); // a signal that came before the pipeline cleared the flag
+  }
+  const char* phase = algorithm->GetProgressText();
+  const std::string text = phase && stage->name != phase ? stage->name + ": " + phase : stage->name;
+  stage->bar->show(stage->begin + algorithm->GetProgress() * (stage->end - stage->begin), text);
+}
+
+bool starts_with(const std::string& text, const std::string& begin)
+{
+  return text.compare(0, begin.size(), begin) == 0;
+}
+
+/// The boundary of tets, or the data itself: something with 2D cells.
+vtkSmartPointer<vtkDataSet> surface_of(vtkDataSet* data)
+{
+  TetInput tets;
+  if (!to_tets(data, tets).ok())
+  {
+    return data;
+  }
+  return to_polydata(tets.points.view(), boundary_triangles(tets.tets.view()));
+}
+} // namespace
+
+Session::Session(Arguments arguments)
+  : arguments_(std::move(arguments)), bar_(!arguments_.has("quiet"))
+{
+}
+
+bool Session::fail(Status status)
+{
+  if (!this->failed())
+  {
+    this->status_ = std::move(status);
+  }
+  return false;
+}
+
+void Session::warn(const std::string& sentence)
+{
+  this->warnings_.push_back(sentence);
+  if (!this->arguments_.has("quiet"))
+  {
+    this->bar_.clear();
+    std::cerr << this->who() << ": warning: " << sentence << "\n";
+  }
+}
+
+Status Session::try_run(vtkBindposeAlgorithm* algorithm, const std::string& stage_name,
+  double begin, double end, Merge merge)
+{
+  if (interrupted())
+  {
+    this->fail(Status::cancelled());
+    return Status::cancelled();
+  }
+  Stage stage{ &this->bar_, stage_name, begin, end };
+  vtkNew<vtkCallbackCommand> progress;
+  progress->SetCallback(on_progress);
+  progress->SetClientData(&stage);
+  vtkNew<vtkCallbackCommand> silent; // what VTK would print stands in the status
+  const unsigned long observers[] = { algorithm->AddObserver(vtkCommand::ProgressEvent, progress),
+    algorithm->AddObserver(vtkCommand::ErrorEvent, silent),
+    algorithm->AddObserver(vtkCommand::WarningEvent, silent) };
+  algorithm->SetNumberOfThreads(this->arguments_.integer("threads"));
+  {
+    const AbortOnInterrupt abort(algorithm);
+    this->bar_.show(begin, stage_name);
+    if (auto* writer = vtkMeshFileWriter::SafeDownCast(algorithm))
+    {
+      writer->Write();
+    }
+    else
+    {
+      algorithm->Update();
+    }
+  }
+  for (const unsigned long observer : observers)
+  {
+    algorithm->RemoveObserver(observer);
+  }
+  Status status;
+  status.code = static_cast<StatusCode>(algorithm->GetStatus());
+  status.message = algorithm->GetStatusMessage();
+  if (status.code == StatusCode::cancelled)
+  {
+    this->fail(status);
+  }
+  if (algorithm->GetNumberOfOutputPorts() == 0)
+  {
+    return status;
+  }
+  status.report = read_report(algorithm->GetOutputDataObject(0));
+  const Report::Value* entry = status.report.find("warnings[]");
+  if (const auto* warnings = entry ? std::get_if<std::vector<std::string>>(entry) : nullptr)
+  {
+    for (const std::string& warning : *warnings)
+    {
+      this->warn(warning);
+    }
+  }
+  if (!status.usable())
+  {
+    return status;
+  }
+  for (const auto& [key, value] : status.report.entries())
+  {
+    const bool seconds = starts_with(key, "seconds.");
+    const bool own = key == "status" || key == "message" || key == "warnings[]" ||
+      key == "seconds.total" || key == "peak_memory_bytes";
+    if (own || merge == Merge::nothing || (seconds && merge != Merge::all))
+    {
+      continue;
+    }
+    if (seconds)
+    {
+      this->report_.add(key, status.report.number(key, 0.0));
+    }
+    else
+    {
+      this->report_.set(key, value);
+    }
+  }
+  if (merge != Merge::all)
+  {
+    this->report_.add("seconds." + stage_name, status.report.number("seconds.total", 0.0));
+  }
+  if (status.code == StatusCode::not_converged && this->status_.ok())
+  {
+    this->status_.code = status.code;
+    this->status_.message = status.message;
+  }
+  return status;
+}
+
+bool Session::run(
+  vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin, double end, Merge merge)
+{
+  const Status status = this->try_run(algorithm, stage, begin, end, merge);
+  return status.usable() || this->fail(status);
+}
+
+vtkSmartPointer<vtkDataSet> Session::read(const std::string& path)
+{
+  vtkNew<vtkMeshFileReader> reader;
+  reader->SetFileName(path.c_str());
+  if (!this->run(reader, "read", 0.0, 0.0, Merge::nothing))
+  {
+    return nullptr;
+  }
+  return reader->GetOutput();
+}
+
+vtkSmartPointer<vtkDataSet> Session::read_any(const std::string& path)
+{
+  if (file_extension(path) == "tgf")
+  {
+    return this->read_handles(path, nullptr);
+  }
+  return this->read(path);
+}
+
+vtkSmartPointer<vtkPolyData> Session::read_handles(const std::string& value, vtkDataSet* surface)
+{
+  if ((value != "auto" && !starts_with(value, "auto:")) || !surface)
+  {
+    vtkNew<vtkHandleFileReader> reader;
+    reader->SetFileName(value.c_str());
+    return this->run(reader, "read", 0.0, 0.0, Merge::nothing)
+      ? vtkPolyData::SafeDownCast(reader->GetOutput())
+      : nullptr;
+  }
+  Index count = 8;
+  if (value != "auto" && (!parse_index(value.substr(5), count) || count < 1 || count > 100000))
+  {
+    this->invalid("--handles " + value + ": behind auto: stands how many, from 1 to 100000");
+    return nullptr;
+  }
+  vtkNew<vtkFarthestPointHandles> handles;
+  handles->SetInputData(surface_of(surface));
+  handles->SetNumberOfHandles(static_cast<int>(count));
+  return this->run(handles, "handles", 0.0, 0.0, Merge::nothing)
+    ? vtkPolyData::SafeDownCast(handles->GetOutput())
+    : nullptr;
+}
+
+bool Session::check_report()
+{
+  const std::string path = this->arguments_.text("report");
+  if (path.empty() || path == "-")
+  {
+    return true;
+  }
+  const Status status = AtomicFile::check(path, this->arguments_.has("overwrite"));
+  if (!status.ok())
+  {
+    this->arguments_.values.erase("report"); // there is no place for it
+    return this->fail(status);
+  }
+  return true;
+}
+
+bool Session::check_output(const std::string& path, const std::string& endings)
+{
+  Status status = check_extension(path, endings);
+  if (status.ok())
+  {
+    status = AtomicFile::check(path, this->arguments_.has("overwrite"));
+  }
+  return status.ok() || this->fail(status);
+}
+
+bool Session::write(vtkDataSet* data, const std::string& path)
+{
+  vtkNew<vtkMeshFileWriter> writer;
+  writer->SetInputData(data);
+  writer->SetFileName(path.c_str());
+  writer->SetOverwrite(this->arguments_.has("overwrite"));
+  return this->run(writer, "write", 1.0, 1.0, Merge::nothing);
+}
+
+bool Session::write_text(const std::string& text, const std::string& path)
+{
+  AtomicFile file;
+  Status status = file.open(path, this->arguments_.has("overwrite"));
+  if (status.ok())
+  {
+    status = write_file(file.temporary(), text);
+  }
+  if (status.ok())
+  {
+    status = file.commit();
+  }
+  return status.ok() || this->fail(status);
+}
+
+void Session::write_report()
+{
+  const std::string path = this->arguments_.text("report");
+  if (path.empty())
+  {
+    return;
+  }
+  Report report;
+  report.set("status", to_string(this->status_.code));
+  report.set("message", this->status_.message);
+  if (!this->warnings_.empty())
+  {
+    report.set("warnings[]", this->warnings_);
+  }
+  report.merge(this->report_);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - this->start_;
+  report.set("seconds.total", elapsed.count());
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  report.set("peak_memory_bytes", std::int64_t(usage.ru_maxrss) * 1024);
+  const std::string text = to_json(report) + "\n";
+  if (path == "-")
+  {
+    std::cout << text << std::flush;
+  }
+  else
+  {
+    this->write_text(text, path);
+  }
+}
+
+int Session::finish()
+{
+  this->bar_.clear();
+  this->write_report();
+  if (!this->status_.ok())
+  {
+    std::cerr << this->who() << ": "
+              << (this->status_.message.empty() ? to_string(this->status_.code)
+                                                : this->status_.message.c_str())
+              << "\n";
+  }
+  return exit_code(this->status_.code);
+}
+
+} // namespace bindpose::cli

@@ -1,0 +1,301 @@
+// bindpose info FILE: what a file holds, as a table for people and as a report for programs.
+#include "cli/interrupt.h"
+#include "cli/session.h"
+#include "cli/verbs.h"
+
+#include "conversion.h"
+#include "file_kind.h"
+#include "inside/surface_repair.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkFieldData.h"
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <cstdio>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+namespace bindpose::cli
+{
+
+namespace
+{
+/// Rows for people, in the order in which they are found; the report gets the same numbers.
+class Table
+{
+public:
+  void add(const std::string& name, const std::string& value)
+  {
+    this->text_ << "  " << std::left << std::setw(20) << name << value << "\n";
+  }
+  void add(const std::string& name, Index value) { this->add(name, std::to_string(value)); }
+  void add(const std::string& name, double value) { this->add(name, number(value)); }
+  std::string text() const { return this->text_.str(); }
+
+  static std::string number(double value)
+  {
+    char digits[40];
+    std::snprintf(digits, sizeof(digits), "%.6g", value);
+    return digits;
+  }
+
+private:
+  std::ostringstream text_;
+};
+
+struct Facts
+{
+  Table table;
+  Report report;
+
+  void count(const std::string& words, const std::string& key, Index value)
+  {
+    this->table.add(words, value);
+    this->report.set("counts." + key, value);
+  }
+  void measure(const std::string& key, double value)
+  {
+    this->table.add(key, value);
+    this->report.set(key, value);
+  }
+};
+
+Status tell_surface(vtkDataSet* data, Facts& facts)
+{
+  SurfaceInput surface;
+  Status status = to_surface(data, surface);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const PointsView points = surface.points.view();
+  const TrianglesView triangles = surface.triangles.view();
+  ExecutionContext context({}, interrupted);
+  SurfaceDiagnosis found;
+  status = diagnose_surface(points, triangles, found, context);
+  if (!status.ok())
+  {
+    return status;
+  }
+  facts.count("triangles", "triangles", found.triangles);
+  if (surface.triangulated_cells > 0)
+  {
+    facts.count("  from polygons", "triangulated_cells", surface.triangulated_cells);
+  }
+  if (surface.ignored_cells > 0)
+  {
+    facts.count("other cells", "ignored_cells", surface.ignored_cells);
+  }
+  facts.table.add("components", found.components);
+  facts.table.add("boundary edges", found.boundary_edges);
+  facts.table.add("non-manifold edges", found.nonmanifold_edges);
+  facts.table.add("misoriented edges", found.misoriented_edges);
+  facts.table.add("inward components", found.inward_components);
+  facts.table.add("self-intersections", found.self_intersections);
+  facts.table.add("duplicates",
+    std::to_string(found.duplicate_vertices) + " vertices, " +
+      std::to_string(found.duplicate_triangles) + " triangles");
+  facts.table.add("degenerate", found.degenerate_triangles);
+  facts.table.add("unused points", found.unreferenced_vertices);
+  facts.table.add("closed", found.closed ? "yes" : "no");
+  add_to_report(found, facts.report);
+  facts.report.set("closed", found.closed ? "yes" : "no");
+  facts.measure("area", surface_area(points, triangles));
+  if (found.closed)
+  {
+    facts.measure("volume", signed_volume(points, triangles));
+  }
+  return {};
+}
+
+Status tell_tets(vtkDataSet* data, Facts& facts)
+{
+  TetInput tets;
+  Status status = to_tets(data, tets);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const Eigen::VectorXd volumes = tet_volumes(tets.points.view(), tets.tets.view());
+  facts.count("tets", "tets", tets.tets.view().rows());
+  facts.count("inverted tets", "inverted_tets", (volumes.array() <= 0.0).count());
+  facts.count("components", "components",
+    connected_components(tets.points.view().rows(), tets.tets.view()).count);
+  facts.count(
+    "boundary triangles", "boundary_triangles", boundary_triangles(tets.tets.view()).rows());
+  facts.measure("volume", volumes.sum());
+  return {};
+}
+
+void tell_bounds(vtkDataSet* data, Facts& facts)
+{
+  const Box box = bounding_box(to_points(data).view());
+  const char* axes[3] = { "x", "y", "z" };
+  std::vector<double> bounds;
+  for (int k = 0; k < 3; ++k)
+  {
+    facts.table.add(k == 0 ? "bounds" : "",
+      std::string(axes[k]) + "  " + Table::number(box.lower[k]) + "  " +
+        Table::number(box.upper[k]));
+    bounds.push_back(box.lower[k]);
+    bounds.push_back(box.upper[k]);
+  }
+  facts.report.set("bounds[]", bounds);
+  facts.measure("diagonal", box.diagonal());
+}
+
+void tell_arrays(vtkDataSet* data, Facts& facts)
+{
+  std::vector<std::string> names;
+  std::vector<std::string> places;
+  std::vector<std::string> types;
+  std::vector<std::int64_t> components;
+  const std::pair<const char*, vtkFieldData*> attributes[] = { { "point", data->GetPointData() },
+    { "cell", data->GetCellData() } };
+  for (const auto& [place, fields] : attributes)
+  {
+    for (int i = 0; i < fields->GetNumberOfArrays(); ++i)
+    {
+      vtkAbstractArray* array = fields->GetAbstractArray(i);
+      const int count = array->GetNumberOfComponents();
+      names.emplace_back(array->GetName() ? array->GetName() : "");
+      places.emplace_back(place);
+      types.emplace_back(array->GetDataTypeAsString());
+      components.push_back(count);
+      std::string text = std::string(place) + "  " + names.back() + "  " +
+        (count > 1 ? std::to_string(count) + " x " : "") + types.back();
+      auto* numbers = vtkDataArray::SafeDownCast(array);
+      if (numbers && count == 1 && numbers->GetNumberOfTuples() > 0)
+      {
+        double range[2];
+        numbers->GetRange(range);
+        text += "  " + Table::number(range[0]) + " to " + Table::number(range[1]);
+      }
+      for (int c = 0; c < count && count > 1 && array->GetComponentName(c); ++c)
+      {
+        text += std::string(c ? ", " : "  ") + array->GetComponentName(c);
+      }
+      facts.table.add(names.size() == 1 ? "arrays" : "", text);
+    }
+  }
+  if (!names.empty())
+  {
+    facts.report.set("arrays[].name", names);
+    facts.report.set("arrays[].place", places);
+    facts.report.set("arrays[].type", types);
+    facts.report.set("arrays[].components", components);
+  }
+}
+
+void tell_handles(const Handles& handles, Facts& facts)
+{
+  facts.count("handles", "handles", static_cast<Index>(handles.size()));
+  std::vector<std::string> names;
+  std::vector<std::string> kinds;
+  for (const Handle& handle : handles)
+  {
+    names.push_back(handle.name);
+    kinds.emplace_back(to_string(handle.kind));
+    std::string text = kinds.back() + "  " + handle.name;
+    if (handle.parent >= 0)
+    {
+      text += "  parent " + handles[handle.parent].name;
+    }
+    facts.table.add("", text);
+  }
+  facts.report.set("handles[].name", names);
+  facts.report.set("handles[].kind", kinds);
+}
+
+void tell_image(vtkImageData* image, Facts& facts)
+{
+  int dimensions[3];
+  image->GetDimensions(dimensions);
+  facts.table.add("samples",
+    std::to_string(dimensions[0]) + " x " + std::to_string(dimensions[1]) + " x " +
+      std::to_string(dimensions[2]));
+  facts.report.set(
+    "dimensions[]", std::vector<std::int64_t>{ dimensions[0], dimensions[1], dimensions[2] });
+  const double* spacing = image->GetSpacing();
+  facts.table.add("spacing",
+    Table::number(spacing[0]) + "  " + Table::number(spacing[1]) + "  " +
+      Table::number(spacing[2]));
+  facts.report.set("spacing[]", std::vector<double>{ spacing[0], spacing[1], spacing[2] });
+}
+
+/// A polydata without polygons, but with cells that can be handles.
+bool looks_like_handles(vtkDataSet* data)
+{
+  auto* cells = vtkPolyData::SafeDownCast(data);
+  return cells && cells->GetNumberOfCells() > 0 && cells->GetNumberOfPolys() == 0 &&
+    cells->GetNumberOfStrips() == 0;
+}
+
+Status tell(vtkDataSet* data, Facts& facts)
+{
+  facts.count("points", "vertices", data->GetNumberOfPoints());
+  Status status;
+  Handles handles;
+  TetInput tets;
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    tell_image(image, facts);
+  }
+  else if (looks_like_handles(data))
+  {
+    status = to_handles(vtkPolyData::SafeDownCast(data), handles);
+    if (status.ok())
+    {
+      tell_handles(handles, facts);
+    }
+  }
+  else if (to_tets(data, tets).ok())
+  {
+    status = tell_tets(data, facts);
+  }
+  else if (vtkPointSet::SafeDownCast(data))
+  {
+    status = tell_surface(data, facts);
+  }
+  if (status.ok())
+  {
+    tell_bounds(data, facts);
+    tell_arrays(data, facts);
+  }
+  return status;
+}
+} // namespace
+
+void run_info(Session& session)
+{
+  const std::string path = session.arguments().text("FILE");
+  const std::string format = file_extension(path);
+  const auto data = session.read_any(path);
+  if (!data)
+  {
+    return;
+  }
+  Facts facts;
+  Status status = tell(data, facts);
+  if (!status.ok())
+  {
+    status.message = path + ": " + status.message;
+    session.fail(status);
+    return;
+  }
+  const std::string kind = data->GetClassName();
+  session.report().set("format", format);
+  session.report().set("dataset", kind);
+  session.report().merge(facts.report);
+  if (session.arguments().text("report") != "-")
+  {
+    std::cout << path << "  (" << format << ", " << kind << ")\n" << facts.table.text();
+  }
+}
+
+} // namespace bindpose::cli

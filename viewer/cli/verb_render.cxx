@@ -1,0 +1,164 @@
+// bindpose render FILE… -o OUT.png: pictures by the library bindpose_scene. VTK 9.1 ends the
+// process when there is no X server, even for offscreen pictures; without one the program runs
+// itself again under xvfb-run.
+#include "cli/session.h"
+#include "cli/verbs.h"
+
+#include "io/text_scanner.h"
+#include "scene/display.h"
+#include "scene/picture.h"
+
+#include "vtkDataSet.h"
+#include "vtkPolyData.h"
+
+#include <cstdlib>
+
+#include <unistd.h>
+
+namespace bindpose::cli
+{
+
+namespace
+{
+constexpr const char* under_xvfb = "BINDPOSE_UNDER_XVFB";
+
+bool on_path(const std::string& program)
+{
+  const char* path = std::getenv("PATH");
+  std::string folders = path ? path : "";
+  folders += ':';
+  for (std::size_t begin = 0, end = 0; (end = folders.find(':', begin)) != std::string::npos;
+       begin = end + 1)
+  {
+    const std::string file = folders.substr(begin, end - begin) + "/" + program;
+    if (access(file.c_str(), X_OK) == 0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Becomes xvfb-run with the same command line; returns only when that is impossible.
+void run_again_under_xvfb(const std::vector<std::string>& command_line)
+{
+  if (std::getenv(under_xvfb) || !on_path("xvfb-run") || !on_path("Xvfb"))
+  {
+    return;
+  }
+  setenv(under_xvfb, "1", 1);
+  char self[4096];
+  const ssize_t length = readlink("/proc/self/exe", self, sizeof(self) - 1);
+  if (length <= 0)
+  {
+    return;
+  }
+  self[length] = 0;
+  std::vector<std::string> words{ "xvfb-run", "-a", "-s", "-screen 0 1280x1024x24", self };
+  words.insert(words.end(), command_line.begin(), command_line.end());
+  std::vector<char*> argv;
+  for (std::string& word : words)
+  {
+    argv.push_back(word.data());
+  }
+  argv.push_back(nullptr);
+  execvp(argv[0], argv.data());
+}
+
+/// "AxB" with the separator x, as two numbers.
+bool parse_pair(const std::string& text, char separator, double& first, double& second)
+{
+  const std::size_t at = text.find(separator);
+  return at != std::string::npos && parse_number(text.substr(0, at), first) &&
+    parse_number(text.substr(at + 1), second);
+}
+
+bool read_options(Session& session, PictureOptions& options)
+{
+  const Arguments& arguments = session.arguments();
+  double width = 0;
+  double height = 0;
+  if (!parse_pair(arguments.text("size"), 'x', width, height) || !(width >= 1 && width <= 1e6) ||
+    !(height >= 1 && height <= 1e6))
+  {
+    return session.invalid("--size " + arguments.text("size") +
+      ": expected are width and height in pixels, as in 1200x900");
+  }
+  options.width = static_cast<int>(width);
+  options.height = static_cast<int>(height);
+  if (arguments.has("range") &&
+    !parse_pair(arguments.text("range"), ',', options.range[0], options.range[1]))
+  {
+    return session.invalid(
+      "--range " + arguments.text("range") + ": expected are two numbers, as in 0,1");
+  }
+  options.array = arguments.text("array");
+  options.component = arguments.text("component");
+  if (options.array.empty() && !options.component.empty())
+  {
+    options.array = "Weights"; // the array whose components have names
+  }
+  options.columns = arguments.integer("columns");
+  options.title = arguments.text("title");
+  options.edges = arguments.has("edges");
+  options.handle_names = arguments.has("handle-names");
+  options.section = arguments.number("section");
+  options.view.up = arguments.text("up");
+  options.view.azimuth = arguments.number("azimuth");
+  options.view.elevation = arguments.number("elevation");
+  options.view.zoom = arguments.number("zoom");
+  return true;
+}
+} // namespace
+
+void run_render(Session& session)
+{
+  const Arguments& arguments = session.arguments();
+  const std::string output = arguments.text("output");
+  PictureOptions options;
+  if (!session.check_output(output, "png") || !read_options(session, options))
+  {
+    return;
+  }
+  std::vector<Tile> tiles;
+  for (const std::string& file : arguments.list("FILE"))
+  {
+    Tile tile;
+    tile.data = session.read_any(file);
+    if (!tile.data)
+    {
+      return;
+    }
+    tiles.push_back(tile);
+  }
+  if (arguments.has("handles"))
+  {
+    const auto handles = session.read_handles(arguments.text("handles"), tiles.front().data);
+    if (!handles)
+    {
+      return;
+    }
+    for (Tile& tile : tiles)
+    {
+      tile.handles = handles;
+    }
+  }
+  if (!can_render())
+  {
+    run_again_under_xvfb(arguments.words);
+    session.fail(Status::failure(StatusCode::unavailable, no_display_message()));
+    return;
+  }
+  Status status = render_to_png(tiles, options, output, arguments.has("overwrite"));
+  session.report().merge(status.report);
+  for (const std::string& warning : status.warnings)
+  {
+    session.warn(warning);
+  }
+  if (!status.ok())
+  {
+    session.fail(status);
+  }
+}
+
+} // namespace bindpose::cli

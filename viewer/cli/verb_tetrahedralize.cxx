@@ -1,0 +1,46 @@
+// bindpose tetrahedralize SURFACE: the inside as tets.
+#include "cli/session.h"
+#include "cli/verbs.h"
+
+#include "vtkDataSet.h"
+#include "vtkNew.h"
+#include "vtkTetrahedralizeSurface.h"
+
+namespace bindpose::cli
+{
+
+namespace
+{
+int method_of(const std::string& word)
+{
+  return word == "cdt" ? vtkTetrahedralizeSurface::CDT
+    : word == "remesh" ? vtkTetrahedralizeSurface::REMESH
+    : word == "embed"  ? vtkTetrahedralizeSurface::EMBED
+                       : vtkTetrahedralizeSurface::AUTO;
+}
+} // namespace
+
+void run_tetrahedralize(Session& session)
+{
+  const Arguments& arguments = session.arguments();
+  const std::string output = arguments.text("output");
+  if (!session.check_output(output, "vtu vtk mesh"))
+  {
+    return;
+  }
+  const auto surface = session.read(arguments.text("SURFACE"));
+  if (!surface)
+  {
+    return;
+  }
+  vtkNew<vtkTetrahedralizeSurface> tets;
+  tets->SetInputData(0, surface);
+  tets->SetMethod(method_of(arguments.text("method")));
+  tets->SetWindingThreshold(arguments.number("winding-threshold"));
+  if (session.run(tets, "tetrahedralize", 0.0, 1.0, Merge::all))
+  {
+    session.write(tets->GetOutput(), output);
+  }
+}
+
+} // namespace bindpose::cli

@@ -1,0 +1,248 @@
+// bindpose weights MESH --handles H: a surface goes through tets, the weights are solved on them
+// and carried back to the surface's own points; tets, and surfaces with --domain surface, are
+// solved on directly.
+#include "cli/session.h"
+#include "cli/verbs.h"
+
+#include "conversion.h"
+#include "file_kind.h"
+#include "vtkBoundedBiharmonicWeights.h"
+#include "vtkMonotoneWeights.h"
+#include "vtkTetrahedralizeSurface.h"
+#include "vtkTransferWeights.h"
+#include "vtkUnconstrainedWeights.h"
+
+#include "vtkCellType.h"
+#include "vtkDataArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+#include <map>
+
+namespace bindpose::cli
+{
+
+namespace
+{
+vtkSmartPointer<vtkWeightsAlgorithm> make_weights(const std::string& method)
+{
+  if (method == "bounded-biharmonic")
+  {
+    return vtkSmartPointer<vtkBoundedBiharmonicWeights>::New();
+  }
+  if (method == "monotone")
+  {
+    return vtkSmartPointer<vtkMonotoneWeights>::New();
+  }
+  auto weights = vtkSmartPointer<vtkUnconstrainedWeights>::New();
+  weights->SetMethod(
+    method == "harmonic" ? vtkUnconstrainedWeights::HARMONIC : vtkUnconstrainedWeights::BIHARMONIC);
+  return weights;
+}
+
+bool is_tets(vtkDataSet* data)
+{
+  return data->GetNumberOfCells() > 0 && data->GetCellType(0) == VTK_TETRA;
+}
+
+/// Appends a region handle, named after its label, for each label above 0 that has none; its pivot
+/// is the centroid of the labelled points.
+bool add_region_handles(Session& session, vtkDataSet* mesh, const std::string& array_name,
+  vtkSmartPointer<vtkPolyData>& data)
+{
+  vtkDataArray* labels = mesh->GetPointData()->GetArray(array_name.c_str());
+  if (!labels || labels->GetNumberOfComponents() != 1)
+  {
+    return session.invalid(
+      "--regions: the mesh has no point array '" + array_name + "' with one component");
+  }
+  std::map<Index, std::pair<Vec3, Index>> sums;
+  for (vtkIdType v = 0; v < mesh->GetNumberOfPoints(); ++v)
+  {
+    const auto label = static_cast<Index>(labels->GetComponent(v, 0));
+    if (label > 0)
+    {
+      auto& sum = sums.insert({ label, { Vec3::Zero(), 0 } }).first->second;
+      sum.first += Vec3(mesh->GetPoint(v));
+      sum.second += 1;
+    }
+  }
+  if (sums.empty())
+  {
+    return session.invalid("--regions: the point array '" + array_name + "' has no label above 0");
+  }
+  Handles handles;
+  Status status = to_handles(data, handles);
+  if (!status.ok())
+  {
+    return session.fail(status);
+  }
+  for (const Handle& handle : handles)
+  {
+    sums.erase(handle.kind == HandleKind::region ? handle.region_id : 0);
+  }
+  for (const auto& [label, sum] : sums)
+  {
+    Handle region;
+    region.kind = HandleKind::region;
+    region.name = "r" + std::to_string(label);
+    region.region_id = label;
+    region.head = region.tail = sum.first / static_cast<double>(sum.second);
+    handles.push_back(region);
+  }
+  status = check_handles(handles);
+  if (!status.ok())
+  {
+    return session.fail(status);
+  }
+  if (!sums.empty())
+  {
+    data = to_polydata(handles);
+  }
+  return true;
+}
+
+/// Labels of the surface on the tets' vertices that come from it.
+bool carry_labels(
+  Session& session, vtkDataSet* surface, vtkDataSet* tets, const std::string& array_name)
+{
+  vtkDataArray* labels = surface->GetPointData()->GetArray(array_name.c_str());
+  vtkDataArray* originals = tets->GetPointData()->GetArray("OriginalPointIds");
+  vtkNew<vtkIdTypeArray> carried;
+  carried->SetName(array_name.c_str());
+  carried->SetNumberOfValues(tets->GetNumberOfPoints());
+  bool any = false;
+  for (vtkIdType v = 0; v < tets->GetNumberOfPoints(); ++v)
+  {
+    const double original = originals ? originals->GetComponent(v, 0) : -1.0;
+    const double label =
+      original >= 0 ? labels->GetComponent(static_cast<vtkIdType>(original), 0) : 0.0;
+    carried->SetValue(v, static_cast<vtkIdType>(label));
+    any = any || label > 0;
+  }
+  if (!any)
+  {
+    return session.invalid("--regions: the tets share no labelled point with the surface; use "
+                           "--domain surface, or tets with that array");
+  }
+  tets->GetPointData()->AddArray(carried);
+  return true;
+}
+
+/// Fills the surface; where that is impossible, a lattice that holds it will do for weights.
+vtkSmartPointer<vtkDataSet> fill(Session& session, vtkDataSet* surface)
+{
+  vtkNew<vtkTetrahedralizeSurface> tets;
+  tets->SetInputData(0, surface);
+  const Status first = session.try_run(tets, "tetrahedralize", 0.0, 0.3, Merge::numbers);
+  if (first.usable())
+  {
+    return tets->GetOutput();
+  }
+  if (session.failed())
+  {
+    return nullptr;
+  }
+  tets->SetMethod(vtkTetrahedralizeSurface::EMBED);
+  if (!session.try_run(tets, "tetrahedralize", 0.0, 0.3, Merge::numbers).usable())
+  {
+    session.fail(first);
+    return nullptr;
+  }
+  session.warn("the surface could not be filled (" + first.message +
+    "); the weights are solved on a lattice that holds it");
+  session.report().set("tetrahedralize.fallback", "embed");
+  session.report().set("tetrahedralize.reason", first.message);
+  return tets->GetOutput();
+}
+
+/// A shallow copy of the mesh's own points and cells that may get arrays of its own.
+vtkSmartPointer<vtkDataSet> own_copy(vtkDataSet* data)
+{
+  auto copy = vtk::TakeSmartPointer(data->NewInstance());
+  copy->ShallowCopy(data);
+  return copy;
+}
+} // namespace
+
+void run_weights(Session& session)
+{
+  const Arguments& arguments = session.arguments();
+  const std::string output = arguments.text("output");
+  const std::string domain = arguments.text("domain");
+  if (!session.check_output(output, "vtp vtu dmat"))
+  {
+    return;
+  }
+  const auto mesh = session.read(arguments.text("MESH"));
+  if (!mesh)
+  {
+    return;
+  }
+  const std::string ending = file_extension(output);
+  const bool tets_given = is_tets(mesh);
+  const bool solve_on_surface = domain == "surface";
+  if (tets_given && (solve_on_surface || ending == "vtp"))
+  {
+    session.invalid(arguments.text("MESH") + " holds tets: " +
+      (solve_on_surface ? "--domain surface needs a surface" : "write .vtu or .dmat, not .vtp"));
+    return;
+  }
+  if (solve_on_surface && ending == "vtu")
+  {
+    session.invalid("--domain surface makes no tets: write .vtp or .dmat, not .vtu");
+    return;
+  }
+  auto handles = session.read_handles(arguments.text("handles"), mesh);
+  const std::string regions = arguments.text("regions");
+  if (!handles || (!regions.empty() && !add_region_handles(session, mesh, regions, handles)))
+  {
+    return;
+  }
+  vtkSmartPointer<vtkDataSet> solved_on = mesh;
+  const bool through_tets = !tets_given && !solve_on_surface;
+  if (through_tets)
+  {
+    solved_on = fill(session, mesh);
+    if (!solved_on)
+    {
+      return;
+    }
+    solved_on = own_copy(solved_on);
+    if (!regions.empty() && !carry_labels(session, mesh, solved_on, regions))
+    {
+      return;
+    }
+  }
+  const std::string method = arguments.text("method");
+  const auto weights = make_weights(method);
+  weights->SetInputData(0, solved_on);
+  weights->SetInputData(1, handles);
+  if (!regions.empty())
+  {
+    weights->SetRegionArrayName(regions.c_str());
+  }
+  if (!session.run(weights, "weights", through_tets ? 0.3 : 0.0, 0.98, Merge::all))
+  {
+    return;
+  }
+  session.report().set("domain", solve_on_surface ? "surface" : "volume");
+  if (ending == "vtu")
+  {
+    session.write(weights->GetOutput(), output);
+    return;
+  }
+  vtkNew<vtkTransferWeights> transfer;
+  transfer->SetInputData(0, mesh);
+  transfer->SetInputData(1, weights->GetOutput());
+  const Report of_weights = session.report();
+  if (session.run(transfer, "transfer", 0.98, 1.0, Merge::numbers))
+  {
+    session.report().merge(of_weights); // the transfer's own keys stay beside
+    session.write(transfer->GetOutput(), output);
+  }
+}
+
+} // namespace bindpose::cli

@@ -1,0 +1,20 @@
+#ifndef bindpose_cli_verbs_h
+#define bindpose_cli_verbs_h
+
+namespace bindpose::cli
+{
+
+class Session;
+
+// One function a verb, named after it. What they find goes into the session.
+void run_info(Session& session);
+void run_winding(Session& session);
+void run_tetrahedralize(Session& session);
+void run_weights(Session& session);
+void run_deform(Session& session);
+void run_render(Session& session);
+void run_view(Session& session);
+
+} // namespace bindpose::cli
+
+#endif

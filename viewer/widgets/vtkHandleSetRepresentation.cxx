@@ -660,6 +660,8 @@ int vtkHandleSetRepresentation::RenderOverlay(vtkViewport* viewport)
   }
   for (std::size_t i = 0; i < this->Internal->VisibleLabels; ++i)
   {
+    // A text actor draws its letters in the opaque pass and shows them in the overlay.
+    this->Internal->Labels[i]->RenderOpaqueGeometry(viewport);
     rendered += this->Internal->Labels[i]->RenderOverlay(viewport);
   }
   return rendered;

@@ -528,8 +528,9 @@ void vtkHandleSetRepresentation::BuildRepresentation()
   {
     return;
   }
-  bindpose::HandleShapes solid;
-  bindpose::HandleShapes outline;
+  const bool fine = self.CountCells() <= 60;
+  bindpose::HandleShapes solid(fine);
+  bindpose::HandleShapes outline(fine);
   self.VisibleLabels = 0;
   const bindpose::Colour mode_colours[3] = { to_colour(this->FullColor),
     to_colour(this->PositionColor), to_colour(this->FreeColor) };

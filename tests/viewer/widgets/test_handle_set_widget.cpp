@@ -390,7 +390,9 @@ TEST(HandleSetWidget, HundredsOfHandlesAreEachFound)
   Stage stage(handles);
   for (int i = 0; i < 300; ++i)
   {
-    stage.move(handles[i].head);
+    const Eigen::Vector2d at = stage.display(handles[i].head);
+    stage.representation()->ComputeInteractionState(
+      static_cast<int>(std::lround(at[0])), static_cast<int>(std::lround(at[1])));
     EXPECT_EQ(stage.representation()->GetHoveredHandle(), i);
   }
 }

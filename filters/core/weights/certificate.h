@@ -1,0 +1,53 @@
+#ifndef bindpose_weights_certificate_h
+#define bindpose_weights_certificate_h
+
+#include "base/laplacian.h"
+
+#include <vector>
+
+namespace bindpose
+{
+
+/// w[low] <= w[high]
+struct OrderedPair
+{
+  Index low = 0;
+  Index high = 0;
+};
+
+/// What proves that a column is the minimiser, and how far from it it can be at most.
+///
+/// With g = Q w (and g' = Q w - G' lambda for ordered pairs G w >= 0, lambda >= 0) the dual of the
+/// quadratic program bounds the minimum from below, so that
+///   gap = lambda' G w + sum over free vertices of max(g' (w - l), -g' (u - w))
+/// is a rigorous bound on E(w) - min E, whoever computed w and lambda.
+struct Certificate
+{
+  double relative_gap = 0.0; ///< gap / E
+  /// Natural residual: max over free vertices of |w - clip(w - g' / diag Q, l, u)|.
+  double kkt_residual = 0.0;
+  double energy = 0.0; ///< E = 1/2 w' Q w
+  double order_violation = 0.0; ///< largest w[low] - w[high] over the ordered pairs, or 0
+  double bounds_violation = 0.0; ///< how far w lies outside of [l, u] at most
+};
+
+/// The quadratic program min 1/2 w' Q w, l <= w <= u, w given at the vertices that are not free.
+struct BoundedEnergy
+{
+  const SparseMatrix& q; ///< symmetric, #V x #V
+  const std::vector<char>& free; ///< #V: 1 where w is found
+  double lower = 0.0;
+  double upper = 1.0;
+};
+
+/// Computes the certificate of w (#V) from nothing but the problem's data.
+/// The gap is divided by max(E, 1e-12 * mean diagonal of Q / 2): a column that can be constant has
+/// energy zero.
+/// @param pairs, multipliers ordered pairs and their lambda >= 0, of equal length.
+Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
+  const std::vector<OrderedPair>& pairs = {},
+  const Eigen::VectorXd& multipliers = Eigen::VectorXd());
+
+} // namespace bindpose
+
+#endif

@@ -2,12 +2,12 @@
 #define deformation_h
 
 #include "vtkNew.h"
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <string>
 
 class vtkBindposeAlgorithm;
-class vtkPolyData;
 class vtkReducedARAP;
 class vtkSkinningDeformation;
 

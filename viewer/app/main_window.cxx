@@ -255,9 +255,9 @@ bool MainWindow::open(const QString& path)
     this->show_error(QString::fromStdString(reader->GetStatusMessage()));
     return false;
   }
-  vtkDataSet* data = reader->GetOutput();
-  return looks_like_handles(data) ? this->set_handles(vtkPolyData::SafeDownCast(data), name)
-                                  : this->set_mesh(data, name);
+  vtkDataSet* read = reader->GetOutput();
+  return looks_like_handles(read) ? this->set_handles(vtkPolyData::SafeDownCast(read), name)
+                                  : this->set_mesh(read, name);
 }
 
 bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name)
@@ -283,11 +283,11 @@ bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name)
   return true;
 }
 
-bool MainWindow::set_handles(vtkPolyData* data, const QString& name)
+bool MainWindow::set_handles(vtkPolyData* handle_data, const QString& name)
 {
   Handles handles;
   std::vector<Index> cells;
-  const Status status = to_handles(data, handles, &cells);
+  const Status status = to_handles(handle_data, handles, &cells);
   if (!status.ok())
   {
     this->show_error(QString("%1: %2").arg(name, QString::fromStdString(status.message)));
@@ -300,7 +300,7 @@ bool MainWindow::set_handles(vtkPolyData* data, const QString& name)
   this->handles_ = handles;
   this->handle_cells_ = cells;
   this->handle_data_ = vtkSmartPointer<vtkPolyData>::New();
-  this->handle_data_->DeepCopy(data);
+  this->handle_data_->DeepCopy(handle_data);
   Pose pose;
   to_pose(this->handle_data_, this->handles_, this->handle_cells_, pose);
   set_pose(this->handle_data_, this->handle_cells_, pose);

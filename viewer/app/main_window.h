@@ -6,6 +6,7 @@
 #include "pose/pose.h"
 #include "weights/handles.h"
 
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <QMainWindow>
@@ -16,7 +17,6 @@ class QUndoStack;
 class SidePanel;
 class Viewport;
 class vtkDataSet;
-class vtkPolyData;
 
 /// The window of `bindpose view`: open a surface and handles, bind, drag.
 ///

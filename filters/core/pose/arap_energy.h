@@ -1,0 +1,53 @@
+#ifndef bindpose_pose_arap_energy_h
+#define bindpose_pose_arap_energy_h
+
+#include "base/laplacian.h"
+#include "base/mesh.h"
+
+namespace bindpose
+{
+
+/// Which edges share a rotation. All are normalised so that an affine map x -> J x costs
+/// 1/2 volume |J - R|^2 (area on surfaces).
+enum class ArapEnergy : int
+{
+  automatic = 0, ///< elements on tets, spokes and rims on surfaces
+  spokes_and_rims = 1, ///< a rotation a vertex, for all edges of its elements (Chao et al. 2010)
+  elements = 2 ///< a rotation a triangle (Liu et al. 2008) or tet (Chao et al. 2010)
+};
+
+/// "spokes_and_rims", "triangles" or "tetrahedra"; automatic is resolved first.
+const char* to_string(ArapEnergy energy, bool tets);
+
+/// Which rotation each vertex (spokes and rims) or element (elements) follows.
+struct RotationGroups
+{
+  ArapEnergy energy = ArapEnergy::spokes_and_rims;
+  Index count = 0;
+  std::vector<Index> of_vertex; ///< #V, used by spokes and rims
+  std::vector<Index> of_element; ///< #elements, used by elements
+};
+
+/// Groups from labels of the vertices; an element takes the label that most of its vertices have
+/// (the lowest of equals), labels that no element has disappear.
+RotationGroups rotation_groups(
+  ArapEnergy energy, TrianglesView triangles, Index count, std::vector<Index> vertex_labels);
+RotationGroups rotation_groups(
+  ArapEnergy energy, TetsView tets, Index count, std::vector<Index> vertex_labels);
+
+/// The matrix that sums S_k = sum c e e'^T of all groups out of posed vertices, 3 #groups x #V:
+/// row i * #groups + k of (matrix * V') is row i of S_k, with e = v_i - v_j at rest, e' posed.
+SparseMatrix covariance_matrix(
+  PointsView rest, TrianglesView triangles, const RotationGroups& groups);
+SparseMatrix covariance_matrix(PointsView rest, TetsView tets, const RotationGroups& groups);
+
+/// 1/2 sum_k sum c |e' - R_k e|^2, edge by edge: exact near zero, where sums of large terms are
+/// not. Cost: #elements x #edges.
+double arap_energy(PointsView rest, TrianglesView triangles, const RotationGroups& groups,
+  PointsView posed, const std::vector<Eigen::Matrix3d>& rotations);
+double arap_energy(PointsView rest, TetsView tets, const RotationGroups& groups, PointsView posed,
+  const std::vector<Eigen::Matrix3d>& rotations);
+
+} // namespace bindpose
+
+#endif

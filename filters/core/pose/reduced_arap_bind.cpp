@@ -1,0 +1,401 @@
+// Bind time of reduced as-rigid-as-possible: the mesh's stiffness L and covariance sums K are
+// projected on the skinning space V' = V + M D, once. Column block j of M is w_j ((x - c_j) / s_j,
+// 1), in a frame of the column's own, because a handle of small reach sees its coordinates as
+// nearly constant and would spoil the conditioning in a common frame.
+#include "pose/reduced_arap.h"
+
+#include "base/parallel.h"
+#include "pose/weight_clusters.h"
+
+#include <Eigen/LU>
+
+#include <cmath>
+#include <numeric>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Strips whose partial sums are added in order; their number fixes the bits, not the threads.
+constexpr Index strips = 16;
+constexpr Index rows_at_once = 256;
+/// A pivot this close to a vertex, in diagonals, is the vertex.
+constexpr double same_place = 1e-9;
+/// A pivot this close to a triangle, in diagonals, lies on it.
+constexpr double on_surface = 1e-6;
+
+/// Barycentric coordinates in a tet; false when outside or flat.
+bool locate(
+  PointsView points, const TetsView& tets, Index e, const Vec3& p, double, Eigen::Vector4d& lambda)
+{
+  const Vec3 d = points.row(tets(e, 3));
+  Eigen::Matrix3d edges;
+  for (int k = 0; k < 3; ++k)
+  {
+    edges.col(k) = points.row(tets(e, k)).transpose() - d;
+  }
+  if (edges.determinant() == 0.0)
+  {
+    return false;
+  }
+  lambda.head<3>() = edges.inverse() * (p - d);
+  lambda[3] = 1.0 - lambda.head<3>().sum();
+  return lambda.allFinite() && lambda.minCoeff() >= -1e-9;
+}
+
+/// Barycentric coordinates of the foot point in a triangle; false when it or the distance is off.
+bool locate(PointsView points, const TrianglesView& triangles, Index e, const Vec3& p,
+  double diagonal, Eigen::Vector4d& lambda)
+{
+  const Vec3 a = points.row(triangles(e, 0)), b = points.row(triangles(e, 1)),
+             c = points.row(triangles(e, 2));
+  const Vec3 n = (b - a).cross(c - a);
+  const double area2 = n.squaredNorm();
+  if (area2 == 0.0 || std::abs(n.dot(p - a)) > on_surface * diagonal * std::sqrt(area2))
+  {
+    return false;
+  }
+  lambda << n.dot((b - p).cross(c - p)) / area2, n.dot((c - p).cross(a - p)) / area2,
+    n.dot((a - p).cross(b - p)) / area2, 0.0;
+  return lambda.allFinite() && lambda.minCoeff() >= -1e-9;
+}
+
+const char* element_key(const TetsView&)
+{
+  return "counts.tets";
+}
+const char* element_key(const TrianglesView&)
+{
+  return "counts.triangles";
+}
+} // namespace
+
+void ReducedArap::basis_row(const double* weights, const Vec3& point, double* row) const
+{
+  for (Index j = 0; j < this->columns_; ++j)
+  {
+    const double w = weights[j];
+    const auto i = static_cast<std::size_t>(j);
+    const double f = w / this->sizes_[i];
+    row[4 * j] = f * (point[0] - this->centers_[i][0]);
+    row[4 * j + 1] = f * (point[1] - this->centers_[i][1]);
+    row[4 * j + 2] = f * (point[2] - this->centers_[i][2]);
+    row[4 * j + 3] = w;
+  }
+}
+
+template <typename Elements>
+void ReducedArap::find_pivots(PointsView points, const Elements& elements, WeightsView weights)
+{
+  const auto count = static_cast<Index>(this->handles_.size());
+  this->pivot_rows_ = Eigen::MatrixXd::Zero(count, 4 * this->columns_);
+  Eigen::RowVectorXd row(4 * this->columns_);
+  std::vector<Index> open;
+  for (Index h = 0; h < count; ++h)
+  {
+    const Handle& handle = this->handles_[static_cast<std::size_t>(h)];
+    // What holds when the mesh does not hold the pivot: the handle's own transform.
+    Eigen::VectorXd unit = Eigen::VectorXd::Unit(this->columns_, h);
+    this->basis_row(unit.data(), handle.head, row.data());
+    this->pivot_rows_.row(h) = row;
+    if (handle.kind == HandleKind::region)
+    {
+      continue; // its vertices move as one, wherever their middle lies
+    }
+    Index nearest = 0;
+    const double distance = std::sqrt(
+      (points.rowwise() - handle.head.transpose()).rowwise().squaredNorm().minCoeff(&nearest));
+    if (distance <= same_place * this->diagonal_)
+    {
+      const Vec3 at = points.row(nearest);
+      this->basis_row(weights.row(nearest).data(), at, row.data());
+      this->pivot_rows_.row(h) = row;
+      continue;
+    }
+    open.push_back(h);
+  }
+  constexpr int corners = Elements::ColsAtCompileTime;
+  for (Index e = 0; e < elements.rows() && !open.empty(); ++e)
+  {
+    Box box;
+    for (int k = 0; k < corners; ++k)
+    {
+      box.add(points.row(elements(e, k)).transpose());
+    }
+    const double margin = on_surface * this->diagonal_;
+    for (std::size_t i = 0; i < open.size(); ++i)
+    {
+      const Vec3 p = this->handles_[static_cast<std::size_t>(open[i])].head;
+      Eigen::Vector4d lambda;
+      if (((p - box.lower).array() < -margin).any() || ((p - box.upper).array() > margin).any() ||
+        !locate(points, elements, e, p, this->diagonal_, lambda))
+      {
+        continue;
+      }
+      this->pivot_rows_.row(open[i]).setZero();
+      for (int k = 0; k < corners; ++k)
+      {
+        const Vec3 at = points.row(elements(e, k));
+        this->basis_row(weights.row(elements(e, k)).data(), at, row.data());
+        this->pivot_rows_.row(open[i]) += lambda[k] * row;
+      }
+      open.erase(open.begin() + static_cast<std::ptrdiff_t>(i));
+      --i;
+    }
+  }
+}
+
+bool ReducedArap::project_stiffness(
+  ExecutionContext& context, PointsView points, const SparseMatrix& stiffness, WeightsView weights)
+{
+  const Index n = points.rows(), size = 4 * this->columns_;
+  const Index strip = (n + strips - 1) / strips;
+  std::vector<Eigen::MatrixXd> sums(static_cast<std::size_t>(strips));
+  std::vector<Eigen::VectorXd> squares(static_cast<std::size_t>(strips));
+  // M is made in pieces: all of it would be the largest thing in memory.
+  const bool done = parallel_for(context, strips, 1,
+    [&](Index s, Index)
+    {
+      Eigen::MatrixXd& sum = sums[static_cast<std::size_t>(s)];
+      Eigen::VectorXd& square = squares[static_cast<std::size_t>(s)];
+      sum = Eigen::MatrixXd::Zero(size, size);
+      square = Eigen::VectorXd::Zero(size);
+      Weights m(rows_at_once, size), lm(rows_at_once, size);
+      Eigen::RowVectorXd row(size);
+      for (Index begin = s * strip; begin < std::min(n, (s + 1) * strip); begin += rows_at_once)
+      {
+        if (context.cancelled())
+        {
+          return;
+        }
+        const Index rows = std::min(std::min(n, (s + 1) * strip) - begin, rows_at_once);
+        lm.setZero();
+        for (Index r = 0; r < rows; ++r)
+        {
+          const Index v = begin + r;
+          this->basis_row(weights.row(v).data(), points.row(v).transpose(), m.row(r).data());
+          for (SparseMatrix::InnerIterator it(stiffness, v); it; ++it)
+          {
+            this->basis_row(
+              weights.row(it.row()).data(), points.row(it.row()).transpose(), row.data());
+            lm.row(r) += it.value() * row;
+          }
+        }
+        sum.noalias() += m.topRows(rows).transpose() * lm.topRows(rows);
+        square += m.topRows(rows).colwise().squaredNorm().transpose();
+      }
+    });
+  if (!done || context.cancelled())
+  {
+    return false;
+  }
+  this->stiffness_ = Eigen::MatrixXd::Zero(size, size);
+  Eigen::VectorXd square = Eigen::VectorXd::Zero(size);
+  for (Index s = 0; s < strips; ++s)
+  {
+    this->stiffness_ += sums[static_cast<std::size_t>(s)];
+    square += squares[static_cast<std::size_t>(s)];
+  }
+  this->stiffness_ = (0.5 * (this->stiffness_ + this->stiffness_.transpose())).eval();
+  // A column is empty when nothing of it would be seen: 1e-12 of a diagonal everywhere.
+  const double count = static_cast<double>(std::max<Index>(n, 1));
+  this->basis_scale_ =
+    (square / count)
+      .unaryExpr([](double mean) { return mean > 1e-24 ? 1.0 / std::sqrt(mean) : 0.0; });
+  return true;
+}
+
+void ReducedArap::project_covariance(
+  PointsView points, const SparseMatrix& covariance, WeightsView weights, Index handle_count)
+{
+  const Index clusters = this->groups_.count;
+  this->stride_ = (clusters + 7) / 8 * 8;
+  this->covariance_ = Eigen::MatrixXd::Zero(3 * clusters, 4 * this->columns_);
+  // Rows are written while vertices pass by: row-major until the end.
+  Weights product = Weights::Zero(3 * clusters, 4 * this->columns_);
+  this->cluster_weights_ = Eigen::MatrixXd::Zero(clusters, handle_count);
+  this->rest_covariance_.assign(static_cast<std::size_t>(9 * this->stride_), 0.0);
+  Eigen::VectorXd cluster_mass = Eigen::VectorXd::Zero(clusters);
+  Eigen::RowVectorXd row(4 * this->columns_);
+  const Vec3 middle = bounding_box(points).center();
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    const Vec3 p = points.row(v);
+    this->basis_row(weights.row(v).data(), p, row.data());
+    for (SparseMatrix::InnerIterator it(covariance, v); it; ++it)
+    {
+      const Index i = it.row() / clusters, k = it.row() % clusters;
+      product.row(it.row()) += it.value() * row;
+      for (int j = 0; j < 3; ++j)
+      {
+        this->rest_covariance_[static_cast<std::size_t>((3 * i + j) * this->stride_ + k)] +=
+          it.value() * (p[j] - middle[j]);
+      }
+      // Squares of edge sums: what a vertex matters to a cluster, in any coordinate frame.
+      const double mass = it.value() * it.value();
+      this->cluster_weights_.row(k) += mass * weights.row(v).head(handle_count).cwiseAbs();
+      cluster_mass[k] += mass;
+    }
+  }
+  this->covariance_ = product;
+  for (Index k = 0; k < clusters; ++k)
+  {
+    if (cluster_mass[k] > 0.0)
+    {
+      this->cluster_weights_.row(k) /= cluster_mass[k];
+    }
+  }
+}
+
+template <typename Elements>
+Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const Elements& elements,
+  WeightsView weights, const Handles& handles, const ReducedArapOptions& options)
+{
+  *this = ReducedArap();
+  Status status = check_mesh(points, elements);
+  if (status.ok() && !points.allFinite())
+  {
+    status = Status::invalid_input("the mesh has an unused point that is not finite");
+  }
+  if (status.ok() && elements.rows() == 0)
+  {
+    status = Status::invalid_input("there is nothing to bend: the mesh has no elements");
+  }
+  if (status.ok())
+  {
+    status = check_handles(handles);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (weights.rows() != points.rows())
+  {
+    return Status::invalid_input("the weights have " + std::to_string(weights.rows()) +
+      " rows, but there are " + std::to_string(points.rows()) + " vertices");
+  }
+  if (weights.cols() != static_cast<Index>(handles.size()))
+  {
+    return Status::invalid_input("the weights have " + std::to_string(weights.cols()) +
+      " columns, but there are " + std::to_string(handles.size()) + " handles");
+  }
+  {
+    Phase phase(context, "skinning", 0.0, 0.1);
+    status = this->skinning_.bind(context, weights);
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  this->handles_ = handles;
+  this->diagonal_ = bounding_box(points).diagonal();
+  const auto handle_count = static_cast<Index>(handles.size());
+  std::string empty_names;
+  for (Index j = 0; j < handle_count; ++j)
+  {
+    if (weights.col(j).isZero(0.0))
+    {
+      empty_names +=
+        (empty_names.empty() ? "'" : ", '") + handles[static_cast<std::size_t>(j)].name + "'";
+    }
+  }
+  if (!empty_names.empty())
+  {
+    status.warnings.push_back("handles without weight anywhere move nothing: " + empty_names);
+  }
+
+  Weights all = weights;
+  Clusters clusters;
+  {
+    Phase phase(context, "clusters", 0.1, 0.5);
+    if (options.extra_weights > 0)
+    {
+      const Weights extra = spline_bumps(context, weights, options.extra_weights);
+      all.resize(weights.rows(), weights.cols() + extra.cols());
+      all << weights, extra;
+      const Status widened = this->skinning_.bind(context, all);
+      if (!widened.ok())
+      {
+        return widened;
+      }
+    }
+    const Index wanted = options.clusters > 0 ? options.clusters : 4 * all.cols();
+    if (wanted >= points.rows())
+    {
+      clusters.count = points.rows();
+      clusters.of_row.resize(static_cast<std::size_t>(points.rows()));
+      std::iota(clusters.of_row.begin(), clusters.of_row.end(), Index(0));
+    }
+    else if (!cluster_rows(context, weights, wanted, clusters))
+    {
+      return Status::cancelled();
+    }
+    const bool tets = Elements::ColsAtCompileTime == 4;
+    const ArapEnergy energy = options.energy != ArapEnergy::automatic ? options.energy
+      : tets                                                          ? ArapEnergy::elements
+                                                                      : ArapEnergy::spokes_and_rims;
+    this->groups_ = rotation_groups(energy, elements, clusters.count, std::move(clusters.of_row));
+    if (wanted >= points.rows() && energy == ArapEnergy::elements)
+    {
+      this->groups_.count = elements.rows();
+      this->groups_.of_element.resize(static_cast<std::size_t>(elements.rows()));
+      std::iota(this->groups_.of_element.begin(), this->groups_.of_element.end(), Index(0));
+    }
+    status.report.set("method", to_string(energy, tets));
+  }
+
+  Phase phase(context, "project", 0.5, 1.0);
+  this->columns_ = all.cols();
+  for (Index j = 0; j < this->columns_; ++j)
+  {
+    const Eigen::VectorXd w = all.col(j).cwiseAbs();
+    const double mass = w.sum();
+    Vec3 center = mass > 0.0 ? Vec3(points.transpose() * w / mass) : bounding_box(points).center();
+    const double spread = mass > 0.0
+      ? std::sqrt((points.rowwise() - center.transpose()).rowwise().squaredNorm().dot(w) / mass)
+      : 0.0;
+    this->centers_.push_back(center);
+    this->sizes_.push_back(
+      spread > 1e-9 * this->diagonal_ ? spread : std::max(this->diagonal_, 1e-300));
+  }
+  {
+    const SparseMatrix stiffness = stiffness_matrix(points, elements);
+    if (!this->project_stiffness(context, points, stiffness, all))
+    {
+      return Status::cancelled();
+    }
+    const Points centered = points.rowwise() - bounding_box(points).center().transpose();
+    this->rest_energy_ = 0.5 * (centered.array() * (stiffness * centered).array()).sum();
+  }
+  this->project_covariance(
+    points, covariance_matrix(points, elements, this->groups_), all, handle_count);
+  this->find_pivots(points, elements, all);
+  this->transforms_.assign(static_cast<std::size_t>(this->columns_), identity_affine());
+  this->rotations_.assign(static_cast<std::size_t>(9 * this->stride_), 0.0);
+  if (context.cancelled())
+  {
+    return Status::cancelled();
+  }
+  status.report.set("counts.vertices", Report::Value(std::int64_t(points.rows())));
+  status.report.set(element_key(elements), Report::Value(std::int64_t(elements.rows())));
+  status.report.set("counts.handles", Report::Value(std::int64_t(handle_count)));
+  status.report.set("counts.clusters", Report::Value(std::int64_t(this->groups_.count)));
+  status.report.set(
+    "counts.extra_weights", Report::Value(std::int64_t(this->columns_ - handle_count)));
+  return status;
+}
+
+Status ReducedArap::bind(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  WeightsView weights, const Handles& handles, const ReducedArapOptions& options)
+{
+  return this->bind_any(context, points, triangles, weights, handles, options);
+}
+
+Status ReducedArap::bind(ExecutionContext& context, PointsView points, TetsView tets,
+  WeightsView weights, const Handles& handles, const ReducedArapOptions& options)
+{
+  return this->bind_any(context, points, tets, weights, handles, options);
+}
+
+} // namespace bindpose

@@ -217,8 +217,8 @@ void compact(const std::vector<Vec3>& points, std::vector<Tet>& tets, TetMesh& m
 class Stuffing
 {
 public:
-  Stuffing(const WindingNumber& winding, const Lattice& lattice, double threshold)
-    : winding_(winding), lattice_(lattice), numbering_(lattice), threshold_(threshold)
+  Stuffing(const WindingNumber& winding, const Lattice& lattice, const Box& box, double threshold)
+    : winding_(winding), lattice_(lattice), numbering_(lattice), box_(box), threshold_(threshold)
   {
   }
 
@@ -237,8 +237,8 @@ public:
     this->points_.resize(this->sign_.size());
     for (Index v = 0; v < w.size(); ++v)
     {
-      this->sign_[v] = w[v] >= this->threshold_ ? 1 : -1;
       this->points_[v] = this->numbering_.point(v);
+      this->sign_[v] = w[v] >= this->threshold_ && this->in_box(this->points_[v]) ? 1 : -1;
     }
     const Phase phase(context, "cut", 0.4, 1.0);
     std::vector<Tet> tets;
@@ -288,6 +288,12 @@ private:
       });
   }
 
+  bool in_box(const Vec3& p) const
+  {
+    return (p.array() >= this->box_.lower.array()).all() &&
+      (p.array() <= this->box_.upper.array()).all();
+  }
+
   /// Where along the edge, from its first vertex, w passes the threshold.
   double cut_of(const Edge2& edge) const
   {
@@ -300,7 +306,8 @@ private:
     for (int s = 0; s < steps; ++s)
     {
       const double middle = 0.5 * (lower + upper);
-      const bool inside = this->winding_.evaluate_at(a + middle * d) >= this->threshold_;
+      const Vec3 p = a + middle * d;
+      const bool inside = this->in_box(p) && this->winding_.evaluate_at(p) >= this->threshold_;
       (inside == first_inside ? lower : upper) = middle;
     }
     return 0.5 * (lower + upper);
@@ -523,6 +530,7 @@ private:
   const WindingNumber& winding_;
   const Lattice& lattice_;
   Numbering numbering_;
+  Box box_;
   double threshold_;
   std::vector<signed char> sign_;
   std::vector<Vec3> points_;
@@ -548,11 +556,11 @@ Lattice Lattice::around(const Box& box, Index resolution)
   return lattice;
 }
 
-Status stuff_lattice(const WindingNumber& winding, const Lattice& lattice, double threshold,
-  TetMesh& mesh, ExecutionContext& context)
+Status stuff_lattice(const WindingNumber& winding, const Lattice& lattice, const Box& box,
+  double threshold, TetMesh& mesh, ExecutionContext& context)
 {
   mesh = TetMesh();
-  return Stuffing(winding, lattice, threshold).run(mesh, context);
+  return Stuffing(winding, lattice, box, threshold).run(mesh, context);
 }
 
 Status cover_lattice(PointsView points, TrianglesView triangles, const WindingNumber& winding,

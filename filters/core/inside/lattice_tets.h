@@ -22,14 +22,15 @@ struct Lattice
   static Lattice around(const Box& box, Index resolution);
 };
 
-/// Tets of {w >= threshold} by isosurface stuffing (Labelle and Shewchuk, Isosurface Stuffing:
-/// Fast Tetrahedral Meshes with Good Dihedral Angles, 2007): lattice vertices near the isosurface
-/// move onto it, the remaining tets that it cuts are cut. Every dihedral angle is between 10.7 and
-/// 164.8 degrees. Parts thinner than a cube are lost. The surface's vertices are not kept.
-/// Works for every surface: only winding numbers are asked for, about 2 a cube and 8 a cut edge.
-/// No tets when w is below the threshold everywhere. @return cancelled or ok.
-Status stuff_lattice(const WindingNumber& winding, const Lattice& lattice, double threshold,
-  TetMesh& mesh, ExecutionContext& context);
+/// Tets of {w >= threshold}, as far as it lies in the box, by isosurface stuffing (Labelle and
+/// Shewchuk, Isosurface Stuffing: Fast Tetrahedral Meshes with Good Dihedral Angles, 2007): lattice
+/// vertices near the isosurface move onto it, the remaining tets that it cuts are cut. Every
+/// dihedral angle is between 10.7 and 164.8 degrees. Parts thinner than a cube are lost. The
+/// surface's vertices are not kept. Works for every surface: only winding numbers are asked for,
+/// about 2 a cube and 8 a cut edge. No tets when w is below the threshold everywhere in the box.
+/// @return cancelled or ok.
+Status stuff_lattice(const WindingNumber& winding, const Lattice& lattice, const Box& box,
+  double threshold, TetMesh& mesh, ExecutionContext& context);
 
 /// Lattice tets that hold the surface and its inside: those whose centre is within 0.57 spacing of
 /// the surface, so that every point of the surface is in one, or has w >= threshold. All dihedral

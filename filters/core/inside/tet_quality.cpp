@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace bindpose
 {
@@ -73,6 +74,80 @@ Status check_tets(PointsView points, TetsView tets)
     return Status::failure(StatusCode::internal_error, "a tet is there twice");
   }
   return {};
+}
+
+Index drop_crumbs(const Points& points, Tets& tets)
+{
+  constexpr int facet[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
+  struct Facet
+  {
+    std::array<Index, 3> key;
+    Index tet;
+  };
+  std::vector<Facet> facets;
+  facets.reserve(static_cast<std::size_t>(tets.rows()) * 4);
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    for (const auto& f : facet)
+    {
+      std::array<Index, 3> key{ tets(t, f[0]), tets(t, f[1]), tets(t, f[2]) };
+      std::sort(key.begin(), key.end());
+      facets.push_back({ key, t });
+    }
+  }
+  std::sort(facets.begin(), facets.end(),
+    [](const Facet& x, const Facet& y) { return x.key != y.key ? x.key < y.key : x.tet < y.tet; });
+  std::vector<Index> group(static_cast<std::size_t>(tets.rows()));
+  std::iota(group.begin(), group.end(), Index(0));
+  const auto find = [&](Index t)
+  {
+    while (group[t] != t)
+    {
+      group[t] = group[group[t]];
+      t = group[t];
+    }
+    return t;
+  };
+  for (std::size_t i = 1; i < facets.size(); ++i)
+  {
+    if (facets[i].key == facets[i - 1].key)
+    {
+      const Index a = find(facets[i - 1].tet);
+      const Index b = find(facets[i].tet);
+      group[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  const Eigen::VectorXd volumes = tet_volumes(points, tets);
+  Eigen::VectorXd of_group = Eigen::VectorXd::Zero(tets.rows());
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    of_group[find(t)] += volumes[t];
+  }
+  constexpr double crumb = 1e-8;
+  const double least = crumb * volumes.sum();
+  Index kept = 0;
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    if (of_group[find(t)] >= least)
+    {
+      tets.row(kept++) = tets.row(t).eval();
+    }
+  }
+  const Index dropped = tets.rows() - kept;
+  tets.conservativeResize(kept, 4);
+  return dropped;
+}
+
+Points centers_of(const Points& points, const Tets& tets)
+{
+  Points centers(tets.rows(), 3);
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    centers.row(t) = 0.25 *
+      (points.row(tets(t, 0)) + points.row(tets(t, 1)) + points.row(tets(t, 2)) +
+        points.row(tets(t, 3)));
+  }
+  return centers;
 }
 
 } // namespace bindpose

@@ -23,6 +23,13 @@ TetQuality measure_tets(PointsView points, TetsView tets);
 /// internal_error naming the first tet that is flat, turned over or there twice; ids are in range.
 Status check_tets(PointsView points, TetsView tets);
 
+/// Removes groups of tets, joined by facets, that hold less than 1e-8 of the volume: crumbs of
+/// rounding. @return how many tets went.
+Index drop_crumbs(const Points& points, Tets& tets);
+
+/// #T x 3 mean of the four vertices.
+Points centers_of(const Points& points, const Tets& tets);
+
 } // namespace bindpose
 
 #endif

@@ -254,6 +254,10 @@ Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const
 {
   *this = ReducedArap();
   Status status = check_mesh(points, elements);
+  if (status.ok() && !points.allFinite())
+  {
+    status = Status::invalid_input("the mesh has an unused point that is not finite");
+  }
   if (status.ok() && elements.rows() == 0)
   {
     status = Status::invalid_input("there is nothing to bend: the mesh has no elements");

@@ -17,6 +17,8 @@ struct vtkPoseAlgorithm::PoseInput
 struct vtkPoseAlgorithm::PosedPoints
 {
   bindpose::Points points;
+  /// One a handle, as used; empty: none are attached to the output.
+  std::vector<bindpose::Affine> transforms;
 };
 
 #endif

@@ -11,6 +11,8 @@
 #include "pose_input.h"
 
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
@@ -43,6 +45,48 @@ std::string names_of(vtkDataSet* data)
     names += std::string(i ? ", " : "") + (name ? name : "(unnamed)");
   }
   return names.empty() ? "none" : names;
+}
+
+/// Weights that were made for this mesh and these handles: as many rows and columns, and columns
+/// that have a name have the handle's.
+Status check_weights(vtkDataArray* weights, vtkIdType points, const Handles& handles)
+{
+  const std::string array = std::string("the array '") + weights->GetName() + "'";
+  if (weights->GetNumberOfTuples() != points)
+  {
+    return Status::invalid_input(array + " has " + std::to_string(weights->GetNumberOfTuples()) +
+      " tuples, but the mesh has " + std::to_string(points) +
+      " points: these are the weights of another mesh");
+  }
+  const int columns = weights->GetNumberOfComponents();
+  if (columns != static_cast<int>(handles.size()))
+  {
+    return Status::invalid_input(array + " has " + std::to_string(columns) +
+      " components, but there are " + std::to_string(handles.size()) + " handles");
+  }
+  for (int j = 0; j < columns; ++j)
+  {
+    const char* name = weights->HasAComponentName() ? weights->GetComponentName(j) : nullptr;
+    if (name && *name && handles[static_cast<std::size_t>(j)].name != name)
+    {
+      return Status::invalid_input(array + " has the weights of a handle '" + name +
+        "' in component " + std::to_string(j) + ", where the handles have '" +
+        handles[static_cast<std::size_t>(j)].name + "': these are the weights of other handles");
+    }
+  }
+  return {};
+}
+
+vtkSmartPointer<vtkDoubleArray> to_array(const std::vector<Affine>& transforms)
+{
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName("HandleTransforms");
+  array->SetNumberOfComponents(12);
+  for (const Affine& transform : transforms)
+  {
+    array->InsertNextTuple(transform.data());
+  }
+  return array;
 }
 
 vtkSmartPointer<vtkDataArray> to_normals(const Points& normals, vtkDataArray* like)
@@ -151,17 +195,16 @@ Status vtkPoseAlgorithm::Execute(
     {
       return status;
     }
+    status = check_weights(weights, mesh->GetNumberOfPoints(), bound.handles);
+    if (!status.ok())
+    {
+      return status;
+    }
     bound.points = to_points(mesh);
     bound.weights = to_matrix(weights);
     if (!bound.points.view().allFinite())
     {
       return Status::invalid_input("the mesh has a coordinate that is not a finite number");
-    }
-    const WeightsView view = bound.weights.view();
-    if (view.cols() != static_cast<Index>(bound.handles.size()))
-    {
-      return Status::invalid_input("the weights have " + std::to_string(view.cols()) +
-        " components, but there are " + std::to_string(bound.handles.size()) + " handles");
     }
   }
   Pose pose;
@@ -196,6 +239,10 @@ Status vtkPoseAlgorithm::Execute(
   }
   result->ShallowCopy(mesh);
   result->SetPoints(to_vtk_points(posed.points));
+  if (!posed.transforms.empty())
+  {
+    result->GetFieldData()->AddArray(to_array(posed.transforms));
+  }
   auto* polydata = vtkPolyData::SafeDownCast(result);
   if (vtkDataArray* rest = polydata ? polydata->GetPointData()->GetNormals() : nullptr)
   {

@@ -5,7 +5,9 @@
  * Port 0 is the mesh at rest with its weights (any vtkPointSet, point array `Weights` with a
  * component a handle), port 1 the handles with their pose (see filters/README.md). The output is
  * the mesh with moved points (doubles); cells and arrays are the input's own objects. Point normals
- * of a vtkPolyData (the active ones, when it has some) follow.
+ * of a vtkPolyData (the active ones, when it has some) follow. The field data array
+ * `HandleTransforms` has the transforms that were used, #handles x 12 (3x4, row by row, rest to
+ * posed): what a filter found for handles that are not in mode full.
  *
  * **Bind and pose.** What depends on the rest mesh, the weights or the rest handles only is done
  * once, in Bind(), and kept; moving handles (Transform, Mode, Stretch, Twist) runs Deform() alone.
@@ -13,8 +15,9 @@
  * told by their own modification times, or a bind parameter of the filter. GetNumberOfBinds()
  * counts.
  *
- * **Errors**: no mesh, no handles, no array of that name, as many components as handles are not
- * there, weights that are not finite. Rows that do not sum to one are a warning.
+ * **Errors**: no mesh, no handles, no array of that name, an array with another number of tuples
+ * than points or of components than handles, a component that is named after another handle than
+ * its own, weights that are not finite. Rows that do not sum to one are a warning.
  */
 
 #ifndef vtkPoseAlgorithm_h
@@ -51,7 +54,7 @@ protected:
 
   /// Mesh, weights, handles and pose as the kernels want them; valid during a call.
   struct PoseInput;
-  /// A bindpose::Points, #V x 3.
+  /// A bindpose::Points, #V x 3, and the transforms that moved them.
   struct PosedPoints;
 
   /**

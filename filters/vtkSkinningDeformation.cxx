@@ -42,6 +42,7 @@ Status vtkSkinningDeformation::Deform(
         handle_pivots(input.handles), posed.points)
     : this->Internal->skinning.linear_blend(
         context, input.points, this->Internal->transforms, posed.points);
+  posed.transforms = this->Internal->transforms;
   moved.warnings.insert(moved.warnings.end(), status.warnings.begin(), status.warnings.end());
   moved.report.set("method", this->Method == DUAL_QUATERNION ? "dual_quaternion" : "linear_blend");
   return moved;

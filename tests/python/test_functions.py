@@ -146,7 +146,7 @@ def test_not_converged_is_a_warning_with_a_result():
     (lambda: bindpose.weights(BAR, "auto:0"), "auto"),
     (lambda: bindpose.weights(BAR, 7), "handles"),
     (lambda: bindpose.weights(BAR, "none.tgf"), "none.tgf"),
-    (lambda: bindpose.deform(BAR, bindpose.handles(bones=BONES), {}), "Weights"),
+    (lambda: bindpose.deform(BAR, bindpose.handles(bones=BONES), {"handles": {}}), "Weights"),
     (lambda: bindpose.deform(BAR, bindpose.handles(bones=BONES), {"handles": {"elbow": {}}},
                              weights=np.full((len(BAR[0]), 2), 0.5)), "elbow"),
     (lambda: bindpose.deform(BAR, bindpose.handles(bones=BONES), {"a": {1, 2}},

@@ -33,7 +33,8 @@ bool passes(const Difference& difference);
 
 /// Compares with baselines/NAME.png, NAME being the running test's. On failure writes
 /// NAME.actual.png, NAME.baseline.png and NAME.difference.png into the build folder and says
-/// where. Blessed (see tests/README.md), it makes the picture the baseline.
+/// where. Blessed (see tests/README.md), it makes the picture the baseline, unless an assertion
+/// before it has failed.
 void expect_baseline(vtkImageData* actual);
 
 /// Red, green, blue (0 to 255) at a place in pixels from the lower left corner.

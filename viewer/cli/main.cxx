@@ -33,14 +33,21 @@ vtkStandardNewMacro(SilentOutputWindow);
 void run(Session& session)
 {
   const std::pair<const char*, void (*)(Session&)> functions[] = { { "info", run_info },
-    { "winding", run_winding }, { "render", run_render }, { "view", run_view } };
+    { "winding", run_winding }, { "tetrahedralize", run_tetrahedralize },
+    { "weights", run_weights }, { "deform", run_deform }, { "render", run_render },
+    { "view", run_view } };
   for (const auto& [name, function] : functions)
   {
-    if (session.arguments().verb == name && session.check_report())
+    if (session.arguments().verb == name)
     {
-      function(session);
+      if (session.check_report())
+      {
+        function(session);
+      }
+      return;
     }
   }
+  session.fail(Status::failure(StatusCode::internal_error, "the verb has no function"));
 }
 } // namespace
 

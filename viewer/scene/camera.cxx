@@ -94,15 +94,14 @@ void fit_camera(vtkCamera* camera, PointsView points, const Frame& frame, const 
   double depth =
     std::min(-(high[0] + high[1]) / (2.0 * free * tx), -(high[2] + high[3]) / (2.0 * free * ty));
   depth = std::min(depth, near_point - 0.1 * smallest);
-  // Zoom by moving towards the middle of the shape.
   const double middle = 0.5 * (near_point + far_point);
-  depth = middle - (middle - depth) / std::max(view.zoom, 1e-6);
   const Vec3 place =
     center + 0.5 * (high[0] - high[1]) * right + 0.5 * (high[2] - high[3]) * up + depth * forward;
   const Vec3 focus = place + (middle - depth) * forward;
 
   camera->ParallelProjectionOff();
-  camera->SetViewAngle(view_angle);
+  // Zoom by the angle: the perspective stays, and the camera never enters the shape.
+  camera->SetViewAngle(2.0 * std::atan(ty / view.zoom) * 180.0 / pi);
   camera->SetPosition(place.data());
   camera->SetFocalPoint(focus.data());
   camera->SetViewUp(up.data());

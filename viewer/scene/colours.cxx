@@ -91,8 +91,8 @@ Rgb winding_colour(double winding_number)
   const Rgb outside{ 0.44, 0.65, 0.82 };
   const Rgb middle{ 0.98, 0.97, 0.95 };
   const Rgb inside{ 0.90, 0.58, 0.36 };
-  const Rgb negative[2] = { { 0.36, 0.30, 0.66 }, { 0.17, 0.09, 0.38 } };
-  const Rgb doubled[2] = { { 0.63, 0.25, 0.12 }, { 0.36, 0.08, 0.05 } };
+  const Rgb negative[2] = { { 0.52, 0.47, 0.77 }, { 0.20, 0.10, 0.45 } };
+  const Rgb doubled[2] = { { 0.72, 0.33, 0.17 }, { 0.36, 0.08, 0.05 } };
   const double w = winding_number;
   if (w < -0.02)
   {

@@ -39,10 +39,10 @@ std::string tick_text(double value, int decimals)
   return text;
 }
 
-// Of Arial; generous, since it only reserves space.
+// Of bold letters, generous, since it only reserves space.
 double text_width(const std::string& text, int font_size)
 {
-  return 0.56 * font_size * static_cast<double>(text.size());
+  return 0.66 * font_size * static_cast<double>(text.size());
 }
 
 int bar_width(int font_size)

@@ -146,6 +146,14 @@ void add_contours(vtkRenderer* renderer, vtkPolyData* data, const std::vector<do
   add_lines(renderer, contours->GetOutput(), colour, width);
 }
 
+// The map's colours as they are.
+void switch_off_light(vtkActor* actor)
+{
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetAmbient(0.0);
+  actor->GetProperty()->SetDiffuse(1.0);
+}
+
 void use_edges(vtkActor* actor, const Rgb& colour, double width)
 {
   actor->GetProperty()->EdgeVisibilityOn();
@@ -165,7 +173,7 @@ void add_surface(vtkRenderer* renderer, vtkPolyData* surface, const PictureOptio
   push_back(actor);
   if (options.edges)
   {
-    use_edges(actor, palette::line, 0.6 * scale);
+    use_edges(actor, palette::edges, 0.6 * scale);
   }
   if (colouring.kind == Colouring::Kind::weights && options.isolines)
   {
@@ -177,7 +185,7 @@ void add_surface(vtkRenderer* renderer, vtkPolyData* surface, const PictureOptio
       levels.push_back(
         colouring.map.lower + (colouring.map.upper - colouring.map.lower) * i / bands);
     }
-    add_contours(renderer, shaded.polydata(), levels, 0.9 * scale, palette::line);
+    add_contours(renderer, shaded.polydata(), levels, 1.2 * scale, palette::line);
   }
 }
 
@@ -319,7 +327,7 @@ void add_volume(vtkRenderer* renderer, vtkImageData* image, const PictureOptions
   faces->SetInputConnection(cut->GetOutputPort());
   faces->Update();
   const auto actor = add_actor(renderer, faces->GetOutput(), colouring);
-  actor->GetProperty()->LightingOff();
+  switch_off_light(actor);
   push_back(actor);
   if (colouring.kind != Colouring::Kind::winding)
   {
@@ -388,7 +396,7 @@ void add_lines_and_points(
   const auto actor = add_actor(renderer, copy, colouring);
   actor->GetProperty()->SetLineWidth(static_cast<float>(2.0 * scale));
   actor->GetProperty()->SetPointSize(static_cast<float>(4.0 * scale));
-  actor->GetProperty()->LightingOff();
+  switch_off_light(actor);
   if (!copy->GetPointData()->HasArray(colour_array_name))
   {
     actor->GetProperty()->SetColor(palette::line[0], palette::line[1], palette::line[2]);

@@ -528,8 +528,9 @@ void vtkHandleSetRepresentation::BuildRepresentation()
   {
     return;
   }
-  bindpose::HandleShapes solid;
-  bindpose::HandleShapes outline;
+  const bool fine = self.CountCells() <= 60;
+  bindpose::HandleShapes solid(fine);
+  bindpose::HandleShapes outline(fine);
   self.VisibleLabels = 0;
   const bindpose::Colour mode_colours[3] = { to_colour(this->FullColor),
     to_colour(this->PositionColor), to_colour(this->FreeColor) };
@@ -660,6 +661,8 @@ int vtkHandleSetRepresentation::RenderOverlay(vtkViewport* viewport)
   }
   for (std::size_t i = 0; i < this->Internal->VisibleLabels; ++i)
   {
+    // A text actor draws its letters in the opaque pass and shows them in the overlay.
+    this->Internal->Labels[i]->RenderOpaqueGeometry(viewport);
     rendered += this->Internal->Labels[i]->RenderOverlay(viewport);
   }
   return rendered;

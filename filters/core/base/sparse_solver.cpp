@@ -223,7 +223,14 @@ public:
       const auto at = static_cast<Index>(this->factor_->minor);
       return not_positive_definite(at < matrix.rows() ? order[at] : at);
     }
-    return this->common_.status < 0 ? this->failure("factored") : Status();
+    if (this->common_.status < 0)
+    {
+      return this->failure("factored");
+    }
+    // LAPACK lets NaN through; the estimate of the condition is 0 or NaN then.
+    return cholmod_rcond(this->factor_, &this->common_) > 0.0
+      ? Status()
+      : Status::invalid_input("the matrix to be factored holds numbers that are not finite");
   }
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override

@@ -254,6 +254,10 @@ Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const
 {
   *this = ReducedArap();
   Status status = check_mesh(points, elements);
+  if (status.ok() && !points.allFinite())
+  {
+    status = Status::invalid_input("the mesh has an unused point that is not finite");
+  }
   if (status.ok() && elements.rows() == 0)
   {
     status = Status::invalid_input("there is nothing to bend: the mesh has no elements");
@@ -286,6 +290,8 @@ Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const
   }
   this->handles_ = handles;
   this->diagonal_ = bounding_box(points).diagonal();
+  this->radius_ =
+    std::sqrt((points.rowwise() - points.colwise().mean()).rowwise().squaredNorm().mean());
   const auto handle_count = static_cast<Index>(handles.size());
   std::string empty_names;
   for (Index j = 0; j < handle_count; ++j)

@@ -17,6 +17,15 @@ constexpr Index lloyd_rounds = 100;
 /// Rows closer than this are one point of weight space.
 constexpr double same_row = 1e-12;
 
+/// A number that looks random, the same on every machine (splitmix64).
+std::uint64_t scramble(std::uint64_t x)
+{
+  x += 0x9e3779b97f4a7c15ull;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebull;
+  return x ^ (x >> 31);
+}
+
 /// Labels by nearest mean (the lowest of equals). False when cancelled.
 bool assign_rows(
   ExecutionContext& context, WeightsView rows, const Weights& means, std::vector<Index>& labels)
@@ -129,7 +138,10 @@ bool cluster_rows(ExecutionContext& context, WeightsView rows, Index count, Clus
   Weights sample((rows.rows() + step - 1) / step, rows.cols());
   for (Index i = 0; i < sample.rows(); ++i)
   {
-    sample.row(i) = rows.row(i * step);
+    // One of each step rows, which one at random: meshes repeat themselves at regular strides.
+    const auto offset = static_cast<Index>(scramble(static_cast<std::uint64_t>(i)) %
+      static_cast<std::uint64_t>(std::min(step, rows.rows() - i * step)));
+    sample.row(i) = rows.row(i * step + offset);
   }
   std::vector<Index> seeds;
   farthest_rows(context, sample, count, seeds);

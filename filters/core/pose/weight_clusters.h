@@ -27,9 +27,9 @@ struct Clusters
 };
 
 /// k-means: farthest-point seeds, then Lloyd's iteration (at most 100 rounds, ends when fewer than
-/// one row in a thousand moves). Large inputs are clustered on every s-th row, max(5000, 50 count)
-/// of them, and all rows then go to the nearest mean. Fewer clusters come back when there are
-/// fewer different rows. False when cancelled.
+/// one row in a thousand moves). Large inputs are clustered on max(5000, 50 count) of their rows,
+/// and all rows then go to the nearest mean. Fewer clusters come back when there are fewer
+/// different rows. False when cancelled.
 bool cluster_rows(ExecutionContext& context, WeightsView rows, Index count, Clusters& clusters);
 
 /// #rows x count extra weights that widen the space of deformations: cubic B-spline bumps of the

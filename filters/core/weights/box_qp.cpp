@@ -28,6 +28,7 @@ struct BoxQp::Impl : BoxQpMatrices
   BoxQpOptions options;
   SparseSolver solver; // of A itself
   double first_factor_seconds = 0.0;
+  mutable std::mutex inverse_mutex;
   mutable std::mutex pool_mutex;
   mutable std::vector<std::unique_ptr<BoxQpWorkspace>> pool;
 
@@ -44,6 +45,26 @@ struct BoxQp::Impl : BoxQpMatrices
     workspace->solver = this->solver.clone();
     workspace->matrix = this->lower;
     return workspace;
+  }
+  /// r -> A^-1 r over all vertices. The one factor of A serves one column at a time.
+  VectorXd inverse(const VectorXd& r) const
+  {
+    VectorXd rhs(static_cast<Index>(this->free_vertices.size()));
+    for (std::size_t i = 0; i < this->free_vertices.size(); ++i)
+    {
+      rhs[static_cast<Index>(i)] = r[this->free_vertices[i]];
+    }
+    VectorXd x;
+    {
+      const std::lock_guard<std::mutex> lock(this->inverse_mutex);
+      this->solver.solve(rhs, x);
+    }
+    VectorXd result = VectorXd::Zero(r.size());
+    for (std::size_t i = 0; i < this->free_vertices.size(); ++i)
+    {
+      result[this->free_vertices[i]] = x[static_cast<Index>(i)];
+    }
+    return result;
   }
   void give_back(std::unique_ptr<BoxQpWorkspace> workspace) const
   {
@@ -192,22 +213,20 @@ std::vector<BoxQpSolution> BoxQp::solve_unbounded(
     }
     std::vector<char> nowhere(pinned.size(), 0);
     solution.certificate = certify({ impl.q, nowhere }, solution.w);
-    const VectorXd gradient = impl.q.transpose() * solution.w;
-    VectorXd g(static_cast<Index>(impl.free_vertices.size()));
-    for (std::size_t i = 0; i < impl.free_vertices.size(); ++i)
+    VectorXd g = impl.q.transpose() * solution.w;
+    for (Index v = 0; v < g.size(); ++v)
     {
-      const Index v = impl.free_vertices[i];
-      const auto at = static_cast<Index>(i);
-      g[at] = pinned[v] ? 0.0 : gradient[v];
-      solution.certificate.kkt_residual = std::max(solution.certificate.kkt_residual,
-        std::abs(g[at]) / impl.lower.valuePtr()[impl.diagonal[i]]);
+      g[v] = impl.is_free[v] && !pinned[v] ? g[v] : 0.0;
+      if (g[v] != 0.0)
+      {
+        solution.certificate.kkt_residual =
+          std::max(solution.certificate.kkt_residual, std::abs(g[v]) / impl.q.coeff(v, v));
+      }
     }
     if (solution.certificate.energy > 0.0)
     {
-      VectorXd step;
-      impl.solver.solve(g, step);
       solution.certificate.relative_gap =
-        g.size() ? 0.5 * g.dot(step) / solution.certificate.energy : 0.0;
+        0.5 * g.dot(impl.inverse(g)) / solution.certificate.energy;
     }
     solution.solve_seconds = seconds + seconds_since(column_start);
   }
@@ -240,8 +259,9 @@ std::vector<BoxQpSolution> BoxQp::solve_all(
       {
         auto workspace = impl.take_workspace();
         const VectorXd unconstrained = free_of_bounds.col(j);
-        solutions[j] =
-          interior_point(impl, impl.options, columns[j], unconstrained, *workspace, context);
+        solutions[j] = interior_point(
+          impl, impl.options, columns[j], unconstrained,
+          [&](const VectorXd& r) { return impl.inverse(r); }, *workspace, context);
         impl.give_back(std::move(workspace));
       }
     });

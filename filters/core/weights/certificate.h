@@ -3,6 +3,7 @@
 
 #include "base/laplacian.h"
 
+#include <functional>
 #include <vector>
 
 namespace bindpose
@@ -21,6 +22,12 @@ struct OrderedPair
 /// quadratic program bounds the minimum from below, so that
 ///   gap = lambda' G w + sum over free vertices of max(g' (w - l), -g' (u - w))
 /// is a rigorous bound on E(w) - min E, whoever computed w and lambda.
+///
+/// On needles, and for triharmonic energies, the round-off of Q w alone, 1e-16 of Q's entries,
+/// makes that sum large however good w is. A second bound, as rigorous, sees round-off squared: for
+/// any set of vertices, with r = g' there and 0 elsewhere,
+///   gap = lambda' G w + (the sum above over all others) + 1/2 r' A^-1 r
+/// where A is Q's free block. The smaller of both is taken where A^-1 is given.
 struct Certificate
 {
   double relative_gap = 0.0; ///< gap / E
@@ -44,9 +51,11 @@ struct BoundedEnergy
 /// The gap is divided by max(E, 1e-12 * mean diagonal of Q / 2): a column that can be constant has
 /// energy zero.
 /// @param pairs, multipliers ordered pairs and their lambda >= 0, of equal length.
+/// @param inverse r -> A^-1 r for vectors over all vertices, zero where w is given beforehand.
 Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
   const std::vector<OrderedPair>& pairs = {},
-  const Eigen::VectorXd& multipliers = Eigen::VectorXd());
+  const Eigen::VectorXd& multipliers = Eigen::VectorXd(),
+  const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& inverse = {});
 
 } // namespace bindpose
 

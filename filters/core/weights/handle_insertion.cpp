@@ -394,6 +394,13 @@ Status Inserter::run(ExecutionContext& context)
   }
   samples.insert(samples.end(), ends.begin(), ends.end());
   samples.insert(samples.end(), between.begin(), between.end());
+  // A handle right on a vertex gets it, before another near it can snap there.
+  std::stable_partition(samples.begin(), samples.end(),
+    [&](const Sample& sample)
+    {
+      const SimplexLocation at = this->locator_->locate(sample.place);
+      return *std::max_element(at.barycentric.begin(), at.barycentric.end()) >= 1.0 - 1e-9;
+    });
   for (std::size_t i = 0; i < samples.size(); ++i)
   {
     if (this->options_.keep_mesh)

@@ -32,8 +32,10 @@ struct BoxQpWorkspace
 
 /// Solves for one column (see BoxQp).
 /// @param unconstrained #V, the minimiser without bounds.
+/// @param inverse r -> A^-1 r over all vertices (see certify), asked for seldom.
 BoxQpSolution interior_point(const BoxQpMatrices& matrices, const BoxQpOptions& options,
-  const BoxQpColumn& column, const Eigen::VectorXd& unconstrained, BoxQpWorkspace& workspace,
+  const BoxQpColumn& column, const Eigen::VectorXd& unconstrained,
+  const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& inverse, BoxQpWorkspace& workspace,
   ExecutionContext& context);
 
 } // namespace bindpose

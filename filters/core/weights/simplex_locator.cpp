@@ -45,7 +45,7 @@ SimplexLocation nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b,
     {
       SimplexLocation inside;
       inside.element = 0;
-      inside.barycentric = { 1.0 - v - w, v, w, 0.0 };
+      inside.barycentric = { std::max(0.0, 1.0 - v - w), v, w, 0.0 };
       inside.distance = (ap - v * ab - w * ac).norm();
       return inside;
     }
@@ -82,7 +82,7 @@ SimplexLocation nearest_in_tet(
     {
       SimplexLocation inside;
       inside.element = 0;
-      inside.barycentric = { 1.0 - u - v - w, u, v, w };
+      inside.barycentric = { std::max(0.0, 1.0 - u - v - w), u, v, w };
       return inside;
     }
   }

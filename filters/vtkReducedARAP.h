@@ -1,0 +1,128 @@
+/**
+ * @class   vtkReducedARAP
+ * @brief   poses a mesh as rigidly as its handles allow, in microseconds an iteration
+ *
+ * Fast Automatic Skinning Transformations (Jacobson et al. 2012). The posed mesh is a linear blend
+ * of one affine transform a handle, as with vtkSkinningDeformation; but only what the user fixes is
+ * given, the rest of the transforms is found so that the mesh bends as little as it can:
+ * - a handle in mode `full` (0) has its `Transform`;
+ * - a handle in mode `position` (1) has its pivot where `Transform` takes it, turns by itself;
+ * - a handle in mode `free` (2) finds itself.
+ *
+ * With every handle full the result is linear blend skinning. The energy is the sum over clusters
+ * of vertices with similar weights of |e' - R e|^2 over their edges e; a solve alternates best
+ * rotations R and best transforms and never raises the energy. Its cost does not depend on the size
+ * of the mesh.
+ *
+ * Ports, arrays, bind cache and errors: vtkPoseAlgorithm. Port 0 is a surface (vtkPolyData, or a
+ * grid of 2D cells) or a vtkUnstructuredGrid of tets: the energy is that of the mesh it is given,
+ * tets keep volume, surfaces keep only their skin. The field data array `HandleTransforms` of the
+ * output has the found transforms, #handles x 12 (3x4, row by row, rest to posed).
+ *
+ * Positions that contradict each other are met in the least-squares sense; these, redundant ones
+ * and handles without any weight are named in warnings. Weight columns that are empty, doubled or
+ * nearly dependent are harmless.
+ *
+ * Report: method (the energy), counts (clusters, extra_weights among them), energy, iterations,
+ * microseconds_per_iteration, constraint_residual (in diagonals), row_sum_error, seconds.bind,
+ * seconds.solve, seconds.skin. Status NOT_CONVERGED, with an output, when MaximumIterations were
+ * not enough for Tolerance.
+ */
+
+#ifndef vtkReducedARAP_h
+#define vtkReducedARAP_h
+
+#include "BindposeFiltersModule.h" // for export macro
+#include "vtkPoseAlgorithm.h"
+
+class BINDPOSEFILTERS_EXPORT vtkReducedARAP : public vtkPoseAlgorithm
+{
+public:
+  static vtkReducedARAP* New();
+  vtkTypeMacro(vtkReducedARAP, vtkPoseAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  enum EnergyType
+  {
+    AUTO = 0,
+    SPOKES_AND_RIMS = 1,
+    TETRAHEDRA = 2,
+    TRIANGLES = 3
+  };
+
+  ///@{
+  /**
+   * Which edges share a rotation: those around a vertex (spokes and rims), of a tet or of a
+   * triangle. Default AUTO: TETRAHEDRA on tets, SPOKES_AND_RIMS on surfaces. TETRAHEDRA on a
+   * surface and TRIANGLES on tets are errors. A bind parameter.
+   */
+  void SetEnergy(int energy);
+  vtkGetMacro(Energy, int);
+  ///@}
+
+  ///@{
+  /// Rotations fitted in an iteration. Default 0: four a handle. A bind parameter.
+  void SetNumberOfClusters(int clusters);
+  vtkGetMacro(NumberOfClusters, int);
+  ///@}
+
+  ///@{
+  /**
+   * Extra weights, smooth bumps between the handles, that let the mesh bend where no handle is.
+   * Default 0; 15 is a good number. A bind parameter.
+   */
+  void SetNumberOfExtraWeights(int extra);
+  vtkGetMacro(NumberOfExtraWeights, int);
+  ///@}
+
+  ///@{
+  /// Most iterations of a solve, 0 to 1e6. Default 100.
+  vtkSetClampMacro(MaximumIterations, int, 0, 1000000);
+  vtkGetMacro(MaximumIterations, int);
+  ///@}
+
+  ///@{
+  /**
+   * A solve ends when an iteration lowers the energy by no more than this share of it (or of 1e-6
+   * of the rest energy, when hardly anything bends). Default 1e-6; 0 runs all iterations.
+   */
+  vtkSetClampMacro(Tolerance, double, 0.0, 1.0);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether a solve starts from the rotations of the last one (default on: drags converge in few
+   * iterations and keep their twists) or from a guess by the handles' own motions (off: the result
+   * depends on the pose only).
+   */
+  vtkSetMacro(WarmStart, bool);
+  vtkGetMacro(WarmStart, bool);
+  vtkBooleanMacro(WarmStart, bool);
+  ///@}
+
+protected:
+  vtkReducedARAP();
+  ~vtkReducedARAP() override;
+
+  bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) override;
+  bindpose::Status Deform(
+    const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) override;
+  bindpose::Status DeformNormals(const PoseInput& input, bindpose::ExecutionContext& context,
+    const PosedPoints& posed, PosedPoints& normals) override;
+
+private:
+  vtkReducedARAP(const vtkReducedARAP&) = delete;
+  void operator=(const vtkReducedARAP&) = delete;
+
+  int Energy = AUTO;
+  int NumberOfClusters = 0;
+  int NumberOfExtraWeights = 0;
+  int MaximumIterations = 100;
+  double Tolerance = 1e-6;
+  bool WarmStart = true;
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif

@@ -1,0 +1,146 @@
+// What deformations cost, in numbers that can be worked out by hand.
+#include "pose/arap_energy.h"
+
+#include "pose/rotation_fit.h"
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+using namespace bindpose;
+
+namespace
+{
+template <typename Mesh>
+std::vector<Index> own_labels(const Mesh& mesh)
+{
+  std::vector<Index> labels(static_cast<std::size_t>(mesh.points.rows()));
+  std::iota(labels.begin(), labels.end(), Index(0));
+  return labels;
+}
+
+const Triangles& elements_of(const TriangleMesh& mesh)
+{
+  return mesh.triangles;
+}
+const Tets& elements_of(const TetMesh& mesh)
+{
+  return mesh.tets;
+}
+
+/// The energy of an affine map with the best rotations.
+template <typename Mesh>
+double energy_of(const Mesh& mesh, ArapEnergy energy, const Eigen::Matrix3d& map)
+{
+  const RotationGroups groups =
+    rotation_groups(energy, elements_of(mesh), mesh.points.rows(), own_labels(mesh));
+  const Points posed = mesh.points * map.transpose();
+  const Eigen::MatrixXd s = covariance_matrix(mesh.points, elements_of(mesh), groups) * posed;
+  std::vector<Eigen::Matrix3d> rotations(
+    static_cast<std::size_t>(groups.count), Eigen::Matrix3d::Identity());
+  for (Index k = 0; k < groups.count; ++k)
+  {
+    Eigen::Matrix3d one;
+    one << s.row(k), s.row(groups.count + k), s.row(2 * groups.count + k);
+    fit_rotation(one, rotations[static_cast<std::size_t>(k)]);
+  }
+  return arap_energy(mesh.points, elements_of(mesh), groups, posed, rotations);
+}
+} // namespace
+
+// SPEC D30
+TEST(ArapEnergy, AffineMapsCostHalfTheIntegralOfTheDifferenceToTheirRotation)
+{
+  TriangleMesh square = test::grid(5, 4);
+  TetMesh cube = test::tet_box(3, 2, 2);
+  test::Random random(3);
+  for (Index v = 0; v < square.points.rows(); ++v) // no angle special, cotangents of both signs
+  {
+    const Vec3 p = square.points.row(v);
+    if (p.x() > 0 && p.x() < 1 && p.y() > 0 && p.y() < 1)
+    {
+      square.points.row(v) += random.in_box(Vec3(-0.06, -0.06, 0), Vec3(0.06, 0.06, 0)).transpose();
+    }
+  }
+  const Eigen::Matrix3d turn =
+    Eigen::AngleAxisd(2.0, Vec3(1, -2, 3).normalized()).toRotationMatrix();
+  for (const ArapEnergy energy : { ArapEnergy::spokes_and_rims, ArapEnergy::elements })
+  {
+    EXPECT_NEAR(energy_of(square, energy, turn * 2.0), 1.0, 1e-12);
+    EXPECT_NEAR(
+      energy_of(square, energy, turn * Vec3(1.5, 1, 1).asDiagonal().toDenseMatrix()), 0.125, 1e-12);
+    EXPECT_NEAR(energy_of(cube, energy, turn * 2.0), 1.5, 1e-12);
+    EXPECT_NEAR(
+      energy_of(cube, energy, turn * Vec3(1.5, 1, 1).asDiagonal().toDenseMatrix()), 0.125, 1e-12);
+    EXPECT_LT(energy_of(square, energy, turn), 1e-25);
+    EXPECT_LT(energy_of(cube, energy, turn), 1e-25);
+  }
+}
+
+TEST(ArapEnergy, CovariancesAreTheSumOverEdges)
+{
+  const TetMesh mesh = test::tet_box(2, 1, 1);
+  std::vector<Index> labels(static_cast<std::size_t>(mesh.points.rows()));
+  for (std::size_t v = 0; v < labels.size(); ++v)
+  {
+    labels[v] = static_cast<Index>(v % 3);
+  }
+  test::Random random(5);
+  Points posed = mesh.points;
+  for (Index v = 0; v < posed.rows(); ++v)
+  {
+    posed.row(v) += random.in_box(-Vec3::Ones(), Vec3::Ones()).transpose();
+  }
+  const auto c = cotangent_weights(mesh.points, mesh.tets);
+  for (const ArapEnergy energy : { ArapEnergy::spokes_and_rims, ArapEnergy::elements })
+  {
+    const RotationGroups groups = rotation_groups(energy, mesh.tets, 3, labels);
+    std::vector<Eigen::Matrix3d> sums(3, Eigen::Matrix3d::Zero());
+    for (Index e = 0; e < mesh.tets.rows(); ++e)
+    {
+      for (int k = 0; k < 6; ++k)
+      {
+        const Index i = mesh.tets(e, tet_edges[k][0]), j = mesh.tets(e, tet_edges[k][1]);
+        const Eigen::Matrix3d one = c(e, k) *
+          (mesh.points.row(i) - mesh.points.row(j)).transpose() * (posed.row(i) - posed.row(j));
+        for (int corner = 0; corner < 4; ++corner)
+        {
+          if (energy == ArapEnergy::spokes_and_rims)
+          {
+            sums[static_cast<std::size_t>(mesh.tets(e, corner) % 3)] += 0.25 * one;
+          }
+        }
+        if (energy == ArapEnergy::elements)
+        {
+          sums[static_cast<std::size_t>(groups.of_element[static_cast<std::size_t>(e)])] += one;
+        }
+      }
+    }
+    const Eigen::MatrixXd s = covariance_matrix(mesh.points, mesh.tets, groups) * posed;
+    for (Index k = 0; k < groups.count; ++k)
+    {
+      for (Index i = 0; i < 3; ++i)
+      {
+        EXPECT_LT((s.row(i * groups.count + k) - sums[static_cast<std::size_t>(k)].row(i))
+                    .cwiseAbs()
+                    .maxCoeff(),
+          1e-13);
+      }
+    }
+  }
+}
+
+TEST(ArapEnergy, ElementsTakeTheLabelOfMostVertices)
+{
+  Tets tets(3, 4);
+  tets << 0, 1, 2, 3, 2, 3, 4, 5, 4, 5, 6, 7;
+  const RotationGroups groups =
+    rotation_groups(ArapEnergy::elements, tets, 4, { 3, 3, 1, 3, 1, 0, 0, 0 });
+  // 3 of 4 in label 3; 1 1 3 0: label 1; 1 0 0 0: label 0. Names by first appearance.
+  EXPECT_EQ(groups.of_element, (std::vector<Index>{ 0, 1, 2 }));
+  EXPECT_EQ(groups.count, 3);
+  EXPECT_STREQ(to_string(ArapEnergy::elements, true), "tetrahedra");
+  EXPECT_STREQ(to_string(ArapEnergy::elements, false), "triangles");
+  EXPECT_STREQ(to_string(ArapEnergy::spokes_and_rims, true), "spokes_and_rims");
+}

@@ -1,0 +1,248 @@
+// Pose files: what they mean, what is refused, and that what is written is read back.
+#include "pose/pose_file.h"
+
+#include "support/meshes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+using testing::HasSubstr;
+
+namespace
+{
+/// A point, and a chain of two bones along x; the second's parent is the first, which comes later.
+Handles rig()
+{
+  Handles handles(3);
+  handles[0].name = "p";
+  handles[0].head = handles[0].tail = Vec3(1, 2, 3);
+  handles[1].name = "fore";
+  handles[1].kind = HandleKind::bone;
+  handles[1].head = Vec3(1, 0, 0);
+  handles[1].tail = Vec3(2, 0, 0);
+  handles[1].parent = 2;
+  handles[2].name = "upper";
+  handles[2].kind = HandleKind::bone;
+  handles[2].tail = Vec3(1, 0, 0);
+  return handles;
+}
+
+Pose read(const std::string& text, const Pose& base = Pose(3))
+{
+  PoseSequence sequence;
+  const Status status = parse_pose_file(text, rig(), sequence);
+  EXPECT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(sequence.frames.size(), 1u);
+  return apply_edits(sequence.frames[0], rig(), base);
+}
+
+std::string message(const std::string& text)
+{
+  PoseSequence sequence;
+  const Status status = parse_pose_file(text, rig(), sequence);
+  EXPECT_EQ(status.code, StatusCode::invalid_input) << text;
+  EXPECT_TRUE(sequence.frames.empty());
+  return status.message;
+}
+
+Vec3 apply(const Affine& t, const Vec3& p)
+{
+  return t * p.homogeneous();
+}
+} // namespace
+
+TEST(PoseFile, HandlesMoveAboutTheirPivots)
+{
+  const Pose pose = read(R"({"handles": {
+    "p": {"mode": "position", "translate": [1, 0, 0],
+          "rotate": {"axis": [0, 0, 5], "degrees": 90}, "scale": 2}}})");
+  EXPECT_EQ(pose[0].mode, HandleMode::position);
+  // x -> c + t + R S (x - c), c = (1, 2, 3).
+  EXPECT_LT((apply(pose[0].transform, Vec3(1, 2, 3)) - Vec3(2, 2, 3)).norm(), 1e-15);
+  EXPECT_LT((apply(pose[0].transform, Vec3(2, 2, 4)) - Vec3(2, 4, 5)).norm(), 1e-15);
+  EXPECT_EQ(pose[1].transform, identity_affine());
+  EXPECT_EQ(pose[1].mode, HandleMode::full);
+}
+
+TEST(PoseFile, WhatIsNotMentionedKeepsTheBase)
+{
+  Pose base(3);
+  base[0].mode = HandleMode::free;
+  base[0].transform(0, 3) = 7.0;
+  base[1].twist << 3, 4;
+  base[1].stretch = 1.5;
+  const Pose pose = read(R"({"handles": {"fore": {"translate": [0, 1, 0]}, "p": {}}})", base);
+  EXPECT_EQ(pose[0].mode, HandleMode::free);
+  EXPECT_EQ(pose[0].transform, base[0].transform);
+  EXPECT_EQ(pose[1].twist, base[1].twist);
+  EXPECT_EQ(pose[1].stretch, 1.5);
+  // Absolute, not on top of the base.
+  base[1].transform(1, 3) = 100.0;
+  EXPECT_EQ(
+    read(R"({"handles": {"fore": {"translate": [0, 1, 0]}}})", base)[1].transform(1, 3), 1.0);
+  // Mode alone leaves the transform.
+  EXPECT_EQ(read(R"({"handles": {"fore": {"mode": "free"}}})", base)[1].transform(1, 3), 100.0);
+}
+
+TEST(PoseFile, ParentsComposeOnlyWhenAsked)
+{
+  const std::string upper = R"("upper": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})";
+  const std::string fore = R"("fore": {"rotate": {"axis": [0, 0, 1], "degrees": 90})";
+  // World: turns about its own rest head.
+  Pose pose = read("{\"handles\": {" + fore + "}, " + upper + "}}");
+  EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
+  // Parent: then once more with the parent, about the origin.
+  pose = read("{\"handles\": {" + fore + ", \"space\": \"parent\"}, " + upper + "}}");
+  EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
+  EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(-1, 1, 0)).norm(), 1e-15);
+  // A root's parent is the world.
+  pose = read(R"({"handles": {"upper": {"space": "parent", "translate": [1, 1, 1]}}})");
+  EXPECT_EQ(pose[2].transform.col(3), Vec3(1, 1, 1));
+}
+
+TEST(PoseFile, BonesGoWhereTheirEndsAreSent)
+{
+  const Pose pose =
+    read(R"({"handles": {"fore": {"head": [5, 5, 5], "tail": [5, 5, 8], "twist": [10, 20]}}})");
+  EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(5, 5, 5)).norm(), 1e-14);
+  EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(5, 5, 6)).norm(), 1e-14); // rigid
+  EXPECT_DOUBLE_EQ(pose[1].stretch, 3.0);
+  EXPECT_EQ(pose[1].twist, Eigen::Vector2d(10, 20));
+  // The minimal arc leaves what is perpendicular to both directions.
+  EXPECT_LT((apply(pose[1].transform, Vec3(1, 1, 0)) - Vec3(5, 6, 5)).norm(), 1e-14);
+  EXPECT_EQ(read(R"({"handles": {"fore": {"tail": [1, 2, 0], "stretch": 1}}})")[1].stretch, 1.0);
+  // One end given, the other rests.
+  const Pose aimed = read(R"({"handles": {"fore": {"tail": [1, 4, 0]}}})");
+  EXPECT_LT((apply(aimed[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
+  EXPECT_DOUBLE_EQ(aimed[1].stretch, 4.0);
+}
+
+TEST(PoseFile, MinimalArcsTakeAnyDirectionToAnyOther)
+{
+  test::Random random(3);
+  for (int i = 0; i < 1000; ++i)
+  {
+    const Vec3 a = random.in_box(-Vec3::Ones(), Vec3::Ones());
+    const Vec3 b = i % 10 == 0 ? Vec3(-2.0 * a) : random.in_box(-Vec3::Ones(), Vec3::Ones());
+    const Eigen::Matrix3d r = minimal_arc(a, b);
+    ASSERT_LT((r * a.normalized() - b.normalized()).norm(), 1e-14);
+    ASSERT_NEAR(r.determinant(), 1.0, 1e-13);
+    ASSERT_NEAR(r.trace(), 1.0 + 2.0 * a.normalized().dot(b.normalized()), 1e-13);
+  }
+  EXPECT_EQ(minimal_arc(Vec3(0, 0, 2), Vec3(0, 0, 2)), Eigen::Matrix3d::Identity());
+}
+
+TEST(PoseFile, SequencesHaveFramesAndARate)
+{
+  PoseSequence sequence;
+  ASSERT_TRUE(parse_pose_file(R"({"frames": [{"handles": {}},
+    {"handles": {"p": {"translate": [1, 0, 0]}}}], "fps": 12.5})",
+    rig(), sequence)
+                .ok());
+  ASSERT_EQ(sequence.frames.size(), 2u);
+  EXPECT_EQ(sequence.frames_per_second, 12.5);
+  EXPECT_TRUE(sequence.frames[0].empty());
+  EXPECT_EQ(apply_edits(sequence.frames[1], rig(), Pose(3))[0].transform(0, 3), 1.0);
+}
+
+TEST(PoseFile, WhatIsWrongIsNamed)
+{
+  EXPECT_THAT(message(""), HasSubstr("empty"));
+  EXPECT_THAT(message(" \n"), HasSubstr("empty"));
+  EXPECT_THAT(message("{}"), HasSubstr("empty"));
+  EXPECT_THAT(message("[]"), HasSubstr("must be an object"));
+  EXPECT_THAT(message(R"({"handles": {"p": )"), HasSubstr("not valid JSON"));
+  EXPECT_THAT(message(R"({"handles": []})"), HasSubstr("handles"));
+  EXPECT_THAT(message(R"({"handles": {"q": {}}})"), HasSubstr("'q' that does not exist"));
+  EXPECT_THAT(message(R"({"handles": {}, "frame": 1})"), HasSubstr("'frame'"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"colour": 1}}})"), HasSubstr("'colour'"));
+  EXPECT_THAT(message(R"({"handles": {"p": 3}})"), HasSubstr("is a number"));
+  EXPECT_THAT(message(R"({"handles": {"p": {}, "p": {}}})"), HasSubstr("'p' is given twice"));
+  EXPECT_THAT(
+    message(R"({"handles": {"p": {"mode": "half"}}})"), HasSubstr("full, position, free"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"mode": 1}}})"), HasSubstr("full, position, free"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"translate": [1, 2]}}})"), HasSubstr("3 numbers"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"translate": [1, 2, "x"]}}})"), HasSubstr("a text"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"translate": [1, 2, null]}}})"), HasSubstr("null"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"translate": [1, 2, NaN]}}})"), HasSubstr("JSON"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"translate": [1, 2, 1e999]}}})"), HasSubstr("JSON"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"rotate": {"axis": [0, 0, 0], "degrees": 1}}}})"),
+    HasSubstr("axis has length zero"));
+  EXPECT_THAT(
+    message(R"({"handles": {"p": {"rotate": {"axis": [0, 0, 1]}}}})"), HasSubstr("degrees"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"rotate": {"axis": [0, 0, 1], "radians": 1}}}})"),
+    HasSubstr("'radians'"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"scale": 0}}})"), HasSubstr("greater than 0"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"scale": -1}}})"), HasSubstr("greater than 0"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"space": "local"}}})"), HasSubstr("world, parent"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"head": [0, 0, 0]}}})"), HasSubstr("for bones"));
+  EXPECT_THAT(message(R"({"handles": {"fore": {"head": [2, 0, 0]}}})"), HasSubstr("length zero"));
+  EXPECT_THAT(message(R"({"handles": {"fore": {"head": [1, 1, 1], "scale": 2}}})"),
+    HasSubstr("one or the other"));
+  EXPECT_THAT(message(R"({"handles": {"fore": {"twist": [1]}}})"), HasSubstr("2 numbers"));
+  EXPECT_THAT(message(R"({"frames": []})"), HasSubstr("at least one"));
+  EXPECT_THAT(message(R"({"frames": [{"handles": {}}], "fps": 0})"), HasSubstr("fps"));
+  EXPECT_THAT(
+    message(R"({"frames": [{"handles": {}}, {"handles": {"x": {}}}]})"), HasSubstr("frame 1"));
+}
+
+TEST(PoseFile, WhatIsWrittenIsReadBack)
+{
+  test::Random random(9);
+  std::vector<Pose> poses;
+  for (int frame = 0; frame < 20; ++frame)
+  {
+    Pose pose(3);
+    for (std::size_t h = 0; h < 3; ++h)
+    {
+      const Eigen::Matrix3d r = Eigen::AngleAxisd(
+        random.uniform(-3, 3), random.in_box(-Vec3::Ones(), Vec3::Ones()).normalized())
+                                  .toRotationMatrix();
+      pose[h].mode = static_cast<HandleMode>(random.below(3));
+      pose[h].transform = affine_about(
+        rig()[h].head, random.uniform(0.1, 3) * r, random.in_box(-Vec3::Ones(), Vec3::Ones()));
+      if (rig()[h].kind == HandleKind::bone)
+      {
+        pose[h].stretch = random.uniform(0.5, 2);
+        pose[h].twist << random.uniform(-90, 90), random.uniform(-90, 90);
+      }
+    }
+    poses.push_back(pose);
+  }
+  std::string text;
+  const Status status = format_pose_file(poses, 30.0, rig(), text);
+  ASSERT_TRUE(status.ok() && status.warnings.empty());
+  PoseSequence sequence;
+  ASSERT_TRUE(parse_pose_file(text, rig(), sequence).ok());
+  ASSERT_EQ(sequence.frames.size(), 20u);
+  EXPECT_EQ(sequence.frames_per_second, 30.0);
+  Pose other(3); // whatever the base
+  other[1].transform(0, 0) = 9.0;
+  other[1].mode = HandleMode::free;
+  for (std::size_t frame = 0; frame < 20; ++frame)
+  {
+    const Pose back = apply_edits(sequence.frames[frame], rig(), other);
+    for (std::size_t h = 0; h < 3; ++h)
+    {
+      EXPECT_EQ(back[h].mode, poses[frame][h].mode);
+      EXPECT_LT((back[h].transform - poses[frame][h].transform).cwiseAbs().maxCoeff(), 1e-13);
+      EXPECT_EQ(back[h].stretch, poses[frame][h].stretch);
+      EXPECT_EQ(back[h].twist, poses[frame][h].twist);
+    }
+  }
+}
+
+TEST(PoseFile, WhatAFileCannotHoldIsSaid)
+{
+  Pose pose(3);
+  pose[0].transform(0, 1) = 0.5;
+  std::string text;
+  const Status status = format_pose_file({ pose }, 24.0, rig(), text);
+  ASSERT_TRUE(status.ok());
+  ASSERT_EQ(status.warnings.size(), 1u);
+  EXPECT_THAT(status.warnings[0], HasSubstr("'p'"));
+  EXPECT_FALSE(read(text).empty());
+  EXPECT_EQ(format_pose_file({}, 24.0, rig(), text).code, StatusCode::invalid_input);
+  EXPECT_EQ(format_pose_file({ Pose(2) }, 24.0, rig(), text).code, StatusCode::invalid_input);
+}

@@ -1,0 +1,300 @@
+// Skinning: identity, common motions, joints, quaternion signs.
+#include "pose/skinning.h"
+
+#include "pose/pose_file.h"
+#include "support/bars.h"
+#include "support/meshes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+using testing::HasSubstr;
+
+namespace
+{
+Affine turn(double degrees, const Vec3& axis, const Vec3& pivot = Vec3::Zero(),
+  const Vec3& move = Vec3::Zero())
+{
+  return affine_about(pivot,
+    Eigen::AngleAxisd(degrees * EIGEN_PI / 180.0, axis.normalized()).toRotationMatrix(), move);
+}
+
+Points moved(const Points& points, const Affine& t)
+{
+  Points result(points.rows(), 3);
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    result.row(v) = (t * points.row(v).transpose().homogeneous()).transpose();
+  }
+  return result;
+}
+
+struct Posed
+{
+  Points linear, dual, linear_normals, dual_normals;
+};
+
+Posed pose_with(const Points& points, const Weights& weights, const std::vector<Affine>& transforms,
+  const Points& pivots, const Points& normals = Points(), int threads = 0)
+{
+  ExecutionContext context;
+  context.set_threads(threads);
+  Skinning skinning;
+  EXPECT_TRUE(skinning.bind(context, weights).ok());
+  Posed posed;
+  EXPECT_TRUE(skinning.linear_blend(context, points, transforms, posed.linear).ok());
+  EXPECT_TRUE(skinning.dual_quaternion(context, points, transforms, pivots, posed.dual).ok());
+  if (normals.rows() > 0)
+  {
+    EXPECT_TRUE(
+      skinning.linear_blend_normals(context, normals, transforms, posed.linear_normals).ok());
+    EXPECT_TRUE(
+      skinning.dual_quaternion_normals(context, normals, transforms, pivots, posed.dual_normals)
+        .ok());
+  }
+  return posed;
+}
+
+/// A ring of points of radius 1 around x at x = 0, and half-and-half weights.
+Points ring()
+{
+  Points points(16, 3);
+  for (Index i = 0; i < 16; ++i)
+  {
+    const double a = 2.0 * EIGEN_PI * static_cast<double>(i) / 16.0;
+    points.row(i) << 0.0, std::cos(a), std::sin(a);
+  }
+  return points;
+}
+} // namespace
+
+// SPEC C24
+TEST(Skinning, IdentityMovesNoBit)
+{
+  const test::Rig rig = test::box();
+  Weights off = rig.weights;
+  off.row(3).setZero();
+  off.row(4) *= 0.5;
+  for (const Weights& weights : { rig.weights, off })
+  {
+    const Posed posed = pose_with(rig.mesh.points, weights,
+      std::vector<Affine>(5, identity_affine()), handle_pivots(rig.handles));
+    EXPECT_EQ(posed.linear, rig.mesh.points);
+    EXPECT_EQ(posed.dual, rig.mesh.points);
+  }
+}
+
+// SPEC C24
+TEST(Skinning, ACommonMotionMovesTheWhole)
+{
+  const test::Rig rig = test::box();
+  const Points pivots = handle_pivots(rig.handles);
+  Affine affine = turn(40, Vec3(1, 2, 3), Vec3(1, 0, 0), Vec3(3, -4, 5));
+  affine.leftCols<3>() *= Vec3(1.5, 0.7, 1.0).asDiagonal();
+  const Posed sheared =
+    pose_with(rig.mesh.points, rig.weights, std::vector<Affine>(5, affine), pivots);
+  EXPECT_LT((sheared.linear - moved(rig.mesh.points, affine)).cwiseAbs().maxCoeff(), 1e-13);
+  const Affine rigid = turn(140, Vec3(-1, 2, 0.5), Vec3(0, 1, 0), Vec3(10, 0, 3));
+  const Posed posed =
+    pose_with(rig.mesh.points, rig.weights, std::vector<Affine>(5, rigid), pivots);
+  EXPECT_LT((posed.linear - moved(rig.mesh.points, rigid)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((posed.dual - moved(rig.mesh.points, rigid)).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(Skinning, OneHandleTakesAnyAffineMapExactlyUnderBoth)
+{
+  const test::Rig rig = test::box();
+  const Points points = rig.mesh.points.topRows(20);
+  Affine affine = turn(70, Vec3(1, 0, 3), Vec3(1, 2, 0), Vec3(0, -4, 5));
+  affine.leftCols<3>() *= Vec3(2.0, 0.5, -1.0).asDiagonal(); // a reflection, too
+  Points pivot(1, 3);
+  pivot << 0.3, 0.4, 0.5;
+  const Posed posed = pose_with(points, Weights::Ones(20, 1), { affine }, pivot);
+  EXPECT_LT((posed.linear - moved(points, affine)).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_LT((posed.dual - moved(points, affine)).cwiseAbs().maxCoeff(), 1e-13);
+}
+
+TEST(Skinning, LinearBlendIsLinearInTheTransforms)
+{
+  const test::Rig rig = test::box(3);
+  test::Random random(3);
+  std::vector<Affine> a(5), b(5), sum(5);
+  for (std::size_t h = 0; h < 5; ++h)
+  {
+    for (int e = 0; e < 12; ++e)
+    {
+      a[h].data()[e] = random.uniform(-1, 1);
+      b[h].data()[e] = random.uniform(-1, 1);
+    }
+    sum[h] = 0.25 * a[h] + 0.75 * b[h];
+  }
+  const Points pivots = handle_pivots(rig.handles);
+  const Points pa = pose_with(rig.mesh.points, rig.weights, a, pivots).linear;
+  const Points pb = pose_with(rig.mesh.points, rig.weights, b, pivots).linear;
+  const Points ps = pose_with(rig.mesh.points, rig.weights, sum, pivots).linear;
+  EXPECT_LT((ps - (0.25 * pa + 0.75 * pb)).cwiseAbs().maxCoeff(), 1e-13);
+}
+
+// SPEC C25
+TEST(Skinning, ATwistedRingShrinksByTheCosineUnderLinearBlendAndNotUnderDual)
+{
+  const Weights half = Weights::Constant(16, 2, 0.5);
+  for (const auto& [degrees, radius] :
+    { std::pair<double, double>{ 90, std::sqrt(0.5) }, { 120, 0.5 }, { 180, 0.0 } })
+  {
+    const Posed posed = pose_with(
+      ring(), half, { identity_affine(), turn(degrees, Vec3(1, 0, 0)) }, Points::Zero(2, 3));
+    for (Index i = 0; i < 16; ++i)
+    {
+      EXPECT_NEAR(posed.linear.row(i).norm(), radius, 1e-14);
+      EXPECT_NEAR(posed.dual.row(i).norm(), 1.0, 1e-14);
+    }
+    // Dual quaternions turn by half the angle.
+    const Points exact = moved(ring(), turn(0.5 * degrees, Vec3(1, 0, 0)));
+    EXPECT_LT((posed.dual - exact).cwiseAbs().maxCoeff(), 1e-14);
+  }
+}
+
+// SPEC C27
+TEST(Skinning, ARotationAndItsFullTurnsAreOne)
+{
+  const Weights half = Weights::Constant(16, 2, 0.5);
+  const Vec3 axis(1, 0.2, -0.4);
+  const Affine base = turn(-100, Vec3(0, 1, 0));
+  const Points pivots = Points::Zero(2, 3);
+  for (const double degrees : { 10.0, 170.0, -170.0, 190.0 })
+  {
+    // q and -q: the same matrix to round-off, by way of angles a full turn apart.
+    const Posed a = pose_with(ring(), half, { base, turn(degrees, axis) }, pivots);
+    const Posed b = pose_with(ring(), half, { base, turn(degrees + 360.0, axis) }, pivots);
+    EXPECT_LT((a.dual - b.dual).cwiseAbs().maxCoeff(), 1e-12);
+    for (Index i = 0; i < 16; ++i)
+    {
+      EXPECT_NEAR(a.dual.row(i).norm(), 1.0, 1e-13); // the shorter way is a rotation, too
+    }
+  }
+}
+
+TEST(Skinning, DualQuaternionsCommuteWithMovesOfTheWorld)
+{
+  const test::Rig rig = test::box(3);
+  test::Random random(17);
+  std::vector<Affine> transforms;
+  for (int h = 0; h < 5; ++h)
+  {
+    transforms.push_back(turn(random.uniform(-80, 80), random.in_box(-Vec3::Ones(), Vec3::Ones()),
+      Vec3::Zero(), random.in_box(-Vec3::Ones(), Vec3::Ones())));
+    transforms.back().leftCols<3>() *= 1.2; // blended about the pivots
+  }
+  const Affine world = turn(50, Vec3(2, 1, 1), Vec3::Zero(), Vec3(7, 8, 9));
+  const Affine back = affine_about(
+    Vec3::Zero(), world.leftCols<3>().transpose(), -world.leftCols<3>().transpose() * world.col(3));
+  const auto compose = [](const Affine& a, const Affine& b)
+  {
+    Affine c;
+    c.leftCols<3>() = a.leftCols<3>() * b.leftCols<3>();
+    c.col(3) = a.leftCols<3>() * b.col(3) + a.col(3);
+    return c;
+  };
+  std::vector<Affine> there;
+  for (const Affine& t : transforms)
+  {
+    there.push_back(compose(world, compose(t, back)));
+  }
+  const Points pivots = handle_pivots(rig.handles);
+  const Posed here = pose_with(rig.mesh.points, rig.weights, transforms, pivots);
+  const Posed other =
+    pose_with(moved(rig.mesh.points, world), rig.weights, there, moved(pivots, world));
+  EXPECT_LT((other.dual - moved(here.dual, world)).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((other.linear - moved(here.linear, world)).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(Skinning, NormalsStayNormalToPosedPlanes)
+{
+  // A common affine map takes a plane to a plane: its normal must come along.
+  const Weights ones = Weights::Ones(3, 1);
+  Affine affine = turn(35, Vec3(3, 1, 2), Vec3::Zero(), Vec3(1, 2, 3));
+  affine.leftCols<3>() *= Vec3(3.0, 0.5, 1.0).asDiagonal();
+  Points triangle(3, 3);
+  triangle << 0, 0, 0, 1, 0.2, 0.1, 0.3, 1, -0.5;
+  const auto normal_of = [](const Points& p)
+  {
+    const Vec3 e = (p.row(1) - p.row(0)).transpose(), f = (p.row(2) - p.row(0)).transpose();
+    return Vec3(e.cross(f).normalized());
+  };
+  const Points normals = normal_of(triangle).transpose().replicate(3, 1);
+  const Posed posed = pose_with(triangle, ones, { affine }, Points::Zero(1, 3), normals);
+  for (Index v = 0; v < 3; ++v)
+  {
+    EXPECT_LT((posed.linear_normals.row(v).transpose() - normal_of(posed.linear)).norm(), 1e-13);
+    EXPECT_LT((posed.dual_normals.row(v).transpose() - normal_of(posed.dual)).norm(), 1e-13);
+  }
+}
+
+TEST(Skinning, AnyNumberOfThreadsGivesTheSameBits)
+{
+  const test::Rig rig = test::box(16);
+  std::vector<Affine> transforms;
+  for (int h = 0; h < 5; ++h)
+  {
+    transforms.push_back(turn(20.0 * h, Vec3(h, 1, 2), Vec3::Zero(), Vec3(0, h, 0)));
+  }
+  const Points pivots = handle_pivots(rig.handles);
+  const Posed one = pose_with(rig.mesh.points, rig.weights, transforms, pivots, rig.mesh.points, 1);
+  const Posed four =
+    pose_with(rig.mesh.points, rig.weights, transforms, pivots, rig.mesh.points, 4);
+  EXPECT_EQ(one.linear, four.linear);
+  EXPECT_EQ(one.dual, four.dual);
+  EXPECT_EQ(one.linear_normals, four.linear_normals);
+  EXPECT_EQ(one.dual_normals, four.dual_normals);
+}
+
+TEST(Skinning, WhatDoesNotFitIsNamed)
+{
+  ExecutionContext context;
+  Skinning skinning;
+  Weights weights = Weights::Constant(4, 2, 0.5);
+  weights(2, 1) = 0.75;
+  const Status status = skinning.bind(context, weights);
+  EXPECT_NEAR(status.report.number("row_sum_error", 0.0), 0.25, 1e-15);
+  ASSERT_EQ(status.warnings.size(), 1u);
+  EXPECT_THAT(status.warnings[0], HasSubstr("vertex 2, off by 0.25"));
+  Points out;
+  EXPECT_THAT(
+    skinning.linear_blend(context, Points(Points::Zero(5, 3)), std::vector<Affine>(2), out).message,
+    HasSubstr("5 vertices"));
+  EXPECT_THAT(
+    skinning.linear_blend(context, Points(Points::Zero(4, 3)), std::vector<Affine>(3), out).message,
+    HasSubstr("3 transforms"));
+  EXPECT_THAT(skinning
+                .dual_quaternion(context, Points(Points::Zero(4, 3)), std::vector<Affine>(2),
+                  Points(Points::Zero(1, 3)), out)
+                .message,
+    HasSubstr("1 pivots"));
+  weights(1, 0) = std::nan("");
+  EXPECT_THAT(skinning.bind(context, weights).message, HasSubstr("vertex 1 in column 0"));
+  context.request_cancel();
+  EXPECT_EQ(skinning.bind(context, Weights(Weights::Ones(3, 1))).code, StatusCode::cancelled);
+}
+
+TEST(Skinning, ModesReadAsTranslationsAndIdentity)
+{
+  Handles handles(3);
+  Pose pose(3);
+  for (std::size_t h = 0; h < 3; ++h)
+  {
+    handles[h].name = std::string(1, static_cast<char>('a' + h));
+    handles[h].head = handles[h].tail = Vec3(static_cast<double>(h), 0, 0);
+    pose[h].transform = turn(90, Vec3(0, 0, 1), Vec3::Zero(), Vec3(0, 0, 2));
+    pose[h].mode = static_cast<HandleMode>(h);
+  }
+  std::vector<Affine> transforms;
+  const Status status = skinning_transforms(handles, pose, transforms);
+  EXPECT_EQ(transforms[0], pose[0].transform);
+  EXPECT_EQ(transforms[1].leftCols<3>(), Eigen::Matrix3d::Identity());
+  EXPECT_LT((transforms[1].col(3) - Vec3(-1, 1, 2)).norm(), 1e-15);
+  EXPECT_EQ(transforms[2], identity_affine());
+  ASSERT_EQ(status.warnings.size(), 1u);
+  EXPECT_THAT(status.warnings[0], HasSubstr("'c'"));
+}

@@ -1,0 +1,388 @@
+// Reduced as-rigid-as-possible as a filter: bound once, posed often, modes respected, errors named.
+#include "vtkReducedARAP.h"
+
+#include "TestFilter.h"
+#include "conversion.h"
+#include "pose/reduced_arap.h"
+#include "report_field_data.h"
+#include "vtkPoseHandles.h"
+#include "vtkSkinningDeformation.h"
+
+#include "support/bars.h"
+#include "support/meshes.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace bindpose;
+using testing::HasSubstr;
+
+namespace
+{
+vtkSmartPointer<vtkDoubleArray> weights_array(const Weights& weights, const Handles& handles)
+{
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName("Weights");
+  array->SetNumberOfComponents(static_cast<int>(weights.cols()));
+  for (std::size_t h = 0; h < handles.size(); ++h)
+  {
+    array->SetComponentName(static_cast<vtkIdType>(h), handles[h].name.c_str());
+  }
+  for (Index v = 0; v < weights.rows(); ++v)
+  {
+    array->InsertNextTuple(weights.row(v).data());
+  }
+  return array;
+}
+
+/// The bar as tets and as a surface, its three handles, and the chain pose file -> filter.
+class ReducedARAPFilter : public testing::Test
+{
+protected:
+  ReducedARAPFilter()
+  {
+    this->rig = test::bar(12);
+    this->tets = to_unstructured_grid(this->rig.mesh.points, this->rig.mesh.tets);
+    this->tets->GetPointData()->AddArray(weights_array(this->rig.weights, this->rig.handles));
+    this->surface = to_polydata(this->rig.mesh.points, boundary_triangles(this->rig.mesh.tets));
+    this->surface->GetPointData()->AddArray(weights_array(this->rig.weights, this->rig.handles));
+    this->handles = to_polydata(this->rig.handles);
+    this->pose->SetInputData(this->handles);
+    this->filter->SetInputData(0, this->tets);
+    this->filter->SetInputConnection(1, this->pose->GetOutputPort());
+    this->listener->listen(this->filter);
+  }
+
+  Points output() { return to_points(this->filter->GetOutput()).view(); }
+  double report(const char* key)
+  {
+    return read_report(this->filter->GetOutput())
+      .number(key, std::numeric_limits<double>::quiet_NaN());
+  }
+  void fails_with(const std::string& words)
+  {
+    this->listener->errors.clear();
+    this->filter->Update();
+    ASSERT_EQ(this->listener->errors.size(), 1u);
+    EXPECT_THAT(this->listener->errors[0], HasSubstr(words));
+    EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
+    EXPECT_EQ(this->filter->GetOutput()->GetNumberOfPoints(), 0);
+  }
+
+  test::Rig rig;
+  vtkSmartPointer<vtkUnstructuredGrid> tets;
+  vtkSmartPointer<vtkPolyData> surface;
+  vtkSmartPointer<vtkPolyData> handles;
+  vtkNew<vtkPoseHandles> pose;
+  vtkNew<vtkReducedARAP> filter;
+  vtkNew<test::Listener> listener;
+};
+
+std::string drag_right(double x, const char* mode = "position")
+{
+  return R"({"handles": {"left": {"mode": "full"}, "middle": {"mode": "free"},
+    "right": {"mode": ")" +
+    std::string(mode) + R"(", "translate": [)" + std::to_string(-0.1 * x) + ", " + std::to_string(x) +
+    ", 0]}}}";
+}
+} // namespace
+
+TEST_F(ReducedARAPFilter, RestStaysAtRestAndEverythingButThePointsIsShared)
+{
+  this->filter->Update();
+  EXPECT_EQ(this->output(), this->rig.mesh.points);
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(this->filter->GetOutput());
+  ASSERT_NE(grid, nullptr);
+  EXPECT_EQ(grid->GetCells(), this->tets->GetCells());
+  EXPECT_EQ(
+    grid->GetPointData()->GetArray("Weights"), this->tets->GetPointData()->GetArray("Weights"));
+  EXPECT_EQ(this->report("counts.tets"), this->rig.mesh.tets.rows());
+  EXPECT_EQ(read_report(grid).text("method"), "tetrahedra");
+  // A second Update has nothing to do.
+  const int starts = this->listener->starts;
+  this->filter->Update();
+  EXPECT_EQ(this->listener->starts, starts);
+}
+
+// SPEC F49
+TEST_F(ReducedARAPFilter, AHundredDragsOfAllModesBindOnce)
+{
+  for (int k = 0; k < 100; ++k)
+  {
+    const char* modes[] = { "position", "full", "free" };
+    this->pose->SetPoseJSON(drag_right(0.01 * k, modes[k / 4 % 3]));
+    this->filter->Update();
+    ASSERT_TRUE(this->output().allFinite());
+  }
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
+  // Transforms and modes edited in place, as a widget does.
+  this->filter->SetInputData(1, this->handles);
+  for (const char* name : { "Transform", "Mode", "Stretch", "Twist" })
+  {
+    vtkDataArray* array = this->handles->GetCellData()->GetArray(name);
+    array->SetComponent(1, 0, 1.0);
+    array->Modified();
+    this->handles->Modified();
+    this->filter->Update();
+  }
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
+  // Pose parameters do not bind either; bind parameters, weights, points and cells do.
+  this->filter->SetMaximumIterations(50);
+  this->filter->SetTolerance(1e-5);
+  this->filter->WarmStartOff();
+  this->filter->Update();
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
+  this->filter->SetNumberOfClusters(5);
+  this->filter->Update();
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 2);
+  EXPECT_LE(this->report("counts.clusters"), 5);
+  this->filter->SetEnergy(vtkReducedARAP::SPOKES_AND_RIMS);
+  this->filter->SetNumberOfExtraWeights(4);
+  this->filter->Update();
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 3);
+  int binds = 3;
+  for (vtkObject* part : std::vector<vtkObject*>{ this->tets->GetPointData()->GetArray("Weights"),
+         this->tets->GetPoints()->GetData(), this->tets->GetCells(),
+         this->handles->GetPoints()->GetData() })
+  {
+    part->Modified();
+    this->tets->Modified();
+    this->handles->Modified();
+    this->filter->Update();
+    EXPECT_EQ(this->filter->GetNumberOfBinds(), ++binds);
+  }
+}
+
+TEST_F(ReducedARAPFilter, AnUpstreamFilterThatRunsAgainDoesNotBind)
+{
+  vtkNew<test::TestFilter> upstream; // a shallow copy at each execution
+  upstream->SetInputData(this->surface);
+  this->filter->SetInputConnection(0, upstream->GetOutputPort());
+  this->filter->Update();
+  upstream->Modified();
+  this->filter->Update();
+  EXPECT_EQ(upstream->Executions, 2);
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
+}
+
+TEST_F(ReducedARAPFilter, ModesAreRespected)
+{
+  this->pose->SetPoseJSON(drag_right(1.0));
+  this->filter->SetMaximumIterations(1000);
+  this->filter->Update();
+  EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::OK)
+    << this->filter->GetStatusMessage();
+  const Points bent = this->output();
+  double middle = 0.0;
+  for (Index v = 0; v < bent.rows(); ++v)
+  {
+    const Eigen::RowVector3d rest = this->rig.mesh.points.row(v);
+    if (rest.x() < 1e-9)
+    {
+      EXPECT_LT((bent.row(v) - rest).norm(), 1e-12); // full
+    }
+    if ((rest - Eigen::RowVector3d(4, 0.5, 0.5)).norm() < 1e-9)
+    {
+      EXPECT_LT((bent.row(v) - Eigen::RowVector3d(3.9, 1.5, 0.5)).norm(), 1e-12); // position
+    }
+    if ((rest - Eigen::RowVector3d(2, 0.5, 0.5)).norm() < 1e-9)
+    {
+      middle = bent(v, 1) - rest.y(); // free: goes along, less far
+    }
+  }
+  EXPECT_GT(middle, 0.1);
+  EXPECT_LT(middle, 0.9);
+  EXPECT_LT(this->report("constraint_residual"), 1e-9);
+  EXPECT_GT(this->report("energy"), 0.0);
+  EXPECT_GT(this->report("microseconds_per_iteration"), 0.0);
+
+  // The found transforms blend to the output.
+  vtkDataArray* found = this->filter->GetOutput()->GetFieldData()->GetArray("HandleTransforms");
+  ASSERT_NE(found, nullptr);
+  ASSERT_EQ(found->GetNumberOfTuples(), 3);
+  std::vector<Affine> transforms(3);
+  for (int h = 0; h < 3; ++h)
+  {
+    found->GetTuple(h, transforms[static_cast<std::size_t>(h)].data());
+  }
+  Skinning skinning;
+  ExecutionContext context;
+  ASSERT_TRUE(skinning.bind(context, this->rig.weights).ok());
+  Points blended;
+  ASSERT_TRUE(skinning.linear_blend(context, this->rig.mesh.points, transforms, blended).ok());
+  EXPECT_EQ(blended, bent);
+}
+
+TEST_F(ReducedARAPFilter, AllFullEqualsTheSkinningFilter)
+{
+  this->pose->SetPoseJSON(R"({"handles": {
+    "right": {"rotate": {"axis": [0, 0, 1], "degrees": 60}, "translate": [0, 1, 0]},
+    "middle": {"rotate": {"axis": [1, 1, 0], "degrees": -20}, "scale": 1.2}}})");
+  vtkNew<vtkSkinningDeformation> skinning;
+  skinning->SetInputData(0, this->tets);
+  skinning->SetInputConnection(1, this->pose->GetOutputPort());
+  skinning->Update();
+  this->filter->Update();
+  EXPECT_EQ(this->output(), to_points(skinning->GetOutput()).view());
+}
+
+TEST_F(ReducedARAPFilter, SurfacesBendToo)
+{
+  this->filter->SetInputData(0, this->surface);
+  this->pose->SetPoseJSON(drag_right(0.8));
+  for (const auto& [energy, word] :
+    { std::pair<int, const char*>{ vtkReducedARAP::AUTO, "spokes_and_rims" },
+      { vtkReducedARAP::TRIANGLES, "triangles" } })
+  {
+    this->filter->SetEnergy(energy);
+    this->filter->Update();
+    EXPECT_EQ(read_report(this->filter->GetOutput()).text("method"), word);
+    EXPECT_LT(this->report("constraint_residual"), 1e-9);
+    EXPECT_EQ(this->filter->GetOutput()->GetNumberOfCells(), this->surface->GetNumberOfCells());
+  }
+  this->filter->SetEnergy(vtkReducedARAP::TETRAHEDRA);
+  this->fails_with("needs tets");
+  this->filter->SetInputData(0, this->tets);
+  this->filter->SetEnergy(vtkReducedARAP::TRIANGLES);
+  this->fails_with("needs a surface");
+}
+
+// SPEC F51: the same numbers whoever asks, however many threads.
+TEST_F(ReducedARAPFilter, ThreadsAndTheKernelAgreeToTheBit)
+{
+  this->pose->SetPoseJSON(drag_right(0.5));
+  this->filter->SetNumberOfThreads(1);
+  this->filter->Update();
+  const Points one = this->output();
+  vtkNew<vtkReducedARAP> other;
+  other->SetInputData(0, this->tets);
+  other->SetInputConnection(1, this->pose->GetOutputPort());
+  other->SetNumberOfThreads(4);
+  other->Update();
+  EXPECT_EQ(to_points(other->GetOutput()).view(), one);
+
+  ExecutionContext context;
+  ReducedArap arap;
+  ASSERT_TRUE(arap
+                .bind(context, this->rig.mesh.points, this->rig.mesh.tets, this->rig.weights,
+                  this->rig.handles)
+                .ok());
+  Pose bent(3);
+  bent[1].mode = HandleMode::free;
+  bent[2].mode = HandleMode::position;
+  bent[2].transform.col(3) << -0.05, 0.5, 0;
+  ASSERT_TRUE(arap.solve(context, bent).usable());
+  Points kernel;
+  ASSERT_TRUE(arap.deform(context, this->rig.mesh.points, kernel).ok());
+  EXPECT_EQ(kernel, one);
+}
+
+TEST_F(ReducedARAPFilter, FloatWeightsAndPointsAreTaken)
+{
+  vtkNew<vtkFloatArray> floats;
+  floats->DeepCopy(this->tets->GetPointData()->GetArray("Weights"));
+  floats->SetName("Painted");
+  this->tets->GetPointData()->AddArray(floats);
+  this->filter->SetArrayName("Painted");
+  this->pose->SetPoseJSON(drag_right(0.5));
+  this->filter->Update();
+  EXPECT_TRUE(this->listener->errors.empty());
+  EXPECT_LT(this->report("constraint_residual"), 1e-9);
+}
+
+TEST_F(ReducedARAPFilter, TooFewIterationsAreNotConverged)
+{
+  this->pose->SetPoseJSON(drag_right(1.0));
+  this->filter->SetMaximumIterations(2);
+  this->filter->SetTolerance(1e-9);
+  this->filter->Update();
+  EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::NOT_CONVERGED);
+  EXPECT_EQ(this->filter->GetOutput()->GetNumberOfPoints(), this->rig.mesh.points.rows());
+  EXPECT_TRUE(this->listener->errors.empty());
+}
+
+TEST_F(ReducedARAPFilter, WhatDoesNotFitIsNamed)
+{
+  this->filter->SetArrayName("Wrong");
+  this->fails_with("no point array 'Wrong'");
+  this->filter->SetArrayName("Weights");
+
+  // Weights of another mesh: too many tuples.
+  auto array = weights_array(this->rig.weights, this->rig.handles);
+  array->InsertNextTuple3(1, 0, 0);
+  this->tets->GetPointData()->AddArray(array);
+  this->fails_with("weights of another mesh");
+
+  // Of other handles: a component of another name.
+  array = weights_array(this->rig.weights, this->rig.handles);
+  array->SetComponentName(1, "elbow");
+  this->tets->GetPointData()->AddArray(array);
+  this->fails_with("'elbow'");
+
+  array = weights_array(Weights(this->rig.weights.leftCols(2)), Handles(2));
+  this->tets->GetPointData()->AddArray(array);
+  this->fails_with("2 components, but there are 3 handles");
+
+  Weights bad = this->rig.weights;
+  bad(5, 2) = std::numeric_limits<double>::infinity();
+  this->tets->GetPointData()->AddArray(weights_array(bad, this->rig.handles));
+  this->fails_with("vertex 5");
+
+  // Rows off one: a warning with the number, and a result.
+  this->tets->GetPointData()->AddArray(
+    weights_array(Weights(0.5 * this->rig.weights), this->rig.handles));
+  this->listener->errors.clear();
+  this->filter->Update();
+  EXPECT_TRUE(this->listener->errors.empty());
+  ASSERT_EQ(this->listener->warnings.size(), 1u);
+  EXPECT_THAT(this->listener->warnings[0], HasSubstr("0.5"));
+  EXPECT_NEAR(this->report("row_sum_error"), 0.5, 1e-12);
+
+  // A failure upstream is repeated, and mended by mending it.
+  this->pose->SetPoseJSON(R"({"handles": {"elbow": {}}})");
+  vtkNew<test::Listener> quiet;
+  quiet->listen(this->pose);
+  this->fails_with("'elbow'");
+  this->pose->SetPoseJSON("");
+  this->filter->Update();
+  EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::OK);
+}
+
+TEST_F(ReducedARAPFilter, AnAbortEndsTheBindAndTheNextUpdateBinds)
+{
+  this->listener->on_progress = [](vtkAlgorithm* algorithm) { algorithm->SetAbortExecute(1); };
+  this->filter->Update();
+  EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::CANCELLED);
+  EXPECT_EQ(this->filter->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_TRUE(this->listener->errors.empty());
+  this->listener->on_progress = nullptr;
+  this->filter->SetAbortExecute(0);
+  this->filter->Update();
+  EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::OK);
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
+  EXPECT_EQ(this->output(), this->rig.mesh.points);
+}
+
+TEST_F(ReducedARAPFilter, PrintSelfNamesEveryParameter)
+{
+  std::ostringstream text;
+  this->filter->Print(text);
+  for (const char* word :
+    { "ArrayName: Weights", "NumberOfBinds: 0", "Energy: auto", "NumberOfClusters: 0",
+      "NumberOfExtraWeights: 0", "MaximumIterations: 100", "Tolerance: 1e-06", "WarmStart: on" })
+  {
+    EXPECT_THAT(text.str(), HasSubstr(word));
+  }
+}

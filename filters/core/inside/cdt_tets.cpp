@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 namespace bindpose
@@ -176,8 +177,36 @@ Status CdtTets::try_tetgen(
 Status CdtTets::try_delaunay(const MesherData& refined)
 {
   const double start = this->context_.elapsed_seconds();
+  // No triangles to keep: vertices that nearly coincide (the first of each small box stays) would
+  // only make slivers.
+  constexpr double near = 1e-7; // of the diagonal
+  MesherData input = refined;
+  std::set<std::array<double, 3>> boxes;
+  Index kept = 0;
+  Index originals = 0;
+  for (Index v = 0; v < refined.points.rows(); ++v)
+  {
+    std::array<double, 3> box{};
+    for (int k = 0; k < 3; ++k)
+    {
+      box[k] = std::floor(refined.points(v, k) / (near * this->diagonal_));
+    }
+    if (boxes.insert(box).second)
+    {
+      input.points.row(kept) = refined.points.row(v);
+      if (v < static_cast<Index>(this->original_.size()))
+      {
+        this->original_[kept] = this->original_[v];
+        originals = kept + 1;
+      }
+      ++kept;
+    }
+  }
+  input.points.conservativeResize(kept, 3);
+  input.triangles.resize(0, 3);
+  this->original_.resize(static_cast<std::size_t>(originals));
   MesherAnswer answer;
-  Status status = this->run_job({ "delaunay" }, refined, 30.0, answer);
+  Status status = this->run_job({ "delaunay" }, input, 30.0, answer);
   if (status.ok())
   {
     status = this->keep_inside(answer.data);
@@ -301,6 +330,8 @@ Status CdtTets::keep_inside(const MesherData& data)
   }
   kept.conservativeResize(count, 4);
   drop_crumbs(data.points, kept);
+  constexpr double flat = 1e-11; // of the diagonal
+  peel_slivers(data.points, kept, flat * this->diagonal_);
   const double volume = tet_volumes(data.points, kept).sum();
   const bool fits = this->inside_.fits(volume);
   const double misfit = this->inside_.misfit(volume);

@@ -62,7 +62,7 @@ Status EnclosedRegion::sample(
   // More samples until enough are inside, as long as that costs less than some seconds: a sample
   // costs about 0.1 us and 15 ns more for every open edge.
   const auto open_edges = static_cast<double>(surface.found.boundary_edges);
-  constexpr double affordable = 2e6; // us
+  constexpr double affordable = 1e6; // us
   Index samples = 40;
   const double longest = this->box_.size().maxCoeff();
   constexpr double enough = 2000.0; // samples inside, for an error of some percent

@@ -138,6 +138,68 @@ Index drop_crumbs(const Points& points, Tets& tets)
   return dropped;
 }
 
+Index peel_slivers(const Points& points, Tets& tets, double height)
+{
+  const auto flat = [&](Index t)
+  {
+    const Vec3 a = points.row(tets(t, 0)), b = points.row(tets(t, 1));
+    const Vec3 c = points.row(tets(t, 2)), d = points.row(tets(t, 3));
+    const double largest_area = 0.5 *
+      std::max({ (c - b).cross(d - b).norm(), (d - a).cross(c - a).norm(),
+        (b - a).cross(d - a).norm(), (c - a).cross(b - a).norm() });
+    return 3.0 * std::abs(tet_volume(a, b, c, d)) < height * largest_area;
+  };
+  Index removed = 0;
+  for (;;)
+  {
+    std::vector<char> slivers(static_cast<std::size_t>(tets.rows()), 0);
+    bool any = false;
+    for (Index t = 0; t < tets.rows(); ++t)
+    {
+      slivers[t] = flat(t);
+      any = any || slivers[t];
+    }
+    if (!any)
+    {
+      return removed;
+    }
+    std::vector<std::pair<std::array<Index, 3>, Index>> facets;
+    facets.reserve(static_cast<std::size_t>(tets.rows()) * 4);
+    for (Index t = 0; t < tets.rows(); ++t)
+    {
+      for (int skip = 0; skip < 4; ++skip)
+      {
+        std::array<Index, 3> key{ tets(t, (skip + 1) % 4), tets(t, (skip + 2) % 4),
+          tets(t, (skip + 3) % 4) };
+        std::sort(key.begin(), key.end());
+        facets.emplace_back(key, t);
+      }
+    }
+    std::sort(facets.begin(), facets.end());
+    std::vector<char> at_boundary(slivers.size(), 0);
+    for (std::size_t i = 0; i < facets.size();)
+    {
+      const bool shared = i + 1 < facets.size() && facets[i + 1].first == facets[i].first;
+      at_boundary[facets[i].second] |= !shared;
+      i += shared ? 2 : 1;
+    }
+    Index kept = 0;
+    for (Index t = 0; t < tets.rows(); ++t)
+    {
+      if (!slivers[t] || !at_boundary[t])
+      {
+        tets.row(kept++) = tets.row(t).eval();
+      }
+    }
+    if (kept == tets.rows())
+    {
+      return removed;
+    }
+    removed += tets.rows() - kept;
+    tets.conservativeResize(kept, 4);
+  }
+}
+
 Points centers_of(const Points& points, const Tets& tets)
 {
   Points centers(tets.rows(), 3);

@@ -192,7 +192,7 @@ private:
 
   Status remesh(bool finer_when_needed)
   {
-    constexpr double most_cubes = 4e6;
+    constexpr double most_cubes = 1.5e6;
     for (Index resolution = this->options_.resolution;; resolution *= 2)
     {
       const double start = this->context_.elapsed_seconds();

@@ -360,7 +360,7 @@ TEST_F(RealHelper, MemoryLimitIsKept)
   input.points = mesh.points;
   input.triangles = mesh.triangles;
   MesherAnswer answer;
-  const Status status = run_mesher({ { "refine" }, 60.0, 48 }, input, answer, context);
+  const Status status = run_mesher({ { "refine" }, 60.0, 24 }, input, answer, context);
   EXPECT_EQ(status.code, StatusCode::internal_error);
-  EXPECT_THAT(status.message, HasSubstr("memory limit of 48 MiB"));
+  EXPECT_THAT(status.message, HasSubstr("memory limit of 24 MiB"));
 }

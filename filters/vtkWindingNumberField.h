@@ -22,7 +22,7 @@
  *
  * All methods are exact to round-off (1e-12); `Report.method` and `Report.method_reason` say which
  * one AUTO took. Cost on one core: a closed surface 0.1 us a point whatever its size, 15 ns more
- * for every edge where the surface is open, at most about 50 us a point when those are many but
+ * for every edge where the surface is open, 20 to 100 us a point when those are many but
  * most of the surface is connected, and 20 ns times the number of triangles for a soup.
  *
  * Report: method, method_reason, counts.{vertices, triangles, boundary_edges, nonmanifold_edges,
@@ -46,8 +46,6 @@
 
 #include "BindposeFiltersModule.h" // for export macro
 #include "vtkBindposeAlgorithm.h"
-
-class vtkImageData;
 
 class BINDPOSEFILTERS_EXPORT vtkWindingNumberField : public vtkBindposeAlgorithm
 {

@@ -14,6 +14,7 @@ from .meshes import (
     Array,
     Tets,
     add_point_array,
+    copy_report,
     is_dataset,
     is_tets,
     point_array,
@@ -261,7 +262,8 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", region
     transfer.SetInputData(1, solver.GetOutput())
     transfer.SetNumberOfThreads(threads)
     report = {**run(transfer), **report}
-    result = transfer.GetOutput()
+    result = shallow_copy(transfer.GetOutput())
+    copy_report(solver.GetOutput(), result)
     if is_dataset(mesh):
         return result
     array = result.GetPointData().GetArray("Weights")

@@ -149,3 +149,12 @@ def shallow_copy(data):
     copy = data.NewInstance()
     copy.ShallowCopy(data)
     return copy
+
+
+def copy_report(source, target):
+    """Adds what one dataset reports to another's report, replacing the same keys."""
+    arrays = source.GetFieldData()
+    for i in range(arrays.GetNumberOfArrays()):
+        array = arrays.GetAbstractArray(i)
+        if (array.GetName() or "").startswith("Report."):
+            target.GetFieldData().AddArray(array)

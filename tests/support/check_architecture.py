@@ -19,7 +19,7 @@ CORE_ARROWS = {
     "inside": {"base", "inside"},
     "weights": {"base", "inside", "weights"},
     "pose": {"base", "inside", "weights", "pose"},
-    "mesher": {"base", "mesher"},
+    "mesher": {"base", "inside", "mesher"},
 }
 
 

@@ -6,6 +6,7 @@
 #include "cli/session.h"
 #include "cli/verbs.h"
 
+#include "vtkLogger.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkOutputWindow.h"
@@ -31,14 +32,22 @@ vtkStandardNewMacro(SilentOutputWindow);
 
 void run(Session& session)
 {
-  const std::pair<const char*, void (*)(Session&)> functions[] = { { "info", run_info } };
+  const std::pair<const char*, void (*)(Session&)> functions[] = { { "info", run_info },
+    { "winding", run_winding }, { "tetrahedralize", run_tetrahedralize },
+    { "weights", run_weights }, { "deform", run_deform }, { "render", run_render },
+    { "view", run_view } };
   for (const auto& [name, function] : functions)
   {
-    if (session.arguments().verb == name && session.check_report())
+    if (session.arguments().verb == name)
     {
-      function(session);
+      if (session.check_report())
+      {
+        function(session);
+      }
+      return;
     }
   }
+  session.fail(Status::failure(StatusCode::internal_error, "the verb has no function"));
 }
 } // namespace
 
@@ -47,6 +56,7 @@ int main(int argc, char** argv)
   catch_interrupts();
   vtkNew<SilentOutputWindow> silent;
   vtkOutputWindow::SetInstance(silent);
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // it has a way of its own
   Arguments arguments;
   const int early = parse_arguments(argc, argv, arguments);
   if (early >= 0)

@@ -5,13 +5,13 @@
 #include "cli/arguments.h"
 #include "cli/progress_bar.h"
 
+#include "vtkDataSet.h"
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <chrono>
 
 class vtkBindposeAlgorithm;
-class vtkDataSet;
-class vtkPolyData;
 
 namespace bindpose::cli
 {

@@ -1,18 +1,16 @@
 // bindpose info FILE: what a file holds, as a table for people and as a report for programs.
+#include "cli/interrupt.h"
 #include "cli/session.h"
 #include "cli/verbs.h"
 
 #include "conversion.h"
 #include "file_kind.h"
-#include "report_field_data.h"
-#include "vtkHandleFileReader.h"
-#include "vtkMeshFileReader.h"
+#include "inside/surface_repair.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
@@ -67,19 +65,6 @@ struct Facts
   }
 };
 
-Index degenerate_triangles(PointsView points, TrianglesView triangles)
-{
-  Index count = 0;
-  for (Index t = 0; t < triangles.rows(); ++t)
-  {
-    const Vec3 a = points.row(triangles(t, 0));
-    const Vec3 b = points.row(triangles(t, 1));
-    const Vec3 c = points.row(triangles(t, 2));
-    count += (b - a).cross(c - a).squaredNorm() == 0.0;
-  }
-  return count;
-}
-
 Status tell_surface(vtkDataSet* data, Facts& facts)
 {
   SurfaceInput surface;
@@ -90,8 +75,14 @@ Status tell_surface(vtkDataSet* data, Facts& facts)
   }
   const PointsView points = surface.points.view();
   const TrianglesView triangles = surface.triangles.view();
-  const EdgeCounts edges = count_edges(triangles);
-  facts.count("triangles", "triangles", triangles.rows());
+  ExecutionContext context({}, interrupted);
+  SurfaceDiagnosis found;
+  status = diagnose_surface(points, triangles, found, context);
+  if (!status.ok())
+  {
+    return status;
+  }
+  facts.count("triangles", "triangles", found.triangles);
   if (surface.triangulated_cells > 0)
   {
     facts.count("  from polygons", "triangulated_cells", surface.triangulated_cells);
@@ -100,15 +91,22 @@ Status tell_surface(vtkDataSet* data, Facts& facts)
   {
     facts.count("other cells", "ignored_cells", surface.ignored_cells);
   }
-  facts.count("components", "components", connected_components(points.rows(), triangles).count);
-  facts.count("boundary edges", "boundary_edges", edges.boundary);
-  facts.count("non-manifold edges", "nonmanifold_edges", edges.nonmanifold);
-  facts.count("misoriented edges", "misoriented_edges", edges.misoriented);
-  facts.count("degenerate", "degenerate_triangles", degenerate_triangles(points, triangles));
-  facts.table.add("closed", edges.closed ? "yes" : "no");
-  facts.report.set("closed", edges.closed ? "yes" : "no");
+  facts.table.add("components", found.components);
+  facts.table.add("boundary edges", found.boundary_edges);
+  facts.table.add("non-manifold edges", found.nonmanifold_edges);
+  facts.table.add("misoriented edges", found.misoriented_edges);
+  facts.table.add("inward components", found.inward_components);
+  facts.table.add("self-intersections", found.self_intersections);
+  facts.table.add("duplicates",
+    std::to_string(found.duplicate_vertices) + " vertices, " +
+      std::to_string(found.duplicate_triangles) + " triangles");
+  facts.table.add("degenerate", found.degenerate_triangles);
+  facts.table.add("unused points", found.unreferenced_vertices);
+  facts.table.add("closed", found.closed ? "yes" : "no");
+  add_to_report(found, facts.report);
+  facts.report.set("closed", found.closed ? "yes" : "no");
   facts.measure("area", surface_area(points, triangles));
-  if (edges.closed)
+  if (found.closed)
   {
     facts.measure("volume", signed_volume(points, triangles));
   }
@@ -283,10 +281,11 @@ void run_info(Session& session)
     return;
   }
   Facts facts;
-  const Status status = tell(data, facts);
+  Status status = tell(data, facts);
   if (!status.ok())
   {
-    session.invalid(path + ": " + status.message);
+    status.message = path + ": " + status.message;
+    session.fail(status);
     return;
   }
   const std::string kind = data->GetClassName();

@@ -4,6 +4,8 @@
 
 #include "scene/display.h"
 
+#include "vtkDataSet.h"
+
 #ifdef BINDPOSE_HAS_QT
 #include "viewer.h"
 #endif

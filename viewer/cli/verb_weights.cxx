@@ -6,6 +6,7 @@
 
 #include "conversion.h"
 #include "file_kind.h"
+#include "report_field_data.h"
 #include "vtkBoundedBiharmonicWeights.h"
 #include "vtkMonotoneWeights.h"
 #include "vtkTetrahedralizeSurface.h"
@@ -211,6 +212,7 @@ void run_weights(Session& session)
       return;
     }
     solved_on = own_copy(solved_on);
+    session.report().set("tetrahedralize.method", session.report().text("method"));
     if (!regions.empty() && !carry_labels(session, mesh, solved_on, regions))
     {
       return;
@@ -238,11 +240,16 @@ void run_weights(Session& session)
   transfer->SetInputData(0, mesh);
   transfer->SetInputData(1, weights->GetOutput());
   const Report of_weights = session.report();
-  if (session.run(transfer, "transfer", 0.98, 1.0, Merge::numbers))
+  if (!session.run(transfer, "transfer", 0.98, 1.0, Merge::numbers))
   {
-    session.report().merge(of_weights); // the transfer's own keys stay beside
-    session.write(transfer->GetOutput(), output);
+    return;
   }
+  session.report().merge(of_weights); // the transfer's own keys stay beside
+  const auto result = own_copy(transfer->GetOutput());
+  Report in_file = read_report(transfer->GetOutput());
+  in_file.merge(read_report(weights->GetOutput()));
+  attach_report(result, in_file);
+  session.write(result, output);
 }
 
 } // namespace bindpose::cli

@@ -1,4 +1,4 @@
-// Balls are a twice subdivided icosahedron, made once. A bone is an octahedron: head, a square
+// Balls are a subdivided icosahedron, made once. A bone is an octahedron: head, a square
 // waist around the axis near the head, tail; each of its 8 sides owns its three corners, so that
 // the shading is flat.
 #include "handle_shapes.h"
@@ -87,7 +87,8 @@ long long HandleShapes::add_vertex(
 
 void HandleShapes::add_ball(const Eigen::Vector3d& center, double radius, const Colour& colour)
 {
-  static const Ball ball = make_ball(2);
+  static const Ball balls[2] = { make_ball(1), make_ball(2) };
+  const Ball& ball = balls[this->fine_];
   const auto first = static_cast<long long>(this->points_.size() / 3);
   for (const Eigen::Vector3d& vertex : ball.vertices)
   {

@@ -21,7 +21,9 @@ using Colour = std::array<double, 3>;
 class HandleShapes
 {
 public:
-  /// A smooth ball of 320 triangles.
+  /// @param fine  balls of 320 triangles, else of 80 (for hundreds of handles)
+  explicit HandleShapes(bool fine) : fine_(fine) {}
+  /// A smooth ball.
   void add_ball(const Eigen::Vector3d& center, double radius, const Colour& colour);
   /// An elongated octahedron with flat sides, 1/8 of its length behind the head at its widest.
   /// @param half_width  distance of the four waist corners from the axis, world units
@@ -35,6 +37,7 @@ private:
   long long add_vertex(
     const Eigen::Vector3d& place, const Eigen::Vector3d& normal, const Colour& colour);
 
+  bool fine_;
   std::vector<float> points_;
   std::vector<float> normals_;
   std::vector<unsigned char> colours_;

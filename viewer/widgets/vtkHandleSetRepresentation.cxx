@@ -528,15 +528,24 @@ void vtkHandleSetRepresentation::BuildRepresentation()
   {
     return;
   }
-  bindpose::HandleShapes solid;
-  bindpose::HandleShapes outline;
+  const bool fine = self.CountCells() <= 60;
+  bindpose::HandleShapes solid(fine);
+  bindpose::HandleShapes outline(fine);
   self.VisibleLabels = 0;
   const bindpose::Colour mode_colours[3] = { to_colour(this->FullColor),
     to_colour(this->PositionColor), to_colour(this->FreeColor) };
-  const auto pixel_at = [this](const Vector3d& place)
+  // World length of a pixel at a place.
+  vtkCamera* camera = this->Renderer->GetActiveCamera();
+  const Vector3d eye(camera->GetPosition());
+  const Vector3d sight(camera->GetDirectionOfProjection());
+  const double height = std::max(this->Renderer->GetSize()[1], 1);
+  const auto pixel_at = [&](const Vector3d& place)
   {
-    Vector3d copy = place;
-    return this->SizeHandlesInPixels(this->PixelScale, copy.data());
+    const double half_height = camera->GetParallelProjection()
+      ? camera->GetParallelScale()
+      : std::max(sight.dot(place - eye), 0.0) *
+        std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
+    return this->PixelScale * 2.0 * half_height / height;
   };
   for (vtkIdType cell = 0; cell < self.CountCells(); ++cell)
   {
@@ -652,6 +661,8 @@ int vtkHandleSetRepresentation::RenderOverlay(vtkViewport* viewport)
   }
   for (std::size_t i = 0; i < this->Internal->VisibleLabels; ++i)
   {
+    // A text actor draws its letters in the opaque pass and shows them in the overlay.
+    this->Internal->Labels[i]->RenderOpaqueGeometry(viewport);
     rendered += this->Internal->Labels[i]->RenderOverlay(viewport);
   }
   return rendered;

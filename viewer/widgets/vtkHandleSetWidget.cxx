@@ -16,6 +16,8 @@
 #include "vtkWidgetCallbackMapper.h"
 #include "vtkWidgetEvent.h"
 
+#include <cstring>
+
 vtkStandardNewMacro(vtkHandleSetWidget);
 
 vtkHandleSetWidget::vtkHandleSetWidget()
@@ -26,7 +28,7 @@ vtkHandleSetWidget::vtkHandleSetWidget()
     this, vtkHandleSetWidget::SelectAction);
   this->CallbackMapper->SetCallbackMethod(vtkCommand::LeftButtonReleaseEvent,
     vtkWidgetEvent::EndSelect, this, vtkHandleSetWidget::EndSelectAction);
-  this->CallbackMapper->SetCallbackMethod(vtkCommand::KeyPressEvent, vtkEvent::AnyModifier, 27, 1,
+  this->CallbackMapper->SetCallbackMethod(vtkCommand::KeyPressEvent, vtkEvent::AnyModifier, 0, 0,
     "Escape", vtkWidgetEvent::Reset, this, vtkHandleSetWidget::CancelAction);
 }
 
@@ -160,7 +162,9 @@ void vtkHandleSetWidget::EndSelectAction(vtkAbstractWidget* widget)
 void vtkHandleSetWidget::CancelAction(vtkAbstractWidget* widget)
 {
   auto* self = static_cast<vtkHandleSetWidget*>(widget);
-  if (self->State == DRAGGING)
+  // The translator takes a key without a name for any key.
+  const char* key = self->Interactor->GetKeySym();
+  if (self->State == DRAGGING && key && std::strcmp(key, "Escape") == 0)
   {
     self->EventCallbackCommand->SetAbortFlag(1);
     self->CancelDrag();

@@ -1,69 +1,10 @@
-"""Runs the program in a folder of its own and looks at what it leaves there."""
-
-import json
-import os
-import pathlib
-import subprocess
+"""The fixture that every test of the program takes."""
 
 import pytest
-import shapes
-
-PROGRAM = os.environ["BINDPOSE_PROGRAM"]
-
-
-class Run:
-    """One run: exit code, both outputs, and the report when it went to the standard output."""
-
-    def __init__(self, words, folder, environment=None):
-        self.words = [str(word) for word in words]
-        before = set(os.listdir(folder))
-        done = subprocess.run([PROGRAM, *self.words], cwd=folder, capture_output=True, text=True, timeout=300,
-                              check=False, env={**os.environ, **(environment or {})})
-        self.code, self.out, self.err = done.returncode, done.stdout, done.stderr
-        self.new_files = sorted(set(os.listdir(folder)) - before)
-
-    @property
-    def report(self):
-        return json.loads(self.out)
-
-    def is_good(self):
-        assert self.code == 0, self.err
-        assert not any(name.endswith(".part") for name in self.new_files)
-        return self
-
-    def is_refused(self, *words, code=2):
-        """One clear sentence with these words, the exit code, nothing left behind."""
-        assert self.code == code, (self.words, self.code, self.err)
-        lines = [line for line in self.err.splitlines() if ": warning: " not in line]
-        assert len(lines) == 1, self.err
-        assert lines[0].startswith(f"bindpose {self.words[0]}: "), self.err
-        for word in words:
-            assert word in lines[0]
-        assert self.new_files == []
-        return self
+from driver import Folder
 
 
 @pytest.fixture
 def folder(tmp_path):
     """An empty folder with the meshes of shapes.py, written on demand."""
     return Folder(tmp_path)
-
-
-class Folder:
-    def __init__(self, path):
-        self.path = pathlib.Path(path)
-
-    def __truediv__(self, name):
-        return self.path / name
-
-    def write(self, name, text):
-        mode = "wb" if isinstance(text, bytes) else "w"
-        with open(self.path / name, mode) as file:
-            file.write(text)
-        return name
-
-    def off(self, name, mesh):
-        return self.write(name, shapes.off(mesh))
-
-    def run(self, *words, environment=None):
-        return Run(words, self.path, environment)

@@ -8,7 +8,7 @@ import time
 
 import pytest
 import shapes
-from conftest import PROGRAM
+from driver import PROGRAM
 
 LONG = ["winding", "sphere.off", "--grid", "1200", "-o", "field.vti"]
 

@@ -1,0 +1,483 @@
+// One interface, two backends.
+//
+// CHOLMOD: cholmod_analyze gives a symbolic factor; a clone copies it and has a workspace
+// (cholmod_common) of its own, so that clones factor at the same time. The factor is always
+// supernodal LL': a simplicial LDL' would accept negative pivots silently.
+//
+// Serial inside: handles are solved in parallel one level up, and a threaded BLAS would make
+// results depend on the number of threads. CHOLMOD also assembles supernodes in OpenMP regions of
+// four threads, which only get in each other's way there; they are made inactive for the call.
+#include "base/sparse_solver.h"
+
+#include <Eigen/SparseCholesky>
+
+#include <atomic>
+#include <mutex>
+
+#ifdef BINDPOSE_HAS_CHOLMOD
+#include <cholmod.h>
+#include <dlfcn.h>
+#endif
+
+namespace bindpose
+{
+
+namespace
+{
+struct Counters
+{
+  std::atomic<Index> analyses{ 0 };
+  std::atomic<Index> factorisations{ 0 };
+};
+
+/// What a backend does; SparseSolver counts and checks.
+class Factorisation
+{
+public:
+  virtual ~Factorisation() = default;
+  virtual const char* name() const = 0;
+  virtual Status analyse(const SparseMatrix& matrix) = 0;
+  virtual Status factor(const SparseMatrix& matrix) = 0;
+  virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) = 0;
+  virtual void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) = 0;
+  virtual std::unique_ptr<Factorisation> clone() const = 0;
+  virtual double nonzeros() const = 0;
+  virtual double operations() const = 0;
+};
+
+Status not_positive_definite(Index unknown)
+{
+  return Status::invalid_input("the matrix is not positive definite: the pivot of unknown " +
+    std::to_string(unknown) + " is not positive");
+}
+
+class EigenFactorisation : public Factorisation
+{
+public:
+  using Solver = Eigen::SimplicialLDLT<SparseMatrix, Eigen::Lower, Eigen::AMDOrdering<int>>;
+
+  const char* name() const override { return "eigen"; }
+
+  Status analyse(const SparseMatrix& matrix) override
+  {
+    this->pattern_ = std::make_shared<SparseMatrix>(matrix);
+    this->solver_.analyzePattern(matrix);
+    return {};
+  }
+
+  Status factor(const SparseMatrix& matrix) override
+  {
+    this->solver_.factorize(matrix);
+    const auto& d = this->solver_.vectorD();
+    for (Eigen::Index i = 0; i < d.size(); ++i)
+    {
+      if (!(d[i] > 0.0))
+      {
+        return not_positive_definite(this->solver_.permutationPinv().indices()[i]);
+      }
+    }
+    return {};
+  }
+
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override { return this->solver_.solve(rhs); }
+  void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) override
+  {
+    x = this->solver_.solve(rhs);
+  }
+
+  std::unique_ptr<Factorisation> clone() const override
+  {
+    // Eigen's solver cannot be copied; its analysis is cheap beside one factorisation.
+    auto copy = std::make_unique<EigenFactorisation>();
+    copy->pattern_ = this->pattern_;
+    if (copy->pattern_)
+    {
+      copy->solver_.analyzePattern(*copy->pattern_);
+    }
+    return copy;
+  }
+
+  double nonzeros() const override
+  {
+    return static_cast<double>(this->solver_.matrixL().nestedExpression().nonZeros());
+  }
+  double operations() const override
+  {
+    const auto& l = this->solver_.matrixL().nestedExpression();
+    double sum = 0.0;
+    for (Eigen::Index j = 0; j < l.outerSize(); ++j)
+    {
+      const double n = l.outerIndexPtr()[j + 1] - l.outerIndexPtr()[j];
+      sum += n * n;
+    }
+    return sum;
+  }
+
+private:
+  std::shared_ptr<SparseMatrix> pattern_;
+  Solver solver_;
+};
+
+#ifdef BINDPOSE_HAS_CHOLMOD
+template <typename Function>
+Function* find_function(const char* name)
+{
+  return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+}
+
+/// While it lives, OpenMP regions started from this thread run on this thread alone.
+class SerialRegions
+{
+public:
+  SerialRegions()
+  {
+    static auto* get = find_function<int()>("omp_get_max_active_levels");
+    static auto* set = find_function<void(int)>("omp_set_max_active_levels");
+    if (get && set)
+    {
+      this->set_ = set;
+      this->levels_ = get();
+      set(0);
+    }
+  }
+  ~SerialRegions()
+  {
+    if (this->set_)
+    {
+      this->set_(this->levels_);
+    }
+  }
+  SerialRegions(const SerialRegions&) = delete;
+  SerialRegions& operator=(const SerialRegions&) = delete;
+
+private:
+  void (*set_)(int) = nullptr;
+  int levels_ = 1;
+};
+
+/// A threaded OpenBLAS is told once to use one thread.
+void make_blas_serial()
+{
+  static std::once_flag once;
+  std::call_once(once,
+    []
+    {
+      if (auto* set_threads = find_function<void(int)>("openblas_set_num_threads"))
+      {
+        set_threads(1);
+      }
+    });
+}
+
+class CholmodFactorisation : public Factorisation
+{
+public:
+  explicit CholmodFactorisation(SparseSolver::Ordering ordering) : ordering_(ordering)
+  {
+    make_blas_serial();
+    cholmod_start(&this->common_);
+    this->common_.print = 0;
+    this->common_.supernodal = CHOLMOD_SUPERNODAL;
+    this->common_.final_ll = 1;
+  }
+  ~CholmodFactorisation() override
+  {
+    cholmod_free_factor(&this->factor_, &this->common_);
+    cholmod_free_dense(&this->x_, &this->common_);
+    cholmod_free_dense(&this->y_, &this->common_);
+    cholmod_free_dense(&this->e_, &this->common_);
+    cholmod_finish(&this->common_);
+  }
+  CholmodFactorisation(const CholmodFactorisation&) = delete;
+  CholmodFactorisation& operator=(const CholmodFactorisation&) = delete;
+
+  const char* name() const override { return "cholmod"; }
+
+  Status analyse(const SparseMatrix& matrix) override
+  {
+    const bool metis = this->ordering_ == SparseSolver::Ordering::metis ||
+      (this->ordering_ == SparseSolver::Ordering::automatic && matrix.rows() > 500);
+    this->common_.nmethods = 1;
+    this->common_.method[0].ordering = metis ? CHOLMOD_METIS : CHOLMOD_AMD;
+    this->common_.postorder = 1;
+    cholmod_free_factor(&this->factor_, &this->common_);
+    cholmod_sparse a = view(matrix);
+    this->factor_ = cholmod_analyze(&a, &this->common_);
+    if (!this->factor_)
+    {
+      return this->failure("analysed");
+    }
+    this->nonzeros_ = this->common_.lnz;
+    this->operations_ = this->common_.fl;
+    return {};
+  }
+
+  Status factor(const SparseMatrix& matrix) override
+  {
+    const SerialRegions serial;
+    cholmod_sparse a = view(matrix);
+    cholmod_factorize(&a, this->factor_, &this->common_);
+    if (this->common_.status == CHOLMOD_NOT_POSDEF)
+    {
+      const auto* order = static_cast<const int*>(this->factor_->Perm);
+      const auto at = static_cast<Index>(this->factor_->minor);
+      return not_positive_definite(at < matrix.rows() ? order[at] : at);
+    }
+    if (this->common_.status < 0)
+    {
+      return this->failure("factored");
+    }
+    // LAPACK lets NaN through; the estimate of the condition is 0 or NaN then.
+    return cholmod_rcond(this->factor_, &this->common_) > 0.0
+      ? Status()
+      : Status::invalid_input("the matrix to be factored holds numbers that are not finite");
+  }
+
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override
+  {
+    const SerialRegions serial;
+    cholmod_dense b = view(rhs);
+    cholmod_dense* x = cholmod_solve(CHOLMOD_A, this->factor_, &b, &this->common_);
+    Eigen::MatrixXd result =
+      Eigen::Map<Eigen::MatrixXd>(static_cast<double*>(x->x), rhs.rows(), rhs.cols());
+    cholmod_free_dense(&x, &this->common_);
+    return result;
+  }
+
+  void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) override
+  {
+    const SerialRegions serial;
+    cholmod_dense b = view(rhs);
+    cholmod_solve2(CHOLMOD_A, this->factor_, &b, nullptr, &this->x_, nullptr, &this->y_, &this->e_,
+      &this->common_);
+    x = Eigen::Map<Eigen::VectorXd>(static_cast<double*>(this->x_->x), rhs.size());
+  }
+
+  std::unique_ptr<Factorisation> clone() const override
+  {
+    auto copy = std::make_unique<CholmodFactorisation>(this->ordering_);
+    if (this->factor_)
+    {
+      // A numeric factor is copied without its numbers.
+      copy->factor_ = cholmod_copy_factor(this->factor_, &copy->common_);
+      cholmod_change_factor(CHOLMOD_PATTERN, 1, 1, 1, 1, copy->factor_, &copy->common_);
+      copy->nonzeros_ = this->nonzeros_;
+      copy->operations_ = this->operations_;
+    }
+    return copy;
+  }
+
+  double nonzeros() const override { return this->nonzeros_; }
+  double operations() const override { return this->operations_; }
+
+private:
+  static cholmod_sparse view(const SparseMatrix& matrix)
+  {
+    cholmod_sparse a{};
+    a.nrow = static_cast<size_t>(matrix.rows());
+    a.ncol = static_cast<size_t>(matrix.cols());
+    a.nzmax = static_cast<size_t>(matrix.nonZeros());
+    a.p = const_cast<int*>(matrix.outerIndexPtr());
+    a.i = const_cast<int*>(matrix.innerIndexPtr());
+    a.x = const_cast<double*>(matrix.valuePtr());
+    a.stype = -1;
+    a.itype = CHOLMOD_INT;
+    a.xtype = CHOLMOD_REAL;
+    a.dtype = CHOLMOD_DOUBLE;
+    a.sorted = 1;
+    a.packed = 1;
+    return a;
+  }
+  template <typename Matrix>
+  static cholmod_dense view(const Matrix& matrix)
+  {
+    cholmod_dense b{};
+    b.nrow = b.d = static_cast<size_t>(matrix.rows());
+    b.ncol = static_cast<size_t>(matrix.cols());
+    b.nzmax = b.nrow * b.ncol;
+    b.x = const_cast<double*>(matrix.data());
+    b.xtype = CHOLMOD_REAL;
+    b.dtype = CHOLMOD_DOUBLE;
+    return b;
+  }
+
+  Status failure(const char* done) const
+  {
+    const std::string start = std::string("the matrix cannot be ") + done + ": ";
+    switch (this->common_.status)
+    {
+      case CHOLMOD_OUT_OF_MEMORY:
+        return Status::failure(StatusCode::internal_error, start + "out of memory");
+      case CHOLMOD_TOO_LARGE:
+        return Status::invalid_input(start + "its factor is too large");
+      case CHOLMOD_NOT_INSTALLED:
+        return Status::failure(
+          StatusCode::unavailable, start + "this CHOLMOD has no supernodal method");
+      default:
+        return Status::failure(StatusCode::internal_error,
+          start + "CHOLMOD says " + std::to_string(this->common_.status));
+    }
+  }
+
+  SparseSolver::Ordering ordering_;
+  mutable cholmod_common common_{};
+  cholmod_factor* factor_ = nullptr;
+  cholmod_dense* x_ = nullptr; // kept between solves
+  cholmod_dense* y_ = nullptr;
+  cholmod_dense* e_ = nullptr;
+  double nonzeros_ = 0.0;
+  double operations_ = 0.0;
+};
+#endif
+} // namespace
+
+struct SparseSolver::Impl
+{
+  Options options;
+  std::unique_ptr<Factorisation> factorisation; // null: the backend is not built in
+  std::shared_ptr<Counters> counters = std::make_shared<Counters>();
+  Index size = 0;
+  Index nonzeros = 0;
+};
+
+SparseSolver::SparseSolver() : SparseSolver(Options()) {}
+
+SparseSolver::SparseSolver(const Options& options) : impl_(new Impl)
+{
+  this->impl_->options = options;
+  const bool cholmod = options.backend == Backend::cholmod ||
+    (options.backend == Backend::automatic && SparseSolver::has_cholmod());
+  if (!cholmod)
+  {
+    this->impl_->factorisation = std::make_unique<EigenFactorisation>();
+  }
+#ifdef BINDPOSE_HAS_CHOLMOD
+  else
+  {
+    this->impl_->factorisation = std::make_unique<CholmodFactorisation>(options.ordering);
+  }
+#endif
+}
+
+SparseSolver::~SparseSolver() = default;
+SparseSolver::SparseSolver(SparseSolver&&) noexcept = default;
+SparseSolver& SparseSolver::operator=(SparseSolver&&) noexcept = default;
+
+bool SparseSolver::has_cholmod()
+{
+#ifdef BINDPOSE_HAS_CHOLMOD
+  return true;
+#else
+  return false;
+#endif
+}
+
+std::string SparseSolver::blas_warning()
+{
+#ifdef BINDPOSE_HAS_CHOLMOD
+  for (const char* fast :
+    { "openblas_get_config", "MKL_Get_Version_String", "bli_info_get_version_str" })
+  {
+    if (dlsym(RTLD_DEFAULT, fast))
+    {
+      return {};
+    }
+  }
+  return "the BLAS in use is not known to be fast (the reference BLAS is about 17 times slower); "
+         "install libopenblas-serial-dev";
+#else
+  return {};
+#endif
+}
+
+const char* SparseSolver::backend_name() const
+{
+  return this->impl_->factorisation ? this->impl_->factorisation->name() : "cholmod";
+}
+
+Status SparseSolver::analyse(const SparseMatrix& matrix)
+{
+  if (!this->impl_->factorisation)
+  {
+    return Status::failure(
+      StatusCode::unavailable, "this build has no CHOLMOD (package libsuitesparse-dev)");
+  }
+  if (matrix.rows() != matrix.cols() || !matrix.isCompressed())
+  {
+    return Status::invalid_input("a matrix to be factored must be square and compressed");
+  }
+  // METIS draws from the C library's generator: one analysis at a time, so that each is repeatable.
+  static std::mutex one_at_a_time;
+  const std::lock_guard<std::mutex> lock(one_at_a_time);
+  this->impl_->size = matrix.rows();
+  this->impl_->nonzeros = matrix.nonZeros();
+  this->impl_->counters->analyses += 1;
+  return this->impl_->factorisation->analyse(matrix);
+}
+
+Status SparseSolver::factor(const SparseMatrix& matrix)
+{
+  if (matrix.rows() != this->impl_->size || matrix.nonZeros() != this->impl_->nonzeros ||
+    this->impl_->counters->analyses == 0)
+  {
+    return Status::failure(
+      StatusCode::internal_error, "the matrix to be factored has not the analysed pattern");
+  }
+  this->impl_->counters->factorisations += 1;
+  return this->impl_->factorisation->factor(matrix);
+}
+
+Eigen::MatrixXd SparseSolver::solve(const Eigen::MatrixXd& rhs) const
+{
+  return rhs.size() ? this->impl_->factorisation->solve(rhs) : rhs;
+}
+
+void SparseSolver::solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const
+{
+  if (rhs.size() == 0)
+  {
+    x.resize(0);
+    return;
+  }
+  this->impl_->factorisation->solve(rhs, x);
+}
+
+SparseSolver SparseSolver::clone() const
+{
+  SparseSolver copy(this->impl_->options);
+  copy.impl_->counters = this->impl_->counters;
+  copy.impl_->size = this->impl_->size;
+  copy.impl_->nonzeros = this->impl_->nonzeros;
+  if (this->impl_->factorisation)
+  {
+    copy.impl_->factorisation = this->impl_->factorisation->clone();
+  }
+  return copy;
+}
+
+Index SparseSolver::size() const
+{
+  return this->impl_->size;
+}
+
+double SparseSolver::factor_nonzeros() const
+{
+  return this->impl_->factorisation ? this->impl_->factorisation->nonzeros() : 0.0;
+}
+
+double SparseSolver::factor_operations() const
+{
+  return this->impl_->factorisation ? this->impl_->factorisation->operations() : 0.0;
+}
+
+Index SparseSolver::analyses() const
+{
+  return this->impl_->counters->analyses;
+}
+
+Index SparseSolver::factorisations() const
+{
+  return this->impl_->counters->factorisations;
+}
+
+} // namespace bindpose

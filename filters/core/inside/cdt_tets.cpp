@@ -1,0 +1,482 @@
+// A clean surface goes to TetGen as it is. Any other is first refined exactly until triangles meet
+// only in shared vertices and edges; TetGen then fills the convex hull (or a box around it) with
+// tets that keep all these triangles, and tets with a winding number below the threshold are thrown
+// away. TetGen 1.5 fails on some inputs with one set of switches and on others with another, so
+// several are tried; then the same with vertices rounded to a coarser grid (which welds nearly
+// coincident ones) and with vertices moved a little (which takes soups apart). Last comes a plain
+// Delaunay triangulation of the refined vertices, whose tets need not respect the triangles.
+//
+// Kept tets get vertices inside, by TetGen's refinement with the boundary left alone: angles become
+// better and weights have something to vary over.
+#include "inside/cdt_tets.h"
+
+#include "inside/mesher_process.h"
+#include "inside/tet_quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace bindpose
+{
+
+/// How the vertices are moved before refinement.
+struct CdtTets::Move
+{
+  const char* name;
+  double snap; ///< fraction of the diagonal
+  double jitter; ///< fraction of the diagonal
+};
+
+namespace
+{
+/// A number in [-1, 1) from an integer, the same everywhere (splitmix64).
+double scatter(std::uint64_t n)
+{
+  std::uint64_t z = (n + 1) * 0x9e3779b97f4a7c15ull;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  z ^= z >> 31;
+  return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
+}
+
+std::string short_number(double x)
+{
+  std::ostringstream text;
+  text.precision(4);
+  text << x;
+  return text.str();
+}
+} // namespace
+
+void RungLog::add(const std::string& rung, double seconds, const Status& status)
+{
+  this->names_.push_back(rung);
+  this->seconds_.push_back(seconds);
+  this->outcomes_.push_back(status.ok() ? "ok" : status.message);
+}
+
+void RungLog::report(Report& report) const
+{
+  if (!this->names_.empty())
+  {
+    report.set("rungs[].name", Report::Value(this->names_));
+    report.set("rungs[].seconds", Report::Value(this->seconds_));
+    report.set("rungs[].outcome", Report::Value(this->outcomes_));
+  }
+}
+
+Status wrong_volume(double volume, const EnclosedRegion& inside)
+{
+  return Status::failure(StatusCode::internal_error,
+    "the tets hold " + short_number(volume) + ", but the winding number encloses " +
+      short_number(inside.volume()));
+}
+
+CdtTets::CdtTets(const RepairedSurface& surface, EnclosedRegion& inside, const CdtOptions& options,
+  RungLog& log, ExecutionContext& context)
+  : surface_(surface), inside_(inside), options_(options), log_(log), context_(context),
+    diagonal_(bounding_box(surface.points).diagonal()), start_(context.elapsed_seconds())
+{
+}
+
+Status CdtTets::build(double seconds)
+{
+  this->deadline_ = this->context_.elapsed_seconds() + seconds;
+  Status status;
+  if (this->surface_.clean())
+  {
+    const Phase phase(this->context_, "tetgen", 0.0, 0.6);
+    this->original_ = this->surface_.original_vertices;
+    const MesherData data{ this->surface_.points, this->surface_.triangles, {}, {}, {} };
+    status = this->try_tetgen("tetgen", data, "pYA", false);
+    if (status.ok() || this->final(status))
+    {
+      return status;
+    }
+  }
+  MesherData first_refined;
+  std::vector<Index> first_original;
+  constexpr Move moves[] = { { "", 0.0, 0.0 }, { ", vertices rounded", 0x1p-20, 0.0 },
+    { ", vertices moved by 1e-5", 0.0, 1e-5 }, { ", vertices moved by 1e-4", 0.0, 1e-4 } };
+  for (const Move& move : moves)
+  {
+    MesherData refined;
+    status = this->refine(move, refined);
+    if (status.ok())
+    {
+      if (first_refined.points.rows() == 0)
+      {
+        first_refined = refined;
+        first_original = this->original_;
+      }
+      status = this->try_switches(move, refined);
+    }
+    if (status.ok() || this->final(status))
+    {
+      return status;
+    }
+  }
+  if (first_refined.points.rows() > 0)
+  {
+    this->original_ = first_original;
+    return this->try_delaunay(first_refined);
+  }
+  return status;
+}
+
+/// TetGen on refined triangles, with one set of switches after the other.
+Status CdtTets::try_switches(const Move& move, const MesherData& refined)
+{
+  struct Way
+  {
+    const char* switches;
+    bool box;
+  };
+  const Phase phase(this->context_, "tetgen", 0.4, 1.0);
+  const auto name = [&](const std::string& switches, bool box)
+  { return "tetgen " + switches + (box ? " in a box" : "") + move.name; };
+  Status status;
+  for (const Way& way :
+    { Way{ "pYcA", false }, Way{ "pYA", true }, Way{ "pcA", false }, Way{ "pA", true } })
+  {
+    status = this->try_tetgen(name(way.switches, way.box), refined, way.switches, way.box);
+    if (status.ok() || this->final(status))
+    {
+      break;
+    }
+    if (this->wrong_volume_)
+    {
+      // TetGen did what it could: across wide openings the tets are too coarse to end where the
+      // winding number does, which may be outside the convex hull.
+      const std::string fine = "pYAq2a" + short_number(this->volume_bound());
+      status = this->try_tetgen(name(fine, true), refined, fine, true);
+      this->finer_is_no_better_ = !status.ok();
+      break;
+    }
+  }
+  return status;
+}
+
+Status CdtTets::try_tetgen(
+  const std::string& name, const MesherData& input, const std::string& switches, bool box)
+{
+  const double start = this->context_.elapsed_seconds();
+  MesherAnswer answer;
+  Status status = this->run_job(
+    { "tetgen", "--switches", switches, "--box", box ? "1" : "0" }, input, 30.0, answer);
+  if (status.ok())
+  {
+    status = this->keep_inside(answer.data);
+  }
+  this->log_.add(name, this->context_.elapsed_seconds() - start, status);
+  return status;
+}
+
+Status CdtTets::try_delaunay(const MesherData& refined)
+{
+  const double start = this->context_.elapsed_seconds();
+  MesherAnswer answer;
+  Status status = this->run_job({ "delaunay" }, refined, 30.0, answer);
+  if (status.ok())
+  {
+    status = this->keep_inside(answer.data);
+  }
+  this->log_.add(
+    "delaunay of the refined vertices", this->context_.elapsed_seconds() - start, status);
+  if (status.ok())
+  {
+    this->warnings_.emplace_back("the tets do not follow the surface's triangles everywhere");
+  }
+  return status;
+}
+
+/// Moves the vertices, then cuts triangles along their crossings.
+Status CdtTets::refine(const Move& move, MesherData& refined)
+{
+  const Phase phase(this->context_, "refine", 0.0, 0.4);
+  const double start = this->context_.elapsed_seconds();
+  RepairedSurface moved;
+  Status status = this->move_vertices(move, moved);
+  if (status.ok())
+  {
+    this->original_ = moved.original_vertices;
+    MesherAnswer answer;
+    const MesherData input{ moved.points, moved.triangles, {}, {}, {} };
+    status = this->run_job({ "refine" }, input, 25.0, answer);
+    refined = std::move(answer.data);
+    if (status.ok() && refined.triangles.rows() == 0)
+    {
+      status = Status::failure(StatusCode::internal_error, "no triangles are left");
+    }
+  }
+  this->log_.add(
+    std::string("refine") + move.name, this->context_.elapsed_seconds() - start, status);
+  return status;
+}
+
+Status CdtTets::move_vertices(const Move& move, RepairedSurface& moved)
+{
+  if (move.snap > 0.0)
+  {
+    RepairOptions repair;
+    repair.orient = false;
+    repair.count_self_intersections = false;
+    repair.snap = move.snap;
+    Status status = repair_surface(
+      this->surface_.points, this->surface_.triangles, repair, moved, this->context_);
+    if (status.ok() && moved.triangles.rows() == 0)
+    {
+      status = Status::failure(StatusCode::internal_error, "no triangles are left");
+    }
+    for (Index& v : moved.original_vertices)
+    {
+      v = this->surface_.original_vertices[v];
+    }
+    return status;
+  }
+  moved.points = this->surface_.points;
+  moved.triangles = this->surface_.triangles;
+  moved.original_vertices = this->surface_.original_vertices;
+  const double size = move.jitter * this->diagonal_;
+  for (Index k = 0; size > 0.0 && k < moved.points.size(); ++k)
+  {
+    moved.points.data()[k] += size * scatter(static_cast<std::uint64_t>(k));
+  }
+  return {};
+}
+
+/// One job of the helper, within what is left of the time.
+Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherData& input,
+  double seconds, MesherAnswer& answer)
+{
+  constexpr double per_element = 2e-4;
+  const double left = this->deadline_ - this->context_.elapsed_seconds();
+  if (left <= 0.0)
+  {
+    return Status::failure(StatusCode::internal_error, "the time limit was reached");
+  }
+  MesherRequest request;
+  request.arguments = arguments;
+  request.memory_limit = this->options_.memory_limit;
+  request.time_limit = std::min(
+    left, seconds + per_element * static_cast<double>(input.triangles.rows() + input.tets.rows()));
+  if (arguments.front() == "refine")
+  {
+    // It gives up by itself, a little earlier, and says how far it came.
+    constexpr double earlier = 0.9;
+    request.arguments.insert(
+      request.arguments.end(), { "--time", std::to_string(earlier * request.time_limit) });
+  }
+  return run_mesher(request, input, answer, this->context_);
+}
+
+/// A status after which no other rung can help.
+bool CdtTets::final(const Status& status) const
+{
+  return status.code == StatusCode::cancelled || status.code == StatusCode::unavailable ||
+    (!status.ok() &&
+      (this->finer_is_no_better_ || this->context_.elapsed_seconds() >= this->deadline_));
+}
+
+/// Keeps the tets that the surface winds around; ok when their volume is right.
+Status CdtTets::keep_inside(const MesherData& data)
+{
+  const Phase phase(this->context_, "label", 0.9, 1.0);
+  this->wrong_volume_ = false;
+  Eigen::VectorXd w;
+  const Status status = this->inside_.label(data, w, this->context_);
+  if (!status.ok())
+  {
+    return status;
+  }
+  Tets kept(data.tets.rows(), 4);
+  Index count = 0;
+  for (Index t = 0; t < data.tets.rows(); ++t)
+  {
+    if (w[t] >= this->options_.winding_threshold)
+    {
+      kept.row(count++) = data.tets.row(t);
+    }
+  }
+  kept.conservativeResize(count, 4);
+  drop_crumbs(data.points, kept);
+  const double volume = tet_volumes(data.points, kept).sum();
+  const bool fits = this->inside_.fits(volume);
+  const double misfit = this->inside_.misfit(volume);
+  this->wrong_volume_ = !fits;
+  if (fits || misfit < this->misfit_)
+  {
+    // What does not fit is still better than nothing, should nothing fit better.
+    this->misfit_ = misfit;
+    this->mesh_.points = data.points;
+    this->mesh_.tets = kept;
+    this->mesh_original_ = this->original_;
+  }
+  return fits    ? Status()
+    : count == 0 ? Status::failure(StatusCode::internal_error, "no tet is inside")
+                 : wrong_volume(volume, this->inside_);
+}
+
+// ---- Vertices inside
+// -----------------------------------------------------------------------------
+
+Status CdtTets::complete()
+{
+  this->finer_is_no_better_ = false;
+  this->deadline_ = std::max(this->start_ + this->options_.time_limit, this->deadline_);
+  if (this->options_.quality > 0.0 || this->options_.interior_edge > 0.0)
+  {
+    const Phase phase(this->context_, "fill", 0.0, 1.0);
+    const Status status = this->fill();
+    if (status.code == StatusCode::cancelled)
+    {
+      return status;
+    }
+    if (!status.ok())
+    {
+      this->warnings_.push_back("no vertices were added inside (" + status.message + ")");
+    }
+  }
+  this->renumber();
+  return {};
+}
+
+/// Ways to add vertices, the first that works. What is bounded by many needles (CAD) stays bad with
+/// the boundary left alone; then its triangles may be split, and so may large ones that are in the
+/// way of small tets.
+Status CdtTets::fill()
+{
+  const MesherData coarse{ this->mesh_.points, {}, this->mesh_.tets, {}, {} };
+  const std::string size = this->options_.interior_edge > 0.0 ? "a" : "";
+  const std::string good =
+    this->options_.quality > 0.0 ? "q" + short_number(this->options_.quality) + "/10" : "";
+  const std::string fair = good.empty() ? "" : "q2";
+  const bool large_triangles = this->options_.interior_edge > 0.0 &&
+    this->mean_surface_edge() > 3.0 * this->options_.interior_edge * this->diagonal_;
+  Status status;
+  if (large_triangles)
+  {
+    status = this->try_fill("r" + good + size, coarse);
+    if (status.ok() || this->final(status))
+    {
+      return status;
+    }
+  }
+  status = this->try_fill("rY" + good + size, coarse);
+  if (!status.ok() && !this->final(status) && good != fair)
+  {
+    status = this->try_fill("rY" + fair + size, coarse);
+  }
+  const Index bad = measure_tets(this->mesh_.points, this->mesh_.tets).below_5_degrees;
+  constexpr double too_many = 0.2;
+  if (!good.empty() && !this->final(status) &&
+    static_cast<double>(bad) > too_many * static_cast<double>(this->mesh_.tets.rows()))
+  {
+    const Status split = this->try_fill("r" + fair + size, coarse);
+    status = split.ok() || split.code == StatusCode::cancelled ? split : status;
+  }
+  return status;
+}
+
+/// One run of TetGen's refinement; its tets replace the mesh's when they fill the same volume.
+Status CdtTets::try_fill(const std::string& switches, const MesherData& coarse)
+{
+  const double start = this->context_.elapsed_seconds();
+  MesherData data = coarse;
+  if (this->options_.interior_edge > 0.0)
+  {
+    data.largest_volumes.assign(static_cast<std::size_t>(coarse.tets.rows()), this->volume_bound());
+  }
+  MesherAnswer answer;
+  Status status = this->run_job({ "tetgen", "--switches", switches }, data, 10.0, answer);
+  if (status.ok())
+  {
+    status = this->accept_fill(answer.data, tet_volumes(coarse.points, coarse.tets).sum());
+  }
+  this->log_.add(
+    "vertices inside by tetgen " + switches, this->context_.elapsed_seconds() - start, status);
+  return status;
+}
+
+Status CdtTets::accept_fill(MesherData& data, double volume)
+{
+  const double after = tet_volumes(data.points, data.tets).sum();
+  constexpr double rounding = 1e-9;
+  if (std::abs(after - volume) > rounding * volume)
+  {
+    return Status::failure(StatusCode::internal_error,
+      "they changed the volume from " + short_number(volume) + " to " + short_number(after));
+  }
+  Status status = check_tets(data.points, data.tets);
+  if (status.ok())
+  {
+    this->mesh_.points = std::move(data.points);
+    this->mesh_.tets = std::move(data.tets);
+  }
+  return status;
+}
+
+double CdtTets::mean_surface_edge() const
+{
+  double sum = 0.0;
+  const Triangles& triangles = this->surface_.triangles;
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      sum += (this->surface_.points.row(triangles(t, k)) -
+        this->surface_.points.row(triangles(t, (k + 1) % 3)))
+               .norm();
+    }
+  }
+  return sum / static_cast<double>(std::max<Index>(1, triangles.size()));
+}
+
+/// Volume of a regular tet with edges of interior_edge, no shorter than a third of the surface's.
+double CdtTets::volume_bound() const
+{
+  constexpr double regular = 0.11785113019775793;
+  constexpr double default_edge = 0.04;
+  const double fraction =
+    this->options_.interior_edge > 0.0 ? this->options_.interior_edge : default_edge;
+  return regular *
+    std::pow(std::max(fraction * this->diagonal_, this->mean_surface_edge() / 3.0), 3.0);
+}
+
+/// Vertices of the input first, in their order, then the others; unused ones go.
+void CdtTets::renumber()
+{
+  std::vector<char> used(static_cast<std::size_t>(this->mesh_.points.rows()), 0);
+  for (Index k = 0; k < this->mesh_.tets.size(); ++k)
+  {
+    used[this->mesh_.tets.data()[k]] = 1;
+  }
+  const auto originals = static_cast<Index>(this->mesh_original_.size());
+  std::vector<Index> id(used.size(), -1);
+  std::vector<Index> original_vertices;
+  for (std::size_t v = 0; v < used.size(); ++v)
+  {
+    if (used[v])
+    {
+      id[v] = static_cast<Index>(original_vertices.size());
+      original_vertices.push_back(static_cast<Index>(v) < originals ? this->mesh_original_[v] : -1);
+    }
+  }
+  Points points(static_cast<Index>(original_vertices.size()), 3);
+  for (std::size_t v = 0; v < used.size(); ++v)
+  {
+    if (used[v])
+    {
+      points.row(id[v]) = this->mesh_.points.row(static_cast<Index>(v));
+    }
+  }
+  for (Index k = 0; k < this->mesh_.tets.size(); ++k)
+  {
+    this->mesh_.tets.data()[k] = id[this->mesh_.tets.data()[k]];
+  }
+  this->mesh_.points = std::move(points);
+  this->mesh_original_ = std::move(original_vertices);
+}
+
+} // namespace bindpose

@@ -1,0 +1,104 @@
+#ifndef bindpose_inside_cdt_tets_h
+#define bindpose_inside_cdt_tets_h
+
+#include "base/execution.h"
+#include "inside/enclosed_region.h"
+#include "inside/surface_repair.h"
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace bindpose
+{
+
+struct MesherAnswer;
+
+/// Everything that was tried, with seconds and how it ended.
+class RungLog
+{
+public:
+  void add(const std::string& rung, double seconds, const Status& status);
+  /// rungs[].name, rungs[].seconds, rungs[].outcome ("ok" or why it was left).
+  void report(Report& report) const;
+
+private:
+  std::vector<std::string> names_;
+  std::vector<double> seconds_;
+  std::vector<std::string> outcomes_;
+};
+
+/// See TetrahedralizeOptions.
+struct CdtOptions
+{
+  double winding_threshold = 0.5;
+  double time_limit = 120.0;
+  Index memory_limit = 0;
+  double quality = 1.414;
+  double interior_edge = 0.04;
+};
+
+/// "the tets hold 3.9, but the winding number encloses 8"
+Status wrong_volume(double volume, const EnclosedRegion& inside);
+
+/// Constrained Delaunay tets of a surface's hull, kept where the surface winds around them, by the
+/// helper executable: the rungs of method cdt. Call build(), then complete().
+class CdtTets
+{
+public:
+  CdtTets(const RepairedSurface& surface, EnclosedRegion& inside, const CdtOptions& options,
+    RungLog& log, ExecutionContext& context);
+
+  /// Climbs the rungs until the kept tets' volume is right, for at most `seconds`. On failure the
+  /// tets that came nearest are kept: see misfit().
+  Status build(double seconds);
+  /// EnclosedRegion::misfit of the tets that are there, infinity for none.
+  double misfit() const { return this->misfit_; }
+  /// Adds vertices inside and numbers the input's vertices first. Only cancelled is a failure; what
+  /// else goes wrong is a warning.
+  Status complete();
+
+  TetMesh& mesh() { return this->mesh_; }
+  std::vector<Index>& original_vertices() { return this->mesh_original_; }
+  const std::vector<std::string>& warnings() const { return this->warnings_; }
+
+private:
+  struct Move;
+
+  Status try_switches(const Move& move, const MesherData& refined);
+  Status try_tetgen(
+    const std::string& name, const MesherData& input, const std::string& switches, bool box);
+  Status try_delaunay(const MesherData& refined);
+  Status refine(const Move& move, MesherData& refined);
+  Status move_vertices(const Move& move, RepairedSurface& moved);
+  Status run_job(const std::vector<std::string>& arguments, const MesherData& input, double seconds,
+    MesherAnswer& answer);
+  bool final(const Status& status) const;
+  Status keep_inside(const MesherData& data);
+  Status fill();
+  Status try_fill(const std::string& switches, const MesherData& coarse);
+  Status accept_fill(MesherData& data, double volume);
+  double mean_surface_edge() const;
+  double volume_bound() const;
+  void renumber();
+
+  const RepairedSurface& surface_;
+  EnclosedRegion& inside_;
+  CdtOptions options_;
+  RungLog& log_;
+  ExecutionContext& context_;
+  double diagonal_ = 0.0;
+  double start_ = 0.0;
+  double deadline_ = 0.0;
+  std::vector<Index> original_; ///< input id of the first vertices of the rung's points
+  bool wrong_volume_ = false; ///< the rung's tets are there, but their volume is wrong
+  bool finer_is_no_better_ = false; ///< then more of the same will not help
+  TetMesh mesh_;
+  std::vector<Index> mesh_original_;
+  double misfit_ = std::numeric_limits<double>::infinity();
+  std::vector<std::string> warnings_;
+};
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,51 @@
+#ifndef bindpose_inside_enclosed_region_h
+#define bindpose_inside_enclosed_region_h
+
+#include "inside/mesher_format.h"
+#include "inside/surface_repair.h"
+#include "inside/winding_number.h"
+
+namespace bindpose
+{
+
+/// Where a surface winds often enough around a point: {winding number >= threshold} in the
+/// surface's box. Says which tets are in it and whether a volume fits.
+class EnclosedRegion
+{
+public:
+  /// Builds the winding number and estimates the volume. A surface that winds the other way around
+  /// more than it encloses is turned inside out (closed components are right by now, open ones may
+  /// not be). #samples in the box: thousands, fewer when there are many open edges.
+  Status build(RepairedSurface& surface, double threshold, bool& turned, ExecutionContext& context);
+
+  const WindingNumber& winding() const { return this->winding_; }
+  /// Exact for a clean surface of one component, sampled otherwise.
+  double volume() const { return this->volume_; }
+  /// Within 10 %, and what sampling may be wrong by.
+  bool fits(double volume) const;
+  /// |log(volume / volume())|: 0 for equal, the same for half and double, infinity for none.
+  double misfit(double volume) const;
+  /// The largest winding number met so far.
+  double largest_winding() const { return this->largest_winding_; }
+
+  /// Winding number of each tet: of its region's largest tet when the surface is closed, else at
+  /// its centre or, for large tets near the threshold, the mean of four points.
+  Status label(const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context);
+
+private:
+  Status sample(const RepairedSurface& surface, double& negative, ExecutionContext& context);
+  Status label_regions(const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context) const;
+  Status label_tets(const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context) const;
+
+  WindingNumber winding_;
+  Box box_;
+  double threshold_ = 0.5;
+  bool closed_ = false;
+  double volume_ = 0.0;
+  double volume_error_ = 1.0; ///< relative
+  double largest_winding_ = 0.0;
+};
+
+} // namespace bindpose
+
+#endif

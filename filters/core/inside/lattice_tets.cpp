@@ -1,0 +1,611 @@
+// Lattice vertices are numbered corners first (x fastest), then centres; everything below runs in
+// the order of these numbers, so results are the same for any number of threads.
+//
+// Stuffing: 1. winding numbers at all lattice vertices; + where w >= threshold. 2. On each edge
+// between + and -, the cut point by bisection (w jumps at the surface, so nothing faster is safe).
+// 3. A vertex that has a cut point nearer than alpha times the edge moves there and becomes 0.
+// 4. Each tet with a + vertex and no - vertex is kept; one with - vertices keeps its + side, with
+// cut points in place of the - vertices. Where that leaves a quadrilateral on a face, both tets of
+// the face must cut it along the same diagonal: see diagonal_at_first().
+#include "inside/lattice_tets.h"
+
+#include "base/parallel.h"
+#include "inside/tet_quality.h"
+#include "inside/triangle_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+using Tet = std::array<Index, 4>;
+using Edge2 = std::pair<Index, Index>;
+
+// The largest distances, in edge lengths, at which a vertex moves to a cut point. With these all
+// dihedral angles are above 10.78 degrees (Labelle and Shewchuk, table 1).
+constexpr double alpha_long = 0.24999;
+constexpr double alpha_short = 0.41189;
+
+class Numbering
+{
+public:
+  explicit Numbering(const Lattice& lattice) : lattice_(lattice)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      this->size_[k] = lattice.cubes[k] + 1;
+    }
+    this->corners_ = this->size_[0] * this->size_[1] * this->size_[2];
+    this->vertices_ = this->corners_ + lattice.cubes[0] * lattice.cubes[1] * lattice.cubes[2];
+  }
+  Index corner(Index i, Index j, Index k) const
+  {
+    return (k * this->size_[1] + j) * this->size_[0] + i;
+  }
+  Index center(Index i, Index j, Index k) const
+  {
+    return this->corners_ + (k * this->lattice_.cubes[1] + j) * this->lattice_.cubes[0] + i;
+  }
+  Index vertices() const { return this->vertices_; }
+  Index corners() const { return this->corners_; }
+  bool is_center(Index v) const { return v >= this->corners_; }
+
+  std::array<Index, 3> position(Index v) const
+  {
+    const bool center = this->is_center(v);
+    Index rest = center ? v - this->corners_ : v;
+    const Index nx = center ? this->lattice_.cubes[0] : this->size_[0];
+    const Index ny = center ? this->lattice_.cubes[1] : this->size_[1];
+    const Index i = rest % nx;
+    rest /= nx;
+    return { i, rest % ny, rest / ny };
+  }
+  Vec3 point(Index v) const
+  {
+    const auto at = this->position(v);
+    const double shift = this->is_center(v) ? 0.5 : 0.0;
+    return this->lattice_.origin +
+      this->lattice_.spacing * Vec3(at[0] + shift, at[1] + shift, at[2] + shift);
+  }
+  /// Neighbours along a long edge differ in this.
+  bool even(Index v) const
+  {
+    const auto at = this->position(v);
+    return (at[0] + at[1] + at[2]) % 2 == 0;
+  }
+  /// An edge between a corner and a centre is short (sqrt(3)/2), all others are long (1).
+  bool is_long(Index v, Index w) const { return this->is_center(v) == this->is_center(w); }
+
+  /// Calls body(tet) for the tets between cube (i, j, k) and its three upper neighbours. The first
+  /// two vertices are centres, the last two corners.
+  template <typename Body>
+  void tets_of_cube(Index i, Index j, Index k, const Body& body) const
+  {
+    const std::array<Index, 3> at{ i, j, k };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      if (at[axis] + 1 >= this->lattice_.cubes[axis])
+      {
+        continue;
+      }
+      std::array<Index, 3> next = at;
+      next[axis] += 1;
+      const Index c0 = this->center(at[0], at[1], at[2]);
+      const Index c1 = this->center(next[0], next[1], next[2]);
+      const int u = (axis + 1) % 3;
+      const int v = (axis + 2) % 3;
+      // The face's corners, counter-clockwise seen from the upper cube.
+      constexpr int ring[4][2] = { { 0, 0 }, { 1, 0 }, { 1, 1 }, { 0, 1 } };
+      std::array<Index, 4> corners{};
+      for (int r = 0; r < 4; ++r)
+      {
+        std::array<Index, 3> c = next;
+        c[u] += ring[r][0];
+        c[v] += ring[r][1];
+        corners[r] = this->corner(c[0], c[1], c[2]);
+      }
+      for (int r = 0; r < 4; ++r)
+      {
+        body(Tet{ c0, c1, corners[r], corners[(r + 1) % 4] });
+      }
+    }
+  }
+
+  /// All tets for which keep() holds, in order.
+  template <typename Keep>
+  bool collect(ExecutionContext& context, const Keep& keep, std::vector<Tet>& tets) const
+  {
+    const auto& n = this->lattice_.cubes;
+    std::vector<std::vector<Tet>> of_layer(static_cast<std::size_t>(n[2] * n[1]));
+    const bool whole = parallel_for(context, n[2] * n[1], 4,
+      [&](Index begin, Index end)
+      {
+        for (Index row = begin; row < end; ++row)
+        {
+          for (Index i = 0; i < n[0]; ++i)
+          {
+            this->tets_of_cube(i, row % n[1], row / n[1],
+              [&](const Tet& tet)
+              {
+                if (keep(tet))
+                {
+                  of_layer[row].push_back(tet);
+                }
+              });
+          }
+        }
+      });
+    for (const auto& list : of_layer)
+    {
+      tets.insert(tets.end(), list.begin(), list.end());
+    }
+    return whole;
+  }
+
+private:
+  const Lattice& lattice_;
+  std::array<Index, 3> size_{};
+  Index corners_ = 0;
+  Index vertices_ = 0;
+};
+
+SampleGrid grid_of(const Lattice& lattice, bool centers)
+{
+  SampleGrid grid;
+  const double shift = centers ? 0.5 : 0.0;
+  grid.origin = lattice.origin + Vec3::Constant(shift * lattice.spacing);
+  grid.spacing = Vec3::Constant(lattice.spacing);
+  for (int k = 0; k < 3; ++k)
+  {
+    grid.extent[2 * k] = 0;
+    grid.extent[2 * k + 1] = centers ? lattice.cubes[k] - 1 : lattice.cubes[k];
+  }
+  return grid;
+}
+
+Status sample(const WindingNumber& winding, const Lattice& lattice, const Numbering& numbering,
+  Eigen::VectorXd& w, ExecutionContext& context)
+{
+  w.resize(numbering.vertices());
+  Status status = winding.evaluate(grid_of(lattice, false), context, w.data());
+  if (status.ok())
+  {
+    status = winding.evaluate(grid_of(lattice, true), context, w.data() + numbering.corners());
+  }
+  return status;
+}
+
+/// Renumbers to the vertices that are used, in their order.
+void compact(const std::vector<Vec3>& points, std::vector<Tet>& tets, TetMesh& mesh)
+{
+  std::vector<Index> id(points.size(), -1);
+  for (const Tet& tet : tets)
+  {
+    for (const Index v : tet)
+    {
+      id[v] = 0;
+    }
+  }
+  Index count = 0;
+  for (Index& i : id)
+  {
+    i = i < 0 ? -1 : count++;
+  }
+  mesh.points.resize(count, 3);
+  for (std::size_t v = 0; v < id.size(); ++v)
+  {
+    if (id[v] >= 0)
+    {
+      mesh.points.row(id[v]) = points[v];
+    }
+  }
+  mesh.tets.resize(static_cast<Index>(tets.size()), 4);
+  for (Index t = 0; t < mesh.tets.rows(); ++t)
+  {
+    mesh.tets.row(t) << id[tets[t][0]], id[tets[t][1]], id[tets[t][2]], id[tets[t][3]];
+    if (tet_volume(mesh.points.row(mesh.tets(t, 0)), mesh.points.row(mesh.tets(t, 1)),
+          mesh.points.row(mesh.tets(t, 2)), mesh.points.row(mesh.tets(t, 3))) < 0.0)
+    {
+      std::swap(mesh.tets(t, 0), mesh.tets(t, 1));
+    }
+  }
+}
+
+class Stuffing
+{
+public:
+  Stuffing(const WindingNumber& winding, const Lattice& lattice, const Box& box, double threshold)
+    : winding_(winding), lattice_(lattice), numbering_(lattice), box_(box), threshold_(threshold)
+  {
+  }
+
+  Status run(TetMesh& mesh, ExecutionContext& context)
+  {
+    Eigen::VectorXd w;
+    {
+      const Phase phase(context, "sample", 0.0, 0.4);
+      Status status = sample(this->winding_, this->lattice_, this->numbering_, w, context);
+      if (!status.ok())
+      {
+        return status;
+      }
+    }
+    this->sign_.resize(static_cast<std::size_t>(w.size()));
+    this->points_.resize(this->sign_.size());
+    for (Index v = 0; v < w.size(); ++v)
+    {
+      this->points_[v] = this->numbering_.point(v);
+      this->sign_[v] = w[v] >= this->threshold_ && this->in_box(this->points_[v]) ? 1 : -1;
+    }
+    const Phase phase(context, "cut", 0.4, 1.0);
+    std::vector<Tet> tets;
+    const auto any_inside = [&](const Tet& tet)
+    { return std::any_of(tet.begin(), tet.end(), [&](Index v) { return this->sign_[v] > 0; }); };
+    if (!this->numbering_.collect(context, any_inside, tets) || !this->find_cuts(tets, context))
+    {
+      return Status::cancelled();
+    }
+    this->snap();
+    std::vector<Tet> result;
+    for (const Tet& tet : tets)
+    {
+      this->fill(tet, result);
+    }
+    compact(this->points_, result, mesh);
+    return {};
+  }
+
+private:
+  bool find_cuts(const std::vector<Tet>& tets, ExecutionContext& context)
+  {
+    for (const Tet& tet : tets)
+    {
+      for (int i = 0; i < 4; ++i)
+      {
+        for (int j = i + 1; j < 4; ++j)
+        {
+          if (this->sign_[tet[i]] != this->sign_[tet[j]])
+          {
+            this->edges_.push_back(std::minmax(tet[i], tet[j]));
+          }
+        }
+      }
+    }
+    std::sort(this->edges_.begin(), this->edges_.end());
+    this->edges_.erase(std::unique(this->edges_.begin(), this->edges_.end()), this->edges_.end());
+    this->at_.resize(this->edges_.size());
+    constexpr Index block = 32;
+    return parallel_for(context, static_cast<Index>(this->edges_.size()), block,
+      [&](Index begin, Index end)
+      {
+        for (Index e = begin; e < end; ++e)
+        {
+          this->at_[e] = this->cut_of(this->edges_[e]);
+        }
+      });
+  }
+
+  bool in_box(const Vec3& p) const
+  {
+    return (p.array() >= this->box_.lower.array()).all() &&
+      (p.array() <= this->box_.upper.array()).all();
+  }
+
+  /// Where along the edge, from its first vertex, w passes the threshold.
+  double cut_of(const Edge2& edge) const
+  {
+    const bool first_inside = this->sign_[edge.first] > 0;
+    const Vec3 a = this->points_[edge.first];
+    const Vec3 d = this->points_[edge.second] - a;
+    double lower = 0.0;
+    double upper = 1.0;
+    constexpr int steps = 8;
+    for (int s = 0; s < steps; ++s)
+    {
+      const double middle = 0.5 * (lower + upper);
+      const Vec3 p = a + middle * d;
+      const bool inside = this->in_box(p) && this->winding_.evaluate_at(p) >= this->threshold_;
+      (inside == first_inside ? lower : upper) = middle;
+    }
+    return 0.5 * (lower + upper);
+  }
+
+  /// Moves each vertex that has a cut point too near to the nearest such point.
+  void snap()
+  {
+    struct End
+    {
+      Index vertex, edge;
+      double distance; // in edge lengths of a long edge
+      bool too_near;
+    };
+    std::vector<End> ends;
+    for (std::size_t e = 0; e < this->edges_.size(); ++e)
+    {
+      const auto [v, w] = this->edges_[e];
+      const bool is_long = this->numbering_.is_long(v, w);
+      const double alpha = is_long ? alpha_long : alpha_short;
+      const double length = is_long ? 1.0 : std::sqrt(0.75);
+      const auto edge = static_cast<Index>(e);
+      ends.push_back({ v, edge, this->at_[e] * length, this->at_[e] < alpha });
+      ends.push_back({ w, edge, (1.0 - this->at_[e]) * length, 1.0 - this->at_[e] < alpha });
+    }
+    std::sort(ends.begin(), ends.end(),
+      [](const End& x, const End& y)
+      { return x.vertex != y.vertex ? x.vertex < y.vertex : x.edge < y.edge; });
+    std::vector<Vec3> cut_points(this->edges_.size());
+    for (std::size_t e = 0; e < this->edges_.size(); ++e)
+    {
+      const auto [v, w] = this->edges_[e];
+      cut_points[e] = this->points_[v] + this->at_[e] * (this->points_[w] - this->points_[v]);
+    }
+    for (std::size_t i = 0; i < ends.size();)
+    {
+      const End* nearest = nullptr;
+      std::size_t j = i;
+      for (; j < ends.size() && ends[j].vertex == ends[i].vertex; ++j)
+      {
+        const auto [v, w] = this->edges_[ends[j].edge];
+        const bool still_cut = this->sign_[v] * this->sign_[w] < 0;
+        if (still_cut && ends[j].too_near && (!nearest || ends[j].distance < nearest->distance))
+        {
+          nearest = &ends[j];
+        }
+      }
+      if (nearest)
+      {
+        this->points_[nearest->vertex] = cut_points[nearest->edge];
+        this->sign_[nearest->vertex] = 0;
+      }
+      i = j;
+    }
+    // The remaining cut points become vertices.
+    this->cut_vertex_.assign(this->edges_.size(), -1);
+    for (std::size_t e = 0; e < this->edges_.size(); ++e)
+    {
+      const auto [v, w] = this->edges_[e];
+      if (this->sign_[v] * this->sign_[w] < 0)
+      {
+        this->cut_vertex_[e] = static_cast<Index>(this->points_.size());
+        this->points_.push_back(cut_points[e]);
+      }
+    }
+  }
+
+  Index cut_vertex(Index v, Index w) const
+  {
+    const Edge2 edge = std::minmax(v, w);
+    const auto at = std::lower_bound(this->edges_.begin(), this->edges_.end(), edge);
+    return this->cut_vertex_[static_cast<std::size_t>(at - this->edges_.begin())];
+  }
+
+  /// On the face of + vertices a, b and - vertex c, the cut leaves the quadrilateral a, b, bc, ac.
+  /// True when its diagonal starts at a, false when at b. The face has one long edge. When that is
+  /// a-b, the even one of the two has it; else the + vertex that is not on the long edge has it, so
+  /// that the diagonal ends at the long edge's cut point. Both tets of the face see the same.
+  bool diagonal_at_first(Index a, Index b, Index c) const
+  {
+    if (this->numbering_.is_long(a, b))
+    {
+      return this->numbering_.even(a);
+    }
+    return this->numbering_.is_long(b, c);
+  }
+
+  void fill(const Tet& tet, std::vector<Tet>& out) const
+  {
+    std::array<Index, 4> plus{}, zero{}, minus{};
+    int p = 0, z = 0, m = 0;
+    for (const Index v : tet)
+    {
+      (this->sign_[v] > 0 ? plus[p++] : this->sign_[v] < 0 ? minus[m++] : zero[z++]) = v;
+    }
+    if (p == 0)
+    {
+      return;
+    }
+    if (m == 0)
+    {
+      out.push_back(tet);
+    }
+    else if (p == 1)
+    {
+      Tet cut = tet;
+      for (Index& v : cut)
+      {
+        v = this->sign_[v] < 0 ? this->cut_vertex(plus[0], v) : v;
+      }
+      out.push_back(cut);
+    }
+    else if (p == 2 && m == 1)
+    {
+      const Index a = plus[0], b = plus[1], c = minus[0];
+      const Index ac = this->cut_vertex(a, c), bc = this->cut_vertex(b, c);
+      if (this->diagonal_at_first(a, b, c))
+      {
+        out.push_back({ a, b, bc, zero[0] });
+        out.push_back({ a, bc, ac, zero[0] });
+      }
+      else
+      {
+        out.push_back({ b, bc, ac, zero[0] });
+        out.push_back({ b, ac, a, zero[0] });
+      }
+    }
+    else if (p == 2)
+    {
+      this->fill_wedge(plus[0], plus[1], minus[0], minus[1], out);
+    }
+    else
+    {
+      this->fill_cut_corner({ plus[0], plus[1], plus[2] }, minus[0], out);
+    }
+  }
+
+  /// + + - -: a prism with the ends (a, ac, ad) and (b, bc, bd). Its face (ac, ad, bd, bc) is on
+  /// the boundary, so that its diagonal is free: the better one.
+  void fill_wedge(Index a, Index b, Index c, Index d, std::vector<Tet>& out) const
+  {
+    std::vector<Tet> best;
+    double best_angle = -1.0;
+    for (const bool free_at_first : { true, false })
+    {
+      // Diagonals of (a, b | ac, bc), (a, b | ad, bd), (ac, bc | ad, bd).
+      std::vector<Tet> tets;
+      const std::array<Index, 3> top{ a, this->cut_vertex(a, c), this->cut_vertex(a, d) };
+      const std::array<Index, 3> bottom{ b, this->cut_vertex(b, c), this->cut_vertex(b, d) };
+      // side[k] joins corners k and k+1; its diagonal starts at the top of corner k or k+1.
+      const std::array<bool, 3> at_k{ this->diagonal_at_first(a, b, c), free_at_first,
+        !this->diagonal_at_first(a, b, d) };
+      if (!split_prism(top, bottom, at_k, tets))
+      {
+        continue;
+      }
+      double angle = 180.0;
+      for (const Tet& t : tets)
+      {
+        angle = std::min(angle,
+          min_dihedral_angle(
+            this->points_[t[0]], this->points_[t[1]], this->points_[t[2]], this->points_[t[3]]));
+      }
+      if (angle > best_angle)
+      {
+        best_angle = angle;
+        best = tets;
+      }
+    }
+    out.insert(out.end(), best.begin(), best.end());
+  }
+
+  /// + + + -: a prism with the ends (a, b, c) and their cut points.
+  void fill_cut_corner(const std::array<Index, 3>& plus, Index minus, std::vector<Tet>& out) const
+  {
+    std::array<Index, 3> bottom{};
+    std::array<bool, 3> at_k{};
+    for (int k = 0; k < 3; ++k)
+    {
+      bottom[k] = this->cut_vertex(plus[k], minus);
+      at_k[k] = this->diagonal_at_first(plus[k], plus[(k + 1) % 3], minus);
+    }
+    split_prism(plus, bottom, at_k, out);
+  }
+
+  /// Three tets of a prism with the ends `top` and `bottom`. at_k[k]: the diagonal of the side
+  /// between corners k and k + 1 starts at top[k] (and ends at bottom[k + 1]), else at top[k + 1].
+  /// False when the three diagonals go around: no tets then fill the prism.
+  static bool split_prism(const std::array<Index, 3>& top, const std::array<Index, 3>& bottom,
+    const std::array<bool, 3>& at_k, std::vector<Tet>& out)
+  {
+    if (at_k[0] == at_k[1] && at_k[1] == at_k[2])
+    {
+      return false;
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      const int next = (k + 1) % 3;
+      const int last = (k + 2) % 3;
+      if (at_k[k] && !at_k[last])
+      {
+        // Both diagonals at corner k start at its top.
+        out.push_back({ top[k], bottom[0], bottom[1], bottom[2] });
+        if (at_k[next])
+        {
+          out.push_back({ top[k], top[next], top[last], bottom[last] });
+          out.push_back({ top[k], top[next], bottom[next], bottom[last] });
+        }
+        else
+        {
+          out.push_back({ top[k], top[next], top[last], bottom[next] });
+          out.push_back({ top[k], top[last], bottom[next], bottom[last] });
+        }
+        return true;
+      }
+    }
+    return false;
+  }
+
+  const WindingNumber& winding_;
+  const Lattice& lattice_;
+  Numbering numbering_;
+  Box box_;
+  double threshold_;
+  std::vector<signed char> sign_;
+  std::vector<Vec3> points_;
+  std::vector<Edge2> edges_; // cut edges, sorted
+  std::vector<double> at_; // where they are cut
+  std::vector<Index> cut_vertex_;
+};
+} // namespace
+
+Lattice Lattice::around(const Box& box, Index resolution)
+{
+  Lattice lattice;
+  const double longest = box.size().maxCoeff();
+  lattice.spacing =
+    longest > 0.0 ? longest / static_cast<double>(std::max<Index>(resolution, 1)) : 1.0;
+  constexpr double margin = 2.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    const double cubes = std::ceil(box.size()[k] / lattice.spacing + 2.0 * margin - 1e-9);
+    lattice.cubes[k] = static_cast<Index>(cubes);
+    lattice.origin[k] = box.center()[k] - 0.5 * cubes * lattice.spacing;
+  }
+  return lattice;
+}
+
+Status stuff_lattice(const WindingNumber& winding, const Lattice& lattice, const Box& box,
+  double threshold, TetMesh& mesh, ExecutionContext& context)
+{
+  mesh = TetMesh();
+  return Stuffing(winding, lattice, box, threshold).run(mesh, context);
+}
+
+Status cover_lattice(PointsView points, TrianglesView triangles, const WindingNumber& winding,
+  const Lattice& lattice, double threshold, TetMesh& mesh, ExecutionContext& context)
+{
+  mesh = TetMesh();
+  const Numbering numbering(lattice);
+  Eigen::VectorXd w;
+  {
+    const Phase phase(context, "sample", 0.0, 0.4);
+    Status status = sample(winding, lattice, numbering, w, context);
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  const Phase phase(context, "cover", 0.4, 1.0);
+  const TriangleTree tree(points, triangles);
+  // A tet's centre is its circumcentre: all of it is within 0.559 spacings.
+  const double reach = 0.57 * lattice.spacing;
+  const auto keep = [&](const Tet& tet)
+  {
+    // No surface within reach: w is harmonic there and the mean of the vertices is that at the
+    // centre, near enough.
+    if (0.25 * (w[tet[0]] + w[tet[1]] + w[tet[2]] + w[tet[3]]) >= threshold)
+    {
+      return true;
+    }
+    const Vec3 center = 0.25 *
+      (numbering.point(tet[0]) + numbering.point(tet[1]) + numbering.point(tet[2]) +
+        numbering.point(tet[3]));
+    return tree.distance(center, reach) <= reach;
+  };
+  std::vector<Tet> tets;
+  if (!numbering.collect(context, keep, tets))
+  {
+    return Status::cancelled();
+  }
+  std::vector<Vec3> all(static_cast<std::size_t>(numbering.vertices()));
+  for (Index v = 0; v < numbering.vertices(); ++v)
+  {
+    all[v] = numbering.point(v);
+  }
+  compact(all, tets, mesh);
+  return {};
+}
+
+} // namespace bindpose

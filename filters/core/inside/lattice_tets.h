@@ -1,0 +1,43 @@
+#ifndef bindpose_inside_lattice_tets_h
+#define bindpose_inside_lattice_tets_h
+
+#include "base/execution.h"
+#include "base/mesh.h"
+#include "inside/winding_number.h"
+
+namespace bindpose
+{
+
+/// A body-centred cubic lattice: the corners and centres of cubes of side `spacing`. Each pair of
+/// neighbouring cubes gives four equal tets around their common face (two centres and an edge of
+/// the face each), dihedral angles 60 and 90 degrees, circumradius 0.559 spacing.
+struct Lattice
+{
+  Vec3 origin = Vec3::Zero(); ///< corner (0, 0, 0)
+  double spacing = 1.0;
+  std::array<Index, 3> cubes{ 0, 0, 0 };
+
+  /// Covers the box and a margin of two cubes on every side; `resolution` cubes along its longest
+  /// side.
+  static Lattice around(const Box& box, Index resolution);
+};
+
+/// Tets of {w >= threshold}, as far as it lies in the box, by isosurface stuffing (Labelle and
+/// Shewchuk, Isosurface Stuffing: Fast Tetrahedral Meshes with Good Dihedral Angles, 2007): lattice
+/// vertices near the isosurface move onto it, the remaining tets that it cuts are cut. Every
+/// dihedral angle is between 10.7 and 164.8 degrees. Parts thinner than a cube are lost. The
+/// surface's vertices are not kept. Works for every surface: only winding numbers are asked for,
+/// about 2 a cube and 8 a cut edge. No tets when w is below the threshold everywhere in the box.
+/// @return cancelled or ok.
+Status stuff_lattice(const WindingNumber& winding, const Lattice& lattice, const Box& box,
+  double threshold, TetMesh& mesh, ExecutionContext& context);
+
+/// Lattice tets that hold the surface and its inside: those whose centre is within 0.57 spacing of
+/// the surface, so that every point of the surface is in one, or has w >= threshold. All dihedral
+/// angles are 60 or 90 degrees. Parts that come nearer than a cube share tets.
+Status cover_lattice(PointsView points, TrianglesView triangles, const WindingNumber& winding,
+  const Lattice& lattice, double threshold, TetMesh& mesh, ExecutionContext& context);
+
+} // namespace bindpose
+
+#endif

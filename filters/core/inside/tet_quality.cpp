@@ -1,0 +1,153 @@
+#include "inside/tet_quality.h"
+
+#include "inside/triangle_predicates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace bindpose
+{
+
+double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
+{
+  // Angles between outward normals are 180 degrees minus the dihedral angles.
+  const std::array<Vec3, 4> normals{ (c - b).cross(d - b), (d - a).cross(c - a),
+    (b - a).cross(d - a), (c - a).cross(b - a) };
+  double largest_cosine = -1.0;
+  for (int i = 0; i < 4; ++i)
+  {
+    for (int j = 0; j < i; ++j)
+    {
+      const double lengths = normals[i].norm() * normals[j].norm();
+      if (!(lengths > 0.0))
+      {
+        return 0.0;
+      }
+      largest_cosine = std::max(largest_cosine, -normals[i].dot(normals[j]) / lengths);
+    }
+  }
+  constexpr double degrees = 57.295779513082320877;
+  return degrees * std::acos(std::min(largest_cosine, 1.0));
+}
+
+TetQuality measure_tets(PointsView points, TetsView tets)
+{
+  TetQuality quality;
+  quality.min_dihedral_angle = tets.rows() ? 180.0 : 0.0;
+  const Eigen::VectorXd volumes = tet_volumes(points, tets);
+  quality.volume = volumes.sum();
+  quality.min_volume = tets.rows() ? volumes.minCoeff() : 0.0;
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    const double angle = min_dihedral_angle(points.row(tets(t, 0)), points.row(tets(t, 1)),
+      points.row(tets(t, 2)), points.row(tets(t, 3)));
+    quality.min_dihedral_angle = std::min(quality.min_dihedral_angle, angle);
+    constexpr double sliver = 5.0;
+    quality.below_5_degrees += angle < sliver;
+  }
+  for (const Edge& edge : mesh_edges(boundary_triangles(tets)))
+  {
+    quality.boundary_edges_open += edge.net_direction != 0;
+  }
+  return quality;
+}
+
+Status check_tets(PointsView points, TetsView tets)
+{
+  std::vector<std::array<Index, 4>> keys;
+  keys.reserve(static_cast<std::size_t>(tets.rows()));
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    if (orientation_3d(points.row(tets(t, 0)), points.row(tets(t, 1)), points.row(tets(t, 2)),
+          points.row(tets(t, 3))) <= 0)
+    {
+      return Status::failure(
+        StatusCode::internal_error, "tet " + std::to_string(t) + " has no positive volume");
+    }
+    keys.push_back({ tets(t, 0), tets(t, 1), tets(t, 2), tets(t, 3) });
+    std::sort(keys.back().begin(), keys.back().end());
+  }
+  std::sort(keys.begin(), keys.end());
+  if (std::adjacent_find(keys.begin(), keys.end()) != keys.end())
+  {
+    return Status::failure(StatusCode::internal_error, "a tet is there twice");
+  }
+  return {};
+}
+
+Index drop_crumbs(const Points& points, Tets& tets)
+{
+  constexpr int facet[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
+  struct Facet
+  {
+    std::array<Index, 3> key;
+    Index tet;
+  };
+  std::vector<Facet> facets;
+  facets.reserve(static_cast<std::size_t>(tets.rows()) * 4);
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    for (const auto& f : facet)
+    {
+      std::array<Index, 3> key{ tets(t, f[0]), tets(t, f[1]), tets(t, f[2]) };
+      std::sort(key.begin(), key.end());
+      facets.push_back({ key, t });
+    }
+  }
+  std::sort(facets.begin(), facets.end(),
+    [](const Facet& x, const Facet& y) { return x.key != y.key ? x.key < y.key : x.tet < y.tet; });
+  std::vector<Index> group(static_cast<std::size_t>(tets.rows()));
+  std::iota(group.begin(), group.end(), Index(0));
+  const auto find = [&](Index t)
+  {
+    while (group[t] != t)
+    {
+      group[t] = group[group[t]];
+      t = group[t];
+    }
+    return t;
+  };
+  for (std::size_t i = 1; i < facets.size(); ++i)
+  {
+    if (facets[i].key == facets[i - 1].key)
+    {
+      const Index a = find(facets[i - 1].tet);
+      const Index b = find(facets[i].tet);
+      group[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  const Eigen::VectorXd volumes = tet_volumes(points, tets);
+  Eigen::VectorXd of_group = Eigen::VectorXd::Zero(tets.rows());
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    of_group[find(t)] += volumes[t];
+  }
+  constexpr double crumb = 1e-8;
+  const double least = crumb * volumes.sum();
+  Index kept = 0;
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    if (of_group[find(t)] >= least)
+    {
+      tets.row(kept++) = tets.row(t).eval();
+    }
+  }
+  const Index dropped = tets.rows() - kept;
+  tets.conservativeResize(kept, 4);
+  return dropped;
+}
+
+Points centers_of(const Points& points, const Tets& tets)
+{
+  Points centers(tets.rows(), 3);
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    centers.row(t) = 0.25 *
+      (points.row(tets(t, 0)) + points.row(tets(t, 1)) + points.row(tets(t, 2)) +
+        points.row(tets(t, 3)));
+  }
+  return centers;
+}
+
+} // namespace bindpose

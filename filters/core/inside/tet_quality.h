@@ -1,0 +1,35 @@
+#ifndef bindpose_inside_tet_quality_h
+#define bindpose_inside_tet_quality_h
+
+#include "base/mesh.h"
+
+namespace bindpose
+{
+
+/// Smallest of a tet's six dihedral angles, degrees; 0 for a tet without volume.
+double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+struct TetQuality
+{
+  double volume = 0.0; ///< sum over all tets
+  double min_volume = 0.0;
+  double min_dihedral_angle = 0.0; ///< degrees, of the worst tet
+  Index below_5_degrees = 0; ///< tets whose smallest dihedral angle is below 5 degrees
+  Index boundary_edges_open = 0; ///< edges at which the boundary is not closed
+};
+
+TetQuality measure_tets(PointsView points, TetsView tets);
+
+/// internal_error naming the first tet that is flat, turned over or there twice; ids are in range.
+Status check_tets(PointsView points, TetsView tets);
+
+/// Removes groups of tets, joined by facets, that hold less than 1e-8 of the volume: crumbs of
+/// rounding. @return how many tets went.
+Index drop_crumbs(const Points& points, Tets& tets);
+
+/// #T x 3 mean of the four vertices.
+Points centers_of(const Points& points, const Tets& tets);
+
+} // namespace bindpose
+
+#endif

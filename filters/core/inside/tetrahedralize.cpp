@@ -1,0 +1,387 @@
+// The ladder: cdt (cdt_tets.h), then remesh (lattice_tets.h, finer when the volume is off). Every
+// rung is judged by the volume it has against the volume that winds enough. When none fits, the one
+// that came nearest is taken, with a warning.
+#include "inside/tetrahedralize.h"
+
+#include "inside/cdt_tets.h"
+#include "inside/enclosed_region.h"
+#include "inside/lattice_tets.h"
+#include "inside/surface_repair.h"
+#include "inside/tet_quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace bindpose
+{
+
+namespace
+{
+std::string short_number(double x)
+{
+  std::ostringstream text;
+  text.precision(4);
+  text << x;
+  return text.str();
+}
+
+class Ladder
+{
+public:
+  Ladder(PointsView points, TrianglesView triangles, const TetrahedralizeOptions& options,
+    TetrahedralizeResult& result, ExecutionContext& context)
+    : points_(points), triangles_(triangles), options_(options), result_(result), context_(context)
+  {
+  }
+
+  Status run()
+  {
+    Status status = this->prepare();
+    if (status.ok())
+    {
+      const Phase phase(this->context_, "tetrahedralize", 0.15, 0.95);
+      status = this->climb();
+    }
+    if (status.ok())
+    {
+      const Phase phase(this->context_, "check", 0.95, 1.0);
+      status = this->check();
+    }
+    if (!status.usable())
+    {
+      this->result_ = TetrahedralizeResult();
+    }
+    status.warnings.insert(status.warnings.begin(), this->warnings_.begin(), this->warnings_.end());
+    Report report = this->report_;
+    this->log_.report(report);
+    report.merge(status.report);
+    status.report = report;
+    return status;
+  }
+
+private:
+  // ---- Before the ladder -----------------------------------------------------------------------
+
+  Status prepare()
+  {
+    {
+      const Phase phase(this->context_, "repair", 0.0, 0.05);
+      Status status = repair_surface(
+        this->points_, this->triangles_, RepairOptions(), this->surface_, this->context_);
+      if (!status.ok())
+      {
+        return status;
+      }
+    }
+    const SurfaceDiagnosis& found = this->surface_.found;
+    add_to_report(found, this->report_);
+    if (this->surface_.triangles.rows() == 0)
+    {
+      return Status::invalid_input(this->triangles_.rows() == 0
+          ? "the surface has no triangles"
+          : "no triangle of the surface has an area, so it encloses nothing");
+    }
+    if (found.flat && this->options_.method != TetMethod::embed)
+    {
+      return Status::invalid_input(
+        "the surface is flat: all its points lie in one plane, so it encloses nothing");
+    }
+    if (this->surface_.turned_triangles > 0)
+    {
+      this->report_.set("counts.turned_triangles", Report::Value(this->surface_.turned_triangles));
+      this->warn(std::to_string(this->surface_.turned_triangles) +
+        " triangles were turned to agree with their neighbours");
+    }
+    if (this->surface_.turned_components > 0)
+    {
+      this->report_.set(
+        "counts.turned_components", Report::Value(this->surface_.turned_components));
+      this->warn(std::to_string(this->surface_.turned_components) +
+        " closed components were inside out and were turned");
+    }
+    this->box_ = bounding_box(this->surface_.points);
+    const Phase phase(this->context_, "winding", 0.05, 0.15);
+    bool turned = false;
+    Status status =
+      this->inside_.build(this->surface_, this->options_.winding_threshold, turned, this->context_);
+    if (turned)
+    {
+      this->warn("the surface was inside out and was turned");
+    }
+    return status;
+  }
+
+  // ---- Rungs -----------------------------------------------------------------------------------
+
+  Status climb()
+  {
+    if (this->options_.method == TetMethod::embed)
+    {
+      return this->embed();
+    }
+    if (this->options_.method == TetMethod::remesh)
+    {
+      const Status status = this->remesh(false);
+      return status.ok() ? status : this->take_lattice(status);
+    }
+    const bool automatic = this->options_.method == TetMethod::automatic;
+    CdtOptions options;
+    options.winding_threshold = this->options_.winding_threshold;
+    options.time_limit = this->options_.time_limit;
+    options.memory_limit = this->options_.memory_limit;
+    options.quality = this->options_.quality;
+    options.interior_edge = this->options_.interior_edge;
+    CdtTets cdt(this->surface_, this->inside_, options, this->log_, this->context_);
+    Status status;
+    {
+      const Phase phase(this->context_, "cdt", 0.0, 0.6);
+      constexpr double share = 0.75; // leave time for vertices inside
+      status = cdt.build(share * this->options_.time_limit);
+    }
+    if (status.ok() || status.code == StatusCode::cancelled)
+    {
+      return status.ok() ? this->take_cdt(cdt) : status;
+    }
+    const std::string why = status.message;
+    if (automatic)
+    {
+      status = this->remesh(true);
+      if (status.ok())
+      {
+        this->warn("method cdt was left (" + why +
+          "); the tets are remesh's and do not keep the surface's vertices");
+      }
+      if (status.ok() || status.code == StatusCode::cancelled)
+      {
+        return status;
+      }
+    }
+    // Nothing fits: what came nearest.
+    if (cdt.misfit() < worst_misfit && cdt.misfit() <= this->lattice_misfit_)
+    {
+      this->warn(why);
+      return this->take_cdt(cdt);
+    }
+    return this->take_lattice(status);
+  }
+
+  Status take_cdt(CdtTets& cdt)
+  {
+    const Phase phase(this->context_, "cdt", 0.6, 1.0);
+    Status status = cdt.complete();
+    this->report_.set("method", to_string(TetMethod::cdt));
+    this->result_.mesh = std::move(cdt.mesh());
+    this->result_.original_vertices = std::move(cdt.original_vertices());
+    this->warnings_.insert(this->warnings_.end(), cdt.warnings().begin(), cdt.warnings().end());
+    return status;
+  }
+
+  /// The lattice tets that came nearest, with a warning; `status` when there are none.
+  Status take_lattice(const Status& status)
+  {
+    if (this->lattice_misfit_ > worst_misfit || status.code == StatusCode::cancelled)
+    {
+      return status;
+    }
+    this->warn(status.message + ": parts thinner than a lattice cube are lost");
+    this->result_.mesh = std::move(this->lattice_mesh_);
+    return this->complete_lattice(TetMethod::remesh);
+  }
+
+  Status remesh(bool finer_when_needed)
+  {
+    constexpr double most_cubes = 4e6;
+    for (Index resolution = this->options_.resolution;; resolution *= 2)
+    {
+      const double start = this->context_.elapsed_seconds();
+      const Phase phase(this->context_, "lattice", 0.0, 1.0);
+      const Lattice lattice = Lattice::around(this->box_, resolution);
+      TetMesh& mesh = this->result_.mesh;
+      Status status = stuff_lattice(this->inside_.winding(), lattice, this->box_,
+        this->options_.winding_threshold, mesh, this->context_);
+      if (!status.ok())
+      {
+        return status;
+      }
+      const double volume = tet_volumes(mesh.points, mesh.tets).sum();
+      if (mesh.tets.rows() == 0)
+      {
+        status = this->encloses_nothing();
+      }
+      else if (!this->inside_.fits(volume))
+      {
+        status = wrong_volume(volume, this->inside_);
+        if (this->inside_.misfit(volume) < this->lattice_misfit_)
+        {
+          this->lattice_misfit_ = this->inside_.misfit(volume);
+          this->lattice_mesh_ = mesh;
+        }
+      }
+      this->report_.set("resolution", Report::Value(resolution));
+      this->log("lattice of " + std::to_string(resolution) + " cubes, cut", start, status);
+      if (status.ok())
+      {
+        return this->complete_lattice(TetMethod::remesh);
+      }
+      const double finer_cubes = 8.0 * static_cast<double>(lattice.cubes[0]) *
+        static_cast<double>(lattice.cubes[1]) * static_cast<double>(lattice.cubes[2]);
+      if (!finer_when_needed || this->inside_.volume() <= 0.0 || finer_cubes > most_cubes)
+      {
+        return status;
+      }
+    }
+  }
+
+  Status embed()
+  {
+    const double start = this->context_.elapsed_seconds();
+    const Lattice lattice = Lattice::around(this->box_, this->options_.resolution);
+    Status status =
+      cover_lattice(this->surface_.points, this->surface_.triangles, this->inside_.winding(),
+        lattice, this->options_.winding_threshold, this->result_.mesh, this->context_);
+    this->report_.set("resolution", Report::Value(this->options_.resolution));
+    this->log("lattice of " + std::to_string(this->options_.resolution) + " cubes", start, status);
+    return status.ok() ? this->complete_lattice(TetMethod::embed) : status;
+  }
+
+  Status complete_lattice(TetMethod method)
+  {
+    this->report_.set("method", to_string(method));
+    this->result_.original_vertices.assign(
+      static_cast<std::size_t>(this->result_.mesh.points.rows()), -1);
+    return {};
+  }
+
+  Status encloses_nothing() const
+  {
+    const double threshold = this->options_.winding_threshold;
+    return Status::invalid_input("the surface encloses nothing: its winding number reaches " +
+      short_number(this->inside_.largest_winding()) +
+      (this->inside_.largest_winding() < threshold
+          ? ", below the threshold of " + short_number(threshold)
+          : ", the threshold of " + short_number(threshold) + " only in specks of no size"));
+  }
+
+  // ---- The end ---------------------------------------------------------------------------------
+
+  Status check()
+  {
+    const TetMesh& mesh = this->result_.mesh;
+    Status status = check_tets(mesh.points, mesh.tets);
+    if (!status.ok())
+    {
+      return status;
+    }
+    const Points centers = centers_of(mesh.points, mesh.tets);
+    status =
+      this->inside_.winding().evaluate(centers, this->context_, this->result_.winding_numbers);
+    if (!status.usable())
+    {
+      return status;
+    }
+    const TetQuality quality = measure_tets(mesh.points, mesh.tets);
+    const auto& ids = this->result_.original_vertices;
+    const auto kept =
+      static_cast<Index>(std::count_if(ids.begin(), ids.end(), [](Index id) { return id >= 0; }));
+    this->report_.set("counts.tets", Report::Value(mesh.tets.rows()));
+    this->report_.set("counts.tet_vertices", Report::Value(mesh.points.rows()));
+    this->report_.set("counts.kept_vertices", Report::Value(kept));
+    this->report_.set("counts.tets_below_5_degrees", Report::Value(quality.below_5_degrees));
+    this->report_.set("volume", Report::Value(quality.volume));
+    this->report_.set("winding_volume", Report::Value(this->inside_.volume()));
+    this->report_.set("min_dihedral_angle", Report::Value(quality.min_dihedral_angle));
+    return {};
+  }
+
+  void warn(const std::string& sentence) { this->warnings_.push_back(sentence); }
+
+  void log(const std::string& rung, double start, const Status& status)
+  {
+    this->log_.add(rung, this->context_.elapsed_seconds() - start, status);
+  }
+
+  /// A volume that is off by more than a factor of two is no result.
+  static constexpr double worst_misfit = 0.6931471805599453;
+
+  PointsView points_;
+  TrianglesView triangles_;
+  const TetrahedralizeOptions& options_;
+  TetrahedralizeResult& result_;
+  ExecutionContext& context_;
+
+  RepairedSurface surface_;
+  Box box_;
+  EnclosedRegion inside_;
+  TetMesh lattice_mesh_; ///< of remesh, when it did not fit
+  double lattice_misfit_ = std::numeric_limits<double>::infinity();
+  Report report_;
+  RungLog log_;
+  std::vector<std::string> warnings_;
+};
+
+Status check_options(const TetrahedralizeOptions& options)
+{
+  if (!std::isfinite(options.winding_threshold) || options.winding_threshold <= 0.0)
+  {
+    return Status::invalid_input(
+      "winding_threshold must be positive, not " + short_number(options.winding_threshold));
+  }
+  if (options.resolution < 4 || options.resolution > 1000)
+  {
+    return Status::invalid_input(
+      "resolution must be from 4 to 1000 cubes, not " + std::to_string(options.resolution));
+  }
+  if (!(options.time_limit > 0.0))
+  {
+    return Status::invalid_input(
+      "time_limit must be positive, not " + short_number(options.time_limit) + " s");
+  }
+  if (options.memory_limit < 0)
+  {
+    return Status::invalid_input("memory_limit must not be negative");
+  }
+  if (!(options.quality == 0.0 || (options.quality >= 1.1 && options.quality <= 10.0)))
+  {
+    return Status::invalid_input(
+      "quality must be 0 or from 1.1 to 10, not " + short_number(options.quality));
+  }
+  if (!(options.interior_edge >= 0.0))
+  {
+    return Status::invalid_input(
+      "interior_edge must not be negative, but is " + short_number(options.interior_edge));
+  }
+  return {};
+}
+} // namespace
+
+const char* to_string(TetMethod method)
+{
+  switch (method)
+  {
+    case TetMethod::cdt:
+      return "cdt";
+    case TetMethod::remesh:
+      return "remesh";
+    case TetMethod::embed:
+      return "embed";
+    case TetMethod::automatic:
+      break;
+  }
+  return "auto";
+}
+
+Status tetrahedralize(PointsView points, TrianglesView triangles,
+  const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context)
+{
+  result = TetrahedralizeResult();
+  Status status = check_options(options);
+  if (!status.ok())
+  {
+    return status;
+  }
+  return Ladder(points, triangles, options, result, context).run();
+}
+
+} // namespace bindpose

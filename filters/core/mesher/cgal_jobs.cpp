@@ -1,0 +1,444 @@
+// Exact refinement of a triangle soup, and plain Delaunay tets.
+//
+// A round of refinement:
+// 1. Pairs of triangles whose boxes meet, and that meet in more than shared vertices and edges, are
+//    found with exact predicates.
+// 2. For each such pair the exact intersection (points and segments) is noted at both triangles.
+// 3. Each triangle with notes is projected along its largest normal component and cut by an exact
+//    constrained Delaunay triangulation of its edges and notes; new vertices are lifted back.
+// 4. New vertices are rounded to doubles. The same exact point has the same rounding in every
+//    triangle it lies on, so neighbours still fit. Equal vertices are welded, triangles of no area
+//    and duplicates are dropped.
+// Rounding moves vertices by an ulp and may let triangles cross anew: rounds repeat until none do.
+#include "mesher/jobs.h"
+
+#include <CGAL/Box_intersection_d/Box_with_info_d.h>
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_triangulation_3.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#include <CGAL/box_intersection_d.h>
+#include <CGAL/intersections.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <map>
+#include <set>
+
+namespace bindpose
+{
+
+namespace
+{
+using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+using Inexact = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Face = std::array<Index, 3>;
+using Pair = std::pair<Index, Index>;
+using Coordinates = std::array<double, 3>;
+
+struct Soup
+{
+  std::vector<Coordinates> points;
+  std::vector<Face> faces;
+  std::map<Coordinates, Index> ids; // of all points, by coordinates
+
+  Inexact::Point_3 inexact(Index v) const
+  {
+    return { this->points[v][0], this->points[v][1], this->points[v][2] };
+  }
+  Exact::Point_3 exact(Index v) const
+  {
+    return { this->points[v][0], this->points[v][1], this->points[v][2] };
+  }
+  Inexact::Triangle_3 inexact(const Face& f) const
+  {
+    return { this->inexact(f[0]), this->inexact(f[1]), this->inexact(f[2]) };
+  }
+  Exact::Triangle_3 exact(const Face& f) const
+  {
+    return { this->exact(f[0]), this->exact(f[1]), this->exact(f[2]) };
+  }
+  Index add(const Coordinates& p)
+  {
+    const auto [entry, fresh] = this->ids.emplace(p, static_cast<Index>(this->points.size()));
+    if (fresh)
+    {
+      this->points.push_back(p);
+    }
+    return entry->second;
+  }
+  bool degenerate(const Face& f) const
+  {
+    return f[0] == f[1] || f[1] == f[2] || f[2] == f[0] ||
+      CGAL::collinear(this->inexact(f[0]), this->inexact(f[1]), this->inexact(f[2]));
+  }
+  /// Welds by coordinates, drops faces without area and faces that another one repeats.
+  void tidy()
+  {
+    std::set<Face> seen;
+    std::vector<Face> kept;
+    for (Face f : this->faces)
+    {
+      for (Index& v : f)
+      {
+        v = this->ids.at(this->points[v]);
+      }
+      Face key = f;
+      std::sort(key.begin(), key.end());
+      if (!this->degenerate(f) && seen.insert(key).second)
+      {
+        kept.push_back(f);
+      }
+    }
+    this->faces = std::move(kept);
+  }
+};
+
+/// True when two triangles without area zero meet in more than vertices and edges they share.
+bool cross(const Soup& soup, const Face& f, const Face& g)
+{
+  // Rotate shared vertices to the front of both.
+  Face a = f;
+  Face b = g;
+  int shared = 0;
+  for (int i = 0; i < 3; ++i)
+  {
+    for (int j = shared; j < 3; ++j)
+    {
+      if (f[i] == b[j])
+      {
+        std::swap(b[shared], b[j]);
+        std::swap(*std::find(a.begin() + shared, a.end(), f[i]), a[shared]);
+        ++shared;
+        break;
+      }
+    }
+  }
+  const auto point = [&](Index v) { return soup.inexact(v); };
+  if (shared == 0)
+  {
+    return CGAL::do_intersect(soup.inexact(f), soup.inexact(g));
+  }
+  if (shared == 1)
+  {
+    // What they share is convex and holds the vertex; if it is more, it reaches an opposite edge.
+    return CGAL::do_intersect(Inexact::Segment_3(point(a[1]), point(a[2])), soup.inexact(g)) ||
+      CGAL::do_intersect(Inexact::Segment_3(point(b[1]), point(b[2])), soup.inexact(f));
+  }
+  if (shared == 2)
+  {
+    return CGAL::coplanar(point(a[0]), point(a[1]), point(a[2]), point(b[2])) &&
+      CGAL::coplanar_orientation(point(a[0]), point(a[1]), point(a[2]), point(b[2])) ==
+      CGAL::POSITIVE;
+  }
+  return true;
+}
+
+std::vector<Pair> crossing_pairs(const Soup& soup)
+{
+  using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index>;
+  std::vector<Box> boxes;
+  boxes.reserve(soup.faces.size());
+  for (std::size_t f = 0; f < soup.faces.size(); ++f)
+  {
+    boxes.emplace_back(soup.inexact(soup.faces[f]).bbox(), static_cast<Index>(f));
+  }
+  std::vector<Pair> pairs;
+  CGAL::box_self_intersection_d(boxes.begin(), boxes.end(),
+    [&](const Box& a, const Box& b)
+    {
+      if (cross(soup, soup.faces[a.info()], soup.faces[b.info()]))
+      {
+        pairs.push_back(std::minmax(a.info(), b.info()));
+      }
+    });
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
+/// What a triangle has to be cut along.
+struct Cuts
+{
+  std::vector<Exact::Point_3> points;
+  std::vector<Exact::Segment_3> segments;
+};
+
+/// Notes where triangle f meets an edge of another one: at f and, for what lies on that edge, the
+/// other one has its own look.
+void note(const Exact::Segment_3& edge, const Exact::Triangle_3& triangle,
+  std::vector<Exact::Point_3>& points, std::vector<Exact::Segment_3>& segments)
+{
+  const auto meet = CGAL::intersection(edge, triangle);
+  if (!meet)
+  {
+    return;
+  }
+  if (const auto* point = boost::get<Exact::Point_3>(&*meet))
+  {
+    if (std::find(points.begin(), points.end(), *point) == points.end())
+    {
+      points.push_back(*point);
+    }
+  }
+  else if (const auto* segment = boost::get<Exact::Segment_3>(&*meet))
+  {
+    segments.push_back(*segment);
+  }
+}
+
+void note_pair(const Soup& soup, const Face& f, const Face& g, Cuts& at_f, Cuts& at_g)
+{
+  const Exact::Triangle_3 a = soup.exact(f);
+  const Exact::Triangle_3 b = soup.exact(g);
+  std::vector<Exact::Point_3> points;
+  std::vector<Exact::Segment_3> segments;
+  for (int k = 0; k < 3; ++k)
+  {
+    note(Exact::Segment_3(a.vertex(k), a.vertex(k + 1)), b, points, segments);
+    note(Exact::Segment_3(b.vertex(k), b.vertex(k + 1)), a, points, segments);
+  }
+  // Not in one plane: at most two points, the ends of the common segment. In one plane: the
+  // segments are the outline of the common polygon, and every point ends one of them or is all.
+  if (segments.empty() && points.size() == 2)
+  {
+    segments.emplace_back(points[0], points[1]);
+  }
+  for (Cuts* cuts : { &at_f, &at_g })
+  {
+    cuts->points.insert(cuts->points.end(), points.begin(), points.end());
+    cuts->segments.insert(cuts->segments.end(), segments.begin(), segments.end());
+  }
+}
+
+using VertexBase = CGAL::Triangulation_vertex_base_2<Exact>;
+using FaceBase = CGAL::Constrained_triangulation_face_base_2<Exact>;
+using Structure = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+using Planar =
+  CGAL::Constrained_Delaunay_triangulation_2<Exact, Structure, CGAL::Exact_intersections_tag>;
+
+/// The exact value's rounding; an interval around it would depend on how it was computed.
+double rounded(const Exact::FT& x)
+{
+  return CGAL::to_double(CGAL::exact(x));
+}
+
+void cut(Soup& soup, const Face& face, const Cuts& cuts, std::vector<Face>& pieces)
+{
+  const std::array<Exact::Point_3, 3> corners{ soup.exact(face[0]), soup.exact(face[1]),
+    soup.exact(face[2]) };
+  const Exact::Vector_3 normal =
+    CGAL::cross_product(corners[1] - corners[0], corners[2] - corners[0]);
+  int axis = 0;
+  for (int k = 1; k < 3; ++k)
+  {
+    if (CGAL::abs(CGAL::to_double(normal[k])) > CGAL::abs(CGAL::to_double(normal[axis])))
+    {
+      axis = k;
+    }
+  }
+  if (normal[axis] == 0) // to_double of a tiny exact number may mislead
+  {
+    axis = normal[0] != 0 ? 0 : (normal[1] != 0 ? 1 : 2);
+  }
+  const int u = (axis + 1) % 3;
+  const int v = (axis + 2) % 3;
+  const bool keeps_orientation = normal[axis] > 0;
+  const auto project = [&](const Exact::Point_3& p) { return Exact::Point_2(p[u], p[v]); };
+
+  Planar planar;
+  std::map<Planar::Vertex_handle, Index> ids;
+  std::array<Planar::Vertex_handle, 3> ends;
+  for (int k = 0; k < 3; ++k)
+  {
+    ends[k] = planar.insert(project(corners[k]));
+    ids[ends[k]] = face[k];
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    planar.insert_constraint(ends[k], ends[(k + 1) % 3]);
+  }
+  for (const Exact::Point_3& p : cuts.points)
+  {
+    planar.insert(project(p));
+  }
+  for (const Exact::Segment_3& s : cuts.segments)
+  {
+    planar.insert_constraint(project(s.source()), project(s.target()));
+  }
+  for (auto vertex = planar.finite_vertices_begin(); vertex != planar.finite_vertices_end();
+       ++vertex)
+  {
+    if (ids.count(vertex))
+    {
+      continue;
+    }
+    const Exact::FT x = vertex->point().x();
+    const Exact::FT y = vertex->point().y();
+    const Exact::FT z = corners[0][axis] -
+      (normal[u] * (x - corners[0][u]) + normal[v] * (y - corners[0][v])) / normal[axis];
+    Coordinates p{};
+    p[u] = rounded(x);
+    p[v] = rounded(y);
+    p[axis] = rounded(z);
+    ids[vertex] = soup.add(p);
+  }
+  for (auto f = planar.finite_faces_begin(); f != planar.finite_faces_end(); ++f)
+  {
+    const Face piece{ ids.at(f->vertex(0)), ids.at(f->vertex(1)), ids.at(f->vertex(2)) };
+    pieces.push_back(keeps_orientation ? piece : Face{ piece[0], piece[2], piece[1] });
+  }
+}
+
+class Clock
+{
+public:
+  double seconds() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->start_).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+std::string too_long(double limit)
+{
+  return "still splitting crossing triangles after " + std::to_string(static_cast<int>(limit)) +
+    " s";
+}
+
+/// One round on pairs that cross. @return empty, or why it gave up.
+std::string split(Soup& soup, const std::vector<Pair>& pairs, const Clock& clock,
+  const RefineOptions& options, std::size_t face_limit)
+{
+  std::map<Index, Cuts> cuts;
+  constexpr std::size_t often = 256;
+  for (std::size_t p = 0; p < pairs.size(); ++p)
+  {
+    const auto [f, g] = pairs[p];
+    note_pair(soup, soup.faces[f], soup.faces[g], cuts[f], cuts[g]);
+    if (p % often == 0 && clock.seconds() > options.time_limit)
+    {
+      return too_long(options.time_limit);
+    }
+  }
+  std::vector<Face> next;
+  next.reserve(soup.faces.size());
+  std::size_t done = 0;
+  for (std::size_t f = 0; f < soup.faces.size(); ++f)
+  {
+    const auto entry = cuts.find(static_cast<Index>(f));
+    if (entry == cuts.end())
+    {
+      next.push_back(soup.faces[f]);
+      continue;
+    }
+    cut(soup, Face(soup.faces[f]), entry->second, next);
+    if (++done % often == 0)
+    {
+      tell_progress(std::min(clock.seconds() / options.time_limit, 1.0));
+    }
+    if (next.size() > face_limit)
+    {
+      return "crossing triangles fall into more than " + std::to_string(face_limit) + " pieces";
+    }
+    if (clock.seconds() > options.time_limit)
+    {
+      return too_long(options.time_limit);
+    }
+  }
+  soup.faces = std::move(next);
+  soup.tidy();
+  return {};
+}
+} // namespace
+
+std::string refine(MesherData& data, const RefineOptions& options)
+{
+  const Clock clock;
+  Soup soup;
+  soup.points.resize(static_cast<std::size_t>(data.points.rows()));
+  for (Index v = 0; v < data.points.rows(); ++v)
+  {
+    soup.points[v] = { data.points(v, 0), data.points(v, 1), data.points(v, 2) };
+    soup.ids.emplace(soup.points[v], v);
+  }
+  for (Index f = 0; f < data.triangles.rows(); ++f)
+  {
+    soup.faces.push_back({ data.triangles(f, 0), data.triangles(f, 1), data.triangles(f, 2) });
+  }
+  soup.tidy();
+  constexpr std::size_t small = 1000; // a few triangles may well fall into many pieces
+  const auto face_limit = static_cast<std::size_t>(
+    options.growth_limit * static_cast<double>(std::max(soup.faces.size(), small)));
+  int round = 0;
+  for (; round < options.round_limit; ++round)
+  {
+    const std::vector<Pair> pairs = crossing_pairs(soup);
+    if (round == 0)
+    {
+      tell_report("counts.self_intersections", static_cast<double>(pairs.size()));
+    }
+    if (pairs.empty())
+    {
+      break;
+    }
+    const std::string error = split(soup, pairs, clock, options, face_limit);
+    if (!error.empty())
+    {
+      return error;
+    }
+  }
+  if (round == options.round_limit)
+  {
+    return "triangles still cross after " + std::to_string(round) + " rounds of splitting";
+  }
+  tell_report("rounds", round);
+  data = MesherData();
+  data.points.resize(static_cast<Index>(soup.points.size()), 3);
+  for (Index v = 0; v < data.points.rows(); ++v)
+  {
+    data.points.row(v) << soup.points[v][0], soup.points[v][1], soup.points[v][2];
+  }
+  data.triangles.resize(static_cast<Index>(soup.faces.size()), 3);
+  for (Index f = 0; f < data.triangles.rows(); ++f)
+  {
+    data.triangles.row(f) << soup.faces[f][0], soup.faces[f][1], soup.faces[f][2];
+  }
+  return {};
+}
+
+std::string delaunay(MesherData& data)
+{
+  using Base = CGAL::Triangulation_vertex_base_with_info_3<Index, Inexact>;
+  using Triangulation = CGAL::Delaunay_triangulation_3<Inexact,
+    CGAL::Triangulation_data_structure_3<Base, CGAL::Delaunay_triangulation_cell_base_3<Inexact>>>;
+  std::vector<std::pair<Inexact::Point_3, Index>> points;
+  points.reserve(static_cast<std::size_t>(data.points.rows()));
+  for (Index v = 0; v < data.points.rows(); ++v)
+  {
+    points.emplace_back(
+      Inexact::Point_3(data.points(v, 0), data.points(v, 1), data.points(v, 2)), v);
+  }
+  const Triangulation triangulation(points.begin(), points.end());
+  if (triangulation.dimension() < 3)
+  {
+    return "all points lie in one plane";
+  }
+  data.triangles.resize(0, 3);
+  data.tets.resize(static_cast<Index>(triangulation.number_of_finite_cells()), 4);
+  Index t = 0;
+  for (auto cell = triangulation.finite_cells_begin(); cell != triangulation.finite_cells_end();
+       ++cell, ++t)
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      data.tets(t, k) = cell->vertex(k)->info();
+    }
+  }
+  return {};
+}
+
+} // namespace bindpose

@@ -1,0 +1,45 @@
+#ifndef bindpose_mesher_jobs_h
+#define bindpose_mesher_jobs_h
+
+#include "inside/mesher_format.h"
+
+#include <string>
+
+namespace bindpose
+{
+
+/// One line to the parent process: progress of the job in [0, 1].
+void tell_progress(double fraction);
+/// One line to the parent process: a number of the report.
+void tell_report(const char* key, double number);
+
+struct RefineOptions
+{
+  double time_limit = 25.0; ///< seconds
+  double growth_limit = 10.0; ///< largest number of faces, as a multiple of the input's
+  int round_limit = 30;
+};
+
+/// Splits triangles along their intersections until they meet only in shared vertices and edges.
+/// Input vertices keep their ids and coordinates, new ones come behind; triangles of zero area and
+/// duplicates are dropped. Reports self_intersections (pairs in the input), rounds.
+/// @return empty, or why it gave up.
+std::string refine(MesherData& data, const RefineOptions& options);
+
+/// The tets of the Delaunay triangulation of all points; facets are not constraints.
+std::string delaunay(MesherData& data);
+
+struct TetgenOptions
+{
+  std::string switches; ///< TetGen's own
+  bool box = false; ///< surround the surface by 12 triangles, 10 % larger than its box
+};
+
+/// Tets by TetGen: of the points and triangles (switch p), or of given tets (switch r) with
+/// largest_volumes. The first points of the result are the input's, with their ids; tets are
+/// positive.
+std::string tetgen(MesherData& data, const TetgenOptions& options);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,135 @@
+// bindpose-mesher JOB [options] < mesh > mesh: one job of CGAL or TetGen in a process of its own,
+// because both may crash, hang or take all memory on bad input. Run by Bindpose, not by people.
+#include "mesher/jobs.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <map>
+#include <new>
+
+#include <csignal>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace bindpose
+{
+
+void tell_progress(double fraction)
+{
+  std::fprintf(stderr, "progress %.4f\n", fraction);
+}
+
+void tell_report(const char* key, double number)
+{
+  std::fprintf(stderr, "report %s %.17g\n", key, number);
+}
+
+} // namespace bindpose
+
+namespace
+{
+[[noreturn]] void fail(const std::string& reason)
+{
+  std::fprintf(stderr, "error %s\n", reason.c_str());
+  std::fflush(stderr);
+  std::_Exit(1);
+}
+
+void set_limits(double memory_mib)
+{
+  // When Bindpose dies, so does this; and a crash here is expected: no core files.
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const rlimit none{ 0, 0 };
+  ::setrlimit(RLIMIT_CORE, &none);
+  if (memory_mib > 0.0)
+  {
+    const auto bytes = static_cast<rlim_t>(memory_mib * 1048576.0);
+    const rlimit memory{ bytes, bytes };
+    ::setrlimit(RLIMIT_AS, &memory);
+  }
+  std::set_new_handler([] { fail("out of memory"); });
+}
+
+double number(const std::map<std::string, std::string>& options, const char* key, double fallback)
+{
+  const auto entry = options.find(key);
+  return entry == options.end() ? fallback : std::atof(entry->second.c_str());
+}
+
+std::string run(const std::string& job, const std::map<std::string, std::string>& options,
+  bindpose::MesherData& data)
+{
+  if (job == "refine")
+  {
+    bindpose::RefineOptions refine;
+    refine.time_limit = number(options, "--time", refine.time_limit);
+    refine.growth_limit = number(options, "--growth", refine.growth_limit);
+    return bindpose::refine(data, refine);
+  }
+  if (job == "tetgen")
+  {
+    bindpose::TetgenOptions tetgen;
+    const auto entry = options.find("--switches");
+    tetgen.switches = entry == options.end() ? "p" : entry->second;
+    tetgen.box = number(options, "--box", 0.0) > 0.0;
+    return bindpose::tetgen(data, tetgen);
+  }
+  if (job == "delaunay")
+  {
+    return bindpose::delaunay(data);
+  }
+  return "unknown job '" + job + "' (refine, tetgen or delaunay)";
+}
+} // namespace
+
+int main(int argc, char* argv[])
+{
+  std::map<std::string, std::string> options;
+  for (int i = 2; i + 1 < argc; i += 2)
+  {
+    options[argv[i]] = argv[i + 1];
+  }
+  set_limits(number(options, "--memory", 0.0));
+  // Libraries print to standard output: keep it for the result alone.
+  const int result = ::dup(1);
+  ::dup2(2, 1);
+  try
+  {
+    bindpose::MesherData data;
+    if (!bindpose::read_mesher_data(0, data))
+    {
+      fail("standard input holds no readable mesh");
+    }
+    const std::string error = run(argc > 1 ? argv[1] : "", options, data);
+    if (!error.empty())
+    {
+      fail(error);
+    }
+    if (!bindpose::write_mesher_data(result, data))
+    {
+      fail("no room for the result");
+    }
+  }
+  catch (const std::exception& error)
+  {
+    std::string text = error.what();
+    for (char& c : text)
+    {
+      c = c == '\n' ? ' ' : c; // CGAL's texts have many lines
+    }
+    fail(text);
+  }
+  catch (int code) // TetGen throws its exit codes
+  {
+    fail(code == 1  ? "TetGen ran out of memory"
+        : code == 3 ? "TetGen found that triangles cross"
+        : code == 4 ? "TetGen found a feature too small for its precision"
+        : code == 5 ? "TetGen found two facets that nearly coincide"
+                    : "TetGen gave up with code " + std::to_string(code));
+  }
+  // No destructors: what TetGen's do after an error is the reason for this process.
+  std::fflush(stderr);
+  std::_Exit(0);
+}

@@ -1,0 +1,188 @@
+// TetGen on a surface or on tets. TetGen drops vertices that nothing uses or that nearly coincide
+// and renumbers the rest, but it never moves a vertex: input vertices are found again by their
+// exact coordinates.
+#include "mesher/jobs.h"
+
+#include <tetgen.h>
+
+#include <array>
+#include <cstring>
+#include <unordered_map>
+
+namespace bindpose
+{
+
+namespace
+{
+using Key = std::array<double, 3>;
+
+struct KeyHash
+{
+  std::size_t operator()(const Key& key) const
+  {
+    std::uint64_t h = 0x9e3779b97f4a7c15ull;
+    for (double x : key)
+    {
+      x = x == 0.0 ? 0.0 : x; // -0 is 0
+      std::uint64_t bits = 0;
+      std::memcpy(&bits, &x, sizeof(bits));
+      h = (h ^ bits) * 0xff51afd7ed558ccdull;
+      h ^= h >> 32;
+    }
+    return h;
+  }
+};
+
+Key key_of(const double* p)
+{
+  return { p[0], p[1], p[2] };
+}
+
+void set_facet(tetgenio::facet& facet, const Index* ids)
+{
+  facet.numberofpolygons = 1;
+  facet.polygonlist = new tetgenio::polygon[1];
+  facet.numberofholes = 0;
+  facet.holelist = nullptr;
+  facet.polygonlist[0].numberofvertices = 3;
+  facet.polygonlist[0].vertexlist = new int[3];
+  for (int k = 0; k < 3; ++k)
+  {
+    facet.polygonlist[0].vertexlist[k] = static_cast<int>(ids[k]);
+  }
+}
+
+void fill_input(
+  const MesherData& data, const Points& points, const Triangles& triangles, bool tets, tetgenio& in)
+{
+  in.firstnumber = 0;
+  in.numberofpoints = static_cast<int>(points.rows());
+  in.pointlist = new REAL[static_cast<std::size_t>(points.size())];
+  std::copy(points.data(), points.data() + points.size(), in.pointlist);
+  if (tets)
+  {
+    in.numberofcorners = 4;
+    in.numberoftetrahedra = static_cast<int>(data.tets.rows());
+    in.tetrahedronlist = new int[static_cast<std::size_t>(data.tets.size())];
+    for (Index t = 0; t < data.tets.rows(); ++t)
+    {
+      // TetGen counts the other orientation as positive.
+      const std::array<int, 4> order{ 1, 0, 2, 3 };
+      for (int k = 0; k < 4; ++k)
+      {
+        in.tetrahedronlist[4 * t + k] = static_cast<int>(data.tets(t, order[k]));
+      }
+    }
+    if (!data.largest_volumes.empty())
+    {
+      in.tetrahedronvolumelist = new REAL[data.largest_volumes.size()];
+      std::copy(data.largest_volumes.begin(), data.largest_volumes.end(), in.tetrahedronvolumelist);
+    }
+    return;
+  }
+  in.numberoffacets = static_cast<int>(triangles.rows());
+  in.facetlist = new tetgenio::facet[static_cast<std::size_t>(triangles.rows())];
+  for (Index f = 0; f < triangles.rows(); ++f)
+  {
+    set_facet(in.facetlist[f], triangles.data() + 3 * f);
+  }
+}
+
+void add_box(Points& points, Triangles& triangles)
+{
+  const Box box = bounding_box(points, triangles);
+  const Vec3 margin = Vec3::Constant(0.1 * box.size().maxCoeff());
+  const Vec3 lower = box.lower - margin;
+  const Vec3 upper = box.upper + margin;
+  const Index first = points.rows();
+  points.conservativeResize(first + 8, 3);
+  for (int v = 0; v < 8; ++v)
+  {
+    points.row(first + v) << (v & 1 ? upper : lower).x(), (v & 2 ? upper : lower).y(),
+      (v & 4 ? upper : lower).z();
+  }
+  constexpr int faces[12][3] = { { 0, 4, 6 }, { 0, 6, 2 }, { 1, 3, 7 }, { 1, 7, 5 }, { 0, 1, 5 },
+    { 0, 5, 4 }, { 2, 6, 7 }, { 2, 7, 3 }, { 0, 2, 3 }, { 0, 3, 1 }, { 4, 5, 7 }, { 4, 7, 6 } };
+  const Index first_face = triangles.rows();
+  triangles.conservativeResize(first_face + 12, 3);
+  for (int f = 0; f < 12; ++f)
+  {
+    triangles.row(first_face + f) << first + faces[f][0], first + faces[f][1], first + faces[f][2];
+  }
+}
+} // namespace
+
+std::string tetgen(MesherData& data, const TetgenOptions& options)
+{
+  const bool from_tets = options.switches.find('r') != std::string::npos;
+  Points points = data.points;
+  Triangles triangles = data.triangles;
+  if (options.box)
+  {
+    add_box(points, triangles);
+  }
+  tetgenio in, out;
+  fill_input(data, points, triangles, from_tets, in);
+  std::string switches = options.switches + "Q";
+  tetgenbehavior behavior;
+  behavior.parse_commandline(switches.data());
+  // Only exactly coplanar triangles are one facet; within other facets edges could be flipped.
+  behavior.facet_ang_tol = 180.0;
+  ::tetrahedralize(&behavior, &in, &out);
+
+  // New numbers: input vertices keep theirs, the others follow in TetGen's order.
+  std::unordered_map<Key, Index, KeyHash> ids;
+  ids.reserve(static_cast<std::size_t>(points.rows()));
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    ids.emplace(key_of(points.data() + 3 * v), v);
+  }
+  std::vector<Index> id_of(static_cast<std::size_t>(out.numberofpoints));
+  std::vector<Key> fresh;
+  for (int v = 0; v < out.numberofpoints; ++v)
+  {
+    const Key key = key_of(out.pointlist + 3 * v);
+    const auto entry = ids.find(key);
+    id_of[v] =
+      entry != ids.end() ? entry->second : points.rows() + static_cast<Index>(fresh.size());
+    if (entry == ids.end())
+    {
+      fresh.push_back(key);
+    }
+  }
+  data.points.resize(points.rows() + static_cast<Index>(fresh.size()), 3);
+  data.points.topRows(points.rows()) = points;
+  for (std::size_t v = 0; v < fresh.size(); ++v)
+  {
+    data.points.row(points.rows() + static_cast<Index>(v)) << fresh[v][0], fresh[v][1], fresh[v][2];
+  }
+  data.tets.resize(out.numberoftetrahedra, 4);
+  for (Index t = 0; t < data.tets.rows(); ++t)
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      data.tets(t, k) = id_of[out.tetrahedronlist[t * out.numberofcorners + k]];
+    }
+  }
+  // All have one orientation, by exact predicates; doubles might get the sign of a sliver wrong.
+  if (tet_volumes(data.points, data.tets).sum() < 0.0)
+  {
+    data.tets.col(0).swap(data.tets.col(1));
+  }
+  data.regions.clear();
+  const int attributes = out.numberoftetrahedronattributes;
+  if (attributes > 0 && out.tetrahedronattributelist)
+  {
+    data.regions.resize(static_cast<std::size_t>(out.numberoftetrahedra));
+    for (int t = 0; t < out.numberoftetrahedra; ++t)
+    {
+      data.regions[t] =
+        static_cast<Index>(out.tetrahedronattributelist[t * attributes + attributes - 1]);
+    }
+  }
+  data.triangles.resize(0, 3);
+  data.largest_volumes.clear();
+  return data.tets.rows() > 0 ? std::string() : "TetGen made no tets";
+}
+
+} // namespace bindpose

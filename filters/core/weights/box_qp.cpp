@@ -1,0 +1,308 @@
+// One analysis and one factorisation of Q's free block; then each column is solved for by the
+// interior-point method of interior_point.cpp, in a workspace that the next column uses again.
+#include "weights/box_qp.h"
+
+#include "base/parallel.h"
+#include "weights/interior_point.h"
+
+#include <chrono>
+#include <cmath>
+#include <mutex>
+
+namespace bindpose
+{
+
+namespace
+{
+using Eigen::VectorXd;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+} // namespace
+
+struct BoxQp::Impl : BoxQpMatrices
+{
+  BoxQpOptions options;
+  SparseSolver solver; // of A itself
+  double first_factor_seconds = 0.0;
+  mutable std::mutex inverse_mutex;
+  mutable std::mutex pool_mutex;
+  mutable std::vector<std::unique_ptr<BoxQpWorkspace>> pool;
+
+  std::unique_ptr<BoxQpWorkspace> take_workspace() const
+  {
+    const std::lock_guard<std::mutex> lock(this->pool_mutex);
+    if (!this->pool.empty())
+    {
+      auto workspace = std::move(this->pool.back());
+      this->pool.pop_back();
+      return workspace;
+    }
+    auto workspace = std::make_unique<BoxQpWorkspace>();
+    workspace->solver = this->solver.clone();
+    workspace->matrix = this->lower;
+    return workspace;
+  }
+  /// r -> A^-1 r over all vertices. The one factor of A serves one column at a time.
+  VectorXd inverse(const VectorXd& r) const
+  {
+    VectorXd rhs(static_cast<Index>(this->free_vertices.size()));
+    for (std::size_t i = 0; i < this->free_vertices.size(); ++i)
+    {
+      rhs[static_cast<Index>(i)] = r[this->free_vertices[i]];
+    }
+    VectorXd x;
+    {
+      const std::lock_guard<std::mutex> lock(this->inverse_mutex);
+      this->solver.solve(rhs, x);
+    }
+    VectorXd result = VectorXd::Zero(r.size());
+    for (std::size_t i = 0; i < this->free_vertices.size(); ++i)
+    {
+      result[this->free_vertices[i]] = x[static_cast<Index>(i)];
+    }
+    return result;
+  }
+  void give_back(std::unique_ptr<BoxQpWorkspace> workspace) const
+  {
+    const std::lock_guard<std::mutex> lock(this->pool_mutex);
+    this->pool.push_back(std::move(workspace));
+  }
+};
+
+BoxQp::BoxQp(const SparseMatrix& q, std::vector<Index> fixed, const BoxQpOptions& options)
+  : impl_(new Impl)
+{
+  Impl& impl = *this->impl_;
+  impl.options = options;
+  impl.q = q;
+  impl.q.makeCompressed();
+  impl.fixed = std::move(fixed);
+  impl.is_free.assign(static_cast<std::size_t>(q.rows()), 1);
+  std::vector<Index> fixed_of_vertex(static_cast<std::size_t>(q.rows()), -1);
+  for (std::size_t i = 0; i < impl.fixed.size(); ++i)
+  {
+    impl.is_free[impl.fixed[i]] = 0;
+    fixed_of_vertex[impl.fixed[i]] = static_cast<Index>(i);
+  }
+  impl.free_of_vertex.assign(static_cast<std::size_t>(q.rows()), -1);
+  for (Index v = 0; v < q.rows(); ++v)
+  {
+    if (impl.is_free[v])
+    {
+      impl.free_of_vertex[v] = static_cast<Index>(impl.free_vertices.size());
+      impl.free_vertices.push_back(v);
+    }
+  }
+  const auto n = static_cast<int>(impl.free_vertices.size());
+  std::vector<Eigen::Triplet<double, int>> inner;
+  std::vector<Eigen::Triplet<double, int>> outer;
+  for (Index v = 0; v < q.cols(); ++v)
+  {
+    for (SparseMatrix::InnerIterator entry(impl.q, static_cast<int>(v)); entry; ++entry)
+    {
+      const auto i = static_cast<int>(impl.free_of_vertex[entry.row()]);
+      const auto j = static_cast<int>(impl.free_of_vertex[v]);
+      if (i >= 0 && j >= 0)
+      {
+        inner.emplace_back(i, j, entry.value());
+      }
+      else if (i >= 0)
+      {
+        outer.emplace_back(i, static_cast<int>(fixed_of_vertex[v]), entry.value());
+      }
+    }
+  }
+  for (int i = 0; i < n; ++i)
+  {
+    inner.emplace_back(i, i, 0.0); // every diagonal entry exists
+  }
+  impl.a.resize(n, n);
+  impl.a.setFromTriplets(inner.begin(), inner.end());
+  impl.to_fixed.resize(n, static_cast<int>(impl.fixed.size()));
+  impl.to_fixed.setFromTriplets(outer.begin(), outer.end());
+  impl.lower = impl.a.triangularView<Eigen::Lower>();
+  impl.lower.makeCompressed();
+  for (int i = 0; i < n; ++i)
+  {
+    impl.diagonal.push_back(impl.lower.outerIndexPtr()[i]);
+  }
+  impl.solver = SparseSolver(options.solver);
+}
+
+BoxQp::~BoxQp() = default;
+
+Status BoxQp::prepare(ExecutionContext& context)
+{
+  Impl& impl = *this->impl_;
+  if (impl.free_vertices.empty())
+  {
+    return {};
+  }
+  Status status;
+  {
+    Phase phase(context, "analyse");
+    status = impl.solver.analyse(impl.lower);
+  }
+  if (status.ok() && !context.cancelled())
+  {
+    const auto start = Clock::now();
+    status = impl.solver.factor(impl.lower);
+    if (status.code == StatusCode::invalid_input)
+    {
+      status.message = "the energy of the mesh has no unique minimum in double precision (" +
+        status.message + "); elements that are almost flat do that";
+    }
+    impl.first_factor_seconds = seconds_since(start);
+    context.add_seconds("factor", impl.first_factor_seconds);
+  }
+  return status.ok() && context.cancelled() ? Status::cancelled() : status;
+}
+
+Eigen::MatrixXd BoxQp::unconstrained(const Eigen::MatrixXd& fixed_values, bool refine) const
+{
+  const Impl& impl = *this->impl_;
+  Eigen::MatrixXd w = Eigen::MatrixXd::Zero(impl.q.rows(), fixed_values.cols());
+  for (std::size_t i = 0; i < impl.fixed.size(); ++i)
+  {
+    w.row(impl.fixed[i]) = fixed_values.row(static_cast<Index>(i));
+  }
+  if (!impl.free_vertices.empty())
+  {
+    const Eigen::MatrixXd rhs = -(impl.to_fixed * fixed_values);
+    Eigen::MatrixXd x = impl.solver.solve(rhs);
+    if (refine)
+    {
+      x += impl.solver.solve(rhs - impl.a * x);
+    }
+    for (std::size_t i = 0; i < impl.free_vertices.size(); ++i)
+    {
+      w.row(impl.free_vertices[i]) = x.row(static_cast<Index>(i));
+    }
+  }
+  return w;
+}
+
+std::vector<BoxQpSolution> BoxQp::solve_unbounded(
+  const std::vector<BoxQpColumn>& columns, ExecutionContext& context) const
+{
+  const Impl& impl = *this->impl_;
+  std::vector<BoxQpSolution> solutions(columns.size());
+  Eigen::MatrixXd fixed_values(
+    static_cast<Index>(impl.fixed.size()), static_cast<Index>(columns.size()));
+  for (std::size_t j = 0; j < columns.size(); ++j)
+  {
+    fixed_values.col(static_cast<Index>(j)) = columns[j].fixed_values;
+  }
+  const auto start = Clock::now();
+  const Eigen::MatrixXd w = this->unconstrained(fixed_values);
+  const double seconds = seconds_since(start) / std::max<double>(1.0, double(columns.size()));
+  for (std::size_t j = 0; j < columns.size() && !context.cancelled(); ++j)
+  {
+    const auto column_start = Clock::now();
+    BoxQpSolution& solution = solutions[j];
+    solution.w = w.col(static_cast<Index>(j));
+    std::vector<char> pinned(static_cast<std::size_t>(impl.q.rows()), 0);
+    for (std::size_t i = 0; i < columns[j].pinned.size(); ++i)
+    {
+      pinned[columns[j].pinned[i]] = 1;
+      solution.w[columns[j].pinned[i]] = columns[j].pinned_values[static_cast<Index>(i)];
+    }
+    std::vector<char> nowhere(pinned.size(), 0);
+    solution.certificate = certify({ impl.q, nowhere }, solution.w);
+    VectorXd g = impl.q.transpose() * solution.w;
+    for (Index v = 0; v < g.size(); ++v)
+    {
+      g[v] = impl.is_free[v] && !pinned[v] ? g[v] : 0.0;
+      if (g[v] != 0.0)
+      {
+        solution.certificate.kkt_residual =
+          std::max(solution.certificate.kkt_residual, std::abs(g[v]) / impl.q.coeff(v, v));
+      }
+    }
+    if (solution.certificate.energy > 0.0)
+    {
+      solution.certificate.relative_gap =
+        0.5 * g.dot(impl.inverse(g)) / solution.certificate.energy;
+    }
+    solution.solve_seconds = seconds + seconds_since(column_start);
+  }
+  return solutions;
+}
+
+BoxQpSolution BoxQp::solve(const BoxQpColumn& column, ExecutionContext& context) const
+{
+  return std::move(this->solve_all({ column }, context).front());
+}
+
+std::vector<BoxQpSolution> BoxQp::solve_all(
+  const std::vector<BoxQpColumn>& columns, ExecutionContext& context) const
+{
+  const Impl& impl = *this->impl_;
+  std::vector<BoxQpSolution> solutions(columns.size());
+  Eigen::MatrixXd fixed_values(
+    static_cast<Index>(impl.fixed.size()), static_cast<Index>(columns.size()));
+  for (std::size_t j = 0; j < columns.size(); ++j)
+  {
+    fixed_values.col(static_cast<Index>(j)) = columns[j].fixed_values;
+    solutions[j].status = Status::cancelled();
+    solutions[j].w = VectorXd::Zero(impl.q.rows());
+  }
+  const Eigen::MatrixXd free_of_bounds = this->unconstrained(fixed_values);
+  parallel_for(context, static_cast<Index>(columns.size()), 1,
+    [&](Index begin, Index end)
+    {
+      for (Index j = begin; j < end; ++j)
+      {
+        auto workspace = impl.take_workspace();
+        const VectorXd unconstrained = free_of_bounds.col(j);
+        solutions[j] = interior_point(
+          impl, impl.options, columns[j], unconstrained,
+          [&](const VectorXd& r) { return impl.inverse(r); }, *workspace, context);
+        impl.give_back(std::move(workspace));
+      }
+    });
+  return solutions;
+}
+
+Index BoxQp::free_count() const
+{
+  return static_cast<Index>(this->impl_->free_vertices.size());
+}
+
+Index BoxQp::analyses() const
+{
+  return this->impl_->solver.analyses();
+}
+
+Index BoxQp::factorisations() const
+{
+  return this->impl_->solver.factorisations();
+}
+
+double BoxQp::first_factor_seconds() const
+{
+  return this->impl_->first_factor_seconds;
+}
+
+const SparseSolver& BoxQp::solver() const
+{
+  return this->impl_->solver;
+}
+
+Status worst_of(const std::vector<BoxQpSolution>& solutions)
+{
+  for (const BoxQpSolution& solution : solutions)
+  {
+    if (!solution.status.usable())
+    {
+      return solution.status;
+    }
+  }
+  return {};
+}
+
+} // namespace bindpose

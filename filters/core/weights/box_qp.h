@@ -1,0 +1,104 @@
+#ifndef bindpose_weights_box_qp_h
+#define bindpose_weights_box_qp_h
+
+#include "base/execution.h"
+#include "base/sparse_solver.h"
+#include "weights/certificate.h"
+
+#include <memory>
+
+namespace bindpose
+{
+
+struct BoxQpOptions
+{
+  /// Both the relative duality gap and the natural residual must get below it. 1e-6 by default;
+  /// 1e-9 is "tight" and near the limit of double precision on fine meshes. Range (0, 1).
+  double tolerance = 1e-6;
+  /// Interior-point iterations a column, each one factorisation. 10 to 25 are usual.
+  int maximum_iterations = 100;
+  SparseSolver::Options solver;
+};
+
+/// One column to solve for; all columns share Q and the fixed vertices.
+struct BoxQpColumn
+{
+  Eigen::VectorXd fixed_values; ///< values at the fixed vertices, in their order, within [0, 1]
+  /// Vertices that this column alone fixes besides, and their values.
+  std::vector<Index> pinned;
+  Eigen::VectorXd pinned_values;
+  /// Pairs that must stay ordered; without a cycle, both ends of every pair joined by an entry of
+  /// Q. Pairs between vertices that are not free are ignored.
+  std::vector<OrderedPair> pairs;
+  Eigen::VectorXd start; ///< #V, a guess; empty: the minimiser without bounds
+};
+
+struct BoxQpSolution
+{
+  Status status; ///< ok, not_converged or cancelled; internal_error when a factorisation fails
+  Eigen::VectorXd w; ///< #V, within [0, 1] exactly and with all pairs ordered exactly
+  Certificate certificate;
+  Eigen::VectorXd multipliers; ///< of column.pairs, >= 0
+  int iterations = 0;
+  int factorisations = 0;
+  double factor_seconds = 0.0;
+  double solve_seconds = 0.0; ///< everything but factorisations
+};
+
+/// min 1/2 w' Q w subject to 0 <= w <= 1 and given values at the fixed vertices, for many columns,
+/// by a primal-dual interior-point method; one symbolic analysis serves all columns and iterations.
+///
+/// Stops on the certificate only (see Certificate), never on iterations: not reaching it within the
+/// budget is not_converged, with the best iterate and its numbers. Cost: 10 to 25 factorisations of
+/// a matrix with Q's pattern for each column.
+///
+/// Mehrotra 1992; Gondzio 1996; Jacobson et al. 2011 and 2012 for the problems.
+class BoxQp
+{
+public:
+  /// @param q symmetric positive semi-definite, #V x #V, definite on the vertices left free.
+  /// @param fixed ids of the fixed vertices, each once.
+  BoxQp(const SparseMatrix& q, std::vector<Index> fixed, const BoxQpOptions& options);
+  ~BoxQp();
+  BoxQp(const BoxQp&) = delete;
+  BoxQp& operator=(const BoxQp&) = delete;
+
+  /// Analyses and factors Q once. Must succeed before anything else is called. Phase "analyse".
+  Status prepare(ExecutionContext& context);
+
+  /// #V x m: the minimisers without bounds for m columns of fixed values (#fixed x m).
+  /// @param refine one step of iterative refinement. Without, the minimisers of an energy whose
+  /// off-diagonal entries are all <= 0 have small relative errors, even where they are tiny.
+  Eigen::MatrixXd unconstrained(const Eigen::MatrixXd& fixed_values, bool refine = true) const;
+
+  /// The same for columns with pinned vertices, with the certificate of a problem without bounds:
+  /// gap = 1/2 g' A^-1 g, which is E(w) - min E exactly, and residual = max |g / diag Q|.
+  std::vector<BoxQpSolution> solve_unbounded(
+    const std::vector<BoxQpColumn>& columns, ExecutionContext& context) const;
+
+  /// Solves for one column.
+  BoxQpSolution solve(const BoxQpColumn& column, ExecutionContext& context) const;
+
+  /// Solves for all columns on the context's threads: the same bits for any number of threads.
+  /// Stops early when cancelled; columns that were not reached then say cancelled.
+  std::vector<BoxQpSolution> solve_all(
+    const std::vector<BoxQpColumn>& columns, ExecutionContext& context) const;
+
+  Index free_count() const;
+  Index analyses() const;
+  Index factorisations() const;
+  /// Seconds of the one factorisation that prepare() made.
+  double first_factor_seconds() const;
+  const SparseSolver& solver() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// The status of the first column that has no result; ok when all have one.
+Status worst_of(const std::vector<BoxQpSolution>& solutions);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,62 @@
+#ifndef bindpose_weights_certificate_h
+#define bindpose_weights_certificate_h
+
+#include "base/laplacian.h"
+
+#include <functional>
+#include <vector>
+
+namespace bindpose
+{
+
+/// w[low] <= w[high]
+struct OrderedPair
+{
+  Index low = 0;
+  Index high = 0;
+};
+
+/// What proves that a column is the minimiser, and how far from it it can be at most.
+///
+/// With g = Q w (and g' = Q w - G' lambda for ordered pairs G w >= 0, lambda >= 0) the dual of the
+/// quadratic program bounds the minimum from below, so that
+///   gap = lambda' G w + sum over free vertices of max(g' (w - l), -g' (u - w))
+/// is a rigorous bound on E(w) - min E, whoever computed w and lambda.
+///
+/// On needles, and for triharmonic energies, the round-off of Q w alone, 1e-16 of Q's entries,
+/// makes that sum large however good w is. A second bound, as rigorous, sees round-off squared: for
+/// any set of vertices, with r = g' there and 0 elsewhere,
+///   gap = lambda' G w + (the sum above over all others) + 1/2 r' A^-1 r
+/// where A is Q's free block. The smaller of both is taken where A^-1 is given.
+struct Certificate
+{
+  double relative_gap = 0.0; ///< gap / E
+  /// Natural residual: max over free vertices of |w - clip(w - g' / diag Q, l, u)|.
+  double kkt_residual = 0.0;
+  double energy = 0.0; ///< E = 1/2 w' Q w
+  double order_violation = 0.0; ///< largest w[low] - w[high] over the ordered pairs, or 0
+  double bounds_violation = 0.0; ///< how far w lies outside of [l, u] at most
+};
+
+/// The quadratic program min 1/2 w' Q w, l <= w <= u, w given at the vertices that are not free.
+struct BoundedEnergy
+{
+  const SparseMatrix& q; ///< symmetric, #V x #V
+  const std::vector<char>& free; ///< #V: 1 where w is found
+  double lower = 0.0;
+  double upper = 1.0;
+};
+
+/// Computes the certificate of w (#V) from nothing but the problem's data.
+/// The gap is divided by max(E, 1e-12 * mean diagonal of Q / 2): a column that can be constant has
+/// energy zero.
+/// @param pairs, multipliers ordered pairs and their lambda >= 0, of equal length.
+/// @param inverse r -> A^-1 r for vectors over all vertices, zero where w is given beforehand.
+Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
+  const std::vector<OrderedPair>& pairs = {},
+  const Eigen::VectorXd& multipliers = Eigen::VectorXd(),
+  const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& inverse = {});
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,100 @@
+#include "weights/domain.h"
+
+#include <algorithm>
+
+namespace bindpose
+{
+
+Status check_domain(const Domain& domain)
+{
+  if (domain.element_count() == 0)
+  {
+    return Status::invalid_input("the mesh is empty: it has neither tets nor triangles");
+  }
+  Status status = domain.is_volume() ? check_mesh(domain.points, domain.tets)
+                                     : check_mesh(domain.points, domain.triangles);
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (!domain.is_volume())
+  {
+    return surface_area(domain.points, domain.triangles) > 0.0
+      ? status
+      : Status::invalid_input("the surface has no area");
+  }
+  const Eigen::VectorXd volumes = tet_volumes(domain.points, domain.tets);
+  Index first = -1;
+  Index count = 0;
+  for (Index t = 0; t < volumes.size(); ++t)
+  {
+    if (!(volumes[t] > 0.0))
+    {
+      first = first < 0 ? t : first;
+      ++count;
+    }
+  }
+  return count == 0
+    ? status
+    : Status::invalid_input(std::to_string(count) + " of " + std::to_string(volumes.size()) +
+        " tets have a volume that is not positive; the first is tet " + std::to_string(first));
+}
+
+const char* element_name(const Domain& domain)
+{
+  return domain.is_volume() ? "tet" : "triangle";
+}
+
+double mean_edge_length(const Domain& domain, Index element)
+{
+  const int corners = domain.corners();
+  const Index* ids = domain.element(element);
+  double sum = 0.0;
+  for (int i = 0; i < corners; ++i)
+  {
+    for (int j = i + 1; j < corners; ++j)
+    {
+      sum += (domain.points.row(ids[i]) - domain.points.row(ids[j])).norm();
+    }
+  }
+  return sum / (corners * (corners - 1) / 2);
+}
+
+VertexGraph vertex_graph(const Domain& domain)
+{
+  const Index vertex_count = domain.points.rows();
+  const int corners = domain.corners();
+  std::vector<std::pair<Index, Index>> edges;
+  edges.reserve(static_cast<std::size_t>(domain.element_count() * corners * (corners - 1)));
+  for (Index e = 0; e < domain.element_count(); ++e)
+  {
+    const Index* ids = domain.element(e);
+    for (int i = 0; i < corners; ++i)
+    {
+      for (int j = 0; j < corners; ++j)
+      {
+        if (ids[i] != ids[j])
+        {
+          edges.emplace_back(ids[i], ids[j]);
+        }
+      }
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  VertexGraph graph;
+  graph.begin.assign(static_cast<std::size_t>(vertex_count) + 1, 0);
+  graph.neighbours.reserve(edges.size());
+  for (const auto& [from, to] : edges)
+  {
+    graph.begin[from + 1] += 1;
+    graph.neighbours.push_back(to);
+  }
+  for (Index v = 0; v < vertex_count; ++v)
+  {
+    graph.begin[v + 1] += graph.begin[v];
+  }
+  return graph;
+}
+
+} // namespace bindpose

@@ -1,0 +1,51 @@
+#ifndef bindpose_weights_domain_h
+#define bindpose_weights_domain_h
+
+#include "base/mesh.h"
+
+#include <vector>
+
+namespace bindpose
+{
+
+/// What weights live on: a tet mesh or a triangle surface (planar shapes are flat surfaces).
+struct Domain
+{
+  Points points;
+  Tets tets;
+  Triangles triangles; ///< used when there are no tets
+
+  bool is_volume() const { return this->tets.rows() > 0; }
+  int corners() const { return this->is_volume() ? 4 : 3; }
+  Index element_count() const
+  {
+    return this->is_volume() ? this->tets.rows() : this->triangles.rows();
+  }
+  /// The element's vertex ids, corners() of them.
+  const Index* element(Index e) const
+  {
+    return this->is_volume() ? this->tets.data() + 4 * e : this->triangles.data() + 3 * e;
+  }
+};
+
+/// invalid_input for: no element, ids out of range, coordinates that are not finite, a tet whose
+/// volume is not positive (naming the first and how many), a surface without area.
+Status check_domain(const Domain& domain);
+
+/// "tet" or "triangle".
+const char* element_name(const Domain& domain);
+
+/// Mean length of an element's edges, the local edge length.
+double mean_edge_length(const Domain& domain, Index element);
+
+/// Neighbours of every vertex along edges, ascending, without doubles.
+struct VertexGraph
+{
+  std::vector<Index> begin; ///< #V + 1 offsets into neighbours
+  std::vector<Index> neighbours;
+};
+VertexGraph vertex_graph(const Domain& domain);
+
+} // namespace bindpose
+
+#endif

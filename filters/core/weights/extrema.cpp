@@ -1,0 +1,130 @@
+// Persistence of minima by union-find over vertices sorted by value; maxima are the minima of the
+// negative function.
+#include "weights/extrema.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Minima of sign * values.
+void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::vector<char>& exempt,
+  double sign, double range, std::vector<Extremum>& found)
+{
+  const Index count = values.size();
+  std::vector<Index> order;
+  for (Index v = 0; v < count; ++v)
+  {
+    if (graph.begin[v] != graph.begin[v + 1])
+    {
+      order.push_back(v);
+    }
+  }
+  const auto before = [&](Index a, Index b)
+  {
+    const double x = sign * values[a];
+    const double y = sign * values[b];
+    if (x != y)
+    {
+      return x < y;
+    }
+    return exempt[a] != exempt[b] ? exempt[a] > exempt[b] : a < b;
+  };
+  std::sort(order.begin(), order.end(), before);
+  std::vector<Index> rank(static_cast<std::size_t>(count), -1);
+  std::vector<Index> parent(static_cast<std::size_t>(count));
+  std::vector<Index> birth(static_cast<std::size_t>(count)); // of a root: its part's minimum
+  std::iota(parent.begin(), parent.end(), Index(0));
+  std::iota(birth.begin(), birth.end(), Index(0));
+  const auto root = [&](Index v)
+  {
+    while (parent[v] != v)
+    {
+      parent[v] = parent[parent[v]];
+      v = parent[v];
+    }
+    return v;
+  };
+  const auto end_at = [&](Index minimum, double persistence)
+  {
+    if (!exempt[minimum])
+    {
+      found.push_back({ minimum, sign < 0.0, values[minimum], persistence });
+    }
+  };
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    const Index v = order[i];
+    rank[v] = static_cast<Index>(i);
+    for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
+    {
+      const Index u = graph.neighbours[k];
+      if (rank[u] < 0)
+      {
+        continue;
+      }
+      Index a = root(u);
+      Index b = root(v);
+      if (a == b)
+      {
+        continue;
+      }
+      // a keeps the elder minimum, a handle's or else the lesser; b's ends here. A vertex that
+      // joins its first part ends itself at its own value and is no minimum.
+      const bool handle_a = exempt[birth[a]] != 0;
+      const bool handle_b = exempt[birth[b]] != 0;
+      if (handle_a != handle_b ? handle_b : rank[birth[b]] < rank[birth[a]])
+      {
+        std::swap(a, b);
+      }
+      if (birth[b] != v)
+      {
+        end_at(birth[b], sign * (values[v] - values[birth[b]]) / range);
+      }
+      parent[b] = a;
+    }
+  }
+  for (const Index v : order)
+  {
+    if (parent[v] == v)
+    {
+      end_at(birth[v], 1.0);
+    }
+  }
+}
+} // namespace
+
+std::vector<Extremum> interior_extrema(const VertexGraph& graph, const Eigen::VectorXd& values,
+  const std::vector<char>& exempt, double least_persistence)
+{
+  std::vector<Extremum> found;
+  if (values.size() == 0)
+  {
+    return found;
+  }
+  const double range = values.maxCoeff() - values.minCoeff();
+  if (!(range > 0.0))
+  {
+    return found;
+  }
+  sweep(graph, values, exempt, 1.0, range, found);
+  sweep(graph, values, exempt, -1.0, range, found);
+  found.erase(std::remove_if(found.begin(), found.end(),
+                [&](const Extremum& e) { return !(e.persistence > least_persistence); }),
+    found.end());
+  std::sort(found.begin(), found.end(),
+    [](const Extremum& a, const Extremum& b)
+    {
+      if (a.persistence != b.persistence)
+      {
+        return a.persistence > b.persistence;
+      }
+      return a.vertex != b.vertex ? a.vertex < b.vertex : a.maximum < b.maximum;
+    });
+  return found;
+}
+
+} // namespace bindpose

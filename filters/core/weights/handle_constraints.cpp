@@ -1,0 +1,308 @@
+#include "weights/handle_constraints.h"
+
+#include "base/laplacian.h"
+#include "weights/simplex_locator.h"
+
+#include <algorithm>
+#include <map>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Distance from a handle's segment (or point) to p.
+double handle_distance(const Handle& handle, const Vec3& p)
+{
+  return nearest_in_triangle(p, handle.head, handle.tail, handle.tail).distance;
+}
+
+bool touch(const Handle& a, const Handle& b, double tolerance)
+{
+  return handle_distance(a, b.head) <= tolerance || handle_distance(a, b.tail) <= tolerance ||
+    handle_distance(b, a.head) <= tolerance || handle_distance(b, a.tail) <= tolerance;
+}
+
+/// Elements that have an area or a volume.
+std::vector<char> measurable(const Domain& domain)
+{
+  std::vector<char> result(static_cast<std::size_t>(domain.element_count()), 1);
+  if (!domain.is_volume())
+  {
+    for (Index t = 0; t < domain.triangles.rows(); ++t)
+    {
+      const Vec3 a = domain.points.row(domain.triangles(t, 0));
+      const Vec3 b = domain.points.row(domain.triangles(t, 1));
+      const Vec3 c = domain.points.row(domain.triangles(t, 2));
+      result[t] = (b - a).cross(c - a).norm() > 0.0;
+    }
+  }
+  return result;
+}
+
+void find_components(const Domain& domain, HandleConstraints& result)
+{
+  const std::vector<char> has_measure = measurable(domain);
+  const Index vertex_count = domain.points.rows();
+  result.roles.assign(static_cast<std::size_t>(vertex_count), VertexRole::unreferenced);
+  if (domain.is_volume())
+  {
+    result.components = connected_components(vertex_count, domain.tets);
+  }
+  else
+  {
+    Triangles kept(domain.triangles.rows(), 3);
+    Index count = 0;
+    for (Index t = 0; t < domain.triangles.rows(); ++t)
+    {
+      if (has_measure[t])
+      {
+        kept.row(count++) = domain.triangles.row(t);
+      }
+    }
+    kept.conservativeResize(count, 3);
+    result.components = connected_components(vertex_count, kept);
+  }
+  for (Index v = 0; v < vertex_count; ++v)
+  {
+    if (result.components.of_vertex[v] >= 0)
+    {
+      result.roles[v] = VertexRole::solved;
+    }
+  }
+  // Vertices of flat elements follow a neighbour with weights of its own, else a follower.
+  result.leader.assign(static_cast<std::size_t>(vertex_count), -1);
+  for (bool again = true; again;)
+  {
+    again = false;
+    for (Index e = 0; e < domain.element_count(); ++e)
+    {
+      const Index* ids = domain.element(e);
+      for (int i = 0; i < domain.corners() && !has_measure[e]; ++i)
+      {
+        for (int j = 0; j < domain.corners(); ++j)
+        {
+          if (result.roles[ids[i]] == VertexRole::unreferenced &&
+            result.roles[ids[j]] != VertexRole::unreferenced)
+          {
+            result.roles[ids[i]] = VertexRole::follower;
+            result.leader[ids[i]] = result.leader[ids[j]] >= 0 ? result.leader[ids[j]] : ids[j];
+            again = true;
+          }
+        }
+      }
+    }
+  }
+}
+
+void tether_components(const Domain& domain, const Handles& handles,
+  const std::vector<std::vector<Index>>& of_handle, HandleConstraints& result)
+{
+  const Index count = result.components.count;
+  result.tether.assign(static_cast<std::size_t>(count), -1);
+  std::vector<char> has_handle(static_cast<std::size_t>(count), 0);
+  for (const Index v : result.vertices)
+  {
+    has_handle[result.components.of_vertex[v]] = 1;
+  }
+  std::vector<double> nearest(static_cast<std::size_t>(count), 1e300);
+  for (Index v = 0; v < domain.points.rows(); ++v)
+  {
+    const Index c = result.components.of_vertex[v];
+    if (c < 0 || has_handle[c])
+    {
+      continue;
+    }
+    result.roles[v] = VertexRole::tethered;
+    const Vec3 p = domain.points.row(v);
+    for (std::size_t i = 0; i < handles.size(); ++i)
+    {
+      double distance = 1e300;
+      if (handles[i].kind == HandleKind::region)
+      {
+        for (const Index u : of_handle[i])
+        {
+          distance = std::min(distance, (domain.points.row(u) - domain.points.row(v)).norm());
+        }
+      }
+      else
+      {
+        distance = handle_distance(handles[i], p);
+      }
+      if (distance < nearest[c])
+      {
+        nearest[c] = distance;
+        result.tether[c] = static_cast<Index>(i);
+      }
+    }
+  }
+  std::map<Index, Index> parts; // handle -> how many parts follow it
+  for (const Index handle : result.tether)
+  {
+    if (handle >= 0)
+    {
+      parts[handle] += 1;
+    }
+  }
+  for (const auto& [handle, number] : parts)
+  {
+    result.warnings.push_back(std::to_string(number) +
+      (number == 1 ? " connected part without a handle follows"
+                   : " connected parts without a handle follow") +
+      " the nearest handle '" + handles[handle].name + "'");
+  }
+}
+
+/// A handle that shares all of its vertices (a point on a bone) would have a weight of one nowhere:
+/// it gets the first of them for itself whose other owners have vertices of their own.
+Status give_every_handle_a_vertex(const Handles& handles,
+  const std::map<Index, std::vector<Index>>& owners, HandleConstraints& result)
+{
+  std::vector<Index> own(handles.size(), 0);
+  for (const auto& [v, list] : owners)
+  {
+    own[list[0]] += list.size() == 1;
+  }
+  for (std::size_t j = 0; j < handles.size(); ++j)
+  {
+    Index row = 0;
+    for (auto vertex = owners.begin(); vertex != owners.end() && own[j] == 0; ++vertex, ++row)
+    {
+      const auto& list = vertex->second;
+      const auto at = static_cast<Index>(j);
+      if (std::find(list.begin(), list.end(), at) != list.end() &&
+        std::all_of(list.begin(), list.end(), [&](Index i) { return i == at || own[i] > 0; }))
+      {
+        result.values.row(row).setZero();
+        result.values(row, at) = 1.0;
+        own[j] = 1;
+      }
+    }
+    if (own[j] == 0)
+    {
+      return Status::invalid_input("handle '" + handles[j].name +
+        "' shares all of its vertices with other handles, so nothing is its own; move it or "
+        "refine the mesh there");
+    }
+  }
+  return {};
+}
+} // namespace
+
+Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
+  const std::vector<Index>& region_ids, HandleConstraints& result)
+{
+  result = {};
+  const Domain& domain = mesh.domain;
+  const auto original_count = domain.points.rows() - static_cast<Index>(mesh.inserted.size());
+  find_components(domain, result);
+
+  // Labels of inserted vertices: within a region when all corners around them are.
+  const auto label = [&](Index v) -> Index
+  {
+    if (v < original_count)
+    {
+      return region_ids[v];
+    }
+    const InsertedVertex& vertex = mesh.inserted[v - original_count];
+    Index common = -1;
+    for (int k = 0; k < domain.corners(); ++k)
+    {
+      if (vertex.barycentric[k] > 1e-12)
+      {
+        const Index here = region_ids[vertex.parents[k]];
+        common = common == -1 || common == here ? here : 0;
+      }
+    }
+    return common;
+  };
+
+  std::vector<std::vector<Index>> of_handle(handles.size());
+  result.counts.assign(handles.size(), 0);
+  std::map<Index, std::vector<Index>> handles_of_vertex;
+  for (std::size_t i = 0; i < handles.size(); ++i)
+  {
+    const Handle& handle = handles[i];
+    if (handle.kind != HandleKind::region)
+    {
+      of_handle[i] = mesh.handles[i].vertices;
+    }
+    else if (handle.region_id <= 0)
+    {
+      return Status::invalid_input(
+        "region '" + handle.name + "' has no label (its RegionId must be positive)");
+    }
+    else if (region_ids.empty())
+    {
+      return Status::invalid_input("region '" + handle.name +
+        "' needs a point array of labels on the mesh, but there is none");
+    }
+    else
+    {
+      for (Index v = 0; v < domain.points.rows(); ++v)
+      {
+        if (label(v) == handle.region_id)
+        {
+          of_handle[i].push_back(v);
+        }
+      }
+    }
+    for (const Index v : of_handle[i])
+    {
+      if (result.components.of_vertex[v] >= 0)
+      {
+        handles_of_vertex[v].push_back(static_cast<Index>(i));
+        result.counts[i] += 1;
+      }
+    }
+    if (result.counts[i] == 0)
+    {
+      return Status::invalid_input(handle.kind == HandleKind::region
+          ? "region '" + handle.name + "': no vertex of the mesh has the label " +
+            std::to_string(handle.region_id)
+          : "handle '" + handle.name + "' constrains no vertex: it lies on elements without area");
+    }
+  }
+
+  const auto m = static_cast<Index>(handles.size());
+  result.values = Weights::Zero(static_cast<Index>(handles_of_vertex.size()), m);
+  std::map<std::pair<Index, Index>, Index> shared;
+  for (const auto& [v, owners] : handles_of_vertex)
+  {
+    const auto row = static_cast<Index>(result.vertices.size());
+    result.vertices.push_back(v);
+    result.roles[v] = VertexRole::handle;
+    for (const Index owner : owners)
+    {
+      result.values(row, owner) = 1.0 / static_cast<double>(owners.size());
+      for (const Index other : owners)
+      {
+        if (owner < other)
+        {
+          shared[{ owner, other }] += 1;
+        }
+      }
+    }
+  }
+  const double tolerance = 1e-9 * bounding_box(domain.points).diagonal();
+  for (const auto& [pair, count] : shared)
+  {
+    const Handle& a = handles[pair.first];
+    const Handle& b = handles[pair.second];
+    if (a.kind == HandleKind::region || b.kind == HandleKind::region || !touch(a, b, tolerance))
+    {
+      result.warnings.push_back("handles '" + a.name + "' and '" + b.name + "' share " +
+        std::to_string(count) + (count == 1 ? " vertex" : " vertices") +
+        "; their weights are split evenly there");
+    }
+  }
+  const Status owned = give_every_handle_a_vertex(handles, handles_of_vertex, result);
+  if (!owned.ok())
+  {
+    return owned;
+  }
+  tether_components(domain, handles, of_handle, result);
+  return {};
+}
+
+} // namespace bindpose

@@ -1,0 +1,442 @@
+// A sample in the interior of a tet, of a face or of an edge is one case: let S be the corners that
+// span the open face which holds it. Every element that has all of S is replaced by one child for
+// each s of S, with s replaced by the new vertex. Children keep their parent's orientation and fill
+// it exactly.
+//
+// Where a later sample lies is found by going down from the original element through its children,
+// so the search tree is built once.
+#include "weights/handle_insertion.h"
+
+#include "weights/simplex_locator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+namespace bindpose
+{
+
+namespace
+{
+struct Element
+{
+  std::array<Index, 4> ids{ -1, -1, -1, -1 };
+  Index root = -1; // original element
+  std::vector<Index> children; // empty: part of the mesh
+};
+
+/// A point of a handle that is to be a vertex.
+struct Sample
+{
+  Vec3 place = Vec3::Zero();
+  Index handle = 0;
+  Index vertex = -1;
+};
+
+class Inserter
+{
+public:
+  Inserter(const Domain& domain, const Handles& handles, const HandleInsertionOptions& options,
+    HandleInsertion& result)
+    : domain_(domain), handles_(handles), options_(options), result_(result),
+      corners_(domain.corners())
+  {
+    this->locator_ = domain.is_volume()
+      ? std::make_unique<SimplexLocator>(domain.points, domain.tets)
+      : std::make_unique<SimplexLocator>(domain.points, domain.triangles);
+    Box box;
+    for (Index e = 0; e < domain.element_count(); ++e)
+    {
+      for (int k = 0; k < this->corners_; ++k)
+      {
+        box.add(domain.points.row(domain.element(e)[k]));
+      }
+    }
+    this->diagonal_ = box.diagonal();
+    this->result_.handles.assign(handles.size(), {});
+  }
+
+  Status run(ExecutionContext& context);
+
+private:
+  void copy_mesh();
+  void add_bone_samples(
+    Index handle, std::vector<Sample>& on_vertices, std::vector<Sample>& between);
+  SimplexLocation locate(const Vec3& p, Vec3& place) const;
+  void take_corners(Sample& sample);
+  void insert(Sample& sample, const std::vector<Sample>& earlier);
+  Index split(const std::vector<Index>& span, const Vec3& place, Index root);
+  void finish();
+  Vec3 point(Index v) const { return this->points_[v]; }
+  SimplexLocation nearest(const Element& element, const Vec3& p) const;
+
+  const Domain& domain_;
+  const Handles& handles_;
+  const HandleInsertionOptions& options_;
+  HandleInsertion& result_;
+  int corners_;
+  double diagonal_ = 0.0;
+  std::unique_ptr<SimplexLocator> locator_;
+  std::vector<Vec3> points_;
+  std::vector<Element> elements_;
+  std::vector<std::vector<Index>> incident_; // elements of every vertex, dead ones among them
+};
+
+void Inserter::copy_mesh()
+{
+  const Index vertex_count = this->domain_.points.rows();
+  this->points_.reserve(static_cast<std::size_t>(vertex_count));
+  for (Index v = 0; v < vertex_count; ++v)
+  {
+    this->points_.emplace_back(this->domain_.points.row(v));
+  }
+  this->elements_.resize(static_cast<std::size_t>(this->domain_.element_count()));
+  this->incident_.resize(static_cast<std::size_t>(vertex_count));
+  for (Index e = 0; e < this->domain_.element_count(); ++e)
+  {
+    this->elements_[e].root = e;
+    for (int k = 0; k < this->corners_; ++k)
+    {
+      this->elements_[e].ids[k] = this->domain_.element(e)[k];
+      this->incident_[this->domain_.element(e)[k]].push_back(e);
+    }
+  }
+}
+
+SimplexLocation Inserter::nearest(const Element& element, const Vec3& p) const
+{
+  const auto at = [&](int k) { return this->points_[element.ids[k]]; };
+  return this->corners_ == 4 ? nearest_in_tet(p, at(0), at(1), at(2), at(3))
+                             : nearest_in_triangle(p, at(0), at(1), at(2));
+}
+
+/// The element of the mesh as it is now that holds p, or the nearest, and its point nearest to p.
+SimplexLocation Inserter::locate(const Vec3& p, Vec3& place) const
+{
+  SimplexLocation at = this->locator_->locate(p);
+  const double outside = at.distance;
+  place.setZero();
+  for (int k = 0; k < this->corners_; ++k)
+  {
+    place += at.barycentric[k] * this->points_[this->elements_[at.element].ids[k]];
+  }
+  while (!this->elements_[at.element].children.empty())
+  {
+    SimplexLocation best;
+    best.distance = 1e300;
+    for (const Index child : this->elements_[at.element].children)
+    {
+      SimplexLocation in_child = this->nearest(this->elements_[child], place);
+      if (in_child.distance < best.distance)
+      {
+        best = in_child;
+        best.element = child;
+      }
+    }
+    at = best;
+  }
+  at.distance = outside;
+  return at;
+}
+
+void Inserter::add_bone_samples(
+  Index handle, std::vector<Sample>& on_vertices, std::vector<Sample>& between)
+{
+  const Vec3 head = this->handles_[handle].head;
+  const Vec3 axis = this->handles_[handle].tail - head;
+  const double length = axis.norm();
+  // Vertices that lie on the bone already, in its order.
+  std::vector<double> stops{ 0.0, 1.0 };
+  const double on = 1e-7 * this->diagonal_;
+  for (std::size_t v = 0; v < this->points_.size(); ++v)
+  {
+    const Vec3 d = this->points_[v] - head;
+    const double t = d.dot(axis) / (length * length);
+    if (t < -on / length || t > 1.0 + on / length || (d - t * axis).norm() > on ||
+      this->incident_[v].empty())
+    {
+      continue;
+    }
+    this->result_.handles[handle].vertices.push_back(static_cast<Index>(v));
+    on_vertices.push_back({ this->points_[v], handle, static_cast<Index>(v) });
+    stops.push_back(std::clamp(t, 0.0, 1.0));
+  }
+  std::sort(stops.begin(), stops.end());
+  // A bone needs a vertex between its ends, which other bones may share.
+  const bool bare = std::none_of(stops.begin(), stops.end(),
+    [&](double t) { return t * length > on && (1.0 - t) * length > on; });
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i)
+  {
+    const double gap = stops[i + 1] - stops[i];
+    if (gap * length <= on)
+    {
+      continue;
+    }
+    // How many local edge lengths fit into the gap, by steps of half of one.
+    std::vector<double> passed{ 0.0 };
+    std::vector<double> at{ stops[i] };
+    while (at.back() < stops[i + 1])
+    {
+      const SimplexLocation here = this->locator_->locate(head + at.back() * axis);
+      const double edge = std::max(mean_edge_length(this->domain_, here.element), 1e-3 * length);
+      const double step = std::min(0.5 * edge / length, stops[i + 1] - at.back());
+      passed.push_back(passed.back() + step * length / edge);
+      at.push_back(stops[i + 1] - at.back() - step < 1e-9 ? stops[i + 1] : at.back() + step);
+    }
+    const int pieces = std::max(bare ? 2 : 1, static_cast<int>(std::lround(passed.back())));
+    for (int piece = 1; piece < pieces; ++piece)
+    {
+      const double wanted = passed.back() * piece / pieces;
+      const auto next = std::lower_bound(passed.begin(), passed.end(), wanted) - passed.begin();
+      const double f = (wanted - passed[next - 1]) / (passed[next] - passed[next - 1]);
+      const double t = at[next - 1] + f * (at[next] - at[next - 1]);
+      between.push_back({ head + t * axis, handle, -1 });
+    }
+  }
+}
+
+/// keep_mesh: the corners with a share in the sample.
+void Inserter::take_corners(Sample& sample)
+{
+  Vec3 place;
+  const SimplexLocation at = this->locate(sample.place, place);
+  HandlePlacement& placement = this->result_.handles[sample.handle];
+  placement.outside = std::max(placement.outside, at.distance);
+  for (int k = 0; k < this->corners_; ++k)
+  {
+    if (at.barycentric[k] > 1e-6)
+    {
+      const Index v = this->elements_[at.element].ids[k];
+      placement.vertices.push_back(v);
+      placement.snap = std::max(placement.snap, (this->points_[v] - place).norm());
+    }
+  }
+}
+
+void Inserter::insert(Sample& sample, const std::vector<Sample>& earlier)
+{
+  HandlePlacement& placement = this->result_.handles[sample.handle];
+  Vec3 place;
+  const SimplexLocation at = this->locate(sample.place, place);
+  placement.outside = std::max(placement.outside, at.distance);
+  // The same place (after moving to the mesh) is the same vertex.
+  for (const Sample& other : earlier)
+  {
+    if ((other.place - sample.place).norm() <= 1e-9 * this->diagonal_ && other.vertex >= 0)
+    {
+      sample.vertex = other.vertex;
+      placement.vertices.push_back(sample.vertex);
+      return;
+    }
+  }
+  const Element& element = this->elements_[at.element];
+  const auto taken_by_other = [&](Index v)
+  {
+    return std::any_of(earlier.begin(), earlier.end(),
+      [&](const Sample& other) { return other.vertex == v && other.handle != sample.handle; });
+  };
+  std::vector<Index> span;
+  Vec3 target = place;
+  for (const double snap : { this->options_.snap, 1e-3, 1e-9 })
+  {
+    span.clear();
+    double sum = 0.0;
+    target.setZero();
+    for (int k = 0; k < this->corners_; ++k)
+    {
+      if (at.barycentric[k] >= snap)
+      {
+        span.push_back(element.ids[k]);
+        sum += at.barycentric[k];
+        target += at.barycentric[k] * this->points_[element.ids[k]];
+      }
+    }
+    target /= sum;
+    if (span.size() > 1 || !taken_by_other(span[0]))
+    {
+      break;
+    }
+  }
+  const double moved = (target - place).norm();
+  const double edge = mean_edge_length(this->domain_, element.root);
+  placement.snap = std::max(placement.snap, moved);
+  this->result_.largest_snap =
+    std::max(this->result_.largest_snap, edge > 0.0 ? moved / edge : 0.0);
+  sample.vertex = span.size() == 1 ? span[0] : this->split(span, target, element.root);
+  placement.vertices.push_back(sample.vertex);
+}
+
+Index Inserter::split(const std::vector<Index>& span, const Vec3& place, Index root)
+{
+  const auto fresh = static_cast<Index>(this->points_.size());
+  InsertedVertex inserted;
+  const SimplexLocation in_root = [&]
+  {
+    const Index* ids = this->domain_.element(root);
+    Element original;
+    std::copy(ids, ids + this->corners_, original.ids.begin());
+    return this->nearest(original, place);
+  }();
+  for (int k = 0; k < this->corners_; ++k)
+  {
+    inserted.parents[k] = this->domain_.element(root)[k];
+    inserted.barycentric[k] = in_root.barycentric[k];
+  }
+  this->result_.inserted.push_back(inserted);
+  this->points_.push_back(place);
+  this->incident_.emplace_back();
+
+  std::vector<Index> around;
+  for (const Index e : this->incident_[span[0]])
+  {
+    const Element& element = this->elements_[e];
+    const auto end = element.ids.begin() + this->corners_;
+    const bool has_all = std::all_of(span.begin(), span.end(),
+      [&](Index v) { return std::find(element.ids.begin(), end, v) != end; });
+    if (element.children.empty() && has_all)
+    {
+      around.push_back(e);
+    }
+  }
+  for (const Index e : around)
+  {
+    for (const Index v : span)
+    {
+      const auto child = static_cast<Index>(this->elements_.size());
+      Element part;
+      part.ids = this->elements_[e].ids;
+      part.root = this->elements_[e].root;
+      std::replace(part.ids.begin(), part.ids.begin() + this->corners_, v, fresh);
+      for (int k = 0; k < this->corners_; ++k)
+      {
+        this->incident_[part.ids[k]].push_back(child);
+      }
+      this->elements_[e].children.push_back(child);
+      this->elements_.push_back(std::move(part));
+    }
+  }
+  return fresh;
+}
+
+void Inserter::finish()
+{
+  Domain& domain = this->result_.domain;
+  domain.points.resize(static_cast<Index>(this->points_.size()), 3);
+  for (Index v = 0; v < domain.points.rows(); ++v)
+  {
+    domain.points.row(v) = this->points_[v];
+  }
+  std::vector<Index> alive;
+  for (std::size_t e = 0; e < this->elements_.size(); ++e)
+  {
+    if (this->elements_[e].children.empty())
+    {
+      alive.push_back(static_cast<Index>(e));
+      this->result_.parent_element.push_back(this->elements_[e].root);
+    }
+  }
+  const auto count = static_cast<Index>(alive.size());
+  domain.tets.resize(this->corners_ == 4 ? count : 0, 4);
+  domain.triangles.resize(this->corners_ == 4 ? 0 : count, 3);
+  Index* out = this->corners_ == 4 ? domain.tets.data() : domain.triangles.data();
+  for (const Index e : alive)
+  {
+    out = std::copy_n(this->elements_[e].ids.begin(), this->corners_, out);
+  }
+  std::string outside;
+  for (std::size_t i = 0; i < this->handles_.size(); ++i)
+  {
+    HandlePlacement& placement = this->result_.handles[i];
+    std::sort(placement.vertices.begin(), placement.vertices.end());
+    placement.vertices.erase(
+      std::unique(placement.vertices.begin(), placement.vertices.end()), placement.vertices.end());
+    if (placement.outside > 1e-6 * this->diagonal_)
+    {
+      char distance[32];
+      std::snprintf(distance, sizeof(distance), "%.3g", placement.outside);
+      outside += (outside.empty() ? "'" : ", '") + this->handles_[i].name + "' by " + distance;
+    }
+  }
+  if (!outside.empty())
+  {
+    this->result_.warnings.push_back(std::string("handles that lie outside of the ") +
+      (domain.is_volume() ? "volume" : "surface") + " were moved to its nearest point: " + outside);
+  }
+}
+
+Status Inserter::run(ExecutionContext& context)
+{
+  this->copy_mesh();
+  // Places that the user chose come before samples that may move along a bone.
+  std::vector<Sample> samples;
+  std::vector<Sample> ends;
+  std::vector<Sample> between;
+  std::vector<Sample> earlier; // with their vertices
+  for (std::size_t i = 0; i < this->handles_.size(); ++i)
+  {
+    const Handle& handle = this->handles_[i];
+    const auto at = static_cast<Index>(i);
+    if (handle.kind == HandleKind::point || handle.kind == HandleKind::cage_vertex)
+    {
+      samples.push_back({ handle.head, at, -1 });
+    }
+    else if (handle.kind == HandleKind::bone)
+    {
+      ends.push_back({ handle.head, at, -1 });
+      ends.push_back({ handle.tail, at, -1 });
+      this->add_bone_samples(at, earlier, between);
+    }
+    if (context.cancelled())
+    {
+      return Status::cancelled();
+    }
+  }
+  samples.insert(samples.end(), ends.begin(), ends.end());
+  samples.insert(samples.end(), between.begin(), between.end());
+  // A handle right on a vertex gets it, before another near it can snap there.
+  std::stable_partition(samples.begin(), samples.end(),
+    [&](const Sample& sample)
+    {
+      const SimplexLocation at = this->locator_->locate(sample.place);
+      return *std::max_element(at.barycentric.begin(), at.barycentric.end()) >= 1.0 - 1e-9;
+    });
+  for (std::size_t i = 0; i < samples.size(); ++i)
+  {
+    if (this->options_.keep_mesh)
+    {
+      this->take_corners(samples[i]);
+    }
+    else
+    {
+      this->insert(samples[i], earlier);
+      earlier.push_back(samples[i]);
+    }
+    context.progress(static_cast<double>(i) / static_cast<double>(samples.size()));
+    if (context.cancelled())
+    {
+      return Status::cancelled();
+    }
+  }
+  this->finish();
+  return {};
+}
+} // namespace
+
+Status insert_handles(const Domain& domain, const Handles& handles,
+  const HandleInsertionOptions& options, ExecutionContext& context, HandleInsertion& result)
+{
+  result = {};
+  if (!(options.snap > 0.0 && options.snap < 0.25))
+  {
+    return Status::invalid_input("the snap fraction must lie between 0 and 0.25");
+  }
+  Status status = check_domain(domain);
+  if (status.ok())
+  {
+    status = check_handles(handles);
+  }
+  return status.ok() ? Inserter(domain, handles, options, result).run(context) : status;
+}
+
+} // namespace bindpose

@@ -1,0 +1,574 @@
+// Primal-dual interior point with a slack for every inequality.
+//
+// Over the free vertices x:  min 1/2 x'Ax + c'x  subject to  Bx + h = s >= 0, where the rows of B
+// are x >= 0, x <= 1 and the ordered pairs. With multipliers z >= 0 the optimality conditions are
+//   Ax + c - B'z = 0,   Bx + h - s = 0,   s z = 0.
+// Newton's step for s z = target eliminates s and z and leaves one factorisation of
+//   A + B' diag(z/s) B,
+// whose pattern is A's own: bounds touch the diagonal, pairs are edges of the mesh and A reaches at
+// least as far. So one ordering and one symbolic analysis serve everything.
+//
+// Slacks are variables of their own (s = x only in the limit): an iterate may leave the bounds for
+// a while, which saves about a third of the iterations against x = s. Each factorisation is used
+// for a predictor, Mehrotra's corrector and a few of Gondzio's centrality correctors. Primal and
+// dual steps differ without pairs and are equal with them (measured to be best in both cases).
+//
+// What is returned is never the interior iterate but its projection to the bounds (and to the order
+// of the pairs), and what is tested is the certificate of that projection.
+#include "weights/interior_point.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+using Eigen::VectorXd;
+using Clock = std::chrono::steady_clock;
+using Inverse = std::function<VectorXd(const VectorXd&)>;
+
+double seconds_since(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// An ordered pair as a row of B: ends by free index, -1 for an end with a given value.
+struct PairRow
+{
+  Index low = -1;
+  Index high = -1;
+  double offset = 0.0; // of the given ends
+  int position = -1; // of the entry that joins both ends
+  Index pair = 0; // in the column's list
+};
+
+/// One column's solve. Vectors over constraints hold x >= 0 for all bounded unknowns, then x <= 1,
+/// then the pairs.
+class InteriorPoint
+{
+public:
+  InteriorPoint(const BoxQpMatrices& matrices, const BoxQpOptions& options,
+    const BoxQpColumn& column, const VectorXd& unconstrained, const Inverse& inverse,
+    BoxQpWorkspace& workspace, ExecutionContext& context)
+    : matrices_(matrices), options_(options), column_(column), unconstrained_(unconstrained),
+      inverse_(inverse), workspace_(workspace), context_(context)
+  {
+  }
+
+  BoxQpSolution run();
+
+private:
+  Status set_up();
+  void set_start();
+  VectorXd apply(const VectorXd& x) const; // B x
+  VectorXd apply_transposed(const VectorXd& y) const; // B' y
+  Status factor(const VectorXd& d);
+  struct Direction
+  {
+    VectorXd x, s, z;
+  };
+  Direction solve(const VectorXd& target);
+  static double longest_step(const VectorXd& at, const VectorXd& direction);
+  void step_lengths(const Direction& d, double& primal, double& dual) const;
+  Direction find_direction();
+  void certify_iterate();
+  void order_pairs(VectorXd& w) const;
+
+  const BoxQpMatrices& matrices_;
+  const BoxQpOptions& options_;
+  const BoxQpColumn& column_;
+  const VectorXd& unconstrained_; // #V
+  const Inverse& inverse_;
+  BoxQpWorkspace& workspace_;
+  ExecutionContext& context_;
+
+  std::vector<char> pinned_; // by free index
+  std::vector<Index> bounded_; // free indices that are not pinned
+  std::vector<PairRow> rows_;
+  std::vector<Index> topological_; // vertices of the pairs, every low before its high
+  std::vector<char> free_here_; // #V
+  VectorXd given_; // #V: fixed and pinned values, 0 elsewhere
+  VectorXd c_; // linear term
+  VectorXd h_; // offsets of the constraints
+  VectorXd x_, s_, z_;
+  VectorXd rd_, rp_; // residuals of the first two conditions
+  VectorXd quotient_; // z / s
+  double mu_ = 0.0;
+  BoxQpSolution best_;
+  BoxQpSolution result_;
+};
+
+Status InteriorPoint::set_up()
+{
+  const auto& matrices = this->matrices_;
+  const auto free_count = static_cast<Index>(matrices.free_vertices.size());
+  this->given_ = VectorXd::Zero(matrices.q.rows());
+  this->free_here_ = matrices.is_free;
+  for (std::size_t i = 0; i < matrices.fixed.size(); ++i)
+  {
+    this->given_[matrices.fixed[i]] = this->column_.fixed_values[static_cast<Index>(i)];
+  }
+  this->c_ = matrices.to_fixed * this->column_.fixed_values;
+  this->pinned_.assign(static_cast<std::size_t>(free_count), 0);
+  for (std::size_t i = 0; i < this->column_.pinned.size(); ++i)
+  {
+    const Index v = this->column_.pinned[i];
+    if (matrices.is_free[v])
+    {
+      this->pinned_[matrices.free_of_vertex[v]] = 1;
+      this->free_here_[v] = 0;
+      this->given_[v] = this->column_.pinned_values[static_cast<Index>(i)];
+    }
+  }
+  for (Index i = 0; i < free_count; ++i)
+  {
+    if (!this->pinned_[i])
+    {
+      this->bounded_.push_back(i);
+    }
+  }
+  for (std::size_t k = 0; k < this->column_.pairs.size(); ++k)
+  {
+    const OrderedPair& pair = this->column_.pairs[k];
+    PairRow row;
+    row.pair = static_cast<Index>(k);
+    row.low = this->free_here_[pair.low] ? matrices.free_of_vertex[pair.low] : -1;
+    row.high = this->free_here_[pair.high] ? matrices.free_of_vertex[pair.high] : -1;
+    row.offset =
+      (row.high < 0 ? this->given_[pair.high] : 0.0) - (row.low < 0 ? this->given_[pair.low] : 0.0);
+    if (row.low < 0 && row.high < 0)
+    {
+      continue;
+    }
+    if (row.low >= 0 && row.high >= 0)
+    {
+      row.position = matrices.position(std::max(row.low, row.high), std::min(row.low, row.high));
+      if (row.position < 0)
+      {
+        return Status::failure(StatusCode::internal_error, "an ordered pair is no entry of Q");
+      }
+    }
+    this->rows_.push_back(row);
+  }
+  const auto nb = static_cast<Index>(this->bounded_.size());
+  this->h_.resize(2 * nb + static_cast<Index>(this->rows_.size()));
+  this->h_.head(nb).setZero();
+  this->h_.segment(nb, nb).setOnes();
+  for (std::size_t r = 0; r < this->rows_.size(); ++r)
+  {
+    this->h_[2 * nb + static_cast<Index>(r)] = this->rows_[r].offset;
+  }
+
+  // Topological order of the pairs' vertices by counting open predecessors.
+  if (!this->rows_.empty())
+  {
+    std::vector<std::vector<Index>> above(static_cast<std::size_t>(matrices.q.rows()));
+    std::vector<Index> open(static_cast<std::size_t>(matrices.q.rows()), 0);
+    for (const OrderedPair& pair : this->column_.pairs)
+    {
+      above[pair.low].push_back(pair.high);
+      open[pair.high] += 1;
+    }
+    for (Index v = 0; v < matrices.q.rows(); ++v)
+    {
+      if (open[v] == 0)
+      {
+        this->topological_.push_back(v);
+      }
+    }
+    for (std::size_t i = 0; i < this->topological_.size(); ++i)
+    {
+      for (const Index v : above[this->topological_[i]])
+      {
+        if (--open[v] == 0)
+        {
+          this->topological_.push_back(v);
+        }
+      }
+    }
+    if (static_cast<Index>(this->topological_.size()) != matrices.q.rows())
+    {
+      return Status::failure(StatusCode::internal_error, "the ordered pairs run in a circle");
+    }
+  }
+  return {};
+}
+
+VectorXd InteriorPoint::apply(const VectorXd& x) const
+{
+  const auto nb = static_cast<Index>(this->bounded_.size());
+  VectorXd y(this->h_.size());
+  for (Index i = 0; i < nb; ++i)
+  {
+    y[i] = x[this->bounded_[i]];
+    y[nb + i] = -y[i];
+  }
+  for (std::size_t r = 0; r < this->rows_.size(); ++r)
+  {
+    const PairRow& row = this->rows_[r];
+    y[2 * nb + static_cast<Index>(r)] =
+      (row.high >= 0 ? x[row.high] : 0.0) - (row.low >= 0 ? x[row.low] : 0.0);
+  }
+  return y;
+}
+
+VectorXd InteriorPoint::apply_transposed(const VectorXd& y) const
+{
+  const auto nb = static_cast<Index>(this->bounded_.size());
+  VectorXd x = VectorXd::Zero(this->c_.size());
+  for (Index i = 0; i < nb; ++i)
+  {
+    x[this->bounded_[i]] = y[i] - y[nb + i];
+  }
+  for (std::size_t r = 0; r < this->rows_.size(); ++r)
+  {
+    const PairRow& row = this->rows_[r];
+    const double value = y[2 * nb + static_cast<Index>(r)];
+    if (row.high >= 0)
+    {
+      x[row.high] += value;
+    }
+    if (row.low >= 0)
+    {
+      x[row.low] -= value;
+    }
+  }
+  return x;
+}
+
+Status InteriorPoint::factor(const VectorXd& d)
+{
+  const auto start = Clock::now();
+  const auto& matrices = this->matrices_;
+  SparseMatrix& matrix = this->workspace_.matrix;
+  double* values = matrix.valuePtr();
+  std::copy(
+    matrices.lower.valuePtr(), matrices.lower.valuePtr() + matrices.lower.nonZeros(), values);
+  const auto nb = static_cast<Index>(this->bounded_.size());
+  for (Index i = 0; i < nb; ++i)
+  {
+    values[matrices.diagonal[this->bounded_[i]]] += d[i] + d[nb + i];
+  }
+  for (std::size_t r = 0; r < this->rows_.size(); ++r)
+  {
+    const PairRow& row = this->rows_[r];
+    const double value = d[2 * nb + static_cast<Index>(r)];
+    if (row.high >= 0)
+    {
+      values[matrices.diagonal[row.high]] += value;
+    }
+    if (row.low >= 0)
+    {
+      values[matrices.diagonal[row.low]] += value;
+    }
+    if (row.position >= 0)
+    {
+      values[row.position] -= value;
+    }
+  }
+  if (nb < matrix.cols())
+  {
+    for (Index j = 0; j < matrix.cols(); ++j)
+    {
+      for (int k = matrix.outerIndexPtr()[j]; k < matrix.outerIndexPtr()[j + 1]; ++k)
+      {
+        const Index i = matrix.innerIndexPtr()[k];
+        if (i != j && (this->pinned_[i] || this->pinned_[j]))
+        {
+          values[k] = 0.0;
+        }
+      }
+    }
+  }
+  Status status = this->workspace_.solver.factor(matrix);
+  this->result_.factorisations += 1;
+  // Round-off can make a pivot fail that is positive in exact arithmetic: a relative shift of the
+  // diagonal makes the step slightly shorter, never the answer wrong.
+  for (double shift = 1e-14; !status.ok() && status.code == StatusCode::invalid_input &&
+       shift < 1e-6 && !this->context_.cancelled();
+       shift *= 100.0)
+  {
+    for (const int k : matrices.diagonal)
+    {
+      values[k] *= 1.0 + shift;
+    }
+    status = this->workspace_.solver.factor(matrix);
+    this->result_.factorisations += 1;
+  }
+  this->result_.factor_seconds += seconds_since(start);
+  return status;
+}
+
+/// The step that linearises s z = s z + target: target is what each product is to change by.
+InteriorPoint::Direction InteriorPoint::solve(const VectorXd& target)
+{
+  const VectorXd per_s = target.cwiseQuotient(this->s_);
+  VectorXd rhs =
+    this->apply_transposed(per_s - this->quotient_.cwiseProduct(this->rp_)) - this->rd_;
+  for (std::size_t i = 0; i < this->pinned_.size(); ++i)
+  {
+    if (this->pinned_[i])
+    {
+      rhs[static_cast<Index>(i)] = 0.0;
+    }
+  }
+  Direction d;
+  this->workspace_.solver.solve(rhs, d.x);
+  d.s = this->apply(d.x) + this->rp_;
+  d.z = per_s - this->quotient_.cwiseProduct(d.s);
+  return d;
+}
+
+double InteriorPoint::longest_step(const VectorXd& at, const VectorXd& direction)
+{
+  double step = 1e300;
+  for (Index i = 0; i < at.size(); ++i)
+  {
+    if (direction[i] < 0.0)
+    {
+      step = std::min(step, -at[i] / direction[i]);
+    }
+  }
+  return step;
+}
+
+void InteriorPoint::step_lengths(const Direction& d, double& primal, double& dual) const
+{
+  primal = std::min(1.0, longest_step(this->s_, d.s));
+  dual = std::min(1.0, longest_step(this->z_, d.z));
+  if (!this->rows_.empty())
+  {
+    primal = dual = std::min(primal, dual);
+  }
+}
+
+InteriorPoint::Direction InteriorPoint::find_direction()
+{
+  const double count = static_cast<double>(this->s_.size());
+  const VectorXd products = this->s_.cwiseProduct(this->z_);
+  Direction d = this->solve(-products);
+  double primal;
+  double dual;
+  this->step_lengths(d, primal, dual);
+  const double affine = (this->s_ + primal * d.s).dot(this->z_ + dual * d.z) / count;
+  const double sigma = std::pow(affine / this->mu_, 3.0);
+  const double wanted = sigma * this->mu_;
+  VectorXd target =
+    VectorXd::Constant(products.size(), wanted) - products - primal * dual * d.s.cwiseProduct(d.z);
+  d = this->solve(target);
+  this->step_lengths(d, primal, dual);
+
+  constexpr int correctors = 5;
+  constexpr double reach = 0.35; // by how much longer a step each corrector aims for
+  for (int k = 0; k < correctors && !this->context_.cancelled(); ++k)
+  {
+    const double p = std::min(1.0, primal + reach);
+    const double q = std::min(1.0, dual + reach);
+    VectorXd change(products.size());
+    for (Index i = 0; i < change.size(); ++i)
+    {
+      const double v = (this->s_[i] + p * d.s[i]) * (this->z_[i] + q * d.z[i]);
+      const double lowest = 0.1 * wanted;
+      const double highest = 10.0 * wanted;
+      change[i] = v < lowest ? lowest - v : v > highest ? std::max(highest - v, -highest) : 0.0;
+    }
+    const VectorXd next_target = target + change;
+    Direction next = this->solve(next_target);
+    double next_primal;
+    double next_dual;
+    this->step_lengths(next, next_primal, next_dual);
+    if (next_primal + next_dual < primal + dual + 0.01)
+    {
+      break;
+    }
+    d = std::move(next);
+    target = next_target;
+    primal = next_primal;
+    dual = next_dual;
+  }
+  return d;
+}
+
+void InteriorPoint::set_start()
+{
+  const auto& matrices = this->matrices_;
+  const auto n = static_cast<Index>(matrices.free_vertices.size());
+  const VectorXd& guess = this->column_.start.size() ? this->column_.start : this->unconstrained_;
+  this->x_.resize(n);
+  for (Index i = 0; i < n; ++i)
+  {
+    const Index v = matrices.free_vertices[i];
+    this->x_[i] = this->pinned_[i] ? this->given_[v] : std::clamp(guess[v], 0.0, 1.0);
+  }
+  const double energy =
+    0.5 * this->unconstrained_.dot(matrices.q.transpose() * this->unconstrained_);
+  // Both constants measured on boxes and on real shapes: half of the iterations of mu = E / n.
+  constexpr double least = 1e-2;
+  this->s_ = (this->apply(this->x_) + this->h_).cwiseMax(least);
+  const double mu = 10.0 * energy / static_cast<double>(this->s_.size());
+  this->z_ = mu * this->s_.cwiseInverse();
+}
+
+/// Raises and lowers the least needed so that every pair is ordered, given values included.
+void InteriorPoint::order_pairs(VectorXd& w) const
+{
+  if (this->rows_.empty())
+  {
+    return;
+  }
+  std::vector<std::vector<Index>> above(static_cast<std::size_t>(w.size()));
+  for (const OrderedPair& pair : this->column_.pairs)
+  {
+    above[pair.low].push_back(pair.high);
+  }
+  // The least value given to anything above: nothing below it may exceed that.
+  VectorXd cap = VectorXd::Ones(w.size());
+  for (auto v = this->topological_.rbegin(); v != this->topological_.rend(); ++v)
+  {
+    if (!this->free_here_[*v])
+    {
+      cap[*v] = w[*v];
+    }
+    for (const Index high : above[*v])
+    {
+      cap[*v] = std::min(cap[*v], cap[high]);
+    }
+    if (this->free_here_[*v])
+    {
+      w[*v] = std::min(w[*v], cap[*v]);
+    }
+  }
+  for (const Index v : this->topological_)
+  {
+    for (const Index high : above[v])
+    {
+      if (this->free_here_[high])
+      {
+        w[high] = std::max(w[high], w[v]);
+      }
+    }
+  }
+}
+
+void InteriorPoint::certify_iterate()
+{
+  const auto& matrices = this->matrices_;
+  this->result_.w = this->given_;
+  for (const Index i : this->bounded_)
+  {
+    this->result_.w[matrices.free_vertices[i]] = std::clamp(this->x_[i], 0.0, 1.0);
+  }
+  this->order_pairs(this->result_.w);
+  const auto nb = static_cast<Index>(this->bounded_.size());
+  this->result_.multipliers = VectorXd::Zero(static_cast<Index>(this->column_.pairs.size()));
+  for (std::size_t r = 0; r < this->rows_.size(); ++r)
+  {
+    this->result_.multipliers[this->rows_[r].pair] = this->z_[2 * nb + static_cast<Index>(r)];
+  }
+  const BoundedEnergy problem{ matrices.q, this->free_here_ };
+  Certificate& certificate = this->result_.certificate;
+  certificate = certify(problem, this->result_.w, this->column_.pairs, this->result_.multipliers);
+  // When the iterate itself is near enough and only the first bound says otherwise, that is
+  // round-off: the second bound decides.
+  const double tolerance = this->options_.tolerance;
+  if (certificate.relative_gap > tolerance && certificate.kkt_residual <= tolerance &&
+    this->s_.dot(this->z_) <= tolerance * certificate.energy)
+  {
+    certificate = certify(
+      problem, this->result_.w, this->column_.pairs, this->result_.multipliers, this->inverse_);
+  }
+}
+
+BoxQpSolution InteriorPoint::run()
+{
+  const auto start = Clock::now();
+  const auto worst = [](const Certificate& c) { return std::max(c.relative_gap, c.kkt_residual); };
+  const double tolerance = this->options_.tolerance;
+  Status status = this->set_up();
+  if (status.ok())
+  {
+    this->set_start();
+    this->certify_iterate();
+    this->best_ = this->result_;
+  }
+  // The gap is quadratic in the weights' error: a certified iterate can be a thousand tolerances
+  // away from the minimiser. A few more iterations let the weights settle as well; whether they do
+  // decides nothing about the status.
+  constexpr int most_settling = 6;
+  const double settled = std::max(tolerance, std::min(5.0 * tolerance, 2e-6));
+  int settling = 0;
+  double moved = this->bounded_.empty() ? 0.0 : 1.0;
+  const auto done = [&]
+  {
+    return worst(this->best_.certificate) <= tolerance &&
+      (moved <= settled || settling > most_settling);
+  };
+  while (status.ok() && !done() && this->result_.iterations < this->options_.maximum_iterations)
+  {
+    if (this->context_.cancelled())
+    {
+      status = Status::cancelled();
+      break;
+    }
+    this->rp_ = this->apply(this->x_) + this->h_ - this->s_;
+    this->rd_ =
+      this->matrices_.a.transpose() * this->x_ + this->c_ - this->apply_transposed(this->z_);
+    this->mu_ = this->s_.dot(this->z_) / static_cast<double>(this->s_.size());
+    this->quotient_ = this->z_.cwiseQuotient(this->s_);
+    status = this->factor(this->quotient_);
+    if (!status.ok() || this->context_.cancelled())
+    {
+      continue;
+    }
+    const Direction d = this->find_direction();
+    double primal;
+    double dual;
+    this->step_lengths(d, primal, dual);
+    const double back = 0.995;
+    primal = primal < 1.0 ? back * primal : 1.0;
+    dual = dual < 1.0 ? back * dual : 1.0;
+    this->x_ += primal * d.x;
+    this->s_ += primal * d.s;
+    this->z_ += dual * d.z;
+    this->result_.iterations += 1;
+    const VectorXd previous = this->result_.w;
+    this->certify_iterate();
+    moved = (this->result_.w - previous).cwiseAbs().maxCoeff();
+    settling += worst(this->best_.certificate) <= tolerance;
+    if (!(worst(this->result_.certificate) >= worst(this->best_.certificate)))
+    {
+      this->best_ = this->result_;
+    }
+  }
+  this->best_.iterations = this->result_.iterations;
+  this->best_.factorisations = this->result_.factorisations;
+  this->best_.factor_seconds = this->result_.factor_seconds;
+  this->best_.solve_seconds = seconds_since(start) - this->result_.factor_seconds;
+  this->best_.status = status;
+  if (status.ok() && worst(this->best_.certificate) > tolerance)
+  {
+    this->best_.status.code = StatusCode::not_converged;
+  }
+  return this->best_;
+}
+} // namespace
+
+int BoxQpMatrices::position(Index i, Index j) const
+{
+  const int* begin = this->lower.innerIndexPtr() + this->lower.outerIndexPtr()[j];
+  const int* end = this->lower.innerIndexPtr() + this->lower.outerIndexPtr()[j + 1];
+  const int* at = std::lower_bound(begin, end, static_cast<int>(i));
+  return at != end && *at == i ? static_cast<int>(at - this->lower.innerIndexPtr()) : -1;
+}
+
+BoxQpSolution interior_point(const BoxQpMatrices& matrices, const BoxQpOptions& options,
+  const BoxQpColumn& column, const VectorXd& unconstrained, const Inverse& inverse,
+  BoxQpWorkspace& workspace, ExecutionContext& context)
+{
+  return InteriorPoint(matrices, options, column, unconstrained, inverse, workspace, context).run();
+}
+
+} // namespace bindpose

@@ -1,0 +1,60 @@
+#ifndef bindpose_weights_simplex_locator_h
+#define bindpose_weights_simplex_locator_h
+
+#include "base/mesh.h"
+
+#include <array>
+#include <vector>
+
+namespace bindpose
+{
+
+/// Where a point lies in a mesh: the element, and barycentric coordinates of the element's point
+/// nearest to it (for a triangle the fourth is 0).
+struct SimplexLocation
+{
+  Index element = -1; ///< -1: the mesh has no element or the point is not finite
+  std::array<double, 4> barycentric{ 0.0, 0.0, 0.0, 0.0 };
+  double distance = 0.0; ///< from the point to the element, 0 inside
+};
+
+/// The point of a triangle or tet nearest to p, as barycentric coordinates and distance. Degenerate
+/// elements are handled by their edges.
+SimplexLocation nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+SimplexLocation nearest_in_tet(
+  const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+/// Finds the element that holds a point, or the nearest one, by a tree of boxes. Building costs
+/// O(n log n), a query O(log n) near the mesh. Of equally near elements the one of lowest id wins.
+class SimplexLocator
+{
+public:
+  /// Keeps views: points and elements must outlive the locator.
+  SimplexLocator(PointsView points, TetsView tets);
+  SimplexLocator(PointsView points, TrianglesView triangles);
+
+  SimplexLocation locate(const Vec3& p) const;
+
+private:
+  struct Node
+  {
+    Vec3 lower, upper;
+    Index begin = 0, end = 0; // range in order_ of a leaf
+    Index right = -1; // the left child follows its parent; -1: leaf
+  };
+  void build();
+  Index build(Index begin, Index end);
+  SimplexLocation nearest_in_element(Index element, const Vec3& p) const;
+
+  PointsView points_;
+  const Index* elements_;
+  Index count_;
+  int corners_;
+  std::vector<Vec3> lower_, upper_; // of elements
+  std::vector<Index> order_;
+  std::vector<Node> nodes_;
+};
+
+} // namespace bindpose
+
+#endif

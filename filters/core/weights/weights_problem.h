@@ -1,0 +1,87 @@
+#ifndef bindpose_weights_weights_problem_h
+#define bindpose_weights_weights_problem_h
+
+#include "base/laplacian.h"
+#include "base/sparse_solver.h"
+#include "weights/box_qp.h"
+#include "weights/extrema.h"
+#include "weights/handle_constraints.h"
+
+namespace bindpose
+{
+
+/// What all weights take. Lengths have no unit: a mesh in metres or millimetres gives the same.
+struct WeightsOptions
+{
+  /// Largest relative gap and natural residual of a column (see Certificate), range (0, 1).
+  /// 1e-6 by default, 1e-9 is tight.
+  double tolerance = 1e-6;
+  /// Interior-point iterations a column, > 0.
+  int maximum_iterations = 100;
+  HandleInsertionOptions insertion;
+  SparseSolver::Options solver;
+};
+
+/// A mesh with its handles as vertices and what the energies are made of: the common start of all
+/// methods. Built once, it serves any number of them.
+struct WeightsProblem
+{
+  Handles handles;
+  HandleInsertion mesh;
+  HandleConstraints constraints;
+  /// Cotangent stiffness and lumped mass of the mesh scaled to diagonal 1; the largest mass is 1.
+  SparseMatrix stiffness;
+  Eigen::VectorXd mass;
+  VertexGraph graph;
+  /// All vertices whose rows are known beforehand (handles, tethered, followers, unreferenced) and
+  /// those rows, #fixed x #handles.
+  std::vector<Index> fixed;
+  Eigen::MatrixXd fixed_values;
+  Status status; ///< counts and warnings so far
+
+  Index vertex_count() const { return this->mesh.domain.points.rows(); }
+  Index handle_count() const { return static_cast<Index>(this->handles.size()); }
+  /// The columns of the quadratic programs. Where all fixed values of a connected part are equal, a
+  /// column is that constant there, exactly: these vertices are pinned.
+  std::vector<BoxQpColumn> columns() const;
+};
+
+/// Inserts the handles, finds constraints, assembles stiffness and mass. Phase "insert".
+/// @param region_ids label of every vertex, or empty.
+Status make_weights_problem(const Domain& domain, const std::vector<Index>& region_ids,
+  const Handles& handles, const WeightsOptions& options, ExecutionContext& context,
+  WeightsProblem& problem);
+
+/// One column of the weights before normalisation, proved.
+struct WeightsColumn
+{
+  Certificate certificate;
+  double minimum = 0.0;
+  double maximum = 0.0;
+  int iterations = 0;
+  int factorisations = 0;
+  Index interior_extrema = 0; ///< of the raw column, with a persistence above 1e-3
+  Index normalised_interior_extrema = 0; ///< of the column that is handed on
+};
+
+struct WeightsResult
+{
+  /// #V x #handles, rows sum to one (rows of unreferenced vertices are zero).
+  Weights weights;
+  /// As solved for; what the certificates are about.
+  Weights raw;
+  std::vector<WeightsColumn> columns;
+  double row_sum_error = 0.0; ///< max |1 - row sum| of the raw rows
+  Index analyses = 0; ///< symbolic analyses made
+};
+
+/// Turns solved columns into weights: rows of followers, normalisation, extrema, report. The status
+/// is the problem's, not_converged when a column is not certified.
+/// @param fallback rows used where a raw row sums to less than 1e-3 (#V x #handles).
+Status finish_weights(const WeightsProblem& problem, const std::string& method, double tolerance,
+  const std::vector<BoxQpSolution>& solutions, const Eigen::MatrixXd& fallback,
+  ExecutionContext& context, WeightsResult& result);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,41 @@
+// Glue around the kernel bindpose::bounded_biharmonic_weights().
+#include "vtkBoundedBiharmonicWeights.h"
+
+#include "weights/bounded_biharmonic_weights.h"
+
+#include "vtkObjectFactory.h"
+
+#include <algorithm>
+
+using namespace bindpose;
+
+vtkStandardNewMacro(vtkBoundedBiharmonicWeights);
+
+vtkBoundedBiharmonicWeights::vtkBoundedBiharmonicWeights() = default;
+
+vtkBoundedBiharmonicWeights::~vtkBoundedBiharmonicWeights() = default;
+
+void vtkBoundedBiharmonicWeights::SetOrder(int value)
+{
+  value = std::clamp(value, 2, 3);
+  if (this->Order != value)
+  {
+    this->Order = value;
+    this->BindModified();
+  }
+}
+
+Status vtkBoundedBiharmonicWeights::Solve(const WeightsProblem& problem,
+  const WeightsOptions& options, ExecutionContext& context, WeightsResult& result)
+{
+  BoundedWeightsOptions own;
+  static_cast<WeightsOptions&>(own) = options;
+  own.order = this->Order;
+  return bounded_biharmonic_weights(problem, own, context, result);
+}
+
+void vtkBoundedBiharmonicWeights::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Order: " << this->Order << "\n";
+}

@@ -1,0 +1,41 @@
+// Glue around the kernel bindpose::monotone_weights().
+#include "vtkMonotoneWeights.h"
+
+#include "weights/monotone_weights.h"
+
+#include "vtkObjectFactory.h"
+
+#include <algorithm>
+
+using namespace bindpose;
+
+vtkStandardNewMacro(vtkMonotoneWeights);
+
+vtkMonotoneWeights::vtkMonotoneWeights() = default;
+
+vtkMonotoneWeights::~vtkMonotoneWeights() = default;
+
+void vtkMonotoneWeights::SetOrder(int value)
+{
+  value = std::clamp(value, 2, 3);
+  if (this->Order != value)
+  {
+    this->Order = value;
+    this->BindModified();
+  }
+}
+
+Status vtkMonotoneWeights::Solve(const WeightsProblem& problem, const WeightsOptions& options,
+  ExecutionContext& context, WeightsResult& result)
+{
+  MonotoneWeightsOptions own;
+  static_cast<WeightsOptions&>(own) = options;
+  own.order = this->Order;
+  return monotone_weights(problem, own, context, result);
+}
+
+void vtkMonotoneWeights::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Order: " << this->Order << "\n";
+}

@@ -1,0 +1,99 @@
+// Glue around the kernel bindpose::tetrahedralize: see inside/tetrahedralize.h.
+#include "vtkTetrahedralizeSurface.h"
+
+#include "conversion.h"
+#include "inside/tetrahedralize.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdTypeArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+
+vtkStandardNewMacro(vtkTetrahedralizeSurface);
+
+vtkTetrahedralizeSurface::vtkTetrahedralizeSurface() = default;
+
+vtkTetrahedralizeSurface::~vtkTetrahedralizeSurface() = default;
+
+int vtkTetrahedralizeSurface::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  return 1;
+}
+
+int vtkTetrahedralizeSurface::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkUnstructuredGrid");
+  return 1;
+}
+
+bindpose::Status vtkTetrahedralizeSurface::Execute(
+  vtkInformationVector** input, vtkInformationVector* output, bindpose::ExecutionContext& context)
+{
+  vtkUnstructuredGrid* out = vtkUnstructuredGrid::GetData(output);
+  out->Initialize();
+  bindpose::SurfaceInput surface;
+  bindpose::Status status = bindpose::to_surface(vtkDataSet::GetData(input[0]), surface);
+  if (!status.ok())
+  {
+    return status;
+  }
+
+  bindpose::TetrahedralizeOptions options;
+  options.method = static_cast<bindpose::TetMethod>(this->Method);
+  options.winding_threshold = this->WindingThreshold;
+  options.resolution = this->Resolution;
+  options.time_limit = this->TimeLimit;
+  options.memory_limit = this->MemoryLimit;
+  options.quality = this->Quality;
+  options.interior_edge = this->InteriorEdge;
+  bindpose::TetrahedralizeResult result;
+  status = bindpose::tetrahedralize(
+    surface.points.view(), surface.triangles.view(), options, result, context);
+  if (surface.triangulated_cells > 0)
+  {
+    status.report.set("counts.triangulated_cells", surface.triangulated_cells);
+  }
+  if (surface.ignored_cells > 0)
+  {
+    status.report.set("counts.ignored_cells", surface.ignored_cells);
+  }
+  if (!status.usable())
+  {
+    return status;
+  }
+
+  out->ShallowCopy(bindpose::to_unstructured_grid(result.mesh.points, result.mesh.tets));
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("OriginalPointIds");
+  ids->SetNumberOfValues(static_cast<vtkIdType>(result.original_vertices.size()));
+  std::copy(result.original_vertices.begin(), result.original_vertices.end(), ids->GetPointer(0));
+  out->GetPointData()->AddArray(ids);
+  vtkNew<vtkDoubleArray> winding;
+  winding->SetName("WindingNumber");
+  winding->SetNumberOfValues(result.winding_numbers.size());
+  std::copy(result.winding_numbers.data(),
+    result.winding_numbers.data() + result.winding_numbers.size(), winding->GetPointer(0));
+  out->GetCellData()->SetScalars(winding);
+  return status;
+}
+
+void vtkTetrahedralizeSurface::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Method: " << to_string(static_cast<bindpose::TetMethod>(this->Method)) << "\n";
+  os << indent << "WindingThreshold: " << this->WindingThreshold << "\n";
+  os << indent << "Resolution: " << this->Resolution << "\n";
+  os << indent << "TimeLimit: " << this->TimeLimit << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
+  os << indent << "Quality: " << this->Quality << "\n";
+  os << indent << "InteriorEdge: " << this->InteriorEdge << "\n";
+}

@@ -1,0 +1,151 @@
+// Glue around the kernel bindpose::transfer(), with a cache as the weights filters have one: a pose
+// edit upstream must not make a new array, or the poses downstream would bind again.
+#include "vtkTransferWeights.h"
+
+#include "base/execution.h"
+#include "bind_key.h"
+#include "conversion.h"
+#include "weights/transfer.h"
+#include "weights_arrays.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+
+using namespace bindpose;
+
+vtkStandardNewMacro(vtkTransferWeights);
+
+struct vtkTransferWeights::Cache
+{
+  bool valid = false;
+  BindKey key;
+  Status status;
+  vtkSmartPointer<vtkDoubleArray> weights;
+};
+
+vtkTransferWeights::vtkTransferWeights() : Bound(new Cache)
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+vtkTransferWeights::~vtkTransferWeights() = default;
+
+void vtkTransferWeights::SetArrayName(const std::string& name)
+{
+  if (this->ArrayName != name)
+  {
+    this->ArrayName = name;
+    this->BindTime.Modified();
+    this->Modified();
+  }
+}
+
+int vtkTransferWeights::FillInputPortInformation(int, vtkInformation* info)
+{
+  info->Set(INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  return 1;
+}
+
+int vtkTransferWeights::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPointSet");
+  return 1;
+}
+
+int vtkTransferWeights::RequestDataObject(
+  vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
+{
+  vtkPointSet* target = vtkPointSet::GetData(input[0]);
+  vtkInformation* info = output->GetInformationObject(0);
+  vtkDataObject* data = vtkDataObject::GetData(info);
+  if (target && (!data || std::string(data->GetClassName()) != target->GetClassName()))
+  {
+    vtkSmartPointer<vtkDataObject> fresh;
+    fresh.TakeReference(target->NewInstance());
+    info->Set(vtkDataObject::DATA_OBJECT(), fresh);
+  }
+  return 1;
+}
+
+Status vtkTransferWeights::Execute(
+  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+{
+  vtkPointSet* target = vtkPointSet::GetData(input[0]);
+  vtkPointSet* mesh = vtkPointSet::GetData(input[1]);
+  vtkPointSet* result = vtkPointSet::GetData(output);
+  if (!target || !result || target->GetNumberOfPoints() == 0)
+  {
+    return Status::invalid_input("there is no point to carry weights to");
+  }
+  vtkDataArray* weights = mesh ? mesh->GetPointData()->GetArray(this->ArrayName.c_str()) : nullptr;
+  if (!weights)
+  {
+    return Status::invalid_input(
+      "the mesh with weights has no point array '" + this->ArrayName + "'");
+  }
+  BindKey key;
+  key.add(this->BindTime.GetMTime());
+  key.add(target->GetPoints()->GetData());
+  for (vtkObject* object : bind_objects(mesh, { this->ArrayName }))
+  {
+    key.add(object);
+  }
+  const bool bind = !this->Bound->valid || this->Bound->key != key;
+  if (bind)
+  {
+    const Phase phase(context, "transfer");
+    Cache made;
+    Domain domain;
+    std::vector<Index> cells;
+    Status status = to_domain(mesh, domain, cells);
+    if (!status.ok())
+    {
+      return status;
+    }
+    Weights values;
+    TransferCounts counts;
+    status = transfer(domain, to_matrix(weights).view(), to_points(target).view(),
+      TransferOptions(), context, values, counts);
+    if (!status.usable())
+    {
+      return status;
+    }
+    made.weights = vtkSmartPointer<vtkDoubleArray>::New();
+    made.weights->SetName(this->ArrayName.c_str());
+    made.weights->SetNumberOfComponents(static_cast<int>(values.cols()));
+    made.weights->CopyComponentNames(weights);
+    made.weights->SetNumberOfTuples(values.rows());
+    std::copy(values.data(), values.data() + values.size(), made.weights->GetPointer(0));
+    made.status = status;
+    made.key = key;
+    made.valid = true;
+    *this->Bound = std::move(made);
+    this->NumberOfBinds += 1;
+  }
+  result->ShallowCopy(target);
+  result->GetPointData()->AddArray(this->Bound->weights);
+  pass_certificates(mesh->GetFieldData(), result->GetFieldData(), this->ArrayName);
+
+  Status status = this->Bound->status;
+  status.report.set("counts.vertices", Report::Value(std::int64_t(target->GetNumberOfPoints())));
+  status.report.set(
+    "counts.handles", Report::Value(std::int64_t(weights->GetNumberOfComponents())));
+  status.report.set("binds", this->NumberOfBinds);
+  if (!bind && !status.warnings.empty())
+  {
+    status.report.set("warnings[]", status.warnings);
+    status.warnings.clear();
+  }
+  return status;
+}
+
+void vtkTransferWeights::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ArrayName: " << this->ArrayName << "\n";
+  os << indent << "NumberOfBinds: " << this->NumberOfBinds << "\n";
+}

@@ -1,0 +1,407 @@
+// The kernels insert the handles and solve; here their result becomes arrays, and the arrays of the
+// input are carried on to a mesh that has more points than it came with.
+//
+// What the bind made is kept as VTK objects (weights, certificates, points and cells when handles
+// were inserted), so that an unchanged bind hands on the same objects and what follows sees that
+// nothing changed.
+#include "vtkWeightsAlgorithm.h"
+
+#include "base/execution.h"
+#include "bind_key.h"
+#include "conversion.h"
+#include "weights/weights_problem.h"
+#include "weights_arrays.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace bindpose;
+
+namespace
+{
+constexpr char array_name[] = "Weights";
+constexpr char mask_name[] = "WeightsMask";
+constexpr char original_ids_name[] = "OriginalPointIds";
+
+bool is_integral(vtkDataArray* array)
+{
+  return array && array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE;
+}
+
+/// Values of an array at inserted points.
+vtkSmartPointer<vtkAbstractArray> extended(
+  vtkAbstractArray* array, vtkIdType count, const std::vector<InsertedVertex>& inserted)
+{
+  vtkSmartPointer<vtkAbstractArray> result;
+  result.TakeReference(array->NewInstance());
+  result->DeepCopy(array);
+  result->Resize(count + static_cast<vtkIdType>(inserted.size()));
+  result->SetNumberOfTuples(count + static_cast<vtkIdType>(inserted.size()));
+  auto* numbers = vtkDataArray::SafeDownCast(result);
+  const bool labels = is_integral(numbers);
+  const bool original_ids = labels && std::string(array->GetName()) == original_ids_name;
+  vtkNew<vtkIdList> parents;
+  for (std::size_t i = 0; i < inserted.size(); ++i)
+  {
+    const vtkIdType at = count + static_cast<vtkIdType>(i);
+    parents->Reset();
+    std::vector<double> shares;
+    for (int k = 0; k < 4; ++k)
+    {
+      if (inserted[i].barycentric[k] > 1e-12)
+      {
+        parents->InsertNextId(inserted[i].parents[k]);
+        shares.push_back(inserted[i].barycentric[k]);
+      }
+    }
+    if (!labels)
+    {
+      result->InterpolateTuple(at, parents, array, shares.data());
+      continue;
+    }
+    for (int c = 0; c < numbers->GetNumberOfComponents(); ++c)
+    {
+      const double first = numbers->GetComponent(parents->GetId(0), c);
+      bool agree = !original_ids;
+      for (vtkIdType k = 1; k < parents->GetNumberOfIds(); ++k)
+      {
+        agree = agree && numbers->GetComponent(parents->GetId(k), c) == first;
+      }
+      numbers->SetComponent(at, c, original_ids ? -1.0 : agree ? first : 0.0);
+    }
+  }
+  return result;
+}
+
+Status to_region_ids(vtkPointSet* mesh, const std::string& name, std::vector<Index>& region_ids)
+{
+  region_ids.clear();
+  vtkAbstractArray* found = mesh->GetPointData()->GetAbstractArray(name.c_str());
+  auto* array = vtkDataArray::SafeDownCast(found);
+  if (!found)
+  {
+    return {};
+  }
+  if (!array || array->GetNumberOfComponents() != 1)
+  {
+    return Status::invalid_input(
+      "the point array '" + name + "' of region labels must have one number a point");
+  }
+  for (vtkIdType v = 0; v < array->GetNumberOfTuples(); ++v)
+  {
+    const double label = array->GetComponent(v, 0);
+    if (!(std::abs(label) < 1e15) || label != std::floor(label))
+    {
+      return Status::invalid_input(
+        "the region label of point " + std::to_string(v) + " is not a whole number");
+    }
+    region_ids.push_back(static_cast<Index>(label));
+  }
+  return {};
+}
+} // namespace
+
+struct vtkWeightsAlgorithm::Cache
+{
+  bool valid = false;
+  BindKey key;
+  Status status;
+  vtkSmartPointer<vtkDoubleArray> weights;
+  vtkSmartPointer<vtkUnsignedCharArray> mask; // null: all vertices have weights
+  std::vector<vtkSmartPointer<vtkDoubleArray>> certificates;
+  // Null unless handles were inserted:
+  vtkSmartPointer<vtkPoints> points;
+  vtkSmartPointer<vtkCellArray> cells;
+  std::vector<InsertedVertex> inserted;
+  std::vector<Index> parent_cell;
+
+  void add_arrays(vtkDataSet* output) const
+  {
+    output->GetPointData()->AddArray(this->weights);
+    output->GetPointData()->RemoveArray(mask_name);
+    if (this->mask)
+    {
+      output->GetPointData()->AddArray(this->mask);
+    }
+    for (const auto& array : this->certificates)
+    {
+      output->GetFieldData()->AddArray(array);
+    }
+  }
+
+  /// The mesh with inserted points, its arrays carried on.
+  void refine(vtkPointSet* mesh, vtkPointSet* output) const
+  {
+    output->Initialize();
+    output->SetPoints(this->points);
+    if (auto* polydata = vtkPolyData::SafeDownCast(output))
+    {
+      polydata->SetPolys(this->cells);
+    }
+    else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(output))
+    {
+      grid->SetCells(this->cells->IsHomogeneous() == 4 ? VTK_TETRA : VTK_TRIANGLE, this->cells);
+    }
+    output->GetFieldData()->PassData(mesh->GetFieldData());
+    vtkPointData* from = mesh->GetPointData();
+    vtkPointData* to = output->GetPointData();
+    for (int a = 0; a < from->GetNumberOfArrays(); ++a)
+    {
+      vtkAbstractArray* array = from->GetAbstractArray(a);
+      if (array->GetName() && std::string(array->GetName()) != array_name)
+      {
+        to->AddArray(extended(array, mesh->GetNumberOfPoints(), this->inserted));
+      }
+    }
+    for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+    {
+      vtkAbstractArray* active = from->GetAbstractAttribute(type);
+      if (active && active->GetName())
+      {
+        to->SetActiveAttribute(active->GetName(), type);
+      }
+    }
+    vtkCellData* cells_from = mesh->GetCellData();
+    vtkCellData* cells_to = output->GetCellData();
+    const auto count = static_cast<vtkIdType>(this->parent_cell.size());
+    cells_to->CopyAllOn();
+    cells_to->CopyAllocate(cells_from, count);
+    for (vtkIdType cell = 0; cell < count; ++cell)
+    {
+      cells_to->CopyData(cells_from, this->parent_cell[cell], cell);
+    }
+  }
+};
+
+vtkWeightsAlgorithm::vtkWeightsAlgorithm() : Bound(new Cache)
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+vtkWeightsAlgorithm::~vtkWeightsAlgorithm() = default;
+
+void vtkWeightsAlgorithm::BindModified()
+{
+  this->BindTime.Modified();
+  this->Modified();
+}
+
+void vtkWeightsAlgorithm::SetTolerance(double tolerance)
+{
+  if (this->Tolerance != tolerance)
+  {
+    this->Tolerance = tolerance;
+    this->BindModified();
+  }
+}
+
+void vtkWeightsAlgorithm::SetMaximumIterations(int iterations)
+{
+  if (this->MaximumIterations != iterations)
+  {
+    this->MaximumIterations = iterations;
+    this->BindModified();
+  }
+}
+
+void vtkWeightsAlgorithm::SetRegionArrayName(const std::string& name)
+{
+  if (this->RegionArrayName != name)
+  {
+    this->RegionArrayName = name;
+    this->BindModified();
+  }
+}
+
+void vtkWeightsAlgorithm::SetKeepMesh(bool keep)
+{
+  if (this->KeepMesh != keep)
+  {
+    this->KeepMesh = keep;
+    this->BindModified();
+  }
+}
+
+int vtkWeightsAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkPolyData");
+  return 1;
+}
+
+int vtkWeightsAlgorithm::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPointSet");
+  return 1;
+}
+
+int vtkWeightsAlgorithm::RequestDataObject(
+  vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
+{
+  vtkPointSet* mesh = vtkPointSet::GetData(input[0]);
+  vtkInformation* info = output->GetInformationObject(0);
+  vtkDataObject* data = vtkDataObject::GetData(info);
+  if (mesh && (!data || std::string(data->GetClassName()) != mesh->GetClassName()))
+  {
+    vtkSmartPointer<vtkDataObject> fresh;
+    fresh.TakeReference(mesh->NewInstance());
+    info->Set(vtkDataObject::DATA_OBJECT(), fresh);
+  }
+  return 1;
+}
+
+Status vtkWeightsAlgorithm::Bind(
+  vtkDataSet* mesh, vtkDataObject* handle_data, ExecutionContext& context, Cache& bound)
+{
+  Handles handles;
+  Domain domain;
+  std::vector<Index> cell_of_element;
+  Status status = to_handles(vtkPolyData::SafeDownCast(handle_data), handles);
+  if (status.ok())
+  {
+    status = to_domain(mesh, domain, cell_of_element);
+  }
+  std::vector<Index> region_ids;
+  const bool regions = std::any_of(handles.begin(), handles.end(),
+    [](const Handle& handle) { return handle.kind == HandleKind::region; });
+  if (status.ok() && regions)
+  {
+    status = to_region_ids(vtkPointSet::SafeDownCast(mesh), this->RegionArrayName, region_ids);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  WeightsOptions options;
+  options.tolerance = this->Tolerance;
+  options.maximum_iterations = this->MaximumIterations;
+  options.insertion.keep_mesh = this->KeepMesh;
+  WeightsProblem problem;
+  WeightsResult result;
+  status = make_weights_problem(domain, region_ids, handles, options, context, problem);
+  if (status.ok())
+  {
+    status = this->Solve(problem, options, context, result);
+  }
+  if (!status.usable())
+  {
+    return status;
+  }
+
+  bound.weights = to_weights_array(array_name, result.weights, handles);
+  bound.certificates = to_certificate_arrays(array_name, result);
+  const std::vector<VertexRole>& roles = problem.constraints.roles;
+  if (std::count(roles.begin(), roles.end(), VertexRole::unreferenced) > 0)
+  {
+    bound.mask = vtkSmartPointer<vtkUnsignedCharArray>::New();
+    bound.mask->SetName(mask_name);
+    for (const VertexRole role : roles)
+    {
+      bound.mask->InsertNextValue(role != VertexRole::unreferenced);
+    }
+  }
+  if (!problem.mesh.inserted.empty())
+  {
+    const Domain& refined = problem.mesh.domain;
+    bound.points = to_vtk_points(refined.points);
+    bound.cells = refined.is_volume()
+      ? to_unstructured_grid(refined.points, refined.tets)->GetCells()
+      : to_polydata(refined.points, refined.triangles)->GetPolys();
+    bound.inserted = problem.mesh.inserted;
+    bound.parent_cell = problem.mesh.parent_element;
+    if (!cell_of_element.empty())
+    {
+      for (Index& cell : bound.parent_cell)
+      {
+        cell = cell_of_element[cell];
+      }
+    }
+  }
+  return status;
+}
+
+Status vtkWeightsAlgorithm::Execute(
+  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+{
+  vtkPointSet* mesh = vtkPointSet::GetData(input[0]);
+  vtkPolyData* handles = vtkPolyData::GetData(input[1]);
+  vtkPointSet* result = vtkPointSet::GetData(output);
+  if (!mesh || !result)
+  {
+    return Status::invalid_input("there is no mesh");
+  }
+  if (!handles)
+  {
+    return Status::invalid_input("there is no handle");
+  }
+  BindKey key;
+  key.add(this->BindTime.GetMTime());
+  for (vtkObject* object : bind_objects(mesh, { this->RegionArrayName }))
+  {
+    key.add(object);
+  }
+  for (vtkObject* object : bind_objects(handles))
+  {
+    key.add(object);
+  }
+  const bool bind = !this->Bound->valid || this->Bound->key != key;
+  if (bind)
+  {
+    Cache made;
+    const Status status = this->Bind(mesh, handles, context, made);
+    if (!status.usable())
+    {
+      return status;
+    }
+    made.status = status;
+    // The report of a bind stays whole while the bind holds.
+    made.status.report.merge(context.seconds());
+    made.key = key;
+    made.valid = true;
+    *this->Bound = std::move(made);
+    this->NumberOfBinds += 1;
+  }
+  if (this->Bound->points)
+  {
+    this->Bound->refine(mesh, result);
+  }
+  else
+  {
+    result->ShallowCopy(mesh);
+  }
+  this->Bound->add_arrays(result);
+
+  Status status = this->Bound->status;
+  status.report.set("binds", this->NumberOfBinds);
+  if (!bind && !status.warnings.empty())
+  {
+    // A bind's warnings are said once, when it is made; the report keeps them.
+    status.report.set("warnings[]", status.warnings);
+    status.warnings.clear();
+  }
+  return status;
+}
+
+void vtkWeightsAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
+  os << indent << "RegionArrayName: " << this->RegionArrayName << "\n";
+  os << indent << "KeepMesh: " << (this->KeepMesh ? "on" : "off") << "\n";
+  os << indent << "NumberOfBinds: " << this->NumberOfBinds << "\n";
+}

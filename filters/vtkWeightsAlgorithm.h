@@ -1,0 +1,136 @@
+/**
+ * @class   vtkWeightsAlgorithm
+ * @brief   what the filters that compute weights share: ports, arrays, bind cache
+ *
+ * Weights tell how much each handle moves each vertex. A subclass says which: bounded biharmonic,
+ * monotone, or without bounds.
+ *
+ * **Input 0**: the mesh, a vtkUnstructuredGrid of tets (of positive volume) or a triangle surface
+ * (vtkPolyData or grid with 2D cells; polygons are split for the computation).
+ * **Input 1**: the handles, a vtkPolyData (see filters/README.md): points, bones and regions. They
+ * may lie anywhere. Regions need an integer point array of labels on the mesh (RegionArrayName).
+ * **Output**: input 0 with the double point array `Weights`, a component a handle, named after it;
+ * rows sum to one. Handles that are no vertices become some: the cells around them are split, new
+ * points are added behind the mesh's own (point arrays are interpolated; labels are kept where all
+ * around agree, else 0; OriginalPointIds is -1), and the output then has nothing but tets or
+ * triangles. KeepMesh leaves the mesh as it is and takes the corners of the cell that holds a
+ * handle instead.
+ *
+ * **Certificate**, in field data, a value a column, of the columns as solved for (before rows are
+ * divided by their sums): `WeightsRelativeGap` (how far the energy is above its minimum at most, as
+ * a share), `WeightsKKTResidual`, `WeightsMinimum`, `WeightsMaximum`, `WeightsInteriorExtrema`
+ * (local extrema away from handles with a persistence above 1e-3), and `WeightsRowSumError`.
+ *
+ * Vertices in no cell get rows of zeros, and the unsigned char point array `WeightsMask` is 0 there
+ * (it is present only then). A connected part without a handle follows the nearest one, with a
+ * warning. Handles outside are moved to the nearest place of the mesh, with a warning.
+ *
+ * **Bind cache.** The weights are kept while the mesh's points and cells, its labels, the handles'
+ * rest (points, cells, names, kinds) and this filter's parameters stay: editing Transform, Mode,
+ * Stretch or Twist of the handles never solves again and hands on the same array objects.
+ * GetNumberOfBinds() counts.
+ *
+ * Report: method, binds, counts.{vertices, tets | triangles, handles, components,
+ * inserted_vertices}, handles[].{name, kind, constrained_vertices, distance_outside, relative_gap,
+ * kkt_residual, energy, iterations, factorisations, interior_extrema}, relative_gap and
+ * kkt_residual (the worst column's), bounds_violation, row_sum_error, largest_snap (in edge
+ * lengths), iterations, seconds.{insert, analyse, weights} and, summed over handles, which are
+ * solved at the same time, seconds.{factor, solve}.
+ *
+ * Status not_converged (with the result) when a column misses Tolerance within MaximumIterations.
+ * Errors: empty or invalid mesh, tets without volume, no handles, two at the same place, a region
+ * whose label no vertex has.
+ */
+
+#ifndef vtkWeightsAlgorithm_h
+#define vtkWeightsAlgorithm_h
+
+#include "BindposeFiltersModule.h" // for export macro
+#include "vtkBindposeAlgorithm.h"
+#include <memory> // for std::unique_ptr
+
+namespace bindpose
+{
+struct WeightsOptions;
+struct WeightsProblem;
+struct WeightsResult;
+} // namespace bindpose
+
+class BINDPOSEFILTERS_EXPORT vtkWeightsAlgorithm : public vtkBindposeAlgorithm
+{
+public:
+  vtkAbstractTypeMacro(vtkWeightsAlgorithm, vtkBindposeAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /**
+   * Largest relative gap and residual of a column, in (0, 1). Default 1e-6; 1e-9 is tight. All
+   * parameters here are bind parameters.
+   */
+  void SetTolerance(double tolerance);
+  vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /// Iterations a column, each a factorisation, at least 1. Default 100; 10 to 30 are usual.
+  void SetMaximumIterations(int iterations);
+  vtkGetMacro(MaximumIterations, int);
+  ///@}
+
+  ///@{
+  /// Name of the mesh's point array of region labels (0: free). Default "RegionId".
+  void SetRegionArrayName(const std::string& name);
+  std::string GetRegionArrayName() { return this->RegionArrayName; }
+  ///@}
+
+  ///@{
+  /// Whether the mesh stays as it is. Default off: handles become vertices.
+  void SetKeepMesh(bool keep);
+  vtkGetMacro(KeepMesh, bool);
+  vtkBooleanMacro(KeepMesh, bool);
+  ///@}
+
+  /// How often weights were solved for.
+  vtkGetMacro(NumberOfBinds, int);
+
+  /// The handles: SetInputData(1, handles).
+  void SetHandlesData(vtkDataObject* handles) { this->SetInputData(1, handles); }
+  void SetHandlesConnection(vtkAlgorithmOutput* handles) { this->SetInputConnection(1, handles); }
+
+protected:
+  vtkWeightsAlgorithm();
+  ~vtkWeightsAlgorithm() override;
+
+  /// Computes the weights of a mesh whose handles are vertices.
+  virtual bindpose::Status Solve(const bindpose::WeightsProblem& problem,
+    const bindpose::WeightsOptions& options, bindpose::ExecutionContext& context,
+    bindpose::WeightsResult& result) = 0;
+
+  /// Setters call this: all parameters of these filters belong to the bind.
+  void BindModified();
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
+    bindpose::ExecutionContext& context) override;
+
+private:
+  vtkWeightsAlgorithm(const vtkWeightsAlgorithm&) = delete;
+  void operator=(const vtkWeightsAlgorithm&) = delete;
+
+  struct Cache;
+  bindpose::Status Bind(
+    vtkDataSet* mesh, vtkDataObject* handles, bindpose::ExecutionContext& context, Cache& bound);
+
+  double Tolerance = 1e-6;
+  int MaximumIterations = 100;
+  std::string RegionArrayName = "RegionId";
+  bool KeepMesh = false;
+  int NumberOfBinds = 0;
+  vtkTimeStamp BindTime;
+  std::unique_ptr<Cache> Bound;
+};
+
+#endif

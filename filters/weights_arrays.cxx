@@ -1,0 +1,117 @@
+#include "weights_arrays.h"
+
+#include "conversion.h"
+
+#include "vtkCell.h"
+#include "vtkCellTypes.h"
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr const char* certificate_suffixes[] = { "RelativeGap", "KKTResidual", "Minimum", "Maximum",
+  "InteriorExtrema", "RowSumError" };
+
+bool has_volume_cell(vtkUnstructuredGrid* grid)
+{
+  vtkNew<vtkCellTypes> types;
+  grid->GetCellTypes(types);
+  for (vtkIdType i = 0; i < types->GetNumberOfTypes(); ++i)
+  {
+    // Linear cells of three dimensions are numbered from VTK_TETRA on.
+    const int type = types->GetCellType(i);
+    if (type >= VTK_TETRA && type <= VTK_HEXAGONAL_PRISM)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+} // namespace
+
+Status to_domain(vtkDataSet* data, Domain& domain, std::vector<Index>& cell_of_element)
+{
+  domain = Domain();
+  cell_of_element.clear();
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
+  if (grid && has_volume_cell(grid))
+  {
+    TetInput tets;
+    Status status = to_tets(grid, tets);
+    if (status.ok())
+    {
+      domain.points = tets.points.view();
+      domain.tets = tets.tets.view();
+    }
+    return status;
+  }
+  SurfaceInput surface;
+  Status status = to_surface(data, surface);
+  if (status.ok())
+  {
+    domain.points = surface.points.view();
+    domain.triangles = surface.triangles.view();
+    cell_of_element = std::move(surface.cell_of_triangle);
+  }
+  return status;
+}
+
+vtkSmartPointer<vtkDoubleArray> to_weights_array(
+  const std::string& name, const Weights& weights, const Handles& handles)
+{
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName(name.c_str());
+  array->SetNumberOfComponents(static_cast<int>(weights.cols()));
+  for (std::size_t j = 0; j < handles.size(); ++j)
+  {
+    array->SetComponentName(static_cast<vtkIdType>(j), handles[j].name.c_str());
+  }
+  array->SetNumberOfTuples(weights.rows());
+  std::copy(weights.data(), weights.data() + weights.size(), array->GetPointer(0));
+  return array;
+}
+
+std::vector<vtkSmartPointer<vtkDoubleArray>> to_certificate_arrays(
+  const std::string& name, const WeightsResult& result)
+{
+  std::vector<vtkSmartPointer<vtkDoubleArray>> arrays;
+  for (const char* suffix : certificate_suffixes)
+  {
+    arrays.push_back(vtkSmartPointer<vtkDoubleArray>::New());
+    arrays.back()->SetName((name + suffix).c_str());
+  }
+  for (const WeightsColumn& column : result.columns)
+  {
+    arrays[0]->InsertNextValue(column.certificate.relative_gap);
+    arrays[1]->InsertNextValue(column.certificate.kkt_residual);
+    arrays[2]->InsertNextValue(column.minimum);
+    arrays[3]->InsertNextValue(column.maximum);
+    arrays[4]->InsertNextValue(static_cast<double>(column.interior_extrema));
+  }
+  arrays[5]->InsertNextValue(result.row_sum_error);
+  return arrays;
+}
+
+void pass_certificates(vtkFieldData* from, vtkFieldData* to, const std::string& name)
+{
+  for (const char* suffix : certificate_suffixes)
+  {
+    const std::string full = name + suffix;
+    to->RemoveArray(full.c_str());
+    if (vtkAbstractArray* array = from->GetAbstractArray(full.c_str()))
+    {
+      to->AddArray(array);
+    }
+  }
+}
+
+} // namespace bindpose

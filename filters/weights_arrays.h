@@ -1,0 +1,39 @@
+#ifndef weights_arrays_h
+#define weights_arrays_h
+
+#include "weights/domain.h"
+#include "weights/weights_problem.h"
+
+#include "vtkSmartPointer.h"
+
+#include <string>
+#include <vector>
+
+class vtkDataSet;
+class vtkDoubleArray;
+class vtkFieldData;
+
+namespace bindpose
+{
+
+/// What weights live on: the tets of an unstructured grid that has a volume cell, else the 2D cells
+/// of a polydata or grid as triangles. Coordinates and ids are checked.
+/// @param cell_of_element the cell that each element comes from, when that is not its own number.
+Status to_domain(vtkDataSet* data, Domain& domain, std::vector<Index>& cell_of_element);
+
+/// The array of weights: a component a handle, named after it.
+vtkSmartPointer<vtkDoubleArray> to_weights_array(
+  const std::string& name, const Weights& weights, const Handles& handles);
+
+/// The certificates of a weights array as arrays of a value a column: NAME followed by RelativeGap,
+/// KKTResidual, Minimum, Maximum, InteriorExtrema, and RowSumError (one value).
+std::vector<vtkSmartPointer<vtkDoubleArray>> to_certificate_arrays(
+  const std::string& name, const WeightsResult& result);
+
+/// Hands the certificates of a weights array on from one dataset's field data to another's; what
+/// the other had of that name goes.
+void pass_certificates(vtkFieldData* from, vtkFieldData* to, const std::string& name);
+
+} // namespace bindpose
+
+#endif

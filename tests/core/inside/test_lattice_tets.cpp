@@ -1,0 +1,200 @@
+#include "inside/lattice_tets.h"
+
+#include "inside/tet_quality.h"
+
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace bindpose;
+
+namespace
+{
+TetMesh stuffed(const TriangleMesh& mesh, Index resolution, int threads = 0)
+{
+  ExecutionContext context;
+  context.set_threads(threads);
+  const WindingNumber winding(mesh.points, mesh.triangles);
+  const Box box = bounding_box(mesh.points, mesh.triangles);
+  TetMesh tets;
+  const Status status =
+    stuff_lattice(winding, Lattice::around(box, resolution), box, 0.5, tets, context);
+  EXPECT_TRUE(status.ok()) << status.message;
+  return tets;
+}
+
+TetMesh covered(const TriangleMesh& mesh, Index resolution, int threads = 0)
+{
+  ExecutionContext context;
+  context.set_threads(threads);
+  const WindingNumber winding(mesh.points, mesh.triangles);
+  const Lattice lattice = Lattice::around(bounding_box(mesh.points, mesh.triangles), resolution);
+  TetMesh tets;
+  const Status status =
+    cover_lattice(mesh.points, mesh.triangles, winding, lattice, 0.5, tets, context);
+  EXPECT_TRUE(status.ok()) << status.message;
+  return tets;
+}
+
+/// Vertices - edges + facets - tets.
+Index euler_characteristic(const TetMesh& mesh)
+{
+  constexpr int facet[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
+  Triangles facets(4 * mesh.tets.rows(), 3);
+  for (Index t = 0; t < mesh.tets.rows(); ++t)
+  {
+    for (int f = 0; f < 4; ++f)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        facets(4 * t + f, k) = mesh.tets(t, facet[f][k]);
+      }
+    }
+  }
+  const auto edges = static_cast<Index>(mesh_edges(facets).size());
+  const Index boundary = boundary_triangles(mesh.tets).rows();
+  return mesh.points.rows() - edges + (4 * mesh.tets.rows() + boundary) / 2 - mesh.tets.rows();
+}
+
+bool inside_some_tet(const TetMesh& mesh, const Vec3& p)
+{
+  for (Index t = 0; t < mesh.tets.rows(); ++t)
+  {
+    Eigen::Matrix3d m;
+    const Vec3 a = mesh.points.row(mesh.tets(t, 0));
+    for (int k = 0; k < 3; ++k)
+    {
+      m.col(k) = mesh.points.row(mesh.tets(t, k + 1)).transpose() - a;
+    }
+    const Vec3 x = m.inverse() * (p - a);
+    if (x.minCoeff() >= -1e-9 && x.sum() <= 1.0 + 1e-9)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+} // namespace
+
+TEST(LatticeTets, StuffingHasGoodAnglesAndTheRightVolume)
+{
+  const TriangleMesh sphere = test::sphere(3);
+  const double volume = signed_volume(sphere.points, sphere.triangles);
+  double last_error = 1.0;
+  for (const Index resolution : { 8, 16, 32 })
+  {
+    const TetMesh mesh = stuffed(sphere, resolution);
+    ASSERT_TRUE(check_tets(mesh.points, mesh.tets).ok());
+    const TetQuality quality = measure_tets(mesh.points, mesh.tets);
+    EXPECT_GT(quality.min_volume, 0.0);
+    EXPECT_EQ(quality.boundary_edges_open, 0);
+    EXPECT_GE(quality.min_dihedral_angle, 10.7) << "bound proved by Labelle and Shewchuk";
+    const double error = std::abs(quality.volume - volume) / volume;
+    EXPECT_LT(error, 0.6 * last_error) << resolution;
+    last_error = error;
+    EXPECT_EQ(euler_characteristic(mesh), 1) << "a ball";
+  }
+  EXPECT_LT(last_error, 0.01);
+}
+
+TEST(LatticeTets, StuffingKeepsTheTopology)
+{
+  const TetMesh torus = stuffed(test::torus(48, 24, 1.0, 0.4), 24);
+  EXPECT_EQ(euler_characteristic(torus), 0);
+  const TetMesh shell =
+    stuffed(test::join(test::sphere(3), test::flipped(test::sphere(3, 0.5))), 24);
+  EXPECT_EQ(euler_characteristic(shell), 2) << "a ball with a cavity";
+  EXPECT_GE(measure_tets(shell.points, shell.tets).min_dihedral_angle, 10.7);
+}
+
+TEST(LatticeTets, StuffingBoundaryLiesOnTheSurface)
+{
+  const TriangleMesh sphere = test::sphere(4);
+  const TetMesh mesh = stuffed(sphere, 16);
+  const double cube = 2.0 / 16.0;
+  const Triangles skin = boundary_triangles(mesh.tets);
+  for (Index k = 0; k < skin.size(); ++k)
+  {
+    // Bisection to 1/256 of an edge; the subdivided sphere itself is 1e-3 inside the round one.
+    EXPECT_NEAR(mesh.points.row(skin.data()[k]).norm(), 1.0, cube / 256.0 + 3e-3);
+  }
+}
+
+TEST(LatticeTets, StuffingOfAnOpenCubeEndsAtItsOpening)
+{
+  const TetMesh mesh = stuffed(test::open_cube(), 16);
+  const TetQuality quality = measure_tets(mesh.points, mesh.tets);
+  EXPECT_NEAR(quality.volume, 8.0, 0.25) << "edges of the cube are cut off";
+  EXPECT_GE(quality.min_dihedral_angle, 10.7);
+}
+
+TEST(LatticeTets, NothingEnclosedGivesNothing)
+{
+  EXPECT_EQ(stuffed(test::grid(2, 2), 8).tets.rows(), 0);
+}
+
+TEST(LatticeTets, CoverHoldsEveryPointOfTheSurface)
+{
+  for (const TriangleMesh& surface :
+    { test::open_cube(), test::torus(24, 12, 1.0, 0.3), test::grid(3, 3) })
+  {
+    const TetMesh mesh = covered(surface, 10);
+    ASSERT_TRUE(check_tets(mesh.points, mesh.tets).ok());
+    EXPECT_NEAR(measure_tets(mesh.points, mesh.tets).min_dihedral_angle, 60.0, 1e-9);
+    test::Random random(2);
+    for (int round = 0; round < 60; ++round)
+    {
+      const Index t = random.below(surface.triangles.rows());
+      double s = random.uniform(), r = random.uniform();
+      s = s + r > 1.0 ? 1.0 - s : s;
+      r = s + r > 1.0 ? 1.0 - s : r;
+      const Vec3 a = surface.points.row(surface.triangles(t, 0));
+      const Vec3 b = surface.points.row(surface.triangles(t, 1));
+      const Vec3 c = surface.points.row(surface.triangles(t, 2));
+      EXPECT_TRUE(inside_some_tet(mesh, a + s * (b - a) + r * (c - a)));
+    }
+  }
+  // The inside is filled too.
+  EXPECT_TRUE(inside_some_tet(covered(test::cube(), 10), Vec3(0.1, 0.2, 0.3)));
+  EXPECT_GE(
+    tet_volumes(covered(test::cube(), 10).points, covered(test::cube(), 10).tets).sum(), 8.0);
+}
+
+TEST(LatticeTets, SameBitsForAnyNumberOfThreads)
+{
+  const TriangleMesh surface = test::torus(24, 12, 1.0, 0.4);
+  const TetMesh one = stuffed(surface, 16, 1), many = stuffed(surface, 16, 4);
+  EXPECT_EQ(one.points, many.points);
+  EXPECT_EQ(one.tets, many.tets);
+  const TetMesh cover_one = covered(surface, 12, 1), cover_many = covered(surface, 12, 4);
+  EXPECT_EQ(cover_one.points, cover_many.points);
+  EXPECT_EQ(cover_one.tets, cover_many.tets);
+}
+
+TEST(LatticeTets, MovesAndScalesWithTheSurface)
+{
+  const TriangleMesh surface = test::torus(24, 12, 1.0, 0.4);
+  TriangleMesh large = surface;
+  large.points *= 1024.0; // a power of two: the same bits
+  const TetMesh a = stuffed(surface, 12), b = stuffed(large, 12);
+  EXPECT_EQ(a.tets, b.tets);
+  EXPECT_EQ(Points(1024.0 * a.points), b.points);
+}
+
+TEST(LatticeTets, CancelEndsSoon)
+{
+  const TriangleMesh mesh = test::sphere(4);
+  const WindingNumber winding(mesh.points, mesh.triangles);
+  const Box box = bounding_box(mesh.points, mesh.triangles);
+  ExecutionContext context;
+  context.request_cancel();
+  TetMesh tets;
+  EXPECT_EQ(stuff_lattice(winding, Lattice::around(box, 60), box, 0.5, tets, context).code,
+    StatusCode::cancelled);
+  EXPECT_EQ(cover_lattice(
+              mesh.points, mesh.triangles, winding, Lattice::around(box, 60), 0.5, tets, context)
+              .code,
+    StatusCode::cancelled);
+}

@@ -1,0 +1,366 @@
+// The helper process: what it gives, and what is left of it when it fails.
+#include "inside/mesher_process.h"
+
+#include "inside/tet_quality.h"
+#include "inside/triangle_tree.h"
+
+#include "support/files.h"
+#include "support/meshes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <thread>
+
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+using namespace bindpose;
+using testing::HasSubstr;
+
+namespace
+{
+/// Sets an environment variable for the life of a test.
+class Environment
+{
+public:
+  Environment(const char* name, const std::string& value) : name_(name)
+  {
+    const char* before = std::getenv(name);
+    this->had_ = before != nullptr;
+    this->before_ = before ? before : "";
+    ::setenv(name, value.c_str(), 1);
+  }
+  ~Environment()
+  {
+    if (this->had_)
+    {
+      ::setenv(this->name_, this->before_.c_str(), 1);
+    }
+    else
+    {
+      ::unsetenv(this->name_);
+    }
+  }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+private:
+  const char* name_;
+  bool had_ = false;
+  std::string before_;
+};
+
+std::size_t open_descriptors()
+{
+  const auto files = std::filesystem::directory_iterator("/proc/self/fd");
+  return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+}
+
+/// A shell script in the helper's place; also watches that nothing is left behind.
+class FakeHelper
+{
+public:
+  explicit FakeHelper(const std::string& script)
+    : path_(this->scripts_.write("bindpose-mesher", "#!/bin/sh\n" + script)),
+      helper_("BINDPOSE_MESHER", this->path_), temporary_("TMPDIR", this->empty_.path())
+  {
+    ::chmod(this->path_.c_str(), 0755);
+    this->descriptors_ = open_descriptors();
+  }
+  ~FakeHelper()
+  {
+    EXPECT_EQ(open_descriptors(), this->descriptors_) << "a file or pipe was left open";
+    EXPECT_EQ(this->empty_.number_of_files(), 0u) << "a temporary file was left";
+  }
+
+  Status run(double time_limit = 10.0, ExecutionContext* context = nullptr)
+  {
+    ExecutionContext own;
+    MesherRequest request{ { "refine" }, time_limit, 0 };
+    MesherData input;
+    input.points = test::cube().points;
+    input.triangles = test::cube().triangles;
+    return run_mesher(request, input, this->answer, context ? *context : own);
+  }
+  /// The process id that the script wrote into the file "pid" beside it.
+  pid_t script_process() const { return std::atoi(this->scripts_.read("pid").c_str()); }
+
+  MesherAnswer answer;
+
+private:
+  test::Folder scripts_;
+  test::Folder empty_;
+  std::string path_;
+  Environment helper_;
+  Environment temporary_;
+  std::size_t descriptors_ = 0;
+};
+
+constexpr const char* write_process = "echo $$ > \"$(dirname \"$0\")/pid\"\n";
+
+double seconds_since(std::chrono::steady_clock::time_point start)
+{
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+Status run_real(
+  const std::vector<std::string>& arguments, const TriangleMesh& mesh, MesherAnswer& answer)
+{
+  ExecutionContext context;
+  MesherData input;
+  input.points = mesh.points;
+  input.triangles = mesh.triangles;
+  return run_mesher({ arguments, 60.0, 0 }, input, answer, context);
+}
+} // namespace
+
+TEST(MesherProcess, MissingHelperNamesItsPackages)
+{
+  ExecutionContext context;
+  MesherAnswer answer;
+  {
+    const Environment helper("BINDPOSE_MESHER", "/nowhere/bindpose-mesher");
+    EXPECT_TRUE(find_mesher().empty());
+    const Status status = run_mesher({ { "refine" }, 1.0, 0 }, {}, answer, context);
+    EXPECT_EQ(status.code, StatusCode::unavailable);
+    EXPECT_THAT(status.message, HasSubstr("/nowhere/bindpose-mesher"));
+  }
+  if (find_mesher().empty())
+  {
+    const Status status = run_mesher({ { "refine" }, 1.0, 0 }, {}, answer, context);
+    EXPECT_EQ(status.code, StatusCode::unavailable);
+    EXPECT_THAT(status.message, HasSubstr("libcgal-dev"));
+    EXPECT_THAT(status.message, HasSubstr("libtet1.5-dev"));
+  }
+}
+
+TEST(MesherProcess, CopiesThroughAnHonestHelper)
+{
+  // The record comes back as it went, exactly.
+  FakeHelper helper("echo progress 0.5 >&2; echo report rounds 3 >&2; cat");
+  const Status status = helper.run();
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(helper.answer.data.points, test::cube().points);
+  EXPECT_EQ(helper.answer.data.triangles, test::cube().triangles);
+  EXPECT_EQ(helper.answer.report.number("rounds", 0), 3.0);
+}
+
+TEST(MesherProcess, ProgressReachesTheContext)
+{
+  std::vector<double> seen;
+  ExecutionContext context(
+    [&](double fraction, const std::string&) { seen.push_back(fraction); }, {});
+  FakeHelper helper("sleep 0.1; echo progress 0.25 >&2; sleep 0.1; echo progress 0.75 >&2; cat");
+  EXPECT_TRUE(helper.run(10.0, &context).ok());
+  ASSERT_EQ(seen.size(), 2u);
+  EXPECT_DOUBLE_EQ(seen[0], 0.25);
+  EXPECT_DOUBLE_EQ(seen[1], 0.75);
+}
+
+TEST(MesherProcess, DeathIsAStatus)
+{
+  FakeHelper helper("echo 'last words' >&2; kill -SEGV $$");
+  const Status status = helper.run();
+  EXPECT_EQ(status.code, StatusCode::internal_error);
+  EXPECT_THAT(status.message, HasSubstr("signal 11"));
+  EXPECT_THAT(status.message, HasSubstr("last words"));
+  FakeHelper killed("kill -KILL $$");
+  EXPECT_THAT(killed.run().message, HasSubstr("signal 9"));
+}
+
+TEST(MesherProcess, ErrorsAreTheHelpersOwnWords)
+{
+  FakeHelper helper("echo 'error too many pieces' >&2; exit 1");
+  EXPECT_THAT(helper.run().message, HasSubstr("too many pieces"));
+  FakeHelper silent("exit 7");
+  EXPECT_THAT(silent.run().message, HasSubstr("code 7"));
+}
+
+TEST(MesherProcess, GarbageIsNoMesh)
+{
+  for (const char* script : { "echo garbage", "true", "head -c 40", "cat; echo more",
+         "head -c 100; head -c 100000 /dev/zero" })
+  {
+    FakeHelper helper(script);
+    const Status status = helper.run();
+    EXPECT_EQ(status.code, StatusCode::internal_error) << script;
+    EXPECT_THAT(status.message, HasSubstr("no readable mesh")) << script;
+  }
+}
+
+TEST(MesherProcess, RecordsAreChecked)
+{
+  const auto survives = [](const MesherData& data)
+  {
+    const int file = ::memfd_create("test", 0);
+    EXPECT_TRUE(write_mesher_data(file, data));
+    ::lseek(file, 0, SEEK_SET);
+    MesherData back;
+    const bool whole = read_mesher_data(file, back);
+    ::close(file);
+    return whole && back.points == data.points && back.tets == data.tets &&
+      back.regions == data.regions && back.largest_volumes == data.largest_volumes;
+  };
+  MesherData data;
+  EXPECT_TRUE(survives(data));
+  const TetMesh box = test::tet_box(2, 2, 2);
+  data.points = box.points;
+  data.tets = box.tets;
+  data.regions.assign(static_cast<std::size_t>(box.tets.rows()), 4);
+  data.largest_volumes.assign(data.regions.size(), 0.5);
+  EXPECT_TRUE(survives(data));
+  data.tets(3, 2) = box.points.rows();
+  EXPECT_FALSE(survives(data)) << "an id out of range";
+  data.tets = box.tets;
+  data.points(5, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(survives(data)) << "not a number";
+  data.points = box.points;
+  data.regions.pop_back();
+  EXPECT_FALSE(survives(data)) << "one region too few";
+}
+
+TEST(MesherProcess, TimeLimitKillsTheHelper)
+{
+  FakeHelper helper(std::string(write_process) + "exec sleep 60");
+  const auto start = std::chrono::steady_clock::now();
+  const Status status = helper.run(0.3);
+  EXPECT_LT(seconds_since(start), 5.0);
+  EXPECT_EQ(status.code, StatusCode::internal_error);
+  EXPECT_THAT(status.message, HasSubstr("time limit of 0.3 s"));
+  ASSERT_GT(helper.script_process(), 0);
+  EXPECT_NE(::kill(helper.script_process(), 0), 0) << "still running";
+}
+
+TEST(MesherProcess, CancelKillsTheHelperAtOnce)
+{
+  FakeHelper helper(std::string(write_process) + "exec sleep 60");
+  ExecutionContext context;
+  std::chrono::steady_clock::time_point asked;
+  std::thread user(
+    [&]
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(300));
+      asked = std::chrono::steady_clock::now();
+      context.request_cancel();
+    });
+  const Status status = helper.run(60.0, &context);
+  const double waited = seconds_since(asked);
+  user.join();
+  EXPECT_EQ(status.code, StatusCode::cancelled);
+  EXPECT_LT(waited, 0.2);
+  ASSERT_GT(helper.script_process(), 0);
+  EXPECT_NE(::kill(helper.script_process(), 0), 0) << "still running";
+  // Cancelled before it starts: it does not.
+  EXPECT_EQ(helper.run(60.0, &context).code, StatusCode::cancelled);
+}
+
+TEST(MesherProcess, ADetachedGrandchildDoesNotHang)
+{
+  FakeHelper helper("(sleep 3) & cat");
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_TRUE(helper.run().ok());
+  EXPECT_LT(seconds_since(start), 2.5);
+}
+
+// ---- The real helper
+// -----------------------------------------------------------------------------
+
+class RealHelper : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    if (find_mesher().empty())
+    {
+      GTEST_SKIP() << "bindpose-mesher is not built: libcgal-dev, libtet1.5-dev";
+    }
+  }
+};
+
+TEST_F(RealHelper, RefinesUntilNothingCrosses)
+{
+  const TriangleMesh two = test::join(test::sphere(2), test::sphere(2, 1.0, Vec3(0.7, 0.31, 0.17)));
+  const TriangleMesh open =
+    test::join(test::open_cube(), test::translated(test::open_cube(), Vec3(0.5, 0.25, 0.125)));
+  const TriangleMesh coplanar =
+    test::join(test::cube(), test::translated(test::cube(), Vec3(1, 1, 0)));
+  for (const TriangleMesh& mesh : { two, open, coplanar })
+  {
+    MesherAnswer answer;
+    const Status status = run_real({ "refine" }, mesh, answer);
+    ASSERT_TRUE(status.ok()) << status.message;
+    const MesherData& refined = answer.data;
+    EXPECT_GT(refined.triangles.rows(), mesh.triangles.rows());
+    EXPECT_EQ(refined.points.topRows(mesh.points.rows()), mesh.points) << "vertices keep their ids";
+    // Twin: our own exact predicates find nothing that crosses, and as many pairs as CGAL before.
+    ExecutionContext context;
+    std::vector<std::pair<Index, Index>> pairs;
+    ASSERT_TRUE(crossing_pairs(refined.points, refined.triangles, pairs, context));
+    EXPECT_EQ(pairs.size(), 0u);
+    ASSERT_TRUE(crossing_pairs(mesh.points, mesh.triangles, pairs, context));
+    EXPECT_EQ(answer.report.number("counts.self_intersections", -1), pairs.size());
+    EXPECT_FALSE(
+      count_edges(refined.triangles).boundary > count_edges(mesh.triangles).boundary + 60);
+  }
+  MesherAnswer answer;
+  ASSERT_TRUE(run_real({ "refine" }, two, answer).ok());
+  // Nothing coplanar: every triangle is only cut.
+  EXPECT_NEAR(surface_area(answer.data.points, answer.data.triangles),
+    surface_area(two.points, two.triangles), 1e-12);
+  EXPECT_NEAR(signed_volume(answer.data.points, answer.data.triangles),
+    signed_volume(two.points, two.triangles), 1e-12);
+}
+
+TEST_F(RealHelper, CleanSurfacesAreLeftAlone)
+{
+  MesherAnswer answer;
+  ASSERT_TRUE(run_real({ "refine" }, test::torus(12, 8, 1.0, 0.4), answer).ok());
+  EXPECT_EQ(answer.data.points, test::torus(12, 8, 1.0, 0.4).points);
+  EXPECT_EQ(answer.data.triangles, test::torus(12, 8, 1.0, 0.4).triangles);
+}
+
+TEST_F(RealHelper, FillsACube)
+{
+  for (const std::vector<std::string>& job :
+    { std::vector<std::string>{ "tetgen", "--switches", "pYA" },
+      std::vector<std::string>{ "delaunay" } })
+  {
+    MesherAnswer answer;
+    const Status status = run_real(job, test::cube(), answer);
+    ASSERT_TRUE(status.ok()) << status.message;
+    EXPECT_NEAR(tet_volumes(answer.data.points, answer.data.tets).sum(), 8.0, 1e-14);
+    EXPECT_TRUE(check_tets(answer.data.points, answer.data.tets).ok());
+  }
+}
+
+TEST_F(RealHelper, WhatCrashesTetgenIsAStatus)
+{
+  // Two crossing triangles and nothing else, unrefined.
+  TriangleMesh mesh = test::join(test::sphere(2), test::sphere(2, 1.0, Vec3(0.7, 0.31, 0.17)));
+  MesherAnswer answer;
+  EXPECT_EQ(
+    run_real({ "tetgen", "--switches", "pY" }, mesh, answer).code, StatusCode::internal_error);
+  // Open: no tets.
+  EXPECT_FALSE(run_real({ "tetgen", "--switches", "pY" }, test::open_cube(), answer).ok());
+  EXPECT_FALSE(run_real({ "delaunay" }, test::grid(2, 2), answer).ok());
+  EXPECT_THAT(run_real({ "dance" }, mesh, answer).message, HasSubstr("unknown job"));
+}
+
+TEST_F(RealHelper, MemoryLimitIsKept)
+{
+  ExecutionContext context;
+  MesherData input;
+  const TriangleMesh mesh = test::sphere(6);
+  input.points = mesh.points;
+  input.triangles = mesh.triangles;
+  MesherAnswer answer;
+  const Status status = run_mesher({ { "refine" }, 60.0, 48 }, input, answer, context);
+  EXPECT_EQ(status.code, StatusCode::internal_error);
+  EXPECT_THAT(status.message, HasSubstr("memory limit of 48 MiB"));
+}

@@ -1,0 +1,383 @@
+#include "inside/surface_repair.h"
+
+#include "inside/triangle_predicates.h"
+#include "inside/triangle_tree.h"
+
+#include "support/demo_meshes.h"
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace bindpose;
+
+namespace
+{
+SurfaceDiagnosis diagnose(const TriangleMesh& mesh)
+{
+  ExecutionContext context;
+  SurfaceDiagnosis diagnosis;
+  const Status status = diagnose_surface(mesh.points, mesh.triangles, diagnosis, context);
+  EXPECT_TRUE(status.ok()) << status.message;
+  return diagnosis;
+}
+
+RepairedSurface repair(const TriangleMesh& mesh, const RepairOptions& options = {})
+{
+  ExecutionContext context;
+  RepairedSurface repaired;
+  const Status status = repair_surface(mesh.points, mesh.triangles, options, repaired, context);
+  EXPECT_TRUE(status.ok()) << status.message;
+  return repaired;
+}
+
+/// Every triangle with corners of its own, as in an STL file.
+TriangleMesh unwelded(const TriangleMesh& mesh)
+{
+  TriangleMesh soup;
+  soup.points.resize(mesh.triangles.size(), 3);
+  soup.triangles.resize(mesh.triangles.rows(), 3);
+  for (Index k = 0; k < mesh.triangles.size(); ++k)
+  {
+    soup.points.row(k) = mesh.points.row(mesh.triangles.data()[k]);
+    soup.triangles.data()[k] = k;
+  }
+  return soup;
+}
+} // namespace
+
+TEST(SurfaceRepair, CleanSurfacesAreClean)
+{
+  for (const TriangleMesh& mesh :
+    { test::cube(), test::sphere(2), test::torus(16, 8, 1.0, 0.4), test::grid(1, 1) })
+  {
+    const SurfaceDiagnosis found = diagnose(mesh);
+    EXPECT_EQ(found.vertices, mesh.points.rows());
+    EXPECT_EQ(found.triangles, mesh.triangles.rows());
+    EXPECT_EQ(found.duplicate_vertices + found.unreferenced_vertices + found.degenerate_triangles +
+        found.duplicate_triangles + found.nonmanifold_edges + found.misoriented_edges +
+        found.inward_components + found.self_intersections,
+      0);
+    EXPECT_EQ(found.components, 1);
+  }
+  EXPECT_TRUE(repair(test::cube()).clean());
+  EXPECT_FALSE(repair(test::grid(2, 2)).clean());
+  EXPECT_TRUE(diagnose(test::grid(2, 2)).flat);
+  EXPECT_FALSE(diagnose(test::cube()).flat);
+}
+
+TEST(SurfaceRepair, WeldsEqualVerticesAndRemembersThem)
+{
+  const TriangleMesh cube = test::cube();
+  const RepairedSurface repaired = repair(unwelded(cube));
+  EXPECT_EQ(repaired.points.rows(), 8);
+  EXPECT_EQ(repaired.found.duplicate_vertices, 36 - 8);
+  EXPECT_EQ(repaired.found.boundary_edges, 0);
+  EXPECT_TRUE(repaired.clean());
+  const TriangleMesh soup = unwelded(cube);
+  for (Index v = 0; v < 8; ++v)
+  {
+    EXPECT_EQ(repaired.points.row(v), soup.points.row(repaired.original_vertices[v]));
+  }
+  EXPECT_NEAR(signed_volume(repaired.points, repaired.triangles), 8.0, 1e-14);
+  // Minus zero is zero.
+  TriangleMesh signs = test::cube(0.0, 1.0);
+  signs = unwelded(signs);
+  signs.points.row(0) *= -1.0;
+  EXPECT_EQ(repair(signs).points.rows(), 8);
+}
+
+TEST(SurfaceRepair, DropsWhatHasNoAreaAndStrayVertices)
+{
+  TriangleMesh mesh = test::cube();
+  mesh.points.conservativeResize(10, 3);
+  mesh.points.row(8) << 0.0, 0.0, -1.0; // between vertices 0 and 3, on the diagonal
+  mesh.points.row(9).setConstant(std::numeric_limits<double>::quiet_NaN()); // nobody uses it
+  mesh.triangles.conservativeResize(14, 3);
+  mesh.triangles.row(12) << 0, 8, 3;
+  mesh.triangles.row(13) << 5, 5, 7;
+  const RepairedSurface repaired = repair(mesh);
+  EXPECT_EQ(repaired.found.degenerate_triangles, 2);
+  EXPECT_EQ(repaired.found.unreferenced_vertices, 1);
+  EXPECT_EQ(repaired.points.rows(), 8);
+  EXPECT_EQ(repaired.triangles.rows(), 12);
+  EXPECT_TRUE(repaired.clean());
+}
+
+TEST(SurfaceRepair, CountsOpenDoubledAndNonManifold)
+{
+  const SurfaceDiagnosis open = diagnose(test::open_cube());
+  EXPECT_EQ(open.boundary_edges, 4);
+  EXPECT_FALSE(open.closed);
+  const TriangleMesh cube = test::cube();
+  TriangleMesh doubled = cube;
+  doubled.triangles.resize(24, 3);
+  doubled.triangles << cube.triangles, cube.triangles;
+  const SurfaceDiagnosis twice = diagnose(doubled);
+  EXPECT_EQ(twice.duplicate_triangles, 12);
+  EXPECT_EQ(twice.nonmanifold_edges, 18);
+  EXPECT_TRUE(twice.closed);
+  EXPECT_EQ(twice.self_intersections, 0) << "a duplicate is not a crossing";
+}
+
+TEST(SurfaceRepair, TurnsTheSmallerPartOfAPatch)
+{
+  TriangleMesh mesh = test::sphere(3);
+  test::Random random(7);
+  Index turned = 0;
+  for (Index t = 0; t < mesh.triangles.rows(); ++t)
+  {
+    if (random.uniform() < 0.2)
+    {
+      std::swap(mesh.triangles(t, 1), mesh.triangles(t, 2));
+      ++turned;
+    }
+  }
+  const double volume = signed_volume(test::sphere(3).points, test::sphere(3).triangles);
+  const RepairedSurface repaired = repair(mesh);
+  EXPECT_EQ(repaired.turned_triangles, turned);
+  EXPECT_GT(repaired.found.misoriented_edges, 0);
+  EXPECT_TRUE(repaired.clean());
+  EXPECT_NEAR(signed_volume(repaired.points, repaired.triangles), volume, 1e-12);
+  RepairOptions as_it_is;
+  as_it_is.orient = false;
+  EXPECT_EQ(repair(mesh, as_it_is).triangles, mesh.triangles);
+}
+
+TEST(SurfaceRepair, OneSidedPatchesStay)
+{
+  // A Moebius strip of 12 squares.
+  TriangleMesh strip;
+  const int n = 12;
+  strip.points.resize(2 * n, 3);
+  strip.triangles.resize(2 * n, 3);
+  for (int i = 0; i < n; ++i)
+  {
+    const double angle = 2.0 * 3.14159265358979 * i / n;
+    const Vec3 around(std::cos(angle), std::sin(angle), 0.0);
+    const Vec3 across = std::cos(angle / 2) * around + std::sin(angle / 2) * Vec3(0, 0, 1);
+    strip.points.row(2 * i) = (around - 0.2 * across).transpose();
+    strip.points.row(2 * i + 1) = (around + 0.2 * across).transpose();
+    const Index a = 2 * i, b = 2 * i + 1;
+    const Index c = i + 1 < n ? 2 * i + 2 : 1, d = i + 1 < n ? 2 * i + 3 : 0;
+    strip.triangles.row(2 * i) << a, c, b;
+    strip.triangles.row(2 * i + 1) << b, c, d;
+  }
+  const RepairedSurface repaired = repair(strip);
+  EXPECT_EQ(repaired.turned_triangles, 0);
+  EXPECT_EQ(repaired.triangles, strip.triangles);
+}
+
+TEST(SurfaceRepair, InsideOutComponentsAreTurnedWithWhatLiesInThem)
+{
+  const TriangleMesh outer = test::sphere(2, 2.0);
+  const TriangleMesh inner = test::sphere(2, 1.0);
+  const double shell =
+    signed_volume(outer.points, outer.triangles) - signed_volume(inner.points, inner.triangles);
+  const TriangleMesh cavity = test::join(outer, test::flipped(inner));
+  EXPECT_EQ(diagnose(cavity).inward_components, 0) << "a cavity is not a mistake";
+  EXPECT_EQ(repair(cavity).turned_components, 0);
+  const RepairedSurface repaired = repair(test::flipped(cavity));
+  EXPECT_EQ(repaired.found.inward_components, 1);
+  EXPECT_EQ(repaired.turned_components, 1);
+  EXPECT_NEAR(signed_volume(repaired.points, repaired.triangles), shell, 1e-12);
+  // Two solids, one inside out.
+  const TriangleMesh far = test::translated(inner, Vec3(9, 0, 0));
+  const RepairedSurface two = repair(test::join(outer, test::flipped(far)));
+  EXPECT_EQ(two.turned_components, 1);
+  EXPECT_NEAR(signed_volume(two.points, two.triangles),
+    signed_volume(outer.points, outer.triangles) + signed_volume(inner.points, inner.triangles),
+    1e-12);
+}
+
+TEST(SurfaceRepair, SnappingWeldsWhatNearlyCoincides)
+{
+  TriangleMesh mesh = unwelded(test::sphere(2));
+  test::Random random(3);
+  for (Index k = 0; k < mesh.points.size(); ++k)
+  {
+    mesh.points.data()[k] += 1e-9 * random.uniform(-1.0, 1.0);
+  }
+  EXPECT_EQ(repair(mesh).found.boundary_edges, mesh.triangles.size());
+  RepairOptions options;
+  options.snap = 0x1p-20;
+  const RepairedSurface repaired = repair(mesh, options);
+  EXPECT_EQ(repaired.points.rows(), test::sphere(2).points.rows());
+  EXPECT_TRUE(repaired.clean());
+}
+
+TEST(SurfaceRepair, CountsCrossingsOfCubes)
+{
+  // A corner of one cube pokes into the other: three squares cross three squares. In all six pairs
+  // of squares that meet, the segment of the crossing is found in the triangles by brute force.
+  const TriangleMesh two =
+    test::join(test::cube(), test::translated(test::cube(), Vec3(1.03, 0.9, 0.85)));
+  Index pairs = 0;
+  for (Index f = 0; f < 24; ++f)
+  {
+    for (Index g = f + 1; g < 24; ++g)
+    {
+      pairs += triangles_cross(two.points, two.triangles, f, g);
+    }
+  }
+  EXPECT_GE(pairs, 6);
+  EXPECT_EQ(diagnose(two).self_intersections, pairs);
+  // Touching in a square, nothing shared by id: each triangle of one meets both of the other.
+  TriangleMesh touching =
+    test::join(test::cube(), test::translated(test::cube(), Vec3(2.0, 0.25, 0.25)));
+  EXPECT_GE(diagnose(touching).self_intersections, 4);
+  touching = test::join(test::cube(), test::translated(test::cube(), Vec3(2.0 + 1e-15, 3.0, 0.0)));
+  EXPECT_EQ(diagnose(touching).self_intersections, 0);
+}
+
+TEST(SurfaceRepair, CrossingsAreThoseOfThePlaneEquations)
+{
+  // Twin: random triangles in general position cross when an edge of one passes through the other,
+  // by solving for the point with doubles.
+  test::Random random(11);
+  const auto passes = [](const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c)
+  {
+    Eigen::Matrix3d m;
+    m << b - a, c - a, p - q;
+    const Vec3 x = m.inverse() * (p - a);
+    return x[0] >= 0 && x[1] >= 0 && x[0] + x[1] <= 1 && x[2] >= 0 && x[2] <= 1;
+  };
+  TriangleMesh mesh;
+  mesh.points.resize(6, 3);
+  mesh.triangles.resize(2, 3);
+  mesh.triangles << 0, 1, 2, 3, 4, 5;
+  int crossed = 0;
+  for (int round = 0; round < 2000; ++round)
+  {
+    std::array<Vec3, 6> p;
+    for (int v = 0; v < 6; ++v)
+    {
+      p[v] = random.in_box(Vec3::Zero(), Vec3::Ones());
+      mesh.points.row(v) = p[v];
+    }
+    bool expected = false;
+    for (int k = 0; k < 3; ++k)
+    {
+      expected = expected || passes(p[k], p[(k + 1) % 3], p[3], p[4], p[5]) ||
+        passes(p[3 + k], p[3 + (k + 1) % 3], p[0], p[1], p[2]);
+    }
+    EXPECT_EQ(triangles_cross(mesh.points, mesh.triangles, 0, 1), expected) << round;
+    crossed += expected;
+  }
+  EXPECT_GT(crossed, 100);
+}
+
+TEST(SurfaceRepair, SharedVerticesAndEdgesAreNoCrossing)
+{
+  TriangleMesh mesh;
+  mesh.points.resize(6, 3);
+  mesh.points << 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.3, 0.3, 0, 0.3, 0.3, 1;
+  mesh.triangles.resize(2, 3);
+  mesh.triangles << 0, 1, 2, 0, 1, 3; // a hinge
+  EXPECT_FALSE(triangles_cross(mesh.points, mesh.triangles, 0, 1));
+  mesh.triangles << 0, 1, 2, 0, 1, 4; // folded onto each other
+  EXPECT_TRUE(triangles_cross(mesh.points, mesh.triangles, 0, 1));
+  mesh.triangles << 0, 1, 2, 0, 3, 5; // one vertex, and a wall through the other
+  EXPECT_FALSE(triangles_cross(mesh.points, mesh.triangles, 0, 1));
+  mesh.triangles << 0, 1, 2, 0, 4, 5; // touches along a segment from the vertex
+  EXPECT_TRUE(triangles_cross(mesh.points, mesh.triangles, 0, 1));
+  mesh.triangles << 0, 1, 2, 3, 4, 5; // a vertex on the other's inside
+  EXPECT_TRUE(triangles_cross(mesh.points, mesh.triangles, 0, 1));
+}
+
+TEST(SurfaceRepair, ExactSigns)
+{
+  // The fourth point is on the plane but for the last bit.
+  const Vec3 a(0.1, 0.2, 0.3), b(1.1, 0.2, 0.3), c(0.1, 1.2, 0.3);
+  const double z = 0.3;
+  EXPECT_EQ(orientation_3d(a, b, c, Vec3(0.7, 0.6, z)), 0);
+  EXPECT_EQ(orientation_3d(a, b, c, Vec3(0.7, 0.6, std::nextafter(z, 1.0))), 1);
+  EXPECT_EQ(orientation_3d(a, b, c, Vec3(0.7, 0.6, std::nextafter(z, 0.0))), -1);
+  const double tiny = 0x1p-60;
+  EXPECT_EQ(orientation_3d(Vec3(1, 1, 1), Vec3(2, 2, 2), Vec3(3, 3, 3), Vec3(5, 4, 3)), 0);
+  EXPECT_TRUE(collinear(Vec3(1, 1, 1), Vec3(2, 2, 2), Vec3(3, 3, 3)));
+  EXPECT_FALSE(collinear(Vec3(1, 1, 1), Vec3(2, 2, 2), Vec3(3, 3, std::nextafter(3.0, 4.0))));
+  EXPECT_EQ(orientation_3d(Vec3(0, 0, 0), Vec3(tiny, 0, 0), Vec3(0, tiny, 0), Vec3(0, 0, tiny)), 1);
+  // Any even permutation keeps the sign, any odd one turns it.
+  test::Random random(5);
+  for (int round = 0; round < 200; ++round)
+  {
+    std::array<Vec3, 4> p;
+    for (Vec3& q : p)
+    {
+      q = random.in_box(Vec3::Zero(), Vec3::Ones());
+    }
+    p[3] = p[0] + (p[1] - p[0]) * 0.25 + (p[2] - p[0]) * 0.5; // next to the plane
+    const int sign = orientation_3d(p[0], p[1], p[2], p[3]);
+    EXPECT_EQ(orientation_3d(p[1], p[2], p[0], p[3]), sign);
+    EXPECT_EQ(orientation_3d(p[1], p[0], p[3], p[2]), sign);
+    EXPECT_EQ(orientation_3d(p[1], p[0], p[2], p[3]), -sign);
+    EXPECT_EQ(orientation_3d(p[0], p[1], p[3], p[2]), -sign);
+  }
+}
+
+TEST(SurfaceRepair, TreeDistancesAreBruteForce)
+{
+  const TriangleMesh mesh = test::torus(20, 10, 1.0, 0.4);
+  const TriangleTree tree(mesh.points, mesh.triangles);
+  test::Random random(13);
+  for (int round = 0; round < 200; ++round)
+  {
+    const Vec3 p = random.in_box(Vec3::Constant(-2.0), Vec3::Constant(2.0));
+    double nearest = 1e300;
+    for (Index t = 0; t < mesh.triangles.rows(); ++t)
+    {
+      const Vec3 a = mesh.points.row(mesh.triangles(t, 0));
+      const Vec3 b = mesh.points.row(mesh.triangles(t, 1));
+      const Vec3 c = mesh.points.row(mesh.triangles(t, 2));
+      nearest = std::min(nearest, (closest_point(p, a, b, c) - p).norm());
+      // Nothing of the triangle is nearer than its closest point.
+      const double s = random.uniform(), r = random.uniform();
+      const Vec3 q = s + r < 1 ? Vec3(a + s * (b - a) + r * (c - a)) : a;
+      EXPECT_GE((q - p).norm() + 1e-12, (closest_point(p, a, b, c) - p).norm());
+    }
+    EXPECT_DOUBLE_EQ(tree.distance(p, 10.0), nearest);
+    EXPECT_TRUE(std::isinf(tree.distance(p, 0.5 * nearest)));
+  }
+}
+
+TEST(SurfaceRepair, BadInputIsNamed)
+{
+  ExecutionContext context;
+  RepairedSurface repaired;
+  TriangleMesh mesh = test::cube();
+  mesh.points(3, 1) = std::numeric_limits<double>::infinity();
+  Status status = repair_surface(mesh.points, mesh.triangles, {}, repaired, context);
+  EXPECT_EQ(status.code, StatusCode::invalid_input);
+  EXPECT_NE(status.message.find("vertex 3"), std::string::npos) << status.message;
+  const SurfaceDiagnosis empty = diagnose(TriangleMesh{ Points(0, 3), Triangles(0, 3) });
+  EXPECT_EQ(empty.components, 0);
+  EXPECT_FALSE(empty.closed);
+}
+
+TEST(SurfaceRepair, ElephantAndCow)
+{
+  const TriangleMesh elephant = test::demo_mesh("elephant-with-holes.off");
+  const SurfaceDiagnosis open = diagnose(elephant);
+  EXPECT_FALSE(open.closed);
+  EXPECT_EQ(open.boundary_edges, count_edges(elephant.triangles).boundary);
+  EXPECT_EQ(open.self_intersections, 0);
+  const SurfaceDiagnosis cow = diagnose(test::demo_mesh("cow.off"));
+  EXPECT_TRUE(cow.closed);
+  EXPECT_EQ(cow.self_intersections, 89) << "as CGAL counts with exact predicates";
+}
+
+TEST(SurfaceRepair, SameForAnyNumberOfThreads)
+{
+  const TriangleMesh mesh = test::join(test::sphere(3), test::torus(24, 12, 0.8, 0.5));
+  ExecutionContext one, many;
+  one.set_threads(1);
+  many.set_threads(4);
+  RepairedSurface a, b;
+  ASSERT_TRUE(repair_surface(mesh.points, mesh.triangles, {}, a, one).ok());
+  ASSERT_TRUE(repair_surface(mesh.points, mesh.triangles, {}, b, many).ok());
+  EXPECT_EQ(a.crossings, b.crossings);
+  EXPECT_GT(a.crossings.size(), 0u);
+}

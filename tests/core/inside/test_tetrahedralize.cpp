@@ -1,0 +1,615 @@
+#include "inside/tetrahedralize.h"
+
+#include "inside/mesher_process.h"
+#include "inside/tet_quality.h"
+#include "inside/triangle_tree.h"
+#include "inside/winding_number.h"
+
+#include "support/demo_meshes.h"
+#include "support/files.h"
+#include "support/meshes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <thread>
+
+#include <sys/stat.h>
+
+using namespace bindpose;
+using testing::HasSubstr;
+
+namespace
+{
+struct Outcome
+{
+  TetrahedralizeResult result;
+  Status status;
+  double number(const char* key) const { return this->status.report.number(key, -1.0); }
+  std::string method() const { return this->status.report.text("method"); }
+  double volume() const
+  {
+    return tet_volumes(this->result.mesh.points, this->result.mesh.tets).sum();
+  }
+};
+
+Outcome run(const TriangleMesh& mesh, TetrahedralizeOptions options = {}, int threads = 0)
+{
+  ExecutionContext context;
+  context.set_threads(threads);
+  Outcome outcome;
+  outcome.status = tetrahedralize(mesh.points, mesh.triangles, options, outcome.result, context);
+  return outcome;
+}
+
+Outcome run(const TriangleMesh& mesh, TetMethod method)
+{
+  TetrahedralizeOptions options;
+  options.method = method;
+  return run(mesh, options);
+}
+
+/// What every result promises, whatever the method.
+void expect_valid(const Outcome& outcome, const TriangleMesh& surface)
+{
+  ASSERT_TRUE(outcome.status.ok()) << outcome.status.message;
+  const TetMesh& mesh = outcome.result.mesh;
+  ASSERT_GT(mesh.tets.rows(), 0);
+  ASSERT_TRUE(check_mesh(mesh.points, mesh.tets).ok());
+  EXPECT_TRUE(check_tets(mesh.points, mesh.tets).ok());
+  EXPECT_GT(tet_volumes(mesh.points, mesh.tets).minCoeff(), 0.0);
+  EXPECT_TRUE(count_edges(boundary_triangles(mesh.tets)).closed);
+  const Components components = connected_components(mesh.points.rows(), mesh.tets);
+  EXPECT_EQ(std::count(components.of_vertex.begin(), components.of_vertex.end(), -1), 0)
+    << "a stray vertex";
+  const auto& ids = outcome.result.original_vertices;
+  ASSERT_EQ(static_cast<Index>(ids.size()), mesh.points.rows());
+  const auto first_new = std::find(ids.begin(), ids.end(), -1);
+  EXPECT_TRUE(std::is_sorted(ids.begin(), first_new));
+  EXPECT_TRUE(std::all_of(first_new, ids.end(), [](Index id) { return id == -1; }));
+  for (auto id = ids.begin(); id != first_new; ++id)
+  {
+    const Index v = id - ids.begin();
+    EXPECT_LT((mesh.points.row(v) - surface.points.row(*id)).norm(), 1e-3) << v;
+  }
+  ASSERT_EQ(outcome.result.winding_numbers.size(), mesh.tets.rows());
+  EXPECT_TRUE(outcome.result.winding_numbers.allFinite());
+  EXPECT_EQ(outcome.number("counts.tets"), mesh.tets.rows());
+  EXPECT_DOUBLE_EQ(outcome.number("volume"), outcome.volume());
+  EXPECT_GT(outcome.number("min_dihedral_angle"), 0.0);
+}
+
+/// Vertices - edges + facets - tets.
+Index euler_characteristic(const TetMesh& mesh)
+{
+  constexpr int facet[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
+  Triangles facets(4 * mesh.tets.rows(), 3);
+  for (Index t = 0; t < mesh.tets.rows(); ++t)
+  {
+    for (int f = 0; f < 4; ++f)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        facets(4 * t + f, k) = mesh.tets(t, facet[f][k]);
+      }
+    }
+  }
+  const auto edges = static_cast<Index>(mesh_edges(facets).size());
+  const Index boundary = boundary_triangles(mesh.tets).rows();
+  return mesh.points.rows() - edges + (4 * mesh.tets.rows() + boundary) / 2 - mesh.tets.rows();
+}
+
+/// Largest distance of the tets' boundary (vertices and middles of facets) from the surface.
+double boundary_distance(const TetMesh& mesh, const TriangleMesh& surface)
+{
+  const TriangleTree tree(surface.points, surface.triangles);
+  const Triangles skin = boundary_triangles(mesh.tets);
+  double largest = 0.0;
+  for (Index t = 0; t < skin.rows(); ++t)
+  {
+    Vec3 middle = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3 p = mesh.points.row(skin(t, k));
+      largest = std::max(largest, tree.distance(p, 1e9));
+      middle += p / 3.0;
+    }
+    largest = std::max(largest, tree.distance(middle, 1e9));
+  }
+  return largest;
+}
+
+TriangleMesh with_inner_wall()
+{
+  TriangleMesh mesh = test::cube();
+  mesh.triangles.conservativeResize(14, 3);
+  mesh.triangles.row(12) << 0, 3, 7;
+  mesh.triangles.row(13) << 0, 7, 4;
+  return mesh;
+}
+
+TriangleMesh doubled(const TriangleMesh& mesh)
+{
+  TriangleMesh twice = mesh;
+  twice.triangles.resize(2 * mesh.triangles.rows(), 3);
+  twice.triangles << mesh.triangles, mesh.triangles;
+  return twice;
+}
+
+TriangleMesh unwelded(const TriangleMesh& mesh)
+{
+  TriangleMesh soup;
+  soup.points.resize(mesh.triangles.size(), 3);
+  soup.triangles.resize(mesh.triangles.rows(), 3);
+  for (Index k = 0; k < mesh.triangles.size(); ++k)
+  {
+    soup.points.row(k) = mesh.points.row(mesh.triangles.data()[k]);
+    soup.triangles.data()[k] = k;
+  }
+  return soup;
+}
+
+class Environment
+{
+public:
+  Environment(const char* name, const std::string& value) : name_(name)
+  {
+    ::setenv(name, value.c_str(), 1);
+  }
+  ~Environment() { ::unsetenv(this->name_); }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+private:
+  const char* name_;
+};
+
+/// Tests of method cdt, which needs the helper.
+class Cdt : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    if (find_mesher().empty())
+    {
+      GTEST_SKIP() << "bindpose-mesher is not built: libcgal-dev, libtet1.5-dev";
+    }
+  }
+};
+} // namespace
+
+// ---- Closed and clean
+// ----------------------------------------------------------------------------
+
+TEST_F(Cdt, ClosedSurfacesAreFilledExactly)
+{
+  struct Case
+  {
+    const char* name;
+    TriangleMesh mesh;
+    Index euler;
+  };
+  const TriangleMesh shell = test::join(test::sphere(3), test::flipped(test::sphere(2, 0.5)));
+  const TriangleMesh two =
+    test::join(test::sphere(2), test::translated(test::torus(20, 10, 1.0, 0.3), Vec3(4, 0, 0)));
+  for (const Case& c : { Case{ "cube", test::cube(), 1 }, Case{ "sphere", test::sphere(3), 1 },
+         Case{ "torus", test::torus(40, 20, 1.0, 0.4), 0 }, Case{ "shell", shell, 2 },
+         Case{ "two", two, 1 },
+         Case{ "far away", test::translated(test::sphere(2), Vec3(500, -300, 90)), 1 },
+         Case{ "elephant", test::demo_mesh("elephant.off"), 1 } })
+  {
+    SCOPED_TRACE(c.name);
+    const Outcome outcome = run(c.mesh);
+    expect_valid(outcome, c.mesh);
+    const double volume = signed_volume(c.mesh.points, c.mesh.triangles);
+    EXPECT_EQ(outcome.method(), "cdt");
+    EXPECT_NEAR(outcome.volume(), volume, 1e-10 * volume);
+    EXPECT_NEAR(outcome.number("winding_volume"), volume, 0.1 * volume);
+    EXPECT_EQ(euler_characteristic(outcome.result.mesh), c.euler);
+    EXPECT_EQ(outcome.number("counts.kept_vertices"), c.mesh.points.rows()) << "all vertices stay";
+    EXPECT_NEAR(outcome.result.winding_numbers.minCoeff(), 1.0, 1e-9);
+    EXPECT_NEAR(outcome.result.winding_numbers.maxCoeff(), 1.0, 1e-9);
+    for (Index v = 0; v < c.mesh.points.rows(); ++v)
+    {
+      ASSERT_EQ(outcome.result.original_vertices[v], v);
+      ASSERT_EQ(outcome.result.mesh.points.row(v), c.mesh.points.row(v));
+    }
+    EXPECT_LT(boundary_distance(outcome.result.mesh, c.mesh), 1e-9);
+  }
+}
+
+TEST_F(Cdt, VerticesInsideAreAdded)
+{
+  const TriangleMesh sphere = test::sphere(3);
+  TetrahedralizeOptions none;
+  none.quality = 0.0;
+  none.interior_edge = 0.0;
+  const Outcome bare = run(sphere, none);
+  const Outcome full = run(sphere);
+  expect_valid(bare, sphere);
+  EXPECT_EQ(bare.result.mesh.points.rows(), sphere.points.rows());
+  EXPECT_GT(full.result.mesh.points.rows(), 2 * sphere.points.rows());
+  EXPECT_GT(full.number("min_dihedral_angle"), 4.0);
+  // No edge inside is much longer than asked for.
+  TetrahedralizeOptions fine;
+  fine.interior_edge = 0.02;
+  EXPECT_GT(run(sphere, fine).result.mesh.tets.rows(), 3 * full.result.mesh.tets.rows());
+}
+
+TEST_F(Cdt, SameBitsForAnyNumberOfThreads)
+{
+  const TriangleMesh mesh =
+    test::join(test::open_cube(), test::translated(test::sphere(2), Vec3(0.6, 0.5, 0.4)));
+  const Outcome one = run(mesh, {}, 1), many = run(mesh, {}, 4);
+  ASSERT_TRUE(one.status.ok()) << one.status.message;
+  EXPECT_EQ(one.result.mesh.points, many.result.mesh.points);
+  EXPECT_EQ(one.result.mesh.tets, many.result.mesh.tets);
+  EXPECT_EQ(one.result.winding_numbers, many.result.winding_numbers);
+}
+
+// ---- Unclean
+// -------------------------------------------------------------------------------------
+
+TEST_F(Cdt, UncleanCubesHoldTheirVolume)
+{
+  TriangleMesh gap = test::cube(); // the top is loose, 1e-3 above
+  gap.points.conservativeResize(12, 3);
+  for (int v = 0; v < 4; ++v)
+  {
+    gap.points.row(8 + v) = gap.points.row(4 + v) + Vec3(0, 0, 1e-3).transpose();
+  }
+  gap.triangles.row(10) << 8, 9, 11;
+  gap.triangles.row(11) << 8, 11, 10;
+  TriangleMesh flipped_top = test::cube();
+  flipped_top.triangles.bottomRows(2).col(1).swap(flipped_top.triangles.bottomRows(2).col(2));
+  struct Case
+  {
+    const char* name;
+    TriangleMesh mesh;
+    double volume, tolerance;
+  };
+  for (const Case& c : { Case{ "open top", test::open_cube(), 8.0, 1e-9 },
+         Case{ "inner wall", with_inner_wall(), 8.0, 1e-9 },
+         Case{ "two cubes, overlapping by half",
+           test::join(test::cube(), test::translated(test::cube(), Vec3(1, 0, 0))), 12.0, 1e-9 },
+         Case{ "two cubes, in general position",
+           test::join(test::cube(), test::translated(test::cube(), Vec3(1.03, 0.9, 0.85))),
+           16.0 - 0.97 * 1.1 * 1.15, 1e-9 },
+         Case{ "doubled faces", doubled(test::cube()), 8.0, 1e-9 },
+         Case{ "a gap under the top", gap, 8.002, 0.003 },
+         Case{ "top turned over", flipped_top, 8.0, 1e-9 },
+         Case{ "inside out", test::flipped(test::cube()), 8.0, 1e-9 },
+         Case{ "loose triangles", unwelded(test::cube()), 8.0, 1e-9 },
+         Case{ "a fin outside",
+           test::join(test::cube(), test::translated(test::grid(1, 1, 2, 2), Vec3(0.5, -0.9, 0.3))),
+           8.0, 1e-6 } })
+  {
+    SCOPED_TRACE(c.name);
+    const Outcome outcome = run(c.mesh);
+    expect_valid(outcome, c.mesh);
+    EXPECT_EQ(outcome.method(), "cdt");
+    EXPECT_NEAR(outcome.volume(), c.volume, c.tolerance);
+  }
+  // The turned top is found and turned back: without that, w = 0 next to it and 2/3 at the centre.
+  const Outcome outcome = run(flipped_top);
+  EXPECT_EQ(outcome.number("counts.turned_triangles"), 2);
+  ASSERT_EQ(outcome.status.warnings.size(), 1u);
+  EXPECT_THAT(outcome.status.warnings[0], HasSubstr("2 triangles were turned"));
+  EXPECT_EQ(run(test::flipped(test::cube())).number("counts.turned_components"), 1);
+}
+
+TEST_F(Cdt, CrossingSurfacesKeepTheirVerticesAndTriangles)
+{
+  const TriangleMesh spheres =
+    test::join(test::sphere(3), test::sphere(3, 1.0, Vec3(0.7, 0.31, 0.17)));
+  const Outcome outcome = run(spheres);
+  expect_valid(outcome, spheres);
+  EXPECT_EQ(outcome.method(), "cdt");
+  EXPECT_GT(outcome.number("counts.self_intersections"), 0);
+  EXPECT_LT(boundary_distance(outcome.result.mesh, spheres), 1e-9);
+  // Two balls of radius 1 at distance d: 8/3 pi - pi (4 + d) (2 - d)^2 / 12; the subdivided spheres
+  // are a little smaller.
+  const double d = Vec3(0.7, 0.31, 0.17).norm();
+  const double pi = 3.14159265358979;
+  const double balls = 8.0 / 3.0 * pi - pi * (4.0 + d) * (2.0 - d) * (2.0 - d) / 12.0;
+  const double shrink = signed_volume(spheres.points, spheres.triangles) / (8.0 / 3.0 * pi);
+  EXPECT_NEAR(outcome.volume(), balls * shrink, 0.003 * balls);
+  EXPECT_EQ(euler_characteristic(outcome.result.mesh), 1);
+  // Inside twice: w = 2 there, and with a threshold of 1.5 only the lens is kept.
+  EXPECT_NEAR(outcome.result.winding_numbers.maxCoeff(), 2.0, 1e-9);
+  TetrahedralizeOptions lens;
+  lens.winding_threshold = 1.5;
+  const Outcome inner = run(spheres, lens);
+  expect_valid(inner, spheres);
+  EXPECT_NEAR(
+    inner.volume() + outcome.volume(), signed_volume(spheres.points, spheres.triangles), 1e-9);
+}
+
+TEST_F(Cdt, NearlyCoincidentCopiesAreOneSolid)
+{
+  const TriangleMesh mesh =
+    test::join(test::sphere(3), test::translated(test::sphere(3), Vec3(1e-9, -2e-9, 1e-9)));
+  const Outcome outcome = run(mesh);
+  expect_valid(outcome, mesh);
+  const double volume = signed_volume(test::sphere(3).points, test::sphere(3).triangles);
+  EXPECT_NEAR(outcome.volume(), volume, 1e-3 * volume);
+}
+
+TEST_F(Cdt, TwentyPercentTurnedOrMissing)
+{
+  TriangleMesh turned = test::torus(32, 16, 1.0, 0.4);
+  const double volume = signed_volume(turned.points, turned.triangles);
+  test::Random random(19);
+  std::vector<Index> kept;
+  for (Index t = 0; t < turned.triangles.rows(); ++t)
+  {
+    if (random.uniform() < 0.2)
+    {
+      std::swap(turned.triangles(t, 0), turned.triangles(t, 1));
+    }
+    else
+    {
+      kept.push_back(t);
+    }
+  }
+  const Outcome repaired = run(turned);
+  expect_valid(repaired, turned);
+  EXPECT_NEAR(repaired.volume(), volume, 1e-10 * volume);
+  TriangleMesh holes = test::torus(32, 16, 1.0, 0.4);
+  Triangles rest(static_cast<Index>(kept.size()), 3);
+  for (Index t = 0; t < rest.rows(); ++t)
+  {
+    rest.row(t) = holes.triangles.row(kept[t]);
+  }
+  holes.triangles = rest;
+  const Outcome filled = run(holes);
+  expect_valid(filled, holes);
+  EXPECT_NEAR(filled.volume(), volume, 0.05 * volume);
+}
+
+TEST_F(Cdt, ElephantWithHoles)
+{
+  const TriangleMesh elephant = test::demo_mesh("elephant-with-holes.off");
+  ASSERT_GT(elephant.triangles.rows(), 0);
+  const Outcome outcome = run(elephant);
+  expect_valid(outcome, elephant);
+  EXPECT_EQ(outcome.method(), "cdt");
+  EXPECT_GT(outcome.number("counts.boundary_edges"), 0);
+  EXPECT_GT(outcome.result.mesh.tets.rows(), 5000);
+  EXPECT_LT(outcome.result.mesh.tets.rows(), 40000);
+  EXPECT_GT(outcome.number("min_dihedral_angle"), 2.0);
+  EXPECT_NEAR(outcome.volume() / outcome.number("winding_volume"), 1.0, 0.05);
+  EXPECT_GT(outcome.number("counts.kept_vertices"), 0.97 * elephant.points.rows());
+  EXPECT_GE(outcome.result.winding_numbers.minCoeff(), 0.3);
+  // The elephant it was made from.
+  const TriangleMesh whole = test::demo_mesh("elephant.off");
+  EXPECT_NEAR(
+    outcome.volume(), signed_volume(whole.points, whole.triangles), 0.02 * outcome.volume());
+}
+
+TEST_F(Cdt, RealSurfacesThatCross)
+{
+  for (const char* name : { "cow.off", "bones.off", "elk.off", "mpi.off" })
+  {
+    SCOPED_TRACE(name);
+    TriangleMesh mesh = test::demo_mesh(name);
+    mesh.points /= bounding_box(mesh.points).diagonal();
+    const Outcome outcome = run(mesh);
+    expect_valid(outcome, mesh);
+    EXPECT_GT(outcome.number("counts.self_intersections"), 0);
+    EXPECT_NEAR(outcome.volume() / outcome.number("winding_volume"), 1.0, 0.1);
+  }
+}
+
+// ---- Lattices: no helper
+// -------------------------------------------------------------------------
+
+TEST(Tetrahedralize, RemeshNeedsNoHelper)
+{
+  const Environment no_helper("BINDPOSE_MESHER", "/nowhere");
+  TetrahedralizeOptions options;
+  options.resolution = 20;
+  for (const TriangleMesh& mesh : { test::sphere(3), test::open_cube(),
+         test::join(test::cube(), test::translated(test::cube(), Vec3(1, 0.3, 0.2))) })
+  {
+    const Outcome automatic = run(mesh, options);
+    expect_valid(automatic, mesh);
+    EXPECT_EQ(automatic.method(), "remesh");
+    EXPECT_NEAR(automatic.volume() / automatic.number("winding_volume"), 1.0, 0.1);
+    EXPECT_GE(automatic.number("min_dihedral_angle"), 10.7);
+    ASSERT_FALSE(automatic.status.warnings.empty());
+    EXPECT_THAT(automatic.status.warnings.back(), HasSubstr("cdt was left"));
+    options.method = TetMethod::cdt;
+    EXPECT_EQ(run(mesh, options).status.code, StatusCode::unavailable);
+    options.method = TetMethod::automatic;
+  }
+}
+
+TEST(Tetrahedralize, EmbedHoldsAnySurface)
+{
+  const Environment no_helper("BINDPOSE_MESHER", "/nowhere");
+  TetrahedralizeOptions options;
+  options.method = TetMethod::embed;
+  options.resolution = 12;
+  TriangleMesh triangle = test::grid(1, 1);
+  triangle.triangles.conservativeResize(1, 3);
+  for (const TriangleMesh& mesh : { test::sphere(2), test::grid(3, 2), triangle })
+  {
+    const Outcome outcome = run(mesh, options);
+    expect_valid(outcome, mesh);
+    EXPECT_EQ(outcome.method(), "embed");
+    EXPECT_NEAR(outcome.number("min_dihedral_angle"), 60.0, 1e-6);
+  }
+}
+
+TEST(Tetrahedralize, ABrokenHelperIsLeft)
+{
+  test::Folder folder;
+  const std::string path = folder.write("bindpose-mesher", "#!/bin/sh\nkill -SEGV $$\n");
+  ::chmod(path.c_str(), 0755);
+  const Environment helper("BINDPOSE_MESHER", path);
+  const Outcome outcome = run(test::sphere(2));
+  expect_valid(outcome, test::sphere(2));
+  EXPECT_EQ(outcome.method(), "remesh");
+  const auto* outcomes = outcome.status.report.find("rungs[].outcome");
+  ASSERT_NE(outcomes, nullptr);
+  const auto& texts = std::get<std::vector<std::string>>(*outcomes);
+  EXPECT_GE(texts.size(), 5u) << "tetgen, four refinements, the lattice";
+  EXPECT_THAT(texts.front(), HasSubstr("signal 11"));
+  EXPECT_EQ(texts.back(), "ok");
+  TetrahedralizeOptions cdt;
+  cdt.method = TetMethod::cdt;
+  const Outcome failed = run(test::sphere(2), cdt);
+  EXPECT_EQ(failed.status.code, StatusCode::internal_error);
+  EXPECT_THAT(failed.status.message, HasSubstr("signal 11"));
+  EXPECT_EQ(failed.result.mesh.tets.rows(), 0);
+}
+
+TEST(Tetrahedralize, ASlowHelperIsLeftInTime)
+{
+  test::Folder folder;
+  const std::string path = folder.write("bindpose-mesher", "#!/bin/sh\nexec sleep 60\n");
+  ::chmod(path.c_str(), 0755);
+  const Environment helper("BINDPOSE_MESHER", path);
+  TetrahedralizeOptions options;
+  options.time_limit = 0.4;
+  options.resolution = 10;
+  const Outcome outcome = run(test::sphere(2), options);
+  expect_valid(outcome, test::sphere(2));
+  EXPECT_EQ(outcome.method(), "remesh");
+  EXPECT_THAT(outcome.status.warnings.back(), HasSubstr("time limit"));
+}
+
+TEST(Tetrahedralize, CancelEndsAtOnce)
+{
+  test::Folder folder;
+  const std::string path = folder.write("bindpose-mesher", "#!/bin/sh\nexec sleep 60\n");
+  ::chmod(path.c_str(), 0755);
+  const Environment helper("BINDPOSE_MESHER", path);
+  const TriangleMesh mesh = test::sphere(2);
+  ExecutionContext context;
+  std::chrono::steady_clock::time_point asked;
+  std::thread user(
+    [&]
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+      asked = std::chrono::steady_clock::now();
+      context.request_cancel();
+    });
+  TetrahedralizeResult result;
+  const Status status = tetrahedralize(mesh.points, mesh.triangles, {}, result, context);
+  const double waited =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count();
+  user.join();
+  EXPECT_EQ(status.code, StatusCode::cancelled);
+  EXPECT_LT(waited, 0.2);
+  EXPECT_EQ(result.mesh.tets.rows(), 0);
+}
+
+// ---- No answer: one sentence
+// ---------------------------------------------------------------------
+
+TEST(Tetrahedralize, BadInputIsOneSentence)
+{
+  TriangleMesh nan = test::cube();
+  nan.points(4, 2) = std::numeric_limits<double>::quiet_NaN();
+  TriangleMesh ids = test::cube();
+  ids.triangles(5, 1) = 77;
+  TriangleMesh triangle = test::grid(1, 1);
+  triangle.triangles.conservativeResize(1, 3);
+  TriangleMesh needle = triangle;
+  needle.points.col(1).setZero();
+  TriangleMesh hinge = test::grid(1, 1);
+  hinge.points(3, 2) = 0.4;
+  const TriangleMesh both_ways = test::join(test::cube(), test::flipped(test::cube()));
+  struct Case
+  {
+    TriangleMesh mesh;
+    const char* words;
+  };
+  for (const Case& c : { Case{ { Points(0, 3), Triangles(0, 3) }, "no triangles" },
+         Case{ nan, "vertex 4" }, Case{ ids, "triangle 5" }, Case{ triangle, "flat" },
+         Case{ test::grid(4, 3), "flat" }, Case{ needle, "no triangle of the surface has an area" },
+         Case{ hinge, "encloses nothing" }, Case{ both_ways, "encloses nothing" } })
+  {
+    SCOPED_TRACE(c.words);
+    const Outcome outcome = run(c.mesh);
+    EXPECT_EQ(outcome.status.code, StatusCode::invalid_input);
+    EXPECT_THAT(outcome.status.message, HasSubstr(c.words));
+    EXPECT_EQ(outcome.status.message.find('\n'), std::string::npos);
+    EXPECT_EQ(outcome.result.mesh.tets.rows(), 0);
+  }
+}
+
+TEST(Tetrahedralize, OptionsAreChecked)
+{
+  const auto message = [](const std::function<void(TetrahedralizeOptions&)>& change)
+  {
+    TetrahedralizeOptions options;
+    change(options);
+    const Outcome outcome = run(test::cube(), options);
+    EXPECT_EQ(outcome.status.code, StatusCode::invalid_input);
+    return outcome.status.message;
+  };
+  EXPECT_THAT(message([](auto& o) { o.winding_threshold = 0.0; }), HasSubstr("winding_threshold"));
+  EXPECT_THAT(message([](auto& o) { o.resolution = 2; }), HasSubstr("resolution"));
+  EXPECT_THAT(message([](auto& o) { o.time_limit = -1.0; }), HasSubstr("time_limit"));
+  EXPECT_THAT(message([](auto& o) { o.memory_limit = -1; }), HasSubstr("memory_limit"));
+  EXPECT_THAT(message([](auto& o) { o.quality = 1.0; }), HasSubstr("quality"));
+  EXPECT_THAT(message([](auto& o) { o.interior_edge = -0.1; }), HasSubstr("interior_edge"));
+}
+
+TEST(Tetrahedralize, TinyAndHugeCoordinates)
+{
+  for (const double scale : { 1e-9, 1e9 })
+  {
+    TriangleMesh mesh = test::torus(20, 10, 1.0, 0.4);
+    const double volume = signed_volume(mesh.points, mesh.triangles) * scale * scale * scale;
+    mesh.points *= scale;
+    const Outcome outcome = run(mesh, TetMethod::automatic);
+    ASSERT_TRUE(outcome.status.ok()) << outcome.status.message;
+    EXPECT_NEAR(outcome.volume(), volume, 0.1 * volume);
+    EXPECT_TRUE(check_tets(outcome.result.mesh.points, outcome.result.mesh.tets).ok());
+  }
+}
+
+TEST_F(Cdt, RandomSoupsGiveTetsOrASentence)
+{
+  // Whatever it is: a valid mesh that holds what the winding number encloses, or one sentence.
+  for (std::uint64_t seed = 1; seed <= 12; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    test::Random random(seed);
+    TriangleMesh mesh = seed % 2 ? test::sphere(2) : test::torus(14, 8, 1.0, 0.5);
+    if (seed % 3 == 0)
+    {
+      mesh = test::join(mesh, test::sphere(1, 0.8, random.in_box(Vec3::Zero(), Vec3::Ones())));
+    }
+    const double noise = 0.2 * random.uniform();
+    for (Index k = 0; k < mesh.points.size(); ++k)
+    {
+      mesh.points.data()[k] += noise * random.uniform(-1.0, 1.0);
+    }
+    for (Index t = 0; t < mesh.triangles.rows() / 10; ++t)
+    {
+      const Index a = random.below(mesh.triangles.rows());
+      mesh.triangles(a, random.below(3)) = random.below(mesh.points.rows());
+    }
+    const Outcome outcome = run(mesh);
+    if (outcome.status.ok())
+    {
+      EXPECT_TRUE(check_tets(outcome.result.mesh.points, outcome.result.mesh.tets).ok());
+      EXPECT_NEAR(outcome.volume() / outcome.number("winding_volume"), 1.0, 0.25);
+    }
+    else
+    {
+      EXPECT_EQ(outcome.status.code, StatusCode::invalid_input) << outcome.status.message;
+      EXPECT_FALSE(outcome.status.message.empty());
+    }
+  }
+}

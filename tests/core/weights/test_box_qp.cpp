@@ -1,0 +1,250 @@
+// The quadratic programs against projected Gauss-Seidel, the certificate against the definition,
+// and the stop: on the certificate, the same from any start, the same bits from any number of
+// threads.
+#include "weights/box_qp.h"
+
+#include "weights_shapes.h"
+
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+
+namespace
+{
+SparseMatrix energy(const TriangleMesh& mesh, int order)
+{
+  const Eigen::VectorXd mass = lumped_mass(mesh.points, mesh.triangles);
+  return harmonic_energy(
+    stiffness_matrix(mesh.points, mesh.triangles), mass / mass.maxCoeff(), order);
+}
+
+BoxQpColumn column_of(std::initializer_list<double> values)
+{
+  BoxQpColumn column;
+  column.fixed_values.resize(static_cast<Index>(values.size()));
+  std::copy(values.begin(), values.end(), column.fixed_values.data());
+  return column;
+}
+
+/// The minimiser by sweeps over single vertices: slow, simple, independent.
+Eigen::VectorXd gauss_seidel(
+  const SparseMatrix& q, const std::vector<Index>& fixed, const Eigen::VectorXd& values, int sweeps)
+{
+  Eigen::VectorXd w = Eigen::VectorXd::Constant(q.rows(), 0.5);
+  std::vector<char> free(static_cast<std::size_t>(q.rows()), 1);
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+  {
+    free[fixed[i]] = 0;
+    w[fixed[i]] = values[static_cast<Index>(i)];
+  }
+  for (int sweep = 0; sweep < sweeps; ++sweep)
+  {
+    for (int v = 0; v < q.cols(); ++v)
+    {
+      if (free[v])
+      {
+        w[v] = std::clamp(w[v] - q.col(v).dot(w) / q.coeff(v, v), 0.0, 1.0);
+      }
+    }
+  }
+  return w;
+}
+
+const std::vector<Index> three_fixed{ 0, 30, 77 };
+} // namespace
+
+TEST(BoxQp, AgreesWithProjectedGaussSeidel)
+{
+  const TriangleMesh mesh = test::grid(9, 7, 1.0, 0.8);
+  const SparseMatrix q = energy(mesh, 2);
+  BoxQp qp(q, three_fixed, { 1e-9, 100, {} });
+  ExecutionContext context;
+  ASSERT_TRUE(qp.prepare(context).ok());
+  double least = 0.0;
+  for (const auto& values :
+    { column_of({ 1, 0, 0 }), column_of({ 0, 1, 0 }), column_of({ 0, 0.5, 1 }) })
+  {
+    const BoxQpSolution solution = qp.solve(values, context);
+    ASSERT_TRUE(solution.status.ok());
+    const Eigen::VectorXd twin = gauss_seidel(q, three_fixed, values.fixed_values, 40000);
+    EXPECT_LT((solution.w - twin).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_GE(solution.w.minCoeff(), 0.0);
+    EXPECT_LE(solution.w.maxCoeff(), 1.0);
+    least = std::min(least, qp.unconstrained(values.fixed_values).minCoeff());
+  }
+  EXPECT_LT(least, -1e-3) << "bounds matter here";
+}
+
+TEST(BoxQp, CertificateBoundsTheTrueGap)
+{
+  const TriangleMesh mesh = test::grid(9, 7, 1.0, 0.8);
+  const SparseMatrix q = energy(mesh, 2);
+  BoxQp qp(q, three_fixed, { 1e-9, 100, {} });
+  ExecutionContext context;
+  ASSERT_TRUE(qp.prepare(context).ok());
+  const BoxQpSolution best = qp.solve(column_of({ 1, 0, 0 }), context);
+  std::vector<char> free(static_cast<std::size_t>(q.rows()), 1);
+  for (const Index v : three_fixed)
+  {
+    free[v] = 0;
+  }
+  test::Random random(3);
+  for (const double size : { 1e-1, 1e-2, 1e-3 })
+  {
+    Eigen::VectorXd w = best.w;
+    for (Index v = 0; v < w.size(); ++v)
+    {
+      w[v] = free[v] ? std::clamp(w[v] + size * random.uniform(-1.0, 1.0), 0.0, 1.0) : w[v];
+    }
+    const Certificate worse = certify({ q, free }, w);
+    const double excess = worse.energy - best.certificate.energy;
+    EXPECT_GT(excess, 0.0);
+    EXPECT_GE(worse.relative_gap * worse.energy, excess);
+    EXPECT_GT(worse.kkt_residual, 1e-9);
+  }
+}
+
+TEST(BoxQp, OrderedPairsHoldAndTheirMultipliersProveIt)
+{
+  // A strip ordered along x: the unconstrained minimiser overshoots, the ordered one must not.
+  const int n = 24;
+  const TriangleMesh mesh = test::grid(n, 1, 1.0, 1.0 / n);
+  const SparseMatrix q = energy(mesh, 2);
+  BoxQpColumn column = column_of({ 0, 0, 0.5, 0.5, 0.55, 0.55 });
+  const std::vector<Index> fixed{ 0, n + 1, 4, n + 5, n, 2 * n + 1 };
+  for (Index row = 0; row < 2; ++row)
+  {
+    for (Index i = 0; i < n; ++i)
+    {
+      column.pairs.push_back({ row * (n + 1) + i, row * (n + 1) + i + 1 });
+    }
+  }
+  BoxQp qp(q, fixed, { 1e-9, 100, {} });
+  ExecutionContext context;
+  ASSERT_TRUE(qp.prepare(context).ok());
+  const BoxQpSolution ordered = qp.solve(column, context);
+  ASSERT_TRUE(ordered.status.ok()) << ordered.certificate.relative_gap;
+  double least = 1.0;
+  for (const OrderedPair& pair : column.pairs)
+  {
+    least = std::min(least, ordered.w[pair.high] - ordered.w[pair.low]);
+  }
+  EXPECT_GE(least, 0.0) << "exactly";
+  EXPECT_GE(ordered.multipliers.minCoeff(), 0.0);
+  // More constraints cost energy.
+  column.pairs.clear();
+  const BoxQpSolution bounded = qp.solve(column, context);
+  EXPECT_GT(ordered.certificate.energy, bounded.certificate.energy * (1.0 + 1e-6));
+  EXPECT_EQ(qp.analyses(), 1);
+}
+
+TEST(BoxQp, EveryStartEndsAtTheSameWeights)
+{
+  const TriangleMesh mesh = test::grid(20, 20);
+  const SparseMatrix q = energy(mesh, 2);
+  const std::vector<Index> fixed{ 88, 220, 352 };
+  ExecutionContext context;
+  for (const auto& [tolerance, same] : { std::pair{ 1e-6, 1e-6 }, std::pair{ 1e-9, 1e-8 } })
+  {
+    BoxQp qp(q, fixed, { tolerance, 100, {} });
+    ASSERT_TRUE(qp.prepare(context).ok());
+    BoxQpColumn column = column_of({ 1, 0, 0 });
+    const Eigen::VectorXd usual = qp.solve(column, context).w;
+    test::Random random(5);
+    for (int start = 0; start < 3; ++start)
+    {
+      column.start = Eigen::VectorXd::NullaryExpr(
+        q.rows(), [&] { return start == 2 ? random.uniform() : double(start); });
+      const BoxQpSolution solution = qp.solve(column, context);
+      ASSERT_TRUE(solution.status.ok());
+      EXPECT_LT((solution.w - usual).cwiseAbs().maxCoeff(), same);
+    }
+  }
+}
+
+TEST(BoxQp, ThreadsDoNotChangeABit)
+{
+  const TetMesh box = test::tet_box(6, 6, 6);
+  const Eigen::VectorXd mass = lumped_mass(box.points, box.tets);
+  const SparseMatrix q =
+    harmonic_energy(stiffness_matrix(box.points, box.tets), mass / mass.maxCoeff(), 2);
+  const std::vector<Index> fixed{ 0, 6, 48, 171, 342 };
+  std::vector<BoxQpColumn> columns;
+  for (Index j = 0; j < 5; ++j)
+  {
+    columns.emplace_back();
+    columns.back().fixed_values = Eigen::VectorXd::Unit(5, j);
+  }
+  std::vector<BoxQpSolution> reference;
+  for (const int threads : { 1, 2, 4 })
+  {
+    ExecutionContext context;
+    context.set_threads(threads);
+    BoxQp qp(q, fixed, {});
+    ASSERT_TRUE(qp.prepare(context).ok());
+    const std::vector<BoxQpSolution> solutions = qp.solve_all(columns, context);
+    EXPECT_EQ(qp.analyses(), 1);
+    Index factorisations = 1;
+    for (const BoxQpSolution& solution : solutions)
+    {
+      factorisations += solution.factorisations;
+    }
+    EXPECT_EQ(qp.factorisations(), factorisations);
+    if (threads == 1)
+    {
+      reference = solutions;
+    }
+    for (std::size_t j = 0; j < columns.size(); ++j)
+    {
+      EXPECT_EQ(solutions[j].w, reference[j].w);
+      EXPECT_EQ(solutions[j].iterations, reference[j].iterations);
+    }
+  }
+}
+
+TEST(BoxQp, TooFewIterationsAreSaidAndCancelEndsIt)
+{
+  const TriangleMesh mesh = test::grid(20, 20);
+  const SparseMatrix q = energy(mesh, 2);
+  BoxQp qp(q, { 88, 220, 352 }, { 1e-9, 3, {} });
+  ExecutionContext context;
+  ASSERT_TRUE(qp.prepare(context).ok());
+  const BoxQpSolution early = qp.solve(column_of({ 1, 0, 0 }), context);
+  EXPECT_EQ(early.status.code, StatusCode::not_converged);
+  EXPECT_EQ(early.iterations, 3);
+  EXPECT_GT(std::max(early.certificate.relative_gap, early.certificate.kkt_residual), 1e-9);
+  EXPECT_GE(early.w.minCoeff(), 0.0);
+
+  int asked = 0;
+  ExecutionContext stopped(nullptr, [&] { return ++asked > 4; });
+  stopped.set_threads(1);
+  BoxQp other(q, { 88, 220, 352 }, {});
+  const Status status = other.prepare(stopped);
+  ASSERT_TRUE(status.ok());
+  const BoxQpSolution solution = other.solve(column_of({ 1, 0, 0 }), stopped);
+  EXPECT_EQ(solution.status.code, StatusCode::cancelled);
+  EXPECT_LT(solution.iterations, 4);
+}
+
+TEST(BoxQp, ConstantColumnsCostNothing)
+{
+  const TriangleMesh mesh = test::grid(10, 10);
+  const SparseMatrix q = energy(mesh, 2);
+  BoxQp qp(q, { 60 }, {});
+  ExecutionContext context;
+  ASSERT_TRUE(qp.prepare(context).ok());
+  BoxQpColumn column = column_of({ 1 });
+  std::vector<double> ones;
+  for (Index v = 0; v < q.rows(); ++v)
+  {
+    column.pinned.push_back(v);
+    ones.push_back(1.0);
+  }
+  column.pinned_values = Eigen::Map<Eigen::VectorXd>(ones.data(), q.rows());
+  const BoxQpSolution solution = qp.solve(column, context);
+  EXPECT_TRUE(solution.status.ok());
+  EXPECT_EQ(solution.w, Eigen::VectorXd::Ones(q.rows()));
+  EXPECT_EQ(solution.certificate.energy, 0.0);
+  EXPECT_EQ(solution.certificate.relative_gap, 0.0);
+  EXPECT_EQ(solution.iterations, 0);
+}

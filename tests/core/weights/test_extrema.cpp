@@ -1,0 +1,136 @@
+// Persistence on a path, where it can be read off, and against a brute-force twin on a grid.
+#include "weights/extrema.h"
+
+#include "weights_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <queue>
+
+using namespace bindpose;
+
+namespace
+{
+VertexGraph path(Index count)
+{
+  VertexGraph graph;
+  graph.begin.push_back(0);
+  for (Index v = 0; v < count; ++v)
+  {
+    if (v > 0)
+    {
+      graph.neighbours.push_back(v - 1);
+    }
+    if (v + 1 < count)
+    {
+      graph.neighbours.push_back(v + 1);
+    }
+    graph.begin.push_back(static_cast<Index>(graph.neighbours.size()));
+  }
+  return graph;
+}
+
+/// How far one must climb from v to a vertex that is exempt or lower: by the lowest pass, found
+/// with a queue ordered by height.
+double climb(
+  const VertexGraph& graph, const Eigen::VectorXd& f, const std::vector<char>& exempt, Index from)
+{
+  std::vector<char> seen(static_cast<std::size_t>(f.size()), 0);
+  using Entry = std::pair<double, Index>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  open.emplace(f[from], from);
+  double height = f[from];
+  while (!open.empty())
+  {
+    const auto [value, v] = open.top();
+    open.pop();
+    if (seen[v])
+    {
+      continue;
+    }
+    seen[v] = 1;
+    height = std::max(height, value);
+    if (v != from && (exempt[v] || f[v] < f[from]))
+    {
+      return height - f[from];
+    }
+    for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
+    {
+      open.emplace(f[graph.neighbours[k]], graph.neighbours[k]);
+    }
+  }
+  return f.maxCoeff() - f.minCoeff();
+}
+} // namespace
+
+TEST(Extrema, PersistenceOnAPathCanBeReadOff)
+{
+  Eigen::VectorXd f(9);
+  //   handle                 handle
+  f << 0.0, 0.5, 0.3, 0.9, 0.85, 1.0, 0.2, 0.4, 0.4;
+  std::vector<char> exempt{ 1, 0, 0, 0, 0, 1, 0, 0, 0 };
+  const auto found = interior_extrema(path(9), f, exempt);
+  // Minima: 0.2 (vertex 6) climbs to the handle at 1; 0.3 (2) over 0.5; 0.85 (4) over 0.9.
+  // Maxima: 0.4 (7, 8) down to 0.2; 0.9 (3) down to 0.85; 0.5 (1) down to 0.3.
+  ASSERT_EQ(found.size(), 6u);
+  EXPECT_EQ(found[0].vertex, 6);
+  EXPECT_FALSE(found[0].maximum);
+  EXPECT_DOUBLE_EQ(found[0].persistence, 0.8);
+  double sum = 0.0;
+  for (const Extremum& e : found)
+  {
+    sum += e.persistence;
+    EXPECT_DOUBLE_EQ(e.value, f[e.vertex]);
+  }
+  EXPECT_NEAR(sum, 0.8 + 0.2 + 0.05 + 0.2 + 0.05 + 0.2, 1e-12);
+  EXPECT_EQ(interior_extrema(path(9), f, exempt, 0.1).size(), 4u);
+}
+
+TEST(Extrema, HandlesWinTiesAndPlateausAreOne)
+{
+  Eigen::VectorXd f(7);
+  f << 0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0;
+  EXPECT_TRUE(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }).empty());
+  // A round-off dip beside a handle is a ripple, not the global minimum.
+  f[0] = -1e-10;
+  EXPECT_TRUE(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }).empty());
+  EXPECT_EQ(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }, 0.0).size(), 1u);
+  // Without handles both ends count fully, each once.
+  const auto all = interior_extrema(path(7), f, std::vector<char>(7, 0));
+  ASSERT_EQ(all.size(), 2u);
+  EXPECT_EQ(all[0].persistence, 1.0);
+  EXPECT_TRUE(interior_extrema(path(7), Eigen::VectorXd::Ones(7), std::vector<char>(7, 0)).empty());
+}
+
+TEST(Extrema, AgreeWithTheLowestPass)
+{
+  const Domain domain = test::to_domain(test::grid(14, 11));
+  const VertexGraph graph = vertex_graph(domain);
+  test::Random random(2);
+  for (int round = 0; round < 5; ++round)
+  {
+    const Eigen::VectorXd f =
+      Eigen::VectorXd::NullaryExpr(domain.points.rows(), [&] { return random.uniform(); });
+    std::vector<char> exempt(static_cast<std::size_t>(f.size()), 0);
+    for (int i = 0; i < 4; ++i)
+    {
+      exempt[random.below(f.size())] = 1;
+    }
+    const double range = f.maxCoeff() - f.minCoeff();
+    Index expected = 0;
+    for (const double sign : { 1.0, -1.0 })
+    {
+      for (Index v = 0; v < f.size(); ++v)
+      {
+        expected += !exempt[v] && climb(graph, sign * f, exempt, v) > 0.2 * range;
+      }
+    }
+    const auto found = interior_extrema(graph, f, exempt, 0.2);
+    EXPECT_EQ(static_cast<Index>(found.size()), expected);
+    for (const Extremum& e : found)
+    {
+      const double twin = climb(graph, e.maximum ? Eigen::VectorXd(-f) : f, exempt, e.vertex);
+      EXPECT_NEAR(e.persistence, twin / range, 1e-12);
+    }
+  }
+}

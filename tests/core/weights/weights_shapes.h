@@ -1,0 +1,111 @@
+#ifndef weights_shapes_h
+#define weights_shapes_h
+
+// Domains and handles that the tests of weights share.
+
+#include "weights/domain.h"
+#include "weights/handles.h"
+
+#include "support/meshes.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace bindpose::test
+{
+
+inline Domain to_domain(const TriangleMesh& mesh)
+{
+  Domain domain;
+  domain.points = mesh.points;
+  domain.triangles = mesh.triangles;
+  return domain;
+}
+
+inline Domain to_domain(const TetMesh& mesh)
+{
+  Domain domain;
+  domain.points = mesh.points;
+  domain.tets = mesh.tets;
+  return domain;
+}
+
+inline Handle point_handle(const std::string& name, const Vec3& at)
+{
+  Handle handle;
+  handle.name = name;
+  handle.head = handle.tail = at;
+  return handle;
+}
+
+inline Handle bone_handle(const std::string& name, const Vec3& head, const Vec3& tail)
+{
+  Handle handle;
+  handle.name = name;
+  handle.kind = HandleKind::bone;
+  handle.head = head;
+  handle.tail = tail;
+  return handle;
+}
+
+inline Handle region_handle(const std::string& name, Index label)
+{
+  Handle handle;
+  handle.name = name;
+  handle.kind = HandleKind::region;
+  handle.region_id = label;
+  return handle;
+}
+
+/// Points p1, p2, …
+inline Handles point_handles(const std::vector<Vec3>& places)
+{
+  Handles handles;
+  for (const Vec3& place : places)
+  {
+    handles.push_back(point_handle("p" + std::to_string(handles.size() + 1), place));
+  }
+  return handles;
+}
+
+/// The five points on the unit square whose extrema and energies are known.
+inline Handles five_points()
+{
+  return point_handles({ Vec3(0.2, 0.2, 0.0), Vec3(0.8, 0.2, 0.0), Vec3(0.5, 0.5, 0.0),
+    Vec3(0.25, 0.8, 0.0), Vec3(0.8, 0.75, 0.0) });
+}
+
+/// A strip of n squares and two rows on [0, 1], so thin that weights depend on x alone, and labels:
+/// 1, 2, … for the columns of vertices at the given places.
+struct Bar
+{
+  Domain domain;
+  std::vector<Index> region_ids;
+  Handles handles;
+  Index vertex(double x, int n) const { return static_cast<Index>(x * n + 0.5); }
+};
+
+inline Bar bar(int n, const std::vector<double>& places)
+{
+  Bar result;
+  result.domain = to_domain(grid(n, 2, 1.0, 2.0 / n));
+  result.region_ids.assign(static_cast<std::size_t>(result.domain.points.rows()), 0);
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    const auto label = static_cast<Index>(i) + 1;
+    result.handles.push_back(region_handle("r" + std::to_string(label), label));
+    for (Index v = 0; v < result.domain.points.rows(); ++v)
+    {
+      if (std::abs(result.domain.points(v, 0) - places[i]) < 1e-9)
+      {
+        result.region_ids[v] = label;
+      }
+    }
+  }
+  return result;
+}
+
+} // namespace bindpose::test
+
+#endif

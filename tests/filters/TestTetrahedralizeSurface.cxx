@@ -1,0 +1,222 @@
+// The filter: ports, arrays, report, errors, no work twice, abort.
+#include "TestFilter.h"
+
+#include "conversion.h"
+#include "report_field_data.h"
+#include "support/files.h"
+#include "support/meshes.h"
+#include "vtkTetrahedralizeSurface.h"
+
+#include "vtkAppendFilter.h"
+#include "vtkCellData.h"
+#include "vtkCubeSource.h"
+#include "vtkDoubleArray.h"
+#include "vtkErrorCode.h"
+#include "vtkIdTypeArray.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <sstream>
+
+#include <sys/stat.h>
+
+using namespace bindpose;
+using bindpose::test::Listener;
+using testing::HasSubstr;
+
+namespace
+{
+vtkUnstructuredGrid* grid_of(vtkTetrahedralizeSurface* filter)
+{
+  return vtkUnstructuredGrid::SafeDownCast(filter->GetOutput());
+}
+
+double volume_of(vtkUnstructuredGrid* grid)
+{
+  TetInput tets;
+  const Status status = to_tets(grid, tets);
+  EXPECT_TRUE(status.ok()) << status.message;
+  return status.ok() ? tet_volumes(tets.points.view(), tets.tets.view()).sum() : 0.0;
+}
+} // namespace
+
+TEST(TetrahedralizeSurface, ArraysAndReport)
+{
+  const TriangleMesh sphere = test::sphere(2);
+  vtkNew<vtkTetrahedralizeSurface> filter;
+  filter->SetInputData(to_polydata(sphere.points, sphere.triangles));
+  filter->Update();
+  ASSERT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::OK) << filter->GetStatusMessage();
+  vtkUnstructuredGrid* grid = grid_of(filter);
+  ASSERT_NE(grid, nullptr);
+  EXPECT_NEAR(volume_of(grid), signed_volume(sphere.points, sphere.triangles), 0.1);
+  auto* ids = vtkIdTypeArray::SafeDownCast(grid->GetPointData()->GetArray("OriginalPointIds"));
+  auto* winding = vtkDoubleArray::SafeDownCast(grid->GetCellData()->GetArray("WindingNumber"));
+  ASSERT_NE(ids, nullptr);
+  ASSERT_NE(winding, nullptr);
+  EXPECT_EQ(ids->GetNumberOfTuples(), grid->GetNumberOfPoints());
+  EXPECT_EQ(winding->GetNumberOfTuples(), grid->GetNumberOfCells());
+  for (vtkIdType v = 0; v < grid->GetNumberOfPoints(); ++v)
+  {
+    const vtkIdType id = ids->GetValue(v);
+    ASSERT_LT(id, sphere.points.rows());
+    if (id >= 0)
+    {
+      const Vec3 p(grid->GetPoint(v));
+      EXPECT_EQ(p, Vec3(sphere.points.row(id)));
+    }
+  }
+  const Report report = read_report(grid);
+  EXPECT_EQ(report.text("status"), "ok");
+  EXPECT_FALSE(report.text("method").empty());
+  EXPECT_EQ(report.number("counts.tets", -1), grid->GetNumberOfCells());
+  EXPECT_EQ(report.number("counts.triangles", -1), sphere.triangles.rows());
+  EXPECT_NEAR(report.number("volume", -1), volume_of(grid), 1e-12);
+  EXPECT_GT(report.number("winding_volume", -1), 0.0);
+  EXPECT_GT(report.number("min_dihedral_angle", -1), 0.0);
+  EXPECT_GE(report.number("seconds.tetrahedralize", -1), 0.0);
+  EXPECT_NE(report.find("rungs[].name"), nullptr);
+}
+
+TEST(TetrahedralizeSurface, PolygonsAndUnstructuredGridsAreSurfaces)
+{
+  vtkNew<vtkCubeSource> cube; // quads, each with points of its own
+  vtkNew<vtkAppendFilter> grid;
+  grid->SetInputConnection(cube->GetOutputPort());
+  vtkNew<vtkTetrahedralizeSurface> filter;
+  for (vtkAlgorithm* source :
+    { static_cast<vtkAlgorithm*>(cube), static_cast<vtkAlgorithm*>(grid) })
+  {
+    filter->SetInputConnection(source->GetOutputPort());
+    filter->Update();
+    ASSERT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::OK) << filter->GetStatusMessage();
+    EXPECT_NEAR(volume_of(grid_of(filter)), 1.0, 0.05);
+    EXPECT_EQ(read_report(filter->GetOutput()).number("counts.triangulated_cells", -1), 6);
+  }
+}
+
+TEST(TetrahedralizeSurface, LatticeMethods)
+{
+  const TriangleMesh cube = test::open_cube();
+  vtkNew<vtkTetrahedralizeSurface> filter;
+  filter->SetInputData(to_polydata(cube.points, cube.triangles));
+  filter->SetResolution(10);
+  filter->SetMethodToRemesh();
+  filter->Update();
+  EXPECT_NEAR(volume_of(grid_of(filter)), 8.0, 0.5);
+  EXPECT_EQ(read_report(filter->GetOutput()).text("method"), "remesh");
+  filter->SetMethodToEmbed();
+  filter->Update();
+  EXPECT_GT(volume_of(grid_of(filter)), 8.0);
+  EXPECT_EQ(read_report(filter->GetOutput()).text("method"), "embed");
+  auto* ids =
+    vtkIdTypeArray::SafeDownCast(filter->GetOutput()->GetPointData()->GetArray("OriginalPointIds"));
+  ASSERT_NE(ids, nullptr);
+  EXPECT_EQ(ids->GetRange()[1], -1.0);
+}
+
+TEST(TetrahedralizeSurface, SecondUpdateDoesNothing)
+{
+  const TriangleMesh cube = test::cube();
+  vtkNew<vtkTetrahedralizeSurface> filter;
+  vtkNew<Listener> listener;
+  listener->listen(filter);
+  filter->SetInputData(to_polydata(cube.points, cube.triangles));
+  filter->Update();
+  const vtkMTimeType time = filter->GetOutput()->GetMTime();
+  EXPECT_EQ(listener->starts, 1);
+  filter->Update();
+  filter->SetMethod(filter->GetMethod());
+  filter->SetNumberOfThreads(1);
+  filter->Update();
+  EXPECT_EQ(listener->starts, 1);
+  EXPECT_EQ(filter->GetOutput()->GetMTime(), time);
+  filter->SetWindingThreshold(0.6);
+  filter->Update();
+  EXPECT_EQ(listener->starts, 2);
+  ASSERT_FALSE(listener->progress.empty());
+  EXPECT_TRUE(std::is_sorted(listener->progress.begin(),
+    std::max_element(listener->progress.begin(), listener->progress.end())));
+}
+
+TEST(TetrahedralizeSurface, ErrorsAreOneSentenceAndAnEmptyOutput)
+{
+  vtkNew<vtkTetrahedralizeSurface> filter;
+  vtkNew<Listener> listener;
+  listener->listen(filter);
+  const TriangleMesh flat = test::grid(2, 2);
+  filter->SetInputData(to_polydata(flat.points, flat.triangles));
+  filter->Update();
+  EXPECT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::INVALID_INPUT);
+  EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::UserError));
+  ASSERT_EQ(listener->errors.size(), 1u);
+  EXPECT_THAT(listener->errors[0], HasSubstr("flat"));
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_EQ(read_report(filter->GetOutput()).text("status"), "invalid_input");
+  vtkNew<vtkPolyData> empty;
+  filter->SetInputData(empty);
+  filter->Update();
+  EXPECT_THAT(filter->GetStatusMessage(), HasSubstr("empty"));
+  // A good surface mends it.
+  const TriangleMesh cube = test::cube();
+  filter->SetInputData(to_polydata(cube.points, cube.triangles));
+  filter->Update();
+  EXPECT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::OK);
+  EXPECT_EQ(filter->GetErrorCode(), static_cast<unsigned long>(vtkErrorCode::NoError));
+}
+
+TEST(TetrahedralizeSurface, AbortKillsTheHelper)
+{
+  test::Folder folder;
+  const std::string path = folder.write(
+    "bindpose-mesher", "#!/bin/sh\nwhile true; do echo progress 0.5 >&2; sleep 0.02; done\n");
+  ::chmod(path.c_str(), 0755);
+  ::setenv("BINDPOSE_MESHER", path.c_str(), 1);
+  const TriangleMesh cube = test::cube();
+  vtkNew<vtkTetrahedralizeSurface> filter;
+  vtkNew<Listener> listener;
+  std::chrono::steady_clock::time_point asked;
+  listener->on_progress = [&](vtkAlgorithm* algorithm)
+  {
+    if (!algorithm->GetAbortExecute() && listener->phases.back() == "tetgen")
+    {
+      algorithm->SetAbortExecute(1);
+      asked = std::chrono::steady_clock::now();
+    }
+  };
+  listener->listen(filter);
+  filter->SetInputData(to_polydata(cube.points, cube.triangles));
+  filter->Update();
+  const double waited =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count();
+  ::unsetenv("BINDPOSE_MESHER");
+  EXPECT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::CANCELLED);
+  EXPECT_TRUE(listener->errors.empty());
+  EXPECT_LT(waited, 0.2);
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  // The next update runs again, with the real helper or the lattice.
+  filter->SetAbortExecute(0);
+  listener->on_progress = nullptr;
+  filter->Update();
+  EXPECT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::OK);
+}
+
+TEST(TetrahedralizeSurface, PrintsItsParameters)
+{
+  vtkNew<vtkTetrahedralizeSurface> filter;
+  std::ostringstream text;
+  filter->Print(text);
+  for (const char* word : { "Method: auto", "WindingThreshold: 0.5", "Resolution: 40",
+         "TimeLimit: 120", "MemoryLimit: 0", "Quality: 1.414", "InteriorEdge: 0.04" })
+  {
+    EXPECT_THAT(text.str(), HasSubstr(word));
+  }
+}

@@ -1,0 +1,157 @@
+"""The stages on arrays and datasets: the same numbers as the program's, and exceptions."""
+
+import json
+import os
+import subprocess
+
+import bindpose
+import numpy as np
+import pytest
+import shapes
+from bindpose.meshes import add_point_array, is_tets, point_array, points_of, tets_of, to_dataset
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
+
+PROGRAM = os.environ["BINDPOSE_PROGRAM"]
+BAR = shapes.bar()
+BONES = [[[0.5, 0.5, 0.5], [3, 0.5, 0.5]], [[3, 0.5, 0.5], [5.5, 0.5, 0.5]]]
+
+
+def program(folder, *words):
+    subprocess.run([PROGRAM, *map(str, words)], cwd=folder, check=True, capture_output=True)
+
+
+def test_winding_number_at_points():
+    cube = shapes.open_cube()
+    values = bindpose.winding_number(cube, [[0, 0, 0], [0, 0, 0.5]], method="exact")
+    assert values == pytest.approx([5 / 6, 0.704832764699], abs=1e-11)
+    assert isinstance(values, np.ndarray)
+    assert bindpose.report(values)["counts"]["boundary_edges"] == 4
+    one = bindpose.winding_number(to_dataset(cube), np.zeros((1, 3)))
+    assert one == pytest.approx([5 / 6], abs=1e-11)
+
+
+def test_winding_number_on_grids_and_datasets():
+    field = bindpose.winding_number(shapes.cube(), 12)
+    assert isinstance(field, vtkImageData) and field.GetDimensions() == (12, 12, 12)
+    field = bindpose.winding_number(shapes.cube(), (4, 5, 6), bounds=(-2, 2, -2, 2, -2, 2))
+    assert field.GetDimensions() == (4, 5, 6)
+    assert field.GetBounds() == pytest.approx((-2, 2, -2, 2, -2, 2))
+    surface = to_dataset(shapes.sphere(8, 4, 0.5))
+    there = bindpose.winding_number(shapes.cube(), surface)
+    assert isinstance(there, vtkPolyData) and there.GetNumberOfCells() == surface.GetNumberOfCells()
+    assert point_array(there, "WindingNumber") == pytest.approx(np.ones(there.GetNumberOfPoints()))
+    assert point_array(surface, "WindingNumber") is None  # the caller's stays as it is
+
+
+def test_winding_number_is_the_programs(tmp_path):
+    bindpose.write(shapes.open_cube(), tmp_path / "c.off")
+    program(tmp_path, "winding", "c.off", "--grid", 16, "-o", "w.vti")
+    theirs = bindpose.read(tmp_path / "w.vti")
+    ours = bindpose.winding_number(shapes.open_cube(), 16)
+    assert np.array_equal(point_array(theirs, "WindingNumber"), point_array(ours, "WindingNumber"))
+
+
+def test_tetrahedralize():
+    vertices, tets, original, report = bindpose.tetrahedralize(BAR)
+    p = vertices[tets]
+    volume = np.einsum("ti,ti->t", np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), p[:, 3] - p[:, 0]) / 6
+    assert volume.min() > 0 and volume.sum() == pytest.approx(6, rel=1e-10)
+    assert sorted(original[original >= 0]) == list(range(len(BAR[0])))
+    assert report["method"] == "cdt" and bindpose.report(bindpose.tetrahedralize(BAR))["method"] == "cdt"
+    grid = bindpose.tetrahedralize(to_dataset(BAR))
+    assert is_tets(grid) and np.array_equal(tets_of(grid), tets) and np.array_equal(points_of(grid), vertices)
+
+
+def test_weights_are_the_programs(tmp_path):
+    handles = bindpose.handles(bones=BONES)
+    ours = bindpose.weights(BAR, handles)
+    assert ours.shape == (len(BAR[0]), 2) and ours.names == ["b1", "b2"]
+    assert ours.sum(axis=1) == pytest.approx(np.ones(len(ours)), abs=1e-12)
+    report = bindpose.report(ours)
+    assert report["status"] == "ok" and report["relative_gap"] <= 1e-6 and report["transfer"] == "exact"
+    bindpose.write(BAR, tmp_path / "bar.off")
+    (tmp_path / "h.tgf").write_text(shapes.TWO_BONES)
+    program(tmp_path, "weights", "bar.off", "--handles", "h.tgf", "-o", "w.vtp")
+    theirs = bindpose.read(tmp_path / "w.vtp")
+    assert np.array_equal(point_array(theirs, "Weights"), ours)
+    dataset = bindpose.weights(to_dataset(BAR), str(tmp_path / "h.tgf"))
+    assert np.array_equal(point_array(dataset, "Weights"), ours)
+    assert bindpose.report(theirs)["status"] == "ok"
+
+
+@pytest.mark.parametrize("method", ["monotone", "biharmonic", "triharmonic", "harmonic"])
+def test_weights_on_given_tets(method):
+    tets = bindpose.tetrahedralize(BAR)
+    w = bindpose.weights(tets[:2], "auto:3", method=method)
+    assert w.shape == (len(tets.vertices), 3)
+    assert w.sum(axis=1) == pytest.approx(np.ones(len(w)), abs=1e-8)
+
+
+def test_weights_on_the_surface():
+    w = bindpose.weights(BAR, "auto:3", domain="surface")
+    assert w.shape == (len(BAR[0]), 3) and (w.max(axis=0) == 1).all()
+    with pytest.raises(bindpose.InvalidInput, match="surface"):
+        bindpose.weights(bindpose.tetrahedralize(BAR)[:2], "auto:3", domain="surface")
+
+
+@pytest.mark.parametrize("method", ["lbs", "dqs", "reduced-arap"])
+def test_deform_is_the_programs(tmp_path, method):
+    handles = bindpose.handles(bones=BONES)
+    x = np.array(BAR[0])[:, 0] / 6
+    w = np.stack([1 - x, x], axis=1)
+    pose = json.loads(shapes.BENT)
+    ours = bindpose.deform(BAR, handles, pose, method=method, weights=w)
+    assert ours.shape == (len(BAR[0]), 3) and bindpose.report(ours)["status"] == "ok"
+    mesh = to_dataset(BAR)
+    add_point_array(mesh, "Weights", w, ["b1", "b2"])
+    bindpose.write(mesh, tmp_path / "w.vtp")
+    bindpose.write(handles, tmp_path / "h.vtp")
+    (tmp_path / "p.json").write_text(shapes.BENT)
+    program(tmp_path, "deform", "w.vtp", "--handles", "h.vtp", "--pose", "p.json", "--method", method, "-o", "o.vtp")
+    assert np.array_equal(points_of(bindpose.read(tmp_path / "o.vtp")), ours)
+    posed = bindpose.deform(mesh, handles, tmp_path / "p.json", method=method)
+    assert isinstance(posed, vtkPolyData) and np.array_equal(points_of(posed), ours)
+    assert np.array_equal(points_of(mesh), np.array(BAR[0]))  # the caller's stays as it is
+
+
+def test_sequences_are_lists():
+    handles = bindpose.handles(bones=BONES)
+    x = np.array(BAR[0])[:, 0] / 6
+    frames = [{"handles": {"b2": {"translate": [0, k, 0]}}} for k in range(3)]
+    posed = bindpose.deform(BAR, handles, {"frames": frames}, weights=np.stack([1 - x, x], axis=1))
+    assert len(posed) == 3
+    for k in range(3):
+        assert posed[k] == pytest.approx(np.array(BAR[0]) + np.outer(x, [0, k, 0]), abs=1e-12)
+
+
+def test_a_handle_outside_warns():
+    with pytest.warns(bindpose.BindposeWarning, match="p2"):
+        bindpose.weights(BAR, bindpose.handles([[1, 0.5, 0.5], [5, 0.5, 3]]))
+
+
+def test_not_converged_is_a_warning_with_a_result():
+    with pytest.warns(bindpose.NotConvergedWarning):
+        w = bindpose.weights(shapes.sphere(32, 16), "auto:6", domain="surface", maximum_iterations=1, tolerance=1e-14)
+    assert w.report["status"] == "not_converged" and w.shape[1] == 6
+
+
+@pytest.mark.parametrize("call, sentence", [
+    (lambda: bindpose.winding_number(shapes.cube(), method="guess"), "auto, exact"),
+    (lambda: bindpose.winding_number((np.full((3, 3), np.nan), [[0, 1, 2]]), np.zeros((1, 3))), "finite"),
+    (lambda: bindpose.winding_number((np.eye(3), [[0, 1, 5]]), np.zeros((1, 3))), "vertex 5"),
+    (lambda: bindpose.winding_number(shapes.cube(), [[1, 2]]), "#V x 3"),
+    (lambda: bindpose.tetrahedralize(shapes.flat()), ""),
+    (lambda: bindpose.tetrahedralize(vtkPolyData()), "empty"),
+    (lambda: bindpose.weights(BAR, bindpose.handles([[1, 0.5, 0.5], [1, 0.5, 0.5]])), "same place"),
+    (lambda: bindpose.weights(BAR, "auto:0"), "auto"),
+    (lambda: bindpose.weights(BAR, 7), "handles"),
+    (lambda: bindpose.weights(BAR, "none.tgf"), "none.tgf"),
+    (lambda: bindpose.deform(BAR, bindpose.handles(bones=BONES), {"handles": {}}), "Weights"),
+    (lambda: bindpose.deform(BAR, bindpose.handles(bones=BONES), {"handles": {"elbow": {}}},
+                             weights=np.full((len(BAR[0]), 2), 0.5)), "elbow"),
+    (lambda: bindpose.deform(BAR, bindpose.handles(bones=BONES), {"a": {1, 2}},
+                             weights=np.full((len(BAR[0]), 2), 0.5)), "JSON"),
+])
+def test_errors_are_exceptions(call, sentence):
+    with pytest.raises(bindpose.InvalidInput, match=sentence):
+        call()

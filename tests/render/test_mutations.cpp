@@ -1,0 +1,64 @@
+// The harness itself: equal pictures pass, and the smallest changes that matter do not.
+#include "render/harness.h"
+#include "render/shapes.h"
+
+#include "vtkImageData.h"
+#include "vtkPolyData.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+using namespace bindpose;
+using namespace bindpose::test;
+
+namespace
+{
+vtkSmartPointer<vtkImageData> draw(const PictureOptions& options)
+{
+  vtkSmartPointer<vtkImageData> image;
+  const Status status = render_to_image({ { finger(), nullptr, "" } }, options, image);
+  EXPECT_TRUE(status.ok()) << status.message;
+  return image;
+}
+} // namespace
+
+TEST(Render, mutations)
+{
+  PictureOptions options = small_picture();
+  options.array = "Weights";
+  options.component = "right";
+  options.range = { 0.0, 1.0 };
+  const auto original = draw(options);
+  const Difference again = compare(original, draw(options));
+  EXPECT_TRUE(passes(again));
+  EXPECT_EQ(again.largest, 0) << "the same scene drawn twice";
+
+  const auto expect_caught = [&](const char* what, const PictureOptions& mutated)
+  {
+    const Difference difference = compare(original, draw(mutated));
+    std::printf(
+      "%s: %lld pixels differ, %lld allowed\n", what, difference.pixels, allowed_pixels());
+    EXPECT_FALSE(passes(difference)) << what;
+    // Not by a hair: the tolerance may be made ten times as large.
+    EXPECT_GT(difference.pixels, 10 * allowed_pixels()) << what;
+  };
+  PictureOptions turned = options;
+  turned.view.azimuth = 1.0;
+  expect_caught("camera 1 degree to the right", turned);
+  PictureOptions raised = options;
+  raised.view.elevation = 1.0;
+  expect_caught("camera 1 degree up", raised);
+  PictureOptions recoloured = options;
+  recoloured.range = { 0.0, 1.02 };
+  expect_caught("colour range 2 % wider", recoloured);
+  PictureOptions plain = options;
+  plain.isolines = false;
+  expect_caught("no isolines", plain);
+  PictureOptions zoomed = options;
+  zoomed.view.zoom = 1.01;
+  expect_caught("1 % larger", zoomed);
+  PictureOptions wider = options;
+  wider.width = 401;
+  EXPECT_FALSE(passes(compare(original, draw(wider)))) << "another size";
+}

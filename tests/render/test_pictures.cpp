@@ -1,0 +1,297 @@
+// Each picture with numbers that must hold in it whatever its baseline says.
+#include "render/harness.h"
+#include "render/shapes.h"
+
+#include "conversion.h"
+#include "scene/colours.h"
+#include "support/meshes.h"
+
+#include "vtkImageData.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+using namespace bindpose;
+using namespace bindpose::test;
+
+namespace
+{
+struct Drawing
+{
+  vtkSmartPointer<vtkImageData> image;
+  PictureGeometry geometry;
+
+  Pixel at(const Vec3& point, std::size_t tile = 0) const
+  {
+    const Eigen::Vector2d place = this->geometry.project(tile, point);
+    return pixel_at(this->image, place[0], place[1]);
+  }
+  long long count(const std::function<bool(const Pixel&)>& which) const
+  {
+    int size[3];
+    this->image->GetDimensions(size);
+    long long result = 0;
+    for (int y = 0; y < size[1]; ++y)
+    {
+      for (int x = 0; x < size[0]; ++x)
+      {
+        result += which(pixel_at(this->image, x, y));
+      }
+    }
+    return result;
+  }
+};
+
+Drawing draw(const std::vector<Tile>& tiles, const PictureOptions& options)
+{
+  Drawing drawing;
+  const Status status = render_to_image(tiles, options, drawing.image, &drawing.geometry);
+  EXPECT_TRUE(status.ok()) << status.message;
+  return drawing;
+}
+
+bool is_paper(const Pixel& p)
+{
+  return p.r == 255 && p.g == 255 && p.b == 255;
+}
+
+double lightness(const Pixel& p)
+{
+  return 0.299 * p.r + 0.587 * p.g + 0.114 * p.b;
+}
+
+double distance(const Pixel& p, const Rgb& colour)
+{
+  return std::max({ std::abs(p.r - 255.0 * colour[0]), std::abs(p.g - 255.0 * colour[1]),
+    std::abs(p.b - 255.0 * colour[2]) });
+}
+} // namespace
+
+TEST(Render, surface)
+{
+  const auto surface = sphere_and_cube();
+  const Drawing drawing = draw({ { surface, nullptr, "" } }, small_picture());
+  // The painted rectangle is that of the projected vertices, and it fills the picture up to the
+  // margin in one direction.
+  Eigen::AlignedBox2d expected;
+  for (vtkIdType v = 0; v < surface->GetNumberOfPoints(); ++v)
+  {
+    expected.extend(drawing.geometry.project(0, Vec3(surface->GetPoint(v))));
+  }
+  Eigen::AlignedBox2d painted;
+  for (int y = 0; y < 300; ++y)
+  {
+    for (int x = 0; x < 400; ++x)
+    {
+      if (!is_paper(pixel_at(drawing.image, x, y)))
+      {
+        painted.extend(Eigen::Vector2d(x, y)).extend(Eigen::Vector2d(x + 1, y + 1));
+      }
+    }
+  }
+  EXPECT_LT((painted.min() - expected.min()).cwiseAbs().maxCoeff(), 1.5);
+  EXPECT_LT((painted.max() - expected.max()).cwiseAbs().maxCoeff(), 1.5);
+  EXPECT_NEAR(expected.min().x(), 0.04 * 400, 0.01);
+  EXPECT_NEAR(expected.max().x(), 0.96 * 400, 0.01);
+  // A side of the cube is flat: one shade.
+  const Pixel side = drawing.at(Vec3(1.0, 0.3, 0.8));
+  for (const Vec3& p : { Vec3(0.7, -0.4, 0.8), Vec3(1.6, 0.5, 0.8) })
+  {
+    EXPECT_NEAR(lightness(drawing.at(p)), lightness(side), 12.0);
+  }
+  // Its top is lighter than its front: the key light comes from above.
+  EXPECT_GT(lightness(drawing.at(Vec3(1.2, 0.8, 0.0))), lightness(side) + 5.0);
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, weights)
+{
+  const auto surface = finger();
+  PictureOptions options = small_picture();
+  options.array = "Weights";
+  options.component = "right";
+  const Drawing drawing = draw({ { surface, nullptr, "" } }, options);
+  // Along the ridge that faces the camera, band after band gets darker.
+  std::vector<double> bands;
+  for (int band = 0; band < 10; ++band)
+  {
+    const double x = -2.0 + 4.0 * (band + 0.5) / 10.0;
+    const double round = std::sqrt(std::max(0.0, 1.0 - x * x / 4.0));
+    bands.push_back(
+      lightness(drawing.at(Vec3(x, 0.2 * round + 0.5 * std::cos(0.8 * x), 0.7 * round * 0.968))));
+  }
+  for (int band = 1; band < 9; ++band)
+  {
+    EXPECT_LT(bands[band + 1], bands[band]) << "band " << band + 1;
+  }
+  // The other column is the mirror image in colours: light where this one is dark.
+  options.component = "0";
+  const Drawing other = draw({ { surface, nullptr, "" } }, options);
+  const Vec3 right_end(1.8, 0.1, 0.25);
+  EXPECT_GT(lightness(other.at(right_end)), lightness(drawing.at(right_end)) + 60.0);
+  // Isolines are dark and there are nine of them, each a closed curve: some hundred pixels.
+  options.component = "right";
+  options.isolines = false;
+  const Drawing plain = draw({ { surface, nullptr, "" } }, options);
+  long long darker = 0;
+  for (int y = 0; y < 300; ++y)
+  {
+    for (int x = 0; x < 400; ++x)
+    {
+      darker +=
+        lightness(pixel_at(drawing.image, x, y)) < lightness(pixel_at(plain.image, x, y)) - 20.0;
+    }
+  }
+  EXPECT_GT(darker, 500);
+  EXPECT_LT(darker, 4000);
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, winding_slice)
+{
+  PictureOptions options = small_picture();
+  const Drawing drawing = draw({ { three_spheres(), nullptr, "" } }, options);
+  // The slice lies half a sample off z = 0; where nothing stands before it, its colours are the
+  // map's own.
+  EXPECT_LT(distance(drawing.at(Vec3(-1.8, 1.2, 0.0)), winding_colour(0.0)), 3.0);
+  const Vec3 overlap = 0.5 * (sphere_centers[0] + sphere_centers[1]);
+  const Pixel one = drawing.at(sphere_centers[0] - Vec3(0.25, 0, 0));
+  const Pixel two = drawing.at(overlap);
+  const Pixel negative = drawing.at(sphere_centers[2]);
+  EXPECT_LT(distance(one, winding_colour(1.0)), 60.0); // behind glass
+  EXPECT_GT(one.r, one.b + 50) << "inside is orange";
+  EXPECT_LT(lightness(two), lightness(one) - 60.0) << "twice inside is darker";
+  EXPECT_LT(lightness(negative), lightness(one) - 60.0) << "inside out is dark";
+  EXPECT_LT(distance(negative, winding_colour(-1.0)), 3.0) << "and has no glass before it";
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, tets_cut)
+{
+  PictureOptions options = small_picture();
+  const Drawing cut = draw({ { tet_brick(), nullptr, "" } }, options);
+  const auto is_cut = [](const Pixel& p) { return p.b > p.r + 20; };
+  // The laid-open side is as large as the brick's front: about 1.6 x 1.0 projected.
+  const Eigen::Vector2d a = cut.geometry.project(0, Vec3(0, 0, 0.6));
+  const Eigen::Vector2d b = cut.geometry.project(0, Vec3(1.6, 0, 0.6));
+  const Eigen::Vector2d c = cut.geometry.project(0, Vec3(0, 1, 0.6));
+  const double area = std::abs((b - a).x() * (c - a).y() - (b - a).y() * (c - a).x());
+  EXPECT_NEAR(static_cast<double>(cut.count(is_cut)), area, 0.25 * area);
+  options.cut = false;
+  const Drawing whole = draw({ { tet_brick(), nullptr, "" } }, options);
+  EXPECT_EQ(whole.count(is_cut), 0);
+  EXPECT_GT(whole.count([](const Pixel& p) { return !is_paper(p); }),
+    cut.count([](const Pixel& p) { return !is_paper(p); }));
+  expect_baseline(cut.image);
+}
+
+TEST(Render, handles)
+{
+  // Inside a sphere, and yet seen.
+  PictureOptions options = small_picture();
+  const TriangleMesh ball = sphere(4, 1.8);
+  const Drawing drawing =
+    draw({ { to_polydata(ball.points, ball.triangles), handle_row(), "" } }, options);
+  const Pixel full = drawing.at(Vec3(-1.0, -0.4, 0.0));
+  const Pixel position = drawing.at(Vec3(0.0, -0.4, 0.0));
+  const Pixel free = drawing.at(Vec3(1.0, -0.4, 0.0));
+  EXPECT_GT(full.r, full.b + 80) << "full: orange";
+  EXPECT_GT(position.b, position.r + 80) << "position: blue";
+  EXPECT_LT(std::abs(free.r - free.b), 20) << "free: grey";
+  const Pixel bone = drawing.at(Vec3(0.0, 0.5, 0.0));
+  EXPECT_GT(bone.r, bone.b + 60) << "bone: orange";
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, tiles)
+{
+  PictureOptions options = small_picture();
+  options.columns = 2;
+  const auto surface = finger();
+  const auto other = sphere_and_cube();
+  const Drawing drawing = draw({ { surface, nullptr, "" }, { other, nullptr, "" },
+                                 { other, nullptr, "" }, { surface, nullptr, "" } },
+    options);
+  // Equal datasets look equal wherever they stand: one camera for all.
+  long long differing = 0;
+  for (int y = 0; y < 150; ++y)
+  {
+    for (int x = 0; x < 200; ++x)
+    {
+      const Pixel first = pixel_at(drawing.image, x, y + 150);
+      const Pixel last = pixel_at(drawing.image, x + 200, y);
+      differing += std::abs(first.r - last.r) > pixel_level;
+    }
+  }
+  EXPECT_LE(differing, allowed_pixels());
+  EXPECT_EQ(drawing.geometry.tiles.size(), 4u);
+  EXPECT_EQ(drawing.geometry.tiles[1].x, 200);
+  EXPECT_EQ(drawing.geometry.tiles[1].y, 150);
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, transparent)
+{
+  PictureOptions options = small_picture();
+  options.background = Background::transparent;
+  const Drawing drawing = draw({ { finger(), nullptr, "" } }, options);
+  ASSERT_EQ(drawing.image->GetNumberOfScalarComponents(), 4);
+  const auto clear = drawing.count([](const Pixel& p) { return p.a == 0; });
+  const auto solid = drawing.count([](const Pixel& p) { return p.a == 255; });
+  EXPECT_EQ(pixel_at(drawing.image, 0, 0).a, 0);
+  EXPECT_EQ(drawing.at(Vec3(0, 0.5, 0.7)).a, 255);
+  // What is neither is the silhouette: a line.
+  EXPECT_GT(400 * 300 - clear - solid, 200);
+  EXPECT_LT(400 * 300 - clear - solid, 2500);
+  // On white it is the picture on white: colours are not darkened at the edge.
+  options.background = Background::white;
+  const Drawing white = draw({ { finger(), nullptr, "" } }, options);
+  long long differing = 0;
+  for (int y = 0; y < 300; ++y)
+  {
+    for (int x = 0; x < 400; ++x)
+    {
+      const Pixel p = pixel_at(drawing.image, x, y);
+      const Pixel q = pixel_at(white.image, x, y);
+      differing += std::abs((p.r * p.a + 255 * (255 - p.a)) / 255 - q.r) > pixel_level;
+    }
+  }
+  EXPECT_LE(differing, allowed_pixels());
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, legend)
+{
+  PictureOptions options = small_picture();
+  options.array = "Weights";
+  options.component = "right";
+  options.legend = true;
+  options.title = "Bounded biharmonic weights";
+  const Drawing drawing =
+    draw({ { finger(), nullptr, "rest" }, { finger(), nullptr, "posed" } }, options);
+  // All ten colours of the bar are there, as they are: nothing lights it.
+  for (int band = 0; band < 10; ++band)
+  {
+    const Rgb colour = sequential_colour(band / 9.0);
+    EXPECT_GT(drawing.count([&](const Pixel& p) { return distance(p, colour) <= 2.0; }), 60)
+      << "band " << band;
+  }
+  // Title: dark pixels in the top lines, none at their ends.
+  EXPECT_TRUE(is_paper(pixel_at(drawing.image, 2, 297)));
+  EXPECT_TRUE(is_paper(pixel_at(drawing.image, 397, 297)));
+  long long dark = 0;
+  for (int y = 270; y < 300; ++y)
+  {
+    for (int x = 0; x < 400; ++x)
+    {
+      dark += lightness(pixel_at(drawing.image, x, y)) < 100.0;
+    }
+  }
+  EXPECT_GT(dark, 300);
+  expect_baseline(drawing.image);
+}

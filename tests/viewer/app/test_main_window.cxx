@@ -1,0 +1,331 @@
+// The window as a person uses it: open, bind, drag, undo, cancel. Drags are synthetic events on the
+// interactor; what is asserted is where vertices are.
+#include "main_window.h"
+#include "side_panel.h"
+#include "style.h"
+#include "viewport.h"
+
+#include "conversion.h"
+
+#include "support/meshes.h"
+
+#include "vtkCommand.h"
+#include "vtkDoubleArray.h"
+#include "vtkHandleSetRepresentation.h"
+#include "vtkHandleSetWidget.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+
+#include <QApplication>
+#include <QElapsedTimer>
+#include <QProgressBar>
+#include <QSurfaceFormat>
+#include <QUndoStack>
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+
+using namespace bindpose;
+
+namespace
+{
+/// A column from z = -1 to 1 with a point handle at each end.
+TriangleMesh column()
+{
+  TriangleMesh mesh = test::sphere(3);
+  mesh.points.col(0) *= 0.4;
+  mesh.points.col(1) *= 0.4;
+  return mesh;
+}
+
+vtkSmartPointer<vtkPolyData> two_points()
+{
+  Handles handles(2);
+  handles[0].name = "bottom";
+  handles[0].head = handles[0].tail = Vec3(0, 0, -0.9);
+  handles[1].name = "top";
+  handles[1].head = handles[1].tail = Vec3(0, 0, 0.9);
+  return to_polydata(handles);
+}
+
+vtkSmartPointer<vtkPolyData> with_weights(const TriangleMesh& mesh)
+{
+  const auto data = to_polydata(mesh.points, mesh.triangles);
+  vtkNew<vtkDoubleArray> weights;
+  weights->SetName("Weights");
+  weights->SetNumberOfComponents(2);
+  for (Index v = 0; v < mesh.points.rows(); ++v)
+  {
+    const double t = 0.5 * (1.0 + mesh.points(v, 2));
+    const double row[2] = { 1.0 - t, t };
+    weights->InsertNextTuple(row);
+  }
+  data->GetPointData()->AddArray(weights);
+  return data;
+}
+
+Vec3 top_of(vtkPolyData* data)
+{
+  Vec3 top(0, 0, -1e300);
+  for (vtkIdType v = 0; v < data->GetNumberOfPoints(); ++v)
+  {
+    double p[3];
+    data->GetPoint(v, p);
+    if (p[2] > top.z())
+    {
+      top = Vec3(p[0], p[1], p[2]);
+    }
+  }
+  return top;
+}
+
+/// Lets the event loop run until the condition holds; false after some seconds without.
+template <typename Condition>
+bool wait_for(const Condition& condition, int seconds = 60)
+{
+  QElapsedTimer clock;
+  clock.start();
+  while (!condition() && clock.elapsed() < 1000 * seconds)
+  {
+    QApplication::processEvents(QEventLoop::AllEvents, 20);
+  }
+  return condition();
+}
+
+class Window : public testing::Test
+{
+protected:
+  Window()
+  {
+    this->window.show();
+    QApplication::processEvents();
+  }
+
+  void open_bound()
+  {
+    ASSERT_TRUE(this->window.set_mesh(with_weights(column()), "column"));
+    ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
+    ASSERT_TRUE(this->window.is_bound());
+    this->render();
+  }
+
+  void render()
+  {
+    QApplication::processEvents();
+    this->window.viewport()->renderWindow()->Render();
+  }
+
+  /// Where a handle is in the window, in VTK's pixels.
+  Eigen::Vector2i pixel_of(vtkIdType handle)
+  {
+    auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
+    double p[3];
+    drawn->GetPosedHead(handle, p);
+    vtkRenderer* renderer = this->window.viewport()->renderer();
+    renderer->SetWorldPoint(p[0], p[1], p[2], 1.0);
+    renderer->WorldToDisplay();
+    const double* d = renderer->GetDisplayPoint();
+    return { static_cast<int>(d[0]), static_cast<int>(d[1]) };
+  }
+
+  void mouse(const Eigen::Vector2i& at, unsigned long event)
+  {
+    vtkRenderWindowInteractor* interactor = this->window.viewport()->interactor();
+    interactor->SetEventInformation(at.x(), at.y(), 0, 0, 0, 0, nullptr);
+    interactor->InvokeEvent(event);
+  }
+
+  void press_and_move(vtkIdType handle, const Eigen::Vector2i& by)
+  {
+    const Eigen::Vector2i at = this->pixel_of(handle);
+    this->mouse(at, vtkCommand::MouseMoveEvent);
+    this->mouse(at, vtkCommand::LeftButtonPressEvent);
+    for (int step = 1; step <= 4; ++step)
+    {
+      this->mouse(at + by * step / 4, vtkCommand::MouseMoveEvent);
+    }
+  }
+
+  void drag(vtkIdType handle, const Eigen::Vector2i& by)
+  {
+    const Eigen::Vector2i at = this->pixel_of(handle);
+    this->press_and_move(handle, by);
+    this->mouse(at + by, vtkCommand::LeftButtonReleaseEvent);
+  }
+
+  MainWindow window;
+};
+} // namespace
+
+TEST_F(Window, ADragMovesVerticesAndUndoTakesItBack)
+{
+  this->open_bound();
+  const Vec3 rest = top_of(this->window.shown());
+  this->drag(1, { 80, 0 });
+  const Vec3 moved = top_of(this->window.shown());
+  EXPECT_GT((moved - rest).norm(), 0.1);
+  ASSERT_EQ(this->window.history()->count(), 1);
+  EXPECT_NE(this->window.history()->undoText().indexOf("top"), -1);
+  this->window.history()->undo();
+  EXPECT_EQ(top_of(this->window.shown()), rest);
+  this->window.history()->redo();
+  EXPECT_EQ(top_of(this->window.shown()), moved);
+}
+
+TEST_F(Window, EscapeTakesTheDragBackAndLeavesNoHistory)
+{
+  this->open_bound();
+  const Vec3 rest = top_of(this->window.shown());
+  this->press_and_move(1, { 80, 0 });
+  EXPECT_GT((top_of(this->window.shown()) - rest).norm(), 0.1);
+  vtkRenderWindowInteractor* interactor = this->window.viewport()->interactor();
+  interactor->SetKeySym("Escape");
+  interactor->InvokeEvent(vtkCommand::KeyPressEvent);
+  EXPECT_EQ(top_of(this->window.shown()), rest);
+  EXPECT_EQ(this->window.history()->count(), 0);
+}
+
+TEST_F(Window, AllMethodsFollowTheHandles)
+{
+  this->open_bound();
+  const Vec3 rest = top_of(this->window.shown());
+  this->drag(1, { 80, 0 });
+  const Vec3 linear = top_of(this->window.shown());
+  for (const int method : { 1, 2 })
+  {
+    this->window.set_method(method);
+    EXPECT_EQ(this->window.error(), QString());
+    // Both handles fix everything: all methods agree that the top has moved as far.
+    EXPECT_NEAR((top_of(this->window.shown()) - linear).norm(), 0.0, 0.05 * (linear - rest).norm());
+  }
+}
+
+TEST_F(Window, ModesAreRememberedAndUndone)
+{
+  this->open_bound();
+  this->window.set_method(2);
+  this->window.set_mode(1, 1);
+  EXPECT_EQ(this->window.history()->count(), 1);
+  this->drag(1, { 60, 0 });
+  EXPECT_EQ(this->window.error(), QString());
+  this->window.back_to_rest();
+  EXPECT_EQ(this->window.history()->count(), 3);
+  for (int step = 0; step < 3; ++step)
+  {
+    this->window.history()->undo();
+  }
+  auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
+  EXPECT_EQ(drawn->GetHandleMode(1), 0);
+}
+
+TEST_F(Window, BindsOffTheUiThreadWithProgress)
+{
+  const TriangleMesh mesh = column();
+  ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "column"));
+  ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
+  EXPECT_FALSE(this->window.is_bound());
+  double last = 0.0;
+  bool forward = true;
+  int steps = 0;
+  QObject::connect(this->window.findChild<BindJob*>(), &BindJob::progress,
+    [&](double fraction, const QString&)
+    {
+      forward = forward && fraction >= last;
+      last = fraction;
+      ++steps;
+    });
+  this->window.bind();
+  EXPECT_TRUE(this->window.is_binding());
+  ASSERT_TRUE(wait_for([this] { return !this->window.is_binding(); }));
+  EXPECT_EQ(this->window.error(), QString());
+  ASSERT_TRUE(this->window.is_bound());
+  EXPECT_TRUE(forward);
+  EXPECT_GT(steps, 3);
+  this->render();
+  const Vec3 rest = top_of(this->window.shown());
+  this->drag(1, { 80, 0 });
+  EXPECT_GT((top_of(this->window.shown()) - rest).norm(), 0.1);
+}
+
+TEST_F(Window, ACancelledBindLeavesEverythingAsItWas)
+{
+  TriangleMesh mesh = test::sphere(5);
+  ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
+  ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
+  this->window.bind();
+  wait_for([] { return false; }, 1);
+  QElapsedTimer clock;
+  clock.start();
+  this->window.cancel_bind();
+  ASSERT_TRUE(wait_for([this] { return !this->window.is_binding(); }));
+  EXPECT_LT(clock.elapsed(), 5000);
+  EXPECT_FALSE(this->window.is_bound());
+  EXPECT_EQ(this->window.error(), QString());
+}
+
+TEST_F(Window, WhatCannotBeOpenedIsSaidAndTheWorkStays)
+{
+  this->open_bound();
+  vtkPolyData* before = this->window.shown();
+  EXPECT_FALSE(this->window.open("/no/such/mesh.off"));
+  EXPECT_NE(this->window.error().indexOf("mesh.off"), -1) << this->window.error().toStdString();
+  const std::string path = testing::TempDir() + "bindpose_broken.off";
+  std::ofstream(path) << "OFF\n3 1 0\n0 0 0\n1 0 0\n";
+  EXPECT_FALSE(this->window.open(QString::fromStdString(path)));
+  std::remove(path.c_str());
+  EXPECT_FALSE(this->window.error().isEmpty());
+  EXPECT_EQ(this->window.shown(), before);
+  EXPECT_TRUE(this->window.is_bound());
+}
+
+TEST_F(Window, WeightsOfOtherHandlesAreNotUsed)
+{
+  this->open_bound();
+  Handles one(1);
+  one[0].name = "only";
+  EXPECT_TRUE(this->window.set_handles(to_polydata(one), "one"));
+  EXPECT_FALSE(this->window.is_bound());
+  EXPECT_NE(this->window.error().indexOf("weights for 2 handles"), -1);
+}
+
+TEST_F(Window, AColumnOfTheWeightsColoursTheSurface)
+{
+  this->open_bound();
+  const QImage shaded = this->window.viewport()->grabFramebuffer();
+  this->window.panel()->show_column(1);
+  this->render();
+  const QImage coloured = this->window.viewport()->grabFramebuffer();
+  // Deep blue where the weight is one: blue well above red. The shaded surface has none.
+  const auto blue = [](const QImage& image)
+  {
+    int count = 0;
+    for (int y = 0; y < image.height(); ++y)
+    {
+      for (int x = 0; x < image.width(); ++x)
+      {
+        const QColor c = image.pixelColor(x, y);
+        count += c.blue() > c.red() + 60;
+      }
+    }
+    return count;
+  };
+  EXPECT_GT(blue(coloured), 2000 + blue(shaded));
+}
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  if (testing::GTEST_FLAG(list_tests))
+  {
+    return RUN_ALL_TESTS(); // tests are listed while building, without a display
+  }
+  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  QApplication application(argc, argv);
+  apply_style(application);
+  return RUN_ALL_TESTS();
+}

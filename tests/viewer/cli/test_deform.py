@@ -1,0 +1,131 @@
+"""deform: poses whose result is known, sequences, and poses that cannot be."""
+
+import json
+
+import bindpose
+import numpy as np
+import pytest
+import shapes
+from bindpose.meshes import add_point_array, points_of, to_dataset
+
+METHODS = ["lbs", "dqs", "reduced-arap"]
+
+
+@pytest.fixture
+def bar(folder):
+    """A bar with weights that blend linearly between the ends: no solver needed."""
+    mesh = to_dataset(shapes.bar())
+    x = points_of(mesh)[:, 0] / 6
+    add_point_array(mesh, "Weights", np.stack([1 - x, x], axis=1), ["b1", "b2"])
+    bindpose.write(mesh, folder / "bar.vtp")
+    folder.write("h.tgf", shapes.TWO_BONES)
+    folder.points = points_of(mesh)
+    return folder
+
+
+def deform(folder, pose, *more, method="lbs", output="out.vtp"):
+    folder.write("pose.json", pose if isinstance(pose, str) else json.dumps(pose))
+    return folder.run("deform", "bar.vtp", "--handles", "h.tgf", "--pose", "pose.json", "--method", method,
+                      "-o", output, *more)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_rest_and_rigid_poses(bar, method):
+    deform(bar, {"handles": {}}, method=method).is_good()
+    assert points_of(bindpose.read(bar / "out.vtp")) == pytest.approx(bar.points, abs=1e-8)
+    turn = {"rotate": {"axis": [0, 0, 1], "degrees": 90}}
+    # Each about its own head, so the second has to move where the first takes its head.
+    pose = {"handles": {"b1": turn, "b2": {**turn, "translate": [-2.5, 2.5, 0]}}}
+    deform(bar, pose, "--overwrite", method=method).is_good()
+    head = np.array([0.5, 0.5, 0.5])
+    x = bar.points - head
+    expected = head + np.stack([-x[:, 1], x[:, 0], x[:, 2]], axis=1)
+    assert points_of(bindpose.read(bar / "out.vtp")) == pytest.approx(expected, abs=1e-8)
+
+
+def test_linear_blend_is_linear(bar):
+    deform(bar, {"handles": {"b2": {"translate": [0, 1, 2]}}}).is_good()
+    x = bar.points[:, :1] / 6
+    assert points_of(bindpose.read(bar / "out.vtp")) == pytest.approx(bar.points + x * [0, 1, 2], abs=1e-12)
+
+
+def test_report(bar):
+    report = deform(bar, shapes.BENT, "--report", "-", method="reduced-arap").is_good().report
+    assert report["status"] == "ok" and report["energy"] >= 0 and report["iterations"] >= 1
+    assert report["microseconds_per_iteration"] > 0
+    assert {"bind", "solve", "skin", "total"} <= set(report["seconds"])
+    assert report["counts"]["handles"] == 2 and report["counts"]["vertices"] == len(bar.points)
+    report = deform(bar, shapes.BENT, "--report", "-", "--overwrite").is_good().report
+    assert {"bind", "skin"} <= set(report["seconds"]) and "energy" not in report
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_sequences(bar, method):
+    frames = [{"handles": {"b2": {"rotate": {"axis": [0, 0, 1], "degrees": 10 * k}}}} for k in range(3)]
+    run = deform(bar, {"frames": frames, "fps": 4}, "--report", "r.json", method=method).is_good()
+    assert run.new_files == ["out.pvd", "out_0000.vtp", "out_0001.vtp", "out_0002.vtp", "r.json"]
+    collection = (bar / "out.pvd").read_text()
+    assert 'timestep="0.25" file="out_0001.vtp"' in collection
+    assert json.loads((bar / "r.json").read_text())["counts"]["frames"] == 3
+    # The same as each pose alone.
+    deform(bar, frames[2], method=method, output="single.vtp").is_good()
+    assert points_of(bindpose.read(bar / "single.vtp")) == pytest.approx(
+        points_of(bindpose.read(bar / "out_0002.vtp")), abs=1e-4 if method == "reduced-arap" else 1e-12)
+
+
+def test_a_sequence_is_there_whole_or_not_at_all(bar):
+    frames = [{"handles": {}}, {"handles": {}}]
+    bar.write("out_0001.vtp", "precious")
+    deform(bar, {"frames": frames})  # writes pose.json
+    deform(bar, {"frames": frames}).is_refused("out_0001.vtp", "exists already")
+    assert (bar / "out_0001.vtp").read_text() == "precious"
+    assert not (bar / "out_0000.vtp").exists()
+
+
+def test_tets_and_other_endings(bar):
+    folder = bar
+    tets = to_dataset((6 * np.eye(4, 3), np.array([[3, 0, 1, 2]])))
+    x = points_of(tets)[:, 0] / 6
+    add_point_array(tets, "Weights", np.stack([1 - x, x], axis=1), ["b1", "b2"])
+    bindpose.write(tets, folder / "tw.vtu")
+    folder.write("pose.json", shapes.BENT)
+    for ending in ("vtu", "mesh"):
+        folder.run("deform", "tw.vtu", "--handles", "h.tgf", "--pose", "pose.json", "-o", f"o.{ending}").is_good()
+        assert bindpose.read(folder / f"o.{ending}").GetNumberOfCells() == tets.GetNumberOfCells()
+    folder.run("deform", "tw.vtu", "--handles", "h.tgf", "--pose", "pose.json", "-o", "o.vtp").is_refused("o.vtp")
+    deform(bar, shapes.BENT, output="o.obj").is_good()
+
+
+@pytest.mark.parametrize("pose, words", [
+    ('{"handles": {"elbow": {}}}', ["elbow"]),
+    ('{"handles": {"b1": {"rotate": {"axis": [0, 0, 0], "degrees": 5}}}}', ["b1"]),
+    ('{"handles": {"b1": {"scale": -1}}}', ["b1"]),
+    ('{"handles": {"b1": {"translate": [1, 2]}}}', ["b1"]),
+    ('{"handles": {"b1": {"mode": "half"}}}', ["b1"]),
+    ('{"handles": {"b1": {"turn": 3}}}', ["turn"]),
+    ('{"handles": {"b1": {"translate": [1, 2, 1e999]}}}', []),
+    ('{"handles": ', []),
+    ("", []),
+    ("[]", []),
+    ('{"frames": []}', []),
+])
+def test_poses_that_cannot_be(bar, pose, words):
+    deform(bar, {"handles": {}}, output="first.vtp").is_good()  # writes pose.json
+    deform(bar, pose).is_refused(*words)
+
+
+def test_meshes_that_do_not_fit(bar):
+    bar.write("pose.json", shapes.BENT)
+    bar.off("plain.off", shapes.bar())
+
+    def refused(*words, mesh="bar.vtp", handles="h.tgf", pose="pose.json", output="out.vtp"):
+        bar.run("deform", mesh, "--handles", handles, "--pose", pose, "-o", output).is_refused(*words)
+
+    refused("Weights", mesh="plain.off")
+    bar.write("three.tgf", "1 0 0 0\n2 1 0 0\n3 2 0 0\n#\n")
+    bar.write("three.json", "{}")
+    refused(handles="three.tgf", pose="three.json")
+    refused("none.json", pose="none.json")
+    refused("none.tgf", handles="none.tgf")
+    refused("no/out.vtp", output="no/out.vtp")
+    refused("out.doc", output="out.doc")

@@ -1,0 +1,67 @@
+"""render: pictures, without a display too; view without one. What pictures show is looked at in
+tests/render."""
+
+import os
+import shutil
+import struct
+
+import pytest
+import shapes
+
+
+def size_of(path):
+    head = path.read_bytes()[:24]
+    assert head[:8] == b"\x89PNG\r\n\x1a\n"
+    return struct.unpack(">II", head[16:24])
+
+
+NO_DISPLAY = {"DISPLAY": ""}
+
+
+def test_it_finds_a_display_for_itself(folder):
+    folder.off("sphere.off", shapes.sphere())
+    run = folder.run("render", "sphere.off", "-o", "s.png", "--size", "320x240", "--report", "-",
+                     environment=NO_DISPLAY).is_good()
+    assert run.new_files == ["s.png"] and run.err == ""
+    assert size_of(folder / "s.png") == (320, 240)
+    assert run.report["status"] == "ok"
+
+
+def test_tiles_handles_and_volumes(folder):
+    folder.off("bar.off", shapes.bar())
+    folder.write("h.tgf", shapes.TWO_BONES)
+    folder.run("winding", "bar.off", "--grid", "16", "-o", "w.vti").is_good()
+    run = folder.run("render", "bar.off", "h.tgf", "w.vti", "--handles", "h.tgf", "--handle-names", "--columns", "3",
+                     "--size", "600x200", "--title", "three", "-o", "all.png").is_good()
+    assert run.err == ""
+    assert size_of(folder / "all.png") == (600, 200)
+
+
+def test_without_a_display_or_xvfb_it_names_the_package(folder):
+    """VTK would end the process: the program must not let it come to that."""
+    folder.off("sphere.off", shapes.sphere(8, 4))
+    nowhere = {"DISPLAY": "", "PATH": "/nowhere"}
+    folder.run("render", "sphere.off", "-o", "s.png", environment=nowhere).is_refused("xvfb")
+    broken = {"DISPLAY": ":97531", "PATH": "/nowhere"}
+    folder.run("render", "sphere.off", "-o", "s.png", environment=broken).is_refused("xvfb")
+
+
+def test_view_without_a_display(folder):
+    folder.off("sphere.off", shapes.sphere(8, 4))
+    folder.run("view", "sphere.off", environment=NO_DISPLAY).is_refused()
+
+
+@pytest.mark.parametrize("words, sentence", [
+    (["--array", "Weights"], "Weights"),
+    (["--component", "hip"], "Weights"),
+    (["--size", "big"], "--size big"),
+    (["--size", "0x10"], "--size 0x10"),
+    (["--range", "1"], "--range 1"),
+    (["--zoom", "0"], "zoom"),
+    (["--handles", "none.tgf"], "none.tgf"),
+    (["--handles", "sphere.off"], "sphere.off"),
+])
+def test_what_cannot_be_drawn(folder, words, sentence):
+    assert shutil.which("xvfb-run") and os.access(shutil.which("xvfb-run"), os.X_OK)
+    folder.off("sphere.off", shapes.sphere(8, 4))
+    folder.run("render", "sphere.off", "-o", "s.png", *words, environment=NO_DISPLAY).is_refused(sentence)

@@ -1,0 +1,67 @@
+"""tetrahedralize: volumes of known shapes, whatever state the surface is in."""
+
+import bindpose
+import numpy as np
+import pytest
+import shapes
+from bindpose.meshes import point_array, points_of, tets_of
+
+
+def volumes(path):
+    mesh = bindpose.read(path)
+    p = points_of(mesh)[tets_of(mesh)]
+    return np.einsum("ti,ti->t", np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), p[:, 3] - p[:, 0]) / 6
+
+
+def test_a_clean_surface_keeps_its_vertices(folder):
+    vertices, faces = shapes.bar()
+    folder.off("bar.off", (vertices, faces))
+    run = folder.run("tetrahedralize", "bar.off", "-o", "bar.vtu", "--report", "-").is_good()
+    assert run.new_files == ["bar.vtu"] and run.err == ""
+    assert volumes(folder / "bar.vtu").min() > 0
+    assert volumes(folder / "bar.vtu").sum() == pytest.approx(6.0, rel=1e-10)
+    report = run.report
+    assert report["method"] == "cdt"
+    assert report["counts"]["tets"] == len(volumes(folder / "bar.vtu"))
+    assert report["volume"] == pytest.approx(6.0, rel=1e-10)
+    assert report["winding_volume"] == pytest.approx(6.0, rel=1e-2)
+    mesh = bindpose.read(folder / "bar.vtu")
+    original = point_array(mesh, "OriginalPointIds")
+    kept = original >= 0
+    assert sorted(original[kept]) == list(range(len(vertices)))
+    assert np.array_equal(points_of(mesh)[kept], np.array(vertices)[original[kept]])
+    assert mesh.GetCellData().GetArray("WindingNumber") is not None
+
+
+@pytest.mark.parametrize("name, mesh, volume", [
+    ("open", shapes.open_cube(), 8.0), ("doubled", shapes.doubled(shapes.cube()), 8.0), ("quads", shapes.quads(), 8.0),
+    ("flipped", shapes.flipped(shapes.cube()), 8.0),
+])
+def test_unclean_surfaces(folder, name, mesh, volume):
+    folder.off("m.off", mesh)
+    run = folder.run("tetrahedralize", "m.off", "-o", "m.vtu", "--report", "-").is_good()
+    assert volumes(folder / "m.vtu").min() > 0
+    assert volumes(folder / "m.vtu").sum() == pytest.approx(volume, rel=0.02), name
+    assert run.report["volume"] == pytest.approx(volumes(folder / "m.vtu").sum())
+
+
+@pytest.mark.parametrize("method", ["remesh", "embed"])
+def test_the_other_methods(folder, method):
+    folder.off("sphere.off", shapes.sphere())
+    run = folder.run("tetrahedralize", "sphere.off", "--method", method, "-o", "s.mesh", "--report", "-").is_good()
+    assert run.report["method"] == method
+    total = volumes(folder / "s.mesh").sum()
+    assert volumes(folder / "s.mesh").min() > 0
+    assert total > 4.1 if method == "embed" else total == pytest.approx(4.1, rel=0.05)
+
+
+@pytest.mark.parametrize("mesh", [shapes.flat(), shapes.one_triangle()])
+def test_what_encloses_nothing_says_so(folder, mesh):
+    folder.off("m.off", mesh)
+    folder.run("tetrahedralize", "m.off", "-o", "m.vtu").is_refused()
+
+
+def test_the_threshold_is_used(folder):
+    """Nothing has a winding number of 1.5 in a single cube."""
+    folder.off("cube.off", shapes.cube())
+    folder.run("tetrahedralize", "cube.off", "--method", "cdt", "--winding-threshold", "1.5", "-o", "m.vtu").is_refused()

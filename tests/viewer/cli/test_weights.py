@@ -1,0 +1,167 @@
+"""weights: facts that hold for any good weights, on the surface's own points and on tets."""
+
+import bindpose
+import numpy as np
+import pytest
+import shapes
+from bindpose.meshes import add_point_array, is_tets, point_array, points_of, to_dataset
+
+
+@pytest.fixture
+def bar(folder):
+    folder.off("bar.off", shapes.bar())
+    folder.write("bones.tgf", shapes.TWO_BONES)
+    folder.write("points.tgf", shapes.TWO_POINTS)
+    return folder
+
+
+def weights_of(path):
+    return point_array(bindpose.read(path), "Weights")
+
+
+def check(weights, points):
+    assert weights.min() >= -1e-9 and weights.max() <= 1 + 1e-9
+    assert weights.sum(axis=1) == pytest.approx(np.ones(len(points)), abs=1e-12)
+
+
+def test_surface_through_tets(bar):
+    run = bar.run("weights", "bar.off", "--handles", "bones.tgf", "-o", "w.vtp", "--report", "-").is_good()
+    assert run.new_files == ["w.vtp"]
+    mesh = bindpose.read(bar / "w.vtp")
+    points, weights = points_of(mesh), weights_of(bar / "w.vtp")
+    assert np.array_equal(points, np.array(shapes.bar()[0]))  # the surface's own points
+    check(weights, points)
+    array = mesh.GetPointData().GetArray("Weights")
+    assert [array.GetComponentName(i) for i in range(2)] == ["b1", "b2"]
+    left = points[:, 0] < 2
+    assert (weights[left, 0] > 0.5).all() and (weights[points[:, 0] > 4, 1] > 0.5).all()
+    report = run.report
+    assert report["status"] == "ok" and report["method"].replace("_", "-") == "bounded-biharmonic"
+    assert report["domain"] == "volume"
+    assert report["transfer"] == "exact"
+    assert {"tetrahedralize", "analyse", "factor", "solve", "total"} <= set(report["seconds"])
+    assert report["kkt_residual"] <= 1e-6 and report["relative_gap"] <= 1e-6
+    assert report["counts"]["handles"] == 2 and report["counts"]["tets"] > 0
+    for handle, name in zip(report["handles"], ("b1", "b2")):
+        assert handle["name"] == name and handle["kind"] == "bone" and handle["constrained_vertices"] > 0
+    for key in ("bounds_violation", "row_sum_error", "iterations", "peak_memory_bytes"):
+        assert key in report
+
+
+def test_vtu_holds_the_tets_and_dmat_the_numbers(bar):
+    bar.run("weights", "bar.off", "--handles", "points.tgf", "-o", "w.vtu").is_good()
+    mesh = bindpose.read(bar / "w.vtu")
+    assert is_tets(mesh)
+    check(weights_of(bar / "w.vtu"), points_of(mesh))
+    bar.run("weights", "bar.off", "--handles", "points.tgf", "-o", "w.vtp").is_good()
+    bar.run("weights", "bar.off", "--handles", "points.tgf", "-o", "w.dmat").is_good()
+    lines = (bar / "w.dmat").read_text().split()
+    columns, rows = int(lines[0]), int(lines[1])
+    assert (columns, rows) == (2, len(shapes.bar()[0]))
+    values = np.array(lines[2:], dtype=float).reshape(columns, rows).T
+    assert np.array_equal(values, weights_of(bar / "w.vtp"))
+
+
+def test_tets_are_solved_on_directly(bar):
+    bar.run("tetrahedralize", "bar.off", "-o", "bar.vtu").is_good()
+    run = bar.run("weights", "bar.vtu", "--handles", "bones.tgf", "-o", "w.vtu", "--report", "-").is_good()
+    assert "tetrahedralize" not in run.report["seconds"]
+    bar.run("weights", "bar.vtu", "--handles", "bones.tgf", "-o", "w.dmat").is_good()
+    own = bindpose.read(bar / "bar.vtu").GetNumberOfPoints()
+    assert (bar / "w.dmat").read_text().splitlines()[0] == f"2 {own}"
+    bar.run("weights", "bar.vtu", "--handles", "bones.tgf", "-o", "w2.vtp").is_refused("holds tets")
+    bar.run("weights", "bar.vtu", "--handles", "bones.tgf", "--domain", "surface", "-o", "w2.vtu").is_refused("surface")
+
+
+def test_domain_surface(bar):
+    run = bar.run("weights", "bar.off", "--handles", "auto:4", "--domain", "surface", "-o", "w.vtp", "--report", "-").is_good()
+    assert run.report["domain"] == "surface" and "tetrahedralize" not in run.report["seconds"]
+    weights = weights_of(bar / "w.vtp")
+    check(weights, shapes.bar()[0])
+    assert weights.shape == (len(shapes.bar()[0]), 4)
+    assert (weights.max(axis=0) == 1).all()  # handles lie on vertices
+    bar.run("weights", "bar.off", "--handles", "auto:4", "--domain", "surface", "-o", "w.vtu").is_refused("no tets")
+
+
+@pytest.mark.parametrize("method", ["monotone", "biharmonic", "harmonic"])
+def test_other_methods(bar, method):
+    bar.run("weights", "bar.off", "--handles", "points.tgf", "--method", method, "-o", "w.vtp").is_good()
+    weights = weights_of(bar / "w.vtp")
+    assert weights.sum(axis=1) == pytest.approx(np.ones(len(weights)), abs=1e-9)
+    if method != "biharmonic":
+        assert weights.min() >= -1e-9
+
+
+def test_automatic_handles(bar):
+    bar.run("weights", "bar.off", "--handles", "auto", "-o", "w.vtp").is_good()
+    assert weights_of(bar / "w.vtp").shape[1] == 8
+    for wrong in ("auto:0", "auto:x", "auto:"):
+        bar.run("weights", "bar.off", "--handles", wrong, "-o", "w2.vtp").is_refused(wrong)
+    bar.run("weights", "bar.off", "--handles", "auto:5000", "-o", "w2.vtp").is_refused("different vertices")
+
+
+def test_regions(bar):
+    mesh = to_dataset(shapes.bar())
+    x = points_of(mesh)[:, 0]
+    add_point_array(mesh, "Parts", np.where(x < 1, 1, np.where(x > 5, 2, 0)).astype(np.int32))
+    bindpose.write(mesh, bar / "painted.vtp")
+    for more in ([], ["--domain", "surface"]):
+        bar.run("weights", "painted.vtp", "--handles", "auto:1", "--regions", "Parts", "-o", "w.vtp", "--overwrite",
+                *more).is_good()
+        weights = weights_of(bar / "w.vtp")
+        array = bindpose.read(bar / "w.vtp").GetPointData().GetArray("Weights")
+        names = [array.GetComponentName(i) for i in range(array.GetNumberOfComponents())]
+        assert names == ["p1", "r1", "r2"]
+        check(weights, x)
+        # Only the point handle, which lies on the bar's end, shares the regions.
+        assert (weights[x > 5][:, 1] < 1e-9).all() and (weights[x < 1][:, 2] < 1e-9).all()
+    bar.run("weights", "painted.vtp", "--handles", "auto:1", "--regions", "Nope", "-o", "w2.vtp").is_refused("'Nope'")
+
+
+def test_bad_handles(bar):
+    def refused(text, *words):
+        bar.write("h.tgf", text)
+        bar.run("weights", "bar.off", "--handles", "h.tgf", "-o", "out.vtp").is_refused(*words)
+
+    refused("1 1 0.5 0.5\n2 1 0.5 0.5\n#\n", "'p1' and 'p2'", "same place")
+    refused("1 1 0.5 0.5 a\n2 5 0.5 0.5 a\n#\n", "two handles are named 'a'")
+    refused("1 1 0.5 0.5\n2 1 0.5 0.5\n#\n1 2\n", "length zero")
+    refused("1 1 0.5 nan\n", "h.tgf, line 1")
+    refused("#\n", "no node")
+    bar.run("weights", "bar.off", "--handles", "none.tgf", "-o", "out.vtp").is_refused("none.tgf")
+    bar.run("weights", "bar.off", "--handles", "bar.off", "-o", "out.vtp").is_refused("bar.off", "ending")
+
+
+def test_a_handle_outside_is_told(bar):
+    bar.write("h.tgf", "1 0.5 0.5 0.5 inside\n2 5 0.5 3.5 outside\n#\n")
+    run = bar.run("weights", "bar.off", "--handles", "h.tgf", "-o", "w.vtp", "--report", "-").is_good()
+    assert any("outside" in warning for warning in run.report["warnings"])
+    assert "bindpose weights: warning: " in run.err
+    check(weights_of(bar / "w.vtp"), shapes.bar()[0])
+    quiet = bar.run("weights", "bar.off", "--handles", "h.tgf", "-o", "w.vtp", "--overwrite", "--quiet").is_good()
+    assert quiet.err == ""
+
+
+@pytest.mark.parametrize("name, mesh", [
+    ("open", shapes.open_cube()), ("flipped", shapes.flipped(shapes.cube())),
+    ("doubled", shapes.doubled(shapes.cube())), ("quads", shapes.quads()),
+])
+def test_unclean_surfaces_have_weights(folder, name, mesh):
+    folder.off("m.off", mesh)
+    run = folder.run("weights", "m.off", "--handles", "auto:3", "-o", "w.vtp", "--report", "-").is_good()
+    check(weights_of(folder / "w.vtp"), mesh[0])
+    assert run.report["status"] == "ok", name
+
+
+@pytest.mark.parametrize("mesh", [shapes.flat(), shapes.one_triangle()])
+def test_sheets(folder, mesh):
+    """They enclose nothing; a lattice holds them, and the report says so. Or they are refused."""
+    folder.off("m.off", mesh)
+    run = folder.run("weights", "m.off", "--handles", "auto:2", "-o", "w.vtp", "--report", "r.json")
+    if run.code == 0:
+        check(weights_of(folder / "w.vtp"), mesh[0])
+        assert "lattice" in run.err and '"fallback": "embed"' in (folder / "r.json").read_text()
+    else:
+        assert run.code == 2 and run.new_files == ["r.json"]
+    folder.run("weights", "m.off", "--handles", "auto:2", "--domain", "surface", "-o", "s.vtp").is_good()
+    check(weights_of(folder / "s.vtp"), mesh[0])

@@ -1,0 +1,25 @@
+// Tests that draw fail without a display: they do not skip, and VTK must not end the process.
+#include "scene/display.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace
+{
+class NeedDisplay : public testing::Environment
+{
+public:
+  void SetUp() override
+  {
+    if (!bindpose::can_render())
+    {
+      std::fprintf(stderr, "FAILED: %s\n", bindpose::no_display_message());
+      std::exit(1);
+    }
+  }
+};
+
+const testing::Environment* const need_display = testing::AddGlobalTestEnvironment(new NeedDisplay);
+} // namespace

@@ -1,0 +1,166 @@
+// What a picture refuses, and how it says so; files appear whole or not at all.
+#include "conversion.h"
+#include "scene/picture.h"
+#include "support/files.h"
+#include "support/meshes.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPNGReader.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+using namespace bindpose;
+using testing::HasSubstr;
+
+namespace
+{
+vtkSmartPointer<vtkPolyData> ball()
+{
+  const TriangleMesh mesh = test::sphere(2);
+  auto data = to_polydata(mesh.points, mesh.triangles);
+  vtkNew<vtkDoubleArray> weights;
+  weights->SetName("Weights");
+  weights->SetNumberOfComponents(2);
+  weights->SetComponentName(0, "hip");
+  weights->SetComponentName(1, "knee");
+  weights->SetNumberOfTuples(mesh.points.rows());
+  for (Index v = 0; v < mesh.points.rows(); ++v)
+  {
+    const double s = 0.5 * (1.0 + mesh.points(v, 1));
+    weights->SetTuple2(v, s, 1.0 - s);
+  }
+  data->GetPointData()->AddArray(weights);
+  return data;
+}
+
+PictureOptions tiny()
+{
+  PictureOptions options;
+  options.width = 64;
+  options.height = 48;
+  options.supersampling = 1;
+  return options;
+}
+
+Status try_to_draw(const std::vector<Tile>& tiles, const PictureOptions& options)
+{
+  vtkSmartPointer<vtkImageData> image;
+  const Status status = render_to_image(tiles, options, image);
+  EXPECT_EQ(status.ok(), image != nullptr);
+  return status;
+}
+} // namespace
+
+TEST(Picture, NamesWhatThereIsWhenAskedForWhatIsNot)
+{
+  PictureOptions options = tiny();
+  options.array = "Wieghts";
+  EXPECT_THAT(try_to_draw({ { ball(), nullptr, "" } }, options).message,
+    HasSubstr("no array 'Wieghts'; there are: Weights"));
+  options.array = "Weights";
+  options.component = "elbow";
+  EXPECT_THAT(try_to_draw({ { ball(), nullptr, "" } }, options).message,
+    HasSubstr("no component 'elbow'; there are: hip, knee"));
+  options.component = "2";
+  EXPECT_EQ(try_to_draw({ { ball(), nullptr, "" } }, options).code, StatusCode::invalid_input);
+  options.array = "";
+  options.component = "hip";
+  EXPECT_EQ(try_to_draw({ { ball(), nullptr, "" } }, options).code, StatusCode::invalid_input);
+}
+
+TEST(Picture, ReportsWhatIsShown)
+{
+  PictureOptions options = tiny();
+  options.array = "Weights";
+  options.component = "1";
+  const Status status = try_to_draw({ { ball(), nullptr, "" } }, options);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(status.report.text("picture.component"), "knee");
+  EXPECT_EQ(status.report.number("picture.width", 0), 64);
+}
+
+TEST(Picture, RefusesWhatCannotBeDrawn)
+{
+  PictureOptions options = tiny();
+  EXPECT_EQ(try_to_draw({}, options).code, StatusCode::invalid_input);
+  const auto empty = vtkSmartPointer<vtkPolyData>::New();
+  EXPECT_THAT(try_to_draw({ { empty, nullptr, "" } }, options).message, HasSubstr("empty"));
+  EXPECT_THAT(try_to_draw({ { nullptr, nullptr, "" } }, options).message, HasSubstr("empty"));
+  const auto broken = ball();
+  broken->GetPoints()->SetPoint(3, 0.0, std::numeric_limits<double>::quiet_NaN(), 0.0);
+  EXPECT_THAT(try_to_draw({ { broken, nullptr, "" } }, options).message, HasSubstr("not finite"));
+  options.width = 0;
+  EXPECT_THAT(try_to_draw({ { ball(), nullptr, "" } }, options).message, HasSubstr("8192"));
+  options = tiny();
+  options.view.up = "w";
+  EXPECT_THAT(try_to_draw({ { ball(), nullptr, "" } }, options).message, HasSubstr("up"));
+  options = tiny();
+  options.view.zoom = 0.0;
+  EXPECT_THAT(try_to_draw({ { ball(), nullptr, "" } }, options).message, HasSubstr("zoom"));
+  options = tiny();
+  options.section = 2.0;
+  EXPECT_THAT(try_to_draw({ { ball(), nullptr, "" } }, options).message, HasSubstr("section"));
+}
+
+TEST(Picture, DrawsEveryKindOfData)
+{
+  const TetMesh box = test::tet_box(2, 2, 2);
+  const auto tets = to_unstructured_grid(box.points, box.tets);
+  vtkNew<vtkDoubleArray> volumes;
+  volumes->SetName("Volume");
+  for (Index t = 0; t < box.tets.rows(); ++t)
+  {
+    volumes->InsertNextValue(static_cast<double>(t));
+  }
+  tets->GetCellData()->AddArray(volumes);
+  PictureOptions options = tiny();
+  options.array = "Volume";
+  EXPECT_TRUE(try_to_draw({ { tets, nullptr, "" } }, options).ok());
+  options.array = "";
+  const auto cloud = vtkSmartPointer<vtkPolyData>::New();
+  cloud->SetPoints(to_vtk_points(box.points));
+  EXPECT_TRUE(try_to_draw({ { cloud, nullptr, "" } }, options).ok());
+  Handles handles(1);
+  handles[0].name = "only";
+  EXPECT_TRUE(try_to_draw({ { to_polydata(handles), nullptr, "" } }, options).ok());
+  const auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(4, 5, 1);
+  image->AllocateScalars(VTK_DOUBLE, 1);
+  image->GetPointData()->GetScalars()->SetName("height");
+  image->GetPointData()->GetScalars()->Fill(1.0);
+  EXPECT_TRUE(try_to_draw({ { image, nullptr, "" } }, options).ok());
+  // A dataset without the array is drawn plain beside one that has it.
+  options.array = "Weights";
+  EXPECT_TRUE(try_to_draw({ { ball(), nullptr, "a" }, { cloud, nullptr, "b" } }, options).ok());
+}
+
+TEST(Picture, FilesAppearWholeOrNotAtAll)
+{
+  const test::Folder folder;
+  const std::string path = folder / "ball.png";
+  ASSERT_TRUE(render_to_png({ { ball(), nullptr, "" } }, tiny(), path).ok());
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  int size[3];
+  reader->GetOutput()->GetDimensions(size);
+  EXPECT_EQ(size[0], 64);
+  EXPECT_EQ(size[1], 48);
+  const Status again = render_to_png({ { ball(), nullptr, "" } }, tiny(), path);
+  EXPECT_EQ(again.code, StatusCode::invalid_input);
+  EXPECT_TRUE(render_to_png({ { ball(), nullptr, "" } }, tiny(), path, true).ok());
+  const Status nowhere =
+    render_to_png({ { ball(), nullptr, "" } }, tiny(), folder / "no/such/ball.png");
+  EXPECT_EQ(nowhere.code, StatusCode::invalid_input);
+  EXPECT_THAT(nowhere.message, HasSubstr("no/such"));
+  EXPECT_EQ(folder.number_of_files(), 1u);
+}

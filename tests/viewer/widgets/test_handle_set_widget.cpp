@@ -1,0 +1,472 @@
+// The widget driven by synthetic events, as a mouse would: what moves, by how much, and what must
+// not.
+#include "conversion.h"
+#include "vtkHandleSetRepresentation.h"
+#include "vtkHandleSetWidget.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCamera.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCommand.h"
+#include "vtkIntArray.h"
+#include "vtkInteractorStyleTrackballCamera.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <sstream>
+
+using namespace bindpose;
+
+namespace
+{
+using Widget = vtkHandleSetRepresentation;
+constexpr double pixel = 0.0134; // world length of a pixel at z = 0: 2 * 10 * tan(15°) / 400
+
+Handle point(const std::string& name, const Vec3& place)
+{
+  Handle handle;
+  handle.name = name;
+  handle.head = handle.tail = place;
+  return handle;
+}
+
+Handle bone(const std::string& name, const Vec3& head, const Vec3& tail, Index parent = -1)
+{
+  Handle handle;
+  handle.name = name;
+  handle.kind = HandleKind::bone;
+  handle.head = head;
+  handle.tail = tail;
+  handle.parent = parent;
+  return handle;
+}
+
+// A window of 400 x 400 whose camera looks along -z from 10 away.
+class Stage
+{
+public:
+  explicit Stage(const Handles& list) : Stage(to_polydata(list)) {}
+  explicit Stage(vtkSmartPointer<vtkPolyData> data) : handles(data)
+  {
+    this->window->SetOffScreenRendering(1);
+    this->window->SetMultiSamples(0);
+    this->window->SetSize(400, 400);
+    this->window->AddRenderer(this->renderer);
+    this->interactor->SetRenderWindow(this->window);
+    this->interactor->SetInteractorStyle(this->style);
+    vtkCamera* camera = this->renderer->GetActiveCamera();
+    camera->SetPosition(0, 0, 10);
+    camera->SetFocalPoint(0, 0, 0);
+    camera->SetViewUp(0, 1, 0);
+    camera->SetViewAngle(30);
+    camera->SetClippingRange(1, 20);
+    this->widget->SetInteractor(this->interactor);
+    this->widget->SetHandles(this->handles);
+    this->widget->On();
+    this->window->Render();
+    this->counter->SetClientData(this);
+    this->counter->SetCallback([](vtkObject*, unsigned long event, void* self, void*)
+      { ++static_cast<Stage*>(self)->events[event]; });
+    for (const unsigned long event : { vtkCommand::HighlightEvent,
+           vtkCommand::SelectionChangedEvent, vtkCommand::StartInteractionEvent,
+           vtkCommand::InteractionEvent, vtkCommand::EndInteractionEvent })
+    {
+      this->widget->AddObserver(event, this->counter);
+    }
+  }
+
+  Widget* representation() { return this->widget->GetHandleSetRepresentation(); }
+
+  Eigen::Vector2d display(const Vec3& world)
+  {
+    this->renderer->SetWorldPoint(world[0], world[1], world[2], 1.0);
+    this->renderer->WorldToDisplay();
+    return Eigen::Vector2d(this->renderer->GetDisplayPoint());
+  }
+  void send(unsigned long event, const Eigen::Vector2d& at)
+  {
+    this->interactor->SetEventInformation(
+      static_cast<int>(std::lround(at[0])), static_cast<int>(std::lround(at[1])));
+    this->interactor->InvokeEvent(event);
+  }
+  void move(const Vec3& world) { this->send(vtkCommand::MouseMoveEvent, this->display(world)); }
+  void press(const Vec3& world)
+  {
+    this->move(world);
+    this->send(vtkCommand::LeftButtonPressEvent, this->display(world));
+  }
+  void release(const Vec3& world)
+  {
+    this->send(vtkCommand::LeftButtonReleaseEvent, this->display(world));
+  }
+  void drag(const Vec3& from, const Vec3& to, int steps = 4)
+  {
+    this->press(from);
+    for (int i = 1; i <= steps; ++i)
+    {
+      this->move(from + (to - from) * i / steps);
+    }
+    this->release(to);
+  }
+  void escape()
+  {
+    this->interactor->SetKeyEventInformation(0, 0, 27, 1, "Escape");
+    this->interactor->InvokeEvent(vtkCommand::KeyPressEvent);
+  }
+
+  Vec3 head(vtkIdType handle)
+  {
+    Vec3 place;
+    this->representation()->GetPosedHead(handle, place.data());
+    return place;
+  }
+  Vec3 tail(vtkIdType handle)
+  {
+    Vec3 place;
+    this->representation()->GetPosedTail(handle, place.data());
+    return place;
+  }
+  Affine transform(vtkIdType handle)
+  {
+    Affine t = identity_affine();
+    this->handles->GetCellData()->GetArray("Transform")->GetTuple(handle, t.data());
+    return t;
+  }
+
+  vtkSmartPointer<vtkPolyData> handles;
+  vtkNew<vtkRenderWindow> window;
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkRenderWindowInteractor> interactor;
+  vtkNew<vtkInteractorStyleTrackballCamera> style;
+  vtkNew<vtkHandleSetWidget> widget;
+  vtkNew<vtkCallbackCommand> counter;
+  std::map<unsigned long, int> events;
+};
+} // namespace
+
+TEST(HandleSetWidget, HoverFindsHandlesByPriority)
+{
+  // A point sits on the bone's tail: the point wins; the bone's head and body are free.
+  Stage stage({ point("p", Vec3(1, 0, 0)), bone("b", Vec3(-1, 0, 0), Vec3(1, 0, 0)) });
+  stage.move(Vec3(1, 0, 0));
+  EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::ON_POINT);
+  EXPECT_EQ(stage.representation()->GetHoveredHandle(), 0);
+  stage.move(Vec3(-1, 0, 0));
+  EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::ON_HEAD);
+  EXPECT_EQ(stage.representation()->GetHoveredHandle(), 1);
+  stage.move(Vec3(0, 0, 0));
+  EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::ON_BODY);
+  stage.move(Vec3(0, 1, 0));
+  EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::OUTSIDE);
+  EXPECT_EQ(stage.representation()->GetHoveredHandle(), -1);
+  EXPECT_EQ(stage.events[vtkCommand::HighlightEvent], 3); // p, b, none
+  EXPECT_EQ(stage.representation()->GetHandleName(1), "b");
+}
+
+TEST(HandleSetWidget, OfTwoPointsTheNearerWins)
+{
+  // On one spot of the screen: the one in front; side by side: the one nearer to the mouse.
+  Stage stage({ point("back", Vec3(0, 0, 0)), point("front", Vec3(0, 0, 2)),
+    point("left", Vec3(1.00, 1, 0)), point("right", Vec3(1.08, 1, 0)) });
+  stage.move(Vec3(0, 0, 0));
+  EXPECT_EQ(stage.representation()->GetHoveredHandle(), 1);
+  stage.move(Vec3(1.01, 1, 0));
+  EXPECT_EQ(stage.representation()->GetHoveredHandle(), 2);
+  stage.move(Vec3(1.07, 1, 0));
+  EXPECT_EQ(stage.representation()->GetHoveredHandle(), 3);
+}
+
+TEST(HandleSetWidget, AJointOfTwoBonesGivesTheUpperBonesTail)
+{
+  Stage stage({ bone("upper", Vec3(-1, 0, 0), Vec3(0, 0, 0)),
+    bone("lower", Vec3(0, 0, 0), Vec3(1, 0, 0), 0) });
+  stage.move(Vec3(0, 0, 0));
+  EXPECT_EQ(stage.representation()->GetHoveredHandle(), 0);
+  EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::ON_TAIL);
+}
+
+TEST(HandleSetWidget, DragMovesAPointInTheCameraPlane)
+{
+  Stage stage({ point("a", Vec3(0.5, 0, 1)), point("b", Vec3(-1, 0, 0)) });
+  stage.drag(Vec3(0.5, 0, 1), Vec3(1.25, 0.75, 1));
+  EXPECT_LT((stage.head(0) - Vec3(1.25, 0.75, 1)).norm(), pixel);
+  EXPECT_NEAR(stage.head(0)[2], 1.0, 1e-9) << "the plane faces the camera";
+  const Affine t = stage.transform(0);
+  EXPECT_EQ(Eigen::Matrix3d(t.leftCols<3>()), Eigen::Matrix3d::Identity());
+  EXPECT_EQ(stage.transform(1), identity_affine()) << "the other stays";
+  EXPECT_EQ(stage.events[vtkCommand::StartInteractionEvent], 1);
+  EXPECT_EQ(stage.events[vtkCommand::InteractionEvent], 4);
+  EXPECT_EQ(stage.events[vtkCommand::EndInteractionEvent], 1);
+  EXPECT_EQ(stage.representation()->GetSelectedHandle(), 0);
+  // Transforms are absolute: a second drag continues from there.
+  stage.drag(stage.head(0), Vec3(0.5, 0, 1));
+  EXPECT_LT((stage.head(0) - Vec3(0.5, 0, 1)).norm(), 2 * pixel);
+}
+
+TEST(HandleSetWidget, GrabbingBesideTheMiddleDoesNotJump)
+{
+  Stage stage({ point("a", Vec3(0, 0, 0)) });
+  const Vec3 beside(4 * pixel, 3 * pixel, 0);
+  stage.press(beside);
+  stage.move(beside);
+  EXPECT_LT(stage.head(0).norm(), 1e-9);
+  stage.move(beside + Vec3(1, 0, 0));
+  EXPECT_LT((stage.head(0) - Vec3(1, 0, 0)).norm(), 1.5 * pixel);
+  stage.release(beside + Vec3(1, 0, 0));
+}
+
+TEST(HandleSetWidget, DraggingATailTurnsTheBoneAboutItsHead)
+{
+  Stage stage({ bone("b", Vec3(0.2, 0.1, 0), Vec3(1.2, 0.1, 0)) });
+  stage.drag(Vec3(1.2, 0.1, 0), Vec3(0.2, 1.6, 0), 10);
+  // A quarter turn, whatever the length of the way of the mouse.
+  EXPECT_LT((stage.head(0) - Vec3(0.2, 0.1, 0)).norm(), 1e-12);
+  EXPECT_NEAR((stage.tail(0) - stage.head(0)).norm(), 1.0, 1e-12);
+  EXPECT_LT((stage.tail(0) - Vec3(0.2, 1.1, 0)).norm(), pixel);
+  const Eigen::Matrix3d r = stage.transform(0).leftCols<3>();
+  EXPECT_LT((r * r.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  EXPECT_NEAR(r.determinant(), 1.0, 1e-12);
+}
+
+TEST(HandleSetWidget, DraggingBodyOrHeadMovesTheBone)
+{
+  for (const double where : { 0.0, 0.5 })
+  {
+    Stage stage({ bone("b", Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)) });
+    const Vec3 grabbed(-0.5 + where, 0, 0);
+    stage.drag(grabbed, grabbed + Vec3(0.3, -0.7, 0));
+    EXPECT_LT((stage.head(0) - Vec3(-0.2, -0.7, 0)).norm(), 1.5 * pixel);
+    EXPECT_LT((stage.tail(0) - Vec3(0.8, -0.7, 0)).norm(), 1.5 * pixel);
+    EXPECT_EQ(Eigen::Matrix3d(stage.transform(0).leftCols<3>()), Eigen::Matrix3d::Identity());
+  }
+}
+
+TEST(HandleSetWidget, DescendantsFollowUnlessAskedNotTo)
+{
+  const Handles arm = { bone("upper", Vec3(-1, 0, 0), Vec3(0, 0, 0)),
+    bone("lower", Vec3(0, 0, 0), Vec3(1, 0, 0), 0), bone("hand", Vec3(1, 0, 0), Vec3(1.4, 0, 0), 1),
+    bone("other", Vec3(0, -2, 0), Vec3(1, -2, 0)) };
+  Stage stage(arm);
+  stage.drag(Vec3(0, 0, 0), Vec3(-1, 1, 0)); // a quarter turn of the upper arm
+  EXPECT_LT((stage.tail(2) - Vec3(-1, 2.4, 0)).norm(), 4 * pixel);
+  EXPECT_LT((stage.tail(0) - stage.head(1)).norm(), 1e-12) << "joints hold";
+  EXPECT_LT((stage.tail(1) - stage.head(2)).norm(), 1e-12);
+  EXPECT_EQ(stage.transform(3), identity_affine());
+
+  Stage alone(arm);
+  alone.representation()->MoveDescendantsOff();
+  alone.drag(Vec3(0, 0, 0), Vec3(-1, 1, 0));
+  EXPECT_LT((alone.tail(0) - Vec3(-1, 1, 0)).norm(), 2 * pixel);
+  EXPECT_EQ(alone.transform(1), identity_affine());
+}
+
+TEST(HandleSetWidget, EscapeRestoresEveryBit)
+{
+  Stage stage({ bone("upper", Vec3(-1, 0, 0), Vec3(0, 0, 0)),
+    bone("lower", Vec3(0, 0, 0), Vec3(1, 0, 0), 0) });
+  stage.drag(Vec3(0, 0, 0), Vec3(-0.3, 0.7, 0));
+  const Affine before[2] = { stage.transform(0), stage.transform(1) };
+  stage.events.clear();
+  const Vec3 tail = stage.tail(0);
+  stage.press(tail);
+  stage.move(tail + Vec3(0.4, 0.4, 0));
+  EXPECT_TRUE(stage.widget->IsDragging());
+  EXPECT_NE(stage.transform(1), before[1]);
+  stage.interactor->SetKeyEventInformation(0, 0, 'a', 1, "a");
+  stage.interactor->InvokeEvent(vtkCommand::KeyPressEvent);
+  EXPECT_TRUE(stage.widget->IsDragging()) << "only Escape cancels";
+  stage.escape();
+  EXPECT_FALSE(stage.widget->IsDragging());
+  EXPECT_TRUE(stage.widget->GetCancelled());
+  EXPECT_EQ(stage.transform(0), before[0]);
+  EXPECT_EQ(stage.transform(1), before[1]);
+  EXPECT_EQ(stage.events[vtkCommand::InteractionEvent], 2) << "one move, one restoring";
+  EXPECT_EQ(stage.events[vtkCommand::EndInteractionEvent], 1);
+  // The button is still down: moves and its release do nothing more.
+  stage.move(tail + Vec3(0.8, 0.8, 0));
+  stage.release(tail + Vec3(0.8, 0.8, 0));
+  EXPECT_EQ(stage.transform(0), before[0]);
+  EXPECT_EQ(stage.events[vtkCommand::EndInteractionEvent], 1);
+  // And the next drag is an ordinary one.
+  stage.drag(tail, tail + Vec3(0.2, 0.2, 0));
+  EXPECT_FALSE(stage.widget->GetCancelled());
+  EXPECT_NE(stage.transform(0), before[0]);
+}
+
+TEST(HandleSetWidget, DisablingOrNewHandlesCancelADrag)
+{
+  Stage stage({ point("a", Vec3(0, 0, 0)) });
+  stage.press(Vec3(0, 0, 0));
+  stage.move(Vec3(1, 0, 0));
+  stage.widget->Off();
+  EXPECT_EQ(stage.transform(0), identity_affine());
+  stage.widget->On();
+  stage.press(Vec3(0, 0, 0));
+  stage.move(Vec3(1, 0, 0));
+  const auto others = to_polydata(Handles{ point("c", Vec3(0, 1, 0)) });
+  stage.widget->SetHandles(others);
+  EXPECT_EQ(stage.transform(0), identity_affine());
+  stage.drag(Vec3(0, 1, 0), Vec3(0, 0, 0));
+  EXPECT_NEAR(others->GetCellData()->GetArray("Transform")->GetComponent(0, 7), -1.0, 2 * pixel);
+}
+
+TEST(HandleSetWidget, DragsKeepModesAndWhatABindReads)
+{
+  Stage stage({ point("a", Vec3(0, 0, 0)), point("b", Vec3(1, 0, 0)) });
+  stage.handles->GetCellData()->GetArray("Mode")->SetComponent(0, 0, 1);
+  const std::vector<vtkObject*> objects = bind_objects(stage.handles);
+  std::vector<vtkMTimeType> times;
+  for (vtkObject* object : objects)
+  {
+    times.push_back(object ? object->GetMTime() : 0);
+  }
+  const vtkMTimeType time = stage.handles->GetMTime();
+  stage.drag(Vec3(0, 0, 0), Vec3(0.5, 0.5, 0));
+  EXPECT_EQ(stage.handles->GetCellData()->GetArray("Mode")->GetComponent(0, 0), 1.0);
+  EXPECT_GT(stage.handles->GetMTime(), time) << "a pipeline must see the change";
+  ASSERT_EQ(bind_objects(stage.handles), objects);
+  for (std::size_t i = 0; i < objects.size(); ++i)
+  {
+    EXPECT_EQ(objects[i] ? objects[i]->GetMTime() : 0, times[i]) << "a drag must not bind again";
+  }
+}
+
+TEST(HandleSetWidget, AFreeHandleIsSelectedButNotDragged)
+{
+  Stage stage({ point("a", Vec3(0, 0, 0)) });
+  stage.handles->GetCellData()->GetArray("Mode")->SetComponent(0, 0, 2);
+  const Vec3 camera(stage.renderer->GetActiveCamera()->GetPosition());
+  stage.drag(Vec3(0, 0, 0), Vec3(1, 0, 0));
+  EXPECT_EQ(stage.transform(0), identity_affine());
+  EXPECT_EQ(stage.representation()->GetSelectedHandle(), 0);
+  EXPECT_EQ(stage.events[vtkCommand::StartInteractionEvent], 0);
+  EXPECT_EQ(stage.events[vtkCommand::SelectionChangedEvent], 1);
+  EXPECT_EQ(Vec3(stage.renderer->GetActiveCamera()->GetPosition()), camera);
+}
+
+TEST(HandleSetWidget, TheCameraMovesOnlyAwayFromHandles)
+{
+  Stage stage({ point("a", Vec3(0, 0, 0)) });
+  const Vec3 before(stage.renderer->GetActiveCamera()->GetPosition());
+  stage.drag(Vec3(0, 0, 0), Vec3(1, 0, 0));
+  EXPECT_EQ(Vec3(stage.renderer->GetActiveCamera()->GetPosition()), before);
+  const Affine t = stage.transform(0);
+  stage.drag(Vec3(-1, -1, 0), Vec3(0.5, -1, 0));
+  EXPECT_GT((Vec3(stage.renderer->GetActiveCamera()->GetPosition()) - before).norm(), 0.5);
+  EXPECT_EQ(stage.transform(0), t);
+}
+
+TEST(HandleSetWidget, WorksUnderParallelProjectionAndFromTheSide)
+{
+  Stage stage({ point("a", Vec3(0, 0.3, 0)) });
+  vtkCamera* camera = stage.renderer->GetActiveCamera();
+  camera->ParallelProjectionOn();
+  camera->SetParallelScale(2.0);
+  camera->SetPosition(10, 0, 0);
+  stage.window->Render();
+  stage.drag(Vec3(0, 0.3, 0), Vec3(0, -0.5, 1.1));
+  EXPECT_LT((stage.head(0) - Vec3(0, -0.5, 1.1)).norm(), 0.02);
+  EXPECT_NEAR(stage.head(0)[0], 0.0, 1e-9);
+}
+
+TEST(HandleSetWidget, HundredsOfHandlesAreEachFound)
+{
+  Handles handles;
+  for (int i = 0; i < 300; ++i)
+  {
+    handles.push_back(
+      point("h" + std::to_string(i), Vec3(0.2 * (i % 20) - 1.9, 0.25 * (i / 20) - 1.75, 0)));
+  }
+  Stage stage(handles);
+  for (int i = 0; i < 300; ++i)
+  {
+    const Eigen::Vector2d at = stage.display(handles[i].head);
+    stage.representation()->ComputeInteractionState(
+      static_cast<int>(std::lround(at[0])), static_cast<int>(std::lround(at[1])));
+    EXPECT_EQ(stage.representation()->GetHoveredHandle(), i);
+  }
+}
+
+TEST(HandleSetWidget, TakesPlainPolydataAndOddFiles)
+{
+  // No arrays at all; a cage element; a parent that is its own ancestor.
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0, 0, 0);
+  points->InsertNextPoint(1, 0, 0);
+  const auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  vtkNew<vtkCellArray> verts;
+  for (vtkIdType v : { 0, 1 })
+  {
+    verts->InsertNextCell(1, &v);
+  }
+  const vtkIdType ends[2] = { 0, 1 };
+  vtkNew<vtkCellArray> lines;
+  lines->InsertNextCell(2, ends);
+  data->SetVerts(verts);
+  data->SetLines(lines);
+  vtkNew<vtkIntArray> kinds;
+  kinds->SetName("HandleKind");
+  vtkNew<vtkIntArray> parents;
+  parents->SetName("Parent");
+  for (const int kind : { 2, 2, -1 })
+  {
+    kinds->InsertNextValue(kind);
+  }
+  for (const int parent : { 1, 0, -1 })
+  {
+    parents->InsertNextValue(parent);
+  }
+  data->GetCellData()->AddArray(kinds);
+  data->GetCellData()->AddArray(parents);
+  Stage stage(data);
+  stage.representation()->ShowLabelsOn();
+  EXPECT_EQ(stage.representation()->GetHandleName(1), "p2");
+  stage.move(Vec3(0.5, 0, 0));
+  EXPECT_EQ(stage.representation()->GetHoveredHandle(), -1) << "a cage's edge is no handle";
+  stage.drag(Vec3(0, 0, 0), Vec3(0, 1, 0));
+  EXPECT_LT((stage.head(0) - Vec3(0, 1, 0)).norm(), pixel);
+  EXPECT_LT((stage.head(1) - Vec3(1, 1, 0)).norm(), pixel) << "each is below the other";
+
+  Stage empty(vtkSmartPointer<vtkPolyData>::New());
+  empty.drag(Vec3(0, 0, 0), Vec3(1, 0, 0));
+  empty.widget->SetHandles(nullptr);
+  empty.drag(Vec3(0, 0, 0), Vec3(1, 0, 0));
+  EXPECT_EQ(empty.events[vtkCommand::StartInteractionEvent], 0);
+}
+
+TEST(HandleSetWidget, BoundsAreThoseOfThePose)
+{
+  Stage stage({ point("a", Vec3(0, 0, 0)), bone("b", Vec3(-1, -1, 0), Vec3(-1, 0, 0.5)) });
+  stage.drag(Vec3(0, 0, 0), Vec3(2, 0, 0));
+  const double* bounds = stage.representation()->GetBounds();
+  const double expected[6] = { -1, 2, -1, 0, 0, 0.5 };
+  for (int i = 0; i < 6; ++i)
+  {
+    EXPECT_NEAR(bounds[i], expected[i], pixel);
+  }
+}
+
+TEST(HandleSetWidget, PrintsAllProperties)
+{
+  vtkNew<vtkHandleSetWidget> widget;
+  std::ostringstream text;
+  widget->Print(text);
+  widget->GetHandleSetRepresentation()->Print(text);
+  for (const char* name :
+    { "PointSize", "BoneWidth", "PickTolerance", "PixelScale", "ShowLabels", "ShowHoverName",
+      "DrawOnTop", "MoveDescendants", "FullColor", "SelectedHandle", "ActiveHandle", "Cancelled" })
+  {
+    EXPECT_NE(text.str().find(name), std::string::npos) << name;
+  }
+}

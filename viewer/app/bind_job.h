@@ -1,0 +1,58 @@
+#ifndef bind_job_h
+#define bind_job_h
+
+#include "base/mesh.h"
+#include "base/status.h"
+#include "weights/handles.h"
+
+#include <QObject>
+
+#include <atomic>
+#include <thread>
+
+/// What a bind needs: copies, so that nothing is shared with the window while it runs.
+struct BindInput
+{
+  bindpose::TriangleMesh surface;
+  bindpose::Handles handles;
+  std::vector<bindpose::Index> region_of_vertex; ///< #V labels, empty without regions
+  bool monotone = false; ///< monotone weights instead of bounded ones
+};
+
+/// What comes of it: weights at the surface's own vertices.
+struct BindResult
+{
+  bindpose::Status status;
+  bindpose::Weights weights; ///< #V x #handles
+};
+
+/// Surface to weights, by the kernels, on a thread of its own: tets, weights, transfer. One at a
+/// time; destroying the job cancels it and waits.
+class BindJob : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit BindJob(QObject* parent = nullptr);
+  ~BindJob() override;
+
+  void start(BindInput input);
+  /// Ends the job soon; finished() still comes, with the status cancelled.
+  void cancel();
+  bool is_running() const { return this->running_; }
+  /// The last result; to be read after finished().
+  const BindResult& result() const { return this->result_; }
+
+Q_SIGNALS:
+  /// Fraction of the whole in [0, 1] and the name of the phase. On the thread of this object.
+  void progress(double fraction, const QString& phase);
+  void finished();
+
+private:
+  std::thread thread_;
+  std::atomic<bool> cancel_{ false };
+  bool running_ = false;
+  BindResult result_;
+};
+
+#endif

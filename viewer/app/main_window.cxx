@@ -1,0 +1,651 @@
+#include "main_window.h"
+
+#include "pose_history.h"
+#include "side_panel.h"
+#include "viewport.h"
+
+#include "conversion.h"
+#include "io/atomic_file.h"
+#include "pose/pose_file.h"
+#include "report_field_data.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCellData.h"
+#include "vtkCommand.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetSurfaceFilter.h"
+#include "vtkDoubleArray.h"
+#include "vtkHandleFileReader.h"
+#include "vtkHandleSetRepresentation.h"
+#include "vtkHandleSetWidget.h"
+#include "vtkMeshFileReader.h"
+#include "vtkMeshFileWriter.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+#include <fstream>
+
+#include <QAction>
+#include <QApplication>
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QPushButton>
+#include <QStatusBar>
+#include <QUndoStack>
+#include <QVBoxLayout>
+
+using namespace bindpose;
+
+namespace
+{
+/// Readers and writers speak through their status; nothing goes to the terminal.
+void quiet(vtkObject* object)
+{
+  vtkNew<vtkCallbackCommand> nothing;
+  nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  object->AddObserver(vtkCommand::ErrorEvent, nothing);
+  object->AddObserver(vtkCommand::WarningEvent, nothing);
+}
+
+bool looks_like_handles(vtkDataSet* data)
+{
+  auto* polydata = vtkPolyData::SafeDownCast(data);
+  return polydata && polydata->GetNumberOfPolys() + polydata->GetNumberOfStrips() == 0;
+}
+
+/// The mesh's skin: of tets their boundary; weights come along.
+vtkSmartPointer<vtkPolyData> skin_of(vtkDataSet* mesh)
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  if (auto* surface = vtkPolyData::SafeDownCast(mesh))
+  {
+    result->ShallowCopy(surface);
+    return result;
+  }
+  vtkNew<vtkDataSetSurfaceFilter> surface;
+  surface->SetInputData(mesh);
+  surface->Update();
+  result->ShallowCopy(surface->GetOutput());
+  return result;
+}
+} // namespace
+
+MainWindow::MainWindow(QWidget* parent)
+  : QMainWindow(parent), history_(new QUndoStack(this)), job_(new BindJob(this))
+{
+  this->setWindowTitle("Bindpose");
+  this->setAcceptDrops(true);
+  this->resize(1280, 800);
+  this->make_layout();
+  this->make_menus();
+
+  QObject::connect(this->panel_, &SidePanel::bind_wanted, this, &MainWindow::bind);
+  QObject::connect(this->panel_, &SidePanel::cancel_wanted, this, &MainWindow::cancel_bind);
+  QObject::connect(this->panel_, &SidePanel::method_chosen, this, &MainWindow::set_method);
+  QObject::connect(this->panel_, &SidePanel::mode_chosen, this, &MainWindow::set_mode);
+  QObject::connect(this->panel_, &SidePanel::rest_wanted, this, &MainWindow::back_to_rest);
+  QObject::connect(this->panel_, &SidePanel::column_chosen, this,
+    [this](int column)
+    {
+      this->viewport_->show_column(
+        column, column < 0 ? QString() : QString::fromStdString(this->handles_[column].name));
+    });
+  QObject::connect(this->panel_, &SidePanel::handle_chosen, this,
+    [this](int handle)
+    {
+      auto* drawn = this->viewport_->handle_widget()->GetHandleSetRepresentation();
+      drawn->SetSelectedHandle(handle < 0 ? -1 : this->handle_cells_[handle]);
+      this->viewport_->refresh();
+    });
+  QObject::connect(this->job_, &BindJob::progress, this->panel_, &SidePanel::set_progress);
+  QObject::connect(this->job_, &BindJob::finished, this, &MainWindow::bind_finished);
+
+  vtkHandleSetWidget* widget = this->viewport_->handle_widget();
+  widget->AddObserver(vtkCommand::StartInteractionEvent, this, &MainWindow::drag_began);
+  widget->AddObserver(vtkCommand::InteractionEvent, this, &MainWindow::update_pose);
+  widget->AddObserver(vtkCommand::EndInteractionEvent, this, &MainWindow::drag_ended);
+  this->update_panel();
+}
+
+MainWindow::~MainWindow() = default;
+
+void MainWindow::make_layout()
+{
+  auto* centre = new QWidget(this);
+  auto* rows = new QVBoxLayout(centre);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(0);
+
+  this->error_bar_ = new QFrame(centre);
+  this->error_bar_->setObjectName("error");
+  auto* error_row = new QHBoxLayout(this->error_bar_);
+  error_row->setContentsMargins(14, 8, 8, 8);
+  this->error_text_ = new QLabel(this->error_bar_);
+  this->error_text_->setWordWrap(true);
+  this->error_text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  auto* close = new QPushButton(tr("Close"), this->error_bar_);
+  QObject::connect(close, &QPushButton::clicked, this, &MainWindow::hide_error);
+  error_row->addWidget(this->error_text_, 1);
+  error_row->addWidget(close);
+  this->error_bar_->hide();
+  rows->addWidget(this->error_bar_);
+
+  auto* columns = new QHBoxLayout;
+  columns->setSpacing(0);
+  this->viewport_ = new Viewport(centre);
+  this->panel_ = new SidePanel(centre);
+  columns->addWidget(this->viewport_, 1);
+  columns->addWidget(this->panel_);
+  rows->addLayout(columns, 1);
+  this->setCentralWidget(centre);
+  this->hint_ = new QLabel(this);
+  this->statusBar()->addWidget(this->hint_, 1);
+  this->statusBar()->setSizeGripEnabled(false);
+}
+
+void MainWindow::make_menus()
+{
+  const auto add = [this](QMenu* menu, const QString& text, const QKeySequence& keys, auto action)
+  {
+    QAction* entry = menu->addAction(text);
+    entry->setShortcut(keys);
+    QObject::connect(entry, &QAction::triggered, this, action);
+  };
+
+  QMenu* file = this->menuBar()->addMenu(tr("&File"));
+  add(file, tr("&Open mesh or handles…"), QKeySequence::Open,
+    [this]
+    {
+      const QString endings = QString(vtkMeshFileReader::GetFileExtensions()).replace(' ', " *.");
+      for (const QString& path : QFileDialog::getOpenFileNames(this, tr("Open"), QString(),
+             tr("Meshes and handles (*.%1 *.tgf);;All files (*)").arg(endings)))
+      {
+        this->open(path);
+      }
+    });
+  add(file, tr("Save &shape as…"), QKeySequence::SaveAs, [this] { this->save("shape"); });
+  add(file, tr("Save &pose as…"), QKeySequence(), [this] { this->save("pose"); });
+  add(file, tr("Save p&icture as…"), QKeySequence(), [this] { this->save("picture"); });
+  file->addSeparator();
+  add(file, tr("&Quit"), QKeySequence::Quit, [this] { this->close(); });
+
+  QMenu* edit = this->menuBar()->addMenu(tr("&Edit"));
+  QAction* undo = this->history_->createUndoAction(this, tr("&Undo"));
+  undo->setShortcut(QKeySequence::Undo);
+  QAction* redo = this->history_->createRedoAction(this, tr("&Redo"));
+  redo->setShortcuts(
+    { QKeySequence(Qt::CTRL + Qt::SHIFT + Qt::Key_Z), QKeySequence(Qt::CTRL + Qt::Key_Y) });
+  edit->addAction(undo);
+  edit->addAction(redo);
+  edit->addSeparator();
+  add(edit, tr("&Bind"), QKeySequence(Qt::CTRL + Qt::Key_B), [this] { this->bind(); });
+  add(edit, tr("Back to &rest"), QKeySequence(Qt::CTRL + Qt::Key_R),
+    [this] { this->back_to_rest(); });
+
+  QMenu* view = this->menuBar()->addMenu(tr("&View"));
+  add(view, tr("&Whole shape"), QKeySequence(Qt::Key_Home),
+    [this]
+    {
+      this->viewport_->reset_view();
+      this->viewport_->refresh();
+    });
+  view->addSeparator();
+  const char* const methods[] = { QT_TR_NOOP("&Linear blend"), QT_TR_NOOP("&Dual quaternions"),
+    QT_TR_NOOP("&As rigid as possible") };
+  for (int k = 0; k < 3; ++k)
+  {
+    add(view, tr(methods[k]), QKeySequence(Qt::Key_1 + k), [this, k] { this->set_method(k); });
+  }
+
+  QMenu* help = this->menuBar()->addMenu(tr("&Help"));
+  add(help, tr("&Mouse and keys"), QKeySequence(Qt::Key_F1),
+    [this]
+    {
+      QMessageBox::information(this, tr("Mouse and keys"),
+        tr("<table cellspacing='6'>"
+           "<tr><td><b>Drag a handle</b></td><td>moves it; a bone's tip turns the bone</td></tr>"
+           "<tr><td><b>Esc</b> while dragging</td><td>takes the drag back</td></tr>"
+           "<tr><td><b>Drag elsewhere</b></td><td>turns the view</td></tr>"
+           "<tr><td><b>Shift-drag, wheel</b></td><td>moves the view, zooms</td></tr>"
+           "<tr><td><b>1, 2, 3</b></td><td>linear blend, dual quaternions, as rigid as "
+           "possible</td></tr>"
+           "<tr><td><b>Ctrl+B</b></td><td>bind</td></tr>"
+           "<tr><td><b>Ctrl+Z, Ctrl+Y</b></td><td>undo, redo</td></tr>"
+           "<tr><td><b>Home</b></td><td>shows the whole shape</td></tr></table>"));
+    });
+  add(help, tr("&About Bindpose"), QKeySequence(),
+    [this]
+    {
+      QMessageBox::about(this, tr("About Bindpose"),
+        tr("<b>Bindpose</b><p>Any triangle mesh to a shape that a person bends in real time.</p>"));
+    });
+}
+
+// ---- Opening -----------------------------------------------------------------------------------
+
+bool MainWindow::open(const QString& path)
+{
+  const std::string file = path.toStdString();
+  const QString name = QFileInfo(path).fileName();
+  if (path.endsWith(".tgf", Qt::CaseInsensitive))
+  {
+    vtkNew<vtkHandleFileReader> reader;
+    quiet(reader);
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    if (reader->GetStatus() != vtkBindposeAlgorithm::OK)
+    {
+      this->show_error(QString::fromStdString(reader->GetStatusMessage()));
+      return false;
+    }
+    return this->set_handles(vtkPolyData::SafeDownCast(reader->GetOutput()), name);
+  }
+  vtkNew<vtkMeshFileReader> reader;
+  quiet(reader);
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  if (reader->GetStatus() != vtkBindposeAlgorithm::OK)
+  {
+    this->show_error(QString::fromStdString(reader->GetStatusMessage()));
+    return false;
+  }
+  vtkDataSet* read = reader->GetOutput();
+  return looks_like_handles(read) ? this->set_handles(vtkPolyData::SafeDownCast(read), name)
+                                  : this->set_mesh(read, name);
+}
+
+bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name)
+{
+  SurfaceInput surface;
+  vtkSmartPointer<vtkPolyData> skin = vtkPointSet::SafeDownCast(mesh) ? skin_of(mesh) : nullptr;
+  const Status status = to_surface(skin ? skin.Get() : mesh, surface);
+  if (!status.ok())
+  {
+    this->show_error(QString("%1: %2").arg(name, QString::fromStdString(status.message)));
+    return false;
+  }
+  this->cancel_bind();
+  this->hide_error();
+  this->history_->clear();
+  this->deformation_.clear();
+  this->rest_ = skin;
+  this->shown_ = skin;
+  this->viewport_->set_surface(skin);
+  this->viewport_->reset_view();
+  this->setWindowTitle(QString("%1 – Bindpose").arg(name));
+  this->connect_weights();
+  return true;
+}
+
+bool MainWindow::set_handles(vtkPolyData* handle_data, const QString& name)
+{
+  Handles handles;
+  std::vector<Index> cells;
+  const Status status = to_handles(handle_data, handles, &cells);
+  if (!status.ok())
+  {
+    this->show_error(QString("%1: %2").arg(name, QString::fromStdString(status.message)));
+    return false;
+  }
+  this->cancel_bind();
+  this->hide_error();
+  this->history_->clear();
+  this->deformation_.clear();
+  this->handles_ = handles;
+  this->handle_cells_ = cells;
+  this->handle_data_ = vtkSmartPointer<vtkPolyData>::New();
+  this->handle_data_->DeepCopy(handle_data);
+  Pose pose;
+  to_pose(this->handle_data_, this->handles_, this->handle_cells_, pose);
+  set_pose(this->handle_data_, this->handle_cells_, pose);
+  this->viewport_->set_handles(this->handle_data_);
+  this->connect_weights();
+  return true;
+}
+
+/// Weights that came with the mesh are used when they are those of the handles.
+void MainWindow::connect_weights()
+{
+  vtkDataArray* weights = this->rest_ ? this->rest_->GetPointData()->GetArray("Weights") : nullptr;
+  if (weights && this->handle_data_)
+  {
+    if (weights->GetNumberOfComponents() == static_cast<int>(this->handles_.size()))
+    {
+      this->deformation_.set_input(this->rest_, this->handle_data_);
+    }
+    else
+    {
+      this->show_error(
+        tr("The mesh has weights for %1 handles, but %2 handles are open: bind again.")
+          .arg(weights->GetNumberOfComponents())
+          .arg(this->handles_.size()));
+    }
+  }
+  this->update_panel();
+  this->update_pose();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event)
+{
+  if (event->mimeData()->hasUrls())
+  {
+    event->acceptProposedAction();
+  }
+}
+
+void MainWindow::dropEvent(QDropEvent* event)
+{
+  for (const QUrl& url : event->mimeData()->urls())
+  {
+    this->open(url.toLocalFile());
+  }
+}
+
+// ---- Binding -----------------------------------------------------------------------------------
+
+void MainWindow::bind()
+{
+  if (!this->rest_ || !this->handle_data_ || this->is_binding())
+  {
+    return;
+  }
+  this->hide_error();
+  SurfaceInput surface;
+  const Status status = to_surface(this->rest_, surface);
+  if (!status.ok())
+  {
+    this->show_error(QString::fromStdString(status.message));
+    return;
+  }
+  BindInput input;
+  input.surface.points = surface.points.view();
+  input.surface.triangles = surface.triangles.view();
+  input.handles = this->handles_;
+  input.monotone = this->panel_->monotone();
+  if (vtkDataArray* regions = this->rest_->GetPointData()->GetArray("RegionId"))
+  {
+    for (vtkIdType v = 0; v < regions->GetNumberOfTuples(); ++v)
+    {
+      input.region_of_vertex.push_back(static_cast<Index>(regions->GetComponent(v, 0)));
+    }
+  }
+  this->job_->start(std::move(input));
+  this->update_panel();
+}
+
+void MainWindow::cancel_bind()
+{
+  this->job_->cancel();
+}
+
+void MainWindow::bind_finished()
+{
+  const BindResult& result = this->job_->result();
+  this->update_panel();
+  if (result.status.code == StatusCode::cancelled)
+  {
+    this->panel_->set_note(tr("Cancelled."));
+    return;
+  }
+  if (!result.status.usable())
+  {
+    this->show_error(QString::fromStdString(result.status.message));
+    return;
+  }
+  if (result.weights.rows() != this->rest_->GetNumberOfPoints() ||
+    result.weights.cols() != static_cast<Index>(this->handles_.size()))
+  {
+    return; // another mesh was opened while this one was being bound
+  }
+  vtkNew<vtkDoubleArray> weights;
+  weights->SetName("Weights");
+  weights->SetNumberOfComponents(static_cast<int>(result.weights.cols()));
+  weights->SetNumberOfTuples(result.weights.rows());
+  std::copy_n(result.weights.data(), result.weights.size(), weights->GetPointer(0));
+  for (std::size_t k = 0; k < this->handles_.size(); ++k)
+  {
+    weights->SetComponentName(static_cast<vtkIdType>(k), this->handles_[k].name.c_str());
+  }
+  auto bound = vtkSmartPointer<vtkPolyData>::New();
+  bound->ShallowCopy(this->rest_);
+  bound->GetPointData()->AddArray(weights);
+  this->rest_ = bound;
+  this->viewport_->set_surface(bound);
+  this->connect_weights();
+  const Report& report = result.status.report;
+  this->panel_->set_note(result.status.ok()
+      ? tr("Bound in %1 s; certified to %2.")
+          .arg(report.number("seconds.total", 0.0), 0, 'f', 1)
+          .arg(report.number("relative_gap", 0.0), 0, 'e', 1)
+      : tr("Not converged: gap %1, residual %2.")
+          .arg(report.number("relative_gap", 0.0), 0, 'e', 1)
+          .arg(report.number("kkt_residual", 0.0), 0, 'e', 1));
+  if (!result.status.warnings.empty())
+  {
+    this->show_error(QString::fromStdString(result.status.warnings.front()));
+  }
+}
+
+// ---- Posing ------------------------------------------------------------------------------------
+
+Pose MainWindow::pose() const
+{
+  Pose pose;
+  if (this->handle_data_)
+  {
+    to_pose(this->handle_data_, this->handles_, this->handle_cells_, pose);
+  }
+  return pose;
+}
+
+void MainWindow::apply_pose(const Pose& pose)
+{
+  set_pose(this->handle_data_, this->handle_cells_, pose);
+  for (std::size_t k = 0; k < pose.size(); ++k)
+  {
+    this->panel_->set_mode(static_cast<int>(k), static_cast<int>(pose[k].mode));
+  }
+  this->update_pose();
+}
+
+void MainWindow::remember(const QString& name, const Pose& before)
+{
+  this->history_->push(
+    new PoseStep(name, before, this->pose(), [this](const Pose& pose) { this->apply_pose(pose); }));
+}
+
+void MainWindow::drag_began()
+{
+  this->before_drag_ = this->pose();
+  const vtkIdType cell =
+    this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetActiveHandle();
+  this->dragged_ = -1;
+  for (std::size_t k = 0; k < this->handle_cells_.size(); ++k)
+  {
+    if (this->handle_cells_[k] == cell)
+    {
+      this->dragged_ = static_cast<int>(k);
+    }
+  }
+  if (this->dragged_ >= 0)
+  {
+    this->panel_->select_handle(this->dragged_);
+  }
+}
+
+void MainWindow::drag_ended()
+{
+  if (!this->viewport_->handle_widget()->GetCancelled() && this->dragged_ >= 0)
+  {
+    this->remember(tr("move %1").arg(QString::fromStdString(this->handles_[this->dragged_].name)),
+      this->before_drag_);
+  }
+  this->dragged_ = -1;
+}
+
+void MainWindow::set_method(int method)
+{
+  this->panel_->set_method(method);
+  this->deformation_.set_method(static_cast<Deformation::Method>(method));
+  this->update_pose();
+}
+
+void MainWindow::set_mode(int handle, int mode)
+{
+  const Pose before = this->pose();
+  Pose after = before;
+  after[handle].mode = static_cast<HandleMode>(mode);
+  this->apply_pose(after);
+  this->remember(tr("mode of %1").arg(QString::fromStdString(this->handles_[handle].name)), before);
+}
+
+void MainWindow::back_to_rest()
+{
+  if (!this->handle_data_)
+  {
+    return;
+  }
+  const Pose before = this->pose();
+  Pose rest(before.size());
+  for (std::size_t k = 0; k < before.size(); ++k)
+  {
+    rest[k].mode = before[k].mode;
+  }
+  this->apply_pose(rest);
+  this->remember(tr("back to rest"), before);
+}
+
+void MainWindow::update_pose()
+{
+  QString reading = !this->rest_ ? tr("Open a mesh (Ctrl+O) or drop one here.")
+    : !this->handle_data_        ? tr("Open handles (.tgf or .vtp) to bind and pose.")
+                                 : tr("Bind (Ctrl+B), then drag the handles.");
+  if (this->deformation_.has_input())
+  {
+    if (vtkPolyData* posed = this->deformation_.posed())
+    {
+      this->shown_ = posed;
+      this->viewport_->move_surface(posed);
+      reading = tr("%1 vertices   %2 ms a pose")
+                  .arg(posed->GetNumberOfPoints())
+                  .arg(this->deformation_.milliseconds(), 0, 'f', 2);
+      if (this->deformation_.microseconds_per_iteration() > 0.0)
+      {
+        reading += tr("   %1 µs an iteration")
+                     .arg(this->deformation_.microseconds_per_iteration(), 0, 'f', 1);
+      }
+    }
+    else
+    {
+      this->show_error(QString::fromStdString(this->deformation_.error()));
+    }
+  }
+  else if (this->rest_)
+  {
+    this->shown_ = this->rest_;
+    this->viewport_->move_surface(this->rest_);
+  }
+  this->hint_->setText(reading);
+  this->viewport_->refresh();
+}
+
+void MainWindow::update_panel()
+{
+  QStringList names;
+  QList<int> modes;
+  const Pose pose = this->pose();
+  for (std::size_t k = 0; k < this->handles_.size(); ++k)
+  {
+    names << QString::fromStdString(this->handles_[k].name);
+    modes << static_cast<int>(pose[k].mode);
+  }
+  const int column = this->panel_->shown_column();
+  this->panel_->set_handles(names, modes);
+  const bool bound = this->is_bound();
+  this->panel_->set_state(this->rest_ && this->handle_data_, this->is_binding(), bound);
+  this->panel_->show_column(bound && column < names.size() ? column : -1);
+  this->panel_->set_note(QString());
+}
+
+// ---- Saving and errors -------------------------------------------------------------------------
+
+void MainWindow::save(const QString& what)
+{
+  if (!this->shown_ || (what == "pose" && !this->handle_data_))
+  {
+    this->show_error(tr("There is no %1 to save yet.").arg(what));
+    return;
+  }
+  const QString kinds = what == "shape" ? tr("Shapes (*.vtp *.ply *.obj *.off *.stl)")
+    : what == "pose"                    ? tr("Poses (*.json)")
+                                        : tr("Pictures (*.png)");
+  const QString path =
+    QFileDialog::getSaveFileName(this, tr("Save %1").arg(what), QString(), kinds);
+  if (path.isEmpty())
+  {
+    return;
+  }
+  if (what == "picture")
+  {
+    if (!this->viewport_->save_picture(path))
+    {
+      this->show_error(tr("%1 cannot be written.").arg(path));
+    }
+    return;
+  }
+  Status status;
+  if (what == "pose")
+  {
+    std::string text;
+    status = format_pose_file({ this->pose() }, 24.0, this->handles_, text);
+    AtomicFile file;
+    if (status.ok())
+    {
+      status = file.open(path.toStdString(), true); // the dialog has asked
+    }
+    if (status.ok())
+    {
+      std::ofstream(file.temporary()) << text;
+      status = file.commit();
+    }
+  }
+  else
+  {
+    vtkNew<vtkMeshFileWriter> writer;
+    quiet(writer);
+    writer->SetInputData(this->shown_);
+    writer->SetFileName(path.toStdString().c_str());
+    writer->OverwriteOn(); // the dialog has asked
+    writer->Update();
+    if (writer->GetStatus() != vtkBindposeAlgorithm::OK)
+    {
+      status = Status::invalid_input(writer->GetStatusMessage());
+    }
+  }
+  if (!status.ok())
+  {
+    this->show_error(QString::fromStdString(status.message));
+  }
+}
+
+void MainWindow::show_error(const QString& sentence)
+{
+  this->error_text_->setText(sentence);
+  this->error_bar_->show();
+}
+
+void MainWindow::hide_error()
+{
+  this->error_bar_->hide();
+}
+
+QString MainWindow::error() const
+{
+  return this->error_bar_->isHidden() ? QString() : this->error_text_->text();
+}

@@ -1,0 +1,93 @@
+#ifndef main_window_h
+#define main_window_h
+
+#include "bind_job.h"
+#include "deformation.h"
+#include "pose/pose.h"
+#include "weights/handles.h"
+
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <QMainWindow>
+
+class QFrame;
+class QLabel;
+class QUndoStack;
+class SidePanel;
+class Viewport;
+class vtkDataSet;
+
+/// The window of `bindpose view`: open a surface and handles, bind, drag.
+///
+/// Three things are kept: the surface at rest (with or without weights), the handles (edited in
+/// place by the drag widget: pose arrays only), and the history of the pose. All else is derived.
+class MainWindow : public QMainWindow
+{
+  Q_OBJECT
+
+public:
+  explicit MainWindow(QWidget* parent = nullptr);
+  ~MainWindow() override;
+
+  /// Opens a mesh or a handle file, whichever it is. False, with a sentence in the error bar, when
+  /// it cannot be used; what was open stays.
+  bool open(const QString& path);
+  bool set_mesh(vtkDataSet* mesh, const QString& name);
+  bool set_handles(vtkPolyData* handles, const QString& name);
+
+  void bind();
+  void cancel_bind();
+  bool is_binding() const { return this->job_->is_running(); }
+  bool is_bound() const { return this->deformation_.has_input(); }
+  void set_method(int method);
+  void set_mode(int handle, int mode);
+  void back_to_rest();
+
+  /// What is drawn: the posed surface, or the rest one before a bind.
+  vtkPolyData* shown() const { return this->shown_; }
+  Viewport* viewport() const { return this->viewport_; }
+  QUndoStack* history() const { return this->history_; }
+  SidePanel* panel() const { return this->panel_; }
+  /// The sentence in the error bar; empty when it is hidden.
+  QString error() const;
+
+protected:
+  void dragEnterEvent(QDragEnterEvent* event) override;
+  void dropEvent(QDropEvent* event) override;
+
+private:
+  void make_menus();
+  void make_layout();
+  void show_error(const QString& sentence);
+  void hide_error();
+  void connect_weights();
+  void bind_finished();
+  void update_pose();
+  void update_panel();
+  bindpose::Pose pose() const;
+  void apply_pose(const bindpose::Pose& pose);
+  void remember(const QString& name, const bindpose::Pose& before);
+  void drag_began();
+  void drag_ended();
+  void save(const QString& what);
+
+  Viewport* viewport_ = nullptr;
+  SidePanel* panel_ = nullptr;
+  QFrame* error_bar_ = nullptr;
+  QLabel* error_text_ = nullptr;
+  QLabel* hint_ = nullptr;
+  QUndoStack* history_ = nullptr;
+  BindJob* job_ = nullptr;
+
+  vtkSmartPointer<vtkPolyData> rest_;
+  vtkSmartPointer<vtkPolyData> handle_data_;
+  vtkSmartPointer<vtkPolyData> shown_;
+  bindpose::Handles handles_;
+  std::vector<bindpose::Index> handle_cells_;
+  Deformation deformation_;
+  bindpose::Pose before_drag_;
+  int dragged_ = -1;
+};
+
+#endif

@@ -1,0 +1,66 @@
+#ifndef side_panel_h
+#define side_panel_h
+
+#include <QFrame>
+#include <QStringList>
+
+class QButtonGroup;
+class QComboBox;
+class QLabel;
+class QListWidget;
+class QProgressBar;
+class QPushButton;
+
+/// The panel right of the picture: bind, show, pose. It holds no state of the work; it tells what
+/// the user wants by signals and shows what the window tells it.
+class SidePanel : public QFrame
+{
+  Q_OBJECT
+
+public:
+  explicit SidePanel(QWidget* parent = nullptr);
+
+  /// One line a handle: its name and mode (0 full, 1 position, 2 free).
+  void set_handles(const QStringList& names, const QList<int>& modes);
+  void set_mode(int handle, int mode);
+  void select_handle(int handle);
+  int selected_handle() const;
+
+  /// Ready: a surface and handles are there. Bound: weights are there.
+  void set_state(bool ready, bool binding, bool bound);
+  void set_progress(double fraction, const QString& phase);
+  /// A line under the bind button: certificate, or what to do next.
+  void set_note(const QString& text);
+  void set_method(int method);
+
+  /// True when monotone weights are wanted.
+  bool monotone() const;
+  /// Column of the weights that is shown, -1: shaded.
+  int shown_column() const;
+  void show_column(int column);
+
+Q_SIGNALS:
+  void bind_wanted();
+  void cancel_wanted();
+  void column_chosen(int column);
+  void method_chosen(int method);
+  void handle_chosen(int handle);
+  void mode_chosen(int handle, int mode);
+  void rest_wanted();
+
+private:
+  QListWidget* handles_;
+  QComboBox* mode_;
+  QComboBox* kind_;
+  QComboBox* shown_;
+  QPushButton* bind_;
+  QPushButton* cancel_;
+  QProgressBar* bar_;
+  QLabel* note_;
+  QPushButton* rest_;
+  QButtonGroup* methods_;
+  QStringList names_;
+  QList<int> modes_;
+};
+
+#endif

@@ -1,0 +1,27 @@
+#include "viewer.h"
+
+#include "main_window.h"
+#include "style.h"
+
+#include <QApplication>
+#include <QSurfaceFormat>
+#include <QVTKOpenGLNativeWidget.h>
+
+int run_viewer(const std::vector<std::string>& files)
+{
+  // Qt wants the format before the application.
+  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+  int argc = 1;
+  char name[] = "bindpose";
+  char* argv[] = { name, nullptr };
+  QApplication application(argc, argv);
+  QApplication::setApplicationDisplayName("Bindpose");
+  apply_style(application);
+  MainWindow window;
+  window.show();
+  for (const std::string& file : files)
+  {
+    window.open(QString::fromLocal8Bit(file.c_str()));
+  }
+  return QApplication::exec();
+}

@@ -1,0 +1,113 @@
+// Fitting: in the camera's axes (right r, up u, forward f) a camera at c sees p when
+// |(p - c)·r| <= tx (p - c)·f and the same for u. For the right border this says
+// c·r - tx c·f >= max(p·r - tx p·f) =: A, for the left -c·r - tx c·f >= max(-p·r - tx p·f) =: B;
+// their sum bounds c·f from above by -(A + B) / (2 tx), their difference centres c·r.
+#include "scene/camera.h"
+
+#include "vtkCamera.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+namespace
+{
+constexpr double default_azimuth = 28.0;
+constexpr double default_elevation = 16.0;
+constexpr double view_angle = 30.0;
+constexpr double pi = 3.14159265358979323846;
+} // namespace
+
+Frame choose_frame(const Box& box, const std::string& up)
+{
+  Frame frame;
+  const Vec3 size = box.size();
+  const double thin = 1e-3 * box.diagonal();
+  const bool named = up == "x" || up == "y" || up == "z";
+  frame.up = named ? up[0] - 'x' : 1;
+  int thinnest = 0;
+  size.minCoeff(&thinnest);
+  frame.flat = size[thinnest] <= thin;
+  if (frame.flat && thinnest == frame.up)
+  {
+    if (named)
+    {
+      frame.flat = false; // a floor, looked at from the side and above
+    }
+    else
+    {
+      frame.up = 2;
+    }
+  }
+  // For y up: level axes x and z; for z up: x and y; for x up: y and z.
+  const int level[2] = { frame.up == 0 ? 1 : 0, frame.up == 2 ? 1 : 2 };
+  frame.depth = size[level[0]] >= size[level[1]] ? level[1] : level[0];
+  return frame;
+}
+
+Vec3 view_direction(const Frame& frame, const View& view)
+{
+  const Vec3 up = Vec3::Unit(frame.up);
+  // From +z, +x, and, with z up, from -y: then the other level axis runs to the right.
+  const double side = frame.up == 2 && frame.depth == 1 ? -1.0 : 1.0;
+  const Vec3 front = side * Vec3::Unit(frame.depth);
+  const double azimuth = view.azimuth + (frame.flat ? 0.0 : default_azimuth);
+  const double elevation =
+    std::clamp(view.elevation + (frame.flat ? 0.0 : default_elevation), -89.0, 89.0);
+  const Vec3 right = up.cross(front);
+  const double a = azimuth * pi / 180.0;
+  const double e = elevation * pi / 180.0;
+  return std::cos(e) * (std::cos(a) * front + std::sin(a) * right) + std::sin(e) * up;
+}
+
+void fit_camera(vtkCamera* camera, PointsView points, const Frame& frame, const View& view,
+  double aspect, double margin)
+{
+  const Vec3 back = view_direction(frame, view);
+  const Vec3 forward = -back;
+  const Vec3 right = forward.cross(Vec3::Unit(frame.up)).normalized();
+  const Vec3 up = right.cross(forward);
+  const Box box = bounding_box(points);
+  const Vec3 center = box.center();
+  const double free = 1.0 - 2.0 * margin;
+  const double ty = std::tan(0.5 * view_angle * pi / 180.0);
+  const double tx = ty * aspect;
+  double high[4] = { -1e300, -1e300, -1e300, -1e300 }; // right, left, up, down
+  double near_point = 1e300;
+  double far_point = -1e300;
+  for (Index i = 0; i < points.rows(); ++i)
+  {
+    const Vec3 p = points.row(i).transpose() - center;
+    const double x = p.dot(right);
+    const double y = p.dot(up);
+    const double z = p.dot(forward);
+    high[0] = std::max(high[0], x - free * tx * z);
+    high[1] = std::max(high[1], -x - free * tx * z);
+    high[2] = std::max(high[2], y - free * ty * z);
+    high[3] = std::max(high[3], -y - free * ty * z);
+    near_point = std::min(near_point, z);
+    far_point = std::max(far_point, z);
+  }
+  // A point or a line along the view has no width: keep some distance from it.
+  const double smallest = std::max(0.5 * box.diagonal(), 1e-6);
+  double depth =
+    std::min(-(high[0] + high[1]) / (2.0 * free * tx), -(high[2] + high[3]) / (2.0 * free * ty));
+  depth = std::min(depth, near_point - 0.1 * smallest);
+  const double middle = 0.5 * (near_point + far_point);
+  const Vec3 place =
+    center + 0.5 * (high[0] - high[1]) * right + 0.5 * (high[2] - high[3]) * up + depth * forward;
+  const Vec3 focus = place + (middle - depth) * forward;
+
+  camera->ParallelProjectionOff();
+  // Zoom by the angle: the perspective stays, and the camera never enters the shape.
+  camera->SetViewAngle(2.0 * std::atan(ty / view.zoom) * 180.0 / pi);
+  camera->SetPosition(place.data());
+  camera->SetFocalPoint(focus.data());
+  camera->SetViewUp(up.data());
+  const double slack = 0.1 * std::max(far_point - near_point, smallest);
+  const double far_plane = far_point - depth + slack;
+  camera->SetClippingRange(std::max(near_point - depth - slack, 1e-3 * far_plane), far_plane);
+}
+
+} // namespace bindpose

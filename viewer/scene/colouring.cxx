@@ -1,0 +1,250 @@
+// Looks the array up by name in all tiles, the component by name or number, and takes one range
+// over all of them, so that equal colours mean equal numbers across a picture.
+#include "scene/colouring.h"
+
+#include "vtkCellData.h"
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+namespace
+{
+struct FoundArray
+{
+  vtkDataArray* array = nullptr;
+  bool on_points = true;
+};
+
+FoundArray find_array(vtkDataSet* data, const std::string& name)
+{
+  FoundArray found;
+  if (data && !name.empty())
+  {
+    found.array = data->GetPointData()->GetArray(name.c_str());
+    if (!found.array)
+    {
+      found.array = data->GetCellData()->GetArray(name.c_str());
+      found.on_points = false;
+    }
+  }
+  return found;
+}
+
+std::string list_words(const std::vector<std::string>& words)
+{
+  std::string text;
+  for (const std::string& word : words)
+  {
+    text += (text.empty() ? "" : ", ") + word;
+  }
+  return text;
+}
+
+std::vector<std::string> array_names(const std::vector<Tile>& tiles)
+{
+  std::vector<std::string> names;
+  for (const Tile& tile : tiles)
+  {
+    if (!tile.data)
+    {
+      continue;
+    }
+    for (vtkDataSetAttributes* attributes :
+      { static_cast<vtkDataSetAttributes*>(tile.data->GetPointData()),
+        static_cast<vtkDataSetAttributes*>(tile.data->GetCellData()) })
+    {
+      for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+      {
+        vtkDataArray* array = attributes->GetArray(i);
+        if (array && array->GetName() &&
+          std::find(names.begin(), names.end(), array->GetName()) == names.end())
+        {
+          names.emplace_back(array->GetName());
+        }
+      }
+    }
+  }
+  return names;
+}
+
+// Number of the component that is asked for, -1 for the length of the tuple, -2 when there is no
+// such component.
+int find_component(vtkDataArray* array, const std::string& component)
+{
+  const int count = array->GetNumberOfComponents();
+  if (component.empty())
+  {
+    return count == 3 && std::string(array->GetName()) != "Weights" ? -1 : 0;
+  }
+  for (int c = 0; c < count; ++c)
+  {
+    const char* name = array->GetComponentName(c);
+    if (name && component == name)
+    {
+      return c;
+    }
+  }
+  if (component.size() <= 9 && component.find_first_not_of("0123456789") == std::string::npos)
+  {
+    const int c = std::stoi(component);
+    return c < count ? c : -2;
+  }
+  return -2;
+}
+
+double value_of(vtkDataArray* array, vtkIdType tuple, int component)
+{
+  if (component >= 0)
+  {
+    return array->GetComponent(tuple, component);
+  }
+  double sum = 0.0;
+  for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+  {
+    const double value = array->GetComponent(tuple, c);
+    sum += value * value;
+  }
+  return std::sqrt(sum);
+}
+
+std::string component_words(vtkDataArray* array)
+{
+  std::vector<std::string> words;
+  for (int c = 0; c < array->GetNumberOfComponents(); ++c)
+  {
+    const char* name = array->GetComponentName(c);
+    words.push_back(name && *name ? name : std::to_string(c));
+  }
+  return list_words(words);
+}
+
+} // namespace
+
+vtkSmartPointer<vtkDoubleArray> colour_values(
+  vtkDataSet* data, const Colouring& colouring, bool& on_points)
+{
+  const FoundArray found = find_array(data, colouring.array);
+  const int component = found.array ? find_component(found.array, colouring.component) : -2;
+  if (colouring.kind == Colouring::Kind::none || component == -2)
+  {
+    return nullptr;
+  }
+  on_points = found.on_points;
+  auto values = vtkSmartPointer<vtkDoubleArray>::New();
+  values->SetName(colour_array_name);
+  values->SetNumberOfValues(found.array->GetNumberOfTuples());
+  for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
+  {
+    values->SetValue(i, value_of(found.array, i, component));
+  }
+  return values;
+}
+
+Status choose_colouring(
+  const std::vector<Tile>& tiles, const PictureOptions& options, Colouring& colouring)
+{
+  colouring = Colouring();
+  colouring.array = options.array;
+  colouring.component = options.component;
+  for (const Tile& tile : tiles)
+  {
+    auto* image = vtkImageData::SafeDownCast(tile.data);
+    if (colouring.array.empty() && image && !array_names({ tile }).empty())
+    {
+      colouring.array =
+        find_array(image, "WindingNumber").array ? "WindingNumber" : array_names({ tile }).front();
+    }
+  }
+  if (colouring.array.empty())
+  {
+    return options.component.empty() ? Status()
+                                     : Status::invalid_input("a component is named, but no array");
+  }
+  double lower = 1e300;
+  double upper = -1e300;
+  vtkDataArray* sample = nullptr;
+  bool has_component = false;
+  for (const Tile& tile : tiles)
+  {
+    const FoundArray found = find_array(tile.data, colouring.array);
+    if (!found.array)
+    {
+      continue;
+    }
+    sample = found.array;
+    const int component = find_component(found.array, colouring.component);
+    if (component == -2)
+    {
+      continue;
+    }
+    has_component = true;
+    if (found.array->GetNumberOfComponents() > 1 && component >= 0)
+    {
+      const char* name = found.array->GetComponentName(component);
+      colouring.component_name = name && *name ? name : std::to_string(component);
+    }
+    for (vtkIdType i = 0; i < found.array->GetNumberOfTuples(); ++i)
+    {
+      const double value = value_of(found.array, i, component);
+      if (std::isfinite(value))
+      {
+        lower = std::min(lower, value);
+        upper = std::max(upper, value);
+      }
+    }
+  }
+  if (!sample)
+  {
+    const std::string there = list_words(array_names(tiles));
+    return Status::invalid_input("there is no array '" + colouring.array + "'" +
+      (there.empty() ? std::string("; the data has no arrays") : "; there are: " + there));
+  }
+  if (!has_component)
+  {
+    return Status::invalid_input("the array '" + colouring.array + "' has no component '" +
+      colouring.component + "'; there are: " + component_words(sample));
+  }
+  if (lower > upper)
+  {
+    return Status::invalid_input("the array '" + colouring.array + "' holds no finite number");
+  }
+  const bool given = options.range[0] <= options.range[1];
+  if (colouring.array == "WindingNumber" && !given)
+  {
+    colouring.kind = Colouring::Kind::winding;
+    colouring.map = winding_map();
+  }
+  else if (colouring.array == "Weights")
+  {
+    colouring.kind = Colouring::Kind::weights;
+    colouring.map = weight_map();
+    if (given)
+    {
+      colouring.map = sequential_map(options.range[0], options.range[1], 10);
+    }
+    else if (lower < -1e-6 || upper > 1.0 + 1e-6)
+    {
+      // Unconstrained weights leave [0, 1]; the bands stay tenths while they can be told apart.
+      const double from = std::floor(10.0 * lower) / 10.0;
+      const double to = std::ceil(10.0 * upper) / 10.0;
+      const double bands = std::min(std::round(10.0 * (to - from)), 40.0);
+      colouring.map = sequential_map(from, to, static_cast<int>(bands));
+    }
+  }
+  else
+  {
+    colouring.kind = Colouring::Kind::other;
+    colouring.map =
+      sequential_map(given ? options.range[0] : lower, given ? options.range[1] : upper, 0);
+  }
+  return Status();
+}
+
+} // namespace bindpose

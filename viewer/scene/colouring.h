@@ -1,0 +1,50 @@
+#ifndef bindpose_scene_colouring_h
+#define bindpose_scene_colouring_h
+
+#include "scene/colours.h"
+#include "scene/picture.h"
+
+#include "vtkSmartPointer.h"
+
+#include <string>
+#include <vector>
+
+class vtkDataArray;
+class vtkDataSet;
+class vtkDoubleArray;
+
+namespace bindpose
+{
+
+/// What is coloured, and how; the same for all tiles.
+struct Colouring
+{
+  enum class Kind
+  {
+    none,
+    weights,
+    winding,
+    other
+  };
+  Kind kind = Kind::none;
+  std::string array;
+  std::string component; ///< as asked for
+  std::string component_name; ///< as shown: name or number, empty for single numbers and lengths
+  ColourMap map;
+};
+
+/// Finds the array and component in the tiles and the range of their values.
+Status choose_colouring(
+  const std::vector<Tile>& tiles, const PictureOptions& options, Colouring& colouring);
+
+/// The shown number as an array of its own, on the same points or cells; null when the data lacks
+/// the array or its component.
+vtkSmartPointer<vtkDoubleArray> colour_values(
+  vtkDataSet* data, const Colouring& colouring, bool& on_points);
+
+/// Its name.
+constexpr const char* colour_array_name = "bindpose.Colour";
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,154 @@
+// Maps are given by a few anchors and interpolated in CIE Lab, where equal steps look equal. The
+// anchors' lightness falls evenly from 92 to 22.
+#include "scene/colours.h"
+
+#include "vtkLookupTable.h"
+#include "vtkMath.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+namespace
+{
+Rgb mix(const Rgb& a, const Rgb& b, double t)
+{
+  std::array<double, 3> lab_a{};
+  std::array<double, 3> lab_b{};
+  vtkMath::RGBToLab(a.data(), lab_a.data());
+  vtkMath::RGBToLab(b.data(), lab_b.data());
+  std::array<double, 3> lab{};
+  for (int k = 0; k < 3; ++k)
+  {
+    lab[k] = lab_a[k] + t * (lab_b[k] - lab_a[k]);
+  }
+  Rgb rgb{};
+  vtkMath::LabToRGB(lab.data(), rgb.data());
+  for (double& c : rgb)
+  {
+    c = std::clamp(c, 0.0, 1.0);
+  }
+  return rgb;
+}
+
+// In Lab, so that the anchors' lightness is what is written here.
+const std::array<std::array<double, 3>, 6> sequential_anchors = { { { 92, 0, 6 }, { 78, -18, 16 },
+  { 64, -24, -2 }, { 50, -15, -20 }, { 36, 6, -38 }, { 22, 22, -42 } } };
+
+vtkSmartPointer<vtkLookupTable> make_table(double lower, double upper, int count)
+{
+  auto table = vtkSmartPointer<vtkLookupTable>::New();
+  table->SetNumberOfTableValues(count);
+  table->SetTableRange(lower, upper);
+  table->SetNanColor(palette::missing[0], palette::missing[1], palette::missing[2], 1.0);
+  return table;
+}
+
+// Five to seven round values over a range: steps of 1, 2 or 5 times a power of ten.
+std::vector<double> round_ticks(double lower, double upper)
+{
+  const double rough = (upper - lower) / 5.0;
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  double step = 10.0 * power;
+  for (const double factor : { 5.0, 2.0, 1.0 })
+  {
+    if (factor * power >= rough)
+    {
+      step = factor * power;
+    }
+  }
+  std::vector<double> ticks;
+  for (double i = std::ceil(lower / step - 1e-9); i * step <= upper + 1e-9 * step; ++i)
+  {
+    ticks.push_back(i * step);
+  }
+  return ticks;
+}
+} // namespace
+
+Rgb sequential_colour(double t)
+{
+  const double scaled = std::clamp(t, 0.0, 1.0) * (sequential_anchors.size() - 1);
+  const auto first = std::min(static_cast<std::size_t>(scaled), sequential_anchors.size() - 2);
+  const double s = scaled - static_cast<double>(first);
+  std::array<double, 3> lab{};
+  for (int k = 0; k < 3; ++k)
+  {
+    lab[k] = (1.0 - s) * sequential_anchors[first][k] + s * sequential_anchors[first + 1][k];
+  }
+  Rgb rgb{};
+  vtkMath::LabToRGB(lab.data(), rgb.data());
+  for (double& c : rgb)
+  {
+    c = std::clamp(c, 0.0, 1.0);
+  }
+  return rgb;
+}
+
+Rgb winding_colour(double winding_number)
+{
+  const Rgb outside{ 0.44, 0.65, 0.82 };
+  const Rgb middle{ 0.98, 0.97, 0.95 };
+  const Rgb inside{ 0.90, 0.58, 0.36 };
+  const Rgb negative[2] = { { 0.52, 0.47, 0.77 }, { 0.20, 0.10, 0.45 } };
+  const Rgb doubled[2] = { { 0.72, 0.33, 0.17 }, { 0.36, 0.08, 0.05 } };
+  const double w = winding_number;
+  if (w < -0.02)
+  {
+    return mix(negative[0], negative[1], std::clamp(-w, 0.0, 1.0));
+  }
+  if (w > 1.02)
+  {
+    return mix(doubled[0], doubled[1], std::clamp(w - 1.0, 0.0, 1.0));
+  }
+  const double t = std::clamp(w, 0.0, 1.0);
+  return t < 0.5 ? mix(outside, middle, 2.0 * t) : mix(middle, inside, 2.0 * t - 1.0);
+}
+
+ColourMap sequential_map(double lower, double upper, int bands)
+{
+  ColourMap map;
+  map.lower = lower;
+  // A constant array still needs a range with a length.
+  map.upper = upper > lower ? upper : lower + std::max(1e-12, 1e-6 * std::abs(lower));
+  const int count = bands > 0 ? bands : 256;
+  map.table = make_table(map.lower, map.upper, count);
+  for (int i = 0; i < count; ++i)
+  {
+    // Bands take the colour of their middle, but the first and last reach the map's ends.
+    const double t = count > 1 ? i / (count - 1.0) : 0.5;
+    const Rgb c = sequential_colour(t);
+    map.table->SetTableValue(i, c[0], c[1], c[2], 1.0);
+  }
+  map.ticks = upper > lower ? round_ticks(map.lower, map.upper) : std::vector<double>{ lower };
+  map.decimals = -1;
+  return map;
+}
+
+ColourMap weight_map()
+{
+  ColourMap map = sequential_map(0.0, 1.0, 10);
+  map.ticks = { 0.0, 0.2, 0.4, 0.6, 0.8, 1.0 };
+  map.decimals = 1;
+  return map;
+}
+
+ColourMap winding_map()
+{
+  ColourMap map;
+  map.lower = -1.0;
+  map.upper = 2.0;
+  constexpr int count = 300; // steps of 0.01: -0.02 and 1.02 lie between two entries
+  map.table = make_table(map.lower, map.upper, count);
+  for (int i = 0; i < count; ++i)
+  {
+    const Rgb c = winding_colour(map.lower + (i + 0.5) * (map.upper - map.lower) / count);
+    map.table->SetTableValue(i, c[0], c[1], c[2], 1.0);
+  }
+  map.ticks = { -1.0, 0.0, 0.5, 1.0, 2.0 };
+  map.decimals = -1;
+  return map;
+}
+
+} // namespace bindpose

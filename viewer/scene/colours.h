@@ -1,0 +1,61 @@
+#ifndef bindpose_scene_colours_h
+#define bindpose_scene_colours_h
+
+#include "vtkLookupTable.h"
+#include "vtkSmartPointer.h"
+
+#include <array>
+#include <vector>
+
+namespace bindpose
+{
+
+/// Red, green, blue in [0, 1].
+using Rgb = std::array<double, 3>;
+
+/// The house's colours, one place for pictures and window.
+namespace palette
+{
+constexpr Rgb surface{ 0.83, 0.80, 0.76 }; ///< a shape without data: warm grey
+constexpr Rgb cut{ 0.52, 0.74, 0.75 }; ///< tets that a cut lays open
+constexpr Rgb cut_edges{ 0.17, 0.30, 0.33 }; ///< their edges
+constexpr Rgb line{ 0.16, 0.16, 0.18 }; ///< isolines, outlines
+constexpr Rgb edges{ 0.44, 0.42, 0.40 }; ///< triangle edges of a surface
+constexpr Rgb text{ 0.16, 0.16, 0.18 }; ///< labels on a light background
+constexpr Rgb white{ 1.0, 1.0, 1.0 }; ///< paper
+constexpr Rgb gradient_top{ 0.90, 0.91, 0.93 }; ///< gradient background, above
+constexpr Rgb gradient_bottom{ 0.98, 0.98, 0.97 }; ///< and below
+constexpr Rgb missing{ 0.62, 0.58, 0.60 }; ///< not a number
+} // namespace palette
+
+/// The sequential map at t in [0, 1] (clamped): from near the plain surface's grey over green and
+/// teal to deep blue. Lightness falls strictly and evenly, so it reads the same for colour-blind
+/// eyes and in grey print.
+Rgb sequential_colour(double t);
+
+/// The winding number's map: blue at 0, white at 0.5, orange at 1; darker and of another hue,
+/// with a jump, below -0.02 (violet, deep at -1) and above 1.02 (brown, deep at 2), so that
+/// inside-out and doubly covered places show at once. 0.02 is the tolerance for rounding and for
+/// open surfaces far away.
+Rgb winding_colour(double winding_number);
+
+/// How values become colours, and how the legend tells it.
+struct ColourMap
+{
+  vtkSmartPointer<vtkLookupTable> table;
+  double lower = 0.0; ///< of the table and the legend
+  double upper = 1.0;
+  std::vector<double> ticks; ///< values that the legend names
+  int decimals = 1; ///< of their texts; -1: shortest text with three digits
+};
+
+/// Ten bands of equal colour over [0, 1].
+ColourMap weight_map();
+/// The same colours in ten bands over [lower, upper], or smooth with bands = 0.
+ColourMap sequential_map(double lower, double upper, int bands);
+/// winding_colour over [-1, 2]; what lies beyond looks like the ends.
+ColourMap winding_map();
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,158 @@
+// Drawn by hand from flat quads and lines of text: vtkScalarBarActor fits its text to the space,
+// so that no two pictures have the same type size.
+#include "scene/legend.h"
+
+#include "vtkActor2D.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCoordinate.h"
+#include "vtkLookupTable.h"
+#include "vtkNew.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper2D.h"
+#include "vtkProperty2D.h"
+#include "vtkRenderer.h"
+#include "vtkTextActor.h"
+#include "vtkTextProperty.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace bindpose
+{
+namespace
+{
+std::string tick_text(double value, int decimals)
+{
+  char text[40];
+  if (decimals >= 0)
+  {
+    std::snprintf(text, sizeof text, "%.*f", decimals, value);
+  }
+  else
+  {
+    std::snprintf(text, sizeof text, "%.3g", value == 0.0 ? 0.0 : value);
+  }
+  return text;
+}
+
+// Of bold letters, generous, since it only reserves space.
+double text_width(const std::string& text, int font_size)
+{
+  return 0.66 * font_size * static_cast<double>(text.size());
+}
+
+int bar_width(int font_size)
+{
+  return static_cast<int>(1.1 * font_size);
+}
+
+class FlatShapes
+{
+public:
+  void add_box(double x0, double y0, double x1, double y1, const Rgb& colour)
+  {
+    const vtkIdType corners[4] = { this->points_->InsertNextPoint(x0, y0, 0.0),
+      this->points_->InsertNextPoint(x1, y0, 0.0), this->points_->InsertNextPoint(x1, y1, 0.0),
+      this->points_->InsertNextPoint(x0, y1, 0.0) };
+    this->quads_->InsertNextCell(4, corners);
+    for (const double c : colour)
+    {
+      this->colours_->InsertNextValue(static_cast<unsigned char>(std::lround(255.0 * c)));
+    }
+  }
+
+  void add_to(vtkRenderer* renderer)
+  {
+    this->colours_->SetName("Colours");
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(this->points_);
+    data->SetPolys(this->quads_);
+    data->GetCellData()->SetScalars(this->colours_);
+    vtkNew<vtkPolyDataMapper2D> mapper;
+    mapper->SetInputData(data);
+    vtkNew<vtkActor2D> actor;
+    actor->SetMapper(mapper);
+    renderer->AddActor2D(actor);
+  }
+
+  FlatShapes() { this->colours_->SetNumberOfComponents(3); }
+
+private:
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkCellArray> quads_;
+  vtkNew<vtkUnsignedCharArray> colours_;
+};
+} // namespace
+
+void add_text(vtkRenderer* renderer, const std::string& text, double x, double y, int size,
+  TextAlign align, bool bold)
+{
+  if (text.empty())
+  {
+    return;
+  }
+  vtkNew<vtkTextActor> actor;
+  actor->SetInput(text.c_str());
+  vtkTextProperty* property = actor->GetTextProperty();
+  property->SetFontFamilyToArial();
+  property->SetFontSize(size);
+  property->SetBold(bold);
+  property->SetColor(palette::text[0], palette::text[1], palette::text[2]);
+  property->SetVerticalJustificationToCentered();
+  property->SetJustification(align == TextAlign::left ? VTK_TEXT_LEFT
+      : align == TextAlign::center                    ? VTK_TEXT_CENTERED
+                                                      : VTK_TEXT_RIGHT);
+  actor->GetPositionCoordinate()->SetCoordinateSystemToViewport();
+  actor->SetPosition(x, y);
+  renderer->AddActor2D(actor);
+}
+
+int legend_width(const ColourMap& map, const std::string& name, int font_size)
+{
+  double ticks = 0.0;
+  for (const double tick : map.ticks)
+  {
+    ticks = std::max(ticks, text_width(tick_text(tick, map.decimals), font_size));
+  }
+  const double bar = bar_width(font_size) + 0.6 * font_size + ticks;
+  return static_cast<int>(std::ceil(std::max(bar, text_width(name, font_size))));
+}
+
+void add_legend(vtkRenderer* renderer, const ColourMap& map, const std::string& name,
+  const PixelBox& box, int font_size)
+{
+  const double name_height = 2.0 * font_size;
+  const double bottom = box.y + 0.5 * font_size; // half a tick's text sticks out
+  const double top = box.y + box.height - name_height;
+  const double left = box.x;
+  const double right = box.x + bar_width(font_size);
+  const double line = std::max(1.0, std::round(font_size / 14.0));
+  FlatShapes shapes;
+  shapes.add_box(left - line, bottom - line, right + line, top + line, palette::line);
+  const int count = static_cast<int>(map.table->GetNumberOfTableValues());
+  for (int i = 0; i < count; ++i)
+  {
+    Rgb colour{};
+    double rgba[4];
+    map.table->GetTableValue(i, rgba);
+    std::copy_n(rgba, 3, colour.begin());
+    shapes.add_box(left, bottom + (top - bottom) * i / count, right,
+      bottom + (top - bottom) * (i + 1) / count, colour);
+  }
+  for (const double tick : map.ticks)
+  {
+    const double y = bottom + (top - bottom) * (tick - map.lower) / (map.upper - map.lower);
+    shapes.add_box(right, y - 0.5 * line, right + 0.3 * font_size, y + 0.5 * line, palette::line);
+    add_text(renderer, tick_text(tick, map.decimals), right + 0.6 * font_size, y, font_size,
+      TextAlign::left);
+  }
+  shapes.add_to(renderer);
+  add_text(
+    renderer, name, left, box.y + box.height - 0.5 * font_size, font_size, TextAlign::left, true);
+}
+
+} // namespace bindpose

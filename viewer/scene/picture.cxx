@@ -1,0 +1,422 @@
+// Three layers: the background over the whole window; one renderer per tile, all with the same
+// camera; text and legend on top. Drawn larger than asked for and averaged down, because the
+// driver's antialiasing smooths neither isolines nor colour bands.
+#include "scene/picture.h"
+
+#include "io/atomic_file.h"
+#include "scene/display.h"
+#include "scene/legend.h"
+#include "scene/tile_actors.h"
+
+#include "vtkCamera.h"
+#include "vtkDataSet.h"
+#include "vtkErrorCode.h"
+#include "vtkImageData.h"
+#include "vtkMatrix4x4.h"
+#include "vtkNew.h"
+#include "vtkPNGWriter.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+namespace
+{
+struct Layout
+{
+  std::vector<PixelBox> tiles; // of the window
+  std::vector<PixelBox> label_boxes; // below each tile
+  PixelBox legend;
+  int font = 12; // window pixels
+  double title_y = 0.0;
+};
+
+Status check_options(const std::vector<Tile>& tiles, const PictureOptions& options)
+{
+  const auto in = [](double value, double lower, double upper)
+  { return value >= lower && value <= upper; };
+  if (!in(options.width, 16, 8192) || !in(options.height, 16, 8192))
+  {
+    return Status::invalid_input("a picture is 16 to 8192 pixels wide and high, not " +
+      std::to_string(options.width) + " x " + std::to_string(options.height));
+  }
+  if (!in(options.supersampling, 1, 4))
+  {
+    return Status::invalid_input("supersampling is 1 to 4");
+  }
+  if (!in(options.section, 0.0, 1.0))
+  {
+    return Status::invalid_input("the section lies between 0 and 1");
+  }
+  if (!in(options.view.zoom, 1e-3, 1e3))
+  {
+    return Status::invalid_input("the zoom lies between 0.001 and 1000");
+  }
+  if (!std::isfinite(options.view.azimuth) || !std::isfinite(options.view.elevation))
+  {
+    return Status::invalid_input("azimuth and elevation are degrees");
+  }
+  const std::string& up = options.view.up;
+  if (up != "auto" && up != "x" && up != "y" && up != "z")
+  {
+    return Status::invalid_input("up is auto, x, y or z, not '" + up + "'");
+  }
+  if (options.columns < 0)
+  {
+    return Status::invalid_input("the number of columns is not negative");
+  }
+  if (tiles.empty())
+  {
+    return Status::invalid_input("there is nothing to draw");
+  }
+  for (std::size_t i = 0; i < tiles.size(); ++i)
+  {
+    if ((!tiles[i].data || tiles[i].data->GetNumberOfPoints() == 0) && !tiles[i].handles)
+    {
+      return Status::invalid_input(tiles.size() == 1
+          ? std::string("the dataset is empty")
+          : "dataset " + std::to_string(i + 1) + " of the picture is empty");
+    }
+  }
+  return Status();
+}
+
+// As many columns as make the tiles' shape most like the shapes' own.
+int choose_columns(int count, double width, double height, double shape_aspect)
+{
+  int best = 1;
+  double best_size = 0.0;
+  for (int columns = 1; columns <= count; ++columns)
+  {
+    const int rows = (count + columns - 1) / columns;
+    const double size = std::min(width / columns / shape_aspect, height / rows);
+    if (size > best_size * (1.0 + 1e-9))
+    {
+      best_size = size;
+      best = columns;
+    }
+  }
+  return best;
+}
+
+Layout make_layout(const std::vector<Tile>& tiles, const PictureOptions& options,
+  const Colouring& colouring, const std::string& legend_name, double shape_aspect)
+{
+  const int scale = options.supersampling;
+  const int width = options.width * scale;
+  const int height = options.height * scale;
+  Layout layout;
+  layout.font = scale *
+    std::clamp(
+      static_cast<int>(std::lround(std::min(options.width, options.height) / 42.0)), 10, 40);
+  const int margin = layout.font;
+  int top = height;
+  if (!options.title.empty())
+  {
+    top -= static_cast<int>(2.6 * layout.font);
+    layout.title_y = height - 1.5 * layout.font;
+  }
+  int right = width;
+  if (options.legend && colouring.kind != Colouring::Kind::none)
+  {
+    layout.legend.width = legend_width(colouring.map, legend_name, layout.font);
+    layout.legend.height = static_cast<int>(std::min(0.62 * top, 20.0 * layout.font));
+    layout.legend.x = width - margin - layout.legend.width;
+    layout.legend.y = (top - layout.legend.height) / 2;
+    right = layout.legend.x - margin / 2;
+  }
+  const int count = static_cast<int>(tiles.size());
+  const int columns = options.columns > 0 ? std::min(options.columns, count)
+                                          : choose_columns(count, right, top, shape_aspect);
+  const int rows = (count + columns - 1) / columns;
+  const bool labelled =
+    std::any_of(tiles.begin(), tiles.end(), [](const Tile& tile) { return !tile.label.empty(); });
+  const int label_height = labelled ? static_cast<int>(2.0 * layout.font) : 0;
+  for (int i = 0; i < count; ++i)
+  {
+    const int column = i % columns;
+    const int row = i / columns;
+    PixelBox box;
+    box.x = right * column / columns;
+    box.width = right * (column + 1) / columns - box.x;
+    box.y = top * (rows - row - 1) / rows;
+    box.height = top * (rows - row) / rows - box.y;
+    PixelBox label = box;
+    label.height = label_height;
+    layout.label_boxes.push_back(label);
+    box.y += label_height;
+    box.height = std::max(1, box.height - label_height);
+    layout.tiles.push_back(box);
+  }
+  return layout;
+}
+
+// Averages scale x scale pixels. Drawing over nothing leaves colours multiplied by their opacity;
+// files hold them plain.
+vtkSmartPointer<vtkImageData> average_down(
+  vtkUnsignedCharArray* pixels, int width, int height, int scale, bool transparent)
+{
+  const int components = transparent ? 4 : 3;
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(width, height, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, components);
+  auto* to = static_cast<unsigned char*>(image->GetScalarPointer());
+  const unsigned char* from = pixels->GetPointer(0);
+  const int stride = width * scale;
+  for (int y = 0; y < height; ++y)
+  {
+    for (int x = 0; x < width; ++x)
+    {
+      int sums[4] = { 0, 0, 0, 0 };
+      for (int j = 0; j < scale; ++j)
+      {
+        for (int i = 0; i < scale; ++i)
+        {
+          const unsigned char* p =
+            from + 4 * (static_cast<std::size_t>(y * scale + j) * stride + x * scale + i);
+          for (int k = 0; k < 4; ++k)
+          {
+            sums[k] += p[k];
+          }
+        }
+      }
+      const int samples = scale * scale;
+      for (int k = 0; k < 3; ++k)
+      {
+        const int whole = transparent ? sums[3] : 255 * samples;
+        *to++ = whole > 0
+          ? static_cast<unsigned char>(std::min(255, (255 * sums[k] + whole / 2) / whole))
+          : 0;
+      }
+      if (transparent)
+      {
+        *to++ = static_cast<unsigned char>((sums[3] + samples / 2) / samples);
+      }
+    }
+  }
+  return image;
+}
+
+Eigen::Matrix4d world_to_pixel(vtkCamera* camera, const PixelBox& box, double scale)
+{
+  vtkMatrix4x4* matrix = camera->GetCompositeProjectionTransformMatrix(
+    static_cast<double>(box.width) / box.height, -1.0, 1.0);
+  const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> projection(
+    matrix->GetData());
+  Eigen::Matrix4d viewport = Eigen::Matrix4d::Identity();
+  viewport(0, 0) = 0.5 * box.width / scale;
+  viewport(0, 3) = (box.x + 0.5 * box.width) / scale;
+  viewport(1, 1) = 0.5 * box.height / scale;
+  viewport(1, 3) = (box.y + 0.5 * box.height) / scale;
+  return viewport * projection;
+}
+
+Points all_points(const std::vector<Tile>& tiles, const Frame* frame, double section)
+{
+  std::vector<Points> parts;
+  Index count = 0;
+  for (const Tile& tile : tiles)
+  {
+    parts.push_back(shown_points(tile, frame, section));
+    count += parts.back().rows();
+  }
+  Points points(count, 3);
+  Index row = 0;
+  for (const Points& part : parts)
+  {
+    points.middleRows(row, part.rows()) = part;
+    row += part.rows();
+  }
+  return points;
+}
+} // namespace
+
+Eigen::Vector2d PictureGeometry::project(std::size_t tile, const Vec3& point) const
+{
+  return (this->tiles.at(tile).world_to_pixel * point.homogeneous()).hnormalized().head<2>();
+}
+
+Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& options,
+  vtkSmartPointer<vtkImageData>& image, PictureGeometry* geometry)
+{
+  Status status = check_options(tiles, options);
+  Colouring colouring;
+  if (status.ok())
+  {
+    status = choose_colouring(tiles, options, colouring);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (!can_render())
+  {
+    return Status::failure(StatusCode::unavailable, no_display_message());
+  }
+
+  const Points all = all_points(tiles, nullptr, options.section);
+  if (all.rows() == 0)
+  {
+    return Status::invalid_input("there is nothing to draw");
+  }
+  if (!all.allFinite())
+  {
+    return Status::invalid_input("a coordinate is not finite");
+  }
+  const Frame frame = choose_frame(bounding_box(all), options.view.up);
+  const Points points = all_points(tiles, &frame, options.section);
+  const Vec3 size = bounding_box(points).size();
+  const int across = 3 - frame.up - frame.depth;
+  const double shape_aspect = std::clamp(
+    (size[across] + 1e-9 * size.norm() + 1e-300) / (size[frame.up] + 1e-9 * size.norm() + 1e-300),
+    0.2, 5.0);
+  const std::string legend_name = colouring.component_name.empty()
+    ? colouring.array
+    : colouring.array + " " + colouring.component_name;
+  const Layout layout = make_layout(tiles, options, colouring, legend_name, shape_aspect);
+  const int scale = options.supersampling;
+  const int width = options.width * scale;
+  const int height = options.height * scale;
+
+  vtkNew<vtkRenderWindow> window;
+  window->SetOffScreenRendering(1);
+  window->SetAlphaBitPlanes(1);
+  window->SetMultiSamples(scale > 1 ? 4 : 0);
+  window->SetSize(width, height);
+  window->SetNumberOfLayers(3);
+
+  vtkNew<vtkRenderer> paper;
+  paper->SetLayer(0);
+  const bool transparent = options.background == Background::transparent;
+  const bool gradient = options.background == Background::gradient;
+  const Rgb lower = transparent ? Rgb{ 0, 0, 0 }
+    : gradient                  ? palette::gradient_bottom
+                                : palette::white;
+  paper->SetBackground(lower[0], lower[1], lower[2]);
+  paper->SetBackgroundAlpha(transparent ? 0.0 : 1.0);
+  paper->SetGradientBackground(gradient);
+  paper->SetBackground2(
+    palette::gradient_top[0], palette::gradient_top[1], palette::gradient_top[2]);
+  window->AddRenderer(paper);
+
+  vtkNew<vtkCamera> camera;
+  const PixelBox& first = layout.tiles.front();
+  fit_camera(camera, points, frame, options.view, static_cast<double>(first.width) / first.height);
+  for (std::size_t i = 0; i < tiles.size(); ++i)
+  {
+    const PixelBox& box = layout.tiles[i];
+    vtkNew<vtkRenderer> renderer;
+    renderer->SetLayer(1);
+    renderer->SetViewport(static_cast<double>(box.x) / width, static_cast<double>(box.y) / height,
+      static_cast<double>(box.x + box.width) / width,
+      static_cast<double>(box.y + box.height) / height);
+    renderer->SetActiveCamera(camera);
+    window->AddRenderer(renderer);
+    add_lights(renderer);
+    status = add_tile(renderer, tiles[i], options, colouring, frame, scale);
+    if (!status.ok())
+    {
+      return status;
+    }
+    if (geometry)
+    {
+      PictureGeometry::TileView view;
+      view.world_to_pixel = world_to_pixel(camera, box, scale);
+      view.x = box.x / scale;
+      view.y = box.y / scale;
+      view.width = box.width / scale;
+      view.height = box.height / scale;
+      geometry->tiles.resize(i);
+      geometry->tiles.push_back(view);
+    }
+  }
+
+  vtkNew<vtkRenderer> writing;
+  writing->SetLayer(2);
+  writing->InteractiveOff();
+  window->AddRenderer(writing);
+  add_text(writing, options.title, 0.5 * width, layout.title_y,
+    static_cast<int>(1.25 * layout.font), TextAlign::center, true);
+  for (std::size_t i = 0; i < tiles.size(); ++i)
+  {
+    const PixelBox& box = layout.label_boxes[i];
+    add_text(writing, tiles[i].label, box.x + 0.5 * box.width, box.y + 0.55 * box.height,
+      layout.font, TextAlign::center);
+  }
+  if (layout.legend.width > 0)
+  {
+    add_legend(writing, colouring.map, legend_name, layout.legend, layout.font);
+  }
+
+  window->Render();
+  vtkNew<vtkUnsignedCharArray> pixels;
+  window->GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, pixels);
+  if (pixels->GetNumberOfTuples() != static_cast<vtkIdType>(width) * height)
+  {
+    return Status::failure(StatusCode::internal_error, "the picture could not be read back");
+  }
+  image = average_down(pixels, options.width, options.height, scale, transparent);
+
+  status.report.set("picture.width", options.width);
+  status.report.set("picture.height", options.height);
+  status.report.set("picture.tiles", static_cast<int>(tiles.size()));
+  if (colouring.kind != Colouring::Kind::none)
+  {
+    status.report.set("picture.array", Report::Value(colouring.array));
+    if (!colouring.component_name.empty())
+    {
+      status.report.set("picture.component", Report::Value(colouring.component_name));
+    }
+    status.report.set("picture.range",
+      Report::Value(std::vector<double>{ colouring.map.lower, colouring.map.upper }));
+  }
+  return status;
+}
+
+Status write_png(vtkImageData* image, const std::string& path, bool overwrite)
+{
+  AtomicFile file;
+  Status status = file.open(path, overwrite);
+  if (!status.ok())
+  {
+    return status;
+  }
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(image);
+  writer->SetFileName(file.temporary().c_str());
+  writer->Write();
+  if (writer->GetErrorCode() != vtkErrorCode::NoError)
+  {
+    return Status::invalid_input("cannot write '" + path + "'");
+  }
+  return file.commit();
+}
+
+Status render_to_png(const std::vector<Tile>& tiles, const PictureOptions& options,
+  const std::string& path, bool overwrite)
+{
+  // Said before the work, not after it.
+  Status status = AtomicFile::check(path, overwrite);
+  vtkSmartPointer<vtkImageData> image;
+  if (status.ok())
+  {
+    status = render_to_image(tiles, options, image);
+  }
+  if (status.ok())
+  {
+    const Status written = write_png(image, path, overwrite);
+    if (!written.ok())
+    {
+      return written;
+    }
+  }
+  return status;
+}
+
+} // namespace bindpose

@@ -1,0 +1,104 @@
+#ifndef bindpose_scene_picture_h
+#define bindpose_scene_picture_h
+
+#include "base/mesh.h"
+#include "base/status.h"
+#include "scene/camera.h"
+
+#include "vtkSmartPointer.h"
+
+#include <array>
+#include <string>
+#include <vector>
+
+class vtkDataSet;
+class vtkImageData;
+class vtkPolyData;
+
+namespace bindpose
+{
+
+/// One dataset of a picture. How it is drawn follows from what it is:
+/// - surface: smooth shaded, sharp edges kept; arrays as colours; weights in bands with isolines;
+/// - tets: cut open along the middle, whole tets kept ("crinkle cut"), the laid-open sides in
+///   another colour with edges; arrays as colours on all sides;
+/// - image volume: one slice through the middle; a winding number also shows where it is 0.5;
+/// - handles (a polydata with HandleKind or HandleName): drawn over everything else;
+/// - lines and points: as such.
+struct Tile
+{
+  vtkSmartPointer<vtkDataSet> data;
+  vtkSmartPointer<vtkPolyData> handles; ///< drawn on top; may be null
+  std::string label; ///< below the tile; may be empty
+};
+
+enum class Background
+{
+  white,
+  gradient, ///< very light grey
+  transparent
+};
+
+struct PictureOptions
+{
+  int width = 1200; ///< pixels, 16 to 8192
+  int height = 900;
+  /// Point or cell array that gives the colours. Empty: none, but for an image volume
+  /// WindingNumber or else its first array.
+  std::string array;
+  /// Name or number of the array's component. Empty: the first of Weights, the length of a
+  /// 3-vector, the first of others.
+  std::string component;
+  /// Values at the ends of the colours; lower > upper: from the data of all tiles (weights 0 to 1,
+  /// winding numbers -1 to 2 whatever the data).
+  std::array<double, 2> range = { 0.0, -1.0 };
+  View view;
+  Background background = Background::white;
+  int columns = 0; ///< of tiles; 0: as square as the picture allows
+  std::string title;
+  bool legend = true;
+  bool isolines = true; ///< of weights, at the borders of the bands (steps of 0.1)
+  bool edges = false; ///< triangle edges of surfaces
+  bool handle_names = false; ///< beside each handle
+  bool cut = true; ///< tets: lay the inside open; else only the outside is seen
+  /// Where cuts and slices lie along the view's depth axis: 0 at its lower end, 1 at its upper.
+  double section = 0.5;
+  /// Pixels are averages of this many samples in each direction, 1 to 4, each antialiased by the
+  /// graphics driver (4 samples). 1 switches all antialiasing off.
+  int supersampling = 2;
+};
+
+/// What a finished picture shows where, so that numbers can be checked against it.
+struct PictureGeometry
+{
+  struct TileView
+  {
+    Eigen::Matrix4d world_to_pixel; ///< homogeneous, rows x y depth w
+    int x = 0, y = 0, width = 0, height = 0; ///< the tile, pixels, from the lower left corner
+  };
+  std::vector<TileView> tiles;
+
+  /// Pixel coordinates, from the lower left corner of the picture.
+  Eigen::Vector2d project(std::size_t tile, const Vec3& point) const;
+};
+
+/// Draws all tiles, seen by one common camera and in one common colour map, into an image of
+/// unsigned char RGB, or RGBA for a transparent background (not premultiplied).
+/// invalid_input, one sentence, for: no tile or an empty one, an array or component that no tile
+/// has (naming those there are), options out of range. unavailable when there is no display.
+/// The same input gives the same picture on the same machine and driver.
+Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& options,
+  vtkSmartPointer<vtkImageData>& image, PictureGeometry* geometry = nullptr);
+
+/// The same into a PNG file, whole or not at all. invalid_input also when the file is there and
+/// may not be overwritten, or cannot be written. Report: picture.width, picture.height,
+/// picture.tiles, picture.array, picture.component, picture.range where they apply.
+Status render_to_png(const std::vector<Tile>& tiles, const PictureOptions& options,
+  const std::string& path, bool overwrite = false);
+
+/// Writes an image of render_to_image.
+Status write_png(vtkImageData* image, const std::string& path, bool overwrite);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,547 @@
+// What each kind of dataset looks like. Surfaces of all kinds end in add_surface(): smooth or flat
+// triangles, coloured by one number a point or cell. Colours are looked up per pixel after the
+// number has been interpolated, so that bands and isolines agree.
+#include "scene/tile_actors.h"
+
+#include "conversion.h"
+#include "scene/shaded_surface.h"
+#include "vtkHandleSetRepresentation.h"
+
+#include "vtkActor.h"
+#include "vtkCellData.h"
+#include "vtkCellTypes.h"
+#include "vtkContourFilter.h"
+#include "vtkDataSetSurfaceFilter.h"
+#include "vtkDoubleArray.h"
+#include "vtkExtractVOI.h"
+#include "vtkFlyingEdges3D.h"
+#include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
+#include "vtkImageData.h"
+#include "vtkLightKit.h"
+#include "vtkLookupTable.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace bindpose
+{
+namespace
+{
+// A shallow copy that carries the shown number only.
+template <typename Data>
+vtkSmartPointer<Data> with_colour_values(Data* data, const Colouring& colouring)
+{
+  auto copy = vtkSmartPointer<Data>::New();
+  copy->CopyStructure(data);
+  bool on_points = true;
+  if (const auto values = colour_values(data, colouring, on_points))
+  {
+    if (on_points)
+    {
+      copy->GetPointData()->AddArray(values);
+    }
+    else
+    {
+      copy->GetCellData()->AddArray(values);
+    }
+  }
+  return copy;
+}
+
+void colour_by_values(vtkPolyDataMapper* mapper, vtkPolyData* data, const Colouring& colouring)
+{
+  const bool on_points = data->GetPointData()->HasArray(colour_array_name) != 0;
+  if (!on_points && !data->GetCellData()->HasArray(colour_array_name))
+  {
+    mapper->ScalarVisibilityOff();
+    return;
+  }
+  mapper->ScalarVisibilityOn();
+  if (on_points)
+  {
+    mapper->SetScalarModeToUsePointFieldData();
+  }
+  else
+  {
+    mapper->SetScalarModeToUseCellFieldData();
+  }
+  mapper->SelectColorArray(colour_array_name);
+  mapper->SetColorModeToMapScalars();
+  mapper->SetInterpolateScalarsBeforeMapping(on_points);
+  mapper->SetLookupTable(colouring.map.table);
+  mapper->UseLookupTableScalarRangeOn();
+}
+
+vtkSmartPointer<vtkActor> add_actor(
+  vtkRenderer* renderer, vtkPolyData* data, const Colouring& colouring)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  colour_by_values(mapper, data, colouring);
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  use_surface_material(actor);
+  if (mapper->GetScalarVisibility())
+  {
+    // Flatter light and less gloss: the colours are to be read.
+    actor->GetProperty()->SetAmbient(0.32);
+    actor->GetProperty()->SetDiffuse(0.74);
+    actor->GetProperty()->SetSpecular(0.04);
+  }
+  renderer->AddActor(actor);
+  return actor;
+}
+
+// Lines that lie in a surface must win against it; pushing the surface back does that without
+// moving anything visibly.
+void push_back(vtkActor* actor)
+{
+  vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
+  actor->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
+}
+
+void add_lines(vtkRenderer* renderer, vtkPolyData* data, const Rgb& colour, double width)
+{
+  if (data->GetNumberOfLines() == 0)
+  {
+    return;
+  }
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetLineWidth(static_cast<float>(width));
+  renderer->AddActor(actor);
+}
+
+void add_contours(vtkRenderer* renderer, vtkPolyData* data, const std::vector<double>& values,
+  double width, const Rgb& colour)
+{
+  if (!data->GetPointData()->HasArray(colour_array_name))
+  {
+    return;
+  }
+  vtkNew<vtkContourFilter> contours;
+  contours->SetInputData(data);
+  contours->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, colour_array_name);
+  contours->ComputeScalarsOff();
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    contours->SetValue(static_cast<int>(i), values[i]);
+  }
+  contours->Update();
+  add_lines(renderer, contours->GetOutput(), colour, width);
+}
+
+// The map's colours as they are.
+void switch_off_light(vtkActor* actor)
+{
+  actor->GetProperty()->LightingOff();
+  actor->GetProperty()->SetAmbient(0.0);
+  actor->GetProperty()->SetDiffuse(1.0);
+}
+
+void use_edges(vtkActor* actor, const Rgb& colour, double width)
+{
+  actor->GetProperty()->EdgeVisibilityOn();
+  actor->GetProperty()->SetEdgeColor(colour[0], colour[1], colour[2]);
+  actor->GetProperty()->SetLineWidth(static_cast<float>(width));
+}
+
+void add_surface(vtkRenderer* renderer, vtkPolyData* surface, const PictureOptions& options,
+  const Colouring& colouring, double scale)
+{
+  const ShadedSurface shaded(surface);
+  if (shaded.polydata()->GetNumberOfPolys() == 0)
+  {
+    return;
+  }
+  const auto actor = add_actor(renderer, shaded.polydata(), colouring);
+  push_back(actor);
+  if (options.edges)
+  {
+    use_edges(actor, palette::edges, 0.6 * scale);
+  }
+  if (colouring.kind == Colouring::Kind::weights && options.isolines)
+  {
+    // The borders of the bands; the ends of the scale are no level of their own.
+    std::vector<double> levels;
+    const int bands = static_cast<int>(colouring.map.table->GetNumberOfTableValues());
+    for (int i = 1; i < bands; ++i)
+    {
+      levels.push_back(
+        colouring.map.lower + (colouring.map.upper - colouring.map.lower) * i / bands);
+    }
+    add_contours(renderer, shaded.polydata(), levels, 1.2 * scale, palette::line);
+  }
+}
+
+void add_flat(vtkRenderer* renderer, vtkPolyData* faces, const Colouring& colouring, double scale)
+{
+  if (faces->GetNumberOfPolys() == 0)
+  {
+    return;
+  }
+  const ShadedSurface facets(faces, 0.01);
+  const auto actor = add_actor(renderer, facets.polydata(), colouring);
+  actor->GetProperty()->SetColor(palette::cut[0], palette::cut[1], palette::cut[2]);
+  actor->GetProperty()->SetAmbient(0.3);
+  use_edges(actor, palette::cut_edges, 0.7 * scale);
+}
+
+// ---- Tets --------------------------------------------------------------------------------------
+
+// Tets with their middle on the far side of the section; all when the cut is off. The near side
+// is the one that the camera of the default view is on.
+std::vector<Index> kept_tets(
+  PointsView points, TetsView tets, const PictureOptions& options, const Frame& frame)
+{
+  const Box box = bounding_box(points);
+  const double at =
+    box.lower[frame.depth] + options.section * (box.upper[frame.depth] - box.lower[frame.depth]);
+  const double side = view_direction(frame, View())[frame.depth] > 0.0 ? 1.0 : -1.0;
+  std::vector<Index> kept;
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    double middle = 0.0;
+    for (int k = 0; k < 4; ++k)
+    {
+      middle += 0.25 * points(tets(t, k), frame.depth);
+    }
+    if (!options.cut || side * (middle - at) <= 0.0)
+    {
+      kept.push_back(t);
+    }
+  }
+  return kept;
+}
+
+std::array<Index, 3> face_key(const Eigen::Ref<const Eigen::Matrix<Index, 1, 3>>& face)
+{
+  std::array<Index, 3> key{ face[0], face[1], face[2] };
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+// Faces with the grid's points and the shown number; for a number per tet, owners say whose.
+vtkSmartPointer<vtkPolyData> face_polydata(
+  vtkUnstructuredGrid* grid, const Triangles& faces, const std::vector<Index>& owners)
+{
+  vtkSmartPointer<vtkPolyData> data = to_polydata(Points(0, 3), faces);
+  data->SetPoints(grid->GetPoints());
+  data->GetPointData()->ShallowCopy(grid->GetPointData());
+  if (auto* cell_values =
+        vtkDoubleArray::SafeDownCast(grid->GetCellData()->GetArray(colour_array_name)))
+  {
+    vtkNew<vtkDoubleArray> values;
+    values->SetName(colour_array_name);
+    for (const Index owner : owners)
+    {
+      values->InsertNextValue(cell_values->GetValue(owner));
+    }
+    data->GetCellData()->AddArray(values);
+  }
+  return data;
+}
+
+void add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& input,
+  const PictureOptions& options, const Colouring& colouring, const Frame& frame, double scale)
+{
+  const TetsView tets = input.tets.view();
+  const std::vector<Index> kept = kept_tets(input.points.view(), tets, options, frame);
+  const Triangles outside = boundary_triangles(tets);
+  std::set<std::array<Index, 3>> outside_keys;
+  for (Index f = 0; f < outside.rows(); ++f)
+  {
+    outside_keys.insert(face_key(outside.row(f)));
+  }
+  Tets kept_cells(static_cast<Index>(kept.size()), 4);
+  std::vector<std::pair<std::array<Index, 3>, Index>> owner_of_face;
+  constexpr int corners[4][3] = { { 0, 1, 2 }, { 0, 1, 3 }, { 0, 2, 3 }, { 1, 2, 3 } };
+  for (Index i = 0; i < kept_cells.rows(); ++i)
+  {
+    kept_cells.row(i) = tets.row(kept[i]);
+    for (const auto& corner : corners)
+    {
+      const Eigen::Matrix<Index, 1, 3> face(
+        kept_cells(i, corner[0]), kept_cells(i, corner[1]), kept_cells(i, corner[2]));
+      owner_of_face.emplace_back(face_key(face), kept[i]);
+    }
+  }
+  std::sort(owner_of_face.begin(), owner_of_face.end());
+  const Triangles seen = boundary_triangles(kept_cells);
+  Triangles parts[2] = { Triangles(seen.rows(), 3), Triangles(seen.rows(), 3) };
+  std::vector<Index> owners[2];
+  for (Index f = 0; f < seen.rows(); ++f)
+  {
+    const std::array<Index, 3> key = face_key(seen.row(f));
+    const int part = outside_keys.count(key) ? 0 : 1;
+    parts[part].row(static_cast<Index>(owners[part].size())) = seen.row(f);
+    owners[part].push_back(
+      std::lower_bound(owner_of_face.begin(), owner_of_face.end(), std::make_pair(key, Index(-1)))
+        ->second);
+  }
+  for (int part : { 0, 1 })
+  {
+    const Triangles faces = parts[part].topRows(static_cast<Index>(owners[part].size()));
+    const auto data = face_polydata(grid, faces, owners[part]);
+    if (part == 0)
+    {
+      add_surface(renderer, data, options, colouring, scale);
+    }
+    else
+    {
+      add_flat(renderer, data, colouring, scale);
+    }
+  }
+}
+
+// ---- Volumes -----------------------------------------------------------------------------------
+
+void add_volume(vtkRenderer* renderer, vtkImageData* image, const PictureOptions& options,
+  const Colouring& colouring, const Frame& frame, double scale)
+{
+  int extent[6];
+  image->GetExtent(extent);
+  const int axis = frame.depth;
+  const int last = extent[2 * axis + 1] - extent[2 * axis];
+  const int slice = extent[2 * axis] + static_cast<int>(std::lround(options.section * last));
+  extent[2 * axis] = extent[2 * axis + 1] = slice;
+  vtkNew<vtkExtractVOI> cut;
+  cut->SetInputData(image);
+  cut->SetVOI(extent);
+  vtkNew<vtkDataSetSurfaceFilter> faces;
+  faces->SetInputConnection(cut->GetOutputPort());
+  faces->Update();
+  const auto actor = add_actor(renderer, faces->GetOutput(), colouring);
+  switch_off_light(actor);
+  push_back(actor);
+  if (colouring.kind != Colouring::Kind::winding)
+  {
+    return;
+  }
+  add_contours(renderer, faces->GetOutput(), { 0.5 }, 1.6 * scale, palette::line);
+  if (image->GetDataDimension() == 3 && image->GetPointData()->HasArray(colour_array_name))
+  {
+    vtkNew<vtkFlyingEdges3D> shell;
+    shell->SetInputData(image);
+    shell->SetInputArrayToProcess(
+      0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, colour_array_name);
+    shell->SetValue(0, 0.5);
+    shell->ComputeNormalsOff();
+    shell->ComputeScalarsOff();
+    shell->Update();
+    if (shell->GetOutput()->GetNumberOfPolys() > 0)
+    {
+      const ShadedSurface shaded(shell->GetOutput());
+      const auto glass = add_actor(renderer, shaded.polydata(), Colouring());
+      glass->GetProperty()->SetOpacity(0.2);
+    }
+  }
+}
+
+// ---- Handles, lines, points --------------------------------------------------------------------
+
+void add_handles(
+  vtkRenderer* renderer, vtkPolyData* handles, const PictureOptions& options, double scale)
+{
+  vtkNew<vtkHandleSetRepresentation> representation;
+  representation->SetHandles(handles);
+  representation->SetRenderer(renderer);
+  // Balls of 1.2 % of the picture's shorter side read well at all sizes.
+  const double pixels = std::clamp(0.012 * std::min(options.width, options.height), 3.0, 24.0);
+  representation->SetPixelScale(scale * pixels / representation->GetPointSize());
+  representation->SetShowLabels(options.handle_names);
+  representation->VisibilityOn();
+  renderer->AddViewProp(representation);
+}
+
+void add_lines_and_points(
+  vtkRenderer* renderer, vtkPolyData* data, const Colouring& colouring, double scale)
+{
+  vtkNew<vtkPolyData> copy;
+  copy->ShallowCopy(data);
+  copy->SetPolys(nullptr);
+  copy->SetStrips(nullptr);
+  if (copy->GetNumberOfCells() == 0)
+  {
+    if (data->GetNumberOfCells() > 0)
+    {
+      return;
+    }
+    vtkNew<vtkCellArray> verts; // a cloud of points without cells
+    for (vtkIdType v = 0; v < copy->GetNumberOfPoints(); ++v)
+    {
+      verts->InsertNextCell(1, &v);
+    }
+    copy->SetVerts(verts);
+  }
+  if (data->GetNumberOfCells() != copy->GetNumberOfCells())
+  {
+    copy->GetCellData()->Initialize(); // its values belong to other cells, too
+  }
+  const auto actor = add_actor(renderer, copy, colouring);
+  actor->GetProperty()->SetLineWidth(static_cast<float>(2.0 * scale));
+  actor->GetProperty()->SetPointSize(static_cast<float>(4.0 * scale));
+  switch_off_light(actor);
+  if (!copy->GetPointData()->HasArray(colour_array_name))
+  {
+    actor->GetProperty()->SetColor(palette::line[0], palette::line[1], palette::line[2]);
+  }
+}
+} // namespace
+
+bool is_handle_data(vtkDataSet* data)
+{
+  auto* polydata = vtkPolyData::SafeDownCast(data);
+  return polydata && polydata->GetNumberOfPolys() == 0 &&
+    (polydata->GetCellData()->HasArray("HandleKind") ||
+      polydata->GetCellData()->HasArray("HandleName"));
+}
+
+Points shown_points(const Tile& tile, const Frame* frame, double section)
+{
+  std::vector<Vec3> places;
+  if (auto* image = vtkImageData::SafeDownCast(tile.data))
+  {
+    double bounds[6];
+    image->GetBounds(bounds);
+    if (frame)
+    {
+      double* side = bounds + 2 * frame->depth;
+      side[0] = side[1] = side[0] + section * (side[1] - side[0]);
+    }
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      places.emplace_back(
+        bounds[corner & 1], bounds[2 + (corner >> 1 & 1)], bounds[4 + (corner >> 2 & 1)]);
+    }
+  }
+  else if (tile.data && !is_handle_data(tile.data))
+  {
+    std::vector<bool> used(
+      static_cast<std::size_t>(tile.data->GetNumberOfPoints()), tile.data->GetNumberOfCells() == 0);
+    vtkNew<vtkIdList> ids;
+    for (vtkIdType cell = 0; cell < tile.data->GetNumberOfCells(); ++cell)
+    {
+      tile.data->GetCellPoints(cell, ids);
+      for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
+      {
+        used[ids->GetId(k)] = true;
+      }
+    }
+    for (std::size_t v = 0; v < used.size(); ++v)
+    {
+      if (used[v])
+      {
+        places.emplace_back();
+        tile.data->GetPoint(static_cast<vtkIdType>(v), places.back().data());
+      }
+    }
+  }
+  vtkPolyData* handle_sets[2] = { tile.handles,
+    is_handle_data(tile.data) ? vtkPolyData::SafeDownCast(tile.data) : nullptr };
+  for (vtkPolyData* handles : handle_sets)
+  {
+    vtkNew<vtkHandleSetRepresentation> representation;
+    representation->SetHandles(handles);
+    for (vtkIdType cell = 0; handles && cell < handles->GetNumberOfCells(); ++cell)
+    {
+      places.emplace_back();
+      representation->GetPosedHead(cell, places.back().data());
+      places.emplace_back();
+      representation->GetPosedTail(cell, places.back().data());
+    }
+  }
+  Points points(static_cast<Index>(places.size()), 3);
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    points.row(static_cast<Index>(i)) = places[i].transpose();
+  }
+  return points;
+}
+
+Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& options,
+  const Colouring& colouring, const Frame& frame, double scale)
+{
+  if (auto* image = vtkImageData::SafeDownCast(tile.data))
+  {
+    add_volume(renderer, with_colour_values(image, colouring), options, colouring, frame, scale);
+  }
+  else if (is_handle_data(tile.data))
+  {
+    add_handles(renderer, vtkPolyData::SafeDownCast(tile.data), options, scale);
+  }
+  else if (auto* polydata = vtkPolyData::SafeDownCast(tile.data))
+  {
+    const auto surface = with_colour_values(polydata, colouring);
+    add_surface(renderer, surface, options, colouring, scale);
+    add_lines_and_points(renderer, surface, colouring, scale);
+  }
+  else if (tile.data)
+  {
+    TetInput tets;
+    auto* grid = vtkUnstructuredGrid::SafeDownCast(tile.data);
+    if (grid && to_tets(grid, tets).ok())
+    {
+      add_tets(
+        renderer, with_colour_values(grid, colouring), tets, options, colouring, frame, scale);
+    }
+    else
+    {
+      vtkNew<vtkDataSetSurfaceFilter> faces;
+      auto copy = vtkSmartPointer<vtkDataSet>::Take(tile.data->NewInstance());
+      copy->CopyStructure(tile.data);
+      bool on_points = true;
+      if (const auto values = colour_values(tile.data, colouring, on_points))
+      {
+        if (on_points)
+        {
+          copy->GetPointData()->AddArray(values);
+        }
+        else
+        {
+          copy->GetCellData()->AddArray(values);
+        }
+      }
+      faces->SetInputData(copy);
+      faces->Update();
+      add_surface(renderer, faces->GetOutput(), options, colouring, scale);
+      add_lines_and_points(renderer, faces->GetOutput(), colouring, scale);
+    }
+  }
+  if (tile.handles)
+  {
+    add_handles(renderer, tile.handles, options, scale);
+  }
+  return Status();
+}
+
+void add_lights(vtkRenderer* renderer)
+{
+  vtkNew<vtkLightKit> kit;
+  kit->SetKeyLightIntensity(0.78);
+  kit->SetKeyLightWarmth(0.56);
+  kit->SetKeyLightAngle(46.0, 26.0);
+  kit->SetKeyToFillRatio(3.0);
+  kit->SetFillLightWarmth(0.44);
+  kit->SetKeyToHeadRatio(1.9);
+  kit->SetHeadLightWarmth(0.5);
+  kit->SetKeyToBackRatio(3.6);
+  kit->AddLightsToRenderer(renderer);
+}
+
+} // namespace bindpose

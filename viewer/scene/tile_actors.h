@@ -1,0 +1,31 @@
+#ifndef bindpose_scene_tile_actors_h
+#define bindpose_scene_tile_actors_h
+
+#include "scene/camera.h"
+#include "scene/colouring.h"
+#include "scene/picture.h"
+
+class vtkDataSet;
+class vtkRenderer;
+
+namespace bindpose
+{
+
+/// Whether a dataset is a handle dataset.
+bool is_handle_data(vtkDataSet* data);
+
+/// The places that a tile shows: of all points that cells use, of handles as posed, of an image's
+/// corners, or of its slice's when the frame is known.
+Points shown_points(const Tile& tile, const Frame* frame = nullptr, double section = 0.5);
+
+/// Adds a tile's props to its renderer.
+/// @param scale  window pixels per picture pixel, for line widths and handle sizes
+Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& options,
+  const Colouring& colouring, const Frame& frame, double scale);
+
+/// Key, fill and back light that stay with the camera.
+void add_lights(vtkRenderer* renderer);
+
+} // namespace bindpose
+
+#endif

@@ -8,7 +8,8 @@
  * look at weights on a mesh that has no skeleton yet: handles land on tips (fingers, ears, feet)
  * first.
  *
- * Input: a surface (vtkPointSet with 2D cells). Output: a handle dataset in the rest pose.
+ * Input: a surface (vtkPointSet with 2D cells), or tets, whose boundary counts. Output: a handle
+ * dataset in the rest pose.
  * INVALID_INPUT when the surface has fewer different vertices than handles asked for.
  * Cost: NumberOfHandles passes over the points.
  *

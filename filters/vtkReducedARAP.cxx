@@ -133,7 +133,7 @@ Status vtkReducedARAP::Deform(const PoseInput& input, ExecutionContext& context,
     ReducedArap::SolveOptions options;
     options.tolerance = this->Tolerance;
     options.max_iterations = this->MaximumIterations;
-    options.warm_start = this->WarmStart;
+    options.start = this->WarmStart ? ReducedArap::Start::last : ReducedArap::Start::guess;
     status = arap.solve(context, input.pose, options);
     if (!status.usable())
     {

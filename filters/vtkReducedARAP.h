@@ -83,8 +83,8 @@ public:
 
   ///@{
   /**
-   * A solve ends when an iteration lowers the energy by no more than this share of it. Default
-   * 1e-6; 0 runs all iterations.
+   * A solve ends when an iteration lowers the energy by no more than this share of it (or of 1e-6
+   * of the rest energy, when hardly anything bends). Default 1e-6; 0 runs all iterations.
    */
   vtkSetClampMacro(Tolerance, double, 0.0, 1.0);
   vtkGetMacro(Tolerance, double);
@@ -93,8 +93,8 @@ public:
   ///@{
   /**
    * Whether a solve starts from the rotations of the last one (default on: drags converge in few
-   * iterations and keep their twists) or from the full handles' (off: the result depends on the
-   * pose only).
+   * iterations and keep their twists) or from a guess by the handles' own motions (off: the result
+   * depends on the pose only).
    */
   vtkSetMacro(WarmStart, bool);
   vtkGetMacro(WarmStart, bool);

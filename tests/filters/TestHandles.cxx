@@ -13,6 +13,7 @@
 #include "vtkDataArray.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -159,4 +160,21 @@ TEST(FarthestPointHandles, LieOnTheSurface)
   filter->SetNumberOfHandles(8);
   filter->Update();
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 8);
+}
+
+TEST(FarthestPointHandles, LieOnTheBoundaryOfTets)
+{
+  const TetMesh box = test::tet_box(4, 4, 4);
+  vtkNew<vtkFarthestPointHandles> filter;
+  filter->SetInputData(to_unstructured_grid(box.points, box.tets));
+  filter->SetNumberOfHandles(98); // of 125 vertices, 27 are inside
+  filter->Update();
+  ASSERT_EQ(filter->GetStatus(), vtkFarthestPointHandles::OK);
+  Handles handles;
+  ASSERT_TRUE(to_handles(vtkPolyData::SafeDownCast(filter->GetOutput()), handles).ok());
+  for (const Handle& handle : handles)
+  {
+    const Eigen::Array3d p = handle.head.array();
+    EXPECT_TRUE((p == 0.0).any() || (p == 1.0).any()) << handle.name;
+  }
 }

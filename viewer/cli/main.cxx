@@ -33,7 +33,8 @@ vtkStandardNewMacro(SilentOutputWindow);
 void run(Session& session)
 {
   const std::pair<const char*, void (*)(Session&)> functions[] = { { "info", run_info },
-    { "winding", run_winding }, { "deform", run_deform }, { "render", run_render },
+    { "winding", run_winding }, { "tetrahedralize", run_tetrahedralize },
+    { "weights", run_weights }, { "deform", run_deform }, { "render", run_render },
     { "view", run_view } };
   for (const auto& [name, function] : functions)
   {

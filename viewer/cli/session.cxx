@@ -1,8 +1,6 @@
 #include "cli/session.h"
 
-#include "base/mesh.h"
 #include "cli/interrupt.h"
-#include "conversion.h"
 #include "file_kind.h"
 #include "io/atomic_file.h"
 #include "io/report_json.h"
@@ -74,16 +72,6 @@ bool starts_with(const std::string& text, const std::string& begin)
   return text.compare(0, begin.size(), begin) == 0;
 }
 
-/// The boundary of tets, or the data itself: something with 2D cells.
-vtkSmartPointer<vtkDataSet> surface_of(vtkDataSet* data)
-{
-  TetInput tets;
-  if (!to_tets(data, tets).ok())
-  {
-    return data;
-  }
-  return to_polydata(tets.points.view(), boundary_triangles(tets.tets.view()));
-}
 } // namespace
 
 Session::Session(Arguments arguments)
@@ -241,7 +229,7 @@ vtkSmartPointer<vtkPolyData> Session::read_handles(const std::string& value, vtk
     return nullptr;
   }
   vtkNew<vtkFarthestPointHandles> handles;
-  handles->SetInputData(surface_of(surface));
+  handles->SetInputData(surface);
   handles->SetNumberOfHandles(static_cast<int>(count));
   return this->run(handles, "handles", 0.0, 0.0, Merge::nothing)
     ? vtkPolyData::SafeDownCast(handles->GetOutput())

@@ -173,7 +173,7 @@ void add_surface(vtkRenderer* renderer, vtkPolyData* surface, const PictureOptio
   push_back(actor);
   if (options.edges)
   {
-    use_edges(actor, palette::line, 0.6 * scale);
+    use_edges(actor, palette::edges, 0.6 * scale);
   }
   if (colouring.kind == Colouring::Kind::weights && options.isolines)
   {

@@ -39,8 +39,8 @@ constexpr double energy_rank = 1e-12;
 constexpr double position_rank = 1e-9;
 /// A position missed by more than this share of the diagonal contradicts others.
 constexpr double contradiction = 1e-9;
-/// Energies are known to this share of the rest energy.
-constexpr double energy_round_off = 1e-15;
+/// Below this share of the rest energy an energy counts as zero for the tolerance.
+constexpr double nothing_bends = 1e-6;
 
 constexpr Index tile = 8;
 
@@ -252,22 +252,46 @@ void ReducedArap::factor(const Pose& pose)
   }
 }
 
-/// A first guess without history: each cluster turns as the full handles near it do.
+/// A first guess without history: each cluster turns as the full handles near it do; what is near
+/// other handles takes the rotation that fits all pivots, and the full handles' frames, best.
 void ReducedArap::start_rotations(const Pose& pose)
 {
+  Vec3 rest_mean = Vec3::Zero(), posed_mean = Vec3::Zero();
+  std::vector<std::pair<Vec3, Vec3>> pivots;
+  Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
+  const double reach = 0.3 * this->radius_; // the size of a full handle's frame
+  for (std::size_t h = 0; h < pose.size(); ++h)
+  {
+    if (pose[h].mode != HandleMode::free)
+    {
+      const Vec3 pivot = this->handles_[h].head;
+      pivots.emplace_back(pivot, pose[h].transform * pivot.homogeneous());
+      rest_mean += pivots.back().first;
+      posed_mean += pivots.back().second;
+    }
+    if (pose[h].mode == HandleMode::full)
+    {
+      s += reach * reach * pose[h].transform.leftCols<3>().transpose();
+    }
+  }
+  const double count = std::max<double>(1.0, static_cast<double>(pivots.size()));
+  for (const auto& [rest, posed] : pivots)
+  {
+    s += (rest - rest_mean / count) * (posed - posed_mean / count).transpose();
+  }
+  Eigen::Matrix3d common = Eigen::Matrix3d::Identity();
+  fit_rotation(s, common);
   for (Index k = 0; k < this->groups_.count; ++k)
   {
-    Eigen::Matrix3d blend = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d blend = 1e-9 * common;
     for (std::size_t h = 0; h < pose.size(); ++h)
     {
-      if (pose[h].mode == HandleMode::full)
-      {
-        // Far from all of them the full handles count alike.
-        const double w = this->cluster_weights_(k, static_cast<Index>(h)) + 1e-9;
-        blend += w * pose[h].transform.leftCols<3>();
-      }
+      const double w = this->cluster_weights_(k, static_cast<Index>(h));
+      blend += w *
+        (pose[h].mode == HandleMode::full ? Eigen::Matrix3d(pose[h].transform.leftCols<3>())
+                                          : common);
     }
-    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+    Eigen::Matrix3d rotation = common;
     fit_rotation(blend.transpose(), rotation);
     for (Index i = 0; i < 3; ++i)
     {
@@ -410,7 +434,15 @@ Status ReducedArap::solve(ExecutionContext& context, const Pose& pose, const Sol
     }
   }
 
-  if (!this->warm_ || !options.warm_start)
+  if (options.start == Start::rest)
+  {
+    for (Index e = 0; e < 9; ++e)
+    {
+      std::fill_n(this->rotations_.begin() + static_cast<std::ptrdiff_t>(e * this->stride_),
+        clusters, e % 4 == 0 ? 1.0 : 0.0);
+    }
+  }
+  else if (options.start == Start::guess || !this->warm_)
   {
     this->start_rotations(pose);
   }
@@ -450,7 +482,7 @@ Status ReducedArap::solve(ExecutionContext& context, const Pose& pose, const Sol
   const auto energy_after_global = [&]
   { return star_energy - this->paired(q, star_covariance) - 0.5 * this->paired(q, moved); };
   this->energies_.assign(1, energy_after_global());
-  const double floor = energy_round_off * this->rest_energy_;
+  const double floor = nothing_bends * this->rest_energy_;
   Index iterations = 0;
   bool converged = false;
   double change = 0.0;
@@ -471,8 +503,7 @@ Status ReducedArap::solve(ExecutionContext& context, const Pose& pose, const Sol
     ++iterations;
     const double energy = this->energies_.back();
     change = energy_before - energy;
-    converged =
-      options.tolerance > 0.0 && change <= std::max(options.tolerance * std::abs(energy), floor);
+    converged = options.tolerance > 0.0 && change <= options.tolerance * std::max(energy, floor);
   }
   const double microseconds =
     std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();

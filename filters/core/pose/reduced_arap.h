@@ -56,14 +56,21 @@ public:
   Status bind(ExecutionContext& context, PointsView points, TetsView tets, WeightsView weights,
     const Handles& handles, const ReducedArapOptions& options = {});
 
+  /// The rotations that a solve begins with.
+  enum class Start
+  {
+    last, ///< those of the last solve (a guess in the first): few iterations, twists add up
+    guess, ///< near full handles theirs, elsewhere one that fits all pivots: depends on the pose
+           ///< only
+    rest ///< none
+  };
   struct SolveOptions
   {
-    /// Ends when an iteration lowers the energy by no more than this share of it (or of 1e-15 of
-    /// the rest shape's Dirichlet energy). 0: runs all iterations and cannot fail to converge.
+    /// Ends when an iteration lowers the energy by no more than this share of it (or of 1e-6 of
+    /// the rest energy, a strain of a few 1e-6). 0: runs all iterations, cannot fail to converge.
     double tolerance = 1e-6;
     Index max_iterations = 100;
-    /// Starts from the last solve's rotations; the result may then depend on what came before.
-    bool warm_start = true;
+    Start start = Start::last;
   };
 
   /// Finds the transforms of a pose, one entry a handle. not_converged when max_iterations were
@@ -77,7 +84,7 @@ public:
     return this->solve(context, pose, SolveOptions());
   }
 
-  /// The next solve starts from rest.
+  /// The next solve starts from a guess.
   void forget() { this->warm_ = false; }
 
   /// The vertices in the last solved pose: V' = V + M D.
@@ -129,6 +136,7 @@ private:
   Skinning skinning_;
   RotationGroups groups_;
   double diagonal_ = 0.0;
+  double radius_ = 0.0; ///< root mean square distance of the vertices from their middle
   double rest_energy_ = 0.0;
   Index columns_ = 0; ///< handles and extra weights
   std::vector<Vec3> centers_; ///< a column's frame: (x - center) / size

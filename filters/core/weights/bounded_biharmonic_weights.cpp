@@ -13,7 +13,11 @@ Status bounded_biharmonic_weights(const WeightsProblem& problem,
   }
   const SparseMatrix q = harmonic_energy(problem.stiffness, problem.mass, options.order);
   BoxQp solver(q, problem.fixed, { options.tolerance, options.maximum_iterations, options.solver });
-  Status status = solver.prepare(context);
+  Status status;
+  {
+    const ProgressRange range(context, 0.06, 0.1);
+    status = solver.prepare(context);
+  }
   if (!status.ok())
   {
     return status;

@@ -169,7 +169,7 @@ Status monotone_weights(const WeightsProblem& problem, const MonotoneWeightsOpti
   MonotoneGuide guide;
   Status status;
   {
-    const Phase phase(context, "guide", 0.0, 0.05);
+    const Phase phase(context, "guide", 0.04, 0.06);
     status = monotone_guide(problem, options.solver, context, guide, columns);
   }
   if (!status.ok())
@@ -178,7 +178,10 @@ Status monotone_weights(const WeightsProblem& problem, const MonotoneWeightsOpti
   }
   const SparseMatrix q = harmonic_energy(problem.stiffness, problem.mass, options.order);
   BoxQp solver(q, problem.fixed, { options.tolerance, options.maximum_iterations, options.solver });
-  status = solver.prepare(context);
+  {
+    const ProgressRange range(context, 0.06, 0.1);
+    status = solver.prepare(context);
+  }
   if (!status.ok())
   {
     return status;

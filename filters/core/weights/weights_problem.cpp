@@ -96,7 +96,7 @@ Status make_weights_problem(const Domain& domain, const std::vector<Index>& regi
   WeightsProblem& problem)
 {
   problem = WeightsProblem();
-  const Phase phase(context, "insert");
+  const Phase phase(context, "insert", 0.0, 0.04);
   if (!(options.tolerance > 0.0 && options.tolerance < 1.0) || options.maximum_iterations < 1)
   {
     return Status::invalid_input(

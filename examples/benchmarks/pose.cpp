@@ -1,0 +1,188 @@
+// Pose time, one thread: microseconds per iteration of reduced ARAP by handles and clusters (the
+// mesh does not matter: two sizes show it), bind and re-factor, skinning of 100k vertices with
+// dense weights. Weights are made up (inverse distances), so that no solver is waited for.
+#include "surfaces.h"
+
+#include "pose/reduced_arap.h"
+#include "pose/rotation_fit.h"
+#include "pose/skinning.h"
+#include "weights/farthest_points.h"
+
+#include <benchmark/benchmark.h>
+
+namespace
+{
+using namespace bindpose;
+
+struct Rig
+{
+  TriangleMesh mesh;
+  Handles handles;
+  Weights weights;
+};
+
+/// Point handles at farthest points, weights 1 / distance^4, normalised: 1 at the own handle.
+Rig make_rig(Index triangles, Index count)
+{
+  Rig rig;
+  rig.mesh = benchmarks::bumpy_sphere(triangles);
+  ExecutionContext context;
+  std::vector<Index> at;
+  farthest_points(rig.mesh.points, rig.mesh.triangles, count, context, at);
+  rig.weights.resize(rig.mesh.points.rows(), count);
+  for (Index h = 0; h < count; ++h)
+  {
+    Handle handle;
+    handle.name = "p" + std::to_string(h + 1);
+    handle.head = handle.tail = rig.mesh.points.row(at[static_cast<std::size_t>(h)]);
+    rig.weights.col(h) = (rig.mesh.points.rowwise() - handle.head.transpose())
+                           .rowwise()
+                           .squaredNorm()
+                           .unaryExpr([](double d2) { return 1.0 / (d2 * d2 + 1e-12); });
+    rig.handles.push_back(handle);
+  }
+  rig.weights = (rig.weights.array().colwise() / rig.weights.rowwise().sum().array()).matrix();
+  return rig;
+}
+
+/// Every second handle dragged by its position, the others free.
+Pose dragged(const Handles& handles, double by)
+{
+  Pose pose(handles.size());
+  for (std::size_t h = 0; h < pose.size(); ++h)
+  {
+    pose[h].mode = h % 2 == 0 ? HandleMode::position : HandleMode::free;
+    pose[h].transform.col(3) = by * handles[h].head.reverse();
+  }
+  return pose;
+}
+
+/// Arguments: triangles, handles, clusters.
+void reduced_arap_iteration(benchmark::State& state)
+{
+  const Rig rig = make_rig(state.range(0), state.range(1));
+  ExecutionContext context;
+  context.set_threads(1);
+  ReducedArap arap;
+  ReducedArapOptions options;
+  options.clusters = state.range(2);
+  arap.bind(context, rig.mesh.points, rig.mesh.triangles, rig.weights, rig.handles, options);
+  const Pose pose = dragged(rig.handles, 0.3);
+  double microseconds = 0.0, solves = 0.0;
+  for (auto _ : state)
+  {
+    const Status status = arap.solve(context, pose, { 0.0, 200, ReducedArap::Start::rest });
+    microseconds += status.report.number("microseconds_per_iteration", 0.0);
+    solves += 1.0;
+  }
+  state.counters["us_per_iteration"] = microseconds / solves;
+  state.counters["clusters"] = static_cast<double>(arap.groups().count);
+}
+BENCHMARK(reduced_arap_iteration)
+  ->ArgNames({ "triangles", "handles", "clusters" })
+  ->Args({ 20000, 5, 20 })
+  ->Args({ 20000, 20, 80 })
+  ->Args({ 20000, 50, 150 })
+  ->Args({ 86000, 20, 80 })
+  ->Unit(benchmark::kMillisecond);
+
+/// Arguments: triangles, handles. Clusters: automatic.
+void reduced_arap_bind(benchmark::State& state)
+{
+  const Rig rig = make_rig(state.range(0), state.range(1));
+  for (auto _ : state)
+  {
+    ExecutionContext context;
+    context.set_threads(1);
+    ReducedArap arap;
+    const Status status =
+      arap.bind(context, rig.mesh.points, rig.mesh.triangles, rig.weights, rig.handles);
+    benchmark::DoNotOptimize(status.ok());
+  }
+}
+BENCHMARK(reduced_arap_bind)
+  ->ArgNames({ "triangles", "handles" })
+  ->Args({ 20000, 20 })
+  ->Args({ 86000, 20 })
+  ->Unit(benchmark::kMillisecond);
+
+/// Arguments: handles. A change of modes and a solve of one iteration.
+void reduced_arap_change_of_modes(benchmark::State& state)
+{
+  const Rig rig = make_rig(5000, state.range(0));
+  ExecutionContext context;
+  context.set_threads(1);
+  ReducedArap arap;
+  arap.bind(context, rig.mesh.points, rig.mesh.triangles, rig.weights, rig.handles);
+  Pose pose = dragged(rig.handles, 0.1);
+  for (auto _ : state)
+  {
+    pose[0].mode = pose[0].mode == HandleMode::full ? HandleMode::position : HandleMode::full;
+    arap.solve(context, pose, { 0.0, 1, ReducedArap::Start::last });
+  }
+}
+BENCHMARK(reduced_arap_change_of_modes)
+  ->ArgName("handles")
+  ->Arg(20)
+  ->Arg(50)
+  ->Unit(benchmark::kMillisecond);
+
+/// Arguments: handles, 0 linear blend or 1 dual quaternions. 100k vertices, no weight is zero.
+void skinning(benchmark::State& state)
+{
+  const Rig rig = make_rig(200000, state.range(0));
+  ExecutionContext context;
+  context.set_threads(1);
+  Skinning skin;
+  skin.bind(context, rig.weights);
+  std::vector<Affine> transforms;
+  for (Index h = 0; h < state.range(0); ++h)
+  {
+    Affine t = identity_affine();
+    t.leftCols<3>() = Eigen::AngleAxisd(0.1 * static_cast<double>(h), Vec3::UnitZ()).matrix();
+    transforms.push_back(t);
+  }
+  const Points pivots = handle_pivots(rig.handles);
+  Points posed;
+  for (auto _ : state)
+  {
+    if (state.range(1) == 0)
+    {
+      skin.linear_blend(context, rig.mesh.points, transforms, posed);
+    }
+    else
+    {
+      skin.dual_quaternion(context, rig.mesh.points, transforms, pivots, posed);
+    }
+    benchmark::DoNotOptimize(posed.data());
+  }
+  state.counters["vertices"] = static_cast<double>(rig.mesh.points.rows());
+}
+BENCHMARK(skinning)
+  ->ArgNames({ "handles", "dual" })
+  ->ArgsProduct({ { 5, 20, 50 }, { 0, 1 } })
+  ->Unit(benchmark::kMillisecond);
+
+/// 1024 random 3x3 matrices; time per matrix is the time divided by 1024.
+void rotation_fit(benchmark::State& state)
+{
+  constexpr Index count = 1024;
+  const Points noise = benchmarks::scattered_points(3 * count);
+  std::vector<double> s(9 * count), r(9 * count, 0.0);
+  for (Index k = 0; k < count; ++k)
+  {
+    for (Index e = 0; e < 9; ++e)
+    {
+      const auto at = static_cast<std::size_t>(e * count + k);
+      s[at] = 0.3 * noise(3 * k + e / 3, e % 3) + (e % 4 == 0 ? 1.0 : 0.0);
+      r[at] = e % 4 == 0 ? 1.0 : 0.0;
+    }
+  }
+  for (auto _ : state)
+  {
+    fit_rotations(count, count, s.data(), r.data());
+    benchmark::DoNotOptimize(r.data());
+  }
+}
+BENCHMARK(rotation_fit)->Unit(benchmark::kMicrosecond);
+} // namespace

@@ -1,0 +1,67 @@
+#ifndef bindpose_tests_core_pose_arap_cases_h
+#define bindpose_tests_core_pose_arap_cases_h
+
+// Poses that the tests of reduced ARAP share.
+
+#include "pose/pose_file.h"
+#include "pose/reduced_arap.h"
+#include "support/bars.h"
+#include "support/meshes.h"
+
+namespace bindpose::test
+{
+
+inline Affine rigid(double degrees, const Vec3& axis, const Vec3& move)
+{
+  Affine t;
+  t.leftCols<3>() =
+    Eigen::AngleAxisd(degrees * EIGEN_PI / 180.0, axis.normalized()).toRotationMatrix();
+  t.col(3) = move;
+  return t;
+}
+
+inline Points moved(const Points& points, const Affine& t)
+{
+  Points result(points.rows(), 3);
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    result.row(v) = (t * points.row(v).transpose().homogeneous()).transpose();
+  }
+  return result;
+}
+
+inline Pose posed(const Handles& handles, HandleMode mode, const Affine& t = identity_affine())
+{
+  Pose pose(handles.size());
+  for (HandlePose& handle : pose)
+  {
+    handle.mode = mode;
+    handle.transform = t;
+  }
+  return pose;
+}
+
+constexpr ReducedArap::SolveOptions iterations_from_rest(Index count)
+{
+  return { 0.0, count, ReducedArap::Start::rest };
+}
+
+constexpr ReducedArap::SolveOptions iterations(Index count)
+{
+  return { 0.0, count, ReducedArap::Start::guess };
+}
+
+/// Bends a bar: left end held, right end turned and moved, middle as told.
+inline Pose bend(HandleMode middle)
+{
+  Pose pose(3);
+  pose[1].mode = middle;
+  pose[1].transform.col(3) << 0.0, 0.3, 0.0;
+  pose[2].transform = affine_about(
+    Vec3(4, 0.5, 0.5), rigid(70, Vec3(0, 0, 1), Vec3::Zero()).leftCols<3>(), Vec3(-1, 1.5, 0));
+  return pose;
+}
+
+} // namespace bindpose::test
+
+#endif

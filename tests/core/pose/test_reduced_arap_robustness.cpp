@@ -1,0 +1,412 @@
+// Reduced as-rigid-as-possible: constraints, extra weights, and what must hold whatever the
+// weights, the world and the machine.
+#include "pose/reduced_arap.h"
+
+#include "core/pose/arap_cases.h"
+
+#include <Eigen/LU>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+using namespace bindpose::test;
+using testing::HasSubstr;
+
+// SPEC D36
+TEST(ReducedArapRobustness, PositionsAreMetAfterEveryIteration)
+{
+  const test::Rig rig = test::box();
+  ExecutionContext context;
+  ReducedArap arap;
+  ASSERT_TRUE(arap.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).ok());
+  Pose pose = posed(rig.handles, HandleMode::position);
+  test::Random random(9);
+  for (HandlePose& handle : pose)
+  {
+    handle.transform.col(3) = random.in_box(-Vec3::Ones(), Vec3::Ones());
+  }
+  pose[4].mode = HandleMode::free;
+  for (Index count = 0; count < 20; ++count)
+  {
+    const Status status = arap.solve(context, pose, iterations(count));
+    ASSERT_TRUE(status.ok() && status.warnings.empty());
+    ASSERT_LT(status.report.number("constraint_residual", 1.0), 1e-12);
+    Points result;
+    ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
+    for (std::size_t h = 0; h < 4; ++h)
+    {
+      const Vec3 target = rig.handles[h].head + pose[h].transform.col(3);
+      ASSERT_LT((result.rowwise() - target.transpose()).rowwise().norm().minCoeff(), 1e-12);
+    }
+  }
+}
+
+TEST(ReducedArapRobustness, APivotInsideATetIsThatPointOfTheMesh)
+{
+  test::Rig rig = test::bar();
+  const Vec3 inside(1.13, 0.31, 0.77);
+  rig.handles[1].head = rig.handles[1].tail = inside;
+  ExecutionContext context;
+  ReducedArap arap;
+  ASSERT_TRUE(arap.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).ok());
+  ASSERT_TRUE(arap.solve(context, bend(HandleMode::position)).usable());
+  Points result;
+  ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
+  // Where the mesh takes the point: find it in its tet by hand.
+  for (Index e = 0; e < rig.mesh.tets.rows(); ++e)
+  {
+    Eigen::Matrix4d corners;
+    Eigen::Matrix<double, 3, 4> to;
+    for (int k = 0; k < 4; ++k)
+    {
+      corners.col(k) = rig.mesh.points.row(rig.mesh.tets(e, k)).transpose().homogeneous();
+      to.col(k) = result.row(rig.mesh.tets(e, k));
+    }
+    const Eigen::Vector4d lambda = corners.fullPivLu().solve(inside.homogeneous());
+    if (lambda.minCoeff() > 0.0)
+    {
+      EXPECT_LT((to * lambda - (inside + Vec3(0, 0.3, 0))).norm(), 1e-12);
+    }
+  }
+}
+
+// SPEC D36, second half
+TEST(ReducedArapRobustness, RedundantAndContradictingPositionsAreNamed)
+{
+  test::Rig rig = test::bar();
+  Handle bone; // begins where the point handle "right" is
+  bone.name = "tail bone";
+  bone.kind = HandleKind::bone;
+  bone.head = rig.handles[2].head;
+  bone.tail = Vec3(5, 0.5, 0.5);
+  rig.handles.push_back(bone);
+  Weights weights(rig.weights.rows(), 4);
+  weights << rig.weights, 0.5 * rig.weights.col(2);
+  weights.col(2) *= 0.5;
+  ExecutionContext context;
+  ReducedArap arap;
+  ASSERT_TRUE(arap.bind(context, rig.mesh.points, rig.mesh.tets, weights, rig.handles).ok());
+  Pose pose = posed(rig.handles, HandleMode::position);
+  pose[0].mode = HandleMode::full;
+  pose[2].transform.col(3) << 0, 1, 0;
+  pose[3].transform.col(3) << 0, 1, 0;
+  Status status = arap.solve(context, pose);
+  ASSERT_TRUE(status.usable());
+  ASSERT_EQ(status.warnings.size(), 1u);
+  EXPECT_THAT(status.warnings[0], HasSubstr("redundant"));
+  EXPECT_LT(status.report.number("constraint_residual", 1.0), 1e-10);
+
+  pose[3].transform.col(3) << 0, 2, 0;
+  status = arap.solve(context, pose);
+  ASSERT_TRUE(status.usable());
+  ASSERT_EQ(status.warnings.size(), 2u);
+  EXPECT_THAT(status.warnings[1], HasSubstr("contradict"));
+  EXPECT_THAT(status.warnings[1], HasSubstr("'right', 'tail bone'"));
+  Points result;
+  ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
+  // Least squares: half way between the two wishes.
+  EXPECT_LT((result.rowwise() - Eigen::RowVector3d(4, 2.0, 0.5)).rowwise().norm().minCoeff(), 1e-9);
+}
+
+// SPEC D37
+TEST(ReducedArapRobustness, ExtraWeightsRestAtZeroAndLowerTheEnergy)
+{
+  const test::Rig rig = test::bar();
+  ExecutionContext context;
+  ReducedArap plain, wide;
+  ReducedArapOptions options{ ArapEnergy::elements, rig.mesh.tets.rows(), 0 };
+  ASSERT_TRUE(
+    plain.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles, options).ok());
+  options.extra_weights = 15;
+  const Status bound =
+    wide.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles, options);
+  ASSERT_TRUE(bound.ok());
+  EXPECT_TRUE(bound.warnings.empty());
+  EXPECT_GT(bound.report.number("counts.extra_weights", 0), 3);
+  Points result;
+  ASSERT_TRUE(wide.solve(context, posed(rig.handles, HandleMode::full)).ok());
+  ASSERT_TRUE(wide.deform(context, rig.mesh.points, result).ok());
+  EXPECT_LT((result - rig.mesh.points).cwiseAbs().maxCoeff(), 1e-12);
+  for (const HandleMode middle : { HandleMode::full, HandleMode::position, HandleMode::free })
+  {
+    ASSERT_TRUE(plain.solve(context, bend(middle), iterations(300)).ok());
+    ASSERT_TRUE(wide.solve(context, bend(middle), iterations(300)).ok());
+    EXPECT_LT(wide.energies().back(), plain.energies().back());
+    // Extra weights vanish at the handles: the full ones stay what they are.
+    ASSERT_TRUE(wide.deform(context, rig.mesh.points, result).ok());
+    for (Index v = 0; v < rig.mesh.points.rows(); ++v)
+    {
+      if (rig.weights(v, 0) > 1.0 - 1e-13)
+      {
+        EXPECT_LT((result.row(v) - rig.mesh.points.row(v)).norm(), 1e-10);
+      }
+    }
+  }
+}
+
+TEST(ReducedArapRobustness, RestStaysAtRestWhateverTheWeights)
+{
+  const test::Rig rig = test::box(3);
+  const Index n = rig.mesh.points.rows();
+  test::Random random(21);
+  std::vector<Weights> cases;
+  Weights dense(n, 5);
+  for (Index v = 0; v < n; ++v)
+  {
+    for (Index j = 0; j < 5; ++j)
+    {
+      dense(v, j) = random.uniform(-1, 1);
+    }
+  }
+  cases.push_back(dense);
+  Weights ill = rig.weights; // two columns that differ by 1e-12
+  ill.col(0) = 0.5 * (rig.weights.col(0) + rig.weights.col(1));
+  ill.col(1) = ill.col(0) + 1e-12 * dense.col(0);
+  cases.push_back(ill);
+  Weights doubled = rig.weights;
+  doubled.col(1) = doubled.col(0);
+  cases.push_back(doubled);
+  Weights empty = rig.weights;
+  empty.col(3).setZero();
+  cases.push_back(empty);
+  cases.push_back(Weights::Zero(n, 5));
+  for (const Weights& weights : cases)
+  {
+    ExecutionContext context;
+    ReducedArap arap;
+    ASSERT_TRUE(arap.bind(context, rig.mesh.points, rig.mesh.tets, weights, rig.handles).ok());
+    for (const HandleMode mode : { HandleMode::full, HandleMode::position, HandleMode::free })
+    {
+      ASSERT_TRUE(arap.solve(context, posed(rig.handles, mode)).ok());
+      Points result;
+      ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
+      EXPECT_LT((result - rig.mesh.points).cwiseAbs().maxCoeff(), 1e-9);
+    }
+    // And a drag moves things by about as much as it moves the handle.
+    Pose pose = posed(rig.handles, HandleMode::position);
+    pose[1].transform.col(3) << 0.3, 0.2, 0.1;
+    pose[2].mode = HandleMode::free;
+    ASSERT_TRUE(arap.solve(context, pose).usable());
+    Points result;
+    ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
+    EXPECT_LT((result - rig.mesh.points).cwiseAbs().maxCoeff(), 3.0);
+  }
+}
+
+TEST(ReducedArapRobustness, EmptyHandlesAreNamed)
+{
+  test::Rig rig = test::box(2);
+  rig.weights.col(3).setZero();
+  ExecutionContext context;
+  ReducedArap arap;
+  const Status status =
+    arap.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles);
+  ASSERT_TRUE(status.ok());
+  ASSERT_EQ(status.warnings.size(), 2u);
+  EXPECT_THAT(status.warnings[0], HasSubstr("do not sum to one"));
+  EXPECT_THAT(status.warnings[1], HasSubstr("'z'"));
+}
+
+TEST(ReducedArapRobustness, FlatSurfacesBendOutOfTheirPlane)
+{
+  const TriangleMesh plane = test::grid(10, 4, 2.5, 1.0);
+  Handles handles(2);
+  handles[0].name = "left";
+  handles[1].name = "right";
+  handles[0].head = handles[0].tail = Vec3(0, 0.5, 0);
+  handles[1].head = handles[1].tail = Vec3(2.5, 0.5, 0);
+  Weights weights(plane.points.rows(), 2);
+  for (Index v = 0; v < plane.points.rows(); ++v)
+  {
+    const double t = plane.points(v, 0) / 2.5;
+    weights.row(v) << 1.0 - t * t * (3.0 - 2.0 * t), t * t * (3.0 - 2.0 * t);
+  }
+  ExecutionContext context;
+  for (const ArapEnergy energy : { ArapEnergy::spokes_and_rims, ArapEnergy::elements })
+  {
+    ReducedArap arap;
+    const Status bound =
+      arap.bind(context, plane.points, plane.triangles, weights, handles, { energy, 0, 0 });
+    ASSERT_TRUE(bound.ok());
+    EXPECT_EQ(bound.report.text("method"),
+      energy == ArapEnergy::elements ? "triangles" : "spokes_and_rims");
+    Pose pose(2);
+    pose[1].mode = HandleMode::position;
+    pose[1].transform.col(3) << -0.3, 0, 0.8;
+    ASSERT_TRUE(arap.solve(context, pose, iterations(200)).ok());
+    Points result;
+    ASSERT_TRUE(arap.deform(context, plane.points, result).ok());
+    EXPECT_TRUE(result.allFinite());
+    EXPECT_LT(
+      (result.rowwise() - Eigen::RowVector3d(2.2, 0.5, 0.8)).rowwise().norm().minCoeff(), 1e-12);
+    for (std::size_t i = 1; i < arap.energies().size(); ++i)
+    {
+      ASSERT_LE(arap.energies()[i], arap.energies()[i - 1] + 1e-12 * arap.rest_energy());
+    }
+  }
+}
+
+TEST(ReducedArapRobustness, MovesWithTheWorldAndScalesWithIt)
+{
+  const test::Rig rig = test::bar();
+  ExecutionContext context;
+  ReducedArap arap;
+  ASSERT_TRUE(arap.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).ok());
+  const Pose pose = bend(HandleMode::position);
+  ASSERT_TRUE(arap.solve(context, pose, iterations(40)).ok());
+  Points result;
+  ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
+
+  Affine world = rigid(33, Vec3(1, -1, 2), Vec3(100, 20, -30));
+  world.leftCols<3>() *= 50.0;
+  Affine back;
+  back.leftCols<3>() = world.leftCols<3>().inverse();
+  back.col(3) = -back.leftCols<3>() * world.col(3);
+  const auto compose = [](const Affine& a, const Affine& b)
+  {
+    Affine c;
+    c.leftCols<3>() = a.leftCols<3>() * b.leftCols<3>();
+    c.col(3) = a.leftCols<3>() * b.col(3) + a.col(3);
+    return c;
+  };
+  test::Rig other = rig;
+  other.mesh.points = moved(rig.mesh.points, world);
+  Pose there = pose;
+  for (std::size_t h = 0; h < 3; ++h)
+  {
+    other.handles[h].head = other.handles[h].tail = world * rig.handles[h].head.homogeneous();
+    there[h].transform = compose(world, compose(pose[h].transform, back));
+  }
+  ReducedArap same;
+  ASSERT_TRUE(
+    same.bind(context, other.mesh.points, other.mesh.tets, other.weights, other.handles).ok());
+  ASSERT_TRUE(same.solve(context, there, iterations(40)).ok());
+  Points result_there;
+  ASSERT_TRUE(same.deform(context, other.mesh.points, result_there).ok());
+  EXPECT_LT((result_there - moved(result, world)).cwiseAbs().maxCoeff(), 1e-9 * 200);
+  EXPECT_NEAR(same.energies().back(), 125000.0 * arap.energies().back(), 1e-6);
+}
+
+TEST(ReducedArapRobustness, TheOrderOfHandlesDoesNotMatter)
+{
+  const test::Rig rig = test::bar();
+  const std::vector<std::size_t> order{ 2, 0, 1 };
+  test::Rig other = rig;
+  const Pose pose = bend(HandleMode::position);
+  Pose permuted(3);
+  for (std::size_t h = 0; h < 3; ++h)
+  {
+    other.handles[h] = rig.handles[order[h]];
+    other.weights.col(static_cast<Index>(h)) = rig.weights.col(static_cast<Index>(order[h]));
+    permuted[h] = pose[order[h]];
+  }
+  ExecutionContext context;
+  ReducedArap a, b;
+  const ReducedArapOptions options{ ArapEnergy::elements, rig.mesh.tets.rows(), 0 };
+  ASSERT_TRUE(
+    a.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles, options).ok());
+  ASSERT_TRUE(
+    b.bind(context, rig.mesh.points, rig.mesh.tets, other.weights, other.handles, options).ok());
+  ASSERT_TRUE(a.solve(context, pose, iterations(30)).ok());
+  ASSERT_TRUE(b.solve(context, permuted, iterations(30)).ok());
+  Points first, second;
+  ASSERT_TRUE(a.deform(context, rig.mesh.points, first).ok());
+  ASSERT_TRUE(b.deform(context, rig.mesh.points, second).ok());
+  EXPECT_LT((first - second).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+TEST(ReducedArapRobustness, AnyNumberOfThreadsGivesTheSameBits)
+{
+  const test::Rig rig = test::bar(40);
+  Points results[2];
+  double energies[2];
+  for (int i = 0; i < 2; ++i)
+  {
+    ExecutionContext context;
+    context.set_threads(i == 0 ? 1 : 4);
+    ReducedArap arap;
+    ASSERT_TRUE(arap
+                  .bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles,
+                    { ArapEnergy::automatic, 9, 6 })
+                  .ok());
+    ASSERT_TRUE(arap.solve(context, bend(HandleMode::position)).usable());
+    ASSERT_TRUE(arap.deform(context, rig.mesh.points, results[i]).ok());
+    energies[i] = arap.energies().back();
+  }
+  EXPECT_EQ(results[0], results[1]);
+  EXPECT_EQ(energies[0], energies[1]);
+}
+
+TEST(ReducedArapRobustness, AWarmStartNeedsFewerIterations)
+{
+  const test::Rig rig = test::bar();
+  ExecutionContext context;
+  ReducedArap arap;
+  ASSERT_TRUE(arap.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).ok());
+  Pose pose = bend(HandleMode::position);
+  ReducedArap::SolveOptions options;
+  options.max_iterations = 1000;
+  const Status cold = arap.solve(context, pose, options);
+  ASSERT_TRUE(cold.ok()) << cold.message;
+  pose[1].transform(0, 3) += 0.01;
+  const Status warm = arap.solve(context, pose, options);
+  ASSERT_TRUE(warm.ok());
+  EXPECT_LT(warm.report.number("iterations", 1e9), cold.report.number("iterations", 0));
+  // Forgetting gives what a fresh object gives.
+  arap.forget();
+  ASSERT_TRUE(arap.solve(context, pose, options).ok());
+  ReducedArap fresh;
+  ASSERT_TRUE(fresh.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).ok());
+  ASSERT_TRUE(fresh.solve(context, pose, options).ok());
+  EXPECT_EQ(fresh.energies(), arap.energies());
+}
+
+TEST(ReducedArapRobustness, TooFewIterationsSaySo)
+{
+  const test::Rig rig = test::bar();
+  ExecutionContext context;
+  ReducedArap arap;
+  ASSERT_TRUE(arap.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).ok());
+  const Status status =
+    arap.solve(context, bend(HandleMode::position), { 1e-9, 2, ReducedArap::Start::last });
+  EXPECT_EQ(status.code, StatusCode::not_converged);
+  EXPECT_THAT(status.message, HasSubstr("last of 2 iterations"));
+}
+
+TEST(ReducedArapRobustness, BadInputIsNamed)
+{
+  const test::Rig rig = test::bar();
+  ExecutionContext context;
+  ReducedArap arap;
+  const Weights short_rows = rig.weights.topRows(5);
+  EXPECT_THAT(arap.bind(context, rig.mesh.points, rig.mesh.tets, short_rows, rig.handles).message,
+    HasSubstr("5 rows"));
+  const Weights two = rig.weights.leftCols(2);
+  EXPECT_THAT(arap.bind(context, rig.mesh.points, rig.mesh.tets, two, rig.handles).message,
+    HasSubstr("2 columns"));
+  Weights broken = rig.weights;
+  broken(7, 1) = std::nan("");
+  EXPECT_THAT(arap.bind(context, rig.mesh.points, rig.mesh.tets, broken, rig.handles).message,
+    HasSubstr("vertex 7"));
+  EXPECT_THAT(arap.bind(context, rig.mesh.points, Tets(0, 4), rig.weights, rig.handles).message,
+    HasSubstr("no elements"));
+  ASSERT_TRUE(arap.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).ok());
+  EXPECT_EQ(arap.solve(context, Pose(2)).code, StatusCode::invalid_input);
+  Pose pose(3);
+  pose[1].transform(2, 2) = std::nan("");
+  EXPECT_THAT(arap.solve(context, pose).message, HasSubstr("'middle'"));
+}
+
+TEST(ReducedArapRobustness, CancelEndsTheBindAndTheSolve)
+{
+  const test::Rig rig = test::bar();
+  ExecutionContext context;
+  context.request_cancel();
+  ReducedArap arap;
+  EXPECT_EQ(arap.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).code,
+    StatusCode::cancelled);
+  ExecutionContext fine;
+  ASSERT_TRUE(arap.bind(fine, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).ok());
+  EXPECT_EQ(
+    arap.solve(context, bend(HandleMode::free), iterations(1000)).code, StatusCode::cancelled);
+}

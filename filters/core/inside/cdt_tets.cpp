@@ -152,8 +152,11 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
       // winding number does, which may be outside the convex hull.
       const std::string fine = "pYAq2a" + short_number(this->volume_bound());
       status = this->try_tetgen(name(fine, true), refined, fine, true);
-      this->finer_is_no_better_ = !status.ok();
-      break;
+      if (status.ok() || this->wrong_volume_ || this->final(status))
+      {
+        this->finer_is_no_better_ = this->wrong_volume_;
+        break;
+      }
     }
   }
   return status;
@@ -163,6 +166,7 @@ Status CdtTets::try_tetgen(
   const std::string& name, const MesherData& input, const std::string& switches, bool box)
 {
   const double start = this->context_.elapsed_seconds();
+  this->wrong_volume_ = false;
   MesherAnswer answer;
   Status status = this->run_job(
     { "tetgen", "--switches", switches, "--box", box ? "1" : "0" }, input, 30.0, answer);
@@ -279,7 +283,7 @@ Status CdtTets::move_vertices(const Move& move, RepairedSurface& moved)
 Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherData& input,
   double seconds, MesherAnswer& answer)
 {
-  constexpr double per_element = 2e-4;
+  constexpr double per_element = 1e-4;
   const double left = this->deadline_ - this->context_.elapsed_seconds();
   if (left <= 0.0)
   {
@@ -420,7 +424,7 @@ Status CdtTets::try_fill(const std::string& switches, const MesherData& coarse)
     data.largest_volumes.assign(static_cast<std::size_t>(coarse.tets.rows()), this->volume_bound());
   }
   MesherAnswer answer;
-  Status status = this->run_job({ "tetgen", "--switches", switches }, data, 10.0, answer);
+  Status status = this->run_job({ "tetgen", "--switches", switches }, data, 5.0, answer);
   if (status.ok())
   {
     status = this->accept_fill(answer.data, tet_volumes(coarse.points, coarse.tets).sum());

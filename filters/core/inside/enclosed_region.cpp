@@ -62,7 +62,8 @@ Status EnclosedRegion::sample(
   // More samples until enough are inside, as long as that costs less than some seconds: a sample
   // costs about 0.1 us and 15 ns more for every open edge.
   const auto open_edges = static_cast<double>(surface.found.boundary_edges);
-  constexpr double affordable = 1e6; // us
+  constexpr double affordable = 2e6; // us
+  constexpr double most_samples = 5e5;
   Index samples = 40;
   const double longest = this->box_.size().maxCoeff();
   constexpr double enough = 2000.0; // samples inside, for an error of some percent
@@ -92,8 +93,9 @@ Status EnclosedRegion::sample(
     this->volume_error_ = hits > 0.0 ? 1.0 / std::sqrt(hits) : 1.0;
     this->largest_winding_ = std::max(this->largest_winding_, w.maxCoeff());
     constexpr double growth = 3.375;
-    const double next_cost = growth * static_cast<double>(w.size()) * (0.1 + 0.015 * open_edges);
-    if (hits >= enough || negative > this->volume_ || next_cost > affordable)
+    const double next_samples = growth * static_cast<double>(w.size());
+    if (hits >= enough || negative > this->volume_ || next_samples > most_samples ||
+      next_samples * (0.1 + 0.015 * open_edges) > affordable)
     {
       break;
     }

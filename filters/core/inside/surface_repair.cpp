@@ -292,7 +292,10 @@ InwardShells inward_shells(
   std::vector<Index> order;
   for (std::size_t s = 0; s < shells.size(); ++s)
   {
-    if (shells[s].closed && shells[s].volume != 0.0)
+    // Nothing is inside out that encloses next to nothing (a sheet and its turned copy).
+    constexpr double rounding = 1e-12;
+    const double size = shells[s].box.diagonal();
+    if (shells[s].closed && std::abs(shells[s].volume) > rounding * size * size * size)
     {
       order.push_back(static_cast<Index>(s));
     }

@@ -27,6 +27,12 @@ std::string short_number(double x)
   return text.str();
 }
 
+/// "1 triangle was", "2 triangles were"
+std::string counted(Index count, const char* one, const char* many)
+{
+  return std::to_string(count) + " " + (count == 1 ? one : many) + (count == 1 ? " was" : " were");
+}
+
 class Ladder
 {
 public:
@@ -91,15 +97,16 @@ private:
     if (this->surface_.turned_triangles > 0)
     {
       this->report_.set("counts.turned_triangles", Report::Value(this->surface_.turned_triangles));
-      this->warn(std::to_string(this->surface_.turned_triangles) +
-        " triangles were turned to agree with their neighbours");
+      this->warn(counted(this->surface_.turned_triangles, "triangle", "triangles") +
+        " turned to agree with the neighbours");
     }
     if (this->surface_.turned_components > 0)
     {
       this->report_.set(
         "counts.turned_components", Report::Value(this->surface_.turned_components));
-      this->warn(std::to_string(this->surface_.turned_components) +
-        " closed components were inside out and were turned");
+      this->warn(
+        counted(this->surface_.turned_components, "closed component", "closed components") +
+        " turned: inside out");
     }
     this->box_ = bounding_box(this->surface_.points);
     const Phase phase(this->context_, "winding", 0.05, 0.15);
@@ -192,7 +199,7 @@ private:
 
   Status remesh(bool finer_when_needed)
   {
-    constexpr double most_cubes = 1.5e6;
+    constexpr double most_cubes = 4e6;
     for (Index resolution = this->options_.resolution;; resolution *= 2)
     {
       const double start = this->context_.elapsed_seconds();
@@ -227,7 +234,9 @@ private:
       }
       const double finer_cubes = 8.0 * static_cast<double>(lattice.cubes[0]) *
         static_cast<double>(lattice.cubes[1]) * static_cast<double>(lattice.cubes[2]);
-      if (!finer_when_needed || this->inside_.volume() <= 0.0 || finer_cubes > most_cubes)
+      constexpr Index finest = 4; // times the first resolution
+      if (!finer_when_needed || this->inside_.volume() <= 0.0 || finer_cubes > most_cubes ||
+        resolution >= finest * this->options_.resolution)
       {
         return status;
       }

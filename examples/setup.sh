@@ -15,7 +15,7 @@ qtbase5-dev:the_viewer
 libqt5opengl5-dev:the_viewer
 libeigen3-dev:matrices
 libtbb-dev:threads
-libopenblas-serial-dev:fast_dense_kernels_under_CHOLMOD
+libopenblas-pthread-dev:fast_dense_kernels_under_CHOLMOD
 libsuitesparse-dev:CHOLMOD,_the_sparse_solver
 libcgal-dev:exact_intersections_in_bindpose-mesher
 libtet1.5-dev:TetGen_in_bindpose-mesher

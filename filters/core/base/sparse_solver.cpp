@@ -7,6 +7,8 @@
 // Serial inside: handles are solved in parallel one level up, and a threaded BLAS would make
 // results depend on the number of threads. CHOLMOD also assembles supernodes in OpenMP regions of
 // four threads, which only get in each other's way there; they are made inactive for the call.
+// For the same reason OpenBLAS should be the threaded one, told to use one thread: the one built
+// without threads cannot be called by two threads at once (see ExclusiveBlas).
 #include "base/sparse_solver.h"
 
 #include <Eigen/SparseCholesky>
@@ -169,6 +171,29 @@ void make_blas_serial()
     });
 }
 
+/// OpenBLAS built without threads (libopenblas0-serial) has no locks either: two calls at the same
+/// time share a work buffer and give wrong numbers now and then. With it, one call at a time.
+class ExclusiveBlas
+{
+public:
+  ExclusiveBlas()
+  {
+    static const bool needed = []
+    {
+      auto* parallel = find_function<int()>("openblas_get_parallel");
+      return parallel && parallel() == 0;
+    }();
+    static std::mutex one_at_a_time;
+    if (needed)
+    {
+      this->lock_ = std::unique_lock<std::mutex>(one_at_a_time);
+    }
+  }
+
+private:
+  std::unique_lock<std::mutex> lock_;
+};
+
 class CholmodFactorisation : public Factorisation
 {
 public:
@@ -215,6 +240,7 @@ public:
   Status factor(const SparseMatrix& matrix) override
   {
     const SerialRegions serial;
+    const ExclusiveBlas exclusive;
     cholmod_sparse a = view(matrix);
     cholmod_factorize(&a, this->factor_, &this->common_);
     if (this->common_.status == CHOLMOD_NOT_POSDEF)
@@ -236,6 +262,7 @@ public:
   Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override
   {
     const SerialRegions serial;
+    const ExclusiveBlas exclusive;
     cholmod_dense b = view(rhs);
     cholmod_dense* x = cholmod_solve(CHOLMOD_A, this->factor_, &b, &this->common_);
     Eigen::MatrixXd result =
@@ -247,6 +274,7 @@ public:
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) override
   {
     const SerialRegions serial;
+    const ExclusiveBlas exclusive;
     cholmod_dense b = view(rhs);
     cholmod_solve2(CHOLMOD_A, this->factor_, &b, nullptr, &this->x_, nullptr, &this->y_, &this->e_,
       &this->common_);
@@ -384,7 +412,7 @@ std::string SparseSolver::blas_warning()
     }
   }
   return "the BLAS in use is not known to be fast (the reference BLAS is about 17 times slower); "
-         "install libopenblas-serial-dev";
+         "install libopenblas-pthread-dev";
 #else
   return {};
 #endif

@@ -27,8 +27,8 @@ Status check_tets(PointsView points, TetsView tets);
 /// rounding. @return how many tets went.
 Index drop_crumbs(const Points& points, Tets& tets);
 
-/// Removes tets at the boundary that are flatter than `height` (smallest height of a tet), again and
-/// again until none is left there. The boundary moves by less than that. @return how many went.
+/// Removes tets at the boundary that are flatter than `height` (smallest height of a tet), again
+/// and again until none is left there. The boundary moves by less than that. @return how many went.
 Index peel_slivers(const Points& points, Tets& tets, double height);
 
 /// #T x 3 mean of the four vertices.

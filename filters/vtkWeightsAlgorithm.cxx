@@ -127,6 +127,7 @@ struct vtkWeightsAlgorithm::Cache
   // Null unless handles were inserted:
   vtkSmartPointer<vtkPoints> points;
   vtkSmartPointer<vtkCellArray> cells;
+  vtkSmartPointer<vtkUnsignedCharArray> types; // of the cells of a grid
   std::vector<InsertedVertex> inserted;
   std::vector<Index> parent_cell;
 
@@ -155,7 +156,7 @@ struct vtkWeightsAlgorithm::Cache
     }
     else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(output))
     {
-      grid->SetCells(this->cells->IsHomogeneous() == 4 ? VTK_TETRA : VTK_TRIANGLE, this->cells);
+      grid->SetCells(this->types, this->cells);
     }
     output->GetFieldData()->PassData(mesh->GetFieldData());
     vtkPointData* from = mesh->GetPointData();
@@ -321,6 +322,9 @@ Status vtkWeightsAlgorithm::Bind(
     bound.cells = refined.is_volume()
       ? to_unstructured_grid(refined.points, refined.tets)->GetCells()
       : to_polydata(refined.points, refined.triangles)->GetPolys();
+    bound.types = vtkSmartPointer<vtkUnsignedCharArray>::New();
+    bound.types->SetNumberOfValues(bound.cells->GetNumberOfCells());
+    bound.types->FillValue(refined.is_volume() ? VTK_TETRA : VTK_TRIANGLE);
     bound.inserted = problem.mesh.inserted;
     bound.parent_cell = problem.mesh.parent_element;
     if (!cell_of_element.empty())

@@ -94,8 +94,8 @@ std::string drag_right(double x, const char* mode = "position")
 {
   return R"({"handles": {"left": {"mode": "full"}, "middle": {"mode": "free"},
     "right": {"mode": ")" +
-    std::string(mode) + R"(", "translate": [)" + std::to_string(-0.1 * x) + ", " + std::to_string(x) +
-    ", 0]}}}";
+    std::string(mode) + R"(", "translate": [)" + std::to_string(-0.1 * x) + ", " +
+    std::to_string(x) + ", 0]}}}";
 }
 } // namespace
 

@@ -79,6 +79,12 @@ void catch_interrupts()
   sigaction(SIGTERM, &action, nullptr);
 }
 
+void release_interrupts()
+{
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
 bool interrupted()
 {
   return signal_came.load();

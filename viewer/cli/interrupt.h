@@ -12,6 +12,9 @@ namespace bindpose::cli
 /// factorisation). Call once, before other threads start.
 void catch_interrupts();
 
+/// Signals kill again, as they do by default: for a window, which nobody waits for.
+void release_interrupts();
+
 /// A signal came.
 bool interrupted();
 

@@ -1,6 +1,7 @@
 // bindpose render FILE… -o OUT.png: pictures by the library bindpose_scene. VTK 9.1 ends the
 // process when there is no X server, even for offscreen pictures; without one the program runs
 // itself again under xvfb-run.
+#include "cli/interrupt.h"
 #include "cli/session.h"
 #include "cli/verbs.h"
 
@@ -147,6 +148,11 @@ void run_render(Session& session)
   {
     run_again_under_xvfb(arguments.words);
     session.fail(Status::failure(StatusCode::unavailable, no_display_message()));
+    return;
+  }
+  if (interrupted())
+  {
+    session.fail(Status::cancelled());
     return;
   }
   Status status = render_to_png(tiles, options, output, arguments.has("overwrite"));

@@ -1,4 +1,5 @@
 // bindpose view FILE…: the window of viewer/app, when it was built.
+#include "cli/interrupt.h"
 #include "cli/session.h"
 #include "cli/verbs.h"
 
@@ -30,6 +31,7 @@ void run_view(Session& session)
       return;
     }
   }
+  release_interrupts();
   if (run_viewer(session.arguments().list("FILE")) != 0)
   {
     session.fail(Status::failure(StatusCode::internal_error, "the window ended with an error"));

@@ -193,6 +193,37 @@ TEST(ReducedArapRobustness, RestStaysAtRestWhateverTheWeights)
   }
 }
 
+// SPEC F52 in small: any modes, any transforms, reflections and collapses among them.
+TEST(ReducedArapRobustness, RandomDragsStayFiniteAndNearTheirHandles)
+{
+  const test::Rig rig = test::box(3);
+  ExecutionContext context;
+  ReducedArap arap;
+  ASSERT_TRUE(
+    arap.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles, { {}, 0, 3 })
+      .ok());
+  test::Random random(77);
+  Pose pose(5);
+  Points result;
+  for (int drag = 0; drag < 3000; ++drag)
+  {
+    HandlePose& handle = pose[static_cast<std::size_t>(random.below(5))];
+    handle.mode = static_cast<HandleMode>(random.below(3));
+    handle.transform = rigid(random.uniform(-180, 180), random.in_box(-Vec3::Ones(), Vec3::Ones()),
+      random.in_box(-Vec3::Ones(), Vec3::Ones()));
+    handle.transform.col(drag % 3) *= drag % 7 == 0 ? 0.0 : random.uniform(-1.5, 1.5);
+    const Status status = arap.solve(context, pose, { 1e-6, 20, ReducedArap::Start::last });
+    ASSERT_TRUE(status.usable());
+    for (std::size_t i = 1; i < arap.energies().size(); ++i)
+    {
+      ASSERT_LE(arap.energies()[i], arap.energies()[i - 1] + 1e-12 * arap.rest_energy());
+    }
+    ASSERT_LT(status.report.number("constraint_residual", 0.0), 1e-9);
+    ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
+    ASSERT_LT(result.cwiseAbs().maxCoeff(), 20.0);
+  }
+}
+
 TEST(ReducedArapRobustness, EmptyHandlesAreNamed)
 {
   test::Rig rig = test::box(2);

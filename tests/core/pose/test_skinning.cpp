@@ -234,7 +234,7 @@ TEST(Skinning, NormalsStayNormalToPosedPlanes)
 
 TEST(Skinning, AnyNumberOfThreadsGivesTheSameBits)
 {
-  const test::Rig rig = test::box(16);
+  const test::Rig rig = test::box(13);
   std::vector<Affine> transforms;
   for (int h = 0; h < 5; ++h)
   {

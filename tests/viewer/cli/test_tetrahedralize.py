@@ -62,6 +62,11 @@ def test_what_encloses_nothing_says_so(folder, mesh):
 
 
 def test_the_threshold_is_used(folder):
-    """Nothing has a winding number of 1.5 in a single cube."""
-    folder.off("cube.off", shapes.cube())
-    folder.run("tetrahedralize", "cube.off", "--method", "cdt", "--winding-threshold", "1.5", "-o", "m.vtu").is_refused()
+    """Two cubes that overlap: the winding number is 2 where they do."""
+    vertices, faces = shapes.cube()
+    moved = [[x + 1 for x in v] for v in vertices]
+    folder.off("two.off", (vertices + moved, faces + [[v + 8 for v in f] for f in faces]))
+    for threshold, volume in (("0.5", 8 + 8 - 1), ("1.5", 1)):
+        folder.run("tetrahedralize", "two.off", "--method", "cdt", "--winding-threshold", threshold, "-o", "m.vtu",
+                   "--overwrite").is_good()
+        assert volumes(folder / "m.vtu").sum() == pytest.approx(volume, rel=1e-6)

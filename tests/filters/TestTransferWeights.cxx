@@ -1,0 +1,166 @@
+// Weights of tets on the surface that they came from, on another dataset, and through a pipeline
+// whose pose changes.
+#include "TestFilter.h"
+
+#include "vtkBoundedBiharmonicWeights.h"
+#include "vtkSkinningDeformation.h"
+#include "vtkTransferWeights.h"
+
+#include "conversion.h"
+#include "report_field_data.h"
+#include "support/meshes.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+using namespace bindpose;
+using bindpose::test::Listener;
+using testing::HasSubstr;
+
+namespace
+{
+class TransferWeights : public testing::Test
+{
+protected:
+  TransferWeights()
+  {
+    const TetMesh box = test::tet_box(4, 4, 4);
+    this->surface = to_polydata(box.points, boundary_triangles(box.tets));
+    Handles list(2);
+    list[0].name = "low";
+    list[0].head = list[0].tail = Vec3(0.3, 0.4, 0.12);
+    list[1].name = "high";
+    list[1].head = list[1].tail = Vec3(0.6, 0.7, 0.83);
+    this->handles = to_polydata(list);
+    this->weights->SetInputData(0, to_unstructured_grid(box.points, box.tets));
+    this->weights->SetInputData(1, this->handles);
+    this->transfer->SetInputData(0, this->surface);
+    this->transfer->SetInputConnection(1, this->weights->GetOutputPort());
+    this->listener->listen(this->transfer);
+  }
+
+  vtkSmartPointer<vtkPolyData> surface;
+  vtkSmartPointer<vtkPolyData> handles;
+  vtkNew<vtkBoundedBiharmonicWeights> weights;
+  vtkNew<vtkTransferWeights> transfer;
+  vtkNew<Listener> listener;
+};
+} // namespace
+
+TEST_F(TransferWeights, SharedVerticesAreExactAndCertificatesTravel)
+{
+  this->transfer->Update();
+  ASSERT_EQ(this->transfer->GetStatus(), vtkBindposeAlgorithm::OK);
+  vtkDataSet* output = this->transfer->GetOutput();
+  ASSERT_TRUE(vtkPolyData::SafeDownCast(output));
+  vtkDataArray* from = this->weights->GetOutput()->GetPointData()->GetArray("Weights");
+  vtkDataArray* to = output->GetPointData()->GetArray("Weights");
+  ASSERT_EQ(to->GetNumberOfTuples(), this->surface->GetNumberOfPoints());
+  EXPECT_STREQ(to->GetComponentName(1), "high");
+  for (vtkIdType v = 0; v < to->GetNumberOfTuples(); ++v)
+  {
+    double p[3];
+    double q[3];
+    this->surface->GetPoint(v, p);
+    this->weights->GetOutput()->GetPoint(v, q);
+    if (std::equal(p, p + 3, q))
+    {
+      ASSERT_EQ(to->GetComponent(v, 0), from->GetComponent(v, 0)) << "bit by bit";
+    }
+  }
+  const Report report = read_report(output);
+  EXPECT_EQ(report.number("counts.transfer_misses", -1), 0);
+  EXPECT_EQ(report.number("counts.transferred_exact", -1), this->surface->GetNumberOfPoints());
+  EXPECT_EQ(report.text("transfer"), "exact");
+  for (const char* name : { "WeightsRelativeGap", "WeightsKKTResidual", "WeightsMinimum",
+         "WeightsMaximum", "WeightsInteriorExtrema", "WeightsRowSumError" })
+  {
+    EXPECT_EQ(output->GetFieldData()->GetAbstractArray(name),
+      this->weights->GetOutput()->GetFieldData()->GetAbstractArray(name))
+      << name;
+  }
+}
+
+TEST_F(TransferWeights, PointsInsideAndOutside)
+{
+  Points points(3, 3);
+  points << 0.33, 0.51, 0.27, 0.5, 0.5, 1.01, 0.0, 0.0, 9.0;
+  this->transfer->SetInputData(0, to_polydata(points, Triangles(0, 3)));
+  this->transfer->Update();
+  ASSERT_EQ(this->transfer->GetStatus(), vtkBindposeAlgorithm::OK);
+  const Report report = read_report(this->transfer->GetOutput());
+  EXPECT_EQ(report.text("transfer"), "barycentric");
+  EXPECT_EQ(report.number("counts.transferred_barycentric", -1), 1);
+  EXPECT_EQ(report.number("counts.transferred_nearest", -1), 1);
+  EXPECT_EQ(report.number("counts.transfer_misses", -1), 1);
+  ASSERT_EQ(this->listener->warnings.size(), 1u);
+  EXPECT_THAT(this->listener->warnings[0], HasSubstr("1 of 3 points"));
+  vtkDataArray* to = this->transfer->GetOutput()->GetPointData()->GetArray("Weights");
+  for (vtkIdType v = 0; v < 3; ++v)
+  {
+    EXPECT_NEAR(to->GetComponent(v, 0) + to->GetComponent(v, 1), 1.0, 1e-12);
+  }
+}
+
+TEST_F(TransferWeights, AHundredPosesBindNothingAgain)
+{
+  vtkNew<vtkSkinningDeformation> skinning;
+  skinning->SetInputConnection(0, this->transfer->GetOutputPort());
+  skinning->SetInputData(1, this->handles);
+  skinning->Update();
+  vtkDataArray* transform = this->handles->GetCellData()->GetArray("Transform");
+  for (int edit = 1; edit <= 100; ++edit)
+  {
+    transform->SetComponent(1, 3, 0.01 * edit);
+    transform->Modified();
+    this->handles->Modified();
+    skinning->Update();
+  }
+  EXPECT_EQ(this->weights->GetNumberOfBinds(), 1);
+  EXPECT_EQ(this->transfer->GetNumberOfBinds(), 1);
+  EXPECT_EQ(skinning->GetNumberOfBinds(), 1);
+  // A vertex moves by its weight of the handle that moved.
+  vtkDataArray* to = this->transfer->GetOutput()->GetPointData()->GetArray("Weights");
+  double p[3];
+  double q[3];
+  this->surface->GetPoint(60, p);
+  skinning->GetOutput()->GetPoint(60, q);
+  EXPECT_NEAR(q[0] - p[0], to->GetComponent(60, 1), 1e-9);
+}
+
+TEST_F(TransferWeights, ErrorsTellWhatIsMissing)
+{
+  this->transfer->SetArrayName("Wights");
+  this->transfer->Update();
+  EXPECT_EQ(this->transfer->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
+  ASSERT_EQ(this->listener->errors.size(), 1u);
+  EXPECT_THAT(this->listener->errors[0], HasSubstr("'Wights'"));
+  this->transfer->SetArrayName("Weights");
+  this->transfer->Update();
+  EXPECT_EQ(this->transfer->GetStatus(), vtkBindposeAlgorithm::OK);
+  vtkNew<vtkPolyData> empty;
+  this->transfer->SetInputData(0, empty);
+  this->transfer->Update();
+  EXPECT_EQ(this->transfer->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
+  // A failure upstream is repeated, not hidden.
+  this->transfer->SetInputData(0, this->surface);
+  vtkNew<vtkPolyData> none;
+  this->weights->SetInputData(1, none);
+  vtkNew<Listener> upstream;
+  upstream->listen(this->weights);
+  this->transfer->Update();
+  EXPECT_THAT(this->transfer->GetStatusMessage(), HasSubstr("no handle"));
+  std::ostringstream text;
+  this->transfer->Print(text);
+  EXPECT_THAT(text.str(), HasSubstr("ArrayName: Weights"));
+}

@@ -1,0 +1,511 @@
+// The weights filters: arrays and names, one bind for any number of pose edits, inserted handles,
+// regions, both kinds of meshes, cancel and again, clear errors.
+#include "TestFilter.h"
+
+#include "vtkBoundedBiharmonicWeights.h"
+#include "vtkMonotoneWeights.h"
+#include "vtkUnconstrainedWeights.h"
+
+#include "conversion.h"
+#include "report_field_data.h"
+#include "support/meshes.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdTypeArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPlaneSource.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <sstream>
+
+using namespace bindpose;
+using bindpose::test::Listener;
+using testing::HasSubstr;
+
+namespace
+{
+vtkSmartPointer<vtkUnstructuredGrid> tet_box(int n)
+{
+  const TetMesh box = test::tet_box(n, n, n);
+  return to_unstructured_grid(box.points, box.tets);
+}
+
+vtkSmartPointer<vtkPolyData> square(int n)
+{
+  const TriangleMesh mesh = test::grid(n, n);
+  return to_polydata(mesh.points, mesh.triangles);
+}
+
+Handle point(const std::string& name, double x, double y, double z)
+{
+  Handle handle;
+  handle.name = name;
+  handle.head = handle.tail = Vec3(x, y, z);
+  return handle;
+}
+
+Handle bone(const std::string& name, const Vec3& head, const Vec3& tail)
+{
+  Handle handle;
+  handle.name = name;
+  handle.kind = HandleKind::bone;
+  handle.head = head;
+  handle.tail = tail;
+  return handle;
+}
+
+/// Two points and a bone within the unit cube, none on a vertex.
+vtkSmartPointer<vtkPolyData> three_handles()
+{
+  return to_polydata({ point("left", 0.13, 0.22, 0.31), point("right", 0.87, 0.71, 0.64),
+    bone("middle", Vec3(0.45, 0.52, 0.2), Vec3(0.52, 0.47, 0.8)) });
+}
+
+template <typename Filter>
+class Pipeline
+{
+public:
+  Pipeline(vtkDataObject* mesh, vtkPolyData* handles)
+  {
+    this->listener->listen(this->filter);
+    this->filter->SetInputData(0, mesh);
+    this->filter->SetInputData(1, handles);
+  }
+  vtkPointSet* output() { return vtkPointSet::SafeDownCast(this->filter->GetOutput()); }
+  vtkDoubleArray* weights()
+  {
+    return vtkDoubleArray::SafeDownCast(this->output()->GetPointData()->GetArray("Weights"));
+  }
+  Report report() { return read_report(this->filter->GetOutput()); }
+
+  vtkNew<Filter> filter;
+  vtkNew<Listener> listener;
+};
+
+void expect_rows_sum_to_one(vtkDoubleArray* weights)
+{
+  for (vtkIdType v = 0; v < weights->GetNumberOfTuples(); ++v)
+  {
+    double sum = 0.0;
+    for (int j = 0; j < weights->GetNumberOfComponents(); ++j)
+    {
+      sum += weights->GetComponent(v, j);
+    }
+    ASSERT_NEAR(sum, 1.0, 1e-12);
+  }
+}
+
+/// The point of the mesh at a place, or -1.
+vtkIdType vertex_at(vtkPointSet* mesh, double x, double y, double z, double tolerance)
+{
+  const vtkIdType v = mesh->FindPoint(x, y, z);
+  double p[3];
+  mesh->GetPoint(v, p);
+  return std::hypot(p[0] - x, p[1] - y, p[2] - z) <= tolerance ? v : -1;
+}
+} // namespace
+
+TEST(WeightsFilters, TetsGetNamedWeightsAndCertificates)
+{
+  const auto mesh = tet_box(5);
+  Pipeline<vtkBoundedBiharmonicWeights> run(mesh, three_handles());
+  run.filter->Update();
+  ASSERT_EQ(run.filter->GetStatus(), vtkBindposeAlgorithm::OK) << run.filter->GetStatusMessage();
+  ASSERT_TRUE(vtkUnstructuredGrid::SafeDownCast(run.output()));
+  vtkDoubleArray* weights = run.weights();
+  ASSERT_TRUE(weights);
+  EXPECT_EQ(weights->GetNumberOfComponents(), 3);
+  EXPECT_STREQ(weights->GetComponentName(0), "left");
+  EXPECT_STREQ(weights->GetComponentName(2), "middle");
+  expect_rows_sum_to_one(weights);
+
+  // Original points first, new ones behind; no hole: the cells still fill the cube.
+  const vtkIdType n = mesh->GetNumberOfPoints();
+  ASSERT_GT(run.output()->GetNumberOfPoints(), n);
+  for (vtkIdType v = 0; v < n; ++v)
+  {
+    double p[3];
+    double q[3];
+    mesh->GetPoint(v, p);
+    run.output()->GetPoint(v, q);
+    ASSERT_TRUE(std::equal(p, p + 3, q));
+  }
+  TetInput tets;
+  ASSERT_TRUE(to_tets(run.output(), tets).ok());
+  const Eigen::VectorXd volumes = tet_volumes(tets.points.view(), tets.tets.view());
+  EXPECT_NEAR(volumes.sum(), 1.0, 1e-12);
+  EXPECT_GT(volumes.minCoeff(), 0.0);
+  const vtkIdType left = vertex_at(run.output(), 0.13, 0.22, 0.31, 0.07);
+  ASSERT_GE(left, 0);
+  EXPECT_DOUBLE_EQ(weights->GetComponent(left, 0), 1.0);
+  EXPECT_DOUBLE_EQ(weights->GetComponent(left, 1), 0.0);
+
+  vtkFieldData* field = run.output()->GetFieldData();
+  for (const char* name : { "WeightsRelativeGap", "WeightsKKTResidual", "WeightsMinimum",
+         "WeightsMaximum", "WeightsInteriorExtrema" })
+  {
+    vtkDataArray* array = field->GetArray(name);
+    ASSERT_TRUE(array) << name;
+    EXPECT_EQ(array->GetNumberOfTuples(), 3) << name;
+  }
+  for (int j = 0; j < 3; ++j)
+  {
+    EXPECT_LE(field->GetArray("WeightsRelativeGap")->GetTuple1(j), 1e-6);
+    EXPECT_LE(field->GetArray("WeightsKKTResidual")->GetTuple1(j), 1e-6);
+    EXPECT_EQ(field->GetArray("WeightsMinimum")->GetTuple1(j), 0.0);
+    EXPECT_EQ(field->GetArray("WeightsMaximum")->GetTuple1(j), 1.0);
+  }
+  EXPECT_GT(field->GetArray("WeightsRowSumError")->GetTuple1(0), 0.0);
+  const Report report = run.report();
+  EXPECT_EQ(report.text("method"), "bounded-biharmonic");
+  EXPECT_EQ(report.number("binds", 0), 1);
+  EXPECT_EQ(report.number("counts.handles", 0), 3);
+  EXPECT_LE(report.number("relative_gap", 1), 1e-6);
+  EXPECT_GT(report.number("seconds.analyse", 0), 0.0);
+  EXPECT_GT(report.number("seconds.factor", 0), 0.0);
+  EXPECT_GT(report.number("seconds.solve", 0), 0.0);
+  EXPECT_TRUE(run.listener->errors.empty());
+  EXPECT_TRUE(std::is_sorted(run.listener->progress.begin(), run.listener->progress.end()));
+}
+
+TEST(WeightsFilters, PoseEditsNeverBindAgain)
+{
+  const auto mesh = tet_box(4);
+  const auto handles = three_handles();
+  Pipeline<vtkBoundedBiharmonicWeights> run(mesh, handles);
+  run.filter->Update();
+  ASSERT_EQ(run.filter->GetNumberOfBinds(), 1);
+  vtkDoubleArray* weights = run.weights();
+  vtkDataArray* points = run.output()->GetPoints()->GetData();
+  vtkAbstractArray* gap = run.output()->GetFieldData()->GetAbstractArray("WeightsRelativeGap");
+  vtkDataArray* transform = handles->GetCellData()->GetArray("Transform");
+  for (int edit = 0; edit < 100; ++edit)
+  {
+    transform->SetComponent(0, 3, 0.01 * edit);
+    transform->Modified();
+    handles->GetCellData()->GetArray("Mode")->SetComponent(1, 0, edit % 3);
+    handles->GetCellData()->GetArray("Mode")->Modified();
+    handles->Modified();
+    run.filter->Update();
+  }
+  EXPECT_EQ(run.filter->GetNumberOfBinds(), 1);
+  EXPECT_EQ(run.listener->starts, 101);
+  EXPECT_EQ(run.weights(), weights) << "the same array object";
+  EXPECT_EQ(run.output()->GetPoints()->GetData(), points);
+  EXPECT_EQ(run.output()->GetFieldData()->GetAbstractArray("WeightsRelativeGap"), gap);
+  EXPECT_EQ(run.report().number("counts.handles", 0), 3) << "the bind's report stays whole";
+  EXPECT_GT(run.report().number("seconds.factor", 0), 0.0);
+  // A second Update() without a change does nothing at all.
+  run.filter->Update();
+  EXPECT_EQ(run.listener->starts, 101);
+
+  // What belongs to the bind does bind: a handle's rest place, the mesh, a parameter.
+  double p[3];
+  handles->GetPoint(0, p);
+  handles->GetPoints()->SetPoint(0, p[0] + 0.05, p[1], p[2]);
+  handles->GetPoints()->Modified();
+  run.filter->Update();
+  EXPECT_EQ(run.filter->GetNumberOfBinds(), 2);
+  EXPECT_NE(run.weights(), weights);
+  mesh->GetPoints()->SetPoint(0, -0.01, 0.0, 0.0);
+  mesh->GetPoints()->Modified();
+  run.filter->Update();
+  EXPECT_EQ(run.filter->GetNumberOfBinds(), 3);
+  run.filter->SetTolerance(1e-7);
+  run.filter->Update();
+  EXPECT_EQ(run.filter->GetNumberOfBinds(), 4);
+  run.filter->SetTolerance(1e-7);
+  run.filter->Update();
+  EXPECT_EQ(run.filter->GetNumberOfBinds(), 4);
+}
+
+TEST(WeightsFilters, SurfacesOfAnyPolygonsWork)
+{
+  vtkNew<vtkPlaneSource> plane; // quads, float points, from (-.5, -.5) to (.5, .5)
+  plane->SetResolution(12, 12);
+  plane->Update();
+  const auto on_vertices =
+    to_polydata(Handles{ point("a", -0.5, -0.5, 0), point("b", 0.5, 0.5, 0) });
+  Pipeline<vtkBoundedBiharmonicWeights> quads(plane->GetOutput(), on_vertices);
+  quads.filter->Update();
+  ASSERT_EQ(quads.filter->GetStatus(), vtkBindposeAlgorithm::OK)
+    << quads.filter->GetStatusMessage();
+  EXPECT_EQ(quads.output()->GetNumberOfCells(), 144) << "no handle inserted: quads stay";
+  expect_rows_sum_to_one(quads.weights());
+
+  const auto off_vertices =
+    to_polydata(Handles{ point("a", -0.39, -0.37, 0), point("b", 0.41, 0.3, 0) });
+  vtkNew<vtkIntArray> row;
+  row->SetName("Row");
+  for (int cell = 0; cell < 144; ++cell)
+  {
+    row->InsertNextValue(cell / 12);
+  }
+  plane->GetOutput()->GetCellData()->AddArray(row);
+  Pipeline<vtkMonotoneWeights> split(plane->GetOutput(), off_vertices);
+  split.filter->Update();
+  ASSERT_EQ(split.filter->GetStatus(), vtkBindposeAlgorithm::OK);
+  EXPECT_EQ(split.output()->GetNumberOfPoints(), 169 + 2);
+  EXPECT_EQ(split.report().number("counts.inserted_vertices", 0), 2);
+  // Cell arrays follow the cells: every triangle lies in the row that it says.
+  vtkDataArray* rows = split.output()->GetCellData()->GetArray("Row");
+  for (vtkIdType cell = 0; cell < split.output()->GetNumberOfCells(); ++cell)
+  {
+    double bounds[6];
+    split.output()->GetCellBounds(cell, bounds);
+    const double y = 0.5 * (bounds[2] + bounds[3]);
+    ASSERT_EQ(std::floor((y + 0.5) * 12.0), rows->GetTuple1(cell));
+  }
+  // Normals and texture coordinates keep their role and are interpolated.
+  ASSERT_TRUE(split.output()->GetPointData()->GetNormals());
+  EXPECT_NEAR(split.output()->GetPointData()->GetNormals()->GetComponent(170, 2), 1.0, 1e-6);
+  double p[3];
+  split.output()->GetPoint(170, p);
+  EXPECT_NEAR(split.output()->GetPointData()->GetTCoords()->GetComponent(170, 0), p[0] + 0.5, 1e-6);
+  for (int j = 0; j < 2; ++j)
+  {
+    EXPECT_EQ(
+      split.output()->GetFieldData()->GetArray("WeightsInteriorExtrema")->GetTuple1(j), 0.0);
+  }
+}
+
+TEST(WeightsFilters, RegionsByLabels)
+{
+  const auto mesh = square(10);
+  vtkNew<vtkIntArray> labels;
+  labels->SetName("Part");
+  labels->SetNumberOfTuples(mesh->GetNumberOfPoints());
+  for (vtkIdType v = 0; v < mesh->GetNumberOfPoints(); ++v)
+  {
+    double p[3];
+    mesh->GetPoint(v, p);
+    labels->SetValue(v, p[0] < 0.25 ? 5 : 0);
+  }
+  mesh->GetPointData()->AddArray(labels);
+  Handles handles{ point("tip", 0.93, 0.52, 0.0), point("left", 0.0, 0.5, 0.0) };
+  handles[1].kind = HandleKind::region;
+  handles[1].region_id = 5;
+  Pipeline<vtkBoundedBiharmonicWeights> run(mesh, to_polydata(handles));
+  run.filter->Update();
+  EXPECT_EQ(run.filter->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
+  ASSERT_EQ(run.listener->errors.size(), 1u);
+  EXPECT_THAT(run.listener->errors[0], HasSubstr("'left'"));
+
+  run.filter->SetRegionArrayName("Part");
+  run.filter->Update();
+  ASSERT_EQ(run.filter->GetStatus(), vtkBindposeAlgorithm::OK) << run.filter->GetStatusMessage();
+  for (vtkIdType v = 0; v < mesh->GetNumberOfPoints(); ++v)
+  {
+    if (labels->GetValue(v) == 5)
+    {
+      ASSERT_EQ(run.weights()->GetComponent(v, 1), 1.0);
+    }
+  }
+  vtkDataArray* carried = run.output()->GetPointData()->GetArray("Part");
+  ASSERT_EQ(carried->GetNumberOfTuples(), run.output()->GetNumberOfPoints());
+  EXPECT_EQ(carried->GetTuple1(mesh->GetNumberOfPoints()), 0.0) << "the inserted point is free";
+  labels->SetValue(0, 6);
+  labels->Modified();
+  run.filter->Update();
+  EXPECT_EQ(run.filter->GetNumberOfBinds(), 2) << "labels belong to the bind";
+}
+
+TEST(WeightsFilters, OriginalPointIdsAndStrayPoints)
+{
+  const TetMesh box = test::tet_box(4, 4, 4);
+  Points points(box.points.rows() + 1, 3);
+  points << box.points, Eigen::RowVector3d(9, 9, 9);
+  const auto mesh = to_unstructured_grid(points, box.tets);
+  vtkNew<vtkIdTypeArray> ids;
+  ids->SetName("OriginalPointIds");
+  for (vtkIdType v = 0; v < mesh->GetNumberOfPoints(); ++v)
+  {
+    ids->InsertNextValue(7);
+  }
+  mesh->GetPointData()->AddArray(ids);
+  Pipeline<vtkBoundedBiharmonicWeights> run(mesh, three_handles());
+  run.filter->Update();
+  ASSERT_EQ(run.filter->GetStatus(), vtkBindposeAlgorithm::OK) << run.filter->GetStatusMessage();
+  vtkDataArray* carried = run.output()->GetPointData()->GetArray("OriginalPointIds");
+  EXPECT_EQ(carried->GetTuple1(3), 7);
+  EXPECT_EQ(carried->GetTuple1(mesh->GetNumberOfPoints()), -1);
+  auto* mask =
+    vtkUnsignedCharArray::SafeDownCast(run.output()->GetPointData()->GetArray("WeightsMask"));
+  ASSERT_TRUE(mask);
+  const vtkIdType stray = box.points.rows();
+  EXPECT_EQ(mask->GetValue(stray), 0);
+  EXPECT_EQ(mask->GetValue(0), 1);
+  for (int j = 0; j < 3; ++j)
+  {
+    EXPECT_EQ(run.weights()->GetComponent(stray, j), 0.0);
+  }
+  ASSERT_EQ(run.listener->warnings.size(), 1u);
+  EXPECT_THAT(run.listener->warnings[0], HasSubstr("in no element"));
+}
+
+TEST(WeightsFilters, KeepMeshKeepsEveryObject)
+{
+  const auto mesh = tet_box(6);
+  Pipeline<vtkBoundedBiharmonicWeights> run(mesh, three_handles());
+  run.filter->KeepMeshOn();
+  run.filter->Update();
+  ASSERT_EQ(run.filter->GetStatus(), vtkBindposeAlgorithm::OK) << run.filter->GetStatusMessage();
+  EXPECT_EQ(run.output()->GetPoints(), mesh->GetPoints());
+  EXPECT_EQ(vtkUnstructuredGrid::SafeDownCast(run.output())->GetCells(), mesh->GetCells());
+}
+
+TEST(WeightsFilters, WithoutBoundsByMethod)
+{
+  const auto mesh = square(20);
+  const auto handles = to_polydata(
+    Handles{ point("a", 0.2, 0.2, 0), point("b", 0.5, 0.5, 0), point("c", 0.8, 0.75, 0) });
+  Pipeline<vtkUnconstrainedWeights> run(mesh, handles);
+  run.filter->Update();
+  EXPECT_EQ(run.report().text("method"), "biharmonic");
+  EXPECT_LT(run.output()->GetFieldData()->GetArray("WeightsMinimum")->GetTuple1(1), -0.05);
+  run.filter->SetMethodToHarmonic();
+  run.filter->Update();
+  EXPECT_EQ(run.report().text("method"), "harmonic");
+  EXPECT_GE(run.output()->GetFieldData()->GetArray("WeightsMinimum")->GetTuple1(1), -1e-12);
+  run.filter->SetMethodToTriharmonic();
+  run.filter->Update();
+  EXPECT_EQ(run.report().text("method"), "triharmonic");
+  EXPECT_EQ(run.filter->GetNumberOfBinds(), 3);
+  expect_rows_sum_to_one(run.weights());
+}
+
+TEST(WeightsFilters, MetresAndMillimetresGiveTheSameWeights)
+{
+  const auto mesh = tet_box(4);
+  const auto handles = three_handles();
+  const auto large_mesh = tet_box(4);
+  const auto large_handles = three_handles();
+  for (vtkPointSet* data :
+    { static_cast<vtkPointSet*>(large_mesh), static_cast<vtkPointSet*>(large_handles) })
+  {
+    for (vtkIdType v = 0; v < data->GetNumberOfPoints(); ++v)
+    {
+      double p[3];
+      data->GetPoint(v, p);
+      data->GetPoints()->SetPoint(v, 1000.0 * p[0], 1000.0 * p[1], 1000.0 * p[2]);
+    }
+  }
+  Pipeline<vtkBoundedBiharmonicWeights> metres(mesh, handles);
+  Pipeline<vtkBoundedBiharmonicWeights> millimetres(large_mesh, large_handles);
+  metres.filter->Update();
+  millimetres.filter->Update();
+  ASSERT_EQ(metres.weights()->GetNumberOfTuples(), millimetres.weights()->GetNumberOfTuples());
+  for (vtkIdType i = 0; i < metres.weights()->GetNumberOfValues(); ++i)
+  {
+    ASSERT_NEAR(metres.weights()->GetValue(i), millimetres.weights()->GetValue(i), 1e-6);
+  }
+}
+
+TEST(WeightsFilters, CancelledOnceTheNextUpdateSolves)
+{
+  Pipeline<vtkBoundedBiharmonicWeights> run(tet_box(14), three_handles());
+  std::chrono::steady_clock::time_point asked;
+  run.listener->on_progress = [&](vtkAlgorithm* algorithm)
+  {
+    const char* phase = algorithm->GetProgressText();
+    if (phase && std::string(phase) == "weights" && !algorithm->GetAbortExecute())
+    {
+      asked = std::chrono::steady_clock::now();
+      algorithm->SetAbortExecute(1);
+    }
+  };
+  run.filter->Update();
+  const double late =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count();
+  EXPECT_EQ(run.filter->GetStatus(), vtkBindposeAlgorithm::CANCELLED);
+  EXPECT_LT(late, 2.0) << "200 ms, and what the machine's other work takes";
+  EXPECT_TRUE(run.listener->errors.empty());
+  EXPECT_EQ(run.output()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(run.filter->GetNumberOfBinds(), 0);
+  run.listener->on_progress = nullptr;
+  run.filter->SetAbortExecute(0);
+  run.filter->Update();
+  EXPECT_EQ(run.filter->GetStatus(), vtkBindposeAlgorithm::OK);
+  EXPECT_EQ(run.filter->GetNumberOfBinds(), 1);
+}
+
+TEST(WeightsFilters, NotConvergedIsAResultThatSaysSo)
+{
+  Pipeline<vtkBoundedBiharmonicWeights> run(tet_box(5), three_handles());
+  run.filter->SetMaximumIterations(2);
+  run.filter->Update();
+  EXPECT_EQ(run.filter->GetStatus(), vtkBindposeAlgorithm::NOT_CONVERGED);
+  ASSERT_TRUE(run.weights());
+  expect_rows_sum_to_one(run.weights());
+  EXPECT_EQ(run.report().text("status"), "not_converged");
+  EXPECT_GT(run.report().number("relative_gap", 0), 1e-6);
+  EXPECT_THAT(run.filter->GetStatusMessage(), HasSubstr("not certified"));
+}
+
+TEST(WeightsFilters, EveryBadInputIsOneSentence)
+{
+  const auto message = [](vtkDataObject* mesh, vtkPolyData* handles)
+  {
+    Pipeline<vtkMonotoneWeights> run(mesh, handles);
+    run.filter->Update();
+    EXPECT_EQ(run.filter->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
+    EXPECT_EQ(run.listener->errors.size(), 1u);
+    EXPECT_EQ(run.output()->GetNumberOfPoints(), 0);
+    return run.filter->GetStatusMessage();
+  };
+  vtkNew<vtkPolyData> no_surface;
+  vtkNew<vtkUnstructuredGrid> no_grid;
+  vtkNew<vtkPolyData> no_handles;
+  EXPECT_THAT(message(no_surface, three_handles()), HasSubstr("empty"));
+  EXPECT_FALSE(message(no_grid, three_handles()).empty());
+  EXPECT_THAT(message(tet_box(2), no_handles), HasSubstr("no handle"));
+  EXPECT_THAT(message(tet_box(2),
+                to_polydata(Handles{ point("a", 0.1, 0.1, 0.1), point("b", 0.1, 0.1, 0.1) })),
+    HasSubstr("'a' and 'b' are at the same place"));
+  const auto not_a_number = tet_box(2);
+  not_a_number->GetPoints()->SetPoint(5, 0.0, std::nan(""), 0.0);
+  EXPECT_THAT(message(not_a_number, three_handles()), HasSubstr("vertex 5"));
+  TetMesh inverted = test::tet_box(2, 2, 2);
+  std::swap(inverted.tets(7, 1), inverted.tets(7, 2));
+  EXPECT_THAT(message(to_unstructured_grid(inverted.points, inverted.tets), three_handles()),
+    HasSubstr("tet 7"));
+  vtkNew<vtkUnstructuredGrid> hexahedron;
+  hexahedron->SetPoints(tet_box(1)->GetPoints());
+  const vtkIdType corners[8] = { 0, 1, 3, 2, 4, 5, 7, 6 };
+  hexahedron->InsertNextCell(VTK_HEXAHEDRON, 8, corners);
+  EXPECT_THAT(message(hexahedron, three_handles()), HasSubstr("not a tet"));
+}
+
+TEST(WeightsFilters, PrintSelfTellsEveryParameter)
+{
+  const auto text = [](vtkObject* object)
+  {
+    std::ostringstream stream;
+    object->Print(stream);
+    return stream.str();
+  };
+  vtkNew<vtkBoundedBiharmonicWeights> bounded;
+  vtkNew<vtkMonotoneWeights> monotone;
+  vtkNew<vtkUnconstrainedWeights> unconstrained;
+  for (const char* word : { "Tolerance: 1e-06", "MaximumIterations: 100",
+         "RegionArrayName: RegionId", "KeepMesh: off", "NumberOfBinds: 0", "Order: 2" })
+  {
+    EXPECT_THAT(text(bounded), HasSubstr(word));
+    EXPECT_THAT(text(monotone), HasSubstr(word));
+  }
+  EXPECT_THAT(text(unconstrained), HasSubstr("Method: 2"));
+  bounded->SetOrder(7);
+  EXPECT_EQ(bounded->GetOrder(), 3);
+}

@@ -318,7 +318,7 @@ Status CdtTets::keep_inside(const MesherData& data)
   const Phase phase(this->context_, "label", 0.9, 1.0);
   this->wrong_volume_ = false;
   Eigen::VectorXd w;
-  const Status status = this->inside_.label(data, w, this->context_);
+  Status status = this->inside_.label(data, w, this->context_);
   if (!status.ok())
   {
     return status;
@@ -363,7 +363,7 @@ Status CdtTets::complete()
   if (this->options_.quality > 0.0 || this->options_.interior_edge > 0.0)
   {
     const Phase phase(this->context_, "fill", 0.0, 1.0);
-    const Status status = this->fill();
+    Status status = this->fill();
     if (status.code == StatusCode::cancelled)
     {
       return status;

@@ -289,7 +289,7 @@ std::string find_mesher()
 #endif
   for (const std::string& folder : folders)
   {
-    const std::string path = folder + "/bindpose-mesher";
+    std::string path = folder + "/bindpose-mesher";
     if (executable_file(path))
     {
       return path;

@@ -385,7 +385,7 @@ std::string refine(MesherData& data, const RefineOptions& options)
     {
       break;
     }
-    const std::string error = split(soup, pairs, clock, options, face_limit);
+    std::string error = split(soup, pairs, clock, options, face_limit);
     if (!error.empty())
     {
       return error;

@@ -281,7 +281,7 @@ Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const
       " columns, but there are " + std::to_string(handles.size()) + " handles");
   }
   {
-    Phase phase(context, "skinning", 0.0, 0.1);
+    Phase phase(context, "copy_weights", 0.0, 0.1);
     status = this->skinning_.bind(context, weights);
     if (!status.ok())
     {

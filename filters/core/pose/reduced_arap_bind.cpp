@@ -290,8 +290,8 @@ Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const
   }
   this->handles_ = handles;
   this->diagonal_ = bounding_box(points).diagonal();
-  this->radius_ =
-    std::sqrt((points.rowwise() - points.colwise().mean()).rowwise().squaredNorm().mean());
+  const Eigen::RowVector3d middle = points.colwise().mean();
+  this->radius_ = std::sqrt((points.rowwise() - middle).rowwise().squaredNorm().mean());
   const auto handle_count = static_cast<Index>(handles.size());
   std::string empty_names;
   for (Index j = 0; j < handle_count; ++j)

@@ -30,6 +30,24 @@ double longest_edge(const Points& points, const Tets& tets, Index t)
   }
   return std::sqrt(longest);
 }
+
+/// Points spread evenly over a box, the same every time: an additive recurrence with the powers of
+/// the root of x^4 = x + 1, the three-dimensional golden ratio.
+Points spread_points(const Box& box, Index count)
+{
+  const Vec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
+  const Vec3 size = box.size();
+  Points points(count, 3);
+  for (Index i = 0; i < count; ++i)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const double t = 0.5 + static_cast<double>(i + 1) * step[k];
+      points(i, k) = box.lower[k] + (t - std::floor(t)) * size[k];
+    }
+  }
+  return points;
+}
 } // namespace
 
 Status EnclosedRegion::build(
@@ -64,35 +82,28 @@ Status EnclosedRegion::sample(
   const auto open_edges = static_cast<double>(surface.found.boundary_edges);
   constexpr double affordable = 2e6; // us
   constexpr double most_samples = 5e5;
-  Index samples = 40;
-  const double longest = this->box_.size().maxCoeff();
+  // As many points as a grid of 40 along the longest side has. They are not a grid: faces that are
+  // aligned with its planes (boxes, CAD) would count a whole layer of cells too many or too few.
+  const Vec3 size = this->box_.size();
   constexpr double enough = 2000.0; // samples inside, for an error of some percent
-  for (;; samples = samples * 3 / 2)
+  constexpr double growth = 3.375;
+  auto samples = static_cast<Index>((40.0 * size / size.maxCoeff()).array().ceil().max(1.0).prod());
+  for (;; samples = static_cast<Index>(growth * static_cast<double>(samples)))
   {
-    SampleGrid grid;
-    grid.spacing = Vec3::Constant(longest / static_cast<double>(samples));
-    for (int k = 0; k < 3; ++k)
-    {
-      const double cells = std::max(1.0, std::ceil(this->box_.size()[k] / grid.spacing[k]));
-      grid.extent[2 * k] = 0;
-      grid.extent[2 * k + 1] = static_cast<Index>(cells) - 1;
-      grid.spacing[k] = this->box_.size()[k] / cells;
-    }
-    grid.origin = this->box_.lower + 0.5 * grid.spacing;
+    const Points points = spread_points(this->box_, samples);
     Eigen::VectorXd w;
-    status = this->winding_.evaluate(grid, context, w);
+    status = this->winding_.evaluate(points, context, w);
     if (!status.ok())
     {
       break;
     }
-    const double cell = grid.spacing.prod();
+    const double cell = size.prod() / static_cast<double>(samples);
     const double threshold = this->threshold_;
     const auto hits = static_cast<double>((w.array() >= threshold).count());
     negative = cell * static_cast<double>((w.array() <= -threshold).count());
     this->volume_ = cell * hits;
     this->volume_error_ = hits > 0.0 ? 1.0 / std::sqrt(hits) : 1.0;
     this->largest_winding_ = std::max(this->largest_winding_, w.maxCoeff());
-    constexpr double growth = 3.375;
     const double next_samples = growth * static_cast<double>(w.size());
     if (hits >= enough || negative > this->volume_ || next_samples > most_samples ||
       next_samples * (0.1 + 0.015 * open_edges) > affordable)

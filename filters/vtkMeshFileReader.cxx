@@ -13,6 +13,7 @@
 #include "io/ply.h"
 #include "io/stl.h"
 #include "io/text_scanner.h"
+#include "output_type.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
@@ -290,13 +291,7 @@ int vtkMeshFileReader::FillOutputPortInformation(int, vtkInformation* info)
 int vtkMeshFileReader::RequestDataObject(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
 {
-  const auto fresh = make_output(this->FileName ? this->FileName : "");
-  vtkInformation* info = output->GetInformationObject(0);
-  vtkDataObject* old = vtkDataObject::GetData(info);
-  if (!old || std::string(old->GetClassName()) != fresh->GetClassName())
-  {
-    info->Set(vtkDataObject::DATA_OBJECT(), fresh);
-  }
+  bindpose::match_output_type(make_output(this->FileName ? this->FileName : ""), output);
   return 1;
 }
 

@@ -8,6 +8,7 @@
 
 #include "base/execution.h"
 #include "bind_key.h"
+#include "output_type.h"
 #include "pose_input.h"
 
 #include "vtkDataArray.h"
@@ -142,15 +143,7 @@ int vtkPoseAlgorithm::FillOutputPortInformation(int, vtkInformation* info)
 int vtkPoseAlgorithm::RequestDataObject(
   vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
 {
-  vtkDataObject* mesh = vtkDataObject::GetData(input[0], 0);
-  vtkInformation* info = output->GetInformationObject(0);
-  vtkDataObject* current = vtkDataObject::GetData(info);
-  if (mesh && (!current || !current->IsA(mesh->GetClassName())))
-  {
-    vtkSmartPointer<vtkDataObject> fresh;
-    fresh.TakeReference(mesh->NewInstance());
-    info->Set(vtkDataObject::DATA_OBJECT(), fresh);
-  }
+  match_output_type(vtkDataObject::GetData(input[0], 0), output);
   return 1;
 }
 

@@ -5,6 +5,7 @@
 #include "base/execution.h"
 #include "bind_key.h"
 #include "conversion.h"
+#include "output_type.h"
 #include "weights/transfer.h"
 #include "weights_arrays.h"
 
@@ -59,15 +60,7 @@ int vtkTransferWeights::FillOutputPortInformation(int, vtkInformation* info)
 int vtkTransferWeights::RequestDataObject(
   vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
 {
-  vtkPointSet* target = vtkPointSet::GetData(input[0]);
-  vtkInformation* info = output->GetInformationObject(0);
-  vtkDataObject* data = vtkDataObject::GetData(info);
-  if (target && (!data || std::string(data->GetClassName()) != target->GetClassName()))
-  {
-    vtkSmartPointer<vtkDataObject> fresh;
-    fresh.TakeReference(target->NewInstance());
-    info->Set(vtkDataObject::DATA_OBJECT(), fresh);
-  }
+  match_output_type(vtkDataObject::GetData(input[0], 0), output);
   return 1;
 }
 

@@ -9,6 +9,7 @@
 #include "base/execution.h"
 #include "bind_key.h"
 #include "conversion.h"
+#include "output_type.h"
 #include "weights/weights_problem.h"
 #include "weights_arrays.h"
 
@@ -253,15 +254,7 @@ int vtkWeightsAlgorithm::FillOutputPortInformation(int, vtkInformation* info)
 int vtkWeightsAlgorithm::RequestDataObject(
   vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
 {
-  vtkPointSet* mesh = vtkPointSet::GetData(input[0]);
-  vtkInformation* info = output->GetInformationObject(0);
-  vtkDataObject* data = vtkDataObject::GetData(info);
-  if (mesh && (!data || std::string(data->GetClassName()) != mesh->GetClassName()))
-  {
-    vtkSmartPointer<vtkDataObject> fresh;
-    fresh.TakeReference(mesh->NewInstance());
-    info->Set(vtkDataObject::DATA_OBJECT(), fresh);
-  }
+  match_output_type(vtkDataObject::GetData(input[0], 0), output);
   return 1;
 }
 

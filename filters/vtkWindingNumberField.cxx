@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "conversion.h"
 #include "inside/winding_number.h"
+#include "output_type.h"
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkCompositeDataSet.h"
@@ -157,22 +158,7 @@ int vtkWindingNumberField::RequestDataObject(
   vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
 {
   vtkDataSet* points = vtkDataSet::GetData(input[1]);
-  const char* type = points ? points->GetClassName() : "vtkImageData";
-  vtkInformation* info = output->GetInformationObject(0);
-  vtkDataObject* data = vtkDataObject::GetData(info);
-  if (!data || std::string(data->GetClassName()) != type)
-  {
-    vtkSmartPointer<vtkDataObject> fresh;
-    if (points)
-    {
-      fresh.TakeReference(points->NewInstance());
-    }
-    else
-    {
-      fresh = vtkSmartPointer<vtkImageData>::New();
-    }
-    info->Set(vtkDataObject::DATA_OBJECT(), fresh);
-  }
+  bindpose::match_output_type(points ? points : vtkNew<vtkImageData>().Get(), output);
   return 1;
 }
 

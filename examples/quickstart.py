@@ -189,8 +189,10 @@ def main_job(options, program, bindpose):
         frames[method] = sorted(p.name for p in folder.glob(f"{stem}*.vtp"))
     chosen = spread(len(frames["lbs"]), 8)
     tiles = [frames["lbs"][k] for k in chosen] + [frames["reduced-arap"][k] for k in chosen]
+    labels = [f"{method} {k}" for method in frames for k in chosen]
     program.run("All poses: linear blend skinning above, reduced as-rigid-as-possible below.",
-                "render", *tiles, "--columns", len(chosen), "--size", "2000x640", "-o", "poses.png")
+                "render", *tiles, "--labels", ",".join(labels), "--columns", len(chosen), "--size", "2000x700",
+                "-o", "poses.png")
     return mesh, pictures
 
 

@@ -67,6 +67,8 @@ const std::vector<Verb>& verbs()
         { "--range", "LOWER,UPPER", Kind::text, "", "",
           "values at the ends of the colours; else from the data, 0,1 for weights" },
         { "--columns", "N", Kind::integer, "0", "", "tiles in a row; 0: as square as possible" },
+        { "--labels", "TEXT,…", Kind::text, "", "",
+          "written below the tiles, in their order, with commas between" },
         { "--size", "WxH", Kind::text, "1200x900", "", "pixels of the whole picture" },
         { "--up", "AXIS", Kind::choice, "auto", "auto|x|y|z", "axis that points up; auto is y" },
         { "--azimuth", "DEGREES", Kind::number, "0", "", "look from farther to the right" },

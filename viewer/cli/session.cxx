@@ -2,7 +2,6 @@
 
 #include "cli/interrupt.h"
 #include "file_kind.h"
-#include "io/atomic_file.h"
 #include "io/report_json.h"
 #include "io/text_scanner.h"
 #include "report_field_data.h"
@@ -269,6 +268,32 @@ bool Session::write(vtkDataSet* data, const std::string& path)
   writer->SetFileName(path.c_str());
   writer->SetOverwrite(this->arguments_.has("overwrite"));
   return this->run(writer, "write", 1.0, 1.0, Merge::nothing);
+}
+
+bool Session::write_uncommitted(vtkDataSet* data, const std::string& path, AtomicFile& file)
+{
+  Status status = file.open(path, this->arguments_.has("overwrite"));
+  if (!status.ok())
+  {
+    return this->fail(status);
+  }
+  vtkNew<vtkMeshFileWriter> writer;
+  writer->SetInputData(data);
+  writer->SetFileName(file.temporary().c_str());
+  writer->SetOverwrite(true);
+  status = this->try_run(writer, "write", 1.0, 1.0, Merge::nothing);
+  const std::size_t at = status.message.find(file.temporary());
+  if (at != std::string::npos)
+  {
+    status.message.replace(at, file.temporary().size(), path);
+  }
+  return status.usable() || this->fail(status);
+}
+
+bool Session::commit(AtomicFile& file)
+{
+  const Status status = file.commit();
+  return status.ok() || this->fail(status);
 }
 
 bool Session::write_text(const std::string& text, const std::string& path)

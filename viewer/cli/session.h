@@ -4,6 +4,7 @@
 #include "base/status.h"
 #include "cli/arguments.h"
 #include "cli/progress_bar.h"
+#include "io/atomic_file.h"
 
 #include "vtkDataSet.h"
 #include "vtkPolyData.h"
@@ -65,6 +66,10 @@ public:
   /// The output can have this ending and can be written: asked before the work, not after.
   bool check_output(const std::string& path, const std::string& endings);
   bool write(vtkDataSet* data, const std::string& path);
+  /// To the temporary file of `file`, which gets its name by commit(): for files that are to be
+  /// there all or none.
+  bool write_uncommitted(vtkDataSet* data, const std::string& path, AtomicFile& file);
+  bool commit(AtomicFile& file);
   bool write_text(const std::string& text, const std::string& path);
 
   /// Ends the verb: report, error line. Returns the exit code.

@@ -4,6 +4,7 @@
 #include "cli/verbs.h"
 
 #include "file_kind.h"
+#include "io/atomic_file.h"
 #include "vtkPoseHandles.h"
 #include "vtkReducedARAP.h"
 #include "vtkSkinningDeformation.h"
@@ -111,7 +112,7 @@ void run_deform(Session& session)
   deformation->SetInputData(0, mesh);
   deformation->SetInputConnection(1, pose->GetOutputPort());
   std::int64_t iterations = 0;
-  std::vector<std::string> written;
+  std::vector<AtomicFile> written(files.size());
   for (std::size_t i = 0; i < files.size() && !session.failed(); ++i)
   {
     const double begin = static_cast<double>(i) / static_cast<double>(files.size());
@@ -121,22 +122,17 @@ void run_deform(Session& session)
       session.run(deformation, "deform", begin, end, Merge::all))
     {
       iterations += static_cast<std::int64_t>(session.report().number("iterations", 0));
-      if (session.write(deformation->GetOutput(), files[i]))
-      {
-        written.push_back(files[i]);
-      }
+      session.write_uncommitted(deformation->GetOutput(), files[i], written[i]);
     }
   }
-  if (!session.failed() && frames > 1)
+  // A sequence is there whole or not at all, and what it replaces stays until then.
+  for (std::size_t i = 0; i < written.size() && !session.failed(); ++i)
   {
-    session.write_text(collection(files, pose->GetFramesPerSecond()), pvd);
+    session.commit(written[i]);
   }
-  if (session.failed())
+  if (session.failed() ||
+    (frames > 1 && !session.write_text(collection(files, pose->GetFramesPerSecond()), pvd)))
   {
-    for (const std::string& file : written)
-    {
-      std::remove(file.c_str()); // a sequence is there whole or not at all
-    }
     return;
   }
   session.report().set("counts.frames", frames);

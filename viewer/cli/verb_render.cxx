@@ -66,6 +66,24 @@ void run_again_under_xvfb(const std::vector<std::string>& command_line)
   execvp(argv[0], argv.data());
 }
 
+/// What stands between commas; empty parts count.
+std::vector<std::string> split_at_commas(const std::string& text)
+{
+  std::vector<std::string> parts(1);
+  for (const char c : text)
+  {
+    if (c == ',')
+    {
+      parts.emplace_back();
+    }
+    else
+    {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
 /// "AxB" with the separator x, as two numbers.
 bool parse_pair(const std::string& text, char separator, double& first, double& second)
 {
@@ -131,6 +149,20 @@ void run_render(Session& session)
       return;
     }
     tiles.push_back(tile);
+  }
+  if (arguments.has("labels"))
+  {
+    const std::vector<std::string> labels = split_at_commas(arguments.text("labels"));
+    if (labels.size() > tiles.size())
+    {
+      session.invalid("--labels: " + std::to_string(labels.size()) + " labels for " +
+        std::to_string(tiles.size()) + (tiles.size() == 1 ? " tile" : " tiles"));
+      return;
+    }
+    for (std::size_t i = 0; i < labels.size(); ++i)
+    {
+      tiles[i].label = labels[i];
+    }
   }
   if (arguments.has("handles"))
   {

@@ -336,6 +336,11 @@ Status CdtTets::keep_inside(const MesherData& data)
   drop_crumbs(data.points, kept);
   constexpr double flat = 1e-11; // of the diagonal
   peel_slivers(data.points, kept, flat * this->diagonal_);
+  if (count == 0 && this->inside_.labels_are_exact())
+  {
+    this->finer_is_no_better_ = true;
+    return this->inside_.encloses_nothing();
+  }
   const double volume = tet_volumes(data.points, kept).sum();
   const bool fits = this->inside_.fits(volume);
   const double misfit = this->inside_.misfit(volume);

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <sstream>
 
 namespace bindpose
 {
@@ -67,7 +68,8 @@ Status EnclosedRegion::build(
   }
   if (surface.clean() && surface.found.components == 1)
   {
-    this->volume_ = signed_volume(surface.points, surface.triangles);
+    // It winds once around its inside, and nowhere twice.
+    this->volume_ = threshold <= 1.0 ? signed_volume(surface.points, surface.triangles) : 0.0;
     this->volume_error_ = 0.0;
   }
   return status;
@@ -120,6 +122,18 @@ double EnclosedRegion::misfit(double volume) const
 {
   return volume > 0.0 && this->volume_ > 0.0 ? std::abs(std::log(volume / this->volume_))
                                              : std::numeric_limits<double>::infinity();
+}
+
+Status EnclosedRegion::encloses_nothing() const
+{
+  std::ostringstream text;
+  text.precision(4);
+  text << "the surface encloses nothing: its winding number reaches " << this->largest_winding_
+       << (this->largest_winding_ < this->threshold_
+              ? ", below the threshold of "
+              : ", only in specks of no size the threshold of ")
+       << this->threshold_;
+  return Status::invalid_input(text.str());
 }
 
 bool EnclosedRegion::fits(double volume) const

@@ -25,8 +25,10 @@ public:
   bool fits(double volume) const;
   /// |log(volume / volume())|: 0 for equal, the same for half and double, infinity for none.
   double misfit(double volume) const;
-  /// The largest winding number met so far.
-  double largest_winding() const { return this->largest_winding_; }
+  /// A closed surface's tets are labelled exactly: when none is inside, no finer tet will be.
+  bool labels_are_exact() const { return this->closed_; }
+  /// The error of a surface that winds nowhere often enough, with the largest number met so far.
+  Status encloses_nothing() const;
 
   /// Winding number of each tet: of its region's largest tet when the surface is closed, else at
   /// its centre or, for large tets near the threshold, the mean of four points.

@@ -215,7 +215,7 @@ private:
       const double volume = tet_volumes(mesh.points, mesh.tets).sum();
       if (mesh.tets.rows() == 0)
       {
-        status = this->encloses_nothing();
+        status = this->inside_.encloses_nothing();
       }
       else if (!this->inside_.fits(volume))
       {
@@ -261,16 +261,6 @@ private:
     this->result_.original_vertices.assign(
       static_cast<std::size_t>(this->result_.mesh.points.rows()), -1);
     return {};
-  }
-
-  Status encloses_nothing() const
-  {
-    const double threshold = this->options_.winding_threshold;
-    return Status::invalid_input("the surface encloses nothing: its winding number reaches " +
-      short_number(this->inside_.largest_winding()) +
-      (this->inside_.largest_winding() < threshold
-          ? ", below the threshold of " + short_number(threshold)
-          : ", the threshold of " + short_number(threshold) + " only in specks of no size"));
   }
 
   // ---- The end ---------------------------------------------------------------------------------

@@ -1,4 +1,5 @@
-// A temporary file "TARGET.PID-N.part" in the same folder, so that the final rename is atomic.
+// A temporary file "STEM.part-PID-N.ENDING" in the same folder, so that the final rename is atomic
+// and writers that look at the ending write it like the target.
 #include "io/atomic_file.h"
 
 #include <atomic>
@@ -77,8 +78,11 @@ Status AtomicFile::open(const std::string& target, bool overwrite)
     return status;
   }
   static std::atomic<int> count{ 0 };
-  const std::string temporary =
-    target + "." + std::to_string(getpid()) + "-" + std::to_string(++count) + ".part";
+  const std::size_t name = target.find_last_of('/') + 1;
+  const std::size_t dot = target.find_last_of('.');
+  const std::size_t ending = dot == std::string::npos || dot <= name ? target.size() : dot;
+  const std::string temporary = target.substr(0, ending) + ".part-" + std::to_string(getpid()) +
+    "-" + std::to_string(++count) + target.substr(ending);
   Registry& files = registry();
   const std::lock_guard<std::mutex> lock(files.mutex);
   const int descriptor = ::open(temporary.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);

@@ -30,7 +30,7 @@ public:
   /// not be overwritten, is no regular file, or its folder is missing or not writable.
   Status open(const std::string& target, bool overwrite);
 
-  /// Path to write to, in the target's folder.
+  /// Path to write to, in the target's folder, with the target's ending.
   const std::string& temporary() const { return this->temporary_; }
 
   /// Gives the file its final name.

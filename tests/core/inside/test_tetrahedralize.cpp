@@ -553,6 +553,33 @@ TEST(Tetrahedralize, BadInputIsOneSentence)
   }
 }
 
+TEST(Tetrahedralize, AThresholdNothingReachesIsSaidAtOnce)
+{
+  // A cube winds once around its inside; asked for is more. No rung may try again and again.
+  TetrahedralizeOptions options;
+  options.winding_threshold = 1.5;
+  for (const TetMethod method : { TetMethod::cdt, TetMethod::automatic, TetMethod::remesh })
+  {
+    SCOPED_TRACE(to_string(method));
+    options.method = method;
+    const Outcome outcome = run(test::cube(), options);
+    EXPECT_EQ(outcome.status.code, StatusCode::invalid_input);
+    EXPECT_THAT(outcome.status.message, HasSubstr("reaches 1, below the threshold of 1.5"));
+    const Report::Value* rungs = outcome.status.report.find("rungs[].name");
+    if (method == TetMethod::cdt)
+    {
+      ASSERT_NE(rungs, nullptr);
+      EXPECT_EQ(std::get<std::vector<std::string>>(*rungs).size(), 1U);
+    }
+  }
+  // Two cubes of side 2 that overlap do wind twice, in a cube of side 1.
+  const TriangleMesh two = test::join(test::cube(), test::translated(test::cube(), Vec3(1, 1, 1)));
+  options.method = TetMethod::cdt;
+  const Outcome overlap = run(two, options);
+  EXPECT_TRUE(overlap.status.usable()) << overlap.status.message;
+  EXPECT_NEAR(overlap.volume(), 1.0, 1e-12);
+}
+
 TEST(Tetrahedralize, OptionsAreChecked)
 {
   const auto message = [](const std::function<void(TetrahedralizeOptions&)>& change)

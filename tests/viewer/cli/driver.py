@@ -27,7 +27,7 @@ class Run:
 
     def is_good(self):
         assert self.code == 0, self.err
-        assert not any(name.endswith(".part") for name in self.new_files)
+        assert not any(".part-" in name for name in self.new_files)
         return self
 
     def is_refused(self, *words, code=2):

@@ -82,6 +82,17 @@ def test_a_sequence_is_there_whole_or_not_at_all(bar):
     assert not (bar / "out_0000.vtp").exists()
 
 
+def test_a_sequence_that_fails_leaves_what_was_there(bar):
+    good = {"handles": {"b2": {"translate": [0, 1, 0]}}}
+    deform(bar, {"frames": [good, good]}).is_good()
+    before = (bar / "out_0000.vtp").read_bytes()
+    # The sequence's last frame cannot be written: a folder of its name appears in the middle.
+    (bar / "out_0001.vtp").unlink()
+    (bar / "out_0001.vtp").mkdir()
+    deform(bar, {"frames": [{"handles": {}}, {"handles": {}}]}, "--overwrite").is_refused("out_0001.vtp")
+    assert (bar / "out_0000.vtp").read_bytes() == before
+
+
 def test_tets_and_other_endings(bar):
     folder = bar
     tets = to_dataset((6 * np.eye(4, 3), np.array([[3, 0, 1, 2]])))

@@ -37,6 +37,12 @@ def test_tiles_handles_and_volumes(folder):
     assert size_of(folder / "all.png") == (600, 200)
 
 
+def test_labels(folder):
+    folder.off("bar.off", shapes.bar())
+    folder.run("render", "bar.off", "bar.off", "--labels", "before,after", "--size", "300x200", "-o", "l.png").is_good()
+    folder.run("render", "bar.off", "--labels", "a,b", "-o", "m.png").is_refused("--labels", "2 labels for 1 tile")
+
+
 def test_without_a_display_or_xvfb_it_names_the_package(folder):
     """VTK would end the process: the program must not let it come to that."""
     folder.off("sphere.off", shapes.sphere(8, 4))

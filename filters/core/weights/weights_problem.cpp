@@ -118,6 +118,11 @@ Status make_weights_problem(const Domain& domain, const std::vector<Index>& regi
     return status;
   }
   status.warnings = problem.mesh.warnings;
+  const std::string slow_blas = SparseSolver::blas_warning();
+  if (!slow_blas.empty())
+  {
+    status.warnings.push_back(slow_blas);
+  }
   status.warnings.insert(status.warnings.end(), problem.constraints.warnings.begin(),
     problem.constraints.warnings.end());
 

@@ -1,17 +1,13 @@
-// Hang a wall from every boundary edge straight down to infinity. Surface and walls are closed, so
-// their winding number is the signed count of crossings on a ray straight up, and that ray meets
-// the surface only: walls are upright and the ray misses them for all points but those right below
-// an edge. What is left is the walls' own share, one angle per boundary edge:
-//
-//     w(p) = crossings(p) - 1/(2 pi) sum of m atan2(a x b, u_a u_b + a.b)
-//
-// a and b relative to p, products in the plane across the ray, u_a = |a| - a_z, m the edge's net
-// multiplicity. With u instead of the textbook's |a||b| + a.b - a_z|b| - b_z|a| nothing cancels
-// where the ray passes close to the edge.
+// A ray straight up meets a closed surface as often from below as from above, up to the times the
+// surface winds around the ray's origin: triangles that it leaves through count 1, those that it
+// enters through count -1.
 //
 // Rays through edges and vertices are decided as if the point were moved by (e, e^2), e
-// infinitesimal, in the plane: exact signs of three points in the plane, and the walls' angles take
-// the same side. So there are no cracks and no second tries.
+// infinitesimal, in the plane across the ray: exact signs of three points in the plane. So there
+// are no cracks and no second tries.
+//
+// Along a row of points the place of a crossing need not be known exactly: away from it all points
+// are clearly above or below, and the few near it are asked one by one.
 #include "inside/signed_crossings.h"
 
 #include "base/exact.h"
@@ -41,27 +37,77 @@ int crosses_right(const Vec3& a, const Vec3& b, const Vec3& p)
   return side < 0 ? -1 : 0;
 }
 
-/// The vertex of a wall as seen from the point: in the plane, and |a| - a_z.
-struct Corner
+/// A triangle by its sorted corners; `turn` tells even from odd orders.
+struct SortedCorners
 {
-  double x, y, u;
+  std::array<Index, 3> ids;
+  int turn;
+  Index triangle;
 };
 
-Corner corner_of(const Vec3& a)
+SortedCorners sorted_corners(const Triangles& triangles, Index t)
 {
-  const double plane = a.x() * a.x() + a.y() * a.y();
-  if (plane == 0.0 && a.z() > 0.0)
+  SortedCorners corners{ { triangles(t, 0), triangles(t, 1), triangles(t, 2) }, 1, t };
+  for (const auto& [i, k] : { std::pair{ 0, 1 }, std::pair{ 1, 2 }, std::pair{ 0, 1 } })
   {
-    // Right above the point: what is left of the infinitesimal shift, whose size does not matter.
-    return { -1.0, 0.0, 0.0 };
+    if (corners.ids[i] > corners.ids[k])
+    {
+      std::swap(corners.ids[i], corners.ids[k]);
+      corners.turn = -corners.turn;
+    }
   }
-  const double length = std::sqrt(plane + a.z() * a.z());
-  return { a.x(), a.y(), a.z() > 0.0 ? plane / (length + a.z()) : length - a.z() };
+  return corners;
+}
+
+/// Triangles and caps without the pairs that are each other turned over.
+std::vector<std::array<Index, 3>> without_opposites(
+  const Triangles& triangles, const Triangles& caps)
+{
+  std::vector<SortedCorners> of_caps;
+  for (Index t = 0; t < caps.rows(); ++t)
+  {
+    of_caps.push_back(sorted_corners(caps, t));
+  }
+  std::sort(of_caps.begin(), of_caps.end(),
+    [](const SortedCorners& x, const SortedCorners& y)
+    { return x.ids != y.ids ? x.ids < y.ids : x.triangle < y.triangle; });
+  std::vector<char> gone(of_caps.size(), 0);
+  std::vector<std::array<Index, 3>> kept;
+  kept.reserve(static_cast<std::size_t>(triangles.rows() + caps.rows()));
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    bool cancelled = false;
+    if (!of_caps.empty())
+    {
+      const SortedCorners own = sorted_corners(triangles, t);
+      auto cap = std::lower_bound(of_caps.begin(), of_caps.end(), own.ids,
+        [](const SortedCorners& x, const std::array<Index, 3>& ids) { return x.ids < ids; });
+      for (; cap != of_caps.end() && cap->ids == own.ids && !cancelled; ++cap)
+      {
+        char& is_gone = gone[static_cast<std::size_t>(cap - of_caps.begin())];
+        cancelled = !is_gone && cap->turn != own.turn;
+        is_gone = is_gone || cancelled;
+      }
+    }
+    if (!cancelled)
+    {
+      kept.push_back({ triangles(t, 0), triangles(t, 1), triangles(t, 2) });
+    }
+  }
+  for (std::size_t i = 0; i < of_caps.size(); ++i)
+  {
+    if (!gone[i])
+    {
+      const Index t = of_caps[i].triangle;
+      kept.push_back({ caps(t, 0), caps(t, 1), caps(t, 2) });
+    }
+  }
+  return kept;
 }
 } // namespace
 
-bool SignedCrossings::build(const Points& points, const Triangles& triangles,
-  const std::vector<Edge>& edges, double tolerance, ExecutionContext& context)
+bool SignedCrossings::build(const Points& points, const Triangles& triangles, const Triangles& caps,
+  double tolerance, ExecutionContext& context)
 {
   this->tolerance_ = tolerance;
   const Box box = bounding_box(points, triangles);
@@ -69,36 +115,26 @@ bool SignedCrossings::build(const Points& points, const Triangles& triangles,
   int shortest = 0;
   box.size().minCoeff(&shortest);
   this->axes_ = { (shortest + 1) % 3, (shortest + 2) % 3, shortest };
-  const auto turned = [&](const Vec3& p)
-  { return Vec3(p[this->axes_[0]], p[this->axes_[1]], p[this->axes_[2]]); };
 
   this->points_.resize(static_cast<std::size_t>(points.rows()));
   for (Index v = 0; v < points.rows(); ++v)
   {
-    this->points_[v] = turned(points.row(v));
+    this->points_[v] = this->turned(points.row(v));
   }
-  this->faces_.resize(static_cast<std::size_t>(triangles.rows()));
+  const std::vector<std::array<Index, 3>> corners = without_opposites(triangles, caps);
+  this->faces_.resize(corners.size());
   const Vec3 rim = Vec3::Constant(tolerance);
-  for (Index t = 0; t < triangles.rows(); ++t)
+  for (std::size_t t = 0; t < corners.size(); ++t)
   {
     Face& face = this->faces_[t];
-    face.a = static_cast<Id>(triangles(t, 0));
-    face.b = static_cast<Id>(triangles(t, 1));
-    face.c = static_cast<Id>(triangles(t, 2));
+    face.a = static_cast<Id>(corners[t][0]);
+    face.b = static_cast<Id>(corners[t][1]);
+    face.c = static_cast<Id>(corners[t][2]);
     const Vec3& a = this->points_[face.a];
     const Vec3& b = this->points_[face.b];
     const Vec3& c = this->points_[face.c];
     face.lower = a.cwiseMin(b).cwiseMin(c) - rim;
     face.upper = a.cwiseMax(b).cwiseMax(c) + rim;
-  }
-  this->rims_.clear();
-  for (const Edge& edge : edges)
-  {
-    if (edge.net_direction != 0)
-    {
-      this->rims_.push_back(
-        { this->points_[edge.a], this->points_[edge.b], static_cast<double>(edge.net_direction) });
-    }
   }
   if (context.cancelled())
   {
@@ -106,8 +142,8 @@ bool SignedCrossings::build(const Points& points, const Triangles& triangles,
   }
 
   Box turned_box;
-  turned_box.lower = turned(box.lower) - rim;
-  turned_box.upper = turned(box.upper) + rim;
+  turned_box.lower = this->turned(box.lower) - rim;
+  turned_box.upper = this->turned(box.upper) + rim;
   this->choose_cells(turned_box);
 
   // Two passes over the triangles: count, then fill.
@@ -135,7 +171,7 @@ bool SignedCrossings::build(const Points& points, const Triangles& triangles,
           const Index cell = y * this->cells_[0] + x;
           if (fill)
           {
-            this->members_[this->first_[cell]++] = static_cast<Id>(t);
+            this->members_[static_cast<std::size_t>(this->first_[cell]++)] = static_cast<Id>(t);
           }
           else
           {
@@ -182,7 +218,8 @@ void SignedCrossings::choose_cells(const Box& box)
       entries += std::min(extent.x() + 1.0, static_cast<double>(this->cells_[0])) *
         std::min(extent.y() + 1.0, static_cast<double>(this->cells_[1]));
     }
-    if (entries <= 12.0 * count || this->cells_[0] * this->cells_[1] <= 4)
+    constexpr double most_entries = 2e9; // ids have 31 bits
+    if (entries <= std::min(12.0 * count, most_entries) || this->cells_[0] * this->cells_[1] <= 4)
     {
       return;
     }
@@ -196,33 +233,140 @@ Index SignedCrossings::cell_of(double x, int direction) const
   return std::clamp<Index>(static_cast<Index>(cell), 0, this->cells_[direction] - 1);
 }
 
-bool SignedCrossings::evaluate(const Vec3& original, double& winding_number) const
+bool SignedCrossings::cell_at(double x, double y, Index& begin, Index& end) const
 {
-  const Vec3 p(original[this->axes_[0]], original[this->axes_[1]], original[this->axes_[2]]);
-  int count = 0;
-  const double x = (p.x() - this->lower_.x()) / this->cell_size_;
-  const double y = (p.y() - this->lower_.y()) / this->cell_size_;
-  if (x >= 0.0 && y >= 0.0 && x <= static_cast<double>(this->cells_[0]) &&
-    y <= static_cast<double>(this->cells_[1]))
-  {
-    const Index cell = this->cell_of(p.y(), 1) * this->cells_[0] + this->cell_of(p.x(), 0);
-    for (Index i = this->first_[cell]; i < this->first_[cell + 1]; ++i)
-    {
-      const Face& face = this->faces_[this->members_[i]];
-      if (p.z() <= face.upper.z() && p.x() >= face.lower.x() && p.x() <= face.upper.x() &&
-        p.y() >= face.lower.y() && p.y() <= face.upper.y() && !this->crossing(face, p, count))
-      {
-        return false;
-      }
-    }
-  }
-  double turns = 0.0;
-  if (!this->walls(p, turns))
+  const double u = (x - this->lower_.x()) / this->cell_size_;
+  const double v = (y - this->lower_.y()) / this->cell_size_;
+  if (!(u >= 0.0 && v >= 0.0 && u <= static_cast<double>(this->cells_[0]) &&
+        v <= static_cast<double>(this->cells_[1])))
   {
     return false;
   }
-  winding_number = static_cast<double>(count) - turns;
+  const Index cell = this->cell_of(y, 1) * this->cells_[0] + this->cell_of(x, 0);
+  begin = this->first_[cell];
+  end = this->first_[cell + 1];
   return true;
+}
+
+bool SignedCrossings::evaluate(const Vec3& original, int& count) const
+{
+  const Vec3 p = this->turned(original);
+  count = 0;
+  Index begin = 0;
+  Index end = 0;
+  if (!this->cell_at(p.x(), p.y(), begin, end))
+  {
+    return true;
+  }
+  for (Index i = begin; i < end; ++i)
+  {
+    const Face& face = this->faces_[this->members_[i]];
+    if (p.z() <= face.upper.z() && p.x() >= face.lower.x() && p.x() <= face.upper.x() &&
+      p.y() >= face.lower.y() && p.y() <= face.upper.y() && !this->crossing(face, p, count))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+void SignedCrossings::evaluate_row(
+  const Vec3& original, const std::vector<double>& places, Row& row) const
+{
+  const std::size_t count = places.size();
+  row.counts.assign(count, 0);
+  row.touching.assign(count, 0);
+  row.any_touching = false;
+  const Vec3 p = this->turned(original);
+  Index begin = 0;
+  Index end = 0;
+  if (count == 0 || !this->cell_at(p.x(), p.y(), begin, end))
+  {
+    return;
+  }
+  bool met = false;
+  for (Index i = begin; i < end; ++i)
+  {
+    const Face& face = this->faces_[this->members_[i]];
+    if (places.front() <= face.upper.z() && p.x() >= face.lower.x() && p.x() <= face.upper.x() &&
+      p.y() >= face.lower.y() && p.y() <= face.upper.y())
+    {
+      this->cross_row(face, p, places, row);
+      met = true;
+    }
+  }
+  // So far each place holds what changes behind it.
+  for (std::size_t k = count; met && --k > 0;)
+  {
+    row.counts[k - 1] += row.counts[k];
+  }
+}
+
+/// Adds a face's crossings to the row: at the last point below it, for all before.
+void SignedCrossings::cross_row(
+  const Face& face, Vec3 p, const std::vector<double>& places, Row& row) const
+{
+  const Vec3& a = this->points_[face.a];
+  const Vec3& b = this->points_[face.b];
+  const Vec3& c = this->points_[face.c];
+  const int turn = crosses_right(a, b, p) + crosses_right(b, c, p) + crosses_right(c, a, p);
+  const Vec3 u = b - a;
+  const Vec3 v = c - a;
+  const double x = p.x() - a.x();
+  const double y = p.y() - a.y();
+  const double area = u.x() * v.y() - u.y() * v.x();
+  const double along_v = u.x() * y - u.y() * x;
+  const double along_u = x * v.y() - y * v.x();
+  const double size = (face.upper.x() - face.lower.x()) + (face.upper.y() - face.lower.y());
+  // Rounding of the areas, and how far beside the triangle in the plane a point may touch it.
+  const double blur = 4.0 * size * (0x1p-50 * size + this->tolerance_);
+  if (turn == 0)
+  {
+    const double sign = area < 0.0 ? -1.0 : 1.0;
+    const double least =
+      std::min({ sign * along_v, sign * along_u, sign * (area - along_u - along_v) });
+    if (least < -blur)
+    {
+      return;
+    }
+  }
+  // Where the line meets the triangle, and how far from there a point may be too near to tell.
+  double lower = face.lower.z();
+  double upper = face.upper.z();
+  if (std::abs(area) > 4.0 * blur)
+  {
+    const double height = upper - lower;
+    const double place = a.z() + (along_v * v.z() + along_u * u.z()) / area;
+    const double steep = (height + size) * (height + size) / std::abs(area);
+    const double slack =
+      4.0 * this->tolerance_ * (1.0 + steep) + height * 4.0 * blur / std::abs(area);
+    lower = std::max(lower, place - slack);
+    upper = std::min(upper, place + slack);
+  }
+  const auto near = std::lower_bound(places.begin(), places.end(), lower) - places.begin();
+  const auto past = std::upper_bound(places.begin() + near, places.end(), upper) - places.begin();
+  if (near > 0)
+  {
+    row.counts[near - 1] += turn;
+  }
+  for (auto k = near; k < past; ++k)
+  {
+    int count = 0;
+    p.z() = places[k];
+    if (!this->crossing(face, p, count))
+    {
+      row.touching[k] = 1;
+      row.any_touching = true;
+    }
+    else if (count != 0)
+    {
+      row.counts[k] += count;
+      if (k > 0)
+      {
+        row.counts[k - 1] -= count;
+      }
+    }
+  }
 }
 
 bool SignedCrossings::crossing(const Face& face, const Vec3& p, int& count) const
@@ -243,69 +387,10 @@ bool SignedCrossings::crossing(const Face& face, const Vec3& p, int& count) cons
   return true;
 }
 
-bool SignedCrossings::walls(const Vec3& p, double& turns) const
-{
-  double angles = 0.0;
-  double real = 1.0; // product of up to three complex numbers whose angles add up
-  double imaginary = 0.0;
-  int factors = 0;
-  for (const Rim& rim : this->rims_)
-  {
-    const Corner a = corner_of(rim.a - p);
-    const Corner b = corner_of(rim.b - p);
-    const double left = a.x * b.y;
-    const double right = a.y * b.x;
-    double cross = left - right;
-    const double level = a.x * b.x + a.y * b.y;
-    const double depth = a.u * b.u;
-    const double run = level + depth;
-    if (std::abs(cross) + std::abs(run) < 1e-4 * (std::abs(level) + depth))
-    {
-      return false; // next to the edge
-    }
-    if (run > 1.1 * std::abs(cross) && run > 1e-30 && std::abs(rim.multiplicity) == 1.0)
-    {
-      const double signed_cross = rim.multiplicity * cross;
-      const double product = real * run - imaginary * signed_cross;
-      imaginary = real * signed_cross + imaginary * run;
-      real = product;
-      if (++factors == 4)
-      {
-        angles += std::atan2(imaginary, real);
-        real = 1.0;
-        imaginary = 0.0;
-        factors = 0;
-      }
-      continue;
-    }
-    if (run <= 0.0 && std::abs(cross) <= 4e-16 * (std::abs(left) + std::abs(right)))
-    {
-      // Below the edge, or nearly: the side must be that of the crossings.
-      int side = orientation_2d(rim.a.x(), rim.a.y(), rim.b.x(), rim.b.y(), p.x(), p.y());
-      if (side == 0)
-      {
-        const double dy = rim.a.y() - rim.b.y();
-        const double dx = rim.b.x() - rim.a.x();
-        side = dy != 0.0 ? (dy > 0.0 ? 1 : -1) : (dx > 0.0) - (dx < 0.0);
-      }
-      if (side == 0)
-      {
-        continue; // an upright edge has no wall
-      }
-      cross = std::copysign(cross, side); // atan2 knows the sign of zero
-    }
-    angles += rim.multiplicity * std::atan2(cross, run);
-  }
-  constexpr double two_pi = 6.283185307179586477;
-  turns = (angles + std::atan2(imaginary, real)) / two_pi;
-  return true;
-}
-
 Index SignedCrossings::memory() const
 {
   return static_cast<Index>(this->points_.capacity() * sizeof(Vec3) +
-    this->faces_.capacity() * sizeof(Face) + this->rims_.capacity() * sizeof(Rim) +
-    this->first_.capacity() * sizeof(Index) + this->members_.capacity() * sizeof(Id));
+    this->faces_.capacity() * sizeof(Face) + this->first_.capacity() * sizeof(Id) + this->members_.capacity() * sizeof(Id));
 }
 
 } // namespace bindpose

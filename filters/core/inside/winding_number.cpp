@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "base/parallel_sort.h"
+#include "inside/boundary_caps.h"
 #include "inside/signed_crossings.h"
 #include "inside/solid_angle.h"
 #include "inside/winding_tree.h"
@@ -241,9 +242,13 @@ struct WindingNumber::Parts
   Triangles triangles;
   WindingTree tree;
   SignedCrossings crossings;
+  Triangles caps; ///< with them the surface is closed
 
   void choose(WindingMethod wanted, Index open_edges);
   double at(const Vec3& point, bool* on_surface) const;
+  double slowly_at(const Vec3& framed, bool* on_surface) const;
+  bool reaches(const SampleGrid& grid) const;
+  bool minus_caps(const Vec3& framed, double& winding_number) const;
 };
 
 WindingNumber::WindingNumber() : parts_(new Parts) {}
@@ -368,8 +373,9 @@ Status WindingNumber::build(
   if (done && parts.method == WindingMethod::crossings)
   {
     const ProgressRange range(context, 0.9, 1.0);
-    done =
-      parts.crossings.build(parts.points, parts.triangles, edges, parts.frame.tolerance, context);
+    parts.caps = boundary_caps(edges);
+    done = parts.crossings.build(
+      parts.points, parts.triangles, parts.caps, parts.frame.tolerance, context);
   }
   if (!done)
   {
@@ -392,7 +398,8 @@ WindingMethod WindingNumber::method() const
 Index WindingNumber::memory() const
 {
   return static_cast<Index>(sizeof(double)) * this->parts_->points.size() +
-    static_cast<Index>(sizeof(Index)) * this->parts_->triangles.size() +
+    static_cast<Index>(sizeof(Index)) *
+    (this->parts_->triangles.size() + this->parts_->caps.size()) +
     this->parts_->tree.memory() + this->parts_->crossings.memory();
 }
 
@@ -411,14 +418,36 @@ double WindingNumber::Parts::at(const Vec3& point, bool* on_surface) const
   {
     return 0.0;
   }
+  int count = 0;
+  if (this->method == WindingMethod::crossings && this->crossings.evaluate(p, count))
+  {
+    double winding_number = count;
+    if (this->minus_caps(p, winding_number))
+    {
+      return winding_number;
+    }
+  }
+  return this->slowly_at(p, on_surface);
+}
+
+/// Takes off what the caps wind; false when the point touches one.
+bool WindingNumber::Parts::minus_caps(const Vec3& p, double& winding_number) const
+{
+  if (this->caps.rows() == 0)
+  {
+    return true;
+  }
+  bool touches = false;
+  winding_number -= direct_sum(this->points, this->caps, p, this->frame.tolerance, &touches);
+  return !touches;
+}
+
+/// What is right everywhere.
+double WindingNumber::Parts::slowly_at(const Vec3& p, bool* on_surface) const
+{
   if (this->method == WindingMethod::direct)
   {
     return direct_sum(this->points, this->triangles, p, this->frame.tolerance, on_surface);
-  }
-  double winding_number = 0.0;
-  if (this->method == WindingMethod::crossings && this->crossings.evaluate(p, winding_number))
-  {
-    return winding_number;
   }
   SolidAngleSum sum(p, this->frame.tolerance);
   this->tree.add_to(sum, p);
@@ -489,6 +518,11 @@ Status WindingNumber::evaluate(PointsView queries, ExecutionContext& context, do
 
 Status WindingNumber::evaluate(const SampleGrid& grid, ExecutionContext& context, double* out) const
 {
+  if (this->parts_->status.ok() && this->parts_->method == WindingMethod::crossings &&
+    this->parts_->reaches(grid))
+  {
+    return this->evaluate_rows(grid, context, out);
+  }
   const Index nx = grid.size(0);
   const Index ny = grid.size(1);
   return this->evaluate_points(
@@ -499,6 +533,101 @@ Status WindingNumber::evaluate(const SampleGrid& grid, ExecutionContext& context
         grid.extent[0] + i % nx, grid.extent[2] + i / nx % ny, grid.extent[4] + i / nx / ny);
     },
     context, out);
+}
+
+/// All samples are where the crossings can tell.
+bool WindingNumber::Parts::reaches(const SampleGrid& grid) const
+{
+  const auto corner = [&](int end)
+  { return this->frame(grid.point(grid.extent[end], grid.extent[2 + end], grid.extent[4 + end])); };
+  return this->triangles.rows() > 0 && grid.count() > 0 && corner(0).allFinite() &&
+    corner(1).allFinite() && corner(0).cwiseAbs().maxCoeff() < far_away &&
+    corner(1).cwiseAbs().maxCoeff() < far_away;
+}
+
+/// Rows along the rays; several beside each other, so that what is written is whole cache lines.
+Status WindingNumber::evaluate_rows(
+  const SampleGrid& grid, ExecutionContext& context, double* out) const
+{
+  const Parts& parts = *this->parts_;
+  const int along = parts.crossings.axis();
+  const int across = along == 0 ? 1 : 0; // the faster of the other two axes
+  const int other = 3 - along - across;
+  const std::array<Index, 3> stride{ 1, grid.size(0), grid.size(0) * grid.size(1) };
+  const Index length = grid.size(along);
+  constexpr Index rows_at_once = 8;
+  const Index bundle = along == 0 ? 1 : rows_at_once;
+  const Index bundles = (grid.size(across) + bundle - 1) / bundle;
+
+  // Places along the rays, not decreasing; `first` and `step` lead back to the samples.
+  const bool forwards = grid.spacing[along] >= 0.0;
+  std::vector<double> places(static_cast<std::size_t>(length));
+  for (Index i = 0; i < length; ++i)
+  {
+    std::array<Index, 3> sample{ grid.extent[0], grid.extent[2], grid.extent[4] };
+    sample[along] += forwards ? i : length - 1 - i;
+    places[i] = parts.frame(grid.point(sample[0], sample[1], sample[2]))[along];
+  }
+  const Index step = forwards ? stride[along] : -stride[along];
+  const Index first = forwards ? 0 : (length - 1) * stride[along];
+
+  std::atomic<Index> touching{ 0 };
+  const Index cost = length * bundle * (1 + parts.caps.rows());
+  const Index block = std::max<Index>(1, 200000 / std::max<Index>(1, cost));
+  const bool done = parallel_for(context, bundles * grid.size(other), block,
+    [&](Index begin, Index end)
+    {
+      Index touching_here = 0;
+      std::array<SignedCrossings::Row, rows_at_once> rows;
+      for (Index task = begin; task < end; ++task)
+      {
+        const Index row_first = task % bundles * bundle;
+        const Index count = std::min(bundle, grid.size(across) - row_first);
+        const Index plane = task / bundles;
+        std::array<Vec3, rows_at_once> starts;
+        bool any_touching = false;
+        for (Index r = 0; r < count; ++r)
+        {
+          std::array<Index, 3> sample{ grid.extent[0], grid.extent[2], grid.extent[4] };
+          sample[across] += row_first + r;
+          sample[other] += plane;
+          starts[r] = parts.frame(grid.point(sample[0], sample[1], sample[2]));
+          parts.crossings.evaluate_row(starts[r], places, rows[r]);
+          any_touching = any_touching || rows[r].any_touching;
+        }
+        double* to = out + row_first * stride[across] + plane * stride[other] + first;
+        const bool whole = !any_touching && parts.caps.rows() == 0;
+        for (Index i = 0; i < length; ++i, to += step)
+        {
+          for (Index r = 0; r < count; ++r)
+          {
+            double& value = to[r * stride[across]];
+            value = rows[r].counts[i];
+            if (whole)
+            {
+              continue;
+            }
+            Vec3 p = starts[r];
+            p[along] = places[i];
+            if (rows[r].touching[i] || !parts.minus_caps(p, value))
+            {
+              bool on_surface = false;
+              value = parts.slowly_at(p, &on_surface);
+              touching_here += on_surface;
+            }
+          }
+        }
+      }
+      touching += touching_here;
+    });
+  if (!done)
+  {
+    return Status::cancelled();
+  }
+  Status status;
+  status.report.set("counts.queries", grid.count());
+  status.report.set("counts.on_surface", touching.load());
+  return status;
 }
 
 Status WindingNumber::evaluate(

@@ -116,6 +116,8 @@ private:
   Status evaluate_points(
     Index count, const PointAt& point_at, ExecutionContext& context, double* out) const;
 
+  Status evaluate_rows(const SampleGrid& grid, ExecutionContext& context, double* out) const;
+
   std::unique_ptr<Parts> parts_;
 };
 

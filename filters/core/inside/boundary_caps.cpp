@@ -42,8 +42,8 @@ Triangles boundary_caps(const std::vector<Edge>& edges)
   {
     for (Index k = 0; k < std::abs(edge.net_direction); ++k)
     {
-      open.push_back(edge.net_direction > 0 ? DirectedEdge{ edge.a, edge.b }
-                                            : DirectedEdge{ edge.b, edge.a });
+      open.push_back(
+        edge.net_direction > 0 ? DirectedEdge{ edge.a, edge.b } : DirectedEdge{ edge.b, edge.a });
     }
   }
   std::stable_sort(open.begin(), open.end(),

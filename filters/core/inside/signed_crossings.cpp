@@ -14,6 +14,7 @@
 #include "inside/solid_angle.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace bindpose
 {
@@ -123,31 +124,26 @@ bool SignedCrossings::build(const Points& points, const Triangles& triangles, co
   }
   const std::vector<std::array<Index, 3>> corners = without_opposites(triangles, caps);
   this->faces_.resize(corners.size());
-  const Vec3 rim = Vec3::Constant(tolerance);
   for (std::size_t t = 0; t < corners.size(); ++t)
   {
-    Face& face = this->faces_[t];
-    face.a = static_cast<Id>(corners[t][0]);
-    face.b = static_cast<Id>(corners[t][1]);
-    face.c = static_cast<Id>(corners[t][2]);
-    const Vec3& a = this->points_[face.a];
-    const Vec3& b = this->points_[face.b];
-    const Vec3& c = this->points_[face.c];
-    face.lower = a.cwiseMin(b).cwiseMin(c) - rim;
-    face.upper = a.cwiseMax(b).cwiseMax(c) + rim;
+    this->faces_[t] = { static_cast<Id>(corners[t][0]), static_cast<Id>(corners[t][1]),
+      static_cast<Id>(corners[t][2]) };
   }
   if (context.cancelled())
   {
     return false;
   }
 
+  const Vec3 rim = Vec3::Constant(tolerance);
   Box turned_box;
   turned_box.lower = this->turned(box.lower) - rim;
   turned_box.upper = this->turned(box.upper) + rim;
   this->choose_cells(turned_box);
 
   // Two passes over the triangles: count, then fill.
-  this->first_.assign(static_cast<std::size_t>(this->cells_[0] * this->cells_[1] + 1), 0);
+  const auto cells = static_cast<std::size_t>(this->cells_[0] * this->cells_[1]);
+  std::vector<Id> filled(cells, 0);
+  this->first_.assign(cells + 1, 0);
   for (const bool fill : { false, true })
   {
     for (std::size_t t = 0; t < this->faces_.size(); ++t)
@@ -161,37 +157,42 @@ bool SignedCrossings::build(const Points& points, const Triangles& triangles, co
         context.progress(
           0.5 * (fill + static_cast<double>(t) / static_cast<double>(this->faces_.size())));
       }
-      const Face& face = this->faces_[t];
-      const Index x_end = this->cell_of(face.upper.x(), 0);
-      const Index y_end = this->cell_of(face.upper.y(), 1);
-      for (Index y = this->cell_of(face.lower.y(), 1); y <= y_end; ++y)
+      Vec3 lower, upper;
+      this->bounds(this->faces_[t], lower, upper);
+      const Index x_end = this->cell_of(upper.x(), 0);
+      const Index y_end = this->cell_of(upper.y(), 1);
+      for (Index y = this->cell_of(lower.y(), 1); y <= y_end; ++y)
       {
-        for (Index x = this->cell_of(face.lower.x(), 0); x <= x_end; ++x)
+        for (Index x = this->cell_of(lower.x(), 0); x <= x_end; ++x)
         {
           const Index cell = y * this->cells_[0] + x;
+          const Id place = filled[cell]++;
           if (fill)
           {
-            this->members_[static_cast<std::size_t>(this->first_[cell]++)] = static_cast<Id>(t);
-          }
-          else
-          {
-            this->first_[cell + 1] += 1;
+            Block& block = this->blocks_[this->first_[cell] + place / 8];
+            const Id lane = place % 8;
+            block.x_lower[lane] = this->step_of(lower.x(), x, 0);
+            block.x_upper[lane] = this->step_of(upper.x(), x, 0);
+            block.y_lower[lane] = this->step_of(lower.y(), y, 1);
+            block.y_upper[lane] = this->step_of(upper.y(), y, 1);
+            block.z_upper[lane] = this->height_of(upper.z());
+            block.face[lane] = static_cast<Id>(t);
           }
         }
       }
     }
     if (!fill)
     {
-      for (std::size_t cell = 1; cell < this->first_.size(); ++cell)
+      for (std::size_t cell = 0; cell < cells; ++cell)
       {
-        this->first_[cell] += this->first_[cell - 1];
+        this->first_[cell + 1] = this->first_[cell] + (filled[cell] + 7) / 8;
+        filled[cell] = 0;
       }
-      this->members_.resize(static_cast<std::size_t>(this->first_.back()));
+      Block nothing = {}; // bounds no place is within
+      nothing.x_lower = ~nothing.x_lower;
+      this->blocks_.assign(static_cast<std::size_t>(this->first_.back()), nothing);
     }
   }
-  // Filling moved each cell's begin to its end.
-  std::copy_backward(this->first_.begin(), this->first_.end() - 1, this->first_.end());
-  this->first_[0] = 0;
   return true;
 }
 
@@ -200,10 +201,11 @@ void SignedCrossings::choose_cells(const Box& box)
   const Vec3 size = box.size();
   const double count = static_cast<double>(std::max<std::size_t>(1, this->faces_.size()));
   this->lower_ = box.lower;
-  // About two cells a triangle; coarser until large triangles do not fill too many of them.
+  this->height_ = std::max(size.z(), 1e-300);
+  // About one cell a triangle; coarser until large triangles do not fill too many of them.
   const double longest = std::max({ size.x(), size.y(), 1e-300 });
-  const double area = std::max(size.x() * size.y(), longest * longest / (2.0 * count));
-  this->cell_size_ = std::sqrt(area / (2.0 * count));
+  const double area = std::max(size.x() * size.y(), longest * longest / count);
+  this->cell_size_ = std::sqrt(area / count);
   for (;;)
   {
     for (int k = 0; k < 2; ++k)
@@ -214,12 +216,14 @@ void SignedCrossings::choose_cells(const Box& box)
     double entries = 0.0;
     for (const Face& face : this->faces_)
     {
-      const Vec3 extent = (face.upper - face.lower) / this->cell_size_;
+      Vec3 lower, upper;
+      this->bounds(face, lower, upper);
+      const Vec3 extent = (upper - lower) / this->cell_size_;
       entries += std::min(extent.x() + 1.0, static_cast<double>(this->cells_[0])) *
         std::min(extent.y() + 1.0, static_cast<double>(this->cells_[1]));
     }
     constexpr double most_entries = 2e9; // ids have 31 bits
-    if (entries <= std::min(12.0 * count, most_entries) || this->cells_[0] * this->cells_[1] <= 4)
+    if (entries <= std::min(8.0 * count, most_entries) || this->cells_[0] * this->cells_[1] <= 4)
     {
       return;
     }
@@ -233,41 +237,132 @@ Index SignedCrossings::cell_of(double x, int direction) const
   return std::clamp<Index>(static_cast<Index>(cell), 0, this->cells_[direction] - 1);
 }
 
-bool SignedCrossings::cell_at(double x, double y, Index& begin, Index& end) const
+void SignedCrossings::bounds(const Face& face, Vec3& lower, Vec3& upper) const
 {
-  const double u = (x - this->lower_.x()) / this->cell_size_;
-  const double v = (y - this->lower_.y()) / this->cell_size_;
+  const Vec3& a = this->points_[face.a];
+  const Vec3& b = this->points_[face.b];
+  const Vec3& c = this->points_[face.c];
+  const Vec3 rim = Vec3::Constant(this->tolerance_);
+  lower = a.cwiseMin(b).cwiseMin(c) - rim;
+  upper = a.cwiseMax(b).cwiseMax(c) + rim;
+}
+
+std::uint8_t SignedCrossings::step_of(double x, Index cell, int direction) const
+{
+  const double steps =
+    256.0 * ((x - this->lower_[direction]) / this->cell_size_ - static_cast<double>(cell));
+  return static_cast<std::uint8_t>(std::clamp(steps, 0.0, 255.0));
+}
+
+std::uint8_t SignedCrossings::height_of(double z) const
+{
+  return static_cast<std::uint8_t>(
+    std::clamp(256.0 * ((z - this->lower_.z()) / this->height_), 0.0, 255.0));
+}
+
+bool SignedCrossings::place_of(const Vec3& p, Place& place) const
+{
+  const double u = (p.x() - this->lower_.x()) / this->cell_size_;
+  const double v = (p.y() - this->lower_.y()) / this->cell_size_;
   if (!(u >= 0.0 && v >= 0.0 && u <= static_cast<double>(this->cells_[0]) &&
         v <= static_cast<double>(this->cells_[1])))
   {
     return false;
   }
-  const Index cell = this->cell_of(y, 1) * this->cells_[0] + this->cell_of(x, 0);
-  begin = this->first_[cell];
-  end = this->first_[cell + 1];
+  const Index x = this->cell_of(p.x(), 0);
+  const Index y = this->cell_of(p.y(), 1);
+  const Index cell = y * this->cells_[0] + x;
+  place.x = this->step_of(p.x(), x, 0);
+  place.y = this->step_of(p.y(), y, 1);
+  place.z = this->height_of(p.z());
+  place.begin = this->first_[cell];
+  place.end = this->first_[cell + 1];
   return true;
 }
 
-bool SignedCrossings::evaluate(const Vec3& original, int& count) const
+template <typename Look>
+void SignedCrossings::each_face(const Place& place, const Look& look) const
 {
-  const Vec3 p = this->turned(original);
-  count = 0;
-  Index begin = 0;
-  Index end = 0;
-  if (!this->cell_at(p.x(), p.y(), begin, end))
+  for (Id i = place.begin; i < place.end; ++i)
   {
-    return true;
-  }
-  for (Index i = begin; i < end; ++i)
-  {
-    const Face& face = this->faces_[this->members_[i]];
-    if (p.z() <= face.upper.z() && p.x() >= face.lower.x() && p.x() <= face.upper.x() &&
-      p.y() >= face.lower.y() && p.y() <= face.upper.y() && !this->crossing(face, p, count))
+    const Block& block = this->blocks_[i];
+    const auto within = (block.x_lower <= place.x) & (block.x_upper >= place.x) &
+      (block.y_lower <= place.y) & (block.y_upper >= place.y) & (block.z_upper >= place.z);
+    std::uint64_t mask = 0;
+    std::memcpy(&mask, &within, sizeof(mask));
+    if (mask == 0)
     {
-      return false;
+      continue;
+    }
+    for (int lane = 0; lane < 8; ++lane)
+    {
+      if (within[lane])
+      {
+        look(block.face[lane]);
+      }
     }
   }
-  return true;
+}
+
+void SignedCrossings::evaluate(
+  const Vec3* originals, Index number, int* counts, bool* touching) const
+{
+  // Step by step for all points: each step asks for the memory that the next one needs.
+  struct Candidate
+  {
+    Id point, face;
+  };
+  constexpr std::size_t most_candidates = 8 * most_at_once;
+  std::array<Vec3, most_at_once> points;
+  std::array<Place, most_at_once> places;
+  for (Index i = 0; i < number; ++i)
+  {
+    counts[i] = 0;
+    touching[i] = false;
+    points[i] = this->turned(originals[i]);
+    Place& place = places[i];
+    if (!this->place_of(points[i], place))
+    {
+      place.begin = place.end = 0;
+    }
+    for (Id block = place.begin; block < place.end; ++block)
+    {
+      __builtin_prefetch(&this->blocks_[block]);
+    }
+  }
+  std::array<Candidate, most_candidates> candidates;
+  std::size_t waiting = 0;
+  const auto look = [&]()
+  {
+    for (std::size_t k = 0; k < waiting; ++k)
+    {
+      const Face& face = this->faces_[candidates[k].face];
+      __builtin_prefetch(&this->points_[face.a]);
+      __builtin_prefetch(&this->points_[face.b]);
+      __builtin_prefetch(&this->points_[face.c]);
+    }
+    for (std::size_t k = 0; k < waiting; ++k)
+    {
+      const Id i = candidates[k].point;
+      touching[i] =
+        !this->crossing(this->faces_[candidates[k].face], points[i], counts[i]) || touching[i];
+    }
+    waiting = 0;
+  };
+  for (Index i = 0; i < number; ++i)
+  {
+    this->each_face(places[i],
+      [&](Id id)
+      {
+        __builtin_prefetch(&this->faces_[id]);
+        candidates[waiting++] = { static_cast<Id>(i), id };
+        if (waiting == most_candidates)
+        {
+          look();
+        }
+      });
+  }
+  look();
 }
 
 void SignedCrossings::evaluate_row(
@@ -277,24 +372,24 @@ void SignedCrossings::evaluate_row(
   row.counts.assign(count, 0);
   row.touching.assign(count, 0);
   row.any_touching = false;
-  const Vec3 p = this->turned(original);
-  Index begin = 0;
-  Index end = 0;
-  if (count == 0 || !this->cell_at(p.x(), p.y(), begin, end))
+  if (count == 0)
+  {
+    return;
+  }
+  Vec3 p = this->turned(original);
+  p.z() = places.front();
+  Place place;
+  if (!this->place_of(p, place))
   {
     return;
   }
   bool met = false;
-  for (Index i = begin; i < end; ++i)
-  {
-    const Face& face = this->faces_[this->members_[i]];
-    if (places.front() <= face.upper.z() && p.x() >= face.lower.x() && p.x() <= face.upper.x() &&
-      p.y() >= face.lower.y() && p.y() <= face.upper.y())
+  this->each_face(place,
+    [&](Id id)
     {
-      this->cross_row(face, p, places, row);
+      this->cross_row(this->faces_[id], p, places, row);
       met = true;
-    }
-  }
+    });
   // So far each place holds what changes behind it.
   for (std::size_t k = count; met && --k > 0;)
   {
@@ -317,7 +412,9 @@ void SignedCrossings::cross_row(
   const double area = u.x() * v.y() - u.y() * v.x();
   const double along_v = u.x() * y - u.y() * x;
   const double along_u = x * v.y() - y * v.x();
-  const double size = (face.upper.x() - face.lower.x()) + (face.upper.y() - face.lower.y());
+  Vec3 face_lower, face_upper;
+  this->bounds(face, face_lower, face_upper);
+  const double size = (face_upper.x() - face_lower.x()) + (face_upper.y() - face_lower.y());
   // Rounding of the areas, and how far beside the triangle in the plane a point may touch it.
   const double blur = 4.0 * size * (0x1p-50 * size + this->tolerance_);
   if (turn == 0)
@@ -331,8 +428,8 @@ void SignedCrossings::cross_row(
     }
   }
   // Where the line meets the triangle, and how far from there a point may be too near to tell.
-  double lower = face.lower.z();
-  double upper = face.upper.z();
+  double lower = face_lower.z();
+  double upper = face_upper.z();
   if (std::abs(area) > 4.0 * blur)
   {
     const double height = upper - lower;
@@ -374,13 +471,34 @@ bool SignedCrossings::crossing(const Face& face, const Vec3& p, int& count) cons
   const Vec3& a = this->points_[face.a];
   const Vec3& b = this->points_[face.b];
   const Vec3& c = this->points_[face.c];
-  const bool below = p.z() < face.lower.z();
-  if (!below && touches_triangle(p, a, b, c, this->tolerance_))
+  const double bottom = std::min({ a.z(), b.z(), c.z() }) - this->tolerance_;
+  const double top = std::max({ a.z(), b.z(), c.z() }) + this->tolerance_;
+  if (p.z() > top)
   {
-    return false;
+    return true;
+  }
+  double side = 0.0;
+  const bool below = p.z() < bottom;
+  if (!below)
+  {
+    const Vec3 u = b - a;
+    const Vec3 v = c - a;
+    const Vec3 r = a - p;
+    const Vec3 normal = u.cross(v);
+    side = normal.dot(r);
+    const double reach = u.lpNorm<1>() * v.lpNorm<1>();
+    if (std::abs(side) <= reach * (2.0 * this->tolerance_ + 1e-14 * r.lpNorm<1>()))
+    {
+      // Near the plane of the triangle.
+      if (touches_triangle(p, a, b, c, this->tolerance_))
+      {
+        return false;
+      }
+      side = side_of_triangle(p, a, b, c);
+    }
   }
   const int turn = crosses_right(a, b, p) + crosses_right(b, c, p) + crosses_right(c, a, p);
-  if (turn != 0 && (below || side_of_triangle(p, a, b, c) * turn > 0.0))
+  if (turn != 0 && (below || side * turn > 0.0))
   {
     count += turn;
   }
@@ -390,7 +508,8 @@ bool SignedCrossings::crossing(const Face& face, const Vec3& p, int& count) cons
 Index SignedCrossings::memory() const
 {
   return static_cast<Index>(this->points_.capacity() * sizeof(Vec3) +
-    this->faces_.capacity() * sizeof(Face) + this->first_.capacity() * sizeof(Id) + this->members_.capacity() * sizeof(Id));
+    this->faces_.capacity() * sizeof(Face) + this->first_.capacity() * sizeof(Id) +
+    this->blocks_.capacity() * sizeof(Block));
 }
 
 } // namespace bindpose

@@ -245,7 +245,7 @@ struct WindingNumber::Parts
   Triangles caps; ///< with them the surface is closed
 
   void choose(WindingMethod wanted, Index open_edges);
-  double at(const Vec3& point, bool* on_surface) const;
+  void at(const Vec3* queries, Index number, double* winding_numbers, bool* on_surface) const;
   double slowly_at(const Vec3& framed, bool* on_surface) const;
   bool reaches(const SampleGrid& grid) const;
   bool minus_caps(const Vec3& framed, double& winding_number) const;
@@ -403,31 +403,44 @@ Index WindingNumber::memory() const
     this->parts_->tree.memory() + this->parts_->crossings.memory();
 }
 
-double WindingNumber::Parts::at(const Vec3& point, bool* on_surface) const
+/// At up to SignedCrossings::most_at_once points.
+void WindingNumber::Parts::at(
+  const Vec3* queries, Index number, double* winding_numbers, bool* on_surface) const
 {
-  if (on_surface)
+  std::array<Vec3, SignedCrossings::most_at_once> framed{};
+  std::array<Index, SignedCrossings::most_at_once> asked; // those with an answer to look for
+  Index count = 0;
+  for (Index i = 0; i < number; ++i)
   {
-    *on_surface = false;
-  }
-  if (!point.allFinite())
-  {
-    return std::numeric_limits<double>::quiet_NaN();
-  }
-  const Vec3 p = this->frame(point);
-  if (this->triangles.rows() == 0 || !(p.cwiseAbs().maxCoeff() < far_away))
-  {
-    return 0.0;
-  }
-  int count = 0;
-  if (this->method == WindingMethod::crossings && this->crossings.evaluate(p, count))
-  {
-    double winding_number = count;
-    if (this->minus_caps(p, winding_number))
+    on_surface[i] = false;
+    const Vec3 p = this->frame(queries[i]);
+    winding_numbers[i] = queries[i].allFinite() ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+    if (this->triangles.rows() > 0 && p.cwiseAbs().maxCoeff() < far_away)
     {
-      return winding_number;
+      framed[count] = p;
+      asked[count++] = i;
     }
   }
-  return this->slowly_at(p, on_surface);
+  if (this->method != WindingMethod::crossings)
+  {
+    for (Index k = 0; k < count; ++k)
+    {
+      winding_numbers[asked[k]] = this->slowly_at(framed[k], &on_surface[asked[k]]);
+    }
+    return;
+  }
+  std::array<int, SignedCrossings::most_at_once> crossed;
+  std::array<bool, SignedCrossings::most_at_once> touching;
+  this->crossings.evaluate(framed.data(), count, crossed.data(), touching.data());
+  for (Index k = 0; k < count; ++k)
+  {
+    double& winding_number = winding_numbers[asked[k]];
+    winding_number = crossed[k];
+    if (touching[k] || !this->minus_caps(framed[k], winding_number))
+    {
+      winding_number = this->slowly_at(framed[k], &on_surface[asked[k]]);
+    }
+  }
 }
 
 /// Takes off what the caps wind; false when the point touches one.
@@ -460,7 +473,14 @@ double WindingNumber::Parts::slowly_at(const Vec3& p, bool* on_surface) const
 
 double WindingNumber::evaluate_at(const Vec3& point, bool* on_surface) const
 {
-  return this->parts_->at(point, on_surface);
+  double winding_number = 0.0;
+  bool touches = false;
+  this->parts_->at(&point, 1, &winding_number, &touches);
+  if (on_surface)
+  {
+    *on_surface = touches;
+  }
+  return winding_number;
 }
 
 template <typename PointAt>
@@ -474,22 +494,33 @@ Status WindingNumber::evaluate_points(
   }
   // A few milliseconds a block, so that a cancel is seen in time; a tree may be no more than a
   // list.
-  const Index cost = parts.method == WindingMethod::crossings
-    ? 100 + static_cast<Index>(parts.status.report.number("counts.open_edges", 0.0))
-    : parts.triangles.rows();
-  const Index block = std::clamp<Index>(200000 / std::max<Index>(1, cost), 1, 1024);
+  const double nanoseconds = parts.method == WindingMethod::crossings
+    ? 100.0 + 20.0 * static_cast<double>(parts.caps.rows())
+    : 20.0 * static_cast<double>(parts.triangles.rows());
+  constexpr double block_nanoseconds = 5e6;
+  const auto block =
+    static_cast<Index>(std::clamp(block_nanoseconds / std::max(1.0, nanoseconds), 1.0, 32768.0));
   std::atomic<Index> touching{ 0 };
   std::atomic<Index> not_finite{ 0 };
   const bool done = parallel_for(context, count, block,
     [&](Index begin, Index end)
     {
       Index touching_here = 0, not_finite_here = 0;
-      for (Index i = begin; i < end; ++i)
+      std::array<Vec3, SignedCrossings::most_at_once> points;
+      std::array<bool, SignedCrossings::most_at_once> on_surface;
+      for (Index first = begin; first < end; first += SignedCrossings::most_at_once)
       {
-        bool on_surface = false;
-        out[i] = parts.at(point_at(i), &on_surface);
-        touching_here += on_surface;
-        not_finite_here += std::isnan(out[i]);
+        const Index number = std::min(SignedCrossings::most_at_once, end - first);
+        for (Index i = 0; i < number; ++i)
+        {
+          points[i] = point_at(first + i);
+        }
+        parts.at(points.data(), number, out + first, on_surface.data());
+        for (Index i = 0; i < number; ++i)
+        {
+          touching_here += on_surface[i];
+          not_finite_here += std::isnan(out[first + i]);
+        }
       }
       touching += touching_here;
       not_finite += not_finite_here;

@@ -407,7 +407,8 @@ Index WindingNumber::memory() const
 void WindingNumber::Parts::at(
   const Vec3* queries, Index number, double* winding_numbers, bool* on_surface) const
 {
-  std::array<Vec3, SignedCrossings::most_at_once> framed{};
+  std::array<Vec3, SignedCrossings::most_at_once> framed;
+  framed.fill(Vec3::Zero());
   std::array<Index, SignedCrossings::most_at_once> asked; // those with an answer to look for
   Index count = 0;
   for (Index i = 0; i < number; ++i)

@@ -1,0 +1,1708 @@
+// Sources: the triangles are sorted into a binary tree whose leaves are blocks of up to eight. The
+// multipoles of a block are integrals over its triangles of the derivative of the regular harmonics
+// along the normal, polynomials, by a quadrature that is exact for them; those of a node are its
+// children's, moved.
+//
+// Cells: an octree over a cube around everything. From the top down, each cell goes through the
+// nodes that its parent could not settle. A node far enough away enters the cell's local expansion
+// (of harmonic polynomials), a large one is replaced by its children, what remains is left to the
+// cell's children. A cell is not split further when few blocks remain or when it is small against
+// them: these are its near list. Only leaves are kept.
+//
+// "Far enough": the terms left out are estimated by the powers of the node's multipoles (Dehnen
+// 2014, equation 15) and must stay below a threshold. Built, the field is compared with the plain
+// sum on a sample; where the error is above half the tolerance, the cells are built again with a
+// lower threshold.
+//
+// Evaluation: the polar axis of the harmonics is x. With y and z given, a local expansion becomes a
+// polynomial in x: its coefficient j is made of F(k, l) times the harmonic (k - j, l) in the plane
+// x = 0, divided by j!, as d/dx lowers the degree of a harmonic by one.
+#include "inside/dipole_field.h"
+
+#include "base/parallel.h"
+#include "inside/solid_harmonics.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr int finest_level = 20;
+constexpr int largest_order = 14;
+/// A near list of this many blocks is no reason to split a cell.
+constexpr Index few_blocks = 2;
+constexpr double four_pi = 12.566370614359172954;
+
+struct Tuning
+{
+  double tolerance;
+  int order;
+  double finest_cell;
+};
+/// Measured: see examples/benchmarks/dipole_field.cpp.
+constexpr Tuning tunings[] = { { 1e-2, 3, 1.0 }, { 1e-3, 4, 1.0 }, { 1e-4, 6, 1.0 },
+  { 1e-5, 8, 1.0 }, { 1e-6, 10, 1.0 }, { 0.0, 12, 1.0 } };
+/// From this tolerance on floats do.
+constexpr double float_tolerance = 9e-5;
+
+/// Harmonics have x as their polar axis.
+constexpr int axes[3] = { 1, 2, 0 };
+
+/// Gauss-Legendre nodes and weights on [0, 1].
+void gauss_legendre(int count, std::vector<double>& nodes, std::vector<double>& weights)
+{
+  nodes.resize(static_cast<std::size_t>(count));
+  weights.resize(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i)
+  {
+    double x = std::cos(0.25 * four_pi * (i + 0.75) / (count + 0.5));
+    double slope = 1.0;
+    for (int round = 0; round < 50; ++round)
+    {
+      double p0 = 1.0, p1 = x;
+      for (int n = 2; n <= count; ++n)
+      {
+        const double p2 = ((2.0 * n - 1.0) * x * p1 - (n - 1.0) * p0) / n;
+        p0 = p1;
+        p1 = p2;
+      }
+      slope = count * (x * p1 - p0) / (x * x - 1.0);
+      const double step = p1 / slope;
+      x -= step;
+      if (std::abs(step) < 1e-15)
+      {
+        break;
+      }
+    }
+    nodes[i] = 0.5 * (1.0 + x);
+    weights[i] = 1.0 / ((1.0 - x * x) * slope * slope);
+  }
+}
+
+/// (n - m)! (n + m)! of the power of a multipole, m and -m together.
+double power_weight(int n, int m)
+{
+  return (m ? 2.0 : 1.0) * std::tgamma(n - m + 1.0) * std::tgamma(n + m + 1.0);
+}
+
+/// Constants of the harmonics in the plane of x = 0: harmonic (l + 2q, l) is
+/// plane[l][q] zeta^l |zeta|^2q; and 1 / j!.
+struct PlaneConstants
+{
+  double plane[largest_order + 1][largest_order / 2 + 1];
+  double factorial[largest_order + 1];
+};
+constexpr PlaneConstants make_plane_constants()
+{
+  PlaneConstants c{};
+  double diagonal = 1.0, factorial = 1.0;
+  for (int l = 0; l <= largest_order; ++l)
+  {
+    if (l > 0)
+    {
+      diagonal /= 2.0 * l;
+      factorial /= l;
+    }
+    c.factorial[l] = factorial;
+    c.plane[l][0] = diagonal;
+    for (int q = 1; l + 2 * q <= largest_order; ++q)
+    {
+      c.plane[l][q] = -c.plane[l][q - 1] / ((l + 2 * q) * (l + 2 * q) - l * l);
+    }
+  }
+  return c;
+}
+constexpr PlaneConstants plane_constants = make_plane_constants();
+
+/// Coefficients of a leaf: for l = 0 … Order the real parts of (k, l), k = l … Order, then (l > 0)
+/// the imaginary ones. polynomial[j], j = 0 … Order.
+template <int Order, typename Real>
+void contract_local(const Real* local, double y, double z, double* polynomial)
+{
+  const double rho2 = y * y + z * z;
+  double c[Order + 1] = {};
+  double re = 1.0, im = 0.0; // zeta^l
+#pragma GCC unroll 16
+  for (int l = 0; l <= Order; ++l)
+  {
+    double r = re, i = im;
+#pragma GCC unroll 8
+    for (int q = 0; l + 2 * q <= Order; ++q)
+    {
+      const double a = r * plane_constants.plane[l][q];
+      const double b = i * plane_constants.plane[l][q];
+      const Real* real = local + 2 * q;
+      const Real* imaginary = real + (Order - l + 1);
+#pragma GCC unroll 16
+      for (int j = 0; j <= Order - l - 2 * q; ++j)
+      {
+        c[j] += l > 0 ? a * real[j] + b * imaginary[j] : a * real[j];
+      }
+      r *= rho2;
+      i *= rho2;
+    }
+    local += (l > 0 ? 2 : 1) * (Order - l + 1);
+    const double next = re * y - im * z;
+    im = re * z + im * y;
+    re = next;
+  }
+  for (int j = 0; j <= Order; ++j)
+  {
+    polynomial[j] = c[j] * plane_constants.factorial[j];
+  }
+}
+
+template <typename Real>
+void contract_local(int order, const Real* local, double y, double z, double* polynomial)
+{
+  switch (order)
+  {
+    case 2:
+      return contract_local<2>(local, y, z, polynomial);
+    case 3:
+      return contract_local<3>(local, y, z, polynomial);
+    case 4:
+      return contract_local<4>(local, y, z, polynomial);
+    case 5:
+      return contract_local<5>(local, y, z, polynomial);
+    case 6:
+      return contract_local<6>(local, y, z, polynomial);
+    case 7:
+      return contract_local<7>(local, y, z, polynomial);
+    case 8:
+      return contract_local<8>(local, y, z, polynomial);
+    case 9:
+      return contract_local<9>(local, y, z, polynomial);
+    case 10:
+      return contract_local<10>(local, y, z, polynomial);
+    case 11:
+      return contract_local<11>(local, y, z, polynomial);
+    case 12:
+      return contract_local<12>(local, y, z, polynomial);
+    case 13:
+      return contract_local<13>(local, y, z, polynomial);
+    default:
+      return contract_local<14>(local, y, z, polynomial);
+  }
+}
+
+double polynomial_at(const double* polynomial, int order, double x)
+{
+  double value = polynomial[order];
+  for (int j = order - 1; j >= 0; --j)
+  {
+    value = value * x + polynomial[j];
+  }
+  return value;
+}
+} // namespace
+
+// ---- Building ----------------------------------------------------------------------------------
+
+struct DipoleField::Build
+{
+  struct Node
+  {
+    Vec3 center = Vec3::Zero();
+    double radius = 0.0;
+    Id first = 0, count = 0; ///< triangles in order while building, then blocks
+    Id left = -1, right = -1;
+    double block_radius = 0.0; ///< mean over its blocks
+    int height = 0;
+  };
+  /// What one top cell gives.
+  struct Subtree
+  {
+    std::vector<Id> cells{ 0 };
+    std::vector<double> locals;
+    std::vector<Id> run_count; ///< of each leaf
+    std::vector<BlockRun> runs;
+  };
+  /// A cell's place among those of its level.
+  struct CellPlace
+  {
+    int level;
+    Id at[3];
+  };
+  /// Room for one thread's work.
+  struct Scratch
+  {
+    Harmonics at, in, out, children;
+    std::array<Id, harmonic_lanes> batch{};
+    int batched = 0;
+    std::vector<Id> stack;
+    std::vector<std::vector<Id>> lists; ///< a level's unsettled nodes
+    std::vector<std::vector<double>> locals; ///< a level's eight children
+  };
+
+  Build(DipoleField& owner, ExecutionContext& run, const Options& wanted)
+    : field(owner), context(run), options(wanted)
+  {
+  }
+
+  bool run(const Triangles& triangles, const std::vector<int>& multiplicities);
+  void take(const Triangles& triangles, const std::vector<int>& multiplicities);
+  void cut_long_triangles();
+  bool sort_triangles();
+  Id split(Id first, Id count);
+  template <typename Real>
+  void fill_blocks(std::vector<TriangleBlock<Real>>& blocks);
+  bool find_multipoles();
+  void block_multipole(const Node& node, Scratch& scratch, double* moments) const;
+  void find_bounds();
+  double error(Id node, double distance, double radius) const;
+  void place_cells();
+  void find_outer();
+  void add_outer(Id node);
+  bool fill_cells();
+  void fill(Subtree& tree, const CellPlace& cell, std::size_t entry, const double* local,
+    const std::vector<Id>& inherited, Scratch& scratch, std::size_t depth);
+  bool settle(Id node, const Vec3& center, double radius, Scratch& scratch) const;
+  void flush(const Vec3& center, Scratch& scratch) const;
+  void emit_leaf(Subtree& tree, std::size_t entry, double half, const std::vector<double>& local,
+    const std::vector<Id>& near) const;
+  double measure() const;
+
+  Vec3 point(Id id) const
+  {
+    const Id own = static_cast<Id>(this->field.points_->rows());
+    return id < own ? Vec3(this->field.points_->row(id)) : this->field.extra_points_[id - own];
+  }
+  Corners corners(Id t) const
+  {
+    return { this->point(this->ids[t][0]), this->point(this->ids[t][1]),
+      this->point(this->ids[t][2]) };
+  }
+  int count_of_moments() const { return 2 * harmonic_count(this->field.order_ + 1); }
+
+  DipoleField& field;
+  ExecutionContext& context;
+  const Options& options;
+  double finest_cell = 1.0;
+  std::vector<std::array<Id, 3>> ids;
+  std::vector<int> multiplicities_of;
+  std::vector<int> weights; // of the lanes of blocks
+  std::vector<Vec3> centers; // of triangles
+  std::vector<Id> order;
+  std::vector<Node> nodes;
+  std::vector<double> moments; // real and imaginary of each (n, m), node after node
+  std::vector<double> bounds; // order + 2 numbers a node
+  std::vector<double> nodes_of_quadrature, weights_of_quadrature;
+};
+
+void DipoleField::Build::take(const Triangles& triangles, const std::vector<int>& multiplicities)
+{
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    if (multiplicities[t] != 0)
+    {
+      this->ids.push_back({ static_cast<Id>(triangles(t, 0)), static_cast<Id>(triangles(t, 1)),
+        static_cast<Id>(triangles(t, 2)) });
+      this->multiplicities_of.push_back(multiplicities[t]);
+    }
+  }
+}
+
+// A long sliver among short ones is near to everything along it. Its halves are not; together they
+// are the same triangle. Cut are the longest ones first, while that makes few more of them.
+void DipoleField::Build::cut_long_triangles()
+{
+  const std::size_t count = this->ids.size();
+  if (count <= 64)
+  {
+    return;
+  }
+  double area = 0.0;
+  std::vector<double> longest(count);
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    const Corners c = this->corners(static_cast<Id>(t));
+    area += 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).norm();
+    longest[t] = std::sqrt(std::max(
+      { (c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(), (c[0] - c[2]).squaredNorm() }));
+  }
+  const double shortest_cut = 2.5 * std::sqrt(2.0 * area / static_cast<double>(count));
+  const std::size_t most = std::max(2 * count, std::min<std::size_t>(8 * count, 8192));
+  // A triangle of length x gives about x / limit pieces.
+  double limit = *std::max_element(longest.begin(), longest.end());
+  const auto pieces = [&](double length)
+  {
+    double sum = 0.0;
+    for (const double x : longest)
+    {
+      sum += x > length ? std::ceil(1.5 * x / length) : 1.0;
+    }
+    return sum;
+  };
+  while (limit * 0.75 > shortest_cut && pieces(limit * 0.75) <= static_cast<double>(most))
+  {
+    limit *= 0.75;
+  }
+  const auto own = static_cast<Id>(this->field.points_->rows());
+  for (std::size_t t = 0; t < this->ids.size() && this->ids.size() < most; ++t)
+  {
+    for (bool again = true; again;)
+    {
+      const Corners c = this->corners(static_cast<Id>(t));
+      int edge = 0;
+      double length = 0.0;
+      for (int k = 0; k < 3; ++k)
+      {
+        const double x = (c[(k + 1) % 3] - c[k]).norm();
+        if (x > length)
+        {
+          length = x;
+          edge = k;
+        }
+      }
+      again = length > limit && this->ids.size() < most;
+      if (again)
+      {
+        const Id middle = own + static_cast<Id>(this->field.extra_points_.size());
+        this->field.extra_points_.push_back(0.5 * (c[edge] + c[(edge + 1) % 3]));
+        std::array<Id, 3> other = this->ids[t];
+        this->ids[t][(edge + 1) % 3] = middle;
+        other[edge] = middle;
+        this->ids.push_back(other);
+        this->multiplicities_of.push_back(this->multiplicities_of[t]);
+      }
+    }
+  }
+}
+
+bool DipoleField::Build::sort_triangles()
+{
+  const auto count = static_cast<Id>(this->ids.size());
+  this->centers.resize(this->ids.size());
+  for (Id t = 0; t < count; ++t)
+  {
+    const Corners c = this->corners(t);
+    this->centers[t] = (c[0] + c[1] + c[2]) / 3.0;
+  }
+  this->order.resize(this->ids.size());
+  std::iota(this->order.begin(), this->order.end(), 0);
+  this->split(0, count);
+  if (this->context.cancelled())
+  {
+    return false;
+  }
+  // Leaves become blocks, from left to right.
+  Id blocks = 0;
+  for (std::size_t n = 0; n < this->nodes.size(); ++n)
+  {
+    Node& node = this->nodes[n];
+    if (node.left < 0)
+    {
+      for (int i = 0; i < triangle_lanes; ++i)
+      {
+        // Empty lanes repeat the last triangle with weight 0.
+        const Id t = this->order[node.first + std::min<Id>(i, node.count - 1)];
+        this->field.ids_.push_back(this->ids[t]);
+        this->weights.push_back(i < node.count ? this->multiplicities_of[t] : 0);
+      }
+      node.first = blocks++;
+      node.count = 1;
+      node.block_radius = node.radius;
+    }
+  }
+  for (std::size_t n = this->nodes.size(); n-- > 0;)
+  {
+    Node& node = this->nodes[n];
+    if (node.left >= 0)
+    {
+      const Node& a = this->nodes[node.left];
+      const Node& b = this->nodes[node.right];
+      node.first = a.first;
+      node.count = a.count + b.count;
+      node.height = 1 + std::max(a.height, b.height);
+      node.block_radius =
+        (a.block_radius * a.count + b.block_radius * b.count) / static_cast<double>(node.count);
+      node.radius = std::min(node.radius,
+        std::max(
+          (a.center - node.center).norm() + a.radius, (b.center - node.center).norm() + b.radius));
+    }
+  }
+  return true;
+}
+
+// Where to cut is where the groups are small: the sum over both sides of (blocks x squared size).
+std::int32_t DipoleField::Build::split(Id first, Id count)
+{
+  Box box, box_of_centers;
+  const auto add_triangle = [&](Box& to, Id t)
+  {
+    for (const Vec3& corner : this->corners(t))
+    {
+      to.add(corner);
+    }
+  };
+  for (Id i = first; i < first + count; ++i)
+  {
+    add_triangle(box, this->order[i]);
+    box_of_centers.add(this->centers[this->order[i]]);
+  }
+  const auto id = static_cast<Id>(this->nodes.size());
+  Node node;
+  node.first = first;
+  node.count = count;
+  node.center = box.center();
+  double radius2 = 0.0;
+  for (Id i = first; i < first + count; ++i)
+  {
+    for (const Vec3& corner : this->corners(this->order[i]))
+    {
+      radius2 = std::max(radius2, (corner - node.center).squaredNorm());
+    }
+  }
+  node.radius = std::sqrt(radius2);
+  this->nodes.push_back(node);
+  int axis = 0;
+  const double longest = box_of_centers.size().maxCoeff(&axis);
+  if (count == 1 || !(longest > 0.0) || (count > 4096 && this->context.cancelled()))
+  {
+    if (count <= triangle_lanes || this->context.cancelled())
+    {
+      return id;
+    }
+  }
+  const auto blocks = [](Id triangles)
+  { return static_cast<double>((triangles + triangle_lanes - 1) / triangle_lanes); };
+  const auto begin = this->order.begin() + first;
+  const auto before = [&](Id s, Id t)
+  {
+    const double x = this->centers[s][axis];
+    const double y = this->centers[t][axis];
+    return x != y ? x < y : s < t;
+  };
+  double best = 1e300;
+  Id cut = 0;
+  if (count <= 64)
+  {
+    std::sort(begin, begin + count, before);
+    double below[64];
+    Box side;
+    for (Id i = 0; i + 1 < count; ++i)
+    {
+      add_triangle(side, begin[i]);
+      below[i + 1] = side.size().squaredNorm();
+    }
+    side = Box();
+    for (Id i = count - 1; i > 0; --i)
+    {
+      add_triangle(side, begin[i]);
+      const double cost = below[i] * blocks(i) + side.size().squaredNorm() * blocks(count - i);
+      if (cost < best)
+      {
+        best = cost;
+        cut = i;
+      }
+    }
+    if (count <= triangle_lanes && !(best < 0.2 * box.size().squaredNorm()))
+    {
+      return id;
+    }
+  }
+  else
+  {
+    constexpr int bins = 32;
+    std::array<Box, bins> boxes;
+    std::array<Id, bins> counts{};
+    const auto bin_of = [&](Id t)
+    {
+      const double x = (this->centers[t][axis] - box_of_centers.lower[axis]) / longest;
+      return longest > 0.0 ? std::clamp(static_cast<int>(x * bins), 0, bins - 1) : 0;
+    };
+    for (Id i = 0; i < count; ++i)
+    {
+      const int bin = bin_of(begin[i]);
+      add_triangle(boxes[bin], begin[i]);
+      counts[bin] += 1;
+    }
+    const auto join = [](Box& to, const Box& other)
+    {
+      if (!other.empty())
+      {
+        to.add(other.lower);
+        to.add(other.upper);
+      }
+    };
+    std::array<double, bins> above{};
+    Box side;
+    for (int b = bins - 1; b > 0; --b)
+    {
+      join(side, boxes[b]);
+      above[b] = side.size().squaredNorm();
+    }
+    side = Box();
+    Id so_far = 0;
+    for (int b = 1; b < bins; ++b)
+    {
+      join(side, boxes[b - 1]);
+      so_far += counts[b - 1];
+      const double cost =
+        side.size().squaredNorm() * blocks(so_far) + above[b] * blocks(count - so_far);
+      if (so_far > 0 && so_far < count && cost < best)
+      {
+        best = cost;
+        cut = so_far;
+      }
+    }
+    cut = cut ? cut : count / 2;
+    // Whole blocks to the left where that moves few triangles.
+    const Id whole = cut / triangle_lanes * triangle_lanes;
+    cut = whole > 0 && count > 512 ? whole : cut;
+    std::nth_element(begin, begin + cut, begin + count, before);
+  }
+  const Id left = this->split(first, cut);
+  const Id right = this->split(first + cut, count - cut);
+  this->nodes[id].left = left;
+  this->nodes[id].right = right;
+  return id;
+}
+
+template <typename Real>
+void DipoleField::Build::fill_blocks(std::vector<TriangleBlock<Real>>& blocks)
+{
+  blocks.resize(this->field.ids_.size() / triangle_lanes);
+  for (const Node& node : this->nodes)
+  {
+    if (node.left >= 0)
+    {
+      continue;
+    }
+    TriangleBlock<Real>& block = blocks[node.first];
+    // Not below what cubes of lengths in floats can hold.
+    block.inverse_size = 1.0 / std::max(node.radius, 1e-6);
+    for (int k = 0; k < 3; ++k)
+    {
+      block.center[k] = node.center[k];
+    }
+    for (int i = 0; i < triangle_lanes; ++i)
+    {
+      const Index slot = static_cast<Index>(node.first) * triangle_lanes + i;
+      const Corners c = this->field.corners(slot);
+      for (int k = 0; k < 9; ++k)
+      {
+        block.corner[k][i] =
+          static_cast<Real>((c[k / 3][k % 3] - node.center[k % 3]) * block.inverse_size);
+      }
+      block.weight[i] = static_cast<Real>(this->weights[slot]);
+    }
+  }
+}
+
+void DipoleField::Build::block_multipole(const Node& node, Scratch& scratch, double* out) const
+{
+  const int degree = this->field.order_; // of the integrands
+  HarmonicLanes corner[3][3], normal[3], at[3];
+  for (int i = 0; i < harmonic_lanes; ++i)
+  {
+    const Index slot = static_cast<Index>(node.first) * triangle_lanes + i;
+    const Corners c = this->field.corners(slot);
+    const Vec3 area = (c[1] - c[0]).cross(c[2] - c[0]) * (-this->weights[slot] / four_pi);
+    for (int k = 0; k < 3; ++k)
+    {
+      for (int v = 0; v < 3; ++v)
+      {
+        corner[v][k].lane[i] = c[v][axes[k]] - node.center[axes[k]];
+      }
+      normal[k].lane[i] = area[axes[k]];
+    }
+  }
+  Harmonics& sum = scratch.in;
+  sum.clear(degree);
+  const std::size_t points = this->nodes_of_quadrature.size();
+  for (std::size_t a = 0; a < points; ++a)
+  {
+    for (std::size_t b = 0; b < points; ++b)
+    {
+      const double u = this->nodes_of_quadrature[a];
+      const double v = this->nodes_of_quadrature[b] * (1.0 - u);
+      const double w = this->weights_of_quadrature[a] * this->weights_of_quadrature[b] * (1.0 - u);
+      for (int k = 0; k < 3; ++k)
+      {
+        for (int i = 0; i < harmonic_lanes; ++i)
+        {
+          at[k].lane[i] = corner[0][k].lane[i] * (1.0 - u - v) + corner[1][k].lane[i] * u +
+            corner[2][k].lane[i] * v;
+        }
+      }
+      regular_harmonics(degree, at, scratch.at);
+      for (int c = 0; c < harmonic_count(degree); ++c)
+      {
+        for (int i = 0; i < harmonic_lanes; ++i)
+        {
+          sum.real[c].lane[i] += w * scratch.at.real[c].lane[i];
+          sum.imaginary[c].lane[i] += w * scratch.at.imaginary[c].lane[i];
+        }
+      }
+    }
+  }
+  scratch.out.clear(degree + 1);
+  regular_derivative(degree + 1, sum, normal, scratch.out);
+  for (int c = 0; c < harmonic_count(degree + 1); ++c)
+  {
+    double re = 0.0, im = 0.0;
+    for (int i = 0; i < harmonic_lanes; ++i)
+    {
+      re += scratch.out.real[c].lane[i];
+      im += scratch.out.imaginary[c].lane[i];
+    }
+    out[2 * c] = re;
+    out[2 * c + 1] = im;
+  }
+}
+
+bool DipoleField::Build::find_multipoles()
+{
+  const int stride = this->count_of_moments();
+  const int degree = this->field.order_ + 1;
+  this->moments.assign(this->nodes.size() * static_cast<std::size_t>(stride), 0.0);
+  gauss_legendre(
+    (this->field.order_ + 3) / 2, this->nodes_of_quadrature, this->weights_of_quadrature);
+  // Nodes by height, so that children are done before their parents.
+  int height = 0;
+  for (const Node& node : this->nodes)
+  {
+    height = std::max(height, node.height);
+  }
+  std::vector<std::vector<Id>> levels(static_cast<std::size_t>(height) + 1);
+  for (std::size_t n = 0; n < this->nodes.size(); ++n)
+  {
+    levels[this->nodes[n].height].push_back(static_cast<Id>(n));
+  }
+  if (!parallel_for(this->context, static_cast<Index>(levels[0].size()), 256,
+        [&](Index begin, Index end)
+        {
+          const auto scratch = std::make_unique<Scratch>();
+          for (Index i = begin; i < end; ++i)
+          {
+            const Id n = levels[0][i];
+            this->block_multipole(
+              this->nodes[n], *scratch, &this->moments[std::size_t(n) * stride]);
+          }
+        }))
+  {
+    return false;
+  }
+  for (int h = 1; h <= height; ++h)
+  {
+    // Four parents, eight children at a time.
+    const std::vector<Id>& level = levels[h];
+    if (!parallel_for(this->context, static_cast<Index>(level.size()), 128,
+          [&](Index begin, Index end)
+          {
+            const auto scratch = std::make_unique<Scratch>();
+            for (Index i = begin; i < end; i += harmonic_lanes / 2)
+            {
+              HarmonicLanes shift[3];
+              for (int lane = 0; lane < harmonic_lanes; ++lane)
+              {
+                const Node& parent = this->nodes[level[std::min(end - 1, i + lane / 2)]];
+                const Id child = lane % 2 ? parent.right : parent.left;
+                const Vec3 by = this->nodes[child].center - parent.center;
+                for (int k = 0; k < 3; ++k)
+                {
+                  shift[k].lane[lane] = by[axes[k]];
+                }
+                const double* from = &this->moments[std::size_t(child) * stride];
+                for (int c = 0; 2 * c < stride; ++c)
+                {
+                  scratch->in.real[c].lane[lane] = from[2 * c];
+                  scratch->in.imaginary[c].lane[lane] = from[2 * c + 1];
+                }
+              }
+              regular_harmonics(degree, shift, scratch->at);
+              scratch->out.clear(degree);
+              multipole_to_multipole(degree, scratch->at, scratch->in, scratch->out);
+              for (int p = 0; p < harmonic_lanes / 2 && i + p < end; ++p)
+              {
+                double* to = &this->moments[std::size_t(level[i + p]) * stride];
+                for (int c = 0; 2 * c < stride; ++c)
+                {
+                  to[2 * c] =
+                    scratch->out.real[c].lane[2 * p] + scratch->out.real[c].lane[2 * p + 1];
+                  to[2 * c + 1] = scratch->out.imaginary[c].lane[2 * p] +
+                    scratch->out.imaginary[c].lane[2 * p + 1];
+                }
+              }
+            }
+          }))
+    {
+      return false;
+    }
+  }
+  this->find_bounds();
+  return true;
+}
+
+// Of the first total degree left out, N = order + 2: binomial(N, n) x power of degree n, for
+// n = 1 … N. The last power is not known; it is about the one before times the node's
+// radius, or the one before that (of a symmetric group every other power is 0).
+void DipoleField::Build::find_bounds()
+{
+  const int top = this->field.order_ + 2;
+  const int stride = this->count_of_moments();
+  this->bounds.resize(this->nodes.size() * static_cast<std::size_t>(top));
+  std::vector<double> weight(static_cast<std::size_t>(harmonic_count(top)));
+  for (int n = 1; n < top; ++n)
+  {
+    for (int m = 0; m <= n; ++m)
+    {
+      weight[harmonic_index(n, m)] = power_weight(n, m);
+    }
+  }
+  for (std::size_t i = 0; i < this->nodes.size(); ++i)
+  {
+    const double* moment = &this->moments[i * stride];
+    double* bound = &this->bounds[i * top];
+    double binomial = 1.0, power = 0.0, before = 0.0;
+    for (int n = 1; n <= top; ++n)
+    {
+      binomial *= static_cast<double>(top - n + 1) / n;
+      if (n < top)
+      {
+        before = power;
+        power = 0.0;
+        for (int m = 0; m <= n; ++m)
+        {
+          const int c = harmonic_index(n, m);
+          power +=
+            weight[c] * (moment[2 * c] * moment[2 * c] + moment[2 * c + 1] * moment[2 * c + 1]);
+        }
+        power = std::sqrt(power);
+      }
+      else
+      {
+        const double radius = this->nodes[i].radius;
+        power = std::max(power * radius, before * radius * radius);
+      }
+      bound[n - 1] = binomial * power;
+    }
+  }
+}
+
+/// Estimate for a cell of that radius whose centre has that distance from the node's.
+double DipoleField::Build::error(Id node, double distance, double radius) const
+{
+  const int top = this->field.order_ + 2;
+  const double* bound = &this->bounds[std::size_t(node) * top];
+  const double inverse = 1.0 / distance;
+  // sum over n of bound(n) radius^(top - n) / distance^(top + 1)
+  double sum = 0.0, power = inverse;
+  for (int n = 0; n < top; ++n)
+  {
+    sum = sum * radius + bound[n];
+    power *= inverse;
+  }
+  // The degrees after the first one, as a geometric series.
+  return sum * power / (1.0 - (radius + this->nodes[node].radius) * inverse);
+}
+
+void DipoleField::Build::place_cells()
+{
+  Box box = this->options.region;
+  for (const Node& node : this->nodes)
+  {
+    if (node.left < 0)
+    {
+      for (int i = 0; i < triangle_lanes; ++i)
+      {
+        for (const Vec3& corner :
+          this->field.corners(static_cast<Index>(node.first) * triangle_lanes + i))
+        {
+          box.add(corner);
+        }
+      }
+    }
+  }
+  const double size = box.size().maxCoeff();
+  this->field.size_ = size > 0.0 ? 1.25 * size : 1.0;
+  this->field.lower_ = box.center() - Vec3::Constant(0.5 * this->field.size_);
+  this->field.top_level_ = this->ids.size() < 1000 ? 2 : 3;
+}
+
+// Nodes as points outside the cells may need them: none below one that is always far enough.
+void DipoleField::Build::find_outer()
+{
+  this->field.outer_.clear();
+  this->field.outer_moments_.clear();
+  this->add_outer(0);
+  this->field.outer_.shrink_to_fit();
+  this->field.outer_moments_.shrink_to_fit();
+}
+
+void DipoleField::Build::add_outer(Id id)
+{
+  const Node& node = this->nodes[id];
+  const int top = this->field.order_ + 2;
+  const int stride = this->count_of_moments();
+  const auto place = this->field.outer_.size();
+  OuterNode outer;
+  outer.center = node.center;
+  outer.radius = node.radius;
+  outer.bound = this->bounds[std::size_t(id) * top + top - 1];
+  outer.blocks = { node.first, node.count };
+  this->field.outer_.push_back(outer);
+  const double* moment = &this->moments[std::size_t(id) * stride];
+  this->field.outer_moments_.insert(this->field.outer_moments_.end(), moment, moment + stride);
+  // How near such a point can come.
+  const Vec3 inside = node.center - this->field.lower_;
+  const double distance =
+    std::min(inside.minCoeff(), this->field.size_ - inside.maxCoeff()) * (1.0 - 1e-9);
+  const bool always =
+    distance > 1.05 * node.radius && this->error(id, distance, 0.0) <= 0.5 * this->field.threshold_;
+  this->field.outer_[place].leaf = always || node.left < 0;
+  if (!this->field.outer_[place].leaf)
+  {
+    this->add_outer(node.left);
+    this->add_outer(node.right);
+  }
+  this->field.outer_[place].skip = static_cast<Id>(this->field.outer_.size());
+}
+
+/// True when the node is settled: entered into the cell's expansion, or replaced by its children.
+bool DipoleField::Build::settle(Id id, const Vec3& center, double radius, Scratch& scratch) const
+{
+  const Node& node = this->nodes[id];
+  const double distance = (center - node.center).norm();
+  if (distance > 1.05 * (radius + node.radius) &&
+    this->error(id, distance, radius) <= this->field.threshold_)
+  {
+    scratch.batch[scratch.batched++] = id;
+    if (scratch.batched == harmonic_lanes)
+    {
+      this->flush(center, scratch);
+    }
+    return true;
+  }
+  return false;
+}
+
+void DipoleField::Build::flush(const Vec3& center, Scratch& scratch) const
+{
+  if (scratch.batched == 0)
+  {
+    return;
+  }
+  const int degree = this->field.order_ + 1;
+  const int stride = this->count_of_moments();
+  HarmonicLanes from[3];
+  for (int lane = 0; lane < harmonic_lanes; ++lane)
+  {
+    const bool used = lane < scratch.batched;
+    const Id id = scratch.batch[used ? lane : 0];
+    const Vec3 by = center - this->nodes[id].center;
+    const double* moment = &this->moments[std::size_t(id) * stride];
+    for (int k = 0; k < 3; ++k)
+    {
+      from[k].lane[lane] = by[axes[k]];
+    }
+    for (int c = 1; 2 * c < stride; ++c)
+    {
+      scratch.in.real[c].lane[lane] = used ? moment[2 * c] : 0.0;
+      scratch.in.imaginary[c].lane[lane] = used ? moment[2 * c + 1] : 0.0;
+    }
+  }
+  irregular_harmonics(degree, from, scratch.at);
+  multipole_to_local(degree, scratch.at, scratch.in, scratch.out);
+  scratch.batched = 0;
+}
+
+void DipoleField::Build::fill(Subtree& tree, const CellPlace& cell, std::size_t entry,
+  const double* inherited_local, const std::vector<Id>& inherited, Scratch& scratch,
+  std::size_t depth)
+{
+  const int degree = this->field.order_;
+  const int count = harmonic_count(degree);
+  const double size = std::ldexp(this->field.size_, -cell.level);
+  const double radius = 0.8660254037844386 * size;
+  const Vec3 center =
+    this->field.lower_ + size * Vec3(cell.at[0] + 0.5, cell.at[1] + 0.5, cell.at[2] + 0.5);
+  if (scratch.lists.size() <= depth + 1)
+  {
+    scratch.lists.resize(depth + 2);
+    scratch.locals.resize(depth + 2);
+  }
+  std::vector<Id> near = std::move(scratch.lists[depth]);
+  near.clear();
+  scratch.out.clear(degree);
+  std::vector<Id>& stack = scratch.stack;
+  const auto go_through = [&](Id root, double largest)
+  {
+    stack.assign(1, root);
+    while (!stack.empty())
+    {
+      const Id id = stack.back();
+      stack.pop_back();
+      if (this->settle(id, center, radius, scratch))
+      {
+        continue;
+      }
+      const Node& node = this->nodes[id];
+      if (node.left >= 0 && node.radius > largest)
+      {
+        stack.push_back(node.right);
+        stack.push_back(node.left);
+      }
+      else
+      {
+        near.push_back(id);
+      }
+    }
+  };
+  for (const Id id : inherited)
+  {
+    go_through(id, 0.5 * radius);
+  }
+  double blocks = 0.0, sizes = 0.0;
+  for (const Id id : near)
+  {
+    blocks += this->nodes[id].count;
+    sizes += this->nodes[id].block_radius * this->nodes[id].count;
+  }
+  const bool leaf = blocks <= static_cast<double>(few_blocks) || cell.level >= finest_level ||
+    radius * blocks <= this->finest_cell * sizes || radius < 1e-6 * this->field.size_;
+  if (leaf)
+  {
+    std::vector<Id> rest;
+    rest.swap(near);
+    for (const Id id : rest)
+    {
+      go_through(id, -1.0);
+    }
+  }
+  this->flush(center, scratch);
+  std::vector<double> local(2 * static_cast<std::size_t>(count));
+  for (int c = 0; c < count; ++c)
+  {
+    double re = 0.0, im = 0.0;
+    for (int i = 0; i < harmonic_lanes; ++i)
+    {
+      re += scratch.out.real[c].lane[i];
+      im += scratch.out.imaginary[c].lane[i];
+    }
+    local[2 * c] = inherited_local[2 * c] + re;
+    local[2 * c + 1] = inherited_local[2 * c + 1] + im;
+  }
+  if (leaf)
+  {
+    this->emit_leaf(tree, entry, 0.5 * size, local, near);
+  }
+  else if (!this->context.cancelled())
+  {
+    HarmonicLanes shift[3];
+    for (int lane = 0; lane < harmonic_lanes; ++lane)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        shift[k].lane[lane] = (lane >> axes[k] & 1 ? 0.25 : -0.25) * size;
+      }
+    }
+    for (int c = 0; c < count; ++c)
+    {
+      for (int lane = 0; lane < harmonic_lanes; ++lane)
+      {
+        scratch.in.real[c].lane[lane] = local[2 * c];
+        scratch.in.imaginary[c].lane[lane] = local[2 * c + 1];
+      }
+    }
+    regular_harmonics(degree, shift, scratch.at);
+    local_to_local(degree, scratch.at, scratch.in, scratch.children);
+    std::vector<double> children = std::move(scratch.locals[depth]);
+    children.resize(harmonic_lanes * 2 * static_cast<std::size_t>(count));
+    for (int lane = 0; lane < harmonic_lanes; ++lane)
+    {
+      for (int c = 0; c < count; ++c)
+      {
+        children[2 * (lane * count + c)] = scratch.children.real[c].lane[lane];
+        children[2 * (lane * count + c) + 1] = scratch.children.imaginary[c].lane[lane];
+      }
+    }
+    const std::size_t first = tree.cells.size();
+    tree.cells[entry] = static_cast<Id>(first);
+    tree.cells.resize(first + 8, 0);
+    for (int child = 0; child < 8; ++child)
+    {
+      const CellPlace place{ cell.level + 1,
+        { 2 * cell.at[0] + (child & 1), 2 * cell.at[1] + (child >> 1 & 1),
+          2 * cell.at[2] + (child >> 2) } };
+      this->fill(
+        tree, place, first + child, &children[2 * child * count], near, scratch, depth + 1);
+    }
+    scratch.locals[depth] = std::move(children);
+  }
+  scratch.lists[depth] = std::move(near);
+}
+
+void DipoleField::Build::emit_leaf(Subtree& tree, std::size_t entry, double half,
+  const std::vector<double>& local, const std::vector<Id>& near) const
+{
+  const int degree = this->field.order_;
+  tree.cells[entry] = ~static_cast<Id>(tree.run_count.size());
+  for (int l = 0; l <= degree; ++l)
+  {
+    for (int part = 0; part < (l > 0 ? 2 : 1); ++part)
+    {
+      double scale = std::pow(half, l) * (l > 0 ? 2.0 : 1.0);
+      for (int k = l; k <= degree; ++k)
+      {
+        tree.locals.push_back(scale * local[2 * harmonic_index(k, l) + part]);
+        scale *= half;
+      }
+    }
+  }
+  Id runs = 0;
+  for (const Id id : near)
+  {
+    const Node& node = this->nodes[id];
+    if (runs > 0 && tree.runs.back().first + tree.runs.back().count == node.first)
+    {
+      tree.runs.back().count += node.count;
+    }
+    else
+    {
+      tree.runs.push_back({ node.first, node.count });
+      ++runs;
+    }
+  }
+  tree.run_count.push_back(runs);
+}
+
+bool DipoleField::Build::fill_cells()
+{
+  DipoleField& f = this->field;
+  const Id across = 1 << f.top_level_;
+  const Index tops = static_cast<Index>(across) * across * across;
+  std::vector<Subtree> trees(static_cast<std::size_t>(tops));
+  const std::vector<double> nothing(2 * static_cast<std::size_t>(harmonic_count(f.order_)), 0.0);
+  const std::vector<Id> root(1, 0);
+  if (!parallel_for(this->context, tops, 1,
+        [&](Index begin, Index end)
+        {
+          const auto scratch = std::make_unique<Scratch>();
+          for (Index i = begin; i < end; ++i)
+          {
+            const auto at = static_cast<Id>(i);
+            this->fill(trees[i],
+              { f.top_level_, { at % across, at / across % across, at / across / across } }, 0,
+              nothing.data(), root, *scratch, 0);
+          }
+        }) ||
+    this->context.cancelled())
+  {
+    return false;
+  }
+  f.cells_.assign(static_cast<std::size_t>(tops), 0);
+  f.first_run_.clear();
+  f.runs_.clear();
+  f.float_locals_.clear();
+  f.double_locals_.clear();
+  std::size_t cells = f.cells_.size(), leaves = 0, runs = 0;
+  for (const Subtree& tree : trees)
+  {
+    cells += tree.cells.size() - 1;
+    leaves += tree.run_count.size();
+    runs += tree.runs.size();
+  }
+  f.cells_.reserve(cells);
+  f.first_run_.reserve(leaves + 1);
+  f.runs_.reserve(runs);
+  const std::size_t coefficients =
+    leaves * static_cast<std::size_t>((f.order_ + 1) * (f.order_ + 1));
+  f.fine_ ? f.double_locals_.reserve(coefficients) : f.float_locals_.reserve(coefficients);
+  Id run = 0;
+  for (Index i = 0; i < tops; ++i)
+  {
+    Subtree& tree = trees[i];
+    const auto offset = static_cast<Id>(f.cells_.size()) - 1;
+    const auto leaf_offset = static_cast<Id>(f.first_run_.size());
+    for (Id& entry : tree.cells)
+    {
+      entry = entry < 0 ? ~(~entry + leaf_offset) : entry + offset;
+    }
+    f.cells_[i] = tree.cells[0];
+    f.cells_.insert(f.cells_.end(), tree.cells.begin() + 1, tree.cells.end());
+    for (const Id count : tree.run_count)
+    {
+      f.first_run_.push_back(run);
+      run += count;
+    }
+    f.runs_.insert(f.runs_.end(), tree.runs.begin(), tree.runs.end());
+    for (const double x : tree.locals)
+    {
+      f.fine_ ? f.double_locals_.push_back(x) : f.float_locals_.push_back(static_cast<float>(x));
+    }
+    tree = Subtree();
+  }
+  f.first_run_.push_back(run);
+  return true;
+}
+
+/// Largest error on points near triangles and all over the cells, a little around them.
+double DipoleField::Build::measure() const
+{
+  DipoleField& f = this->field;
+  const Index blocks = f.block_count();
+  const BlockRun all{ 0, static_cast<Id>(blocks) };
+  const Index samples = std::clamp<Index>(4000000 / std::max<Index>(1, blocks), 64, 384);
+  std::vector<double> errors(static_cast<std::size_t>(samples));
+  parallel_for(this->context, samples, 8,
+    [&](Index begin, Index end)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        // Low-discrepancy numbers: multiples of the powers of a root of x^4 = x + 1.
+        const double n = static_cast<double>(i) + 0.5;
+        Vec3 u(n * 0.8191725133961645, n * 0.6710436067037893, n * 0.5497004779019703);
+        u = u.unaryExpr([](double x) { return x - std::floor(x); });
+        Vec3 at;
+        if (i % 2)
+        {
+          at = f.lower_ + f.size_ * (1.02 * u - Vec3::Constant(0.01));
+        }
+        else
+        {
+          const auto slot = std::min<Index>(blocks * triangle_lanes - 1,
+            static_cast<Index>(
+              n / static_cast<double>(samples) * static_cast<double>(blocks * triangle_lanes)));
+          const Corners c = f.corners(slot);
+          const Vec3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
+          const double length = normal.norm();
+          at = (c[0] + c[1] + c[2]) / 3.0;
+          if (length > 0.0)
+          {
+            const double away = (i % 4 ? 1.0 : -1.0) * std::pow(20.0, u[0] - 1.0) * 2.0;
+            at += normal / length * away * std::sqrt(0.5 * length) + (u[1] - 0.5) * (c[1] - c[0]) +
+              (u[2] - 0.5) * (c[2] - c[0]);
+          }
+        }
+        bool touched = false;
+        errors[i] = std::abs(f.evaluate(at) - f.near_sum(&all, 1, at, touched));
+      }
+    });
+  return *std::max_element(errors.begin(), errors.end());
+}
+
+bool DipoleField::Build::run(const Triangles& triangles, const std::vector<int>& multiplicities)
+{
+  DipoleField& f = this->field;
+  this->take(triangles, multiplicities);
+  if (this->ids.empty())
+  {
+    return !this->context.cancelled();
+  }
+  const Tuning* tuning = tunings;
+  while (tuning->tolerance > this->options.tolerance)
+  {
+    ++tuning;
+  }
+  f.order_ =
+    std::clamp(this->options.order ? this->options.order : tuning->order, 2, largest_order);
+  this->finest_cell =
+    this->options.finest_cell > 0.0 ? this->options.finest_cell : tuning->finest_cell;
+  f.fine_ = this->options.tolerance < float_tolerance;
+  this->cut_long_triangles();
+  {
+    const ProgressRange range(this->context, 0.0, 0.2);
+    if (!this->sort_triangles())
+    {
+      return false;
+    }
+  }
+  f.fine_ ? this->fill_blocks(f.double_blocks_) : this->fill_blocks(f.float_blocks_);
+  {
+    const ProgressRange range(this->context, 0.2, 0.3);
+    if (!this->find_multipoles())
+    {
+      return false;
+    }
+  }
+  this->place_cells();
+  f.threshold_ = 0.05 * this->options.tolerance;
+  for (int round = 0;; ++round)
+  {
+    const ProgressRange range(this->context, 1.0 - 0.7 / (1 << round), 1.0 - 0.35 / (1 << round));
+    this->find_outer();
+    if (!this->fill_cells())
+    {
+      return false;
+    }
+    f.measured_error_ = this->measure();
+    if (this->context.cancelled())
+    {
+      return false;
+    }
+    const double wanted = 0.5 * this->options.tolerance;
+    if (f.measured_error_ <= wanted || round == 4)
+    {
+      return true;
+    }
+    f.threshold_ *= 0.5 * std::clamp(wanted / f.measured_error_, 0.02, 1.0);
+  }
+}
+
+bool DipoleField::build(const Points& points, const Triangles& triangles,
+  const std::vector<int>& multiplicities, double touch_tolerance, const Options& options,
+  ExecutionContext& context)
+{
+  *this = DipoleField();
+  this->points_ = &points;
+  this->touch_tolerance_ = touch_tolerance;
+  Build build(*this, context, options);
+  const bool done = build.run(triangles, multiplicities);
+  if (!done)
+  {
+    *this = DipoleField();
+  }
+  return done;
+}
+
+// ---- Evaluating --------------------------------------------------------------------------------
+
+DipoleField::Corners DipoleField::corners(Index slot) const
+{
+  Corners corners;
+  const Index own = this->points_->rows();
+  for (int k = 0; k < 3; ++k)
+  {
+    const Index id = this->ids_[slot][k];
+    corners[k] = id < own ? Vec3(this->points_->row(id)) : this->extra_points_[id - own];
+  }
+  return corners;
+}
+
+Index DipoleField::block_count() const
+{
+  return static_cast<Index>(this->ids_.size()) / triangle_lanes;
+}
+
+/// Sums exactly what the fast way hands on.
+class DipoleField::Careful : public CarefulSum
+{
+public:
+  Careful(const DipoleField& field, const Vec3& point)
+    : field_(field), sum_(point, field.touch_tolerance_)
+  {
+  }
+  void add(Index block, const int* lanes) override
+  {
+    for (int i = 0; i < triangle_lanes; ++i)
+    {
+      if (lanes[i])
+      {
+        const Corners c = this->field_.corners(block * triangle_lanes + i);
+        const double weight = this->field_.fine_
+          ? this->field_.double_blocks_[block].weight[i]
+          : static_cast<double>(this->field_.float_blocks_[block].weight[i]);
+        this->sum_.add(c[0], c[1], c[2], static_cast<int>(weight));
+        this->used_ = true;
+      }
+    }
+  }
+  double winding_number() const { return this->used_ ? this->sum_.winding_number() : 0.0; }
+  bool on_surface() const { return this->sum_.on_surface(); }
+
+private:
+  const DipoleField& field_;
+  SolidAngleSum sum_;
+  bool used_ = false;
+};
+
+double DipoleField::near_sum(
+  const BlockRun* runs, Index count, const Vec3& point, bool& on_surface) const
+{
+  Careful careful(*this, point);
+  const double sum = this->fine_
+    ? sum_blocks(this->double_blocks_.data(), runs, count, point, careful)
+    : sum_blocks(this->float_blocks_.data(), runs, count, point, careful);
+  on_surface = on_surface || careful.on_surface();
+  return sum + careful.winding_number();
+}
+
+bool DipoleField::in_cells(const Vec3& point) const
+{
+  bool inside = true;
+  for (int k = 0; k < 3; ++k)
+  {
+    const double x = point[k] - this->lower_[k];
+    inside = inside && x >= 0.0 && x < this->size_;
+  }
+  return inside;
+}
+
+std::uint32_t DipoleField::place(double x, int axis) const
+{
+  constexpr std::uint32_t last = (1u << finest_level) - 1;
+  const double at = (x - this->lower_[axis]) * (static_cast<double>(last + 1) / this->size_);
+  return std::min(static_cast<std::uint32_t>(at), last);
+}
+
+DipoleField::Id DipoleField::leaf_at(const Place& at, int& level, Vec3& center) const
+{
+  level = this->top_level_;
+  int shift = finest_level - level;
+  Id entry =
+    this
+      ->cells_[(at[0] >> shift) + ((at[1] >> shift) << level) + ((at[2] >> shift) << (2 * level))];
+  while (entry >= 0)
+  {
+    ++level;
+    --shift;
+    entry = this->cells_[entry +
+      static_cast<Id>(
+        (at[0] >> shift & 1) | (at[1] >> shift & 1) << 1 | (at[2] >> shift & 1) << 2)];
+  }
+  const double size = std::ldexp(this->size_, -level);
+  for (int k = 0; k < 3; ++k)
+  {
+    center[k] = this->lower_[k] + size * (static_cast<double>(at[k] >> shift) + 0.5);
+  }
+  return ~entry;
+}
+
+void DipoleField::contract(Id leaf, double y, double z, double* polynomial) const
+{
+  const std::size_t first = static_cast<std::size_t>(leaf) *
+    static_cast<std::size_t>((this->order_ + 1) * (this->order_ + 1));
+  if (this->fine_)
+  {
+    contract_local(this->order_, &this->double_locals_[first], y, z, polynomial);
+  }
+  else
+  {
+    contract_local(this->order_, &this->float_locals_[first], y, z, polynomial);
+  }
+}
+
+double DipoleField::evaluate(const Vec3& point, bool* on_surface) const
+{
+  double value = 0.0;
+  unsigned char touched = 0;
+  this->evaluate_row(&point[0], point[1], point[2], 1, &value, &touched);
+  if (on_surface)
+  {
+    *on_surface = touched != 0;
+  }
+  return value;
+}
+
+void DipoleField::evaluate_row(
+  const double* x, double y, double z, Index count, double* out, unsigned char* on_surface) const
+{
+  for (Index i = 0; i < count;)
+  {
+    bool touched = false;
+    if (this->ids_.empty() || !this->in_cells(Vec3(x[i], y, z)))
+    {
+      out[i] = this->ids_.empty() ? 0.0 : this->outer_sum(Vec3(x[i], y, z), touched);
+      if (on_surface)
+      {
+        on_surface[i] = touched;
+      }
+      ++i;
+      continue;
+    }
+    const Place at{ this->place(x[i], 0), this->place(y, 1), this->place(z, 2) };
+    int level = 0;
+    Vec3 center;
+    const Id leaf = this->leaf_at(at, level, center);
+    const double inverse = 2.0 / std::ldexp(this->size_, -level);
+    double polynomial[largest_order + 1];
+    this->contract(leaf, (y - center[1]) * inverse, (z - center[2]) * inverse, polynomial);
+    const BlockRun* runs = this->runs_.data() + this->first_run_[leaf];
+    const Index run_count = this->first_run_[leaf + 1] - this->first_run_[leaf];
+    const int shift = finest_level - level;
+    const std::uint32_t cell = at[0] >> shift;
+    do
+    {
+      out[i] = polynomial_at(polynomial, this->order_, (x[i] - center[0]) * inverse);
+      touched = false;
+      if (run_count > 0)
+      {
+        out[i] += this->near_sum(runs, run_count, Vec3(x[i], y, z), touched);
+      }
+      if (on_surface)
+      {
+        on_surface[i] = touched;
+      }
+      ++i;
+    } while (
+      i < count && this->in_cells(Vec3(x[i], y, z)) && this->place(x[i], 0) >> shift == cell);
+  }
+}
+
+void DipoleField::evaluate_row(
+  const Vec3& first, const Vec3& step, Index count, double* out, unsigned char* on_surface) const
+{
+  constexpr Index chunk = 256;
+  double x[chunk];
+  for (Index begin = 0; begin < count; begin += chunk)
+  {
+    const Index end = std::min(count, begin + chunk);
+    if (step[1] == 0.0 && step[2] == 0.0)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        x[i - begin] = first[0] + static_cast<double>(i) * step[0];
+      }
+      this->evaluate_row(
+        x, first[1], first[2], end - begin, out + begin, on_surface ? on_surface + begin : nullptr);
+      continue;
+    }
+    for (Index i = begin; i < end; ++i)
+    {
+      const Vec3 point = first + static_cast<double>(i) * step;
+      bool touched = false;
+      out[i] = this->evaluate(point, &touched);
+      if (on_surface)
+      {
+        on_surface[i] = touched;
+      }
+    }
+  }
+}
+
+template <typename See, typename All>
+void DipoleField::visit_outer(const Vec3& point, const See& see, const All& all) const
+{
+  const auto count = static_cast<Id>(this->outer_.size());
+  const int stride = 2 * harmonic_count(this->order_ + 1);
+  for (Id n = 0; n < count;)
+  {
+    const OuterNode& node = this->outer_[n];
+    const Vec3 offset = point - node.center;
+    const double distance = offset.norm();
+    const double inverse = 1.0 / distance;
+    double error = node.bound / (1.0 - node.radius * inverse);
+    for (int k = 0; k < this->order_ + 3; ++k)
+    {
+      error *= inverse;
+    }
+    const bool far_off = distance > 1.05 * node.radius && error <= 0.5 * this->threshold_;
+    if (far_off)
+    {
+      see(&this->outer_moments_[std::size_t(n) * stride], offset);
+    }
+    else if (node.leaf)
+    {
+      all(node.blocks);
+    }
+    n = far_off || node.leaf ? node.skip : n + 1;
+  }
+}
+
+namespace
+{
+/// Irregular harmonics of one point, polar axis x, as two numbers each.
+void irregular_at(int order, const Vec3& point, double* out)
+{
+  const double inverse = 1.0 / point.squaredNorm();
+  const double x = point[axes[0]] * inverse, y = point[axes[1]] * inverse,
+               z = point[axes[2]] * inverse;
+  out[0] = std::sqrt(inverse);
+  out[1] = 0.0;
+  for (int n = 1; n <= order; ++n)
+  {
+    const double* last = out + 2 * harmonic_index(n - 1, 0);
+    const double* before = n > 1 ? out + 2 * harmonic_index(n - 2, 0) : nullptr;
+    double* here = out + 2 * harmonic_index(n, 0);
+    const double odd = 2.0 * n - 1.0;
+    here[2 * n] = odd * (x * last[2 * n - 2] - y * last[2 * n - 1]);
+    here[2 * n + 1] = odd * (x * last[2 * n - 1] + y * last[2 * n - 2]);
+    for (int m = 0; m < n; ++m)
+    {
+      const double factor = static_cast<double>((n - 1) * (n - 1) - m * m) * inverse;
+      for (int part = 0; part < 2; ++part)
+      {
+        here[2 * m + part] =
+          odd * z * last[2 * m + part] - (m <= n - 2 ? factor * before[2 * m + part] : 0.0);
+      }
+    }
+  }
+}
+
+/// Coefficient (n, m) for any sign of m.
+void coefficient(const double* all, int n, int m, double& re, double& im)
+{
+  const double* at = all + 2 * harmonic_index(n, std::abs(m));
+  const double sign = m < 0 && m % 2 ? -1.0 : 1.0;
+  re = sign * at[0];
+  im = m < 0 ? -sign * at[1] : at[1];
+}
+
+/// Derivative of the triangle's winding number at the origin: a line integral along its edges.
+void add_gradient_of_edge(const Vec3& a, const Vec3& b, double weight, Vec3& sum)
+{
+  const double la = a.norm(), lb = b.norm();
+  const double below = la * lb * (la * lb + a.dot(b));
+  if (below > 0.0)
+  {
+    sum += (weight * (la + lb) / (below * four_pi)) * a.cross(b);
+  }
+}
+} // namespace
+
+double DipoleField::outer_sum(const Vec3& point, bool& on_surface) const
+{
+  double harmonics[2 * harmonic_count(largest_order + 1)];
+  double sum = 0.0;
+  this->visit_outer(
+    point,
+    [&](const double* moments, const Vec3& offset)
+    {
+      irregular_at(this->order_ + 1, offset, harmonics);
+      for (int n = 1; n <= this->order_ + 1; ++n)
+      {
+        const double* moment = moments + 2 * harmonic_index(n, 0);
+        const double* harmonic = harmonics + 2 * harmonic_index(n, 0);
+        double part = 0.0;
+        for (int m = 1; m <= n; ++m)
+        {
+          part += moment[2 * m] * harmonic[2 * m] + moment[2 * m + 1] * harmonic[2 * m + 1];
+        }
+        sum += moment[0] * harmonic[0] + 2.0 * part;
+      }
+    },
+    [&](const BlockRun& blocks) { sum += this->near_sum(&blocks, 1, point, on_surface); });
+  return sum;
+}
+
+std::array<double, 2> DipoleField::slopes_across(Id leaf, const Vec3& local) const
+{
+  const double x = local[0], y = local[1], z = local[2];
+  const double rho2 = y * y + z * z;
+  std::array<double, 2> slopes{ 0.0, 0.0 };
+  auto at = static_cast<std::size_t>(leaf) *
+    static_cast<std::size_t>((this->order_ + 1) * (this->order_ + 1));
+  const auto coefficient_at = [&](std::size_t i)
+  { return this->fine_ ? this->double_locals_[i] : static_cast<double>(this->float_locals_[i]); };
+  double re = 1.0, im = 0.0; // zeta^l
+  double below_re = 0.0, below_im = 0.0; // l zeta^(l-1)
+  for (int l = 0; l <= this->order_; ++l)
+  {
+    const auto size = static_cast<std::size_t>(this->order_ - l + 1);
+    double power = 1.0, slope = 0.0; // of rho2^q
+    for (int q = 0; l + 2 * q <= this->order_; ++q)
+    {
+      double real = 0.0, imaginary = 0.0;
+      for (int j = this->order_ - l - 2 * q; j >= 0; --j)
+      {
+        const auto i = at + static_cast<std::size_t>(2 * q + j);
+        const double factor = plane_constants.factorial[j];
+        real = real * x + factor * coefficient_at(i);
+        imaginary = imaginary * x + (l > 0 ? factor * coefficient_at(i + size) : 0.0);
+      }
+      const double c = plane_constants.plane[l][q];
+      const double ry = below_re * power + re * slope * 2.0 * y;
+      const double iy = below_im * power + im * slope * 2.0 * y;
+      const double rz = -below_im * power + re * slope * 2.0 * z;
+      const double iz = below_re * power + im * slope * 2.0 * z;
+      slopes[0] += c * (ry * real + iy * imaginary);
+      slopes[1] += c * (rz * real + iz * imaginary);
+      slope = (q + 1) * power;
+      power *= rho2;
+    }
+    at += (l > 0 ? 2 : 1) * size;
+    below_re = (l + 1) * re;
+    below_im = (l + 1) * im;
+    const double next = re * y - im * z;
+    im = re * z + im * y;
+    re = next;
+  }
+  return slopes;
+}
+
+Vec3 DipoleField::gradient(const Vec3& point) const
+{
+  Vec3 sum = Vec3::Zero();
+  if (this->ids_.empty())
+  {
+    return sum;
+  }
+  const auto add_blocks = [&](const BlockRun& run)
+  {
+    for (Index b = run.first; b < run.first + run.count; ++b)
+    {
+      for (int i = 0; i < triangle_lanes; ++i)
+      {
+        const double weight = this->fine_ ? this->double_blocks_[b].weight[i]
+                                          : static_cast<double>(this->float_blocks_[b].weight[i]);
+        if (weight != 0.0)
+        {
+          const Corners c = this->corners(b * triangle_lanes + i);
+          for (int k = 0; k < 3; ++k)
+          {
+            add_gradient_of_edge(c[k] - point, c[(k + 1) % 3] - point, weight, sum);
+          }
+        }
+      }
+    }
+  };
+  const int top = std::max(this->order_ + 2, 1);
+  double harmonics[2 * harmonic_count(largest_order + 2)];
+  if (!this->in_cells(point))
+  {
+    // d/dz T(n, m) = -T(n+1, m), (d/dx + i d/dy) T(n, m) = -T(n+1, m+1).
+    this->visit_outer(
+      point,
+      [&](const double* moments, const Vec3& offset)
+      {
+        irregular_at(top, offset, harmonics);
+        for (int n = 1; n <= this->order_ + 1; ++n)
+        {
+          for (int m = -n; m <= n; ++m)
+          {
+            double mr, mi, tr, ti;
+            coefficient(moments, n, m, mr, mi);
+            coefficient(harmonics, n + 1, m, tr, ti);
+            sum[axes[2]] -= mr * tr + mi * ti;
+            coefficient(harmonics, n + 1, m + 1, tr, ti);
+            sum[axes[0]] -= mr * tr + mi * ti;
+            sum[axes[1]] -= mr * ti - mi * tr;
+          }
+        }
+      },
+      add_blocks);
+    return sum;
+  }
+  const Place at{ this->place(point[0], 0), this->place(point[1], 1), this->place(point[2], 2) };
+  int level = 0;
+  Vec3 center;
+  const Id leaf = this->leaf_at(at, level, center);
+  const double inverse = 2.0 / std::ldexp(this->size_, -level);
+  const Vec3 local = (point - center) * inverse;
+  double polynomial[largest_order + 1];
+  this->contract(leaf, local[1], local[2], polynomial);
+  double slope = 0.0;
+  for (int j = this->order_; j > 0; --j)
+  {
+    slope = slope * local[0] + j * polynomial[j];
+  }
+  sum[0] += inverse * slope;
+  const std::array<double, 2> across = this->slopes_across(leaf, local);
+  sum[1] += inverse * across[0];
+  sum[2] += inverse * across[1];
+  for (Id r = this->first_run_[leaf]; r < this->first_run_[leaf + 1]; ++r)
+  {
+    add_blocks(this->runs_[r]);
+  }
+  return sum;
+}
+
+Index DipoleField::memory() const
+{
+  const auto bytes = [](const auto& v)
+  { return static_cast<Index>(v.capacity() * sizeof(*v.data())); };
+  return bytes(this->extra_points_) + bytes(this->ids_) + bytes(this->float_blocks_) +
+    bytes(this->double_blocks_) + bytes(this->float_locals_) + bytes(this->double_locals_) +
+    bytes(this->cells_) + bytes(this->first_run_) + bytes(this->runs_) + bytes(this->outer_) +
+    bytes(this->outer_moments_);
+}
+
+} // namespace bindpose

@@ -198,6 +198,16 @@ Status EnclosedRegion::label_tets(
   {
     return status;
   }
+  // Fast numbers that may be on the wrong side of the threshold.
+  constexpr double doubt = 4e-3;
+  for (Index t = 0; t < w.size() && status.usable(); ++t)
+  {
+    if (std::abs(w[t] - this->threshold_) < doubt &&
+      this->winding_.method() == WindingMethod::fast && !context.cancelled())
+    {
+      w[t] = this->winding_.evaluate_exactly_at(centers.row(t));
+    }
+  }
   constexpr double large = 0.05; // of the diagonal
   constexpr double doubtful = 0.25;
   std::vector<Index> tets;

@@ -2,6 +2,11 @@
 // method, make its structures. Evaluate: each point on its own, so that neither threads nor the
 // extent of a grid can change a bit.
 //
+// Both crossings and fast close the surface by caps over its boundary. Surface and caps together
+// wind a whole number of times around a point, counted on a ray; what the caps wind on their own is
+// taken off, exactly as their sum, or fast as their field. Where a point touches the surface or a
+// cap, the tree or the plain sum tells.
+//
 // Coordinates are shifted by the box's centre along each axis only where the mesh lies far from 0
 // compared with its size (there the subtraction is exact: Sterbenz), and scaled by a power of two.
 // So the kernels see the very mesh that was given, of size about 1 and near the origin.
@@ -10,6 +15,7 @@
 #include "base/parallel.h"
 #include "base/parallel_sort.h"
 #include "inside/boundary_caps.h"
+#include "inside/dipole_field.h"
 #include "inside/signed_crossings.h"
 #include "inside/solid_angle.h"
 #include "inside/winding_tree.h"
@@ -17,7 +23,9 @@
 #include <algorithm>
 #include <atomic>
 #include <limits>
+#include <mutex>
 #include <numeric>
+#include <sstream>
 
 namespace bindpose
 {
@@ -30,6 +38,8 @@ constexpr Index few_triangles = 24;
 /// where most edges are open. Measured: 14 ns an open edge, 20 ns a triangle, 20 us and more the
 /// tree.)
 constexpr Index few_open_edges = 3000;
+/// Up to this many open edges their exact sum costs about as much as the field of the caps.
+constexpr Index hardly_open = 12;
 /// Beyond this distance, in units of the mesh, the winding number is 0 in double precision.
 constexpr double far_away = 1e20;
 
@@ -218,6 +228,10 @@ const char* to_string(WindingMethod method)
   {
     case WindingMethod::automatic:
       return "automatic";
+    case WindingMethod::exact:
+      return "exact";
+    case WindingMethod::fast:
+      return "fast";
     case WindingMethod::direct:
       return "direct";
     case WindingMethod::hierarchical:
@@ -240,14 +254,28 @@ struct WindingNumber::Parts
   Frame frame;
   Points points;
   Triangles triangles;
-  WindingTree tree;
+  Index max_leaf_size = 64;
+  // Made when first asked: touching points are rare.
+  mutable WindingTree tree;
+  mutable std::mutex tree_mutex;
+  mutable std::atomic<bool> tree_built{ false };
   SignedCrossings crossings;
   Triangles caps; ///< with them the surface is closed
+  DipoleField field; ///< of the caps, when the method is fast
 
+  bool by_crossings() const
+  {
+    return this->method == WindingMethod::crossings || this->method == WindingMethod::fast;
+  }
   void choose(WindingMethod wanted, Index open_edges);
+  bool build_tree(ExecutionContext& context) const;
   void at(const Vec3* queries, Index number, double* winding_numbers, bool* on_surface) const;
   double slowly_at(const Vec3& framed, bool* on_surface) const;
   bool reaches(const SampleGrid& grid) const;
+  bool count_crossings(const SampleGrid& grid, ExecutionContext& context, double* out,
+    std::atomic<Index>& touching) const;
+  bool take_off_caps(const SampleGrid& grid, ExecutionContext& context, double* out,
+    std::atomic<Index>& touching) const;
   bool minus_caps(const Vec3& framed, double& winding_number) const;
 };
 
@@ -266,10 +294,20 @@ void WindingNumber::Parts::choose(WindingMethod wanted, Index open_edges)
   const Index count = this->triangles.rows();
   std::string reason = "asked for";
   this->method = wanted;
-  if (wanted == WindingMethod::automatic)
+  const std::string numbers =
+    std::to_string(count) + " triangles, " + std::to_string(open_edges) + " open edges: ";
+  if (wanted == WindingMethod::fast && open_edges == 0)
   {
-    const std::string numbers =
-      std::to_string(count) + " triangles, " + std::to_string(open_edges) + " open edges: ";
+    this->method = WindingMethod::crossings;
+    reason = numbers + "closed, exact is as fast";
+  }
+  else if (wanted == WindingMethod::automatic && count > few_triangles && open_edges > hardly_open)
+  {
+    this->method = WindingMethod::fast;
+    reason = numbers + "exact sums over these would take many times longer";
+  }
+  else if (wanted == WindingMethod::automatic || wanted == WindingMethod::exact)
+  {
     if (count <= few_triangles)
     {
       this->method = WindingMethod::direct;
@@ -308,6 +346,12 @@ Status WindingNumber::build(
   {
     status = Status::invalid_input(
       "the surface has " + std::to_string(triangles.rows()) + " triangles, more than 2^29");
+  }
+  if (status.ok() && !(options.tolerance >= 1e-8 && options.tolerance <= 0.1))
+  {
+    std::ostringstream text;
+    text << "the tolerance must lie between 1e-8 and 0.1, not at " << options.tolerance;
+    status = Status::invalid_input(text.str());
   }
   if (status.ok() && (options.max_leaf_size < 1 || options.max_leaf_size > 10000))
   {
@@ -364,18 +408,35 @@ Status WindingNumber::build(
       parts.method = WindingMethod::direct;
     }
   }
-  if (done && parts.method != WindingMethod::direct)
+  parts.max_leaf_size = options.max_leaf_size;
+  if (done && parts.method == WindingMethod::hierarchical)
   {
-    const ProgressRange range(context, 0.6, 0.9);
-    done = parts.tree.build(
-      parts.points, parts.triangles, parts.frame.tolerance, options.max_leaf_size, context);
+    const ProgressRange range(context, 0.6, 1.0);
+    done = parts.build_tree(context);
   }
-  if (done && parts.method == WindingMethod::crossings)
+  if (done && parts.by_crossings())
   {
-    const ProgressRange range(context, 0.9, 1.0);
+    const ProgressRange range(context, 0.6, 0.7);
     parts.caps = boundary_caps(edges);
     done = parts.crossings.build(
       parts.points, parts.triangles, parts.caps, parts.frame.tolerance, context);
+  }
+  if (done && parts.method == WindingMethod::fast)
+  {
+    const ProgressRange range(context, 0.7, 1.0);
+    DipoleField::Options field;
+    field.tolerance = options.tolerance;
+    // The padding that grids have by default.
+    constexpr double padding = 0.1;
+    field.region = bounding_box(parts.points, parts.triangles);
+    const double pad = padding * field.region.diagonal();
+    field.region.lower.array() -= pad;
+    field.region.upper.array() += pad;
+    done = parts.field.build(parts.points, parts.caps,
+      std::vector<int>(static_cast<std::size_t>(parts.caps.rows()), 1), parts.frame.tolerance,
+      field, context);
+    report.set("error_bound", options.tolerance);
+    report.set("measured_error", parts.field.measured_error());
   }
   if (!done)
   {
@@ -400,7 +461,7 @@ Index WindingNumber::memory() const
   return static_cast<Index>(sizeof(double)) * this->parts_->points.size() +
     static_cast<Index>(sizeof(Index)) *
     (this->parts_->triangles.size() + this->parts_->caps.size()) +
-    this->parts_->tree.memory() + this->parts_->crossings.memory();
+    this->parts_->tree.memory() + this->parts_->crossings.memory() + this->parts_->field.memory();
 }
 
 /// At up to SignedCrossings::most_at_once points.
@@ -422,7 +483,7 @@ void WindingNumber::Parts::at(
       asked[count++] = i;
     }
   }
-  if (this->method != WindingMethod::crossings)
+  if (!this->by_crossings())
   {
     for (Index k = 0; k < count; ++k)
     {
@@ -452,8 +513,20 @@ bool WindingNumber::Parts::minus_caps(const Vec3& p, double& winding_number) con
     return true;
   }
   bool touches = false;
-  winding_number -= direct_sum(this->points, this->caps, p, this->frame.tolerance, &touches);
+  winding_number -= this->method == WindingMethod::fast
+    ? this->field.evaluate(p, &touches)
+    : direct_sum(this->points, this->caps, p, this->frame.tolerance, &touches);
   return !touches;
+}
+
+/// Where few points need it, not before the first does.
+bool WindingNumber::Parts::build_tree(ExecutionContext& context) const
+{
+  const std::lock_guard<std::mutex> lock(this->tree_mutex);
+  this->tree_built = this->tree_built ||
+    this->tree.build(
+      this->points, this->triangles, this->frame.tolerance, this->max_leaf_size, context);
+  return this->tree_built;
 }
 
 /// What is right everywhere.
@@ -463,6 +536,11 @@ double WindingNumber::Parts::slowly_at(const Vec3& p, bool* on_surface) const
   {
     return direct_sum(this->points, this->triangles, p, this->frame.tolerance, on_surface);
   }
+  if (!this->tree_built)
+  {
+    ExecutionContext quiet;
+    this->build_tree(quiet);
+  }
   SolidAngleSum sum(p, this->frame.tolerance);
   this->tree.add_to(sum, p);
   if (on_surface)
@@ -470,6 +548,24 @@ double WindingNumber::Parts::slowly_at(const Vec3& p, bool* on_surface) const
     *on_surface = sum.on_surface();
   }
   return sum.winding_number();
+}
+
+double WindingNumber::evaluate_exactly_at(const Vec3& point, bool* on_surface) const
+{
+  const Parts& parts = *this->parts_;
+  const Vec3 p = parts.frame(point);
+  if (parts.method == WindingMethod::fast && parts.triangles.rows() > 0 &&
+    p.cwiseAbs().maxCoeff() < far_away)
+  {
+    bool touches = false;
+    const double winding_number = parts.slowly_at(p, &touches);
+    if (on_surface)
+    {
+      *on_surface = touches;
+    }
+    return winding_number;
+  }
+  return this->evaluate_at(point, on_surface);
 }
 
 double WindingNumber::evaluate_at(const Vec3& point, bool* on_surface) const
@@ -495,7 +591,8 @@ Status WindingNumber::evaluate_points(
   }
   // A few milliseconds a block, so that a cancel is seen in time; a tree may be no more than a
   // list.
-  const double nanoseconds = parts.method == WindingMethod::crossings
+  const double nanoseconds = parts.method == WindingMethod::fast ? 500.0
+    : parts.method == WindingMethod::crossings
     ? 100.0 + 20.0 * static_cast<double>(parts.caps.rows())
     : 20.0 * static_cast<double>(parts.triangles.rows());
   constexpr double block_nanoseconds = 5e6;
@@ -550,8 +647,7 @@ Status WindingNumber::evaluate(PointsView queries, ExecutionContext& context, do
 
 Status WindingNumber::evaluate(const SampleGrid& grid, ExecutionContext& context, double* out) const
 {
-  if (this->parts_->status.ok() && this->parts_->method == WindingMethod::crossings &&
-    this->parts_->reaches(grid))
+  if (this->parts_->status.ok() && this->parts_->by_crossings() && this->parts_->reaches(grid))
   {
     return this->evaluate_rows(grid, context, out);
   }
@@ -577,12 +673,40 @@ bool WindingNumber::Parts::reaches(const SampleGrid& grid) const
     corner(1).cwiseAbs().maxCoeff() < far_away;
 }
 
-/// Rows along the rays; several beside each other, so that what is written is whole cache lines.
 Status WindingNumber::evaluate_rows(
   const SampleGrid& grid, ExecutionContext& context, double* out) const
 {
   const Parts& parts = *this->parts_;
-  const int along = parts.crossings.axis();
+  std::atomic<Index> touching{ 0 };
+  const bool closed = parts.caps.rows() == 0;
+  bool done = true;
+  {
+    const ProgressRange range(context, 0.0, closed ? 1.0 : 0.1);
+    done = parts.count_crossings(grid, context, out, touching);
+  }
+  if (done && !closed)
+  {
+    const ProgressRange range(context, 0.1, 1.0);
+    done = parts.take_off_caps(grid, context, out, touching);
+  }
+  if (!done)
+  {
+    return Status::cancelled();
+  }
+  Status status;
+  status.report.set("counts.queries", grid.count());
+  status.report.set("counts.on_surface", touching.load());
+  return status;
+}
+
+/// How often surface and caps wind around each sample: rows along the rays, several beside each
+/// other, so that what is written is whole cache lines. Samples that touch a triangle get their
+/// final value when the surface is closed, NaN when caps are still to be taken off.
+bool WindingNumber::Parts::count_crossings(const SampleGrid& grid, ExecutionContext& context,
+  double* out, std::atomic<Index>& touching) const
+{
+  const bool closed = this->caps.rows() == 0;
+  const int along = this->crossings.axis();
   const int across = along == 0 ? 1 : 0; // the faster of the other two axes
   const int other = 3 - along - across;
   const std::array<Index, 3> stride{ 1, grid.size(0), grid.size(0) * grid.size(1) };
@@ -598,53 +722,47 @@ Status WindingNumber::evaluate_rows(
   {
     std::array<Index, 3> sample{ grid.extent[0], grid.extent[2], grid.extent[4] };
     sample[along] += forwards ? i : length - 1 - i;
-    places[i] = parts.frame(grid.point(sample[0], sample[1], sample[2]))[along];
+    places[i] = this->frame(grid.point(sample[0], sample[1], sample[2]))[along];
   }
   const Index step = forwards ? stride[along] : -stride[along];
   const Index first = forwards ? 0 : (length - 1) * stride[along];
 
-  std::atomic<Index> touching{ 0 };
-  const Index cost = length * bundle * (1 + parts.caps.rows());
-  const Index block = std::max<Index>(1, 200000 / std::max<Index>(1, cost));
-  const bool done = parallel_for(context, bundles * grid.size(other), block,
+  constexpr Index samples_a_block = 1 << 20; // some milliseconds
+  const Index block = std::max<Index>(1, samples_a_block / (length * bundle));
+  return parallel_for(context, bundles * grid.size(other), block,
     [&](Index begin, Index end)
     {
       Index touching_here = 0;
       std::array<SignedCrossings::Row, rows_at_once> rows;
+      std::array<Vec3, rows_at_once> starts;
       for (Index task = begin; task < end; ++task)
       {
         const Index row_first = task % bundles * bundle;
         const Index count = std::min(bundle, grid.size(across) - row_first);
         const Index plane = task / bundles;
-        std::array<Vec3, rows_at_once> starts;
         bool any_touching = false;
         for (Index r = 0; r < count; ++r)
         {
           std::array<Index, 3> sample{ grid.extent[0], grid.extent[2], grid.extent[4] };
           sample[across] += row_first + r;
           sample[other] += plane;
-          starts[r] = parts.frame(grid.point(sample[0], sample[1], sample[2]));
-          parts.crossings.evaluate_row(starts[r], places, rows[r]);
+          starts[r] = this->frame(grid.point(sample[0], sample[1], sample[2]));
+          this->crossings.evaluate_row(starts[r], places, rows[r]);
           any_touching = any_touching || rows[r].any_touching;
         }
         double* to = out + row_first * stride[across] + plane * stride[other] + first;
-        const bool whole = !any_touching && parts.caps.rows() == 0;
         for (Index i = 0; i < length; ++i, to += step)
         {
           for (Index r = 0; r < count; ++r)
           {
-            double& value = to[r * stride[across]];
-            value = rows[r].counts[i];
-            if (whole)
+            to[r * stride[across]] = rows[r].counts[i];
+            if (any_touching && rows[r].touching[i])
             {
-              continue;
-            }
-            Vec3 p = starts[r];
-            p[along] = places[i];
-            if (rows[r].touching[i] || !parts.minus_caps(p, value))
-            {
+              Vec3 p = starts[r];
+              p[along] = places[i];
               bool on_surface = false;
-              value = parts.slowly_at(p, &on_surface);
+              to[r * stride[across]] =
+                closed ? this->slowly_at(p, &on_surface) : std::numeric_limits<double>::quiet_NaN();
               touching_here += on_surface;
             }
           }
@@ -652,14 +770,60 @@ Status WindingNumber::evaluate_rows(
       }
       touching += touching_here;
     });
-  if (!done)
+}
+
+/// Takes what the caps wind off the whole numbers: rows along x, which suits the field best.
+bool WindingNumber::Parts::take_off_caps(const SampleGrid& grid, ExecutionContext& context,
+  double* out, std::atomic<Index>& touching) const
+{
+  const Index length = grid.size(0);
+  std::vector<double> xs(static_cast<std::size_t>(length));
+  for (Index i = 0; i < length; ++i)
   {
-    return Status::cancelled();
+    xs[i] = this->frame(grid.point(grid.extent[0] + i, grid.extent[2], grid.extent[4])).x();
   }
-  Status status;
-  status.report.set("counts.queries", grid.count());
-  status.report.set("counts.on_surface", touching.load());
-  return status;
+  const bool fast = this->method == WindingMethod::fast;
+  const Index cost = fast ? 10 : 1 + this->caps.rows();
+  const Index block = std::max<Index>(1, 200000 / (cost * length));
+  return parallel_for(context, grid.size(1) * grid.size(2), block,
+    [&](Index begin, Index end)
+    {
+      Index touching_here = 0;
+      std::vector<double> caps_wind(static_cast<std::size_t>(length));
+      std::vector<unsigned char> on_cap(static_cast<std::size_t>(length));
+      for (Index row = begin; row < end; ++row)
+      {
+        Vec3 p = this->frame(grid.point(grid.extent[0], grid.extent[2] + row % grid.size(1),
+          grid.extent[4] + row / grid.size(1)));
+        double* values = out + row * length;
+        if (fast)
+        {
+          this->field.evaluate_row(
+            xs.data(), p.y(), p.z(), length, caps_wind.data(), on_cap.data());
+        }
+        for (Index i = 0; i < length; ++i)
+        {
+          p.x() = xs[i];
+          bool touches = std::isnan(values[i]);
+          if (fast)
+          {
+            values[i] -= caps_wind[i];
+            touches = touches || on_cap[i];
+          }
+          else if (!touches)
+          {
+            touches = !this->minus_caps(p, values[i]);
+          }
+          if (touches)
+          {
+            bool on_surface = false;
+            values[i] = this->slowly_at(p, &on_surface);
+            touching_here += on_surface;
+          }
+        }
+      }
+      touching += touching_here;
+    });
 }
 
 Status WindingNumber::evaluate(

@@ -13,7 +13,7 @@ using namespace bindpose;
 namespace
 {
 constexpr double pi = 3.14159265358979323846;
-constexpr WindingMethod methods[] = { WindingMethod::automatic, WindingMethod::direct,
+constexpr WindingMethod methods[] = { WindingMethod::exact, WindingMethod::direct,
   WindingMethod::hierarchical, WindingMethod::crossings };
 
 /// All ways to compute it, each with small leaves so that the tree has something to do.

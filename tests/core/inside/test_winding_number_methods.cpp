@@ -284,6 +284,7 @@ TEST(WindingMethods, AutomaticChoosesByCounts)
 {
   EXPECT_EQ(make(test::cube(), WindingMethod::automatic).method(), WindingMethod::direct);
   EXPECT_EQ(make(test::sphere(3), WindingMethod::automatic).method(), WindingMethod::crossings);
+  EXPECT_EQ(make(test::sphere(3), WindingMethod::fast).method(), WindingMethod::crossings);
   // Groups of triangles with corners of their own, pulled apart: a soup of triangles, of patches.
   const TriangleMesh sphere = test::sphere(5);
   for (const Index group : { 1, 64 })
@@ -303,9 +304,64 @@ TEST(WindingMethods, AutomaticChoosesByCounts)
       }
     }
     apart.points.conservativeResize(static_cast<Index>(ids.size()), 3);
-    const WindingNumber winding = make(apart, WindingMethod::automatic);
+    const WindingNumber winding = make(apart, WindingMethod::exact);
     EXPECT_EQ(winding.method(), group == 1 ? WindingMethod::direct : WindingMethod::hierarchical);
+    EXPECT_EQ(make(apart, WindingMethod::automatic).method(), WindingMethod::fast);
     EXPECT_NEAR(winding.evaluate_at(Vec3(0.1, 0.2, 0.3)), 1.0, 1e-4);
+  }
+}
+
+TEST(WindingMethods, FastKeepsItsTolerance)
+{
+  // Unclean surfaces and a soup, in the box, far outside and close to the triangles.
+  const TriangleMesh sphere = test::sphere(4);
+  TriangleMesh holes = sphere;
+  Index kept = 0;
+  for (Index t = 0; t < sphere.triangles.rows(); ++t)
+  {
+    if (t % 7 != 0)
+    {
+      holes.triangles.row(kept++) = sphere.triangles.row(t);
+    }
+  }
+  holes.triangles.conservativeResize(kept, 3);
+  const TriangleMesh several = test::join(test::translated(holes, Vec3(0.3, 0.2, 0.1)),
+    test::join(test::open_cube(), test::flipped(test::open_cube(-0.5, 0.5))));
+  for (const TriangleMesh& mesh : { holes, several })
+  {
+    for (const double tolerance : { 1e-2, 1e-3, 1e-5 })
+    {
+      SCOPED_TRACE(tolerance);
+      WindingNumber::Options options;
+      options.method = WindingMethod::fast;
+      options.tolerance = tolerance;
+      ExecutionContext context;
+      WindingNumber winding;
+      const Status status = winding.build(mesh.points, mesh.triangles, context, options);
+      ASSERT_TRUE(status.ok());
+      EXPECT_EQ(winding.method(), WindingMethod::fast);
+      EXPECT_EQ(status.report.number("error_bound", -1.0), tolerance);
+      EXPECT_LE(status.report.number("measured_error", 1.0), tolerance);
+      Points queries(2000, 3);
+      test::Random random(7);
+      std::generate_n(queries.data(), queries.size(), [&] { return 5.0 * random.uniform() - 2.5; });
+      Eigen::VectorXd values;
+      ASSERT_TRUE(winding.evaluate(queries, context, values).ok());
+      double worst = 0.0;
+      for (Index i = 0; i < queries.rows(); ++i)
+      {
+        const double exact = winding_number_direct(mesh.points, mesh.triangles, queries.row(i));
+        worst = std::max(worst, std::abs(values[i] - exact));
+        EXPECT_NEAR(winding.evaluate_exactly_at(queries.row(i)), exact, 1e-11);
+      }
+      EXPECT_LE(worst, tolerance);
+      // On the surface: the principal value, exactly.
+      bool on_surface = false;
+      const Vec3 vertex = mesh.points.row(mesh.triangles(5, 1));
+      EXPECT_NEAR(winding.evaluate_at(vertex, &on_surface),
+        winding_number_direct(mesh.points, mesh.triangles, vertex), 1e-11);
+      EXPECT_TRUE(on_surface);
+    }
   }
 }
 
@@ -318,7 +374,8 @@ TEST(WindingMethods, SameBitsForAnyThreadsAndExtent)
   grid.extent = { -2, 20, 0, 19, 1, 18 };
   SampleGrid part = grid;
   part.extent = { 3, 11, 2, 19, 7, 8 };
-  for (const WindingMethod method : ways)
+  for (const WindingMethod method : { WindingMethod::direct, WindingMethod::hierarchical,
+         WindingMethod::crossings, WindingMethod::fast })
   {
     const WindingNumber winding = make(mesh, method);
     ExecutionContext one;

@@ -260,6 +260,7 @@ struct WindingNumber::Parts
   mutable std::mutex tree_mutex;
   mutable std::atomic<bool> tree_built{ false };
   SignedCrossings crossings;
+  std::vector<Edge> rim; ///< edges whose directions do not cancel
   Triangles caps; ///< with them the surface is closed
   DipoleField field; ///< of the caps, when the method is fast
 
@@ -270,12 +271,13 @@ struct WindingNumber::Parts
   void choose(WindingMethod wanted, Index open_edges);
   bool build_tree(ExecutionContext& context) const;
   void at(const Vec3* queries, Index number, double* winding_numbers, bool* on_surface) const;
+  Vec3 gradient_at(const Vec3& point) const;
   double slowly_at(const Vec3& framed, bool* on_surface) const;
   bool reaches(const SampleGrid& grid) const;
   bool count_crossings(const SampleGrid& grid, ExecutionContext& context, double* out,
-    std::atomic<Index>& touching) const;
+    unsigned char* flags, std::atomic<Index>& touching) const;
   bool take_off_caps(const SampleGrid& grid, ExecutionContext& context, double* out,
-    std::atomic<Index>& touching) const;
+    unsigned char* flags, std::atomic<Index>& touching) const;
   bool minus_caps(const Vec3& framed, double& winding_number) const;
 };
 
@@ -387,6 +389,10 @@ Status WindingNumber::build(
       boundary += edge.uses == 1;
       nonmanifold += edge.uses > 2;
       open += edge.net_direction != 0;
+      if (edge.net_direction != 0)
+      {
+        parts.rim.push_back(edge);
+      }
     }
     report.set("counts.vertices", points.rows());
     report.set("counts.triangles", triangles.rows());
@@ -417,7 +423,7 @@ Status WindingNumber::build(
   if (done && parts.by_crossings())
   {
     const ProgressRange range(context, 0.6, 0.7);
-    parts.caps = boundary_caps(edges);
+    parts.caps = boundary_caps(parts.rim);
     done = parts.crossings.build(
       parts.points, parts.triangles, parts.caps, parts.frame.tolerance, context);
   }
@@ -581,8 +587,8 @@ double WindingNumber::evaluate_at(const Vec3& point, bool* on_surface) const
 }
 
 template <typename PointAt>
-Status WindingNumber::evaluate_points(
-  Index count, const PointAt& point_at, ExecutionContext& context, double* out) const
+Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
+  ExecutionContext& context, double* out, unsigned char* flags) const
 {
   const Parts& parts = *this->parts_;
   if (!parts.status.ok())
@@ -617,6 +623,10 @@ Status WindingNumber::evaluate_points(
         for (Index i = 0; i < number; ++i)
         {
           touching_here += on_surface[i];
+          if (flags)
+          {
+            flags[first + i] = on_surface[i];
+          }
           not_finite_here += std::isnan(out[first + i]);
         }
       }
@@ -639,28 +649,107 @@ Status WindingNumber::evaluate_points(
   return status;
 }
 
-Status WindingNumber::evaluate(PointsView queries, ExecutionContext& context, double* out) const
+namespace
 {
-  return this->evaluate_points(
-    queries.rows(), [&](Index i) -> Vec3 { return queries.row(i); }, context, out);
+/// The point of a grid's sample by its number, x fastest.
+auto points_of(const SampleGrid& grid)
+{
+  return [&grid, nx = grid.size(0), ny = grid.size(1)](Index i)
+  {
+    return grid.point(
+      grid.extent[0] + i % nx, grid.extent[2] + i / nx % ny, grid.extent[4] + i / nx / ny);
+  };
 }
 
-Status WindingNumber::evaluate(const SampleGrid& grid, ExecutionContext& context, double* out) const
+auto points_of(PointsView queries)
+{
+  return [queries](Index i) -> Vec3 { return queries.row(i); };
+}
+} // namespace
+
+Status WindingNumber::evaluate(
+  PointsView queries, ExecutionContext& context, double* out, unsigned char* on_surface) const
+{
+  return this->evaluate_points(queries.rows(), points_of(queries), context, out, on_surface);
+}
+
+Status WindingNumber::evaluate(
+  const SampleGrid& grid, ExecutionContext& context, double* out, unsigned char* on_surface) const
 {
   if (this->parts_->status.ok() && this->parts_->by_crossings() && this->parts_->reaches(grid))
   {
-    return this->evaluate_rows(grid, context, out);
+    return this->evaluate_rows(grid, context, out, on_surface);
   }
-  const Index nx = grid.size(0);
-  const Index ny = grid.size(1);
-  return this->evaluate_points(
-    grid.count(),
-    [&](Index i)
+  return this->evaluate_points(grid.count(), points_of(grid), context, out, on_surface);
+}
+
+template <typename PointAt>
+Status WindingNumber::evaluate_gradients(
+  Index count, const PointAt& point_at, ExecutionContext& context, double* out) const
+{
+  const Parts& parts = *this->parts_;
+  if (!parts.status.ok())
+  {
+    return parts.status;
+  }
+  const Index cost =
+    parts.method == WindingMethod::fast ? 50 : 1 + static_cast<Index>(parts.rim.size());
+  const Index block = std::clamp<Index>(200000 / cost, 1, 32768);
+  const bool done = parallel_for(context, count, block,
+    [&](Index begin, Index end)
     {
-      return grid.point(
-        grid.extent[0] + i % nx, grid.extent[2] + i / nx % ny, grid.extent[4] + i / nx / ny);
-    },
-    context, out);
+      for (Index i = begin; i < end; ++i)
+      {
+        Eigen::Map<Vec3>(out + 3 * i) = parts.gradient_at(point_at(i));
+      }
+    });
+  return done ? Status() : Status::cancelled();
+}
+
+Status WindingNumber::evaluate_gradient(
+  PointsView queries, ExecutionContext& context, double* out) const
+{
+  return this->evaluate_gradients(queries.rows(), points_of(queries), context, out);
+}
+
+Status WindingNumber::evaluate_gradient(
+  const SampleGrid& grid, ExecutionContext& context, double* out) const
+{
+  return this->evaluate_gradients(grid.count(), points_of(grid), context, out);
+}
+
+/// The boundary edges' share (the field of a current that runs along them): the surface between
+/// them does not matter.
+Vec3 WindingNumber::Parts::gradient_at(const Vec3& point) const
+{
+  if (!point.allFinite())
+  {
+    return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+  const Vec3 p = this->frame(point);
+  if (this->rim.empty() || !(p.cwiseAbs().maxCoeff() < far_away))
+  {
+    return Vec3::Zero();
+  }
+  if (this->method == WindingMethod::fast)
+  {
+    return -this->frame.scale * this->field.gradient(p);
+  }
+  Vec3 sum = Vec3::Zero();
+  for (const Edge& edge : this->rim)
+  {
+    const Vec3 a = this->points.row(edge.a).transpose() - p;
+    const Vec3 b = this->points.row(edge.b).transpose() - p;
+    const double la = a.norm();
+    const double lb = b.norm();
+    const double angle = la * lb + a.dot(b);
+    if (angle > 1e-28 * la * lb && la > 0.0 && lb > 0.0)
+    {
+      sum += edge.net_direction * ((la + lb) / (la * lb * angle)) * a.cross(b);
+    }
+  }
+  constexpr double four_pi = 12.56637061435917295;
+  return this->frame.scale / four_pi * sum;
 }
 
 /// All samples are where the crossings can tell.
@@ -674,20 +763,24 @@ bool WindingNumber::Parts::reaches(const SampleGrid& grid) const
 }
 
 Status WindingNumber::evaluate_rows(
-  const SampleGrid& grid, ExecutionContext& context, double* out) const
+  const SampleGrid& grid, ExecutionContext& context, double* out, unsigned char* on_surface) const
 {
   const Parts& parts = *this->parts_;
   std::atomic<Index> touching{ 0 };
+  if (on_surface)
+  {
+    std::fill_n(on_surface, grid.count(), static_cast<unsigned char>(0));
+  }
   const bool closed = parts.caps.rows() == 0;
   bool done = true;
   {
     const ProgressRange range(context, 0.0, closed ? 1.0 : 0.1);
-    done = parts.count_crossings(grid, context, out, touching);
+    done = parts.count_crossings(grid, context, out, on_surface, touching);
   }
   if (done && !closed)
   {
     const ProgressRange range(context, 0.1, 1.0);
-    done = parts.take_off_caps(grid, context, out, touching);
+    done = parts.take_off_caps(grid, context, out, on_surface, touching);
   }
   if (!done)
   {
@@ -703,7 +796,7 @@ Status WindingNumber::evaluate_rows(
 /// other, so that what is written is whole cache lines. Samples that touch a triangle get their
 /// final value when the surface is closed, NaN when caps are still to be taken off.
 bool WindingNumber::Parts::count_crossings(const SampleGrid& grid, ExecutionContext& context,
-  double* out, std::atomic<Index>& touching) const
+  double* out, unsigned char* flags, std::atomic<Index>& touching) const
 {
   const bool closed = this->caps.rows() == 0;
   const int along = this->crossings.axis();
@@ -764,6 +857,10 @@ bool WindingNumber::Parts::count_crossings(const SampleGrid& grid, ExecutionCont
               to[r * stride[across]] =
                 closed ? this->slowly_at(p, &on_surface) : std::numeric_limits<double>::quiet_NaN();
               touching_here += on_surface;
+              if (flags)
+              {
+                flags[to + r * stride[across] - out] = on_surface;
+              }
             }
           }
         }
@@ -774,7 +871,7 @@ bool WindingNumber::Parts::count_crossings(const SampleGrid& grid, ExecutionCont
 
 /// Takes what the caps wind off the whole numbers: rows along x, which suits the field best.
 bool WindingNumber::Parts::take_off_caps(const SampleGrid& grid, ExecutionContext& context,
-  double* out, std::atomic<Index>& touching) const
+  double* out, unsigned char* flags, std::atomic<Index>& touching) const
 {
   const Index length = grid.size(0);
   std::vector<double> xs(static_cast<std::size_t>(length));
@@ -819,6 +916,10 @@ bool WindingNumber::Parts::take_off_caps(const SampleGrid& grid, ExecutionContex
             bool on_surface = false;
             values[i] = this->slowly_at(p, &on_surface);
             touching_here += on_surface;
+            if (flags)
+            {
+              flags[row * length + i] = on_surface;
+            }
           }
         }
       }

@@ -108,9 +108,18 @@ public:
   Status evaluate(PointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const;
   /// The same for a grid's samples, x fastest.
   Status evaluate(const SampleGrid& grid, ExecutionContext& context, Eigen::VectorXd& out) const;
-  /// The same into memory of the caller's for #Q or grid.count() numbers.
-  Status evaluate(PointsView queries, ExecutionContext& context, double* out) const;
-  Status evaluate(const SampleGrid& grid, ExecutionContext& context, double* out) const;
+  /// The same into memory of the caller's for #Q or grid.count() numbers, and 1 for every point
+  /// that touches a triangle, else 0 (unless null).
+  Status evaluate(PointsView queries, ExecutionContext& context, double* out,
+    unsigned char* on_surface = nullptr) const;
+  Status evaluate(const SampleGrid& grid, ExecutionContext& context, double* out,
+    unsigned char* on_surface = nullptr) const;
+  /// Derivatives along x, y, z, #Q x 3 or grid.count() x 3 numbers: those of the smooth part, the
+  /// jump across the surface left out; 0 for closed surfaces, and at a boundary edge, where they
+  /// have no end. Within about 10 x tolerance / (distance to the boundary) for the fast method.
+  /// cancelled: `out` is not complete. Cost: 10 ns x #open edges a point; fast: about a value's.
+  Status evaluate_gradient(PointsView queries, ExecutionContext& context, double* out) const;
+  Status evaluate_gradient(const SampleGrid& grid, ExecutionContext& context, double* out) const;
 
   /// At one point; NaN when it is not finite. Thread-safe, allocates nothing.
   double evaluate_at(const Vec3& point, bool* on_surface = nullptr) const;
@@ -120,10 +129,14 @@ public:
 private:
   struct Parts;
   template <typename PointAt>
-  Status evaluate_points(
+  Status evaluate_points(Index count, const PointAt& point_at, ExecutionContext& context,
+    double* out, unsigned char* on_surface) const;
+  template <typename PointAt>
+  Status evaluate_gradients(
     Index count, const PointAt& point_at, ExecutionContext& context, double* out) const;
 
-  Status evaluate_rows(const SampleGrid& grid, ExecutionContext& context, double* out) const;
+  Status evaluate_rows(const SampleGrid& grid, ExecutionContext& context, double* out,
+    unsigned char* on_surface) const;
 
   std::unique_ptr<Parts> parts_;
 };

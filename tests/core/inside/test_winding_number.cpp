@@ -93,6 +93,72 @@ TriangleMesh open_half_cube()
 }
 } // namespace
 
+TEST(WindingNumber, GradientIsTheKnownOneAndThatOfTheField)
+{
+  const TriangleMesh mesh = test::open_cube();
+  const Vec3 point(0.3, 0.2, 0.4);
+  for (const WindingMethod method : { WindingMethod::direct, WindingMethod::crossings,
+         WindingMethod::hierarchical, WindingMethod::fast })
+  {
+    SCOPED_TRACE(to_string(method));
+    WindingNumber::Options options;
+    options.method = method;
+    options.tolerance = 1e-6;
+    ExecutionContext context;
+    WindingNumber winding;
+    ASSERT_TRUE(winding.build(mesh.points, mesh.triangles, context, options).ok());
+    Points query(1, 3);
+    query.row(0) = point.transpose();
+    Vec3 gradient;
+    ASSERT_TRUE(winding.evaluate_gradient(query, context, gradient.data()).ok());
+    const double error = method == WindingMethod::fast ? 1e-5 : 5e-9;
+    EXPECT_NEAR(gradient.x(), 0.05503676, error);
+    EXPECT_NEAR(gradient.y(), 0.03449705, error);
+    EXPECT_NEAR(gradient.z(), -0.30037298, error);
+  }
+  // Another unit: a derivative is one over a length.
+  const WindingNumber large(Points(1000.0 * mesh.points), mesh.triangles);
+  ExecutionContext context;
+  Points query(1, 3);
+  query.row(0) = 1000.0 * point.transpose();
+  Vec3 gradient;
+  ASSERT_TRUE(large.evaluate_gradient(query, context, gradient.data()).ok());
+  EXPECT_NEAR(1000.0 * gradient.z(), -0.30037298, 5e-9);
+}
+
+TEST(WindingNumber, FlagsTellWhatTouchesTheSurface)
+{
+  // Samples on the faces of the cube and of the open cube, seen from both sides of the lid.
+  for (const TriangleMesh& mesh : { test::cube(), test::open_cube() })
+  {
+    for (const WindingMethod method : { WindingMethod::direct, WindingMethod::crossings,
+           WindingMethod::hierarchical, WindingMethod::fast })
+    {
+      SCOPED_TRACE(to_string(method));
+      WindingNumber::Options options;
+      options.method = method;
+      ExecutionContext context;
+      WindingNumber winding;
+      ASSERT_TRUE(winding.build(mesh.points, mesh.triangles, context, options).ok());
+      SampleGrid grid;
+      grid.origin = Vec3::Constant(-1.5);
+      grid.spacing = Vec3::Constant(0.5);
+      grid.extent = { 0, 6, 0, 6, 0, 6 };
+      std::vector<double> values(static_cast<std::size_t>(grid.count()));
+      std::vector<unsigned char> flags(values.size(), 7);
+      ASSERT_TRUE(winding.evaluate(grid, context, values.data(), flags.data()).ok());
+      for (Index i = 0; i < grid.count(); ++i)
+      {
+        const Vec3 p = grid.point(i % 7, i / 7 % 7, i / 49);
+        bool touches = false;
+        const double exact = winding_number_direct(mesh.points, mesh.triangles, p, &touches);
+        EXPECT_EQ(flags[i], touches) << p.transpose();
+        EXPECT_NEAR(values[i], exact, winding.method() == WindingMethod::fast ? 1e-3 : 1e-12);
+      }
+    }
+  }
+}
+
 TEST(WindingNumber, ClosedSurfacesGiveWholeNumbers)
 {
   const TriangleMesh cube = test::cube();

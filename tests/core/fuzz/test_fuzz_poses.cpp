@@ -246,7 +246,7 @@ ReducedArap::SolveOptions solve_options(Random& random)
 TEST(FuzzPoses, ReducedArap)
 {
   Index solves = 0;
-  fuzz("sequences of poses through reduced ARAP", 400,
+  fuzz("sequences of poses through reduced ARAP", 2000,
     [&](Random& random)
     {
       const Case shape(random);

@@ -371,10 +371,9 @@ TEST(FuzzReaders, Dmat)
         expect_refused(status);
         EXPECT_EQ(back.size(), 0);
       }
-      // No side is longer than the file, an empty matrix's neither: whoever walks it must end.
-      const auto size = static_cast<Index>(std::filesystem::file_size(path));
-      EXPECT_LE(std::max(back.rows(), back.cols()), size);
-      EXPECT_LE(back.size(), size);
+      // An empty matrix may have a side, but one that somebody can walk along.
+      EXPECT_LE(std::max(back.rows(), back.cols()), Index(1) << 20);
+      EXPECT_LE(back.size(), static_cast<Index>(std::filesystem::file_size(path)));
     });
 }
 
@@ -484,10 +483,10 @@ TEST(FuzzReaders, Poses)
       std::string again;
       const Status formatted = format_pose_file(poses, sequence.frames_per_second, handles, again);
       test::expect_spoken(formatted);
-      PoseSequence back;
-      if (moderate)
+      EXPECT_TRUE(formatted.ok() || !moderate);
+      if (formatted.ok())
       {
-        ASSERT_TRUE(formatted.ok());
+        PoseSequence back;
         const Status reread = parse_pose_file(again, handles, back);
         ASSERT_TRUE(reread.ok()) << reread.message << "\n" << again;
         ASSERT_EQ(back.frames.size(), poses.size());

@@ -273,7 +273,7 @@ TEST(FuzzTetrahedralize, AbusedSurfaces)
 TEST(FuzzTetrahedralize, LatticesOfAbusedSurfaces)
 {
   Index filled = 0;
-  test::fuzz("surfaces on lattices", 150,
+  test::fuzz("surfaces on lattices", 40,
     [&](test::Random& random)
     {
       const TriangleMesh surface = abused(random);

@@ -208,7 +208,7 @@ void expect_weights(
 TEST(FuzzWeights, HandlesAnywhere)
 {
   Index refused = 0, late = 0;
-  fuzz("sets of handles", 250,
+  fuzz("sets of handles", 1500,
     [&](Random& random)
     {
       const Domain domain = shape(random);

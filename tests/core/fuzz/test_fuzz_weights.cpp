@@ -127,6 +127,30 @@ double measure(const Domain& domain)
                             : surface_area(domain.points, domain.triangles);
 }
 
+/// Smallest height of an element in units of the mesh's size: handles that nearly touch make it
+/// tiny.
+double smallest_height(const Domain& domain)
+{
+  const double size = bounding_box(domain.points).diagonal();
+  double smallest = 1.0;
+  for (Index e = 0; e < domain.element_count(); ++e)
+  {
+    const Index* ids = domain.element(e);
+    const auto corner = [&](int k) { return Vec3(domain.points.row(ids[k])); };
+    double largest_facet = 0.0, measure = 0.0;
+    for (int k = 0; k < domain.corners(); ++k)
+    {
+      const Vec3 a = corner((k + 1) % domain.corners()), b = corner((k + 2) % domain.corners());
+      largest_facet = std::max(largest_facet,
+        domain.is_volume() ? 0.5 * (b - a).cross(corner((k + 3) % 4) - a).norm() : (b - a).norm());
+    }
+    measure = domain.is_volume() ? 3.0 * tet_volume(corner(0), corner(1), corner(2), corner(3))
+                                 : (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+    smallest = std::min(smallest, measure / largest_facet / size);
+  }
+  return smallest;
+}
+
 /// Inserting handles splits elements and changes nothing else.
 void expect_same_shape(const Domain& before, const HandleInsertion& after)
 {
@@ -207,7 +231,7 @@ void expect_weights(
 
 TEST(FuzzWeights, HandlesAnywhere)
 {
-  Index refused = 0, late = 0;
+  Index refused = 0, unsolvable = 0, late = 0;
   fuzz("sets of handles", 1500,
     [&](Random& random)
     {
@@ -238,12 +262,15 @@ TEST(FuzzWeights, HandlesAnywhere)
       expect_spoken(status);
       if (!status.usable())
       {
-        ADD_FAILURE() << "usable handles on a sound mesh: " << status.message;
+        // Second differences over such lengths leave the range of doubles: the only excuse.
+        EXPECT_EQ(status.code, StatusCode::invalid_input);
+        EXPECT_LT(smallest_height(problem.mesh.domain), 1e-4) << status.message;
+        ++unsolvable;
         return;
       }
       late += status.ok() ? 0 : 1;
       expect_weights(problem, method, status, result);
     });
-  std::cout << "[ fuzz ] " << refused << " of them were refused, " << late
-            << " not certified in time\n";
+  std::cout << "[ fuzz ] " << refused << " of them were refused, " << unsolvable
+            << " had no unique minimum, " << late << " not certified in time\n";
 }

@@ -257,7 +257,7 @@ TEST_F(TextFiles, PlyHeadersThatContradictThemselves)
                            vertex + face + numbers),
                 this->mesh)
                 .message,
-    HasSubstr("line 7: the header lists the vertices twice"));
+    HasSubstr("t.ply, line 13: the header lists the vertices twice"));
 }
 
 TEST_F(TextFiles, StlIsWeldedAndSizedExactly)

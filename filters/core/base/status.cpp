@@ -1,6 +1,7 @@
 #include "base/status.h"
 
 #include <algorithm>
+#include <string_view>
 
 namespace bindpose
 {
@@ -32,6 +33,34 @@ auto find_entry(Entries& entries, const std::string& key)
 {
   return std::find_if(
     entries.begin(), entries.end(), [&](const auto& entry) { return entry.first == key; });
+}
+
+/// Bytes of the printable UTF-8 character that the text begins with, 0 for anything else.
+std::size_t character_length(std::string_view text)
+{
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(0);
+  if (first < 0x80)
+  {
+    return first >= 0x20 && first != 0x7f ? 1 : 0;
+  }
+  const std::size_t length = first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+  if (first < 0xc2 || first > 0xf4 || text.size() < length)
+  {
+    return 0;
+  }
+  for (std::size_t i = 1; i < length; ++i)
+  {
+    if ((byte(i) & 0xc0) != 0x80)
+    {
+      return 0;
+    }
+  }
+  // Longer than need be, a surrogate, or beyond the last character.
+  const unsigned second = byte(1);
+  const bool wrong = (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
+    (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f);
+  return wrong ? 0 : length;
 }
 } // namespace
 
@@ -96,11 +125,25 @@ std::string Report::text(const std::string& key, const std::string& fallback) co
   return text ? *text : fallback;
 }
 
+std::string one_line(std::string text)
+{
+  for (std::size_t i = 0; i < text.size();)
+  {
+    const std::size_t length = character_length(std::string_view(text).substr(i));
+    if (length == 0)
+    {
+      text[i] = '?';
+    }
+    i += length == 0 ? 1 : length;
+  }
+  return text;
+}
+
 Status Status::failure(StatusCode code, std::string message)
 {
   Status status;
   status.code = code;
-  status.message = std::move(message);
+  status.message = one_line(std::move(message));
   return status;
 }
 

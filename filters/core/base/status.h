@@ -63,6 +63,10 @@ private:
   std::vector<std::pair<std::string, Value>> entries_;
 };
 
+/// The text with a '?' for every control character and every byte that is no UTF-8: what a file or
+/// a name holds must not break a line, a terminal or a Python string.
+std::string one_line(std::string text);
+
 /// Outcome of a computation: code, one sentence, warnings (one sentence each) and the numbers.
 struct Status
 {
@@ -75,6 +79,7 @@ struct Status
   /// ok or not_converged: there is a result to hand on.
   bool usable() const { return this->ok() || this->code == StatusCode::not_converged; }
 
+  /// The message is made one_line().
   static Status failure(StatusCode code, std::string message);
   static Status invalid_input(std::string message);
   static Status cancelled();

@@ -3,6 +3,7 @@
 
 #include "io/text_scanner.h"
 
+#include <algorithm>
 #include <cstring>
 
 namespace bindpose
@@ -11,6 +12,9 @@ namespace bindpose
 namespace
 {
 constexpr Index largest_count = Index(1) << 40;
+/// An empty matrix needs no bytes however many rows or columns it has, but walking through them
+/// must end.
+constexpr Index largest_empty = Index(1) << 20;
 
 Status read_size(TextScanner& scanner, Index& columns, Index& rows)
 {
@@ -65,6 +69,11 @@ Status read_dmat(const std::string& path, Weights& matrix)
   if (!status.ok())
   {
     return status;
+  }
+  if (std::min(columns, rows) == 0 && std::max(columns, rows) > largest_empty)
+  {
+    return Status::invalid_input(path + " says that it has " + std::to_string(columns) +
+      " columns of " + std::to_string(rows) + " values: no matrix has that size");
   }
   const std::size_t values = static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows);
   const std::size_t left = text.size() - scanner.position();

@@ -55,7 +55,7 @@ Status read_elements(TextScanner& scanner, std::size_t bytes, Elements& elements
   {
     return status;
   }
-  elements.resize(count, elements.cols());
+  elements.setOnes(count, elements.cols()); // ids are lessened below even when reading breaks off
   for (Index e = 0; e < count && status.ok(); ++e)
   {
     for (Index k = 0; k < elements.cols() && status.ok(); ++k)

@@ -366,6 +366,10 @@ Status read_ply(const std::string& path, PolygonMesh& mesh)
       return scanner.error("the file is truncated: it is too short for " +
         std::to_string(element.count) + " elements '" + element.name + "'");
     }
+    if (element.name == "vertex" && vertices >= 0)
+    {
+      return scanner.error("the header lists the vertices twice");
+    }
     if (element.name == "vertex")
     {
       vertices = element.count;

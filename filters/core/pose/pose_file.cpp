@@ -363,7 +363,7 @@ Pose apply_edits(const std::vector<HandleEdit>& edits, const Handles& handles, c
       const Vec3 bone = edit.tail.value_or(rest.tail) - head;
       posed.transform =
         affine_about(rest.head, minimal_arc(rest.tail - rest.head, bone), head - rest.head);
-      posed.stretch = bone.norm() / (rest.tail - rest.head).norm();
+      posed.stretch = bone.stableNorm() / (rest.tail - rest.head).stableNorm();
     }
     else if (edit.translate || edit.rotation || edit.scale)
     {
@@ -464,6 +464,14 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
     frame["handles"] = Json::object();
     for (std::size_t h = 0; h < handles.size(); ++h)
     {
+      // JSON has no words for infinity: what is written must be readable.
+      const Vec3 pivot = pose[h].transform * handles[h].head.homogeneous();
+      if (!pose[h].transform.allFinite() || !pivot.allFinite() || !std::isfinite(pose[h].stretch) ||
+        !pose[h].twist.allFinite())
+      {
+        return Status::invalid_input(
+          "the pose of handle '" + handles[h].name + "' has a number that is not finite");
+      }
       frame["handles"][handles[h].name] = format_handle(pose[h], handles[h], status.warnings);
     }
     frames.push_back(std::move(frame));
@@ -482,7 +490,15 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
     root["frames"] = std::move(frames);
     root["fps"] = frames_per_second;
   }
-  text = root.dump(2) + "\n";
+  try
+  {
+    text = root.dump(2) + "\n";
+  }
+  catch (const nlohmann::json::type_error&)
+  {
+    return Status::invalid_input(
+      "the name of a handle is not UTF-8, and a pose file can hold nothing else");
+  }
   return status;
 }
 

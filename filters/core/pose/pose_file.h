@@ -59,7 +59,8 @@ Pose apply_edits(const std::vector<HandleEdit>& edits, const Handles& handles, c
 /// Writes poses as the text of a POSE.json: a single one as a pose, several as a sequence. Reading
 /// it back gives the same poses to round-off, whatever the base pose. A transform with a shear, an
 /// uneven scale or a reflection has no words in the file: its nearest rotation and scale are
-/// written and a warning names the handle.
+/// written and a warning names the handle. invalid_input for a number that is not finite and for a
+/// name that is not UTF-8.
 Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second,
   const Handles& handles, std::string& text);
 

@@ -56,6 +56,19 @@ Vec3 unit_or(const Vec3& n, const Vec3& fallback)
   return length > 1e-300 ? Vec3(n / length) : fallback;
 }
 
+/// The unit normal under a linear map, the old one where it collapses. Only the map's direction
+/// matters: it is scaled, exactly, so that squares of huge and tiny entries stay numbers.
+Vec3 turned_normal(const Eigen::Matrix3d& linear, const Vec3& n)
+{
+  const double largest = linear.cwiseAbs().maxCoeff();
+  if (!(largest > 1e-300))
+  {
+    return n;
+  }
+  const Eigen::Matrix3d scaled = linear * std::ldexp(1.0, -std::ilogb(largest));
+  return unit_or(cofactors(scaled) * n, n);
+}
+
 /// A rigid motion as a dual quaternion: real part, dual part, each (x, y, z, w).
 struct DualQuaternion
 {
@@ -230,7 +243,7 @@ Status Skinning::linear_blend_normals(ExecutionContext& context, PointsView rest
           blend(moves, this->columns_.data() + from, this->weights_.data() + from, to - from);
         const Eigen::Matrix3d linear = Eigen::Matrix3d::Identity() + a.leftCols<3>();
         const Vec3 n = rest_normals.row(v);
-        posed_normals.row(v) = unit_or(cofactors(linear) * n, n).transpose();
+        posed_normals.row(v) = turned_normal(linear, n).transpose();
       }
     });
   return done ? status : Status::cancelled();
@@ -285,7 +298,7 @@ Status Skinning::dual_quaternion_any(ExecutionContext& context, PointsView rest,
         {
           const Affine a = blend(shears, columns, weights, count);
           const Eigen::Matrix3d linear = Eigen::Matrix3d::Identity() + a.leftCols<3>();
-          p = normals ? unit_or(cofactors(linear) * p, p) : Vec3(linear * p + a.col(3));
+          p = normals ? turned_normal(linear, p) : Vec3(linear * p + a.col(3));
         }
         Index largest = 0;
         for (Index k = 1; k < count; ++k)

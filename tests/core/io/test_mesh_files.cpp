@@ -242,6 +242,24 @@ TEST_F(TextFiles, PlyAsciiAndBigEndian)
   EXPECT_EQ(this->mesh.corners, (std::vector<Index>{ 0, 1, 2 }));
 }
 
+TEST_F(TextFiles, PlyHeadersThatContradictThemselves)
+{
+  const std::string vertex = "\nproperty float x\nproperty float y\nproperty float z\n";
+  const std::string face = "element face 0\nproperty list uchar int vertex_indices\nend_header\n";
+  std::string numbers;
+  for (int k = 0; k < 100; ++k)
+  {
+    numbers += "1 2 3\n";
+  }
+  // The second number must not be the size of what the first one fills.
+  EXPECT_THAT(read_ply(this->folder.write("t.ply",
+                         "ply\nformat ascii 1.0\nelement vertex 90" + vertex + "element vertex 2" +
+                           vertex + face + numbers),
+                this->mesh)
+                .message,
+    HasSubstr("t.ply, line 13: the header lists the vertices twice"));
+}
+
 TEST_F(TextFiles, StlIsWeldedAndSizedExactly)
 {
   const TriangleMesh torus = test::torus(20, 10, 1.0, 0.25);

@@ -6,6 +6,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 using namespace bindpose;
 using testing::HasSubstr;
 
@@ -231,6 +233,35 @@ TEST(PoseFile, WhatIsWrittenIsReadBack)
       EXPECT_EQ(back[h].twist, poses[frame][h].twist);
     }
   }
+}
+
+TEST(PoseFile, WhatIsWrittenCanBeRead)
+{
+  std::string text;
+  Handles handles = rig();
+  handles[1].name = "caf\xe9"; // Latin 1
+  EXPECT_THAT(format_pose_file({ Pose(3) }, 24.0, handles, text).message, HasSubstr("UTF-8"));
+  handles[1].name = "two\nlines \"quoted\"";
+  ASSERT_TRUE(format_pose_file({ Pose(3) }, 24.0, handles, text).ok());
+  PoseSequence sequence;
+  EXPECT_TRUE(parse_pose_file(text, handles, sequence).ok());
+  EXPECT_EQ(message(text),
+    "the pose file: the pose names a handle 'two?lines \"quoted\"' that does not exist");
+  // JSON has no word for infinity.
+  Pose pose(3);
+  pose[1].stretch = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(format_pose_file({ pose }, 24.0, rig(), text).message, HasSubstr("'fore'"));
+  pose = Pose(3);
+  pose[0].transform(0, 0) = 1e308;
+  EXPECT_TRUE(format_pose_file({ pose }, 24.0, rig(), text).ok());
+  pose[0].transform(1, 1) = 1e308; // its pivot goes to 2e308
+  EXPECT_THAT(format_pose_file({ pose }, 24.0, rig(), text).message, HasSubstr("'p'"));
+  // Squares of such lengths are no numbers, but their ratio is.
+  EXPECT_EQ(
+    read(R"({"handles": {"fore": {"head": [0, 0, 0], "tail": [0, 1e200, 0]}}})")[1].stretch, 1e200);
+  EXPECT_EQ(
+    read(R"({"handles": {"fore": {"head": [0, 0, 0], "tail": [0, 1e-200, 0]}}})")[1].stretch,
+    1e-200);
 }
 
 TEST(PoseFile, WhatAFileCannotHoldIsSaid)

@@ -232,6 +232,28 @@ TEST(Skinning, NormalsStayNormalToPosedPlanes)
   }
 }
 
+TEST(Skinning, NormalsAreUnitVectorsAtAnyScale)
+{
+  const Points normals = (Points(1, 3) << 0.6, 0.0, 0.8).finished();
+  const Weights weights = Weights::Ones(1, 1);
+  const Points pivots = Points::Zero(1, 3);
+  ExecutionContext context;
+  Skinning skinning;
+  ASSERT_TRUE(skinning.bind(context, weights).ok());
+  for (const double scale : { 1e-3, 1.0, 1e90, 1e200 })
+  {
+    std::vector<Affine> transforms{ identity_affine() };
+    transforms[0].leftCols<3>() *= scale;
+    transforms[0](2, 2) *= 2.0; // twice as long: the normal leans
+    const Vec3 expected = Vec3(0.6, 0.0, 0.4).normalized();
+    Points posed;
+    ASSERT_TRUE(skinning.linear_blend_normals(context, normals, transforms, posed).ok());
+    EXPECT_LT((posed.row(0).transpose() - expected).norm(), 1e-12) << scale;
+    ASSERT_TRUE(skinning.dual_quaternion_normals(context, normals, transforms, pivots, posed).ok());
+    EXPECT_LT((posed.row(0).transpose() - expected).norm(), 1e-12) << scale;
+  }
+}
+
 TEST(Skinning, AnyNumberOfThreadsGivesTheSameBits)
 {
   const test::Rig rig = test::box(13);

@@ -1,0 +1,324 @@
+// Sequences of poses that no animator would draw: collapsed, mirrored, enormous, with weights that
+// are doubled, empty or of both signs. Finite in is finite out, rest is rest, and nothing depends
+// on luck.
+#include "pose/reduced_arap.h"
+#include "pose/skinning.h"
+
+#include "core/pose/arap_cases.h"
+#include "support/bars.h"
+#include "support/fuzz.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace bindpose;
+using namespace bindpose::test;
+
+namespace
+{
+/// 10^x with |x| <= exponent, one in three cases exactly 1.
+double magnitude(Random& random, double exponent)
+{
+  return chance(random, 0.33) ? 1.0 : std::pow(10.0, random.uniform(-exponent, exponent));
+}
+
+Affine transform(Random& random, double exponent)
+{
+  if (chance(random, 0.15))
+  {
+    return identity_affine();
+  }
+  const Vec3 ones = Vec3::Ones();
+  static const double special[] = { 0.0, 90.0, 180.0, -180.0, 360.0, 1e-7 };
+  const double degrees =
+    chance(random, 0.4) ? special[random.below(6)] : random.uniform(-360.0, 360.0);
+  const Vec3 axis =
+    chance(random, 0.3) ? Vec3(Vec3::Unit(random.below(3))) : random.in_box(-ones, ones);
+  Affine t = rigid(degrees, axis, magnitude(random, exponent) * random.in_box(-ones, ones));
+  switch (random.below(6))
+  {
+    case 0:
+      t.leftCols<3>() *= magnitude(random, exponent);
+      break;
+    case 1: // uneven, mirrored, flat or a line
+      for (int k = 0; k < 3; ++k)
+      {
+        t.col(k) *= chance(random, 0.3) ? 0.0 : random.uniform(-2.0, 2.0);
+      }
+      break;
+    case 2: // a shear
+      t.col(random.below(3)) += random.uniform(-3.0, 3.0) * t.col(random.below(3));
+      break;
+    case 3:
+      t.leftCols<3>() *= chance(random, 0.5) ? -1.0 : 0.0;
+      break;
+    default: // rigid
+      break;
+  }
+  return t;
+}
+
+/// How much larger than rest a pose can make things.
+double size_of(const Pose& pose)
+{
+  double size = 1.0;
+  for (const HandlePose& handle : pose)
+  {
+    size = std::max(size, handle.transform.cwiseAbs().maxCoeff());
+  }
+  return size;
+}
+
+/// What people feed it: good weights, and worse.
+Weights spoilt(Random& random, const Weights& good)
+{
+  Weights weights = good;
+  const Index m = weights.cols(), a = random.below(m), b = random.below(m);
+  switch (random.below(6))
+  {
+    case 0: // a duplicated column, rows still sum to one
+      weights.col(a) = 0.5 * (good.col(a) + good.col(b));
+      weights.col(b) = weights.col(a);
+      break;
+    case 1:
+      weights.col(a).setZero();
+      break;
+    case 2: // random rows that sum to one
+    case 3: // of both signs, to anything
+    {
+      const bool signs = chance(random, 0.5);
+      for (Index v = 0; v < weights.rows(); ++v)
+      {
+        for (Index j = 0; j < m; ++j)
+        {
+          weights(v, j) = random.uniform(signs ? -1.0 : 0.0, 1.0);
+        }
+        weights.row(v) /= signs ? 1.0 : weights.row(v).sum();
+      }
+      break;
+    }
+    case 4:
+      weights.row(random.below(weights.rows())).setZero();
+      weights.col(a) *= 1e-13;
+      break;
+    default:
+      break;
+  }
+  return weights;
+}
+
+const Rig& rig(Index which)
+{
+  static const Rig rigs[2] = { bar(4), box(2) };
+  return rigs[which];
+}
+} // namespace
+
+TEST(FuzzPoses, Skinning)
+{
+  fuzz("poses through linear blending and dual quaternions", 3000,
+    [](Random& random)
+    {
+      const Rig& shape = rig(random.below(2));
+      const Points& rest = shape.mesh.points;
+      const Weights weights = spoilt(random, shape.weights);
+      const double exponent = chance(random, 0.2) ? 90.0 : 6.0;
+      Pose pose(shape.handles.size());
+      for (HandlePose& handle : pose)
+      {
+        handle.mode = static_cast<HandleMode>(random.below(3));
+        handle.transform = transform(random, exponent);
+      }
+      if (chance(random, 0.1))
+      {
+        pose.assign(pose.size(), pose[0]); // all alike
+      }
+      std::vector<Affine> transforms;
+      expect_spoken(skinning_transforms(shape.handles, pose, transforms));
+      double size = 1.0;
+      for (const Affine& t : transforms)
+      {
+        size = std::max(size, t.cwiseAbs().maxCoeff());
+      }
+      const bool rests = std::all_of(transforms.begin(), transforms.end(),
+        [](const Affine& t) { return t == identity_affine(); });
+
+      ExecutionContext one, many;
+      one.set_threads(1);
+      many.set_threads(4);
+      Skinning skinning;
+      expect_spoken(skinning.bind(one, weights));
+      Points blended, again;
+      ASSERT_TRUE(skinning.linear_blend(one, rest, transforms, blended).ok());
+      ASSERT_TRUE(skinning.linear_blend(many, rest, transforms, again).ok());
+      EXPECT_EQ(blended, again);
+      for (Index v = 0; v < rest.rows(); ++v)
+      {
+        // The definition, point by point.
+        const Vec3 p = rest.row(v);
+        Vec3 expected = p;
+        for (Index j = 0; j < weights.cols(); ++j)
+        {
+          expected += weights(v, j) * (transforms[j] * p.homogeneous() - p);
+        }
+        ASSERT_LE((blended.row(v).transpose() - expected).cwiseAbs().maxCoeff(), 1e-13 * 16 * size);
+      }
+      Points quaternions;
+      const Points pivots = handle_pivots(shape.handles);
+      ASSERT_TRUE(skinning.dual_quaternion(one, rest, transforms, pivots, quaternions).ok());
+      ASSERT_TRUE(skinning.dual_quaternion(many, rest, transforms, pivots, again).ok());
+      EXPECT_EQ(quaternions, again);
+      ASSERT_TRUE(quaternions.allFinite());
+      for (Index v = 0; v < rest.rows(); ++v)
+      {
+        Index j = 0;
+        if (weights.row(v).cwiseAbs().sum() == 0.0)
+        {
+          ASSERT_EQ(quaternions.row(v), rest.row(v));
+        }
+        else if (weights.row(v).maxCoeff(&j) == 1.0 && weights.row(v).cwiseAbs().sum() == 1.0)
+        {
+          // One handle alone: its transform, whatever that is.
+          const Vec3 expected = transforms[j] * rest.row(v).transpose().homogeneous();
+          const double near = 1e-12 * std::max(1.0, transforms[j].cwiseAbs().maxCoeff());
+          ASSERT_LE((quaternions.row(v).transpose() - expected).cwiseAbs().maxCoeff(), near);
+        }
+      }
+      if (rests)
+      {
+        EXPECT_EQ(blended, rest);
+        EXPECT_EQ(quaternions, rest);
+      }
+
+      Points normals(rest.rows(), 3);
+      for (Index v = 0; v < rest.rows(); ++v)
+      {
+        normals.row(v) = random.in_box(Vec3::Constant(-1.0), Vec3::Ones()).normalized().transpose();
+      }
+      ASSERT_TRUE(skinning.linear_blend_normals(one, normals, transforms, blended).ok());
+      ASSERT_TRUE(
+        skinning.dual_quaternion_normals(one, normals, transforms, pivots, quaternions).ok());
+      for (const Points* turned : { &blended, &quaternions })
+      {
+        ASSERT_LE((turned->rowwise().norm().array() - 1.0).abs().maxCoeff(), 1e-9);
+      }
+    });
+}
+
+namespace
+{
+/// One reduced ARAP of random options over random weights.
+struct Case
+{
+  Rig shape;
+  Triangles surface; ///< when it is bound as a surface
+  ReducedArapOptions options;
+
+  explicit Case(Random& random) : shape(rig(random.below(2)))
+  {
+    this->shape.weights = spoilt(random, this->shape.weights);
+    this->options.energy = static_cast<ArapEnergy>(random.below(3));
+    this->options.clusters = random.below(3) == 0 ? 1000 : random.below(9);
+    this->options.extra_weights = chance(random, 0.3) ? random.below(6) : 0;
+    if (chance(random, 0.3))
+    {
+      this->surface = boundary_triangles(this->shape.mesh.tets);
+    }
+  }
+
+  Status bind(ExecutionContext& context, ReducedArap& arap) const
+  {
+    return this->surface.rows() > 0
+      ? arap.bind(context, this->shape.mesh.points, this->surface, this->shape.weights,
+          this->shape.handles, this->options)
+      : arap.bind(context, this->shape.mesh.points, this->shape.mesh.tets, this->shape.weights,
+          this->shape.handles, this->options);
+  }
+};
+
+ReducedArap::SolveOptions solve_options(Random& random)
+{
+  return { chance(random, 0.5) ? 0.0 : 1e-6, random.below(25),
+    static_cast<ReducedArap::Start>(random.below(3)) };
+}
+} // namespace
+
+TEST(FuzzPoses, ReducedArap)
+{
+  Index solves = 0;
+  fuzz("sequences of poses through reduced ARAP", 2000,
+    [&](Random& random)
+    {
+      const Case shape(random);
+      const Points& rest = shape.shape.mesh.points;
+      const double diagonal = bounding_box(rest).diagonal();
+      ExecutionContext one, many;
+      one.set_threads(1);
+      many.set_threads(4);
+      ReducedArap arap, twin;
+      const Status bound = shape.bind(one, arap);
+      expect_spoken(bound);
+      ASSERT_TRUE(bound.ok()) << bound.message;
+      ASSERT_TRUE(shape.bind(many, twin).ok());
+      const double exponent = chance(random, 0.2) ? 30.0 : 4.0;
+      Pose pose(shape.shape.handles.size());
+      Points result, again;
+      const Index length = 1 + random.below(8);
+      for (Index step = 0; step < length; ++step)
+      {
+        for (HandlePose& handle : pose)
+        {
+          if (chance(random, 0.5))
+          {
+            handle.mode = static_cast<HandleMode>(random.below(3));
+            handle.transform = transform(random, exponent);
+          }
+        }
+        const ReducedArap::SolveOptions options = solve_options(random);
+        const Status status = arap.solve(one, pose, options);
+        ++solves;
+        expect_spoken(status);
+        ASSERT_TRUE(status.usable()) << status.message;
+        ASSERT_TRUE(arap.deform(one, rest, result).ok());
+        ASSERT_TRUE(result.allFinite());
+        for (std::size_t h = 0; h < pose.size(); ++h)
+        {
+          if (pose[h].mode == HandleMode::full)
+          {
+            ASSERT_EQ(arap.transforms()[h], pose[h].transform);
+          }
+        }
+        for (const Eigen::Matrix3d& r : arap.rotations())
+        {
+          ASSERT_LT((r.transpose() * r - Eigen::Matrix3d::Identity()).norm(), 1e-9);
+          ASSERT_GT(r.determinant(), 0.0);
+        }
+        // Round-off is that of the largest terms, which grow with the square of the pose's size.
+        const double size = size_of(pose);
+        const double unit = 1e-12 * arap.rest_energy() * size * size;
+        for (std::size_t i = 1; i < arap.energies().size(); ++i)
+        {
+          ASSERT_LE(arap.energies()[i],
+            arap.energies()[i - 1] + unit + 1e-12 * std::abs(arap.energies()[i - 1]))
+            << i << " size " << size;
+        }
+        ASSERT_TRUE(twin.solve(many, pose, options).usable());
+        ASSERT_TRUE(twin.deform(many, rest, again).ok());
+        ASSERT_EQ(result, again);
+        ASSERT_EQ(arap.energies(), twin.energies());
+      }
+      // Home again, whatever the modes are.
+      for (HandlePose& handle : pose)
+      {
+        handle.transform = identity_affine();
+      }
+      for (const auto start : { ReducedArap::Start::guess, ReducedArap::Start::rest })
+      {
+        ASSERT_TRUE(arap.solve(one, pose, { 1e-6, 100, start }).usable());
+        ASSERT_TRUE(arap.deform(one, rest, result).ok());
+        ASSERT_LT((result - rest).cwiseAbs().maxCoeff(), 1e-8 * diagonal)
+          << (start == ReducedArap::Start::guess ? "guess" : "rest");
+      }
+    });
+  std::cout << "[ fuzz ] " << solves << " poses\n";
+}

@@ -1,0 +1,276 @@
+// Handles anywhere: on, in and off the mesh, touching each other. Weights are what they promise to
+// be or there is one sentence.
+#include "weights/bounded_biharmonic_weights.h"
+#include "weights/monotone_weights.h"
+#include "weights/unconstrained_weights.h"
+
+#include "core/weights/weights_shapes.h"
+#include "support/fuzz.h"
+
+#include <cmath>
+
+using namespace bindpose;
+using namespace bindpose::test;
+
+namespace
+{
+Vec3 in_cube(Random& random, double size)
+{
+  return random.in_box(Vec3::Constant(-size), Vec3::Constant(size));
+}
+
+/// A small domain, seldom regular.
+Domain shape(Random& random)
+{
+  Domain domain;
+  switch (random.below(4))
+  {
+    case 0:
+      domain = to_domain(sphere(1));
+      break;
+    case 1:
+      domain = to_domain(grid(5, 4));
+      break;
+    default:
+    {
+      const Index n = 1 + random.below(3);
+      domain = to_domain(tet_box(static_cast<int>(n) + 1, 2, static_cast<int>(n)));
+    }
+  }
+  if (chance(random, 0.5))
+  {
+    const Points before = domain.points;
+    for (Index v = 0; v < domain.points.rows(); ++v)
+    {
+      domain.points.row(v) += in_cube(random, 0.03).transpose();
+    }
+    domain.points = check_domain(domain).ok() ? domain.points : before;
+  }
+  if (chance(random, 0.2))
+  {
+    domain.points *= std::pow(10.0, random.uniform(-6.0, 6.0));
+  }
+  return domain;
+}
+
+/// A place with a meaning: a vertex, nearly one, on an edge, in an element, outside, at another
+/// handle or nearly.
+Vec3 place(Random& random, const Domain& domain, const Handles& others)
+{
+  const Box box = bounding_box(domain.points);
+  const double size = box.diagonal();
+  const Index* corners = domain.element(random.below(domain.element_count()));
+  const auto corner = [&](Index k) { return Vec3(domain.points.row(corners[k])); };
+  const double little = size * std::pow(10.0, random.uniform(-16.0, -2.0));
+  switch (random.below(9))
+  {
+    case 0:
+      return corner(0);
+    case 1:
+      return corner(0) + little * in_cube(random, 1.0);
+    case 2:
+      return 0.5 * (corner(0) + corner(1));
+    case 3:
+      return corner(0) + random.uniform() * (corner(1) - corner(0));
+    case 4:
+      return (corner(0) + corner(1) + corner(2)) / 3.0;
+    case 5:
+      return box.center() + in_cube(random, size);
+    case 6:
+    {
+      if (!others.empty())
+      {
+        const Handle& other =
+          others[static_cast<std::size_t>(random.below(static_cast<Index>(others.size())))];
+        const Vec3 at = chance(random, 0.5) ? other.head : other.tail;
+        return chance(random, 0.5) ? at : Vec3(at + little * in_cube(random, 1.0));
+      }
+      [[fallthrough]];
+    }
+    default:
+    {
+      Vec3 sum = Vec3::Zero();
+      double total = 0.0;
+      for (int k = 0; k < domain.corners(); ++k)
+      {
+        const double share = random.uniform();
+        sum += share * corner(k);
+        total += share;
+      }
+      return sum / total;
+    }
+  }
+}
+
+Handles handles_in(Random& random, const Domain& domain)
+{
+  Handles handles;
+  const Index count = 1 + random.below(5);
+  for (Index h = 0; h < count; ++h)
+  {
+    const std::string name = "h" + std::to_string(h);
+    const Vec3 head = place(random, domain, handles);
+    handles.push_back(chance(random, 0.6)
+        ? point_handle(name, head)
+        : bone_handle(name, head, place(random, domain, handles)));
+    if (handles.back().kind == HandleKind::point && chance(random, 0.1))
+    {
+      handles.back().kind = HandleKind::cage_vertex;
+    }
+  }
+  return handles;
+}
+
+double measure(const Domain& domain)
+{
+  return domain.is_volume() ? tet_volumes(domain.points, domain.tets).sum()
+                            : surface_area(domain.points, domain.triangles);
+}
+
+/// Smallest height of an element in units of the mesh's size: handles that nearly touch make it
+/// tiny.
+double smallest_height(const Domain& domain)
+{
+  const double size = bounding_box(domain.points).diagonal();
+  double smallest = 1.0;
+  for (Index e = 0; e < domain.element_count(); ++e)
+  {
+    const Index* ids = domain.element(e);
+    const auto corner = [&](int k) { return Vec3(domain.points.row(ids[k])); };
+    double largest_facet = 0.0, measure = 0.0;
+    for (int k = 0; k < domain.corners(); ++k)
+    {
+      const Vec3 a = corner((k + 1) % domain.corners()), b = corner((k + 2) % domain.corners());
+      largest_facet = std::max(largest_facet,
+        domain.is_volume() ? 0.5 * (b - a).cross(corner((k + 3) % 4) - a).norm() : (b - a).norm());
+    }
+    measure = domain.is_volume() ? 3.0 * tet_volume(corner(0), corner(1), corner(2), corner(3))
+                                 : (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+    smallest = std::min(smallest, measure / largest_facet / size);
+  }
+  return smallest;
+}
+
+/// Inserting handles splits elements and changes nothing else.
+void expect_same_shape(const Domain& before, const HandleInsertion& after)
+{
+  const Domain& domain = after.domain;
+  ASSERT_TRUE(check_domain(domain).ok()) << check_domain(domain).message;
+  EXPECT_EQ(domain.points.topRows(before.points.rows()), before.points);
+  EXPECT_NEAR(measure(domain), measure(before), 1e-9 * measure(before));
+}
+
+enum class Method
+{
+  unconstrained,
+  bounded,
+  monotone
+};
+
+Status solve(Random& random, const WeightsProblem& problem, Method method, WeightsResult& result)
+{
+  ExecutionContext context;
+  context.set_threads(1);
+  const int order = 2 + static_cast<int>(random.below(4)) / 3;
+  if (method == Method::unconstrained)
+  {
+    UnconstrainedWeightsOptions options;
+    options.order = 1 + static_cast<int>(random.below(3));
+    return unconstrained_weights(problem, options, context, result);
+  }
+  if (method == Method::bounded)
+  {
+    BoundedWeightsOptions options;
+    options.order = order;
+    return bounded_biharmonic_weights(problem, options, context, result);
+  }
+  MonotoneWeightsOptions options;
+  options.order = order;
+  return monotone_weights(problem, options, context, result);
+}
+
+void expect_weights(
+  const WeightsProblem& problem, Method method, const Status& status, const WeightsResult& result)
+{
+  ASSERT_EQ(result.weights.rows(), problem.vertex_count());
+  ASSERT_EQ(result.weights.cols(), problem.handle_count());
+  ASSERT_TRUE(result.weights.allFinite() && result.raw.allFinite());
+  if (method != Method::unconstrained)
+  {
+    for (const Weights* weights : { &result.raw, &result.weights })
+    {
+      EXPECT_GE(weights->minCoeff(), 0.0);
+      EXPECT_LE(weights->maxCoeff(), 1.0);
+    }
+  }
+  for (Index v = 0; v < problem.vertex_count(); ++v)
+  {
+    const bool empty = problem.constraints.roles[v] == VertexRole::unreferenced;
+    // Without bounds, large weights of both signs leave their round-off.
+    const double size = std::max(1.0, result.weights.row(v).cwiseAbs().sum());
+    ASSERT_NEAR(result.weights.row(v).sum(), empty ? 0.0 : 1.0, 1e-12 * size) << v;
+  }
+  for (std::size_t i = 0; i < problem.constraints.vertices.size(); ++i)
+  {
+    const Index v = problem.constraints.vertices[i];
+    ASSERT_LE((result.weights.row(v) - problem.constraints.values.row(static_cast<Index>(i)))
+                .cwiseAbs()
+                .maxCoeff(),
+      1e-12);
+  }
+  for (const WeightsColumn& column : result.columns)
+  {
+    if (status.ok())
+    {
+      EXPECT_LE(column.certificate.relative_gap, WeightsOptions().tolerance);
+      EXPECT_LE(column.certificate.kkt_residual, WeightsOptions().tolerance);
+    }
+  }
+}
+} // namespace
+
+TEST(FuzzWeights, HandlesAnywhere)
+{
+  Index refused = 0, unsolvable = 0, late = 0;
+  fuzz("sets of handles", 1500,
+    [&](Random& random)
+    {
+      const Domain domain = shape(random);
+      const Handles handles = handles_in(random, domain);
+      WeightsOptions options;
+      options.insertion.keep_mesh = chance(random, 0.15);
+      WeightsProblem problem;
+      ExecutionContext context;
+      context.set_threads(1);
+      const Status made = make_weights_problem(domain, {}, handles, options, context, problem);
+      expect_spoken(made);
+      if (!made.ok())
+      {
+        EXPECT_EQ(made.code, StatusCode::invalid_input) << made.message;
+        ++refused;
+        return;
+      }
+      expect_same_shape(domain, problem.mesh);
+      for (Index h = 0; h < problem.handle_count(); ++h)
+      {
+        EXPECT_EQ(problem.constraints.values.col(h).maxCoeff(), 1.0) << "a handle without a vertex";
+      }
+      const auto method = static_cast<Method>(random.below(3));
+      SCOPED_TRACE(static_cast<int>(method));
+      WeightsResult result;
+      const Status status = solve(random, problem, method, result);
+      expect_spoken(status);
+      if (!status.usable())
+      {
+        // Second differences over such lengths leave the range of doubles: the only excuse.
+        EXPECT_EQ(status.code, StatusCode::invalid_input);
+        EXPECT_LT(smallest_height(problem.mesh.domain), 1e-4) << status.message;
+        ++unsolvable;
+        return;
+      }
+      late += status.ok() ? 0 : 1;
+      expect_weights(problem, method, status, result);
+    });
+  std::cout << "[ fuzz ] " << refused << " of them were refused, " << unsolvable
+            << " had no unique minimum, " << late << " not certified in time\n";
+}

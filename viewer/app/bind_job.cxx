@@ -126,6 +126,10 @@ void BindJob::start(BindInput input)
         [this, result]
         {
           this->result_ = result;
+          if (this->cancel_) // after its end, but before anybody has seen it
+          {
+            this->result_ = { Status::failure(StatusCode::cancelled, "cancelled"), {} };
+          }
           this->running_ = false;
           Q_EMIT this->finished();
         },

@@ -23,9 +23,11 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
 #include <fstream>
 
 #include <QAction>
+#include <QActionGroup>
 #include <QApplication>
 #include <QDragEnterEvent>
 #include <QFileDialog>
@@ -59,6 +61,16 @@ bool looks_like_handles(vtkDataSet* data)
   return polydata && polydata->GetNumberOfPolys() + polydata->GetNumberOfStrips() == 0;
 }
 
+/// A file's name for a title or a sentence: exporters write names that no line holds.
+QString short_name(const QString& path)
+{
+  const QString name = QFileInfo(path).fileName();
+  constexpr int longest = 60;
+  return name.size() <= longest
+    ? name
+    : name.left(longest / 2) + QStringLiteral("…") + name.right(longest / 2);
+}
+
 /// The mesh's skin: of tets their boundary; weights come along.
 vtkSmartPointer<vtkPolyData> skin_of(vtkDataSet* mesh)
 {
@@ -90,12 +102,7 @@ MainWindow::MainWindow(QWidget* parent)
   QObject::connect(this->panel_, &SidePanel::method_chosen, this, &MainWindow::set_method);
   QObject::connect(this->panel_, &SidePanel::mode_chosen, this, &MainWindow::set_mode);
   QObject::connect(this->panel_, &SidePanel::rest_wanted, this, &MainWindow::back_to_rest);
-  QObject::connect(this->panel_, &SidePanel::column_chosen, this,
-    [this](int column)
-    {
-      this->viewport_->show_column(
-        column, column < 0 ? QString() : QString::fromStdString(this->handles_[column].name));
-    });
+  QObject::connect(this->panel_, &SidePanel::column_chosen, this, &MainWindow::show_column);
   QObject::connect(this->panel_, &SidePanel::handle_chosen, this,
     [this](int handle)
     {
@@ -107,10 +114,12 @@ MainWindow::MainWindow(QWidget* parent)
   QObject::connect(this->job_, &BindJob::finished, this, &MainWindow::bind_finished);
 
   vtkHandleSetWidget* widget = this->viewport_->handle_widget();
+  widget->AddObserver(vtkCommand::SelectionChangedEvent, this, &MainWindow::selection_changed);
   widget->AddObserver(vtkCommand::StartInteractionEvent, this, &MainWindow::drag_began);
   widget->AddObserver(vtkCommand::InteractionEvent, this, &MainWindow::update_pose);
   widget->AddObserver(vtkCommand::EndInteractionEvent, this, &MainWindow::drag_ended);
   this->update_panel();
+  this->update_pose();
 }
 
 MainWindow::~MainWindow() = default;
@@ -118,8 +127,10 @@ MainWindow::~MainWindow() = default;
 void MainWindow::make_layout()
 {
   auto* centre = new QWidget(this);
-  auto* rows = new QVBoxLayout(centre);
-  rows->setContentsMargins(0, 0, 0, 0);
+  auto* columns = new QHBoxLayout(centre);
+  columns->setContentsMargins(0, 0, 0, 0);
+  columns->setSpacing(0);
+  auto* rows = new QVBoxLayout;
   rows->setSpacing(0);
 
   this->error_bar_ = new QFrame(centre);
@@ -128,24 +139,35 @@ void MainWindow::make_layout()
   error_row->setContentsMargins(14, 8, 8, 8);
   this->error_text_ = new QLabel(this->error_bar_);
   this->error_text_->setWordWrap(true);
+  // A long word (a path) must not widen the window.
+  this->error_text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   this->error_text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   auto* close = new QPushButton(tr("Close"), this->error_bar_);
+  close->setFocusPolicy(Qt::TabFocus);
   QObject::connect(close, &QPushButton::clicked, this, &MainWindow::hide_error);
   error_row->addWidget(this->error_text_, 1);
-  error_row->addWidget(close);
+  error_row->addWidget(close, 0, Qt::AlignTop);
   this->error_bar_->hide();
   rows->addWidget(this->error_bar_);
 
-  auto* columns = new QHBoxLayout;
-  columns->setSpacing(0);
   this->viewport_ = new Viewport(centre);
+  auto* over = new QVBoxLayout(this->viewport_);
+  this->empty_ = new QLabel(this->viewport_);
+  this->empty_->setObjectName("empty");
+  this->empty_->setAlignment(Qt::AlignCenter);
+  this->empty_->setWordWrap(true);
+  this->empty_->setAttribute(Qt::WA_TransparentForMouseEvents);
+  this->empty_->setText(tr("<p style='font-size:15pt'>Open a mesh, or drop one here</p>"
+                           "<p>Then open handles (.tgf or .vtp), bind, and drag them.</p>"));
+  over->addWidget(this->empty_);
   this->panel_ = new SidePanel(centre);
-  columns->addWidget(this->viewport_, 1);
+  rows->addWidget(this->viewport_, 1);
+  columns->addLayout(rows, 1);
   columns->addWidget(this->panel_);
-  rows->addLayout(columns, 1);
   this->setCentralWidget(centre);
   this->hint_ = new QLabel(this);
   this->statusBar()->addWidget(this->hint_, 1);
+  this->hint_->setContentsMargins(12, 3, 12, 4);
   this->statusBar()->setSizeGripEnabled(false);
 }
 
@@ -156,6 +178,7 @@ void MainWindow::make_menus()
     QAction* entry = menu->addAction(text);
     entry->setShortcut(keys);
     QObject::connect(entry, &QAction::triggered, this, action);
+    return entry;
   };
 
   QMenu* file = this->menuBar()->addMenu(tr("&File"));
@@ -164,14 +187,18 @@ void MainWindow::make_menus()
     {
       const QString endings = QString(vtkMeshFileReader::GetFileExtensions()).replace(' ', " *.");
       for (const QString& path : QFileDialog::getOpenFileNames(this, tr("Open"), QString(),
-             tr("Meshes and handles (*.%1 *.tgf);;All files (*)").arg(endings)))
+             tr("Meshes and handles (*.%1 *.tgf);;All files (*)").arg(endings), nullptr,
+             QFileDialog::HideNameFilterDetails))
       {
         this->open(path);
       }
     });
-  add(file, tr("Save &shape as…"), QKeySequence::SaveAs, [this] { this->save("shape"); });
-  add(file, tr("Save &pose as…"), QKeySequence(), [this] { this->save("pose"); });
-  add(file, tr("Save p&icture as…"), QKeySequence(), [this] { this->save("picture"); });
+  this->save_shape_ = add(file, tr("Save &shape as…"),
+    QKeySequence(Qt::CTRL + Qt::SHIFT + Qt::Key_S), [this] { this->save("shape"); });
+  this->save_pose_ =
+    add(file, tr("Save &pose as…"), QKeySequence(), [this] { this->save("pose"); });
+  this->save_picture_ =
+    add(file, tr("Save p&icture as…"), QKeySequence(), [this] { this->save("picture"); });
   file->addSeparator();
   add(file, tr("&Quit"), QKeySequence::Quit, [this] { this->close(); });
 
@@ -184,8 +211,9 @@ void MainWindow::make_menus()
   edit->addAction(undo);
   edit->addAction(redo);
   edit->addSeparator();
-  add(edit, tr("&Bind"), QKeySequence(Qt::CTRL + Qt::Key_B), [this] { this->bind(); });
-  add(edit, tr("Back to &rest"), QKeySequence(Qt::CTRL + Qt::Key_R),
+  this->bind_ =
+    add(edit, tr("&Bind"), QKeySequence(Qt::CTRL + Qt::Key_B), [this] { this->bind(); });
+  this->rest_pose_ = add(edit, tr("Back to &rest"), QKeySequence(Qt::CTRL + Qt::Key_R),
     [this] { this->back_to_rest(); });
 
   QMenu* view = this->menuBar()->addMenu(tr("&View"));
@@ -198,32 +226,43 @@ void MainWindow::make_menus()
   view->addSeparator();
   const char* const methods[] = { QT_TR_NOOP("&Linear blend"), QT_TR_NOOP("&Dual quaternions"),
     QT_TR_NOOP("&As rigid as possible") };
+  this->methods_ = new QActionGroup(this);
   for (int k = 0; k < 3; ++k)
   {
-    add(view, tr(methods[k]), QKeySequence(Qt::Key_1 + k), [this, k] { this->set_method(k); });
+    QAction* method =
+      add(view, tr(methods[k]), QKeySequence(Qt::Key_1 + k), [this, k] { this->set_method(k); });
+    method->setCheckable(true);
+    this->methods_->addAction(method);
   }
+  this->methods_->actions().front()->setChecked(true);
 
   QMenu* help = this->menuBar()->addMenu(tr("&Help"));
   add(help, tr("&Mouse and keys"), QKeySequence(Qt::Key_F1),
     [this]
     {
-      QMessageBox::information(this, tr("Mouse and keys"),
+      QMessageBox box(QMessageBox::NoIcon, tr("Mouse and keys"),
         tr("<table cellspacing='6'>"
            "<tr><td><b>Drag a handle</b></td><td>moves it; a bone's tip turns the bone</td></tr>"
            "<tr><td><b>Esc</b> while dragging</td><td>takes the drag back</td></tr>"
            "<tr><td><b>Drag elsewhere</b></td><td>turns the view</td></tr>"
            "<tr><td><b>Shift-drag, wheel</b></td><td>moves the view, zooms</td></tr>"
-           "<tr><td><b>1, 2, 3</b></td><td>linear blend, dual quaternions, as rigid as "
-           "possible</td></tr>"
-           "<tr><td><b>Ctrl+B</b></td><td>bind</td></tr>"
-           "<tr><td><b>Ctrl+Z, Ctrl+Y</b></td><td>undo, redo</td></tr>"
-           "<tr><td><b>Home</b></td><td>shows the whole shape</td></tr></table>"));
+           "<tr><td><b>1, 2, 3</b></td><td>linear blend, dual quaternions, "
+           "as&nbsp;rigid&nbsp;as&nbsp;possible</td></tr>"
+           "<tr><td><b>Ctrl+B</b></td><td>binds</td></tr>"
+           "<tr><td><b>Ctrl+R</b></td><td>takes all handles back to rest</td></tr>"
+           "<tr><td><b>Ctrl+Z, Ctrl+Y</b></td><td>undoes, redoes</td></tr>"
+           "<tr><td><b>Home</b></td><td>shows the whole shape</td></tr></table>"),
+        QMessageBox::Close, this);
+      box.exec();
     });
   add(help, tr("&About Bindpose"), QKeySequence(),
     [this]
     {
       QMessageBox::about(this, tr("About Bindpose"),
-        tr("<b>Bindpose</b><p>Any triangle mesh to a shape that a person bends in real time.</p>"));
+        tr("<b>Bindpose %1</b>"
+           "<p>Any triangle mesh to a shape that a person bends in real time.</p>"
+           "<p>Own code under the BSD 3-clause licence.</p>")
+          .arg(BINDPOSE_VERSION));
     });
 }
 
@@ -232,7 +271,14 @@ void MainWindow::make_menus()
 bool MainWindow::open(const QString& path)
 {
   const std::string file = path.toStdString();
-  const QString name = QFileInfo(path).fileName();
+  const QString name = short_name(path);
+  // The readers name the whole path; here the name says enough.
+  const auto refuse = [&](const std::string& message)
+  {
+    this->show_error(QString::fromStdString(message).replace(path, name));
+    this->error_text_->setToolTip(path);
+    return false;
+  };
   if (path.endsWith(".tgf", Qt::CaseInsensitive))
   {
     vtkNew<vtkHandleFileReader> reader;
@@ -241,8 +287,7 @@ bool MainWindow::open(const QString& path)
     reader->Update();
     if (reader->GetStatus() != vtkBindposeAlgorithm::OK)
     {
-      this->show_error(QString::fromStdString(reader->GetStatusMessage()));
-      return false;
+      return refuse(reader->GetStatusMessage());
     }
     return this->set_handles(vtkPolyData::SafeDownCast(reader->GetOutput()), name);
   }
@@ -252,8 +297,7 @@ bool MainWindow::open(const QString& path)
   reader->Update();
   if (reader->GetStatus() != vtkBindposeAlgorithm::OK)
   {
-    this->show_error(QString::fromStdString(reader->GetStatusMessage()));
-    return false;
+    return refuse(reader->GetStatusMessage());
   }
   vtkDataSet* read = reader->GetOutput();
   return looks_like_handles(read) ? this->set_handles(vtkPolyData::SafeDownCast(read), name)
@@ -278,7 +322,7 @@ bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name)
   this->shown_ = skin;
   this->viewport_->set_surface(skin);
   this->viewport_->reset_view();
-  this->setWindowTitle(QString("%1 – Bindpose").arg(name));
+  this->setWindowTitle(QString("%1 — Bindpose").arg(name));
   this->connect_weights();
   return true;
 }
@@ -305,6 +349,18 @@ bool MainWindow::set_handles(vtkPolyData* handle_data, const QString& name)
   to_pose(this->handle_data_, this->handles_, this->handle_cells_, pose);
   set_pose(this->handle_data_, this->handle_cells_, pose);
   this->viewport_->set_handles(this->handle_data_);
+  if (!this->rest_)
+  {
+    this->viewport_->reset_view();
+  }
+  QStringList names;
+  QList<int> modes;
+  for (std::size_t k = 0; k < this->handles_.size(); ++k)
+  {
+    names << QString::fromStdString(this->handles_[k].name);
+    modes << static_cast<int>(pose[k].mode);
+  }
+  this->panel_->set_handles(names, modes);
   this->connect_weights();
   return true;
 }
@@ -315,9 +371,19 @@ void MainWindow::connect_weights()
   vtkDataArray* weights = this->rest_ ? this->rest_->GetPointData()->GetArray("Weights") : nullptr;
   if (weights && this->handle_data_)
   {
-    if (weights->GetNumberOfComponents() == static_cast<int>(this->handles_.size()))
+    bool same_names = true;
+    for (std::size_t k = 0; k < this->handles_.size(); ++k)
+    {
+      const char* name = weights->GetComponentName(static_cast<vtkIdType>(k));
+      same_names = same_names && (!name || this->handles_[k].name == name);
+    }
+    if (weights->GetNumberOfComponents() == static_cast<int>(this->handles_.size()) && same_names)
     {
       this->deformation_.set_input(this->rest_, this->handle_data_);
+    }
+    else if (weights->GetNumberOfComponents() == static_cast<int>(this->handles_.size()))
+    {
+      this->show_error(tr("The mesh has weights for handles of other names: bind again."));
     }
     else
     {
@@ -360,7 +426,7 @@ void MainWindow::bind()
   const Status status = to_surface(this->rest_, surface);
   if (!status.ok())
   {
-    this->show_error(QString::fromStdString(status.message));
+    this->show_error(tr("Cannot bind: %1.").arg(QString::fromStdString(status.message)));
     return;
   }
   BindInput input;
@@ -377,6 +443,7 @@ void MainWindow::bind()
   }
   this->job_->start(std::move(input));
   this->update_panel();
+  this->update_pose();
 }
 
 void MainWindow::cancel_bind()
@@ -388,14 +455,16 @@ void MainWindow::bind_finished()
 {
   const BindResult& result = this->job_->result();
   this->update_panel();
+  this->update_pose();
   if (result.status.code == StatusCode::cancelled)
   {
-    this->panel_->set_note(tr("Cancelled."));
+    this->panel_->set_note(
+      this->is_bound() ? tr("Cancelled; the weights stay as they were.") : tr("Cancelled."));
     return;
   }
   if (!result.status.usable())
   {
-    this->show_error(QString::fromStdString(result.status.message));
+    this->show_error(tr("Cannot bind: %1.").arg(QString::fromStdString(result.status.message)));
     return;
   }
   if (result.weights.rows() != this->rest_->GetNumberOfPoints() ||
@@ -420,7 +489,7 @@ void MainWindow::bind_finished()
   this->connect_weights();
   const Report& report = result.status.report;
   this->panel_->set_note(result.status.ok()
-      ? tr("Bound in %1 s; certified to %2.")
+      ? tr("Bound in %1 s, certified to %2.")
           .arg(report.number("seconds.total", 0.0), 0, 'f', 1)
           .arg(report.number("relative_gap", 0.0), 0, 'e', 1)
       : tr("Not converged: gap %1, residual %2.")
@@ -428,7 +497,8 @@ void MainWindow::bind_finished()
           .arg(report.number("kkt_residual", 0.0), 0, 'e', 1));
   if (!result.status.warnings.empty())
   {
-    this->show_error(QString::fromStdString(result.status.warnings.front()));
+    this->show_error(
+      tr("Bound, but: %1.").arg(QString::fromStdString(result.status.warnings.front())));
   }
 }
 
@@ -444,6 +514,18 @@ Pose MainWindow::pose() const
   return pose;
 }
 
+int MainWindow::handle_of_cell(vtkIdType cell) const
+{
+  const auto found = std::find(this->handle_cells_.begin(), this->handle_cells_.end(), cell);
+  return found == this->handle_cells_.end() ? -1
+                                            : static_cast<int>(found - this->handle_cells_.begin());
+}
+
+void MainWindow::stop_drag()
+{
+  this->viewport_->handle_widget()->CancelDrag();
+}
+
 void MainWindow::apply_pose(const Pose& pose)
 {
   set_pose(this->handle_data_, this->handle_cells_, pose);
@@ -456,27 +538,25 @@ void MainWindow::apply_pose(const Pose& pose)
 
 void MainWindow::remember(const QString& name, const Pose& before)
 {
-  this->history_->push(
-    new PoseStep(name, before, this->pose(), [this](const Pose& pose) { this->apply_pose(pose); }));
+  this->history_->push(new PoseStep(name, before, this->pose(),
+    [this](const Pose& pose)
+    {
+      this->stop_drag();
+      this->apply_pose(pose);
+    }));
+}
+
+void MainWindow::selection_changed()
+{
+  this->panel_->select_handle(this->handle_of_cell(
+    this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetSelectedHandle()));
 }
 
 void MainWindow::drag_began()
 {
   this->before_drag_ = this->pose();
-  const vtkIdType cell =
-    this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetActiveHandle();
-  this->dragged_ = -1;
-  for (std::size_t k = 0; k < this->handle_cells_.size(); ++k)
-  {
-    if (this->handle_cells_[k] == cell)
-    {
-      this->dragged_ = static_cast<int>(k);
-    }
-  }
-  if (this->dragged_ >= 0)
-  {
-    this->panel_->select_handle(this->dragged_);
-  }
+  this->dragged_ = this->handle_of_cell(
+    this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetActiveHandle());
 }
 
 void MainWindow::drag_ended()
@@ -492,12 +572,14 @@ void MainWindow::drag_ended()
 void MainWindow::set_method(int method)
 {
   this->panel_->set_method(method);
+  this->methods_->actions()[method]->setChecked(true);
   this->deformation_.set_method(static_cast<Deformation::Method>(method));
   this->update_pose();
 }
 
 void MainWindow::set_mode(int handle, int mode)
 {
+  this->stop_drag();
   const Pose before = this->pose();
   Pose after = before;
   after[handle].mode = static_cast<HandleMode>(mode);
@@ -511,6 +593,7 @@ void MainWindow::back_to_rest()
   {
     return;
   }
+  this->stop_drag();
   const Pose before = this->pose();
   Pose rest(before.size());
   for (std::size_t k = 0; k < before.size(); ++k)
@@ -525,6 +608,7 @@ void MainWindow::update_pose()
 {
   QString reading = !this->rest_ ? tr("Open a mesh (Ctrl+O) or drop one here.")
     : !this->handle_data_        ? tr("Open handles (.tgf or .vtp) to bind and pose.")
+    : this->is_binding()         ? tr("Binding; the view can be turned meanwhile.")
                                  : tr("Bind (Ctrl+B), then drag the handles.");
   if (this->deformation_.has_input())
   {
@@ -532,18 +616,19 @@ void MainWindow::update_pose()
     {
       this->shown_ = posed;
       this->viewport_->move_surface(posed);
-      reading = tr("%1 vertices   %2 ms a pose")
-                  .arg(posed->GetNumberOfPoints())
+      reading = tr("%L1 vertices  ·  %2 ms a pose")
+                  .arg(static_cast<qlonglong>(posed->GetNumberOfPoints()))
                   .arg(this->deformation_.milliseconds(), 0, 'f', 2);
       if (this->deformation_.microseconds_per_iteration() > 0.0)
       {
-        reading += tr("   %1 µs an iteration")
+        reading += tr("  ·  %1 µs an iteration")
                      .arg(this->deformation_.microseconds_per_iteration(), 0, 'f', 1);
       }
     }
     else
     {
-      this->show_error(QString::fromStdString(this->deformation_.error()));
+      this->show_error(
+        tr("Cannot pose: %1.").arg(QString::fromStdString(this->deformation_.error())));
     }
   }
   else if (this->rest_)
@@ -557,40 +642,53 @@ void MainWindow::update_pose()
 
 void MainWindow::update_panel()
 {
-  QStringList names;
-  QList<int> modes;
-  const Pose pose = this->pose();
-  for (std::size_t k = 0; k < this->handles_.size(); ++k)
-  {
-    names << QString::fromStdString(this->handles_[k].name);
-    modes << static_cast<int>(pose[k].mode);
-  }
-  const int column = this->panel_->shown_column();
-  this->panel_->set_handles(names, modes);
+  const bool ready = this->rest_ && this->handle_data_;
+  const bool binding = this->is_binding();
   const bool bound = this->is_bound();
-  this->panel_->set_state(this->rest_ && this->handle_data_, this->is_binding(), bound);
-  this->panel_->show_column(bound && column < names.size() ? column : -1);
-  this->panel_->set_note(QString());
+  this->panel_->set_state(ready, binding, bound);
+  const int column = this->panel_->shown_column();
+  this->panel_->show_column(
+    bound && column < static_cast<int>(this->handles_.size()) ? column : -1);
+  this->show_column(this->panel_->shown_column());
+  this->panel_->set_note(binding            ? tr("Starting …")
+      : bound                               ? tr("Bound with the mesh's weights.")
+      : ready                               ? tr("Not bound yet.")
+      : !this->rest_ && !this->handle_data_ ? tr("Needs a mesh and handles.")
+      : this->rest_                         ? tr("Needs handles.")
+                                            : tr("Needs a mesh."));
+  this->empty_->setVisible(!this->rest_ && !this->handle_data_);
+  this->save_shape_->setEnabled(this->rest_);
+  this->save_picture_->setEnabled(this->rest_ || this->handle_data_);
+  this->save_pose_->setEnabled(this->handle_data_);
+  this->bind_->setEnabled(ready && !binding);
+  this->rest_pose_->setEnabled(bound);
+  this->methods_->setEnabled(bound);
+}
+
+void MainWindow::show_column(int column)
+{
+  const int handle = column < static_cast<int>(this->handles_.size()) ? column : -1;
+  this->viewport_->show_column(handle,
+    handle < 0
+      ? QString()
+      : tr("Weights of %1").arg(short_name(QString::fromStdString(this->handles_[handle].name))));
 }
 
 // ---- Saving and errors -------------------------------------------------------------------------
 
 void MainWindow::save(const QString& what)
 {
-  if (!this->shown_ || (what == "pose" && !this->handle_data_))
-  {
-    this->show_error(tr("There is no %1 to save yet.").arg(what));
-    return;
-  }
   const QString kinds = what == "shape" ? tr("Shapes (*.vtp *.ply *.obj *.off *.stl)")
     : what == "pose"                    ? tr("Poses (*.json)")
                                         : tr("Pictures (*.png)");
-  const QString path =
-    QFileDialog::getSaveFileName(this, tr("Save %1").arg(what), QString(), kinds);
-  if (path.isEmpty())
+  QFileDialog dialog(this, tr("Save %1").arg(what), QString(), kinds);
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setDefaultSuffix(what == "shape" ? "vtp" : what == "pose" ? "json" : "png");
+  if (dialog.exec() != QDialog::Accepted)
   {
     return;
   }
+  const QString path = dialog.selectedFiles().front();
   if (what == "picture")
   {
     if (!this->viewport_->save_picture(path))
@@ -637,6 +735,7 @@ void MainWindow::save(const QString& what)
 void MainWindow::show_error(const QString& sentence)
 {
   this->error_text_->setText(sentence);
+  this->error_text_->setToolTip(QString());
   this->error_bar_->show();
 }
 

@@ -11,6 +11,8 @@
 
 #include <QMainWindow>
 
+class QAction;
+class QActionGroup;
 class QFrame;
 class QLabel;
 class QUndoStack;
@@ -65,9 +67,13 @@ private:
   void bind_finished();
   void update_pose();
   void update_panel();
+  void show_column(int column);
+  int handle_of_cell(vtkIdType cell) const;
   bindpose::Pose pose() const;
   void apply_pose(const bindpose::Pose& pose);
   void remember(const QString& name, const bindpose::Pose& before);
+  void stop_drag();
+  void selection_changed();
   void drag_began();
   void drag_ended();
   void save(const QString& what);
@@ -77,6 +83,13 @@ private:
   QFrame* error_bar_ = nullptr;
   QLabel* error_text_ = nullptr;
   QLabel* hint_ = nullptr;
+  QLabel* empty_ = nullptr; // in the middle of the picture as long as nothing is open
+  QAction* save_shape_ = nullptr;
+  QAction* save_pose_ = nullptr;
+  QAction* save_picture_ = nullptr;
+  QAction* bind_ = nullptr;
+  QAction* rest_pose_ = nullptr;
+  QActionGroup* methods_ = nullptr;
   QUndoStack* history_ = nullptr;
   BindJob* job_ = nullptr;
 

@@ -19,29 +19,76 @@ QLabel* heading(const QString& text, QWidget* parent)
   return label;
 }
 
-const char* const mode_names[] = { "full", "position", "free" };
+const char* const mode_names[] = { QT_TRANSLATE_NOOP("SidePanel", "full"),
+  QT_TRANSLATE_NOOP("SidePanel", "position"), QT_TRANSLATE_NOOP("SidePanel", "free") };
+
+/// A combo box that does not grow with its items: they may be handles of any name.
+QComboBox* combo(QWidget* parent)
+{
+  auto* box = new QComboBox(parent);
+  box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  box->setMinimumContentsLength(8);
+  return box;
+}
+
+/// A button that the mouse presses without taking the keyboard to it.
+QPushButton* button(const QString& text, QWidget* parent)
+{
+  auto* result = new QPushButton(text, parent);
+  result->setFocusPolicy(Qt::TabFocus);
+  return result;
+}
+
+/// What a phase of the kernels does, in words.
+QString sentence_of(const QString& phase)
+{
+  static const struct
+  {
+    const char* phases;
+    const char* sentence;
+  } table[] = {
+    { "repair", QT_TRANSLATE_NOOP("SidePanel", "Looking at the surface") },
+    { "winding", QT_TRANSLATE_NOOP("SidePanel", "Finding the inside") },
+    { "tetrahedralize cdt refine tetgen label fill lattice sample cut cover check",
+      QT_TRANSLATE_NOOP("SidePanel", "Filling it with tets") },
+    { "insert", QT_TRANSLATE_NOOP("SidePanel", "Placing the handles") },
+    { "analyse guide weights", QT_TRANSLATE_NOOP("SidePanel", "Solving for the weights") },
+    { "transfer", QT_TRANSLATE_NOOP("SidePanel", "Taking the weights to the surface") },
+  };
+  for (const auto& row : table)
+  {
+    if (QString(row.phases).split(' ').contains(phase))
+    {
+      return SidePanel::tr(row.sentence);
+    }
+  }
+  return phase;
+}
 } // namespace
 
 SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
 {
   this->setObjectName("panel");
-  this->setFixedWidth(268);
+  this->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(16, 14, 16, 14);
   column->setSpacing(7);
 
   column->addWidget(heading(tr("Bind"), this));
-  this->kind_ = new QComboBox(this);
+  this->kind_ = combo(this);
   this->kind_->addItem(tr("Bounded biharmonic weights"));
   this->kind_->addItem(tr("Monotone weights"));
+  // The panel is as wide as this line, in any font.
+  this->kind_->setMinimumContentsLength(0);
+  this->kind_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   this->kind_->setToolTip(tr("Bounded: smooth functions between 0 and 1.\n"
                              "Monotone: besides, no hill or hollow away from the handles."));
   column->addWidget(this->kind_);
   auto* buttons = new QHBoxLayout;
-  this->bind_ = new QPushButton(tr("Bind"), this);
+  this->bind_ = button(tr("Bind"), this);
   this->bind_->setObjectName("primary");
   this->bind_->setToolTip(tr("Computes the weights of all handles (Ctrl+B)"));
-  this->cancel_ = new QPushButton(tr("Cancel"), this);
+  this->cancel_ = button(tr("Cancel"), this);
   this->cancel_->setToolTip(tr("Stops the bind; the weights stay as they were"));
   buttons->addWidget(this->bind_, 1);
   buttons->addWidget(this->cancel_);
@@ -53,11 +100,17 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   this->note_ = new QLabel(this);
   this->note_->setObjectName("note");
   this->note_->setWordWrap(true);
+  this->note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  // What comes and goes keeps its place, so that nothing below it jumps.
+  this->note_->setFixedHeight(2 * this->note_->fontMetrics().lineSpacing() + 2);
+  QSizePolicy keeps_place = this->bar_->sizePolicy();
+  keeps_place.setRetainSizeWhenHidden(true);
+  this->bar_->setSizePolicy(keeps_place);
   column->addWidget(this->note_);
 
   column->addSpacing(10);
   column->addWidget(heading(tr("Show"), this));
-  this->shown_ = new QComboBox(this);
+  this->shown_ = combo(this);
   this->shown_->setToolTip(tr("The shaded surface, or one handle's weights on it"));
   column->addWidget(this->shown_);
 
@@ -71,37 +124,50 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   const char* const tips[] = { QT_TR_NOOP("Linear blend skinning (1)"),
     QT_TR_NOOP("Dual quaternion skinning (2): twists keep their volume"),
     QT_TR_NOOP("Reduced as-rigid-as-possible (3): finds what handles leave open") };
+  const char* const places[] = { "first", "middle", "last" };
   for (int k = 0; k < 3; ++k)
   {
-    auto* button = new QPushButton(tr(names[k]), this);
-    button->setObjectName("segment");
-    button->setCheckable(true);
-    button->setToolTip(tr(tips[k]));
-    this->methods_->addButton(button, k);
-    row->addWidget(button, 1);
+    QPushButton* segment = button(tr(names[k]), this);
+    segment->setObjectName("segment");
+    segment->setProperty("place", places[k]);
+    segment->setCheckable(true);
+    segment->setToolTip(tr(tips[k]));
+    this->methods_->addButton(segment, k);
+    row->addWidget(segment, 1);
   }
   this->methods_->button(0)->setChecked(true);
   column->addLayout(row);
-  this->rest_ = new QPushButton(tr("Back to rest"), this);
-  this->rest_->setToolTip(tr("All handles back to where they were bound (can be undone)"));
+  this->rest_ = button(tr("Back to rest"), this);
+  this->rest_->setToolTip(tr("All handles back to where they were bound (Ctrl+R)"));
   column->addWidget(this->rest_);
 
   column->addSpacing(10);
   column->addWidget(heading(tr("Handles"), this));
   this->handles_ = new QListWidget(this);
+  this->handles_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  this->handles_->setTextElideMode(Qt::ElideMiddle);
+  this->handles_->setMinimumHeight(4 * this->handles_->fontMetrics().lineSpacing());
   column->addWidget(this->handles_, 1);
   auto* mode_row = new QHBoxLayout;
-  mode_row->addWidget(new QLabel(tr("Fixes"), this));
-  this->mode_ = new QComboBox(this);
+  this->mode_label_ = new QLabel(tr("Fixes"), this);
+  mode_row->addWidget(this->mode_label_);
+  this->mode_ = combo(this);
   this->mode_->addItem(tr("full transform"));
   this->mode_->addItem(tr("position only"));
   this->mode_->addItem(tr("nothing (free)"));
-  this->mode_->setToolTip(tr("What the selected handle fixes; ARAP finds the rest"));
+  this->mode_->setToolTip(
+    tr("What the selected handle fixes; as-rigid-as-possible (ARAP) finds the rest"));
   mode_row->addWidget(this->mode_, 1);
   column->addLayout(mode_row);
 
   QObject::connect(this->bind_, &QPushButton::clicked, this, &SidePanel::bind_wanted);
-  QObject::connect(this->cancel_, &QPushButton::clicked, this, &SidePanel::cancel_wanted);
+  QObject::connect(this->cancel_, &QPushButton::clicked, this,
+    [this]
+    {
+      this->stopping_ = true;
+      this->set_note(tr("Stopping …"));
+      Q_EMIT this->cancel_wanted();
+    });
   QObject::connect(this->rest_, &QPushButton::clicked, this, &SidePanel::rest_wanted);
   QObject::connect(this->methods_, &QButtonGroup::idClicked, this, &SidePanel::method_chosen);
   QObject::connect(this->shown_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
@@ -109,9 +175,11 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   QObject::connect(this->handles_, &QListWidget::currentRowChanged, this,
     [this](int handle)
     {
-      const QSignalBlocker quiet(this->mode_);
-      this->mode_->setEnabled(handle >= 0);
-      this->mode_->setCurrentIndex(handle >= 0 ? this->modes_[handle] : 0);
+      if (handle >= 0)
+      {
+        this->handles_->item(handle)->setSelected(true); // the keyboard's first step does not
+      }
+      this->show_mode(handle);
       Q_EMIT this->handle_chosen(handle);
     });
   QObject::connect(this->mode_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
@@ -138,10 +206,29 @@ void SidePanel::set_handles(const QStringList& names, const QList<int>& modes)
   for (int handle = 0; handle < names.size(); ++handle)
   {
     this->handles_->addItem(names[handle]);
-    this->shown_->addItem(tr("Weights of %1").arg(names[handle]));
+    this->handles_->item(handle)->setToolTip(names[handle]);
+    this->shown_->addItem(tr("Weights of %1")
+                            .arg(this->fontMetrics().elidedText(
+                              names[handle], Qt::ElideMiddle, this->room_for_names())));
+    this->shown_->setItemData(handle + 1, names[handle], Qt::ToolTipRole);
     this->set_mode(handle, modes[handle]);
   }
-  this->mode_->setEnabled(false);
+  this->show_mode(-1);
+}
+
+/// Pixels that a handle's name may take in the combo box, after the words before it.
+int SidePanel::room_for_names() const
+{
+  const int field = this->kind_->sizeHint().width() - 50; // frame, arrow, padding
+  return field - this->fontMetrics().horizontalAdvance(tr("Weights of %1").arg(QString()));
+}
+
+void SidePanel::show_mode(int handle)
+{
+  const QSignalBlocker quiet(this->mode_);
+  this->mode_label_->setEnabled(handle >= 0);
+  this->mode_->setEnabled(handle >= 0);
+  this->mode_->setCurrentIndex(handle >= 0 ? this->modes_[handle] : 0);
 }
 
 void SidePanel::set_mode(int handle, int mode)
@@ -149,11 +236,10 @@ void SidePanel::set_mode(int handle, int mode)
   this->modes_[handle] = mode;
   QListWidgetItem* item = this->handles_->item(handle);
   item->setText(mode == 0 ? this->names_[handle]
-                          : QString("%1   (%2)").arg(this->names_[handle], mode_names[mode]));
+                          : QString("%1   (%2)").arg(this->names_[handle], tr(mode_names[mode])));
   if (handle == this->selected_handle())
   {
-    const QSignalBlocker quiet(this->mode_);
-    this->mode_->setCurrentIndex(mode);
+    this->show_mode(handle);
   }
 }
 
@@ -169,29 +255,49 @@ int SidePanel::selected_handle() const
 
 void SidePanel::set_state(bool ready, bool binding, bool bound)
 {
-  this->bind_->setText(bound ? tr("Bind again") : tr("Bind"));
-  this->bind_->setEnabled(ready && !binding);
-  this->kind_->setEnabled(ready && !binding);
-  this->cancel_->setVisible(binding);
-  this->bar_->setVisible(binding);
-  this->shown_->setEnabled(bound);
-  this->rest_->setEnabled(bound);
-  for (QAbstractButton* button : this->methods_->buttons())
+  this->stopping_ = false;
+  // Who presses Bind by key finds Cancel there, and then Bind again. Whatever else is disabled
+  // gives the keyboard up first: it would go on to the list and choose a handle there.
+  const bool keyboard = this->bind_->hasFocus() || this->cancel_->hasFocus();
+  const auto enable = [](QWidget* widget, bool on)
   {
-    button->setEnabled(bound);
+    if (!on)
+    {
+      widget->clearFocus();
+    }
+    widget->setEnabled(on);
+  };
+  this->bind_->setText(bound ? tr("Bind again") : tr("Bind"));
+  enable(this->bind_, ready && !binding);
+  enable(this->cancel_, binding);
+  this->cancel_->setVisible(binding);
+  if (keyboard)
+  {
+    (binding ? this->cancel_ : this->bind_)->setFocus();
+  }
+  enable(this->kind_, ready && !binding);
+  this->bar_->setValue(0);
+  this->bar_->setVisible(binding);
+  enable(this->shown_, bound);
+  enable(this->rest_, bound);
+  for (QAbstractButton* method : this->methods_->buttons())
+  {
+    enable(method, bound);
   }
 }
 
 void SidePanel::set_progress(double fraction, const QString& phase)
 {
   this->bar_->setValue(static_cast<int>(1000.0 * fraction));
-  this->set_note(tr("%1 … %2 %").arg(phase).arg(static_cast<int>(100.0 * fraction)));
+  if (!this->stopping_)
+  {
+    this->set_note(tr("%1, %2 %").arg(sentence_of(phase)).arg(static_cast<int>(100.0 * fraction)));
+  }
 }
 
 void SidePanel::set_note(const QString& text)
 {
   this->note_->setText(text);
-  this->note_->setVisible(!text.isEmpty());
 }
 
 void SidePanel::set_method(int method)

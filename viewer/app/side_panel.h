@@ -20,7 +20,7 @@ class SidePanel : public QFrame
 public:
   explicit SidePanel(QWidget* parent = nullptr);
 
-  /// One line a handle: its name and mode (0 full, 1 position, 2 free).
+  /// Other handles: one line a handle: its name and mode (0 full, 1 position, 2 free).
   void set_handles(const QStringList& names, const QList<int>& modes);
   void set_mode(int handle, int mode);
   void select_handle(int handle);
@@ -29,7 +29,7 @@ public:
   /// Ready: a surface and handles are there. Bound: weights are there.
   void set_state(bool ready, bool binding, bool bound);
   void set_progress(double fraction, const QString& phase);
-  /// A line under the bind button: certificate, or what to do next.
+  /// One or two lines under the bind button: certificate, or what to do next.
   void set_note(const QString& text);
   void set_method(int method);
 
@@ -49,7 +49,11 @@ Q_SIGNALS:
   void rest_wanted();
 
 private:
+  int room_for_names() const;
+  void show_mode(int handle);
+
   QListWidget* handles_;
+  QLabel* mode_label_;
   QComboBox* mode_;
   QComboBox* kind_;
   QComboBox* shown_;
@@ -61,6 +65,7 @@ private:
   QButtonGroup* methods_;
   QStringList names_;
   QList<int> modes_;
+  bool stopping_ = false; // cancel was pressed, the bind has not ended yet
 };
 
 #endif

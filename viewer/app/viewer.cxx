@@ -9,7 +9,9 @@
 
 int run_viewer(const std::vector<std::string>& files)
 {
-  // Qt wants the format before the application.
+  // Qt wants these before the application.
+  QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
+  QApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
   QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
   int argc = 1;
   char name[] = "bindpose";

@@ -130,12 +130,17 @@ void Viewport::draw_legend()
 void Viewport::resizeEvent(QResizeEvent* event)
 {
   QVTKOpenGLNativeWidget::resizeEvent(event);
+  this->handles_->GetHandleSetRepresentation()->SetPixelScale(this->devicePixelRatioF());
   this->draw_legend();
 }
 
 void Viewport::reset_view()
 {
   vtkPolyData* shown = this->shaded_ ? this->shaded_->polydata() : nullptr;
+  if (!shown || shown->GetNumberOfPoints() == 0)
+  {
+    shown = this->handles_->GetHandles();
+  }
   if (!shown || shown->GetNumberOfPoints() == 0)
   {
     return;

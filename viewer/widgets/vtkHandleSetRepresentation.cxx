@@ -569,11 +569,18 @@ void vtkHandleSetRepresentation::BuildRepresentation()
     const bindpose::Colour edge = to_colour(selected ? this->SelectedColor : this->OutlineColor);
     const double growth = hot ? 1.2 : 1.0;
     const double line = outline_pixels * (selected ? 1.6 : 1.0);
+    // Around the selected handle's outline there is another, so that it shows on any ground.
+    const double rim = line + outline_pixels;
+    const bindpose::Colour rim_colour = to_colour(this->OutlineColor);
     const auto add_ball = [&](const Vector3d& center, double size)
     {
       const double pixel = pixel_at(center);
       solid.add_ball(center, size * growth * pixel, colour);
       outline.add_ball(center, (size * growth + line) * pixel, edge);
+      if (selected)
+      {
+        outline.add_ball(center, (size * growth + rim) * pixel, rim_colour);
+      }
     };
     if (place.kind == 1)
     {
@@ -584,6 +591,10 @@ void vtkHandleSetRepresentation::BuildRepresentation()
           0.5 * this->PointSize * pixel, 2.0 * this->PointSize * pixel);
       solid.add_bone(place.head, place.tail, width, colour);
       outline.add_bone(place.head, place.tail, width, edge, line * pixel);
+      if (selected)
+      {
+        outline.add_bone(place.head, place.tail, width, rim_colour, rim * pixel);
+      }
       add_ball(place.head, bone_end_size * this->PointSize);
       add_ball(place.tail, bone_end_size * this->PointSize);
     }
@@ -607,9 +618,23 @@ void vtkHandleSetRepresentation::BuildRepresentation()
       label->GetTextProperty()->ShallowCopy(self.Text);
       label->GetTextProperty()->SetFontSize(
         static_cast<int>(self.Text->GetFontSize() * this->PixelScale + 0.5));
-      label->SetDisplayPosition(
-        static_cast<int>(display[0] + this->PixelScale * 1.9 * this->PointSize),
-        static_cast<int>(display[1]));
+      // Right of a ball; of a bone on the side that faces right, so as not to cover it.
+      Eigen::Vector2d aside(1.0, 0.0);
+      if (place.kind == 1)
+      {
+        Vector3d head;
+        vtkInteractorObserver::ComputeWorldToDisplay(
+          this->Renderer, place.head[0], place.head[1], place.head[2], head.data());
+        const Eigen::Vector2d along = (display - head).head<2>();
+        if (along.norm() > 0.0)
+        {
+          aside = Eigen::Vector2d(along.y(), -along.x()).normalized();
+          aside *= aside.x() < 0.0 ? -1.0 : 1.0;
+        }
+      }
+      const double distance = this->PixelScale * this->PointSize;
+      label->SetDisplayPosition(static_cast<int>(display[0] + 1.9 * distance * aside.x()),
+        static_cast<int>(display[1] + 2.4 * distance * aside.y()));
     }
   }
   self.SolidMapper->SetInputData(solid.polydata());

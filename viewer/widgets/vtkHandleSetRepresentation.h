@@ -112,7 +112,7 @@ public:
 
   ///@{
   /// Colours by Mode (full: orange, position: blue, free: grey) and of the outline; the selected
-  /// handle's outline has its own.
+  /// handle's outline has its own, with the outline's colour around it.
   vtkSetVector3Macro(FullColor, double);
   vtkGetVector3Macro(FullColor, double);
   vtkSetVector3Macro(PositionColor, double);

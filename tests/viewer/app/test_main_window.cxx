@@ -20,8 +20,15 @@
 #include "vtkRenderer.h"
 
 #include <QApplication>
+#include <QComboBox>
 #include <QElapsedTimer>
+#include <QLabel>
+#include <QListWidget>
+#include <QMenuBar>
 #include <QProgressBar>
+#include <QPushButton>
+#include <QStyle>
+#include <QStyleOptionComboBox>
 #include <QSurfaceFormat>
 #include <QUndoStack>
 
@@ -82,6 +89,21 @@ Vec3 top_of(vtkPolyData* data)
     }
   }
   return top;
+}
+
+/// Deep blue where a weight is one: blue well above red. The shaded surface has none.
+int blue_pixels(const QImage& image)
+{
+  int count = 0;
+  for (int y = 0; y < image.height(); ++y)
+  {
+    for (int x = 0; x < image.width(); ++x)
+    {
+      const QColor c = image.pixelColor(x, y);
+      count += c.blue() > c.red() + 60;
+    }
+  }
+  return count;
 }
 
 /// Lets the event loop run until the condition holds; false after some seconds without.
@@ -300,21 +322,194 @@ TEST_F(Window, AColumnOfTheWeightsColoursTheSurface)
   this->window.panel()->show_column(1);
   this->render();
   const QImage coloured = this->window.viewport()->grabFramebuffer();
-  // Deep blue where the weight is one: blue well above red. The shaded surface has none.
-  const auto blue = [](const QImage& image)
+  EXPECT_GT(blue_pixels(coloured), 2000 + blue_pixels(shaded));
+}
+
+TEST_F(Window, WeightsOfHandlesWithOtherNamesAreNotUsed)
+{
+  const auto mesh = with_weights(column());
+  mesh->GetPointData()->GetArray("Weights")->SetComponentName(0, "left");
+  mesh->GetPointData()->GetArray("Weights")->SetComponentName(1, "right");
+  ASSERT_TRUE(this->window.set_mesh(mesh, "column"));
+  EXPECT_TRUE(this->window.set_handles(two_points(), "points"));
+  EXPECT_FALSE(this->window.is_bound());
+  EXPECT_NE(this->window.error().indexOf("other names"), -1);
+}
+
+TEST_F(Window, AnotherMeshTakesTheColoursAndTheLegendAway)
+{
+  this->open_bound();
+  const TriangleMesh mesh = column();
+  this->window.panel()->show_column(1);
+  this->render();
+  ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "plain"));
+  this->render();
+  EXPECT_EQ(this->window.panel()->shown_column(), -1);
+  EXPECT_EQ(blue_pixels(this->window.viewport()->grabFramebuffer()), 0);
+}
+
+TEST_F(Window, AClickOnAHandleSelectsItInTheListEvenIfItIsFree)
+{
+  this->open_bound();
+  this->window.set_mode(1, 2);
+  const Eigen::Vector2i at = this->pixel_of(1);
+  this->mouse(at, vtkCommand::MouseMoveEvent);
+  this->mouse(at, vtkCommand::LeftButtonPressEvent);
+  this->mouse(at, vtkCommand::LeftButtonReleaseEvent);
+  EXPECT_EQ(this->window.panel()->selected_handle(), 1);
+}
+
+TEST_F(Window, ABindKeepsTheSelectedHandle)
+{
+  const TriangleMesh mesh = column();
+  ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "column"));
+  ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
+  this->window.panel()->select_handle(1);
+  this->window.bind();
+  EXPECT_EQ(this->window.panel()->selected_handle(), 1);
+  ASSERT_TRUE(wait_for([this] { return !this->window.is_binding(); }));
+  EXPECT_EQ(this->window.panel()->selected_handle(), 1);
+  auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
+  EXPECT_EQ(drawn->GetSelectedHandle(), 1);
+}
+
+TEST_F(Window, TheKeyboardBindsAndCancelsWithoutChoosingAHandle)
+{
+  const TriangleMesh mesh = test::sphere(5);
+  ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
+  ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
+  QApplication::setActiveWindow(&this->window);
+  const auto focused = []
   {
-    int count = 0;
-    for (int y = 0; y < image.height(); ++y)
+    auto* at = qobject_cast<QPushButton*>(QApplication::focusWidget());
+    return at ? at->text() : QString();
+  };
+  for (QPushButton* button : this->window.panel()->findChildren<QPushButton*>("primary"))
+  {
+    button->setFocus();
+    ASSERT_EQ(focused(), "Bind");
+    button->click();
+  }
+  EXPECT_EQ(focused(), "Cancel");
+  qobject_cast<QPushButton*>(QApplication::focusWidget())->click();
+  ASSERT_TRUE(wait_for([this] { return !this->window.is_binding(); }));
+  EXPECT_EQ(focused(), "Bind");
+  EXPECT_EQ(this->window.panel()->selected_handle(), -1);
+}
+
+TEST_F(Window, UndoDuringADragEndsTheDrag)
+{
+  this->open_bound();
+  const Vec3 rest = top_of(this->window.shown());
+  this->drag(1, { 80, 0 });
+  this->press_and_move(1, { 0, 40 });
+  this->window.history()->undo();
+  EXPECT_FALSE(this->window.viewport()->handle_widget()->IsDragging());
+  EXPECT_EQ(top_of(this->window.shown()), rest);
+}
+
+TEST_F(Window, HandlesWithoutAMeshAreInView)
+{
+  ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
+  this->render();
+  for (const vtkIdType handle : { 0, 1 })
+  {
+    const Eigen::Vector2i at = this->pixel_of(handle);
+    const int* size = this->window.viewport()->renderer()->GetSize();
+    EXPECT_GT(at.x(), 0);
+    EXPECT_LT(at.x(), size[0]);
+    EXPECT_GT(at.y(), 0);
+    EXPECT_LT(at.y(), size[1]);
+  }
+}
+
+TEST_F(Window, WhatCannotBeDoneYetIsDisabledInTheMenus)
+{
+  const auto enabled = [this](const char* text)
+  {
+    for (QAction* menu : this->window.menuBar()->actions())
     {
-      for (int x = 0; x < image.width(); ++x)
+      for (QAction* entry : menu->menu()->actions())
       {
-        const QColor c = image.pixelColor(x, y);
-        count += c.blue() > c.red() + 60;
+        if (entry->text().remove('&').startsWith(text))
+        {
+          return entry->isEnabled();
+        }
       }
     }
-    return count;
+    ADD_FAILURE() << "no entry " << text;
+    return false;
   };
-  EXPECT_GT(blue(coloured), 2000 + blue(shaded));
+  const std::vector<const char*> later = { "Save shape", "Save pose", "Save picture", "Bind",
+    "Back to rest", "Linear", "Dual", "As rigid" };
+  EXPECT_TRUE(enabled("Open"));
+  for (const char* text : later)
+  {
+    EXPECT_FALSE(enabled(text)) << text;
+  }
+  this->open_bound();
+  for (const char* text : later)
+  {
+    EXPECT_TRUE(enabled(text)) << text;
+  }
+}
+
+/// No word is cut off, whatever the handles are called and however small the window is.
+TEST_F(Window, NoTextOfThePanelIsClipped)
+{
+  Handles handles(2);
+  handles[0].name = "top";
+  handles[0].head = handles[0].tail = Vec3(0, 0, 0.9);
+  handles[1].name = "the_handle_of_the_left_hind_leg_as_an_exporter_would_name_it";
+  handles[1].head = handles[1].tail = Vec3(0, 0, -0.9);
+  ASSERT_TRUE(this->window.set_mesh(with_weights(column()), "column"));
+  ASSERT_TRUE(this->window.set_handles(to_polydata(handles), "points"));
+  for (const QSize& size : { QSize(900, 600), QSize(1280, 800), QSize(1920, 1080) })
+  {
+    this->window.resize(size);
+    QApplication::processEvents();
+    EXPECT_EQ(this->window.size(), size);
+    for (QComboBox* box : this->window.panel()->findChildren<QComboBox*>())
+    {
+      QStyleOptionComboBox option;
+      option.initFrom(box);
+      option.editable = false;
+      const int room =
+        box->style()
+          ->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, box)
+          .width();
+      for (int item = 0; item < box->count(); ++item)
+      {
+        EXPECT_LE(box->fontMetrics().horizontalAdvance(box->itemText(item)), room)
+          << box->itemText(item).toStdString();
+      }
+    }
+    for (QPushButton* button : this->window.panel()->findChildren<QPushButton*>())
+    {
+      if (button->isVisible())
+      {
+        EXPECT_LE(button->sizeHint().width(), button->width()) << button->text().toStdString();
+        EXPECT_LE(button->sizeHint().height(), button->height()) << button->text().toStdString();
+      }
+    }
+    for (QLabel* label : this->window.panel()->findChildren<QLabel*>())
+    {
+      EXPECT_LE(label->heightForWidth(label->width()), label->height())
+        << label->text().toStdString();
+      EXPECT_GT(label->height(), 0);
+    }
+    EXPECT_GT(this->window.panel()->findChild<QListWidget*>()->height(), 60);
+  }
+}
+
+TEST_F(Window, ALongErrorDoesNotWidenTheWindow)
+{
+  this->window.resize(900, 600);
+  QApplication::processEvents();
+  EXPECT_FALSE(this->window.open(QString("/no/such/%1.off").arg(QString(300, 'x'))));
+  QApplication::processEvents();
+  EXPECT_EQ(this->window.width(), 900);
+  EXPECT_LT(this->window.error().size(), 150);
 }
 
 int main(int argc, char** argv)

@@ -28,6 +28,9 @@ struct Format
   const char* extension;
   Read read;
   Write write;
+
+  /// For the tests' names.
+  friend void PrintTo(const Format& format, std::ostream* out) { *out << format.extension; }
 };
 
 class PolygonFiles : public testing::TestWithParam<Format>
@@ -124,8 +127,7 @@ TEST_P(PolygonFiles, MissingFolderAndEmptyFilesAreNamed)
 
 INSTANTIATE_TEST_SUITE_P(Formats, PolygonFiles,
   testing::Values(Format{ "off", read_off, write_off }, Format{ "obj", read_obj, write_obj },
-    Format{ "ply", read_ply, write_ply }),
-  [](const auto& format) { return format.param.extension; });
+    Format{ "ply", read_ply, write_ply }));
 
 namespace
 {

@@ -11,11 +11,11 @@
 namespace bindpose
 {
 
-/// For RequestDataObject: makes the first output an empty object of the same class as `like`,
+/// For RequestDataObject: makes the output of a port an empty object of the same class as `like`,
 /// unless it is one already. Nothing when `like` is null.
-inline void match_output_type(vtkDataObject* like, vtkInformationVector* output)
+inline void match_output_type(vtkDataObject* like, vtkInformationVector* output, int port = 0)
 {
-  vtkInformation* info = output->GetInformationObject(0);
+  vtkInformation* info = output->GetInformationObject(port);
   vtkDataObject* current = vtkDataObject::GetData(info);
   if (like && (!current || std::string(current->GetClassName()) != like->GetClassName()))
   {

@@ -8,6 +8,8 @@
 #include "vtkWindingNumberField.h"
 
 #include "vtkCellArray.h"
+#include "vtkCellCenters.h"
+#include "vtkCellData.h"
 #include "vtkContourFilter.h"
 #include "vtkDoubleArray.h"
 #include "vtkErrorCode.h"
@@ -17,9 +19,11 @@
 #include "vtkPlaneSource.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkRectilinearGrid.h"
 #include "vtkSmartPointer.h"
 #include "vtkSphereSource.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkStructuredGrid.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gmock/gmock.h>
@@ -355,6 +359,359 @@ TEST(WindingNumberField, ExecutesOnlyWhenSomethingChanged)
   EXPECT_NEAR(image_of(field)->GetLength(), 2.0 * before, 1e-6);
 }
 
+TEST(WindingNumberField, FastKeepsItsToleranceAndSaysSo)
+{
+  TriangleMesh mesh = test::sphere(4); // 5120 triangles, every third left out
+  Index kept = 0;
+  for (Index t = 0; t < mesh.triangles.rows(); ++t)
+  {
+    if (t % 3 != 0)
+    {
+      mesh.triangles.row(kept++) = mesh.triangles.row(t);
+    }
+  }
+  mesh.triangles.conservativeResize(kept, 3);
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputData(data_of(mesh));
+  field->SetSamplesAlongLongestSide(14);
+  EXPECT_EQ(field->GetMethod(), vtkWindingNumberField::AUTO);
+  EXPECT_EQ(field->GetTolerance(), 1e-3);
+  for (const double tolerance : { 1e-2, 1e-5 })
+  {
+    field->SetTolerance(tolerance);
+    field->SetMethodToAuto();
+    field->Update();
+    const Report report = read_report(field->GetOutput());
+    EXPECT_EQ(report.text("method"), "fast");
+    EXPECT_EQ(report.number("error_bound", 0), tolerance);
+    EXPECT_LE(report.number("measured_error", 1), tolerance);
+    vtkImageData* image = image_of(field);
+    for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+    {
+      ASSERT_NEAR(array_of(image)->GetValue(i),
+        winding_number_direct(mesh.points, mesh.triangles, Vec3(image->GetPoint(i))), tolerance);
+    }
+  }
+  field->SetMethodToExact();
+  field->Update();
+  EXPECT_EQ(read_report(field->GetOutput()).find("error_bound"), nullptr);
+  vtkImageData* image = image_of(field);
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); i += 7)
+  {
+    ASSERT_NEAR(array_of(image)->GetValue(i),
+      winding_number_direct(mesh.points, mesh.triangles, Vec3(image->GetPoint(i))), 1e-12);
+  }
+}
+
+TEST(WindingNumberField, ASurfaceIsBuiltOnce)
+{
+  vtkNew<vtkSphereSource> sphere;
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputConnection(sphere->GetOutputPort());
+  field->SetSamplesAlongLongestSide(8);
+  field->Update();
+  EXPECT_EQ(field->GetNumberOfBuilds(), 1);
+  field->SetSamplesAlongLongestSide(12);
+  field->Update();
+  field->ComputeGradientOn();
+  field->SetPointsData(data_of(test::cube()));
+  field->Update();
+  field->SetInputConnection(1, nullptr);
+  field->SetBounds(0, 1, 0, 1, 0, 1);
+  field->Update();
+  EXPECT_EQ(field->GetNumberOfBuilds(), 1);
+  EXPECT_EQ(read_report(field->GetOutput()).number("builds", 0), 1);
+  field->SetMethodToExact();
+  field->Update();
+  EXPECT_EQ(field->GetNumberOfBuilds(), 2);
+  field->SetTolerance(1e-4);
+  field->Update();
+  field->OrientPatchesOn();
+  field->Update();
+  EXPECT_EQ(field->GetNumberOfBuilds(), 4);
+  sphere->SetRadius(3.0);
+  field->Update();
+  EXPECT_EQ(field->GetNumberOfBuilds(), 5);
+  EXPECT_EQ(array_of(image_of(field))->GetValue(0), 1.0) << "of the new radius";
+  // After a failure the old build must not come back.
+  field->SetInputData(vtkNew<vtkPolyData>());
+  vtkNew<Listener> listener;
+  listener->listen(field);
+  field->Update();
+  EXPECT_EQ(listener->errors.size(), 1u);
+  EXPECT_EQ(field->GetOutput()->GetNumberOfPoints(), 0);
+  EXPECT_EQ(field->GetBoundaryOutput()->GetNumberOfCells(), 0);
+}
+
+TEST(WindingNumberField, FloatsAreTheRoundedDoubles)
+{
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputData(data_of(test::open_cube()));
+  field->SetSamplesAlongLongestSide(17);
+  field->ComputeGradientOn();
+  field->ComputeInsideOn();
+  field->Update();
+  vtkNew<vtkImageData> doubles;
+  doubles->ShallowCopy(image_of(field));
+  field->SetOutputPrecision(vtkAlgorithm::SINGLE_PRECISION);
+  field->Update();
+  vtkPointData* wide = doubles->GetPointData();
+  vtkPointData* narrow = field->GetOutput()->GetPointData();
+  EXPECT_EQ(narrow->GetArray("WindingNumber")->GetDataType(), VTK_FLOAT);
+  EXPECT_EQ(narrow->GetArray("WindingNumberGradient")->GetDataType(), VTK_FLOAT);
+  for (vtkIdType i = 0; i < doubles->GetNumberOfPoints(); ++i)
+  {
+    for (const char* name : { "WindingNumber", "WindingNumberGradient" })
+    {
+      for (int c = 0; c < wide->GetArray(name)->GetNumberOfComponents(); ++c)
+      {
+        ASSERT_EQ(narrow->GetArray(name)->GetComponent(i, c),
+          static_cast<float>(wide->GetArray(name)->GetComponent(i, c)));
+      }
+    }
+    ASSERT_EQ(narrow->GetArray("Inside")->GetTuple1(i),
+      wide->GetArray("WindingNumber")->GetTuple1(i) >= 0.5);
+    ASSERT_EQ(
+      narrow->GetArray("OnSurface")->GetTuple1(i), wide->GetArray("OnSurface")->GetTuple1(i));
+  }
+}
+
+TEST(WindingNumberField, GradientInsideAndOnSurfaceAsKnown)
+{
+  const TriangleMesh mesh = test::open_cube();
+  vtkNew<vtkPolyData> where;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0.3, 0.2, 0.4); // inside
+  points->InsertNextPoint(0.0, 0.0, -1.0); // in the middle of the floor
+  points->InsertNextPoint(0.0, 0.0, 3.0); // above the hole
+  where->SetPoints(points);
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputData(data_of(mesh));
+  field->SetPointsData(where);
+  field->ComputeGradientOn();
+  field->ComputeInsideOn();
+  field->SetThreshold(0.6);
+  field->Update();
+  vtkPointData* data = field->GetOutput()->GetPointData();
+  EXPECT_EQ(data->GetArray("OnSurface")->GetTuple1(0), 0);
+  EXPECT_EQ(data->GetArray("OnSurface")->GetTuple1(1), 1);
+  EXPECT_EQ(data->GetArray("OnSurface")->GetTuple1(2), 0);
+  EXPECT_EQ(data->GetArray("Inside")->GetTuple1(0), 1);
+  EXPECT_EQ(data->GetArray("Inside")->GetTuple1(1), 0) << "about 0.45 on the floor";
+  EXPECT_EQ(data->GetArray("Inside")->GetTuple1(2), 0);
+  // Differences of the field itself.
+  const Vec3 inside(0.3, 0.2, 0.4);
+  for (int k = 0; k < 3; ++k)
+  {
+    const double h = 1e-5;
+    const Vec3 step = h * Vec3::Unit(k);
+    const double difference = (winding_number_direct(mesh.points, mesh.triangles, inside + step) -
+                                winding_number_direct(mesh.points, mesh.triangles, inside - step)) /
+      (2.0 * h);
+    EXPECT_NEAR(data->GetArray("WindingNumberGradient")->GetComponent(0, k), difference, 1e-8);
+  }
+  // Seen from above, the hole's loop has the field of a current loop: along z only.
+  EXPECT_NEAR(data->GetArray("WindingNumberGradient")->GetComponent(2, 0), 0.0, 1e-14);
+  EXPECT_LT(std::abs(data->GetArray("WindingNumberGradient")->GetComponent(2, 2)), 1.0);
+  EXPECT_NE(data->GetArray("WindingNumberGradient")->GetComponent(2, 2), 0.0);
+}
+
+TEST(WindingNumberField, CellCentersOfAnyDataset)
+{
+  const TriangleMesh mesh = test::open_cube();
+  const TetMesh box = test::tet_box(3, 3, 3, Vec3::Constant(-1.2), Vec3::Constant(1.2));
+  const auto tets = to_unstructured_grid(box.points, box.tets);
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputData(data_of(mesh));
+  field->SetPointsData(tets);
+  field->SampleCellCentersOn();
+  field->Update();
+  vtkDataSet* result = field->GetOutput();
+  EXPECT_EQ(result->GetPointData()->GetArray("WindingNumber"), nullptr);
+  vtkDataArray* values = result->GetCellData()->GetArray("WindingNumber");
+  ASSERT_NE(values, nullptr);
+  ASSERT_EQ(values->GetNumberOfTuples(), box.tets.rows());
+  for (Index t = 0; t < box.tets.rows(); ++t)
+  {
+    Vec3 center = Vec3::Zero();
+    for (int k = 0; k < 4; ++k)
+    {
+      center += 0.25 * Vec3(box.points.row(box.tets(t, k)));
+    }
+    EXPECT_NEAR(
+      values->GetTuple1(t), winding_number_direct(mesh.points, mesh.triangles, center), 1e-12);
+  }
+
+  // Grids whose points are not evenly spaced.
+  vtkNew<vtkRectilinearGrid> rectilinear;
+  vtkNew<vtkDoubleArray> places;
+  for (const double x : { -1.5, -0.7, 0.1, 0.2, 1.3 })
+  {
+    places->InsertNextValue(x);
+  }
+  rectilinear->SetDimensions(5, 5, 5);
+  rectilinear->SetXCoordinates(places);
+  rectilinear->SetYCoordinates(places);
+  rectilinear->SetZCoordinates(places);
+  vtkNew<vtkStructuredGrid> structured;
+  structured->SetDimensions(5, 5, 5);
+  vtkNew<vtkPoints> points;
+  for (vtkIdType i = 0; i < 125; ++i)
+  {
+    double p[3];
+    rectilinear->GetPoint(i, p);
+    points->InsertNextPoint(p[0] + 0.1 * p[1], p[1], p[2]);
+  }
+  structured->SetPoints(points);
+  for (const bool centers : { false, true })
+  {
+    for (vtkDataSet* grid : std::initializer_list<vtkDataSet*>{ rectilinear, structured })
+    {
+      field->SetPointsData(grid);
+      field->SetSampleCellCenters(centers);
+      field->Update();
+      result = field->GetOutput();
+      ASSERT_STREQ(result->GetClassName(), grid->GetClassName());
+      values =
+        (centers ? static_cast<vtkFieldData*>(result->GetCellData()) : result->GetPointData())
+          ->GetArray("WindingNumber");
+      ASSERT_NE(values, nullptr);
+      ASSERT_EQ(values->GetNumberOfTuples(), centers ? 64 : 125);
+      vtkNew<vtkDoubleArray> middles;
+      middles->SetNumberOfComponents(3);
+      middles->SetNumberOfTuples(grid->GetNumberOfCells());
+      vtkCellCenters::ComputeCellCenters(grid, middles);
+      for (vtkIdType i = 0; i < values->GetNumberOfTuples(); ++i)
+      {
+        const Vec3 p(centers ? middles->GetTuple(i) : grid->GetPoint(i));
+        ASSERT_NEAR(
+          values->GetTuple1(i), winding_number_direct(mesh.points, mesh.triangles, p), 1e-12);
+      }
+    }
+  }
+}
+
+TEST(WindingNumberField, SpacingAndTargetCount)
+{
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputData(data_of(test::cube()));
+  field->SetPadding(0.0);
+  field->SetSpacing(0.5, 0.25, 0.7);
+  field->Update();
+  EXPECT_EQ(image_of(field)->GetDimensions()[0], 5);
+  EXPECT_EQ(image_of(field)->GetDimensions()[1], 9);
+  EXPECT_EQ(image_of(field)->GetDimensions()[2], 4);
+  EXPECT_DOUBLE_EQ(image_of(field)->GetOrigin()[0], -1.0);
+  EXPECT_NEAR(image_of(field)->GetOrigin()[2], -1.05, 1e-12) << "stands out on both sides";
+  field->SetSpacing(0, 0, 0);
+  field->SetBounds(-1, 1, -1, 1, -4, 4);
+  for (const vtkIdType target : { 8, 100, 5000, 1000000 })
+  {
+    field->SetTargetNumberOfSamples(target);
+    field->UpdateInformation();
+    int whole[6];
+    field->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), whole);
+    const double count = (whole[1] + 1.0) * (whole[3] + 1.0) * (whole[5] + 1.0);
+    EXPECT_LE(count, static_cast<double>(target));
+    if (target >= 5000)
+    {
+      EXPECT_GT(count, 0.85 * static_cast<double>(target)) << "the finest such grid";
+    }
+  }
+  field->SetDimensions(3, 4, 5); // goes before all others
+  field->SetSpacing(1, 1, 1);
+  field->Update();
+  EXPECT_EQ(image_of(field)->GetNumberOfPoints(), 60);
+
+  vtkNew<Listener> listener;
+  listener->listen(field);
+  field->SetDimensions(0, 0, 0);
+  field->SetSpacing(1, 0, 1);
+  field->Update();
+  EXPECT_THAT(field->GetStatusMessage(), HasSubstr("spacing"));
+  field->SetSpacing(1e-300, 1, 1);
+  field->Update();
+  EXPECT_THAT(field->GetStatusMessage(), HasSubstr("samples"));
+  // A grid that can be named, but not held: 8 TB.
+  field->SetSpacing(0, 0, 0);
+  field->SetTargetNumberOfSamples(1000000000000);
+  field->Update();
+  EXPECT_THAT(field->GetStatusMessage(), HasSubstr("GiB"));
+  EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
+  EXPECT_EQ(field->GetOutput()->GetNumberOfPoints(), 0);
+  // Part of it can be had.
+  field->UpdateInformation();
+  int part[6] = { 100, 103, 2000, 2003, 300, 301 };
+  field->UpdateExtent(part);
+  EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK) << field->GetStatusMessage();
+  EXPECT_EQ(image_of(field)->GetNumberOfPoints(), 4 * 4 * 2);
+}
+
+TEST(WindingNumberField, BoundaryAndTableOfComponents)
+{
+  const TriangleMesh mesh =
+    test::join(test::open_cube(), test::translated(test::flipped(test::cube()), Vec3(10, 0, 0)));
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputData(data_of(mesh));
+  field->SetDimensions(2, 2, 2);
+  field->Update();
+  vtkPolyData* boundary = field->GetBoundaryOutput();
+  ASSERT_NE(boundary, nullptr);
+  EXPECT_EQ(boundary->GetNumberOfLines(), 4);
+  EXPECT_EQ(boundary->GetNumberOfPoints(), 4);
+  double bounds[6];
+  boundary->GetBounds(bounds);
+  EXPECT_THAT(bounds, testing::ElementsAre(-1, 1, -1, 1, 1, 1));
+  vtkDataArray* ids = boundary->GetPointData()->GetArray("OriginalPointIds");
+  ASSERT_NE(ids, nullptr);
+  for (vtkIdType v = 0; v < 4; ++v)
+  {
+    EXPECT_EQ(
+      Vec3(boundary->GetPoint(v)), Vec3(mesh.points.row(static_cast<Index>(ids->GetTuple1(v)))));
+  }
+  EXPECT_EQ(boundary->GetCellData()->GetArray("Multiplicity")->GetTuple1(0), 1);
+  const auto component =
+    static_cast<vtkIdType>(boundary->GetCellData()->GetArray("Component")->GetTuple1(0));
+  vtkFieldData* table = boundary->GetFieldData();
+  ASSERT_EQ(table->GetArray("ComponentTriangles")->GetNumberOfTuples(), 2);
+  EXPECT_EQ(table->GetArray("ComponentTriangles")->GetTuple1(component), 10);
+  EXPECT_EQ(table->GetArray("ComponentOpenEdges")->GetTuple1(component), 4);
+  EXPECT_EQ(table->GetArray("ComponentOpenEdges")->GetTuple1(1 - component), 0);
+  EXPECT_NEAR(table->GetArray("ComponentVolume")->GetTuple1(component), 8.0, 1e-12);
+  EXPECT_NEAR(table->GetArray("ComponentVolume")->GetTuple1(1 - component), -8.0, 1e-12);
+  EXPECT_EQ(read_report(boundary).text("status"), "ok");
+}
+
+TEST(WindingNumberField, PatchesAreTurnedOnDemand)
+{
+  // One side of a cube looks inwards, and all of another cube.
+  TriangleMesh mesh =
+    test::join(test::cube(), test::translated(test::flipped(test::cube()), Vec3(10, 0, 0)));
+  mesh.triangles.row(4).reverseInPlace();
+  mesh.triangles.row(5).reverseInPlace();
+  vtkNew<vtkPolyData> centers;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0, 0, 0);
+  points->InsertNextPoint(10, 0, 0);
+  centers->SetPoints(points);
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputData(data_of(mesh));
+  field->SetPointsData(centers);
+  field->Update();
+  EXPECT_NEAR(array_of(field->GetOutput())->GetValue(0), 4.0 / 6.0, 1e-12);
+  EXPECT_NEAR(array_of(field->GetOutput())->GetValue(1), -1.0, 1e-3);
+  EXPECT_EQ(field->GetBoundaryOutput()->GetNumberOfLines(), 4);
+  EXPECT_EQ(field->GetBoundaryOutput()->GetCellData()->GetArray("Multiplicity")->GetTuple1(0), 2);
+  EXPECT_EQ(read_report(field->GetOutput()).find("counts.turned_triangles"), nullptr);
+  field->OrientPatchesOn();
+  field->Update();
+  EXPECT_NEAR(array_of(field->GetOutput())->GetValue(0), 1.0, 1e-12);
+  EXPECT_NEAR(array_of(field->GetOutput())->GetValue(1), 1.0, 1e-12);
+  EXPECT_EQ(field->GetBoundaryOutput()->GetNumberOfLines(), 0);
+  EXPECT_EQ(read_report(field->GetOutput()).number("counts.turned_triangles", 0), 2);
+  EXPECT_EQ(read_report(field->GetOutput()).number("counts.turned_components", 0), 1);
+}
+
 TEST(WindingNumberField, AbortFromAnObserverThenAgain)
 {
   vtkNew<vtkWindingNumberField> field;
@@ -550,8 +907,11 @@ TEST(WindingNumberField, PrintsAllItsParameters)
   field->SetDimensions(1, 2, 3);
   std::ostringstream text;
   field->Print(text);
-  for (const char* word : { "Method: EXACT", "Dimensions: 1 2 3", "SamplesAlongLongestSide: 64",
-         "Bounds: 0 -1 0 -1 0 -1", "Padding: 0.1", "Status: ok" })
+  for (const char* word :
+    { "Method: EXACT", "Dimensions: 1 2 3", "SamplesAlongLongestSide: 64", "Bounds: 0 -1 0 -1 0 -1",
+      "Padding: 0.1", "Tolerance: 0.001", "OrientPatches: 0", "Spacing: 0 0 0",
+      "TargetNumberOfSamples: 0", "SampleCellCenters: 0", "ComputeGradient: 0", "ComputeInside: 0",
+      "Threshold: 0.5", "OutputPrecision: DOUBLE", "NumberOfBuilds: 0", "Status: ok" })
   {
     EXPECT_THAT(text.str(), HasSubstr(word));
   }

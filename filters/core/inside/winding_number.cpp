@@ -7,17 +7,16 @@
 // taken off, exactly as their sum, or fast as their field. Where a point touches the surface or a
 // cap, the tree or the plain sum tells.
 //
-// Coordinates are shifted by the box's centre along each axis only where the mesh lies far from 0
-// compared with its size (there the subtraction is exact: Sterbenz), and scaled by a power of two.
-// So the kernels see the very mesh that was given, of size about 1 and near the origin.
+// All of it happens in a UnitFrame, in which the mesh is the very one that was given, but of size
+// about 1 and near the origin.
 #include "inside/winding_number.h"
 
 #include "base/parallel.h"
-#include "base/parallel_sort.h"
 #include "inside/boundary_caps.h"
 #include "inside/dipole_field.h"
 #include "inside/signed_crossings.h"
 #include "inside/solid_angle.h"
+#include "inside/welded_surface.h"
 #include "inside/winding_tree.h"
 
 #include <algorithm>
@@ -42,169 +41,6 @@ constexpr Index few_open_edges = 3000;
 constexpr Index hardly_open = 12;
 /// Beyond this distance, in units of the mesh, the winding number is 0 in double precision.
 constexpr double far_away = 1e20;
-
-/// What makes coordinates small without rounding: x -> (x - shift) * scale.
-struct Frame
-{
-  Vec3 shift = Vec3::Zero();
-  double scale = 1.0;
-  double tolerance = 0.0; ///< after scaling
-
-  Frame() = default;
-  explicit Frame(const Box& box)
-  {
-    const Vec3 half = 0.5 * box.size();
-    const Vec3 center = box.lower + half;
-    for (int k = 0; k < 3; ++k)
-    {
-      this->shift[k] = std::abs(center[k]) > 2.0 * half[k] ? center[k] : 0.0;
-    }
-    const double largest =
-      std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
-    const double radius = half.maxCoeff();
-    if (radius > 0.0)
-    {
-      this->scale = std::ldexp(1.0, -std::ilogb(radius));
-    }
-    this->tolerance = largest * this->scale * 0x1.0p-49;
-  }
-  Vec3 operator()(const Vec3& p) const { return (p - this->shift) * this->scale; }
-};
-
-struct Welded
-{
-  Points points; ///< in the frame, equal points once
-  Triangles triangles; ///< without those that use a vertex twice
-  Index merged_vertices = 0;
-  Index degenerate_triangles = 0;
-  Index duplicate_triangles = 0;
-};
-
-/// True when the corners lie on one line, as exactly as doubles hold it.
-bool is_flat(const Vec3& a, const Vec3& b, const Vec3& c)
-{
-  const Vec3 u = b - a;
-  const Vec3 v = c - a;
-  return u.cross(v).norm() <= 1e-15 * u.norm() * v.norm();
-}
-
-bool weld(PointsView points, TrianglesView triangles, const Frame& frame, ExecutionContext& context,
-  Welded& welded)
-{
-  std::vector<char> used(static_cast<std::size_t>(points.rows()), 0);
-  for (Index k = 0; k < triangles.size(); ++k)
-  {
-    used[triangles.data()[k]] = 1;
-  }
-  struct Vertex
-  {
-    Vec3 at;
-    Index id;
-  };
-  std::vector<Vertex> vertices;
-  for (Index v = 0; v < points.rows(); ++v)
-  {
-    if (used[v])
-    {
-      vertices.push_back({ frame(points.row(v)), v });
-    }
-  }
-  {
-    const ProgressRange range(context, 0.0, 0.6);
-    if (!parallel_sort(context, vertices,
-          [](const Vertex& x, const Vertex& y)
-          {
-            return std::lexicographical_compare(
-              x.at.data(), x.at.data() + 3, y.at.data(), y.at.data() + 3);
-          }))
-    {
-      return false;
-    }
-  }
-  std::vector<Index> id_of(static_cast<std::size_t>(points.rows()), -1);
-  Index count = 0;
-  welded.points.resize(static_cast<Index>(vertices.size()), 3);
-  for (std::size_t i = 0; i < vertices.size(); ++i)
-  {
-    if (i == 0 || vertices[i].at != vertices[i - 1].at)
-    {
-      welded.points.row(count++) = vertices[i].at.transpose();
-    }
-    id_of[vertices[i].id] = count - 1;
-  }
-  welded.points.conservativeResize(count, 3);
-  welded.merged_vertices = static_cast<Index>(vertices.size()) - count;
-
-  Index kept = 0;
-  welded.triangles.resize(triangles.rows(), 3);
-  std::vector<std::array<Index, 3>> corners;
-  corners.reserve(static_cast<std::size_t>(triangles.rows()));
-  for (Index t = 0; t < triangles.rows(); ++t)
-  {
-    std::array<Index, 3> ids{ id_of[triangles(t, 0)], id_of[triangles(t, 1)],
-      id_of[triangles(t, 2)] };
-    if (ids[0] == ids[1] || ids[1] == ids[2] || ids[2] == ids[0])
-    {
-      welded.degenerate_triangles += 1;
-      continue;
-    }
-    // A flat one has no angle, but its edges hold those of its neighbours together.
-    welded.degenerate_triangles +=
-      is_flat(welded.points.row(ids[0]), welded.points.row(ids[1]), welded.points.row(ids[2]));
-    welded.triangles.row(kept++) << ids[0], ids[1], ids[2];
-    std::sort(ids.begin(), ids.end());
-    corners.push_back(ids);
-  }
-  welded.triangles.conservativeResize(kept, 3);
-  {
-    const ProgressRange range(context, 0.6, 1.0);
-    if (!parallel_sort(context, corners, std::less<>()))
-    {
-      return false;
-    }
-  }
-  for (std::size_t i = 1; i < corners.size(); ++i)
-  {
-    welded.duplicate_triangles += corners[i] == corners[i - 1];
-  }
-  return true;
-}
-
-/// mesh_edges(), but on all threads and cancellable.
-bool find_edges(const Triangles& triangles, ExecutionContext& context, std::vector<Edge>& edges)
-{
-  edges.clear();
-  edges.reserve(static_cast<std::size_t>(triangles.rows()) * 3);
-  for (Index t = 0; t < triangles.rows(); ++t)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const Index from = triangles(t, k);
-      const Index to = triangles(t, (k + 1) % 3);
-      edges.push_back({ std::min(from, to), std::max(from, to), 1, from < to ? 1 : -1 });
-    }
-  }
-  if (!parallel_sort(context, edges,
-        [](const Edge& x, const Edge& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; }))
-  {
-    return false;
-  }
-  std::size_t kept = 0;
-  for (std::size_t i = 1; i < edges.size(); ++i)
-  {
-    if (edges[i].a == edges[kept].a && edges[i].b == edges[kept].b)
-    {
-      edges[kept].uses += 1;
-      edges[kept].net_direction += edges[i].net_direction;
-    }
-    else
-    {
-      edges[++kept] = edges[i];
-    }
-  }
-  edges.resize(edges.empty() ? 0 : kept + 1);
-  return true;
-}
 
 double direct_sum(
   PointsView points, TrianglesView triangles, const Vec3& p, double tolerance, bool* on_surface)
@@ -251,7 +87,7 @@ struct WindingNumber::Parts
 {
   Status status;
   WindingMethod method = WindingMethod::direct;
-  Frame frame;
+  UnitFrame frame;
   Points points;
   Triangles triangles;
   Index max_leaf_size = 64;
@@ -262,6 +98,7 @@ struct WindingNumber::Parts
   SignedCrossings crossings;
   std::vector<Edge> rim; ///< edges whose directions do not cancel
   Triangles caps; ///< with them the surface is closed
+  SurfaceBoundary boundary; ///< ids and volumes are the input's
   DipoleField field; ///< of the caps, when the method is fast
 
   bool by_crossings() const
@@ -366,25 +203,19 @@ Status WindingNumber::build(
   }
 
   Report& report = status.report;
-  parts.frame = triangles.rows() ? Frame(bounding_box(points, triangles)) : Frame();
-  Welded welded;
-  std::vector<Edge> edges;
+  parts.frame = triangles.rows() ? UnitFrame(bounding_box(points, triangles)) : UnitFrame();
+  WeldedSurface welded;
   bool done = true;
   {
-    const ProgressRange range(context, 0.0, 0.3);
-    done = weld(points, triangles, parts.frame, context, welded);
+    const ProgressRange range(context, 0.0, 0.6);
+    done = weld_surface(points, triangles, parts.frame, context, welded);
   }
   parts.points = std::move(welded.points);
   parts.triangles = std::move(welded.triangles);
   if (done)
   {
-    const ProgressRange range(context, 0.3, 0.6);
-    done = find_edges(parts.triangles, context, edges);
-  }
-  if (done)
-  {
     Index boundary = 0, nonmanifold = 0, open = 0;
-    for (const Edge& edge : edges)
+    for (const Edge& edge : welded.edges)
     {
       boundary += edge.uses == 1;
       nonmanifold += edge.uses > 2;
@@ -394,17 +225,30 @@ Status WindingNumber::build(
         parts.rim.push_back(edge);
       }
     }
+    parts.caps = boundary_caps(parts.rim);
+    parts.boundary = surface_boundary(parts.points, parts.triangles, parts.rim, parts.caps);
+    const double unit = 1.0 / parts.frame.scale;
+    double volume = 0.0;
+    for (SurfaceBoundary::BoundaryEdge& edge : parts.boundary.edges)
+    {
+      edge.from = welded.original_vertices[edge.from];
+      edge.to = welded.original_vertices[edge.to];
+    }
+    for (SurfaceBoundary::Component& component : parts.boundary.components)
+    {
+      component.volume *= unit * unit * unit;
+      volume += component.volume;
+    }
     report.set("counts.vertices", points.rows());
     report.set("counts.triangles", triangles.rows());
     report.set("counts.boundary_edges", boundary);
     report.set("counts.nonmanifold_edges", nonmanifold);
     report.set("counts.open_edges", open);
-    report.set(
-      "counts.components", connected_components(parts.points.rows(), parts.triangles).count);
+    report.set("counts.components", static_cast<Index>(parts.boundary.components.size()));
     report.set("counts.merged_vertices", welded.merged_vertices);
     report.set("counts.degenerate_triangles", welded.degenerate_triangles);
     report.set("counts.duplicate_triangles", welded.duplicate_triangles);
-    report.set("volume", signed_volume(points, triangles));
+    report.set("volume", volume);
     parts.choose(options.method, open);
     if (parts.triangles.rows() == 0)
     {
@@ -423,7 +267,6 @@ Status WindingNumber::build(
   if (done && parts.by_crossings())
   {
     const ProgressRange range(context, 0.6, 0.7);
-    parts.caps = boundary_caps(parts.rim);
     done = parts.crossings.build(
       parts.points, parts.triangles, parts.caps, parts.frame.tolerance, context);
   }
@@ -460,6 +303,11 @@ const Status& WindingNumber::status() const
 WindingMethod WindingNumber::method() const
 {
   return this->parts_->method;
+}
+
+const SurfaceBoundary& WindingNumber::boundary() const
+{
+  return this->parts_->boundary;
 }
 
 Index WindingNumber::memory() const
@@ -952,7 +800,7 @@ double winding_number_direct(
   {
     return point.allFinite() ? 0.0 : std::numeric_limits<double>::quiet_NaN();
   }
-  const Frame frame(bounding_box(points, triangles));
+  const UnitFrame frame(bounding_box(points, triangles));
   const Vec3 p = frame(point);
   if (!(p.cwiseAbs().maxCoeff() < far_away))
   {

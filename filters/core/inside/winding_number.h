@@ -3,6 +3,7 @@
 
 #include "base/execution.h"
 #include "base/mesh.h"
+#include "inside/surface_boundary.h"
 
 #include <array>
 #include <memory>
@@ -87,7 +88,7 @@ public:
   /// measured_error (on a sample of the build's own), counts.vertices, .triangles, .boundary_edges
   /// (used by one triangle), .nonmanifold_edges, .open_edges (directions do not cancel: what makes
   /// the winding number fractional), .components, .merged_vertices, .degenerate_triangles,
-  /// .duplicate_triangles, and volume (by the divergence theorem).
+  /// .duplicate_triangles, and volume (by the divergence theorem, holes filled by caps).
   Status build(
     PointsView points, TrianglesView triangles, ExecutionContext& context, const Options& options);
   Status build(PointsView points, TrianglesView triangles, ExecutionContext& context)
@@ -99,6 +100,9 @@ public:
   const Status& status() const;
   /// What was chosen or asked for: fast, direct, hierarchical or crossings.
   WindingMethod method() const;
+  /// Where the surface is open, by ids of the input (the same vertex for equal points), and its
+  /// connected parts.
+  const SurfaceBoundary& boundary() const;
   /// Bytes held.
   Index memory() const;
 

@@ -441,6 +441,61 @@ TEST(WindingNumber, ReportTellsWhatTheSurfaceIs)
   EXPECT_EQ(report.number("counts.nonmanifold_edges", -1), 13);
 }
 
+TEST(WindingNumber, BoundaryTellsEdgesAndComponents)
+{
+  // A cube without its top, the same upside down and far away, a closed cube inside out, and two
+  // copies of one triangle, of whose edges each counts twice.
+  TriangleMesh twice;
+  twice.points.resize(3, 3);
+  twice.points << 0, 0, 50, 1, 0, 50, 0, 1, 50;
+  twice.triangles.resize(2, 3);
+  twice.triangles << 0, 1, 2, 1, 2, 0;
+  const Vec3 far_away(1e6, 0, 0);
+  TriangleMesh mesh = test::join(test::open_cube(),
+    test::join(test::translated(test::flipped(test::open_cube()), far_away),
+      test::join(test::flipped(test::cube(10.0, 13.0)), twice)));
+  const WindingNumber winding(mesh.points, mesh.triangles);
+  const SurfaceBoundary& boundary = winding.boundary();
+  ASSERT_EQ(boundary.components.size(), 4u);
+  ASSERT_EQ(boundary.edges.size(), 4u + 4u + 3u);
+  // What is said about a component is told by where one of its boundary edges lies.
+  std::vector<int> seen(4, 0);
+  for (const SurfaceBoundary::BoundaryEdge& edge : boundary.edges)
+  {
+    const SurfaceBoundary::Component& part = boundary.components[edge.component];
+    const Vec3 from = mesh.points.row(edge.from);
+    const Vec3 to = mesh.points.row(edge.to);
+    seen[edge.component] += 1;
+    if (from[2] == 50.0)
+    {
+      EXPECT_EQ(edge.multiplicity, 2);
+      EXPECT_EQ(part.triangles, 2);
+      EXPECT_EQ(part.open_edges, 6);
+      EXPECT_EQ(part.volume, 0.0);
+      continue;
+    }
+    EXPECT_EQ(edge.multiplicity, 1);
+    EXPECT_EQ(part.triangles, 10);
+    EXPECT_EQ(part.open_edges, 4);
+    const bool flipped = from[0] > 1e5;
+    EXPECT_NEAR(part.volume, flipped ? -8.0 : 8.0, 1e-9);
+    // Seen from above the walls run around the hole clockwise, so that a lid would run the other
+    // way.
+    const Vec3 middle = flipped ? far_away : Vec3::Zero();
+    EXPECT_EQ(from[2], 1.0);
+    EXPECT_NEAR((from - middle).cross(to - middle)[2], flipped ? 2.0 : -2.0, 1e-9);
+  }
+  std::sort(seen.begin(), seen.end());
+  EXPECT_EQ(seen, (std::vector<int>{ 0, 3, 4, 4 }));
+  double closed_volume = 0.0;
+  for (const SurfaceBoundary::Component& part : boundary.components)
+  {
+    closed_volume += part.open_edges == 0 ? part.volume : 0.0;
+  }
+  EXPECT_NEAR(closed_volume, -27.0, 1e-9);
+  EXPECT_NEAR(winding.status().report.number("volume", 0.0), -27.0, 1e-9);
+}
+
 TEST(WindingNumber, EmptyMeshWindsAroundNothing)
 {
   const TriangleMesh nothing{ Points(0, 3), Triangles(0, 3) };

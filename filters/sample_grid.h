@@ -1,0 +1,30 @@
+#ifndef sample_grid_h
+#define sample_grid_h
+
+#include "base/mesh.h"
+#include "base/status.h"
+#include "inside/winding_number.h"
+
+namespace bindpose
+{
+
+/// What a user says about a grid around something. The first of dimensions, spacing, count and
+/// samples_along_longest_side that is given decides how fine it is.
+struct GridRequest
+{
+  int dimensions[3] = { 0, 0, 0 }; ///< samples along x, y, z; all 0: not given
+  double spacing[3] = { 0.0, 0.0, 0.0 }; ///< between samples; all 0: not given
+  Index count = 0; ///< samples altogether, at most, 8 or more; 0: not given
+  int samples_along_longest_side = 64;
+  double bounds[6] = { 0.0, -1.0, 0.0, -1.0, 0.0, -1.0 }; ///< lower above upper: not given
+  double padding = 0.1; ///< on every side of `around`, in diagonals, unless bounds are given
+};
+
+/// The grid that covers the bounds, or the padded box; its extent starts at 0. Voxels are cubes
+/// unless spacing, or both bounds and dimensions, say otherwise. invalid_input for what makes no
+/// sense, and for more than 1e12 samples.
+Status make_grid(const GridRequest& request, const Box& around, SampleGrid& grid);
+
+} // namespace bindpose
+
+#endif

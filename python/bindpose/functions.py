@@ -24,9 +24,10 @@ from .meshes import (
     to_dataset,
     to_vtk_points,
 )
+from .running import report as report_of
 from .running import run
 
-_WINDING = {"auto": "AUTO", "exact": "EXACT"}
+_WINDING = {"auto": "AUTO", "exact": "EXACT", "fast": "FAST"}
 _TETRAHEDRALIZE = {"auto": "AUTO", "cdt": "CDT", "remesh": "REMESH", "embed": "EMBED"}
 _SKINNING = {"lbs": "LINEAR_BLEND", "dqs": "DUAL_QUATERNION"}
 
@@ -37,8 +38,8 @@ def _choice(value, choices, what):
     return value
 
 
-def winding_number(surface, points_or_grid=None, *, method="auto", bounds=None, padding=0.1,
-                   threads=0, progress=None):
+def winding_number(surface, points_or_grid=None, *, method="auto", tolerance=1e-3, bounds=None,
+                   padding=0.1, gradient=False, orient_patches=False, threads=0, progress=None):
     """Winding number of a surface: 1 inside, 0 outside, in between where it is open.
 
     Parameters
@@ -48,11 +49,20 @@ def winding_number(surface, points_or_grid=None, *, method="auto", bounds=None, 
         Where to evaluate: an array of points (#P, 3); a VTK dataset, at whose points; a number of
         samples along the longest side of a grid of cubic voxels; three numbers, the dimensions of a
         grid. Default: 64 samples.
-    method : {"auto", "exact"}
+    method : {"auto", "exact", "fast"}
+        ``exact`` is true to round-off, ``fast`` keeps within `tolerance`; ``auto`` is exact where
+        that is soon done (closed surfaces), else fast. The report says which and why.
+    tolerance : float
+        Largest error of ``fast``, from 1e-8 to 0.1.
     bounds : six numbers, optional
         Box of a grid. Default: the surface's with padding.
     padding : float
         Free space around the surface, as a fraction of its diagonal.
+    gradient : bool
+        Compute the field's gradient, too (without the jump across the surface).
+    orient_patches : bool
+        First turn triangles that look the other way than their neighbours, and closed parts that
+        are inside out.
     threads : int
         0 for all cores; the result does not depend on it.
     progress : callable, optional
@@ -61,8 +71,10 @@ def winding_number(surface, points_or_grid=None, *, method="auto", bounds=None, 
     Returns
     -------
     Array, vtkImageData or vtkDataSet
-        (#P,) values for points; an image for a grid; a copy of the dataset. Datasets have the point
-        array ``WindingNumber``.
+        (#P,) values for points, with `gradient` a pair of those and (#P, 3) gradients; an image for
+        a grid; a copy of the dataset. Datasets have the point arrays ``WindingNumber``,
+        ``OnSurface`` (1 where a triangle touches the point) and, when asked for,
+        ``WindingNumberGradient``.
 
     Raises
     ------
@@ -73,11 +85,20 @@ def winding_number(surface, points_or_grid=None, *, method="auto", bounds=None, 
     -----
     Jacobson, Kavan, Sorkine-Hornung, "Robust inside-outside segmentation using generalized winding
     numbers", 2013.
+
+    See Also
+    --------
+    contains : the yes or no of it
     """
+    if not 1e-8 <= tolerance <= 0.1:
+        raise InvalidInput(f"tolerance must lie between 1e-8 and 0.1, not at {tolerance}")
     field = filters.vtkWindingNumberField()
     field.SetInputData(0, to_dataset(surface))
     field.SetMethod(getattr(field, _WINDING[_choice(method, _WINDING, "method")]))
+    field.SetTolerance(tolerance)
     field.SetPadding(padding)
+    field.SetComputeGradient(gradient)
+    field.SetOrientPatches(orient_patches)
     field.SetNumberOfThreads(threads)
     if bounds is not None:
         field.SetBounds(*bounds)
@@ -98,7 +119,41 @@ def winding_number(surface, points_or_grid=None, *, method="auto", bounds=None, 
         as_array = True
     report = run(field, progress)
     result = field.GetOutput()
-    return Array(point_array(result, "WindingNumber"), report) if as_array else result
+    if not as_array:
+        return result
+    values = Array(point_array(result, "WindingNumber"), report)
+    return (values, Array(point_array(result, "WindingNumberGradient"), report)) if gradient else values
+
+
+def contains(surface, points, *, winding_threshold=0.5, method="auto", tolerance=1e-3,
+             orient_patches=False, threads=0, progress=None):
+    """Whether points lie inside of a surface, however unclean.
+
+    Parameters
+    ----------
+    surface : vtkDataSet or (vertices, triangles)
+    points : (#P, 3) array or vtkDataSet
+    winding_threshold : float
+        Inside is where the winding number is at least this.
+    method, tolerance, orient_patches, threads, progress
+        See `winding_number`.
+
+    Returns
+    -------
+    Array of bool
+        (#P,). Points whose coordinates are not finite are not inside.
+
+    Raises
+    ------
+    InvalidInput
+        As `winding_number`.
+    """
+    values = winding_number(surface, points if is_dataset(points) else np.atleast_2d(points),
+                            method=method, tolerance=tolerance, orient_patches=orient_patches,
+                            threads=threads, progress=progress)
+    if is_dataset(values):
+        values = Array(point_array(values, "WindingNumber"), report_of(values))
+    return Array(np.asarray(values) >= winding_threshold, values.report)
 
 
 def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, resolution=40, time_limit=120.0,

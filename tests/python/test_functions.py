@@ -51,6 +51,43 @@ def test_winding_number_is_the_programs(tmp_path):
     assert np.array_equal(point_array(theirs, "WindingNumber"), point_array(ours, "WindingNumber"))
 
 
+def test_fast_winding_numbers_keep_their_tolerance():
+    vertices, triangles = shapes.sphere(24, 16)
+    soup = vertices, np.asarray(triangles)[::2]
+    points = np.random.default_rng(1).uniform(-1.5, 1.5, (500, 3))
+    exact = bindpose.winding_number(soup, points, method="exact")
+    for tolerance in (1e-2, 1e-5):
+        fast = bindpose.winding_number(soup, points, method="fast", tolerance=tolerance)
+        assert np.abs(fast - exact).max() <= tolerance
+        assert bindpose.report(fast)["error_bound"] == tolerance
+        assert bindpose.report(fast)["method"] == "fast"
+    assert bindpose.report(bindpose.winding_number(shapes.cube(), points))["method"] == "direct"
+
+
+def test_gradient_is_the_slope():
+    point = np.array([0.3, 0.2, 0.4])
+    steps = 1e-5 * np.vstack([np.eye(3), -np.eye(3)])
+    around = bindpose.winding_number(shapes.open_cube(), point + steps)
+    value, gradient = bindpose.winding_number(shapes.open_cube(), [point], gradient=True)
+    assert gradient.shape == (1, 3) and value.shape == (1,)
+    assert gradient[0] == pytest.approx((around[:3] - around[3:]) / 2e-5, abs=1e-8)
+    grid = bindpose.winding_number(shapes.open_cube(), 6, gradient=True)
+    assert point_array(grid, "WindingNumberGradient").shape == (grid.GetNumberOfPoints(), 3)
+    assert set(point_array(grid, "OnSurface")) <= {0, 1}
+
+
+def test_contains():
+    points = [[0, 0, 0], [0.9, 0.9, 0.9], [1.1, 0, 0], [np.nan, 0, 0]]
+    with pytest.warns(bindpose.BindposeWarning):
+        inside = bindpose.contains(shapes.cube(), points)
+    assert inside.dtype == bool and list(inside) == [True, True, False, False]
+    assert bindpose.report(inside)["counts"]["not_finite"] == 1
+    assert list(bindpose.contains(shapes.cube(), [0, 0, 0])) == [True]
+    assert list(bindpose.contains(shapes.open_cube(), points[:1], winding_threshold=0.9)) == [False]
+    assert list(bindpose.contains(shapes.flipped(shapes.cube()), points[:1], orient_patches=True)) == [True]
+    assert bindpose.contains(to_dataset(shapes.cube()), to_dataset(shapes.sphere(8, 4, 0.5))).all()
+
+
 def test_tetrahedralize():
     vertices, tets, original, report = bindpose.tetrahedralize(BAR)
     p = vertices[tets]
@@ -137,6 +174,8 @@ def test_not_converged_is_a_warning_with_a_result():
 
 @pytest.mark.parametrize("call, sentence", [
     (lambda: bindpose.winding_number(shapes.cube(), method="guess"), "auto, exact"),
+    (lambda: bindpose.winding_number(shapes.cube(), tolerance=0), "tolerance"),
+    (lambda: bindpose.contains(shapes.cube(), [[1, 2]]), "#V x 3"),
     (lambda: bindpose.winding_number((np.full((3, 3), np.nan), [[0, 1, 2]]), np.zeros((1, 3))), "finite"),
     (lambda: bindpose.winding_number((np.eye(3), [[0, 1, 5]]), np.zeros((1, 3))), "vertex 5"),
     (lambda: bindpose.winding_number(shapes.cube(), [[1, 2]]), "#V x 3"),

@@ -4,6 +4,7 @@
 
 #include "vtkDataSet.h"
 #include "vtkNew.h"
+#include "vtkPolyData.h"
 #include "vtkWindingNumberField.h"
 
 namespace bindpose::cli
@@ -34,6 +35,17 @@ void run_winding(Session& session)
   {
     return;
   }
+  const std::string boundary = arguments.text("boundary");
+  if (!boundary.empty() && !session.check_output(boundary, "vtp vtk"))
+  {
+    return;
+  }
+  const double tolerance = arguments.number("tolerance");
+  if (!(tolerance >= 1e-8 && tolerance <= 0.1))
+  {
+    session.invalid("--tolerance must lie between 1e-8 and 0.1");
+    return;
+  }
   const auto surface = session.read(arguments.text("SURFACE"));
   vtkNew<vtkWindingNumberField> field;
   if (!surface)
@@ -41,8 +53,18 @@ void run_winding(Session& session)
     return;
   }
   field->SetInputData(0, surface);
-  field->SetMethod(arguments.text("method") == "exact" ? vtkWindingNumberField::EXACT
-                                                       : vtkWindingNumberField::AUTO);
+  const std::string method = arguments.text("method");
+  field->SetMethod(method == "exact" ? vtkWindingNumberField::EXACT
+      : method == "fast"             ? vtkWindingNumberField::FAST
+                                     : vtkWindingNumberField::AUTO);
+  field->SetTolerance(tolerance);
+  field->SetOrientPatches(arguments.has("orient-patches"));
+  field->SetComputeGradient(arguments.has("gradient"));
+  field->SetComputeInside(arguments.has("inside"));
+  field->SetThreshold(arguments.number("winding-threshold"));
+  field->SetSampleCellCenters(arguments.has("cell-centers"));
+  field->SetOutputPrecision(
+    arguments.has("float") ? vtkAlgorithm::SINGLE_PRECISION : vtkAlgorithm::DOUBLE_PRECISION);
   field->SetSamplesAlongLongestSide(arguments.integer("grid"));
   if (arguments.has("points"))
   {
@@ -53,9 +75,10 @@ void run_winding(Session& session)
     }
     field->SetInputData(1, points);
   }
-  if (session.run(field, "winding", 0.0, 1.0, Merge::all))
+  if (session.run(field, "winding", 0.0, 1.0, Merge::all) &&
+    session.write(field->GetOutput(), output) && !boundary.empty())
   {
-    session.write(field->GetOutput(), output);
+    session.write(field->GetBoundaryOutput(), boundary);
   }
 }
 

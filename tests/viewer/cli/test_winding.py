@@ -65,6 +65,53 @@ def test_any_surface_has_a_field(folder):
         assert np.isfinite(point_array(bindpose.read(folder / "w.vti"), "WindingNumber")).all()
 
 
+def test_fast_keeps_its_tolerance(folder):
+    vertices, triangles = shapes.sphere()
+    folder.off("soup.off", (vertices, triangles[::2]))
+    exact, fast = [], []
+    for values, *options in ((exact, "exact"), (fast, "fast", "--tolerance", "1e-4")):
+        run = folder.run("winding", "soup.off", "--grid", "20", "--method", *options, "-o", "w.vti", "--overwrite",
+                         "--report", "-").is_good()
+        values[:] = point_array(bindpose.read(folder / "w.vti"), "WindingNumber")
+    assert np.abs(np.subtract(exact, fast)).max() <= 1e-4
+    assert run.report["error_bound"] == 1e-4 and run.report["measured_error"] <= 1e-4
+    assert run.report["method"] == "fast" and run.report["method_reason"]
+
+
+def test_every_output_on_demand(folder):
+    folder.off("open.off", shapes.open_cube())
+    run = folder.run("winding", "open.off", "--grid", "10", "--gradient", "--inside", "--winding-threshold", "0.7",
+                     "--float", "--boundary", "boundary.vtp", "-o", "w.vti").is_good()
+    assert sorted(run.new_files) == ["boundary.vtp", "w.vti"]
+    field = bindpose.read(folder / "w.vti")
+    values = point_array(field, "WindingNumber")
+    assert values.dtype == np.float32
+    assert np.array_equal(point_array(field, "Inside"), values >= 0.7)
+    gradient = point_array(field, "WindingNumberGradient").reshape(10, 10, 10, 3)
+    step = field.GetSpacing()[2]
+    middle = values.reshape(10, 10, 10)[2:6, 5, 5]  # no wall between these
+    assert gradient[3:5, 5, 5, 2] == pytest.approx((middle[2:] - middle[:-2]) / (2 * step), rel=0.1)
+    boundary = bindpose.read(folder / "boundary.vtp")
+    assert boundary.GetNumberOfLines() == 4 and boundary.GetBounds() == pytest.approx((-1, 1, -1, 1, 1, 1))
+
+
+def test_cell_centers_and_orientation(folder):
+    folder.off("flipped.off", shapes.flipped(shapes.cube()))
+    folder.off("at.off", ([[-1.5, -1.5, 0], [1.5, -1.5, 0], [0, 3, 0]], [[0, 1, 2]]))
+    run = folder.run("winding", "flipped.off", "--points", "at.off", "--cell-centers", "--orient-patches",
+                     "-o", "at.vtp", "--report", "-").is_good()
+    result = bindpose.read(folder / "at.vtp")
+    assert result.GetCellData().GetArray("WindingNumber").GetValue(0) == pytest.approx(1.0)
+    assert run.report["counts"]["turned_components"] == 1
+
+
+def test_options_that_make_no_sense(folder):
+    folder.off("cube.off", shapes.cube())
+    folder.run("winding", "cube.off", "--tolerance", "0", "-o", "w.vti").is_refused("--tolerance")
+    folder.run("winding", "cube.off", "--grid", "100000", "-o", "w.vti").is_refused("samples")
+    folder.run("winding", "cube.off", "--boundary", "b.png", "-o", "w.vti").is_refused("b.png")
+
+
 def test_endings_fit_what_is_written(folder):
     folder.off("cube.off", shapes.cube())
     folder.run("winding", "cube.off", "-o", "w.vtp").is_refused("w.vtp", "ending")

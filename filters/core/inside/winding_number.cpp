@@ -14,9 +14,9 @@
 #include "base/parallel.h"
 #include "inside/boundary_caps.h"
 #include "inside/dipole_field.h"
-#include "inside/signed_crossings.h"
 #include "inside/solid_angle.h"
 #include "inside/welded_surface.h"
+#include "inside/winding_cells.h"
 #include "inside/winding_tree.h"
 
 #include <algorithm>
@@ -95,7 +95,7 @@ struct WindingNumber::Parts
   mutable WindingTree tree;
   mutable std::mutex tree_mutex;
   mutable std::atomic<bool> tree_built{ false };
-  SignedCrossings crossings;
+  WindingCells cells;
   std::vector<Edge> rim; ///< edges whose directions do not cancel
   Triangles caps; ///< with them the surface is closed
   SurfaceBoundary boundary; ///< ids and volumes are the input's
@@ -111,10 +111,6 @@ struct WindingNumber::Parts
   Vec3 gradient_at(const Vec3& point) const;
   double slowly_at(const Vec3& framed, bool* on_surface) const;
   bool reaches(const SampleGrid& grid) const;
-  bool count_crossings(const SampleGrid& grid, ExecutionContext& context, double* out,
-    unsigned char* flags, std::atomic<Index>& touching) const;
-  bool take_off_caps(const SampleGrid& grid, ExecutionContext& context, double* out,
-    unsigned char* flags, std::atomic<Index>& touching) const;
   bool minus_caps(const Vec3& framed, double& winding_number) const;
 };
 
@@ -267,8 +263,8 @@ Status WindingNumber::build(
   if (done && parts.by_crossings())
   {
     const ProgressRange range(context, 0.6, 0.7);
-    done = parts.crossings.build(
-      parts.points, parts.triangles, parts.caps, parts.frame.tolerance, context);
+    done =
+      parts.cells.build(parts.points, parts.triangles, parts.caps, parts.frame.tolerance, context);
   }
   if (done && parts.method == WindingMethod::fast)
   {
@@ -315,16 +311,16 @@ Index WindingNumber::memory() const
   return static_cast<Index>(sizeof(double)) * this->parts_->points.size() +
     static_cast<Index>(sizeof(Index)) *
     (this->parts_->triangles.size() + this->parts_->caps.size()) +
-    this->parts_->tree.memory() + this->parts_->crossings.memory() + this->parts_->field.memory();
+    this->parts_->tree.memory() + this->parts_->cells.memory() + this->parts_->field.memory();
 }
 
-/// At up to SignedCrossings::most_at_once points.
+/// At up to WindingCells::most_at_once points.
 void WindingNumber::Parts::at(
   const Vec3* queries, Index number, double* winding_numbers, bool* on_surface) const
 {
-  std::array<Vec3, SignedCrossings::most_at_once> framed;
+  std::array<Vec3, WindingCells::most_at_once> framed;
   framed.fill(Vec3::Zero());
-  std::array<Index, SignedCrossings::most_at_once> asked; // those with an answer to look for
+  std::array<Index, WindingCells::most_at_once> asked; // those with an answer to look for
   Index count = 0;
   for (Index i = 0; i < number; ++i)
   {
@@ -345,14 +341,14 @@ void WindingNumber::Parts::at(
     }
     return;
   }
-  std::array<int, SignedCrossings::most_at_once> crossed;
-  std::array<bool, SignedCrossings::most_at_once> touching;
-  this->crossings.evaluate(framed.data(), count, crossed.data(), touching.data());
+  std::array<int, WindingCells::most_at_once> crossed;
+  std::array<bool, WindingCells::most_at_once> told;
+  this->cells.evaluate(framed.data(), count, crossed.data(), told.data());
   for (Index k = 0; k < count; ++k)
   {
     double& winding_number = winding_numbers[asked[k]];
     winding_number = crossed[k];
-    if (touching[k] || !this->minus_caps(framed[k], winding_number))
+    if (!told[k] || !this->minus_caps(framed[k], winding_number))
     {
       winding_number = this->slowly_at(framed[k], &on_surface[asked[k]]);
     }
@@ -401,7 +397,9 @@ double WindingNumber::Parts::slowly_at(const Vec3& p, bool* on_surface) const
   {
     *on_surface = sum.on_surface();
   }
-  return sum.winding_number();
+  // What the cells tell without round-off must not have it when they happen not to.
+  const bool whole = this->rim.empty() && !sum.on_surface();
+  return whole ? std::round(sum.winding_number()) : sum.winding_number();
 }
 
 double WindingNumber::evaluate_exactly_at(const Vec3& point, bool* on_surface) const
@@ -458,11 +456,11 @@ Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
     [&](Index begin, Index end)
     {
       Index touching_here = 0, not_finite_here = 0;
-      std::array<Vec3, SignedCrossings::most_at_once> points;
-      std::array<bool, SignedCrossings::most_at_once> on_surface;
-      for (Index first = begin; first < end; first += SignedCrossings::most_at_once)
+      std::array<Vec3, WindingCells::most_at_once> points;
+      std::array<bool, WindingCells::most_at_once> on_surface;
+      for (Index first = begin; first < end; first += WindingCells::most_at_once)
       {
-        const Index number = std::min(SignedCrossings::most_at_once, end - first);
+        const Index number = std::min(WindingCells::most_at_once, end - first);
         for (Index i = 0; i < number; ++i)
         {
           points[i] = point_at(first + i);
@@ -600,7 +598,7 @@ Vec3 WindingNumber::Parts::gradient_at(const Vec3& point) const
   return this->frame.scale / four_pi * sum;
 }
 
-/// All samples are where the crossings can tell.
+/// All samples are where the cells can tell.
 bool WindingNumber::Parts::reaches(const SampleGrid& grid) const
 {
   const auto corner = [&](int end)
@@ -610,26 +608,80 @@ bool WindingNumber::Parts::reaches(const SampleGrid& grid) const
     corner(1).cwiseAbs().maxCoeff() < far_away;
 }
 
+/// The grid's rows along x, each shared by neighbours that lie in one cell.
 Status WindingNumber::evaluate_rows(
   const SampleGrid& grid, ExecutionContext& context, double* out, unsigned char* on_surface) const
 {
   const Parts& parts = *this->parts_;
-  std::atomic<Index> touching{ 0 };
-  if (on_surface)
+  const Index length = grid.size(0);
+  std::vector<double> xs(static_cast<std::size_t>(length));
+  for (Index i = 0; i < length; ++i)
   {
-    std::fill_n(on_surface, grid.count(), static_cast<unsigned char>(0));
+    xs[i] = parts.frame(grid.point(grid.extent[0] + i, grid.extent[2], grid.extent[4])).x();
   }
   const bool closed = parts.caps.rows() == 0;
-  bool done = true;
-  {
-    const ProgressRange range(context, 0.0, closed ? 1.0 : 0.1);
-    done = parts.count_crossings(grid, context, out, on_surface, touching);
-  }
-  if (done && !closed)
-  {
-    const ProgressRange range(context, 0.1, 1.0);
-    done = parts.take_off_caps(grid, context, out, on_surface, touching);
-  }
+  const bool fast = parts.method == WindingMethod::fast;
+  const Index cost = fast ? 10 : 1 + parts.caps.rows();
+  const Index block = std::max<Index>(1, 1000000 / (cost * length));
+  std::atomic<Index> touching{ 0 };
+  const bool done = parallel_for(context, grid.size(1) * grid.size(2), block,
+    [&](Index begin, Index end)
+    {
+      Index touching_here = 0;
+      std::vector<Index> untold;
+      std::vector<double> caps_wind(fast ? static_cast<std::size_t>(length) : 0);
+      std::vector<unsigned char> on_cap(caps_wind.size());
+      for (Index row = begin; row < end; ++row)
+      {
+        Vec3 p = parts.frame(grid.point(grid.extent[0], grid.extent[2] + row % grid.size(1),
+          grid.extent[4] + row / grid.size(1)));
+        double* values = out + row * length;
+        unsigned char* flags = on_surface ? on_surface + row * length : nullptr;
+        untold.clear();
+        parts.cells.evaluate_row(xs.data(), length, p.y(), p.z(), values, untold);
+        if (fast)
+        {
+          parts.field.evaluate_row(
+            xs.data(), p.y(), p.z(), length, caps_wind.data(), on_cap.data());
+        }
+        for (Index i = 0; i < length && !closed; ++i)
+        {
+          p.x() = xs[i];
+          bool touches = fast && on_cap[i];
+          if (fast)
+          {
+            values[i] -= caps_wind[i];
+          }
+          else
+          {
+            touches = !parts.minus_caps(p, values[i]);
+          }
+          if (touches)
+          {
+            untold.push_back(i);
+          }
+        }
+        // A place may have been left by both.
+        std::sort(untold.begin(), untold.end());
+        untold.erase(std::unique(untold.begin(), untold.end()), untold.end());
+        if (flags)
+        {
+          std::fill_n(flags, length, static_cast<unsigned char>(0));
+        }
+        for (const Index i : untold)
+        {
+          p.x() = xs[i];
+          bool touches = false;
+          values[i] = parts.slowly_at(p, &touches);
+          touching_here += touches;
+          if (flags)
+          {
+            flags[i] = touches;
+          }
+        }
+      }
+      touching += touching_here;
+    });
   if (!done)
   {
     return Status::cancelled();
@@ -638,141 +690,6 @@ Status WindingNumber::evaluate_rows(
   status.report.set("counts.queries", grid.count());
   status.report.set("counts.on_surface", touching.load());
   return status;
-}
-
-/// How often surface and caps wind around each sample: rows along the rays, several beside each
-/// other, so that what is written is whole cache lines. Samples that touch a triangle get their
-/// final value when the surface is closed, NaN when caps are still to be taken off.
-bool WindingNumber::Parts::count_crossings(const SampleGrid& grid, ExecutionContext& context,
-  double* out, unsigned char* flags, std::atomic<Index>& touching) const
-{
-  const bool closed = this->caps.rows() == 0;
-  const int along = this->crossings.axis();
-  const int across = along == 0 ? 1 : 0; // the faster of the other two axes
-  const int other = 3 - along - across;
-  const std::array<Index, 3> stride{ 1, grid.size(0), grid.size(0) * grid.size(1) };
-  const Index length = grid.size(along);
-  constexpr Index rows_at_once = 8;
-  const Index bundle = along == 0 ? 1 : rows_at_once;
-  const Index bundles = (grid.size(across) + bundle - 1) / bundle;
-
-  // Places along the rays, not decreasing; `first` and `step` lead back to the samples.
-  const bool forwards = grid.spacing[along] >= 0.0;
-  std::vector<double> places(static_cast<std::size_t>(length));
-  for (Index i = 0; i < length; ++i)
-  {
-    std::array<Index, 3> sample{ grid.extent[0], grid.extent[2], grid.extent[4] };
-    sample[along] += forwards ? i : length - 1 - i;
-    places[i] = this->frame(grid.point(sample[0], sample[1], sample[2]))[along];
-  }
-  const Index step = forwards ? stride[along] : -stride[along];
-  const Index first = forwards ? 0 : (length - 1) * stride[along];
-
-  constexpr Index samples_a_block = 1 << 20; // some milliseconds
-  const Index block = std::max<Index>(1, samples_a_block / (length * bundle));
-  return parallel_for(context, bundles * grid.size(other), block,
-    [&](Index begin, Index end)
-    {
-      Index touching_here = 0;
-      std::array<SignedCrossings::Row, rows_at_once> rows;
-      std::array<Vec3, rows_at_once> starts;
-      for (Index task = begin; task < end; ++task)
-      {
-        const Index row_first = task % bundles * bundle;
-        const Index count = std::min(bundle, grid.size(across) - row_first);
-        const Index plane = task / bundles;
-        bool any_touching = false;
-        for (Index r = 0; r < count; ++r)
-        {
-          std::array<Index, 3> sample{ grid.extent[0], grid.extent[2], grid.extent[4] };
-          sample[across] += row_first + r;
-          sample[other] += plane;
-          starts[r] = this->frame(grid.point(sample[0], sample[1], sample[2]));
-          this->crossings.evaluate_row(starts[r], places, rows[r]);
-          any_touching = any_touching || rows[r].any_touching;
-        }
-        double* to = out + row_first * stride[across] + plane * stride[other] + first;
-        for (Index i = 0; i < length; ++i, to += step)
-        {
-          for (Index r = 0; r < count; ++r)
-          {
-            to[r * stride[across]] = rows[r].counts[i];
-            if (any_touching && rows[r].touching[i])
-            {
-              Vec3 p = starts[r];
-              p[along] = places[i];
-              bool on_surface = false;
-              to[r * stride[across]] =
-                closed ? this->slowly_at(p, &on_surface) : std::numeric_limits<double>::quiet_NaN();
-              touching_here += on_surface;
-              if (flags)
-              {
-                flags[to + r * stride[across] - out] = on_surface;
-              }
-            }
-          }
-        }
-      }
-      touching += touching_here;
-    });
-}
-
-/// Takes what the caps wind off the whole numbers: rows along x, which suits the field best.
-bool WindingNumber::Parts::take_off_caps(const SampleGrid& grid, ExecutionContext& context,
-  double* out, unsigned char* flags, std::atomic<Index>& touching) const
-{
-  const Index length = grid.size(0);
-  std::vector<double> xs(static_cast<std::size_t>(length));
-  for (Index i = 0; i < length; ++i)
-  {
-    xs[i] = this->frame(grid.point(grid.extent[0] + i, grid.extent[2], grid.extent[4])).x();
-  }
-  const bool fast = this->method == WindingMethod::fast;
-  const Index cost = fast ? 10 : 1 + this->caps.rows();
-  const Index block = std::max<Index>(1, 200000 / (cost * length));
-  return parallel_for(context, grid.size(1) * grid.size(2), block,
-    [&](Index begin, Index end)
-    {
-      Index touching_here = 0;
-      std::vector<double> caps_wind(static_cast<std::size_t>(length));
-      std::vector<unsigned char> on_cap(static_cast<std::size_t>(length));
-      for (Index row = begin; row < end; ++row)
-      {
-        Vec3 p = this->frame(grid.point(grid.extent[0], grid.extent[2] + row % grid.size(1),
-          grid.extent[4] + row / grid.size(1)));
-        double* values = out + row * length;
-        if (fast)
-        {
-          this->field.evaluate_row(
-            xs.data(), p.y(), p.z(), length, caps_wind.data(), on_cap.data());
-        }
-        for (Index i = 0; i < length; ++i)
-        {
-          p.x() = xs[i];
-          bool touches = std::isnan(values[i]);
-          if (fast)
-          {
-            values[i] -= caps_wind[i];
-            touches = touches || on_cap[i];
-          }
-          else if (!touches)
-          {
-            touches = !this->minus_caps(p, values[i]);
-          }
-          if (touches)
-          {
-            bool on_surface = false;
-            values[i] = this->slowly_at(p, &on_surface);
-            touching_here += on_surface;
-            if (flags)
-            {
-              flags[row * length + i] = on_surface;
-            }
-          }
-        }
-      }
-      touching += touching_here;
-    });
 }
 
 Status WindingNumber::evaluate(

@@ -19,7 +19,7 @@ enum class WindingMethod
   fast, ///< crossings, and what caps take off within a tolerance; ~0.2 us a point
   direct, ///< exact: sum over all triangles; no build; ~20 ns x #F a point
   hierarchical, ///< exact: tree of boxes with caps; tens of microseconds a point for 100k triangles
-  crossings ///< exact: one ray and all caps; ~0.1 us + 20 ns x #open edges a point
+  crossings ///< exact: crossings and all caps; ~40 ns + 20 ns x #open edges a point
 };
 
 /// "automatic", "exact", "fast", "direct", "hierarchical", "crossings".
@@ -58,7 +58,7 @@ struct SampleGrid
 /// - **Degenerate triangles** count 0 and are counted in the report; equal vertices are merged.
 /// - **Precision**: double; coordinates are shifted and scaled without rounding. About 1e-14 plus
 ///   1e-16 times the sum of the triangles' unsigned shares; fast: the tolerance.
-/// - **Cost**: build O(#F log #F), 86k triangles 0.1 s, about 150 bytes a triangle; see
+/// - **Cost**: build O(#F log #F), 86k triangles 0.1 s, about 220 bytes a triangle; see
 ///   WindingMethod for a point's cost. On a grid a closed surface costs some nanoseconds a sample.
 ///
 /// Build once, evaluate often; evaluation is thread-safe and deterministic for any thread count.

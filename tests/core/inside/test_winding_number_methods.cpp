@@ -421,6 +421,57 @@ TEST(WindingMethods, SameBitsForAnyThreadsAndExtent)
   }
 }
 
+TEST(WindingMethods, FineSurfacesOnRowsAndAtPoints)
+{
+  // 164k triangles of very different sizes: a torus that is thin on one side, around a small sphere
+  // inside out. So the cells are cut several times over.
+  TriangleMesh ring = test::torus(320, 128, 1.0, 0.45);
+  for (Index v = 0; v < ring.points.rows(); ++v)
+  {
+    Vec3 p = ring.points.row(v);
+    const double angle = std::atan2(p.y(), p.x());
+    const Vec3 middle(std::cos(angle), std::sin(angle), 0.0);
+    p = middle + (0.02 + 0.98 * std::pow(0.5 + 0.5 * std::cos(angle), 4)) * (p - middle);
+    ring.points.row(v) = p;
+  }
+  const TriangleMesh ball = test::sphere(6, 0.02, Vec3(1.0, 0.0, 0.2));
+  const TriangleMesh mesh = test::join(ring, test::flipped(ball));
+  const WindingNumber winding = make(mesh, WindingMethod::crossings);
+
+  // In the small sphere it is once around by the torus, less once.
+  EXPECT_EQ(winding.evaluate_at(Vec3(1.0, 0.0, 0.2)), 0.0);
+  EXPECT_EQ(winding.evaluate_at(Vec3(1.0, 0.0, -0.2)), 1.0);
+  EXPECT_EQ(winding.evaluate_at(Vec3(-1.0, 0.001, 0.0003)), 1.0);
+  EXPECT_EQ(winding.evaluate_at(Vec3(-1.0, 0.001, 0.02)), 0.0);
+
+  SampleGrid grid;
+  grid.origin = Vec3(-1.6, -1.6, -0.6);
+  grid.spacing = Vec3(0.0401, 0.0403, 0.0397);
+  grid.extent = { 0, 79, 0, 79, 0, 30 };
+  ExecutionContext context;
+  Eigen::VectorXd rows;
+  ASSERT_TRUE(winding.evaluate(grid, context, rows).ok());
+  for (Index i = 0; i < grid.count(); ++i)
+  {
+    const Vec3 p = grid.point(i % 80, i / 80 % 80, i / 6400);
+    ASSERT_EQ(rows[i], winding.evaluate_at(p)) << p.transpose();
+    ASSERT_EQ(rows[i], std::round(rows[i]));
+  }
+  // Against the plain sum, most of them a hair's breadth from the surface.
+  test::Random random(7);
+  for (int i = 0; i < 300; ++i)
+  {
+    const Index t = random.below(mesh.triangles.rows());
+    const Vec3 a = mesh.points.row(mesh.triangles(t, 0));
+    const Vec3 b = mesh.points.row(mesh.triangles(t, 1));
+    const Vec3 c = mesh.points.row(mesh.triangles(t, 2));
+    const Vec3 off = random.in_box(Vec3::Constant(-1.0), Vec3::Constant(1.0));
+    const Vec3 p = (a + b + c) / 3.0 + std::pow(10.0, -random.uniform(1.0, 9.0)) * off;
+    ASSERT_NEAR(
+      winding.evaluate_at(p), winding_number_direct(mesh.points, mesh.triangles, p), 1e-9);
+  }
+}
+
 TEST(WindingMethods, OnePointMayBeAskedFromManyThreads)
 {
   const TriangleMesh mesh = unclean_surface(3, 0.3);

@@ -95,6 +95,7 @@ VolumeView::VolumeView(Viewport* viewport) : QObject(viewport), viewport_(viewpo
   {
     this->widget_->GetEventTranslator()->RemoveTranslation(event);
   }
+  this->widget_->AddObserver(vtkCommand::StartInteractionEvent, this, &VolumeView::widget_caught);
   this->widget_->AddObserver(vtkCommand::InteractionEvent, this, &VolumeView::widget_moved);
   viewport->interactor()->AddObserver(
     vtkCommand::MouseMoveEvent, this, &VolumeView::mouse_moved, 1.0F);
@@ -205,10 +206,50 @@ void VolumeView::place_widget()
   this->widget_->SetEnabled(this->image_ && this->slice_shown_);
 }
 
+void VolumeView::widget_caught()
+{
+  int at[2];
+  this->viewport_->interactor()->GetEventPosition(at);
+  Vec3 from;
+  Vec3 along;
+  this->ray_at(at[0], at[1], from, along);
+  const double slope = along.dot(this->normal_);
+  this->grip_ = std::abs(slope) > 1e-6
+    ? Vec3(from + (this->position() - from.dot(this->normal_)) / slope * along)
+    : this->origin_;
+}
+
+/// The widget pushes its plane by the mouse's way along the normal as the picture shows it, which
+/// is little when one looks along the normal. Here the place that the mouse has caught follows it:
+/// to the point of its line along the normal that is nearest to the mouse's ray.
 void VolumeView::widget_moved()
 {
+  const bool pushed =
+    this->plane_->GetInteractionState() == vtkImplicitPlaneRepresentation::Pushing;
+  const double before = this->position();
   this->plane_->GetOrigin(this->origin_.data());
   this->plane_->GetNormal(this->normal_.data());
+  if (pushed)
+  {
+    int at[2];
+    this->viewport_->interactor()->GetEventPosition(at);
+    Vec3 from;
+    Vec3 along;
+    this->ray_at(at[0], at[1], from, along);
+    const double slope = along.dot(this->normal_);
+    const double steep = 1.0 - slope * slope;
+    double position = this->position();
+    if (steep > 0.01) // else the normal is seen as a point: the widget's way is as good as any
+    {
+      const Vec3 gap = from - this->grip_;
+      position =
+        this->grip_.dot(this->normal_) + (gap.dot(this->normal_) - gap.dot(along) * slope) / steep;
+    }
+    const auto [first, last] = this->positions();
+    position = std::isfinite(position) ? std::clamp(position, first, last) : before;
+    this->origin_ += (position - this->position()) * this->normal_;
+    this->plane_->SetOrigin(this->origin_.data());
+  }
   this->update_slice();
   Q_EMIT this->slice_moved();
 }
@@ -287,35 +328,45 @@ void VolumeView::show_cloud(bool shown)
 
 // ---- Reading -----------------------------------------------------------------------------------
 
+/// The points that a pixel shows: from the near clipping plane on, along a unit vector.
+void VolumeView::ray_at(int x, int y, Vec3& from, Vec3& along) const
+{
+  vtkRenderer* renderer = this->viewport_->renderer();
+  const auto world = [&](double depth)
+  {
+    renderer->SetDisplayPoint(x + 0.5, y + 0.5, depth);
+    renderer->DisplayToWorld();
+    return Vec3(Eigen::Map<const Eigen::Vector4d>(renderer->GetWorldPoint()).hnormalized());
+  };
+  from = world(0.0);
+  along = (world(1.0) - from).normalized();
+}
+
 bool VolumeView::read_at(int x, int y, Vec3& place, double& value) const
 {
   if (!this->image_ || !this->slice_shown_)
   {
     return false;
   }
-  vtkRenderer* renderer = this->viewport_->renderer();
-  const auto world = [&](double depth)
-  {
-    renderer->SetDisplayPoint(x + 0.5, y + 0.5, depth);
-    renderer->DisplayToWorld();
-    return Eigen::Map<const Eigen::Vector4d>(renderer->GetWorldPoint()).hnormalized().eval();
-  };
-  const Vec3 near_end = world(0.0);
-  const Vec3 ray = world(1.0) - near_end;
-  const double along = ray.dot(this->normal_);
-  if (std::abs(along) < 1e-9 * ray.norm())
+  Vec3 from;
+  Vec3 along;
+  this->ray_at(x, y, from, along);
+  const double slope = along.dot(this->normal_);
+  if (std::abs(slope) < 1e-9)
   {
     return false; // seen edge-on
   }
-  const double t = (this->position() - near_end.dot(this->normal_)) / along;
-  place = near_end + t * ray;
-  if (t < 0.0 || t > 1.0 || !bindpose::value_at(this->image_, array_name, place, value))
+  const double way = (this->position() - from.dot(this->normal_)) / slope;
+  place = from + way * along;
+  if (way < 0.0 || !bindpose::value_at(this->image_, array_name, place, value))
   {
     return false;
   }
-  const double depth = renderer->GetZ(x, y);
-  const double before = (place - world(depth)).dot(ray.normalized());
-  return before < 0.005 * this->image_->GetLength();
+  vtkRenderer* renderer = this->viewport_->renderer();
+  renderer->SetDisplayPoint(x + 0.5, y + 0.5, renderer->GetZ(x, y));
+  renderer->DisplayToWorld();
+  const Vec3 seen = Eigen::Map<const Eigen::Vector4d>(renderer->GetWorldPoint()).hnormalized();
+  return way - (seen - from).dot(along) < 0.005 * this->image_->GetLength();
 }
 
 void VolumeView::mouse_moved()

@@ -74,7 +74,9 @@ Q_SIGNALS:
 
 private:
   void place_widget();
+  void widget_caught();
   void widget_moved();
+  void ray_at(int x, int y, bindpose::Vec3& from, bindpose::Vec3& along) const;
   void mouse_moved();
   void mouse_left();
   void update_slice();
@@ -94,6 +96,7 @@ private:
   vtkNew<vtkActor> contour_actor_; // where the slice is at 0.5
   bool slice_shown_ = true;
   int orientation_ = z_axis;
+  bindpose::Vec3 grip_ = bindpose::Vec3::Zero(); // of the slice, where the mouse has caught it
   bindpose::Vec3 origin_ = bindpose::Vec3::Zero();
   bindpose::Vec3 normal_ = bindpose::Vec3::UnitZ();
 

@@ -122,7 +122,19 @@ vtkSmartPointer<vtkPolyData> slice(
 
 bool value_at(vtkImageData* image, const std::string& array, const Vec3& place, double& value)
 {
-  double p[3] = { place.x(), place.y(), place.z() };
+  // On the border rounding must not decide.
+  double bounds[6];
+  image->GetBounds(bounds);
+  const double slack = 1e-6 * image->GetLength();
+  double p[3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    p[axis] = std::clamp(place[axis], bounds[2 * axis], bounds[2 * axis + 1]);
+    if (std::abs(p[axis] - place[axis]) > slack)
+    {
+      return false;
+    }
+  }
   double parameters[3];
   double weights[8];
   int sub = 0;

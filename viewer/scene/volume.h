@@ -31,7 +31,8 @@ vtkSmartPointer<vtkPolyData> isosurface(
 vtkSmartPointer<vtkPolyData> slice(
   vtkImageData* image, const std::string& array, const Vec3& origin, const Vec3& normal);
 
-/// Value between samples, linear in each direction; false outside the image.
+/// Value between samples, linear in each direction; false outside the image (beyond
+/// a millionth of its diagonal).
 bool value_at(vtkImageData* image, const std::string& array, const Vec3& place, double& value);
 
 /// Sum of the triangles' areas.

@@ -82,7 +82,7 @@ VolumeView::VolumeView(Viewport* viewport) : QObject(viewport), viewport_(viewpo
   colour(this->plane_->GetSelectedOutlineProperty(), bindpose::palette::edges, 1.0);
   // Not quite clear: what is clear cannot be caught.
   colour(this->plane_->GetPlaneProperty(), bindpose::palette::white, 0.005);
-  colour(this->plane_->GetSelectedPlaneProperty(), bindpose::palette::white, 0.08);
+  colour(this->plane_->GetSelectedPlaneProperty(), bindpose::palette::white, 0.005);
   this->widget_->SetInteractor(viewport->interactor());
   this->widget_->SetRepresentation(this->plane_);
   this->widget_->SetCurrentRenderer(renderer);

@@ -24,7 +24,7 @@
 #include "vtkRenderer.h"
 #include "vtkWindowToImageFilter.h"
 
-#include <QTimer>
+#include <QApplication>
 
 namespace
 {
@@ -45,6 +45,9 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->window_->AddRenderer(this->renderer_);
   this->window_->SetMultiSamples(4);
   this->setMinimumSize(320, 240);
+  this->settle_.setSingleShot(true);
+  this->settle_.setInterval(250);
+  QObject::connect(&this->settle_, &QTimer::timeout, this, &Viewport::refresh);
   vtkNew<CameraStyle> style;
   this->interactor()->SetInteractorStyle(style);
 
@@ -265,7 +268,16 @@ void Viewport::refresh()
     [this]
     {
       this->refresh_pending_ = false;
+      // A cloud is drawn coarsely as long as something is being dragged, a slider for instance,
+      // and once more when it is let go.
+      const bool dragging = QApplication::mouseButtons() != Qt::NoButton;
+      this->window_->SetDesiredUpdateRate(dragging ? this->interactor()->GetDesiredUpdateRate()
+                                                   : this->interactor()->GetStillUpdateRate());
       this->window_->Render();
+      if (dragging)
+      {
+        this->settle_.start();
+      }
     });
 }
 

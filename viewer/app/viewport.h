@@ -1,6 +1,7 @@
 #ifndef viewport_h
 #define viewport_h
 
+#include <QTimer>
 #include <QVTKOpenGLNativeWidget.h>
 
 #include "base/mesh.h"
@@ -85,6 +86,7 @@ private:
   bool winding_legend_ = false;
   int look_ = solid;
   bool refresh_pending_ = false;
+  QTimer settle_; // after a drag
 };
 
 #endif

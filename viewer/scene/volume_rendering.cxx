@@ -26,23 +26,22 @@ constexpr double lowest = -1.0;
 constexpr double highest = 2.0;
 } // namespace
 
-double winding_opacity(double winding_number, double inside)
+double winding_opacity(double winding_number, double step)
 {
-  const std::array<std::array<double, 2>, 11> corners = { { { -1.0, 0.20 }, { -0.5, 0.08 },
-    { -0.1, 0.006 }, { -0.02, 0.0 }, { 0.02, 0.0 }, { 0.25, 0.004 }, { 0.42, 0.6 }, { 0.58, 0.6 },
-    { 0.75, inside }, { 1.02, inside }, { 1.1, 0.03 } } };
-  const std::array<double, 2> end = { 2.0, 0.20 };
+  const auto solid = [step](double opacity) { return 1.0 - std::pow(1.0 - opacity, step); };
+  const std::array<std::array<double, 2>, 12> corners = { { { -1.0, solid(0.24) },
+    { -0.5, solid(0.1) }, { -0.1, solid(0.008) }, { -0.02, 0.0 }, { 0.02, 0.0 }, { 0.25, 0.004 },
+    { 0.42, 0.6 }, { 0.58, 0.6 }, { 0.75, solid(0.03) }, { 1.02, solid(0.03) },
+    { 1.1, solid(0.04) }, { 2.0, solid(0.24) } } };
   const double w = std::clamp(winding_number, lowest, highest);
-  for (std::size_t i = 0; i < corners.size(); ++i)
+  std::size_t next = 1;
+  while (next + 1 < corners.size() && w > corners[next][0])
   {
-    const auto& from = corners[i];
-    const auto& to = i + 1 < corners.size() ? corners[i + 1] : end;
-    if (w <= to[0])
-    {
-      return from[1] + (w - from[0]) / (to[0] - from[0]) * (to[1] - from[1]);
-    }
+    ++next;
   }
-  return end[1];
+  const auto& from = corners[next - 1];
+  const auto& to = corners[next];
+  return from[1] + (w - from[0]) / (to[0] - from[0]) * (to[1] - from[1]);
 }
 
 vtkSmartPointer<vtkVolume> make_winding_volume(
@@ -65,7 +64,6 @@ vtkSmartPointer<vtkVolume> make_winding_volume(
   double spacing[3];
   image->GetSpacing(spacing);
   const double step = *std::min_element(spacing, spacing + 3);
-  const double inside = 1.0 - std::pow(1.0 - 0.03, step / (0.01 * image->GetLength()));
   vtkNew<vtkColorTransferFunction> colours;
   vtkNew<vtkPiecewiseFunction> opacities;
   constexpr int count = 600; // every 0.005: the map's jumps at -0.02 and 1.02 stay sharp
@@ -74,7 +72,7 @@ vtkSmartPointer<vtkVolume> make_winding_volume(
     const double w = lowest + (highest - lowest) * i / count;
     const Rgb c = winding_colour(w);
     colours->AddRGBPoint(w, c[0], c[1], c[2]);
-    opacities->AddPoint(w, winding_opacity(w, inside));
+    opacities->AddPoint(w, winding_opacity(w, step / (0.01 * image->GetLength())));
   }
   vtkNew<vtkVolumeProperty> property;
   property->SetColor(colours);

@@ -176,21 +176,24 @@ TEST(Volume, WhatIsNoVolumeIsSaid)
 
 TEST(Volume, TheOutsideIsClearAndWhatIsWrongIsNot)
 {
-  for (const double inside : { 0.001, 0.05 })
+  for (const double step : { 0.1, 1.0, 6.0 }) // fine and coarse grids
   {
     for (const double outside : { -0.02, 0.0, 0.01, 0.02 })
     {
-      EXPECT_EQ(winding_opacity(outside, inside), 0.0);
+      EXPECT_EQ(winding_opacity(outside, step), 0.0);
     }
-    EXPECT_NEAR(winding_opacity(1.0, inside), inside, 1e-12);
-    EXPECT_GT(winding_opacity(0.5, inside), 0.5);
-    EXPECT_GT(winding_opacity(2.0, inside), 4.0 * inside);
-    EXPECT_GT(winding_opacity(-1.0, inside), 4.0 * inside);
-    EXPECT_EQ(winding_opacity(2.0, inside), winding_opacity(9.0, inside));
-    EXPECT_EQ(winding_opacity(-1.0, inside), winding_opacity(-9.0, inside));
+    const double inside = winding_opacity(1.0, step);
+    // Over a unit of length, whatever the grid, 3 % are held back.
+    EXPECT_NEAR(std::pow(1.0 - inside, 1.0 / step), 0.97, 1e-12);
+    EXPECT_NEAR(winding_opacity(0.5, step), 0.6, 1e-12);
+    for (const double wrong : { -1.0, 2.0 })
+    {
+      EXPECT_GT(winding_opacity(wrong, step), 4.0 * inside);
+      EXPECT_EQ(winding_opacity(wrong, step), winding_opacity(7.0 * wrong, step));
+    }
     for (double w = -1.0; w < 2.0; w += 0.001) // no jump that a grid would show as a step
     {
-      EXPECT_NEAR(winding_opacity(w, inside), winding_opacity(w + 0.001, inside), 0.005) << w;
+      EXPECT_NEAR(winding_opacity(w, step), winding_opacity(w + 0.001, step), 0.005) << w;
     }
   }
 }

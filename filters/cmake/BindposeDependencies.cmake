@@ -15,7 +15,8 @@ set(bindpose_vtk_components
   FiltersCore FiltersExtraction FiltersGeneral FiltersGeometry FiltersModeling FiltersSources
   ImagingCore InteractionStyle InteractionWidgets
   IOCore IOGeometry IOImage IOLegacy IOPLY IOXML
-  RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2)
+  RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2
+  RenderingVolume RenderingVolumeOpenGL2)
 if(BINDPOSE_WRAP_PYTHON)
   list(APPEND bindpose_vtk_components WrappingPythonCore Python)
 endif()

@@ -3,12 +3,14 @@
 #include "conversion.h"
 #include "support/meshes.h"
 
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -90,6 +92,51 @@ vtkSmartPointer<vtkImageData> three_spheres()
   }
   image->GetPointData()->SetScalars(values);
   return image;
+}
+
+vtkSmartPointer<vtkImageData> cone_field()
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(49, 49, 49);
+  image->SetSpacing(3.2 / 48, 3.2 / 48, 3.2 / 48);
+  image->SetOrigin(-1.6, -1.6, -1.6);
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("WindingNumber");
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    values->InsertNextValue(1.5 - Vec3(image->GetPoint(i)).norm());
+  }
+  image->GetPointData()->SetScalars(values);
+  return image;
+}
+
+vtkSmartPointer<vtkPolyData> two_circles()
+{
+  constexpr int count = 120;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> lines;
+  vtkNew<vtkIntArray> multiplicity;
+  multiplicity->SetName("Multiplicity");
+  for (const double y : { -0.5, 0.5 })
+  {
+    const vtkIdType first = points->GetNumberOfPoints();
+    lines->InsertNextCell(count + 1);
+    for (int i = 0; i <= count; ++i)
+    {
+      const double angle = 2.0 * 3.14159265358979323846 * i / count;
+      if (i < count)
+      {
+        points->InsertNextPoint(std::cos(angle), y, std::sin(angle));
+      }
+      lines->InsertCellPoint(first + i % count);
+    }
+    multiplicity->InsertNextValue(y < 0.0 ? -1 : 2);
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetLines(lines);
+  data->GetCellData()->AddArray(multiplicity);
+  return data;
 }
 
 vtkSmartPointer<vtkUnstructuredGrid> tet_brick()

@@ -25,6 +25,11 @@ vtkSmartPointer<vtkImageData> three_spheres();
 /// Centres: +1, +1 (2 in the overlap), -1.
 extern const Vec3 sphere_centers[3];
 extern const double sphere_radius;
+/// 49 x 49 x 49 samples over [-1.6, 1.6] of 1.5 - |p|: the level w is a sphere of radius 1.5 - w.
+vtkSmartPointer<vtkImageData> cone_field();
+/// Two circles of radius 1 around the y axis, each one line: at y = -0.5 with Multiplicity -1, at
+/// y = 0.5 with 2.
+vtkSmartPointer<vtkPolyData> two_circles();
 /// A wavy box of 8 x 5 x 6 cells of 6 tets each, 1.6 x 1.0 x 1.2, Weights linear along x.
 vtkSmartPointer<vtkUnstructuredGrid> tet_brick();
 /// Points "a" full, "b" position, "c" free in a row along x, and a bone above them.

@@ -1,4 +1,5 @@
 // Each picture with numbers that must hold in it whatever its baseline says.
+#include "render/drawing.h"
 #include "render/harness.h"
 #include "render/shapes.h"
 
@@ -14,63 +15,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 using namespace bindpose;
 using namespace bindpose::test;
-
-namespace
-{
-struct Drawing
-{
-  vtkSmartPointer<vtkImageData> image;
-  PictureGeometry geometry;
-
-  Pixel at(const Vec3& point, std::size_t tile = 0) const
-  {
-    const Eigen::Vector2d place = this->geometry.project(tile, point);
-    return pixel_at(this->image, place[0], place[1]);
-  }
-  long long count(const std::function<bool(const Pixel&)>& which) const
-  {
-    int size[3];
-    this->image->GetDimensions(size);
-    long long result = 0;
-    for (int y = 0; y < size[1]; ++y)
-    {
-      for (int x = 0; x < size[0]; ++x)
-      {
-        result += which(pixel_at(this->image, x, y));
-      }
-    }
-    return result;
-  }
-};
-
-Drawing draw(const std::vector<Tile>& tiles, const PictureOptions& options)
-{
-  Drawing drawing;
-  const Status status = render_to_image(tiles, options, drawing.image, &drawing.geometry);
-  EXPECT_TRUE(status.ok()) << status.message;
-  return drawing;
-}
-
-bool is_paper(const Pixel& p)
-{
-  return p.r == 255 && p.g == 255 && p.b == 255;
-}
-
-double lightness(const Pixel& p)
-{
-  return 0.299 * p.r + 0.587 * p.g + 0.114 * p.b;
-}
-
-double distance(const Pixel& p, const Rgb& colour)
-{
-  return std::max({ std::abs(p.r - 255.0 * colour[0]), std::abs(p.g - 255.0 * colour[1]),
-    std::abs(p.b - 255.0 * colour[2]) });
-}
-} // namespace
 
 TEST(Render, surface)
 {
@@ -83,17 +30,7 @@ TEST(Render, surface)
   {
     expected.extend(drawing.geometry.project(0, Vec3(surface->GetPoint(v))));
   }
-  Eigen::AlignedBox2d painted;
-  for (int y = 0; y < 300; ++y)
-  {
-    for (int x = 0; x < 400; ++x)
-    {
-      if (!is_paper(pixel_at(drawing.image, x, y)))
-      {
-        painted.extend(Eigen::Vector2d(x, y)).extend(Eigen::Vector2d(x + 1, y + 1));
-      }
-    }
-  }
+  const Eigen::AlignedBox2d painted = drawing.extent([](const Pixel& p) { return !is_paper(p); });
   EXPECT_LT((painted.min() - expected.min()).cwiseAbs().maxCoeff(), 1.5);
   EXPECT_LT((painted.max() - expected.max()).cwiseAbs().maxCoeff(), 1.5);
   EXPECT_NEAR(expected.min().x(), 0.04 * 400, 0.01);

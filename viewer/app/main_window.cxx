@@ -1,13 +1,18 @@
 #include "main_window.h"
 
+#include "panel_column.h"
 #include "pose_history.h"
 #include "side_panel.h"
 #include "viewport.h"
+#include "volume_panel.h"
+#include "volume_view.h"
 
 #include "conversion.h"
 #include "io/atomic_file.h"
 #include "pose/pose_file.h"
 #include "report_field_data.h"
+#include "scene/curves.h"
+#include "scene/volume.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCellData.h"
@@ -18,6 +23,7 @@
 #include "vtkHandleFileReader.h"
 #include "vtkHandleSetRepresentation.h"
 #include "vtkHandleSetWidget.h"
+#include "vtkImageData.h"
 #include "vtkMeshFileReader.h"
 #include "vtkMeshFileWriter.h"
 #include "vtkPointData.h"
@@ -118,6 +124,7 @@ MainWindow::MainWindow(QWidget* parent)
   widget->AddObserver(vtkCommand::StartInteractionEvent, this, &MainWindow::drag_began);
   widget->AddObserver(vtkCommand::InteractionEvent, this, &MainWindow::update_pose);
   widget->AddObserver(vtkCommand::EndInteractionEvent, this, &MainWindow::drag_ended);
+  this->connect_volume();
   this->update_panel();
   this->update_pose();
 }
@@ -158,16 +165,22 @@ void MainWindow::make_layout()
   this->empty_->setWordWrap(true);
   this->empty_->setAttribute(Qt::WA_TransparentForMouseEvents);
   this->empty_->setText(tr("<p style='font-size:15pt'>Open a mesh, or drop one here</p>"
-                           "<p>Then open handles (.tgf or .vtp), bind, and drag them.</p>"));
+                           "<p>Then open handles (.tgf or .vtp), bind, and drag them.</p>"
+                           "<p>A volume of winding numbers (.vti) is shown sliced.</p>"));
   over->addWidget(this->empty_);
-  this->panel_ = new SidePanel(centre);
+  this->volume_view_ = new VolumeView(this->viewport_);
+  this->panels_ = new PanelColumn(centre);
+  this->panel_ = this->panels_->side();
   rows->addWidget(this->viewport_, 1);
   columns->addLayout(rows, 1);
-  columns->addWidget(this->panel_);
+  columns->addWidget(this->panels_);
   this->setCentralWidget(centre);
   this->hint_ = new QLabel(this);
   this->statusBar()->addWidget(this->hint_, 1);
   this->hint_->setContentsMargins(12, 3, 12, 4);
+  this->reading_ = new QLabel(this);
+  this->reading_->setContentsMargins(12, 3, 12, 4);
+  this->statusBar()->addPermanentWidget(this->reading_);
   this->statusBar()->setSizeGripEnabled(false);
 }
 
@@ -182,12 +195,12 @@ void MainWindow::make_menus()
   };
 
   QMenu* file = this->menuBar()->addMenu(tr("&File"));
-  add(file, tr("&Open mesh or handles…"), QKeySequence::Open,
+  add(file, tr("&Open…"), QKeySequence::Open,
     [this]
     {
       const QString endings = QString(vtkMeshFileReader::GetFileExtensions()).replace(' ', " *.");
       for (const QString& path : QFileDialog::getOpenFileNames(this, tr("Open"), QString(),
-             tr("Meshes and handles (*.%1 *.tgf);;All files (*)").arg(endings), nullptr,
+             tr("Meshes, handles and volumes (*.%1 *.tgf);;All files (*)").arg(endings), nullptr,
              QFileDialog::HideNameFilterDetails))
       {
         this->open(path);
@@ -244,6 +257,7 @@ void MainWindow::make_menus()
         tr("<table cellspacing='6'>"
            "<tr><td><b>Drag a handle</b></td><td>moves it; a bone's tip turns the bone</td></tr>"
            "<tr><td><b>Esc</b> while dragging</td><td>takes the drag back</td></tr>"
+           "<tr><td><b>Drag a slice</b></td><td>moves it; its arrow, when free, turns it</td></tr>"
            "<tr><td><b>Drag elsewhere</b></td><td>turns the view</td></tr>"
            "<tr><td><b>Shift-drag, wheel</b></td><td>moves the view, zooms</td></tr>"
            "<tr><td><b>1, 2, 3</b></td><td>linear blend, dual quaternions, "
@@ -300,6 +314,14 @@ bool MainWindow::open(const QString& path)
     return refuse(reader->GetStatusMessage());
   }
   vtkDataSet* read = reader->GetOutput();
+  if (auto* image = vtkImageData::SafeDownCast(read))
+  {
+    return this->set_volume(image, name);
+  }
+  if (is_curve_data(read))
+  {
+    return this->set_curves(vtkPolyData::SafeDownCast(read));
+  }
   return looks_like_handles(read) ? this->set_handles(vtkPolyData::SafeDownCast(read), name)
                                   : this->set_mesh(read, name);
 }
@@ -321,6 +343,10 @@ bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name)
   this->rest_ = skin;
   this->shown_ = skin;
   this->viewport_->set_surface(skin);
+  if (!this->has_curves_)
+  {
+    this->viewport_->set_curves(skin->GetNumberOfLines() > 0 ? skin.Get() : nullptr);
+  }
   this->viewport_->reset_view();
   this->setWindowTitle(QString("%1 — Bindpose").arg(name));
   this->connect_weights();
@@ -363,6 +389,82 @@ bool MainWindow::set_handles(vtkPolyData* handle_data, const QString& name)
   this->panel_->set_handles(names, modes);
   this->connect_weights();
   return true;
+}
+
+bool MainWindow::set_volume(vtkImageData* volume, const QString& name)
+{
+  const Status status = check_volume(volume, "WindingNumber");
+  if (!status.ok())
+  {
+    this->show_error(QString("%1: %2").arg(name, QString::fromStdString(status.message)));
+    return false;
+  }
+  this->hide_error();
+  const double lowest = status.report.number("volume.minimum", 0.0);
+  const double highest = status.report.number("volume.maximum", 1.0);
+  this->panels_->volume()->set_values(lowest, highest);
+  this->volume_view_->set_level(this->panels_->volume()->level());
+  this->volume_view_->set_volume(volume, lowest, highest);
+  this->panels_->show_volume(true);
+  if (!this->rest_)
+  {
+    this->setWindowTitle(QString("%1 — Bindpose").arg(name));
+  }
+  this->viewport_->reset_view();
+  this->update_panel();
+  this->update_pose();
+  return true;
+}
+
+bool MainWindow::set_curves(vtkPolyData* curves)
+{
+  this->hide_error();
+  const bool alone = !this->rest_ && !this->handle_data_ && !this->volume_view_->volume();
+  this->has_curves_ = true;
+  this->viewport_->set_curves(curves);
+  if (alone)
+  {
+    this->viewport_->reset_view();
+  }
+  this->update_panel();
+  this->update_pose();
+  return true;
+}
+
+void MainWindow::close_volume()
+{
+  this->volume_view_->set_volume(nullptr, 0.0, 1.0);
+  this->update_panel();
+  this->update_pose();
+}
+
+void MainWindow::connect_volume()
+{
+  VolumePanel* panel = this->panels_->volume();
+  VolumeView* view = this->volume_view_;
+  QObject::connect(panel, &VolumePanel::slice_wanted, view, &VolumeView::show_slice);
+  QObject::connect(panel, &VolumePanel::position_chosen, view, &VolumeView::set_position);
+  QObject::connect(panel, &VolumePanel::isosurface_wanted, view, &VolumeView::show_isosurface);
+  QObject::connect(panel, &VolumePanel::level_chosen, view, &VolumeView::set_level);
+  QObject::connect(panel, &VolumePanel::cloud_wanted, view, &VolumeView::show_cloud);
+  QObject::connect(
+    panel, &VolumePanel::surface_look_chosen, this->viewport_, &Viewport::set_surface_look);
+  QObject::connect(panel, &VolumePanel::close_wanted, this, &MainWindow::close_volume);
+  const auto show_position = [panel, view]
+  {
+    const auto [lowest, highest] = view->positions();
+    panel->set_position(view->position(), lowest, highest);
+  };
+  QObject::connect(panel, &VolumePanel::orientation_chosen, view,
+    [view, show_position](int orientation)
+    {
+      view->set_orientation(orientation);
+      show_position();
+    });
+  QObject::connect(view, &VolumeView::slice_moved, panel, show_position);
+  QObject::connect(view, &VolumeView::volume_changed, panel, show_position);
+  QObject::connect(view, &VolumeView::area_changed, panel, &VolumePanel::set_area);
+  QObject::connect(view, &VolumeView::reading_changed, this->reading_, &QLabel::setText);
 }
 
 /// Weights that came with the mesh are used when they are those of the handles.
@@ -606,10 +708,12 @@ void MainWindow::back_to_rest()
 
 void MainWindow::update_pose()
 {
-  QString reading = !this->rest_ ? tr("Open a mesh (Ctrl+O) or drop one here.")
-    : !this->handle_data_        ? tr("Open handles (.tgf or .vtp) to bind and pose.")
-    : this->is_binding()         ? tr("Binding; the view can be turned meanwhile.")
-                                 : tr("Bind (Ctrl+B), then drag the handles.");
+  const bool volume_only = this->volume_view_->volume() && !(this->rest_ && this->handle_data_);
+  QString reading = volume_only ? tr("Drag the slice to move it, elsewhere to turn the view.")
+    : !this->rest_              ? tr("Open a mesh (Ctrl+O) or drop one here.")
+    : !this->handle_data_       ? tr("Open handles (.tgf or .vtp) to bind and pose.")
+    : this->is_binding()        ? tr("Binding; the view can be turned meanwhile.")
+                                : tr("Bind (Ctrl+B), then drag the handles.");
   if (this->deformation_.has_input())
   {
     if (vtkPolyData* posed = this->deformation_.posed())
@@ -656,9 +760,15 @@ void MainWindow::update_panel()
       : !this->rest_ && !this->handle_data_ ? tr("Needs a mesh and handles.")
       : this->rest_                         ? tr("Needs handles.")
                                             : tr("Needs a mesh."));
-  this->empty_->setVisible(!this->rest_ && !this->handle_data_);
+  const bool volume = this->volume_view_->volume();
+  this->panels_->set_open(volume, this->rest_ || this->handle_data_);
+  this->panels_->volume()->set_has_surface(this->rest_);
+  this->viewport_->set_surface_look(
+    volume ? this->panels_->volume()->surface_look() : Viewport::solid);
+  const bool nothing = !this->rest_ && !this->handle_data_ && !volume && !this->has_curves_;
+  this->empty_->setVisible(nothing);
   this->save_shape_->setEnabled(this->rest_);
-  this->save_picture_->setEnabled(this->rest_ || this->handle_data_);
+  this->save_picture_->setEnabled(!nothing);
   this->save_pose_->setEnabled(this->handle_data_);
   this->bind_->setEnabled(ready && !binding);
   this->rest_pose_->setEnabled(bound);
@@ -742,6 +852,11 @@ void MainWindow::show_error(const QString& sentence)
 void MainWindow::hide_error()
 {
   this->error_bar_->hide();
+}
+
+QString MainWindow::reading() const
+{
+  return this->reading_->text();
 }
 
 QString MainWindow::error() const

@@ -16,11 +16,15 @@ class QActionGroup;
 class QFrame;
 class QLabel;
 class QUndoStack;
+class PanelColumn;
 class SidePanel;
 class Viewport;
+class VolumeView;
 class vtkDataSet;
+class vtkImageData;
 
-/// The window of `bindpose view`: open a surface and handles, bind, drag.
+/// The window of `bindpose view`: open a surface and handles, bind, drag; or open a volume of
+/// winding numbers, alone or along with a surface and its boundary curves, and inspect it.
 ///
 /// Three things are kept: the surface at rest (with or without weights), the handles (edited in
 /// place by the drag widget: pose arrays only), and the history of the pose. All else is derived.
@@ -32,11 +36,14 @@ public:
   explicit MainWindow(QWidget* parent = nullptr);
   ~MainWindow() override;
 
-  /// Opens a mesh or a handle file, whichever it is. False, with a sentence in the error bar, when
-  /// it cannot be used; what was open stays.
+  /// Opens a mesh, handles, a volume or curves, whichever it is. False, with a sentence in the
+  /// error bar, when it cannot be used; what was open stays.
   bool open(const QString& path);
   bool set_mesh(vtkDataSet* mesh, const QString& name);
   bool set_handles(vtkPolyData* handles, const QString& name);
+  bool set_volume(vtkImageData* volume, const QString& name);
+  bool set_curves(vtkPolyData* curves);
+  void close_volume();
 
   void bind();
   void cancel_bind();
@@ -51,6 +58,10 @@ public:
   Viewport* viewport() const { return this->viewport_; }
   QUndoStack* history() const { return this->history_; }
   SidePanel* panel() const { return this->panel_; }
+  PanelColumn* panels() const { return this->panels_; }
+  VolumeView* volume_view() const { return this->volume_view_; }
+  /// What is under the mouse on the slice, as the status bar shows it.
+  QString reading() const;
   /// The sentence in the error bar; empty when it is hidden.
   QString error() const;
 
@@ -63,6 +74,7 @@ private:
   void make_layout();
   void show_error(const QString& sentence);
   void hide_error();
+  void connect_volume();
   void connect_weights();
   void bind_finished();
   void update_pose();
@@ -79,10 +91,13 @@ private:
   void save(const QString& what);
 
   Viewport* viewport_ = nullptr;
-  SidePanel* panel_ = nullptr;
+  VolumeView* volume_view_ = nullptr;
+  PanelColumn* panels_ = nullptr;
+  SidePanel* panel_ = nullptr; // one of them
   QFrame* error_bar_ = nullptr;
   QLabel* error_text_ = nullptr;
   QLabel* hint_ = nullptr;
+  QLabel* reading_ = nullptr;
   QLabel* empty_ = nullptr; // in the middle of the picture as long as nothing is open
   QAction* save_shape_ = nullptr;
   QAction* save_pose_ = nullptr;
@@ -96,6 +111,7 @@ private:
   vtkSmartPointer<vtkPolyData> rest_;
   vtkSmartPointer<vtkPolyData> handle_data_;
   vtkSmartPointer<vtkPolyData> shown_;
+  bool has_curves_ = false; // opened as such, not the lines of a mesh
   bindpose::Handles handles_;
   std::vector<bindpose::Index> handle_cells_;
   Deformation deformation_;

@@ -39,6 +39,7 @@ QPushButton#primary:disabled { background: #d3dde6; border-color: #d3dde6; color
 QPushButton#segment { border-radius: 0; padding: 5px 6px; }
 QPushButton#segment[place="first"] { border-top-left-radius: 5px; border-bottom-left-radius: 5px; border-right: none; }
 QPushButton#segment[place="last"] { border-top-right-radius: 5px; border-bottom-right-radius: 5px; border-left: none; }
+QPushButton#segment[place="second"] { border-right: none; }
 QPushButton#segment:checked { background: #2b6ca8; border-color: #2b6ca8; color: #ffffff; }
 QPushButton#segment:checked:disabled { background: #d3dde6; border-color: #d3dde6; color: #71869a; }
 QPushButton#segment:focus { border: 2px solid #12324f; padding: 4px 5px; }
@@ -50,6 +51,18 @@ QComboBox::drop-down { border: none; width: 22px; }
 QComboBox::down-arrow { image: url(:/bindpose/down.png); width: 10px; height: 6px; }
 QComboBox::down-arrow:disabled { image: url(:/bindpose/down-disabled.png); }
 QComboBox QAbstractItemView { background: #ffffff; selection-background-color: #e6eef6; selection-color: #1f1f1d; }
+QCheckBox { spacing: 8px; }
+QCheckBox:disabled { color: #8f8f88; }
+QDoubleSpinBox { background: #ffffff; border: 1px solid #cfcfca; border-radius: 5px; padding: 3px 6px; }
+QDoubleSpinBox:hover { border-color: #9c9c95; }
+QDoubleSpinBox:focus { border-color: #2b6ca8; }
+QDoubleSpinBox:disabled { color: #8f8f88; background: #f6f6f4; border-color: #e2e2de; }
+QSlider::groove:horizontal { height: 4px; background: #dededa; border-radius: 2px; }
+QSlider::sub-page:horizontal { background: #2b6ca8; border-radius: 2px; }
+QSlider::sub-page:horizontal:disabled { background: #d3dde6; }
+QSlider::handle:horizontal { width: 14px; margin: -6px 0; border-radius: 8px; background: #ffffff; border: 1px solid #9c9c95; }
+QSlider::handle:horizontal:hover { border-color: #2b6ca8; }
+QSlider::handle:horizontal:focus { border: 2px solid #12324f; }
 QListWidget { background: #ffffff; border: 1px solid #dededa; border-radius: 5px; outline: none; }
 QListWidget:focus { border-color: #2b6ca8; }
 QListWidget::item { padding: 4px 6px; border: none; }

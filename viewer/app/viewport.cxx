@@ -2,6 +2,7 @@
 
 #include "scene/camera.h"
 #include "scene/colours.h"
+#include "scene/curves.h"
 #include "scene/legend.h"
 #include "scene/shaded_surface.h"
 #include "scene/tile_actors.h"
@@ -18,11 +19,12 @@
 #include "vtkPNGWriter.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
 #include "vtkWindowToImageFilter.h"
 
-#include <QTimer>
+#include <QApplication>
 
 namespace
 {
@@ -43,6 +45,9 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->window_->AddRenderer(this->renderer_);
   this->window_->SetMultiSamples(4);
   this->setMinimumSize(320, 240);
+  this->settle_.setSingleShot(true);
+  this->settle_.setInterval(250);
+  QObject::connect(&this->settle_, &QTimer::timeout, this, &Viewport::refresh);
   vtkNew<CameraStyle> style;
   this->interactor()->SetInteractorStyle(style);
 
@@ -66,6 +71,7 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->window_->SetNumberOfLayers(2);
   this->legend_->SetLayer(1);
   this->legend_->InteractiveOff();
+  this->legend_->PreserveDepthBufferOn(); // of what lies below: VolumeView reads it
   this->window_->AddRenderer(this->legend_);
   this->handles_->SetInteractor(this->interactor());
   this->handles_->CreateDefaultRepresentation();
@@ -81,7 +87,64 @@ void Viewport::set_surface(vtkPolyData* surface)
 {
   this->shaded_ = surface ? std::make_unique<bindpose::ShadedSurface>(surface) : nullptr;
   this->mapper_->SetInputData(surface ? this->shaded_->polydata() : nullptr);
-  this->actor_->SetVisibility(surface != nullptr);
+  this->set_surface_look(this->look_);
+}
+
+void Viewport::set_surface_look(int look)
+{
+  this->look_ = look;
+  vtkProperty* property = this->actor_->GetProperty();
+  this->actor_->SetVisibility(this->shaded_ && look != hidden);
+  property->SetOpacity(look == see_through ? 0.25 : 1.0);
+  property->SetRepresentation(look == edges_only ? VTK_WIREFRAME : VTK_SURFACE);
+  property->SetLighting(look != edges_only);
+  const bindpose::Rgb& colour =
+    look == edges_only ? bindpose::palette::edges : bindpose::palette::surface;
+  property->SetColor(colour[0], colour[1], colour[2]);
+  // The driver cannot sort see-through triangles by depth with several samples a pixel.
+  const bool sorts = look == see_through && this->shaded_;
+  this->renderer_->SetUseDepthPeeling(sorts);
+  this->renderer_->SetMaximumNumberOfPeels(6);
+  this->renderer_->SetUseFXAA(sorts);
+  this->window_->SetMultiSamples(sorts ? 0 : 4);
+  this->refresh();
+}
+
+void Viewport::set_curves(vtkPolyData* curves)
+{
+  for (const auto& actor : this->curves_)
+  {
+    this->renderer_->RemoveActor(actor);
+  }
+  this->curves_.clear();
+  this->curve_data_ = curves;
+  if (curves)
+  {
+    double bounds[6];
+    curves->GetBounds(bounds);
+    bindpose::Box box = this->also_shown_;
+    box.add(bindpose::Vec3(bounds[0], bounds[2], bounds[4]));
+    box.add(bindpose::Vec3(bounds[1], bounds[3], bounds[5]));
+    this->curves_ =
+      bindpose::make_curves(curves, 0.0025 * box.diagonal(), 1.5 * this->devicePixelRatioF());
+    for (const auto& actor : this->curves_)
+    {
+      this->renderer_->AddActor(actor);
+    }
+  }
+  this->refresh();
+}
+
+void Viewport::show_winding_legend(bool shown)
+{
+  this->winding_legend_ = shown;
+  this->draw_legend();
+  this->refresh();
+}
+
+void Viewport::set_also_shown(const bindpose::Box& box)
+{
+  this->also_shown_ = box;
 }
 
 void Viewport::move_surface(vtkPolyData* posed)
@@ -111,20 +174,26 @@ void Viewport::show_column(int column, const QString& name)
 void Viewport::draw_legend()
 {
   this->legend_->RemoveAllViewProps();
-  if (this->column_name_.isEmpty())
-  {
-    return;
-  }
   const double scale = this->devicePixelRatioF();
   const int font = static_cast<int>(13 * scale);
-  const bindpose::ColourMap map = bindpose::weight_map();
-  const std::string name = this->column_name_.toStdString();
   bindpose::PixelBox box;
   box.x = static_cast<int>(20 * scale);
-  box.width = bindpose::legend_width(map, name, font);
   box.height = static_cast<int>(240 * scale);
   box.y = static_cast<int>(24 * scale);
-  bindpose::add_legend(this->legend_, map, name, box, font);
+  const auto add = [&](const bindpose::ColourMap& map, const QString& name)
+  {
+    box.width = bindpose::legend_width(map, name.toStdString(), font);
+    bindpose::add_legend(this->legend_, map, name.toStdString(), box, font);
+    box.x += box.width + 2 * font;
+  };
+  if (!this->column_name_.isEmpty())
+  {
+    add(bindpose::weight_map(), this->column_name_);
+  }
+  if (this->winding_legend_)
+  {
+    add(bindpose::winding_map(), tr("Winding number w"));
+  }
 }
 
 void Viewport::resizeEvent(QResizeEvent* event)
@@ -136,20 +205,48 @@ void Viewport::resizeEvent(QResizeEvent* event)
 
 void Viewport::reset_view()
 {
-  vtkPolyData* shown = this->shaded_ ? this->shaded_->polydata() : nullptr;
-  if (!shown || shown->GetNumberOfPoints() == 0)
+  // The widget's handles count when there is nothing else.
+  std::vector<vtkPolyData*> shown;
+  for (vtkPolyData* candidate :
+    { this->shaded_ ? this->shaded_->polydata() : nullptr, this->curve_data_.Get() })
   {
-    shown = this->handles_->GetHandles();
+    if (candidate && candidate->GetNumberOfPoints() > 0)
+    {
+      shown.push_back(candidate);
+    }
   }
-  if (!shown || shown->GetNumberOfPoints() == 0)
+  vtkPolyData* handles = this->handles_->GetHandles();
+  if (shown.empty() && this->also_shown_.empty() && handles && handles->GetNumberOfPoints() > 0)
+  {
+    shown.push_back(handles);
+  }
+  std::vector<bindpose::Vec3> places;
+  for (vtkPolyData* polydata : shown)
+  {
+    const bindpose::SharedMatrix<bindpose::Points> points = bindpose::to_points(polydata);
+    for (bindpose::Index v = 0; v < points.view().rows(); ++v)
+    {
+      places.emplace_back(points.view().row(v).transpose());
+    }
+  }
+  if (!this->also_shown_.empty())
+  {
+    const bindpose::Vec3 ends[2] = { this->also_shown_.lower, this->also_shown_.upper };
+    for (int corner = 0; corner < 8; ++corner)
+    {
+      places.emplace_back(
+        ends[corner & 1].x(), ends[corner >> 1 & 1].y(), ends[corner >> 2 & 1].z());
+    }
+  }
+  if (places.empty())
   {
     return;
   }
-  const bindpose::SharedMatrix<bindpose::Points> points = bindpose::to_points(shown);
+  const Eigen::Map<const bindpose::Points> points(
+    places.front().data(), static_cast<bindpose::Index>(places.size()), 3);
   const bindpose::View view;
-  const bindpose::Frame frame =
-    bindpose::choose_frame(bindpose::bounding_box(points.view()), view.up);
-  bindpose::fit_camera(this->renderer_->GetActiveCamera(), points.view(), frame, view,
+  const bindpose::Frame frame = bindpose::choose_frame(bindpose::bounding_box(points), view.up);
+  bindpose::fit_camera(this->renderer_->GetActiveCamera(), points, frame, view,
     static_cast<double>(this->width()) / this->height(), 0.12);
   this->renderer_->ResetCameraClippingRange();
 }
@@ -171,7 +268,16 @@ void Viewport::refresh()
     [this]
     {
       this->refresh_pending_ = false;
+      // A cloud is drawn coarsely as long as something is being dragged, a slider for instance,
+      // and once more when it is let go.
+      const bool dragging = QApplication::mouseButtons() != Qt::NoButton;
+      this->window_->SetDesiredUpdateRate(dragging ? this->interactor()->GetDesiredUpdateRate()
+                                                   : this->interactor()->GetStillUpdateRate());
       this->window_->Render();
+      if (dragging)
+      {
+        this->settle_.start();
+      }
     });
 }
 

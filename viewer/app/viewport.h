@@ -1,11 +1,16 @@
 #ifndef viewport_h
 #define viewport_h
 
+#include <QTimer>
 #include <QVTKOpenGLNativeWidget.h>
 
+#include "base/mesh.h"
+
 #include "vtkNew.h"
+#include "vtkSmartPointer.h"
 
 #include <memory>
+#include <vector>
 
 namespace bindpose
 {
@@ -18,13 +23,21 @@ class vtkPolyData;
 class vtkPolyDataMapper;
 class vtkRenderer;
 
-/// The picture: one surface, shaded or coloured by a column of its weights, and the handles on
-/// top, which the mouse drags.
+/// The picture: one surface, shaded or coloured by a column of its weights, the handles on top,
+/// which the mouse drags, and curves. VolumeView adds what it shows of a volume.
 class Viewport : public QVTKOpenGLNativeWidget
 {
   Q_OBJECT
 
 public:
+  enum SurfaceLook
+  {
+    solid = 0,
+    see_through = 1,
+    edges_only = 2,
+    hidden = 3
+  };
+
   explicit Viewport(QWidget* parent = nullptr);
   ~Viewport() override;
 
@@ -35,6 +48,13 @@ public:
   void set_handles(vtkPolyData* handles);
   /// Column of the array Weights, named on the scalar bar; -1: plain shading.
   void show_column(int column, const QString& name);
+  void set_surface_look(int look);
+  /// Lines, drawn as tubes; null: none.
+  void set_curves(vtkPolyData* curves);
+  /// The winding number's colours beside the column's.
+  void show_winding_legend(bool shown);
+  /// A box that reset_view() shows besides surface and curves; empty: none.
+  void set_also_shown(const bindpose::Box& box);
   /// Looks at everything from the side that shows most of it.
   void reset_view();
   /// Draws soon; many calls, one picture.
@@ -44,6 +64,7 @@ public:
 
   vtkHandleSetWidget* handle_widget() const { return this->handles_; }
   vtkRenderer* renderer() const { return this->renderer_; }
+  vtkActor* surface_actor() const { return this->actor_; }
 
 protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -58,8 +79,14 @@ private:
   vtkNew<vtkRenderer> legend_; // in front, to the left: the colour scale
   vtkNew<vtkHandleSetWidget> handles_;
   std::unique_ptr<bindpose::ShadedSurface> shaded_;
+  std::vector<vtkSmartPointer<vtkActor>> curves_;
+  vtkSmartPointer<vtkPolyData> curve_data_;
+  bindpose::Box also_shown_;
   QString column_name_;
+  bool winding_legend_ = false;
+  int look_ = solid;
   bool refresh_pending_ = false;
+  QTimer settle_; // after a drag
 };
 
 #endif

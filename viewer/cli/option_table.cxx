@@ -91,10 +91,18 @@ const std::vector<Verb>& verbs()
         { "--zoom", "FACTOR", Kind::number, "1", "", "larger in the picture" },
         { "--section", "FRACTION", Kind::number, "0.5", "",
           "where tets are cut and volumes are sliced, from 0 (back) to 1 (front)" },
+        { "--isosurface", "LEVEL,…", Kind::text, "", "",
+          "show volumes by the surfaces where the value is this, instead of by a slice" },
+        { "--volume", "", Kind::flag, "", "",
+          "show winding numbers as a cloud that is clear where they are 0, instead of by a slice" },
+        { "--context", "FILE", Kind::text, "", "",
+          "draw these in every tile, too: surfaces see-through, boundary curves as tubes", false,
+          true },
         { "--edges", "", Kind::flag, "", "", "draw the edges of surface triangles" },
         { "--title", "TEXT", Kind::text, "", "", "above the picture" } } },
-    { "view", "window to look at datasets and drag handles",
-      { { "FILE", "", Kind::text, "", "", "meshes and handles", false, true } } },
+    { "view", "window to look at datasets and volumes and to drag handles",
+      { { "FILE", "", Kind::text, "", "",
+        "meshes, handles, volumes of winding numbers, boundary curves", false, true } } },
   };
   return table;
 }

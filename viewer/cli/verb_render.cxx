@@ -117,6 +117,19 @@ bool read_options(Session& session, PictureOptions& options)
   {
     options.array = "Weights"; // the array whose components have names
   }
+  if (arguments.has("isosurface"))
+  {
+    for (const std::string& word : split_at_commas(arguments.text("isosurface")))
+    {
+      options.isosurfaces.emplace_back();
+      if (!parse_number(word, options.isosurfaces.back()))
+      {
+        return session.invalid("--isosurface " + arguments.text("isosurface") +
+          ": expected are numbers with commas between, as in 0.25,0.5");
+      }
+    }
+  }
+  options.volume = arguments.has("volume");
   options.columns = arguments.integer("columns");
   options.title = arguments.text("title");
   options.edges = arguments.has("edges");
@@ -162,6 +175,18 @@ void run_render(Session& session)
     for (std::size_t i = 0; i < labels.size(); ++i)
     {
       tiles[i].label = labels[i];
+    }
+  }
+  for (const std::string& file : arguments.list("context"))
+  {
+    const auto context = session.read(file);
+    if (!context)
+    {
+      return;
+    }
+    for (Tile& tile : tiles)
+    {
+      tile.context.push_back(context);
     }
   }
   if (arguments.has("handles"))

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace bindpose
 {
@@ -149,6 +150,61 @@ ColourMap winding_map()
   map.ticks = { -1.0, 0.0, 0.5, 1.0, 2.0 };
   map.decimals = -1;
   return map;
+}
+
+Rgb colour_of(const ColourMap& map, double value)
+{
+  Rgb colour{};
+  map.table->GetColor(value, colour.data());
+  return colour;
+}
+
+ColourMap level_map(const ColourMap& map, const std::vector<double>& levels)
+{
+  const int count = static_cast<int>(levels.size());
+  ColourMap result;
+  result.lower = 0.0;
+  result.upper = count;
+  result.table = make_table(result.lower, result.upper, count);
+  for (int i = 0; i < count; ++i)
+  {
+    const Rgb c = colour_of(map, levels[i]);
+    result.table->SetTableValue(i, c[0], c[1], c[2], 1.0);
+    result.ticks.push_back(i + 0.5);
+    result.texts.push_back(short_number(levels[i]));
+  }
+  return result;
+}
+
+ColourMap with_levels(ColourMap map, const std::vector<double>& levels)
+{
+  const double room = 0.07 * (map.upper - map.lower);
+  std::vector<double> ticks;
+  for (const double level : levels)
+  {
+    if (level >= map.lower && level <= map.upper)
+    {
+      ticks.push_back(level);
+    }
+  }
+  for (const double tick : map.ticks)
+  {
+    const auto touches = [&](double level) { return std::abs(level - tick) < room; };
+    if (std::none_of(ticks.begin(), ticks.end(), touches))
+    {
+      ticks.push_back(tick);
+    }
+  }
+  map.ticks = ticks;
+  map.decimals = -1;
+  return map;
+}
+
+std::string short_number(double value)
+{
+  char text[40];
+  std::snprintf(text, sizeof text, "%.3g", value == 0.0 ? 0.0 : value);
+  return text;
 }
 
 } // namespace bindpose

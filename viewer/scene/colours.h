@@ -5,6 +5,7 @@
 #include "vtkSmartPointer.h"
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace bindpose
@@ -19,6 +20,7 @@ namespace palette
 constexpr Rgb surface{ 0.83, 0.80, 0.76 }; ///< a shape without data: warm grey
 constexpr Rgb cut{ 0.52, 0.74, 0.75 }; ///< tets that a cut lays open
 constexpr Rgb cut_edges{ 0.17, 0.30, 0.33 }; ///< their edges
+constexpr Rgb curve{ 0.05, 0.46, 0.32 }; ///< boundary curves: green, which no map holds
 constexpr Rgb line{ 0.16, 0.16, 0.18 }; ///< isolines, outlines
 constexpr Rgb edges{ 0.44, 0.42, 0.40 }; ///< triangle edges of a surface
 constexpr Rgb text{ 0.16, 0.16, 0.18 }; ///< labels on a light background
@@ -47,6 +49,7 @@ struct ColourMap
   double upper = 1.0;
   std::vector<double> ticks; ///< values that the legend names
   int decimals = 1; ///< of their texts; -1: shortest text with three digits
+  std::vector<std::string> texts; ///< of the ticks, instead of their numbers; empty: the numbers
 };
 
 /// Ten bands of equal colour over [0, 1].
@@ -55,6 +58,15 @@ ColourMap weight_map();
 ColourMap sequential_map(double lower, double upper, int bands);
 /// winding_colour over [-1, 2]; what lies beyond looks like the ends.
 ColourMap winding_map();
+
+/// The map's colour of a value; beyond the ends the end's.
+Rgb colour_of(const ColourMap& map, double value);
+/// A legend of single values: for each, from below, a field in its colour of the map.
+ColourMap level_map(const ColourMap& map, const std::vector<double>& levels);
+/// The map with the levels among its ticks; ticks that would touch them are left out.
+ColourMap with_levels(ColourMap map, const std::vector<double>& levels);
+/// A value as legends write it: three digits.
+std::string short_number(double value);
 
 } // namespace bindpose
 

@@ -25,17 +25,18 @@ namespace bindpose
 {
 namespace
 {
-std::string tick_text(double value, int decimals)
+std::string tick_text(const ColourMap& map, std::size_t tick)
 {
+  if (!map.texts.empty())
+  {
+    return map.texts[tick];
+  }
+  if (map.decimals < 0)
+  {
+    return short_number(map.ticks[tick]);
+  }
   char text[40];
-  if (decimals >= 0)
-  {
-    std::snprintf(text, sizeof text, "%.*f", decimals, value);
-  }
-  else
-  {
-    std::snprintf(text, sizeof text, "%.3g", value == 0.0 ? 0.0 : value);
-  }
+  std::snprintf(text, sizeof text, "%.*f", map.decimals, map.ticks[tick]);
   return text;
 }
 
@@ -114,9 +115,9 @@ void add_text(vtkRenderer* renderer, const std::string& text, double x, double y
 int legend_width(const ColourMap& map, const std::string& name, int font_size)
 {
   double ticks = 0.0;
-  for (const double tick : map.ticks)
+  for (std::size_t i = 0; i < map.ticks.size(); ++i)
   {
-    ticks = std::max(ticks, text_width(tick_text(tick, map.decimals), font_size));
+    ticks = std::max(ticks, text_width(tick_text(map, i), font_size));
   }
   const double bar = bar_width(font_size) + 0.6 * font_size + ticks;
   return static_cast<int>(std::ceil(std::max(bar, text_width(name, font_size))));
@@ -143,12 +144,12 @@ void add_legend(vtkRenderer* renderer, const ColourMap& map, const std::string& 
     shapes.add_box(left, bottom + (top - bottom) * i / count, right,
       bottom + (top - bottom) * (i + 1) / count, colour);
   }
-  for (const double tick : map.ticks)
+  for (std::size_t i = 0; i < map.ticks.size(); ++i)
   {
+    const double tick = map.ticks[i];
     const double y = bottom + (top - bottom) * (tick - map.lower) / (map.upper - map.lower);
     shapes.add_box(right, y - 0.5 * line, right + 0.3 * font_size, y + 0.5 * line, palette::line);
-    add_text(renderer, tick_text(tick, map.decimals), right + 0.6 * font_size, y, font_size,
-      TextAlign::left);
+    add_text(renderer, tick_text(map, i), right + 0.6 * font_size, y, font_size, TextAlign::left);
   }
   shapes.add_to(renderer);
   add_text(

@@ -7,6 +7,7 @@
 #include "scene/display.h"
 #include "scene/legend.h"
 #include "scene/tile_actors.h"
+#include "scene/volume.h"
 
 #include "vtkCamera.h"
 #include "vtkDataSet.h"
@@ -58,6 +59,28 @@ Status check_options(const std::vector<Tile>& tiles, const PictureOptions& optio
   {
     return Status::invalid_input("the zoom lies between 0.001 and 1000");
   }
+  for (const double level : options.isosurfaces)
+  {
+    if (!std::isfinite(level))
+    {
+      return Status::invalid_input("the level of an isosurface is a number");
+    }
+  }
+  if (options.isosurfaces.size() > 16)
+  {
+    return Status::invalid_input(
+      "a picture shows at most 16 isosurfaces, not " + std::to_string(options.isosurfaces.size()));
+  }
+  for (const Tile& tile : tiles)
+  {
+    for (const auto& data : tile.context)
+    {
+      if (!data || data->GetNumberOfPoints() == 0 || vtkImageData::SafeDownCast(data))
+      {
+        return Status::invalid_input("the context of a picture is a surface, tets or curves");
+      }
+    }
+  }
   if (!std::isfinite(options.view.azimuth) || !std::isfinite(options.view.elevation))
   {
     return Status::invalid_input("azimuth and elevation are degrees");
@@ -87,6 +110,54 @@ Status check_options(const std::vector<Tile>& tiles, const PictureOptions& optio
   return Status();
 }
 
+// Whether what isosurfaces and a cloud are wanted of can give them; warns of levels that nothing
+// reaches.
+Status check_volumes(
+  const std::vector<Tile>& tiles, const PictureOptions& options, const Colouring& colouring)
+{
+  if (options.volume && colouring.kind != Colouring::Kind::winding)
+  {
+    return Status::invalid_input("volume rendering shows the array WindingNumber of a volume (a "
+                                 ".vti file) in its own colours; it takes no other array or range");
+  }
+  Status result;
+  double lower = 1e300;
+  double upper = -1e300;
+  for (const Tile& tile : tiles)
+  {
+    if (!vtkImageData::SafeDownCast(tile.data))
+    {
+      continue;
+    }
+    const Status status = check_volume(tile.data, colouring.array);
+    if (!status.ok())
+    {
+      return status;
+    }
+    lower = std::min(lower, status.report.number("volume.minimum", lower));
+    upper = std::max(upper, status.report.number("volume.maximum", upper));
+  }
+  if (lower > upper)
+  {
+    return Status::invalid_input("isosurfaces need a volume (a .vti file)");
+  }
+  for (const double level : options.isosurfaces)
+  {
+    if (!(level > lower && level <= upper))
+    {
+      result.warnings.push_back("no isosurface at " + short_number(level) +
+        ": the values run from " + short_number(lower) + " to " + short_number(upper));
+    }
+  }
+  return result;
+}
+
+bool sorts_by_depth(const std::vector<Tile>& tiles, const PictureOptions& options)
+{
+  return options.isosurfaces.size() > 1 ||
+    std::any_of(tiles.begin(), tiles.end(), [](const Tile& tile) { return !tile.context.empty(); });
+}
+
 // As many columns as make the tiles' shape most like the shapes' own.
 int choose_columns(int count, double width, double height, double shape_aspect)
 {
@@ -105,8 +176,19 @@ int choose_columns(int count, double width, double height, double shape_aspect)
   return best;
 }
 
+// What of it a legend shows: a bar, or a field for each of a few levels.
+ColourMap make_legend_map(const PictureOptions& options, const ColourMap& map)
+{
+  if (options.isosurfaces.empty())
+  {
+    return map;
+  }
+  return options.volume ? with_levels(map, options.isosurfaces)
+                        : level_map(map, options.isosurfaces);
+}
+
 Layout make_layout(const std::vector<Tile>& tiles, const PictureOptions& options,
-  const Colouring& colouring, const std::string& legend_name, double shape_aspect)
+  const ColourMap* legend, const std::string& legend_name, double shape_aspect)
 {
   const int scale = options.supersampling;
   const int width = options.width * scale;
@@ -123,10 +205,12 @@ Layout make_layout(const std::vector<Tile>& tiles, const PictureOptions& options
     layout.title_y = height - 1.5 * layout.font;
   }
   int right = width;
-  if (options.legend && colouring.kind != Colouring::Kind::none)
+  if (legend)
   {
-    layout.legend.width = legend_width(colouring.map, legend_name, layout.font);
-    layout.legend.height = static_cast<int>(std::min(0.62 * top, 20.0 * layout.font));
+    layout.legend.width = legend_width(*legend, legend_name, layout.font);
+    // A bar of levels is as long as its texts need.
+    const double fields = legend->texts.empty() ? 17.5 : 1.7 * legend->texts.size();
+    layout.legend.height = static_cast<int>(std::min(0.62 * top, (2.5 + fields) * layout.font));
     layout.legend.x = width - margin - layout.legend.width;
     layout.legend.y = (top - layout.legend.height) / 2;
     right = layout.legend.x - margin / 2;
@@ -217,13 +301,14 @@ Eigen::Matrix4d world_to_pixel(vtkCamera* camera, const PixelBox& box, double sc
   return viewport * projection;
 }
 
-Points all_points(const std::vector<Tile>& tiles, const Frame* frame, double section)
+Points all_points(const std::vector<Tile>& tiles, const PictureOptions& options,
+  const Colouring& colouring, const Frame* frame)
 {
   std::vector<Points> parts;
   Index count = 0;
   for (const Tile& tile : tiles)
   {
-    parts.push_back(shown_points(tile, frame, section));
+    parts.push_back(shown_points(tile, options, colouring, frame));
     count += parts.back().rows();
   }
   Points points(count, 3);
@@ -242,14 +327,22 @@ Eigen::Vector2d PictureGeometry::project(std::size_t tile, const Vec3& point) co
   return (this->tiles.at(tile).world_to_pixel * point.homogeneous()).hnormalized().head<2>();
 }
 
-Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& options,
+Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wanted,
   vtkSmartPointer<vtkImageData>& image, PictureGeometry* geometry)
 {
+  PictureOptions options = wanted;
+  std::sort(options.isosurfaces.begin(), options.isosurfaces.end());
+  options.isosurfaces.erase(
+    std::unique(options.isosurfaces.begin(), options.isosurfaces.end()), options.isosurfaces.end());
   Status status = check_options(tiles, options);
   Colouring colouring;
   if (status.ok())
   {
     status = choose_colouring(tiles, options, colouring);
+  }
+  if (status.ok() && (options.volume || !options.isosurfaces.empty()))
+  {
+    status = check_volumes(tiles, options, colouring);
   }
   if (!status.ok())
   {
@@ -260,7 +353,7 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& opt
     return Status::failure(StatusCode::unavailable, no_display_message());
   }
 
-  const Points all = all_points(tiles, nullptr, options.section);
+  const Points all = all_points(tiles, options, colouring, nullptr);
   if (all.rows() == 0)
   {
     return Status::invalid_input("there is nothing to draw");
@@ -270,7 +363,7 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& opt
     return Status::invalid_input("a coordinate is not finite");
   }
   const Frame frame = choose_frame(bounding_box(all), options.view.up);
-  const Points points = all_points(tiles, &frame, options.section);
+  const Points points = all_points(tiles, options, colouring, &frame);
   const Vec3 size = bounding_box(points).size();
   const int across = 3 - frame.up - frame.depth;
   const double shape_aspect = std::clamp(
@@ -279,7 +372,10 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& opt
   const std::string legend_name = colouring.component_name.empty()
     ? colouring.array
     : colouring.array + " " + colouring.component_name;
-  const Layout layout = make_layout(tiles, options, colouring, legend_name, shape_aspect);
+  const bool with_legend = options.legend && colouring.kind != Colouring::Kind::none;
+  const ColourMap legend = with_legend ? make_legend_map(options, colouring.map) : ColourMap();
+  const Layout layout =
+    make_layout(tiles, options, with_legend ? &legend : nullptr, legend_name, shape_aspect);
   const int scale = options.supersampling;
   const int width = options.width * scale;
   const int height = options.height * scale;
@@ -287,7 +383,8 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& opt
   vtkNew<vtkRenderWindow> window;
   window->SetOffScreenRendering(1);
   window->SetAlphaBitPlanes(1);
-  window->SetMultiSamples(scale > 1 ? 4 : 0);
+  // The driver cannot sort see-through surfaces by depth with several samples a pixel.
+  window->SetMultiSamples(scale > 1 && !sorts_by_depth(tiles, options) ? 4 : 0);
   window->SetSize(width, height);
   window->SetNumberOfLayers(3);
 
@@ -319,10 +416,10 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& opt
     renderer->SetActiveCamera(camera);
     window->AddRenderer(renderer);
     add_lights(renderer);
-    status = add_tile(renderer, tiles[i], options, colouring, frame, scale);
-    if (!status.ok())
+    const Status drawn = add_tile(renderer, tiles[i], options, colouring, frame, scale);
+    if (!drawn.ok())
     {
-      return status;
+      return drawn;
     }
     if (geometry)
     {
@@ -351,7 +448,7 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& opt
   }
   if (layout.legend.width > 0)
   {
-    add_legend(writing, colouring.map, legend_name, layout.legend, layout.font);
+    add_legend(writing, legend, legend_name, layout.legend, layout.font);
   }
 
   window->Render();
@@ -375,6 +472,10 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& opt
     }
     status.report.set("picture.range",
       Report::Value(std::vector<double>{ colouring.map.lower, colouring.map.upper }));
+  }
+  if (!options.isosurfaces.empty())
+  {
+    status.report.set("picture.isosurfaces", Report::Value(options.isosurfaces));
   }
   return status;
 }

@@ -22,14 +22,18 @@ namespace bindpose
 /// - surface: smooth shaded, sharp edges kept; arrays as colours; weights in bands with isolines;
 /// - tets: cut open along the middle, whole tets kept ("crinkle cut"), the laid-open sides in
 ///   another colour with edges; arrays as colours on all sides;
-/// - image volume: one slice through the middle; a winding number also shows where it is 0.5;
+/// - image volume: one slice through the middle; a winding number also shows where it is 0.5; or,
+///   asked for, isosurfaces or the volume as a cloud instead of the slice;
 /// - handles (a polydata with HandleKind or HandleName): drawn over everything else;
-/// - lines and points: as such.
+/// - curves (lines of more than two points, or with the cell array Multiplicity): green tubes;
+/// - other lines and points: as such.
 struct Tile
 {
   vtkSmartPointer<vtkDataSet> data;
   vtkSmartPointer<vtkPolyData> handles; ///< drawn on top; may be null
   std::string label; ///< below the tile; may be empty
+  /// Drawn along, uncoloured: surfaces and skins see-through, curves as tubes.
+  std::vector<vtkSmartPointer<vtkDataSet>> context{};
 };
 
 enum class Background
@@ -63,6 +67,12 @@ struct PictureOptions
   bool cut = true; ///< tets: lay the inside open; else only the outside is seen
   /// Where cuts and slices lie along the view's depth axis: 0 at its lower end, 1 at its upper.
   double section = 0.5;
+  /// Levels whose isosurfaces image volumes show instead of a slice, each in the map's colour.
+  /// Those with no other inside (the highest; the lowest when below 0) are solid, the others
+  /// see-through.
+  std::vector<double> isosurfaces;
+  /// Image volumes of winding numbers as a cloud instead of a slice; see make_winding_volume().
+  bool volume = false;
   /// Pixels are averages of this many samples in each direction, 1 to 4, each antialiased by the
   /// graphics driver (4 samples). 1 switches all antialiasing off.
   int supersampling = 2;
@@ -85,14 +95,17 @@ struct PictureGeometry
 /// Draws all tiles, seen by one common camera and in one common colour map, into an image of
 /// unsigned char RGB, or RGBA for a transparent background (not premultiplied).
 /// invalid_input, one sentence, for: no tile or an empty one, an array or component that no tile
-/// has (naming those there are), options out of range. unavailable when there is no display.
+/// has (naming those there are), options out of range, isosurfaces or a cloud of what
+/// check_volume() refuses. Warns of levels that are not reached. unavailable when there is no
+/// display.
 /// The same input gives the same picture on the same machine and driver.
 Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& options,
   vtkSmartPointer<vtkImageData>& image, PictureGeometry* geometry = nullptr);
 
 /// The same into a PNG file, whole or not at all. invalid_input also when the file is there and
 /// may not be overwritten, or cannot be written. Report: picture.width, picture.height,
-/// picture.tiles, picture.array, picture.component, picture.range where they apply.
+/// picture.tiles, picture.array, picture.component, picture.range, picture.isosurfaces where they
+/// apply.
 Status render_to_png(const std::vector<Tile>& tiles, const PictureOptions& options,
   const std::string& path, bool overwrite = false);
 

@@ -4,7 +4,10 @@
 #include "scene/tile_actors.h"
 
 #include "conversion.h"
+#include "scene/curves.h"
 #include "scene/shaded_surface.h"
+#include "scene/volume.h"
+#include "scene/volume_rendering.h"
 #include "vtkHandleSetRepresentation.h"
 
 #include "vtkActor.h"
@@ -14,10 +17,11 @@
 #include "vtkDataSetSurfaceFilter.h"
 #include "vtkDoubleArray.h"
 #include "vtkExtractVOI.h"
-#include "vtkFlyingEdges3D.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
+#include "vtkLight.h"
+#include "vtkLightCollection.h"
 #include "vtkLightKit.h"
 #include "vtkLookupTable.h"
 #include "vtkNew.h"
@@ -27,6 +31,7 @@
 #include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkUnstructuredGrid.h"
+#include "vtkVolume.h"
 
 #include <algorithm>
 #include <cmath>
@@ -311,8 +316,8 @@ void add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& 
 
 // ---- Volumes -----------------------------------------------------------------------------------
 
-void add_volume(vtkRenderer* renderer, vtkImageData* image, const PictureOptions& options,
-  const Colouring& colouring, const Frame& frame, double scale)
+void add_slice(vtkRenderer* renderer, vtkImageData* image, const PictureOptions& options,
+  const Colouring& colouring, const Frame& frame, double scale, bool shell_wanted)
 {
   int extent[6];
   image->GetExtent(extent);
@@ -334,21 +339,46 @@ void add_volume(vtkRenderer* renderer, vtkImageData* image, const PictureOptions
     return;
   }
   add_contours(renderer, faces->GetOutput(), { 0.5 }, 1.6 * scale, palette::line);
-  if (image->GetDataDimension() == 3 && image->GetPointData()->HasArray(colour_array_name))
+  if (shell_wanted && image->GetDataDimension() == 3 &&
+    image->GetPointData()->HasArray(colour_array_name))
   {
-    vtkNew<vtkFlyingEdges3D> shell;
-    shell->SetInputData(image);
-    shell->SetInputArrayToProcess(
-      0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, colour_array_name);
-    shell->SetValue(0, 0.5);
-    shell->ComputeNormalsOff();
-    shell->ComputeScalarsOff();
-    shell->Update();
-    if (shell->GetOutput()->GetNumberOfPolys() > 0)
+    const auto shell = isosurface(image, colour_array_name, 0.5);
+    if (shell->GetNumberOfPolys() > 0)
     {
-      const ShadedSurface shaded(shell->GetOutput());
+      const ShadedSurface shaded(shell);
       const auto glass = add_actor(renderer, shaded.polydata(), Colouring());
       glass->GetProperty()->SetOpacity(0.2);
+    }
+  }
+}
+
+// Crossings of see-through surfaces are sorted by the graphics driver.
+void sort_by_depth(vtkRenderer* renderer)
+{
+  renderer->SetUseDepthPeeling(true);
+  renderer->SetMaximumNumberOfPeels(8);
+  renderer->SetOcclusionRatio(0.0);
+}
+
+void add_isosurfaces(vtkRenderer* renderer, vtkImageData* image, const PictureOptions& options,
+  const Colouring& colouring)
+{
+  const auto [lowest, highest] =
+    std::minmax_element(options.isosurfaces.begin(), options.isosurfaces.end());
+  for (const double level : options.isosurfaces)
+  {
+    const auto surface = isosurface(image, colour_array_name, level);
+    const auto actor = add_actor(renderer, surface, Colouring());
+    const Rgb colour = colour_of(colouring.map, level);
+    actor->GetProperty()->SetColor(colour[0], colour[1], colour[2]);
+    // A little darker than the map, so that its white, at 0.5, stands out from paper.
+    actor->GetProperty()->SetAmbient(0.14);
+    actor->GetProperty()->SetDiffuse(0.76);
+    const bool innermost = level == *highest || (level == *lowest && level < 0.0);
+    if (!innermost)
+    {
+      actor->GetProperty()->SetOpacity(0.35);
+      sort_by_depth(renderer);
     }
   }
 }
@@ -412,17 +442,60 @@ bool is_handle_data(vtkDataSet* data)
       polydata->GetCellData()->HasArray("HandleName"));
 }
 
-Points shown_points(const Tile& tile, const Frame* frame, double section)
+namespace
+{
+bool shows_solids(const PictureOptions& options)
+{
+  return options.volume || !options.isosurfaces.empty();
+}
+
+void add_used_points(vtkDataSet* data, std::vector<Vec3>& places)
+{
+  std::vector<bool> used(
+    static_cast<std::size_t>(data->GetNumberOfPoints()), data->GetNumberOfCells() == 0);
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    data->GetCellPoints(cell, ids);
+    for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
+    {
+      used[ids->GetId(k)] = true;
+    }
+  }
+  for (std::size_t v = 0; v < used.size(); ++v)
+  {
+    if (used[v])
+    {
+      places.emplace_back();
+      data->GetPoint(static_cast<vtkIdType>(v), places.back().data());
+    }
+  }
+}
+
+} // namespace
+
+Points shown_points(
+  const Tile& tile, const PictureOptions& options, const Colouring& colouring, const Frame* frame)
 {
   std::vector<Vec3> places;
   if (auto* image = vtkImageData::SafeDownCast(tile.data))
   {
     double bounds[6];
     image->GetBounds(bounds);
-    if (frame)
+    if (shows_solids(options))
+    {
+      const Box box = occupied_box(with_colour_values(image, colouring), colour_array_name,
+        options.isosurfaces, options.volume);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        bounds[2 * axis] = box.lower[axis];
+        bounds[2 * axis + 1] = box.upper[axis];
+      }
+    }
+    else if (frame)
     {
       double* side = bounds + 2 * frame->depth;
-      side[0] = side[1] = side[0] + section * (side[1] - side[0]);
+      side[0] = side[1] = side[0] + options.section * (side[1] - side[0]);
     }
     for (int corner = 0; corner < 8; ++corner)
     {
@@ -432,25 +505,11 @@ Points shown_points(const Tile& tile, const Frame* frame, double section)
   }
   else if (tile.data && !is_handle_data(tile.data))
   {
-    std::vector<bool> used(
-      static_cast<std::size_t>(tile.data->GetNumberOfPoints()), tile.data->GetNumberOfCells() == 0);
-    vtkNew<vtkIdList> ids;
-    for (vtkIdType cell = 0; cell < tile.data->GetNumberOfCells(); ++cell)
-    {
-      tile.data->GetCellPoints(cell, ids);
-      for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
-      {
-        used[ids->GetId(k)] = true;
-      }
-    }
-    for (std::size_t v = 0; v < used.size(); ++v)
-    {
-      if (used[v])
-      {
-        places.emplace_back();
-        tile.data->GetPoint(static_cast<vtkIdType>(v), places.back().data());
-      }
-    }
+    add_used_points(tile.data, places);
+  }
+  for (const auto& data : tile.context)
+  {
+    add_used_points(data, places);
   }
   vtkPolyData* handle_sets[2] = { tile.handles,
     is_handle_data(tile.data) ? vtkPolyData::SafeDownCast(tile.data) : nullptr };
@@ -474,16 +533,70 @@ Points shown_points(const Tile& tile, const Frame* frame, double section)
   return points;
 }
 
+namespace
+{
+// Of curves: 0.25 % of the picture's diagonal reads well, as lines do in a drawing.
+double tube_radius(const Tile& tile, const PictureOptions& options, const Colouring& colouring)
+{
+  return 0.0025 * bounding_box(shown_points(tile, options, colouring)).diagonal();
+}
+
+void add_curves(vtkRenderer* renderer, vtkPolyData* data, double radius, double scale)
+{
+  for (const auto& actor : make_curves(data, radius, 1.5 * scale))
+  {
+    renderer->AddActor(actor);
+  }
+}
+
+void add_context(vtkRenderer* renderer, vtkDataSet* data, double radius, double scale)
+{
+  vtkNew<vtkDataSetSurfaceFilter> skin;
+  vtkSmartPointer<vtkPolyData> surface = vtkPolyData::SafeDownCast(data);
+  if (!surface)
+  {
+    skin->SetInputData(data);
+    skin->Update();
+    surface = skin->GetOutput();
+  }
+  add_curves(renderer, surface, radius, scale);
+  const ShadedSurface shaded(surface);
+  if (shaded.polydata()->GetNumberOfPolys() > 0)
+  {
+    const auto glass = add_actor(renderer, shaded.polydata(), Colouring());
+    glass->GetProperty()->SetOpacity(0.25);
+    sort_by_depth(renderer);
+  }
+}
+} // namespace
+
 Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& options,
   const Colouring& colouring, const Frame& frame, double scale)
 {
   if (auto* image = vtkImageData::SafeDownCast(tile.data))
   {
-    add_volume(renderer, with_colour_values(image, colouring), options, colouring, frame, scale);
+    const auto values = with_colour_values(image, colouring);
+    if (options.volume)
+    {
+      renderer->AddVolume(make_winding_volume(values, colour_array_name, scale));
+    }
+    if (!options.isosurfaces.empty())
+    {
+      add_isosurfaces(renderer, values, options, colouring);
+    }
+    if (!shows_solids(options))
+    {
+      add_slice(renderer, values, options, colouring, frame, scale, tile.context.empty());
+    }
   }
   else if (is_handle_data(tile.data))
   {
     add_handles(renderer, vtkPolyData::SafeDownCast(tile.data), options, scale);
+  }
+  else if (is_curve_data(tile.data) && colouring.kind == Colouring::Kind::none)
+  {
+    add_curves(
+      renderer, vtkPolyData::SafeDownCast(tile.data), tube_radius(tile, options, colouring), scale);
   }
   else if (auto* polydata = vtkPolyData::SafeDownCast(tile.data))
   {
@@ -523,6 +636,10 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
       add_lines_and_points(renderer, faces->GetOutput(), colouring, scale);
     }
   }
+  for (const auto& data : tile.context)
+  {
+    add_context(renderer, data, tube_radius(tile, options, colouring), scale);
+  }
   if (tile.handles)
   {
     add_handles(renderer, tile.handles, options, scale);
@@ -542,6 +659,12 @@ void add_lights(vtkRenderer* renderer)
   kit->SetHeadLightWarmth(0.5);
   kit->SetKeyToBackRatio(3.6);
   kit->AddLightsToRenderer(renderer);
+  // Counts for clouds only: rays on the processor take their ambient light from lights, surfaces
+  // have it of themselves.
+  renderer->GetLights()->InitTraversal();
+  vtkLight* first = renderer->GetLights()->GetNextItem();
+  const double full = 1.0 / first->GetIntensity();
+  first->SetAmbientColor(full, full, full);
 }
 
 } // namespace bindpose

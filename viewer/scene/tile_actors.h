@@ -15,8 +15,10 @@ namespace bindpose
 bool is_handle_data(vtkDataSet* data);
 
 /// The places that a tile shows: of all points that cells use, of handles as posed, of an image's
-/// corners, or of its slice's when the frame is known.
-Points shown_points(const Tile& tile, const Frame* frame = nullptr, double section = 0.5);
+/// corners, of its slice's when the frame is known, or of the box that holds its isosurfaces and
+/// its cloud.
+Points shown_points(const Tile& tile, const PictureOptions& options, const Colouring& colouring,
+  const Frame* frame = nullptr);
 
 /// Adds a tile's props to its renderer.
 /// @param scale  window pixels per picture pixel, for line widths and handle sizes

@@ -4,6 +4,7 @@
 #include "side_panel.h"
 #include "style.h"
 #include "viewport.h"
+#include "volume_view.h"
 
 #include "conversion.h"
 
@@ -13,6 +14,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkHandleSetRepresentation.h"
 #include "vtkHandleSetWidget.h"
+#include "vtkImageData.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkRenderWindow.h"
@@ -500,6 +502,31 @@ TEST_F(Window, NoTextOfThePanelIsClipped)
     }
     EXPECT_GT(this->window.panel()->findChild<QListWidget*>()->height(), 60);
   }
+}
+
+TEST_F(Window, HandlesAreDraggedWithAVolumeOpen)
+{
+  this->open_bound();
+  vtkNew<vtkImageData> volume;
+  volume->SetDimensions(9, 9, 9);
+  volume->SetSpacing(0.4, 0.4, 0.4);
+  volume->SetOrigin(-1.6, -1.6, -1.6);
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("WindingNumber");
+  for (vtkIdType i = 0; i < volume->GetNumberOfPoints(); ++i)
+  {
+    values->InsertNextValue(i % 2);
+  }
+  volume->GetPointData()->AddArray(values);
+  ASSERT_TRUE(this->window.set_volume(volume, "field"));
+  EXPECT_TRUE(this->window.is_bound());
+  this->render();
+  const double slice = this->window.volume_view()->position();
+  const Vec3 rest = top_of(this->window.shown());
+  this->drag(1, { 80, 0 });
+  EXPECT_GT((top_of(this->window.shown()) - rest).norm(), 0.1);
+  EXPECT_EQ(this->window.volume_view()->position(), slice);
+  EXPECT_EQ(this->window.history()->count(), 1);
 }
 
 TEST_F(Window, ALongErrorDoesNotWidenTheWindow)

@@ -71,3 +71,47 @@ def test_what_cannot_be_drawn(folder, words, sentence):
     assert shutil.which("xvfb-run") and os.access(shutil.which("xvfb-run"), os.X_OK)
     folder.off("sphere.off", shapes.sphere(8, 4))
     folder.run("render", "sphere.off", "-o", "s.png", *words, environment=NO_DISPLAY).is_refused(sentence)
+
+
+def test_isosurfaces_a_cloud_and_context(folder):
+    folder.off("sphere.off", shapes.sphere())
+    folder.run("winding", "sphere.off", "--grid", "16", "-o", "w.vti").is_good()
+    small = ["--size", "160x120", "--report", "-"]
+    run = folder.run("render", "w.vti", "--isosurface", "0.75,0.25", "-o", "i.png", *small).is_good()
+    assert run.err == "" and run.report["picture"]["isosurfaces"] == [0.25, 0.75]
+    run = folder.run("render", "w.vti", "--volume", "--context", "sphere.off", "-o", "v.png", *small).is_good()
+    assert run.err == "" and size_of(folder / "v.png") == (160, 120)
+    # A level that nothing reaches is no error: another tile may reach it.
+    run = folder.run("render", "w.vti", "--isosurface", "0.5,7", "-o", "n.png", *small).is_good()
+    assert "no isosurface at 7" in run.err
+
+
+@pytest.mark.parametrize("file, words, sentence", [
+    ("w.vti", ["--isosurface", "high"], "--isosurface high"),
+    ("w.vti", ["--isosurface", "0.5,"], "--isosurface 0.5,"),
+    ("w.vti", ["--isosurface", "nan"], "level of an isosurface"),
+    ("w.vti", ["--isosurface", ",".join(["1"] + [f"0.{k}" for k in range(10, 30)])], "at most 16"),
+    ("w.vti", ["--volume", "--range", "0,1"], "no other array or range"),
+    ("w.vti", ["--context", "none.off"], "none.off"),
+    ("w.vti", ["--context", "w.vti"], "context"),
+    ("sphere.off", ["--isosurface", "0.5"], "need a volume"),
+    ("sphere.off", ["--volume"], "of a volume"),
+])
+def test_what_is_no_volume(folder, file, words, sentence):
+    folder.off("sphere.off", shapes.sphere(8, 4))
+    folder.run("winding", "sphere.off", "--grid", "6", "-o", "w.vti").is_good()
+    folder.run("render", file, "-o", "s.png", *words).is_refused(sentence)
+
+
+@pytest.mark.parametrize("values, size, sentence", [
+    ("nan 0 0 0 1 1 1 1", "1 1 1", "1 of the 8 values of 'WindingNumber' is not finite"),
+    ("0 1 0 1", "1 1 0", "one sample thick along z"),
+])
+def test_volumes_that_have_no_isosurface(folder, values, size, sentence):
+    extent = " ".join("0 " + end for end in size.split())
+    folder.write("w.vti", f'''<VTKFile type="ImageData" version="0.1" byte_order="LittleEndian">
+<ImageData WholeExtent="{extent}" Origin="0 0 0" Spacing="1 1 1"><Piece Extent="{extent}"><PointData>
+<DataArray type="Float64" Name="WindingNumber" format="ascii">{values}</DataArray>
+</PointData></Piece></ImageData></VTKFile>''')
+    for words in (["--isosurface", "0.5"], ["--volume"]):
+        folder.run("render", "w.vti", "-o", "s.png", *words).is_refused(sentence)

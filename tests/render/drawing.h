@@ -1,0 +1,35 @@
+#ifndef bindpose_tests_render_drawing_h
+#define bindpose_tests_render_drawing_h
+
+// A picture and questions to it.
+
+#include "render/harness.h"
+#include "scene/colours.h"
+#include "scene/picture.h"
+
+#include <functional>
+
+namespace bindpose::test
+{
+
+struct Drawing
+{
+  vtkSmartPointer<vtkImageData> image;
+  PictureGeometry geometry;
+
+  Pixel at(const Vec3& point, std::size_t tile = 0) const;
+  long long count(const std::function<bool(const Pixel&)>& which) const;
+  /// The smallest rectangle, in pixels from the lower left corner, that holds them.
+  Eigen::AlignedBox2d extent(const std::function<bool(const Pixel&)>& which) const;
+};
+
+Drawing draw(const std::vector<Tile>& tiles, const PictureOptions& options);
+
+bool is_paper(const Pixel& p);
+double lightness(const Pixel& p);
+/// Largest difference of a channel, 0 to 255.
+double distance(const Pixel& p, const Rgb& colour);
+
+} // namespace bindpose::test
+
+#endif

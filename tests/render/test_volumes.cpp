@@ -1,0 +1,183 @@
+// Isosurfaces, clouds and boundary curves: each picture with numbers that must hold in it.
+#include "render/drawing.h"
+#include "render/shapes.h"
+
+#include "conversion.h"
+#include "support/meshes.h"
+
+#include "vtkImageData.h"
+#include "vtkPolyData.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace bindpose;
+using namespace bindpose::test;
+
+namespace
+{
+/// Where a sphere around the origin appears.
+Eigen::AlignedBox2d sphere_on_paper(const Drawing& drawing, double radius)
+{
+  const TriangleMesh ball = sphere(5, radius);
+  Eigen::AlignedBox2d box;
+  for (Index v = 0; v < ball.points.rows(); ++v)
+  {
+    box.extend(drawing.geometry.project(0, ball.points.row(v).transpose()));
+  }
+  return box;
+}
+
+bool painted(const Pixel& p)
+{
+  return !is_paper(p);
+}
+
+bool is_green(const Pixel& p)
+{
+  return p.g > p.r + 40 && p.g > p.b + 10;
+}
+} // namespace
+
+TEST(Render, isosurface)
+{
+  PictureOptions options = small_picture();
+  options.isosurfaces = { 0.75 };
+  const Drawing drawing = draw({ { cone_field(), nullptr, "" } }, options);
+  // As large as the analytic sphere, to a pixel.
+  const Eigen::AlignedBox2d expected = sphere_on_paper(drawing, 0.75);
+  const Eigen::AlignedBox2d found = drawing.extent(painted);
+  EXPECT_LT((found.min() - expected.min()).cwiseAbs().maxCoeff(), 1.0);
+  EXPECT_LT((found.max() - expected.max()).cwiseAbs().maxCoeff(), 1.0);
+  // Lit: the upper side is lighter. Smooth: along its middle no step from pixel to pixel.
+  EXPECT_GT(lightness(drawing.at(Vec3(0, 0.65, 0.3))), lightness(drawing.at(Vec3(0, -0.65, 0.3))));
+  const int row = static_cast<int>(expected.center().y());
+  for (int x = static_cast<int>(expected.min().x()) + 12; x < expected.max().x() - 12; ++x)
+  {
+    EXPECT_NEAR(lightness(pixel_at(drawing.image, x, row)),
+      lightness(pixel_at(drawing.image, x + 1, row)), 6.0)
+      << x;
+  }
+  // In the hue of its level: orange.
+  const Pixel middle = drawing.at(Vec3(0, 0, 0.75));
+  EXPECT_GT(middle.r, middle.b + 30);
+  // Another level is another picture, though the camera frames it as tightly.
+  options.isosurfaces = { 0.25 };
+  const Drawing other = draw({ { cone_field(), nullptr, "" } }, options);
+  const Pixel blue = other.at(Vec3(0, 0, 1.25));
+  EXPECT_GT(blue.b, blue.r + 10);
+  EXPECT_FALSE(passes(compare(drawing.image, other.image)));
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, isosurfaces_nested)
+{
+  PictureOptions options = small_picture();
+  options.isosurfaces = { 0.75, 0.25, 0.25, 0.9 };
+  options.legend = true;
+  const Drawing drawing = draw({ { cone_field(), nullptr, "" } }, options);
+  // The legend has a field in the colour of each level, in their order.
+  const ColourMap map = winding_map();
+  double below = 0.0;
+  for (const double level : { 0.25, 0.75, 0.9 })
+  {
+    const auto field = [&](const Pixel& p) { return distance(p, colour_of(map, level)) <= 1.0; };
+    EXPECT_GT(drawing.count(field), 60) << level;
+    const double height = drawing.extent(field).center().y();
+    EXPECT_GT(height, below) << level;
+    below = height;
+  }
+  // The inner ones are seen through the outer ones, and the innermost is solid: what shines
+  // through at its middle does not depend on what lies behind it.
+  const auto rim = [&](double radius)
+  { return lightness(drawing.at(radius * Vec3(-0.88, 0.0, 0.47).normalized())); };
+  EXPECT_LT(rim(0.7), rim(1.2)) << "the inner sphere lies under glass, the outer on paper";
+  const Pixel middle = drawing.at(Vec3(0, 0, 0.6));
+  EXPECT_GT(middle.r, middle.b + 20);
+  // Mutation: one level by 0.03.
+  options.isosurfaces = { 0.75, 0.25, 0.87 };
+  const Difference moved =
+    compare(drawing.image, draw({ { cone_field(), nullptr, "" } }, options).image);
+  EXPECT_GT(moved.pixels, 10 * allowed_pixels());
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, winding_cloud)
+{
+  PictureOptions options = small_picture();
+  options.volume = true;
+  const auto volume = three_spheres();
+  const Drawing drawing = draw({ { volume, nullptr, "" } }, options);
+  // Clear where it is 0: between the spheres and outside of their outlines.
+  EXPECT_TRUE(is_paper(drawing.at(Vec3(1.0, 0.9, 0.0))));
+  EXPECT_TRUE(is_paper(drawing.at(Vec3(-0.3, 1.1, 0.0))));
+  const double radius = (drawing.geometry.project(0, Vec3(-0.8, sphere_radius, 0)) -
+    drawing.geometry.project(0, Vec3(-0.8, 0, 0)))
+                          .norm();
+  const double lens_and_discs = 3.0 * 3.14159265 * radius * radius;
+  const auto covered = static_cast<double>(drawing.count(painted));
+  EXPECT_LT(covered, 1.25 * lens_and_discs);
+  EXPECT_GT(covered, 0.75 * lens_and_discs);
+  // Once inside: pale orange. Twice: deep. Inside out: violet.
+  const Pixel one = drawing.at(sphere_centers[0] - Vec3(0.3, 0, 0));
+  const Pixel two = drawing.at(0.5 * (sphere_centers[0] + sphere_centers[1]));
+  const Pixel negative = drawing.at(sphere_centers[2]);
+  EXPECT_GT(one.r, one.b + 8);
+  EXPECT_GT(lightness(one), 150.0);
+  EXPECT_LT(lightness(two), lightness(one) - 60.0);
+  EXPECT_GT(two.r, two.b + 20);
+  EXPECT_GT(negative.b, negative.r + 20);
+  // Mutation: the camera by one degree.
+  options.view.azimuth = 1.0;
+  const Difference turned =
+    compare(drawing.image, draw({ { volume, nullptr, "" } }, options).image);
+  EXPECT_GT(turned.pixels, 10 * allowed_pixels());
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, boundary_curves)
+{
+  PictureOptions options = small_picture();
+  options.isosurfaces = { 0.75 };
+  const TriangleMesh ball = sphere(4, 1.1);
+  Tile tile{ cone_field(), nullptr, "" };
+  tile.context = { to_polydata(ball.points, ball.triangles), two_circles() };
+  const Drawing drawing = draw({ tile }, options);
+  // The curves lie where they are projected: whole in front, faint where the isosurface hides them.
+  Tile without = tile;
+  without.context.pop_back();
+  const Drawing bare = draw({ without }, options);
+  const Vec3 towards_camera(0.45, 0.28, 0.85);
+  for (int i = 0; i < 24; ++i)
+  {
+    const double angle = 2.0 * 3.14159265358979 * i / 24;
+    for (const double y : { -0.5, 0.5 })
+    {
+      const Vec3 place(std::cos(angle), y, std::sin(angle));
+      const Pixel with_curve = drawing.at(place);
+      EXPECT_LT(with_curve.r, bare.at(place).r - 20) << i << " at " << y;
+      if (Vec3(place.x(), 0.0, place.z()).dot(towards_camera) > 0.0)
+      {
+        EXPECT_TRUE(is_green(with_curve)) << i << " at " << y;
+      }
+    }
+  }
+  // What counts twice is half as wide again.
+  const auto width = [&](double y)
+  {
+    const Eigen::Vector2d at = drawing.geometry.project(0, Vec3(0, y, 1));
+    int count = 0;
+    for (int row = static_cast<int>(at.y()) - 8; row <= static_cast<int>(at.y()) + 8; ++row)
+    {
+      count += is_green(pixel_at(drawing.image, at.x(), row));
+    }
+    return count;
+  };
+  EXPECT_GE(width(-0.5), 2);
+  EXPECT_GT(width(0.5), width(-0.5));
+  // The surface is see-through: the isosurface's orange shows.
+  const Pixel middle = drawing.at(Vec3(0, 0, 1.1));
+  EXPECT_GT(middle.r, middle.b + 20);
+  expect_baseline(drawing.image);
+}

@@ -1,0 +1,463 @@
+// Volumes in the window, as a person inspects them: real mouse events of Qt on the picture, sliders
+// and buttons of the panel; what is asserted are places, winding numbers and areas in closed form.
+#include "main_window.h"
+#include "panel_column.h"
+#include "side_panel.h"
+#include "value_row.h"
+#include "viewport.h"
+#include "volume_panel.h"
+#include "volume_view.h"
+
+#include "conversion.h"
+#include "scene/colours.h"
+#include "scene/volume.h"
+
+#include "support/meshes.h"
+
+#include "vtkActor.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkIntArray.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkXMLImageDataWriter.h"
+#include "vtkXMLPolyDataWriter.h"
+
+#include <QApplication>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QMouseEvent>
+#include <QPushButton>
+#include <QSlider>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <limits>
+
+using namespace bindpose;
+
+namespace
+{
+constexpr double pi = 3.14159265358979323846;
+
+/// The level w is a sphere of radius 1.5 - w.
+double cone(const Vec3& p)
+{
+  return 1.5 - p.norm();
+}
+
+vtkSmartPointer<vtkImageData> volume(const std::function<double(const Vec3&)>& value = cone,
+  int depth = 41, const char* name = "WindingNumber")
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(41, 41, depth);
+  image->SetSpacing(0.08, 0.08, 0.08);
+  image->SetOrigin(-1.6, -1.6, -1.6);
+  vtkNew<vtkDoubleArray> values;
+  values->SetName(name);
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    values->InsertNextValue(value(Vec3(image->GetPoint(i))));
+  }
+  image->GetPointData()->AddArray(values);
+  return image;
+}
+
+vtkSmartPointer<vtkPolyData> square_boundary()
+{
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> lines;
+  vtkNew<vtkIntArray> multiplicity;
+  multiplicity->SetName("Multiplicity");
+  for (int i = 0; i < 4; ++i)
+  {
+    points->InsertNextPoint(i == 1 || i == 2 ? 1.2 : -1.2, i < 2 ? -1.2 : 1.2, 1.0);
+    const vtkIdType line[2] = { i, (i + 1) % 4 };
+    lines->InsertNextCell(2, line);
+    multiplicity->InsertNextValue(1);
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(points);
+  data->SetLines(lines);
+  data->GetCellData()->AddArray(multiplicity);
+  return data;
+}
+
+class VolumeWindow : public testing::Test
+{
+protected:
+  VolumeWindow()
+  {
+    this->window.show();
+    QApplication::processEvents();
+  }
+
+  VolumeView* view() { return this->window.volume_view(); }
+  VolumePanel* panel() { return this->window.panels()->volume(); }
+
+  template <typename Widget>
+  Widget* find(const QString& text)
+  {
+    for (Widget* widget : this->window.panels()->findChildren<Widget*>())
+    {
+      if (widget->text() == text)
+      {
+        return widget;
+      }
+    }
+    ADD_FAILURE() << "there is no " << text.toStdString();
+    return nullptr;
+  }
+  /// The rows of the panel: position, level.
+  ValueRow* row(int which) { return this->panel()->findChildren<ValueRow*>()[which]; }
+
+  void open(const vtkSmartPointer<vtkImageData>& image = volume())
+  {
+    ASSERT_TRUE(this->window.set_volume(image, "field.vti")) << this->window.error().toStdString();
+    this->render();
+  }
+
+  void render()
+  {
+    QApplication::processEvents();
+    this->window.viewport()->renderWindow()->Render();
+    QApplication::processEvents();
+  }
+
+  /// Where a place is in the picture, in Qt's pixels from the upper left.
+  QPoint pixel(const Vec3& place)
+  {
+    vtkRenderer* renderer = this->window.viewport()->renderer();
+    renderer->SetWorldPoint(place.x(), place.y(), place.z(), 1.0);
+    renderer->WorldToDisplay();
+    const double* d = renderer->GetDisplayPoint();
+    return { static_cast<int>(d[0]),
+      this->window.viewport()->height() - 1 - static_cast<int>(d[1]) };
+  }
+
+  void mouse(QEvent::Type type, const QPoint& at, Qt::MouseButton button, Qt::MouseButtons held)
+  {
+    Viewport* viewport = this->window.viewport();
+    QMouseEvent event(type, at, viewport->mapToGlobal(at), button, held, Qt::NoModifier);
+    QApplication::sendEvent(viewport, &event);
+    QApplication::processEvents();
+  }
+
+  void hover(const QPoint& at) { this->mouse(QEvent::MouseMove, at, Qt::NoButton, Qt::NoButton); }
+
+  void drag(const QPoint& from, const QPoint& to)
+  {
+    this->hover(from);
+    this->mouse(QEvent::MouseButtonPress, from, Qt::LeftButton, Qt::LeftButton);
+    for (int step = 1; step <= 5; ++step)
+    {
+      this->mouse(QEvent::MouseMove, from + (to - from) * step / 5, Qt::NoButton, Qt::LeftButton);
+    }
+    this->mouse(QEvent::MouseButtonRelease, to, Qt::LeftButton, Qt::NoButton);
+    this->render();
+  }
+
+  QImage picture()
+  {
+    this->render();
+    return this->window.viewport()->grabFramebuffer();
+  }
+
+  static int count(const QImage& image, const std::function<bool(const QColor&)>& which)
+  {
+    int result = 0;
+    for (int y = 0; y < image.height(); ++y)
+    {
+      for (int x = 0; x < image.width(); ++x)
+      {
+        result += which(image.pixelColor(x, y));
+      }
+    }
+    return result;
+  }
+
+  MainWindow window;
+};
+
+bool is_green(const QColor& c)
+{
+  return c.green() > c.red() + 40 && c.green() > c.blue() + 10;
+}
+} // namespace
+
+TEST_F(VolumeWindow, ASliceHasTheColoursOfItsValues)
+{
+  this->open();
+  EXPECT_TRUE(this->panel()->isVisible());
+  EXPECT_FALSE(this->window.panel()->isVisible());
+  const QImage image = this->picture();
+  for (const Vec3& place :
+    { Vec3(0.8, 0.1, 0), Vec3(-1.2, 0.3, 0), Vec3(0.2, 0.1, 0), Vec3(-1.3, -1.3, 0) })
+  {
+    const QColor seen = image.pixelColor(this->pixel(place));
+    const Rgb expected = winding_colour(cone(place));
+    EXPECT_NEAR(seen.red(), 255.0 * expected[0], 8.0) << place.transpose();
+    EXPECT_NEAR(seen.green(), 255.0 * expected[1], 8.0) << place.transpose();
+    EXPECT_NEAR(seen.blue(), 255.0 * expected[2], 8.0) << place.transpose();
+  }
+}
+
+TEST_F(VolumeWindow, TheMouseDragsTheSliceAndTheStatusBarReadsTheField)
+{
+  this->open();
+  const QPoint grip = this->pixel(Vec3(0.5, 0.4, 0));
+  const QPoint there = this->pixel(Vec3(0.5, 0.4, 0.6));
+  this->drag(grip, there);
+  // The slice has followed the mouse along its normal; the panel says where it is.
+  EXPECT_NEAR(this->view()->position(), 0.6, 0.08);
+  EXPECT_EQ(this->view()->slice_normal(), Vec3(0, 0, 1));
+  EXPECT_NEAR(this->row(0)->value(), this->view()->position(), 0.01);
+  // What is read under the mouse is the field there.
+  int read = 0;
+  for (const Vec3& place : { Vec3(0.3, 0.2, 0.6), Vec3(-0.9, 0.5, 0.6), Vec3(1.0, -1.0, 0.6) })
+  {
+    this->hover(this->pixel(place));
+    double x = 0;
+    double y = 0;
+    double z = 0;
+    double w = 0;
+    ASSERT_EQ(std::sscanf(this->window.reading().toStdString().c_str(), "%lf %lf %lf: w = %lf", &x,
+                &y, &z, &w),
+      4)
+      << this->window.reading().toStdString();
+    EXPECT_NEAR(z, this->view()->position(), 1e-3);
+    EXPECT_NEAR(x, place.x(), 0.1);
+    EXPECT_NEAR(w, cone(Vec3(x, y, z)), 0.005);
+    ++read;
+  }
+  EXPECT_EQ(read, 3);
+  this->hover(QPoint(3, 3));
+  EXPECT_EQ(this->window.reading(), QString()) << "beside the slice";
+}
+
+TEST_F(VolumeWindow, ButtonsAndTheFieldPlaceTheSlice)
+{
+  this->open();
+  const char* const axes[] = { "X", "Y", "Z" };
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    this->find<QPushButton>(axes[axis])->click();
+    EXPECT_EQ(this->view()->slice_normal(), Vec3(Vec3::Unit(axis)));
+    this->row(0)->field()->setValue(0.4 - 0.5 * axis);
+    EXPECT_NEAR(this->view()->position(), 0.4 - 0.5 * axis, 1e-9);
+    EXPECT_NEAR(this->view()->slice_origin()[axis], 0.4 - 0.5 * axis, 1e-9);
+  }
+  // Both ends, too, show a whole slice.
+  for (const int end : { 0, 1000 })
+  {
+    this->row(0)->slider()->setValue(end);
+    this->render();
+    this->hover(this->pixel(Vec3(0.1, 0.1, end ? 1.6 : -1.6)));
+    EXPECT_NE(this->window.reading(), QString()) << end;
+  }
+  // Free: the arrow turns it. Before, there was no arrow to catch.
+  this->row(0)->field()->setValue(0.0);
+  this->find<QPushButton>("Free")->click();
+  this->render();
+  const Vec3 tip = this->view()->slice_origin() + 0.3 * 3.2 * std::sqrt(3.0) * Vec3(0, 0, 1);
+  this->drag(this->pixel(tip), this->pixel(tip) + QPoint(70, 30));
+  EXPECT_LT(this->view()->slice_normal().z(), 0.99);
+  EXPECT_NEAR(this->view()->slice_normal().norm(), 1.0, 1e-9);
+}
+
+TEST_F(VolumeWindow, TheLevelsSliderGivesTheSphereOfThatLevel)
+{
+  this->open();
+  for (const int step : { 620, 700, 830 })
+  {
+    this->row(1)->slider()->setValue(step);
+    const double level = this->row(1)->value();
+    EXPECT_NEAR(this->view()->level(), level, 1e-9);
+    const double radius = 1.5 - level;
+    ASSERT_GT(radius, 0.3);
+    ASSERT_LT(radius, 1.6);
+    const double area = surface_area(this->view()->isosurface());
+    EXPECT_NEAR(area, 4.0 * pi * radius * radius, 0.01 * area);
+    EXPECT_NE(this->find<QLabel>(QString("Area %1").arg(area, 0, 'g', 5)), nullptr);
+  }
+  this->row(1)->field()->setValue(0.5);
+  EXPECT_NEAR(surface_area(this->view()->isosurface()), 4.0 * pi, 0.01 * 4.0 * pi);
+  // Before the slice stands the isosurface: nothing is read there, but beside it.
+  this->render();
+  this->hover(this->pixel(Vec3(0.2, 0.1, 0)));
+  EXPECT_EQ(this->window.reading(), QString());
+  this->hover(this->pixel(Vec3(1.4, 1.4, 0)));
+  EXPECT_NE(this->window.reading(), QString());
+  this->find<QCheckBox>("Show where w is")->setChecked(false);
+  EXPECT_EQ(this->view()->isosurface()->GetNumberOfPolys(), 0);
+}
+
+TEST_F(VolumeWindow, ACloudIsClearWhereTheWindingNumberIsZero)
+{
+  this->open(volume([](const Vec3& p) { return p.norm() < 0.8 ? 1.0 : 0.0; }));
+  this->find<QCheckBox>("Show the slice")->setChecked(false);
+  const QImage before = this->picture();
+  this->find<QCheckBox>("Show as a cloud")->setChecked(true);
+  const QImage after = this->picture();
+  const QPoint inside = this->pixel(Vec3(0, 0, 0));
+  const QPoint outside = this->pixel(Vec3(1.1, 1.1, 0));
+  EXPECT_GT(std::abs(before.pixelColor(inside).blue() - after.pixelColor(inside).blue()), 20);
+  EXPECT_EQ(before.pixelColor(outside), after.pixelColor(outside));
+  this->find<QCheckBox>("Show as a cloud")->setChecked(false);
+  EXPECT_EQ(this->picture().pixelColor(inside), before.pixelColor(inside));
+}
+
+TEST_F(VolumeWindow, ASurfaceAlongWithAVolumeIsSeeThrough)
+{
+  const TriangleMesh ball = test::sphere(3, 1.2);
+  ASSERT_TRUE(this->window.set_mesh(to_polydata(ball.points, ball.triangles), "ball"));
+  this->render();
+  EXPECT_TRUE(this->window.panel()->isVisible());
+  EXPECT_EQ(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
+  this->open();
+  EXPECT_LT(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 0.5);
+  // The slice's orange shines through, and is read.
+  const QColor seen = this->picture().pixelColor(this->pixel(Vec3(0.3, 0.1, 0)));
+  EXPECT_GT(seen.red(), seen.blue() + 40);
+  this->hover(this->pixel(Vec3(0.3, 0.1, 0)));
+  EXPECT_NE(this->window.reading(), QString());
+  auto* look = this->panel()->findChild<QComboBox*>();
+  look->setCurrentIndex(Viewport::hidden);
+  EXPECT_FALSE(this->window.viewport()->surface_actor()->GetVisibility());
+  look->setCurrentIndex(Viewport::edges_only);
+  EXPECT_TRUE(this->window.viewport()->surface_actor()->GetVisibility());
+  // Both panels can be had, and closing the volume leaves the surface as it was.
+  this->find<QPushButton>("Bind and pose")->click();
+  EXPECT_TRUE(this->window.panel()->isVisible());
+  this->find<QPushButton>("Close the volume")->click();
+  EXPECT_FALSE(this->panel()->isVisible());
+  EXPECT_TRUE(this->window.panel()->isVisible());
+  EXPECT_EQ(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
+  EXPECT_EQ(
+    this->window.viewport()->surface_actor()->GetProperty()->GetRepresentation(), VTK_SURFACE);
+  this->hover(this->pixel(Vec3(0.3, 0.1, 0)));
+  EXPECT_EQ(this->window.reading(), QString());
+}
+
+TEST_F(VolumeWindow, BoundaryCurvesAreDrawnAndAreNoBones)
+{
+  const std::string path = testing::TempDir() + "bindpose_boundary.vtp";
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(square_boundary());
+  writer->SetFileName(path.c_str());
+  writer->Write();
+  this->open();
+  EXPECT_EQ(count(this->picture(), is_green), 0);
+  EXPECT_TRUE(this->window.open(QString::fromStdString(path)));
+  std::remove(path.c_str());
+  EXPECT_EQ(this->window.error(), QString());
+  const QImage image = this->picture();
+  for (const Vec3& place : { Vec3(0.3, 1.2, 1.0), Vec3(-1.2, 0.1, 1.0), Vec3(0.7, -1.2, 1.0) })
+  {
+    EXPECT_TRUE(is_green(image.pixelColor(this->pixel(place)))) << place.transpose();
+  }
+  // Lines of a mesh with faces are shown, too, unless curves were opened.
+  MainWindow other;
+  other.show();
+  const TriangleMesh ball = test::sphere(2, 0.5);
+  const auto mesh = to_polydata(ball.points, ball.triangles);
+  vtkNew<vtkCellArray> line;
+  const vtkIdType ends[2] = { 0, 5 };
+  line->InsertNextCell(2, ends);
+  mesh->SetLines(line);
+  ASSERT_TRUE(other.set_mesh(mesh, "ball")) << other.error().toStdString();
+  QApplication::processEvents();
+  other.viewport()->renderWindow()->Render();
+  EXPECT_GT(count(other.viewport()->grabFramebuffer(), is_green), 0);
+}
+
+TEST_F(VolumeWindow, WhatIsNoVolumeIsSaidAndTheWorkStays)
+{
+  this->open();
+  vtkImageData* before = this->view()->volume();
+  const auto refused = [this](vtkImageData* image, const char* words)
+  {
+    EXPECT_FALSE(this->window.set_volume(image, "field.vti"));
+    EXPECT_NE(this->window.error().indexOf(words), -1) << this->window.error().toStdString();
+    EXPECT_EQ(this->window.error().count('\n'), 0);
+  };
+  refused(volume(cone, 41, "Heat"), "no point array 'WindingNumber'; there are: Heat");
+  refused(volume(cone, 1), "one sample thick along z");
+  refused(volume([](const Vec3& p)
+            { return p.x() < -1.55 ? std::numeric_limits<double>::quiet_NaN() : 0.0; }),
+    "1681 of the 68921 values of 'WindingNumber' are not finite");
+  vtkNew<vtkImageData> empty;
+  refused(empty, "no samples");
+  // An empty image as a file.
+  const std::string path = testing::TempDir() + "bindpose_empty.vti";
+  vtkNew<vtkXMLImageDataWriter> writer;
+  writer->SetInputData(empty);
+  writer->SetFileName(path.c_str());
+  writer->Write();
+  EXPECT_FALSE(this->window.open(QString::fromStdString(path)));
+  EXPECT_FALSE(this->window.error().isEmpty());
+  std::remove(path.c_str());
+  EXPECT_EQ(this->view()->volume(), before);
+  this->hover(this->pixel(Vec3(0.3, 0.2, 0)));
+  EXPECT_NE(this->window.reading(), QString());
+}
+
+TEST_F(VolumeWindow, AConstantFieldIsShown)
+{
+  this->open(volume([](const Vec3&) { return 1.0; }));
+  this->find<QCheckBox>("Show as a cloud")->setChecked(true);
+  this->find<QCheckBox>("Show where w is")->setChecked(true);
+  this->render();
+  this->hover(this->pixel(Vec3(0.3, 0.2, 0)));
+  EXPECT_NE(this->window.reading().indexOf("w = 1.000"), -1);
+  EXPECT_EQ(this->view()->isosurface()->GetNumberOfPolys(), 0);
+}
+
+TEST_F(VolumeWindow, NoTextOfTheVolumePanelIsClipped)
+{
+  const TriangleMesh ball = test::sphere(2);
+  ASSERT_TRUE(this->window.set_mesh(to_polydata(ball.points, ball.triangles), "ball"));
+  this->open(volume([](const Vec3& p) { return -1234.5678 * p.x(); }));
+  this->row(1)->slider()->setValue(300);
+  for (const QSize& size : { QSize(900, 600), QSize(1280, 800), QSize(1920, 1080) })
+  {
+    this->window.resize(size);
+    this->render();
+    EXPECT_EQ(this->window.size(), size);
+    for (QPushButton* button : this->window.panels()->findChildren<QPushButton*>())
+    {
+      if (button->isVisible())
+      {
+        EXPECT_LE(button->sizeHint().width(), button->width()) << button->text().toStdString();
+        EXPECT_LE(button->sizeHint().height(), button->height()) << button->text().toStdString();
+      }
+    }
+    for (QCheckBox* box : this->panel()->findChildren<QCheckBox*>())
+    {
+      EXPECT_LE(box->sizeHint().width(), box->width()) << box->text().toStdString();
+    }
+    for (QDoubleSpinBox* field : this->panel()->findChildren<QDoubleSpinBox*>())
+    {
+      for (const double end : { field->minimum(), field->maximum() })
+      {
+        EXPECT_LE(
+          field->fontMetrics().horizontalAdvance(field->textFromValue(end)), field->width() - 14)
+          << end;
+      }
+    }
+    for (QLabel* label : this->panel()->findChildren<QLabel*>())
+    {
+      EXPECT_LE(label->sizeHint().width(), label->width()) << label->text().toStdString();
+    }
+  }
+}

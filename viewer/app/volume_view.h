@@ -1,0 +1,113 @@
+#ifndef volume_view_h
+#define volume_view_h
+
+#include "base/mesh.h"
+
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <QObject>
+
+class Viewport;
+class vtkActor;
+class vtkImplicitPlaneRepresentation;
+class vtkImplicitPlaneWidget2;
+class vtkPolyDataMapper;
+class vtkVolume;
+
+/// A volume of winding numbers in the picture: a slice that the mouse drags, an isosurface, a
+/// cloud. Each can be shown or not; all in the colours of the legend.
+class VolumeView : public QObject
+{
+  Q_OBJECT
+
+public:
+  /// What the slice is perpendicular to: an axis, or whatever the user turns it to.
+  enum Orientation
+  {
+    x_axis = 0,
+    y_axis = 1,
+    z_axis = 2,
+    free_plane = 3
+  };
+
+  explicit VolumeView(Viewport* viewport);
+  ~VolumeView() override;
+
+  /// An image that bindpose::check_volume() accepts, with its smallest and largest value; null:
+  /// none. Starts with a slice through the middle.
+  void set_volume(vtkImageData* image, double lowest, double highest);
+  vtkImageData* volume() const { return this->image_; }
+
+  void show_slice(bool shown);
+  void set_orientation(int orientation);
+  /// Moves the slice along its normal to this place: its coordinate for an axis.
+  void set_position(double position);
+  double position() const { return this->origin_.dot(this->normal_); }
+  /// Smallest and largest position at which the slice meets the volume.
+  std::pair<double, double> positions() const;
+  bindpose::Vec3 slice_origin() const { return this->origin_; }
+  bindpose::Vec3 slice_normal() const { return this->normal_; }
+
+  void show_isosurface(bool shown);
+  void set_level(double level);
+  double level() const { return this->level_; }
+  /// The isosurface as drawn, empty when it is not shown.
+  vtkPolyData* isosurface() const { return this->isosurface_; }
+
+  void show_cloud(bool shown);
+
+  /// Place and winding number that the slice shows at a pixel of VTK's (from the lower left);
+  /// false where there is no slice or something solid stands before it.
+  bool read_at(int x, int y, bindpose::Vec3& place, double& value) const;
+
+Q_SIGNALS:
+  void volume_changed();
+  /// The mouse has moved or turned the slice.
+  void slice_moved();
+  /// What lies under the mouse: "x y z: w = 0.734", or empty.
+  void reading_changed(const QString& reading);
+  /// Of the isosurface that is shown; 0 when the level is not reached.
+  void area_changed(double area);
+
+private:
+  void place_widget();
+  void widget_caught();
+  void widget_moved();
+  void ray_at(int x, int y, bindpose::Vec3& from, bindpose::Vec3& along) const;
+  void mouse_moved();
+  void mouse_left();
+  void update_slice();
+  void update_isosurface();
+  bindpose::Vec3 center() const;
+
+  Viewport* viewport_;
+  vtkSmartPointer<vtkImageData> image_;
+  double lowest_ = 0.0;
+  double highest_ = 1.0;
+
+  vtkNew<vtkImplicitPlaneWidget2> widget_;
+  vtkNew<vtkImplicitPlaneRepresentation> plane_;
+  vtkNew<vtkPolyDataMapper> slice_mapper_;
+  vtkNew<vtkActor> slice_actor_;
+  vtkNew<vtkPolyDataMapper> contour_mapper_;
+  vtkNew<vtkActor> contour_actor_; // where the slice is at 0.5
+  bool slice_shown_ = true;
+  int orientation_ = z_axis;
+  bindpose::Vec3 grip_ = bindpose::Vec3::Zero(); // of the slice, where the mouse has caught it
+  bindpose::Vec3 origin_ = bindpose::Vec3::Zero();
+  bindpose::Vec3 normal_ = bindpose::Vec3::UnitZ();
+
+  vtkNew<vtkPolyDataMapper> isosurface_mapper_;
+  vtkNew<vtkActor> isosurface_actor_;
+  vtkNew<vtkPolyData> isosurface_;
+  bool isosurface_shown_ = false;
+  double level_ = 0.5;
+
+  vtkSmartPointer<vtkVolume> cloud_; // made when first shown
+  bool cloud_shown_ = false;
+};
+
+#endif

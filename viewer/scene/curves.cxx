@@ -1,0 +1,133 @@
+#include "scene/curves.h"
+
+#include "scene/colours.h"
+
+#include "vtkActor.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkCleanPolyData.h"
+#include "vtkDataArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkStripper.h"
+#include "vtkTubeFilter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+namespace
+{
+constexpr int classes = 3; // counting once, twice, more often
+constexpr double widths[classes] = { 1.0, 1.5, 2.0 };
+
+vtkSmartPointer<vtkPolyData> lines_of_class(vtkPolyData* data, int wanted)
+{
+  vtkDataArray* multiplicity = data->GetCellData()->GetArray("Multiplicity");
+  const vtkIdType first = data->GetNumberOfVerts(); // cells are numbered vertices first
+  vtkNew<vtkCellArray> lines;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType line = 0; line < data->GetNumberOfLines(); ++line)
+  {
+    const double times = multiplicity ? std::abs(multiplicity->GetComponent(first + line, 0)) : 1.0;
+    const int its = std::isfinite(times) ? static_cast<int>(std::lround(std::min(times, 3.0))) : 1;
+    if (its == wanted + 1)
+    {
+      data->GetLines()->GetCellAtId(line, ids);
+      lines->InsertNextCell(ids);
+    }
+  }
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(data->GetPoints());
+  result->SetLines(lines);
+  return result;
+}
+
+vtkSmartPointer<vtkActor> make_actor(vtkPolyData* data)
+{
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(data);
+  mapper->ScalarVisibilityOff();
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(palette::curve[0], palette::curve[1], palette::curve[2]);
+  actor->PickableOff();
+  return actor;
+}
+} // namespace
+
+bool is_curve_data(vtkDataSet* data)
+{
+  auto* lines = vtkPolyData::SafeDownCast(data);
+  if (!lines || lines->GetNumberOfLines() == 0 ||
+    lines->GetNumberOfPolys() + lines->GetNumberOfStrips() > 0 ||
+    lines->GetCellData()->HasArray("HandleKind") || lines->GetCellData()->HasArray("HandleName"))
+  {
+    return false;
+  }
+  if (lines->GetCellData()->HasArray("Multiplicity"))
+  {
+    return true;
+  }
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType line = 0; line < lines->GetNumberOfLines(); ++line)
+  {
+    lines->GetLines()->GetCellAtId(line, ids);
+    if (ids->GetNumberOfIds() > 2)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+std::vector<vtkSmartPointer<vtkActor>> make_curves(
+  vtkPolyData* data, double radius, double line_width)
+{
+  std::vector<vtkSmartPointer<vtkActor>> actors;
+  for (int which = 0; which < classes; ++which)
+  {
+    const auto lines = lines_of_class(data, which);
+    if (lines->GetNumberOfLines() == 0)
+    {
+      continue;
+    }
+    // Edges become polylines, whose tubes have no gaps at their joints; a tube stops at a doubled
+    // point.
+    vtkNew<vtkCleanPolyData> clean;
+    clean->SetInputData(lines);
+    clean->ConvertLinesToPointsOff();
+    clean->PointMergingOn();
+    clean->SetTolerance(0.0);
+    vtkNew<vtkStripper> strips;
+    strips->SetInputConnection(clean->GetOutputPort());
+    strips->JoinContiguousSegmentsOn();
+    vtkNew<vtkTubeFilter> tubes;
+    tubes->SetInputConnection(strips->GetOutputPort());
+    tubes->SetRadius(radius * widths[which]);
+    tubes->SetNumberOfSides(10);
+    tubes->CappingOn();
+    tubes->Update();
+    const auto tube = make_actor(tubes->GetOutput());
+    tube->GetProperty()->SetAmbient(0.25);
+    tube->GetProperty()->SetDiffuse(0.8);
+    tube->GetProperty()->SetSpecular(0.15);
+    tube->GetProperty()->SetSpecularPower(20.0);
+    actors.push_back(tube);
+    // Far nearer than it is, as depth goes: before everything else.
+    const auto faint = make_actor(strips->GetOutput());
+    faint->GetProperty()->LightingOff();
+    faint->GetProperty()->SetOpacity(0.35);
+    faint->GetProperty()->SetLineWidth(static_cast<float>(line_width * widths[which]));
+    vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
+    faint->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -66000.0);
+    actors.push_back(faint);
+  }
+  return actors;
+}
+
+} // namespace bindpose

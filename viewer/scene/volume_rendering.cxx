@@ -1,0 +1,102 @@
+#include "scene/volume_rendering.h"
+
+#include "scene/colours.h"
+
+#include "vtkColorTransferFunction.h"
+#include "vtkDataArray.h"
+#include "vtkFixedPointVolumeRayCastMapper.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+#include "vtkPiecewiseFunction.h"
+#include "vtkPointData.h"
+#include "vtkVolume.h"
+#include "vtkVolumeProperty.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace bindpose
+{
+namespace
+{
+// The map's range; what lies beyond looks like the ends.
+constexpr double lowest = -1.0;
+constexpr double highest = 2.0;
+} // namespace
+
+double winding_opacity(double winding_number, double step)
+{
+  const auto solid = [step](double opacity) { return 1.0 - std::pow(1.0 - opacity, step); };
+  const std::array<std::array<double, 2>, 12> corners = { { { -1.0, solid(0.24) },
+    { -0.5, solid(0.1) }, { -0.1, solid(0.008) }, { -0.02, 0.0 }, { 0.02, 0.0 }, { 0.25, 0.004 },
+    { 0.42, 0.6 }, { 0.58, 0.6 }, { 0.75, solid(0.03) }, { 1.02, solid(0.03) },
+    { 1.1, solid(0.04) }, { 2.0, solid(0.24) } } };
+  const double w = std::clamp(winding_number, lowest, highest);
+  std::size_t next = 1;
+  while (next + 1 < corners.size() && w > corners[next][0])
+  {
+    ++next;
+  }
+  const auto& from = corners[next - 1];
+  const auto& to = corners[next];
+  return from[1] + (w - from[0]) / (to[0] - from[0]) * (to[1] - from[1]);
+}
+
+vtkSmartPointer<vtkVolume> make_winding_volume(
+  vtkImageData* image, const std::string& array, double pixels)
+{
+  // Clamped: the mapper spreads its table over the values' range.
+  vtkDataArray* values = image->GetPointData()->GetArray(array.c_str());
+  vtkNew<vtkFloatArray> clamped;
+  clamped->SetName(array.c_str());
+  clamped->SetNumberOfValues(values->GetNumberOfTuples());
+  for (vtkIdType i = 0; i < clamped->GetNumberOfValues(); ++i)
+  {
+    clamped->SetValue(
+      i, static_cast<float>(std::clamp(values->GetComponent(i, 0), lowest, highest)));
+  }
+  vtkNew<vtkImageData> shown;
+  shown->CopyStructure(image);
+  shown->GetPointData()->SetScalars(clamped);
+
+  double spacing[3];
+  image->GetSpacing(spacing);
+  const double step = *std::min_element(spacing, spacing + 3);
+  vtkNew<vtkColorTransferFunction> colours;
+  vtkNew<vtkPiecewiseFunction> opacities;
+  constexpr int count = 600; // every 0.005: the map's jumps at -0.02 and 1.02 stay sharp
+  for (int i = 0; i <= count; ++i)
+  {
+    const double w = lowest + (highest - lowest) * i / count;
+    const Rgb c = winding_colour(w);
+    colours->AddRGBPoint(w, c[0], c[1], c[2]);
+    opacities->AddPoint(w, winding_opacity(w, step / (0.01 * image->GetLength())));
+  }
+  vtkNew<vtkVolumeProperty> property;
+  property->SetColor(colours);
+  property->SetScalarOpacity(opacities);
+  property->SetScalarOpacityUnitDistance(step);
+  property->SetInterpolationTypeToLinear();
+  property->ShadeOn();
+  property->SetAmbient(0.58);
+  property->SetDiffuse(0.46);
+  property->SetSpecular(0.0);
+
+  vtkNew<vtkFixedPointVolumeRayCastMapper> mapper;
+  mapper->SetInputData(shown);
+  mapper->SetSampleDistance(static_cast<float>(0.25 * step));
+  mapper->SetInteractiveSampleDistance(static_cast<float>(0.5 * step));
+  mapper->SetAutoAdjustSampleDistances(pixels <= 0.0);
+  if (pixels > 0.0)
+  {
+    mapper->SetImageSampleDistance(static_cast<float>(pixels));
+  }
+  auto volume = vtkSmartPointer<vtkVolume>::New();
+  volume->SetMapper(mapper);
+  volume->SetProperty(property);
+  return volume;
+}
+
+} // namespace bindpose

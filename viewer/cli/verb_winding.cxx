@@ -1,9 +1,13 @@
-// bindpose winding SURFACE: the winding number on a grid (.vti) or at the points of a dataset.
+// bindpose winding SURFACE: the winding number on a grid (.vti, .vdb) or at the points of a
+// dataset.
 #include "cli/session.h"
 #include "cli/verbs.h"
+#include "file_kind.h"
+#include "io/vdb.h"
 
 #include "vtkDataSet.h"
 #include "vtkNew.h"
+#include "vtkVDBWriter.h"
 #include "vtkWindingNumberField.h"
 
 namespace bindpose::cli
@@ -22,7 +26,25 @@ std::string endings_for(vtkDataSet* data)
   {
     return "vtu vtk";
   }
-  return data->IsA("vtkImageData") ? "vti vtk" : "vtk";
+  return data->IsA("vtkImageData") ? "vti vtk vdb" : "vtk";
+}
+
+bool write_field(Session& session, vtkDataSet* field, const std::string& path)
+{
+  if (file_extension(path) != "vdb")
+  {
+    return session.write(field, path);
+  }
+  const Arguments& arguments = session.arguments();
+  vtkNew<vtkVDBWriter> writer;
+  writer->SetInputData(field);
+  writer->SetFileName(path.c_str());
+  writer->SetOverwrite(arguments.has("overwrite"));
+  writer->SetBand(
+    arguments.text("vdb-band") == "narrow" ? vtkVDBWriter::NARROW : vtkVDBWriter::FULL);
+  writer->SetBandWidth(arguments.integer("vdb-band-width"));
+  writer->SetBackground(arguments.number("vdb-background"));
+  return session.run(writer, "write", 1.0, 1.0, Merge::nothing);
 }
 } // namespace
 
@@ -30,8 +52,14 @@ void run_winding(Session& session)
 {
   const Arguments& arguments = session.arguments();
   const std::string output = arguments.text("output");
-  if (!session.check_output(output, arguments.has("points") ? "vtp vtu vti vtk" : "vti vtk"))
+  if (!session.check_output(
+        output, arguments.has("points") ? "vtp vtu vti vtk vdb" : "vti vtk vdb"))
   {
+    return;
+  }
+  if (const Status status = check_vdb_available(); file_extension(output) == "vdb" && !status.ok())
+  {
+    session.fail(status); // now, not after the work
     return;
   }
   const auto surface = session.read(arguments.text("SURFACE"));
@@ -55,7 +83,7 @@ void run_winding(Session& session)
   }
   if (session.run(field, "winding", 0.0, 1.0, Merge::all))
   {
-    session.write(field->GetOutput(), output);
+    write_field(session, field->GetOutput(), output);
   }
 }
 

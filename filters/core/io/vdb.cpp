@@ -335,10 +335,13 @@ bool make_tree(const SampleGrid& grid, const Value* values, const Sides& sides,
   const Voxel background = classify.background();
   std::vector<Block> made(static_cast<std::size_t>(blocks.count()));
   std::atomic<Index> bad{ grid.count() };
-  const auto make = [&](Index b)
+  const auto make = [&](Index b, Leaf& leaf)
   {
     const openvdb::Coord origin = blocks.origin(b);
-    auto leaf = std::make_unique<Leaf>(origin, background.value, false);
+    leaf.setOrigin(origin);
+    leaf.fill(background.value, false);
+    float* const voxels = leaf.buffer().data();
+    Leaf::NodeMaskType& active = leaf.getValueMask();
     blocks.for_each_sample(origin,
       [&](openvdb::Index offset, Index sample)
       {
@@ -351,21 +354,25 @@ bool make_tree(const SampleGrid& grid, const Value* values, const Sides& sides,
           }
         }
         const Voxel voxel = classify(exact, sides.data(), sample);
-        leaf->setValueOnly(offset, voxel.value);
-        leaf->setActiveState(offset, voxel.active);
+        voxels[offset] = voxel.value;
+        if (voxel.active)
+        {
+          active.setOn(offset);
+        }
       });
     Block& block = made[static_cast<std::size_t>(b)];
-    if (!leaf->isConstant(block.tile.value, block.tile.active))
+    if (!leaf.isConstant(block.tile.value, block.tile.active))
     {
-      block.leaf = std::move(leaf);
+      block.leaf = std::make_unique<Leaf>(leaf);
     }
   };
   if (!parallel_for(context, blocks.count(), 32,
         [&](Index begin, Index end)
         {
+          Leaf leaf(openvdb::Coord(), background.value, false);
           for (Index b = begin; b < end; ++b)
           {
-            make(b);
+            make(b, leaf);
           }
         }))
   {

@@ -48,8 +48,9 @@ def test_a_closed_surface_is_a_fog_volume(folder):
     assert facts["name"] == "winding_number" and facts["class"] == "fog volume"
     assert facts["Type"] == "Tree_float_5_4_3"
     assert (facts["Background value"], facts["Min value"], facts["Max value"]) == ("0", "1", "1")
-    assert facts["matrix"][:3, :3] == pytest.approx(np.diag(image.GetSpacing()), rel=1e-4)
-    assert facts["matrix"][3] == pytest.approx([*image.GetOrigin(), 1], rel=1e-4)
+    # It prints three digits.
+    assert facts["matrix"][:3, :3] == pytest.approx(np.diag(image.GetSpacing()), rel=5e-3)
+    assert facts["matrix"][3] == pytest.approx([*image.GetOrigin(), 1], rel=5e-3)
     # Its inside are tiles: the file is a small part of the image's 8 bytes a sample.
     assert number(facts["Number of active tiles"]) > 0
     assert (folder / "field.vdb").stat().st_size < values.size
@@ -63,8 +64,8 @@ def test_an_open_surface_keeps_its_values(folder):
     assert number(facts["Min value"]) == pytest.approx(values.min(), rel=1e-3)
 
 
-@pytest.mark.parametrize("width", [1, 4])
-def test_a_narrow_band_is_near_the_surface(folder, width):
+@pytest.mark.parametrize("width, share", [(1, 0.2), (3, 0.4)])
+def test_a_narrow_band_is_near_the_surface(folder, width, share):
     image, values = winding(folder, shapes.open_cube(), "--vdb-band", "narrow", "--vdb-band-width", str(width))
     facts = vdb_print(folder / "field.vdb")
     inside = np.pad(values >= 0.5, width)  # the outside of the grid is outside of the surface
@@ -72,10 +73,10 @@ def test_a_narrow_band_is_near_the_surface(folder, width):
     windows = [inside[k:k + n[0], j:j + n[1], i:i + n[2]] for k in range(2 * width + 1)
                for j in range(2 * width + 1) for i in range(2 * width + 1)]
     band = np.any(windows, axis=0) & ~np.all(windows, axis=0)
-    assert number(facts["Number of active voxels"]) == band.sum() < 0.5 * values.size
+    assert number(facts["Number of active voxels"]) == band.sum() < share * values.size
     assert facts["Bounding box of active voxels"] == bounding_box(band, image.GetExtent())
     assert number(facts["Max value"]) == pytest.approx(values[band].max(), rel=1e-4)
-    assert facts["class"] == "unknown" if "class" in facts else True
+    assert facts["class"] == "unknown"
     assert facts["Background value"] == "0"
 
 

@@ -407,7 +407,7 @@ openvdb::math::Transform::Ptr make_transform(const SampleGrid& grid, const VdbOp
   }
   // OpenVDB makes it the simplest kind of map that does. The origin comes after: from a matrix that
   // has it the spacing would be found as a difference of two points, rounded.
-  const auto transform = openvdb::math::Transform::createLinearTransform(matrix);
+  auto transform = openvdb::math::Transform::createLinearTransform(matrix);
   transform->postTranslate(openvdb::Vec3d(grid.origin.data()));
   return transform;
 }

@@ -67,7 +67,9 @@ Status check_vdb_available();
 /// unavailable: built without OpenVDB. invalid_input: an empty grid, spacing that is not positive,
 /// directions that are not orthonormal, an index beyond 2^30, a value or option that is not finite
 /// as a float, options out of range, a background equal to the threshold, an unwritable file.
-/// Cost: 10 ns a sample and 4 bytes an active voxel; narrow: a byte a sample more.
+/// A cancel is heard within 100 ms, but for OpenVDB's preparation of what it writes, 16 ns a voxel
+/// in leaf nodes. Cost on one core: 11 ns a sample, narrow 33 ns, and 30 ns a voxel in leaf nodes
+/// to compress it; 5 bytes such a voxel, narrow a byte a sample more.
 Status write_vdb(const std::string& path, const SampleGrid& grid, const float* values,
   const VdbOptions& options, ExecutionContext& context);
 Status write_vdb(const std::string& path, const SampleGrid& grid, const double* values,

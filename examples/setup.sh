@@ -19,6 +19,8 @@ libopenblas-pthread-dev:fast_dense_kernels_under_CHOLMOD
 libsuitesparse-dev:CHOLMOD,_the_sparse_solver
 libcgal-dev:exact_intersections_in_bindpose-mesher
 libtet1.5-dev:TetGen_in_bindpose-mesher
+libopenvdb-dev:OpenVDB,_volumes_as_.vdb_files
+libboost-dev:headers_that_OpenVDB's_use
 libcli11-dev:command_line_options
 nlohmann-json3-dev:reports_and_poses
 xvfb:pictures_without_a_display
@@ -31,6 +33,7 @@ libgtest-dev:C++_tests
 libgmock-dev:C++_tests
 libbenchmark-dev:benchmarks
 python3-pytest:Python_tests
+libopenvdb-tools:vdb_print_reads_.vdb_files_back
 clang-format-14:the_format_check
 clang-tidy-14:the_naming_check
 git:the_format_check_looks_at_tracked_files

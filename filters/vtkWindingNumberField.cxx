@@ -14,7 +14,7 @@
 #include "inside/surface_repair.h"
 #include "inside/winding_number.h"
 #include "output_type.h"
-#include "sample_grid.h"
+#include "grid_request.h"
 
 #include "vtkAlgorithmOutput.h"
 #include "vtkCellArray.h"

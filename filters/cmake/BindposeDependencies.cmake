@@ -63,6 +63,28 @@ if(BINDPOSE_WITH_MESHER AND NOT BINDPOSE_PERMISSIVE)
   endif()
 endif()
 
+# ---- OpenVDB (MPL) ----
+# Not by its FindOpenVDB.cmake, which ends the configure when Boost's or Blosc's development files are
+# missing and turns BUILD_SHARED_LIBS on. Since 8.1 version.h says how the library was built. Headers
+# of 10 use Boost's, which Debian's package does not depend on.
+set(bindpose_has_openvdb OFF)
+if(BINDPOSE_WITH_OPENVDB)
+  find_path(OPENVDB_INCLUDE_DIR openvdb/openvdb.h)
+  find_path(OPENVDB_BOOST_INCLUDE_DIR boost/uuid/uuid.hpp)
+  find_library(OPENVDB_LIBRARY openvdb)
+  mark_as_advanced(OPENVDB_INCLUDE_DIR OPENVDB_BOOST_INCLUDE_DIR OPENVDB_LIBRARY)
+  if(OPENVDB_INCLUDE_DIR AND OPENVDB_BOOST_INCLUDE_DIR AND OPENVDB_LIBRARY)
+    set(bindpose_has_openvdb ON)
+    if(NOT TARGET OpenVDB::openvdb)
+      add_library(OpenVDB::openvdb UNKNOWN IMPORTED)
+      set_target_properties(OpenVDB::openvdb PROPERTIES
+        IMPORTED_LOCATION "${OPENVDB_LIBRARY}"
+        INTERFACE_INCLUDE_DIRECTORIES "${OPENVDB_INCLUDE_DIR};${OPENVDB_BOOST_INCLUDE_DIR}"
+        INTERFACE_LINK_LIBRARIES TBB::tbb)
+    endif()
+  endif()
+endif()
+
 # ---- Qt viewer ----
 set(bindpose_has_qt OFF)
 if(BINDPOSE_WITH_QT AND TARGET VTK::GUISupportQt)

@@ -14,6 +14,10 @@ if(bindpose_licence_reasons)
   set(bindpose_licence_reasons " (because of ${bindpose_licence_reasons}; Bindpose's own code: BSD-3-Clause)")
 endif()
 
+if(bindpose_has_openvdb) # binds OpenVDB's own files only, so it changes no licence of ours
+  string(APPEND bindpose_licence_reasons ", linked with OpenVDB (MPL-2.0)")
+endif()
+
 function(bindpose_row name state meaning)
   string(LENGTH "${name}" length)
   math(EXPR pad "28 - ${length}")
@@ -34,6 +38,7 @@ endfunction()
 
 bindpose_yes_no(bindpose_has_cholmod cholmod)
 bindpose_yes_no(bindpose_has_mesher mesher)
+bindpose_yes_no(bindpose_has_openvdb openvdb)
 bindpose_yes_no(bindpose_has_qt qt)
 bindpose_yes_no(BINDPOSE_WRAP_PYTHON python)
 bindpose_yes_no(BINDPOSE_BUILD_TESTS tests)
@@ -42,6 +47,7 @@ message(STATUS "Bindpose ${PROJECT_VERSION}, ${CMAKE_BUILD_TYPE}, VTK ${VTK_VERS
 bindpose_row("BINDPOSE_PERMISSIVE" "${permissive}" "leaves out all GPL and AGPL parts")
 bindpose_row("BINDPOSE_WITH_CHOLMOD" "${cholmod}" "fast factorisation (libsuitesparse-dev); else Eigen's")
 bindpose_row("BINDPOSE_WITH_MESHER" "${mesher}" "method cdt (libcgal-dev, libtet1.5-dev)")
+bindpose_row("BINDPOSE_WITH_OPENVDB" "${openvdb}" "volumes as .vdb (libopenvdb-dev, libboost-dev)")
 bindpose_row("BINDPOSE_WITH_QT" "${qt}" "bindpose view (qtbase5-dev, libvtk9-qt-dev)")
 bindpose_row("BINDPOSE_WRAP_PYTHON" "${python}" "import bindpose (python3-vtk9, python3-numpy)")
 bindpose_row("BINDPOSE_BUILD_TESTS" "${tests}" "ctest")

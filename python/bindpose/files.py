@@ -2,7 +2,7 @@
 
 import os
 
-from .BindposeFilters import vtkHandleFileReader, vtkMeshFileReader, vtkMeshFileWriter
+from .BindposeFilters import vtkHandleFileReader, vtkMeshFileReader, vtkMeshFileWriter, vtkVDBWriter
 from .meshes import to_dataset
 from .running import run
 
@@ -62,7 +62,8 @@ def write(mesh, path, *, overwrite=False):
     ----------
     mesh : vtkDataSet or (vertices, elements)
     path : str or path-like
-        vtp, vtu, vti, vtk, ply, stl, obj, off, mesh, or dmat for the array ``Weights`` alone.
+        vtp, vtu, vti, vtk, ply, stl, obj, off, mesh, or dmat for the array ``Weights`` alone; vdb
+        (OpenVDB) for a volume's active scalars. ``bindpose.vtkVDBWriter`` has more choices.
     overwrite : bool
         Replace an existing file?
 
@@ -70,9 +71,12 @@ def write(mesh, path, *, overwrite=False):
     ------
     InvalidInput
         The file exists, cannot be written, or cannot hold this kind of dataset.
+    Unavailable
+        A .vdb file from a build without OpenVDB; the text names the package.
     """
-    writer = vtkMeshFileWriter()
+    path = os.fspath(path)
+    writer = vtkVDBWriter() if path.lower().endswith(".vdb") else vtkMeshFileWriter()
     writer.SetInputData(to_dataset(mesh))
-    writer.SetFileName(os.fspath(path))
+    writer.SetFileName(path)
     writer.SetOverwrite(bool(overwrite))
     run(writer)

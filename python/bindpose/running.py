@@ -37,7 +37,7 @@ def run(algorithm, progress=None):
     Parameters
     ----------
     algorithm : vtkBindposeAlgorithm
-        Any of the package's filters; a ``vtkMeshFileWriter`` writes.
+        Any of the package's filters; a writer writes.
     progress : callable, optional
         Called with (fraction in [0, 1], name of the phase). Returning False cancels.
 
@@ -76,7 +76,7 @@ def run(algorithm, progress=None):
         for event in ("ErrorEvent", "WarningEvent"):  # else VTK prints what is raised below
             observers.append(algorithm.AddObserver(event, lambda *_: None))
         try:
-            algorithm.Write() if algorithm.IsA("vtkMeshFileWriter") else algorithm.Update()
+            algorithm.Write() if hasattr(algorithm, "Write") else algorithm.Update()
         finally:
             for observer in observers:
                 algorithm.RemoveObserver(observer)

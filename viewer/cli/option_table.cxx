@@ -44,7 +44,16 @@ const std::vector<Verb>& verbs()
         { "--boundary", "FILE", Kind::text, "", "",
           "write the edges where the surface is open, too (.vtp)" },
         { "-o,--output", "OUT", Kind::text, "", "",
-          ".vti for a grid; the ending of DATASET's kind (.vtp, .vtu, .vti) for points", true } } },
+          ".vti or .vdb (OpenVDB) for a grid; the ending of DATASET's kind (.vtp, .vtu, .vti) for "
+          "points",
+          true },
+        { "--vdb-band", "BAND", Kind::choice, "full", "full|narrow",
+          "voxels that are active in a .vdb file: all but the background, or those near the "
+          "surface only" },
+        { "--vdb-band-width", "N", Kind::integer, "3", "",
+          "voxels that a narrow band reaches to each side of the surface", false, false, 1 },
+        { "--vdb-background", "NUMBER", Kind::number, "0", "",
+          "value of a .vdb file outside of the grid" } } },
     { "tetrahedralize", "fill the inside of a surface with tets",
       { surface,
         { "--method", "METHOD", Kind::choice, "auto", "auto|cdt|remesh|embed",

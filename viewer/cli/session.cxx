@@ -117,9 +117,9 @@ Status Session::try_run(vtkBindposeAlgorithm* algorithm, const std::string& stag
   {
     const AbortOnInterrupt abort(algorithm);
     this->bar_.show(begin, stage_name);
-    if (auto* writer = vtkMeshFileWriter::SafeDownCast(algorithm))
+    if (algorithm->GetNumberOfOutputPorts() == 0)
     {
-      writer->Write();
+      algorithm->UpdateWholeExtent(); // a writer
     }
     else
     {

@@ -1,10 +1,14 @@
-// bindpose winding SURFACE: the winding number on a grid (.vti) or at the points of a dataset.
+// bindpose winding SURFACE: the winding number on a grid (.vti, .vdb) or at the points of a
+// dataset.
 #include "cli/session.h"
 #include "cli/verbs.h"
+#include "file_kind.h"
+#include "io/vdb.h"
 
 #include "vtkDataSet.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkVDBWriter.h"
 #include "vtkWindingNumberField.h"
 
 namespace bindpose::cli
@@ -23,7 +27,25 @@ std::string endings_for(vtkDataSet* data)
   {
     return "vtu vtk";
   }
-  return data->IsA("vtkImageData") ? "vti vtk" : "vtk";
+  return data->IsA("vtkImageData") ? "vti vtk vdb" : "vtk";
+}
+
+bool write_field(Session& session, vtkDataSet* field, const std::string& path)
+{
+  if (file_extension(path) != "vdb")
+  {
+    return session.write(field, path);
+  }
+  const Arguments& arguments = session.arguments();
+  vtkNew<vtkVDBWriter> writer;
+  writer->SetInputData(field);
+  writer->SetFileName(path.c_str());
+  writer->SetOverwrite(arguments.has("overwrite"));
+  writer->SetBand(
+    arguments.text("vdb-band") == "narrow" ? vtkVDBWriter::NARROW : vtkVDBWriter::FULL);
+  writer->SetBandWidth(arguments.integer("vdb-band-width"));
+  writer->SetBackground(arguments.number("vdb-background"));
+  return session.run(writer, "write", 1.0, 1.0, Merge::nothing);
 }
 } // namespace
 
@@ -31,7 +53,8 @@ void run_winding(Session& session)
 {
   const Arguments& arguments = session.arguments();
   const std::string output = arguments.text("output");
-  if (!session.check_output(output, arguments.has("points") ? "vtp vtu vti vtk" : "vti vtk"))
+  if (!session.check_output(
+        output, arguments.has("points") ? "vtp vtu vti vtk vdb" : "vti vtk vdb"))
   {
     return;
   }
@@ -44,6 +67,11 @@ void run_winding(Session& session)
   if (!(tolerance >= 1e-8 && tolerance <= 0.1))
   {
     session.invalid("--tolerance must lie between 1e-8 and 0.1");
+    return;
+  }
+  if (const Status status = check_vdb_available(); file_extension(output) == "vdb" && !status.ok())
+  {
+    session.fail(status); // now, not after the work
     return;
   }
   const auto surface = session.read(arguments.text("SURFACE"));
@@ -76,7 +104,7 @@ void run_winding(Session& session)
     field->SetInputData(1, points);
   }
   if (session.run(field, "winding", 0.0, 1.0, Merge::all) &&
-    session.write(field->GetOutput(), output) && !boundary.empty())
+    write_field(session, field->GetOutput(), output) && !boundary.empty())
   {
     session.write(field->GetBoundaryOutput(), boundary);
   }

@@ -78,11 +78,6 @@ const char* to_string(WindingMethod method)
   return "automatic";
 }
 
-Index SampleGrid::size(int axis) const
-{
-  return std::max<Index>(0, this->extent[2 * axis + 1] - this->extent[2 * axis] + 1);
-}
-
 struct WindingNumber::Parts
 {
   Status status;

@@ -3,9 +3,9 @@
 
 #include "base/execution.h"
 #include "base/mesh.h"
+#include "base/sample_grid.h"
 #include "inside/surface_boundary.h"
 
-#include <array>
 #include <memory>
 
 namespace bindpose
@@ -24,26 +24,6 @@ enum class WindingMethod
 
 /// "automatic", "exact", "fast", "direct", "hierarchical", "crossings".
 const char* to_string(WindingMethod method);
-
-/// Samples in a box, x fastest: sample (i, j, k) of the extent lies at origin + spacing * (i, j,
-/// k). The value of a sample depends on its point only, so any sub-extent gets the same bits.
-struct SampleGrid
-{
-  Vec3 origin = Vec3::Zero();
-  Vec3 spacing = Vec3::Ones();
-  /// First and last index along x, y, z, inclusive, as in VTK. Empty by default.
-  std::array<Index, 6> extent{ 0, -1, 0, -1, 0, -1 };
-
-  /// Number of samples along an axis, never negative.
-  Index size(int axis) const;
-  Index count() const { return this->size(0) * this->size(1) * this->size(2); }
-  Vec3 point(Index i, Index j, Index k) const
-  {
-    return this->origin +
-      this->spacing.cwiseProduct(
-        Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
-  }
-};
 
 /// Generalized winding number of a triangle mesh (Jacobson, Kavan, Sorkine-Hornung, 2013): how many
 /// times the surface wraps around a point, 1/(4 pi) times the signed solid angle of all triangles.

@@ -1,6 +1,6 @@
 // A grid is centred on its box: where a whole number of steps does not fit, it stands out equally
 // on both sides.
-#include "sample_grid.h"
+#include "grid_request.h"
 
 #include <cmath>
 #include <limits>

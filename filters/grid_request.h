@@ -1,9 +1,9 @@
-#ifndef sample_grid_h
-#define sample_grid_h
+#ifndef grid_request_h
+#define grid_request_h
 
 #include "base/mesh.h"
 #include "base/status.h"
-#include "inside/winding_number.h"
+#include "base/sample_grid.h"
 
 namespace bindpose
 {

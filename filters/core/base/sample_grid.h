@@ -1,0 +1,37 @@
+#ifndef bindpose_base_sample_grid_h
+#define bindpose_base_sample_grid_h
+
+#include "base/mesh.h"
+
+#include <algorithm>
+#include <array>
+
+namespace bindpose
+{
+
+/// Samples in a box, x fastest: sample (i, j, k) of the extent lies at origin + spacing * (i, j,
+/// k). The value of a sample depends on its point only, so any sub-extent gets the same bits.
+struct SampleGrid
+{
+  Vec3 origin = Vec3::Zero();
+  Vec3 spacing = Vec3::Ones();
+  /// First and last index along x, y, z, inclusive, as in VTK. Empty by default.
+  std::array<Index, 6> extent{ 0, -1, 0, -1, 0, -1 };
+
+  /// Number of samples along an axis, never negative.
+  Index size(int axis) const
+  {
+    return std::max<Index>(0, this->extent[2 * axis + 1] - this->extent[2 * axis] + 1);
+  }
+  Index count() const { return this->size(0) * this->size(1) * this->size(2); }
+  Vec3 point(Index i, Index j, Index k) const
+  {
+    return this->origin +
+      this->spacing.cwiseProduct(
+        Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
+  }
+};
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,646 @@
+// The samples are cut into the 8 x 8 x 8 blocks that are the leaf nodes of a VDB tree, each on its
+// own and in parallel: a block of one value becomes a tile, any other a leaf. The tree takes them
+// one after another, and pruning makes larger tiles of equal ones. Then OpenVDB's own archive code
+// writes the tree, through a stream buffer of ours: it hears of progress and cancel, and a full
+// disk fails loudly, which OpenVDB's own file class does not notice.
+//
+// A narrow band needs to know which voxels have the other side of the threshold nearby: a box of
+// (2 N + 1)^3 voxels, spread axis by axis.
+//
+// This is the only file that knows OpenVDB.
+#include "io/vdb.h"
+
+#ifdef BINDPOSE_HAS_OPENVDB
+#include "base/parallel.h"
+#include "io/atomic_file.h"
+
+#define IMATH_HALF_NO_LOOKUP_TABLE // a table in Imath, which would have to be linked for it
+#include <openvdb/io/Archive.h>
+#include <openvdb/openvdb.h>
+#include <openvdb/tools/Prune.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#endif
+
+namespace bindpose
+{
+
+const char* to_string(VdbBand band)
+{
+  return band == VdbBand::full ? "full" : "narrow";
+}
+
+#ifndef BINDPOSE_HAS_OPENVDB
+
+Status check_vdb_available()
+{
+  return Status::failure(
+    StatusCode::unavailable, "this build cannot write .vdb files (package libopenvdb-dev)");
+}
+
+Status write_vdb(
+  const std::string&, const SampleGrid&, const float*, const VdbOptions&, ExecutionContext&)
+{
+  return check_vdb_available();
+}
+
+Status write_vdb(
+  const std::string&, const SampleGrid&, const double*, const VdbOptions&, ExecutionContext&)
+{
+  return check_vdb_available();
+}
+
+#else
+
+namespace
+{
+using Leaf = openvdb::FloatTree::LeafNodeType;
+constexpr Index leaf_size = Leaf::DIM;
+/// OpenVDB's indices are 32 bit; room is left for the outer nodes, which reach farther.
+constexpr Index largest_index = Index(1) << 30;
+/// More than any memory holds; their number fits an Index.
+constexpr double most_samples = 1e15;
+
+Status check(const SampleGrid& grid, const VdbOptions& options)
+{
+  double samples = 1.0;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (const Index i : { grid.extent[2 * axis], grid.extent[2 * axis + 1] })
+    {
+      if (i < -largest_index || i > largest_index)
+      {
+        return Status::invalid_input(
+          "the index " + std::to_string(i) + " of the grid is beyond what a .vdb file holds");
+      }
+    }
+    samples *= static_cast<double>(grid.size(axis));
+  }
+  if (samples == 0.0)
+  {
+    return Status::invalid_input("the grid has no samples");
+  }
+  if (samples > most_samples)
+  {
+    return Status::invalid_input("the grid has too many samples");
+  }
+  if (!grid.origin.allFinite() || !grid.spacing.allFinite() || grid.spacing.minCoeff() <= 0.0)
+  {
+    return Status::invalid_input("the grid's origin must be finite and its spacing positive");
+  }
+  const Eigen::Matrix3d& d = options.direction;
+  if (!((d.transpose() * d - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-6))
+  {
+    return Status::invalid_input("the directions of the grid's axes must be orthonormal");
+  }
+  if (options.grid_name.empty())
+  {
+    return Status::invalid_input("the grid has no name");
+  }
+  if (!std::isfinite(static_cast<float>(options.background)))
+  {
+    return Status::invalid_input("the background must be a finite float");
+  }
+  if (!(options.tolerance >= 0.0))
+  {
+    return Status::invalid_input("the tolerance must be at least 0");
+  }
+  if (options.band == VdbBand::narrow)
+  {
+    if (options.band_width < 1 || options.band_width > largest_index)
+    {
+      return Status::invalid_input("a narrow band must be at least 1 voxel wide");
+    }
+    if (!std::isfinite(static_cast<float>(options.threshold)) ||
+      !std::isfinite(static_cast<float>(2.0 * options.threshold - options.background)))
+    {
+      return Status::invalid_input("the threshold must be a finite float");
+    }
+    if (static_cast<float>(options.threshold) == static_cast<float>(options.background))
+    {
+      return Status::invalid_input("the background must not be equal to the threshold, which "
+                                   "parts the grid in two sides");
+    }
+  }
+  return {};
+}
+
+/// The grid cut into blocks of 8 x 8 x 8 voxels, aligned as the leaf nodes of a tree.
+class Blocks
+{
+public:
+  explicit Blocks(const SampleGrid& grid)
+  {
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      this->lower_[axis] = grid.extent[2 * axis];
+      this->upper_[axis] = grid.extent[2 * axis + 1];
+      this->first_[axis] = this->lower_[axis] & ~(leaf_size - 1); // rounds down, below 0 as well
+      this->count_[axis] = (this->upper_[axis] - this->first_[axis]) / leaf_size + 1;
+      this->size_[axis] = grid.size(axis);
+    }
+  }
+  Index count() const { return this->count_[0] * this->count_[1] * this->count_[2]; }
+  openvdb::Coord origin(Index block) const
+  {
+    const Index x = block % this->count_[0];
+    const Index y = block / this->count_[0] % this->count_[1];
+    const Index z = block / this->count_[0] / this->count_[1];
+    return openvdb::Coord(static_cast<int>(this->first_[0] + x * leaf_size),
+      static_cast<int>(this->first_[1] + y * leaf_size),
+      static_cast<int>(this->first_[2] + z * leaf_size));
+  }
+  /// Calls visit(offset in the leaf, id of the sample) for the block's voxels in the extent.
+  template <typename Visit>
+  void for_each_sample(const openvdb::Coord& origin, const Visit& visit) const
+  {
+    Index begin[3];
+    Index end[3];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      begin[axis] = std::max<Index>(origin[axis], this->lower_[axis]);
+      end[axis] = std::min<Index>(origin[axis] + leaf_size, this->upper_[axis] + 1);
+    }
+    for (Index k = begin[2]; k < end[2]; ++k)
+    {
+      for (Index j = begin[1]; j < end[1]; ++j)
+      {
+        const Index row =
+          ((k - this->lower_[2]) * this->size_[1] + (j - this->lower_[1])) * this->size_[0];
+        for (Index i = begin[0]; i < end[0]; ++i)
+        {
+          const Index offset = ((i - origin[0]) * leaf_size + (j - origin[1])) * leaf_size +
+            (k - origin[2]); // in a leaf z is fastest
+          visit(static_cast<openvdb::Index>(offset), row + (i - this->lower_[0]));
+        }
+      }
+    }
+  }
+
+private:
+  Index lower_[3], upper_[3]; // of the extent
+  Index first_[3]; // voxel of the first block
+  Index count_[3]; // of blocks
+  Index size_[3];
+};
+
+// ---- the band -----------------------------------------------------------------------------------
+using Sides = std::vector<unsigned char>;
+constexpr unsigned char below = 1;
+constexpr unsigned char above = 2;
+
+/// Every entry of a line gets the sides that lie within `width` of it; `outside` are those beyond
+/// the line's ends. `found` is room for the result.
+void spread_along_line(
+  unsigned char* line, Index stride, Index size, Index width, unsigned char outside, Sides& found)
+{
+  found.assign(static_cast<std::size_t>(size), 0);
+  for (const unsigned char side : { below, above })
+  {
+    Index last = outside & side ? -1 : -width - 1; // the nearest one so far
+    for (Index i = 0; i < size; ++i)
+    {
+      last = line[i * stride] & side ? i : last;
+      found[i] |= i - last <= width ? side : 0;
+    }
+    last = outside & side ? size : size + width;
+    for (Index i = size - 1; i >= 0; --i)
+    {
+      last = line[i * stride] & side ? i : last;
+      found[i] |= last - i <= width ? side : 0;
+    }
+  }
+  for (Index i = 0; i < size; ++i)
+  {
+    line[i * stride] = found[i];
+  }
+}
+
+/// The sides of the threshold within `width` voxels along each axis, of every sample.
+/// @return false when cancelled.
+template <typename Value>
+bool find_sides(const SampleGrid& grid, const Value* values, const VdbOptions& options,
+  ExecutionContext& context, Sides& sides)
+{
+  const Phase phase(context, "band", 0.0, 0.3);
+  const auto threshold = static_cast<float>(options.threshold);
+  const auto side_of = [threshold](float value) { return value < threshold ? below : above; };
+  const unsigned char outside = side_of(static_cast<float>(options.background));
+  const Index nx = grid.size(0);
+  const Index ny = grid.size(1);
+  const Index nz = grid.size(2);
+  sides.resize(static_cast<std::size_t>(grid.count()));
+  unsigned char* const data = sides.data();
+  // A layer of constant z at a time, then one of constant y.
+  bool going = false;
+  {
+    const ProgressRange range(context, 0.0, 0.6);
+    going = parallel_for(context, nz, 1,
+      [&](Index k, Index)
+      {
+        Sides found;
+        unsigned char* const layer = data + k * nx * ny;
+        for (Index i = 0; i < nx * ny; ++i)
+        {
+          layer[i] = side_of(static_cast<float>(values[k * nx * ny + i]));
+        }
+        for (Index j = 0; j < ny; ++j)
+        {
+          spread_along_line(layer + j * nx, 1, nx, options.band_width, outside, found);
+        }
+        for (Index i = 0; i < nx; ++i)
+        {
+          spread_along_line(layer + i, nx, ny, options.band_width, outside, found);
+        }
+      });
+  }
+  const ProgressRange range(context, 0.6, 1.0);
+  return going &&
+    parallel_for(context, ny, 1,
+      [&](Index j, Index)
+      {
+        Sides found;
+        for (Index i = 0; i < nx; ++i)
+        {
+          spread_along_line(data + j * nx + i, nx * ny, nz, options.band_width, outside, found);
+        }
+      });
+}
+
+// ---- the tree -----------------------------------------------------------------------------------
+struct Voxel
+{
+  float value = 0.0f;
+  bool active = false;
+};
+
+/// What a value of the image is in the grid.
+class Classifier
+{
+public:
+  explicit Classifier(const VdbOptions& options)
+    : narrow_(options.band == VdbBand::narrow), tolerance_(options.tolerance),
+      exact_background_(options.background), background_(static_cast<float>(options.background)),
+      threshold_(static_cast<float>(options.threshold)),
+      mirror_(static_cast<float>(2.0 * options.threshold - options.background))
+  {
+  }
+  Voxel background() const { return { this->background_, false }; }
+  Voxel operator()(double exact, const unsigned char* sides, Index sample) const
+  {
+    const auto value = static_cast<float>(exact);
+    if (!this->narrow_)
+    {
+      const bool differs =
+        std::abs(exact - this->exact_background_) > this->tolerance_ && value != this->background_;
+      return differs ? Voxel{ value, true } : this->background();
+    }
+    if (sides[sample] == (below | above))
+    {
+      return { value, true };
+    }
+    const bool as_background = (value < this->threshold_) == (this->background_ < this->threshold_);
+    return { as_background ? this->background_ : this->mirror_, false };
+  }
+
+private:
+  bool narrow_;
+  double tolerance_;
+  double exact_background_;
+  float background_;
+  float threshold_;
+  float mirror_;
+};
+
+/// A leaf, or the one voxel that all of the block are like.
+struct Block
+{
+  std::unique_ptr<Leaf> leaf;
+  Voxel tile;
+};
+
+/// @return false when cancelled. `not_finite` is the first sample that is no finite float, or -1.
+template <typename Value>
+bool make_tree(const SampleGrid& grid, const Value* values, const Sides& sides,
+  const VdbOptions& options, ExecutionContext& context, openvdb::FloatTree& tree, Index& not_finite)
+{
+  const Phase phase(context, "grid", options.band == VdbBand::narrow ? 0.3 : 0.0, 0.6);
+  const Blocks blocks(grid);
+  const Classifier classify(options);
+  const Voxel background = classify.background();
+  std::vector<Block> made(static_cast<std::size_t>(blocks.count()));
+  std::atomic<Index> bad{ grid.count() };
+  const auto make = [&](Index b, Leaf& leaf)
+  {
+    const openvdb::Coord origin = blocks.origin(b);
+    leaf.setOrigin(origin);
+    leaf.fill(background.value, false);
+    float* const voxels = leaf.buffer().data();
+    Leaf::NodeMaskType& active = leaf.getValueMask();
+    blocks.for_each_sample(origin,
+      [&](openvdb::Index offset, Index sample)
+      {
+        const auto exact = static_cast<double>(values[sample]);
+        if (!std::isfinite(static_cast<float>(exact)))
+        {
+          Index first = bad.load();
+          while (sample < first && !bad.compare_exchange_weak(first, sample))
+          {
+          }
+        }
+        const Voxel voxel = classify(exact, sides.data(), sample);
+        voxels[offset] = voxel.value;
+        if (voxel.active)
+        {
+          active.setOn(offset);
+        }
+      });
+    Block& block = made[static_cast<std::size_t>(b)];
+    if (!leaf.isConstant(block.tile.value, block.tile.active))
+    {
+      block.leaf = std::make_unique<Leaf>(leaf);
+    }
+  };
+  if (!parallel_for(context, blocks.count(), 32,
+        [&](Index begin, Index end)
+        {
+          Leaf leaf(openvdb::Coord(), background.value, false);
+          for (Index b = begin; b < end; ++b)
+          {
+            make(b, leaf);
+          }
+        }))
+  {
+    return false;
+  }
+  not_finite = bad < grid.count() ? bad.load() : -1;
+  for (Index b = 0; b < blocks.count() && not_finite < 0; ++b)
+  {
+    Block& block = made[static_cast<std::size_t>(b)];
+    if (block.leaf)
+    {
+      tree.addLeaf(block.leaf.release());
+    }
+    else if (block.tile.active || block.tile.value != background.value)
+    {
+      tree.addTile(1, blocks.origin(b), block.tile.value, block.tile.active);
+    }
+  }
+  openvdb::tools::pruneTiles(tree, 0.0f, false);
+  return true;
+}
+
+openvdb::math::Transform::Ptr make_transform(const SampleGrid& grid, const VdbOptions& options)
+{
+  openvdb::Mat4R matrix = openvdb::Mat4R::identity(); // acts on rows: x' = x M
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      matrix(axis, k) = options.direction(k, axis) * grid.spacing[axis];
+    }
+  }
+  // OpenVDB makes it the simplest kind of map that does. The origin comes after: from a matrix that
+  // has it the spacing would be found as a difference of two points, rounded.
+  auto transform = openvdb::math::Transform::createLinearTransform(matrix);
+  transform->postTranslate(openvdb::Vec3d(grid.origin.data()));
+  return transform;
+}
+
+// ---- the file -----------------------------------------------------------------------------------
+/// A file that tells how far it is, and takes nothing more after a cancel.
+class WatchedFile : public std::filebuf
+{
+public:
+  WatchedFile(ExecutionContext& context, double expected_bytes)
+    : context_(context), expected_bytes_(expected_bytes)
+  {
+  }
+
+protected:
+  std::streamsize xsputn(const char* text, std::streamsize size) override
+  {
+    if (this->context_.cancelled())
+    {
+      return 0; // the stream calls it a failure and throws
+    }
+    this->bytes_ += static_cast<double>(size);
+    this->context_.progress(std::min(1.0, this->bytes_ / this->expected_bytes_));
+    return std::filebuf::xsputn(text, size);
+  }
+
+private:
+  ExecutionContext& context_;
+  double expected_bytes_;
+  double bytes_ = 0.0;
+};
+
+/// What io::File writes, to a stream of the caller's.
+class StreamArchive : public openvdb::io::Archive
+{
+public:
+  void write_grid(std::ostream& stream, const openvdb::GridBase::Ptr& grid) const
+  {
+    this->write(stream, openvdb::GridCPtrVec{ grid }, true); // with offsets, as seekable files have
+  }
+};
+
+/// FNV-1a with words of 64 bits in place of bytes.
+class Hash
+{
+public:
+  explicit Hash(std::uint64_t seed) : state_(0xcbf29ce484222325ull ^ seed) {}
+  void add(const char* bytes, std::streamsize size)
+  {
+    for (std::streamsize at = 0; at < size; at += sizeof(std::uint64_t))
+    {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes + at, std::min<std::streamsize>(sizeof(word), size - at));
+      this->state_ = (this->state_ ^ word) * 0x100000001b3ull;
+      this->state_ ^= this->state_ >> 32; // a product alone never moves a bit down
+    }
+  }
+  std::uint64_t value() const { return this->state_; }
+
+private:
+  std::uint64_t state_;
+};
+
+/// "xxxxxxxx-xxxx-8xxx-8xxx-xxxxxxxxxxxx": a UUID of version 8, digits as one likes (RFC 9562).
+std::string uuid_of(std::uint64_t first, std::uint64_t second)
+{
+  char digits[33];
+  std::snprintf(digits, sizeof(digits), "%016llx%016llx", static_cast<unsigned long long>(first),
+    static_cast<unsigned long long>(second));
+  digits[12] = '8';
+  digits[16] = '8';
+  const std::string text = digits;
+  return text.substr(0, 8) + "-" + text.substr(8, 4) + "-" + text.substr(12, 4) + "-" +
+    text.substr(16, 4) + "-" + text.substr(20);
+}
+
+/// Replaces the random tag in the file's header by one made from all the rest. Programs use it to
+/// tell whether a file has changed since they looked.
+/// @return false when the file cannot be read or written.
+bool settle_tag(const std::string& path, const std::string& tag, ExecutionContext& context)
+{
+  std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+  std::vector<char> chunk(1 << 20);
+  Hash first(0);
+  Hash second(0x9e3779b97f4a7c15ull);
+  std::streamoff at = -1;
+  for (bool head = true; file && !context.cancelled(); head = false)
+  {
+    file.read(chunk.data(), static_cast<std::streamsize>(chunk.size()));
+    const std::streamsize size = file.gcount();
+    if (head)
+    {
+      char* const end = chunk.data() + std::min<std::streamsize>(size, 256);
+      char* const found = std::search(chunk.data(), end, tag.begin(), tag.end());
+      if (found == end)
+      {
+        return size > 0; // a version that keeps no such text: nothing to settle
+      }
+      at = found - chunk.data();
+      std::fill_n(found, tag.size(), '0');
+    }
+    first.add(chunk.data(), size);
+    second.add(chunk.data(), size);
+  }
+  file.clear();
+  file.seekp(at);
+  file << uuid_of(first.value(), second.value());
+  file.close();
+  return !file.fail();
+}
+
+Status write_file(const std::string& path, const openvdb::FloatGrid::Ptr& grid,
+  const VdbOptions& options, ExecutionContext& context, std::streamoff& bytes)
+{
+  const Phase phase(context, "write", 0.6, 1.0);
+  AtomicFile file;
+  Status status = file.open(path, options.overwrite);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const auto cannot_write = [&path]
+  {
+    return Status::invalid_input(
+      "cannot write " + path + ": " + (errno ? std::strerror(errno) : "the disk did not take it"));
+  };
+  StreamArchive archive;
+  WatchedFile buffer(context, static_cast<double>(grid->memUsage()));
+  errno = 0;
+  if (!buffer.open(file.temporary(), std::ios::out | std::ios::trunc | std::ios::binary))
+  {
+    return cannot_write();
+  }
+  bool written = true;
+  try
+  {
+    std::ostream stream(&buffer);
+    stream.exceptions(std::ios::badbit | std::ios::failbit);
+    archive.write_grid(stream, grid);
+    stream.seekp(0, std::ios::end);
+    bytes = stream.tellp();
+  }
+  catch (const std::ios::failure&)
+  {
+    written = false;
+  }
+  catch (const openvdb::IoError&)
+  {
+    written = false;
+  }
+  written = buffer.close() && written;
+  written = written && settle_tag(file.temporary(), archive.getUniqueTag(), context);
+  if (context.cancelled())
+  {
+    return Status::cancelled();
+  }
+  return written ? file.commit() : cannot_write();
+}
+
+template <typename Value>
+Status write_any(const std::string& path, const SampleGrid& samples, const Value* values,
+  const VdbOptions& options, ExecutionContext& context)
+{
+  Status status = check(samples, options);
+  if (status.ok())
+  {
+    status = AtomicFile::check(path, options.overwrite); // before the work
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  openvdb::initialize(); // may be called again and from any thread
+  Sides sides;
+  if (options.band == VdbBand::narrow && !find_sides(samples, values, options, context, sides))
+  {
+    return Status::cancelled();
+  }
+  const auto grid = openvdb::FloatGrid::create(static_cast<float>(options.background));
+  grid->setName(options.grid_name);
+  grid->setCreator("Bindpose");
+  grid->setGridClass(options.band == VdbBand::full && options.background == 0.0
+      ? openvdb::GRID_FOG_VOLUME
+      : openvdb::GRID_UNKNOWN);
+  grid->setTransform(make_transform(samples, options));
+  Index not_finite = -1;
+  if (!make_tree(samples, values, sides, options, context, grid->tree(), not_finite))
+  {
+    return Status::cancelled();
+  }
+  if (not_finite >= 0)
+  {
+    return Status::invalid_input(
+      "the value of sample " + std::to_string(not_finite) + " is no finite float");
+  }
+  std::streamoff bytes = 0;
+  status = write_file(path, grid, options, context, bytes);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const auto active = static_cast<Index>(grid->activeVoxelCount());
+  status.report.set("counts.samples", samples.count());
+  status.report.set("counts.active_voxels", active);
+  status.report.set("counts.leaf_nodes", static_cast<Index>(grid->tree().leafCount()));
+  status.report.set("file_bytes", static_cast<Index>(bytes));
+  if (active == 0)
+  {
+    status.warnings.push_back(options.band == VdbBand::full
+        ? "the grid is empty: all values are the background"
+        : "the grid is empty: no value crosses the threshold");
+  }
+  return status;
+}
+} // namespace
+
+Status check_vdb_available()
+{
+  return {};
+}
+
+Status write_vdb(const std::string& path, const SampleGrid& grid, const float* values,
+  const VdbOptions& options, ExecutionContext& context)
+{
+  return write_any(path, grid, values, options, context);
+}
+
+Status write_vdb(const std::string& path, const SampleGrid& grid, const double* values,
+  const VdbOptions& options, ExecutionContext& context)
+{
+  return write_any(path, grid, values, options, context);
+}
+
+#endif
+
+} // namespace bindpose

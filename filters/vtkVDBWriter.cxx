@@ -1,0 +1,159 @@
+// The kernel writes; here the image becomes a grid of samples and the array floats or doubles.
+#include "vtkVDBWriter.h"
+
+#include "base/execution.h"
+#include "file_kind.h"
+#include "io/vdb.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkImageData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkMatrix3x3.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+
+vtkStandardNewMacro(vtkVDBWriter);
+
+namespace
+{
+using bindpose::Status;
+
+/// The array to write; null with the reason in the status.
+vtkDataArray* find_array(vtkImageData* image, const char* name, Status& status)
+{
+  vtkPointData* arrays = image->GetPointData();
+  const bool named = name && name[0];
+  vtkDataArray* array = named ? arrays->GetArray(name) : arrays->GetScalars();
+  if (!array)
+  {
+    status = Status::invalid_input(named
+        ? "the volume has no point array '" + std::string(name) + "' of numbers"
+        : "the volume has no active scalars; name a point array");
+    return nullptr;
+  }
+  if (array->GetNumberOfComponents() != 1)
+  {
+    status = Status::invalid_input("the array '" +
+      std::string(array->GetName() ? array->GetName() : "") + "' has " +
+      std::to_string(array->GetNumberOfComponents()) + " components; a grid of floats takes one");
+    return nullptr;
+  }
+  return array;
+}
+
+std::string name_of_grid(const char* wanted, vtkDataArray* array)
+{
+  if (wanted && wanted[0])
+  {
+    return wanted;
+  }
+  const std::string name = array->GetName() ? array->GetName() : "";
+  // OpenVDB's names are written like "density" and "winding_number".
+  return name.empty() || name == "WindingNumber" ? bindpose::VdbOptions().grid_name : name;
+}
+
+bindpose::SampleGrid grid_of(vtkImageData* image)
+{
+  bindpose::SampleGrid grid;
+  grid.origin = bindpose::Vec3(image->GetOrigin());
+  grid.spacing = bindpose::Vec3(image->GetSpacing());
+  std::copy_n(image->GetExtent(), 6, grid.extent.begin());
+  return grid;
+}
+} // namespace
+
+vtkVDBWriter::vtkVDBWriter()
+{
+  this->SetNumberOfOutputPorts(0);
+}
+
+vtkVDBWriter::~vtkVDBWriter()
+{
+  this->SetFileName(nullptr);
+  this->SetArrayName(nullptr);
+  this->SetGridName(nullptr);
+}
+
+int vtkVDBWriter::Write()
+{
+  this->Modified();
+  this->UpdateWholeExtent();
+  return this->GetStatus() <= NOT_CONVERGED ? 1 : 0;
+}
+
+int vtkVDBWriter::FillInputPortInformation(int, vtkInformation* info)
+{
+  // Anything, so that what is no image is told by the status and not by the executive.
+  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  return 1;
+}
+
+bindpose::Status vtkVDBWriter::Execute(
+  vtkInformationVector** input, vtkInformationVector*, bindpose::ExecutionContext& context)
+{
+  const std::string path = this->FileName ? this->FileName : "";
+  Status status = bindpose::check_extension(path, GetFileExtensions());
+  vtkDataSet* data = vtkDataSet::GetData(input[0]);
+  auto* image = vtkImageData::SafeDownCast(data);
+  if (status.ok() && (!data || data->GetNumberOfPoints() == 0))
+  {
+    status = Status::invalid_input("there is nothing to write to " + path);
+  }
+  if (status.ok() && !image)
+  {
+    status = Status::invalid_input("a .vdb file holds volumes (vtkImageData), but the data is a " +
+      std::string(data->GetClassName()));
+  }
+  vtkDataArray* array = status.ok() ? find_array(image, this->ArrayName, status) : nullptr;
+  if (!array)
+  {
+    return status;
+  }
+
+  bindpose::VdbOptions options;
+  options.grid_name = name_of_grid(this->GridName, array);
+  vtkMatrix3x3* direction = image->GetDirectionMatrix();
+  for (int row = 0; row < 3; ++row)
+  {
+    for (int column = 0; column < 3; ++column)
+    {
+      options.direction(row, column) = direction->GetElement(row, column);
+    }
+  }
+  options.background = this->Background;
+  options.band = this->Band == NARROW ? bindpose::VdbBand::narrow : bindpose::VdbBand::full;
+  options.band_width = this->BandWidth;
+  options.threshold = this->Threshold;
+  options.overwrite = this->Overwrite;
+
+  if (auto* floats = vtkFloatArray::SafeDownCast(array))
+  {
+    return bindpose::write_vdb(path, grid_of(image), floats->GetPointer(0), options, context);
+  }
+  vtkNew<vtkDoubleArray> copy;
+  auto* doubles = vtkDoubleArray::SafeDownCast(array);
+  if (!doubles)
+  {
+    copy->DeepCopy(array);
+    doubles = copy;
+  }
+  return bindpose::write_vdb(path, grid_of(image), doubles->GetPointer(0), options, context);
+}
+
+void vtkVDBWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Overwrite: " << (this->Overwrite ? "on" : "off") << "\n";
+  os << indent << "ArrayName: " << (this->ArrayName ? this->ArrayName : "(none)") << "\n";
+  os << indent << "GridName: " << (this->GridName ? this->GridName : "(none)") << "\n";
+  os << indent << "Background: " << this->Background << "\n";
+  os << indent << "Band: " << (this->Band == NARROW ? "NARROW" : "FULL") << "\n";
+  os << indent << "BandWidth: " << this->BandWidth << "\n";
+  os << indent << "Threshold: " << this->Threshold << "\n";
+}

@@ -7,15 +7,14 @@
 // taken off, exactly as their sum, or fast as their field. Where a point touches the surface or a
 // cap, the tree or the plain sum tells.
 //
-// Coordinates are shifted by the box's centre along each axis only where the mesh lies far from 0
-// compared with its size (there the subtraction is exact: Sterbenz), and scaled by a power of two.
-// So the kernels see the very mesh that was given, of size about 1 and near the origin.
+// All of it happens in an exact frame: size about 1, near the origin, nothing rounded.
 #include "inside/winding_number.h"
 
 #include "base/parallel.h"
 #include "base/parallel_sort.h"
 #include "inside/boundary_caps.h"
 #include "inside/dipole_field.h"
+#include "inside/exact_frame.h"
 #include "inside/signed_crossings.h"
 #include "inside/solid_angle.h"
 #include "inside/winding_tree.h"
@@ -43,34 +42,6 @@ constexpr Index hardly_open = 12;
 /// Beyond this distance, in units of the mesh, the winding number is 0 in double precision.
 constexpr double far_away = 1e20;
 
-/// What makes coordinates small without rounding: x -> (x - shift) * scale.
-struct Frame
-{
-  Vec3 shift = Vec3::Zero();
-  double scale = 1.0;
-  double tolerance = 0.0; ///< after scaling
-
-  Frame() = default;
-  explicit Frame(const Box& box)
-  {
-    const Vec3 half = 0.5 * box.size();
-    const Vec3 center = box.lower + half;
-    for (int k = 0; k < 3; ++k)
-    {
-      this->shift[k] = std::abs(center[k]) > 2.0 * half[k] ? center[k] : 0.0;
-    }
-    const double largest =
-      std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
-    const double radius = half.maxCoeff();
-    if (radius > 0.0)
-    {
-      this->scale = std::ldexp(1.0, -std::ilogb(radius));
-    }
-    this->tolerance = largest * this->scale * 0x1.0p-49;
-  }
-  Vec3 operator()(const Vec3& p) const { return (p - this->shift) * this->scale; }
-};
-
 struct Welded
 {
   Points points; ///< in the frame, equal points once
@@ -88,8 +59,8 @@ bool is_flat(const Vec3& a, const Vec3& b, const Vec3& c)
   return u.cross(v).norm() <= 1e-15 * u.norm() * v.norm();
 }
 
-bool weld(PointsView points, TrianglesView triangles, const Frame& frame, ExecutionContext& context,
-  Welded& welded)
+bool weld(PointsView points, TrianglesView triangles, const ExactFrame& frame,
+  ExecutionContext& context, Welded& welded)
 {
   std::vector<char> used(static_cast<std::size_t>(points.rows()), 0);
   for (Index k = 0; k < triangles.size(); ++k)
@@ -251,7 +222,7 @@ struct WindingNumber::Parts
 {
   Status status;
   WindingMethod method = WindingMethod::direct;
-  Frame frame;
+  ExactFrame frame;
   Points points;
   Triangles triangles;
   Index max_leaf_size = 64;
@@ -366,7 +337,7 @@ Status WindingNumber::build(
   }
 
   Report& report = status.report;
-  parts.frame = triangles.rows() ? Frame(bounding_box(points, triangles)) : Frame();
+  parts.frame = triangles.rows() ? ExactFrame(bounding_box(points, triangles)) : ExactFrame();
   Welded welded;
   std::vector<Edge> edges;
   bool done = true;
@@ -952,7 +923,7 @@ double winding_number_direct(
   {
     return point.allFinite() ? 0.0 : std::numeric_limits<double>::quiet_NaN();
   }
-  const Frame frame(bounding_box(points, triangles));
+  const ExactFrame frame(bounding_box(points, triangles));
   const Vec3 p = frame(point);
   if (!(p.cwiseAbs().maxCoeff() < far_away))
   {

@@ -11,10 +11,11 @@
 //
 //   A / r^(order+2) (order + 1 + u / (1 - u)) / (1 - u)
 //
-// and a box is far enough where that is below a threshold, the same for all boxes. The errors of
-// boxes mostly cancel, so the threshold is not found from their number: built, the tree is compared
-// with the plain sum on a sample, and the threshold is lowered until the largest error is at most
-// half the tolerance.
+// and a box is far enough where that is below a threshold, the same for all boxes. The bounds of
+// the boxes that a point sees are added up beside the value. Where they exceed the tolerance, the
+// point is evaluated again, with boxes farther away by the power of what is missing: so the
+// tolerance is kept at every point, and not only where it was tried. The threshold is found when
+// the tree is built, as the one that leaves next to no points to be evaluated again.
 //
 // Eight boxes or points are looked at beside each other, in lanes that do not mix until the sums
 // are added up, so that all machines give the same bits.
@@ -39,8 +40,8 @@ namespace
 {
 using Id = PointTree::Id;
 constexpr double four_pi = 12.566370614359172954;
-/// Below this many points their plain sum costs no more than the tree.
-constexpr Index few_points = 1000;
+/// Up to this many points their plain sum costs no more than the tree.
+constexpr Index few_points = 3000;
 constexpr Id leaf_size = 32;
 /// Beyond this distance, in units of the cloud, the winding number is 0 in double precision.
 constexpr double far_away = 1e100;
@@ -48,7 +49,6 @@ constexpr double far_away = 1e100;
 constexpr double largest_moment = 1e100;
 /// Multipoles are not looked at from nearer than this: their powers would overflow.
 constexpr double nearest_multipole = 1e-12;
-constexpr int largest_order = 12;
 
 struct Tuning
 {
@@ -56,7 +56,7 @@ struct Tuning
   int order;
 };
 /// Measured on 100k points.
-constexpr Tuning tunings[] = { { 1e-2, 3 }, { 1e-3, 4 }, { 1e-4, 6 }, { 1e-6, 8 }, { 0.0, 12 } };
+constexpr Tuning tunings[] = { { 1e-2, 6 }, { 1e-3, 8 }, { 1e-5, 10 }, { 0.0, 12 } };
 
 /// Eight points with m = area n / (4 pi). Empty lanes repeat a point with m = 0.
 struct Dipoles
@@ -70,6 +70,7 @@ struct Boxes
 {
   HarmonicLanes center[3];
   HarmonicLanes squared_reach; ///< seen as multipoles from farther than this; infinite when empty
+  HarmonicLanes bound; ///< of what multipoles leave out, times r^(order+2)
   Id first_block[harmonic_lanes]; ///< of its dipoles
   Id block_count[harmonic_lanes];
   Id group[harmonic_lanes]; ///< what it is divided into; -1: a leaf
@@ -133,8 +134,9 @@ BINDPOSE_SIMD_CLONES void add_dipoles(const Dipoles* dipoles, Index count, const
 }
 
 /// Which boxes are far enough, a bit for each; and where q is seen from their centres.
-BINDPOSE_SIMD_CLONES unsigned far_boxes(
-  const Boxes& boxes, const double (&q)[3], HarmonicLanes (&from)[3])
+/// bounds += what their multipoles leave out at most.
+BINDPOSE_SIMD_CLONES unsigned far_boxes(const Boxes& boxes, const double (&q)[3], int order,
+  double squared_stretch, HarmonicLanes (&from)[3], HarmonicLanes& bounds)
 {
   Pack squared{};
   for (int k = 0; k < 3; ++k)
@@ -143,7 +145,14 @@ BINDPOSE_SIMD_CLONES unsigned far_boxes(
     reinterpret_cast<Pack&>(from[k]) = x;
     squared += x * x;
   }
-  const Mask is_far = squared > pack(boxes.squared_reach);
+  const Mask is_far = squared > pack(boxes.squared_reach) * squared_stretch;
+  const Pack inverse = 1.0 / squared;
+  Pack bound = pack(boxes.bound);
+  for (int k = 0; k < order + 2; k += 2)
+  {
+    bound *= inverse;
+  }
+  reinterpret_cast<Pack&>(bounds) += is_far ? bound : Pack{};
   unsigned bits = 0;
   for (int i = 0; i < harmonic_lanes; ++i)
   {
@@ -174,20 +183,24 @@ BINDPOSE_SIMD_CLONES void add_multipoles(int order, const HarmonicLanes* moments
   }
 }
 
-/// Smallest distance at which the bound above holds the threshold.
+/// The bound above at distance r, times r^(order+2).
+double bound_of(const Extent& extent, int order, double r)
+{
+  const double u = extent.radius / r;
+  return extent.power * (order + 1 + u / (1.0 - u)) / (1.0 - u);
+}
+
+/// Smallest distance at which the bound is below the threshold.
 double reach_of(const Extent& extent, int order, double threshold)
 {
   if (extent.power == 0.0)
   {
     return extent.radius;
   }
-  const auto error = [&](double r)
-  {
-    const double u = extent.radius / r;
-    return extent.power / std::pow(r, order + 2) * (order + 1 + u / (1.0 - u)) / (1.0 - u);
-  };
+  const auto too_near = [&](double r)
+  { return bound_of(extent, order, r) / std::pow(r, order + 2) > threshold; };
   double upper = 2.0 * extent.radius;
-  while (error(upper) > threshold)
+  while (too_near(upper))
   {
     upper *= 2.0;
   }
@@ -196,7 +209,7 @@ double reach_of(const Extent& extent, int order, double threshold)
   while (upper - lower > precise_enough * upper)
   {
     const double middle = 0.5 * (lower + upper);
-    (error(middle) > threshold ? lower : upper) = middle;
+    (too_near(middle) ? lower : upper) = middle;
   }
   return upper;
 }
@@ -218,20 +231,21 @@ Status check_input(PointsView points, PointsView normals, NumbersView areas,
   }
   for (Index i = 0; i < count; ++i)
   {
-    const std::string name = "point " + std::to_string(i);
+    const auto bad = [i](const std::string& what)
+    { return Status::invalid_input("point " + std::to_string(i) + " has " + what); };
     if (!points.row(i).allFinite())
     {
-      return Status::invalid_input(name + " has a coordinate that is not a finite number");
+      return bad("a coordinate that is not a finite number");
     }
     if (!normals.row(i).allFinite())
     {
-      return Status::invalid_input(name + " has a normal that is not a finite number");
+      return bad("a normal that is not a finite number");
     }
     if (areas.size() != 0 && !(areas[i] >= 0.0 && std::isfinite(areas[i])))
     {
       std::ostringstream text;
-      text << name << " has the area " << areas[i] << "; areas are 0 or more, and finite";
-      return Status::invalid_input(text.str());
+      text << "the area " << areas[i] << "; areas are 0 or more, and finite";
+      return bad(text.str());
     }
   }
   if (count == 1 && areas.size() == 0)
@@ -286,7 +300,8 @@ struct PointCloudWindingNumber::Parts
   ExactFrame frame;
   Eigen::VectorXd areas;
   std::vector<Dipoles> dipoles; ///< in the tree's order
-  int order = 0;
+  int order = 0; ///< even
+  double tolerance = 0.0;
   std::vector<Boxes> boxes; ///< of each group of the tree
   std::vector<HarmonicLanes> moments; ///< of each group
   std::vector<Extent> extents; ///< eight a group, while building
@@ -295,11 +310,14 @@ struct PointCloudWindingNumber::Parts
   bool find_multipoles(const PointTree& tree, ExecutionContext& context);
   void find_multipole(const PointTree::Group& group, Index number, Harmonics (&room)[2]);
   bool find_reaches(double threshold, ExecutionContext& context);
-  bool adapt(const PointTree& tree, double tolerance, ExecutionContext& context);
+  bool find_threshold(const Points& places, ExecutionContext& context);
+  double measured_error(const Points& places, ExecutionContext& context) const;
   Points sample(const PointTree& tree) const;
 
   double plain_sum(const Vec3& framed, bool& touches) const;
   double tree_sum(const Vec3& framed, bool& touches) const;
+  double tree_sum(
+    const Vec3& framed, double squared_stretch, bool& touches, double& error_bound) const;
   double at(const Vec3& query, bool exactly, bool& touches) const;
 };
 
@@ -446,6 +464,7 @@ bool PointCloudWindingNumber::Parts::find_reaches(double threshold, ExecutionCon
       {
         for (int c = 0; c < harmonic_lanes; ++c)
         {
+          this->boxes[g].bound.lane[c] = 0.0;
           double& squared = this->boxes[g].squared_reach.lane[c];
           if (this->boxes[g].block_count[c] > 0)
           {
@@ -453,6 +472,7 @@ bool PointCloudWindingNumber::Parts::find_reaches(double threshold, ExecutionCon
             const double reach = std::max({ reach_of(extent, this->order, threshold),
               extent.radius + 2.0 * this->frame.tolerance, nearest_multipole });
             squared = reach * reach;
+            this->boxes[g].bound.lane[c] = bound_of(extent, this->order, reach);
           }
         }
       }
@@ -517,45 +537,56 @@ Points PointCloudWindingNumber::Parts::sample(const PointTree& tree) const
   return result;
 }
 
-bool PointCloudWindingNumber::Parts::adapt(
-  const PointTree& tree, double tolerance, ExecutionContext& context)
+/// The largest threshold, within a few percent, with which the bounds at the places keep the
+/// tolerance.
+bool PointCloudWindingNumber::Parts::find_threshold(const Points& places, ExecutionContext& context)
 {
-  const Points places = this->sample(tree);
-  Eigen::VectorXd expected(places.rows());
-  bool done = true;
+  // A box's bound goes with the threshold, and their number a little against it.
+  double threshold = this->tolerance / 32.0;
+  constexpr int rounds = 4;
+  for (int round = 0; round < rounds; ++round)
   {
-    const ProgressRange range(context, 0.0, 0.6);
-    done = parallel_for(context, places.rows(), 1,
-      [&](Index i, Index)
-      {
-        bool touches = false;
-        expected[i] = this->plain_sum(places.row(i), touches);
-      });
+    const ProgressRange range(context, round / (rounds + 1.0), (round + 1) / (rounds + 1.0));
+    if (!this->find_reaches(threshold, context))
+    {
+      return false;
+    }
+    std::vector<double> bounds(static_cast<std::size_t>(places.rows()));
+    constexpr Index block = 16;
+    if (!parallel_for(context, places.rows(), block,
+          [&](Index begin, Index end)
+          {
+            for (Index i = begin; i < end; ++i)
+            {
+              bool touches = false;
+              this->tree_sum(places.row(i), 1.0, touches, bounds[i]);
+            }
+          }))
+    {
+      return false;
+    }
+    const double largest = *std::max_element(bounds.begin(), bounds.end());
+    constexpr double most_at_once = 32.0;
+    threshold *= std::clamp(
+      0.9 * this->tolerance / std::max(largest, 1e-300), 1.0 / most_at_once, most_at_once);
   }
-  constexpr int most_rounds = 12;
-  double threshold = 0.5 * tolerance;
-  double error = 0.0;
-  for (int round = 0; done && round < most_rounds; ++round)
-  {
-    const ProgressRange range(
-      context, 0.6 + 0.4 * round / most_rounds, 0.6 + 0.4 * (round + 1) / most_rounds);
-    done = this->find_reaches(threshold, context);
-    error = 0.0;
-    for (Index i = 0; done && i < places.rows(); ++i)
+  const ProgressRange range(context, rounds / (rounds + 1.0), 1.0);
+  return this->find_reaches(threshold, context);
+}
+
+/// Largest difference from the plain sum at some places; negative when cancelled.
+double PointCloudWindingNumber::Parts::measured_error(
+  const Points& places, ExecutionContext& context) const
+{
+  std::vector<double> errors(static_cast<std::size_t>(places.rows()));
+  const bool done = parallel_for(context, places.rows(), 1,
+    [&](Index i, Index)
     {
       bool touches = false;
-      error = std::max(error, std::abs(this->tree_sum(places.row(i), touches) - expected[i]));
-    }
-    if (!done || error <= 0.5 * tolerance)
-    {
-      this->status.report.set("measured_error", error);
-      return done;
-    }
-    threshold *= std::max(0.1, 0.4 * tolerance / error);
-  }
-  // Areas so large that the plain sum itself is not more exact than this.
-  this->method = WindingMethod::direct;
-  return done;
+      const Vec3 place = places.row(i);
+      errors[i] = std::abs(this->tree_sum(place, touches) - this->plain_sum(place, touches));
+    });
+  return done ? *std::max_element(errors.begin(), errors.end()) : -1.0;
 }
 
 Status PointCloudWindingNumber::build(PointsView points, PointsView normals, NumbersView areas,
@@ -662,6 +693,7 @@ Status PointCloudWindingNumber::build(PointsView points, PointsView normals, Num
   }
   if (parts.method == WindingMethod::fast)
   {
+    parts.tolerance = options.tolerance;
     for (const Tuning& tuning : tunings)
     {
       parts.order = tuning.order;
@@ -674,18 +706,19 @@ Status PointCloudWindingNumber::build(PointsView points, PointsView normals, Num
       const ProgressRange range(context, 0.6, 0.8);
       done = parts.find_multipoles(tree, context);
     }
+    const Points places = done ? parts.sample(tree) : Points(0, 3);
     if (done)
     {
-      const ProgressRange range(context, 0.8, 1.0);
-      done = parts.adapt(tree, options.tolerance, context);
+      const ProgressRange range(context, 0.8, 0.9);
+      done = parts.find_threshold(places, context);
     }
-    if (parts.method == WindingMethod::fast)
+    if (done)
     {
+      const ProgressRange range(context, 0.9, 1.0);
+      const double error = parts.measured_error(places, context);
+      done = error >= 0.0;
       report.set("error_bound", options.tolerance);
-    }
-    else
-    {
-      reason = "values so large that nothing but the plain sum comes within the tolerance";
+      report.set("measured_error", error);
     }
     parts.extents = {};
   }
@@ -735,7 +768,25 @@ double PointCloudWindingNumber::Parts::plain_sum(const Vec3& p, bool& touches) c
 
 double PointCloudWindingNumber::Parts::tree_sum(const Vec3& p, bool& touches) const
 {
-  HarmonicLanes sums{};
+  double squared_stretch = 1.0;
+  for (;;)
+  {
+    double error_bound = 0.0;
+    const double sum = this->tree_sum(p, squared_stretch, touches, error_bound);
+    if (error_bound <= this->tolerance)
+    {
+      return sum;
+    }
+    // Bounds go with at least this power of the distance; children's are smaller still.
+    constexpr double margin = 1.05;
+    squared_stretch *= margin * std::pow(error_bound / this->tolerance, 2.0 / (this->order + 2));
+  }
+}
+
+double PointCloudWindingNumber::Parts::tree_sum(
+  const Vec3& p, double squared_stretch, bool& touches, double& error_bound) const
+{
+  HarmonicLanes sums{}, bounds{};
   const double q[3] = { p[0], p[1], p[2] };
   const double squared_tolerance = this->frame.tolerance * this->frame.tolerance;
   Harmonics harmonics;
@@ -748,7 +799,7 @@ double PointCloudWindingNumber::Parts::tree_sum(const Vec3& p, bool& touches) co
     const Id number = stack[--waiting];
     const Boxes& box = this->boxes[number];
     HarmonicLanes from[3];
-    const unsigned far = far_boxes(box, q, from);
+    const unsigned far = far_boxes(box, q, this->order, squared_stretch, from, bounds);
     if (far != 0)
     {
       irregular_harmonics(this->order, from, harmonics);
@@ -772,6 +823,7 @@ double PointCloudWindingNumber::Parts::tree_sum(const Vec3& p, bool& touches) co
       }
     }
   }
+  error_bound = sum_of(bounds);
   return sum_of(sums);
 }
 
@@ -824,7 +876,7 @@ Status PointCloudWindingNumber::evaluate_points(Index count, const PointAt& poin
   }
   // A few milliseconds a block, so that a cancel is seen in time.
   const Index cost =
-    parts.method == WindingMethod::fast ? 3000 : 1 + 8 * static_cast<Index>(parts.dipoles.size());
+    parts.method == WindingMethod::fast ? 4000 : 1 + 8 * static_cast<Index>(parts.dipoles.size());
   const Index block = std::clamp<Index>(5000000 / cost, 1, 4096);
   std::atomic<Index> touching{ 0 };
   std::atomic<Index> not_finite{ 0 };

@@ -17,14 +17,20 @@ using NumbersView = MatrixView<Eigen::VectorXd>;
 /// at q, with each point's normal n (outwards gives +1 inside) and the area that it stands for.
 ///
 /// - **Near the samples** this sum is singular by nature, and nothing is done about it: within
-///   about one spacing of the samples (reported) its values mean nothing, and they grow without
-///   bound towards each sample. Two spacings away they are those of the surface to about 1e-2 and
-///   soon better, if the samples lie evenly.
+///   about one spacing of the samples (reported) its values mean nothing, and towards each sample
+///   they grow without bound. Measured on a sphere, largest errors: evenly spread samples 0.1 half
+///   a spacing away, 2e-2 at one, 2e-3 at two spacings; random samples 0.4 at one, 0.2 at two, 0.05
+///   at eight.
 /// - **On a sample**: a point at the very place of samples (within 2^-49 of the largest coordinate)
 ///   gets the sum over all others, and is flagged.
 /// - **Normals** of any length count as directions; normals of length 0 count 0, and are counted.
-/// - **Precision**: double; coordinates are shifted and scaled without rounding.
-/// - **Cost**: build O(#P log #P), see WindingMethod::fast and direct below for a point.
+/// - **Precision**: double; coordinates are shifted and scaled without rounding. The fast method
+///   keeps its tolerance at every point, by a bound that it adds up beside the value; round-off,
+///   1e-16 of the points' unsigned shares, is not in it. Measured errors are some ten times
+///   smaller.
+/// - **Cost** for 100k points on one core: build 0.15 s, estimated areas 0.3 s more, 90 bytes a
+///   point. A value within 1e-3: 4 us, near the points 8 us; within 1e-5: 6 and 10 us; the plain
+///   sum: 90 us.
 ///
 /// Build once, evaluate often; evaluation is thread-safe and deterministic for any thread count.
 class PointCloudWindingNumber
@@ -32,8 +38,8 @@ class PointCloudWindingNumber
 public:
   struct Options
   {
-    /// direct, exact (both: the plain sum, 1 ns x #P a point), fast (within the tolerance), or
-    /// automatic: direct for few points. The other methods are for triangles.
+    /// direct, exact (both: the plain sum), fast (within the tolerance), or automatic: direct up to
+    /// 3000 points, else fast. The other methods are for triangles.
     WindingMethod method = WindingMethod::automatic;
     /// Largest error of the fast method, 1e-8 … 0.1.
     double tolerance = 1e-3;

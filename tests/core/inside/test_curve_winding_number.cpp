@@ -6,10 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <set>
 
 using namespace bindpose;
 
@@ -32,13 +31,12 @@ struct Curve
     {
       this->points.row(first + i) = vertices[i].transpose();
     }
-    for (Index i = 0; i + 1 < count; ++i)
+    const Index added = closed ? count : count - 1;
+    const Index before = this->segments.rows();
+    this->segments.conservativeResize(before + added, 2);
+    for (Index i = 0; i < added; ++i)
     {
-      this->add_segment(first + i, first + i + 1);
-    }
-    if (closed)
-    {
-      this->add_segment(first + count - 1, first);
+      this->segments.row(before + i) << first + i, first + (i + 1) % count;
     }
   }
   void add_segment(Index from, Index to)

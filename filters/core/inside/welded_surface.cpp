@@ -6,27 +6,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace bindpose
 {
-
-UnitFrame::UnitFrame(const Box& box)
-{
-  const Vec3 half = 0.5 * box.size();
-  const Vec3 center = box.lower + half;
-  for (int k = 0; k < 3; ++k)
-  {
-    this->shift[k] = std::abs(center[k]) > 2.0 * half[k] ? center[k] : 0.0;
-  }
-  const double largest = std::max(box.lower.cwiseAbs().maxCoeff(), box.upper.cwiseAbs().maxCoeff());
-  const double radius = half.maxCoeff();
-  if (radius > 0.0)
-  {
-    this->scale = std::ldexp(1.0, -std::ilogb(radius));
-  }
-  this->tolerance = largest * this->scale * 0x1.0p-49;
-}
 
 namespace
 {
@@ -38,7 +20,7 @@ bool is_flat(const Vec3& a, const Vec3& b, const Vec3& c)
   return u.cross(v).norm() <= 1e-15 * u.norm() * v.norm();
 }
 
-bool weld(PointsView points, TrianglesView triangles, const UnitFrame& frame,
+bool weld(PointsView points, TrianglesView triangles, const ExactFrame& frame,
   ExecutionContext& context, WeldedSurface& welded)
 {
   std::vector<char> used(static_cast<std::size_t>(points.rows()), 0);
@@ -158,7 +140,7 @@ bool find_edges(const Triangles& triangles, ExecutionContext& context, std::vect
 }
 } // namespace
 
-bool weld_surface(PointsView points, TrianglesView triangles, const UnitFrame& frame,
+bool weld_surface(PointsView points, TrianglesView triangles, const ExactFrame& frame,
   ExecutionContext& context, WeldedSurface& welded)
 {
   {

@@ -3,25 +3,12 @@
 
 #include "base/execution.h"
 #include "base/mesh.h"
+#include "inside/exact_frame.h"
 
 #include <vector>
 
 namespace bindpose
 {
-
-/// What makes a surface's coordinates small without rounding: x -> (x - shift) * scale. The shift
-/// is the box's centre along each axis where the surface lies far from 0 compared with its size
-/// (there the subtraction is exact: Sterbenz), else 0; the scale is a power of two.
-struct UnitFrame
-{
-  Vec3 shift = Vec3::Zero();
-  double scale = 1.0;
-  double tolerance = 0.0; ///< after scaling: some units in the last place of what was given
-
-  UnitFrame() = default;
-  explicit UnitFrame(const Box& box);
-  Vec3 operator()(const Vec3& p) const { return (p - this->shift) * this->scale; }
-};
 
 /// A surface as winding numbers see it: equal points are one vertex, triangles that use a vertex
 /// twice are gone. Duplicates stay, for they count.
@@ -37,7 +24,7 @@ struct WeldedSurface
 };
 
 /// Welds a valid mesh (check_mesh). O(#F log #F), on all threads. @return false when cancelled.
-bool weld_surface(PointsView points, TrianglesView triangles, const UnitFrame& frame,
+bool weld_surface(PointsView points, TrianglesView triangles, const ExactFrame& frame,
   ExecutionContext& context, WeldedSurface& welded);
 
 } // namespace bindpose

@@ -7,8 +7,7 @@
 // taken off, exactly as their sum, or fast as their field. Where a point touches the surface or a
 // cap, the tree or the plain sum tells.
 //
-// All of it happens in a UnitFrame, in which the mesh is the very one that was given, but of size
-// about 1 and near the origin.
+// All of it happens in an exact frame: size about 1, near the origin, nothing rounded.
 #include "inside/winding_number.h"
 
 #include "base/parallel.h"
@@ -82,7 +81,7 @@ struct WindingNumber::Parts
 {
   Status status;
   WindingMethod method = WindingMethod::direct;
-  UnitFrame frame;
+  ExactFrame frame;
   Points points;
   Triangles triangles;
   Index max_leaf_size = 64;
@@ -194,7 +193,7 @@ Status WindingNumber::build(
   }
 
   Report& report = status.report;
-  parts.frame = triangles.rows() ? UnitFrame(bounding_box(points, triangles)) : UnitFrame();
+  parts.frame = triangles.rows() ? ExactFrame(bounding_box(points, triangles)) : ExactFrame();
   WeldedSurface welded;
   bool done = true;
   {
@@ -712,7 +711,7 @@ double winding_number_direct(
   {
     return point.allFinite() ? 0.0 : std::numeric_limits<double>::quiet_NaN();
   }
-  const UnitFrame frame(bounding_box(points, triangles));
+  const ExactFrame frame(bounding_box(points, triangles));
   const Vec3 p = frame(point);
   if (!(p.cwiseAbs().maxCoeff() < far_away))
   {

@@ -26,7 +26,8 @@ class DipoleField
 public:
   struct Options
   {
-    /// Largest error of a value, 1e-8 … 0.1. Built for half of it, as measured on a sample.
+    /// Largest error of a value, 1e-8 … 0.1. Built for two fifths of it, as measured on a
+    /// sample.
     double tolerance = 1e-3;
     /// Where most points will be asked for; the triangles' own box is added. Elsewhere a point
     /// costs more.

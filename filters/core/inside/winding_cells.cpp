@@ -31,7 +31,7 @@ namespace
 /// through cells and twice the memory.
 constexpr std::size_t few = 30;
 /// Triangles that a new cell is meant to hold.
-constexpr double wanted = 14.0;
+constexpr double wanted = 14;
 constexpr int most_cells_along = 32;
 constexpr int deepest = 12;
 /// Errors of the volumes, in units of what doubles keep of the largest corner cubed: those of

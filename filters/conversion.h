@@ -42,14 +42,28 @@ public:
   }
   View view() const
   {
-    return this->keep_ ? View(Eigen::Map<const Matrix>(this->data_, this->rows_, this->cols_))
-                       : View(this->owned_);
+    return this->keep_ || this->is_part_
+      ? View(Eigen::Map<const Matrix>(this->data_, this->rows_, this->cols_))
+      : View(this->owned_);
+  }
+  /// Rows [begin, end), shared as the whole is: an owned copy must outlive them.
+  SharedMatrix rows(Index begin, Index end) const
+  {
+    SharedMatrix part;
+    const View all = this->view();
+    part.keep_ = this->keep_;
+    part.data_ = all.data() + begin * all.cols();
+    part.rows_ = end - begin;
+    part.cols_ = all.cols();
+    part.is_part_ = true;
+    return part;
   }
   /// True when no copy was made.
   bool shared() const { return this->keep_ != nullptr; }
 
 private:
   vtkSmartPointer<vtkObject> keep_;
+  bool is_part_ = false; // of another one
   const typename Matrix::Scalar* data_ = nullptr;
   Index rows_ = 0;
   Index cols_ = 0;

@@ -72,6 +72,10 @@ Status make_grid(const GridRequest& request, const Box& around, SampleGrid& grid
     box.lower.array() -= padding;
     box.upper.array() += padding;
   }
+  if (request.flat >= 0)
+  {
+    box.lower[request.flat] = box.upper[request.flat] = around.center()[request.flat];
+  }
 
   const Vec3 size = box.size();
   const double longest = size.maxCoeff();
@@ -96,6 +100,10 @@ Status make_grid(const GridRequest& request, const Box& around, SampleGrid& grid
       : longest / static_cast<double>(request.samples_along_longest_side - 1);
     grid.spacing = has_spacing ? Vec3(spacing) : Vec3::Constant(longest > 0.0 ? side : 1.0);
     count = counts_at(size, grid.spacing);
+  }
+  if (request.flat >= 0)
+  {
+    count[request.flat] = 1.0;
   }
   if (!(count.prod() <= most_samples && count.maxCoeff() <= std::numeric_limits<int>::max()))
   {

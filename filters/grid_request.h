@@ -18,6 +18,7 @@ struct GridRequest
   int samples_along_longest_side = 64;
   double bounds[6] = { 0.0, -1.0, 0.0, -1.0, 0.0, -1.0 }; ///< lower above upper: not given
   double padding = 0.1; ///< on every side of `around`, in diagonals, unless bounds are given
+  int flat = -1; ///< axis along which there is neither padding nor more than one sample; -1: none
 };
 
 /// The grid that covers the bounds, or the padded box; its extent starts at 0. Voxels are cubes

@@ -11,22 +11,17 @@
 #include "base/parallel.h"
 #include "bind_key.h"
 #include "conversion.h"
-#include "inside/surface_repair.h"
-#include "inside/winding_number.h"
-#include "output_type.h"
 #include "grid_request.h"
+#include "output_type.h"
+#include "winding_field.h"
 
 #include "vtkAlgorithmOutput.h"
-#include "vtkCellArray.h"
-#include "vtkCellCenters.h"
 #include "vtkCellData.h"
 #include "vtkCompositeDataSet.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkExecutive.h"
-#include "vtkFieldData.h"
 #include "vtkFloatArray.h"
-#include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationDoubleVectorKey.h"
@@ -34,8 +29,6 @@
 #include "vtkInformationIntegerKey.h"
 #include "vtkInformationIntegerVectorKey.h"
 #include "vtkInformationVector.h"
-#include "vtkIntArray.h"
-#include "vtkMatrix3x3.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -48,7 +41,6 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <optional>
 #include <sstream>
 
 #include <unistd.h>
@@ -59,13 +51,11 @@ struct vtkWindingNumberField::Cache
 {
   bool valid = false;
   bindpose::BindKey key;
-  int method = AUTO;
-  double tolerance = 0.0;
-  bool orient = false;
-  bindpose::Box box; // of the surface
-  bindpose::WindingNumber winding;
+  bindpose::WindingField::Options options;
+  bindpose::Box box;
+  int flat = -1; // axis across a curve's plane
+  bindpose::WindingField field;
   bindpose::Status status;
-  vtkNew<vtkPolyData> boundary;
 };
 
 namespace
@@ -73,76 +63,29 @@ namespace
 using bindpose::ExecutionContext;
 using bindpose::Index;
 using bindpose::SampleGrid;
+using bindpose::Samples;
 using bindpose::Status;
 using bindpose::Vec3;
-using bindpose::WindingNumber;
+using bindpose::WindingField;
 using SDDP = vtkStreamingDemandDrivenPipeline;
 
 /// Samples of a block on the way to floats: 32 MiB of values.
 constexpr Index block_samples = Index(1) << 22;
 
-bindpose::BindKey key_of(vtkPointSet* surface)
+bindpose::BindKey key_of(vtkPointSet* surface, const std::string& area_array)
 {
   bindpose::BindKey key;
-  for (vtkObject* object : bindpose::bind_objects(surface, {}))
+  for (vtkObject* object : bindpose::bind_objects(surface, { area_array }))
   {
     key.add(object);
   }
+  if (auto* polydata = vtkPolyData::SafeDownCast(surface))
+  {
+    key.add(polydata->GetLines());
+  }
+  key.add(surface->GetPointData()->GetNormals());
+  key.add(surface->GetPointData()->GetArray("Normals"));
   return key;
-}
-
-/// Where to evaluate: a grid, or points. Both are cut into blocks of whole layers (a z of the grid,
-/// a point).
-struct Samples
-{
-  std::optional<SampleGrid> grid;
-  bindpose::SharedMatrix<bindpose::Points> points;
-
-  Index count() const { return this->grid ? this->grid->count() : this->points.view().rows(); }
-  Index layer() const { return this->grid ? this->grid->size(0) * this->grid->size(1) : 1; }
-
-  /// Calls body(SampleGrid or PointsView) with the layers [begin, end).
-  template <typename Body>
-  Status with(Index begin, Index end, const Body& body) const
-  {
-    if (this->grid)
-    {
-      SampleGrid part = *this->grid;
-      part.extent[5] = part.extent[4] + end - 1;
-      part.extent[4] += begin;
-      return body(part);
-    }
-    const bindpose::PointsView all = this->points.view();
-    return body(bindpose::PointsView(
-      Eigen::Map<const bindpose::Points>(all.data() + 3 * begin, end - begin, 3)));
-  }
-};
-
-/// The samples of a dataset: an image's are a grid unless it is turned.
-Samples samples_of(vtkDataSet* data, bool cell_centers)
-{
-  Samples samples;
-  if (cell_centers)
-  {
-    vtkNew<vtkDoubleArray> centers;
-    centers->SetNumberOfComponents(3);
-    centers->SetNumberOfTuples(data->GetNumberOfCells());
-    vtkCellCenters::ComputeCellCenters(data, centers);
-    samples.points.share(centers.Get(), centers->GetPointer(0), data->GetNumberOfCells(), 3);
-    return samples;
-  }
-  auto* image = vtkImageData::SafeDownCast(data);
-  if (image && image->GetDirectionMatrix()->IsIdentity())
-  {
-    SampleGrid grid;
-    grid.origin = Vec3(image->GetOrigin());
-    grid.spacing = Vec3(image->GetSpacing());
-    std::copy_n(image->GetExtent(), 6, grid.extent.begin());
-    samples.grid = grid;
-    return samples;
-  }
-  samples.points = bindpose::to_points(data);
-  return samples;
 }
 
 /// The arrays that a user wants, filled block by block.
@@ -231,10 +174,10 @@ void put(const double* from, vtkDataArray* array, Index first, Index count)
 
 /// Evaluates all samples into the outputs. What the blocks report is added up; `sum` is that of all
 /// values.
-Status evaluate(const WindingNumber& winding, const Samples& samples, ExecutionContext& context,
+Status evaluate(const WindingField& winding, const Samples& samples, ExecutionContext& context,
   Outputs& outputs, double& sum)
 {
-  const Index layer = std::max<Index>(samples.layer(), 1);
+  const Index layer = samples.layer();
   const Index layers = samples.count() / layer;
   const bool in_blocks = vtkFloatArray::SafeDownCast(outputs.values) != nullptr;
   const Index step =
@@ -258,8 +201,7 @@ Status evaluate(const WindingNumber& winding, const Samples& samples, ExecutionC
     Status status;
     {
       const bindpose::ProgressRange part(context, 0.0, share);
-      status = samples.with(begin, end,
-        [&](const auto& where) { return winding.evaluate(where, context, values, flags); });
+      status = winding.evaluate(samples.layers(begin, end), context, values, flags);
     }
     if (!status.ok())
     {
@@ -287,8 +229,8 @@ Status evaluate(const WindingNumber& winding, const Samples& samples, ExecutionC
     {
       const bindpose::ProgressRange part(context, share, 1.0);
       double* const gradients = place_for(outputs.gradient, 3 * first, 3 * number, buffer);
-      const Status gradient = samples.with(begin, end,
-        [&](const auto& where) { return winding.evaluate_gradient(where, context, gradients); });
+      const Status gradient =
+        winding.evaluate_gradient(samples.layers(begin, end), context, gradients);
       if (!gradient.ok())
       {
         return gradient;
@@ -312,62 +254,6 @@ Status evaluate(const WindingNumber& winding, const Samples& samples, ExecutionC
     total.report.set(key, count);
   }
   return total;
-}
-
-/// The boundary's lines, and the table of components as field data.
-void to_polydata(
-  const bindpose::SurfaceBoundary& boundary, bindpose::PointsView points, vtkPolyData* polydata)
-{
-  std::map<Index, vtkIdType> id_of;
-  vtkNew<vtkPoints> vertices;
-  vertices->SetDataTypeToDouble();
-  vtkNew<vtkIdTypeArray> original;
-  original->SetName("OriginalPointIds");
-  vtkNew<vtkCellArray> lines;
-  vtkNew<vtkIntArray> multiplicity;
-  multiplicity->SetName("Multiplicity");
-  vtkNew<vtkIdTypeArray> component;
-  component->SetName("Component");
-  for (const bindpose::SurfaceBoundary::BoundaryEdge& edge : boundary.edges)
-  {
-    vtkIdType ends[2];
-    int k = 0;
-    for (const Index v : { edge.from, edge.to })
-    {
-      const auto [found, is_new] = id_of.try_emplace(v, vertices->GetNumberOfPoints());
-      if (is_new)
-      {
-        vertices->InsertNextPoint(points(v, 0), points(v, 1), points(v, 2));
-        original->InsertNextValue(v);
-      }
-      ends[k++] = found->second;
-    }
-    lines->InsertNextCell(2, ends);
-    multiplicity->InsertNextValue(static_cast<int>(edge.multiplicity));
-    component->InsertNextValue(edge.component);
-  }
-  polydata->SetPoints(vertices);
-  polydata->SetLines(lines);
-  polydata->GetPointData()->AddArray(original);
-  polydata->GetCellData()->SetScalars(multiplicity);
-  polydata->GetCellData()->AddArray(component);
-
-  vtkNew<vtkIdTypeArray> triangles;
-  triangles->SetName("ComponentTriangles");
-  vtkNew<vtkIdTypeArray> open_edges;
-  open_edges->SetName("ComponentOpenEdges");
-  vtkNew<vtkDoubleArray> volume;
-  volume->SetName("ComponentVolume");
-  for (const bindpose::SurfaceBoundary::Component& part : boundary.components)
-  {
-    triangles->InsertNextValue(part.triangles);
-    open_edges->InsertNextValue(part.open_edges);
-    volume->InsertNextValue(part.volume);
-  }
-  for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{ triangles, open_edges, volume })
-  {
-    polydata->GetFieldData()->AddArray(array);
-  }
 }
 
 /// Whether a grid is one sample thin, so that its samples span no volume.
@@ -474,9 +360,7 @@ int vtkWindingNumberField::RequestInformation(
 
   int whole[6] = { 0, 0, 0, 0, 0, 0 };
   SampleGrid grid;
-  bindpose::Box box;
-  if (this->SurfaceBox(vtkPointSet::SafeDownCast(data), box).ok() &&
-    make_grid(this->Request(), box, grid).ok()) // else Execute() tells
+  if (this->Grid(vtkPointSet::SafeDownCast(data), grid).ok()) // else Execute() tells
   {
     std::copy(grid.extent.begin(), grid.extent.end(), whole);
   }
@@ -504,8 +388,23 @@ int vtkWindingNumberField::RequestUpdateExtent(
   return 1;
 }
 
-bindpose::GridRequest vtkWindingNumberField::Request() const
+bindpose::Status vtkWindingNumberField::Grid(vtkPointSet* input, bindpose::SampleGrid& grid)
 {
+  bindpose::Box box;
+  int flat = -1;
+  if (input && this->Built->valid && this->Built->key == key_of(input, this->AreaArrayName))
+  {
+    box = this->Built->box;
+    flat = this->Built->flat;
+  }
+  else
+  {
+    const Status status = WindingField::extent(input, box, flat);
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
   bindpose::GridRequest request;
   std::copy_n(this->Dimensions, 3, request.dimensions);
   std::copy_n(this->Spacing, 3, request.spacing);
@@ -513,31 +412,20 @@ bindpose::GridRequest vtkWindingNumberField::Request() const
   request.count = this->TargetNumberOfSamples;
   request.samples_along_longest_side = this->SamplesAlongLongestSide;
   request.padding = this->Padding;
-  return request;
-}
-
-bindpose::Status vtkWindingNumberField::SurfaceBox(vtkPointSet* input, bindpose::Box& box)
-{
-  if (input && this->Built->valid && this->Built->key == key_of(input))
-  {
-    box = this->Built->box;
-    return {};
-  }
-  bindpose::SurfaceInput surface;
-  const Status status = bindpose::to_surface(input, surface);
-  if (status.ok())
-  {
-    box = bindpose::bounding_box(surface.points.view(), surface.triangles.view());
-  }
-  return status;
+  request.flat = flat;
+  return bindpose::make_grid(request, box, grid);
 }
 
 bindpose::Status vtkWindingNumberField::Build(
   vtkPointSet* input, bindpose::ExecutionContext& context)
 {
-  if (input && this->Built->valid && this->Built->key == key_of(input) &&
-    this->Built->method == this->Method && this->Built->tolerance == this->Tolerance &&
-    this->Built->orient == this->OrientPatches)
+  WindingField::Options options;
+  options.method = this->Method;
+  options.tolerance = this->Tolerance;
+  options.orient = this->OrientPatches;
+  options.area_array = this->AreaArrayName;
+  if (input && this->Built->valid && this->Built->options == options &&
+    this->Built->key == key_of(input, this->AreaArrayName))
   {
     // Warnings are given once, when there is news.
     Status again = this->Built->status;
@@ -548,73 +436,15 @@ bindpose::Status vtkWindingNumberField::Build(
     }
     return again;
   }
-  bindpose::SurfaceInput surface;
-  Status status = bindpose::to_surface(input, surface);
-  if (!status.ok())
-  {
-    return status;
-  }
   std::unique_ptr<Cache> made(new Cache);
-  made->key = key_of(input);
-  made->method = this->Method;
-  made->tolerance = this->Tolerance;
-  made->orient = this->OrientPatches;
-  made->box = bindpose::bounding_box(surface.points.view(), surface.triangles.view());
-
-  bindpose::RepairedSurface repaired;
-  const double share = this->OrientPatches ? 0.5 : 0.0;
-  if (this->OrientPatches)
-  {
-    const bindpose::ProgressRange range(context, 0.0, share);
-    bindpose::RepairOptions options;
-    options.count_self_intersections = false;
-    status = bindpose::repair_surface(
-      surface.points.view(), surface.triangles.view(), options, repaired, context);
-    if (!status.ok())
-    {
-      return status;
-    }
-  }
-  const bindpose::PointsView points =
-    this->OrientPatches ? bindpose::PointsView(repaired.points) : surface.points.view();
-  const bindpose::TrianglesView triangles =
-    this->OrientPatches ? bindpose::TrianglesView(repaired.triangles) : surface.triangles.view();
-  WindingNumber::Options options;
-  options.method = this->Method == EXACT ? bindpose::WindingMethod::exact
-    : this->Method == FAST               ? bindpose::WindingMethod::fast
-                                         : bindpose::WindingMethod::automatic;
-  options.tolerance = this->Tolerance;
-  {
-    const bindpose::ProgressRange range(context, share, 1.0);
-    status = made->winding.build(points, triangles, context, options);
-  }
+  Status status = made->field.build(input, options, context);
   if (!status.ok())
   {
     return status;
   }
-  to_polydata(made->winding.boundary(), points, made->boundary);
-  if (this->OrientPatches)
-  {
-    if (vtkDataArray* ids = made->boundary->GetPointData()->GetArray("OriginalPointIds"))
-    {
-      for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
-      {
-        ids->SetTuple1(i,
-          static_cast<double>(
-            repaired.original_vertices[static_cast<std::size_t>(ids->GetTuple1(i))]));
-      }
-    }
-    status.report.set("counts.turned_triangles", repaired.turned_triangles);
-    status.report.set("counts.turned_components", repaired.turned_components);
-  }
-  if (surface.triangulated_cells > 0)
-  {
-    status.report.set("counts.triangulated_cells", surface.triangulated_cells);
-  }
-  if (surface.ignored_cells > 0)
-  {
-    status.report.set("counts.ignored_cells", surface.ignored_cells);
-  }
+  made->key = key_of(input, this->AreaArrayName);
+  made->options = options;
+  WindingField::extent(input, made->box, made->flat);
   made->status = status;
   made->valid = true;
   this->Built = std::move(made);
@@ -633,9 +463,7 @@ bindpose::Status vtkWindingNumberField::Execute(
   if (!points)
   {
     // Before the build, which may take long.
-    bindpose::Box box;
-    Status status = this->SurfaceBox(surface, box);
-    status = status.ok() ? make_grid(this->Request(), box, whole) : status;
+    const Status status = this->Grid(surface, whole);
     if (!status.ok())
     {
       return status;
@@ -650,22 +478,16 @@ bindpose::Status vtkWindingNumberField::Execute(
   {
     return status;
   }
-  const WindingNumber& winding = this->Built->winding;
-  vtkPolyData::GetData(output, 1)->ShallowCopy(this->Built->boundary);
+  vtkPolyData::GetData(output, 1)->ShallowCopy(this->Built->field.boundary());
 
   const bindpose::Phase phase(context, "evaluate", 0.2, 1.0);
-  Samples samples;
-  if (points)
-  {
-    samples = samples_of(points, this->SampleCellCenters);
-  }
-  else
+  SampleGrid grid = whole;
+  if (!points)
   {
     int announced[6] = { 0, -1, 0, -1, 0, -1 };
     int wanted[6] = { 0, -1, 0, -1, 0, -1 };
     info->Get(SDDP::WHOLE_EXTENT(), announced);
     info->Get(SDDP::UPDATE_EXTENT(), wanted);
-    SampleGrid grid = whole;
     if (std::equal(whole.extent.begin(), whole.extent.end(), announced))
     {
       for (int k = 0; k < 3; ++k)
@@ -674,8 +496,8 @@ bindpose::Status vtkWindingNumberField::Execute(
         grid.extent[2 * k + 1] = std::min<Index>(wanted[2 * k + 1], announced[2 * k + 1]);
       }
     }
-    samples.grid = grid;
   }
+  const Samples samples = points ? Samples(points, this->SampleCellCenters) : Samples(grid);
   const bool single = this->OutputPrecision == SINGLE_PRECISION;
   const Status fits = check_memory(samples.count(),
     (single ? 4 : 8) * (this->ComputeGradient ? 4 : 1) + (this->ComputeInside ? 2 : 1));
@@ -686,7 +508,7 @@ bindpose::Status vtkWindingNumberField::Execute(
   Outputs outputs(samples.count(), single, this->ComputeGradient, this->ComputeInside);
   outputs.threshold = this->Threshold;
   double sum = 0.0;
-  const Status evaluated = evaluate(winding, samples, context, outputs, sum);
+  const Status evaluated = evaluate(this->Built->field, samples, context, outputs, sum);
   if (!evaluated.ok())
   {
     return evaluated;
@@ -702,9 +524,9 @@ bindpose::Status vtkWindingNumberField::Execute(
     image->SetOrigin(whole.origin.data());
     image->SetSpacing(whole.spacing.data());
     int extent[6];
-    std::copy(samples.grid->extent.begin(), samples.grid->extent.end(), extent);
+    std::copy(grid.extent.begin(), grid.extent.end(), extent);
     image->SetExtent(extent);
-    if (samples.grid->extent == whole.extent && !is_flat(whole))
+    if (grid.extent == whole.extent && !is_flat(whole))
     {
       status.report.set("winding_volume", sum * whole.spacing.prod());
     }
@@ -726,6 +548,7 @@ void vtkWindingNumberField::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Method: " << methods[this->Method] << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "OrientPatches: " << this->OrientPatches << "\n";
+  os << indent << "AreaArrayName: " << this->AreaArrayName << "\n";
   os << indent << "Dimensions: " << this->Dimensions[0] << " " << this->Dimensions[1] << " "
      << this->Dimensions[2] << "\n";
   os << indent << "Spacing: " << this->Spacing[0] << " " << this->Spacing[1] << " "

@@ -8,7 +8,11 @@
  * any triangles: open, crossing, doubled, non-manifold, a soup. Only their orientation counts.
  *
  * **Input 0**: the surface, a vtkPointSet with 2D cells (polygons and strips are split into
- * triangles; other cells are ignored and counted).
+ * triangles; other cells are ignored and counted). Without 2D cells its lines are a curve in a
+ * plane across x, y or z, counter-clockwise around its inside; the field is that of the plane, and
+ * the grid one sample thick. Without lines its points are samples of a surface, with point normals
+ * that face outwards and areas (AreaArrayName): a field that means something from about a sample's
+ * spacing on (`Report.spacing`).
  * **Input 1** (optional): any vtkDataSet, at whose points, or cell centers with SampleCellCenters,
  * the field is evaluated.
  * **Output 0**: a vtkImageData, or a copy of input 1, with point arrays (cell arrays)
@@ -24,7 +28,8 @@
  * many triangles they are more than those the other way) and `Component`, point array
  * `OriginalPointIds`. Its field data has a tuple for each connected component of the surface:
  * `ComponentTriangles`, `ComponentOpenEdges` (0: closed) and `ComponentVolume` (holes filled by
- * caps; below 0: inside out). Winding numbers depend on this boundary alone, but for whole numbers.
+ * caps; below 0: inside out). Empty for curves and points. Winding numbers depend on this boundary
+ * alone, but for whole numbers.
  *
  * The grid covers the surface's bounds (of the points that its 2D cells use), padded by Padding
  * times their diagonal, or Bounds. How fine it is: Dimensions, else Spacing, else
@@ -37,8 +42,8 @@
  * `Report.error_bound`, and what it measured against exact values in `Report.measured_error`. AUTO
  * is exact for closed surfaces and for those with few open edges, else FAST; `Report.method` and
  * `Report.method_reason` tell what was taken and why. Measured on one core, 90k triangles: a
- * closed surface costs 4 ns a voxel and 0.1 us a scattered point; an open one, FAST at 1e-3, 0.2 us
- * a voxel and 0.6 us a point; EXACT 15 ns more a point for every open edge, 20 to 100 us when those
+ * closed surface costs 4 ns a voxel and 40 ns a scattered point; an open one, FAST at 1e-3, 0.1 us
+ * a voxel and 0.4 us a point; EXACT 15 ns more a point for every open edge, 20 to 100 us when those
  * are many.
  *
  * What is built for a surface is kept until the surface or one of Method, Tolerance and
@@ -76,8 +81,7 @@ class vtkPolyData;
 
 namespace bindpose
 {
-struct Box;
-struct GridRequest;
+struct SampleGrid;
 } // namespace bindpose
 
 class BINDPOSEFILTERS_EXPORT vtkWindingNumberField : public vtkBindposeAlgorithm
@@ -119,6 +123,20 @@ public:
   vtkSetMacro(OrientPatches, bool);
   vtkGetMacro(OrientPatches, bool);
   vtkBooleanMacro(OrientPatches, bool);
+  ///@}
+
+  ///@{
+  /// Point array with the areas of oriented points; default "Area". Areas are estimated when there
+  /// is none.
+  void SetAreaArrayName(const std::string& name)
+  {
+    if (this->AreaArrayName != name)
+    {
+      this->AreaArrayName = name;
+      this->Modified();
+    }
+  }
+  std::string GetAreaArrayName() { return this->AreaArrayName; }
   ///@}
 
   ///@{
@@ -227,14 +245,15 @@ private:
   vtkWindingNumberField(const vtkWindingNumberField&) = delete;
   void operator=(const vtkWindingNumberField&) = delete;
 
-  bindpose::GridRequest Request() const;
-  bindpose::Status SurfaceBox(vtkPointSet* input, bindpose::Box& box);
+  /// The whole grid that options and input ask for.
+  bindpose::Status Grid(vtkPointSet* input, bindpose::SampleGrid& grid);
   /// Makes what is in Built unless that still holds.
   bindpose::Status Build(vtkPointSet* input, bindpose::ExecutionContext& context);
 
   int Method = AUTO;
   double Tolerance = 1e-3;
   bool OrientPatches = false;
+  std::string AreaArrayName = "Area";
   int Dimensions[3] = { 0, 0, 0 };
   double Spacing[3] = { 0.0, 0.0, 0.0 };
   vtkIdType TargetNumberOfSamples = 0;

@@ -45,6 +45,8 @@ def winding_number(surface, points_or_grid=None, *, method="auto", tolerance=1e-
     Parameters
     ----------
     surface : vtkDataSet or (vertices, triangles)
+        A dataset without polygons is taken for a curve in a plane (lines), or for samples of a
+        surface (points with normals, and areas in a point array ``Area``).
     points_or_grid : optional
         Where to evaluate: an array of points (#P, 3); a VTK dataset, at whose points; a number of
         samples along the longest side of a grid of cubic voxels; three numbers, the dimensions of a

@@ -712,6 +712,153 @@ TEST(WindingNumberField, PatchesAreTurnedOnDemand)
   EXPECT_EQ(read_report(field->GetOutput()).number("counts.turned_components", 0), 1);
 }
 
+TEST(WindingNumberField, LinesAreACurveInTheirPlane)
+{
+  // A square in each of the three planes, as one closed polyline, counter-clockwise seen from the
+  // tip of the axis across.
+  for (int across = 0; across < 3; ++across)
+  {
+    SCOPED_TRACE(across);
+    const int u = (across + 1) % 3, v = (across + 2) % 3;
+    vtkNew<vtkPolyData> square;
+    vtkNew<vtkPoints> points;
+    for (const auto& [x, y] :
+      { std::pair{ -1.0, -1.0 }, { 1.0, -1.0 }, { 1.0, 1.0 }, { -1.0, 1.0 } })
+    {
+      Vec3 p = Vec3::Constant(5.0);
+      p[u] = x;
+      p[v] = y;
+      points->InsertNextPoint(p.data());
+    }
+    square->SetPoints(points);
+    vtkNew<vtkCellArray> lines;
+    const vtkIdType corners[5] = { 0, 1, 2, 3, 0 };
+    lines->InsertNextCell(5, corners);
+    square->SetLines(lines);
+    vtkNew<vtkWindingNumberField> field;
+    field->SetInputData(square);
+    field->SetSamplesAlongLongestSide(12);
+    field->Update();
+    ASSERT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK) << field->GetStatusMessage();
+    vtkImageData* image = image_of(field);
+    EXPECT_EQ(image->GetDimensions()[across], 1);
+    EXPECT_EQ(image->GetDimensions()[u], 12);
+    EXPECT_EQ(image->GetDimensions()[v], 12);
+    for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+    {
+      const Vec3 p(image->GetPoint(i));
+      EXPECT_DOUBLE_EQ(p[across], 5.0);
+      EXPECT_EQ(array_of(image)->GetValue(i), std::max(std::abs(p[u]), std::abs(p[v])) < 1.0);
+    }
+    EXPECT_EQ(field->GetBoundaryOutput()->GetNumberOfCells(), 0);
+    EXPECT_NEAR(read_report(image).number("area", 0), 4.0, 1e-12);
+
+    // Without its last side: what is missing is the angle of that side.
+    const vtkIdType open[4] = { 0, 1, 2, 3 };
+    vtkNew<vtkCellArray> three_sides;
+    three_sides->InsertNextCell(4, open);
+    square->SetLines(three_sides);
+    vtkNew<vtkPolyData> where;
+    vtkNew<vtkPoints> at;
+    for (const double away : { 0.0, 7.0 }) // along the axis across, which must not matter
+    {
+      Vec3 p = Vec3::Constant(away);
+      p[u] = p[v] = 0.0;
+      at->InsertNextPoint(p.data());
+      p[u] = 1.0;
+      at->InsertNextPoint(p.data());
+    }
+    where->SetPoints(at);
+    field->SetPointsData(where);
+    field->ComputeGradientOn();
+    field->Update();
+    vtkDataArray* flags = field->GetOutput()->GetPointData()->GetArray("OnSurface");
+    vtkDataArray* gradient = field->GetOutput()->GetPointData()->GetArray("WindingNumberGradient");
+    for (const vtkIdType i : { 0, 2 })
+    {
+      EXPECT_NEAR(array_of(field->GetOutput())->GetValue(i), 0.75, 1e-14);
+      EXPECT_EQ(flags->GetTuple1(i), 0);
+      EXPECT_EQ(flags->GetTuple1(i + 1), 1);
+      // The angle of the missing side, at u = -1, is 2 atan(1 / (1 + u)), of slope -1.
+      EXPECT_NEAR(gradient->GetComponent(i, u), 1.0 / 6.283185307179586, 1e-12);
+      EXPECT_NEAR(gradient->GetComponent(i, v), 0.0, 1e-12);
+      EXPECT_EQ(gradient->GetComponent(i, across), 0.0);
+    }
+  }
+  // Lines in space are no curve in a plane.
+  vtkNew<vtkPolyData> bent;
+  vtkNew<vtkPoints> points;
+  points->InsertNextPoint(0, 0, 0);
+  points->InsertNextPoint(1, 2, 3);
+  bent->SetPoints(points);
+  vtkNew<vtkCellArray> lines;
+  const vtkIdType ends[2] = { 0, 1 };
+  lines->InsertNextCell(2, ends);
+  bent->SetLines(lines);
+  vtkNew<vtkWindingNumberField> field;
+  vtkNew<Listener> listener;
+  listener->listen(field);
+  field->SetInputData(bent);
+  field->Update();
+  ASSERT_EQ(listener->errors.size(), 1u);
+  EXPECT_THAT(field->GetStatusMessage(), HasSubstr("plane"));
+}
+
+TEST(WindingNumberField, PointsWithNormalsAreSamplesOfASurface)
+{
+  // The sphere's triangle centers with their areas, and the same without.
+  const TriangleMesh sphere = test::sphere(4);
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkDoubleArray> normals;
+  normals->SetName("Normals");
+  normals->SetNumberOfComponents(3);
+  vtkNew<vtkDoubleArray> areas;
+  areas->SetName("Area");
+  for (Index t = 0; t < sphere.triangles.rows(); ++t)
+  {
+    const Vec3 a = sphere.points.row(sphere.triangles(t, 0));
+    const Vec3 b = sphere.points.row(sphere.triangles(t, 1));
+    const Vec3 c = sphere.points.row(sphere.triangles(t, 2));
+    const Vec3 middle = (a + b + c) / 3.0;
+    const Vec3 normal = (b - a).cross(c - a);
+    points->InsertNextPoint(middle.data());
+    normals->InsertNextTuple(normal.data()); // any length
+    areas->InsertNextValue(0.5 * normal.norm());
+  }
+  vtkNew<vtkPolyData> cloud;
+  cloud->SetPoints(points);
+  cloud->GetPointData()->AddArray(normals);
+  cloud->GetPointData()->AddArray(areas);
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputData(cloud);
+  field->SetSamplesAlongLongestSide(15);
+  for (const bool given : { true, false })
+  {
+    field->SetAreaArrayName(given ? "Area" : "nothing of that name");
+    field->Update();
+    ASSERT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK) << field->GetStatusMessage();
+    const Report report = read_report(field->GetOutput());
+    EXPECT_EQ(report.text("areas"), given ? "given" : "estimated");
+    EXPECT_NEAR(report.number("area", 0), 12.566, given ? 0.05 : 0.2);
+    vtkImageData* image = image_of(field);
+    for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+    {
+      const double radius = Vec3(image->GetPoint(i)).norm();
+      if (std::abs(radius - 1.0) > 0.12)
+      {
+        ASSERT_NEAR(array_of(image)->GetValue(i), radius < 1.0, 0.02);
+      }
+    }
+  }
+  EXPECT_EQ(field->GetNumberOfBuilds(), 2);
+  vtkNew<Listener> listener;
+  listener->listen(field);
+  field->ComputeGradientOn();
+  field->Update();
+  EXPECT_THAT(field->GetStatusMessage(), HasSubstr("gradient"));
+  EXPECT_EQ(listener->errors.size(), 1u);
+}
+
 TEST(WindingNumberField, AbortFromAnObserverThenAgain)
 {
   vtkNew<vtkWindingNumberField> field;
@@ -907,11 +1054,11 @@ TEST(WindingNumberField, PrintsAllItsParameters)
   field->SetDimensions(1, 2, 3);
   std::ostringstream text;
   field->Print(text);
-  for (const char* word :
-    { "Method: EXACT", "Dimensions: 1 2 3", "SamplesAlongLongestSide: 64", "Bounds: 0 -1 0 -1 0 -1",
-      "Padding: 0.1", "Tolerance: 0.001", "OrientPatches: 0", "Spacing: 0 0 0",
-      "TargetNumberOfSamples: 0", "SampleCellCenters: 0", "ComputeGradient: 0", "ComputeInside: 0",
-      "Threshold: 0.5", "OutputPrecision: DOUBLE", "NumberOfBuilds: 0", "Status: ok" })
+  for (const char* word : { "Method: EXACT", "Dimensions: 1 2 3", "SamplesAlongLongestSide: 64",
+         "Bounds: 0 -1 0 -1 0 -1", "Padding: 0.1", "Tolerance: 0.001", "OrientPatches: 0",
+         "AreaArrayName: Area", "Spacing: 0 0 0", "TargetNumberOfSamples: 0",
+         "SampleCellCenters: 0", "ComputeGradient: 0", "ComputeInside: 0", "Threshold: 0.5",
+         "OutputPrecision: DOUBLE", "NumberOfBuilds: 0", "Status: ok" })
   {
     EXPECT_THAT(text.str(), HasSubstr(word));
   }

@@ -21,7 +21,8 @@ const std::vector<Verb>& verbs()
   static const std::vector<Verb> table{
     { "info", "say what a file holds",
       { { "FILE", "", Kind::text, "", "", "any mesh, volume or handle file", true } } },
-    { "winding", "winding number of a surface, on a grid or at points",
+    { "winding",
+      "winding number of a surface, a plane curve or oriented points, on a grid or at points",
       { surface,
         { "--grid", "N", Kind::integer, "64", "", "samples along the longest side, cubic voxels",
           false, false, 2 },

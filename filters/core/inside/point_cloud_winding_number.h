@@ -44,7 +44,7 @@ public:
     /// Largest error of the fast method, 1e-8 … 0.1.
     double tolerance = 1e-3;
     /// Neighbours that bound a point's area where areas are not given, 3 … 64.
-    Index area_neighbors = 12;
+    Index area_neighbors = 20;
   };
 
   PointCloudWindingNumber();

@@ -21,7 +21,8 @@ class WindingCells
 {
 public:
   /// Triangles and the caps that close them (boundary_caps.h); together every edge's directions
-  /// cancel. Centred and scaled (ExactFrame), ids below 2^29. All three are referred to, not copied.
+  /// cancel. Centred and scaled (ExactFrame), ids below 2^29. All three are referred to, not
+  /// copied.
   /// @return false when cancelled.
   bool build(const Points& points, const Triangles& triangles, const Triangles& caps,
     double tolerance, ExecutionContext& context);

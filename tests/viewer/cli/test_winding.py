@@ -116,3 +116,39 @@ def test_endings_fit_what_is_written(folder):
     folder.off("cube.off", shapes.cube())
     folder.run("winding", "cube.off", "-o", "w.vtp").is_refused("w.vtp", "ending")
     folder.run("winding", "cube.off", "--points", "cube.off", "-o", "w.vti").is_refused("w.vti", "ending")
+
+
+def test_curves_and_oriented_points(folder):
+    from vtkmodules.vtkCommonCore import vtkDoubleArray
+    from vtkmodules.vtkFiltersSources import vtkRegularPolygonSource
+
+    circle = vtkRegularPolygonSource()
+    circle.SetNumberOfSides(64)
+    circle.GeneratePolygonOff()
+    circle.SetRadius(1.0)
+    circle.Update()
+    bindpose.write(circle.GetOutput(), folder / "circle.vtp")
+    run = folder.run("winding", "circle.vtp", "--grid", "20", "-o", "w.vti", "--report", "-").is_good()
+    field = bindpose.read(folder / "w.vti")
+    assert field.GetDimensions() == (20, 20, 1)
+    radius = np.array([np.hypot(*field.GetPoint(i)[:2]) for i in range(400)])
+    values = point_array(field, "WindingNumber")
+    turn = np.sign(values[np.argmin(radius)])  # the source turns one way or the other
+    assert np.array_equal(values[radius > 1.01], np.zeros((radius > 1.01).sum()))
+    assert np.array_equal(values[radius < 0.99], np.full((radius < 0.99).sum(), turn)) and turn != 0
+    assert run.report["counts"]["segments"] == 64
+
+    from bindpose.meshes import to_dataset
+    vertices, _ = shapes.sphere(40, 20)
+    cloud = to_dataset((vertices, [[0, 1, 2]]))
+    cloud.SetPolys(None)
+    normals = vtkDoubleArray()
+    normals.SetName("Normals")
+    normals.SetNumberOfComponents(3)
+    for vertex in vertices:
+        normals.InsertNextTuple(vertex)
+    cloud.GetPointData().SetNormals(normals)
+    bindpose.write(cloud, folder / "cloud.vtp")
+    folder.off("at.off", ([[0, 0, 0], [0.1, 0.2, 0.3], [0, 0, 2]], [[0, 1, 2]]))
+    folder.run("winding", "cloud.vtp", "--points", "at.off", "-o", "at.vtp").is_good()
+    assert point_array(bindpose.read(folder / "at.vtp"), "WindingNumber") == pytest.approx([1, 1, 0], abs=0.1)

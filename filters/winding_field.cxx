@@ -1,0 +1,534 @@
+// One kernel a kind of input, behind the same three calls. A curve lives in a plane: points are
+// projected onto it, along the axis across it.
+#include "winding_field.h"
+
+#include "base/execution.h"
+#include "inside/curve_winding_number.h"
+#include "inside/point_cloud_winding_number.h"
+#include "inside/surface_repair.h"
+#include "inside/winding_number.h"
+
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
+#include "vtkCellCenters.h"
+#include "vtkCellData.h"
+#include "vtkCellTypes.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkIdList.h"
+#include "vtkIdTypeArray.h"
+#include "vtkImageData.h"
+#include "vtkIntArray.h"
+#include "vtkMatrix3x3.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+namespace bindpose
+{
+
+// ---- Samples -----------------------------------------------------------------------------------
+
+Samples::Samples(vtkDataSet* data, bool cell_centers)
+{
+  if (cell_centers)
+  {
+    vtkNew<vtkDoubleArray> centers;
+    centers->SetNumberOfComponents(3);
+    centers->SetNumberOfTuples(data->GetNumberOfCells());
+    vtkCellCenters::ComputeCellCenters(data, centers);
+    this->points_.share(centers.Get(), centers->GetPointer(0), data->GetNumberOfCells(), 3);
+    return;
+  }
+  auto* image = vtkImageData::SafeDownCast(data);
+  if (image && image->GetDirectionMatrix()->IsIdentity())
+  {
+    SampleGrid grid;
+    grid.origin = Vec3(image->GetOrigin());
+    grid.spacing = Vec3(image->GetSpacing());
+    std::copy_n(image->GetExtent(), 6, grid.extent.begin());
+    this->grid_ = grid;
+    return;
+  }
+  this->points_ = to_points(data);
+}
+
+Index Samples::count() const
+{
+  return this->grid_ ? this->grid_->count() : this->points_.view().rows();
+}
+
+Index Samples::layer() const
+{
+  return this->grid_ ? std::max<Index>(1, this->grid_->size(0) * this->grid_->size(1)) : 1;
+}
+
+Samples Samples::layers(Index begin, Index end) const
+{
+  Samples part;
+  if (this->grid_)
+  {
+    part.grid_ = this->grid_;
+    part.grid_->extent[5] = this->grid_->extent[4] + end - 1;
+    part.grid_->extent[4] += begin;
+  }
+  else
+  {
+    part.points_ = this->points_.rows(begin, end);
+  }
+  return part;
+}
+
+// ---- Kinds of input ----------------------------------------------------------------------------
+
+namespace
+{
+bool has_cells_of_dimension(vtkPointSet* input, int dimension)
+{
+  if (auto* polydata = vtkPolyData::SafeDownCast(input))
+  {
+    return dimension == 2 ? polydata->GetNumberOfPolys() + polydata->GetNumberOfStrips() > 0
+                          : polydata->GetNumberOfLines() > 0;
+  }
+  vtkNew<vtkCellTypes> types;
+  input->GetCellTypes(types);
+  for (vtkIdType i = 0; i < types->GetNumberOfTypes(); ++i)
+  {
+    const int type = types->GetCellType(i);
+    const bool is_line = type == VTK_LINE || type == VTK_POLY_LINE;
+    const bool is_surface = type == VTK_TRIANGLE || type == VTK_TRIANGLE_STRIP ||
+      type == VTK_POLYGON || type == VTK_QUAD || type == VTK_PIXEL;
+    if (dimension == 2 ? is_surface : is_line)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+vtkDataArray* normals_of(vtkPointSet* input)
+{
+  vtkPointData* data = input->GetPointData();
+  vtkDataArray* normals = data->GetNormals() ? data->GetNormals() : data->GetArray("Normals");
+  return normals && normals->GetNumberOfComponents() == 3 ? normals : nullptr;
+}
+
+enum class Kind
+{
+  surface,
+  curve,
+  cloud
+};
+
+/// What is neither a curve nor oriented points is treated, and refused, as a surface.
+Kind kind_of(vtkPointSet* input)
+{
+  if (!input || has_cells_of_dimension(input, 2))
+  {
+    return Kind::surface;
+  }
+  return has_cells_of_dimension(input, 1)                 ? Kind::curve
+    : input->GetNumberOfPoints() > 0 && normals_of(input) ? Kind::cloud
+                                                          : Kind::surface;
+}
+
+struct CurveInput
+{
+  SharedMatrix<Points> points;
+  Segments segments;
+  Box box;
+  int across = 2; ///< axis across the plane
+};
+
+Status to_curve(vtkPointSet* input, CurveInput& curve)
+{
+  curve.points = to_points(input);
+  std::vector<Index> ends;
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < input->GetNumberOfCells(); ++cell)
+  {
+    const int type = input->GetCellType(cell);
+    if (type == VTK_LINE || type == VTK_POLY_LINE)
+    {
+      input->GetCellPoints(cell, ids);
+      for (vtkIdType k = 1; k < ids->GetNumberOfIds(); ++k)
+      {
+        ends.push_back(ids->GetId(k - 1));
+        ends.push_back(ids->GetId(k));
+      }
+    }
+  }
+  curve.segments = Eigen::Map<const Segments>(ends.data(), static_cast<Index>(ends.size() / 2), 2);
+  const PointsView points = curve.points.view();
+  for (const Index v : ends)
+  {
+    if (v < 0 || v >= points.rows())
+    {
+      return Status::invalid_input("a line has vertex " + std::to_string(v) +
+        ", but there are only " + std::to_string(points.rows()));
+    }
+    if (!points.row(v).allFinite())
+    {
+      return Status::invalid_input(
+        "vertex " + std::to_string(v) + " has a coordinate that is not a finite number");
+    }
+    curve.box.add(points.row(v));
+  }
+  const Vec3 size = curve.box.size();
+  curve.across = size.z() == 0.0 ? 2 : size.x() == 0.0 ? 0 : size.y() == 0.0 ? 1 : -1;
+  if (curve.across < 0)
+  {
+    return Status::invalid_input("the input has no triangles or polygons, and its lines do not lie "
+                                 "in a plane across x, y or z");
+  }
+  return {};
+}
+
+/// Coordinates in the plane across an axis, counter-clockwise seen from the axis' tip.
+PlanePoints in_plane(PointsView points, int across)
+{
+  PlanePoints flat(points.rows(), 2);
+  flat.col(0) = points.col((across + 1) % 3);
+  flat.col(1) = points.col((across + 2) % 3);
+  return flat;
+}
+
+/// A part of the samples as points.
+Points points_of(const Samples& samples)
+{
+  const SampleGrid* grid = samples.grid();
+  if (!grid)
+  {
+    return samples.points();
+  }
+  Points points(grid->count(), 3);
+  Index row = 0;
+  for (Index k = grid->extent[4]; k <= grid->extent[5]; ++k)
+  {
+    for (Index j = grid->extent[2]; j <= grid->extent[3]; ++j)
+    {
+      for (Index i = grid->extent[0]; i <= grid->extent[1]; ++i)
+      {
+        points.row(row++) = grid->point(i, j, k).transpose();
+      }
+    }
+  }
+  return points;
+}
+
+WindingMethod method_of(int method)
+{
+  constexpr WindingMethod methods[] = { WindingMethod::automatic, WindingMethod::exact,
+    WindingMethod::fast };
+  return methods[method];
+}
+
+/// The boundary's lines, and the table of components as field data. `original` maps ids to the
+/// input's, unless it is empty.
+void to_polydata(const SurfaceBoundary& boundary, PointsView points,
+  const std::vector<Index>& original, vtkPolyData* polydata)
+{
+  std::map<Index, vtkIdType> id_of;
+  vtkNew<vtkPoints> vertices;
+  vertices->SetDataTypeToDouble();
+  vtkNew<vtkIdTypeArray> original_ids;
+  original_ids->SetName("OriginalPointIds");
+  vtkNew<vtkCellArray> lines;
+  vtkNew<vtkIntArray> multiplicity;
+  multiplicity->SetName("Multiplicity");
+  vtkNew<vtkIdTypeArray> component;
+  component->SetName("Component");
+  for (const SurfaceBoundary::BoundaryEdge& edge : boundary.edges)
+  {
+    vtkIdType ends[2];
+    int k = 0;
+    for (const Index v : { edge.from, edge.to })
+    {
+      const auto [found, is_new] = id_of.try_emplace(v, vertices->GetNumberOfPoints());
+      if (is_new)
+      {
+        vertices->InsertNextPoint(points(v, 0), points(v, 1), points(v, 2));
+        original_ids->InsertNextValue(original.empty() ? v : original[v]);
+      }
+      ends[k++] = found->second;
+    }
+    lines->InsertNextCell(2, ends);
+    multiplicity->InsertNextValue(static_cast<int>(edge.multiplicity));
+    component->InsertNextValue(edge.component);
+  }
+  polydata->SetPoints(vertices);
+  polydata->SetLines(lines);
+  polydata->GetPointData()->AddArray(original_ids);
+  polydata->GetCellData()->SetScalars(multiplicity);
+  polydata->GetCellData()->AddArray(component);
+
+  vtkNew<vtkIdTypeArray> triangles;
+  triangles->SetName("ComponentTriangles");
+  vtkNew<vtkIdTypeArray> open_edges;
+  open_edges->SetName("ComponentOpenEdges");
+  vtkNew<vtkDoubleArray> volume;
+  volume->SetName("ComponentVolume");
+  for (const SurfaceBoundary::Component& part : boundary.components)
+  {
+    triangles->InsertNextValue(part.triangles);
+    open_edges->InsertNextValue(part.open_edges);
+    volume->InsertNextValue(part.volume);
+  }
+  for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{ triangles, open_edges, volume })
+  {
+    polydata->GetFieldData()->AddArray(array);
+  }
+}
+} // namespace
+
+struct WindingField::Kernel
+{
+  virtual ~Kernel() = default;
+  virtual Status build(vtkPointSet* input, const Options& options, ExecutionContext& context,
+    vtkPolyData* boundary) = 0;
+  virtual Status evaluate(const Samples& samples, ExecutionContext& context, double* out,
+    unsigned char* on_surface) const = 0;
+  virtual Status evaluate_gradient(
+    const Samples& samples, ExecutionContext& context, double* out) const = 0;
+};
+
+struct WindingField::Surface : Kernel
+{
+  WindingNumber winding;
+
+  Status build(vtkPointSet* input, const Options& options, ExecutionContext& context,
+    vtkPolyData* boundary) override
+  {
+    SurfaceInput surface;
+    Status status = to_surface(input, surface);
+    if (!status.ok())
+    {
+      return status;
+    }
+    RepairedSurface repaired;
+    const double share = options.orient ? 0.5 : 0.0;
+    if (options.orient)
+    {
+      const ProgressRange range(context, 0.0, share);
+      RepairOptions repair;
+      repair.count_self_intersections = false;
+      status =
+        repair_surface(surface.points.view(), surface.triangles.view(), repair, repaired, context);
+      if (!status.ok())
+      {
+        return status;
+      }
+    }
+    const PointsView points = options.orient ? PointsView(repaired.points) : surface.points.view();
+    const TrianglesView triangles =
+      options.orient ? TrianglesView(repaired.triangles) : surface.triangles.view();
+    WindingNumber::Options wanted;
+    wanted.method = method_of(options.method);
+    wanted.tolerance = options.tolerance;
+    {
+      const ProgressRange range(context, share, 1.0);
+      status = this->winding.build(points, triangles, context, wanted);
+    }
+    if (!status.ok())
+    {
+      return status;
+    }
+    to_polydata(this->winding.boundary(), points, repaired.original_vertices, boundary);
+    if (options.orient)
+    {
+      status.report.set("counts.turned_triangles", repaired.turned_triangles);
+      status.report.set("counts.turned_components", repaired.turned_components);
+    }
+    if (surface.triangulated_cells > 0)
+    {
+      status.report.set("counts.triangulated_cells", surface.triangulated_cells);
+    }
+    if (surface.ignored_cells > 0)
+    {
+      status.report.set("counts.ignored_cells", surface.ignored_cells);
+    }
+    return status;
+  }
+
+  Status evaluate(const Samples& samples, ExecutionContext& context, double* out,
+    unsigned char* on_surface) const override
+  {
+    return samples.grid() ? this->winding.evaluate(*samples.grid(), context, out, on_surface)
+                          : this->winding.evaluate(samples.points(), context, out, on_surface);
+  }
+
+  Status evaluate_gradient(
+    const Samples& samples, ExecutionContext& context, double* out) const override
+  {
+    return samples.grid() ? this->winding.evaluate_gradient(*samples.grid(), context, out)
+                          : this->winding.evaluate_gradient(samples.points(), context, out);
+  }
+};
+
+struct WindingField::Curve : Kernel
+{
+  CurveWindingNumber winding;
+  int across = 2;
+
+  Status build(vtkPointSet* input, const Options&, ExecutionContext& context, vtkPolyData*) override
+  {
+    CurveInput curve;
+    const Status status = to_curve(input, curve);
+    if (!status.ok())
+    {
+      return status;
+    }
+    this->across = curve.across;
+    return this->winding.build(
+      in_plane(curve.points.view(), this->across), curve.segments, context);
+  }
+
+  Status evaluate(const Samples& samples, ExecutionContext& context, double* out,
+    unsigned char* on_surface) const override
+  {
+    Status status =
+      this->winding.evaluate(in_plane(points_of(samples), this->across), context, out, on_surface);
+    if (status.ok())
+    {
+      // The same key whatever it is that the points lie on.
+      status.report.set("counts.on_surface", Index(status.report.number("counts.on_curve", 0.0)));
+    }
+    return status;
+  }
+
+  Status evaluate_gradient(
+    const Samples& samples, ExecutionContext& context, double* out) const override
+  {
+    const Index count = samples.count();
+    PlanePoints flat(count, 2);
+    const Status status = this->winding.evaluate_gradient(
+      in_plane(points_of(samples), this->across), context, flat.data());
+    for (Index i = 0; i < count; ++i)
+    {
+      out[3 * i + (this->across + 1) % 3] = flat(i, 0);
+      out[3 * i + (this->across + 2) % 3] = flat(i, 1);
+      out[3 * i + this->across] = 0.0;
+    }
+    return status;
+  }
+};
+
+struct WindingField::Cloud : Kernel
+{
+  PointCloudWindingNumber winding;
+
+  Status build(
+    vtkPointSet* input, const Options& options, ExecutionContext& context, vtkPolyData*) override
+  {
+    const SharedMatrix<Points> points = to_points(input);
+    const SharedMatrix<Weights> normals = to_matrix(normals_of(input));
+    vtkDataArray* areas = input->GetPointData()->GetArray(options.area_array.c_str());
+    if (areas && areas->GetNumberOfComponents() != 1)
+    {
+      return Status::invalid_input(
+        "the point array '" + options.area_array + "' must have one component, an area a point");
+    }
+    Eigen::VectorXd numbers(areas ? areas->GetNumberOfTuples() : 0);
+    for (Index i = 0; i < numbers.size(); ++i)
+    {
+      numbers[i] = areas->GetTuple1(i);
+    }
+    PointCloudWindingNumber::Options wanted;
+    wanted.method = method_of(options.method);
+    wanted.tolerance = options.tolerance;
+    const Points directions = normals.view();
+    Status status = this->winding.build(points.view(), directions, numbers, context, wanted);
+    if (status.ok())
+    {
+      status.report.set("areas", areas ? "given" : "estimated");
+    }
+    return status;
+  }
+
+  Status evaluate(const Samples& samples, ExecutionContext& context, double* out,
+    unsigned char* on_surface) const override
+  {
+    return samples.grid() ? this->winding.evaluate(*samples.grid(), context, out, on_surface)
+                          : this->winding.evaluate(samples.points(), context, out, on_surface);
+  }
+
+  Status evaluate_gradient(const Samples&, ExecutionContext&, double*) const override
+  {
+    return Status::invalid_input("oriented points have no gradient of their winding number here; "
+                                 "ask for that of a surface or a curve");
+  }
+};
+
+// ---- The field ---------------------------------------------------------------------------------
+
+WindingField::WindingField() : boundary_(vtkSmartPointer<vtkPolyData>::New()) {}
+WindingField::~WindingField() = default;
+WindingField::WindingField(WindingField&&) noexcept = default;
+WindingField& WindingField::operator=(WindingField&&) noexcept = default;
+
+Status WindingField::extent(vtkPointSet* input, Box& box, int& flat)
+{
+  flat = -1;
+  box = Box();
+  switch (kind_of(input))
+  {
+    case Kind::curve:
+    {
+      CurveInput curve;
+      const Status status = to_curve(input, curve);
+      box = curve.box;
+      flat = curve.across;
+      return status;
+    }
+    case Kind::cloud:
+      box = bounding_box(to_points(input).view());
+      return box.lower.allFinite() && box.upper.allFinite()
+        ? Status()
+        : Status::invalid_input("a point has a coordinate that is not a finite number");
+    case Kind::surface:
+      break;
+  }
+  SurfaceInput surface;
+  const Status status = to_surface(input, surface);
+  if (status.ok())
+  {
+    box = bounding_box(surface.points.view(), surface.triangles.view());
+  }
+  return status;
+}
+
+Status WindingField::build(vtkPointSet* input, const Options& options, ExecutionContext& context)
+{
+  const Kind kind = kind_of(input);
+  if (kind == Kind::curve)
+  {
+    this->kernel_.reset(new Curve);
+  }
+  else if (kind == Kind::cloud)
+  {
+    this->kernel_.reset(new Cloud);
+  }
+  else
+  {
+    this->kernel_.reset(new Surface);
+  }
+  return this->kernel_->build(input, options, context, this->boundary_);
+}
+
+Status WindingField::evaluate(
+  const Samples& samples, ExecutionContext& context, double* out, unsigned char* on_surface) const
+{
+  return this->kernel_->evaluate(samples, context, out, on_surface);
+}
+
+Status WindingField::evaluate_gradient(
+  const Samples& samples, ExecutionContext& context, double* out) const
+{
+  return this->kernel_->evaluate_gradient(samples, context, out);
+}
+
+} // namespace bindpose

@@ -27,9 +27,9 @@
  * triangles' directions do not cancel, along that direction; cell arrays `Multiplicity` (by how
  * many triangles they are more than those the other way) and `Component`, point array
  * `OriginalPointIds`. Its field data has a tuple for each connected component of the surface:
- * `ComponentTriangles`, `ComponentOpenEdges` (0: closed) and `ComponentVolume` (holes filled by
- * caps; below 0: inside out). Empty for curves and points. Winding numbers depend on this boundary
- * alone, but for whole numbers.
+ * `ComponentTriangles`, `ComponentOpenEdges` (by multiplicity, 0: closed) and `ComponentVolume`
+ * (holes filled by caps; below 0: inside out). Empty for curves and points. Winding numbers depend
+ * on this boundary alone, but for whole numbers.
  *
  * The grid covers the surface's bounds (of the points that its 2D cells use), padded by Padding
  * times their diagonal, or Bounds. How fine it is: Dimensions, else Spacing, else

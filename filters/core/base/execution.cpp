@@ -56,7 +56,9 @@ void ExecutionContext::emit(double fraction_of_whole, bool force)
     return;
   }
   this->last_emit_ = now;
-  this->progress_(fraction_of_whole, this->phase_);
+  // A second try at something starts from its beginning; what a user sees never goes back.
+  this->furthest_ = std::max(this->furthest_, fraction_of_whole);
+  this->progress_(this->furthest_, this->phase_);
 }
 
 Phase::Phase(ExecutionContext& context, std::string name, double begin, double end)

@@ -17,7 +17,7 @@ namespace bindpose
 class ExecutionContext
 {
 public:
-  /// fraction of the whole in [0, 1] and the phase's name. Called on the thread that made the
+  /// fraction of the whole in [0, 1], never less than before, and the phase's name. Called on the thread that made the
   /// context, at most every 50 ms and at every change of phase.
   using ProgressCallback = std::function<void(double fraction, const std::string& phase)>;
   /// True once the user wants to stop. Called from any thread: must be thread-safe and cheap.
@@ -59,6 +59,7 @@ private:
   int threads_ = 0;
   double begin_ = 0.0; // the current phase's part of the whole
   double end_ = 1.0;
+  double furthest_ = 0.0; // that was told
   std::string phase_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point last_emit_{};

@@ -33,9 +33,9 @@ namespace
 /// Below this many triangles their plain sum costs no more than a structure.
 constexpr Index few_triangles = 24;
 /// Up to this many open edges their sum costs less than descending the tree. (Nor does the tree pay
-/// where most edges are open. Measured: 14 ns an open edge, 20 ns a triangle, 20 us and more the
-/// tree.)
-constexpr Index few_open_edges = 3000;
+/// where most edges are open. Measured: 14-20 ns an open edge, 20 ns a triangle, 20 to 600 us the
+/// tree, the more the rougher the surface.)
+constexpr Index few_open_edges = 15000;
 /// Up to this many open edges their exact sum costs about as much as the field of the caps.
 constexpr Index hardly_open = 12;
 /// Beyond this distance, in units of the mesh, the winding number is 0 in double precision.

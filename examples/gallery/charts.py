@@ -4,9 +4,8 @@ import math
 
 from vtkmodules.vtkChartsCore import vtkAxis, vtkChartLegend, vtkChartMatrix, vtkChartXY
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkStringArray
-from vtkmodules.vtkCommonDataModel import vtkTable, vtkVector2i
+from vtkmodules.vtkCommonDataModel import vtkTable, vtkVector2f, vtkVector2i
 from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkPythonContext2D import vtkPythonItem  # noqa: F401
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 from vtkmodules.vtkViewsContext2D import vtkContextView
 import vtkmodules.vtkRenderingContextOpenGL2  # noqa: F401  draws the charts
@@ -103,7 +102,8 @@ def draw(path, panels, size=(1600, 640), text_size=18, legends=None):
     matrix = vtkChartMatrix()
     view.GetScene().AddItem(matrix)
     matrix.SetSize(vtkVector2i(len(panels), 1))
-    matrix.SetBorders(20, 20, 30, 20)
+    matrix.SetBorders(110, 80, 30, 50)  # for the axes' texts
+    matrix.SetGutter(vtkVector2f(115, 0))
     for number, panel in enumerate(panels):
         matrix.SetChart(vtkVector2i(number, 0), vtkChartXY())
         chart = matrix.GetChart(vtkVector2i(number, 0))

@@ -31,10 +31,11 @@ def crossings(mesh):
     a, b, c = np.moveaxis(mesh[0][mesh[1]], 1, 0)
     normal = np.cross(b - a, c - a)
     facing = normal @ ALONG
-    with np.errstate(divide="ignore", invalid="ignore"):
-        t = np.einsum("ij,ij->i", a - START, normal) / facing
+    some = facing != 0
+    a, b, c, normal, facing = a[some], b[some], c[some], normal[some], facing[some]
+    t = np.einsum("ij,ij->i", a - START, normal) / facing
     hit = START + t[:, None] * ALONG
-    inside = np.isfinite(t)
+    inside = np.ones(len(t), dtype=bool)
     for p, q in ((a, b), (b, c), (c, a)):
         inside &= np.einsum("ij,ij->i", np.cross(q - p, hit - p), normal) > 0
     return t[inside], -np.sign(facing[inside])
@@ -64,10 +65,10 @@ def make(options):
 
     t = np.linspace(0, 4, 400 if options.small else 4000)
     line = START + t[:, None] * ALONG
-    left = charts.Panel("Along a line through the surface", ("position", -2, 2), ("winding number", -0.1, 2.1))
+    left = charts.Panel("Along a line through the surface", ("position", -2, 2), ("winding number", -0.2, 2.2))
     jumps = []
-    for name, mesh, colour in (("closed", closed, charts.BLUE), ("open", opened, charts.ORANGE),
-                               ("open and a closed one in it", nested, charts.GREEN)):
+    for name, mesh, colour in (("open and a closed one in it", nested, charts.GREEN), ("open", opened, charts.ORANGE),
+                               ("closed", closed, charts.BLUE)):
         where, sign = crossings(mesh)
         before, after = (field(mesh, START + (where + side)[:, None] * ALONG) for side in (-BESIDE, BESIDE))
         jumps += list(sign * (after - before))

@@ -22,10 +22,10 @@ import time
 
 import bindpose
 import numpy as np
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
-from vtkmodules.vtkCommonDataModel import vtkImplicitBoolean, vtkPlane, vtkPolyData
-from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkClipPolyData, vtkGlyph3D, vtkPolyDataNormals
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImplicitBoolean, vtkPlane, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkClipPolyData, vtkGlyph3D, vtkPolyDataNormals, vtkTriangleFilter
 from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
 from vtkmodules.vtkFiltersGeometry import vtkImageDataGeometryFilter
 from vtkmodules.vtkFiltersModeling import vtkSelectEnclosedPoints
@@ -181,12 +181,19 @@ def legend(table):
 
 
 def field_on(surface, box, table):
-    """The field on a box without thickness (x0, x1, y0, y1, z0, z1): a grid one sample thick."""
-    samples = [1 if a == b else max(2, round(400 * (b - a) / max(box[1] - box[0], box[3] - box[2], box[5] - box[4])))
+    """The field on a box without thickness (x0, x1, y0, y1, z0, z1), where it is not about 0."""
+    samples = [1 if a == b else max(2, round(500 * (b - a) / max(box[1] - box[0], box[3] - box[2], box[5] - box[4])))
                for a, b in zip(box[::2], box[1::2])]
-    flat = vtkImageDataGeometryFilter()
-    flat.SetInputData(bindpose.winding_number(surface, samples, bounds=box))
-    actor = actor_of(flat, table=table)
+    image = bindpose.winding_number(surface, samples, bounds=box)  # a grid one sample thick
+    magnitude = numpy_to_vtk(np.abs(vtk_to_numpy(image.GetPointData().GetScalars())), deep=True)
+    magnitude.SetName("Magnitude")
+    image.GetPointData().AddArray(magnitude)
+    flat, shown = vtkImageDataGeometryFilter(), vtkClipPolyData()
+    flat.SetInputData(image)
+    shown.SetInputConnection(flat.GetOutputPort())
+    shown.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, "Magnitude")
+    shown.SetValue(0.04)
+    actor = actor_of(shown, table=table)
     actor.GetProperty().LightingOff()
     return actor
 
@@ -196,10 +203,10 @@ def write_picture(path, surface, points, ours, theirs):
     x0, x1, y0, y1, z0, z1 = surface.GetBounds()
     size = float(np.linalg.norm([x1 - x0, y1 - y0, z1 - z0]))
     pad = 0.05 * size
-    x, z = 0.5 * (x0 + x1), 0.5 * (z0 + z1)
+    x, z = x0 + 0.55 * (x1 - x0), z0 + 0.45 * (z1 - z0)
     corner = vtkImplicitBoolean()
     corner.SetOperationTypeToIntersection()
-    for normal in ((-1, 0, 0), (0, 0, -1)):
+    for normal in ((1, 0, 0), (0, 0, -1)):
         plane = vtkPlane()
         plane.SetOrigin(x, 0, z)
         plane.SetNormal(normal)
@@ -215,11 +222,14 @@ def write_picture(path, surface, points, ours, theirs):
     inner = vtkProperty()
     inner.SetColor(0.55, 0.51, 0.48)
     solid.SetBackfaceProperty(inner)
+    for side in (solid.GetProperty(), inner):
+        side.SetAmbient(0.25)
+        side.SetDiffuse(0.8)
     glass.GetProperty().SetOpacity(0.22)
     # Both sides of a cut are the same: a hair apart, so that the surface's rim stays before them.
     hair = 1e-4 * size
-    cuts = [field_on(surface, [x, x1 + pad, y0 - pad, y1 + pad, z - hair, z - hair], table),
-            field_on(surface, [x - hair, x - hair, y0 - pad, y1 + pad, z, z1 + pad], table)]
+    cuts = [field_on(surface, [x0 - pad, x, y0 - pad, y1 + pad, z - hair, z - hair], table),
+            field_on(surface, [x + hair, x + hair, y0 - pad, y1 + pad, z, z1 + pad], table)]
     wrong = ours != theirs
     answers = [balls(points[ours & ~wrong], 0.005 * size, (0.90, 0.50, 0.20)),
                balls(points[wrong], 0.007 * size, (0.12, 0.12, 0.14))]
@@ -230,9 +240,9 @@ def write_picture(path, surface, points, ours, theirs):
     window.SetMultiSamples(0)
     window.SetAlphaBitPlanes(1)
     left = [solid, *cuts, legend(table), note("Winding number", (0.5, 0.94), bold=True),
-            note("of the surface, a corner taken out", (0.5, 0.03))]
+            note("a corner taken out, the field where it is beyond 0.04", (0.5, 0.03))]
     right = [glass, *answers, note("Inside", (0.5, 0.94), bold=True),
-             note("black: vtkSelectEnclosedPoints says otherwise", (0.5, 0.03))]
+             note("black: where vtkSelectEnclosedPoints says otherwise", (0.5, 0.03))]
     for number, actors in enumerate((left, right)):
         renderer = vtkRenderer()
         renderer.SetViewport(0.5 * number, 0, 0.5 * (number + 1), 1)
@@ -244,7 +254,7 @@ def write_picture(path, surface, points, ours, theirs):
         for actor in actors:
             renderer.AddViewProp(actor)
         camera = renderer.GetActiveCamera()
-        camera.SetPosition(0.55, 0.3, 1)
+        camera.SetPosition(-0.5, 0.25, 1)
         camera.SetFocalPoint(0, 0, 0)
         renderer.ResetCamera(x0 - pad, x1 + pad, y0 - pad, y1 + pad, z0, z1)
         camera.Zoom(1.25)
@@ -270,6 +280,8 @@ def main(options):
     demo = options.mesh is None
     mesh = options.mesh or quickstart.demo_mesh(options.output / "meshes")
     surface = bindpose.read(mesh)  # a vtkPolyData; arrays (vertices #V x 3, triangles #F x 3) do as well
+    if not surface.IsA("vtkPolyData"):
+        raise bindpose.InvalidInput(f"{mesh} holds a {surface.GetClassName()}, not a surface")
     bounds = np.reshape(surface.GetBounds(), (3, 2))
     random = np.random.default_rng(1)
     points = random.uniform(*bounds.T, (1000 if options.small else 20000, 3))
@@ -285,11 +297,11 @@ def main(options):
     # What VTK's own test makes of the same points. The demo mesh comes without holes, too: that one knows.
     print(f"  {'surface':<16} {'inside':>7} {'by VTK':>7} {'disagree':>9}    vtkSelectEnclosedPoints")
     closed = bindpose.read(quickstart.demo_mesh(options.output / "meshes", "elephant.off")) if demo else None
-    truth = np.rint(bindpose.winding_number(closed, points, method="exact")) > 0 if demo else None
+    truth = bindpose.contains(closed, points, method="exact") if demo else None
     ours, theirs = compare("as it is", surface, points, numbers, truth)
     length = float(bounds[0, 1] - bounds[0, 0])
     pair = joined(closed if demo else surface, shifted(closed if demo else surface, 0.15 * length, 0, 0))
-    either = truth | (np.rint(bindpose.winding_number(closed, points - [0.15 * length, 0, 0], method="exact")) > 0) if demo else None
+    either = truth | bindpose.contains(closed, points - [0.15 * length, 0, 0], method="exact") if demo else None
     compare("crossing a copy", pair, points, numbers, either)
     if demo:
         compare("without holes", closed, points, numbers, truth)
@@ -327,8 +339,13 @@ def main(options):
           f"{vtk_to_numpy(at_vertices.GetPointData().GetArray('WindingNumber')).mean():.3f}")
 
     # Triangles that look the wrong way subtract, unless they are turned first.
-    vertices = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
-    triangles = np.array(vtk_to_numpy(surface.GetPolys().GetConnectivityArray())).reshape(-1, 3)
+    cut = vtkTriangleFilter()  # polygons, where there are any
+    cut.SetInputData(surface)
+    cut.PassVertsOff()
+    cut.PassLinesOff()
+    cut.Update()
+    vertices = vtk_to_numpy(cut.GetOutput().GetPoints().GetData()).astype(float)
+    triangles = np.array(vtk_to_numpy(cut.GetOutput().GetPolys().GetConnectivityArray())).reshape(-1, 3)
     some = random.random(len(triangles)) < 0.1
     triangles[some] = triangles[some, ::-1]
     for orient in (False, True):
@@ -364,11 +381,13 @@ if __name__ == "__main__":
     given = arguments()
     if not os.environ.get("DISPLAY"):  # VTK would end the process
         if not shutil.which("xvfb-run"):
-            sys.exit("01_inside_outside.py: there is no display; install the Debian package xvfb")
+            print("01_inside_outside.py: there is no display; install the Debian package xvfb", file=sys.stderr)
+            sys.exit(2)
         os.execvp("xvfb-run", ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24", sys.executable, *sys.argv])
     try:
         given.output.mkdir(parents=True, exist_ok=True)
         result = main(given)
         (given.output / "inside_outside.json").write_text(json.dumps(result, indent=2) + "\n")
     except (bindpose.BindposeError, quickstart.Stop, OSError) as error:
-        sys.exit(f"01_inside_outside.py: {error}")
+        print(f"01_inside_outside.py: {error}", file=sys.stderr)
+        sys.exit(2)

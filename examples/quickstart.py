@@ -34,9 +34,9 @@ class Stop(Exception):
         self.code = code
 
 
-def demo_mesh(folder):
-    """The default mesh, taken out of the installed package's archive of example data."""
-    target = folder / DEMO_MESH
+def demo_mesh(folder, name=DEMO_MESH):
+    """A mesh, taken out of the installed package's archive of example data."""
+    target = folder / name
     if target.exists():
         return target
     folder.mkdir(parents=True, exist_ok=True)
@@ -54,12 +54,12 @@ def demo_mesh(folder):
             raise Stop(f"the default mesh comes with the Debian package {DEMO_PACKAGE}; install it or name a MESH")
         with tarfile.open(archives[0]) as archive:
             for member in archive:
-                if member.name.endswith("/" + DEMO_MESH):
+                if member.name.endswith("/" + name):
                     partial = target.with_suffix(".partial")
                     partial.write_bytes(archive.extractfile(member).read())
                     partial.rename(target)
                     return target
-    raise Stop(f"{DEMO_MESH} is not in {archives[0]}")
+    raise Stop(f"{name} is not in {archives[0]}")
 
 
 class Program:

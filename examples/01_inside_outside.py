@@ -1,0 +1,393 @@
+#!/usr/bin/env python3
+"""Inside or outside? Of any triangle mesh, with numpy arrays and VTK datasets.
+
+    examples/quickstart.sh                                                # once: installs and builds
+    PYTHONPATH=build/lib/python3/dist-packages /usr/bin/python3 examples/01_inside_outside.py [MESH]
+
+Asks of random points whether they lie inside of an elephant full of holes (or of MESH), next to what
+vtkSelectEnclosedPoints says, which is what PyVista's select_enclosed_points calls; then what else the winding
+number can do. Ends with a picture and its numbers in --output. Runs without a display, too.
+
+PyVista's meshes are VTK datasets: wherever `surface` stands below, a pyvista.PolyData does as well, and
+pyvista.wrap(result) makes what comes back one of PyVista's.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import shutil
+import sys
+import time
+
+import bindpose
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImplicitBoolean, vtkPlane, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkAppendPolyData, vtkClipPolyData, vtkGlyph3D, vtkPolyDataNormals, vtkTriangleFilter
+from vtkmodules.vtkFiltersGeneral import vtkTransformPolyDataFilter
+from vtkmodules.vtkFiltersGeometry import vtkImageDataGeometryFilter
+from vtkmodules.vtkFiltersModeling import vtkSelectEnclosedPoints
+from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkCommonTransforms import vtkTransform
+from vtkmodules.vtkRenderingAnnotation import vtkScalarBarActor
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkPolyDataMapper,
+    vtkProperty,
+    vtkRenderer,
+    vtkRenderWindow,
+    vtkTextActor,
+    vtkWindowToImageFilter,
+)
+import vtkmodules.vtkRenderingFreeType  # noqa: F401  draws texts
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  draws
+
+import quickstart  # beside this file: finds the demo meshes
+
+
+# ---- Next to vtkSelectEnclosedPoints -----------------------------------------------------------
+
+
+def select_enclosed_points(surface, points, check):
+    """What VTK's own filter says: (#P,) bool; None where it refuses (with `check`, open surfaces)."""
+    cloud = vtkPolyData()
+    cloud.SetPoints(vtkPoints())
+    for point in points:
+        cloud.GetPoints().InsertNextPoint(point)
+    selection = vtkSelectEnclosedPoints()
+    selection.SetInputData(cloud)
+    selection.SetSurfaceData(surface)
+    selection.SetCheckSurface(check)
+    selection.AddObserver("ErrorEvent", lambda *_: None)
+    if check and not selection.IsSurfaceClosed(surface):
+        return None  # it would leave its output without an answer
+    selection.Update()
+    return vtk_to_numpy(selection.GetOutput().GetPointData().GetArray("SelectedPoints")).astype(bool)
+
+
+def compare(title, surface, points, numbers, truth=None):
+    """One line: who says inside, on how many points they disagree, who is wrong where that is known."""
+    ours = bindpose.contains(surface, points)
+    theirs = select_enclosed_points(surface, points, check=False)
+    refused = select_enclosed_points(surface, points, check=True) is None
+    numbers[title] = {"inside": int(ours.sum()), "vtk_inside": int(theirs.sum()),
+                      "disagree": int((ours != theirs).sum()), "vtk_refuses": refused}
+    line = (f"  {title:<16} {ours.sum():>7} {theirs.sum():>7} {(ours != theirs).sum():>9}"
+            f"    {'refuses it' if refused else 'takes it'}")
+    if truth is not None:
+        numbers[title].update(wrong=int((ours != truth).sum()), vtk_wrong=int((theirs != truth).sum()))
+        line += f"    wrong: {(ours != truth).sum()}, VTK {(theirs != truth).sum()}"
+    print(line)
+    return ours, theirs
+
+
+def shifted(surface, x, y, z):
+    transform = vtkTransform()
+    transform.Translate(x, y, z)
+    mover = vtkTransformPolyDataFilter()
+    mover.SetInputData(surface)
+    mover.SetTransform(transform)
+    mover.Update()
+    return mover.GetOutput()
+
+
+def joined(*surfaces):
+    append = vtkAppendPolyData()
+    for surface in surfaces:
+        append.AddInputData(surface)
+    append.Update()
+    return append.GetOutput()
+
+
+# ---- The picture -------------------------------------------------------------------------------
+
+
+def winding_colours():
+    """Blue outside, orange inside, white in between; violet below 0, brown above 1."""
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(300)
+    table.SetTableRange(-1, 2)
+    stops = [-1, -0.02, -0.0199, 0, 0.5, 1, 1.0199, 1.02, 2]
+    colours = np.array([[0.20, 0.10, 0.45], [0.52, 0.47, 0.77], [0.44, 0.65, 0.82], [0.44, 0.65, 0.82], [0.98, 0.97, 0.95],
+                        [0.90, 0.58, 0.36], [0.90, 0.58, 0.36], [0.72, 0.33, 0.17], [0.36, 0.08, 0.05]])
+    for i in range(300):
+        value = -1 + 3 * (i + 0.5) / 300
+        table.SetTableValue(i, *(np.interp(value, stops, colours[:, k]) for k in range(3)), 1)
+    return table
+
+
+def actor_of(source, colour=None, table=None):
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(source.GetOutputPort())
+    mapper.SetScalarVisibility(table is not None)
+    if table is not None:
+        mapper.SetLookupTable(table)
+        mapper.UseLookupTableScalarRangeOn()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    if colour:
+        actor.GetProperty().SetColor(colour)
+    return actor
+
+
+def balls(points, radius, colour):
+    cloud = vtkPolyData()
+    cloud.SetPoints(vtkPoints())
+    for point in points:
+        cloud.GetPoints().InsertNextPoint(point)
+    ball = vtkSphereSource()
+    ball.SetRadius(radius)
+    ball.SetThetaResolution(16)
+    ball.SetPhiResolution(12)
+    glyphs = vtkGlyph3D()
+    glyphs.SetInputData(cloud)
+    glyphs.SetSourceConnection(ball.GetOutputPort())
+    glyphs.ScalingOff()
+    glyphs.OrientOff()
+    return actor_of(glyphs, colour)
+
+
+def note(words, place, colour=(0.16, 0.16, 0.18), bold=False):
+    text = vtkTextActor()
+    text.SetInput(words)
+    text.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
+    text.SetPosition(*place)
+    text.GetTextProperty().SetFontSize(26)
+    text.GetTextProperty().SetBold(bold)
+    text.GetTextProperty().SetColor(colour)
+    text.GetTextProperty().SetJustificationToCentered()
+    return text
+
+
+def legend(table):
+    bar = vtkScalarBarActor()
+    bar.SetLookupTable(table)
+    bar.SetNumberOfLabels(4)
+    bar.SetLabelFormat("%.0f")
+    bar.UnconstrainedFontSizeOn()
+    bar.SetPosition(0.03, 0.33)
+    bar.SetWidth(0.07)
+    bar.SetHeight(0.36)
+    text = bar.GetLabelTextProperty()
+    text.SetFontSize(24)
+    text.SetColor(0.16, 0.16, 0.18)
+    text.ItalicOff()
+    text.BoldOff()
+    text.ShadowOff()
+    return bar
+
+
+def field_on(surface, box, table):
+    """The field on a box without thickness (x0, x1, y0, y1, z0, z1), where it is not about 0."""
+    samples = [1 if a == b else max(2, round(500 * (b - a) / max(box[1] - box[0], box[3] - box[2], box[5] - box[4])))
+               for a, b in zip(box[::2], box[1::2])]
+    image = bindpose.winding_number(surface, samples, bounds=box)  # a grid one sample thick
+    magnitude = numpy_to_vtk(np.abs(vtk_to_numpy(image.GetPointData().GetScalars())), deep=True)
+    magnitude.SetName("Magnitude")
+    image.GetPointData().AddArray(magnitude)
+    flat, shown = vtkImageDataGeometryFilter(), vtkClipPolyData()
+    flat.SetInputData(image)
+    shown.SetInputConnection(flat.GetOutputPort())
+    shown.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, "Magnitude")
+    shown.SetValue(0.04)
+    actor = actor_of(shown, table=table)
+    actor.GetProperty().LightingOff()
+    return actor
+
+
+def write_picture(path, surface, points, ours, theirs):
+    """Left the surface with a corner taken out and the field on its two cuts; right the points as answered."""
+    x0, x1, y0, y1, z0, z1 = surface.GetBounds()
+    size = float(np.linalg.norm([x1 - x0, y1 - y0, z1 - z0]))
+    pad = 0.05 * size
+    x, z = x0 + 0.55 * (x1 - x0), z0 + 0.45 * (z1 - z0)
+    corner = vtkImplicitBoolean()
+    corner.SetOperationTypeToIntersection()
+    for normal in ((1, 0, 0), (0, 0, -1)):
+        plane = vtkPlane()
+        plane.SetOrigin(x, 0, z)
+        plane.SetNormal(normal)
+        corner.AddFunction(plane)
+    normals, rest = vtkPolyDataNormals(), vtkClipPolyData()
+    normals.SetInputData(surface)
+    normals.ConsistencyOff()
+    normals.SplittingOff()
+    rest.SetInputConnection(normals.GetOutputPort())
+    rest.SetClipFunction(corner)
+    table = winding_colours()
+    solid, glass = actor_of(rest, (0.83, 0.80, 0.76)), actor_of(normals, (0.83, 0.80, 0.76))
+    inner = vtkProperty()
+    inner.SetColor(0.55, 0.51, 0.48)
+    solid.SetBackfaceProperty(inner)
+    for side in (solid.GetProperty(), inner):
+        side.SetAmbient(0.25)
+        side.SetDiffuse(0.8)
+    glass.GetProperty().SetOpacity(0.22)
+    # Both sides of a cut are the same: a hair apart, so that the surface's rim stays before them.
+    hair = 1e-4 * size
+    cuts = [field_on(surface, [x0 - pad, x, y0 - pad, y1 + pad, z - hair, z - hair], table),
+            field_on(surface, [x + hair, x + hair, y0 - pad, y1 + pad, z, z1 + pad], table)]
+    wrong = ours != theirs
+    answers = [balls(points[ours & ~wrong], 0.005 * size, (0.90, 0.50, 0.20)),
+               balls(points[wrong], 0.007 * size, (0.12, 0.12, 0.14))]
+
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(True)
+    window.SetSize(1800, 960)
+    window.SetMultiSamples(0)
+    window.SetAlphaBitPlanes(1)
+    left = [solid, *cuts, legend(table), note("Winding number", (0.5, 0.94), bold=True),
+            note("a corner taken out, the field where it is beyond 0.04", (0.5, 0.03))]
+    right = [glass, *answers, note("Inside", (0.5, 0.94), bold=True),
+             note("black: where vtkSelectEnclosedPoints says otherwise", (0.5, 0.03))]
+    for number, actors in enumerate((left, right)):
+        renderer = vtkRenderer()
+        renderer.SetViewport(0.5 * number, 0, 0.5 * (number + 1), 1)
+        renderer.SetBackground(1, 1, 1)
+        renderer.SetUseDepthPeeling(True)
+        renderer.SetMaximumNumberOfPeels(6)
+        renderer.SetOcclusionRatio(0)
+        renderer.UseFXAAOn()
+        for actor in actors:
+            renderer.AddViewProp(actor)
+        camera = renderer.GetActiveCamera()
+        camera.SetPosition(-0.5, 0.25, 1)
+        camera.SetFocalPoint(0, 0, 0)
+        renderer.ResetCamera(x0 - pad, x1 + pad, y0 - pad, y1 + pad, z0, z1)
+        camera.Zoom(1.25)
+        renderer.ResetCameraClippingRange()
+        window.AddRenderer(renderer)
+    window.Render()
+    picture = vtkWindowToImageFilter()
+    picture.SetInput(window)
+    picture.ReadFrontBufferOff()
+    writer = vtkPNGWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputConnection(picture.GetOutputPort())
+    writer.Write()
+    if writer.GetErrorCode():
+        raise OSError(f"cannot write {path}")
+
+
+# ---- The page ----------------------------------------------------------------------------------
+
+
+def main(options):
+    numbers = {}
+    demo = options.mesh is None
+    mesh = options.mesh or quickstart.demo_mesh(options.output / "meshes")
+    surface = bindpose.read(mesh)  # a vtkPolyData; arrays (vertices #V x 3, triangles #F x 3) do as well
+    if not surface.IsA("vtkPolyData"):
+        raise bindpose.InvalidInput(f"{mesh} holds a {surface.GetClassName()}, not a surface")
+    bounds = np.reshape(surface.GetBounds(), (3, 2))
+    random = np.random.default_rng(1)
+    points = random.uniform(*bounds.T, (1000 if options.small else 20000, 3))
+
+    # Yes or no, and the number behind it.
+    inside = bindpose.contains(surface, points)
+    values = bindpose.winding_number(surface, points)
+    counts = values.report["counts"]
+    print(f"{pathlib.Path(mesh).name}: {counts['triangles']} triangles, {counts['open_edges']} open edges")
+    print(f"{inside.sum()} of {len(points)} points are inside; winding numbers from {values.min():.2f} to {values.max():.2f};")
+    print(f"method {values.report['method']}: {values.report['method_reason']}\n")
+
+    # What VTK's own test makes of the same points. The demo mesh comes without holes, too: that one knows.
+    print(f"  {'surface':<16} {'inside':>7} {'by VTK':>7} {'disagree':>9}    vtkSelectEnclosedPoints")
+    closed = bindpose.read(quickstart.demo_mesh(options.output / "meshes", "elephant.off")) if demo else None
+    truth = bindpose.contains(closed, points, method="exact") if demo else None
+    ours, theirs = compare("as it is", surface, points, numbers, truth)
+    length = float(bounds[0, 1] - bounds[0, 0])
+    pair = joined(closed if demo else surface, shifted(closed if demo else surface, 0.15 * length, 0, 0))
+    either = truth | bindpose.contains(closed, points - [0.15 * length, 0, 0], method="exact") if demo else None
+    compare("crossing a copy", pair, points, numbers, either)
+    if demo:
+        compare("without holes", closed, points, numbers, truth)
+
+    # Accuracy is a parameter, and is kept.
+    few = points[:1000]
+    exact = bindpose.winding_number(surface, few, method="exact")
+    print(f"\n  exact: {1e6 * exact.report['seconds']['evaluate'] / len(few):8.2f} µs a point ({exact.report['method']})")
+    numbers["tolerance"] = {}
+    for tolerance in (1e-2, 1e-4, 1e-6):
+        fast = bindpose.winding_number(surface, few, method="fast", tolerance=tolerance)
+        numbers["tolerance"][str(tolerance)] = float(np.abs(fast - exact).max())
+        print(f"  within {tolerance:.0e}: {1e6 * fast.report['seconds']['evaluate'] / len(few):8.2f} µs a point, "
+              f"errs by {np.abs(fast - exact).max():.1e}")
+
+    # The gradient, next to differences of the field.
+    _, gradient = bindpose.winding_number(surface, few, gradient=True, method="exact")
+    step = 1e-5 * length
+    beside = [bindpose.winding_number(surface, few + s * step * np.eye(3)[0], method="exact") for s in (-1, 1)]
+    slope = (beside[1] - beside[0]) / (2 * step)
+    smooth = np.abs(beside[1] - beside[0]) < 0.5  # no jump in between
+    error = np.median(np.abs(slope - gradient[:, 0])[smooth] / (1e-9 + np.abs(gradient[smooth, 0])))
+    numbers["gradient"] = float(error)
+    print(f"\n  gradient: differs from differences by {error:.1e} of itself (median)")
+
+    # A grid: a vtkImageData. Any other vtkDataSet will do, too: values come at its points.
+    start = time.perf_counter()
+    grid = bindpose.winding_number(surface, 32 if options.small else 128)  # samples along the longest side
+    report = bindpose.report(grid)
+    numbers["winding_volume"] = report["winding_volume"]
+    print(f"  grid {' x '.join(map(str, grid.GetDimensions()))}: {time.perf_counter() - start:.2f} s, "
+          f"{report['winding_volume']:.4g} enclosed")
+    at_vertices = bindpose.winding_number(surface, surface)  # of the surface at its own vertices: about 1/2
+    print(f"  at its own vertices on average "
+          f"{vtk_to_numpy(at_vertices.GetPointData().GetArray('WindingNumber')).mean():.3f}")
+
+    # Triangles that look the wrong way subtract, unless they are turned first.
+    cut = vtkTriangleFilter()  # polygons, where there are any
+    cut.SetInputData(surface)
+    cut.PassVertsOff()
+    cut.PassLinesOff()
+    cut.Update()
+    vertices = vtk_to_numpy(cut.GetOutput().GetPoints().GetData()).astype(float)
+    triangles = np.array(vtk_to_numpy(cut.GetOutput().GetPolys().GetConnectivityArray())).reshape(-1, 3)
+    some = random.random(len(triangles)) < 0.1
+    triangles[some] = triangles[some, ::-1]
+    for orient in (False, True):
+        answer = bindpose.contains((vertices, triangles), points, orient_patches=orient)
+        numbers[f"flipped, orient_patches={orient}"] = int((answer != inside).sum())
+        print(f"  a tenth of the triangles flipped, orient_patches={orient}: {(answer != inside).sum()} answers change")
+
+    # Where the surface is open: the second output of the VTK class, which fits into any pipeline.
+    field = bindpose.vtkWindingNumberField()
+    field.SetInputData(surface)
+    field.SetDimensions(2, 2, 2)
+    bindpose.run(field)  # Update() and exceptions
+    boundary = field.GetBoundaryOutput()
+    numbers["boundary_lines"] = boundary.GetNumberOfLines()
+    numbers["open_edges"] = counts["open_edges"]
+    print(f"  open along {boundary.GetNumberOfLines()} edges")
+
+    picture = options.output / "inside_outside.png"
+    write_picture(picture, surface, points, ours, theirs)
+    print(f"\npicture: {picture}")
+    return numbers
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("mesh", nargs="?", help="off, obj, ply, stl, vtp (default: elephant-with-holes.off of libcgal-demo)")
+    parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("gallery-output"), help="(default: gallery-output)")
+    parser.add_argument("--small", action="store_true", help="fewer points")
+    return parser.parse_args()
+
+
+if __name__ == "__main__":
+    given = arguments()
+    if not os.environ.get("DISPLAY"):  # VTK would end the process
+        if not shutil.which("xvfb-run"):
+            print("01_inside_outside.py: there is no display; install the Debian package xvfb", file=sys.stderr)
+            sys.exit(2)
+        os.execvp("xvfb-run", ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24", sys.executable, *sys.argv])
+    try:
+        given.output.mkdir(parents=True, exist_ok=True)
+        result = main(given)
+        (given.output / "inside_outside.json").write_text(json.dumps(result, indent=2) + "\n")
+    except (bindpose.BindposeError, quickstart.Stop, OSError) as error:
+        print(f"01_inside_outside.py: {error}", file=sys.stderr)
+        sys.exit(2)

@@ -1,0 +1,215 @@
+#!/usr/bin/env python3
+"""What is wrong with a surface: its parts and the curves along which it is open.
+
+Six parts in one mesh: a closed tube through itself, a sphere with holes, one with a cap looking inwards, one
+inside out, three pages on one spine, a bowl that is there twice. The second output of vtkWindingNumberField
+(`bindpose winding --boundary FILE`) has an edge wherever the directions of the triangles do not cancel, with
+its multiplicity: 1 at a hole, 2 around the turned cap and the double bowl, 3 along the spine; and a table of the
+parts: triangles, open edges (by their multiplicities), volume.
+
+Numbers: the table; at how many points the curves do not close (0: a boundary has no boundary); and that the
+curves are all that matters: the winding number of the surface and that of a fan of triangles over the curves
+differ by whole numbers (largest distance from one).
+"""
+
+import common
+import bindpose
+import numpy as np
+from bindpose.meshes import points_of, to_dataset
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkPolyDataNormals, vtkStripper, vtkTubeFilter
+from vtkmodules.vtkIOImage import vtkPNGWriter
+from vtkmodules.vtkRenderingCore import (
+    vtkActor,
+    vtkPolyDataMapper,
+    vtkProperty,
+    vtkRenderer,
+    vtkRenderWindow,
+    vtkTextActor,
+    vtkWindowToImageFilter,
+)
+import vtkmodules.vtkRenderingFreeType  # noqa: F401  draws texts
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  draws
+
+import meshes
+
+OUTSIDE, INSIDE, INK = (0.83, 0.80, 0.76), (0.62, 0.55, 0.80), (0.16, 0.16, 0.18)
+COLOURS = {1: (0.05, 0.46, 0.32), 2: (0.84, 0.43, 0.16), 3: (0.60, 0.10, 0.35)}
+APART = 3.1
+
+
+def pages(count=8):
+    """Three half discs on one spine, all going up along it."""
+    angle = np.pi * (np.arange(count + 1) / count - 0.5)
+    rim = np.stack([np.cos(angle), np.sin(angle)], axis=1)
+    parts = []
+    for turn in (0.5, 2.1, 3.6):
+        x, y = rim.T
+        vertices = np.vstack([[[0, 0, 0]], np.stack([x * np.cos(turn), y, x * np.sin(turn)], axis=1)])
+        vertices[np.abs(vertices) < 1e-12] = 0  # ends of the spine are the same to the bit
+        parts.append((vertices, np.array([[0, 1 + i, 2 + i] for i in range(count)])))
+    return meshes.joined(*parts)
+
+
+def unclean(times):
+    """The parts one beside the other, and their names."""
+    ball = meshes.sphere(times)
+    x, y, z = meshes.centers(ball).T
+    bowl = meshes.without(ball, y > 0.1)
+    turn = np.arange(120) * 2 * np.pi / 120
+    eight = np.stack([np.cos(turn), 0.7 * np.sin(2 * turn), 0 * turn], axis=1)
+    parts = {
+        "closed": meshes.tube(0.85 * eight, 0.25, 16),
+        "holes": meshes.without(ball, (np.hypot(x - 0.3, y - 0.4) < 0.35) | (np.hypot(x + 0.4, y + 0.3) < 0.3)),
+        "a cap inwards": meshes.flipped(ball, 0.5 * x + y + z > 0.75),
+        "inside out": meshes.flipped(ball),
+        "three pages": pages(),
+        "there twice": meshes.joined(bowl, bowl),
+    }
+    return meshes.joined(*(meshes.moved(part, (APART * k, 0, 0)) for k, part in enumerate(parts.values()))), list(parts)
+
+
+def actor_of(source, colour):
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputConnection(source.GetOutputPort())
+    mapper.ScalarVisibilityOff()
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    actor.GetProperty().SetColor(colour)
+    return actor
+
+
+def tubes_of(points, lines, radius):
+    data = vtkPolyData()
+    data.SetPoints(points)
+    cells = vtkCellArray()
+    for a, b in lines:
+        cells.InsertNextCell(2, (a, b))
+    data.SetLines(cells)
+    clean, strips, tubes = vtkCleanPolyData(), vtkStripper(), vtkTubeFilter()
+    clean.SetInputData(data)
+    clean.ConvertLinesToPointsOff()
+    strips.SetInputConnection(clean.GetOutputPort())
+    strips.JoinContiguousSegmentsOn()
+    tubes.SetInputConnection(strips.GetOutputPort())
+    tubes.SetRadius(radius)
+    tubes.SetNumberOfSides(12)
+    tubes.CappingOn()
+    return tubes
+
+
+def text(words, x, y, size, colour=INK, bold=False):
+    actor = vtkTextActor()
+    actor.SetInput(words)
+    actor.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
+    actor.SetPosition(x, y)
+    style = actor.GetTextProperty()
+    style.SetFontSize(size)
+    style.SetColor(colour)
+    style.SetBold(bold)
+    style.SetJustificationToCentered()
+    style.SetVerticalJustificationToTop()
+    style.SetLineSpacing(1.3)
+    return actor
+
+
+def draw(path, surface, boundary, lines, multiplicity, columns):
+    """The surface, its curves coloured by multiplicity, below each part a column of texts."""
+    renderer = vtkRenderer()
+    renderer.SetBackground(1, 1, 1)
+    normals = vtkPolyDataNormals()
+    normals.SetInputData(surface)
+    normals.ConsistencyOff()
+    normals.SplittingOff()
+    skin = actor_of(normals, OUTSIDE)
+    back = vtkProperty()
+    back.SetColor(INSIDE)
+    skin.SetBackfaceProperty(back)
+    for side in (skin.GetProperty(), back):
+        side.SetInterpolationToFlat()
+        side.SetAmbient(0.25)
+        side.SetDiffuse(0.8)
+    renderer.AddActor(skin)
+    for times, colour in COLOURS.items():
+        renderer.AddActor(actor_of(tubes_of(boundary.GetPoints(), lines[multiplicity == times], 0.035), colour))
+        renderer.AddActor2D(text(f"counts {times} times" if times > 1 else "counts once", 0.36 + 0.14 * (times - 1), 0.885,
+                                 24, colour, True))
+    renderer.AddActor2D(text("The parts of an unclean mesh and where they are open  (violet: seen from inside)",
+                             0.5, 0.97, 28, INK, True))
+    count = len(columns)
+    camera = renderer.GetActiveCamera()
+    camera.ParallelProjectionOn()
+    middle = APART * (count - 1) / 2
+    camera.SetPosition(middle, 4.0, 20.0)
+    camera.SetFocalPoint(middle, -0.75, 0)
+    size = 1900, 640
+    camera.SetParallelScale(0.5 * APART * count * size[1] / size[0])
+    renderer.ResetCameraClippingRange()
+    for k, (name, rows) in enumerate(columns):
+        at = (k + 0.5) / count
+        renderer.AddActor2D(text(name, at, 0.29, 24, INK, True))
+        renderer.AddActor2D(text("\n".join(rows), at, 0.23, 21))
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(True)
+    window.SetSize(*size)
+    window.SetMultiSamples(8)
+    window.AddRenderer(renderer)
+    window.Render()
+    image = vtkWindowToImageFilter()
+    image.SetInput(window)
+    image.ReadFrontBufferOff()
+    writer = vtkPNGWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputConnection(image.GetOutputPort())
+    writer.Write()
+    if writer.GetErrorCode():
+        raise OSError(f"cannot write {path}")
+
+
+def make(options):
+    mesh, names = unclean(2 if options.small else 4)
+    field = bindpose.vtkWindingNumberField()
+    field.SetInputData(to_dataset(mesh))
+    random = np.random.default_rng(5)
+    reach = mesh[0].min(axis=0) - 1, mesh[0].max(axis=0) + 1
+    probes = random.uniform(*reach, (200, 3))
+    cloud = vtkPolyData()
+    cloud.SetPoints(to_dataset((probes, [[0, 0, 0]])).GetPoints())
+    field.SetInputData(1, cloud)
+    field.SetMethodToExact()
+    report = bindpose.run(field)
+    boundary = field.GetBoundaryOutput()
+    multiplicity = np.array(vtk_to_numpy(boundary.GetCellData().GetArray("Multiplicity")))
+    component = np.array(vtk_to_numpy(boundary.GetCellData().GetArray("Component")))
+    lines = np.array(vtk_to_numpy(boundary.GetLines().GetConnectivityArray())).reshape(-1, 2)
+    table = {key: np.array(vtk_to_numpy(boundary.GetFieldData().GetArray(f"Component{key}")))
+             for key in ("Triangles", "OpenEdges", "Volume")}
+
+    columns, numbers = [], {"parts": report["counts"]["components"]}
+    for k, name in enumerate(names):
+        times, edges = np.unique(multiplicity[component == k], return_counts=True)
+        row = [int(table["Triangles"][k]), int(table["OpenEdges"][k]), float(table["Volume"][k])]
+        counted = " + ".join(f"{e} x {t}" if t > 1 else str(e) for e, t in zip(edges, times)) or "no"
+        volume = round(row[2], 3) + 0.0  # no -0
+        columns.append((name, [f"{row[0]:,} triangles", f"{counted} open edges", f"volume {volume:.3f}"]))
+        numbers[f"{name}: triangles, open edges, volume"] = row
+        numbers[f"{name}: multiplicities"] = times.tolist()
+
+    # What comes in at a point goes out; by coordinates, as the same point may be there several times.
+    points = points_of(boundary)
+    _, same = np.unique(points, axis=0, return_inverse=True)
+    ends = np.bincount(same[lines[:, 1]], multiplicity, same.max() + 1)
+    starts = np.bincount(same[lines[:, 0]], multiplicity, same.max() + 1)
+    numbers["points where curves do not close"] = int((ends != starts).sum())
+    fan = (np.vstack([points, points.mean(axis=0)]), np.repeat(
+        np.column_stack([np.full(len(lines), len(points)), lines]), multiplicity, axis=0))
+    values = np.array(vtk_to_numpy(field.GetOutput().GetPointData().GetArray("WindingNumber")))
+    rest = values - meshes.plain_winding_number(fan, probes)
+    numbers["surface - fan, from an integer"] = float(np.abs(rest - np.rint(rest)).max())
+    draw(options.picture, to_dataset(mesh), boundary, lines, multiplicity, columns)
+    return numbers
+
+
+if __name__ == "__main__":
+    common.main(__file__, __doc__, make)

@@ -1,0 +1,98 @@
+"""What every script of the gallery does besides its claim: options, the package, the program, its numbers.
+
+A script holds `make(options)`, which draws `options.picture` and returns its numbers; `common.main` calls it.
+`import common` comes before `import bindpose`: it knows where the build lies.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+EXAMPLES = pathlib.Path(__file__).resolve().parent.parent
+BUILD = EXAMPLES.parent / "build"
+sys.path.insert(0, str(EXAMPLES))
+# PYTHONPATH and an installed package come first.
+sys.path.append(str(BUILD / "lib" / "python3" / "dist-packages"))
+
+try:
+    import bindpose
+except ModuleNotFoundError:
+    sys.exit(f"there is no package bindpose in {BUILD}; run examples/quickstart.sh first, or set PYTHONPATH")
+import quickstart  # noqa: E402  the demo meshes
+
+
+class Stop(Exception):
+    """Ends a script with a sentence."""
+
+
+def program():
+    """Path of the program `bindpose`: of BINDPOSE_PROGRAM, the build, or the PATH."""
+    named = os.environ.get("BINDPOSE_PROGRAM")
+    found = named or shutil.which("bindpose", path=f"{BUILD / 'bin'}:{os.environ.get('PATH', '')}")
+    if not found:
+        raise Stop("the program bindpose is not there; run examples/quickstart.sh first, or set BINDPOSE_PROGRAM")
+    return found
+
+
+def render(options, *words):
+    """Draws `options.picture` by `bindpose render`, from files in `options.scratch`."""
+    words = ["render", *map(str, words), "-o", str(options.picture), "--overwrite", "--quiet"]
+    done = subprocess.run([program(), *words], cwd=options.scratch, stderr=subprocess.PIPE, text=True, check=False)
+    if done.returncode:
+        raise Stop(done.stderr.strip() or f"bindpose render ended with exit code {done.returncode}")
+
+
+def demo_mesh(options, name):
+    """A mesh of the Debian package libcgal-demo, by its file name, as a vtkPolyData."""
+    return bindpose.read(quickstart.demo_mesh(options.output / "meshes", name))
+
+
+def display_or_again():
+    """Starts this very command again under xvfb-run where there is no display: VTK ends the process."""
+    if os.environ.get("DISPLAY"):
+        return
+    xvfb = shutil.which("xvfb-run")
+    if not xvfb:
+        raise Stop("there is no display; install the Debian package xvfb")
+    os.execv(xvfb, [xvfb, "-a", "-s", "-screen 0 1280x1024x24", sys.executable, *sys.argv])
+
+
+def number(value):
+    """A number as the README writes it."""
+    if isinstance(value, list):
+        return " ".join(map(number, value))
+    return f"{value:.3g}" if isinstance(value, float) else str(value)
+
+
+def main(file, text, make):
+    """Runs a script: `make(options)` draws options.picture and returns {name: number}.
+
+    options.output is the folder, options.scratch one that goes away, options.small asks for a quick
+    run on less data. The numbers are printed and written to NAME.json beside NAME.png.
+    """
+    name = pathlib.Path(file).stem
+    parser = argparse.ArgumentParser(description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("gallery-output"),
+                        help="folder for the picture and the numbers (default: gallery-output)")
+    parser.add_argument("--small", action="store_true", help="less data, quicker; the claims hold all the same")
+    options = parser.parse_args()
+    options.output = options.output.absolute()
+    options.picture = options.output / f"{name}.png"
+    try:
+        display_or_again()
+        options.output.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory() as scratch:
+            options.scratch = pathlib.Path(scratch)
+            numbers = make(options)
+        for key, value in numbers.items():
+            print(f"{key:>32}  {number(value)}")
+        (options.output / f"{name}.json").write_text(json.dumps(numbers, indent=2) + "\n")
+        print(f"{'picture':>32}  {options.picture}")
+    except (Stop, quickstart.Stop, bindpose.BindposeError, OSError) as error:
+        print(f"{name}: {error}", file=sys.stderr)
+        sys.exit(2)

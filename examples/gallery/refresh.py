@@ -1,0 +1,78 @@
+#!/usr/bin/env python3
+"""Runs the page and the whole gallery, and puts pictures and numbers where the README shows them.
+
+Pictures go to examples/pictures, shrunk to less than 200 kB each; numbers replace what stands in
+gallery/README.md between `<!-- NAME -->` and `<!-- end -->`.
+"""
+
+import argparse
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+import common
+from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter
+from vtkmodules.vtkImagingCore import vtkImageResize
+
+FOLDER = pathlib.Path(__file__).resolve().parent
+PICTURES = common.EXAMPLES / "pictures"
+LARGEST = 200_000  # bytes
+SCRIPTS = ("../01_inside_outside.py", "open_crossing_flipped.py", "boundary_and_parts.py", "amount_of_insideness.py",
+           "jump_and_harmonic.py", "closing_holes.py", "growth.py")
+
+
+def shrink(source, target):
+    """The picture as wide as fits into LARGEST bytes, at most 1400 pixels."""
+    reader = vtkPNGReader()
+    reader.SetFileName(str(source))
+    reader.Update()
+    columns, rows, _ = reader.GetOutput().GetDimensions()
+    width = min(columns, 1400)
+    while True:
+        resize = vtkImageResize()
+        resize.SetInputConnection(reader.GetOutputPort())
+        resize.SetOutputDimensions(width, round(rows * width / columns), 1)
+        writer = vtkPNGWriter()
+        writer.SetInputConnection(resize.GetOutputPort())
+        writer.SetCompressionLevel(9)
+        writer.SetFileName(str(target))
+        writer.Write()
+        if target.stat().st_size < LARGEST:
+            return
+        width = width * 9 // 10
+
+
+def rows(numbers, prefix=""):
+    """Lines of a table, one a number; nested names joined by commas."""
+    lines = []
+    for key, value in numbers.items():
+        if isinstance(value, dict):
+            lines += rows(value, f"{prefix}{key}, ")
+        else:
+            name = f"{prefix}{key}".replace("|", "\\|")
+            lines.append(f"| {name} | {common.number(value)} |")
+    return lines
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("gallery-output"))
+    output = parser.parse_args().output.absolute()
+    readme = FOLDER / "README.md"
+    text = readme.read_text()
+    for script in SCRIPTS:
+        print(f"\n{script}", flush=True)
+        subprocess.run([sys.executable, FOLDER / script, "--output", output], check=True)
+        name = pathlib.Path(script).stem.removeprefix("01_")
+        shrink(output / f"{name}.png", PICTURES / f"{name}.png")
+        table = "\n".join(["| number | |", "|---|---|", *rows(json.loads((output / f"{name}.json").read_text()))])
+        text, found = re.subn(f"(<!-- {name} -->\n).*?(<!-- end -->)", lambda m: m[1] + table + "\n" + m[2], text, flags=re.S)
+        if found != 1:
+            sys.exit(f"refresh.py: {readme} has no place <!-- {name} -->")
+    readme.write_text(text)
+
+
+if __name__ == "__main__":
+    main()

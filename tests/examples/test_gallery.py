@@ -1,0 +1,103 @@
+"""Each script of the gallery proves its claim, on less data."""
+
+import pytest
+from running import EXAMPLES, is_refused, numbers_of, script
+
+GALLERY = EXAMPLES / "gallery"
+NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "growth", "jump_and_harmonic", "open_crossing_flipped"]
+
+
+def test_open_crossing_flipped(tmp_path):
+    numbers = numbers_of("gallery/open_crossing_flipped.py", tmp_path)
+    errors = [value for name, value in numbers.items() if name.endswith("error")]
+    assert len(errors) == 4 and max(errors) <= 1e-13
+    assert numbers["crossing: at the middle"] == pytest.approx(2, abs=1e-13)
+    assert numbers["turned back: at the middle"] == pytest.approx(1, abs=1e-13)
+    assert 0.05 < numbers["open: at the middle"] < 0.95
+    assert -0.95 < numbers["flipped: at the middle"] < 0.95
+
+
+def test_amount_of_insideness(tmp_path):
+    numbers = numbers_of("gallery/amount_of_insideness.py", tmp_path)
+    assert numbers["spheres: values"] == [0, 1, 2, 3] and numbers["tube: values"] == [0, 1, 2]
+    for name in ("spheres", "tube"):
+        assert numbers[f"{name}: largest distance from an integer"] <= 1e-12
+    assert numbers["spheres: points counted otherwise"] == 0
+    assert numbers["tube: error"] <= 1e-12
+
+
+def test_jump_and_harmonic(tmp_path):
+    numbers = numbers_of("gallery/jump_and_harmonic.py", tmp_path)
+    assert numbers["crossings"] == 8  # in and out: closed, open, and the two of the nested one
+    assert numbers["largest |jump - 1|"] <= 1e-12
+    assert numbers["largest mean value error"] <= 1e-12
+    assert numbers["order of the Laplacian"] == pytest.approx(2, abs=0.1)
+    assert numbers["error of the sum of two"] <= 1e-12
+
+
+def test_closing_holes(tmp_path):
+    numbers = numbers_of("gallery/closing_holes.py", tmp_path)
+    missing, distances = numbers["part missing"], numbers["mean |winding number - indicator|"]
+    assert missing == sorted(missing, reverse=True) and missing[-1] == 0
+    assert all(a > b for a, b in zip(distances, distances[1:]))
+    assert distances[0] > 0.01 and distances[-1] <= 1e-12
+
+
+def test_boundary_and_parts(tmp_path):
+    numbers = numbers_of("gallery/boundary_and_parts.py", tmp_path)
+    assert numbers["parts"] == 6
+    expected = {"closed": [], "holes": [1], "a cap inwards": [2], "inside out": [], "three pages": [1, 3], "there twice": [2]}
+    for name, multiplicities in expected.items():
+        assert numbers[f"{name}: multiplicities"] == multiplicities
+        triangles, open_edges, volume = numbers[f"{name}: triangles, open edges, volume"]
+        assert triangles > 0 and (open_edges == 0) == (not multiplicities)
+        # Between an icosahedron subdivided and blown up and the ball itself; three pages enclose nothing.
+        assert (volume < 0) == (name == "inside out") or abs(volume) < 1e-12
+    ball = -numbers["inside out: triangles, open edges, volume"][2]
+    assert 3.9 < ball < 4.18879 + 1e-9
+    assert abs(numbers["three pages: triangles, open edges, volume"][2]) <= 1e-12
+    assert numbers["three pages: triangles, open edges, volume"][1] == 3 * 8 + 3 * 2  # rims, and a spine of two edges
+    assert numbers["points where curves do not close"] == 0
+    assert numbers["surface - fan, from an integer"] <= 1e-11
+
+
+def test_growth(tmp_path):
+    """Loosely: machines are busy."""
+    numbers = numbers_of("gallery/growth.py", tmp_path)
+    assert numbers["difference from textbook sum"] <= 1e-12
+
+    def gain(surface, method):
+        """How many times sooner than the plain sum, at the finest."""
+        return numbers[f"{surface}, plain sum: µs a point"][-1] / numbers[f"{surface}, {method}: µs a point"][-1]
+
+    for surface in ("closed", "few holes", "many holes"):
+        plain = numbers[f"{surface}, plain sum: exponent"]
+        assert 0.6 < plain < 1.5
+        assert numbers[f"{surface}, exact: exponent"] < plain
+    assert numbers["closed, exact: exponent"] < 0.5 and gain("closed", "exact") > 1000
+    assert gain("few holes", "exact") > 30 and gain("many holes", "exact") > 3
+    for surface in ("few holes", "many holes"):
+        assert numbers[f"{surface}, fast: exponent"] < 0.5 and gain(surface, "fast") > 300
+
+
+def test_without_a_display_it_finds_one(tmp_path):
+    numbers_of("gallery/jump_and_harmonic.py", tmp_path, environment={"DISPLAY": ""})
+
+
+def test_what_is_wrong_is_one_sentence(tmp_path):
+    (tmp_path / "file").write_text("")
+    is_refused(script("gallery/closing_holes.py", "--small", "--output", tmp_path / "file" / "folder"), "file")
+    nowhere = {"BINDPOSE_PROGRAM": str(tmp_path / "bindpose")}
+    is_refused(script("gallery/amount_of_insideness.py", "--small", "--output", tmp_path, environment=nowhere), "bindpose")
+
+
+def test_the_readme_has_them_all():
+    text = (GALLERY / "README.md").read_text()
+    scripts = {path.stem for path in GALLERY.glob("*.py")} - {"charts", "common", "meshes", "refresh"}
+    assert scripts == set(NAMES)
+    for name in [*NAMES, "inside_outside"]:
+        assert f"](../pictures/{name}.png)" in text
+        table = text.split(f"<!-- {name} -->\n")[1].split("<!-- end -->")[0]
+        assert table.count("\n") > 3, f"run examples/gallery/refresh.py: {name} has no numbers"
+        picture = EXAMPLES / "pictures" / f"{name}.png"
+        assert 10_000 < picture.stat().st_size < 200_000

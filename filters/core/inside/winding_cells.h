@@ -21,7 +21,8 @@ class WindingCells
 {
 public:
   /// Triangles and the caps that close them (boundary_caps.h); together every edge's directions
-  /// cancel. Centred and scaled (ExactFrame), ids below 2^29. All three are referred to, not copied.
+  /// cancel. Centred and scaled (ExactFrame), ids below 2^29. All three are referred to, not
+  /// copied.
   /// @return false when cancelled.
   bool build(const Points& points, const Triangles& triangles, const Triangles& caps,
     double tolerance, ExecutionContext& context);
@@ -104,7 +105,7 @@ private:
   std::array<Vec3, 3> corners(Id face) const;
   bool count_in(const Leaf& leaf, const Vec3& p, int& count) const;
   static int tally(const Block* begin, const Block* end, const Faces* faces, float reach,
-    const float* q, Unclear& unclear);
+    float tolerance, const float* q, Unclear& unclear);
 
   const Points* points_ = nullptr;
   const Triangles* triangles_ = nullptr;

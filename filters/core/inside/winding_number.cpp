@@ -720,8 +720,13 @@ double winding_number_direct(
   SolidAngleSum sum(p, frame.tolerance);
   for (Index t = 0; t < triangles.rows(); ++t)
   {
-    sum.add(frame(points.row(triangles(t, 0))), frame(points.row(triangles(t, 1))),
-      frame(points.row(triangles(t, 2))));
+    const Vec3 a = frame(points.row(triangles(t, 0)));
+    const Vec3 b = frame(points.row(triangles(t, 1)));
+    const Vec3 c = frame(points.row(triangles(t, 2)));
+    if (a != b && b != c && c != a) // else it is none, and cannot be touched either
+    {
+      sum.add(a, b, c);
+    }
   }
   if (on_surface)
   {

@@ -81,10 +81,8 @@ BINDPOSE_ALWAYS_INLINE double sum(const TriangleBlock<Real>* blocks, const Block
       const Real x = static_cast<Real>((at[0] - block.center[0]) * block.inverse_size);
       const Real y = static_cast<Real>((at[1] - block.center[1]) * block.inverse_size);
       const Real z = static_cast<Real>((at[2] - block.center[2]) * block.inverse_size);
-      // A touching triangle is at most 3 tolerances, in distances of its nearest vertex, off the
-      // plane: nearer vertices than this leave it open whether that is flat.
-      const Real touching = static_cast<Real>(touch_tolerance * block.inverse_size) * (6 / P::flat);
-      const Real reach = std::max(P::reach, touching * touching);
+      const Real touching = static_cast<Real>(touch_tolerance * block.inverse_size);
+      const Real reach = std::max(P::reach, 20 * touching * touching);
       typename P::Flag flags[triangle_lanes];
       typename P::Flag any = 0;
       for (int i = 0; i < triangle_lanes; ++i)
@@ -116,7 +114,9 @@ BINDPOSE_ALWAYS_INLINE double sum(const TriangleBlock<Real>* blocks, const Block
         const Real least = aa < bb ? aa : bb;
         const Real nearest = least < cc ? least : cc;
         const bool far_off = re > Real(0.7) * lengths;
-        const bool off_plane = im_size > P::flat * lengths;
+        // The volume with a touching triangle is at most that of a slab of its tolerance.
+        const Real slab = 2 * touching * (la * lb + lb * lc + lc * la);
+        const bool off_plane = im_size > P::flat * lengths + slab;
         const bool kept =
           (re_size + im_size > P::lost * lengths) & (nearest > reach) & (far_off | off_plane);
         const Real turned = block.weight[i] * (im < Real(0) ? -half : half);

@@ -464,7 +464,8 @@ std::int32_t DipoleField::Build::split(Id first, Id count)
       radius2 = std::max(radius2, (corner - node.center).squaredNorm());
     }
   }
-  node.radius = std::sqrt(radius2);
+  // Who touches a triangle is not far from it.
+  node.radius = std::sqrt(radius2) + 2.0 * this->field.touch_tolerance_;
   this->nodes.push_back(node);
   int axis = 0;
   const double longest = box_of_centers.size().maxCoeff(&axis);
@@ -1324,8 +1325,8 @@ double DipoleField::near_sum(
 {
   Careful careful(*this, point);
   const double sum = this->fine_
-    ? sum_blocks(this->double_blocks_.data(), runs, count, point, careful)
-    : sum_blocks(this->float_blocks_.data(), runs, count, point, careful);
+    ? sum_blocks(this->double_blocks_.data(), runs, count, point, this->touch_tolerance_, careful)
+    : sum_blocks(this->float_blocks_.data(), runs, count, point, this->touch_tolerance_, careful);
   on_surface = on_surface || careful.on_surface();
   return sum + careful.winding_number();
 }

@@ -1,9 +1,15 @@
 // The solid angle of a triangle a, b, c seen from the origin is twice the angle of the complex
 // number (|a||b||c| + a.b|c| + b.c|a| + c.a|b|) + i a.(b x c) (Van Oosterom and Strackee, 1983).
 // Far from the triangle the header multiplies these numbers and takes the angle of four at a time.
-// Near the triangle both parts may cancel to nothing, so here they are computed with twice the
-// digits. A triangle that touches the point has no angle but a jump; it counts 0, the mean of both
-// sides.
+//
+// Near the triangle both parts cancel, and next to a sliver they are as small as its width squared:
+// nothing would be left of them even with twice the digits. But with u = |a|b + |b|a and
+// v = |a|c + |c|a, which point half way between a and b and half way between a and c, the same
+// angle is that from u to v around a, of the complex number |a| u.v + i a.(u x v). When b and c lie
+// on the other side of the point than a, u and v are small, each as exactly as doubles of twice the
+// digits hold it, and their products lose no more.
+//
+// A triangle that touches the point has no angle but a jump; it counts 0, the mean of both sides.
 #include "inside/solid_angle.h"
 
 #include "base/exact.h"
@@ -36,6 +42,12 @@ DoubleDouble determinant(const Wide3& a, const Wide3& b, const Wide3& c)
 {
   return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
     a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/// s a + t b.
+Wide3 sum(const DoubleDouble& s, const Wide3& a, const DoubleDouble& t, const Wide3& b)
+{
+  return { s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2] };
 }
 
 /// Squared distance of the origin from the segment a, b.
@@ -95,14 +107,25 @@ double SolidAngleSum::near_half_angle(const Vec3& a0, const Vec3& b0, const Vec3
     this->on_surface_ = true;
     return 0.0;
   }
-  const Wide3 a = wide_difference(a0, this->point_);
-  const Wide3 b = wide_difference(b0, this->point_);
-  const Wide3 c = wide_difference(c0, this->point_);
+  // The corner that comes first is the one that the others are farthest from, as seen from here.
+  std::array<Vec3, 3> corners{ a0, b0, c0 };
+  std::array<Vec3, 3> directions;
+  for (int k = 0; k < 3; ++k)
+  {
+    directions[k] = (corners[k] - this->point_).normalized();
+  }
+  const double cosines[3] = { directions[1].dot(directions[2]), directions[2].dot(directions[0]),
+    directions[0].dot(directions[1]) };
+  const auto first = std::max_element(cosines, cosines + 3) - cosines;
+  std::rotate(corners.begin(), corners.begin() + first, corners.end());
+  const Wide3 a = wide_difference(corners[0], this->point_);
+  const Wide3 b = wide_difference(corners[1], this->point_);
+  const Wide3 c = wide_difference(corners[2], this->point_);
   const DoubleDouble la = sqrt(dot(a, a));
-  const DoubleDouble lb = sqrt(dot(b, b));
-  const DoubleDouble lc = sqrt(dot(c, c));
-  const double real = (la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb).value();
-  const double imaginary = determinant(a, b, c).value();
+  const Wide3 u = sum(la, b, sqrt(dot(b, b)), a);
+  const Wide3 v = sum(la, c, sqrt(dot(c, c)), a);
+  const double real = dot(u, v).value() * la.value();
+  const double imaginary = determinant(a, u, v).value();
   return imaginary == 0.0 ? 0.0 : std::atan2(imaginary, real);
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/simd.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace bindpose
@@ -66,7 +67,7 @@ struct Precision<double>
 
 template <typename Real>
 BINDPOSE_ALWAYS_INLINE double sum(const TriangleBlock<Real>* blocks, const BlockRun* runs,
-  Index count, const Vec3& point, CarefulSum& careful)
+  Index count, const Vec3& point, double touch_tolerance, CarefulSum& careful)
 {
   using P = Precision<Real>;
   constexpr Real half_turn = static_cast<Real>(3.14159265358979323846);
@@ -80,6 +81,8 @@ BINDPOSE_ALWAYS_INLINE double sum(const TriangleBlock<Real>* blocks, const Block
       const Real x = static_cast<Real>((at[0] - block.center[0]) * block.inverse_size);
       const Real y = static_cast<Real>((at[1] - block.center[1]) * block.inverse_size);
       const Real z = static_cast<Real>((at[2] - block.center[2]) * block.inverse_size);
+      const Real touching = static_cast<Real>(touch_tolerance * block.inverse_size);
+      const Real reach = std::max(P::reach, 20 * touching * touching);
       typename P::Flag flags[triangle_lanes];
       typename P::Flag any = 0;
       for (int i = 0; i < triangle_lanes; ++i)
@@ -111,9 +114,11 @@ BINDPOSE_ALWAYS_INLINE double sum(const TriangleBlock<Real>* blocks, const Block
         const Real least = aa < bb ? aa : bb;
         const Real nearest = least < cc ? least : cc;
         const bool far_off = re > Real(0.7) * lengths;
-        const bool off_plane = im_size > P::flat * lengths;
+        // The volume with a touching triangle is at most that of a slab of its tolerance.
+        const Real slab = 2 * touching * (la * lb + lb * lc + lc * la);
+        const bool off_plane = im_size > P::flat * lengths + slab;
         const bool kept =
-          (re_size + im_size > P::lost * lengths) & (nearest > P::reach) & (far_off | off_plane);
+          (re_size + im_size > P::lost * lengths) & (nearest > reach) & (far_off | off_plane);
         const Real turned = block.weight[i] * (im < Real(0) ? -half : half);
         sums[i] += kept ? turned : Real(0);
         flags[i] = kept ? 0 : 1;
@@ -141,15 +146,15 @@ BINDPOSE_ALWAYS_INLINE double sum(const TriangleBlock<Real>* blocks, const Block
 } // namespace
 
 BINDPOSE_SIMD_CLONES double sum_blocks(const TriangleBlock<float>* blocks, const BlockRun* runs,
-  Index count, const Vec3& point, CarefulSum& careful)
+  Index count, const Vec3& point, double touch_tolerance, CarefulSum& careful)
 {
-  return sum(blocks, runs, count, point, careful);
+  return sum(blocks, runs, count, point, touch_tolerance, careful);
 }
 
 BINDPOSE_SIMD_CLONES double sum_blocks(const TriangleBlock<double>* blocks, const BlockRun* runs,
-  Index count, const Vec3& point, CarefulSum& careful)
+  Index count, const Vec3& point, double touch_tolerance, CarefulSum& careful)
 {
-  return sum(blocks, runs, count, point, careful);
+  return sum(blocks, runs, count, point, touch_tolerance, careful);
 }
 
 } // namespace bindpose

@@ -37,13 +37,13 @@ protected:
   ~CarefulSum() = default;
 };
 
-/// Winding number of the triangles of the runs, but for those handed to `careful`. About 1.5 ns a
-/// triangle in float, to 1e-5 of a turn a triangle; 4 ns in double, to 1e-9. The same bits whatever
-/// instructions the machine has.
+/// Winding number of the triangles of the runs, but for those handed to `careful`, among them all
+/// that are within touch_tolerance of the point. About 1.5 ns a triangle in float, to 1e-5 of a
+/// turn a triangle; 4 ns in double, to 1e-9. The same bits whatever instructions the machine has.
 double sum_blocks(const TriangleBlock<float>* blocks, const BlockRun* runs, Index count,
-  const Vec3& point, CarefulSum& careful);
+  const Vec3& point, double touch_tolerance, CarefulSum& careful);
 double sum_blocks(const TriangleBlock<double>* blocks, const BlockRun* runs, Index count,
-  const Vec3& point, CarefulSum& careful);
+  const Vec3& point, double touch_tolerance, CarefulSum& careful);
 
 } // namespace bindpose
 

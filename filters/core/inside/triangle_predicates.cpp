@@ -185,8 +185,30 @@ bool triangles_cross(PointsView points, TrianglesView triangles, Index f, Index 
   return false;
 }
 
+namespace
+{
+Vec3 closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b)
+{
+  const Vec3 ab = b - a;
+  const double length = ab.squaredNorm();
+  return a + (length > 0.0 ? std::clamp((p - a).dot(ab) / length, 0.0, 1.0) : 0.0) * ab;
+}
+} // namespace
+
 Vec3 closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
 {
+  // Of flat ones the regions below are round-off, and their edges are all there is.
+  constexpr double flat = 1e-10;
+  if ((b - a).cross(c - a).squaredNorm() <=
+    flat * flat * (b - a).squaredNorm() * (c - a).squaredNorm())
+  {
+    Vec3 closest = closest_on_segment(p, a, b);
+    for (const Vec3& other : { closest_on_segment(p, b, c), closest_on_segment(p, c, a) })
+    {
+      closest = (other - p).squaredNorm() < (closest - p).squaredNorm() ? other : closest;
+    }
+    return closest;
+  }
   // Walks through the regions around the triangle (Ericson, Real-Time Collision Detection, 5.1.5).
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);

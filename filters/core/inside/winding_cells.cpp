@@ -562,13 +562,16 @@ std::array<WindingCells::Id, 3> WindingCells::place_of(const Node& node, const V
 /// Signed crossings of the segment from the point q to the reference, both as seen from there.
 /// Faces of which a sign is not clear are not counted but added to the unclear ones.
 BINDPOSE_SIMD_CLONES int WindingCells::tally(const Block* begin, const Block* end,
-  const Faces* faces, float leaf_reach, const float* q, Unclear& unclear)
+  const Faces* faces, float leaf_reach, float tolerance, const float* q, Unclear& unclear)
 {
   const float qx = q[0], qy = q[1], qz = q[2];
   const float length = std::max({ std::abs(qx), std::abs(qy), std::abs(qz) });
   const float reach = leaf_reach + length;
-  const float edge_bound = segment_error * length * reach * reach;
-  const float side_bound = corner_error * reach * reach * reach;
+  // A triangle that the point touches, within the tolerance of one of its points, has a volume of
+  // at most 9 tolerance reach^2 with the point and none on the wrong side of the segment by more
+  // than 6 tolerance reach length: with the rounding below that, too, it is left open.
+  const float edge_bound = length * reach * (segment_error * reach + 8.0f * tolerance);
+  const float side_bound = reach * reach * (corner_error * reach + 12.0f * tolerance);
   const float other_bound = side_bound + 4.0f * edge_bound;
   std::int32_t counts[lanes] = {};
   for (const Block* block = begin; block != end; ++block)
@@ -630,7 +633,8 @@ bool WindingCells::count_in(const Leaf& found, const Vec3& p, int& count) const
   Unclear unclear;
   count = found.count +
     tally(this->blocks_.data() + found.begin, this->blocks_.data() + found.end,
-      this->faces_.data() + found.begin, found.reach, q, unclear);
+      this->faces_.data() + found.begin, found.reach, static_cast<float>(this->tolerance_), q,
+      unclear);
   if (unclear.number == 0)
   {
     return true;

@@ -105,7 +105,7 @@ private:
   std::array<Vec3, 3> corners(Id face) const;
   bool count_in(const Leaf& leaf, const Vec3& p, int& count) const;
   static int tally(const Block* begin, const Block* end, const Faces* faces, float reach,
-    const float* q, Unclear& unclear);
+    float tolerance, const float* q, Unclear& unclear);
 
   const Points* points_ = nullptr;
   const Triangles* triangles_ = nullptr;

@@ -271,9 +271,11 @@ Status WindingNumber::build(
     const double pad = padding * field.region.diagonal();
     field.region.lower.array() -= pad;
     field.region.upper.array() += pad;
+    // Long caps are cut, at places that are rounded. So near to them that it shows, they count as
+    // touched, and the exact sum is asked.
+    const double shows = parts.frame.tolerance / options.tolerance;
     done = parts.field.build(parts.points, parts.caps,
-      std::vector<int>(static_cast<std::size_t>(parts.caps.rows()), 1), parts.frame.tolerance,
-      field, context);
+      std::vector<int>(static_cast<std::size_t>(parts.caps.rows()), 1), shows, field, context);
     report.set("error_bound", options.tolerance);
     report.set("measured_error", parts.field.measured_error());
   }
@@ -720,8 +722,13 @@ double winding_number_direct(
   SolidAngleSum sum(p, frame.tolerance);
   for (Index t = 0; t < triangles.rows(); ++t)
   {
-    sum.add(frame(points.row(triangles(t, 0))), frame(points.row(triangles(t, 1))),
-      frame(points.row(triangles(t, 2))));
+    const Vec3 a = frame(points.row(triangles(t, 0)));
+    const Vec3 b = frame(points.row(triangles(t, 1)));
+    const Vec3 c = frame(points.row(triangles(t, 2)));
+    if (a != b && b != c && c != a) // else it is none, and cannot be touched either
+    {
+      sum.add(a, b, c);
+    }
   }
   if (on_surface)
   {

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -380,4 +382,29 @@ TEST(SurfaceRepair, SameForAnyNumberOfThreads)
   ASSERT_TRUE(repair_surface(mesh.points, mesh.triangles, {}, b, many).ok());
   EXPECT_EQ(a.crossings, b.crossings);
   EXPECT_GT(a.crossings.size(), 0u);
+}
+
+TEST(SurfaceRepair, ClosestPointOfTrianglesThatAreLines)
+{
+  // Three corners on a line in any order, and two or three of them at one place: the nearest point
+  // of the longest edge, and never one that is not on the line.
+  test::Random random(11);
+  const auto anywhere = [&] { return random.in_box(Vec3::Constant(-1.0), Vec3::Constant(1.0)); };
+  for (int round = 0; round < 3000; ++round)
+  {
+    const Vec3 from = anywhere(), along = anywhere(), p = 3.0 * anywhere();
+    std::array<double, 3> places{ 0.0, 1.0, random.uniform(-1.0, 2.0) };
+    if (round % 5 == 0)
+    {
+      places[2] = places[round % 2];
+    }
+    const auto corner = [&](std::size_t k) { return Vec3(from + places[k] * along); };
+    const double low = *std::min_element(places.begin(), places.end());
+    const double high = *std::max_element(places.begin(), places.end());
+    const double t = std::clamp((p - from).dot(along) / along.squaredNorm(), low, high);
+    const Vec3 expected = from + t * along;
+    ASSERT_LE((closest_point(p, corner(0), corner(1), corner(2)) - expected).norm(), 1e-13);
+    ASSERT_LE((closest_point(p, corner(2), corner(0), corner(1)) - expected).norm(), 1e-13);
+  }
+  EXPECT_EQ(closest_point(Vec3(1, 2, 3), Vec3::Ones(), Vec3::Ones(), Vec3::Ones()), Vec3::Ones());
 }

@@ -280,6 +280,137 @@ TEST(WindingMethods, ThinTrianglesDoNotFlip)
   }
 }
 
+TEST(WindingMethods, SliversAreSeenUnderTheAngleOfTheirRectangle)
+{
+  // Above a corner of a rectangle x by y, at height h, it is seen under
+  // atan(x y / (h sqrt(x^2 + y^2 + h^2))); four of them make one above any place. However thin the
+  // rectangle is, this is a good part of all around where h is about its width: 1e-14 are five
+  // tolerances.
+  const double xs[2] = { -0.7, 1.3 };
+  for (const double width : { 1e-3, 1e-8, 1e-12, 1e-13, 1e-14 })
+  {
+    const double ys[2] = { -0.6 * width, 1.1 * width };
+    for (const double h : { width, 0.7 * width, -3.0 * width })
+    {
+      TriangleMesh mesh{ Points(4, 3), Triangles(2, 3) };
+      mesh.points << xs[0], ys[0], 0, xs[1], ys[0], 0, xs[1], ys[1], 0, xs[0], ys[1], 0;
+      mesh.triangles << 0, 2, 1, 0, 3, 2;
+      double expected = 0.0;
+      for (int i = 0; i < 2; ++i)
+      {
+        for (int k = 0; k < 2; ++k)
+        {
+          const double x = std::abs(xs[i]), y = std::abs(ys[k]);
+          expected += std::atan(x * y / (h * std::sqrt(x * x + y * y + h * h)));
+        }
+      }
+      expected /= 12.56637061435917295;
+      for (const WindingMethod method : ways)
+      {
+        EXPECT_NEAR(make(mesh, method, 1).evaluate_at(Vec3(0, 0, h)), expected, 1e-15)
+          << to_string(method) << ", " << width << ", " << h;
+      }
+    }
+  }
+}
+
+TEST(WindingMethods, WhatIsNoTriangleCannotBeTouched)
+{
+  TriangleMesh mesh = test::cube();
+  mesh.triangles.conservativeResize(13, 3);
+  mesh.triangles.row(12) << 0, 7, 0; // a line between opposite corners
+  for (const WindingMethod method : ways)
+  {
+    bool touches = true;
+    EXPECT_NEAR(make(mesh, method).evaluate_at(Vec3::Zero(), &touches), 1.0, 1e-15);
+    EXPECT_FALSE(touches) << to_string(method);
+  }
+  bool touches = true;
+  EXPECT_NEAR(
+    winding_number_direct(mesh.points, mesh.triangles, Vec3::Zero(), &touches), 1.0, 1e-15);
+  EXPECT_FALSE(touches);
+}
+
+TEST(WindingMethods, FarFromTheOriginTouchingReachesAsFar)
+{
+  // 2^-49 of 1e9 and more is 2e-6 and more, where floats tell 1e-7 from each other: a closed sphere
+  // for the cells, loose triangles for the blocks.
+  const TriangleMesh sphere = test::sphere(2);
+  TriangleMesh loose{ Points(3 * sphere.triangles.rows(), 3), sphere.triangles };
+  for (Index t = 0; t < sphere.triangles.rows(); ++t)
+  {
+    const auto corner = [&](int k) { return sphere.points.row(sphere.triangles(t, k)); };
+    for (int k = 0; k < 3; ++k)
+    {
+      loose.points.row(3 * t + k) =
+        0.9 * corner(k) + 0.05 * (corner((k + 1) % 3) + corner((k + 2) % 3));
+      loose.triangles(t, k) = 3 * t + k;
+    }
+  }
+  for (const double place : { 1e6, 1e9, 1e11 })
+  {
+    const double reach = std::ldexp(place, -49);
+    for (const bool closed : { true, false })
+    {
+      const TriangleMesh mesh = test::translated(closed ? sphere : loose, Vec3(place, 0, 0));
+      const WindingNumber winding =
+        make(mesh, closed ? WindingMethod::crossings : WindingMethod::fast);
+      for (Index t = 0; t < mesh.triangles.rows(); ++t)
+      {
+        const auto corner = [&](int k) { return Vec3(mesh.points.row(mesh.triangles(t, k))); };
+        const Vec3 center = corner(0) + ((corner(1) - corner(0)) + (corner(2) - corner(0))) / 3.0;
+        const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0)).normalized();
+        for (const double height : { 0.6, -0.6, 2.0, -2.0 })
+        {
+          bool touches = false;
+          winding.evaluate_at(center + height * reach * normal, &touches);
+          EXPECT_EQ(touches, std::abs(height) < 1.0) << place << ", " << closed << ", " << t;
+        }
+      }
+    }
+  }
+}
+
+TEST(WindingMethods, FastNextToALongTriangleThatIsCut)
+{
+  // One triangle as long as the box among many small ones: halved until it is as small, at places
+  // that are rounded by some 1e-17. A few 1e-15 from its edge that is a good part of the angle.
+  TriangleMesh mesh;
+  test::Random random(3);
+  for (int i = 0; i < 80; ++i)
+  {
+    TriangleMesh small{ Points(3, 3), Triangles(1, 3) };
+    const Vec3 at = random.in_box(Vec3::Constant(-1), Vec3::Constant(1));
+    for (int k = 0; k < 3; ++k)
+    {
+      small.points.row(k) =
+        (at + random.in_box(Vec3::Constant(-0.01), Vec3::Constant(0.01))).transpose();
+    }
+    small.triangles << 0, 1, 2;
+    mesh = test::join(mesh, small);
+  }
+  const Vec3 a(-0.9137, -0.8719, -0.7731), b(0.8317, 0.9173, 0.6597), c(0.8317, 0.9173, 0.66);
+  TriangleMesh large{ Points(3, 3), Triangles(1, 3) };
+  large.points << a.transpose(), b.transpose(), c.transpose();
+  large.triangles << 0, 1, 2;
+  mesh = test::join(mesh, large);
+  WindingNumber::Options options;
+  options.method = WindingMethod::fast;
+  options.tolerance = 1e-5;
+  ExecutionContext context;
+  WindingNumber winding;
+  ASSERT_TRUE(winding.build(mesh.points, mesh.triangles, context, options).ok());
+  for (int i = 0; i < 2000; ++i)
+  {
+    const Vec3 foot = a + random.uniform(0.1, 0.9) * (b - a);
+    const Vec3 p = foot +
+      std::pow(10.0, random.uniform(-14.5, -10.0)) *
+        random.in_box(Vec3::Constant(-1), Vec3::Constant(1));
+    ASSERT_NEAR(
+      winding.evaluate_at(p), winding_number_direct(mesh.points, mesh.triangles, p), 1e-5);
+  }
+}
+
 TEST(WindingMethods, AutomaticChoosesByCounts)
 {
   EXPECT_EQ(make(test::cube(), WindingMethod::automatic).method(), WindingMethod::direct);

@@ -1,7 +1,6 @@
 #include "surfaces.h"
 
 #include <cmath>
-#include <cstdint>
 #include <map>
 
 namespace bindpose::benchmarks
@@ -104,18 +103,23 @@ TriangleMesh patches(Index triangles)
   return mesh;
 }
 
+double Random::uniform(double lower, double upper)
+{
+  this->state_ += 0x9e3779b97f4a7c15ull;
+  std::uint64_t z = this->state_;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  z ^= z >> 31;
+  return lower + (upper - lower) * (static_cast<double>(z >> 11) * 0x1.0p-53);
+}
+
 Points scattered_points(Index count)
 {
   Points points(count, 3);
-  std::uint64_t state = 1; // splitmix64: the same numbers on every machine
+  Random random;
   for (Index i = 0; i < points.size(); ++i)
   {
-    state += 0x9e3779b97f4a7c15ull;
-    std::uint64_t z = state;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    z ^= z >> 31;
-    points.data()[i] = 2.4 * static_cast<double>(z >> 11) * 0x1.0p-53 - 1.2;
+    points.data()[i] = random.uniform(-1.2, 1.2);
   }
   return points;
 }

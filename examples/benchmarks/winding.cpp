@@ -1,132 +1,350 @@
-// Winding numbers: build and evaluation by method and size, one thread. The yardstick row is the
-// plain solid-angle sum, in seconds per triangle and point: compare ratios, not machines.
+// Winding numbers: builds, grids, scattered points and points near the surface, of closed, open and
+// orderless surfaces. Every row tells its median and spread over five repetitions, nanoseconds a
+// point, and the same in yardsticks (`Y`): what one term of the textbook sum costs in this very
+// run. Compare yardsticks, not machines. `error` is the largest difference from the plain sum in
+// double on some hundred of the row's own points.
+//
+//   build/bin/bindpose_benchmarks --benchmark_filter=winding
+//
+// With BINDPOSE_BENCHMARK_MESHES=FOLDER the rows named elephant take refined_elephant.off, and
+// those named holes elephant-with-holes.off from there (see the Debian package libcgal-demo);
+// without, they are left out.
 #include "surfaces.h"
 
 #include "inside/winding_number.h"
+#include "io/off.h"
 
 #include <benchmark/benchmark.h>
 
+#include <chrono>
 #include <cmath>
+#include <cstdlib>
+#include <map>
 
 namespace
 {
 using namespace bindpose;
+using benchmarks::Random;
 
-enum Surface
+/// Nanoseconds a triangle of the formula as textbooks print it, measured once.
+double yardstick()
 {
-  closed,
-  open,
-  soup
+  static const double nanoseconds = []
+  {
+    const TriangleMesh mesh = benchmarks::bumpy_sphere(20000);
+    const Points queries = benchmarks::scattered_points(60);
+    double best = 1e300;
+    for (int round = 0; round < 3; ++round)
+    {
+      const auto start = std::chrono::steady_clock::now();
+      for (Index q = 0; q < queries.rows(); ++q)
+      {
+        const Vec3 p = queries.row(q);
+        double sum = 0.0;
+        for (Index t = 0; t < mesh.triangles.rows(); ++t)
+        {
+          const Vec3 a = mesh.points.row(mesh.triangles(t, 0)).transpose() - p;
+          const Vec3 b = mesh.points.row(mesh.triangles(t, 1)).transpose() - p;
+          const Vec3 c = mesh.points.row(mesh.triangles(t, 2)).transpose() - p;
+          const double la = a.norm(), lb = b.norm(), lc = c.norm();
+          sum += std::atan2(
+            a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+        }
+        benchmark::DoNotOptimize(sum);
+      }
+      const std::chrono::duration<double, std::nano> spent =
+        std::chrono::steady_clock::now() - start;
+      best = std::min(best,
+        spent.count() / static_cast<double>(queries.rows()) /
+          static_cast<double>(mesh.triangles.rows()));
+    }
+    return best;
+  }();
+  return nanoseconds;
+}
+
+/// Triangles of no order: `count` of them, an edge long what a surface of so many would have.
+TriangleMesh orderless(Index count)
+{
+  Random random(3);
+  const double length = 3.0 / std::sqrt(static_cast<double>(count));
+  TriangleMesh mesh;
+  mesh.points.resize(3 * count, 3);
+  mesh.triangles.resize(count, 3);
+  for (Index t = 0; t < count; ++t)
+  {
+    const Vec3 at(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3 corner =
+        at + length * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+      mesh.points.row(3 * t + k) = corner.transpose();
+      mesh.triangles(t, k) = 3 * t + k;
+    }
+  }
+  return mesh;
+}
+
+/// A surface by its name: closed, open, patches, orderless, each with its number of triangles, or
+/// one of the files. Made once.
+const TriangleMesh& surface(const std::string& name, Index triangles)
+{
+  static std::map<std::pair<std::string, Index>, TriangleMesh> made;
+  const auto [entry, fresh] = made.try_emplace({ name, triangles });
+  if (fresh)
+  {
+    if (name == "closed")
+    {
+      entry->second = benchmarks::bumpy_sphere(triangles);
+    }
+    else if (name == "open")
+    {
+      entry->second = benchmarks::open_bumpy_sphere(triangles);
+    }
+    else if (name == "patches")
+    {
+      entry->second = benchmarks::patches(triangles);
+    }
+    else if (name == "orderless")
+    {
+      entry->second = orderless(triangles);
+    }
+    else if (const char* folder = std::getenv("BINDPOSE_BENCHMARK_MESHES"))
+    {
+      PolygonMesh mesh;
+      const std::string file = name == "holes" ? "elephant-with-holes" : "refined_elephant";
+      if (read_off(std::string(folder) + "/" + file + ".off", mesh).ok())
+      {
+        entry->second = { mesh.points, fan_triangles(mesh) };
+      }
+    }
+  }
+  return entry->second;
+}
+
+enum Where
+{
+  grid,
+  scattered,
+  near, ///< 1e-4 diagonals off the surface
+  far_from_origin ///< scattered, everything moved by 1e6 diagonals
 };
 
-TriangleMesh surface(Index kind, Index triangles)
+struct Row
 {
-  switch (kind)
+  const char* surface;
+  Index triangles; ///< 0: a file
+  Where where;
+  Index samples; ///< of the grid's longest side
+  WindingMethod method;
+  double tolerance;
+  int threads;
+};
+
+Points queries_for(const Row& row, const TriangleMesh& mesh, const Box& box)
+{
+  constexpr Index count = 50000;
+  Random random(5);
+  Points queries(count, 3);
+  for (Index i = 0; i < count; ++i)
   {
-    case closed:
-      return benchmarks::bumpy_sphere(triangles);
-    case open:
-      return benchmarks::open_bumpy_sphere(triangles);
-    default:
-      return benchmarks::patches(triangles);
+    Vec3 p;
+    for (int k = 0; k < 3; ++k)
+    {
+      p[k] = random.uniform(box.lower[k], box.upper[k]);
+    }
+    if (row.where == near)
+    {
+      const Index t = random.below(mesh.triangles.rows());
+      const Vec3 a = mesh.points.row(mesh.triangles(t, 0));
+      const Vec3 u = Vec3(mesh.points.row(mesh.triangles(t, 1))) - a;
+      const Vec3 v = Vec3(mesh.points.row(mesh.triangles(t, 2))) - a;
+      double s = random.uniform(0.0, 1.0), r = random.uniform(0.0, 1.0);
+      s = s + r > 1.0 ? 1.0 - s : s;
+      r = s + r > 1.0 ? 1.0 - r : r;
+      p =
+        a + s * u + r * v + random.uniform(-1e-4, 1e-4) * box.diagonal() * u.cross(v).normalized();
+    }
+    queries.row(i) = p.transpose();
   }
+  return queries;
 }
 
-WindingNumber build(const TriangleMesh& mesh, WindingMethod method)
+SampleGrid grid_for(Index samples, const Box& box)
 {
+  const double padding = 0.1 * box.diagonal();
+  const Vec3 size = box.size() + Vec3::Constant(2.0 * padding);
+  const double step = size.maxCoeff() / static_cast<double>(samples - 1);
+  SampleGrid cells;
+  cells.origin = box.lower - Vec3::Constant(padding);
+  cells.spacing.setConstant(step);
+  for (int k = 0; k < 3; ++k)
+  {
+    cells.extent[2 * k] = 0;
+    cells.extent[2 * k + 1] = static_cast<Index>(size[k] / step + 1e-9);
+  }
+  return cells;
+}
+
+void evaluate(benchmark::State& state, const Row& row)
+{
+  TriangleMesh mesh = surface(row.surface, row.triangles);
+  if (row.where == far_from_origin)
+  {
+    const double away = 1e6 * bounding_box(mesh.points).diagonal();
+    mesh.points.rowwise() += Vec3(away, -away, away).transpose();
+  }
+  const Box box = bounding_box(mesh.points);
   ExecutionContext context;
-  context.set_threads(1);
+  context.set_threads(row.threads);
   WindingNumber::Options options;
-  options.method = method;
+  options.method = row.method;
+  options.tolerance = row.tolerance;
   WindingNumber winding;
   winding.build(mesh.points, mesh.triangles, context, options);
-  return winding;
-}
-
-/// The formula as textbooks print it, nothing else: what one term of the sum costs here.
-void winding_yardstick(benchmark::State& state)
-{
-  const TriangleMesh mesh = benchmarks::bumpy_sphere(state.range(0));
-  const Points queries = benchmarks::scattered_points(64);
-  Index q = 0;
+  const SampleGrid cells = grid_for(std::max<Index>(row.samples, 2), box);
+  const Points queries = queries_for(row, mesh, box);
+  const Index count = row.where == grid ? cells.count() : queries.rows();
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(count);
+  double seconds = 0.0;
   for (auto _ : state)
   {
-    const Vec3 p = queries.row(q++ % queries.rows());
-    double sum = 0.0;
-    for (Index t = 0; t < mesh.triangles.rows(); ++t)
-    {
-      const Vec3 a = mesh.points.row(mesh.triangles(t, 0)).transpose() - p;
-      const Vec3 b = mesh.points.row(mesh.triangles(t, 1)).transpose() - p;
-      const Vec3 c = mesh.points.row(mesh.triangles(t, 2)).transpose() - p;
-      const double la = a.norm(), lb = b.norm(), lc = c.norm();
-      sum +=
-        std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
-    }
-    benchmark::DoNotOptimize(sum);
+    const auto start = std::chrono::steady_clock::now();
+    row.where == grid ? winding.evaluate(cells, context, values.data())
+                      : winding.evaluate(queries, context, values.data());
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    state.SetIterationTime(spent.count());
+    seconds += spent.count();
   }
-  state.counters["per_triangle"] = benchmark::Counter(
-    static_cast<double>(mesh.triangles.rows()) * static_cast<double>(state.iterations()),
-    benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  double error = 0.0;
+  const Index step = std::max<Index>(1, count / 200);
+  for (Index i = 0; i < count; i += step)
+  {
+    const Vec3 p = row.where == grid
+      ? cells.point(
+          i % cells.size(0), i / cells.size(0) % cells.size(1), i / cells.size(0) / cells.size(1))
+      : Vec3(queries.row(i));
+    error =
+      std::max(error, std::abs(values[i] - winding_number_direct(mesh.points, mesh.triangles, p)));
+  }
+  const double nanoseconds =
+    1e9 * seconds / static_cast<double>(state.iterations()) / static_cast<double>(count);
+  state.SetLabel(to_string(winding.method()));
+  state.counters["ns"] = nanoseconds;
+  state.counters["Y"] = nanoseconds / yardstick();
+  state.counters["error"] = error;
+  state.counters["triangles"] = static_cast<double>(mesh.triangles.rows());
+  state.counters["open_edges"] = winding.status().report.number("counts.open_edges", 0.0);
 }
 
-void winding_build(benchmark::State& state)
+void build(benchmark::State& state, const std::string& name, Index triangles, int threads)
 {
-  const TriangleMesh mesh = surface(state.range(0), state.range(1));
+  const TriangleMesh& mesh = surface(name, triangles);
   double bytes = 0.0;
   for (auto _ : state)
   {
-    bytes = static_cast<double>(build(mesh, WindingMethod::automatic).memory());
+    ExecutionContext context;
+    context.set_threads(threads);
+    WindingNumber winding;
+    const auto start = std::chrono::steady_clock::now();
+    winding.build(mesh.points, mesh.triangles, context);
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    state.SetIterationTime(spent.count());
+    bytes = static_cast<double>(winding.memory());
   }
   state.counters["triangles"] = static_cast<double>(mesh.triangles.rows());
   state.counters["bytes_per_triangle"] = bytes / static_cast<double>(mesh.triangles.rows());
 }
 
-template <bool Grid>
-void winding_evaluate(benchmark::State& state, WindingMethod method)
+void add(benchmark::internal::Benchmark* row)
 {
-  const TriangleMesh mesh = surface(state.range(0), state.range(1));
-  const WindingNumber winding = build(mesh, method);
-  SampleGrid grid;
-  grid.origin = Vec3::Constant(-1.2);
-  grid.spacing = Vec3::Constant(2.4 / 11.0);
-  grid.extent = { 0, 11, 0, 11, 0, 11 };
-  const Points queries = benchmarks::scattered_points(grid.count());
-  ExecutionContext context;
-  context.set_threads(1);
-  Eigen::VectorXd values;
-  for (auto _ : state)
-  {
-    Grid ? winding.evaluate(grid, context, values) : winding.evaluate(queries, context, values);
-  }
-  state.SetLabel(to_string(winding.method()));
-  state.counters["open_edges"] = winding.status().report.number("counts.open_edges", 0.0);
-  state.counters["per_point"] =
-    benchmark::Counter(static_cast<double>(grid.count()) * static_cast<double>(state.iterations()),
-      benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  row->UseManualTime()->Repetitions(5)->ReportAggregatesOnly()->MinTime(0.05)->Unit(
+    benchmark::kMillisecond);
 }
 
-constexpr auto winding_points = winding_evaluate<false>;
-constexpr auto winding_grid = winding_evaluate<true>;
-
-BENCHMARK(winding_yardstick)->Arg(5000)->Unit(benchmark::kMicrosecond);
-BENCHMARK(winding_build)
-  ->ArgNames({ "surface", "triangles" })
-  ->ArgsProduct({ { closed, open, soup }, { 5000, 86000 } })
-  ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(winding_grid, automatic, WindingMethod::automatic)
-  ->ArgNames({ "surface", "triangles" })
-  ->ArgsProduct({ { closed, open, soup }, { 5000, 86000 } })
-  ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(winding_points, automatic, WindingMethod::automatic)
-  ->ArgNames({ "surface", "triangles" })
-  ->ArgsProduct({ { closed, open, soup }, { 5000, 86000 } })
-  ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(winding_points, hierarchical, WindingMethod::hierarchical)
-  ->ArgNames({ "surface", "triangles" })
-  ->ArgsProduct({ { closed, open, soup }, { 5000, 86000 } })
-  ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(winding_points, crossings, WindingMethod::crossings)
-  ->ArgNames({ "surface", "triangles" })
-  ->ArgsProduct({ { open, soup }, { 5000, 86000 } })
-  ->Unit(benchmark::kMillisecond);
+const bool registered = []
+{
+  using M = WindingMethod;
+  const char* const places[] = { "grid", "scattered", "near", "far_from_origin" };
+  const std::vector<Row> rows{
+    // Closed: exact.
+    { "elephant", 0, grid, 64, M::automatic, 1e-3, 1 },
+    { "elephant", 0, grid, 128, M::automatic, 1e-3, 1 },
+    { "elephant", 0, grid, 256, M::automatic, 1e-3, 1 },
+    { "elephant", 0, grid, 256, M::automatic, 1e-3, 2 },
+    { "elephant", 0, scattered, 0, M::automatic, 1e-3, 1 },
+    { "elephant", 0, scattered, 0, M::automatic, 1e-3, 2 },
+    { "elephant", 0, near, 0, M::automatic, 1e-3, 1 },
+    { "closed", 86000, grid, 128, M::automatic, 1e-3, 1 },
+    { "closed", 86000, scattered, 0, M::automatic, 1e-3, 1 },
+    { "closed", 86000, near, 0, M::automatic, 1e-3, 1 },
+    { "closed", 86000, far_from_origin, 0, M::automatic, 1e-3, 1 },
+    // Open: within a tolerance, and exact.
+    { "holes", 0, grid, 128, M::fast, 1e-3, 1 },
+    { "holes", 0, scattered, 0, M::fast, 1e-3, 1 },
+    { "holes", 0, scattered, 0, M::fast, 1e-6, 1 },
+    { "holes", 0, near, 0, M::fast, 1e-3, 1 },
+    { "open", 39000, grid, 128, M::fast, 1e-3, 1 },
+    { "open", 39000, scattered, 0, M::fast, 1e-3, 1 },
+    { "open", 39000, scattered, 0, M::fast, 1e-6, 1 },
+    { "open", 39000, scattered, 0, M::exact, 1e-3, 1 },
+    { "patches", 4800, grid, 128, M::fast, 1e-3, 1 },
+    { "patches", 4800, grid, 128, M::fast, 1e-4, 1 },
+    // Orderless.
+    { "orderless", 86000, grid, 128, M::fast, 2e-3, 1 },
+    { "orderless", 86000, grid, 128, M::fast, 1e-4, 1 },
+    { "orderless", 86000, scattered, 0, M::fast, 2e-3, 1 },
+    // Growth: four times the triangles each time.
+    { "closed", 20000, scattered, 0, M::automatic, 1e-3, 1 },
+    { "closed", 80000, scattered, 0, M::automatic, 1e-3, 1 },
+    { "closed", 320000, scattered, 0, M::automatic, 1e-3, 1 },
+    { "closed", 1280000, scattered, 0, M::automatic, 1e-3, 1 },
+  };
+  const auto is_there = [](const std::string& name, Index triangles)
+  { return triangles > 0 || surface(name, triangles).triangles.rows() > 0; };
+  for (const Row& row : rows)
+  {
+    if (!is_there(row.surface, row.triangles))
+    {
+      continue;
+    }
+    std::string name = std::string("winding/") + places[row.where] + "/" + row.surface;
+    if (row.triangles > 0)
+    {
+      name += ":" + std::to_string(row.triangles);
+    }
+    if (row.where == grid)
+    {
+      name += "/samples:" + std::to_string(row.samples);
+    }
+    if (row.method == M::fast)
+    {
+      char tolerance[32];
+      std::snprintf(tolerance, sizeof(tolerance), "/tolerance:%.0e", row.tolerance);
+      name += tolerance;
+    }
+    name += "/threads:" + std::to_string(row.threads);
+    add(benchmark::RegisterBenchmark(
+      name.c_str(), [row](benchmark::State& state) { evaluate(state, row); }));
+  }
+  for (const auto& [name, triangles] :
+    std::vector<std::pair<std::string, Index>>{ { "elephant", 0 }, { "closed", 86000 },
+      { "closed", 1380000 }, { "open", 86000 }, { "patches", 86000 }, { "orderless", 86000 } })
+  {
+    for (const int threads : { 1, 2 })
+    {
+      if (!is_there(name, triangles))
+      {
+        continue;
+      }
+      add(benchmark::RegisterBenchmark(
+        ("winding/build/" + name + (triangles ? ":" + std::to_string(triangles) : "") +
+          "/threads:" + std::to_string(threads))
+          .c_str(),
+        [name = name, triangles = triangles, threads](benchmark::State& state)
+        { build(state, name, triangles, threads); }));
+    }
+  }
+  return true;
+}();
 } // namespace

@@ -3,7 +3,7 @@
 
 // Tests that try many random cases. A round's case depends on its seed alone, so that a failure can
 // be repeated by itself:
-//   BINDPOSE_FUZZ_FACTOR=20  makes 20 times as many rounds (nightly);
+//   BINDPOSE_FUZZ_FACTOR=8   makes 8 times as many rounds (nightly);
 //   BINDPOSE_FUZZ_SEED=7     runs the round of this seed alone;
 //   BINDPOSE_FUZZ_TRACE=1    prints each seed before its round, for a crash takes the trace with
 //   it.

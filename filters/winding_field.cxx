@@ -206,16 +206,9 @@ Points points_of(const Samples& samples)
     return samples.points();
   }
   Points points(grid->count(), 3);
-  Index row = 0;
-  for (Index k = grid->extent[4]; k <= grid->extent[5]; ++k)
+  for (Index i = 0; i < points.rows(); ++i)
   {
-    for (Index j = grid->extent[2]; j <= grid->extent[3]; ++j)
-    {
-      for (Index i = grid->extent[0]; i <= grid->extent[1]; ++i)
-      {
-        points.row(row++) = grid->point(i, j, k).transpose();
-      }
-    }
+    points.row(i) = grid->point(i).transpose();
   }
   return points;
 }
@@ -390,14 +383,8 @@ struct WindingField::Curve : Kernel
   Status evaluate(const Samples& samples, ExecutionContext& context, double* out,
     unsigned char* on_surface) const override
   {
-    Status status =
-      this->winding.evaluate(in_plane(points_of(samples), this->across), context, out, on_surface);
-    if (status.ok())
-    {
-      // The same key whatever it is that the points lie on.
-      status.report.set("counts.on_surface", Index(status.report.number("counts.on_curve", 0.0)));
-    }
-    return status;
+    return this->winding.evaluate(
+      in_plane(points_of(samples), this->across), context, out, on_surface);
   }
 
   Status evaluate_gradient(

@@ -30,6 +30,13 @@ struct SampleGrid
       this->spacing.cwiseProduct(
         Vec3(static_cast<double>(i), static_cast<double>(j), static_cast<double>(k)));
   }
+  /// By its number among the extent's, from 0.
+  Vec3 point(Index number) const
+  {
+    const Index nx = this->size(0), ny = this->size(1);
+    return this->point(this->extent[0] + number % nx, this->extent[2] + number / nx % ny,
+      this->extent[4] + number / nx / ny);
+  }
 };
 
 } // namespace bindpose

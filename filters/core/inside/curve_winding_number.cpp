@@ -21,10 +21,10 @@
 #include "base/parallel.h"
 #include "base/parallel_sort.h"
 #include "inside/exact_frame.h"
+#include "inside/point_values.h"
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -742,56 +742,31 @@ double CurveWindingNumber::evaluate_at(const Vec2& point, bool* on_curve) const
 
 namespace
 {
-/// A few milliseconds a block, so that a cancel is seen in time.
-Index block_size(std::size_t chords)
+double nanoseconds_a_point(std::size_t chords)
 {
-  return std::clamp<Index>(200000 / (8 + static_cast<Index>(chords)), 1, 32768);
+  return 200.0 + 25.0 * static_cast<double>(chords);
 }
 } // namespace
 
 Status CurveWindingNumber::evaluate(
-  PlanePointsView queries, ExecutionContext& context, double* out, unsigned char* flags) const
+  PlanePointsView queries, ExecutionContext& context, double* out, unsigned char* on_curve) const
 {
   const Parts& parts = *this->parts_;
   if (!parts.status.ok())
   {
     return parts.status;
   }
-  const Index count = queries.rows();
-  std::atomic<Index> touching{ 0 };
-  std::atomic<Index> not_finite{ 0 };
-  const bool done = parallel_for(context, count, block_size(parts.chords.size()),
-    [&](Index begin, Index end)
+  return point_values(context, queries.rows(), nanoseconds_a_point(parts.chords.size()), out,
+    on_curve,
+    [&](Index begin, Index end, unsigned char* flags)
     {
-      Index touching_here = 0, not_finite_here = 0;
       for (Index i = begin; i < end; ++i)
       {
-        bool on_curve = false;
-        out[i] = parts.at(queries.row(i), on_curve);
-        if (flags)
-        {
-          flags[i] = on_curve;
-        }
-        touching_here += on_curve;
-        not_finite_here += std::isnan(out[i]);
+        bool touches = false;
+        out[i] = parts.at(queries.row(i), touches);
+        flags[i - begin] = touches;
       }
-      touching += touching_here;
-      not_finite += not_finite_here;
     });
-  if (!done)
-  {
-    return Status::cancelled();
-  }
-  Status status;
-  status.report.set("counts.queries", count);
-  status.report.set("counts.on_curve", touching.load());
-  if (not_finite > 0)
-  {
-    status.report.set("counts.not_finite", not_finite.load());
-    status.warnings.push_back(std::to_string(not_finite.load()) + " of " + std::to_string(count) +
-      " points have a coordinate that is not a finite number; their winding number is NaN");
-  }
-  return status;
 }
 
 Status CurveWindingNumber::evaluate(
@@ -809,7 +784,10 @@ Status CurveWindingNumber::evaluate_gradient(
   {
     return parts.status;
   }
-  const bool done = parallel_for(context, queries.rows(), block_size(parts.chords.size()),
+  constexpr double block_nanoseconds = 5e6;
+  const auto block = std::clamp<Index>(
+    static_cast<Index>(block_nanoseconds / nanoseconds_a_point(parts.chords.size())), 1, 32768);
+  const bool done = parallel_for(context, queries.rows(), block,
     [&](Index begin, Index end)
     {
       for (Index i = begin; i < end; ++i)

@@ -64,7 +64,7 @@ public:
 
   /// Winding numbers of #Q x 2 points, and 1 for every point that touches a segment, else 0 (unless
   /// null), into memory of the caller's. A point that is not finite gets NaN, and a warning.
-  /// Reports counts.queries, counts.on_curve and, when there are any, counts.not_finite.
+  /// Reports counts.queries, counts.on_surface and, when there are any, counts.not_finite.
   /// cancelled: `out` is not complete.
   Status evaluate(PlanePointsView queries, ExecutionContext& context, double* out,
     unsigned char* on_curve = nullptr) const;

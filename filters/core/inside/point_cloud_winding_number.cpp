@@ -25,6 +25,7 @@
 #include "base/simd.h"
 #include "inside/exact_frame.h"
 #include "inside/point_areas.h"
+#include "inside/point_values.h"
 #include "inside/solid_harmonics.h"
 
 #include <algorithm>
@@ -867,51 +868,26 @@ double PointCloudWindingNumber::evaluate_exactly_at(const Vec3& point, bool* on_
 
 template <typename PointAt>
 Status PointCloudWindingNumber::evaluate_points(Index count, const PointAt& point_at,
-  ExecutionContext& context, double* out, unsigned char* flags) const
+  ExecutionContext& context, double* out, unsigned char* on_surface) const
 {
   const Parts& parts = *this->parts_;
   if (!parts.status.ok())
   {
     return parts.status;
   }
-  // A few milliseconds a block, so that a cancel is seen in time.
-  const Index cost =
-    parts.method == WindingMethod::fast ? 4000 : 1 + 8 * static_cast<Index>(parts.dipoles.size());
-  const Index block = std::clamp<Index>(5000000 / cost, 1, 4096);
-  std::atomic<Index> touching{ 0 };
-  std::atomic<Index> not_finite{ 0 };
-  const bool done = parallel_for(context, count, block,
-    [&](Index begin, Index end)
+  const double nanoseconds = parts.method == WindingMethod::fast
+    ? 4000.0
+    : 1.0 + 8.0 * static_cast<double>(parts.dipoles.size());
+  return point_values(context, count, nanoseconds, out, on_surface,
+    [&](Index begin, Index end, unsigned char* flags)
     {
-      Index touching_here = 0, not_finite_here = 0;
       for (Index i = begin; i < end; ++i)
       {
         bool touches = false;
         out[i] = parts.at(point_at(i), false, touches);
-        if (flags)
-        {
-          flags[i] = touches;
-        }
-        touching_here += touches;
-        not_finite_here += std::isnan(out[i]);
+        flags[i - begin] = touches;
       }
-      touching += touching_here;
-      not_finite += not_finite_here;
     });
-  if (!done)
-  {
-    return Status::cancelled();
-  }
-  Status status;
-  status.report.set("counts.queries", count);
-  status.report.set("counts.on_surface", touching.load());
-  if (not_finite > 0)
-  {
-    status.report.set("counts.not_finite", not_finite.load());
-    status.warnings.push_back(std::to_string(not_finite.load()) + " of " + std::to_string(count) +
-      " points have a coordinate that is not a finite number; their winding number is NaN");
-  }
-  return status;
 }
 
 Status PointCloudWindingNumber::evaluate(
@@ -933,13 +909,7 @@ Status PointCloudWindingNumber::evaluate(
   const SampleGrid& grid, ExecutionContext& context, double* out, unsigned char* on_surface) const
 {
   return this->evaluate_points(
-    grid.count(),
-    [&grid, nx = grid.size(0), ny = grid.size(1)](Index i)
-    {
-      return grid.point(
-        grid.extent[0] + i % nx, grid.extent[2] + i / nx % ny, grid.extent[4] + i / nx / ny);
-    },
-    context, out, on_surface);
+    grid.count(), [&grid](Index i) { return grid.point(i); }, context, out, on_surface);
 }
 
 } // namespace bindpose

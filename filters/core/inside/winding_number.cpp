@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "inside/boundary_caps.h"
 #include "inside/dipole_field.h"
+#include "inside/point_values.h"
 #include "inside/solid_angle.h"
 #include "inside/welded_surface.h"
 #include "inside/winding_cells.h"
@@ -430,30 +431,23 @@ double WindingNumber::evaluate_at(const Vec3& point, bool* on_surface) const
 
 template <typename PointAt>
 Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
-  ExecutionContext& context, double* out, unsigned char* flags) const
+  ExecutionContext& context, double* out, unsigned char* on_surface) const
 {
   const Parts& parts = *this->parts_;
   if (!parts.status.ok())
   {
     return parts.status;
   }
-  // A few milliseconds a block, so that a cancel is seen in time; a tree may be no more than a
-  // list.
+  // A tree may be no more than a list.
   const double nanoseconds = parts.method == WindingMethod::fast ? 500.0
     : parts.method == WindingMethod::crossings
     ? 100.0 + 20.0 * static_cast<double>(parts.caps.rows())
     : 20.0 * static_cast<double>(parts.triangles.rows());
-  constexpr double block_nanoseconds = 5e6;
-  const auto block =
-    static_cast<Index>(std::clamp(block_nanoseconds / std::max(1.0, nanoseconds), 1.0, 32768.0));
-  std::atomic<Index> touching{ 0 };
-  std::atomic<Index> not_finite{ 0 };
-  const bool done = parallel_for(context, count, block,
-    [&](Index begin, Index end)
+  return point_values(context, count, nanoseconds, out, on_surface,
+    [&](Index begin, Index end, unsigned char* flags)
     {
-      Index touching_here = 0, not_finite_here = 0;
       std::array<Vec3, WindingCells::most_at_once> points;
-      std::array<bool, WindingCells::most_at_once> on_surface;
+      std::array<bool, WindingCells::most_at_once> touches;
       for (Index first = begin; first < end; first += WindingCells::most_at_once)
       {
         const Index number = std::min(WindingCells::most_at_once, end - first);
@@ -461,46 +455,17 @@ Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
         {
           points[i] = point_at(first + i);
         }
-        parts.at(points.data(), number, out + first, on_surface.data());
-        for (Index i = 0; i < number; ++i)
-        {
-          touching_here += on_surface[i];
-          if (flags)
-          {
-            flags[first + i] = on_surface[i];
-          }
-          not_finite_here += std::isnan(out[first + i]);
-        }
+        parts.at(points.data(), number, out + first, touches.data());
+        std::copy_n(touches.begin(), number, flags + (first - begin));
       }
-      touching += touching_here;
-      not_finite += not_finite_here;
     });
-  if (!done)
-  {
-    return Status::cancelled();
-  }
-  Status status;
-  status.report.set("counts.queries", count);
-  status.report.set("counts.on_surface", touching.load());
-  if (not_finite > 0)
-  {
-    status.report.set("counts.not_finite", not_finite.load());
-    status.warnings.push_back(std::to_string(not_finite.load()) + " of " + std::to_string(count) +
-      " points have a coordinate that is not a finite number; their winding number is NaN");
-  }
-  return status;
 }
 
 namespace
 {
-/// The point of a grid's sample by its number, x fastest.
 auto points_of(const SampleGrid& grid)
 {
-  return [&grid, nx = grid.size(0), ny = grid.size(1)](Index i)
-  {
-    return grid.point(
-      grid.extent[0] + i % nx, grid.extent[2] + i / nx % ny, grid.extent[4] + i / nx / ny);
-  };
+  return [&grid](Index i) { return grid.point(i); };
 }
 
 auto points_of(PointsView queries)

@@ -295,7 +295,7 @@ TEST(CurveWindingNumber, SameAsTheSumOfAnglesOnLongCurves)
   Eigen::VectorXd values;
   const Status status = winding.evaluate(queries, context, values);
   ASSERT_TRUE(status.ok());
-  EXPECT_GE(status.report.number("counts.on_curve", -1), 200);
+  EXPECT_GE(status.report.number("counts.on_surface", -1), 200);
   for (Index i = 0; i < queries.rows(); ++i)
   {
     ASSERT_NEAR(
@@ -524,7 +524,7 @@ TEST(CurveWindingNumber, PointsThatAreNoneGiveNaN)
   EXPECT_TRUE(status.ok());
   EXPECT_EQ(status.report.number("counts.queries", -1), 5);
   EXPECT_EQ(status.report.number("counts.not_finite", -1), 2);
-  EXPECT_EQ(status.report.number("counts.on_curve", -1), 1);
+  EXPECT_EQ(status.report.number("counts.on_surface", -1), 1);
   EXPECT_EQ(status.warnings.size(), 1u);
   EXPECT_EQ(values[0], 1.0);
   EXPECT_TRUE(std::isnan(values[1]));

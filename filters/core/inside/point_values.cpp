@@ -1,0 +1,48 @@
+#include "inside/point_values.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <vector>
+
+namespace bindpose
+{
+
+Status point_values(ExecutionContext& context, Index count, double nanoseconds_a_point,
+  const double* values, unsigned char* on_surface,
+  const std::function<void(Index begin, Index end, unsigned char* flags)>& body)
+{
+  constexpr double block_nanoseconds = 5e6;
+  const auto block = static_cast<Index>(
+    std::clamp(block_nanoseconds / std::max(1.0, nanoseconds_a_point), 1.0, 32768.0));
+  std::atomic<Index> touching{ 0 };
+  std::atomic<Index> not_finite{ 0 };
+  const bool done = parallel_for(context, count, block,
+    [&](Index begin, Index end)
+    {
+      std::vector<unsigned char> own(on_surface ? 0 : static_cast<std::size_t>(end - begin));
+      unsigned char* const flags = on_surface ? on_surface + begin : own.data();
+      body(begin, end, flags);
+      touching += std::count(flags, flags + (end - begin), static_cast<unsigned char>(1));
+      not_finite +=
+        std::count_if(values + begin, values + end, [](double value) { return std::isnan(value); });
+    });
+  if (!done)
+  {
+    return Status::cancelled();
+  }
+  Status status;
+  status.report.set("counts.queries", count);
+  status.report.set("counts.on_surface", touching.load());
+  if (not_finite > 0)
+  {
+    status.report.set("counts.not_finite", not_finite.load());
+    status.warnings.push_back(std::to_string(not_finite.load()) + " of " + std::to_string(count) +
+      " points have a coordinate that is not a finite number; their winding number is NaN");
+  }
+  return status;
+}
+
+} // namespace bindpose

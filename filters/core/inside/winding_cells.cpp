@@ -42,6 +42,8 @@ constexpr double double_error = 0x1p-53 * 256.0;
 /// of one of three corners, in units of their largest coordinate cubed.
 constexpr float segment_error = 0x1p-24f * 96.0f;
 constexpr float corner_error = 0x1p-24f * 128.0f;
+/// And where products leave the range of floats: surfaces as small as doubles can be.
+constexpr float underflow_error = 1e-36f;
 
 enum class Crossing
 {
@@ -570,8 +572,10 @@ BINDPOSE_SIMD_CLONES int WindingCells::tally(const Block* begin, const Block* en
   // A triangle that the point touches, within the tolerance of one of its points, has a volume of
   // at most 9 tolerance reach^2 with the point and none on the wrong side of the segment by more
   // than 6 tolerance reach length: with the rounding below that, too, it is left open.
-  const float edge_bound = length * reach * (segment_error * reach + 8.0f * tolerance);
-  const float side_bound = reach * reach * (corner_error * reach + 12.0f * tolerance);
+  const float edge_bound =
+    length * reach * (segment_error * reach + 8.0f * tolerance) + underflow_error;
+  const float side_bound =
+    reach * reach * (corner_error * reach + 12.0f * tolerance) + underflow_error;
   const float other_bound = side_bound + 4.0f * edge_bound;
   std::int32_t counts[lanes] = {};
   for (const Block* block = begin; block != end; ++block)

@@ -167,7 +167,7 @@ struct Tally
     }
     else
     {
-      EXPECT_LE(error, 1e-10) << where();
+      EXPECT_LE(error, 1e-12) << where();
       this->exact_error = std::max(this->exact_error, error);
     }
     if (closed && !truth.on_surface[i] && winding.method() != WindingMethod::direct)

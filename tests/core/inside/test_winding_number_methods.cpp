@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <map>
 #include <thread>
 
@@ -366,6 +367,36 @@ TEST(WindingMethods, FarFromTheOriginTouchingReachesAsFar)
           winding.evaluate_at(center + height * reach * normal, &touches);
           EXPECT_EQ(touches, std::abs(height) < 1.0) << place << ", " << closed << ", " << t;
         }
+      }
+    }
+  }
+}
+
+TEST(WindingMethods, AsSmallAsDoublesGet)
+{
+  // A sphere on a lattice of whole numbers, and the same one with the smallest number there is as
+  // its unit: the same answers. Products of three such lengths are 0 in floats, even when scaled.
+  constexpr double unit = std::numeric_limits<double>::denorm_min();
+  const TriangleMesh sphere = test::sphere(2);
+  TriangleMesh mesh = sphere, tiny = sphere;
+  for (const int radius : { 20, 50, 200, 1000, 30000 })
+  {
+    mesh.points = (radius * sphere.points).array().round();
+    tiny.points = unit * mesh.points;
+    for (const WindingMethod method : ways)
+    {
+      const WindingNumber winding = make(mesh, method, 4), of_tiny = make(tiny, method, 4);
+      test::Random random(4);
+      for (int i = 0; i < 3000; ++i)
+      {
+        const Vec3 p = random.in_box(Vec3::Constant(-1.1 * radius), Vec3::Constant(1.1 * radius))
+                         .array()
+                         .round();
+        bool touches = false, touches_tiny = false;
+        const double expected = winding.evaluate_at(p, &touches);
+        const double value = of_tiny.evaluate_at(unit * p, &touches_tiny);
+        ASSERT_NEAR(value, expected, 1e-14) << radius << " at " << p.transpose();
+        ASSERT_EQ(touches, touches_tiny) << radius << " at " << p.transpose();
       }
     }
   }

@@ -17,8 +17,8 @@ namespace bindpose
 class ExecutionContext
 {
 public:
-  /// fraction of the whole in [0, 1], never less than before, and the phase's name. Called on the thread that made the
-  /// context, at most every 50 ms and at every change of phase.
+  /// fraction of the whole in [0, 1], never less than before, and the phase's name. Called on the
+  /// thread that made the context, at most every 50 ms and at every change of phase.
   using ProgressCallback = std::function<void(double fraction, const std::string& phase)>;
   /// True once the user wants to stop. Called from any thread: must be thread-safe and cheap.
   using CancelCallback = std::function<bool()>;

@@ -9,8 +9,8 @@ using namespace bindpose;
 TEST(ExecutionContext, ProgressNeverGoesBack)
 {
   std::vector<double> told;
-  ExecutionContext context([&](double fraction, const std::string&) { told.push_back(fraction); },
-    [] { return false; });
+  ExecutionContext context(
+    [&](double fraction, const std::string&) { told.push_back(fraction); }, [] { return false; });
   for (const double begin : { 0.0, 0.4, 0.1, 0.0, 0.7 }) // phases always tell where they begin
   {
     const Phase phase(context, "again", begin, 0.9);

@@ -7,6 +7,7 @@ gallery/README.md between `<!-- NAME -->` and `<!-- end -->`.
 
 import argparse
 import json
+import os
 import pathlib
 import re
 import subprocess
@@ -64,7 +65,8 @@ def main():
     text = readme.read_text()
     for script in SCRIPTS:
         print(f"\n{script}", flush=True)
-        subprocess.run([sys.executable, FOLDER / script, "--output", output], check=True)
+        subprocess.run([sys.executable, FOLDER / script, "--output", output], check=True,
+                       env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)})  # common.py found the package
         name = pathlib.Path(script).stem.removeprefix("01_")
         shrink(output / f"{name}.png", PICTURES / f"{name}.png")
         table = "\n".join(["| number | |", "|---|---|", *rows(json.loads((output / f"{name}.json").read_text()))])

@@ -34,8 +34,9 @@ constexpr std::size_t few = 30;
 constexpr double wanted = 14;
 constexpr int most_cells_along = 32;
 constexpr int deepest = 12;
-/// Errors of the volumes, in units of what doubles keep of the largest corner cubed: those of
-/// subtractions are 1, of cross products 28, of volumes 90. Rounded up.
+/// Errors of the volumes, in units of what doubles keep of the largest corner cubed, or squared
+/// times the segment where that is a side: those of subtractions are 1, of cross products 28, of
+/// volumes 90. Rounded up.
 constexpr double double_error = 0x1p-53 * 256.0;
 /// The same for floats, finer, for they decide how often doubles are asked: of a volume with the
 /// segment as one side, in units of its largest coordinate times that of the corners squared, and
@@ -60,9 +61,11 @@ Crossing crossing(const Vec3& p, const Vec3& r, const std::array<Vec3, 3>& corne
   const Vec3 b = corners[1] - p;
   const Vec3 c = corners[2] - p;
   const Vec3 d = r - p;
+  const double length = d.lpNorm<Eigen::Infinity>();
   const double size = std::max({ a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>(),
-    c.lpNorm<Eigen::Infinity>(), d.lpNorm<Eigen::Infinity>() });
+    c.lpNorm<Eigen::Infinity>(), length });
   const double error = double_error * size * size * size;
+  const double edge_error = double_error * size * size * length;
   const Vec3 bc = b.cross(c);
   const double u = d.dot(bc);
   const double v = d.dot(c.cross(a));
@@ -71,16 +74,16 @@ Crossing crossing(const Vec3& p, const Vec3& r, const std::array<Vec3, 3>& corne
   const double other_side = side - (u + v + w);
   const double least = std::min({ u, v, w });
   const double most = std::max({ u, v, w });
-  if ((least < -error && most > error) || std::min(side, other_side) > error ||
+  if ((least < -edge_error && most > edge_error) || std::min(side, other_side) > error ||
     std::max(side, other_side) < -error)
   {
     return Crossing::none;
   }
-  if (least > error && side > error && other_side < -error)
+  if (least > edge_error && side > error && other_side < -error)
   {
     return Crossing::outwards;
   }
-  if (most < -error && side < -error && other_side > error)
+  if (most < -edge_error && side < -error && other_side > error)
   {
     return Crossing::inwards;
   }

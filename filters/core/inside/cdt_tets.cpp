@@ -149,8 +149,13 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
     if (this->wrong_volume_)
     {
       // TetGen did what it could: across wide openings the tets are too coarse to end where the
-      // winding number does, which may be outside the convex hull.
-      const std::string fine = "pYAq2a" + short_number(this->volume_bound());
+      // winding number does, which may be outside the convex hull. Small tets need small triangles.
+      const double box = bounding_box(refined.points).size().prod();
+      constexpr double tets_inside = 400.0;
+      constexpr double most_tets = 2e4; // in the box, before TetGen grades them
+      const double bound = std::max(
+        std::min(this->volume_bound(), this->inside_.volume() / tets_inside), box / most_tets);
+      const std::string fine = "pAq2a" + short_number(bound);
       status = this->try_tetgen(name(fine, true), refined, fine, true);
       if (status.ok() || this->wrong_volume_ || this->final(status))
       {

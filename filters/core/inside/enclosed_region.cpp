@@ -79,15 +79,17 @@ Status EnclosedRegion::sample(
   const RepairedSurface& surface, double& negative, ExecutionContext& context)
 {
   Status status = this->winding_.build(surface.points, surface.triangles, context);
-  // More samples until enough are inside, as long as that costs less than some seconds: a sample
-  // costs about 0.1 us and 15 ns more for every open edge.
-  const auto open_edges = static_cast<double>(surface.found.boundary_edges);
+  // More samples until enough are inside, as long as that costs less than a second or two: a sample
+  // costs about 1 us, and 15 ns for every open edge where the number is exact.
+  const double cost = this->winding_.method() == WindingMethod::fast
+    ? 1.0
+    : 0.1 + 0.015 * static_cast<double>(surface.found.boundary_edges);
   constexpr double affordable = 2e6; // us
-  constexpr double most_samples = 5e5;
+  constexpr double most_samples = 1e6;
   // As many points as a grid of 40 along the longest side has. They are not a grid: faces that are
   // aligned with its planes (boxes, CAD) would count a whole layer of cells too many or too few.
   const Vec3 size = this->box_.size();
-  constexpr double enough = 2000.0; // samples inside, for an error of some percent
+  constexpr double enough = 20000.0; // samples inside, for an error below one percent
   constexpr double growth = 3.375;
   auto samples = static_cast<Index>((40.0 * size / size.maxCoeff()).array().ceil().max(1.0).prod());
   for (;; samples = static_cast<Index>(growth * static_cast<double>(samples)))
@@ -108,7 +110,7 @@ Status EnclosedRegion::sample(
     this->largest_winding_ = std::max(this->largest_winding_, w.maxCoeff());
     const double next_samples = growth * static_cast<double>(w.size());
     if (hits >= enough || negative > this->volume_ || next_samples > most_samples ||
-      next_samples * (0.1 + 0.015 * open_edges) > affordable)
+      next_samples * cost > affordable)
     {
       break;
     }

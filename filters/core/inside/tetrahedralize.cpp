@@ -168,7 +168,8 @@ private:
     // Nothing fits: what came nearest.
     if (cdt.misfit() < worst_misfit && cdt.misfit() <= this->lattice_misfit_)
     {
-      this->warn(why);
+      const TetMesh& mesh = cdt.mesh();
+      this->warn(wrong_volume(tet_volumes(mesh.points, mesh.tets).sum(), this->inside_).message);
       return this->take_cdt(cdt);
     }
     return this->take_lattice(status);

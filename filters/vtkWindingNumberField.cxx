@@ -505,6 +505,7 @@ bindpose::Status vtkWindingNumberField::Execute(
   {
     return fits;
   }
+  result->Initialize(); // who streams has room for one block, not for the last one, too
   Outputs outputs(samples.count(), single, this->ComputeGradient, this->ComputeInside);
   outputs.threshold = this->Threshold;
   double sum = 0.0;
@@ -520,7 +521,6 @@ bindpose::Status vtkWindingNumberField::Execute(
   else
   {
     auto* image = vtkImageData::SafeDownCast(result);
-    image->Initialize();
     image->SetOrigin(whole.origin.data());
     image->SetSpacing(whole.spacing.data());
     int extent[6];

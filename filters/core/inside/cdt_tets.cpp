@@ -346,6 +346,11 @@ Status CdtTets::keep_inside(const MesherData& data)
     this->finer_is_no_better_ = true;
     return this->inside_.encloses_nothing();
   }
+  status = check_tets(data.points, kept);
+  if (!status.ok())
+  {
+    return status;
+  }
   const double volume = tet_volumes(data.points, kept).sum();
   const bool fits = this->inside_.fits(volume);
   const double misfit = this->inside_.misfit(volume);

@@ -59,8 +59,10 @@ Status check_tets(PointsView points, TetsView tets)
   keys.reserve(static_cast<std::size_t>(tets.rows()));
   for (Index t = 0; t < tets.rows(); ++t)
   {
-    if (orientation_3d(points.row(tets(t, 0)), points.row(tets(t, 1)), points.row(tets(t, 2)),
-          points.row(tets(t, 3))) <= 0)
+    const Vec3 a = points.row(tets(t, 0)), b = points.row(tets(t, 1));
+    const Vec3 c = points.row(tets(t, 2)), d = points.row(tets(t, 3));
+    // In truth, and in the doubles of whoever integrates over it.
+    if (orientation_3d(a, b, c, d) <= 0 || !(tet_volume(a, b, c, d) > 0.0))
     {
       return Status::failure(
         StatusCode::internal_error, "tet " + std::to_string(t) + " has no positive volume");

@@ -5,19 +5,24 @@
 // A segment from p to r crosses the triangle a, b, c when p and r lie on different sides of its
 // plane and the line passes all edges on the same side: five signs of volumes, all made of the
 // cross products of the corners as seen from p. They are computed for eight triangles at once in
-// floats, with a bound of their error. Where that leaves a sign open, in doubles; where that does,
-// too, the point touches the triangle or the segment an edge: not told.
+// floats, of corners that are rounded to 16 bits (what a point costs is mostly the way of these to
+// the processor), with a bound of the error. Where that leaves a sign open, in doubles, of the
+// corners themselves; where that does, too, the point touches the triangle or the segment an edge:
+// not told.
 //
 // Building goes from the box of the surface downwards: a box's triangles are sorted into its cells,
 // and a cell that still holds many is a box again. References get their numbers from each other: a
-// cell's from its neighbour's, the first one's from that of the box.
+// cell's from its neighbour's, the first one's from that of the box. What is in the cells of the
+// whole is made on all threads, in pieces that are joined in their order.
 #include "inside/winding_cells.h"
 
 #include "base/compact.h"
+#include "base/parallel.h"
 #include "base/simd.h"
 #include "inside/solid_angle.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -33,6 +38,8 @@ constexpr std::size_t few = 30;
 /// Triangles that a new cell is meant to hold.
 constexpr double wanted = 14;
 constexpr int most_cells_along = 32;
+/// Of the whole, so that most points around a few large triangles are in cells without any.
+constexpr double fewest_cells_along = 8.0;
 constexpr int deepest = 12;
 /// Errors of the volumes, in units of what doubles keep of the largest corner cubed, or squared
 /// times the segment where that is a side: those of subtractions are 1, of cross products 28, of
@@ -43,8 +50,10 @@ constexpr double double_error = 0x1p-53 * 256.0;
 /// of one of three corners, in units of their largest coordinate cubed.
 constexpr float segment_error = 0x1p-24f * 96.0f;
 constexpr float corner_error = 0x1p-24f * 128.0f;
-/// And where products leave the range of floats: surfaces as small as doubles can be.
-constexpr float underflow_error = 1e-36f;
+/// Corners as whole numbers reach from minus to plus this; what rounding moves them by is half a
+/// unit and some for the place of the point.
+constexpr float most_units = 32767.0f;
+constexpr float rounded_by = 0.51f;
 
 enum class Crossing
 {
@@ -143,7 +152,7 @@ SortedCorners sorted_corners(const Triangles& triangles, Index t)
   return corners;
 }
 
-/// Triangles, and behind them caps, without the pairs that are each other turned over.
+/// Triangles, and behind them caps, without the pairs that are each other turned over. Ascending.
 std::vector<std::int32_t> without_opposites(const Triangles& triangles, const Triangles& caps)
 {
   std::vector<SortedCorners> of_caps;
@@ -184,13 +193,14 @@ std::vector<std::int32_t> without_opposites(const Triangles& triangles, const Tr
       kept.push_back(static_cast<std::int32_t>(triangles.rows() + of_caps[i].triangle));
     }
   }
+  std::sort(kept.begin(), kept.end());
   return kept;
 }
 } // namespace
 
 // ---- Build -------------------------------------------------------------------------------------
 
-/// Cuts boxes into cells. What it makes is appended to the arrays of its owner.
+/// Cuts boxes into cells.
 class WindingCells::Builder
 {
 public:
@@ -205,22 +215,47 @@ private:
     Vec3 size;
     Vec3 reference; ///< a place whose winding number is `count`
     int count = 0;
-    std::vector<Id> faces;
+    std::vector<Id> faces; ///< ascending
     int depth = 0;
   };
+  /// A box's cells: faces of the cell c are faces[begin[c] ... begin[c + 1]), ascending.
+  struct Grid
+  {
+    double cell = 0.0; ///< size of one
+    std::array<Id, 3> size;
+    std::size_t faces_before = 0; ///< of the box
+    std::vector<Id> begin;
+    std::vector<Id> faces;
+    std::vector<Vec3> references;
+    std::vector<int> counts; ///< winding numbers of the references
 
-  bool cut(Box& box, Id node);
-  Id add_leaf(const Vec3& reference, int count, double cell, const Id* begin, const Id* end);
-  bool crossings(const Vec3& from, const Vec3& to,
-    const std::vector<std::pair<const Id*, const Id*>>& lists, int& count);
+    Id cells() const { return this->size[0] * this->size[1] * this->size[2]; }
+    std::array<Id, 3> place(Id c) const
+    {
+      return { c % this->size[0], c / this->size[0] % this->size[1],
+        c / this->size[0] / this->size[1] };
+    }
+    Id number(Id c) const { return this->begin[c + 1] - this->begin[c]; }
+  };
+  using List = std::pair<const Id*, const Id*>;
+  using Found = std::vector<std::pair<Id, Id>>; // cell, face
+
+  Grid cells_of(const Box& box) const;
+  bool sort(const Box& box, bool on_all_threads, Grid& grid) const;
+  bool find(const Box& box, const Grid& grid, Index begin, Index end, Found& found) const;
+  bool refer(const Box& box, Grid& grid) const;
+  bool crossings(const Vec3& from, const Vec3& to, List some, List others, int& count) const;
   bool count_slowly(const Vec3& place, int& count) const;
+  bool cut_whole(Box& whole);
+  bool cut(Box& box, Arrays& made, std::size_t entries) const;
+  bool fill(
+    const Box& box, const Grid& grid, Id c, std::size_t entries, Arrays& made, Cell& cell) const;
+  Id add_leaf(const Vec3& reference, int count, double cell, List faces, Arrays& made) const;
+  void append(const Arrays& part, Id first, Id cells);
 
   WindingCells& owner_;
   ExecutionContext& context_;
   std::vector<Id> faces_; // all of them
-  std::vector<Id> seen_; // of a face: the last segment that was asked about it
-  Id segment_ = 0;
-  std::size_t entries_ = 0;
 };
 
 bool WindingCells::build(const Points& points, const Triangles& triangles, const Triangles& caps,
@@ -244,8 +279,6 @@ std::array<Vec3, 3> WindingCells::corners(Id face) const
 bool WindingCells::Builder::build()
 {
   this->faces_ = without_opposites(*this->owner_.triangles_, *this->owner_.caps_);
-  this->seen_.assign(
-    static_cast<std::size_t>(this->owner_.triangles_->rows() + this->owner_.caps_->rows()), 0);
   bindpose::Box bounds;
   for (const Id face : this->faces_)
   {
@@ -276,39 +309,29 @@ bool WindingCells::Builder::build()
     this->owner_.upper_ = this->owner_.lower_ - Vec3::Ones(); // all is outside
     return true;
   }
-  all.reference = all.lower - all.size; // replaced for the first cell
-  this->owner_.nodes_.emplace_back();
-  const bool done = this->cut(all, 0);
-  compact(this->owner_.nodes_);
-  compact(this->owner_.cells_);
-  compact(this->owner_.leaves_);
-  compact(this->owner_.blocks_);
-  compact(this->owner_.faces_);
-  return done;
+  return this->cut_whole(all);
 }
 
-/// Signed crossings of a segment with the faces of some lists, each face once; false when unclear.
-bool WindingCells::Builder::crossings(const Vec3& from, const Vec3& to,
-  const std::vector<std::pair<const Id*, const Id*>>& lists, int& count)
+/// Signed crossings of a segment with the faces of two lists, each face once; false when unclear.
+bool WindingCells::Builder::crossings(
+  const Vec3& from, const Vec3& to, List some, List others, int& count) const
 {
-  this->segment_ += 1;
   count = 0;
-  for (const auto& [begin, end] : lists)
+  while (some.first != some.second || others.first != others.second)
   {
-    for (const Id* face = begin; face != end; ++face)
+    const bool both =
+      some.first != some.second && others.first != others.second && *some.first == *others.first;
+    const bool own =
+      others.first == others.second || (some.first != some.second && *some.first <= *others.first);
+    const Id face = own ? *some.first : *others.first;
+    some.first += own || both;
+    others.first += !own || both;
+    const Crossing found = crossing(from, to, this->owner_.corners(face));
+    if (found == Crossing::unclear)
     {
-      if (this->seen_[*face] == this->segment_)
-      {
-        continue;
-      }
-      this->seen_[*face] = this->segment_;
-      const Crossing found = crossing(from, to, this->owner_.corners(*face));
-      if (found == Crossing::unclear)
-      {
-        return false;
-      }
-      count += found == Crossing::outwards ? 1 : found == Crossing::inwards ? -1 : 0;
+      return false;
     }
+    count += found == Crossing::outwards ? 1 : found == Crossing::inwards ? -1 : 0;
   }
   return true;
 }
@@ -326,34 +349,32 @@ bool WindingCells::Builder::count_slowly(const Vec3& place, int& count) const
   return !sum.on_surface();
 }
 
-bool WindingCells::Builder::cut(Box& box, Id id)
+/// Cubic cells, about so many that a sheet of triangles leaves the wanted number in each.
+WindingCells::Builder::Grid WindingCells::Builder::cells_of(const Box& box) const
 {
-  if (this->context_.cancelled())
-  {
-    return false;
-  }
-  // Cubic cells, about so many that a sheet of triangles leaves the wanted number in each.
-  const double count = static_cast<double>(box.faces.size());
-  const double longest = box.size.maxCoeff();
+  Grid grid;
+  grid.faces_before = box.faces.size();
   const double along =
-    std::clamp(std::round(std::sqrt(count / wanted)), 2.0, double(most_cells_along));
-  const double cell = longest / along;
-  std::array<Id, 3> size;
+    std::clamp(std::round(std::sqrt(static_cast<double>(box.faces.size()) / wanted)),
+      box.depth == 0 ? fewest_cells_along : 2.0, double(most_cells_along));
+  grid.cell = box.size.maxCoeff() / along;
   for (int k = 0; k < 3; ++k)
   {
-    size[k] = std::clamp(
-      static_cast<Id>(std::ceil(box.size[k] / cell - 1e-6)), Id(1), Id(most_cells_along));
+    grid.size[k] = std::clamp(
+      static_cast<Id>(std::ceil(box.size[k] / grid.cell - 1e-6)), Id(1), Id(most_cells_along));
   }
-  const Id first = static_cast<Id>(this->owner_.cells_.size());
-  const Id cells = size[0] * size[1] * size[2];
-  this->owner_.nodes_[id] = { box.lower, 1.0 / cell, size, first };
-  this->owner_.cells_.resize(static_cast<std::size_t>(first + cells));
+  return grid;
+}
 
-  // Sort the faces into the cells. A little room, so that a point that rounding puts into the
-  // neighbouring cell is still told right.
-  const Vec3 half = Vec3::Constant(0.5 * cell * (1.0 + 1e-9) + 4.0 * this->owner_.tolerance_);
-  std::vector<std::pair<Id, Id>> found; // cell, face
-  for (std::size_t i = 0; i < box.faces.size(); ++i)
+/// The cells that faces [begin, end) of the box meet; false when cancelled.
+bool WindingCells::Builder::find(
+  const Box& box, const Grid& grid, Index begin, Index end, Found& found) const
+{
+  const std::array<Id, 3>& size = grid.size;
+  // A little room, so that a point that rounding puts into the neighbouring cell is still told
+  // right.
+  const Vec3 half = Vec3::Constant(0.5 * grid.cell * (1.0 + 1e-9) + 4.0 * this->owner_.tolerance_);
+  for (Index i = begin; i < end; ++i)
   {
     if (i % 16384 == 16383 && this->context_.cancelled())
     {
@@ -367,9 +388,9 @@ bool WindingCells::Builder::cut(Box& box, Id id)
     bool outside = false;
     for (int k = 0; k < 3; ++k)
     {
-      const double rim = half[k] - 0.5 * cell;
-      const double low = std::floor((lower[k] - rim) / cell);
-      const double high = std::floor((upper[k] + rim) / cell);
+      const double rim = half[k] - 0.5 * grid.cell;
+      const double low = std::floor((lower[k] - rim) / grid.cell);
+      const double high = std::floor((upper[k] + rim) / grid.cell);
       outside = outside || low >= size[k] || high < 0.0;
       from[k] = static_cast<Id>(std::clamp(low, 0.0, size[k] - 1.0));
       to[k] = static_cast<Id>(std::clamp(high, 0.0, size[k] - 1.0));
@@ -381,7 +402,7 @@ bool WindingCells::Builder::cut(Box& box, Id id)
       {
         for (Id x = from[0]; x <= to[0]; ++x)
         {
-          const Vec3 center = box.lower + cell * Vec3(x + 0.5, y + 0.5, z + 0.5);
+          const Vec3 center = box.lower + grid.cell * Vec3(x + 0.5, y + 0.5, z + 0.5);
           if (wide < 2 || overlaps(corners, center, half))
           {
             found.emplace_back((z * size[1] + y) * size[0] + x, face);
@@ -390,160 +411,310 @@ bool WindingCells::Builder::cut(Box& box, Id id)
       }
     }
   }
-  std::vector<Id> begin(static_cast<std::size_t>(cells) + 1, 0);
-  for (const auto& entry : found)
-  {
-    begin[entry.first + 1] += 1;
-  }
-  for (Id c = 0; c < cells; ++c)
-  {
-    begin[c + 1] += begin[c];
-  }
-  std::vector<Id> faces(found.size());
-  {
-    std::vector<Id> next(begin.begin(), begin.end() - 1);
-    for (const auto& [c, face] : found)
-    {
-      faces[next[c]++] = face;
-    }
-  }
-  std::vector<std::pair<Id, Id>>().swap(found);
+  return true;
+}
 
-  // References, and what winds around them.
-  const bool is_whole = id == 0;
-  const std::size_t parent_faces = box.faces.size();
-  std::vector<Vec3> references(static_cast<std::size_t>(cells));
-  std::vector<int> counts(static_cast<std::size_t>(cells), 0);
-  std::vector<std::pair<const Id*, const Id*>> lists;
-  for (Id c = 0; c < cells; ++c)
+/// Sorts the box's faces into its cells.
+bool WindingCells::Builder::sort(const Box& box, bool on_all_threads, Grid& grid) const
+{
+  const auto count = static_cast<Index>(box.faces.size());
+  const Index share = on_all_threads ? 16384 : count;
+  std::vector<Found> found(static_cast<std::size_t>((count + share - 1) / share));
+  std::atomic<bool> done{ true };
+  const auto body = [&](Index begin, Index end)
   {
-    const Id x = c % size[0], y = c / size[0] % size[1], z = c / size[0] / size[1];
-    const Id before = x > 0 ? c - 1 : y > 0 ? c - size[0] : c - size[0] * size[1];
-    const Vec3 center = box.lower + cell * Vec3(x + 0.5, y + 0.5, z + 0.5);
-    const std::pair<const Id*, const Id*> own{ faces.data() + begin[c],
-      faces.data() + begin[c + 1] };
-    bool told = false;
-    for (int attempt = 0; attempt < 32 && !told; ++attempt)
+    if (!this->find(box, grid, begin, end, found[begin / share]))
     {
-      // Off the middle, in another direction each time, and of no simple ratio.
-      const double t = attempt + 1.0;
-      references[c] = center +
-        0.05 * cell *
-          Vec3(std::sin(1.7 * t + 0.3), std::sin(2.3 * t + 1.1), std::sin(3.1 * t + 2.3));
-      lists.assign(1, own);
-      Vec3 to = box.reference;
-      int known = box.count;
-      if (c > 0)
-      {
-        lists.emplace_back(faces.data() + begin[before], faces.data() + begin[before + 1]);
-        to = references[before];
-        known = counts[before];
-      }
-      else if (is_whole)
-      {
-        to = references[c] - Vec3(1.1 * cell, 0.03 * cell, 0.05 * cell);
-      }
-      else
-      {
-        lists.assign(1, { box.faces.data(), box.faces.data() + box.faces.size() });
-      }
-      told = this->crossings(references[c], to, lists, counts[c]);
-      counts[c] += known;
-      if (!told && attempt % 8 == 7)
-      {
-        told = this->count_slowly(references[c], counts[c]);
-      }
+      done = false;
+    }
+  };
+  if (on_all_threads)
+  {
+    done = parallel_for(this->context_, count, share, body) && done;
+  }
+  else
+  {
+    body(0, count);
+  }
+  if (!done)
+  {
+    return false;
+  }
+  grid.begin.assign(static_cast<std::size_t>(grid.cells()) + 1, 0);
+  for (const Found& part : found)
+  {
+    for (const auto& entry : part)
+    {
+      grid.begin[entry.first + 1] += 1;
     }
   }
-
-  // What the cells are. The faces of this box are not needed any more.
-  std::vector<Id>().swap(box.faces);
-  for (Id c = 0; c < cells; ++c)
+  for (Id c = 0; c < grid.cells(); ++c)
   {
-    const auto number = static_cast<std::size_t>(begin[c + 1] - begin[c]);
-    Cell made{ counts[c], holds_nothing };
-    // Cutting must pay: a vertex of many triangles stays in one cell however small.
-    const bool shrinks = box.depth < 3 || 10 * number < 7 * parent_faces;
-    const bool large_enough = cell > 1e6 * this->owner_.tolerance_;
-    const std::size_t most_entries = 16 * this->faces_.size() + 100000;
-    if (number > few && shrinks && large_enough && box.depth < deepest &&
-      this->entries_ < most_entries)
+    grid.begin[c + 1] += grid.begin[c];
+  }
+  grid.faces.resize(static_cast<std::size_t>(grid.begin.back()));
+  std::vector<Id> next(grid.begin.begin(), grid.begin.end() - 1);
+  for (const Found& part : found)
+  {
+    for (const auto& [c, face] : part)
     {
-      Box inner;
-      const Id x = c % size[0], y = c / size[0] % size[1], z = c / size[0] / size[1];
-      inner.lower = box.lower + cell * Vec3(x, y, z);
-      inner.size = Vec3::Constant(cell);
-      inner.reference = references[c];
-      inner.count = counts[c];
-      inner.faces.assign(faces.begin() + begin[c], faces.begin() + begin[c + 1]);
-      inner.depth = box.depth + 1;
-      made = { static_cast<Id>(this->owner_.nodes_.size()), holds_node };
-      this->owner_.nodes_.emplace_back();
-      if (!this->cut(inner, made.value))
-      {
-        return false;
-      }
-    }
-    else if (number > 0)
-    {
-      made = { this->add_leaf(references[c], counts[c], cell, faces.data() + begin[c],
-                 faces.data() + begin[c + 1]),
-        holds_leaf };
-    }
-    this->owner_.cells_[first + c] = made;
-    if (is_whole)
-    {
-      this->context_.progress(static_cast<double>(c + 1) / static_cast<double>(cells));
+      grid.faces[next[c]++] = face;
     }
   }
   return true;
 }
 
-WindingCells::Id WindingCells::Builder::add_leaf(
-  const Vec3& reference, int count, double cell, const Id* begin, const Id* end)
+/// References of the cells, and what winds around them; false when cancelled.
+bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
 {
-  Leaf made;
-  made.reference = reference;
-  made.count = count;
-  made.begin = static_cast<Id>(this->owner_.blocks_.size());
-  this->entries_ += static_cast<std::size_t>(end - begin);
-  double reach = 0.0;
-  for (const Id* face = begin; face < end; face += lanes)
+  const Id cells = grid.cells();
+  grid.references.resize(static_cast<std::size_t>(cells));
+  grid.counts.assign(static_cast<std::size_t>(cells), 0);
+  for (Id c = 0; c < cells; ++c)
   {
+    if (c % 256 == 255 && this->context_.cancelled())
+    {
+      return false;
+    }
+    const auto [x, y, z] = grid.place(c);
+    const Id before = x > 0 ? c - 1 : y > 0 ? c - grid.size[0] : c - grid.size[0] * grid.size[1];
+    const Vec3 center = box.lower + grid.cell * Vec3(x + 0.5, y + 0.5, z + 0.5);
+    const auto list = [&](Id i)
+    { return List(grid.faces.data() + grid.begin[i], grid.faces.data() + grid.begin[i + 1]); };
+    bool told = false;
+    for (int attempt = 0; attempt < 32 && !told; ++attempt)
+    {
+      // Off the middle, in another direction each time, and of no simple ratio.
+      const double t = attempt + 1.0;
+      const Vec3 place = center +
+        0.05 * grid.cell *
+          Vec3(std::sin(1.7 * t + 0.3), std::sin(2.3 * t + 1.1), std::sin(3.1 * t + 2.3));
+      grid.references[c] = place;
+      const List none(nullptr, nullptr);
+      int& found = grid.counts[c];
+      if (c > 0)
+      {
+        told = this->crossings(place, grid.references[before], list(c), list(before), found);
+        found += grid.counts[before];
+      }
+      else if (box.depth == 0)
+      {
+        // From outside of everything.
+        const Vec3 step = grid.cell * Vec3(1.1, 0.03, 0.05);
+        told = this->crossings(place, place - step, list(c), none, found);
+      }
+      else
+      {
+        const List all(box.faces.data(), box.faces.data() + box.faces.size());
+        told = this->crossings(place, box.reference, all, none, found);
+        found += box.count;
+      }
+      if (!told && attempt % 8 == 7)
+      {
+        told = this->count_slowly(place, found);
+      }
+    }
+  }
+  return true;
+}
+
+bool WindingCells::Builder::cut_whole(Box& whole)
+{
+  Grid grid = this->cells_of(whole);
+  {
+    const ProgressRange range(this->context_, 0.0, 0.3);
+    if (!this->sort(whole, true, grid) || !this->refer(whole, grid))
+    {
+      return false;
+    }
+  }
+  const Id cells = grid.cells();
+  // Entries that all cells together may make, shared out by what they begin with: no more memory
+  // than a multiple of the surface's, however unlucky the faces lie.
+  const double most = 16.0 * static_cast<double>(this->faces_.size()) + 1e5;
+  const double each = most / static_cast<double>(std::max<std::size_t>(1, grid.faces.size()));
+  constexpr Index cells_at_once = 16;
+  std::vector<Arrays> parts(static_cast<std::size_t>((cells + cells_at_once - 1) / cells_at_once));
+  Arrays& all = this->owner_.arrays_;
+  all = Arrays();
+  all.nodes.push_back({ whole.lower, 1.0 / grid.cell, grid.size, 0 });
+  all.cells.resize(static_cast<std::size_t>(cells));
+  std::atomic<bool> done{ true };
+  {
+    const ProgressRange range(this->context_, 0.3, 0.95);
+    done =
+      parallel_for(this->context_, cells, cells_at_once,
+        [&](Index begin, Index end)
+        {
+          for (auto c = static_cast<Id>(begin); c < end && done; ++c)
+          {
+            const auto entries = static_cast<std::size_t>(each * grid.number(c));
+            if (!this->fill(whole, grid, c, entries, parts[begin / cells_at_once], all.cells[c]))
+            {
+              done = false;
+            }
+          }
+        }) &&
+      done;
+  }
+  if (!done)
+  {
+    return false;
+  }
+  grid = Grid();
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    const auto first = static_cast<Id>(i * cells_at_once);
+    this->append(parts[i], first, std::min(cells, first + static_cast<Id>(cells_at_once)));
+    parts[i] = Arrays();
+  }
+  compact(all.nodes);
+  compact(all.cells);
+  compact(all.leaves);
+  compact(all.blocks);
+  compact(all.faces);
+  return !this->context_.cancelled();
+}
+
+/// Joins what the cells [first, end) of the whole hold to the rest.
+void WindingCells::Builder::append(const Arrays& part, Id first, Id end)
+{
+  Arrays& all = this->owner_.arrays_;
+  const auto nodes = static_cast<Id>(all.nodes.size());
+  const auto cells = static_cast<Id>(all.cells.size());
+  const auto leaves = static_cast<Id>(all.leaves.size());
+  const auto blocks = static_cast<Id>(all.blocks.size());
+  const auto shift = [&](Cell& cell) {
+    cell.value += cell.kind == holds_node ? nodes : cell.kind == holds_leaf ? leaves : 0;
+  };
+  std::for_each(all.cells.begin() + first, all.cells.begin() + end, shift);
+  all.nodes.insert(all.nodes.end(), part.nodes.begin(), part.nodes.end());
+  all.cells.insert(all.cells.end(), part.cells.begin(), part.cells.end());
+  all.leaves.insert(all.leaves.end(), part.leaves.begin(), part.leaves.end());
+  all.blocks.insert(all.blocks.end(), part.blocks.begin(), part.blocks.end());
+  all.faces.insert(all.faces.end(), part.faces.begin(), part.faces.end());
+  std::for_each(
+    all.nodes.begin() + nodes, all.nodes.end(), [&](Node& node) { node.first += cells; });
+  std::for_each(all.cells.begin() + cells, all.cells.end(), shift);
+  for (auto leaf = all.leaves.begin() + leaves; leaf != all.leaves.end(); ++leaf)
+  {
+    leaf->begin += blocks;
+    leaf->end += blocks;
+  }
+}
+
+/// The box as a new node; false when cancelled.
+bool WindingCells::Builder::cut(Box& box, Arrays& made, std::size_t entries) const
+{
+  Grid grid = this->cells_of(box);
+  if (this->context_.cancelled() || !this->sort(box, false, grid) || !this->refer(box, grid))
+  {
+    return false;
+  }
+  const Id cells = grid.cells();
+  const auto first = static_cast<Id>(made.cells.size());
+  made.cells.resize(static_cast<std::size_t>(first + cells));
+  made.nodes.push_back({ box.lower, 1.0 / grid.cell, grid.size, first });
+  std::vector<Id>().swap(box.faces); // not needed any more
+  const double each =
+    static_cast<double>(entries) / static_cast<double>(std::max<std::size_t>(1, grid.faces.size()));
+  for (Id c = 0; c < cells; ++c)
+  {
+    Cell cell{};
+    if (!this->fill(box, grid, c, static_cast<std::size_t>(each * grid.number(c)), made, cell))
+    {
+      return false;
+    }
+    made.cells[first + c] = cell;
+  }
+  return true;
+}
+
+/// What the cell c is, and all that is in it; false when cancelled.
+bool WindingCells::Builder::fill(
+  const Box& box, const Grid& grid, Id c, std::size_t entries, Arrays& made, Cell& cell) const
+{
+  const auto number = static_cast<std::size_t>(grid.number(c));
+  const List faces(grid.faces.data() + grid.begin[c], grid.faces.data() + grid.begin[c + 1]);
+  // Cutting must pay: a vertex of many triangles stays in one cell however small.
+  const bool shrinks = box.depth < 3 || 10 * number < 7 * grid.faces_before;
+  const bool large_enough = grid.cell > 1e6 * this->owner_.tolerance_;
+  if (number > few && shrinks && large_enough && box.depth < deepest && entries > number)
+  {
+    const auto [x, y, z] = grid.place(c);
+    Box inner;
+    inner.lower = box.lower + grid.cell * Vec3(x, y, z);
+    inner.size = Vec3::Constant(grid.cell);
+    inner.reference = grid.references[c];
+    inner.count = grid.counts[c];
+    inner.faces.assign(faces.first, faces.second);
+    inner.depth = box.depth + 1;
+    cell = { static_cast<Id>(made.nodes.size()), holds_node };
+    return this->cut(inner, made, entries);
+  }
+  cell = { grid.counts[c], holds_nothing };
+  if (number > 0)
+  {
+    cell = { this->add_leaf(grid.references[c], grid.counts[c], grid.cell, faces, made),
+      holds_leaf };
+  }
+  return true;
+}
+
+WindingCells::Id WindingCells::Builder::add_leaf(
+  const Vec3& reference, int count, double cell, List faces, Arrays& made) const
+{
+  // Large triangles last: a block's unit suits its largest.
+  std::vector<std::pair<double, Id>> sorted; // largest coordinate, face
+  for (const Id* face = faces.first; face != faces.second; ++face)
+  {
+    double reach = 0.0;
+    for (const Vec3& corner : this->owner_.corners(*face))
+    {
+      reach = std::max(reach, (corner - reference).lpNorm<Eigen::Infinity>());
+    }
+    sorted.emplace_back(reach, *face);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  Leaf leaf;
+  leaf.reference = reference;
+  leaf.count = count;
+  leaf.begin = static_cast<Id>(made.blocks.size());
+  for (std::size_t first = 0; first < sorted.size(); first += lanes)
+  {
+    const std::size_t last = std::min(first + lanes, sorted.size()) - 1;
+    // All of the cell in reach, so that lanes that are none can be behind it.
+    constexpr double cells_in_reach = 0.75;
+    const double reach = std::max(sorted[last].first, cells_in_reach * cell);
     Block block = {};
+    block.per_length = static_cast<float>((1.0 - 1e-6) * most_units / reach);
     Faces ids;
     for (int lane = 0; lane < lanes; ++lane)
     {
-      ids[lane] = face + lane < end ? face[lane] : -1;
-      if (ids[lane] >= 0)
+      const bool is_one = first + lane <= last;
+      ids[lane] = is_one ? sorted[first + lane].second : -1;
+      // A lane that is none: a triangle that the whole cell sees from the same side.
+      std::array<Vec3, 3> units{ Vec3(1, -1, -1) * most_units, Vec3(1, 1, -1) * most_units,
+        Vec3(1, 0, 1) * most_units };
+      if (is_one)
       {
-        const std::array<Vec3, 3> corners = this->owner_.corners(ids[lane]);
-        for (int k = 0; k < 9; ++k)
+        units = this->owner_.corners(ids[lane]);
+        for (Vec3& corner : units)
         {
-          const double x = corners[k / 3][k % 3] - reference[k % 3];
-          block.corner[k][lane] = static_cast<float>(x);
-          reach = std::max(reach, std::abs(x));
+          corner = static_cast<double>(block.per_length) * (corner - reference);
         }
       }
+      for (int k = 0; k < 9; ++k)
+      {
+        block.corner[k][lane] = static_cast<std::int16_t>(std::lround(units[k / 3][k % 3]));
+      }
     }
-    this->owner_.blocks_.push_back(block);
-    this->owner_.faces_.push_back(ids);
+    made.blocks.push_back(block);
+    made.faces.push_back(ids);
   }
-  made.reach = static_cast<float>(reach);
-  // Lanes that are none: a triangle that the whole cell sees from the same side.
-  const float far_off = static_cast<float>(4.0 * cell + 2.0 * reach);
-  const float nowhere[9] = { far_off, -far_off, -far_off, far_off, far_off, -far_off, far_off, 0.0f,
-    far_off };
-  for (int lane = static_cast<int>((end - begin) % lanes); lane > 0 && lane < lanes; ++lane)
-  {
-    for (int k = 0; k < 9; ++k)
-    {
-      this->owner_.blocks_.back().corner[k][lane] = nowhere[k];
-    }
-  }
-  made.end = static_cast<Id>(this->owner_.blocks_.size());
-  this->owner_.leaves_.push_back(made);
-  return static_cast<Id>(this->owner_.leaves_.size()) - 1;
+  leaf.end = static_cast<Id>(made.blocks.size());
+  made.leaves.push_back(leaf);
+  return static_cast<Id>(made.leaves.size()) - 1;
 }
 
 // ---- Evaluation --------------------------------------------------------------------------------
@@ -567,35 +738,38 @@ std::array<WindingCells::Id, 3> WindingCells::place_of(const Node& node, const V
 /// Signed crossings of the segment from the point q to the reference, both as seen from there.
 /// Faces of which a sign is not clear are not counted but added to the unclear ones.
 BINDPOSE_SIMD_CLONES int WindingCells::tally(const Block* begin, const Block* end,
-  const Faces* faces, float leaf_reach, float tolerance, const float* q, Unclear& unclear)
+  const Faces* faces, float tolerance, const float* q, Unclear& unclear)
 {
-  const float qx = q[0], qy = q[1], qz = q[2];
-  const float length = std::max({ std::abs(qx), std::abs(qy), std::abs(qz) });
-  const float reach = leaf_reach + length;
-  // A triangle that the point touches, within the tolerance of one of its points, has a volume of
-  // at most 9 tolerance reach^2 with the point and none on the wrong side of the segment by more
-  // than 6 tolerance reach length: with the rounding below that, too, it is left open.
-  const float edge_bound =
-    length * reach * (segment_error * reach + 8.0f * tolerance) + underflow_error;
-  const float side_bound =
-    reach * reach * (corner_error * reach + 12.0f * tolerance) + underflow_error;
-  const float other_bound = side_bound + 4.0f * edge_bound;
   std::int32_t counts[lanes] = {};
   for (const Block* block = begin; block != end; ++block)
   {
+    const float per_length = block->per_length;
+    const float qx = per_length * q[0], qy = per_length * q[1], qz = per_length * q[2];
+    const float length = std::max({ std::abs(qx), std::abs(qy), std::abs(qz) });
+    const float reach = most_units + length;
+    // Corners that are off by h in each coordinate change a volume with the segment by at most
+    // 12 h reach length and one of three corners by 18 h reach^2, and something of the order h^2
+    // that the rounding's share has room for. A triangle that the point touches, within the
+    // tolerance of one of its points, has a volume of at most 9 tolerance reach^2 with the point
+    // and none on the wrong side of the segment by more than 6 tolerance reach length: with the
+    // rounding below that, too, it is left open.
+    const float off = rounded_by + per_length * tolerance;
+    const float edge_bound = length * reach * (segment_error * reach + 12.0f * off);
+    const float side_bound = reach * reach * (corner_error * reach + 18.0f * off);
+    const float other_bound = side_bound + 4.0f * edge_bound;
     std::int32_t open[lanes];
     std::int32_t any = 0;
     for (int i = 0; i < lanes; ++i)
     {
-      const float ax = block->corner[0][i] - qx;
-      const float ay = block->corner[1][i] - qy;
-      const float az = block->corner[2][i] - qz;
-      const float bx = block->corner[3][i] - qx;
-      const float by = block->corner[4][i] - qy;
-      const float bz = block->corner[5][i] - qz;
-      const float cx = block->corner[6][i] - qx;
-      const float cy = block->corner[7][i] - qy;
-      const float cz = block->corner[8][i] - qz;
+      const float ax = static_cast<float>(block->corner[0][i]) - qx;
+      const float ay = static_cast<float>(block->corner[1][i]) - qy;
+      const float az = static_cast<float>(block->corner[2][i]) - qz;
+      const float bx = static_cast<float>(block->corner[3][i]) - qx;
+      const float by = static_cast<float>(block->corner[4][i]) - qy;
+      const float bz = static_cast<float>(block->corner[5][i]) - qz;
+      const float cx = static_cast<float>(block->corner[6][i]) - qx;
+      const float cy = static_cast<float>(block->corner[7][i]) - qy;
+      const float cz = static_cast<float>(block->corner[8][i]) - qz;
       const float bcx = by * cz - bz * cy, bcy = bz * cx - bx * cz, bcz = bx * cy - by * cx;
       const float cax = cy * az - cz * ay, cay = cz * ax - cx * az, caz = cx * ay - cy * ax;
       const float abx = ay * bz - az * by, aby = az * bx - ax * bz, abz = ax * by - ay * bx;
@@ -639,9 +813,8 @@ bool WindingCells::count_in(const Leaf& found, const Vec3& p, int& count) const
     static_cast<float>(seen[2]) };
   Unclear unclear;
   count = found.count +
-    tally(this->blocks_.data() + found.begin, this->blocks_.data() + found.end,
-      this->faces_.data() + found.begin, found.reach, static_cast<float>(this->tolerance_), q,
-      unclear);
+    tally(this->arrays_.blocks.data() + found.begin, this->arrays_.blocks.data() + found.end,
+      this->arrays_.faces.data() + found.begin, static_cast<float>(this->tolerance_), q, unclear);
   if (unclear.number == 0)
   {
     return true;
@@ -680,7 +853,7 @@ void WindingCells::evaluate(const Vec3* points, Index number, int* counts, bool*
   Id left = 0;
   const auto look_up = [&](Id i, Id id)
   {
-    const Node& at = this->nodes_[id];
+    const Node& at = this->arrays_.nodes[id];
     cells[i] = &this->cell_at(at, this->place_of(at, points[i]));
     __builtin_prefetch(cells[i]);
   };
@@ -709,12 +882,12 @@ void WindingCells::evaluate(const Vec3* points, Index number, int* counts, bool*
       }
       else if (cell.kind == holds_leaf)
       {
-        __builtin_prefetch(&this->leaves_[cell.value]);
+        __builtin_prefetch(&this->arrays_.leaves[cell.value]);
         in_leaves[leaves++] = i;
       }
       else
       {
-        __builtin_prefetch(&this->nodes_[cell.value]);
+        __builtin_prefetch(&this->arrays_.nodes[cell.value]);
         waiting[still++] = i;
       }
     }
@@ -726,10 +899,11 @@ void WindingCells::evaluate(const Vec3* points, Index number, int* counts, bool*
   }
   for (Id k = 0; k < leaves; ++k)
   {
-    const Leaf& found = this->leaves_[cells[in_leaves[k]]->value];
-    const char* const begin = reinterpret_cast<const char*>(this->blocks_.data() + found.begin);
-    const char* const end = reinterpret_cast<const char*>(this->blocks_.data() + found.end);
-    for (const char* line = begin; line < end && line < begin + 1280; line += 64)
+    const Leaf& found = this->arrays_.leaves[cells[in_leaves[k]]->value];
+    const char* const begin =
+      reinterpret_cast<const char*>(this->arrays_.blocks.data() + found.begin);
+    const char* const end = reinterpret_cast<const char*>(this->arrays_.blocks.data() + found.end);
+    for (const char* line = begin; line < end && line < begin + 768; line += 64)
     {
       __builtin_prefetch(line);
     }
@@ -737,7 +911,7 @@ void WindingCells::evaluate(const Vec3* points, Index number, int* counts, bool*
   for (Id k = 0; k < leaves; ++k)
   {
     const Id i = in_leaves[k];
-    told[i] = this->count_in(this->leaves_[cells[i]->value], points[i], counts[i]);
+    told[i] = this->count_in(this->arrays_.leaves[cells[i]->value], points[i], counts[i]);
   }
 }
 
@@ -758,12 +932,12 @@ void WindingCells::evaluate_row(const double* xs, Index number, double y, double
       counts[i++] = 0.0;
       continue;
     }
-    const Node* at = this->nodes_.data();
+    const Node* at = this->arrays_.nodes.data();
     std::array<Id, 3> place = this->place_of(*at, p);
     Cell cell = this->cell_at(*at, place);
     while (cell.kind == holds_node)
     {
-      at = &this->nodes_[cell.value];
+      at = &this->arrays_.nodes[cell.value];
       place = this->place_of(*at, p);
       cell = this->cell_at(*at, place);
     }
@@ -782,7 +956,7 @@ void WindingCells::evaluate_row(const double* xs, Index number, double y, double
       i = end;
       continue;
     }
-    const Leaf& found = this->leaves_[cell.value];
+    const Leaf& found = this->arrays_.leaves[cell.value];
     for (; i < end; ++i)
     {
       p.x() = xs[i];
@@ -798,9 +972,10 @@ void WindingCells::evaluate_row(const double* xs, Index number, double y, double
 
 Index WindingCells::memory() const
 {
-  return static_cast<Index>(this->nodes_.capacity() * sizeof(Node) +
-    this->cells_.capacity() * sizeof(Cell) + this->leaves_.capacity() * sizeof(Leaf) +
-    this->blocks_.capacity() * sizeof(Block) + this->faces_.capacity() * sizeof(Faces));
+  const Arrays& all = this->arrays_;
+  return static_cast<Index>(all.nodes.capacity() * sizeof(Node) +
+    all.cells.capacity() * sizeof(Cell) + all.leaves.capacity() * sizeof(Leaf) +
+    all.blocks.capacity() * sizeof(Block) + all.faces.capacity() * sizeof(Faces));
 }
 
 } // namespace bindpose

@@ -44,18 +44,18 @@ public:
 private:
   using Id = std::int32_t;
   static constexpr int lanes = 8;
-  /// Corners of up to eight triangles as seen from a leaf's reference, x, y, z of a, b, c; those
-  /// that are none are out of every segment's way.
+  /// Corners of up to eight triangles as seen from a leaf's reference, x, y, z of a, b, c, as whole
+  /// numbers of a unit that suits the largest; those that are none are out of every segment's way.
   struct Block
   {
-    float corner[9][lanes];
+    float per_length; ///< units in a length of 1
+    std::int16_t corner[9][lanes];
   };
   /// Their ids, -1 for none: seldom needed, so not in the way of what is.
   using Faces = std::array<Id, lanes>;
   struct Leaf
   {
     Vec3 reference;
-    float reach; ///< largest coordinate of a corner
     int count; ///< winding number at the reference
     Id begin, end; ///< blocks
   };
@@ -65,7 +65,7 @@ private:
     Vec3 lower;
     double inverse; ///< of a cell's size
     std::array<Id, 3> size;
-    Id first; ///< in cells_
+    Id first; ///< in the cells
   };
   enum Kind : std::uint32_t
   {
@@ -98,14 +98,14 @@ private:
   std::array<Id, 3> place_of(const Node& node, const Vec3& p) const;
   const Cell& cell_at(const Node& node, const std::array<Id, 3>& place) const
   {
-    return this
-      ->cells_[node.first + (place[2] * node.size[1] + place[1]) * node.size[0] + place[0]];
+    return this->arrays_
+      .cells[node.first + (place[2] * node.size[1] + place[1]) * node.size[0] + place[0]];
   }
   bool is_outside(const Vec3& p) const;
   std::array<Vec3, 3> corners(Id face) const;
   bool count_in(const Leaf& leaf, const Vec3& p, int& count) const;
-  static int tally(const Block* begin, const Block* end, const Faces* faces, float reach,
-    float tolerance, const float* q, Unclear& unclear);
+  static int tally(const Block* begin, const Block* end, const Faces* faces, float tolerance,
+    const float* q, Unclear& unclear);
 
   const Points* points_ = nullptr;
   const Triangles* triangles_ = nullptr;
@@ -113,11 +113,15 @@ private:
   double tolerance_ = 0.0;
   Vec3 lower_ = Vec3::Zero(); ///< outside of the box the number is 0
   Vec3 upper_ = Vec3::Zero();
-  std::vector<Node> nodes_; ///< the first is the whole
-  std::vector<Cell> cells_;
-  std::vector<Leaf> leaves_;
-  std::vector<Block> blocks_;
-  std::vector<Faces> faces_; ///< of each block
+  struct Arrays
+  {
+    std::vector<Node> nodes; ///< the first is the whole
+    std::vector<Cell> cells;
+    std::vector<Leaf> leaves;
+    std::vector<Block> blocks;
+    std::vector<Faces> faces; ///< of each block
+  };
+  Arrays arrays_;
 };
 
 } // namespace bindpose

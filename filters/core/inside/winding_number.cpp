@@ -138,7 +138,7 @@ void WindingNumber::Parts::choose(WindingMethod wanted, Index open_edges)
   }
   else if (wanted == WindingMethod::automatic || wanted == WindingMethod::exact)
   {
-    if (count <= few_triangles)
+    if (count <= few_triangles && open_edges > 0)
     {
       this->method = WindingMethod::direct;
       reason = numbers + "too few for a structure to pay";
@@ -198,7 +198,7 @@ Status WindingNumber::build(
   WeldedSurface welded;
   bool done = true;
   {
-    const ProgressRange range(context, 0.0, 0.6);
+    const ProgressRange range(context, 0.0, 0.4);
     done = weld_surface(points, triangles, parts.frame, context, welded);
   }
   parts.points = std::move(welded.points);
@@ -252,18 +252,18 @@ Status WindingNumber::build(
   parts.max_leaf_size = options.max_leaf_size;
   if (done && parts.method == WindingMethod::hierarchical)
   {
-    const ProgressRange range(context, 0.6, 1.0);
+    const ProgressRange range(context, 0.4, 1.0);
     done = parts.build_tree(context);
   }
   if (done && parts.by_crossings())
   {
-    const ProgressRange range(context, 0.6, 0.7);
+    const ProgressRange range(context, 0.4, parts.method == WindingMethod::fast ? 0.6 : 1.0);
     done =
       parts.cells.build(parts.points, parts.triangles, parts.caps, parts.frame.tolerance, context);
   }
   if (done && parts.method == WindingMethod::fast)
   {
-    const ProgressRange range(context, 0.7, 1.0);
+    const ProgressRange range(context, 0.6, 1.0);
     DipoleField::Options field;
     field.tolerance = options.tolerance;
     // The padding that grids have by default.

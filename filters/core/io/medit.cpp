@@ -55,7 +55,7 @@ Status read_elements(TextScanner& scanner, std::size_t bytes, Elements& elements
   {
     return status;
   }
-  elements.setOnes(count, elements.cols()); // ids are lessened below even when reading breaks off
+  elements.setZero(count, elements.cols());
   for (Index e = 0; e < count && status.ok(); ++e)
   {
     for (Index k = 0; k < elements.cols() && status.ok(); ++k)
@@ -68,7 +68,10 @@ Status read_elements(TextScanner& scanner, std::size_t bytes, Elements& elements
       status = scanner.error("the file ends within the elements");
     }
   }
-  elements.array() -= 1;
+  if (status.ok())
+  {
+    elements.array() -= 1;
+  }
   return status;
 }
 

@@ -444,7 +444,8 @@ TEST(WindingMethods, FastNextToALongTriangleThatIsCut)
 
 TEST(WindingMethods, AutomaticChoosesByCounts)
 {
-  EXPECT_EQ(make(test::cube(), WindingMethod::automatic).method(), WindingMethod::direct);
+  EXPECT_EQ(make(test::cube(), WindingMethod::automatic).method(), WindingMethod::crossings);
+  EXPECT_EQ(make(test::open_cube(), WindingMethod::automatic).method(), WindingMethod::direct);
   EXPECT_EQ(make(test::sphere(3), WindingMethod::automatic).method(), WindingMethod::crossings);
   EXPECT_EQ(make(test::sphere(3), WindingMethod::fast).method(), WindingMethod::crossings);
   // Groups of triangles with corners of their own, pulled apart: a soup of triangles, of patches.

@@ -561,6 +561,10 @@ TEST(Tetrahedralize, AThresholdNothingReachesIsSaidAtOnce)
   for (const TetMethod method : { TetMethod::cdt, TetMethod::automatic, TetMethod::remesh })
   {
     SCOPED_TRACE(to_string(method));
+    if (method == TetMethod::cdt && find_mesher().empty())
+    {
+      continue; // method cdt is not there
+    }
     options.method = method;
     const Outcome outcome = run(test::cube(), options);
     EXPECT_EQ(outcome.status.code, StatusCode::invalid_input);
@@ -571,6 +575,10 @@ TEST(Tetrahedralize, AThresholdNothingReachesIsSaidAtOnce)
       ASSERT_NE(rungs, nullptr);
       EXPECT_EQ(std::get<std::vector<std::string>>(*rungs).size(), 1U);
     }
+  }
+  if (find_mesher().empty())
+  {
+    return;
   }
   // Two cubes of side 2 that overlap do wind twice, in a cube of side 1.
   const TriangleMesh two = test::join(test::cube(), test::translated(test::cube(), Vec3(1, 1, 1)));

@@ -706,7 +706,8 @@ WindingCells::Id WindingCells::Builder::add_leaf(
       }
       for (int k = 0; k < 9; ++k)
       {
-        block.corner[k][lane] = static_cast<std::int16_t>(std::lround(units[k / 3][k % 3]));
+        block.corner[k * lanes + lane] =
+          static_cast<std::int16_t>(std::lround(units[k / 3][k % 3]));
       }
     }
     made.blocks.push_back(block);
@@ -735,6 +736,14 @@ std::array<WindingCells::Id, 3> WindingCells::place_of(const Node& node, const V
   return place;
 }
 
+namespace
+{
+BINDPOSE_ALWAYS_INLINE float larger(float x, float y)
+{
+  return x > y ? x : y;
+}
+} // namespace
+
 /// Signed crossings of the segment from the point q to the reference, both as seen from there.
 /// Faces of which a sign is not clear are not counted but added to the unclear ones.
 BINDPOSE_SIMD_CLONES int WindingCells::tally(const Block* begin, const Block* end,
@@ -746,30 +755,39 @@ BINDPOSE_SIMD_CLONES int WindingCells::tally(const Block* begin, const Block* en
     const float per_length = block->per_length;
     const float qx = per_length * q[0], qy = per_length * q[1], qz = per_length * q[2];
     const float length = std::max({ std::abs(qx), std::abs(qy), std::abs(qz) });
-    const float reach = most_units + length;
-    // Corners that are off by h in each coordinate change a volume with the segment by at most
-    // 12 h reach length and one of three corners by 18 h reach^2, and something of the order h^2
-    // that the rounding's share has room for. A triangle that the point touches, within the
-    // tolerance of one of its points, has a volume of at most 9 tolerance reach^2 with the point
-    // and none on the wrong side of the segment by more than 6 tolerance reach length: with the
-    // rounding below that, too, it is left open.
     const float off = rounded_by + per_length * tolerance;
-    const float edge_bound = length * reach * (segment_error * reach + 12.0f * off);
-    const float side_bound = reach * reach * (corner_error * reach + 18.0f * off);
-    const float other_bound = side_bound + 4.0f * edge_bound;
+    float corner[9 * lanes]; // a loop of its own: with it in the next one compilers give up
+    for (int k = 0; k < 9 * lanes; ++k)
+    {
+      corner[k] = static_cast<float>(block->corner[k]);
+    }
     std::int32_t open[lanes];
     std::int32_t any = 0;
     for (int i = 0; i < lanes; ++i)
     {
-      const float ax = static_cast<float>(block->corner[0][i]) - qx;
-      const float ay = static_cast<float>(block->corner[1][i]) - qy;
-      const float az = static_cast<float>(block->corner[2][i]) - qz;
-      const float bx = static_cast<float>(block->corner[3][i]) - qx;
-      const float by = static_cast<float>(block->corner[4][i]) - qy;
-      const float bz = static_cast<float>(block->corner[5][i]) - qz;
-      const float cx = static_cast<float>(block->corner[6][i]) - qx;
-      const float cy = static_cast<float>(block->corner[7][i]) - qy;
-      const float cz = static_cast<float>(block->corner[8][i]) - qz;
+      const float ax = corner[0 * lanes + i] - qx;
+      const float ay = corner[1 * lanes + i] - qy;
+      const float az = corner[2 * lanes + i] - qz;
+      const float bx = corner[3 * lanes + i] - qx;
+      const float by = corner[4 * lanes + i] - qy;
+      const float bz = corner[5 * lanes + i] - qz;
+      const float cx = corner[6 * lanes + i] - qx;
+      const float cy = corner[7 * lanes + i] - qy;
+      const float cz = corner[8 * lanes + i] - qz;
+      // Corners that are off by h in each coordinate change a volume with the segment by at most
+      // 12 h reach length and one of three corners by 18 h reach^2, and something of the order h^2
+      // that the rounding's share has room for; reach is the largest coordinate as seen from the
+      // point: triangles next to it are told apart finely. A triangle that the point touches,
+      // within the tolerance of one of its points, has a volume of at most 12 tolerance reach^2
+      // with the point and none on the wrong side of the segment by more than 6 tolerance reach
+      // length: with the rounding below that, too, it is left open.
+      const float reach = larger(
+        larger(larger(larger(std::abs(ax), std::abs(ay)), larger(std::abs(az), std::abs(bx))),
+          larger(larger(std::abs(by), std::abs(bz)), larger(std::abs(cx), std::abs(cy)))),
+        std::abs(cz));
+      const float edge_bound = length * reach * (segment_error * reach + 12.0f * off);
+      const float side_bound = reach * reach * (corner_error * reach + 18.0f * off);
+      const float other_bound = side_bound + 4.0f * edge_bound;
       const float bcx = by * cz - bz * cy, bcy = bz * cx - bx * cz, bcz = bx * cy - by * cx;
       const float cax = cy * az - cz * ay, cay = cz * ax - cx * az, caz = cx * ay - cy * ax;
       const float abx = ay * bz - az * by, aby = az * bx - ax * bz, abz = ax * by - ay * bx;

@@ -49,7 +49,7 @@ private:
   struct Block
   {
     float per_length; ///< units in a length of 1
-    std::int16_t corner[9][lanes];
+    std::int16_t corner[9 * lanes]; ///< a's x of all triangles first
   };
   /// Their ids, -1 for none: seldom needed, so not in the way of what is.
   using Faces = std::array<Id, lanes>;

@@ -354,6 +354,7 @@ int vtkWindingNumberField::RequestInformation(
   vtkExecutive* producer = vtkExecutive::PRODUCER()->GetExecutive(surface_info);
   if (producer && !is_block)
   {
+    AskForAll(surface_info); // another consumer may have asked for a piece
     producer->Update(vtkExecutive::PRODUCER()->GetPort(surface_info));
     data = vtkDataObject::GetData(surface_info);
   }
@@ -376,15 +377,7 @@ int vtkWindingNumberField::RequestInformation(
 int vtkWindingNumberField::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** input, vtkInformationVector*)
 {
-  // Every sample depends on the whole surface.
-  vtkInformation* info = input[0]->GetInformationObject(0);
-  info->Set(SDDP::UPDATE_PIECE_NUMBER(), 0);
-  info->Set(SDDP::UPDATE_NUMBER_OF_PIECES(), 1);
-  info->Set(SDDP::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  if (info->Has(SDDP::WHOLE_EXTENT()))
-  {
-    info->Set(SDDP::UPDATE_EXTENT(), info->Get(SDDP::WHOLE_EXTENT()), 6);
-  }
+  AskForAll(input[0]->GetInformationObject(0)); // every sample depends on the whole surface
   return 1;
 }
 
@@ -478,7 +471,13 @@ bindpose::Status vtkWindingNumberField::Execute(
   {
     return status;
   }
-  vtkPolyData::GetData(output, 1)->ShallowCopy(this->Built->field.boundary());
+  // Of several pieces the first has the boundary.
+  vtkPolyData* boundary = vtkPolyData::GetData(output, 1);
+  boundary->Initialize();
+  if (GetPiece(output->GetInformationObject(1)) == 0)
+  {
+    boundary->ShallowCopy(this->Built->field.boundary());
+  }
 
   const bindpose::Phase phase(context, "evaluate", 0.2, 1.0);
   SampleGrid grid = whole;

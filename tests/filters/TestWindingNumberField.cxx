@@ -218,6 +218,57 @@ TEST(WindingNumberField, SubExtentsHaveTheSameBits)
   EXPECT_GE(points, all->GetNumberOfPoints()); // pieces share a plane of points
 }
 
+TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
+{
+  vtkNew<vtkSphereSource> sphere; // makes pieces
+  sphere->SetEndTheta(300.0); // open
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputConnection(sphere->GetOutputPort());
+  field->SetSamplesAlongLongestSide(12);
+  field->Update();
+  vtkNew<vtkImageData> whole;
+  whole->DeepCopy(image_of(field));
+  const vtkIdType edges = field->GetBoundaryOutput()->GetNumberOfCells();
+  EXPECT_GT(edges, 0);
+
+  // A renderer, say, has asked for its part of the sphere, which has other bounds.
+  vtkNew<vtkWindingNumberField> again;
+  again->SetInputConnection(sphere->GetOutputPort());
+  again->SetSamplesAlongLongestSide(12);
+  for (int piece = 0; piece < 2; ++piece)
+  {
+    sphere->UpdatePiece(1, 2, 0);
+    again->UpdatePiece(piece, 2, 0);
+    vtkImageData* part = image_of(again);
+    int extent[6];
+    again->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
+    EXPECT_THAT(extent, testing::ElementsAreArray(whole->GetExtent(), 6));
+    EXPECT_THAT(std::vector<double>(part->GetOrigin(), part->GetOrigin() + 3),
+      testing::ElementsAreArray(whole->GetOrigin(), 3));
+    EXPECT_GT(part->GetNumberOfPoints(), 0);
+    EXPECT_LT(part->GetNumberOfPoints(), whole->GetNumberOfPoints());
+    EXPECT_EQ(read_report(part).number("counts.queries", 0), part->GetNumberOfPoints());
+    for (vtkIdType i = 0; i < part->GetNumberOfPoints(); ++i)
+    {
+      double place[3];
+      part->GetPoint(i, place);
+      EXPECT_EQ(array_of(part)->GetValue(i), array_of(whole)->GetValue(whole->FindPoint(place)));
+    }
+  }
+
+  // The boundary is nobody's part: the first piece has it.
+  for (int piece = 0; piece < 2; ++piece)
+  {
+    auto* executive = vtkStreamingDemandDrivenPipeline::SafeDownCast(again->GetExecutive());
+    vtkInformation* request = again->GetOutputInformation(1);
+    again->UpdateInformation();
+    request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), piece);
+    request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 2);
+    executive->Update(1);
+    EXPECT_EQ(again->GetBoundaryOutput()->GetNumberOfCells(), piece == 0 ? edges : 0);
+  }
+}
+
 TEST(WindingNumberField, PointsOfAnyDataset)
 {
   const TriangleMesh mesh = test::open_cube();

@@ -139,7 +139,9 @@ struct Outputs
 
   void attach(vtkDataSetAttributes* attributes) const
   {
-    attributes->SetScalars(this->values);
+    // Not SetScalars(), which takes away the scalars that the points had.
+    attributes->AddArray(this->values);
+    attributes->SetActiveScalars(this->values->GetName());
     attributes->AddArray(this->on_surface);
     if (this->inside)
     {

@@ -280,7 +280,7 @@ TEST(WindingNumberField, PointsOfAnyDataset)
   {
     ids->InsertNextValue(tets->GetPoint(v)[2]);
   }
-  tets->GetPointData()->AddArray(ids);
+  tets->GetPointData()->SetScalars(ids);
 
   vtkNew<vtkWindingNumberField> field;
   field->SetInputData(data_of(mesh));
@@ -290,6 +290,7 @@ TEST(WindingNumberField, PointsOfAnyDataset)
   ASSERT_NE(result, nullptr);
   EXPECT_EQ(result->GetNumberOfCells(), tets->GetNumberOfCells());
   EXPECT_EQ(result->GetPointData()->GetArray("Height"), ids.Get());
+  EXPECT_EQ(result->GetPointData()->GetScalars(), array_of(result));
   ASSERT_NE(array_of(result), nullptr);
   for (Index v = 0; v < box.points.rows(); ++v)
   {

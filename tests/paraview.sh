@@ -65,7 +65,9 @@ cmake -S "$root/filters/paraview" -B "$plugin_dir" -G Ninja -DCMAKE_BUILD_TYPE=R
   -DParaView_DIR="$(echo "$paraview"/lib/*/cmake/paraview-*)" >"$log_dir/paraview-configure.log" 2>&1 ||
   { tail -20 "$log_dir/paraview-configure.log" >&2; die "configuring failed; the log is $log_dir/paraview-configure.log" 5; }
 NINJA_STATUS="[%f/%t] " ninja -C "$plugin_dir" -j "$(nproc)" || die "the build of the plugin failed" 5
-plugin=$(echo "$plugin_dir"/lib/paraview-*/plugins/Bindpose/Bindpose.so)
+rm -rf "$build_dir/paraview-installed"
+cmake --install "$plugin_dir" --prefix "$build_dir/paraview-installed" >"$log_dir/paraview-install.log"
+plugin=$(echo "$build_dir"/paraview-installed/lib/paraview-*/plugins/Bindpose/Bindpose.so)
 
 # ---- Runs ----
 mesh=$(/usr/bin/python3 -c '

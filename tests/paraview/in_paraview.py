@@ -227,6 +227,9 @@ def panels():
         for name in names:
             proxy = servermanager.ProxyManager().NewProxy(group, name)
             assert proxy.GetDocumentation().GetDescription(), name
+            if group == "filters":
+                menu = proxy.GetHints().FindNestedElementByName("ShowInMenu")
+                assert menu.GetAttribute("category") == "Bindpose", name
             properties = []
             iterator = proxy.NewPropertyIterator()
             iterator.Begin()
@@ -238,6 +241,9 @@ def panels():
                 properties.append(key)
                 iterator.Next()
             proxy.UpdateVTKObjects()
+            ports = [proxy.GetOutputPortName(i) for i in range(proxy.GetNumberOfOutputPorts())]
+            assert group != "writers" or not ports
+            assert all(ports) and not any(port.startswith("Output") for port in ports), ports
             client = proxy.GetClientSideObject()
             found[client.GetClassName()] = {"properties": properties, "printed": str(client)}
     return found

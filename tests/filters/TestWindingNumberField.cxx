@@ -256,16 +256,27 @@ TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
     }
   }
 
-  // The boundary is nobody's part: the first piece has it.
+  // The boundary is nobody's part: the first piece has it. Asked for it with ghost levels, as
+  // ParaView does, the filter executes once more, but hands on the field that somebody still has.
   for (int piece = 0; piece < 2; ++piece)
   {
+    again->UpdatePiece(piece, 2, 0);
+    vtkNew<vtkImageData> kept;
+    kept->ShallowCopy(image_of(again));
     auto* executive = vtkStreamingDemandDrivenPipeline::SafeDownCast(again->GetExecutive());
     vtkInformation* request = again->GetOutputInformation(1);
     again->UpdateInformation();
     request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), piece);
     request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 2);
+    request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 1);
     executive->Update(1);
     EXPECT_EQ(again->GetBoundaryOutput()->GetNumberOfCells(), piece == 0 ? edges : 0);
+    EXPECT_EQ(array_of(image_of(again)), array_of(kept));
+    EXPECT_EQ(read_report(image_of(again)).number("counts.queries", 0), kept->GetNumberOfPoints());
+    vtkDataArray* const before = array_of(kept);
+    again->SetThreshold(0.6 + piece); // a parameter of the field
+    again->UpdatePiece(piece, 2, 0);
+    EXPECT_NE(array_of(image_of(again)), before);
   }
 }
 

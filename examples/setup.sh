@@ -1,4 +1,4 @@
-# Sourced by examples/quickstart.sh and tests/run.sh: what to install and how to build. Not a command.
+# Sourced by examples/quickstart.sh and the scripts of tests: what to install and how to build. Not a command.
 
 # Package and what it is for, asked of dpkg one by one: nothing is installed twice or for fun.
 build_packages="

@@ -4,6 +4,11 @@
 //
 // Why GetMTime is overridden: in VTK 9.1 a filter whose RequestData failed or was aborted counts as
 // executed; the executive would hand on its empty output for ever.
+//
+// Pieces: by default the executive asks a filter's inputs for the piece that is asked of its
+// output, and half a surface encloses nothing, half a mesh has other weights. So piece 0 is the
+// whole. The other pieces ask upstream for the same piece, which is empty there, too, and costs
+// nothing.
 #include "vtkBindposeAlgorithm.h"
 
 #include "base/execution.h"
@@ -111,13 +116,58 @@ int vtkBindposeAlgorithm::RequestInformation(
 }
 
 int vtkBindposeAlgorithm::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector**, vtkInformationVector*)
+  vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
 {
+  if (GetPiece(output->GetInformationObject(0)) > 0)
+  {
+    return 1;
+  }
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; i < input[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      AskForAll(input[port]->GetInformationObject(i));
+    }
+  }
   return 1;
+}
+
+void vtkBindposeAlgorithm::AskForAll(vtkInformation* input)
+{
+  using SDDP = vtkStreamingDemandDrivenPipeline;
+  input->Set(SDDP::UPDATE_PIECE_NUMBER(), 0);
+  input->Set(SDDP::UPDATE_NUMBER_OF_PIECES(), 1);
+  input->Set(SDDP::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+  if (input->Has(SDDP::WHOLE_EXTENT()))
+  {
+    input->Set(SDDP::UPDATE_EXTENT(), input->Get(SDDP::WHOLE_EXTENT()), 6);
+  }
+}
+
+int vtkBindposeAlgorithm::GetPiece(vtkInformation* output)
+{
+  using SDDP = vtkStreamingDemandDrivenPipeline;
+  return output && output->Has(SDDP::UPDATE_PIECE_NUMBER())
+    ? output->Get(SDDP::UPDATE_PIECE_NUMBER())
+    : 0;
 }
 
 int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformationVector* output)
 {
+  if (!this->MakesPieces() && GetPiece(output->GetInformationObject(0)) > 0)
+  {
+    for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
+    {
+      if (vtkDataObject* data = vtkDataObject::GetData(output->GetInformationObject(port)))
+      {
+        data->Initialize();
+      }
+    }
+    *this->LastStatus = bindpose::Status();
+    this->ExecuteAgain = false;
+    this->SetErrorCode(vtkErrorCode::NoError);
+    return 1;
+  }
   bindpose::ExecutionContext context(
     [this](double fraction, const std::string& phase)
     {

@@ -15,6 +15,9 @@
  *   execution within 200 ms (but for a single named factorisation). Outputs are empty, the status
  *   is CANCELLED; no error event.
  * - **Again.** After a failure or cancel the next Update() executes again.
+ * - **Pieces.** With several processes the first one does the work: every input is asked for as a
+ *   whole by piece 0, and all other pieces are empty. A filter that makes its pieces itself
+ *   overrides MakesPieces().
  */
 
 #ifndef vtkBindposeAlgorithm_h
@@ -103,6 +106,16 @@ protected:
   virtual int RequestUpdateExtent(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output);
   ///@}
+
+  /// Whether Execute() makes the piece or extent that is asked for, and RequestUpdateExtent() what
+  /// it needs. Default: no, see above.
+  virtual bool MakesPieces() { return false; }
+
+  /// Asks for all of an input, for RequestUpdateExtent().
+  static void AskForAll(vtkInformation* input);
+
+  /// The piece of an output that is asked for.
+  static int GetPiece(vtkInformation* output);
 
   /**
    * The filter's work. Outputs are fresh or stale: write or Initialize() all of them. What the

@@ -69,7 +69,8 @@ Status vtkPoseHandles::Execute(
 
   std::string text = this->PoseJSON;
   std::string source;
-  if (this->FileName)
+  const bool from_file = this->FileName && *this->FileName;
+  if (from_file)
   {
     source = std::string(this->FileName) + ": ";
     std::ifstream file(this->FileName);
@@ -83,7 +84,7 @@ Status vtkPoseHandles::Execute(
   }
   this->NumberOfFrames = 1;
   this->FramesPerSecond = PoseSequence().frames_per_second;
-  if (this->FileName || !text.empty())
+  if (from_file || !text.empty())
   {
     PoseSequence sequence;
     status = parse_pose_file(text, handles, sequence);

@@ -36,6 +36,7 @@
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkWeakPointer.h"
 
 #include <algorithm>
 #include <array>
@@ -47,6 +48,21 @@
 
 vtkStandardNewMacro(vtkWindingNumberField);
 
+namespace
+{
+/// The last grid's arrays, for as long as somebody has them. With several processes ParaView asks
+/// for the field and then, with ghost levels that only unstructured outputs can have, for the
+/// boundary: to the executive that is another request, and the field would be computed twice.
+struct LastGrid
+{
+  vtkMTimeType parameters = 0;
+  std::array<bindpose::Index, 6> extent{};
+  std::vector<vtkWeakPointer<vtkDataArray>> arrays;
+  double sum = 0.0;
+  bindpose::Status status;
+};
+} // namespace
+
 struct vtkWindingNumberField::Cache
 {
   bool valid = false;
@@ -56,6 +72,7 @@ struct vtkWindingNumberField::Cache
   int flat = -1; // axis across a curve's plane
   bindpose::WindingField field;
   bindpose::Status status;
+  LastGrid last;
 };
 
 namespace
@@ -87,6 +104,8 @@ bindpose::BindKey key_of(vtkPointSet* surface, const std::string& area_array)
   key.add(surface->GetPointData()->GetArray("Normals"));
   return key;
 }
+
+using Arrays = std::vector<vtkSmartPointer<vtkDataArray>>;
 
 /// The arrays that a user wants, filled block by block.
 struct Outputs
@@ -137,20 +156,47 @@ struct Outputs
     }
   }
 
-  void attach(vtkDataSetAttributes* attributes) const
+  /// Those that are wanted, the values first.
+  Arrays arrays() const
   {
-    attributes->SetScalars(this->values);
-    attributes->AddArray(this->on_surface);
+    Arrays wanted{ this->values, this->on_surface };
     if (this->inside)
     {
-      attributes->AddArray(this->inside);
+      wanted.emplace_back(this->inside);
     }
     if (this->gradient)
     {
-      attributes->AddArray(this->gradient);
+      wanted.emplace_back(this->gradient);
     }
+    return wanted;
   }
 };
+
+void attach(const Arrays& arrays, vtkDataSetAttributes* attributes)
+{
+  for (const auto& array : arrays)
+  {
+    attributes->AddArray(array);
+  }
+  // Not SetScalars(), which takes away the scalars that the points had.
+  attributes->SetActiveScalars(arrays.front()->GetName());
+}
+
+/// The arrays of the last grid if it was this one and they are still there; else none.
+Arrays again(const LastGrid& last, vtkMTimeType parameters, const SampleGrid& grid)
+{
+  const bool same = last.parameters == parameters && last.extent == grid.extent;
+  Arrays arrays;
+  for (const auto& array : last.arrays)
+  {
+    if (!same || !array)
+    {
+      return {};
+    }
+    arrays.emplace_back(array);
+  }
+  return arrays;
+}
 
 /// Where numbers are computed: in the array itself when it holds doubles, else in a buffer.
 double* place_for(vtkDataArray* array, Index first, Index count, std::vector<double>& buffer)
@@ -354,6 +400,7 @@ int vtkWindingNumberField::RequestInformation(
   vtkExecutive* producer = vtkExecutive::PRODUCER()->GetExecutive(surface_info);
   if (producer && !is_block)
   {
+    AskForAll(surface_info); // another consumer may have asked for a piece
     producer->Update(vtkExecutive::PRODUCER()->GetPort(surface_info));
     data = vtkDataObject::GetData(surface_info);
   }
@@ -376,15 +423,7 @@ int vtkWindingNumberField::RequestInformation(
 int vtkWindingNumberField::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** input, vtkInformationVector*)
 {
-  // Every sample depends on the whole surface.
-  vtkInformation* info = input[0]->GetInformationObject(0);
-  info->Set(SDDP::UPDATE_PIECE_NUMBER(), 0);
-  info->Set(SDDP::UPDATE_NUMBER_OF_PIECES(), 1);
-  info->Set(SDDP::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-  if (info->Has(SDDP::WHOLE_EXTENT()))
-  {
-    info->Set(SDDP::UPDATE_EXTENT(), info->Get(SDDP::WHOLE_EXTENT()), 6);
-  }
+  AskForAll(input[0]->GetInformationObject(0)); // every sample depends on the whole surface
   return 1;
 }
 
@@ -478,7 +517,13 @@ bindpose::Status vtkWindingNumberField::Execute(
   {
     return status;
   }
-  vtkPolyData::GetData(output, 1)->ShallowCopy(this->Built->field.boundary());
+  // Of several pieces the first has the boundary.
+  vtkPolyData* boundary = vtkPolyData::GetData(output, 1);
+  boundary->Initialize();
+  if (GetPiece(output->GetInformationObject(1)) == 0)
+  {
+    boundary->ShallowCopy(this->Built->field.boundary());
+  }
 
   const bindpose::Phase phase(context, "evaluate", 0.2, 1.0);
   SampleGrid grid = whole;
@@ -505,14 +550,27 @@ bindpose::Status vtkWindingNumberField::Execute(
   {
     return fits;
   }
+  const vtkMTimeType parameters = this->MTime.GetMTime();
+  LastGrid& last = this->Built->last;
+  Arrays arrays = points ? Arrays() : again(last, parameters, grid);
+  Status evaluated = last.status;
+  double sum = last.sum;
   result->Initialize(); // who streams has room for one block, not for the last one, too
-  Outputs outputs(samples.count(), single, this->ComputeGradient, this->ComputeInside);
-  outputs.threshold = this->Threshold;
-  double sum = 0.0;
-  const Status evaluated = evaluate(this->Built->field, samples, context, outputs, sum);
-  if (!evaluated.ok())
+  if (arrays.empty())
   {
-    return evaluated;
+    Outputs outputs(samples.count(), single, this->ComputeGradient, this->ComputeInside);
+    outputs.threshold = this->Threshold;
+    evaluated = evaluate(this->Built->field, samples, context, outputs, sum);
+    if (!evaluated.ok())
+    {
+      return evaluated;
+    }
+    arrays = outputs.arrays();
+    if (!points)
+    {
+      last = { parameters, grid.extent, { arrays.begin(), arrays.end() }, sum, evaluated };
+      last.status.warnings.clear(); // given once
+    }
   }
   if (points)
   {
@@ -531,9 +589,9 @@ bindpose::Status vtkWindingNumberField::Execute(
       status.report.set("winding_volume", sum * whole.spacing.prod());
     }
   }
-  outputs.attach(points && this->SampleCellCenters
-      ? static_cast<vtkDataSetAttributes*>(result->GetCellData())
-      : result->GetPointData());
+  attach(arrays,
+    points && this->SampleCellCenters ? static_cast<vtkDataSetAttributes*>(result->GetCellData())
+                                      : result->GetPointData());
   status.report.set("builds", this->NumberOfBuilds);
   status.report.merge(evaluated.report);
   status.warnings.insert(

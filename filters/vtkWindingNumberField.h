@@ -230,6 +230,7 @@ protected:
   vtkWindingNumberField();
   ~vtkWindingNumberField() override;
 
+  bool MakesPieces() override { return true; }
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(

@@ -3,7 +3,6 @@
 #include "conversion.h"
 
 #include "vtkCell.h"
-#include "vtkCellTypes.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -23,12 +22,11 @@ constexpr const char* certificate_suffixes[] = { "RelativeGap", "KKTResidual", "
 
 bool has_volume_cell(vtkUnstructuredGrid* grid)
 {
-  vtkNew<vtkCellTypes> types;
-  grid->GetCellTypes(types);
-  for (vtkIdType i = 0; i < types->GetNumberOfTypes(); ++i)
+  vtkUnsignedCharArray* types = grid->GetCellTypesArray();
+  for (vtkIdType i = 0; types && i < types->GetNumberOfValues(); ++i)
   {
     // Linear cells of three dimensions are numbered from VTK_TETRA on.
-    const int type = types->GetCellType(i);
+    const int type = types->GetValue(i);
     if (type >= VTK_TETRA && type <= VTK_HEXAGONAL_PRISM)
     {
       return true;

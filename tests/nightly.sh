@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What is too long for tests/run.sh: sanitizers, the build without GPL and AGPL parts and OpenVDB, naming on all
-# files, the quickstart, every surface of libcgal-demo through the mesher. Ends with a summary.
-# usage: tests/nightly.sh [asan|permissive|tidy|quickstart|surfaces …]   (default: all)
+# files, the quickstart, every surface of libcgal-demo through the mesher, the plugin in ParaView. Ends with a summary.
+# usage: tests/nightly.sh [asan|permissive|tidy|quickstart|surfaces|paraview …]   (default: all)
 set -uo pipefail
 program=nightly.sh
 install=yes
@@ -57,8 +57,13 @@ surfaces()
   /usr/bin/python3 "$root/tests/support/all_surfaces.py" --build "$build_dir"
 }
 
+paraview()
+{
+  "$root/tests/paraview.sh"
+}
+
 parts=("$@")
-[ $# -gt 0 ] || parts=(asan permissive tidy quickstart surfaces)
+[ $# -gt 0 ] || parts=(asan permissive tidy quickstart surfaces paraview)
 for name in "${parts[@]}"; do
   part "$name" "$name"
 done

@@ -1,4 +1,13 @@
-# Warnings for our own targets, ccache when there, and how a portable Release is compiled.
+# Language, warnings for our own targets, ccache when there, and how a portable Release is compiled.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+set(CMAKE_CXX_STANDARD 17)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
 find_program(BINDPOSE_CCACHE ccache)
 mark_as_advanced(BINDPOSE_CCACHE)
 if(BINDPOSE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)

@@ -1,4 +1,5 @@
-# The table of options, printed at the end of every configure, with the licence that results.
+# The table of options, printed at the end of every configure, with the licence that results. Of the
+# options that this build does not have there is no row.
 set(bindpose_licence "BSD-3-Clause")
 set(bindpose_licence_reasons "")
 if(bindpose_has_cholmod)
@@ -19,6 +20,9 @@ if(bindpose_has_openvdb) # binds OpenVDB's own files only, so it changes no lice
 endif()
 
 function(bindpose_row name state meaning)
+  if(NOT DEFINED ${name})
+    return()
+  endif()
   string(LENGTH "${name}" length)
   math(EXPR pad "28 - ${length}")
   string(REPEAT " " ${pad} spaces)

@@ -100,6 +100,29 @@ TEST(BindposeAlgorithm, ExecutesOnlyWhenSomethingChanged)
   EXPECT_EQ(filter->Executions, 3);
 }
 
+TEST(BindposeAlgorithm, TheFirstOfSeveralPiecesIsTheWhole)
+{
+  vtkNew<vtkSphereSource> sphere; // makes pieces
+  sphere->Update();
+  const vtkIdType cells = sphere->GetOutput()->GetNumberOfCells();
+  vtkNew<TestFilter> first;
+  vtkNew<TestFilter> second;
+  first->SetInputConnection(sphere->GetOutputPort());
+  second->SetInputConnection(first->GetOutputPort());
+  second->UpdatePiece(1, 2, 1);
+  EXPECT_EQ(second->GetOutput()->GetNumberOfCells(), 0);
+  EXPECT_EQ(first->Executions + second->Executions, 0) << "nothing to do";
+  EXPECT_EQ(second->GetStatus(), vtkBindposeAlgorithm::OK);
+  second->UpdatePiece(0, 2, 1);
+  EXPECT_EQ(second->GetOutput()->GetNumberOfCells(), cells);
+  EXPECT_EQ(first->Executions, 1);
+  EXPECT_EQ(second->Executions, 1);
+  second->UpdatePiece(1, 2, 1);
+  EXPECT_EQ(second->GetOutput()->GetNumberOfCells(), 0);
+  second->UpdatePiece(0, 1, 0);
+  EXPECT_EQ(second->GetOutput()->GetNumberOfCells(), cells);
+}
+
 TEST(BindposeAlgorithm, NotConvergedIsAResult)
 {
   vtkNew<TestFilter> filter;

@@ -218,6 +218,68 @@ TEST(WindingNumberField, SubExtentsHaveTheSameBits)
   EXPECT_GE(points, all->GetNumberOfPoints()); // pieces share a plane of points
 }
 
+TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
+{
+  vtkNew<vtkSphereSource> sphere; // makes pieces
+  sphere->SetEndTheta(300.0); // open
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputConnection(sphere->GetOutputPort());
+  field->SetSamplesAlongLongestSide(12);
+  field->Update();
+  vtkNew<vtkImageData> whole;
+  whole->DeepCopy(image_of(field));
+  const vtkIdType edges = field->GetBoundaryOutput()->GetNumberOfCells();
+  EXPECT_GT(edges, 0);
+
+  // A renderer, say, has asked for its part of the sphere, which has other bounds.
+  vtkNew<vtkWindingNumberField> again;
+  again->SetInputConnection(sphere->GetOutputPort());
+  again->SetSamplesAlongLongestSide(12);
+  for (int piece = 0; piece < 2; ++piece)
+  {
+    sphere->UpdatePiece(1, 2, 0);
+    again->UpdatePiece(piece, 2, 0);
+    vtkImageData* part = image_of(again);
+    int extent[6];
+    again->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), extent);
+    EXPECT_THAT(extent, testing::ElementsAreArray(whole->GetExtent(), 6));
+    EXPECT_THAT(std::vector<double>(part->GetOrigin(), part->GetOrigin() + 3),
+      testing::ElementsAreArray(whole->GetOrigin(), 3));
+    EXPECT_GT(part->GetNumberOfPoints(), 0);
+    EXPECT_LT(part->GetNumberOfPoints(), whole->GetNumberOfPoints());
+    EXPECT_EQ(read_report(part).number("counts.queries", 0), part->GetNumberOfPoints());
+    for (vtkIdType i = 0; i < part->GetNumberOfPoints(); ++i)
+    {
+      double place[3];
+      part->GetPoint(i, place);
+      EXPECT_EQ(array_of(part)->GetValue(i), array_of(whole)->GetValue(whole->FindPoint(place)));
+    }
+  }
+
+  // The boundary is nobody's part: the first piece has it. Asked for it with ghost levels, as
+  // ParaView does, the filter executes once more, but hands on the field that somebody still has.
+  for (int piece = 0; piece < 2; ++piece)
+  {
+    again->UpdatePiece(piece, 2, 0);
+    vtkNew<vtkImageData> kept;
+    kept->ShallowCopy(image_of(again));
+    auto* executive = vtkStreamingDemandDrivenPipeline::SafeDownCast(again->GetExecutive());
+    vtkInformation* request = again->GetOutputInformation(1);
+    again->UpdateInformation();
+    request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER(), piece);
+    request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES(), 2);
+    request->Set(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_GHOST_LEVELS(), 1);
+    executive->Update(1);
+    EXPECT_EQ(again->GetBoundaryOutput()->GetNumberOfCells(), piece == 0 ? edges : 0);
+    EXPECT_EQ(array_of(image_of(again)), array_of(kept));
+    EXPECT_EQ(read_report(image_of(again)).number("counts.queries", 0), kept->GetNumberOfPoints());
+    vtkDataArray* const before = array_of(kept);
+    again->SetThreshold(0.6 + piece); // a parameter of the field
+    again->UpdatePiece(piece, 2, 0);
+    EXPECT_NE(array_of(image_of(again)), before);
+  }
+}
+
 TEST(WindingNumberField, PointsOfAnyDataset)
 {
   const TriangleMesh mesh = test::open_cube();
@@ -229,7 +291,7 @@ TEST(WindingNumberField, PointsOfAnyDataset)
   {
     ids->InsertNextValue(tets->GetPoint(v)[2]);
   }
-  tets->GetPointData()->AddArray(ids);
+  tets->GetPointData()->SetScalars(ids);
 
   vtkNew<vtkWindingNumberField> field;
   field->SetInputData(data_of(mesh));
@@ -239,6 +301,7 @@ TEST(WindingNumberField, PointsOfAnyDataset)
   ASSERT_NE(result, nullptr);
   EXPECT_EQ(result->GetNumberOfCells(), tets->GetNumberOfCells());
   EXPECT_EQ(result->GetPointData()->GetArray("Height"), ids.Get());
+  EXPECT_EQ(result->GetPointData()->GetScalars(), array_of(result));
   ASSERT_NE(array_of(result), nullptr);
   for (Index v = 0; v < box.points.rows(); ++v)
   {

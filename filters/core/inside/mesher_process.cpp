@@ -276,11 +276,13 @@ std::string find_mesher()
   {
     folders.push_back(folder_of(std::string(self, static_cast<std::size_t>(length))));
   }
-  // The library that holds this function: lib/libX.so, or lib/ARCHITECTURE/libX.so.
+  // The library that holds this function: a plugin's folder, lib/libX.so, or
+  // lib/ARCHITECTURE/libX.so.
   Dl_info info{};
   if (::dladdr(reinterpret_cast<void*>(&find_mesher), &info) && info.dli_fname)
   {
     const std::string library = folder_of(info.dli_fname);
+    folders.push_back(library);
     folders.push_back(library + "/../bin");
     folders.push_back(library + "/../../bin");
   }

@@ -28,8 +28,8 @@ struct MesherAnswer
 };
 
 /// Path of bindpose-mesher, empty when there is none. Looked for in the environment variable
-/// BINDPOSE_MESHER (which alone counts when it is set), then beside the running executable, in
-/// the bin folder beside the library's, and in the build tree.
+/// BINDPOSE_MESHER (which alone counts when it is set), then beside the running executable, beside
+/// the library, in the bin folder beside the library's, and in the build tree.
 std::string find_mesher();
 
 /// Runs one job in a process of its own and waits for it. CGAL and TetGen may crash, hang or eat

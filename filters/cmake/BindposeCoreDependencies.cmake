@@ -1,0 +1,69 @@
+# What the kernels are built with: their options and what the system has. Required: Eigen, TBB,
+# nlohmann-json. Everything heavy is optional; the feature that misses it says which package would
+# give it.
+option(BINDPOSE_PERMISSIVE "Leave out GPL and AGPL parts (bindpose-mesher, CHOLMOD)" OFF)
+option(BINDPOSE_WITH_CHOLMOD "Factor with CHOLMOD's supernodal solver when found" ON)
+option(BINDPOSE_WITH_MESHER "Build bindpose-mesher (CGAL, TetGen) when both are found" ON)
+option(BINDPOSE_WITH_OPENVDB "Write .vdb files when OpenVDB is found" ON)
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(TBB REQUIRED)
+find_package(nlohmann_json 3.10 REQUIRED)
+
+# ---- CHOLMOD (its supernodal module is GPL) ----
+set(bindpose_has_cholmod OFF)
+if(BINDPOSE_WITH_CHOLMOD AND NOT BINDPOSE_PERMISSIVE)
+  find_path(CHOLMOD_INCLUDE_DIR cholmod.h PATH_SUFFIXES suitesparse)
+  find_library(CHOLMOD_LIBRARY cholmod)
+  mark_as_advanced(CHOLMOD_INCLUDE_DIR CHOLMOD_LIBRARY)
+  if(CHOLMOD_INCLUDE_DIR AND CHOLMOD_LIBRARY)
+    set(bindpose_has_cholmod ON)
+    if(NOT TARGET SuiteSparse::CHOLMOD)
+      add_library(SuiteSparse::CHOLMOD UNKNOWN IMPORTED)
+      set_target_properties(SuiteSparse::CHOLMOD PROPERTIES
+        IMPORTED_LOCATION "${CHOLMOD_LIBRARY}"
+        INTERFACE_INCLUDE_DIRECTORIES "${CHOLMOD_INCLUDE_DIR}")
+    endif()
+  endif()
+endif()
+
+# ---- bindpose-mesher: CGAL (GPL) and TetGen (AGPL), in a process of their own ----
+set(bindpose_has_mesher OFF)
+if(BINDPOSE_WITH_MESHER AND NOT BINDPOSE_PERMISSIVE)
+  find_package(CGAL 5.5 QUIET)
+  find_path(TETGEN_INCLUDE_DIR tetgen.h)
+  find_library(TETGEN_LIBRARY NAMES tet)
+  mark_as_advanced(TETGEN_INCLUDE_DIR TETGEN_LIBRARY)
+  if(CGAL_FOUND AND TETGEN_INCLUDE_DIR AND TETGEN_LIBRARY)
+    set(bindpose_has_mesher ON)
+    if(NOT TARGET TetGen::TetGen)
+      add_library(TetGen::TetGen UNKNOWN IMPORTED)
+      set_target_properties(TetGen::TetGen PROPERTIES
+        IMPORTED_LOCATION "${TETGEN_LIBRARY}"
+        INTERFACE_INCLUDE_DIRECTORIES "${TETGEN_INCLUDE_DIR}"
+        INTERFACE_COMPILE_DEFINITIONS TETLIBRARY)
+    endif()
+  endif()
+endif()
+
+# ---- OpenVDB (MPL) ----
+# Not by its FindOpenVDB.cmake, which ends the configure when Boost's or Blosc's development files are
+# missing and turns BUILD_SHARED_LIBS on. Since 8.1 version.h says how the library was built. Headers
+# of 10 use Boost's, which Debian's package does not depend on.
+set(bindpose_has_openvdb OFF)
+if(BINDPOSE_WITH_OPENVDB)
+  find_path(OPENVDB_INCLUDE_DIR openvdb/openvdb.h)
+  find_path(OPENVDB_BOOST_INCLUDE_DIR boost/uuid/uuid.hpp)
+  find_library(OPENVDB_LIBRARY openvdb)
+  mark_as_advanced(OPENVDB_INCLUDE_DIR OPENVDB_BOOST_INCLUDE_DIR OPENVDB_LIBRARY)
+  if(OPENVDB_INCLUDE_DIR AND OPENVDB_BOOST_INCLUDE_DIR AND OPENVDB_LIBRARY)
+    set(bindpose_has_openvdb ON)
+    if(NOT TARGET OpenVDB::openvdb)
+      add_library(OpenVDB::openvdb UNKNOWN IMPORTED)
+      set_target_properties(OpenVDB::openvdb PROPERTIES
+        IMPORTED_LOCATION "${OPENVDB_LIBRARY}"
+        INTERFACE_INCLUDE_DIRECTORIES "${OPENVDB_INCLUDE_DIR};${OPENVDB_BOOST_INCLUDE_DIR}"
+        INTERFACE_LINK_LIBRARIES TBB::tbb)
+    endif()
+  endif()
+endif()

@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# Builds the ParaView plugin and uses it in ParaView, on one and on two processes. See --help.
+set -euo pipefail
+program=paraview.sh
+
+usage()
+{
+  cat <<'TEXT'
+usage: tests/paraview.sh [--no-install]
+
+Takes Debian's ParaView, unpacks it into build/paraview-packages (670 MB; installed, its Python
+package would replace VTK's), builds filters/paraview against it in build/paraview-plugin, and runs
+tests/paraview/in_paraview.py with pvbatch on 1 and on 2 MPI ranks. tests/paraview/check.py then
+compares: winding numbers have the same bits on both and in the program bindpose.
+
+options:
+  --no-install   install nothing; say what is missing
+  --help         this text
+TEXT
+}
+
+install=yes
+while [ $# -gt 0 ]; do
+  case "$1" in
+    --help | -h) usage; exit 0 ;;
+    --no-install) install=no ;;
+    *) usage >&2; exit 1 ;;
+  esac
+  shift
+done
+
+. "$(dirname "${BASH_SOURCE[0]}")/../examples/setup.sh"
+paraview_packages="
+libqt5svg5-dev:asked_for_by_ParaView's_CMake_files
+qttools5-dev:asked_for_by_ParaView's_CMake_files
+openmpi-bin:several_processes
+python3-mpi4py:ParaView's_Python_on_several_processes
+"
+install_packages "$build_packages $paraview_packages"
+build
+
+# ---- ParaView, unpacked ----
+packages="$build_dir/paraview-packages"
+paraview="$packages/root/usr"
+if [ ! -e "$packages/unpacked" ]; then
+  echo "Taking ParaView from Debian ..."
+  mkdir -p "$packages"
+  # A warning that apt reads them as root is of no matter.
+  (cd "$packages" && apt-get download paraview paraview-dev python3-paraview) >"$log_dir/paraview-download.log" 2>&1 ||
+    { tail -5 "$log_dir/paraview-download.log" >&2; die "apt-get download failed; the log is $log_dir/paraview-download.log"; }
+  for package in "$packages"/*.deb; do
+    dpkg-deb -x "$package" "$packages/root" || die "$package cannot be unpacked" 5
+  done
+  touch "$packages/unpacked"
+fi
+# What it is linked with: the libraries that its packages depend on.
+libraries=$(for package in "$packages"/paraview_*.deb "$packages"/python3-paraview_*.deb; do
+  dpkg-deb -f "$package" Depends
+done | tr ',' '\n' | sed -nE 's/^ *(lib[^ ]*).*/\1:ParaView/p' | sort -u)
+install_packages "$libraries"
+
+# ---- The plugin ----
+plugin_dir="$build_dir/paraview-plugin"
+cmake -S "$root/filters/paraview" -B "$plugin_dir" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  -DParaView_DIR="$(echo "$paraview"/lib/*/cmake/paraview-*)" >"$log_dir/paraview-configure.log" 2>&1 ||
+  { tail -20 "$log_dir/paraview-configure.log" >&2; die "configuring failed; the log is $log_dir/paraview-configure.log" 5; }
+NINJA_STATUS="[%f/%t] " ninja -C "$plugin_dir" -j "$(nproc)" || die "the build of the plugin failed" 5
+rm -rf "$build_dir/paraview-installed"
+cmake --install "$plugin_dir" --prefix "$build_dir/paraview-installed" >"$log_dir/paraview-install.log"
+plugin=$(echo "$build_dir"/paraview-installed/lib/paraview-*/plugins/Bindpose/Bindpose.so)
+
+# ---- Runs ----
+mesh=$(/usr/bin/python3 -c '
+import pathlib, sys
+sys.path.insert(0, sys.argv[1])
+import quickstart
+print(quickstart.demo_mesh(pathlib.Path(sys.argv[2])))' "$root/examples" "$build_dir/demo-meshes")
+results="$build_dir/paraview-results"
+rm -rf "$results"
+
+# in_paraview RANKS COMMAND…: a run that ends within minutes or is ended: ranks that wait for each other never do.
+in_paraview()
+{
+  local ranks=$1
+  shift
+  mkdir -p "$results/$ranks"
+  (
+    export PATH="$paraview/bin:$PATH"
+    LD_LIBRARY_PATH=$(echo "$paraview"/lib/*-linux-gnu)
+    export LD_LIBRARY_PATH PYTHONPATH="$paraview/lib/python3/dist-packages"
+    # Containers are root and may have one core.
+    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+    timeout 600 "$@" "$root/tests/paraview/in_paraview.py" "$plugin" "$mesh" "$results/$ranks"
+  ) >"$results/$ranks.log" 2>&1 || { tail -20 "$results/$ranks.log" >&2; die "ParaView on $ranks rank(s) failed; the log is $results/$ranks.log" 5; }
+}
+
+in_paraview 1 pvbatch
+in_paraview 2 mpirun --bind-to none -n 2 pvbatch
+PYTHONPATH="$build_dir/lib/python3/dist-packages" /usr/bin/python3 "$root/tests/paraview/check.py" \
+  "$build_dir" "$mesh" "$results"

@@ -1,0 +1,136 @@
+"""What tests/paraview.sh asks of the runs in ParaView, outside of it: check.py BUILD MESH FOLDER.
+
+FOLDER/1 and FOLDER/2 are what in_paraview.py left on one and on two ranks, FOLDER/N.log what ParaView said. The
+fields of both have the same bits, and those of `bindpose winding`, which is built with another VTK.
+"""
+
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+import bindpose.BindposeFilters
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOXML import vtkXMLImageDataReader
+
+# What an object says of its run, not of its parameters.
+NO_PARAMETER = {"Status", "StatusMessage", "Report"}
+# Where a proxy differs from its class on purpose: the file dialog has asked before.
+OTHER_DEFAULTS = {("vtkMeshFileWriter", "Overwrite"), ("vtkVDBWriter", "Overwrite")}
+
+
+def shape_of(extent):
+    return tuple(extent[2 * k + 1] - extent[2 * k] + 1 for k in (2, 1, 0))
+
+
+def load(folder, name, ranks):
+    """The parts of a field, one a rank: (what is known of it, its values)."""
+    parts = []
+    for rank in range(ranks):
+        about = json.loads((folder / f"{name}.{rank}.json").read_text())
+        values = np.load(folder / f"{name}.{rank}.npy").reshape(shape_of(about["extent"]))
+        assert (about["piece"], about["pieces"]) == (rank, ranks), about
+        assert about["computed"] == values.size, f"rank {rank} computed {about['computed']} of {values.size} samples"
+        parts.append((about, values))
+    return parts
+
+
+def place(whole, extent):
+    """Where an extent lies in the array of the whole."""
+    return tuple(slice(extent[2 * k] - whole[2 * k], extent[2 * k + 1] - whole[2 * k] + 1) for k in (2, 1, 0))
+
+
+def compare_ranks(folder, name):
+    """Two ranks have different halves, which share a plane, and all their samples are those of one rank."""
+    ((alone, all_values),) = load(folder / "1", name, 1)
+    assert alone["extent"] == alone["whole"]
+    seen = np.zeros(all_values.shape, int)
+    for about, values in load(folder / "2", name, 2):
+        for key in ("whole", "origin", "spacing", "method"):
+            assert about[key] == alone[key], f"{name}: {key}"
+        assert values.tobytes() == all_values[place(alone["whole"], about["extent"])].tobytes(), f"{name}: other bits"
+        assert 0.4 < values.size / all_values.size < 0.6, f"{name}: no half"
+        seen[place(alone["whole"], about["extent"])] += 1
+    planes = [axis for axis in range(3) if (seen == 2).sum() * seen.shape[axis] == seen.size]
+    assert seen.min() == 1 and planes, f"{name}: the halves share more than a plane"
+    return alone, all_values
+
+
+def compare_builds(build, folder, name, surface, alone, values, *options):
+    """What the program says of the same surface and grid."""
+    output = folder / f"{name}.vti"
+    subprocess.run([build / "bin" / "bindpose", "winding", surface, *options, "-o", output, "--overwrite"],
+                   check=True, stdout=subprocess.DEVNULL)
+    reader = vtkXMLImageDataReader()
+    reader.SetFileName(str(output))
+    reader.Update()
+    image = reader.GetOutput()
+    assert list(image.GetExtent()) == alone["whole"] and list(image.GetOrigin()) == alone["origin"]
+    assert vtk_to_numpy(image.GetPointData().GetArray("WindingNumber")).tobytes() == values.tobytes(), name
+
+
+def parameters(printed):
+    """The lines `Name: value` of our own classes: they follow those of VTK's."""
+    own = printed[printed.index("NumberOfThreads:"):]
+    found = dict(re.findall(r"^ *(\w+): *(.*?) *$", own, re.MULTILINE))
+    return {name: "" if value == "(none)" else value for name, value in found.items() if name not in NO_PARAMETER}
+
+
+def compare_panels(panels):
+    """Every parameter of a class is a property of its proxy, with the same default."""
+    compared = 0
+    for name, panel in panels.items():
+        instance = getattr(bindpose.BindposeFilters, name)()
+        here, there = parameters(str(instance)), parameters(panel["printed"])
+        assert here.keys() == there.keys(), name
+        for key, value in here.items():
+            no_property = key == "NumberOfThreads" and name.endswith(("Reader", "Writer"))
+            if not hasattr(instance, "Set" + key) or no_property:
+                continue
+            assert key in panel["properties"], f"{name} has no property {key}"
+            if (name, key) not in OTHER_DEFAULTS:
+                assert there[key] == value, f"{name}: {key} is {there[key]} in ParaView, {value} in C++"
+            compared += 1
+    return compared
+
+
+def compare_log(log, sentences):
+    """ParaView was told each of the sentences and no other error."""
+    errors = [line for line in log.read_text().splitlines() if "ERR|" in line]
+    for name, sentence in sentences.items():
+        assert any(sentence in line for line in errors), f"{name}: '{sentence}' is not in the log"
+    for line in errors:
+        assert any(sentence in line for sentence in sentences.values()), line
+    return len(errors)
+
+
+def main():
+    build, mesh, folder = (pathlib.Path(word) for word in sys.argv[1:4])
+    one, two = (json.loads((folder / ranks / "run.json").read_text()) for ranks in ("1", "2"))
+    assert (one["ranks"], two["ranks"]) == (1, 2)
+    assert one["numbers"] == two["numbers"], "tets and weights depend on the ranks"
+    samples = in_both_builds = 0
+    for name, surface, options in (
+        ("spheres", folder / "1" / "spheres.vtp", ("--grid", "40")),
+        ("mesh", mesh, ("--grid", "48")),
+        ("exact", mesh, ("--grid", "24", "--method", "exact")),
+        ("points", None, ()),
+    ):
+        alone, values = compare_ranks(folder, name)
+        assert np.isfinite(values).all() and values.max() > 0.9 and np.abs(values).min() < 0.1, name
+        if surface:
+            compare_builds(build, folder, name, surface, alone, values, *options)
+            in_both_builds += values.size
+        samples += values.size
+    print(f"{samples} winding numbers: same bits on 1 rank and on 2, each its half; "
+          f"{in_both_builds} of them: same bits as bindpose winding")
+    print(f"{one['numbers']['tets']} tets, posed; the same on 2 ranks")
+    print(f"{compare_panels(one['panels'])} parameters of {len(one['panels'])} proxies: same defaults as in C++")
+    print(f"{len(one['sentences'])} kinds of bad input: each told, nothing else "
+          f"({compare_log(folder / '1.log', one['sentences']) + compare_log(folder / '2.log', {})} errors in the logs)")
+
+
+if __name__ == "__main__":
+    main()

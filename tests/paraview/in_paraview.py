@@ -1,0 +1,273 @@
+"""What tests/paraview.sh runs inside of ParaView: pvbatch in_paraview.py PLUGIN MESH FOLDER, on any number of ranks.
+
+Makes winding number fields, each rank its own part, and leaves in FOLDER what each rank computed; then uses every
+other proxy of the plugin. Facts are asserted here when they are ParaView's alone, and by check.py when they are
+about several runs. FOLDER/run.json, written last, says that all went well.
+"""
+
+import json
+import pathlib
+import sys
+
+import numpy as np
+from paraview import servermanager
+from paraview.simple import *  # noqa: F403  LoadPlugin adds the plugin's functions
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+FILTERS = (
+    "WindingNumberField TetrahedralizeSurface FarthestPointHandles BoundedBiharmonicWeights MonotoneWeights "
+    "UnconstrainedWeights TransferWeights PoseHandles SkinningDeformation ReducedARAP"
+).split()
+SOURCES = "BindposeMeshReader BindposeHandleReader".split()
+WRITERS = "BindposeMeshWriter BindposeVDBWriter".split()
+
+# Runs on every rank: which piece was asked for, what came, how many samples the filter says it computed.
+WRITE_PARTS = """
+import json
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonExecutionModel import vtkStreamingDemandDrivenPipeline as Pipeline
+from vtkmodules.vtkParallelCore import vtkMultiProcessController
+rank = vtkMultiProcessController.GetGlobalController().GetLocalProcessId()
+image = self.GetInputDataObject(0, 0)
+information = self.GetInputInformation(0, 0)
+values = vtk_to_numpy(image.GetPointData().GetArray("WindingNumber"))
+np.save(f"{folder}/{name}.{rank}.npy", values)
+with open(f"{folder}/{name}.{rank}.json", "w") as file:
+    json.dump({
+        "piece": information.Get(Pipeline.UPDATE_PIECE_NUMBER()),
+        "pieces": information.Get(Pipeline.UPDATE_NUMBER_OF_PIECES()),
+        "whole": information.Get(Pipeline.WHOLE_EXTENT()),
+        "extent": image.GetExtent(),
+        "origin": image.GetOrigin(),
+        "spacing": image.GetSpacing(),
+        "computed": image.GetFieldData().GetArray("Report.counts.queries").GetTuple1(0),
+        "method": image.GetFieldData().GetAbstractArray("Report.method").GetValue(0),
+    }, file)
+"""
+
+
+def fetch(proxy, port=0):
+    """An output as it is, gathered from all ranks."""
+    proxy.UpdatePipeline()
+    return servermanager.Fetch(proxy, idx=port)
+
+
+def points_of(data):
+    return vtk_to_numpy(data.GetPoints().GetData()).astype(float)
+
+
+def write_parts(name, field, folder):
+    writer = ProgrammableFilter(Input=field, OutputDataSetType="vtkPolyData", CopyArrays=0)
+    writer.Script = f"folder = {str(folder)!r}\nname = {name!r}\n{WRITE_PARTS}"
+    writer.UpdatePipeline()
+
+
+def spheres():
+    """One sphere with an opening, and one that crosses it; looked at before, as in the window."""
+    open_sphere = Sphere(ThetaResolution=24, PhiResolution=16, EndTheta=300.0)
+    other = Sphere(ThetaResolution=17, PhiResolution=13, Center=[0.4, 0.1, -0.05])
+    for sphere in (open_sphere, other):
+        sphere.UpdatePipeline()
+    return AppendGeometry(Input=[open_sphere, other])
+
+
+def fields(mesh, folder):
+    both = spheres()
+    both.UpdatePipeline()  # every rank has its piece of it now, not all
+    field = WindingNumberField(Input=both, SamplesAlongLongestSide=40)
+    write_parts("spheres", field, folder)
+    surface = fetch(field, 1)
+    assert surface.GetNumberOfCells() == 16 - 1 + 16 - 1, surface.GetNumberOfCells()  # its two meridians
+    values = vtk_to_numpy(fetch(Contour(Input=field, ContourBy=["POINTS", "WindingNumber"], Isosurfaces=[0.5]))
+                          .GetPointData().GetArray("WindingNumber"))
+    assert len(values) > 1000 and np.all(np.abs(values - 0.5) < 1e-6), values
+
+    reader = BindposeMeshReader(FileName=str(mesh))
+    reader.UpdatePipeline()
+    write_parts("mesh", WindingNumberField(Input=reader, SamplesAlongLongestSide=48), folder)
+    write_parts("exact", WindingNumberField(Input=reader, SamplesAlongLongestSide=24, Method="Exact"), folder)
+
+    # At points of another dataset, of which each rank has its part.
+    wavelet = Wavelet(WholeExtent=[-6, 6, -6, 6, -6, 6])
+    inside = WindingNumberField(Input=Sphere(Radius=5.0, ThetaResolution=60, PhiResolution=60), Points=wavelet,
+                                ComputeInside=1, ComputeGradient=1)
+    write_parts("points", inside, folder)
+    image = fetch(inside)  # of an image in parts only the first
+    radii = np.array([np.linalg.norm(image.GetPoint(i)) for i in range(image.GetNumberOfPoints())])
+    flags = vtk_to_numpy(image.GetPointData().GetArray("Inside"))
+    clear = np.abs(radii - 5.0) > 0.1
+    assert np.array_equal(flags[clear] == 1, radii[clear] < 5.0)
+    assert image.GetPointData().GetArray("WindingNumberGradient").GetNumberOfComponents() == 3
+    assert image.GetPointData().GetArray("RTData")
+    # Without them the grid is back.
+    inside.Points = None
+    inside.SamplesAlongLongestSide = 10
+    inside.UpdatePipeline()
+    assert max(inside.GetDataInformation().DataInformation.GetExtent()) == 9
+
+
+def deformation():
+    """From a surface to a posed one; what several processes make is what one makes."""
+    numbers = {}
+    surface = Sphere(ThetaResolution=20, PhiResolution=14, EndTheta=320.0)
+    surface.UpdatePipeline()
+    tets = TetrahedralizeSurface(Input=surface)
+    data = fetch(tets)
+    numbers["tets"] = data.GetNumberOfCells()
+    numbers["method"] = data.GetFieldData().GetAbstractArray("Report.method").GetValue(0)
+    assert numbers["method"] == "cdt", "the helper was not found"
+    assert numbers["tets"] > 100
+    assert {data.GetCellType(i) for i in range(numbers["tets"])} == {10}
+    numbers["volume"] = data.GetFieldData().GetArray("Report.volume").GetTuple1(0)
+    assert 0.3 < numbers["volume"] < 0.53, numbers["volume"]  # the ball without and with its slice: 0.465, 0.524
+    assert fetch(TetrahedralizeSurface(Input=surface, Method="Remesh", Resolution=10)).GetNumberOfCells() > 100
+
+    handles = FarthestPointHandles(Input=tets, NumberOfHandles=5)
+    assert fetch(handles).GetNumberOfCells() == 5
+    smooth = {}
+    for name in ("BoundedBiharmonicWeights", "MonotoneWeights", "UnconstrainedWeights"):
+        smooth[name] = globals()[name](Input=tets, Handles=handles)
+        weights = vtk_to_numpy(fetch(smooth[name]).GetPointData().GetArray("Weights"))
+        assert weights.shape[1] == 5
+        assert np.abs(weights.sum(axis=1) - 1).max() < 1e-9, name
+        if name != "UnconstrainedWeights":
+            assert weights.min() >= 0 and weights.max() <= 1, name
+        numbers[name] = len(weights)
+    bound = smooth["BoundedBiharmonicWeights"]
+
+    rest = points_of(fetch(bound))
+    skin = TransferWeights(Input=surface, Mesh=bound)
+    sphere = points_of(fetch(skin))
+    assert np.array_equal(np.unique(sphere, axis=0), np.unique(points_of(fetch(surface)), axis=0))
+    posed_handles = PoseHandles(Input=handles)
+    posed = {name: globals()[name](Input=bound, Handles=posed_handles)
+             for name in ("SkinningDeformation", "ReducedARAP")}
+    skinned = SkinningDeformation(Input=skin, Handles=posed_handles, Method="Dual Quaternion")
+    for name, proxy in posed.items():
+        assert np.abs(points_of(fetch(proxy)) - rest).max() < 1e-12, f"{name}: the rest pose moves"
+    shift = np.array([0.25, -1.0, 2.0])
+    for mode in ("full", "position"):
+        posed_handles.PoseJSON = json.dumps(
+            {"handles": {f"p{i}": {"mode": mode, "translate": list(shift)} for i in range(1, 6)}})
+        for name, proxy in posed.items():
+            assert np.abs(points_of(fetch(proxy)) - rest - shift).max() < 1e-9, f"{name}: no translation ({mode})"
+        assert np.abs(points_of(fetch(skinned)) - sphere - shift).max() < 1e-6
+    posed_handles.PoseJSON = '{"handles": {"p1": {"translate": [0.1, 0, 0]}}}'
+    moved = np.linalg.norm(points_of(fetch(posed["SkinningDeformation"])) - rest, axis=1)
+    assert abs(moved.max() - 0.1) < 1e-12 and moved.min() < 0.05  # the handle itself, and a far one
+    return numbers, bound, posed_handles
+
+
+def files(folder, bound):
+    """Readers and writers, on one process: what was written is what is read."""
+    data = fetch(bound)
+    SaveData(str(folder / "bound.mesh"), proxy=bound)
+    back = fetch(BindposeMeshReader(FileName=str(folder / "bound.mesh")))
+    assert np.array_equal(points_of(back), points_of(data))
+    assert back.GetNumberOfCells() == data.GetNumberOfCells()
+    assert isinstance(OpenDataFile(str(folder / "bound.mesh")), type(BindposeMeshReader()))
+    SaveData(str(folder / "weights.dmat"), proxy=bound, ArrayName="Weights")
+    rows = len(points_of(data))
+    assert (folder / "weights.dmat").read_text().split()[:2] == ["5", str(rows)]
+    field = WindingNumberField(Input=Sphere(), SamplesAlongLongestSide=16)
+    SaveData(str(folder / "field.vdb"), proxy=field, Band="Narrow")
+    assert (folder / "field.vdb").read_bytes()[:4] == b" BDV"
+    (folder / "handles.tgf").write_text("1 0 0 0\n2 1 0 0\n3 0 2 0 tip\n#\n1 2 1\n")
+    handles = fetch(OpenDataFile(str(folder / "handles.tgf")))
+    names = handles.GetCellData().GetAbstractArray("HandleName")
+    assert [names.GetValue(i) for i in range(2)] == ["tip", "b1"]
+    (folder / "pose.json").write_text('{"frames": [{"handles": {}}, {"handles": {"tip": {"translate": [0, 0, 3]}}}]}')
+    posed = PoseHandles(Input=BindposeHandleReader(FileName=str(folder / "handles.tgf")),
+                        FileName=str(folder / "pose.json"), Frame=1)
+    assert fetch(posed).GetCellData().GetArray("Transform").GetTuple(0)[11] == 3
+
+
+def bad_input(folder, bound, posed_handles):
+    """Each is one sentence in the log and an empty output. Returns the sentences, to be looked for."""
+    (folder / "broken.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")
+    (folder / "plain.vtp").unlink(missing_ok=True)
+    lines = Line()
+    cases = {
+        "missing.off": BindposeMeshReader(FileName=str(folder / "missing.off")),
+        "broken.off": BindposeMeshReader(FileName=str(folder / "broken.off")),
+        "missing.tgf": BindposeHandleReader(FileName=str(folder / "missing.tgf")),
+        "no triangles": TetrahedralizeSurface(Input=lines),
+        "mesh has none": BoundedBiharmonicWeights(Input=lines, Handles=posed_handles),
+        "no array": SkinningDeformation(Input=Sphere(), Handles=posed_handles),
+        "grid": WindingNumberField(Input=Sphere(), Dimensions=[5, 0, 5]),
+        "pose": PoseHandles(Input=posed_handles, PoseJSON='{"handles": {"nobody": {}}}'),
+        "energy": ReducedARAP(Input=bound, Handles=posed_handles, Energy="Triangles"),
+        "tolerance": BoundedBiharmonicWeights(Input=bound, Handles=posed_handles, Tolerance=2.0),
+    }
+    sentences = {}
+    for name, proxy in cases.items():
+        data = fetch(proxy)
+        arrays = data.GetFieldData()
+        assert data.GetNumberOfPoints() == 0 and data.GetNumberOfCells() == 0, name
+        assert arrays.GetAbstractArray("Report.status").GetValue(0) == "invalid_input", name
+        sentences[name] = arrays.GetAbstractArray("Report.message").GetValue(0)
+        assert len(sentences[name]) > 10, name
+    # A failed source fails what hangs on it, and all is well again when it is.
+    reader = cases["missing.off"]
+    (folder / "missing.off").write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")
+    reader.FileName = str(folder / "broken.off")
+    tets = TetrahedralizeSurface(Input=reader, InteriorEdge=0)
+    assert fetch(tets).GetNumberOfCells() == 0
+    reader.FileName = str(folder / "missing.off")
+    assert fetch(tets).GetNumberOfCells() == 1
+    return sentences
+
+
+def panels():
+    """Of each proxy: its properties, all documented and with their C++ names in Python, too, and how its object
+    prints itself after ParaView has set the defaults of the XML."""
+    found = {}
+    for group, names in (("filters", FILTERS), ("sources", SOURCES), ("writers", WRITERS)):
+        for name in names:
+            proxy = servermanager.ProxyManager().NewProxy(group, name)
+            assert proxy.GetDocumentation().GetDescription(), name
+            if group == "filters":
+                menu = proxy.GetHints().FindNestedElementByName("ShowInMenu")
+                assert menu.GetAttribute("category") == "Bindpose", name
+            properties = []
+            iterator = proxy.NewPropertyIterator()
+            iterator.Begin()
+            while not iterator.IsAtEnd():
+                key, label = iterator.GetKey(), iterator.GetProperty().GetXMLLabel()
+                text = iterator.GetProperty().GetDocumentation()
+                assert text and text.GetDescription(), f"{name}.{key} has no documentation"
+                assert label.replace(" ", "") == key, f"{name}.{key} is {label} in Python"
+                properties.append(key)
+                iterator.Next()
+            proxy.UpdateVTKObjects()
+            ports = [proxy.GetOutputPortName(i) for i in range(proxy.GetNumberOfOutputPorts())]
+            assert group != "writers" or not ports
+            assert all(ports) and not any(port.startswith("Output") for port in ports), ports
+            client = proxy.GetClientSideObject()
+            found[client.GetClassName()] = {"properties": properties, "printed": str(client)}
+    return found
+
+
+def main():
+    plugin, mesh, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+    LoadPlugin(plugin, remote=False, ns=globals())
+    ranks = servermanager.vtkProcessModule.GetProcessModule().GetNumberOfLocalPartitions()
+    fields(mesh, folder)
+    numbers, bound, posed_handles = deformation()
+    run = {"ranks": ranks, "numbers": numbers}
+    if ranks == 1:
+        both = spheres()
+        SaveData(str(folder / "spheres.vtp"), proxy=both)
+        files(folder, bound)
+        run["panels"] = panels()
+        run["sentences"] = bad_input(folder, bound, posed_handles)
+    (folder / "run.json").write_text(json.dumps(run))
+
+
+if __name__ == "__main__":
+    # Scripts of programmable filters run in __main__ and put other functions in place of max, sum, abs there.
+    sys.path.insert(0, str(pathlib.Path(__file__).parent))
+    import in_paraview
+
+    in_paraview.main()

@@ -19,7 +19,6 @@ from bindpose.meshes import points_of, to_dataset
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkPolyDataNormals, vtkStripper, vtkTubeFilter
-from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
     vtkActor,
     vtkPolyDataMapper,
@@ -27,7 +26,6 @@ from vtkmodules.vtkRenderingCore import (
     vtkRenderer,
     vtkRenderWindow,
     vtkTextActor,
-    vtkWindowToImageFilter,
 )
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  draws texts
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  draws
@@ -155,16 +153,7 @@ def draw(path, surface, boundary, lines, multiplicity, columns):
     window.SetSize(*size)
     window.SetMultiSamples(8)
     window.AddRenderer(renderer)
-    window.Render()
-    image = vtkWindowToImageFilter()
-    image.SetInput(window)
-    image.ReadFrontBufferOff()
-    writer = vtkPNGWriter()
-    writer.SetFileName(str(path))
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.Write()
-    if writer.GetErrorCode():
-        raise OSError(f"cannot write {path}")
+    common.write_picture(window, path)
 
 
 def make(options):

@@ -2,11 +2,10 @@
 
 import math
 
+import common
 from vtkmodules.vtkChartsCore import vtkAxis, vtkChartLegend, vtkChartMatrix, vtkChartXY
 from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkTable, vtkVector2f, vtkVector2i
-from vtkmodules.vtkIOImage import vtkPNGWriter
-from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter
 from vtkmodules.vtkViewsContext2D import vtkContextView
 import vtkmodules.vtkRenderingContextOpenGL2  # noqa: F401  draws the charts
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  draws their texts
@@ -111,13 +110,4 @@ def draw(path, panels, size=(1600, 640), text_size=18, legends=None):
         across, up = (legends or [(vtkChartLegend.RIGHT, vtkChartLegend.TOP)] * len(panels))[number]
         chart.GetLegend().SetHorizontalAlignment(across)
         chart.GetLegend().SetVerticalAlignment(up)
-    window.Render()
-    image = vtkWindowToImageFilter()
-    image.SetInput(window)
-    image.ReadFrontBufferOff()
-    writer = vtkPNGWriter()
-    writer.SetFileName(str(path))
-    writer.SetInputConnection(image.GetOutputPort())
-    writer.Write()
-    if writer.GetErrorCode():
-        raise OSError(f"cannot write {path}")
+    common.write_picture(window, path)

@@ -24,6 +24,8 @@ try:
 except ModuleNotFoundError:
     sys.exit(f"there is no package bindpose in {BUILD}; run examples/quickstart.sh first, or set PYTHONPATH")
 import quickstart  # noqa: E402  the demo meshes
+from vtkmodules.vtkIOImage import vtkPNGWriter  # noqa: E402
+from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter  # noqa: E402
 
 
 class Stop(Exception):
@@ -45,6 +47,20 @@ def render(options, *words):
     done = subprocess.run([program(), *words], cwd=options.scratch, stderr=subprocess.PIPE, text=True, check=False)
     if done.returncode:
         raise Stop(done.stderr.strip() or f"bindpose render ended with exit code {done.returncode}")
+
+
+def write_picture(window, path):
+    """What a render window shows, drawn anew, as a PNG."""
+    window.Render()
+    image = vtkWindowToImageFilter()
+    image.SetInput(window)
+    image.ReadFrontBufferOff()
+    writer = vtkPNGWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputConnection(image.GetOutputPort())
+    writer.Write()
+    if writer.GetErrorCode():
+        raise OSError(f"cannot write {path}")
 
 
 def demo_mesh(options, name):

@@ -15,7 +15,7 @@ class EnclosedRegion
 public:
   /// Builds the winding number and estimates the volume. A surface that winds the other way around
   /// more than it encloses is turned inside out (closed components are right by now, open ones may
-  /// not be). #samples in the box: thousands, fewer when there are many open edges.
+  /// not be). #samples in the box: until 20,000 are inside, fewer when that would take seconds.
   Status build(RepairedSurface& surface, double threshold, bool& turned, ExecutionContext& context);
 
   const WindingNumber& winding() const { return this->winding_; }

@@ -8,6 +8,7 @@
 #include "vtkWindingNumberField.h"
 
 #include "base/execution.h"
+#include "base/large_pages.h"
 #include "base/parallel.h"
 #include "bind_key.h"
 #include "conversion.h"
@@ -107,6 +108,22 @@ bindpose::BindKey key_of(vtkPointSet* surface, const std::string& area_array)
 
 using Arrays = std::vector<vtkSmartPointer<vtkDataArray>>;
 
+/// Room for the values of all samples. A cancel gives it back at once, so it lies in large pages.
+template <typename Array>
+vtkSmartPointer<Array> make_array(const char* name, int components, Index count)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(count);
+  const auto values = static_cast<std::size_t>(array->GetNumberOfValues());
+  if (values > 0)
+  {
+    bindpose::ask_for_large_pages(array->GetPointer(0), values * sizeof(*array->GetPointer(0)));
+  }
+  return array;
+}
+
 /// The arrays that a user wants, filled block by block.
 struct Outputs
 {
@@ -118,29 +135,16 @@ struct Outputs
 
   Outputs(Index count, bool single, bool with_gradient, bool with_inside)
   {
-    const auto floating = [&](const char* name, int components)
+    const auto floating = [&](const char* name, int components) -> vtkSmartPointer<vtkDataArray>
     {
-      vtkSmartPointer<vtkDataArray> array;
       if (single)
       {
-        array = vtkSmartPointer<vtkFloatArray>::New();
+        return make_array<vtkFloatArray>(name, components, count);
       }
-      else
-      {
-        array = vtkSmartPointer<vtkDoubleArray>::New();
-      }
-      array->SetName(name);
-      array->SetNumberOfComponents(components);
-      array->SetNumberOfTuples(count);
-      return array;
+      return make_array<vtkDoubleArray>(name, components, count);
     };
     const auto flags = [&](const char* name)
-    {
-      auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
-      array->SetName(name);
-      array->SetNumberOfTuples(count);
-      return array;
-    };
+    { return make_array<vtkUnsignedCharArray>(name, 1, count); };
     this->values = floating("WindingNumber", 1);
     this->on_surface = flags("OnSurface");
     if (with_gradient)

@@ -250,6 +250,10 @@ Status WindingNumber::build(
       parts.method = WindingMethod::direct;
     }
   }
+  if (done && parts.method == WindingMethod::fast)
+  {
+    parts.caps = smaller_caps(parts.points, parts.triangles, parts.caps);
+  }
   parts.max_leaf_size = options.max_leaf_size;
   if (done && parts.method == WindingMethod::hierarchical)
   {

@@ -215,7 +215,7 @@ def summary(options, mesh, program, pictures, seconds):
     print(f"  {program_path} deform {output}/weights.vtp --handles {output}/handles.vtp \\")
     print(f"    --pose {output}/pose.json --method dqs -o dqs.vtp")
     print(f"  {program_path} view {output}/weights.vtp {output}/handles.vtp")
-    print("  examples/quickstart.sh YOUR-MESH.obj --handles auto:12")
+    print(f"  {os.path.relpath(pathlib.Path(__file__).with_suffix('.sh'))} YOUR-MESH.obj --handles auto:12")
 
 
 def main():

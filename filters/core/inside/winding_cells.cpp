@@ -239,9 +239,10 @@ private:
   using List = std::pair<const Id*, const Id*>;
   using Found = std::vector<std::pair<Id, Id>>; // cell, face
 
-  Grid cells_of(const Box& box) const;
-  bool sort(const Box& box, bool on_all_threads, Grid& grid) const;
-  bool find(const Box& box, const Grid& grid, Index begin, Index end, Found& found) const;
+  Grid cells_of(const Box& box, double most_along) const;
+  bool sort(const Box& box, bool on_all_threads, std::size_t most, Grid& grid) const;
+  bool find(
+    const Box& box, const Grid& grid, Index begin, Index end, std::size_t most, Found& found) const;
   bool refer(const Box& box, Grid& grid) const;
   bool crossings(const Vec3& from, const Vec3& to, List some, List others, int& count) const;
   bool count_slowly(const Vec3& place, int& count) const;
@@ -349,13 +350,13 @@ bool WindingCells::Builder::count_slowly(const Vec3& place, int& count) const
 }
 
 /// Cubic cells, about so many that a sheet of triangles leaves the wanted number in each.
-WindingCells::Builder::Grid WindingCells::Builder::cells_of(const Box& box) const
+WindingCells::Builder::Grid WindingCells::Builder::cells_of(const Box& box, double most_along) const
 {
   Grid grid;
   grid.faces_before = box.faces.size();
-  const double along =
-    std::clamp(std::round(std::sqrt(static_cast<double>(box.faces.size()) / wanted)),
-      box.depth == 0 ? fewest_cells_along : 2.0, double(most_cells_along));
+  const double fewest_along = box.depth == 0 ? fewest_cells_along : 2.0;
+  const double along = std::min(most_along,
+    std::max(fewest_along, std::round(std::sqrt(static_cast<double>(box.faces.size()) / wanted))));
   grid.cell = box.size.maxCoeff() / along;
   for (int k = 0; k < 3; ++k)
   {
@@ -365,9 +366,10 @@ WindingCells::Builder::Grid WindingCells::Builder::cells_of(const Box& box) cons
   return grid;
 }
 
-/// The cells that faces [begin, end) of the box meet; false when cancelled.
+/// The cells that faces [begin, end) of the box meet; false when cancelled, or when they are more
+/// than `most`.
 bool WindingCells::Builder::find(
-  const Box& box, const Grid& grid, Index begin, Index end, Found& found) const
+  const Box& box, const Grid& grid, Index begin, Index end, std::size_t most, Found& found) const
 {
   const std::array<Id, 3>& size = grid.size;
   // A little room, so that a point that rounding puts into the neighbouring cell is still told
@@ -375,7 +377,7 @@ bool WindingCells::Builder::find(
   const Vec3 half = Vec3::Constant(0.5 * grid.cell * (1.0 + 1e-9) + 4.0 * this->owner_.tolerance_);
   for (Index i = begin; i < end; ++i)
   {
-    if (i % 16384 == 16383 && this->context_.cancelled())
+    if (found.size() > most || (i % 16384 == 16383 && this->context_.cancelled()))
     {
       return false;
     }
@@ -413,16 +415,20 @@ bool WindingCells::Builder::find(
   return true;
 }
 
-/// Sorts the box's faces into its cells.
-bool WindingCells::Builder::sort(const Box& box, bool on_all_threads, Grid& grid) const
+/// Sorts the box's faces into its cells; false when cancelled, or when they would make more than
+/// `most` entries.
+bool WindingCells::Builder::sort(
+  const Box& box, bool on_all_threads, std::size_t most, Grid& grid) const
 {
   const auto count = static_cast<Index>(box.faces.size());
   const Index share = on_all_threads ? 16384 : count;
   std::vector<Found> found(static_cast<std::size_t>((count + share - 1) / share));
   std::atomic<bool> done{ true };
+  std::atomic<std::size_t> entries{ 0 };
   const auto body = [&](Index begin, Index end)
   {
-    if (!this->find(box, grid, begin, end, found[begin / share]))
+    Found& here = found[begin / share];
+    if (!done || !this->find(box, grid, begin, end, most, here) || (entries += here.size()) > most)
     {
       done = false;
     }
@@ -519,18 +525,26 @@ bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
 
 bool WindingCells::Builder::cut_whole(Box& whole)
 {
-  Grid grid = this->cells_of(whole);
+  // Entries that all cells together may make, shared out by what they begin with: no more memory
+  // than a multiple of the surface's, however unlucky the faces lie. Triangles as large as the
+  // surface must do with fewer cells.
+  const double most = 16.0 * static_cast<double>(this->faces_.size()) + 1e5;
+  Grid grid;
   {
     const ProgressRange range(this->context_, 0.0, 0.3);
-    if (!this->sort(whole, true, grid) || !this->refer(whole, grid))
+    bool sorted = false;
+    for (double along = most_cells_along; !sorted && along >= 1.0 && !this->context_.cancelled();
+         along = 0.5 * whole.size.maxCoeff() / grid.cell)
+    {
+      grid = this->cells_of(whole, along);
+      sorted = this->sort(whole, true, static_cast<std::size_t>(most), grid);
+    }
+    if (!sorted || !this->refer(whole, grid))
     {
       return false;
     }
   }
   const Id cells = grid.cells();
-  // Entries that all cells together may make, shared out by what they begin with: no more memory
-  // than a multiple of the surface's, however unlucky the faces lie.
-  const double most = 16.0 * static_cast<double>(this->faces_.size()) + 1e5;
   const double each = most / static_cast<double>(std::max<std::size_t>(1, grid.faces.size()));
   constexpr Index cells_at_once = 16;
   std::vector<Arrays> parts(static_cast<std::size_t>((cells + cells_at_once - 1) / cells_at_once));
@@ -605,8 +619,9 @@ void WindingCells::Builder::append(const Arrays& part, Id first, Id end)
 /// The box as a new node; false when cancelled.
 bool WindingCells::Builder::cut(Box& box, Arrays& made, std::size_t entries) const
 {
-  Grid grid = this->cells_of(box);
-  if (this->context_.cancelled() || !this->sort(box, false, grid) || !this->refer(box, grid))
+  constexpr std::size_t any = std::numeric_limits<std::size_t>::max();
+  Grid grid = this->cells_of(box, most_cells_along);
+  if (this->context_.cancelled() || !this->sort(box, false, any, grid) || !this->refer(box, grid))
   {
     return false;
   }

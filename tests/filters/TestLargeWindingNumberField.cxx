@@ -115,6 +115,10 @@ TEST(LargeWindingNumberField, StopsWithinAFifthOfASecond)
       shortest = std::min(shortest, std::chrono::duration<double>(Clock::now() - asked).count());
     }
     std::printf("  asked at %.0f %%, stopped after %.0f ms\n", 100.0 * when, 1e3 * shortest);
+#if defined(__SANITIZE_ADDRESS__) // several times slower
+    EXPECT_LT(shortest, 1.0) << when;
+#else
     EXPECT_LT(shortest, 0.2) << when;
+#endif
   }
 }

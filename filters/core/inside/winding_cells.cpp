@@ -616,12 +616,13 @@ void WindingCells::Builder::append(const Arrays& part, Id first, Id end)
   }
 }
 
-/// The box as a new node; false when cancelled.
+/// The box as a new node; false, and nothing is made, when cancelled or when its cells would hold
+/// more than so many entries.
 bool WindingCells::Builder::cut(Box& box, Arrays& made, std::size_t entries) const
 {
-  constexpr std::size_t any = std::numeric_limits<std::size_t>::max();
   Grid grid = this->cells_of(box, most_cells_along);
-  if (this->context_.cancelled() || !this->sort(box, false, any, grid) || !this->refer(box, grid))
+  if (this->context_.cancelled() || !this->sort(box, false, entries, grid) ||
+    !this->refer(box, grid))
   {
     return false;
   }
@@ -664,7 +665,15 @@ bool WindingCells::Builder::fill(
     inner.faces.assign(faces.first, faces.second);
     inner.depth = box.depth + 1;
     cell = { static_cast<Id>(made.nodes.size()), holds_node };
-    return this->cut(inner, made, entries);
+    if (this->cut(inner, made, entries))
+    {
+      return true;
+    }
+    if (this->context_.cancelled())
+    {
+      return false;
+    }
+    // Its faces are too large for smaller cells.
   }
   cell = { grid.counts[c], holds_nothing };
   if (number > 0)

@@ -85,8 +85,33 @@ TriangleMesh orderless(Index count)
   return mesh;
 }
 
-/// A surface by its name: closed, open, patches, orderless, each with its number of triangles, or
-/// one of the files. Made once.
+/// A surface come apart: each triangle moved by about its own size, every other one turned over.
+TriangleMesh soup(Index count)
+{
+  const TriangleMesh sphere = benchmarks::bumpy_sphere(count);
+  Random random(4);
+  TriangleMesh mesh;
+  mesh.points.resize(3 * sphere.triangles.rows(), 3);
+  mesh.triangles.resize(sphere.triangles.rows(), 3);
+  for (Index t = 0; t < sphere.triangles.rows(); ++t)
+  {
+    const Vec3 a = sphere.points.row(sphere.triangles(t, 0));
+    const Vec3 b = sphere.points.row(sphere.triangles(t, 1));
+    const double length = (b - a).norm();
+    const Vec3 away(random.uniform(-length, length), random.uniform(-length, length),
+      random.uniform(-length, length));
+    const bool turned = random.uniform(0.0, 1.0) < 0.5;
+    for (int k = 0; k < 3; ++k)
+    {
+      mesh.points.row(3 * t + k) = sphere.points.row(sphere.triangles(t, k)) + away.transpose();
+      mesh.triangles(t, k) = 3 * t + (turned ? 2 - k : k);
+    }
+  }
+  return mesh;
+}
+
+/// A surface by its name: closed, open, patches, soup, orderless, each with its number of
+/// triangles, or one of the files. Made once.
 const TriangleMesh& surface(const std::string& name, Index triangles)
 {
   static std::map<std::pair<std::string, Index>, TriangleMesh> made;
@@ -104,6 +129,10 @@ const TriangleMesh& surface(const std::string& name, Index triangles)
     else if (name == "patches")
     {
       entry->second = benchmarks::patches(triangles);
+    }
+    else if (name == "soup")
+    {
+      entry->second = soup(triangles);
     }
     else if (name == "orderless")
     {
@@ -290,7 +319,9 @@ const bool registered = []
     { "open", 39000, scattered, 0, M::exact, 1e-3, 1 },
     { "patches", 4800, grid, 128, M::fast, 1e-3, 1 },
     { "patches", 4800, grid, 128, M::fast, 1e-4, 1 },
-    // Orderless.
+    // Orderless: along a surface, and all over space.
+    { "soup", 86000, grid, 128, M::fast, 2e-3, 1 },
+    { "soup", 86000, scattered, 0, M::fast, 2e-3, 1 },
     { "orderless", 86000, grid, 128, M::fast, 2e-3, 1 },
     { "orderless", 86000, grid, 128, M::fast, 1e-4, 1 },
     { "orderless", 86000, scattered, 0, M::fast, 2e-3, 1 },

@@ -11,6 +11,7 @@ import vtkmodules.vtkRenderingContextOpenGL2  # noqa: F401  draws the charts
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  draws their texts
 
 INK = (0.16, 0.16, 0.18)
+DARK = (41, 41, 46)
 BLUE, ORANGE, GREEN, VIOLET = (41, 108, 160), (214, 110, 40), (13, 117, 82), (110, 80, 170)
 
 
@@ -90,8 +91,9 @@ class Panel:
         chart.GetLegend().GetPen().SetColor(200, 200, 205, 255)
 
 
-def draw(path, panels, size=(1600, 640), text_size=18, legends=None):
-    """Writes the panels as one PNG. `legends`: for each a pair of vtkChartLegend's alignments."""
+def draw(path, panels, size=(1600, 640), text_size=18, legends=None, left=110):
+    """Writes the panels as one PNG. `legends`: for each a pair of vtkChartLegend's alignments.
+    `left`: pixels for the names along the first panel's upright axis."""
     view = vtkContextView()
     window = view.GetRenderWindow()
     window.SetOffScreenRendering(True)
@@ -101,7 +103,7 @@ def draw(path, panels, size=(1600, 640), text_size=18, legends=None):
     matrix = vtkChartMatrix()
     view.GetScene().AddItem(matrix)
     matrix.SetSize(vtkVector2i(len(panels), 1))
-    matrix.SetBorders(110, 80, 30, 50)  # for the axes' texts
+    matrix.SetBorders(left, 80, 30, 50)  # for the axes' texts
     matrix.SetGutter(vtkVector2f(115, 0))
     for number, panel in enumerate(panels):
         matrix.SetChart(vtkVector2i(number, 0), vtkChartXY())

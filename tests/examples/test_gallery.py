@@ -80,6 +80,13 @@ def test_growth(tmp_path):
         assert numbers[f"{surface}, fast: exponent"] < 0.5 and gain(surface, "fast") > 300
 
 
+def test_cost_of_a_point(tmp_path):
+    """Loosely, too; the errors not."""
+    numbers = numbers_of("gallery/cost_of_a_point.py", tmp_path)
+    assert numbers["largest error beyond what is allowed"] <= 0.0
+    assert numbers["elephant 89k, grid 64³, exact: Y"] < 5 < numbers["elephant with holes 4k, scattered, 1e-3: Y"] * 5 < 500
+
+
 def test_without_a_display_it_finds_one(tmp_path):
     numbers_of("gallery/jump_and_harmonic.py", tmp_path, environment={"DISPLAY": ""})
 

@@ -104,4 +104,48 @@ Triangles boundary_caps(const std::vector<Edge>& edges)
   return result;
 }
 
+Triangles smaller_caps(const Points& points, const Triangles& triangles, const Triangles& caps)
+{
+  // A cap has the vertices of one part only, for a walk along the boundary cannot leave it.
+  const Components parts = connected_components(points.rows(), triangles);
+  const auto part_of = [&](const auto& triangle) { return parts.of_vertex[triangle[0]]; };
+  const auto squared_length = [&](const auto& triangle)
+  {
+    double longest = 0.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      longest = std::max(
+        longest, (points.row(triangle[k]) - points.row(triangle[(k + 1) % 3])).squaredNorm());
+    }
+    return longest;
+  };
+  std::vector<double> excess(static_cast<std::size_t>(parts.count), 0.0); // of the caps' sizes
+  for (Index t = 0; t < caps.rows(); ++t)
+  {
+    excess[part_of(caps.row(t))] += squared_length(caps.row(t));
+  }
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    excess[part_of(triangles.row(t))] -= squared_length(triangles.row(t));
+  }
+  Triangles chosen(triangles.rows() + caps.rows(), 3);
+  Index count = 0;
+  for (Index t = 0; t < caps.rows(); ++t)
+  {
+    if (excess[part_of(caps.row(t))] <= 0.0)
+    {
+      chosen.row(count++) = caps.row(t);
+    }
+  }
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    if (excess[part_of(triangles.row(t))] > 0.0)
+    {
+      chosen.row(count++) << triangles(t, 2), triangles(t, 1), triangles(t, 0);
+    }
+  }
+  chosen.conservativeResize(count, 3);
+  return chosen;
+}
+
 } // namespace bindpose

@@ -15,6 +15,14 @@ namespace bindpose
 /// Cost: O(#open edges log #open edges).
 Triangles boundary_caps(const std::vector<Edge>& edges);
 
+/// The caps of `boundary_caps` where they are smaller than the connected part that they close;
+/// elsewhere that part itself, turned over, which closes it as well. For sums whose cost goes with
+/// the size of the triangles: the caps of long strips and of leaves reach far from them.
+/// @param points #V x 3
+/// @param triangles #F x 3, those whose net boundary the caps close
+/// @param caps #C x 3
+Triangles smaller_caps(const Points& points, const Triangles& triangles, const Triangles& caps);
+
 } // namespace bindpose
 
 #endif

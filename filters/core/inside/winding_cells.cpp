@@ -2,13 +2,12 @@
 // them. A cell is convex, so the segment from a point to the cell's reference meets the cell's own
 // triangles only, and they are few.
 //
-// A segment from p to r crosses the triangle a, b, c when p and r lie on different sides of its
-// plane and the line passes all edges on the same side: five signs of volumes, all made of the
-// cross products of the corners as seen from p. They are computed for eight triangles at once in
-// floats, of corners that are rounded to 16 bits (what a point costs is mostly the way of these to
-// the processor), with a bound of the error. Where that leaves a sign open, in doubles, of the
-// corners themselves; where that does, too, the point touches the triangle or the segment an edge:
-// not told.
+// A segment from p to the reference r crosses the triangle a, b, c when p and r lie on different
+// sides of its plane, and p on the same side of the three planes through r and an edge. These four
+// planes are kept, as unit normals of 16 bits a coordinate: eight triangles at once, their signs
+// cost a few operations each, and an error bound that depends on nothing but how far p is from r.
+// Where a sign is open, it is told in doubles, of volumes made of the corners themselves; where it
+// is open then, too, the point touches the triangle or the segment an edge: not told.
 //
 // Building goes from the box of the surface downwards: a box's triangles are sorted into its cells,
 // and a cell that still holds many is a box again. References get their numbers from each other: a
@@ -32,11 +31,11 @@ namespace bindpose
 
 namespace
 {
-/// Cells with more triangles are cut further. Measured: half as many cost as much time for paths
-/// through cells and twice the memory.
-constexpr std::size_t few = 30;
+/// Cells with more triangles are cut further. Measured on refined_elephant.off: 30 take an eighth
+/// more memory and as much time, 56 an eighth less and a fifth more time next to the surface.
+constexpr std::size_t few = 40;
 /// Triangles that a new cell is meant to hold.
-constexpr double wanted = 14;
+constexpr double wanted = 18;
 constexpr int most_cells_along = 32;
 /// Of the whole, so that most points around a few large triangles are in cells without any.
 constexpr double fewest_cells_along = 8.0;
@@ -45,15 +44,15 @@ constexpr int deepest = 12;
 /// times the segment where that is a side: those of subtractions are 1, of cross products 28, of
 /// volumes 90. Rounded up.
 constexpr double double_error = 0x1p-53 * 256.0;
-/// The same for floats, finer, for they decide how often doubles are asked: of a volume with the
-/// segment as one side, in units of its largest coordinate times that of the corners squared, and
-/// of one of three corners, in units of their largest coordinate cubed.
-constexpr float segment_error = 0x1p-24f * 96.0f;
-constexpr float corner_error = 0x1p-24f * 128.0f;
-/// Corners as whole numbers reach from minus to plus this; what rounding moves them by is half a
-/// unit and some for the place of the point.
-constexpr float most_units = 32767.0f;
-constexpr float rounded_by = 0.51f;
+/// Planes in whole numbers: this is a length of 1 of a normal, and a bit more than the size of a
+/// cell in a distance.
+constexpr float one = 32767.0f;
+constexpr double distance_units = 32000.0;
+/// What rounding moves one coordinate by, with some room for the rounding of floats.
+constexpr float rounded_by = 0.57f;
+/// Cross products that are shorter, in units of the lengths they are made of (doubles around 1),
+/// have no direction to rely on.
+constexpr double shortest_product = 1e-9;
 
 enum class Crossing
 {
@@ -240,9 +239,10 @@ private:
   using List = std::pair<const Id*, const Id*>;
   using Found = std::vector<std::pair<Id, Id>>; // cell, face
 
-  Grid cells_of(const Box& box) const;
-  bool sort(const Box& box, bool on_all_threads, Grid& grid) const;
-  bool find(const Box& box, const Grid& grid, Index begin, Index end, Found& found) const;
+  Grid cells_of(const Box& box, double most_along) const;
+  bool sort(const Box& box, bool on_all_threads, std::size_t most, Grid& grid) const;
+  bool find(
+    const Box& box, const Grid& grid, Index begin, Index end, std::size_t most, Found& found) const;
   bool refer(const Box& box, Grid& grid) const;
   bool crossings(const Vec3& from, const Vec3& to, List some, List others, int& count) const;
   bool count_slowly(const Vec3& place, int& count) const;
@@ -350,13 +350,13 @@ bool WindingCells::Builder::count_slowly(const Vec3& place, int& count) const
 }
 
 /// Cubic cells, about so many that a sheet of triangles leaves the wanted number in each.
-WindingCells::Builder::Grid WindingCells::Builder::cells_of(const Box& box) const
+WindingCells::Builder::Grid WindingCells::Builder::cells_of(const Box& box, double most_along) const
 {
   Grid grid;
   grid.faces_before = box.faces.size();
-  const double along =
-    std::clamp(std::round(std::sqrt(static_cast<double>(box.faces.size()) / wanted)),
-      box.depth == 0 ? fewest_cells_along : 2.0, double(most_cells_along));
+  const double fewest_along = box.depth == 0 ? fewest_cells_along : 2.0;
+  const double along = std::min(most_along,
+    std::max(fewest_along, std::round(std::sqrt(static_cast<double>(box.faces.size()) / wanted))));
   grid.cell = box.size.maxCoeff() / along;
   for (int k = 0; k < 3; ++k)
   {
@@ -366,9 +366,10 @@ WindingCells::Builder::Grid WindingCells::Builder::cells_of(const Box& box) cons
   return grid;
 }
 
-/// The cells that faces [begin, end) of the box meet; false when cancelled.
+/// The cells that faces [begin, end) of the box meet; false when cancelled, or when they are more
+/// than `most`.
 bool WindingCells::Builder::find(
-  const Box& box, const Grid& grid, Index begin, Index end, Found& found) const
+  const Box& box, const Grid& grid, Index begin, Index end, std::size_t most, Found& found) const
 {
   const std::array<Id, 3>& size = grid.size;
   // A little room, so that a point that rounding puts into the neighbouring cell is still told
@@ -376,7 +377,7 @@ bool WindingCells::Builder::find(
   const Vec3 half = Vec3::Constant(0.5 * grid.cell * (1.0 + 1e-9) + 4.0 * this->owner_.tolerance_);
   for (Index i = begin; i < end; ++i)
   {
-    if (i % 16384 == 16383 && this->context_.cancelled())
+    if (found.size() > most || (i % 16384 == 16383 && this->context_.cancelled()))
     {
       return false;
     }
@@ -414,16 +415,20 @@ bool WindingCells::Builder::find(
   return true;
 }
 
-/// Sorts the box's faces into its cells.
-bool WindingCells::Builder::sort(const Box& box, bool on_all_threads, Grid& grid) const
+/// Sorts the box's faces into its cells; false when cancelled, or when they would make more than
+/// `most` entries.
+bool WindingCells::Builder::sort(
+  const Box& box, bool on_all_threads, std::size_t most, Grid& grid) const
 {
   const auto count = static_cast<Index>(box.faces.size());
   const Index share = on_all_threads ? 16384 : count;
   std::vector<Found> found(static_cast<std::size_t>((count + share - 1) / share));
   std::atomic<bool> done{ true };
+  std::atomic<std::size_t> entries{ 0 };
   const auto body = [&](Index begin, Index end)
   {
-    if (!this->find(box, grid, begin, end, found[begin / share]))
+    Found& here = found[begin / share];
+    if (!done || !this->find(box, grid, begin, end, most, here) || (entries += here.size()) > most)
     {
       done = false;
     }
@@ -520,18 +525,26 @@ bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
 
 bool WindingCells::Builder::cut_whole(Box& whole)
 {
-  Grid grid = this->cells_of(whole);
+  // Entries that all cells together may make, shared out by what they begin with: no more memory
+  // than a multiple of the surface's, however unlucky the faces lie. Triangles as large as the
+  // surface must do with fewer cells.
+  const double most = 16.0 * static_cast<double>(this->faces_.size()) + 1e5;
+  Grid grid;
   {
     const ProgressRange range(this->context_, 0.0, 0.3);
-    if (!this->sort(whole, true, grid) || !this->refer(whole, grid))
+    bool sorted = false;
+    for (double along = most_cells_along; !sorted && along >= 1.0 && !this->context_.cancelled();
+         along = 0.5 * whole.size.maxCoeff() / grid.cell)
+    {
+      grid = this->cells_of(whole, along);
+      sorted = this->sort(whole, true, static_cast<std::size_t>(most), grid);
+    }
+    if (!sorted || !this->refer(whole, grid))
     {
       return false;
     }
   }
   const Id cells = grid.cells();
-  // Entries that all cells together may make, shared out by what they begin with: no more memory
-  // than a multiple of the surface's, however unlucky the faces lie.
-  const double most = 16.0 * static_cast<double>(this->faces_.size()) + 1e5;
   const double each = most / static_cast<double>(std::max<std::size_t>(1, grid.faces.size()));
   constexpr Index cells_at_once = 16;
   std::vector<Arrays> parts(static_cast<std::size_t>((cells + cells_at_once - 1) / cells_at_once));
@@ -603,11 +616,13 @@ void WindingCells::Builder::append(const Arrays& part, Id first, Id end)
   }
 }
 
-/// The box as a new node; false when cancelled.
+/// The box as a new node; false, and nothing is made, when cancelled or when its cells would hold
+/// more than so many entries.
 bool WindingCells::Builder::cut(Box& box, Arrays& made, std::size_t entries) const
 {
-  Grid grid = this->cells_of(box);
-  if (this->context_.cancelled() || !this->sort(box, false, grid) || !this->refer(box, grid))
+  Grid grid = this->cells_of(box, most_cells_along);
+  if (this->context_.cancelled() || !this->sort(box, false, entries, grid) ||
+    !this->refer(box, grid))
   {
     return false;
   }
@@ -650,7 +665,15 @@ bool WindingCells::Builder::fill(
     inner.faces.assign(faces.first, faces.second);
     inner.depth = box.depth + 1;
     cell = { static_cast<Id>(made.nodes.size()), holds_node };
-    return this->cut(inner, made, entries);
+    if (this->cut(inner, made, entries))
+    {
+      return true;
+    }
+    if (this->context_.cancelled())
+    {
+      return false;
+    }
+    // Its faces are too large for smaller cells.
   }
   cell = { grid.counts[c], holds_nothing };
   if (number > 0)
@@ -661,53 +684,71 @@ bool WindingCells::Builder::fill(
   return true;
 }
 
+namespace
+{
+/// Three whole numbers for the direction of a cross product; zeros where it has none: then every
+/// sign is open.
+std::array<double, 3> direction(const Vec3& product, double shortest)
+{
+  const double length = product.norm();
+  if (!(length > shortest))
+  {
+    return { 0.0, 0.0, 0.0 };
+  }
+  const Vec3 scaled = product * (static_cast<double>(one) / length);
+  return { scaled.x(), scaled.y(), scaled.z() };
+}
+} // namespace
+
 WindingCells::Id WindingCells::Builder::add_leaf(
   const Vec3& reference, int count, double cell, List faces, Arrays& made) const
 {
-  // Large triangles last: a block's unit suits its largest.
-  std::vector<std::pair<double, Id>> sorted; // largest coordinate, face
-  for (const Id* face = faces.first; face != faces.second; ++face)
-  {
-    double reach = 0.0;
-    for (const Vec3& corner : this->owner_.corners(*face))
-    {
-      reach = std::max(reach, (corner - reference).lpNorm<Eigen::Infinity>());
-    }
-    sorted.emplace_back(reach, *face);
-  }
-  std::sort(sorted.begin(), sorted.end());
   Leaf leaf;
   leaf.reference = reference;
   leaf.count = count;
+  leaf.per_length = static_cast<float>(distance_units / cell);
   leaf.begin = static_cast<Id>(made.blocks.size());
-  for (std::size_t first = 0; first < sorted.size(); first += lanes)
+  for (const Id* first = faces.first; first < faces.second; first += lanes)
   {
-    const std::size_t last = std::min(first + lanes, sorted.size()) - 1;
-    // All of the cell in reach, so that lanes that are none can be behind it.
-    constexpr double cells_in_reach = 0.75;
-    const double reach = std::max(sorted[last].first, cells_in_reach * cell);
-    Block block = {};
-    block.per_length = static_cast<float>((1.0 - 1e-6) * most_units / reach);
+    Block block;
     Faces ids;
     for (int lane = 0; lane < lanes; ++lane)
     {
-      const bool is_one = first + lane <= last;
-      ids[lane] = is_one ? sorted[first + lane].second : -1;
-      // A lane that is none: a triangle that the whole cell sees from the same side.
-      std::array<Vec3, 3> units{ Vec3(1, -1, -1) * most_units, Vec3(1, 1, -1) * most_units,
-        Vec3(1, 0, 1) * most_units };
-      if (is_one)
+      // A lane that is none: a plane far away.
+      std::array<double, Block::numbers> plane{};
+      plane[12] = static_cast<double>(one);
+      ids[lane] = first + lane < faces.second ? first[lane] : -1;
+      if (ids[lane] >= 0)
       {
-        units = this->owner_.corners(ids[lane]);
-        for (Vec3& corner : units)
+        const std::array<Vec3, 3> corners = this->owner_.corners(ids[lane]);
+        const std::array<Vec3, 3> seen{ corners[0] - reference, corners[1] - reference,
+          corners[2] - reference };
+        double reach = 0.0;
+        for (int k = 0; k < 3; ++k)
         {
-          corner = static_cast<double>(block.per_length) * (corner - reference);
+          reach = std::max(reach, seen[k].norm());
         }
+        for (int k = 0; k < 3; ++k)
+        {
+          const auto normal =
+            direction(seen[(k + 1) % 3].cross(seen[(k + 2) % 3]), shortest_product * reach);
+          std::copy(normal.begin(), normal.end(), plane.begin() + 3 * k);
+        }
+        const Vec3 u = corners[1] - corners[0];
+        const Vec3 v = corners[2] - corners[0];
+        const Vec3 product = u.cross(v);
+        const double longest = std::max(u.norm(), v.norm());
+        const auto normal =
+          direction(product, shortest_product * longest * std::max(1.0, reach / cell));
+        const double distance =
+          static_cast<double>(leaf.per_length) * product.dot(seen[0]) / product.norm();
+        const bool is_near = std::abs(distance) < static_cast<double>(one); // as it should be
+        std::copy(normal.begin(), normal.end(), plane.begin() + 9);
+        plane[12] = is_near && normal != std::array<double, 3>{} ? distance : 0.0;
       }
-      for (int k = 0; k < 9; ++k)
+      for (int k = 0; k < Block::numbers; ++k)
       {
-        block.corner[k * lanes + lane] =
-          static_cast<std::int16_t>(std::lround(units[k / 3][k % 3]));
+        block.plane[k * lanes + lane] = static_cast<std::int16_t>(std::lround(plane[k]));
       }
     }
     made.blocks.push_back(block);
@@ -736,74 +777,48 @@ std::array<WindingCells::Id, 3> WindingCells::place_of(const Node& node, const V
   return place;
 }
 
-namespace
-{
-BINDPOSE_ALWAYS_INLINE float larger(float x, float y)
-{
-  return x > y ? x : y;
-}
-} // namespace
-
-/// Signed crossings of the segment from the point q to the reference, both as seen from there.
-/// Faces of which a sign is not clear are not counted but added to the unclear ones.
+/// Signed crossings of the segment from the point q to the reference, which is the origin, in units
+/// of the planes' distances. Faces of which a sign is not clear are not counted but added to the
+/// unclear ones, so are those that the point touches within the length `touching`.
 BINDPOSE_SIMD_CLONES int WindingCells::tally(const Block* begin, const Block* end,
-  const Faces* faces, float tolerance, const float* q, Unclear& unclear)
+  const Faces* faces, float touching, const float* q, Unclear& unclear)
 {
+  const float qx = q[0], qy = q[1], qz = q[2];
+  const float length = std::abs(qx) + std::abs(qy) + std::abs(qz);
+  // A point that touches a triangle at some place is on the right side of the planes through its
+  // edges by no less than minus what it is away from that place.
+  const float edge_bound = rounded_by * length + 1.01f * one * touching;
+  const float side_bound = edge_bound + rounded_by * one;
   std::int32_t counts[lanes] = {};
   for (const Block* block = begin; block != end; ++block)
   {
-    const float per_length = block->per_length;
-    const float qx = per_length * q[0], qy = per_length * q[1], qz = per_length * q[2];
-    const float length = std::max({ std::abs(qx), std::abs(qy), std::abs(qz) });
-    const float off = rounded_by + per_length * tolerance;
-    float corner[9 * lanes]; // a loop of its own: with it in the next one compilers give up
-    for (int k = 0; k < 9 * lanes; ++k)
+    float
+      plane[Block::numbers * lanes]; // a loop of its own: with it in the next one compilers give up
+    for (int k = 0; k < Block::numbers * lanes; ++k)
     {
-      corner[k] = static_cast<float>(block->corner[k]);
+      plane[k] = static_cast<float>(block->plane[k]);
     }
     std::int32_t open[lanes];
     std::int32_t any = 0;
     for (int i = 0; i < lanes; ++i)
     {
-      const float ax = corner[0 * lanes + i] - qx;
-      const float ay = corner[1 * lanes + i] - qy;
-      const float az = corner[2 * lanes + i] - qz;
-      const float bx = corner[3 * lanes + i] - qx;
-      const float by = corner[4 * lanes + i] - qy;
-      const float bz = corner[5 * lanes + i] - qz;
-      const float cx = corner[6 * lanes + i] - qx;
-      const float cy = corner[7 * lanes + i] - qy;
-      const float cz = corner[8 * lanes + i] - qz;
-      // Corners that are off by h in each coordinate change a volume with the segment by at most
-      // 12 h reach length and one of three corners by 18 h reach^2, and something of the order h^2
-      // that the rounding's share has room for; reach is the largest coordinate as seen from the
-      // point: triangles next to it are told apart finely. A triangle that the point touches,
-      // within the tolerance of one of its points, has a volume of at most 12 tolerance reach^2
-      // with the point and none on the wrong side of the segment by more than 6 tolerance reach
-      // length: with the rounding below that, too, it is left open.
-      const float reach = larger(
-        larger(larger(larger(std::abs(ax), std::abs(ay)), larger(std::abs(az), std::abs(bx))),
-          larger(larger(std::abs(by), std::abs(bz)), larger(std::abs(cx), std::abs(cy)))),
-        std::abs(cz));
-      const float edge_bound = length * reach * (segment_error * reach + 12.0f * off);
-      const float side_bound = reach * reach * (corner_error * reach + 18.0f * off);
-      const float other_bound = side_bound + 4.0f * edge_bound;
-      const float bcx = by * cz - bz * cy, bcy = bz * cx - bx * cz, bcz = bx * cy - by * cx;
-      const float cax = cy * az - cz * ay, cay = cz * ax - cx * az, caz = cx * ay - cy * ax;
-      const float abx = ay * bz - az * by, aby = az * bx - ax * bz, abz = ax * by - ay * bx;
-      const float u = -(qx * bcx + qy * bcy + qz * bcz);
-      const float v = -(qx * cax + qy * cay + qz * caz);
-      const float w = -(qx * abx + qy * aby + qz * abz);
-      const float side = ax * bcx + ay * bcy + az * bcz;
-      const float other_side = side - (u + v + w);
+      const float u = qx * plane[i] + qy * plane[lanes + i] + qz * plane[2 * lanes + i];
+      const float v =
+        qx * plane[3 * lanes + i] + qy * plane[4 * lanes + i] + qz * plane[5 * lanes + i];
+      const float w =
+        qx * plane[6 * lanes + i] + qy * plane[7 * lanes + i] + qz * plane[8 * lanes + i];
+      const float across =
+        qx * plane[9 * lanes + i] + qy * plane[10 * lanes + i] + qz * plane[11 * lanes + i];
+      const float other_side = one * plane[12 * lanes + i];
+      const float side = other_side - across;
       const float least = u < v ? (u < w ? u : w) : (v < w ? v : w);
       const float most = u > v ? (u > w ? u : w) : (v > w ? v : w);
       const bool before = side > side_bound, behind = side < -side_bound;
-      const bool to_before = other_side > other_bound, to_behind = other_side < -other_bound;
+      const bool to_before = other_side > side_bound, to_behind = other_side < -side_bound;
       const bool none =
         ((least < -edge_bound) & (most > edge_bound)) | (before & to_before) | (behind & to_behind);
-      const bool outwards = (least > edge_bound) & before & to_behind;
-      const bool inwards = (most < -edge_bound) & behind & to_before;
+      const bool outwards = (most < -edge_bound) & before & to_behind;
+      const bool inwards = (least > edge_bound) & behind & to_before;
       counts[i] += (outwards ? 1 : 0) - (inwards ? 1 : 0);
       open[i] = none | outwards | inwards ? 0 : 1;
       any |= open[i];
@@ -826,13 +841,14 @@ BINDPOSE_SIMD_CLONES int WindingCells::tally(const Block* begin, const Block* en
 
 bool WindingCells::count_in(const Leaf& found, const Vec3& p, int& count) const
 {
-  const Vec3 seen = p - found.reference;
+  const Vec3 seen = static_cast<double>(found.per_length) * (p - found.reference);
   const float q[3] = { static_cast<float>(seen[0]), static_cast<float>(seen[1]),
     static_cast<float>(seen[2]) };
   Unclear unclear;
   count = found.count +
     tally(this->arrays_.blocks.data() + found.begin, this->arrays_.blocks.data() + found.end,
-      this->arrays_.faces.data() + found.begin, static_cast<float>(this->tolerance_), q, unclear);
+      this->arrays_.faces.data() + found.begin,
+      found.per_length * static_cast<float>(this->tolerance_), q, unclear);
   if (unclear.number == 0)
   {
     return true;

@@ -44,18 +44,19 @@ public:
 private:
   using Id = std::int32_t;
   static constexpr int lanes = 8;
-  /// Corners of up to eight triangles as seen from a leaf's reference, x, y, z of a, b, c, as whole
-  /// numbers of a unit that suits the largest; those that are none are out of every segment's way.
+  /// Planes of up to eight triangles as seen from a leaf's reference: normals of those through the
+  /// reference and an edge, then the triangle's own and how far that is; x of all triangles first.
   struct Block
   {
-    float per_length; ///< units in a length of 1
-    std::int16_t corner[9 * lanes]; ///< a's x of all triangles first
+    static constexpr int numbers = 13;
+    std::int16_t plane[numbers * lanes];
   };
   /// Their ids, -1 for none: seldom needed, so not in the way of what is.
   using Faces = std::array<Id, lanes>;
   struct Leaf
   {
     Vec3 reference;
+    float per_length; ///< units of its planes' distances
     int count; ///< winding number at the reference
     Id begin, end; ///< blocks
   };
@@ -104,7 +105,7 @@ private:
   bool is_outside(const Vec3& p) const;
   std::array<Vec3, 3> corners(Id face) const;
   bool count_in(const Leaf& leaf, const Vec3& p, int& count) const;
-  static int tally(const Block* begin, const Block* end, const Faces* faces, float tolerance,
+  static int tally(const Block* begin, const Block* end, const Faces* faces, float touching,
     const float* q, Unclear& unclear);
 
   const Points* points_ = nullptr;

@@ -13,6 +13,7 @@
 #include "base/parallel.h"
 #include "inside/boundary_caps.h"
 #include "inside/dipole_field.h"
+#include "inside/point_order.h"
 #include "inside/point_values.h"
 #include "inside/solid_angle.h"
 #include "inside/welded_surface.h"
@@ -249,6 +250,10 @@ Status WindingNumber::build(
       parts.method = WindingMethod::direct;
     }
   }
+  if (done && parts.method == WindingMethod::fast)
+  {
+    parts.caps = smaller_caps(parts.points, parts.triangles, parts.caps);
+  }
   parts.max_leaf_size = options.max_leaf_size;
   if (done && parts.method == WindingMethod::hierarchical)
   {
@@ -446,17 +451,31 @@ Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
   return point_values(context, count, nanoseconds, out, on_surface,
     [&](Index begin, Index end, unsigned char* flags)
     {
-      std::array<Vec3, WindingCells::most_at_once> points;
-      std::array<bool, WindingCells::most_at_once> touches;
-      for (Index first = begin; first < end; first += WindingCells::most_at_once)
+      // What cells hold is fetched once for the points that need it, in whatever order they come.
+      const Index count_here = end - begin;
+      std::vector<Vec3> points(static_cast<std::size_t>(count_here));
+      for (Index i = 0; i < count_here; ++i)
       {
-        const Index number = std::min(WindingCells::most_at_once, end - first);
+        points[i] = point_at(begin + i);
+      }
+      const std::vector<std::int32_t> order = order_by_place(points);
+      constexpr Index at_once = WindingCells::most_at_once;
+      std::array<Vec3, at_once> some;
+      std::array<double, at_once> values;
+      std::array<bool, at_once> touches;
+      for (Index first = 0; first < count_here; first += at_once)
+      {
+        const Index number = std::min(at_once, count_here - first);
         for (Index i = 0; i < number; ++i)
         {
-          points[i] = point_at(first + i);
+          some[i] = points[order[first + i]];
         }
-        parts.at(points.data(), number, out + first, touches.data());
-        std::copy_n(touches.begin(), number, flags + (first - begin));
+        parts.at(some.data(), number, values.data(), touches.data());
+        for (Index i = 0; i < number; ++i)
+        {
+          out[begin + order[first + i]] = values[i];
+          flags[order[first + i]] = touches[i];
+        }
       }
     });
 }

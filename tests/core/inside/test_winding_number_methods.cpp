@@ -474,6 +474,36 @@ TEST(WindingMethods, AutomaticChoosesByCounts)
   }
 }
 
+TEST(WindingMethods, TrianglesAsLargeAsTheSurfaceTakeLittleMemory)
+{
+  // Tets across all of the box: each face would be in hundreds of cells.
+  test::Random random(19);
+  constexpr Index tets = 3000;
+  TriangleMesh heap{ Points(4 * tets, 3), Triangles(4 * tets, 3) };
+  for (Index t = 0; t < tets; ++t)
+  {
+    const Index v = 4 * t;
+    for (int k = 0; k < 4; ++k)
+    {
+      heap.points.row(v + k) = random.in_box(Vec3::Constant(-1.0), Vec3::Ones()).transpose();
+    }
+    heap.triangles.row(v) << v, v + 2, v + 1;
+    heap.triangles.row(v + 1) << v, v + 1, v + 3;
+    heap.triangles.row(v + 2) << v + 1, v + 2, v + 3;
+    heap.triangles.row(v + 3) << v + 2, v, v + 3;
+  }
+  const WindingNumber winding = make(heap, WindingMethod::automatic);
+  EXPECT_EQ(winding.method(), WindingMethod::crossings);
+  // At most 16 entries a triangle and 100,000 more, of 30 bytes, in blocks that may be half empty.
+  EXPECT_LT(static_cast<double>(winding.memory()), 64.0 * (16.0 * 4 * tets + 1e5));
+  for (int i = 0; i < 20; ++i)
+  {
+    const Vec3 p = random.in_box(Vec3::Constant(-1.0), Vec3::Ones());
+    const double expected = winding_number_direct(heap.points, heap.triangles, p);
+    EXPECT_NEAR(winding.evaluate_at(p), expected, 1e-9);
+  }
+}
+
 TEST(WindingMethods, FastKeepsItsTolerance)
 {
   // Unclean surfaces and a soup, in the box, far outside and close to the triangles.

@@ -1,0 +1,90 @@
+#!/usr/bin/env python3
+"""What the winding number of a point costs, of surfaces of all kinds, in one run of the benchmarks.
+
+Every row of `bindpose_benchmarks --benchmark_filter=winding` on one thread: grids, scattered points, points
+within 1e-4 diagonals of the surface, points 1e6 diagonals from the origin. The unit Y is what one triangle of
+the textbook sum costs in the same run: compare those, not machines. Bars are medians of five repetitions, the
+dots one standard deviation more. Surfaces: refined_elephant.off (closed) and elephant-with-holes.off of the
+Debian package libcgal-demo; bumpy spheres, whole, open, cut into patches, and come apart (every triangle
+moved by its own size, every other one turned over); and triangles all over space.
+
+Numbers: Y a row, nanoseconds a row, and the largest error beyond what the row's tolerance allows.
+"""
+
+import json
+import os
+import subprocess
+
+import common
+import quickstart
+
+import charts
+
+COLOURS = {"closed": charts.BLUE, "open": charts.GREEN, "unordered": charts.ORANGE}
+SURFACES = {"elephant": ("closed", "elephant"), "closed": ("closed", "closed"), "holes": ("open", "elephant with holes"),
+            "open": ("open", "open"), "patches": ("open", "patches"), "soup": ("unordered", "soup along a surface"), "orderless": ("unordered", "soup all over space")}
+
+
+def run(options):
+    """The benchmark's rows as {name: {"median": counters, "stddev": counters, …}}."""
+    program = common.BUILD / "bin" / "bindpose_benchmarks"
+    if not program.exists():
+        raise common.Stop(f"{program} is not there; configure with -DBINDPOSE_BUILD_BENCHMARKS=ON and build")
+    folder = options.output / "meshes"
+    for name in ("refined_elephant.off", "elephant-with-holes.off"):
+        quickstart.demo_mesh(folder, name)
+    which = "winding/(grid/(elephant/samples:64|holes/samples:128)|scattered/(elephant|holes|closed:20000))" if options.small \
+        else "winding/(grid|scattered|near|far)"
+    out = options.scratch / "rows.json"
+    done = subprocess.run([program, f"--benchmark_filter={which}.*threads:1", f"--benchmark_out={out}",
+                           "--benchmark_out_format=json"],
+                          env={**os.environ, "BINDPOSE_BENCHMARK_MESHES": str(folder)}, capture_output=True, text=True,
+                          check=False)
+    if done.returncode:
+        raise common.Stop(done.stderr.strip() or f"bindpose_benchmarks ended with exit code {done.returncode}")
+    rows = {}
+    for row in json.loads(out.read_text())["benchmarks"]:
+        name = row["run_name"].split("/threads")[0].removeprefix("winding/")
+        rows.setdefault(name, {})[row["aggregate_name"]] = row
+    return rows
+
+
+def label(name, row):
+    """The row's group, and what a reader calls it."""
+    where, surface, *rest = name.split("/")
+    group, surface = SURFACES[surface.split(":")[0]]
+    tolerance = next((float(word.split(":")[1]) for word in rest if word.startswith("tolerance")), None)
+    samples = next((word.split(":")[1] for word in rest if word.startswith("samples")), None)
+    what = {"grid": f"grid {samples}³", "scattered": "scattered", "near": "near",
+            "far_from_origin": "far from the origin"}[where]
+    kept = f", {tolerance:.0e}".replace("e-0", "e-") if tolerance else ", exact"
+    return group, f"{surface} {round(row['triangles'] / 1000):,}k, {what}{kept}", tolerance or 1e-10
+
+
+def make(options):
+    rows, numbers, beyond = [], {}, 0.0
+    for name, found in run(options).items():
+        median, spread = found["median"], found["stddev"]
+        group, text, tolerance = label(name, median)
+        beyond = max(beyond, median["error"] - tolerance)
+        rows.append((group, text, median["Y"], spread["Y"]))
+        numbers[f"{text}: Y"] = median["Y"]
+        numbers[f"{text}: ns"] = median["ns"]
+    numbers["largest error beyond what is allowed"] = beyond
+    rows.reverse()  # the first at the top
+    panel = charts.Panel("What a point costs, in triangles of the textbook sum", ("Y = one triangle of the textbook sum, about 20 ns", 0.05, 300),
+                         ("", 10 ** -0.7, 10 ** (len(rows) - 0.3)), log=True,
+                         x_names={0.1: "0.1", 1: "1", 10: "10", 100: "100"},
+                         y_names={10.0 ** i: text for i, (_, text, *_) in enumerate(rows)})
+    named = set()
+    for i, (group, _, cost, spread) in enumerate(rows):
+        at = 10.0 ** i
+        panel.line("" if group in named else group, (0.05, cost), (at, at), COLOURS[group], 14)
+        panel.line("", (cost + spread, cost + 1.001 * spread), (at, at), charts.DARK, 2, dots=True)
+        named.add(group)
+    charts.draw(options.picture, [panel], (1400, 140 + 34 * len(rows)), left=390)
+    return numbers
+
+
+if __name__ == "__main__":
+    common.main(__file__, __doc__, make)

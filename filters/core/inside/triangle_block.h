@@ -18,6 +18,7 @@ struct TriangleBlock
   double inverse_size;
   Real corner[9][triangle_lanes]; ///< x y z of a, of b, of c
   Real weight[triangle_lanes]; ///< multiplicity; 0: nobody's lane
+  bool single; ///< whether no multiplicity is above 1 or below -1
 };
 
 /// Blocks first … first + count - 1.

@@ -11,8 +11,8 @@
 //
 // "Far enough": the terms left out are estimated by the powers of the node's multipoles (Dehnen
 // 2014, equation 15) and must stay below a threshold. Built, the field is compared with the plain
-// sum on a sample; where the error is above half the tolerance, the cells are built again with a
-// lower threshold.
+// sum on a sample, most of it where the estimates say that the error is largest; where it is above
+// half the tolerance, the cells are built again with a lower threshold.
 //
 // Evaluation: the polar axis of the harmonics is x. With y and z given, a local expansion becomes a
 // polynomial in x: its coefficient j is made of F(k, l) times the harmonic (k - j, l) in the plane
@@ -20,6 +20,7 @@
 #include "inside/dipole_field.h"
 
 #include "base/parallel.h"
+#include "base/simd.h"
 #include "inside/solid_harmonics.h"
 
 #include <algorithm>
@@ -44,16 +45,25 @@ struct Tuning
   int order;
   double finest_cell;
 };
-/// Measured: finer cells cost more memory than they save time.
-constexpr Tuning tunings[] = { { 1e-2, 3, 0.8 }, { 1e-3, 5, 0.8 }, { 1e-4, 7, 0.8 },
-  { 1e-5, 9, 0.8 }, { 1e-6, 11, 0.8 }, { 0.0, 13, 1.0 } };
-/// Threshold of an interaction, in tolerances: the estimates are upper ends, and errors of many
-/// interactions hardly add up.
-constexpr double first_threshold = 0.7;
+/// Measured. Up to order 7 a polynomial is as dear as one of order 7.
+constexpr Tuning tunings[] = { { 1e-2, 4, 0.8 }, { 2e-3, 6, 0.8 }, { 1e-3, 7, 0.8 },
+  { 1e-4, 7, 0.8 }, { 1e-5, 9, 0.8 }, { 1e-6, 11, 0.8 }, { 0.0, 13, 1.0 } };
+/// Finer cells take 1.2 times less time and twice the memory: for fields of up to so many blocks
+/// they are this much finer.
+constexpr Index small_field = 2048;
+constexpr double finer = 0.75;
+/// Threshold of an interaction, in tolerances: the estimates are upper ends, errors of many
+/// interactions hardly add up, and where they do the sample tells.
+constexpr double first_threshold = 1.2;
+/// Outside the cells, in thresholds: there are few interactions, and the estimate has no cell's
+/// radius in it that makes it larger than need be.
+constexpr double outer_share = 0.2;
 /// Largest error on the sample, in tolerances: the rest is left to places that were not tried.
-constexpr double wanted_error = 0.4;
-/// From this tolerance on floats do.
+constexpr double wanted_error = 0.5;
+/// From this tolerance on floats do, unless sums in floats err by more than this share of it: of a
+/// thousand triangles at one place.
 constexpr double float_tolerance = 9e-5;
+constexpr double largest_float_error = 0.1;
 
 /// Harmonics have x as their polar axis.
 constexpr int axes[3] = { 1, 2, 0 };
@@ -100,7 +110,7 @@ double power_weight(int n, int m)
 struct PlaneConstants
 {
   double plane[largest_order + 1][largest_order / 2 + 1];
-  double factorial[largest_order + 1];
+  double factorial[largest_order + 2]; ///< the last: of nothing
 };
 constexpr PlaneConstants make_plane_constants()
 {
@@ -124,86 +134,123 @@ constexpr PlaneConstants make_plane_constants()
 }
 constexpr PlaneConstants plane_constants = make_plane_constants();
 
-/// Coefficients of a leaf: for l = 0 … Order the real parts of (k, l), k = l … Order, then (l > 0)
-/// the imaginary ones. polynomial[j], j = 0 … Order.
-template <int Order, typename Real>
-void contract_local(const Real* local, double y, double z, double* polynomial)
+/// Coefficients of a leaf are, for l = 0 … Order, the real parts of (k, l), k = l … Order, then
+/// (l > 0) the imaginary ones. Lanes of a polynomial's coefficients; rows are read up to as many
+/// numbers beyond their ends.
+constexpr int polynomial_lanes = 8;
+
+/// Room for a polynomial, and what is 0 in it.
+template <int Order>
+constexpr int polynomial_room = (Order / polynomial_lanes + 1) * polynomial_lanes;
+
+/// Adds the terms (L + 2Q, L), (L + 2Q + 2, L) … to the polynomial; r + i sqrt(-1) is zeta^L
+/// rho^2Q.
+template <int Order, int L, int Q, typename Real>
+BINDPOSE_ALWAYS_INLINE void add_terms(const Real* row, Real r, Real i, Real rho2, Real* polynomial)
 {
-  const double rho2 = y * y + z * z;
-  double c[Order + 1] = {};
-  double re = 1.0, im = 0.0; // zeta^l
-#pragma GCC unroll 16
-  for (int l = 0; l <= Order; ++l)
+  constexpr int count = Order - L - 2 * Q + 1;
+  if constexpr (count > 0)
   {
-    double r = re, i = im;
-#pragma GCC unroll 8
-    for (int q = 0; l + 2 * q <= Order; ++q)
+    constexpr int lanes = (count + polynomial_lanes - 1) / polynomial_lanes * polynomial_lanes;
+    const Real a = r * static_cast<Real>(plane_constants.plane[L][Q]);
+    const Real b = i * static_cast<Real>(plane_constants.plane[L][Q]);
+    const Real* const real = row + 2 * Q;
+    const Real* const imaginary = real + (Order - L + 1);
+    for (int j = 0; j < lanes; ++j)
     {
-      const double a = r * plane_constants.plane[l][q];
-      const double b = i * plane_constants.plane[l][q];
-      const Real* real = local + 2 * q;
-      const Real* imaginary = real + (Order - l + 1);
-#pragma GCC unroll 16
-      for (int j = 0; j <= Order - l - 2 * q; ++j)
-      {
-        c[j] += l > 0 ? a * real[j] + b * imaginary[j] : a * real[j];
-      }
-      r *= rho2;
-      i *= rho2;
+      const Real term = L > 0 ? a * real[j] + b * imaginary[j] : a * real[j];
+      polynomial[j] += j < count ? term : Real(0);
     }
-    local += (l > 0 ? 2 : 1) * (Order - l + 1);
-    const double next = re * y - im * z;
-    im = re * z + im * y;
-    re = next;
+    add_terms<Order, L, Q + 1>(row, r * rho2, i * rho2, rho2, polynomial);
   }
-  for (int j = 0; j <= Order; ++j)
+}
+
+/// Adds the rows L … Order; re + im sqrt(-1) is zeta^L.
+template <int Order, int L, typename Real>
+BINDPOSE_ALWAYS_INLINE void add_rows(
+  const Real* row, Real re, Real im, Real y, Real z, Real* polynomial)
+{
+  if constexpr (L <= Order)
   {
-    polynomial[j] = c[j] * plane_constants.factorial[j];
+    add_terms<Order, L, 0>(row, re, im, y * y + z * z, polynomial);
+    add_rows<Order, L + 1>(
+      row + (L > 0 ? 2 : 1) * (Order - L + 1), re * y - im * z, re * z + im * y, y, z, polynomial);
+  }
+}
+
+template <int Order, typename Real>
+BINDPOSE_ALWAYS_INLINE void contract_rows(const Real* rows, double y, double z, double* polynomial)
+{
+  constexpr int room = polynomial_room<Order>;
+  Real sum[room] = {};
+  add_rows<Order, 0>(rows, Real(1), Real(0), static_cast<Real>(y), static_cast<Real>(z), sum);
+  for (int j = 0; j < room; ++j)
+  {
+    polynomial[j] = static_cast<double>(sum[j]) * plane_constants.factorial[j];
   }
 }
 
 template <typename Real>
-void contract_local(int order, const Real* local, double y, double z, double* polynomial)
+BINDPOSE_ALWAYS_INLINE void contract_any(
+  int order, const Real* rows, double y, double z, double* polynomial)
 {
   switch (order)
   {
     case 2:
-      return contract_local<2>(local, y, z, polynomial);
+      return contract_rows<2>(rows, y, z, polynomial);
     case 3:
-      return contract_local<3>(local, y, z, polynomial);
+      return contract_rows<3>(rows, y, z, polynomial);
     case 4:
-      return contract_local<4>(local, y, z, polynomial);
+      return contract_rows<4>(rows, y, z, polynomial);
     case 5:
-      return contract_local<5>(local, y, z, polynomial);
+      return contract_rows<5>(rows, y, z, polynomial);
     case 6:
-      return contract_local<6>(local, y, z, polynomial);
+      return contract_rows<6>(rows, y, z, polynomial);
     case 7:
-      return contract_local<7>(local, y, z, polynomial);
+      return contract_rows<7>(rows, y, z, polynomial);
     case 8:
-      return contract_local<8>(local, y, z, polynomial);
+      return contract_rows<8>(rows, y, z, polynomial);
     case 9:
-      return contract_local<9>(local, y, z, polynomial);
+      return contract_rows<9>(rows, y, z, polynomial);
     case 10:
-      return contract_local<10>(local, y, z, polynomial);
+      return contract_rows<10>(rows, y, z, polynomial);
     case 11:
-      return contract_local<11>(local, y, z, polynomial);
+      return contract_rows<11>(rows, y, z, polynomial);
     case 12:
-      return contract_local<12>(local, y, z, polynomial);
+      return contract_rows<12>(rows, y, z, polynomial);
     case 13:
-      return contract_local<13>(local, y, z, polynomial);
+      return contract_rows<13>(rows, y, z, polynomial);
     default:
-      return contract_local<14>(local, y, z, polynomial);
+      return contract_rows<14>(rows, y, z, polynomial);
   }
+}
+
+BINDPOSE_SIMD_CLONES void contract_local(
+  int order, const float* rows, double y, double z, double* polynomial)
+{
+  contract_any(order, rows, y, z, polynomial);
+}
+
+BINDPOSE_SIMD_CLONES void contract_local(
+  int order, const double* rows, double y, double z, double* polynomial)
+{
+  contract_any(order, rows, y, z, polynomial);
+}
+
+/// In pairs, then pairs of pairs: a chain would be what a point waits for.
+double eight_terms(const double* p, double x, double x2, double x4)
+{
+  return ((p[0] + p[1] * x) + (p[2] + p[3] * x) * x2) +
+    ((p[4] + p[5] * x) + (p[6] + p[7] * x) * x2) * x4;
 }
 
 double polynomial_at(const double* polynomial, int order, double x)
 {
-  double value = polynomial[order];
-  for (int j = order - 1; j >= 0; --j)
-  {
-    value = value * x + polynomial[j];
-  }
-  return value;
+  const double x2 = x * x, x4 = x2 * x2;
+  const double low = eight_terms(polynomial, x, x2, x4);
+  return order < polynomial_lanes
+    ? low
+    : low + x4 * x4 * eight_terms(polynomial + polynomial_lanes, x, x2, x4);
 }
 } // namespace
 
@@ -218,7 +265,20 @@ struct DipoleField::Build
     Id first = 0, count = 0; ///< triangles in order while building, then blocks
     Id left = -1, right = -1;
     double block_radius = 0.0; ///< mean over its blocks
+    double share = 1.0; ///< of the error that a node may make
     int height = 0;
+  };
+  /// Sum of the estimates of a cell's interactions, and where those come from.
+  struct Doubt
+  {
+    double size = 0.0;
+    Vec3 pull = Vec3::Zero();
+  };
+  struct DoubtfulLeaf
+  {
+    Doubt doubt;
+    Vec3 center;
+    double half; ///< of its size
   };
   /// What one top cell gives.
   struct Subtree
@@ -227,6 +287,7 @@ struct DipoleField::Build
     std::vector<double> locals;
     std::vector<Id> run_count; ///< of each leaf
     std::vector<BlockRun> runs;
+    std::vector<DoubtfulLeaf> leaves;
   };
   /// A cell's place among those of its level.
   struct CellPlace
@@ -240,6 +301,7 @@ struct DipoleField::Build
     Harmonics at, in, out, children;
     std::array<Id, harmonic_lanes> batch{};
     int batched = 0;
+    Doubt doubt;
     std::vector<Id> stack;
     std::vector<std::vector<Id>> lists; ///< a level's unsettled nodes
     std::vector<std::vector<double>> locals; ///< a level's eight children
@@ -266,12 +328,13 @@ struct DipoleField::Build
   void add_outer(Id node);
   bool fill_cells();
   void fill(Subtree& tree, const CellPlace& cell, std::size_t entry, const double* local,
-    const std::vector<Id>& inherited, Scratch& scratch, std::size_t depth);
+    const Doubt& inherited_doubt, const std::vector<Id>& inherited, Scratch& scratch,
+    std::size_t depth);
   bool settle(Id node, const Vec3& center, double radius, Scratch& scratch) const;
   void flush(const Vec3& center, Scratch& scratch) const;
   void emit_leaf(Subtree& tree, std::size_t entry, double half, const std::vector<double>& local,
     const std::vector<Id>& near) const;
-  double measure() const;
+  double measure();
 
   Vec3 point(Id id) const
   {
@@ -298,6 +361,8 @@ struct DipoleField::Build
   std::vector<double> moments; // real and imaginary of each (n, m), node after node
   std::vector<double> bounds; // order + 2 numbers a node
   std::vector<double> nodes_of_quadrature, weights_of_quadrature;
+  std::vector<DoubtfulLeaf> doubtful; // leaves
+  double float_error = 0.0; // of sums in floats
 };
 
 void DipoleField::Build::take(const Triangles& triangles, const std::vector<int>& multiplicities)
@@ -430,6 +495,19 @@ bool DipoleField::Build::sort_triangles()
       node.radius = std::min(node.radius,
         std::max(
           (a.center - node.center).norm() + a.radius, (b.center - node.center).norm() + b.radius));
+    }
+  }
+  // Parts as large as the whole see a point as the whole does: their errors add up to its.
+  for (const Node& node : this->nodes)
+  {
+    for (const Id id : { node.left, node.right })
+    {
+      if (id >= 0)
+      {
+        Node& child = this->nodes[id];
+        const bool as_large = child.radius > 0.9 * node.radius;
+        child.share = as_large ? node.share * child.count / node.count : node.share;
+      }
     }
   }
   return true;
@@ -598,6 +676,7 @@ void DipoleField::Build::fill_blocks(std::vector<TriangleBlock<Real>>& blocks)
           static_cast<Real>((c[k / 3][k % 3] - node.center[k % 3]) * block.inverse_size);
       }
       block.weight[i] = static_cast<Real>(this->weights[slot]);
+      block.single = (i == 0 || block.single) && std::abs(this->weights[slot]) <= 1;
     }
   }
 }
@@ -793,7 +872,7 @@ void DipoleField::Build::find_bounds()
   }
 }
 
-/// Estimate for a cell of that radius whose centre has that distance from the node's.
+/// Estimate, in shares, for a cell of that radius whose centre has that distance from the node's.
 double DipoleField::Build::error(Id node, double distance, double radius) const
 {
   const int top = this->field.order_ + 2;
@@ -807,7 +886,8 @@ double DipoleField::Build::error(Id node, double distance, double radius) const
     power *= inverse;
   }
   // The degrees after the first one, as a geometric series.
-  return sum * power / (1.0 - (radius + this->nodes[node].radius) * inverse);
+  const Node& of = this->nodes[node];
+  return sum * power / ((1.0 - (radius + of.radius) * inverse) * of.share);
 }
 
 void DipoleField::Build::place_cells()
@@ -852,7 +932,7 @@ void DipoleField::Build::add_outer(Id id)
   OuterNode outer;
   outer.center = node.center;
   outer.radius = node.radius;
-  outer.bound = this->bounds[std::size_t(id) * top + top - 1];
+  outer.bound = this->bounds[std::size_t(id) * top + top - 1] / node.share;
   outer.blocks = { node.first, node.count };
   this->field.outer_.push_back(outer);
   const double* moment = &this->moments[std::size_t(id) * stride];
@@ -861,8 +941,8 @@ void DipoleField::Build::add_outer(Id id)
   const Vec3 inside = node.center - this->field.lower_;
   const double distance =
     std::min(inside.minCoeff(), this->field.size_ - inside.maxCoeff()) * (1.0 - 1e-9);
-  const bool always =
-    distance > 1.05 * node.radius && this->error(id, distance, 0.0) <= 0.5 * this->field.threshold_;
+  const bool always = distance > 1.05 * node.radius &&
+    this->error(id, distance, 0.0) <= outer_share * this->field.threshold_;
   this->field.outer_[place].leaf = always || node.left < 0;
   if (!this->field.outer_[place].leaf)
   {
@@ -877,9 +957,15 @@ bool DipoleField::Build::settle(Id id, const Vec3& center, double radius, Scratc
 {
   const Node& node = this->nodes[id];
   const double distance = (center - node.center).norm();
-  if (distance > 1.05 * (radius + node.radius) &&
-    this->error(id, distance, radius) <= this->field.threshold_)
+  if (!(distance > 1.05 * (radius + node.radius)))
   {
+    return false;
+  }
+  const double error = this->error(id, distance, radius);
+  if (error <= this->field.threshold_)
+  {
+    scratch.doubt.size += error;
+    scratch.doubt.pull += error / distance * (node.center - center);
     scratch.batch[scratch.batched++] = id;
     if (scratch.batched == harmonic_lanes)
     {
@@ -921,8 +1007,8 @@ void DipoleField::Build::flush(const Vec3& center, Scratch& scratch) const
 }
 
 void DipoleField::Build::fill(Subtree& tree, const CellPlace& cell, std::size_t entry,
-  const double* inherited_local, const std::vector<Id>& inherited, Scratch& scratch,
-  std::size_t depth)
+  const double* inherited_local, const Doubt& inherited_doubt, const std::vector<Id>& inherited,
+  Scratch& scratch, std::size_t depth)
 {
   const int degree = this->field.order_;
   const int count = harmonic_count(degree);
@@ -938,6 +1024,7 @@ void DipoleField::Build::fill(Subtree& tree, const CellPlace& cell, std::size_t 
   std::vector<Id> near = std::move(scratch.lists[depth]);
   near.clear();
   scratch.out.clear(degree);
+  scratch.doubt = inherited_doubt;
   std::vector<Id>& stack = scratch.stack;
   const auto go_through = [&](Id root, double largest)
   {
@@ -984,6 +1071,7 @@ void DipoleField::Build::fill(Subtree& tree, const CellPlace& cell, std::size_t 
     }
   }
   this->flush(center, scratch);
+  const Doubt doubt = scratch.doubt;
   std::vector<double> local(2 * static_cast<std::size_t>(count));
   for (int c = 0; c < count; ++c)
   {
@@ -999,6 +1087,7 @@ void DipoleField::Build::fill(Subtree& tree, const CellPlace& cell, std::size_t 
   if (leaf)
   {
     this->emit_leaf(tree, entry, 0.5 * size, local, near);
+    tree.leaves.push_back({ doubt, center, 0.5 * size });
   }
   else if (!this->context.cancelled())
   {
@@ -1039,7 +1128,7 @@ void DipoleField::Build::fill(Subtree& tree, const CellPlace& cell, std::size_t 
         { 2 * cell.at[0] + (child & 1), 2 * cell.at[1] + (child >> 1 & 1),
           2 * cell.at[2] + (child >> 2) } };
       this->fill(
-        tree, place, first + child, &children[2 * child * count], near, scratch, depth + 1);
+        tree, place, first + child, &children[2 * child * count], doubt, near, scratch, depth + 1);
     }
     scratch.locals[depth] = std::move(children);
   }
@@ -1097,7 +1186,7 @@ bool DipoleField::Build::fill_cells()
             const auto at = static_cast<Id>(i);
             this->fill(trees[i],
               { f.top_level_, { at % across, at / across % across, at / across / across } }, 0,
-              nothing.data(), root, *scratch, 0);
+              nothing.data(), Doubt(), root, *scratch, 0);
           }
         }) ||
     this->context.cancelled())
@@ -1109,6 +1198,7 @@ bool DipoleField::Build::fill_cells()
   f.runs_.clear();
   f.float_locals_.clear();
   f.double_locals_.clear();
+  this->doubtful.clear();
   std::size_t cells = f.cells_.size(), leaves = 0, runs = 0;
   for (const Subtree& tree : trees)
   {
@@ -1121,7 +1211,8 @@ bool DipoleField::Build::fill_cells()
   f.runs_.reserve(runs);
   const std::size_t coefficients =
     leaves * static_cast<std::size_t>((f.order_ + 1) * (f.order_ + 1));
-  f.fine_ ? f.double_locals_.reserve(coefficients) : f.float_locals_.reserve(coefficients);
+  f.fine_ ? f.double_locals_.reserve(coefficients + polynomial_lanes)
+          : f.float_locals_.reserve(coefficients + polynomial_lanes);
   Id run = 0;
   for (Index i = 0; i < tops; ++i)
   {
@@ -1140,6 +1231,7 @@ bool DipoleField::Build::fill_cells()
       run += count;
     }
     f.runs_.insert(f.runs_.end(), tree.runs.begin(), tree.runs.end());
+    this->doubtful.insert(this->doubtful.end(), tree.leaves.begin(), tree.leaves.end());
     for (const double x : tree.locals)
     {
       f.fine_ ? f.double_locals_.push_back(x) : f.float_locals_.push_back(static_cast<float>(x));
@@ -1147,17 +1239,30 @@ bool DipoleField::Build::fill_cells()
     tree = Subtree();
   }
   f.first_run_.push_back(run);
+  // The last row is read beyond its end.
+  f.fine_ ? f.double_locals_.resize(coefficients + polynomial_lanes)
+          : f.float_locals_.resize(coefficients + polynomial_lanes);
   return true;
 }
 
-/// Largest error on points near triangles and all over the cells, a little around them.
-double DipoleField::Build::measure() const
+/// Largest error on points near triangles, all over the cells, around them, and where it must be
+/// feared: an expansion errs most at that corner of its cell which is next to what it holds.
+double DipoleField::Build::measure()
 {
   DipoleField& f = this->field;
   const Index blocks = f.block_count();
   const BlockRun all{ 0, static_cast<Id>(blocks) };
-  const Index samples = std::clamp<Index>(4000000 / std::max<Index>(1, blocks), 64, 384);
+  const Index samples = std::clamp<Index>(2000000 / std::max<Index>(1, blocks), 256, 4096);
+  const Index feared = std::min<Index>(samples / 2, static_cast<Index>(this->doubtful.size()));
+  std::partial_sort(this->doubtful.begin(), this->doubtful.begin() + feared, this->doubtful.end(),
+    [](const DoubtfulLeaf& s, const DoubtfulLeaf& t)
+    {
+      return s.doubt.size != t.doubt.size ? s.doubt.size > t.doubt.size
+                                          : std::lexicographical_compare(s.center.begin(),
+                                              s.center.end(), t.center.begin(), t.center.end());
+    });
   std::vector<double> errors(static_cast<std::size_t>(samples));
+  std::vector<double> float_errors(static_cast<std::size_t>(samples / 16 + 1), 0.0);
   parallel_for(this->context, samples, 8,
     [&](Index begin, Index end)
     {
@@ -1168,9 +1273,18 @@ double DipoleField::Build::measure() const
         Vec3 u(n * 0.8191725133961645, n * 0.6710436067037893, n * 0.5497004779019703);
         u = u.unaryExpr([](double x) { return x - std::floor(x); });
         Vec3 at;
-        if (i % 2)
+        if (i < feared)
         {
-          at = f.lower_ + f.size_ * (1.02 * u - Vec3::Constant(0.01));
+          const DoubtfulLeaf& leaf = this->doubtful[i];
+          for (int k = 0; k < 3; ++k)
+          {
+            at[k] = leaf.center[k] + (leaf.doubt.pull[k] > 0.0 ? 0.99 : -0.99) * leaf.half;
+          }
+        }
+        else if (i % 2)
+        {
+          const double beyond = i % 4 == 1 ? 0.5 : 0.01; // on each side
+          at = f.lower_ + f.size_ * ((1.0 + 2.0 * beyond) * u - Vec3::Constant(beyond));
         }
         else
         {
@@ -1189,9 +1303,15 @@ double DipoleField::Build::measure() const
           }
         }
         bool touched = false;
-        errors[i] = std::abs(f.evaluate(at) - f.near_sum(&all, 1, at, touched));
+        const double sum = f.near_sum(&all, 1, at, touched);
+        errors[i] = std::abs(f.evaluate(at) - sum);
+        if (i % 16 == 0 && !f.fine_)
+        {
+          float_errors[i / 16] = std::abs(f.exact_sum(at) - sum);
+        }
       }
     });
+  this->float_error = *std::max_element(float_errors.begin(), float_errors.end());
   return *std::max_element(errors.begin(), errors.end());
 }
 
@@ -1222,6 +1342,10 @@ bool DipoleField::Build::run(const Triangles& triangles, const std::vector<int>&
     }
   }
   f.fine_ ? this->fill_blocks(f.double_blocks_) : this->fill_blocks(f.float_blocks_);
+  if (this->options.finest_cell <= 0.0 && f.block_count() <= small_field)
+  {
+    this->finest_cell *= finer;
+  }
   {
     const ProgressRange range(this->context, 0.2, 0.3);
     if (!this->find_multipoles())
@@ -1245,11 +1369,19 @@ bool DipoleField::Build::run(const Triangles& triangles, const std::vector<int>&
       return false;
     }
     const double wanted = wanted_error * this->options.tolerance;
+    if (this->float_error > largest_float_error * this->options.tolerance && !f.fine_)
+    {
+      f.fine_ = true;
+      this->fill_blocks(f.double_blocks_);
+      f.float_blocks_ = {};
+      continue;
+    }
     if (f.measured_error_ <= wanted || round == 4)
     {
+
       return true;
     }
-    f.threshold_ *= 0.5 * std::clamp(wanted / f.measured_error_, 0.02, 1.0);
+    f.threshold_ *= 0.8 * std::clamp(wanted / f.measured_error_, 0.02, 1.0);
   }
 }
 
@@ -1306,7 +1438,10 @@ public:
         const double weight = this->field_.fine_
           ? this->field_.double_blocks_[block].weight[i]
           : static_cast<double>(this->field_.float_blocks_[block].weight[i]);
-        this->sum_.add(c[0], c[1], c[2], static_cast<int>(weight));
+        if (weight != 0.0)
+        {
+          this->sum_.add(c[0], c[1], c[2], static_cast<int>(weight));
+        }
         this->used_ = true;
       }
     }
@@ -1331,6 +1466,17 @@ double DipoleField::near_sum(
   return sum + careful.winding_number();
 }
 
+double DipoleField::exact_sum(const Vec3& point) const
+{
+  Careful careful(*this, point);
+  constexpr int every[triangle_lanes] = { 1, 1, 1, 1, 1, 1, 1, 1 };
+  for (Index b = 0; b < this->block_count(); ++b)
+  {
+    careful.add(b, every);
+  }
+  return careful.winding_number();
+}
+
 bool DipoleField::in_cells(const Vec3& point) const
 {
   bool inside = true;
@@ -1349,9 +1495,9 @@ std::uint32_t DipoleField::place(double x, int axis) const
   return std::min(static_cast<std::uint32_t>(at), last);
 }
 
-DipoleField::Id DipoleField::leaf_at(const Place& at, int& level, Vec3& center) const
+DipoleField::Leaf DipoleField::leaf_at(const Place& at) const
 {
-  level = this->top_level_;
+  int level = this->top_level_;
   int shift = finest_level - level;
   Id entry =
     this
@@ -1364,38 +1510,113 @@ DipoleField::Id DipoleField::leaf_at(const Place& at, int& level, Vec3& center) 
       static_cast<Id>(
         (at[0] >> shift & 1) | (at[1] >> shift & 1) << 1 | (at[2] >> shift & 1) << 2)];
   }
-  const double size = std::ldexp(this->size_, -level);
+  Leaf leaf;
+  leaf.id = ~entry;
+  leaf.shift = shift;
+  const double size = this->size_ / static_cast<double>(1u << level);
+  leaf.inverse = 2.0 / size;
   for (int k = 0; k < 3; ++k)
   {
-    center[k] = this->lower_[k] + size * (static_cast<double>(at[k] >> shift) + 0.5);
+    leaf.center[k] = this->lower_[k] + size * (static_cast<double>(at[k] >> shift) + 0.5);
   }
-  return ~entry;
+  return leaf;
 }
 
-void DipoleField::contract(Id leaf, double y, double z, double* polynomial) const
+DipoleField::Leaf DipoleField::leaf_at(const Vec3& point) const
 {
-  const std::size_t first = static_cast<std::size_t>(leaf) *
+  return this->leaf_at(
+    Place{ this->place(point[0], 0), this->place(point[1], 1), this->place(point[2], 2) });
+}
+
+void DipoleField::contract(const Leaf& leaf, double y, double z, double* polynomial) const
+{
+  const std::size_t first = static_cast<std::size_t>(leaf.id) *
     static_cast<std::size_t>((this->order_ + 1) * (this->order_ + 1));
+  const double across[2] = { (y - leaf.center[1]) * leaf.inverse,
+    (z - leaf.center[2]) * leaf.inverse };
   if (this->fine_)
   {
-    contract_local(this->order_, &this->double_locals_[first], y, z, polynomial);
+    contract_local(this->order_, &this->double_locals_[first], across[0], across[1], polynomial);
   }
   else
   {
-    contract_local(this->order_, &this->float_locals_[first], y, z, polynomial);
+    contract_local(this->order_, &this->float_locals_[first], across[0], across[1], polynomial);
   }
 }
 
 double DipoleField::evaluate(const Vec3& point, bool* on_surface) const
 {
   double value = 0.0;
-  unsigned char touched = 0;
-  this->evaluate_row(&point[0], point[1], point[2], 1, &value, &touched);
+  bool touched = false;
+  this->evaluate(&point, 1, &value, &touched);
   if (on_surface)
   {
-    *on_surface = touched != 0;
+    *on_surface = touched;
   }
   return value;
+}
+
+/// What a point waits for is mostly memory: it is asked for before the points before need theirs.
+void DipoleField::evaluate(const Vec3* points, Index count, double* out, bool* on_surface) const
+{
+  constexpr Index at_once = 16;
+  std::array<Leaf, at_once> leaves;
+  const auto fetch = [](const void* begin, std::size_t bytes)
+  {
+    for (std::size_t i = 0; i < bytes; i += 64)
+    {
+      __builtin_prefetch(static_cast<const char*>(begin) + i);
+    }
+  };
+  const auto coefficients = static_cast<std::size_t>((this->order_ + 1) * (this->order_ + 1));
+  for (Index first = 0; first < count; first += at_once)
+  {
+    const Index end = std::min(count, first + at_once);
+    for (Index i = first; i < end; ++i)
+    {
+      Leaf& leaf = leaves[i - first];
+      leaf.id = -1;
+      if (!this->ids_.empty() && this->in_cells(points[i]))
+      {
+        leaf = this->leaf_at(points[i]);
+        const std::size_t at = static_cast<std::size_t>(leaf.id) * coefficients;
+        this->fine_ ? fetch(&this->double_locals_[at], coefficients * sizeof(double))
+                    : fetch(&this->float_locals_[at], coefficients * sizeof(float));
+        fetch(&this->first_run_[leaf.id], 1);
+      }
+    }
+    for (Index i = first; i < end; ++i)
+    {
+      on_surface[i] = false;
+      out[i] = 0.0;
+      const Leaf& leaf = leaves[i - first];
+      if (leaf.id >= 0)
+      {
+        double polynomial[polynomial_room<largest_order>];
+        this->contract(leaf, points[i][1], points[i][2], polynomial);
+        out[i] =
+          polynomial_at(polynomial, this->order_, (points[i][0] - leaf.center[0]) * leaf.inverse);
+        fetch(&this->runs_[this->first_run_[leaf.id]], 64);
+      }
+    }
+    for (Index i = first; i < end; ++i)
+    {
+      const Leaf& leaf = leaves[i - first];
+      if (leaf.id >= 0)
+      {
+        const Id run = this->first_run_[leaf.id];
+        const Index runs = this->first_run_[leaf.id + 1] - run;
+        if (runs > 0)
+        {
+          out[i] += this->near_sum(&this->runs_[run], runs, points[i], on_surface[i]);
+        }
+      }
+      else if (!this->ids_.empty())
+      {
+        out[i] = this->outer_sum(points[i], on_surface[i]);
+      }
+    }
+  }
 }
 
 void DipoleField::evaluate_row(
@@ -1415,19 +1636,15 @@ void DipoleField::evaluate_row(
       continue;
     }
     const Place at{ this->place(x[i], 0), this->place(y, 1), this->place(z, 2) };
-    int level = 0;
-    Vec3 center;
-    const Id leaf = this->leaf_at(at, level, center);
-    const double inverse = 2.0 / std::ldexp(this->size_, -level);
-    double polynomial[largest_order + 1];
-    this->contract(leaf, (y - center[1]) * inverse, (z - center[2]) * inverse, polynomial);
-    const BlockRun* runs = this->runs_.data() + this->first_run_[leaf];
-    const Index run_count = this->first_run_[leaf + 1] - this->first_run_[leaf];
-    const int shift = finest_level - level;
-    const std::uint32_t cell = at[0] >> shift;
+    const Leaf leaf = this->leaf_at(at);
+    double polynomial[polynomial_room<largest_order>];
+    this->contract(leaf, y, z, polynomial);
+    const BlockRun* runs = this->runs_.data() + this->first_run_[leaf.id];
+    const Index run_count = this->first_run_[leaf.id + 1] - this->first_run_[leaf.id];
+    const std::uint32_t cell = at[0] >> leaf.shift;
     do
     {
-      out[i] = polynomial_at(polynomial, this->order_, (x[i] - center[0]) * inverse);
+      out[i] = polynomial_at(polynomial, this->order_, (x[i] - leaf.center[0]) * leaf.inverse);
       touched = false;
       if (run_count > 0)
       {
@@ -1439,7 +1656,7 @@ void DipoleField::evaluate_row(
       }
       ++i;
     } while (
-      i < count && this->in_cells(Vec3(x[i], y, z)) && this->place(x[i], 0) >> shift == cell);
+      i < count && this->in_cells(Vec3(x[i], y, z)) && this->place(x[i], 0) >> leaf.shift == cell);
   }
 }
 
@@ -1490,7 +1707,7 @@ void DipoleField::visit_outer(const Vec3& point, const See& see, const All& all)
     {
       error *= inverse;
     }
-    const bool far_off = distance > 1.05 * node.radius && error <= 0.5 * this->threshold_;
+    const bool far_off = distance > 1.05 * node.radius && error <= outer_share * this->threshold_;
     if (far_off)
     {
       see(&this->outer_moments_[std::size_t(n) * stride], offset);
@@ -1677,24 +1894,20 @@ Vec3 DipoleField::gradient(const Vec3& point) const
       add_blocks);
     return sum;
   }
-  const Place at{ this->place(point[0], 0), this->place(point[1], 1), this->place(point[2], 2) };
-  int level = 0;
-  Vec3 center;
-  const Id leaf = this->leaf_at(at, level, center);
-  const double inverse = 2.0 / std::ldexp(this->size_, -level);
-  const Vec3 local = (point - center) * inverse;
-  double polynomial[largest_order + 1];
-  this->contract(leaf, local[1], local[2], polynomial);
+  const Leaf leaf = this->leaf_at(point);
+  const Vec3 local = (point - leaf.center) * leaf.inverse;
+  double polynomial[polynomial_room<largest_order>];
+  this->contract(leaf, point[1], point[2], polynomial);
   double slope = 0.0;
   for (int j = this->order_; j > 0; --j)
   {
     slope = slope * local[0] + j * polynomial[j];
   }
-  sum[0] += inverse * slope;
-  const std::array<double, 2> across = this->slopes_across(leaf, local);
-  sum[1] += inverse * across[0];
-  sum[2] += inverse * across[1];
-  for (Id r = this->first_run_[leaf]; r < this->first_run_[leaf + 1]; ++r)
+  sum[0] += leaf.inverse * slope;
+  const std::array<double, 2> across = this->slopes_across(leaf.id, local);
+  sum[1] += leaf.inverse * across[0];
+  sum[2] += leaf.inverse * across[1];
+  for (Id r = this->first_run_[leaf.id]; r < this->first_run_[leaf.id + 1]; ++r)
   {
     add_blocks(this->runs_[r]);
   }

@@ -107,7 +107,7 @@ struct WindingNumber::Parts
   Vec3 gradient_at(const Vec3& point) const;
   double slowly_at(const Vec3& framed, bool* on_surface) const;
   bool reaches(const SampleGrid& grid) const;
-  bool minus_caps(const Vec3& framed, double& winding_number) const;
+  void caps_at(const Vec3* framed, Index count, double* winding_numbers, bool* touches) const;
 };
 
 WindingNumber::WindingNumber() : parts_(new Parts) {}
@@ -346,29 +346,33 @@ void WindingNumber::Parts::at(
   std::array<int, WindingCells::most_at_once> crossed;
   std::array<bool, WindingCells::most_at_once> told;
   this->cells.evaluate(framed.data(), count, crossed.data(), told.data());
+  std::array<double, WindingCells::most_at_once> of_caps;
+  std::array<bool, WindingCells::most_at_once> touches;
+  this->caps_at(framed.data(), count, of_caps.data(), touches.data());
   for (Index k = 0; k < count; ++k)
   {
-    double& winding_number = winding_numbers[asked[k]];
-    winding_number = crossed[k];
-    if (!told[k] || !this->minus_caps(framed[k], winding_number))
-    {
-      winding_number = this->slowly_at(framed[k], &on_surface[asked[k]]);
-    }
+    winding_numbers[asked[k]] = told[k] && !touches[k]
+      ? crossed[k] - of_caps[k]
+      : this->slowly_at(framed[k], &on_surface[asked[k]]);
   }
 }
 
-/// Takes off what the caps wind; false when the point touches one.
-bool WindingNumber::Parts::minus_caps(const Vec3& p, double& winding_number) const
+/// What the caps wind, and whether the points touch them.
+void WindingNumber::Parts::caps_at(
+  const Vec3* framed, Index count, double* winding_numbers, bool* touches) const
 {
-  if (this->caps.rows() == 0)
+  if (this->method == WindingMethod::fast && this->caps.rows() > 0)
   {
-    return true;
+    this->field.evaluate(framed, count, winding_numbers, touches);
+    return;
   }
-  bool touches = false;
-  winding_number -= this->method == WindingMethod::fast
-    ? this->field.evaluate(p, &touches)
-    : direct_sum(this->points, this->caps, p, this->frame.tolerance, &touches);
-  return !touches;
+  for (Index i = 0; i < count; ++i)
+  {
+    touches[i] = false;
+    winding_numbers[i] = this->caps.rows() > 0
+      ? direct_sum(this->points, this->caps, framed[i], this->frame.tolerance, &touches[i])
+      : 0.0;
+  }
 }
 
 /// Where few points need it, not before the first does.
@@ -628,14 +632,12 @@ Status WindingNumber::evaluate_rows(
         {
           p.x() = xs[i];
           bool touches = fast && on_cap[i];
-          if (fast)
+          double of_caps = fast ? caps_wind[i] : 0.0;
+          if (!fast)
           {
-            values[i] -= caps_wind[i];
+            parts.caps_at(&p, 1, &of_caps, &touches);
           }
-          else
-          {
-            touches = !parts.minus_caps(p, values[i]);
-          }
+          values[i] -= of_caps;
           if (touches)
           {
             untold.push_back(i);

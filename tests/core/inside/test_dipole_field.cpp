@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <memory>
 
 using namespace bindpose;
 
@@ -261,6 +262,29 @@ TEST(DipoleField, RowsGiveTheBitsOfTheirPoints)
   }
 }
 
+TEST(DipoleField, ManyPointsAtOnceGiveTheBitsOfEach)
+{
+  for (const Case& c : all_cases())
+  {
+    for (const double tolerance : { 1e-3, 1e-6 })
+    {
+      const DipoleField field = make(c, tolerance);
+      test::Random random(6);
+      const std::vector<Vec3> points = points_for(c.mesh, 25, random);
+      const auto count = static_cast<Index>(points.size());
+      std::vector<double> values(points.size());
+      const auto touched = std::make_unique<bool[]>(points.size());
+      field.evaluate(points.data(), count, values.data(), touched.get());
+      for (Index i = 0; i < count; ++i)
+      {
+        bool on_surface = false;
+        ASSERT_EQ(values[i], field.evaluate(points[i], &on_surface)) << c.name;
+        ASSERT_EQ(touched[i], on_surface);
+      }
+    }
+  }
+}
+
 TEST(DipoleField, SameBitsForAnyNumberOfThreads)
 {
   for (const Case& c : all_cases())
@@ -326,18 +350,36 @@ TEST(DipoleField, NothingGivesNothing)
   EXPECT_EQ(field.evaluate(Vec3::Constant(0.25)), 0.0);
 }
 
+// Their errors add up, those of sums in floats too; neither may break the tolerance.
 TEST(DipoleField, ManyTrianglesAtOnePlace)
 {
-  Case pile = once("pile", soup(1));
-  pile.mesh.points << 0.1, 0.2, 0.3, 0.9, 0.1, -0.2, -0.3, 0.8, 0.4;
-  pile.mesh.triangles = pile.mesh.triangles.row(0).replicate(200, 1).eval();
-  pile.multiplicities.assign(200, 1);
-  const DipoleField field = make(pile, 1e-3);
-  test::Random random(4);
-  for (int i = 0; i < 200; ++i)
+  for (const Index count : { 200, 1000 })
   {
-    const Vec3 p = random.in_box(Vec3::Constant(-1), Vec3::Constant(1));
-    EXPECT_NEAR(field.evaluate(p), expected_at(pile, p), 1e-3);
+    for (const double apart : { 0.0, 1e-3 })
+    {
+      Case pile = once("pile", soup(1));
+      pile.mesh.points << 0.1, 0.2, 0.3, 0.9, 0.1, -0.2, -0.3, 0.8, 0.4;
+      const Points one = pile.mesh.points;
+      pile.mesh.points = one.replicate(count, 1);
+      pile.mesh.triangles.resize(count, 3);
+      test::Random random(4);
+      for (Index v = 0; v < pile.mesh.points.rows(); ++v)
+      {
+        pile.mesh.points.row(v) +=
+          apart * random.in_box(Vec3::Constant(-1), Vec3::Constant(1)).transpose();
+        pile.mesh.triangles(v / 3, v % 3) = v;
+      }
+      pile.multiplicities.assign(static_cast<std::size_t>(count), 1);
+      for (const double tolerance : { 1e-2, 1e-3, 1e-4 })
+      {
+        const DipoleField field = make(pile, tolerance);
+        for (int i = 0; i < 300; ++i)
+        {
+          const Vec3 p = (i % 2 ? 1.0 : 2.0) * random.in_box(Vec3::Constant(-1), Vec3::Constant(1));
+          EXPECT_NEAR(field.evaluate(p), expected_at(pile, p), tolerance);
+        }
+      }
+    }
   }
 }
 

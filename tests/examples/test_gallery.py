@@ -4,7 +4,7 @@ import pytest
 from running import EXAMPLES, is_refused, numbers_of, script
 
 GALLERY = EXAMPLES / "gallery"
-NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "growth", "jump_and_harmonic", "open_crossing_flipped"]
+NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "cost_of_a_point", "growth", "jump_and_harmonic", "open_crossing_flipped"]
 
 
 def test_open_crossing_flipped(tmp_path):

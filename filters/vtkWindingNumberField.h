@@ -21,7 +21,8 @@
  * - `OnSurface`, unsigned char: 1 where a triangle touches the point, else 0.
  * - `Inside` with ComputeInside, unsigned char: 1 where the winding number is at least Threshold.
  * - `WindingNumberGradient` with ComputeGradient, three components: that of the smooth part, the
- *   jump across the surface left out; 0 everywhere for a closed surface.
+ *   jump across the surface left out; 0 everywhere for a closed surface. That of oriented points
+ *   has no jump: it is large where they are near.
  *
  * **Output 1**: where the surface is open, a vtkPolyData with one line for every edge whose
  * triangles' directions do not cancel, along that direction; cell arrays `Multiplicity` (by how

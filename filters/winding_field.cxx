@@ -443,10 +443,11 @@ struct WindingField::Cloud : Kernel
                           : this->winding.evaluate(samples.points(), context, out, on_surface);
   }
 
-  Status evaluate_gradient(const Samples&, ExecutionContext&, double*) const override
+  Status evaluate_gradient(
+    const Samples& samples, ExecutionContext& context, double* out) const override
   {
-    return Status::invalid_input("oriented points have no gradient of their winding number here; "
-                                 "ask for that of a surface or a curve");
+    return samples.grid() ? this->winding.evaluate_gradient(*samples.grid(), context, out)
+                          : this->winding.evaluate_gradient(samples.points(), context, out);
   }
 };
 

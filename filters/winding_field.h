@@ -75,7 +75,7 @@ public:
   /// samples.count() winding numbers, and flags of those on the surface.
   Status evaluate(const Samples& samples, ExecutionContext& context, double* out,
     unsigned char* on_surface) const;
-  /// 3 x samples.count() derivatives. invalid_input for oriented points, which have none.
+  /// 3 x samples.count() derivatives.
   Status evaluate_gradient(const Samples& samples, ExecutionContext& context, double* out) const;
 
   /// Where a surface is open; empty for the others.

@@ -134,6 +134,36 @@ BINDPOSE_SIMD_CLONES void add_dipoles(const Dipoles* dipoles, Index count, const
   }
 }
 
+/// sums += the dipoles' shares of the gradient; those that q coincides with have none.
+BINDPOSE_SIMD_CLONES void add_dipole_gradients(const Dipoles* dipoles, Index count,
+  const double (&q)[3], double squared_tolerance, HarmonicLanes (&sums)[3])
+{
+  for (const Dipoles* d = dipoles; d != dipoles + count; ++d)
+  {
+    Pack at[3];
+    Pack squared{}, along{};
+    for (int k = 0; k < 3; ++k)
+    {
+      at[k] = pack(d->at[k]) - q[k];
+      squared += at[k] * at[k];
+      along += at[k] * pack(d->moment[k]);
+    }
+    HarmonicLanes root;
+    for (int i = 0; i < harmonic_lanes; ++i)
+    {
+      root.lane[i] = __builtin_sqrt(squared[i]);
+    }
+    const Pack inverse = 1.0 / (squared * pack(root));
+    const Pack steep = 3.0 * along / squared;
+    const Mask touches = squared <= squared_tolerance;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Pack share = (steep * at[k] - pack(d->moment[k])) * inverse;
+      reinterpret_cast<Pack&>(sums[k]) += touches ? Pack{} : share;
+    }
+  }
+}
+
 /// Which boxes are far enough, a bit for each; and where q is seen from their centres.
 /// bounds += what their multipoles leave out at most.
 BINDPOSE_SIMD_CLONES unsigned far_boxes(const Boxes& boxes, const double (&q)[3], int order,
@@ -181,6 +211,42 @@ BINDPOSE_SIMD_CLONES void add_multipoles(int order, const HarmonicLanes* moments
   {
     // What is near may be infinite here: it is left out, not multiplied by 0.
     sums.lane[i] += bits >> i & 1u ? sum[i] : 0.0;
+  }
+}
+
+/// sums += the gradient of multipoles of the boxes in `bits`, given harmonics of one degree more:
+/// d/dz T(n, m) = -T(n+1, m), (d/dx + i d/dy) T(n, m) = -T(n+1, m+1).
+BINDPOSE_SIMD_CLONES void add_multipole_gradients(int order, const HarmonicLanes* moments,
+  const Harmonics& harmonics, unsigned bits, HarmonicLanes (&sums)[3])
+{
+  Pack sum[3] = {};
+  for (int n = 1; n <= order; ++n)
+  {
+    const HarmonicLanes* const real = harmonics.real + harmonic_index(n + 1, 0);
+    const HarmonicLanes* const imaginary = harmonics.imaginary + harmonic_index(n + 1, 0);
+    const Pack whole = pack(*moments++);
+    sum[0] -= whole * pack(real[1]);
+    sum[1] -= whole * pack(imaginary[1]);
+    sum[2] -= whole * pack(real[0]);
+    for (int m = 1; m <= n; ++m)
+    {
+      const Pack re = pack(*moments++);
+      const Pack im = pack(*moments++);
+      sum[0] += 0.5 *
+        (re * (pack(real[m - 1]) - pack(real[m + 1])) +
+          im * (pack(imaginary[m - 1]) - pack(imaginary[m + 1])));
+      sum[1] += 0.5 *
+        (im * (pack(real[m - 1]) + pack(real[m + 1])) -
+          re * (pack(imaginary[m - 1]) + pack(imaginary[m + 1])));
+      sum[2] -= re * pack(real[m]) + im * pack(imaginary[m]);
+    }
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    for (int i = 0; i < harmonic_lanes; ++i)
+    {
+      sums[k].lane[i] += bits >> i & 1u ? sum[k][i] : 0.0;
+    }
   }
 }
 
@@ -315,11 +381,17 @@ struct PointCloudWindingNumber::Parts
   double measured_error(const Points& places, ExecutionContext& context) const;
   Points sample(const PointTree& tree) const;
 
+  bool winds_around(const Vec3& framed) const;
+  template <typename Far, typename Near>
+  double visit(const Vec3& framed, double squared_stretch, const Far& far, const Near& near) const;
+  template <typename Try>
+  void within_tolerance(const Try& attempt) const;
   double plain_sum(const Vec3& framed, bool& touches) const;
   double tree_sum(const Vec3& framed, bool& touches) const;
-  double tree_sum(
-    const Vec3& framed, double squared_stretch, bool& touches, double& error_bound) const;
   double at(const Vec3& query, bool exactly, bool& touches) const;
+  Vec3 plain_gradient(const Vec3& framed) const;
+  Vec3 tree_gradient(const Vec3& framed) const;
+  Vec3 gradient_at(const Vec3& query) const;
 };
 
 PointCloudWindingNumber::PointCloudWindingNumber() : parts_(new Parts) {}
@@ -329,6 +401,66 @@ PointCloudWindingNumber& PointCloudWindingNumber::operator=(
   PointCloudWindingNumber&&) noexcept = default;
 
 // ---- Building ----------------------------------------------------------------------------------
+
+/// Hands on what is far, `far(box's number, where p is seen from, which of its eight boxes)`, and
+/// what is near, `near(first block, blocks)`. Returns what the multipoles leave out at most.
+template <typename Far, typename Near>
+double PointCloudWindingNumber::Parts::visit(
+  const Vec3& p, double squared_stretch, const Far& far, const Near& near) const
+{
+  HarmonicLanes bounds{};
+  const double q[3] = { p[0], p[1], p[2] };
+  // Each level leaves at most seven groups behind; 2^29 points have ten levels.
+  Id stack[128];
+  int waiting = 0;
+  stack[waiting++] = 0;
+  while (waiting > 0)
+  {
+    const Id number = stack[--waiting];
+    const Boxes& box = this->boxes[number];
+    HarmonicLanes from[3];
+    const unsigned far_off = far_boxes(box, q, this->order, squared_stretch, from, bounds);
+    if (far_off != 0)
+    {
+      far(number, from, far_off);
+    }
+    for (int c = 0; c < harmonic_lanes; ++c)
+    {
+      if (far_off >> c & 1u)
+      {
+        continue;
+      }
+      if (box.group[c] >= 0)
+      {
+        stack[waiting++] = box.group[c];
+      }
+      else if (box.block_count[c] > 0)
+      {
+        near(box.first_block[c], box.block_count[c]);
+      }
+    }
+  }
+  return sum_of(bounds);
+}
+
+/// Tries with all that is far farther and farther, until what `attempt` returns, what its value
+/// leaves out at most, is within the tolerance.
+template <typename Try>
+void PointCloudWindingNumber::Parts::within_tolerance(const Try& attempt) const
+{
+  double squared_stretch = 1.0;
+  for (;;)
+  {
+    const double error_bound = attempt(squared_stretch);
+    if (error_bound <= this->tolerance)
+    {
+      return;
+    }
+    // Bounds go with at least this power of the distance; children's are smaller still.
+    constexpr double margin = 1.05;
+    squared_stretch *= margin * std::pow(error_bound / this->tolerance, 2.0 / (this->order + 2));
+  }
+}
 
 void PointCloudWindingNumber::Parts::take_dipoles(
   const Points& points, const Points& moments_of, const PointTree& tree)
@@ -559,8 +691,8 @@ bool PointCloudWindingNumber::Parts::find_threshold(const Points& places, Execut
           {
             for (Index i = begin; i < end; ++i)
             {
-              bool touches = false;
-              this->tree_sum(places.row(i), 1.0, touches, bounds[i]);
+              bounds[i] = this->visit(
+                places.row(i), 1.0, [](Id, const auto&, unsigned) {}, [](Id, Id) {});
             }
           }))
     {
@@ -769,63 +901,80 @@ double PointCloudWindingNumber::Parts::plain_sum(const Vec3& p, bool& touches) c
 
 double PointCloudWindingNumber::Parts::tree_sum(const Vec3& p, bool& touches) const
 {
-  double squared_stretch = 1.0;
-  for (;;)
-  {
-    double error_bound = 0.0;
-    const double sum = this->tree_sum(p, squared_stretch, touches, error_bound);
-    if (error_bound <= this->tolerance)
-    {
-      return sum;
-    }
-    // Bounds go with at least this power of the distance; children's are smaller still.
-    constexpr double margin = 1.05;
-    squared_stretch *= margin * std::pow(error_bound / this->tolerance, 2.0 / (this->order + 2));
-  }
-}
-
-double PointCloudWindingNumber::Parts::tree_sum(
-  const Vec3& p, double squared_stretch, bool& touches, double& error_bound) const
-{
-  HarmonicLanes sums{}, bounds{};
   const double q[3] = { p[0], p[1], p[2] };
   const double squared_tolerance = this->frame.tolerance * this->frame.tolerance;
   Harmonics harmonics;
-  // Each level leaves at most seven groups behind; 2^29 points have ten levels.
-  Id stack[128];
-  int waiting = 0;
-  stack[waiting++] = 0;
-  while (waiting > 0)
-  {
-    const Id number = stack[--waiting];
-    const Boxes& box = this->boxes[number];
-    HarmonicLanes from[3];
-    const unsigned far = far_boxes(box, q, this->order, squared_stretch, from, bounds);
-    if (far != 0)
+  HarmonicLanes sums;
+  this->within_tolerance(
+    [&](double squared_stretch)
     {
-      irregular_harmonics(this->order, from, harmonics);
-      add_multipoles(
-        this->order, &this->moments[number * count_of_moments(this->order)], harmonics, far, sums);
-    }
-    for (int c = 0; c < harmonic_lanes; ++c)
-    {
-      if (far >> c & 1u)
-      {
-        continue;
-      }
-      if (box.group[c] >= 0)
-      {
-        stack[waiting++] = box.group[c];
-      }
-      else if (box.block_count[c] > 0)
-      {
-        add_dipoles(&this->dipoles[box.first_block[c]], box.block_count[c], q, squared_tolerance,
-          sums, touches);
-      }
-    }
-  }
-  error_bound = sum_of(bounds);
+      sums = {};
+      return this->visit(
+        p, squared_stretch,
+        [&](Id number, const HarmonicLanes(&from)[3], unsigned bits)
+        {
+          irregular_harmonics(this->order, from, harmonics);
+          add_multipoles(this->order, &this->moments[number * count_of_moments(this->order)],
+            harmonics, bits, sums);
+        },
+        [&](Id first, Id count)
+        { add_dipoles(&this->dipoles[first], count, q, squared_tolerance, sums, touches); });
+    });
   return sum_of(sums);
+}
+
+Vec3 PointCloudWindingNumber::Parts::tree_gradient(const Vec3& p) const
+{
+  const double q[3] = { p[0], p[1], p[2] };
+  const double squared_tolerance = this->frame.tolerance * this->frame.tolerance;
+  Harmonics harmonics;
+  HarmonicLanes sums[3];
+  this->within_tolerance(
+    [&](double squared_stretch)
+    {
+      std::fill_n(sums, 3, HarmonicLanes{});
+      return this->visit(
+        p, squared_stretch,
+        [&](Id number, const HarmonicLanes(&from)[3], unsigned bits)
+        {
+          irregular_harmonics(this->order + 1, from, harmonics);
+          add_multipole_gradients(this->order,
+            &this->moments[number * count_of_moments(this->order)], harmonics, bits, sums);
+        },
+        [&](Id first, Id count)
+        { add_dipole_gradients(&this->dipoles[first], count, q, squared_tolerance, sums); });
+    });
+  return { sum_of(sums[0]), sum_of(sums[1]), sum_of(sums[2]) };
+}
+
+Vec3 PointCloudWindingNumber::Parts::plain_gradient(const Vec3& p) const
+{
+  const double q[3] = { p[0], p[1], p[2] };
+  HarmonicLanes sums[3] = {};
+  add_dipole_gradients(this->dipoles.data(), static_cast<Index>(this->dipoles.size()), q,
+    this->frame.tolerance * this->frame.tolerance, sums);
+  return { sum_of(sums[0]), sum_of(sums[1]), sum_of(sums[2]) };
+}
+
+/// Nothing does far away in double precision.
+bool PointCloudWindingNumber::Parts::winds_around(const Vec3& framed) const
+{
+  return !this->dipoles.empty() && framed.cwiseAbs().maxCoeff() < far_away;
+}
+
+Vec3 PointCloudWindingNumber::Parts::gradient_at(const Vec3& query) const
+{
+  if (!query.allFinite())
+  {
+    return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+  const Vec3 p = this->frame(query);
+  if (!this->winds_around(p))
+  {
+    return Vec3::Zero();
+  }
+  return this->frame.scale *
+    (this->method == WindingMethod::direct ? this->plain_gradient(p) : this->tree_gradient(p));
 }
 
 double PointCloudWindingNumber::Parts::at(const Vec3& query, bool exactly, bool& touches) const
@@ -836,7 +985,7 @@ double PointCloudWindingNumber::Parts::at(const Vec3& query, bool exactly, bool&
     return std::numeric_limits<double>::quiet_NaN();
   }
   const Vec3 p = this->frame(query);
-  if (this->dipoles.empty() || !(p.cwiseAbs().maxCoeff() < far_away))
+  if (!this->winds_around(p))
   {
     return 0.0;
   }
@@ -910,6 +1059,42 @@ Status PointCloudWindingNumber::evaluate(
 {
   return this->evaluate_points(
     grid.count(), [&grid](Index i) { return grid.point(i); }, context, out, on_surface);
+}
+
+template <typename PointAt>
+Status PointCloudWindingNumber::evaluate_gradients(
+  Index count, const PointAt& point_at, ExecutionContext& context, double* out) const
+{
+  const Parts& parts = *this->parts_;
+  if (!parts.status.ok())
+  {
+    return parts.status;
+  }
+  const Index cost =
+    parts.method == WindingMethod::fast ? 400 : 1 + static_cast<Index>(parts.dipoles.size());
+  const bool done = parallel_for(context, count, std::clamp<Index>(1000000 / cost, 1, 32768),
+    [&](Index begin, Index end)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        Eigen::Map<Vec3>(out + 3 * i) = parts.gradient_at(point_at(i));
+      }
+    });
+  return done ? Status() : Status::cancelled();
+}
+
+Status PointCloudWindingNumber::evaluate_gradient(
+  PointsView queries, ExecutionContext& context, double* out) const
+{
+  return this->evaluate_gradients(
+    queries.rows(), [queries](Index i) -> Vec3 { return queries.row(i); }, context, out);
+}
+
+Status PointCloudWindingNumber::evaluate_gradient(
+  const SampleGrid& grid, ExecutionContext& context, double* out) const
+{
+  return this->evaluate_gradients(
+    grid.count(), [&grid](Index i) { return grid.point(i); }, context, out);
 }
 
 } // namespace bindpose

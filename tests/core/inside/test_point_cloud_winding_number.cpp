@@ -514,6 +514,146 @@ TEST(PointCloudWindingNumber, GridsAndPointsAgreeOnAnyNumberOfThreads)
   EXPECT_EQ(areas[0], areas[2]);
 }
 
+TEST(PointCloudWindingNumber, GradientIsTheDefinitions)
+{
+  for (const Cloud& cloud : { sphere(4000, false), heap(5000, 8) })
+  {
+    const PointCloudWindingNumber winding = built(cloud, WindingMethod::direct);
+    const Points queries = queries_around(cloud, 200, 12);
+    Points gradients(queries.rows(), 3);
+    ExecutionContext context;
+    ASSERT_TRUE(winding.evaluate_gradient(queries, context, gradients.data()).ok());
+    for (Index i = 0; i < queries.rows(); ++i)
+    {
+      Vec3 sum = Vec3::Zero();
+      double unsigned_sum = 0.0;
+      const Vec3 q = queries.row(i);
+      for (Index k = 0; k < cloud.points.rows(); ++k)
+      {
+        const Vec3 p = cloud.points.row(k);
+        if (p != q)
+        {
+          const Vec3 n = cloud.normals.row(k);
+          const Vec3 d = p - q;
+          const double r2 = d.squaredNorm();
+          const double scale = cloud.areas[k] / (4.0 * pi * r2 * std::sqrt(r2));
+          sum += scale * (3.0 * n.dot(d) / r2 * d - n);
+          unsigned_sum += 4.0 * scale;
+        }
+      }
+      EXPECT_LE((Vec3(gradients.row(i)) - sum).norm(), 1e-12 * unsigned_sum) << q.transpose();
+    }
+  }
+}
+
+TEST(PointCloudWindingNumber, GradientIsTheSlope)
+{
+  const Cloud cloud = heap(5000, 9);
+  const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, 1e-6);
+  const Points queries = queries_around(cloud, 300, 13);
+  Points gradients(queries.rows(), 3);
+  ExecutionContext context;
+  ASSERT_TRUE(winding.evaluate_gradient(queries, context, gradients.data()).ok());
+  int compared = 0;
+  for (Index i = 0; i < queries.rows(); ++i)
+  {
+    const Vec3 q = queries.row(i);
+    const double nearest =
+      std::sqrt((cloud.points.rowwise() - q.transpose()).rowwise().squaredNorm().minCoeff());
+    if (nearest < 1e-3)
+    {
+      continue;
+    }
+    const double step = 1e-4 * nearest;
+    Vec3 slope;
+    for (int k = 0; k < 3; ++k)
+    {
+      Vec3 above = q, below = q;
+      above[k] += step;
+      below[k] -= step;
+      slope[k] =
+        (winding.evaluate_exactly_at(above) - winding.evaluate_exactly_at(below)) / (2.0 * step);
+    }
+    EXPECT_LE((Vec3(gradients.row(i)) - slope).norm(), 1e-6 * slope.norm() + 1e-5 / nearest);
+    ++compared;
+  }
+  EXPECT_GT(compared, 250);
+}
+
+TEST(PointCloudWindingNumber, FastGradientsAreWithinTheirTolerance)
+{
+  for (const Cloud& cloud : { sphere(20000), sphere(20000, false), heap(20000, 10) })
+  {
+    const PointCloudWindingNumber plain = built(cloud, WindingMethod::direct);
+    Points queries = queries_around(cloud, 300, 14);
+    Points expected(queries.rows(), 3), gradients(queries.rows(), 3);
+    ExecutionContext context;
+    ASSERT_TRUE(plain.evaluate_gradient(queries, context, expected.data()).ok());
+    for (const double tolerance : { 1e-2, 1e-3, 1e-5 })
+    {
+      const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, tolerance);
+      ASSERT_TRUE(winding.evaluate_gradient(queries, context, gradients.data()).ok());
+      for (Index i = 0; i < queries.rows(); ++i)
+      {
+        const Vec3 q = queries.row(i);
+        const double nearest =
+          std::sqrt((cloud.points.rowwise() - q.transpose()).rowwise().squaredNorm().minCoeff());
+        if (nearest > 0.0)
+        {
+          EXPECT_LE((gradients.row(i) - expected.row(i)).norm(), 10.0 * tolerance / nearest);
+        }
+      }
+    }
+  }
+}
+
+TEST(PointCloudWindingNumber, GradientsOfGridsAndOddPoints)
+{
+  const Cloud cloud = sphere(10000);
+  SampleGrid grid;
+  grid.origin = Vec3(-1.2, -1.1, -1.3);
+  grid.spacing = Vec3(0.3, 0.31, 0.33);
+  grid.extent = { 0, 7, 1, 6, -1, 6 };
+  std::vector<Points> values;
+  for (const int threads : { 1, 2 })
+  {
+    ExecutionContext context;
+    context.set_threads(threads);
+    const PointCloudWindingNumber winding = built(cloud);
+    Points gradients(grid.count(), 3);
+    ASSERT_TRUE(winding.evaluate_gradient(grid, context, gradients.data()).ok());
+    values.push_back(gradients);
+    Points one(1, 3);
+    const Points first = grid.point(0, 1, -1).transpose();
+    ASSERT_TRUE(winding.evaluate_gradient(first, context, one.data()).ok());
+    EXPECT_EQ(one, Points(gradients.topRows(1)));
+    Points odd(3, 3);
+    odd << 1e300, 0, 0, std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0, 0;
+    Points at_odd(3, 3);
+    ASSERT_TRUE(winding.evaluate_gradient(odd, context, at_odd.data()).ok());
+    EXPECT_EQ(Points(at_odd.topRows(1)), Points(Points::Zero(1, 3)));
+    EXPECT_TRUE(at_odd.row(1).array().isNaN().all());
+    EXPECT_LE(at_odd.row(2).norm(), 1e-3); // in the middle of a sphere
+  }
+  EXPECT_EQ(values[0], values[1]);
+  const PointCloudWindingNumber winding = built(cloud);
+  ExecutionContext cancelled(nullptr, [] { return true; });
+  Points gradients(grid.count(), 3);
+  EXPECT_EQ(
+    winding.evaluate_gradient(grid, cancelled, gradients.data()).code, StatusCode::cancelled);
+  // Eight times as large: an eighth as steep.
+  Cloud larger = cloud;
+  larger.points *= 8.0;
+  larger.areas *= 64.0;
+  SampleGrid larger_grid = grid;
+  larger_grid.origin *= 8.0;
+  larger_grid.spacing *= 8.0;
+  Points of_larger(grid.count(), 3);
+  ExecutionContext context;
+  ASSERT_TRUE(built(larger).evaluate_gradient(larger_grid, context, of_larger.data()).ok());
+  EXPECT_LE((8.0 * of_larger - values[0]).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 TEST(PointCloudWindingNumber, CancelsMidwayAndRunsAgain)
 {
   const Cloud cloud = sphere(20000);

@@ -21,7 +21,9 @@ sys.path.append(str(BUILD / "lib" / "python3" / "dist-packages"))
 
 try:
     import bindpose
-except ModuleNotFoundError:
+except ModuleNotFoundError as error:
+    if error.name != "bindpose":
+        sys.exit(f"{sys.executable} has no {error.name}; take the Python that VTK was built for, often /usr/bin/python3")
     sys.exit(f"there is no package bindpose in {BUILD}; run examples/quickstart.sh first, or set PYTHONPATH")
 import quickstart  # noqa: E402  the demo meshes
 from vtkmodules.vtkIOImage import vtkPNGWriter  # noqa: E402

@@ -15,7 +15,7 @@
 // whole is made on all threads, in pieces that are joined in their order.
 #include "inside/winding_cells.h"
 
-#include "base/compact.h"
+#include "base/large_pages.h"
 #include "base/parallel.h"
 #include "base/simd.h"
 #include "inside/solid_angle.h"
@@ -25,6 +25,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 
 namespace bindpose
 {
@@ -215,9 +216,11 @@ private:
     Vec3 reference; ///< a place whose winding number is `count`
     int count = 0;
     std::vector<Id> faces; ///< ascending
+    std::vector<std::array<Vec3, 3>> corners; ///< theirs: fetched once, read one after the other
     int depth = 0;
   };
-  /// A box's cells: faces of the cell c are faces[begin[c] ... begin[c + 1]), ascending.
+  /// A box's cells: faces of the cell c are faces[begin[c] ... begin[c + 1]), ascending places in
+  /// the box's list.
   struct Grid
   {
     double cell = 0.0; ///< size of one
@@ -244,13 +247,15 @@ private:
   bool find(
     const Box& box, const Grid& grid, Index begin, Index end, std::size_t most, Found& found) const;
   bool refer(const Box& box, Grid& grid) const;
-  bool crossings(const Vec3& from, const Vec3& to, List some, List others, int& count) const;
+  static bool crossings(
+    const Box& box, const Vec3& from, const Vec3& to, List some, List others, int& count);
   bool count_slowly(const Vec3& place, int& count) const;
-  bool cut_whole(Box& whole);
-  bool cut(Box& box, Arrays& made, std::size_t entries) const;
+  bool cut_whole(const Box& whole);
+  bool cut(const Box& box, Arrays& made, std::size_t entries) const;
   bool fill(
     const Box& box, const Grid& grid, Id c, std::size_t entries, Arrays& made, Cell& cell) const;
-  Id add_leaf(const Vec3& reference, int count, double cell, List faces, Arrays& made) const;
+  static Id add_leaf(
+    const Box& box, const Vec3& reference, int count, double cell, List faces, Arrays& made);
   void append(const Arrays& part, Id first, Id cells);
 
   WindingCells& owner_;
@@ -279,15 +284,17 @@ std::array<Vec3, 3> WindingCells::corners(Id face) const
 bool WindingCells::Builder::build()
 {
   this->faces_ = without_opposites(*this->owner_.triangles_, *this->owner_.caps_);
+  Box all;
   bindpose::Box bounds;
+  reserve_in_large_pages(all.corners, this->faces_.size());
   for (const Id face : this->faces_)
   {
-    for (const Vec3& corner : this->owner_.corners(face))
+    all.corners.push_back(this->owner_.corners(face));
+    for (const Vec3& corner : all.corners.back())
     {
       bounds.add(corner);
     }
   }
-  Box all;
   if (!bounds.empty())
   {
     // Some room, so that no triangle lies in the box's sides, of no simple ratio, so that those of
@@ -314,7 +321,7 @@ bool WindingCells::Builder::build()
 
 /// Signed crossings of a segment with the faces of two lists, each face once; false when unclear.
 bool WindingCells::Builder::crossings(
-  const Vec3& from, const Vec3& to, List some, List others, int& count) const
+  const Box& box, const Vec3& from, const Vec3& to, List some, List others, int& count)
 {
   count = 0;
   while (some.first != some.second || others.first != others.second)
@@ -326,7 +333,7 @@ bool WindingCells::Builder::crossings(
     const Id face = own ? *some.first : *others.first;
     some.first += own || both;
     others.first += !own || both;
-    const Crossing found = crossing(from, to, this->owner_.corners(face));
+    const Crossing found = crossing(from, to, box.corners[face]);
     if (found == Crossing::unclear)
     {
       return false;
@@ -375,14 +382,14 @@ bool WindingCells::Builder::find(
   // A little room, so that a point that rounding puts into the neighbouring cell is still told
   // right.
   const Vec3 half = Vec3::Constant(0.5 * grid.cell * (1.0 + 1e-9) + 4.0 * this->owner_.tolerance_);
+  const double inverse = 1.0 / grid.cell;
   for (Index i = begin; i < end; ++i)
   {
     if (found.size() > most || (i % 16384 == 16383 && this->context_.cancelled()))
     {
       return false;
     }
-    const Id face = box.faces[i];
-    const std::array<Vec3, 3> corners = this->owner_.corners(face);
+    const std::array<Vec3, 3>& corners = box.corners[i];
     const Vec3 lower = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]) - box.lower;
     const Vec3 upper = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]) - box.lower;
     std::array<Id, 3> from, to;
@@ -390,8 +397,8 @@ bool WindingCells::Builder::find(
     for (int k = 0; k < 3; ++k)
     {
       const double rim = half[k] - 0.5 * grid.cell;
-      const double low = std::floor((lower[k] - rim) / grid.cell);
-      const double high = std::floor((upper[k] + rim) / grid.cell);
+      const double low = (lower[k] - rim) * inverse;
+      const double high = (upper[k] + rim) * inverse;
       outside = outside || low >= size[k] || high < 0.0;
       from[k] = static_cast<Id>(std::clamp(low, 0.0, size[k] - 1.0));
       to[k] = static_cast<Id>(std::clamp(high, 0.0, size[k] - 1.0));
@@ -406,7 +413,7 @@ bool WindingCells::Builder::find(
           const Vec3 center = box.lower + grid.cell * Vec3(x + 0.5, y + 0.5, z + 0.5);
           if (wide < 2 || overlaps(corners, center, half))
           {
-            found.emplace_back((z * size[1] + y) * size[0] + x, face);
+            found.emplace_back((z * size[1] + y) * size[0] + x, static_cast<Id>(i));
           }
         }
       }
@@ -499,19 +506,21 @@ bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
       int& found = grid.counts[c];
       if (c > 0)
       {
-        told = this->crossings(place, grid.references[before], list(c), list(before), found);
+        told = crossings(box, place, grid.references[before], list(c), list(before), found);
         found += grid.counts[before];
       }
       else if (box.depth == 0)
       {
         // From outside of everything.
         const Vec3 step = grid.cell * Vec3(1.1, 0.03, 0.05);
-        told = this->crossings(place, place - step, list(c), none, found);
+        told = crossings(box, place, place - step, list(c), none, found);
       }
       else
       {
-        const List all(box.faces.data(), box.faces.data() + box.faces.size());
-        told = this->crossings(place, box.reference, all, none, found);
+        std::vector<Id> all(box.faces.size());
+        std::iota(all.begin(), all.end(), 0);
+        told = crossings(
+          box, place, box.reference, List(all.data(), all.data() + all.size()), none, found);
         found += box.count;
       }
       if (!told && attempt % 8 == 7)
@@ -523,7 +532,7 @@ bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
   return true;
 }
 
-bool WindingCells::Builder::cut_whole(Box& whole)
+bool WindingCells::Builder::cut_whole(const Box& whole)
 {
   // Entries that all cells together may make, shared out by what they begin with: no more memory
   // than a multiple of the surface's, however unlucky the faces lie. Triangles as large as the
@@ -575,17 +584,26 @@ bool WindingCells::Builder::cut_whole(Box& whole)
     return false;
   }
   grid = Grid();
+  const auto make_room = [&](auto Arrays::*items)
+  {
+    std::size_t count = (all.*items).size();
+    for (const Arrays& part : parts)
+    {
+      count += (part.*items).size();
+    }
+    reserve_in_large_pages(all.*items, count);
+  };
+  make_room(&Arrays::nodes);
+  make_room(&Arrays::cells);
+  make_room(&Arrays::leaves);
+  make_room(&Arrays::blocks);
+  make_room(&Arrays::faces);
   for (std::size_t i = 0; i < parts.size(); ++i)
   {
     const auto first = static_cast<Id>(i * cells_at_once);
     this->append(parts[i], first, std::min(cells, first + static_cast<Id>(cells_at_once)));
     parts[i] = Arrays();
   }
-  compact(all.nodes);
-  compact(all.cells);
-  compact(all.leaves);
-  compact(all.blocks);
-  compact(all.faces);
   return !this->context_.cancelled();
 }
 
@@ -618,7 +636,7 @@ void WindingCells::Builder::append(const Arrays& part, Id first, Id end)
 
 /// The box as a new node; false, and nothing is made, when cancelled or when its cells would hold
 /// more than so many entries.
-bool WindingCells::Builder::cut(Box& box, Arrays& made, std::size_t entries) const
+bool WindingCells::Builder::cut(const Box& box, Arrays& made, std::size_t entries) const
 {
   Grid grid = this->cells_of(box, most_cells_along);
   if (this->context_.cancelled() || !this->sort(box, false, entries, grid) ||
@@ -630,7 +648,6 @@ bool WindingCells::Builder::cut(Box& box, Arrays& made, std::size_t entries) con
   const auto first = static_cast<Id>(made.cells.size());
   made.cells.resize(static_cast<std::size_t>(first + cells));
   made.nodes.push_back({ box.lower, 1.0 / grid.cell, grid.size, first });
-  std::vector<Id>().swap(box.faces); // not needed any more
   const double each =
     static_cast<double>(entries) / static_cast<double>(std::max<std::size_t>(1, grid.faces.size()));
   for (Id c = 0; c < cells; ++c)
@@ -662,7 +679,13 @@ bool WindingCells::Builder::fill(
     inner.size = Vec3::Constant(grid.cell);
     inner.reference = grid.references[c];
     inner.count = grid.counts[c];
-    inner.faces.assign(faces.first, faces.second);
+    inner.faces.reserve(number);
+    inner.corners.reserve(number);
+    for (const Id* face = faces.first; face < faces.second; ++face)
+    {
+      inner.faces.push_back(box.faces[*face]);
+      inner.corners.push_back(box.corners[*face]);
+    }
     inner.depth = box.depth + 1;
     cell = { static_cast<Id>(made.nodes.size()), holds_node };
     if (this->cut(inner, made, entries))
@@ -678,7 +701,7 @@ bool WindingCells::Builder::fill(
   cell = { grid.counts[c], holds_nothing };
   if (number > 0)
   {
-    cell = { this->add_leaf(grid.references[c], grid.counts[c], grid.cell, faces, made),
+    cell = { add_leaf(box, grid.references[c], grid.counts[c], grid.cell, faces, made),
       holds_leaf };
   }
   return true;
@@ -701,7 +724,7 @@ std::array<double, 3> direction(const Vec3& product, double shortest)
 } // namespace
 
 WindingCells::Id WindingCells::Builder::add_leaf(
-  const Vec3& reference, int count, double cell, List faces, Arrays& made) const
+  const Box& box, const Vec3& reference, int count, double cell, List faces, Arrays& made)
 {
   Leaf leaf;
   leaf.reference = reference;
@@ -717,10 +740,11 @@ WindingCells::Id WindingCells::Builder::add_leaf(
       // A lane that is none: a plane far away.
       std::array<double, Block::numbers> plane{};
       plane[12] = static_cast<double>(one);
-      ids[lane] = first + lane < faces.second ? first[lane] : -1;
-      if (ids[lane] >= 0)
+      ids[lane] = -1;
+      if (first + lane < faces.second)
       {
-        const std::array<Vec3, 3> corners = this->owner_.corners(ids[lane]);
+        ids[lane] = box.faces[first[lane]];
+        const std::array<Vec3, 3>& corners = box.corners[first[lane]];
         const std::array<Vec3, 3> seen{ corners[0] - reference, corners[1] - reference,
           corners[2] - reference };
         double reach = 0.0;
@@ -748,7 +772,9 @@ WindingCells::Id WindingCells::Builder::add_leaf(
       }
       for (int k = 0; k < Block::numbers; ++k)
       {
-        block.plane[k * lanes + lane] = static_cast<std::int16_t>(std::lround(plane[k]));
+        // Rounded; a call would cost more than the rest.
+        block.plane[k * lanes + lane] =
+          static_cast<std::int16_t>(plane[k] + (plane[k] < 0.0 ? -0.5 : 0.5));
       }
     }
     made.blocks.push_back(block);

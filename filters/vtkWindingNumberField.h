@@ -43,9 +43,9 @@
  * `Report.error_bound`, and what it measured against exact values in `Report.measured_error`. AUTO
  * is exact for closed surfaces and for those with few open edges, else FAST; `Report.method` and
  * `Report.method_reason` tell what was taken and why. Measured on one core, 90k triangles: a
- * closed surface costs 4 ns a voxel and 40 ns a scattered point; an open one, FAST at 1e-3, 0.1 us
- * a voxel and 0.4 us a point; EXACT 15 ns more a point for every open edge, 20 to 100 us when those
- * are many.
+ * closed surface costs 4 ns a voxel and 40 ns a scattered point; an open one, FAST at 1e-3, 0.03 to
+ * 0.1 us a voxel and 0.1 to 0.2 us a point; EXACT 15 ns more a point for every open edge, 20 to
+ * 100 us when those are many.
  *
  * What is built for a surface is kept until the surface or one of Method, Tolerance and
  * OrientPatches changes: another grid or other points are only evaluated. GetNumberOfBuilds()

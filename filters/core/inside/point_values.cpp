@@ -14,9 +14,15 @@ Status point_values(ExecutionContext& context, Index count, double nanoseconds_a
   const double* values, unsigned char* on_surface,
   const std::function<void(Index begin, Index end, unsigned char* flags)>& body)
 {
-  constexpr double block_nanoseconds = 5e6;
-  const auto block = static_cast<Index>(
-    std::clamp(block_nanoseconds / std::max(1.0, nanoseconds_a_point), 1.0, 32768.0));
+  // Some for each thread, none so small that neighbours are torn apart, or so large that a cancel
+  // would wait.
+  constexpr double shortest_block = 8e5, longest_block = 5e6; // nanoseconds
+  constexpr double largest_block = 32768.0, wanted_blocks = 16.0;
+  const double nanoseconds = std::max(1.0, nanoseconds_a_point);
+  const double most = std::clamp(longest_block / nanoseconds, 1.0, largest_block);
+  const double least = std::min(std::max(shortest_block / nanoseconds, 1.0), most);
+  const auto block =
+    static_cast<Index>(std::clamp(static_cast<double>(count) / wanted_blocks, least, most));
   std::atomic<Index> touching{ 0 };
   std::atomic<Index> not_finite{ 0 };
   const bool done = parallel_for(context, count, block,

@@ -38,7 +38,7 @@ const char* to_string(WindingMethod method);
 /// - **Degenerate triangles** count 0 and are counted in the report; equal vertices are merged.
 /// - **Precision**: double; coordinates are shifted and scaled without rounding. About 1e-14 plus
 ///   1e-16 times the sum of the triangles' unsigned shares; fast: the tolerance.
-/// - **Cost**: build O(#F log #F), 86k triangles 0.1 s, about 130 bytes a triangle; see
+/// - **Cost**: build O(#F log #F), 86k triangles 0.07 s, about 130 bytes a triangle; see
 ///   WindingMethod for a point's cost. On a grid a closed surface costs some nanoseconds a sample.
 ///
 /// Build once, evaluate often; evaluation is thread-safe and deterministic for any thread count.

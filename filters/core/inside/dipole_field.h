@@ -77,6 +77,7 @@ public:
 
 private:
   using Id = std::int32_t;
+  static constexpr int finest_level = 20;
   /// Group of triangles that points outside the cells see as multipoles.
   struct OuterNode
   {
@@ -106,8 +107,6 @@ private:
   Leaf leaf_at(const Place& at) const;
   Leaf leaf_at(const Vec3& point) const;
   void contract(const Leaf& leaf, double y, double z, double* polynomial) const;
-  /// Derivatives along y and z of a leaf's polynomial, in its own units.
-  std::array<double, 2> slopes_across(Id leaf, const Vec3& local) const;
   double near_sum(const BlockRun* runs, Index count, const Vec3& point, bool& on_surface) const;
   /// Of all triangles, each as exact as can be.
   double exact_sum(const Vec3& point) const;
@@ -120,7 +119,7 @@ private:
   std::vector<Vec3> extra_points_; ///< of triangles that were cut; ids follow those of points
   std::vector<std::array<Id, 3>> ids_; ///< of every lane of every block
   double touch_tolerance_ = 0.0;
-  double threshold_ = 0.0; ///< of an interaction's error
+  double outer_threshold_ = 0.0; ///< of a multipole's error outside the cells
   double measured_error_ = 0.0;
   int order_ = 0;
   bool fine_ = false; ///< doubles in blocks and cells, else floats

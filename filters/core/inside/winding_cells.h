@@ -49,6 +49,7 @@ private:
   struct Block
   {
     static constexpr int numbers = 13;
+    static constexpr float one = 32767.0f; ///< a length of 1 of a normal
     std::int16_t plane[numbers * lanes];
   };
   /// Their ids, -1 for none: seldom needed, so not in the way of what is.

@@ -784,18 +784,8 @@ Status CurveWindingNumber::evaluate_gradient(
   {
     return parts.status;
   }
-  constexpr double block_nanoseconds = 5e6;
-  const auto block = std::clamp<Index>(
-    static_cast<Index>(block_nanoseconds / nanoseconds_a_point(parts.chords.size())), 1, 32768);
-  const bool done = parallel_for(context, queries.rows(), block,
-    [&](Index begin, Index end)
-    {
-      for (Index i = begin; i < end; ++i)
-      {
-        Eigen::Map<Vec2>(out + 2 * i) = parts.gradient_at(queries.row(i));
-      }
-    });
-  return done ? Status() : Status::cancelled();
+  return point_gradients(context, queries.rows(), nanoseconds_a_point(parts.chords.size()),
+    [&](Index i) { Eigen::Map<Vec2>(out + 2 * i) = parts.gradient_at(queries.row(i)); });
 }
 
 double curve_winding_number_direct(

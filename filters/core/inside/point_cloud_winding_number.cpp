@@ -1070,17 +1070,11 @@ Status PointCloudWindingNumber::evaluate_gradients(
   {
     return parts.status;
   }
-  const Index cost =
-    parts.method == WindingMethod::fast ? 400 : 1 + static_cast<Index>(parts.dipoles.size());
-  const bool done = parallel_for(context, count, std::clamp<Index>(1000000 / cost, 1, 32768),
-    [&](Index begin, Index end)
-    {
-      for (Index i = begin; i < end; ++i)
-      {
-        Eigen::Map<Vec3>(out + 3 * i) = parts.gradient_at(point_at(i));
-      }
-    });
-  return done ? Status() : Status::cancelled();
+  const double nanoseconds = parts.method == WindingMethod::fast
+    ? 8000.0
+    : 1.0 + 16.0 * static_cast<double>(parts.dipoles.size());
+  return point_gradients(context, count, nanoseconds,
+    [&](Index i) { Eigen::Map<Vec3>(out + 3 * i) = parts.gradient_at(point_at(i)); });
 }
 
 Status PointCloudWindingNumber::evaluate_gradient(

@@ -10,22 +10,28 @@
 namespace bindpose
 {
 
-Status point_values(ExecutionContext& context, Index count, double nanoseconds_a_point,
-  const double* values, unsigned char* on_surface,
-  const std::function<void(Index begin, Index end, unsigned char* flags)>& body)
+namespace
 {
-  // Some for each thread, none so small that neighbours are torn apart, or so large that a cancel
-  // would wait.
+/// Points of a block: some blocks for each thread, none so small that neighbours are torn apart, or
+/// so large that a cancel would wait.
+Index block_of(Index count, double nanoseconds_a_point)
+{
   constexpr double shortest_block = 8e5, longest_block = 5e6; // nanoseconds
   constexpr double largest_block = 32768.0, wanted_blocks = 16.0;
   const double nanoseconds = std::max(1.0, nanoseconds_a_point);
   const double most = std::clamp(longest_block / nanoseconds, 1.0, largest_block);
   const double least = std::min(std::max(shortest_block / nanoseconds, 1.0), most);
-  const auto block =
-    static_cast<Index>(std::clamp(static_cast<double>(count) / wanted_blocks, least, most));
+  return static_cast<Index>(std::clamp(static_cast<double>(count) / wanted_blocks, least, most));
+}
+} // namespace
+
+Status point_values(ExecutionContext& context, Index count, double nanoseconds_a_point,
+  const double* values, unsigned char* on_surface,
+  const std::function<void(Index begin, Index end, unsigned char* flags)>& body)
+{
   std::atomic<Index> touching{ 0 };
   std::atomic<Index> not_finite{ 0 };
-  const bool done = parallel_for(context, count, block,
+  const bool done = parallel_for(context, count, block_of(count, nanoseconds_a_point),
     [&](Index begin, Index end)
     {
       std::vector<unsigned char> own(on_surface ? 0 : static_cast<std::size_t>(end - begin));
@@ -49,6 +55,20 @@ Status point_values(ExecutionContext& context, Index count, double nanoseconds_a
       " points have a coordinate that is not a finite number; their winding number is NaN");
   }
   return status;
+}
+
+Status point_gradients(ExecutionContext& context, Index count, double nanoseconds_a_point,
+  const std::function<void(Index i)>& body)
+{
+  const bool done = parallel_for(context, count, block_of(count, nanoseconds_a_point),
+    [&](Index begin, Index end)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        body(i);
+      }
+    });
+  return done ? Status() : Status::cancelled();
 }
 
 } // namespace bindpose

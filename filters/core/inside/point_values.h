@@ -19,6 +19,11 @@ Status point_values(ExecutionContext& context, Index count, double nanoseconds_a
   const double* values, unsigned char* on_surface,
   const std::function<void(Index begin, Index end, unsigned char* flags)>& body);
 
+/// Their derivatives, each on its own: body(i) writes those of point i. cancelled: not all are
+/// there.
+Status point_gradients(ExecutionContext& context, Index count, double nanoseconds_a_point,
+  const std::function<void(Index i)>& body);
+
 } // namespace bindpose
 
 #endif

@@ -522,18 +522,11 @@ Status WindingNumber::evaluate_gradients(
   {
     return parts.status;
   }
-  const Index cost =
-    parts.method == WindingMethod::fast ? 50 : 1 + static_cast<Index>(parts.rim.size());
-  const Index block = std::clamp<Index>(200000 / cost, 1, 32768);
-  const bool done = parallel_for(context, count, block,
-    [&](Index begin, Index end)
-    {
-      for (Index i = begin; i < end; ++i)
-      {
-        Eigen::Map<Vec3>(out + 3 * i) = parts.gradient_at(point_at(i));
-      }
-    });
-  return done ? Status() : Status::cancelled();
+  const double nanoseconds = parts.method == WindingMethod::fast
+    ? 1000.0
+    : 10.0 + 10.0 * static_cast<double>(parts.rim.size());
+  return point_gradients(context, count, nanoseconds,
+    [&](Index i) { Eigen::Map<Vec3>(out + 3 * i) = parts.gradient_at(point_at(i)); });
 }
 
 Status WindingNumber::evaluate_gradient(

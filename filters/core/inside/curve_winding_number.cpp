@@ -18,7 +18,6 @@
 #include "inside/curve_winding_number.h"
 
 #include "base/exact.h"
-#include "base/parallel.h"
 #include "base/parallel_sort.h"
 #include "inside/exact_frame.h"
 #include "inside/point_values.h"

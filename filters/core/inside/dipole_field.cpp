@@ -142,20 +142,23 @@ DipoleField::Leaf DipoleField::leaf_at(const Vec3& point) const
     Place{ this->place(point[0], 0), this->place(point[1], 1), this->place(point[2], 2) });
 }
 
-void DipoleField::contract(const Leaf& leaf, double y, double z, double* polynomial) const
+/// What `use` makes of the numbers of a leaf's expansion, of whichever type they are.
+template <typename Use>
+auto DipoleField::with_numbers(Id leaf, const Use& use) const
 {
   const std::size_t first =
-    static_cast<std::size_t>(leaf.id) * static_cast<std::size_t>(count_of_local(this->order_));
-  const double across[2] = { (y - leaf.center[1]) * leaf.inverse,
-    (z - leaf.center[2]) * leaf.inverse };
-  if (this->fine_)
-  {
-    contract_local(this->order_, &this->double_locals_[first], across[0], across[1], polynomial);
-  }
-  else
-  {
-    contract_local(this->order_, &this->float_locals_[first], across[0], across[1], polynomial);
-  }
+    static_cast<std::size_t>(leaf) * static_cast<std::size_t>(count_of_local(this->order_));
+  return this->fine_ ? use(&this->double_locals_[first]) : use(&this->float_locals_[first]);
+}
+
+void DipoleField::contract(const Leaf& leaf, double y, double z, double* polynomial) const
+{
+  this->with_numbers(leaf.id,
+    [&](const auto* numbers)
+    {
+      contract_local(this->order_, numbers, (y - leaf.center[1]) * leaf.inverse,
+        (z - leaf.center[2]) * leaf.inverse, polynomial);
+    });
 }
 
 double DipoleField::evaluate(const Vec3& point, bool* on_surface) const
@@ -182,7 +185,6 @@ void DipoleField::evaluate(const Vec3* points, Index count, double* out, bool* o
       __builtin_prefetch(static_cast<const char*>(begin) + i);
     }
   };
-  const auto coefficients = static_cast<std::size_t>(count_of_local(this->order_));
   for (Index first = 0; first < count; first += at_once)
   {
     const Index end = std::min(count, first + at_once);
@@ -193,9 +195,11 @@ void DipoleField::evaluate(const Vec3* points, Index count, double* out, bool* o
       if (!this->ids_.empty() && this->in_cells(points[i]))
       {
         leaf = this->leaf_at(points[i]);
-        const std::size_t at = static_cast<std::size_t>(leaf.id) * coefficients;
-        this->fine_ ? fetch(&this->double_locals_[at], coefficients * sizeof(double))
-                    : fetch(&this->float_locals_[at], coefficients * sizeof(float));
+        this->with_numbers(leaf.id,
+          [&](const auto* numbers) {
+            fetch(
+              numbers, static_cast<std::size_t>(count_of_local(this->order_)) * sizeof(*numbers));
+          });
         fetch(&this->first_run_[leaf.id], 1);
       }
     }
@@ -473,11 +477,8 @@ Vec3 DipoleField::gradient(const Vec3& point) const
     slope = slope * local[0] + j * polynomial[j];
   }
   sum[0] += leaf.inverse * slope;
-  const std::size_t numbers =
-    static_cast<std::size_t>(leaf.id) * static_cast<std::size_t>(count_of_local(this->order_));
-  const std::array<double, 2> across = this->fine_
-    ? slopes_across(this->order_, &this->double_locals_[numbers], local)
-    : slopes_across(this->order_, &this->float_locals_[numbers], local);
+  const std::array<double, 2> across = this->with_numbers(
+    leaf.id, [&](const auto* numbers) { return slopes_across(this->order_, numbers, local); });
   sum[1] += leaf.inverse * across[0];
   sum[2] += leaf.inverse * across[1];
   for (Id r = this->first_run_[leaf.id]; r < this->first_run_[leaf.id + 1]; ++r)

@@ -106,6 +106,8 @@ private:
   std::uint32_t place(double x, int axis) const;
   Leaf leaf_at(const Place& at) const;
   Leaf leaf_at(const Vec3& point) const;
+  template <typename Use>
+  auto with_numbers(Id leaf, const Use& use) const;
   void contract(const Leaf& leaf, double y, double z, double* polynomial) const;
   double near_sum(const BlockRun* runs, Index count, const Vec3& point, bool& on_surface) const;
   /// Of all triangles, each as exact as can be.

@@ -20,7 +20,6 @@
 #include "inside/solid_harmonics.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <memory>
 #include <numeric>

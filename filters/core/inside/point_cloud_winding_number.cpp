@@ -29,7 +29,6 @@
 #include "inside/solid_harmonics.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <limits>
 #include <sstream>

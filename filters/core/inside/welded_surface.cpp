@@ -71,16 +71,14 @@ bool weld(PointsView points, TrianglesView triangles, const ExactFrame& frame,
       vertices.push_back({ frame(points.row(v)), v });
     }
   }
+  if (!parallel_sort(context, vertices,
+        [](const Vertex& x, const Vertex& y)
+        {
+          return std::lexicographical_compare(
+            x.at.data(), x.at.data() + 3, y.at.data(), y.at.data() + 3);
+        }))
   {
-    if (!parallel_sort(context, vertices,
-          [](const Vertex& x, const Vertex& y)
-          {
-            return std::lexicographical_compare(
-              x.at.data(), x.at.data() + 3, y.at.data(), y.at.data() + 3);
-          }))
-    {
-      return false;
-    }
+    return false;
   }
   std::vector<Index> id_of(static_cast<std::size_t>(points.rows()), -1);
   Index count = 0;

@@ -24,7 +24,6 @@
 #include <atomic>
 #include <limits>
 #include <mutex>
-#include <numeric>
 #include <sstream>
 
 namespace bindpose

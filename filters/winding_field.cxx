@@ -3,10 +3,10 @@
 #include "winding_field.h"
 
 #include "base/execution.h"
-#include "inside/curve_winding_number.h"
-#include "inside/point_cloud_winding_number.h"
+#include "winding/curve_winding_number.h"
+#include "winding/point_cloud_winding_number.h"
 #include "inside/surface_repair.h"
-#include "inside/winding_number.h"
+#include "winding/winding_number.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"

@@ -12,7 +12,7 @@
 #include "surfaces.h"
 
 #include "base/parallel.h"
-#include "inside/winding_number.h"
+#include "winding/winding_number.h"
 #include "io/off.h"
 
 #include <benchmark/benchmark.h>

@@ -12,7 +12,7 @@
 
 #include "conversion.h"
 #include "inside/triangle_predicates.h"
-#include "inside/winding_number.h"
+#include "winding/winding_number.h"
 #include "support/demo_meshes.h"
 #include "support/meshes.h"
 #include "vtkWindingNumberField.h"

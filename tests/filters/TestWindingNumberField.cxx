@@ -2,7 +2,7 @@
 #include "TestFilter.h"
 
 #include "conversion.h"
-#include "inside/winding_number.h"
+#include "winding/winding_number.h"
 #include "report_field_data.h"
 #include "support/meshes.h"
 #include "vtkWindingNumberField.h"

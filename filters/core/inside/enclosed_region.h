@@ -3,7 +3,7 @@
 
 #include "inside/mesher_format.h"
 #include "inside/surface_repair.h"
-#include "inside/winding_number.h"
+#include "winding/winding_number.h"
 
 namespace bindpose
 {

@@ -3,7 +3,7 @@
 
 #include "base/execution.h"
 #include "base/mesh.h"
-#include "inside/winding_number.h"
+#include "winding/winding_number.h"
 
 namespace bindpose
 {

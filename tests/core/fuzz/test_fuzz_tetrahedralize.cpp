@@ -2,7 +2,7 @@
 #include "inside/tetrahedralize.h"
 
 #include "inside/mesher_process.h"
-#include "inside/winding_number.h"
+#include "winding/winding_number.h"
 #include "support/fuzz.h"
 
 #include <algorithm>

@@ -4,12 +4,12 @@
 // Tolerances are those of the documentation: exact methods keep 1e-14 and what the sum of unsigned
 // shares makes of round-off, whole numbers are whole, the fast methods keep their tolerance, flags
 // agree everywhere, and rows of grids and batches give the bits of single points.
-#include "inside/curve_winding_number.h"
-#include "inside/exact_frame.h"
-#include "inside/point_cloud_winding_number.h"
-#include "inside/solid_angle.h"
+#include "winding/curve_winding_number.h"
+#include "winding/exact_frame.h"
+#include "winding/point_cloud_winding_number.h"
+#include "winding/solid_angle.h"
 #include "inside/triangle_predicates.h"
-#include "inside/winding_number.h"
+#include "winding/winding_number.h"
 
 #include "core/fuzz/hostile_surfaces.h"
 #include "support/fuzz.h"

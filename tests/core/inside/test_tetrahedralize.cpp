@@ -3,7 +3,7 @@
 #include "inside/mesher_process.h"
 #include "inside/tet_quality.h"
 #include "inside/triangle_tree.h"
-#include "inside/winding_number.h"
+#include "winding/winding_number.h"
 
 #include "support/demo_meshes.h"
 #include "support/files.h"

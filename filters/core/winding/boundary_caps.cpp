@@ -1,0 +1,151 @@
+// The edges whose directions do not cancel lead into every vertex as often as out of it, so walking
+// along them must come back: whenever a walk meets a vertex for the second time, the loop since
+// then is cut off and capped.
+//
+// A loop is capped by halves: the chord between its ends and the vertex half way make a triangle,
+// and so on with both halves. Most triangles are then as small as the edges and hug the boundary,
+// which suits trees and cells better than a fan's many long ones.
+#include "winding/boundary_caps.h"
+
+#include <algorithm>
+
+namespace bindpose
+{
+
+namespace
+{
+struct DirectedEdge
+{
+  Index from, to;
+};
+
+/// Triangles between the chord first-last and the vertices of the path between them.
+void cap_path(const std::vector<Index>& path, std::size_t first, std::size_t last,
+  std::vector<std::array<Index, 3>>& caps)
+{
+  if (last - first < 2)
+  {
+    return;
+  }
+  const std::size_t middle = first + (last - first) / 2;
+  // Backwards: what the surface runs along forwards, its cap must run along the other way.
+  caps.push_back({ path[last], path[middle], path[first] });
+  cap_path(path, first, middle, caps);
+  cap_path(path, middle, last, caps);
+}
+} // namespace
+
+Triangles boundary_caps(const std::vector<Edge>& edges)
+{
+  std::vector<DirectedEdge> open;
+  for (const Edge& edge : edges)
+  {
+    for (Index k = 0; k < std::abs(edge.net_direction); ++k)
+    {
+      open.push_back(
+        edge.net_direction > 0 ? DirectedEdge{ edge.a, edge.b } : DirectedEdge{ edge.b, edge.a });
+    }
+  }
+  std::stable_sort(open.begin(), open.end(),
+    [](const DirectedEdge& x, const DirectedEdge& y) { return x.from < y.from; });
+  // Vertices by rank, so that what follows is as large as the boundary, not as the mesh.
+  std::vector<Index> vertices;
+  std::vector<std::size_t> next; // of each vertex: its first edge not yet walked along
+  for (std::size_t i = 0; i < open.size(); ++i)
+  {
+    if (i == 0 || open[i].from != open[i - 1].from)
+    {
+      vertices.push_back(open[i].from);
+      next.push_back(i);
+    }
+  }
+  const auto rank = [&](Index vertex)
+  {
+    return static_cast<std::size_t>(
+      std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin());
+  };
+  std::vector<std::array<Index, 3>> caps;
+  constexpr std::size_t not_on_path = ~std::size_t{ 0 };
+  std::vector<std::size_t> place(vertices.size(), not_on_path); // on the path
+  std::vector<Index> path;
+  for (std::size_t start = 0; start < vertices.size(); ++start)
+  {
+    std::size_t at = start;
+    path.assign(1, vertices[start]);
+    place[start] = 0;
+    while (next[at] < open.size() && open[next[at]].from == vertices[at])
+    {
+      at = rank(open[next[at]++].to);
+      path.push_back(vertices[at]);
+      if (place[at] != not_on_path)
+      {
+        const std::size_t begin = place[at];
+        // A loop of n edges has n + 1 entries, the first again at the end.
+        cap_path(path, begin, path.size() - 2, caps);
+        while (path.size() > begin + 1)
+        {
+          place[rank(path.back())] = not_on_path;
+          path.pop_back();
+        }
+        place[at] = begin;
+      }
+      else
+      {
+        place[at] = path.size() - 1;
+      }
+    }
+    place[start] = not_on_path;
+  }
+  Triangles result(static_cast<Index>(caps.size()), 3);
+  for (std::size_t t = 0; t < caps.size(); ++t)
+  {
+    result.row(static_cast<Index>(t)) << caps[t][0], caps[t][1], caps[t][2];
+  }
+  return result;
+}
+
+Triangles smaller_caps(const Points& points, const Triangles& triangles, const Triangles& caps)
+{
+  // A cap has the vertices of one part only, for a walk along the boundary cannot leave it.
+  const Components parts = connected_components(points.rows(), triangles);
+  const auto part_of = [&](const auto& triangle) { return parts.of_vertex[triangle[0]]; };
+  const auto squared_length = [&](const auto& triangle)
+  {
+    double longest = 0.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      longest = std::max(
+        longest, (points.row(triangle[k]) - points.row(triangle[(k + 1) % 3])).squaredNorm());
+    }
+    return longest;
+  };
+  std::vector<double> excess(static_cast<std::size_t>(parts.count), 0.0); // of the caps' sizes
+  for (Index t = 0; t < caps.rows(); ++t)
+  {
+    excess[part_of(caps.row(t))] += squared_length(caps.row(t));
+  }
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    excess[part_of(triangles.row(t))] -= squared_length(triangles.row(t));
+  }
+  Triangles chosen(triangles.rows() + caps.rows(), 3);
+  Index count = 0;
+  for (Index t = 0; t < caps.rows(); ++t)
+  {
+    if (excess[part_of(caps.row(t))] <= 0.0)
+    {
+      chosen.row(count++) = caps.row(t);
+    }
+  }
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    if (excess[part_of(triangles.row(t))] > 0.0)
+    {
+      chosen.row(count++) << triangles(t, 2), triangles(t, 1), triangles(t, 0);
+    }
+  }
+  chosen.conservativeResize(count, 3);
+  return chosen;
+}
+
+} // namespace bindpose

@@ -1,0 +1,828 @@
+// Build: merge equal vertices and walk along the segments until each is used: first from vertices
+// that more segments leave than enter, then from all others. A walk that ends where it began is a
+// closed curve; any other is closed by a chord from its end to its start. So the segments become
+// loops, and there is one chord for each pair of open ends, no more than there must be.
+//
+// The winding number is what the loops wind, a whole number, plus 1/(2 pi) times the angles under
+// which the chords are seen from start to end (the loops hold them the other way round).
+//
+// What a loop winds is the number of times it crosses the ray from the point towards -x, signed. A
+// vertex at the ray's height counts as above it, and whether a segment passes left of the point is
+// told by an exact predicate; so nothing is counted twice or missed. Crossings are counted in a
+// tree over the loop's pieces: with the point outside a piece's box, the piece crosses the ray as
+// often as the straight line between its ends does, for both together do not wind around the point.
+// Loops lie in a tree of boxes likewise; outside their box they wind 0 times.
+//
+// A point that touches a segment gets the sum of angles instead, without what touches it, in the
+// same tree: a piece is seen under the angle of the line between its ends.
+#include "winding/curve_winding_number.h"
+
+#include "base/exact.h"
+#include "base/parallel_sort.h"
+#include "winding/exact_frame.h"
+#include "winding/point_values.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace bindpose
+{
+
+namespace
+{
+using Id = std::int32_t;
+/// Pieces of this many segments are not split further (measured: 4 … 12 hardly differ in speed).
+constexpr Id most_in_leaf = 6;
+/// Beyond this distance, in units of the curve, the winding number is 0 in double precision.
+constexpr double far_away = 1e20;
+constexpr double pi = 3.14159265358979323846;
+constexpr double two_pi = 2.0 * pi;
+
+/// Vertices at the height of the ray count as above it.
+bool is_above(const Vec2& a, const Vec2& p)
+{
+  return a.y() >= p.y();
+}
+
+/// How often a, b crosses the ray from p towards -x: +1 downwards, -1 upwards. When p lies on it,
+/// it does.
+int crossing(const Vec2& a, const Vec2& b, const Vec2& p)
+{
+  const int downwards = static_cast<int>(is_above(a, p)) - static_cast<int>(is_above(b, p));
+  if (downwards == 0 || (a.x() > p.x() && b.x() > p.x()))
+  {
+    return 0;
+  }
+  if (a.x() < p.x() && b.x() < p.x())
+  {
+    return downwards;
+  }
+  const int side = orientation_2d(a.x(), a.y(), b.x(), b.y(), p.x(), p.y());
+  return side == 0 || side == downwards ? downwards : 0;
+}
+
+/// Signed angle from a to b seen from p, in [-pi, pi]; with p on the line between them as
+/// crossing() has it. Its sign is exact: a half turn would become its opposite.
+double signed_angle(const Vec2& a, const Vec2& b, const Vec2& p)
+{
+  const Vec2 u = a - p;
+  const Vec2 v = b - p;
+  const double left = u.x() * v.y();
+  const double right = u.y() * v.x();
+  double determinant = left - right;
+  const double dot = u.dot(v);
+  constexpr double unsure = 1e-15;
+  if (std::abs(determinant) <= unsure * (std::abs(left) + std::abs(right)))
+  {
+    int side = orientation_2d(a.x(), a.y(), b.x(), b.y(), p.x(), p.y());
+    if (side == 0 && dot >= 0.0)
+    {
+      return 0.0;
+    }
+    if (side == 0)
+    {
+      const int downwards = static_cast<int>(is_above(a, p)) - static_cast<int>(is_above(b, p));
+      side = downwards != 0 ? downwards : a.x() > b.x() ? 1 : -1;
+    }
+    determinant = side > 0 ? std::abs(determinant) : -std::abs(determinant);
+  }
+  return std::atan2(determinant, dot);
+}
+
+bool touches(const Vec2& a, const Vec2& b, const Vec2& p, double tolerance)
+{
+  if (std::min(a.x(), b.x()) - p.x() > tolerance || p.x() - std::max(a.x(), b.x()) > tolerance ||
+    std::min(a.y(), b.y()) - p.y() > tolerance || p.y() - std::max(a.y(), b.y()) > tolerance)
+  {
+    return false;
+  }
+  const Vec2 ab = b - a;
+  const Vec2 ap = p - a;
+  const double length = ab.squaredNorm();
+  const double t = length > 0.0 ? std::clamp(ap.dot(ab) / length, 0.0, 1.0) : 0.0;
+  return (ap - t * ab).squaredNorm() <= tolerance * tolerance;
+}
+
+Vec2 in_frame(const ExactFrame& frame, const Vec2& p)
+{
+  return frame(Vec3(p.x(), p.y(), 0.0)).head<2>();
+}
+
+Status check_segments(PlanePointsView points, SegmentsView segments)
+{
+  for (Index e = 0; e < segments.rows(); ++e)
+  {
+    for (int k = 0; k < 2; ++k)
+    {
+      const Index v = segments(e, k);
+      if (v < 0 || v >= points.rows())
+      {
+        return Status::invalid_input("segment " + std::to_string(e) + " names vertex " +
+          std::to_string(v) + ", but there are " + std::to_string(points.rows()) + " vertices");
+      }
+      if (!points.row(v).allFinite())
+      {
+        return Status::invalid_input("vertex " + std::to_string(v) +
+          " has a coordinate that is not a finite number (used by segment " + std::to_string(e) +
+          ")");
+      }
+    }
+  }
+  if (segments.rows() > std::numeric_limits<Id>::max() / 4)
+  {
+    return Status::invalid_input(
+      "the curve has " + std::to_string(segments.rows()) + " segments, more than 2^29");
+  }
+  return {};
+}
+
+ExactFrame frame_of(PlanePointsView points, SegmentsView segments)
+{
+  Box box;
+  for (Index k = 0; k < segments.size(); ++k)
+  {
+    const Index v = segments.data()[k];
+    box.add(Vec3(points(v, 0), points(v, 1), 0.0));
+  }
+  return segments.size() ? ExactFrame(box) : ExactFrame();
+}
+
+struct Segment
+{
+  Id from, to;
+};
+
+struct Welded
+{
+  std::vector<Vec2> points; ///< in the frame, equal points once
+  std::vector<Segment> segments; ///< without those from a vertex to itself
+  Index merged_vertices = 0;
+};
+
+bool weld(PlanePointsView points, SegmentsView segments, const ExactFrame& frame,
+  ExecutionContext& context, Welded& welded)
+{
+  std::vector<char> used(static_cast<std::size_t>(points.rows()), 0);
+  for (Index k = 0; k < segments.size(); ++k)
+  {
+    used[segments.data()[k]] = 1;
+  }
+  struct Vertex
+  {
+    Vec2 at;
+    Index id;
+  };
+  std::vector<Vertex> vertices;
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    if (used[v])
+    {
+      vertices.push_back({ in_frame(frame, points.row(v)), v });
+    }
+  }
+  if (!parallel_sort(context, vertices,
+        [](const Vertex& x, const Vertex& y)
+        { return x.at.x() != y.at.x() ? x.at.x() < y.at.x() : x.at.y() < y.at.y(); }))
+  {
+    return false;
+  }
+  std::vector<Id> id_of(static_cast<std::size_t>(points.rows()), -1);
+  for (std::size_t i = 0; i < vertices.size(); ++i)
+  {
+    if (i == 0 || vertices[i].at != vertices[i - 1].at)
+    {
+      welded.points.push_back(vertices[i].at);
+    }
+    id_of[vertices[i].id] = static_cast<Id>(welded.points.size()) - 1;
+  }
+  welded.merged_vertices = static_cast<Index>(vertices.size() - welded.points.size());
+  for (Index e = 0; e < segments.rows(); ++e)
+  {
+    const Segment segment{ id_of[segments(e, 0)], id_of[segments(e, 1)] };
+    if (segment.from != segment.to)
+    {
+      welded.segments.push_back(segment);
+    }
+  }
+  return true;
+}
+
+/// Segments that join the same two vertices as another one before them, either way round.
+bool count_duplicates(
+  const std::vector<Segment>& segments, ExecutionContext& context, Index& duplicates)
+{
+  std::vector<std::array<Id, 2>> ends;
+  ends.reserve(segments.size());
+  for (const Segment& segment : segments)
+  {
+    ends.push_back({ std::min(segment.from, segment.to), std::max(segment.from, segment.to) });
+  }
+  if (!parallel_sort(context, ends, std::less<>()))
+  {
+    return false;
+  }
+  for (std::size_t i = 1; i < ends.size(); ++i)
+  {
+    duplicates += ends[i] == ends[i - 1];
+  }
+  return true;
+}
+
+/// What a vertex's segments say about it.
+struct Degree
+{
+  Id in = 0, out = 0;
+};
+
+/// One of the closed curves that the segments and the chords make.
+struct Loop
+{
+  Id first, last; ///< places on the path; the same vertex
+  bool open; ///< the last segment is a chord
+};
+
+/// Vertices along the loops, one loop after the other.
+void walk(const std::vector<Segment>& segments, const std::vector<Degree>& degrees,
+  std::vector<Id>& path, std::vector<Loop>& loops)
+{
+  // The segments that leave each vertex, in their own order.
+  std::vector<Id> next(degrees.size() + 1, 0);
+  for (std::size_t v = 0; v < degrees.size(); ++v)
+  {
+    next[v + 1] = next[v] + degrees[v].out;
+  }
+  const std::vector<Id> end(next.begin() + 1, next.end());
+  std::vector<Id> to(segments.size());
+  {
+    std::vector<Id> place = next;
+    for (const Segment& segment : segments)
+    {
+      to[place[segment.from]++] = segment.to;
+    }
+  }
+  const auto walk_from = [&](Id start)
+  {
+    const auto first = static_cast<Id>(path.size());
+    path.push_back(start);
+    for (Id at = start; next[at] < end[at];)
+    {
+      at = to[next[at]++];
+      path.push_back(at);
+    }
+    const bool open = path.back() != start;
+    if (open)
+    {
+      path.push_back(start);
+    }
+    loops.push_back({ first, static_cast<Id>(path.size()) - 1, open });
+  };
+  const auto count = static_cast<Id>(degrees.size());
+  for (Id v = 0; v < count; ++v)
+  {
+    for (Id surplus = degrees[v].out - degrees[v].in; surplus > 0; --surplus)
+    {
+      walk_from(v);
+    }
+  }
+  for (Id v = 0; v < count; ++v)
+  {
+    while (next[v] < end[v])
+    {
+      walk_from(v);
+    }
+  }
+}
+
+/// Open ends: a chord's start and end, and where the tree has it.
+struct Chord
+{
+  Vec2 start, end;
+  Id leaf;
+};
+
+/// A piece of a loop, a loop, or several loops.
+struct Node
+{
+  Vec2 lower, upper; ///< what touches lies inside
+  double first_y, last_y; ///< of a piece's ends; equal for loops
+  Id first, last; ///< places on the path of a piece's ends; equal for several loops
+  Id skip; ///< the node after this one's children
+  bool leaf;
+  bool ends_with_chord; ///< a leaf's last segment is one
+};
+
+/// The tree in the order in which a descent from the left meets its nodes.
+class TreeBuilder
+{
+public:
+  TreeBuilder(const std::vector<Vec2>& path, const std::vector<Loop>& loops, double margin,
+    ExecutionContext& context, std::vector<Node>& nodes, std::vector<Chord>& chords)
+    : path_(path), loops_(loops), margin_(margin), context_(context), nodes_(nodes), chords_(chords)
+  {
+  }
+
+  /// @return false when cancelled.
+  bool run()
+  {
+    for (const Loop& loop : this->loops_)
+    {
+      Vec2 lower = this->path_[loop.first];
+      Vec2 upper = lower;
+      for (Id i = loop.first; i < loop.last; ++i)
+      {
+        lower = lower.cwiseMin(this->path_[i]);
+        upper = upper.cwiseMax(this->path_[i]);
+      }
+      this->twice_centers_.emplace_back(lower + upper);
+    }
+    this->order_.resize(this->loops_.size());
+    std::iota(this->order_.begin(), this->order_.end(), 0);
+    if (!this->loops_.empty())
+    {
+      this->add_loops(0, static_cast<Id>(this->loops_.size()));
+    }
+    return !this->stopped_;
+  }
+
+private:
+  bool stopped(Id size)
+  {
+    constexpr Id large = 1 << 14; // a millisecond's work
+    this->stopped_ = this->stopped_ || (size >= large && this->context_.cancelled());
+    return this->stopped_;
+  }
+
+  void add_loops(Id begin, Id end)
+  {
+    if (this->stopped(end - begin))
+    {
+      return;
+    }
+    if (end - begin == 1)
+    {
+      const Loop& loop = this->loops_[this->order_[begin]];
+      this->add_piece(loop.first, loop.last, loop.open);
+      this->context_.progress(static_cast<double>(end) / static_cast<double>(this->loops_.size()));
+      return;
+    }
+    Vec2 lower = this->twice_centers_[this->order_[begin]];
+    Vec2 upper = lower;
+    for (Id i = begin; i < end; ++i)
+    {
+      lower = lower.cwiseMin(this->twice_centers_[this->order_[i]]);
+      upper = upper.cwiseMax(this->twice_centers_[this->order_[i]]);
+    }
+    int axis = 0;
+    (upper - lower).maxCoeff(&axis);
+    const Id middle = begin + (end - begin) / 2;
+    std::nth_element(this->order_.begin() + begin, this->order_.begin() + middle,
+      this->order_.begin() + end,
+      [&](Id x, Id y)
+      {
+        const double cx = this->twice_centers_[x][axis];
+        const double cy = this->twice_centers_[y][axis];
+        return cx != cy ? cx < cy : x < y;
+      });
+    const std::size_t node = this->nodes_.size();
+    this->nodes_.push_back({});
+    this->add_loops(begin, middle);
+    this->add_loops(middle, end);
+    this->finish(node);
+  }
+
+  void add_piece(Id first, Id last, bool ends_with_chord)
+  {
+    if (this->stopped(last - first))
+    {
+      return;
+    }
+    const std::size_t node = this->nodes_.size();
+    this->nodes_.push_back({});
+    this->nodes_[node].leaf = last - first <= most_in_leaf;
+    if (this->nodes_[node].leaf)
+    {
+      Node& leaf = this->nodes_[node];
+      leaf.ends_with_chord = ends_with_chord;
+      leaf.lower = leaf.upper = this->path_[first];
+      for (Id i = first; i <= last; ++i)
+      {
+        leaf.lower = leaf.lower.cwiseMin(this->path_[i]);
+        leaf.upper = leaf.upper.cwiseMax(this->path_[i]);
+      }
+      leaf.lower.array() -= this->margin_;
+      leaf.upper.array() += this->margin_;
+      leaf.skip = static_cast<Id>(node) + 1;
+      if (ends_with_chord)
+      {
+        this->chords_.push_back(
+          { this->path_[last], this->path_[last - 1], static_cast<Id>(node) });
+      }
+    }
+    else
+    {
+      const Id middle = first + (last - first) / 2;
+      this->add_piece(first, middle, false);
+      this->add_piece(middle, last, ends_with_chord);
+      this->finish(node);
+    }
+    this->nodes_[node].first = first;
+    this->nodes_[node].last = last;
+    this->nodes_[node].first_y = this->path_[first].y();
+    this->nodes_[node].last_y = this->path_[last].y();
+  }
+
+  /// Of a node whose children are there.
+  void finish(std::size_t node)
+  {
+    if (this->stopped_)
+    {
+      return;
+    }
+    Node& parent = this->nodes_[node];
+    const Node& left = this->nodes_[node + 1];
+    const Node& right = this->nodes_[left.skip];
+    parent.lower = left.lower.cwiseMin(right.lower);
+    parent.upper = left.upper.cwiseMax(right.upper);
+    parent.skip = static_cast<Id>(this->nodes_.size());
+  }
+
+  const std::vector<Vec2>& path_;
+  const std::vector<Loop>& loops_;
+  double margin_;
+  ExecutionContext& context_;
+  std::vector<Node>& nodes_;
+  std::vector<Chord>& chords_;
+  std::vector<Vec2> twice_centers_;
+  std::vector<Id> order_;
+  bool stopped_ = false;
+};
+
+/// By the shoelace formula about each loop's first point.
+double area_of(const std::vector<Vec2>& path, const std::vector<Loop>& loops)
+{
+  double two_areas = 0.0;
+  for (const Loop& loop : loops)
+  {
+    const Vec2& origin = path[loop.first];
+    for (Id i = loop.first + 1; i + 1 < loop.last; ++i)
+    {
+      const Vec2 a = path[i] - origin;
+      const Vec2 b = path[i + 1] - origin;
+      two_areas += a.x() * b.y() - a.y() * b.x();
+    }
+  }
+  return 0.5 * two_areas;
+}
+} // namespace
+
+struct CurveWindingNumber::Parts
+{
+  Status status;
+  ExactFrame frame;
+  std::vector<Vec2> path;
+  std::vector<Node> nodes;
+  std::vector<Chord> chords;
+
+  double at(const Vec2& query, bool& on_curve) const;
+  double at_touching(const Vec2& framed) const;
+  Vec2 gradient_at(const Vec2& query) const;
+};
+
+CurveWindingNumber::CurveWindingNumber() : parts_(new Parts) {}
+CurveWindingNumber::CurveWindingNumber(PlanePointsView points, SegmentsView segments)
+  : parts_(new Parts)
+{
+  ExecutionContext context;
+  this->build(points, segments, context);
+}
+CurveWindingNumber::~CurveWindingNumber() = default;
+CurveWindingNumber::CurveWindingNumber(CurveWindingNumber&&) noexcept = default;
+CurveWindingNumber& CurveWindingNumber::operator=(CurveWindingNumber&&) noexcept = default;
+
+Status CurveWindingNumber::build(
+  PlanePointsView points, SegmentsView segments, ExecutionContext& context)
+{
+  this->parts_.reset(new Parts);
+  Parts& parts = *this->parts_;
+  Status& status = parts.status;
+  status = check_segments(points, segments);
+  if (!status.ok())
+  {
+    return status;
+  }
+  parts.frame = frame_of(points, segments);
+  Welded welded;
+  Index duplicates = 0;
+  bool done = true;
+  {
+    const ProgressRange range(context, 0.0, 0.4);
+    done = weld(points, segments, parts.frame, context, welded);
+  }
+  if (done)
+  {
+    const ProgressRange range(context, 0.4, 0.7);
+    done = count_duplicates(welded.segments, context, duplicates);
+  }
+  if (done)
+  {
+    std::vector<Degree> degrees(welded.points.size());
+    Triangles flat(static_cast<Index>(welded.segments.size()), 3); // for connected_components
+    for (std::size_t e = 0; e < welded.segments.size(); ++e)
+    {
+      const Segment& segment = welded.segments[e];
+      degrees[segment.from].out += 1;
+      degrees[segment.to].in += 1;
+      flat.row(static_cast<Index>(e)) << segment.from, segment.to, segment.to;
+    }
+    Index boundary = 0, nonmanifold = 0, open = 0;
+    for (const Degree& degree : degrees)
+    {
+      boundary += degree.in + degree.out == 1;
+      nonmanifold += degree.in + degree.out > 2;
+      open += degree.in != degree.out;
+    }
+    Report& report = status.report;
+    report.set("method", "crossings");
+    report.set("counts.vertices", points.rows());
+    report.set("counts.segments", segments.rows());
+    report.set("counts.boundary_vertices", boundary);
+    report.set("counts.nonmanifold_vertices", nonmanifold);
+    report.set("counts.open_ends", open);
+    report.set("counts.components",
+      connected_components(static_cast<Index>(welded.points.size()), flat).count);
+    report.set("counts.merged_vertices", welded.merged_vertices);
+    report.set(
+      "counts.degenerate_segments", segments.rows() - static_cast<Index>(welded.segments.size()));
+    report.set("counts.duplicate_segments", duplicates);
+    if (welded.segments.empty())
+    {
+      status.warnings.push_back(segments.rows() == 0
+          ? "the curve has no segment: its winding number is 0 everywhere"
+          : "no segment has a length: the winding number is 0 everywhere");
+    }
+
+    std::vector<Id> vertices;
+    std::vector<Loop> loops;
+    walk(welded.segments, degrees, vertices, loops);
+    parts.path.reserve(vertices.size());
+    for (const Id v : vertices)
+    {
+      parts.path.push_back(welded.points[v]);
+    }
+    report.set("area", area_of(parts.path, loops) / parts.frame.scale / parts.frame.scale);
+    const ProgressRange range(context, 0.7, 1.0);
+    // Twice the tolerance: boxes are rounded.
+    done = TreeBuilder(
+      parts.path, loops, 2.0 * parts.frame.tolerance, context, parts.nodes, parts.chords)
+             .run();
+  }
+  if (!done)
+  {
+    this->parts_.reset(new Parts);
+    this->parts_->status = Status::cancelled();
+  }
+  return this->parts_->status;
+}
+
+const Status& CurveWindingNumber::status() const
+{
+  return this->parts_->status;
+}
+
+Index CurveWindingNumber::memory() const
+{
+  return static_cast<Index>(sizeof(Vec2) * this->parts_->path.size() +
+    sizeof(Node) * this->parts_->nodes.size() + sizeof(Chord) * this->parts_->chords.size());
+}
+
+double CurveWindingNumber::Parts::at(const Vec2& query, bool& on_curve) const
+{
+  on_curve = false;
+  if (!query.allFinite())
+  {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const Vec2 p = in_frame(this->frame, query);
+  if (!(p.cwiseAbs().maxCoeff() < far_away))
+  {
+    return 0.0;
+  }
+  Index whole = 0;
+  const auto count = static_cast<Id>(this->nodes.size());
+  for (Id n = 0; n < count;)
+  {
+    const Node& node = this->nodes[n];
+    if (p.x() < node.lower.x() || p.y() < node.lower.y() || p.y() > node.upper.y())
+    {
+      n = node.skip; // the ray misses the box
+    }
+    else if (p.x() > node.upper.x())
+    {
+      whole += static_cast<int>(node.first_y >= p.y()) - static_cast<int>(node.last_y >= p.y());
+      n = node.skip;
+    }
+    else
+    {
+      if (node.leaf)
+      {
+        const Id last_real = node.ends_with_chord ? node.last - 1 : node.last;
+        for (Id i = node.first; i < node.last; ++i)
+        {
+          const Vec2& a = this->path[i];
+          const Vec2& b = this->path[i + 1];
+          if (i < last_real && touches(a, b, p, this->frame.tolerance))
+          {
+            on_curve = true;
+            return this->at_touching(p);
+          }
+          whole += crossing(a, b, p);
+        }
+      }
+      ++n;
+    }
+  }
+  double angles = 0.0;
+  for (const Chord& chord : this->chords)
+  {
+    angles += signed_angle(chord.start, chord.end, p);
+  }
+  return static_cast<double>(whole) + angles / two_pi;
+}
+
+/// The angles of all segments that do not touch.
+double CurveWindingNumber::Parts::at_touching(const Vec2& p) const
+{
+  const auto outside = [&](const Node& node)
+  { return (p.array() < node.lower.array()).any() || (p.array() > node.upper.array()).any(); };
+  double angles = 0.0;
+  const auto count = static_cast<Id>(this->nodes.size());
+  for (Id n = 0; n < count;)
+  {
+    const Node& node = this->nodes[n];
+    if (outside(node))
+    {
+      if (node.first < node.last)
+      {
+        angles += signed_angle(this->path[node.first], this->path[node.last], p);
+      }
+      n = node.skip;
+      continue;
+    }
+    if (node.leaf)
+    {
+      const Id last_real = node.ends_with_chord ? node.last - 1 : node.last;
+      for (Id i = node.first; i < last_real; ++i)
+      {
+        if (!touches(this->path[i], this->path[i + 1], p, this->frame.tolerance))
+        {
+          angles += signed_angle(this->path[i], this->path[i + 1], p);
+        }
+      }
+    }
+    ++n;
+  }
+  // Chords in leaves that were looked into are not in the sum.
+  for (const Chord& chord : this->chords)
+  {
+    if (outside(this->nodes[chord.leaf]))
+    {
+      angles += signed_angle(chord.start, chord.end, p);
+    }
+  }
+  return angles / two_pi;
+}
+
+/// The angle from s to t seen from p is, but for whole turns, the difference of arg(t - p) and
+/// arg(s - p). With (X, Y) = v - p, d arg(v - p) = (X dY - Y dX) / (X^2 + Y^2), and (dX, dY) = -dp:
+/// its derivative along p is (Y, -X) / (X^2 + Y^2). Only open ends have a share: those of the
+/// segments in between cancel.
+Vec2 CurveWindingNumber::Parts::gradient_at(const Vec2& query) const
+{
+  if (!query.allFinite())
+  {
+    return Vec2::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+  const Vec2 p = in_frame(this->frame, query);
+  Vec2 sum = Vec2::Zero();
+  if (!(p.cwiseAbs().maxCoeff() < far_away))
+  {
+    return sum;
+  }
+  const auto end_share = [&](const Vec2& end) -> Vec2
+  {
+    const Vec2 to_end = end - p;
+    const double squared = to_end.squaredNorm();
+    if (squared <= this->frame.tolerance * this->frame.tolerance)
+    {
+      return Vec2::Zero();
+    }
+    return Vec2(to_end.y(), -to_end.x()) / squared;
+  };
+  for (const Chord& chord : this->chords)
+  {
+    sum += end_share(chord.end) - end_share(chord.start);
+  }
+  return this->frame.scale / two_pi * sum;
+}
+
+double CurveWindingNumber::evaluate_at(const Vec2& point, bool* on_curve) const
+{
+  bool touches_segment = false;
+  const double winding_number = this->parts_->at(point, touches_segment);
+  if (on_curve)
+  {
+    *on_curve = touches_segment;
+  }
+  return winding_number;
+}
+
+namespace
+{
+double nanoseconds_a_point(std::size_t chords)
+{
+  return 200.0 + 25.0 * static_cast<double>(chords);
+}
+} // namespace
+
+Status CurveWindingNumber::evaluate(
+  PlanePointsView queries, ExecutionContext& context, double* out, unsigned char* on_curve) const
+{
+  const Parts& parts = *this->parts_;
+  if (!parts.status.ok())
+  {
+    return parts.status;
+  }
+  return point_values(context, queries.rows(), nanoseconds_a_point(parts.chords.size()), out,
+    on_curve,
+    [&](Index begin, Index end, unsigned char* flags)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        bool touches = false;
+        out[i] = parts.at(queries.row(i), touches);
+        flags[i - begin] = touches;
+      }
+    });
+}
+
+Status CurveWindingNumber::evaluate(
+  PlanePointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const
+{
+  out.resize(queries.rows());
+  return this->evaluate(queries, context, out.data());
+}
+
+Status CurveWindingNumber::evaluate_gradient(
+  PlanePointsView queries, ExecutionContext& context, double* out) const
+{
+  const Parts& parts = *this->parts_;
+  if (!parts.status.ok())
+  {
+    return parts.status;
+  }
+  return point_gradients(context, queries.rows(), nanoseconds_a_point(parts.chords.size()),
+    [&](Index i) { Eigen::Map<Vec2>(out + 2 * i) = parts.gradient_at(queries.row(i)); });
+}
+
+double curve_winding_number_direct(
+  PlanePointsView points, SegmentsView segments, const Vec2& point, bool* on_curve)
+{
+  if (on_curve)
+  {
+    *on_curve = false;
+  }
+  if (!point.allFinite())
+  {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const ExactFrame frame = frame_of(points, segments);
+  const Vec2 p = in_frame(frame, point);
+  if (!(p.cwiseAbs().maxCoeff() < far_away))
+  {
+    return 0.0;
+  }
+  double angles = 0.0;
+  for (Index e = 0; e < segments.rows(); ++e)
+  {
+    const Vec2 a = in_frame(frame, points.row(segments(e, 0)));
+    const Vec2 b = in_frame(frame, points.row(segments(e, 1)));
+    if (a == b)
+    {
+      continue;
+    }
+    if (!touches(a, b, p, frame.tolerance))
+    {
+      angles += signed_angle(a, b, p);
+    }
+    else if (on_curve)
+    {
+      *on_curve = true;
+    }
+  }
+  return angles / two_pi;
+}
+
+} // namespace bindpose

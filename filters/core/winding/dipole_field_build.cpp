@@ -1,0 +1,1245 @@
+// Sources: the triangles are sorted into a binary tree whose leaves are blocks of up to eight. The
+// multipoles of a block are integrals over its triangles of the derivative of the regular harmonics
+// along the normal, polynomials, by a quadrature that is exact for them; those of a node are its
+// children's, moved.
+//
+// Cells: an octree over a cube around everything. From the top down, each cell goes through the
+// nodes that its parent could not settle. A node far enough away enters the cell's local expansion
+// (of harmonic polynomials), a large one is replaced by its children, what remains is left to the
+// cell's children. A cell is not split further when few blocks remain or when it is small against
+// them: these are its near list. Only leaves are kept.
+//
+// "Far enough": the terms left out are estimated by the powers of the node's multipoles (Dehnen
+// 2014, equation 15) and must stay below a threshold. Built, the field is compared with the plain
+// sum on a sample, most of it where the estimates say that the error is largest; where it is above
+// half the tolerance, the cells are built again with a lower threshold.
+#include "winding/dipole_field.h"
+
+#include "base/parallel.h"
+#include "winding/local_polynomial.h"
+#include "winding/solid_harmonics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr double four_pi = 12.566370614359172954;
+/// A near list of this many blocks is no reason to split a cell.
+constexpr Index few_blocks = 2;
+struct Tuning
+{
+  double tolerance;
+  int order;
+  double finest_cell;
+};
+/// Measured. Up to order 7 a polynomial is as dear as one of order 7.
+constexpr Tuning tunings[] = { { 1e-2, 4, 0.8 }, { 2e-3, 6, 0.8 }, { 1e-3, 7, 0.8 },
+  { 1e-4, 7, 0.8 }, { 1e-5, 9, 0.8 }, { 1e-6, 11, 0.8 }, { 0.0, 13, 1.0 } };
+/// Finer cells take 1.2 times less time and twice the memory: for fields of up to so many blocks
+/// they are this much finer.
+constexpr Index small_field = 2048;
+constexpr double finer = 0.75;
+/// Threshold of an interaction, in tolerances: the estimates are upper ends, errors of many
+/// interactions hardly add up, and where they do the sample tells.
+constexpr double first_threshold = 1.2;
+/// Outside the cells, in thresholds: there are few interactions, and the estimate has no cell's
+/// radius in it that makes it larger than need be.
+constexpr double outer_share = 0.2;
+/// Largest error on the sample, in tolerances: the rest is left to places that were not tried.
+constexpr double wanted_error = 0.5;
+/// From this tolerance on floats do, unless sums in floats err by more than this share of it: of a
+/// thousand triangles at one place.
+constexpr double float_tolerance = 9e-5;
+constexpr double largest_float_error = 0.1;
+
+/// Gauss-Legendre nodes and weights on [0, 1].
+void gauss_legendre(int count, std::vector<double>& nodes, std::vector<double>& weights)
+{
+  nodes.resize(static_cast<std::size_t>(count));
+  weights.resize(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i)
+  {
+    double x = std::cos(0.25 * four_pi * (i + 0.75) / (count + 0.5));
+    double slope = 1.0;
+    for (int round = 0; round < 50; ++round)
+    {
+      double p0 = 1.0, p1 = x;
+      for (int n = 2; n <= count; ++n)
+      {
+        const double p2 = ((2.0 * n - 1.0) * x * p1 - (n - 1.0) * p0) / n;
+        p0 = p1;
+        p1 = p2;
+      }
+      slope = count * (x * p1 - p0) / (x * x - 1.0);
+      const double step = p1 / slope;
+      x -= step;
+      if (std::abs(step) < 1e-15)
+      {
+        break;
+      }
+    }
+    nodes[i] = 0.5 * (1.0 + x);
+    weights[i] = 1.0 / ((1.0 - x * x) * slope * slope);
+  }
+}
+
+/// (n - m)! (n + m)! of the power of a multipole, m and -m together.
+double power_weight(int n, int m)
+{
+  return (m ? 2.0 : 1.0) * std::tgamma(n - m + 1.0) * std::tgamma(n + m + 1.0);
+}
+} // namespace
+
+struct DipoleField::Build
+{
+  struct Node
+  {
+    Vec3 center = Vec3::Zero();
+    double radius = 0.0;
+    Id first = 0, count = 0; ///< triangles in order while building, then blocks
+    Id left = -1, right = -1;
+    double block_radius = 0.0; ///< mean over its blocks
+    double share = 1.0; ///< of the error that a node may make
+    int height = 0;
+  };
+  /// Sum of the estimates of a cell's interactions, and where those come from.
+  struct Doubt
+  {
+    double size = 0.0;
+    Vec3 pull = Vec3::Zero();
+  };
+  struct DoubtfulLeaf
+  {
+    Doubt doubt;
+    Vec3 center;
+    double half; ///< of its size
+  };
+  /// What one top cell gives.
+  struct Subtree
+  {
+    std::vector<Id> cells{ 0 };
+    std::vector<double> locals;
+    std::vector<Id> run_count; ///< of each leaf
+    std::vector<BlockRun> runs;
+    std::vector<DoubtfulLeaf> leaves;
+  };
+  /// A cell's place among those of its level.
+  struct CellPlace
+  {
+    int level;
+    Id at[3];
+  };
+  /// Room for one thread's work.
+  struct Scratch
+  {
+    Harmonics at, in, out, children;
+    std::array<Id, harmonic_lanes> batch{};
+    int batched = 0;
+    Doubt doubt;
+    std::vector<Id> stack;
+    std::vector<std::vector<Id>> lists; ///< a level's unsettled nodes
+    std::vector<std::vector<double>> locals; ///< a level's eight children
+  };
+
+  Build(DipoleField& owner, ExecutionContext& run, const Options& wanted)
+    : field(owner), context(run), options(wanted)
+  {
+  }
+
+  bool run(const Triangles& triangles, const std::vector<int>& multiplicities);
+  void take(const Triangles& triangles, const std::vector<int>& multiplicities);
+  void cut_long_triangles();
+  bool sort_triangles();
+  Id split(Id first, Id count);
+  template <typename Real>
+  void fill_blocks(std::vector<TriangleBlock<Real>>& blocks);
+  bool find_multipoles();
+  void block_multipole(const Node& node, Scratch& scratch, double* moments) const;
+  void find_bounds();
+  double error(Id node, double distance, double radius) const;
+  void place_cells();
+  void find_outer();
+  void add_outer(Id node);
+  bool fill_cells();
+  void fill(Subtree& tree, const CellPlace& cell, std::size_t entry, const double* local,
+    const Doubt& inherited_doubt, const std::vector<Id>& inherited, Scratch& scratch,
+    std::size_t depth);
+  bool settle(Id node, const Vec3& center, double radius, Scratch& scratch) const;
+  void flush(const Vec3& center, Scratch& scratch) const;
+  void emit_leaf(Subtree& tree, std::size_t entry, double half, const std::vector<double>& local,
+    const std::vector<Id>& near) const;
+  double measure();
+
+  Vec3 point(Id id) const
+  {
+    const Id own = static_cast<Id>(this->field.points_->rows());
+    return id < own ? Vec3(this->field.points_->row(id)) : this->field.extra_points_[id - own];
+  }
+  Corners corners(Id t) const
+  {
+    return { this->point(this->ids[t][0]), this->point(this->ids[t][1]),
+      this->point(this->ids[t][2]) };
+  }
+  int count_of_moments() const { return 2 * harmonic_count(this->field.order_ + 1); }
+
+  DipoleField& field;
+  ExecutionContext& context;
+  const Options& options;
+  double finest_cell = 1.0;
+  double threshold = 0.0; // of an interaction's estimate
+  std::vector<std::array<Id, 3>> ids;
+  std::vector<int> multiplicities_of;
+  std::vector<int> weights; // of the lanes of blocks
+  std::vector<Vec3> centers; // of triangles
+  std::vector<Id> order;
+  std::vector<Node> nodes;
+  std::vector<double> moments; // real and imaginary of each (n, m), node after node
+  std::vector<double> bounds; // order + 2 numbers a node
+  std::vector<double> nodes_of_quadrature, weights_of_quadrature;
+  std::vector<DoubtfulLeaf> doubtful; // leaves
+  double float_error = 0.0; // of sums in floats
+};
+
+void DipoleField::Build::take(const Triangles& triangles, const std::vector<int>& multiplicities)
+{
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    if (multiplicities[t] != 0)
+    {
+      this->ids.push_back({ static_cast<Id>(triangles(t, 0)), static_cast<Id>(triangles(t, 1)),
+        static_cast<Id>(triangles(t, 2)) });
+      this->multiplicities_of.push_back(multiplicities[t]);
+    }
+  }
+}
+
+// A long sliver among short ones is near to everything along it. Its halves are not; together they
+// are the same triangle. Cut are the longest ones first, while that makes few more of them.
+void DipoleField::Build::cut_long_triangles()
+{
+  const std::size_t count = this->ids.size();
+  if (count <= 64)
+  {
+    return;
+  }
+  double area = 0.0;
+  std::vector<double> longest(count);
+  for (std::size_t t = 0; t < count; ++t)
+  {
+    const Corners c = this->corners(static_cast<Id>(t));
+    area += 0.5 * (c[1] - c[0]).cross(c[2] - c[0]).norm();
+    longest[t] = std::sqrt(std::max(
+      { (c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(), (c[0] - c[2]).squaredNorm() }));
+  }
+  const double shortest_cut = 2.5 * std::sqrt(2.0 * area / static_cast<double>(count));
+  const std::size_t most = std::max(2 * count, std::min<std::size_t>(8 * count, 8192));
+  // A triangle of length x gives about x / limit pieces.
+  double limit = *std::max_element(longest.begin(), longest.end());
+  const auto pieces = [&](double length)
+  {
+    double sum = 0.0;
+    for (const double x : longest)
+    {
+      sum += x > length ? std::ceil(1.5 * x / length) : 1.0;
+    }
+    return sum;
+  };
+  while (limit * 0.75 > shortest_cut && pieces(limit * 0.75) <= static_cast<double>(most))
+  {
+    limit *= 0.75;
+  }
+  const auto own = static_cast<Id>(this->field.points_->rows());
+  for (std::size_t t = 0; t < this->ids.size() && this->ids.size() < most; ++t)
+  {
+    for (bool again = true; again;)
+    {
+      const Corners c = this->corners(static_cast<Id>(t));
+      int edge = 0;
+      double length = 0.0;
+      for (int k = 0; k < 3; ++k)
+      {
+        const double x = (c[(k + 1) % 3] - c[k]).norm();
+        if (x > length)
+        {
+          length = x;
+          edge = k;
+        }
+      }
+      again = length > limit && this->ids.size() < most;
+      if (again)
+      {
+        const Id middle = own + static_cast<Id>(this->field.extra_points_.size());
+        this->field.extra_points_.push_back(0.5 * (c[edge] + c[(edge + 1) % 3]));
+        std::array<Id, 3> other = this->ids[t];
+        this->ids[t][(edge + 1) % 3] = middle;
+        other[edge] = middle;
+        this->ids.push_back(other);
+        this->multiplicities_of.push_back(this->multiplicities_of[t]);
+      }
+    }
+  }
+}
+
+bool DipoleField::Build::sort_triangles()
+{
+  const auto count = static_cast<Id>(this->ids.size());
+  this->centers.resize(this->ids.size());
+  for (Id t = 0; t < count; ++t)
+  {
+    const Corners c = this->corners(t);
+    this->centers[t] = (c[0] + c[1] + c[2]) / 3.0;
+  }
+  this->order.resize(this->ids.size());
+  std::iota(this->order.begin(), this->order.end(), 0);
+  this->split(0, count);
+  if (this->context.cancelled())
+  {
+    return false;
+  }
+  // Leaves become blocks, from left to right.
+  Id blocks = 0;
+  for (std::size_t n = 0; n < this->nodes.size(); ++n)
+  {
+    Node& node = this->nodes[n];
+    if (node.left < 0)
+    {
+      for (int i = 0; i < triangle_lanes; ++i)
+      {
+        // Empty lanes repeat the last triangle with weight 0.
+        const Id t = this->order[node.first + std::min<Id>(i, node.count - 1)];
+        this->field.ids_.push_back(this->ids[t]);
+        this->weights.push_back(i < node.count ? this->multiplicities_of[t] : 0);
+      }
+      node.first = blocks++;
+      node.count = 1;
+      node.block_radius = node.radius;
+    }
+  }
+  for (std::size_t n = this->nodes.size(); n-- > 0;)
+  {
+    Node& node = this->nodes[n];
+    if (node.left >= 0)
+    {
+      const Node& a = this->nodes[node.left];
+      const Node& b = this->nodes[node.right];
+      node.first = a.first;
+      node.count = a.count + b.count;
+      node.height = 1 + std::max(a.height, b.height);
+      node.block_radius =
+        (a.block_radius * a.count + b.block_radius * b.count) / static_cast<double>(node.count);
+      node.radius = std::min(node.radius,
+        std::max(
+          (a.center - node.center).norm() + a.radius, (b.center - node.center).norm() + b.radius));
+    }
+  }
+  // Parts as large as the whole see a point as the whole does: their errors add up to its.
+  for (const Node& node : this->nodes)
+  {
+    for (const Id id : { node.left, node.right })
+    {
+      if (id >= 0)
+      {
+        Node& child = this->nodes[id];
+        const bool as_large = child.radius > 0.9 * node.radius;
+        child.share = as_large ? node.share * child.count / node.count : node.share;
+      }
+    }
+  }
+  return true;
+}
+
+// Where to cut is where the groups are small: the sum over both sides of (blocks x squared size).
+std::int32_t DipoleField::Build::split(Id first, Id count)
+{
+  Box box, box_of_centers;
+  const auto add_triangle = [&](Box& to, Id t)
+  {
+    for (const Vec3& corner : this->corners(t))
+    {
+      to.add(corner);
+    }
+  };
+  for (Id i = first; i < first + count; ++i)
+  {
+    add_triangle(box, this->order[i]);
+    box_of_centers.add(this->centers[this->order[i]]);
+  }
+  const auto id = static_cast<Id>(this->nodes.size());
+  Node node;
+  node.first = first;
+  node.count = count;
+  node.center = box.center();
+  double radius2 = 0.0;
+  for (Id i = first; i < first + count; ++i)
+  {
+    for (const Vec3& corner : this->corners(this->order[i]))
+    {
+      radius2 = std::max(radius2, (corner - node.center).squaredNorm());
+    }
+  }
+  // Who touches a triangle is not far from it.
+  node.radius = std::sqrt(radius2) + 2.0 * this->field.touch_tolerance_;
+  this->nodes.push_back(node);
+  int axis = 0;
+  const double longest = box_of_centers.size().maxCoeff(&axis);
+  if (count == 1 || !(longest > 0.0) || (count > 4096 && this->context.cancelled()))
+  {
+    if (count <= triangle_lanes || this->context.cancelled())
+    {
+      return id;
+    }
+  }
+  const auto blocks = [](Id triangles)
+  { return static_cast<double>((triangles + triangle_lanes - 1) / triangle_lanes); };
+  const auto begin = this->order.begin() + first;
+  const auto before = [&](Id s, Id t)
+  {
+    const double x = this->centers[s][axis];
+    const double y = this->centers[t][axis];
+    return x != y ? x < y : s < t;
+  };
+  double best = 1e300;
+  Id cut = 0;
+  if (count <= 64)
+  {
+    std::sort(begin, begin + count, before);
+    double below[64];
+    Box side;
+    for (Id i = 0; i + 1 < count; ++i)
+    {
+      add_triangle(side, begin[i]);
+      below[i + 1] = side.size().squaredNorm();
+    }
+    side = Box();
+    for (Id i = count - 1; i > 0; --i)
+    {
+      add_triangle(side, begin[i]);
+      const double cost = below[i] * blocks(i) + side.size().squaredNorm() * blocks(count - i);
+      if (cost < best)
+      {
+        best = cost;
+        cut = i;
+      }
+    }
+    if (count <= triangle_lanes && !(best < 0.2 * box.size().squaredNorm()))
+    {
+      return id;
+    }
+  }
+  else
+  {
+    constexpr int bins = 32;
+    std::array<Box, bins> boxes;
+    std::array<Id, bins> counts{};
+    const auto bin_of = [&](Id t)
+    {
+      const double x = (this->centers[t][axis] - box_of_centers.lower[axis]) / longest;
+      return longest > 0.0 ? std::clamp(static_cast<int>(x * bins), 0, bins - 1) : 0;
+    };
+    for (Id i = 0; i < count; ++i)
+    {
+      const int bin = bin_of(begin[i]);
+      add_triangle(boxes[bin], begin[i]);
+      counts[bin] += 1;
+    }
+    const auto join = [](Box& to, const Box& other)
+    {
+      if (!other.empty())
+      {
+        to.add(other.lower);
+        to.add(other.upper);
+      }
+    };
+    std::array<double, bins> above{};
+    Box side;
+    for (int b = bins - 1; b > 0; --b)
+    {
+      join(side, boxes[b]);
+      above[b] = side.size().squaredNorm();
+    }
+    side = Box();
+    Id so_far = 0;
+    for (int b = 1; b < bins; ++b)
+    {
+      join(side, boxes[b - 1]);
+      so_far += counts[b - 1];
+      const double cost =
+        side.size().squaredNorm() * blocks(so_far) + above[b] * blocks(count - so_far);
+      if (so_far > 0 && so_far < count && cost < best)
+      {
+        best = cost;
+        cut = so_far;
+      }
+    }
+    cut = cut ? cut : count / 2;
+    // Whole blocks to the left where that moves few triangles.
+    const Id whole = cut / triangle_lanes * triangle_lanes;
+    cut = whole > 0 && count > 512 ? whole : cut;
+    std::nth_element(begin, begin + cut, begin + count, before);
+  }
+  const Id left = this->split(first, cut);
+  const Id right = this->split(first + cut, count - cut);
+  this->nodes[id].left = left;
+  this->nodes[id].right = right;
+  return id;
+}
+
+template <typename Real>
+void DipoleField::Build::fill_blocks(std::vector<TriangleBlock<Real>>& blocks)
+{
+  blocks.resize(this->field.ids_.size() / triangle_lanes);
+  for (const Node& node : this->nodes)
+  {
+    if (node.left >= 0)
+    {
+      continue;
+    }
+    TriangleBlock<Real>& block = blocks[node.first];
+    // Not below what cubes of lengths in floats can hold.
+    block.inverse_size = 1.0 / std::max(node.radius, 1e-6);
+    for (int k = 0; k < 3; ++k)
+    {
+      block.center[k] = node.center[k];
+    }
+    for (int i = 0; i < triangle_lanes; ++i)
+    {
+      const Index slot = static_cast<Index>(node.first) * triangle_lanes + i;
+      const Corners c = this->field.corners(slot);
+      for (int k = 0; k < 9; ++k)
+      {
+        block.corner[k][i] =
+          static_cast<Real>((c[k / 3][k % 3] - node.center[k % 3]) * block.inverse_size);
+      }
+      block.weight[i] = static_cast<Real>(this->weights[slot]);
+      block.single = (i == 0 || block.single) && std::abs(this->weights[slot]) <= 1;
+    }
+  }
+}
+
+void DipoleField::Build::block_multipole(const Node& node, Scratch& scratch, double* out) const
+{
+  const int degree = this->field.order_; // of the integrands
+  HarmonicLanes corner[3][3], normal[3], at[3];
+  for (int i = 0; i < harmonic_lanes; ++i)
+  {
+    const Index slot = static_cast<Index>(node.first) * triangle_lanes + i;
+    const Corners c = this->field.corners(slot);
+    const Vec3 area = (c[1] - c[0]).cross(c[2] - c[0]) * (-this->weights[slot] / four_pi);
+    for (int k = 0; k < 3; ++k)
+    {
+      for (int v = 0; v < 3; ++v)
+      {
+        corner[v][k].lane[i] = c[v][harmonic_axes[k]] - node.center[harmonic_axes[k]];
+      }
+      normal[k].lane[i] = area[harmonic_axes[k]];
+    }
+  }
+  Harmonics& sum = scratch.in;
+  sum.clear(degree);
+  const std::size_t points = this->nodes_of_quadrature.size();
+  for (std::size_t a = 0; a < points; ++a)
+  {
+    for (std::size_t b = 0; b < points; ++b)
+    {
+      const double u = this->nodes_of_quadrature[a];
+      const double v = this->nodes_of_quadrature[b] * (1.0 - u);
+      const double w = this->weights_of_quadrature[a] * this->weights_of_quadrature[b] * (1.0 - u);
+      for (int k = 0; k < 3; ++k)
+      {
+        for (int i = 0; i < harmonic_lanes; ++i)
+        {
+          at[k].lane[i] = corner[0][k].lane[i] * (1.0 - u - v) + corner[1][k].lane[i] * u +
+            corner[2][k].lane[i] * v;
+        }
+      }
+      regular_harmonics(degree, at, scratch.at);
+      for (int c = 0; c < harmonic_count(degree); ++c)
+      {
+        for (int i = 0; i < harmonic_lanes; ++i)
+        {
+          sum.real[c].lane[i] += w * scratch.at.real[c].lane[i];
+          sum.imaginary[c].lane[i] += w * scratch.at.imaginary[c].lane[i];
+        }
+      }
+    }
+  }
+  scratch.out.clear(degree + 1);
+  regular_derivative(degree + 1, sum, normal, scratch.out);
+  for (int c = 0; c < harmonic_count(degree + 1); ++c)
+  {
+    double re = 0.0, im = 0.0;
+    for (int i = 0; i < harmonic_lanes; ++i)
+    {
+      re += scratch.out.real[c].lane[i];
+      im += scratch.out.imaginary[c].lane[i];
+    }
+    out[2 * c] = re;
+    out[2 * c + 1] = im;
+  }
+}
+
+bool DipoleField::Build::find_multipoles()
+{
+  const int stride = this->count_of_moments();
+  const int degree = this->field.order_ + 1;
+  this->moments.assign(this->nodes.size() * static_cast<std::size_t>(stride), 0.0);
+  gauss_legendre(
+    (this->field.order_ + 3) / 2, this->nodes_of_quadrature, this->weights_of_quadrature);
+  // Nodes by height, so that children are done before their parents.
+  int height = 0;
+  for (const Node& node : this->nodes)
+  {
+    height = std::max(height, node.height);
+  }
+  std::vector<std::vector<Id>> levels(static_cast<std::size_t>(height) + 1);
+  for (std::size_t n = 0; n < this->nodes.size(); ++n)
+  {
+    levels[this->nodes[n].height].push_back(static_cast<Id>(n));
+  }
+  if (!parallel_for(this->context, static_cast<Index>(levels[0].size()), 256,
+        [&](Index begin, Index end)
+        {
+          const auto scratch = std::make_unique<Scratch>();
+          for (Index i = begin; i < end; ++i)
+          {
+            const Id n = levels[0][i];
+            this->block_multipole(
+              this->nodes[n], *scratch, &this->moments[std::size_t(n) * stride]);
+          }
+        }))
+  {
+    return false;
+  }
+  for (int h = 1; h <= height; ++h)
+  {
+    // Four parents, eight children at a time.
+    const std::vector<Id>& level = levels[h];
+    if (!parallel_for(this->context, static_cast<Index>(level.size()), 128,
+          [&](Index begin, Index end)
+          {
+            const auto scratch = std::make_unique<Scratch>();
+            for (Index i = begin; i < end; i += harmonic_lanes / 2)
+            {
+              HarmonicLanes shift[3];
+              for (int lane = 0; lane < harmonic_lanes; ++lane)
+              {
+                const Node& parent = this->nodes[level[std::min(end - 1, i + lane / 2)]];
+                const Id child = lane % 2 ? parent.right : parent.left;
+                const Vec3 by = this->nodes[child].center - parent.center;
+                for (int k = 0; k < 3; ++k)
+                {
+                  shift[k].lane[lane] = by[harmonic_axes[k]];
+                }
+                const double* from = &this->moments[std::size_t(child) * stride];
+                for (int c = 0; 2 * c < stride; ++c)
+                {
+                  scratch->in.real[c].lane[lane] = from[2 * c];
+                  scratch->in.imaginary[c].lane[lane] = from[2 * c + 1];
+                }
+              }
+              regular_harmonics(degree, shift, scratch->at);
+              scratch->out.clear(degree);
+              multipole_to_multipole(degree, scratch->at, scratch->in, scratch->out);
+              for (int p = 0; p < harmonic_lanes / 2 && i + p < end; ++p)
+              {
+                double* to = &this->moments[std::size_t(level[i + p]) * stride];
+                for (int c = 0; 2 * c < stride; ++c)
+                {
+                  to[2 * c] =
+                    scratch->out.real[c].lane[2 * p] + scratch->out.real[c].lane[2 * p + 1];
+                  to[2 * c + 1] = scratch->out.imaginary[c].lane[2 * p] +
+                    scratch->out.imaginary[c].lane[2 * p + 1];
+                }
+              }
+            }
+          }))
+    {
+      return false;
+    }
+  }
+  this->find_bounds();
+  return true;
+}
+
+// Of the first total degree left out, N = order + 2: binomial(N, n) x power of degree n, for
+// n = 1 … N. The last power is not known; it is about the one before times the node's
+// radius, or the one before that (of a symmetric group every other power is 0).
+void DipoleField::Build::find_bounds()
+{
+  const int top = this->field.order_ + 2;
+  const int stride = this->count_of_moments();
+  this->bounds.resize(this->nodes.size() * static_cast<std::size_t>(top));
+  std::vector<double> weight(static_cast<std::size_t>(harmonic_count(top)));
+  for (int n = 1; n < top; ++n)
+  {
+    for (int m = 0; m <= n; ++m)
+    {
+      weight[harmonic_index(n, m)] = power_weight(n, m);
+    }
+  }
+  for (std::size_t i = 0; i < this->nodes.size(); ++i)
+  {
+    const double* moment = &this->moments[i * stride];
+    double* bound = &this->bounds[i * top];
+    double binomial = 1.0, power = 0.0, before = 0.0;
+    for (int n = 1; n <= top; ++n)
+    {
+      binomial *= static_cast<double>(top - n + 1) / n;
+      if (n < top)
+      {
+        before = power;
+        power = 0.0;
+        for (int m = 0; m <= n; ++m)
+        {
+          const int c = harmonic_index(n, m);
+          power +=
+            weight[c] * (moment[2 * c] * moment[2 * c] + moment[2 * c + 1] * moment[2 * c + 1]);
+        }
+        power = std::sqrt(power);
+      }
+      else
+      {
+        const double radius = this->nodes[i].radius;
+        power = std::max(power * radius, before * radius * radius);
+      }
+      bound[n - 1] = binomial * power;
+    }
+  }
+}
+
+/// Estimate, in shares, for a cell of that radius whose centre has that distance from the node's.
+double DipoleField::Build::error(Id node, double distance, double radius) const
+{
+  const int top = this->field.order_ + 2;
+  const double* bound = &this->bounds[std::size_t(node) * top];
+  const double inverse = 1.0 / distance;
+  // sum over n of bound(n) radius^(top - n) / distance^(top + 1)
+  double sum = 0.0, power = inverse;
+  for (int n = 0; n < top; ++n)
+  {
+    sum = sum * radius + bound[n];
+    power *= inverse;
+  }
+  // The degrees after the first one, as a geometric series.
+  const Node& of = this->nodes[node];
+  return sum * power / ((1.0 - (radius + of.radius) * inverse) * of.share);
+}
+
+void DipoleField::Build::place_cells()
+{
+  Box box = this->options.region;
+  for (const Node& node : this->nodes)
+  {
+    if (node.left < 0)
+    {
+      for (int i = 0; i < triangle_lanes; ++i)
+      {
+        for (const Vec3& corner :
+          this->field.corners(static_cast<Index>(node.first) * triangle_lanes + i))
+        {
+          box.add(corner);
+        }
+      }
+    }
+  }
+  const double size = box.size().maxCoeff();
+  this->field.size_ = size > 0.0 ? 1.25 * size : 1.0;
+  this->field.lower_ = box.center() - Vec3::Constant(0.5 * this->field.size_);
+  this->field.top_level_ = this->ids.size() < 1000 ? 2 : 3;
+}
+
+// Nodes as points outside the cells may need them: none below one that is always far enough.
+void DipoleField::Build::find_outer()
+{
+  this->field.outer_.clear();
+  this->field.outer_moments_.clear();
+  this->field.outer_threshold_ = outer_share * this->threshold;
+  this->add_outer(0);
+  this->field.outer_.shrink_to_fit();
+  this->field.outer_moments_.shrink_to_fit();
+}
+
+void DipoleField::Build::add_outer(Id id)
+{
+  const Node& node = this->nodes[id];
+  const int top = this->field.order_ + 2;
+  const int stride = this->count_of_moments();
+  const auto place = this->field.outer_.size();
+  OuterNode outer;
+  outer.center = node.center;
+  outer.radius = node.radius;
+  outer.bound = this->bounds[std::size_t(id) * top + top - 1] / node.share;
+  outer.blocks = { node.first, node.count };
+  this->field.outer_.push_back(outer);
+  const double* moment = &this->moments[std::size_t(id) * stride];
+  this->field.outer_moments_.insert(this->field.outer_moments_.end(), moment, moment + stride);
+  // How near such a point can come.
+  const Vec3 inside = node.center - this->field.lower_;
+  const double distance =
+    std::min(inside.minCoeff(), this->field.size_ - inside.maxCoeff()) * (1.0 - 1e-9);
+  const bool always =
+    distance > 1.05 * node.radius && this->error(id, distance, 0.0) <= this->field.outer_threshold_;
+  this->field.outer_[place].leaf = always || node.left < 0;
+  if (!this->field.outer_[place].leaf)
+  {
+    this->add_outer(node.left);
+    this->add_outer(node.right);
+  }
+  this->field.outer_[place].skip = static_cast<Id>(this->field.outer_.size());
+}
+
+/// True when the node is settled: entered into the cell's expansion, or replaced by its children.
+bool DipoleField::Build::settle(Id id, const Vec3& center, double radius, Scratch& scratch) const
+{
+  const Node& node = this->nodes[id];
+  const double distance = (center - node.center).norm();
+  if (!(distance > 1.05 * (radius + node.radius)))
+  {
+    return false;
+  }
+  const double error = this->error(id, distance, radius);
+  if (error <= this->threshold)
+  {
+    scratch.doubt.size += error;
+    scratch.doubt.pull += error / distance * (node.center - center);
+    scratch.batch[scratch.batched++] = id;
+    if (scratch.batched == harmonic_lanes)
+    {
+      this->flush(center, scratch);
+    }
+    return true;
+  }
+  return false;
+}
+
+void DipoleField::Build::flush(const Vec3& center, Scratch& scratch) const
+{
+  if (scratch.batched == 0)
+  {
+    return;
+  }
+  const int degree = this->field.order_ + 1;
+  const int stride = this->count_of_moments();
+  HarmonicLanes from[3];
+  for (int lane = 0; lane < harmonic_lanes; ++lane)
+  {
+    const bool used = lane < scratch.batched;
+    const Id id = scratch.batch[used ? lane : 0];
+    const Vec3 by = center - this->nodes[id].center;
+    const double* moment = &this->moments[std::size_t(id) * stride];
+    for (int k = 0; k < 3; ++k)
+    {
+      from[k].lane[lane] = by[harmonic_axes[k]];
+    }
+    for (int c = 1; 2 * c < stride; ++c)
+    {
+      scratch.in.real[c].lane[lane] = used ? moment[2 * c] : 0.0;
+      scratch.in.imaginary[c].lane[lane] = used ? moment[2 * c + 1] : 0.0;
+    }
+  }
+  irregular_harmonics(degree, from, scratch.at);
+  multipole_to_local(degree, scratch.at, scratch.in, scratch.out);
+  scratch.batched = 0;
+}
+
+void DipoleField::Build::fill(Subtree& tree, const CellPlace& cell, std::size_t entry,
+  const double* inherited_local, const Doubt& inherited_doubt, const std::vector<Id>& inherited,
+  Scratch& scratch, std::size_t depth)
+{
+  const int degree = this->field.order_;
+  const int count = harmonic_count(degree);
+  const double size = std::ldexp(this->field.size_, -cell.level);
+  const double radius = 0.8660254037844386 * size;
+  const Vec3 center =
+    this->field.lower_ + size * Vec3(cell.at[0] + 0.5, cell.at[1] + 0.5, cell.at[2] + 0.5);
+  if (scratch.lists.size() <= depth + 1)
+  {
+    scratch.lists.resize(depth + 2);
+    scratch.locals.resize(depth + 2);
+  }
+  std::vector<Id> near = std::move(scratch.lists[depth]);
+  near.clear();
+  scratch.out.clear(degree);
+  scratch.doubt = inherited_doubt;
+  std::vector<Id>& stack = scratch.stack;
+  const auto go_through = [&](Id root, double largest)
+  {
+    stack.assign(1, root);
+    while (!stack.empty())
+    {
+      const Id id = stack.back();
+      stack.pop_back();
+      if (this->settle(id, center, radius, scratch))
+      {
+        continue;
+      }
+      const Node& node = this->nodes[id];
+      if (node.left >= 0 && node.radius > largest)
+      {
+        stack.push_back(node.right);
+        stack.push_back(node.left);
+      }
+      else
+      {
+        near.push_back(id);
+      }
+    }
+  };
+  for (const Id id : inherited)
+  {
+    go_through(id, 0.5 * radius);
+  }
+  double blocks = 0.0, sizes = 0.0;
+  for (const Id id : near)
+  {
+    blocks += this->nodes[id].count;
+    sizes += this->nodes[id].block_radius * this->nodes[id].count;
+  }
+  const bool leaf = blocks <= static_cast<double>(few_blocks) || cell.level >= finest_level ||
+    radius * blocks <= this->finest_cell * sizes || radius < 1e-6 * this->field.size_;
+  if (leaf)
+  {
+    std::vector<Id> rest;
+    rest.swap(near);
+    for (const Id id : rest)
+    {
+      go_through(id, -1.0);
+    }
+  }
+  this->flush(center, scratch);
+  const Doubt doubt = scratch.doubt;
+  std::vector<double> local(2 * static_cast<std::size_t>(count));
+  for (int c = 0; c < count; ++c)
+  {
+    double re = 0.0, im = 0.0;
+    for (int i = 0; i < harmonic_lanes; ++i)
+    {
+      re += scratch.out.real[c].lane[i];
+      im += scratch.out.imaginary[c].lane[i];
+    }
+    local[2 * c] = inherited_local[2 * c] + re;
+    local[2 * c + 1] = inherited_local[2 * c + 1] + im;
+  }
+  if (leaf)
+  {
+    this->emit_leaf(tree, entry, 0.5 * size, local, near);
+    tree.leaves.push_back({ doubt, center, 0.5 * size });
+  }
+  else if (!this->context.cancelled())
+  {
+    HarmonicLanes shift[3];
+    for (int lane = 0; lane < harmonic_lanes; ++lane)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        shift[k].lane[lane] = (lane >> harmonic_axes[k] & 1 ? 0.25 : -0.25) * size;
+      }
+    }
+    for (int c = 0; c < count; ++c)
+    {
+      for (int lane = 0; lane < harmonic_lanes; ++lane)
+      {
+        scratch.in.real[c].lane[lane] = local[2 * c];
+        scratch.in.imaginary[c].lane[lane] = local[2 * c + 1];
+      }
+    }
+    regular_harmonics(degree, shift, scratch.at);
+    local_to_local(degree, scratch.at, scratch.in, scratch.children);
+    std::vector<double> children = std::move(scratch.locals[depth]);
+    children.resize(harmonic_lanes * 2 * static_cast<std::size_t>(count));
+    for (int lane = 0; lane < harmonic_lanes; ++lane)
+    {
+      for (int c = 0; c < count; ++c)
+      {
+        children[2 * (lane * count + c)] = scratch.children.real[c].lane[lane];
+        children[2 * (lane * count + c) + 1] = scratch.children.imaginary[c].lane[lane];
+      }
+    }
+    const std::size_t first = tree.cells.size();
+    tree.cells[entry] = static_cast<Id>(first);
+    tree.cells.resize(first + 8, 0);
+    for (int child = 0; child < 8; ++child)
+    {
+      const CellPlace place{ cell.level + 1,
+        { 2 * cell.at[0] + (child & 1), 2 * cell.at[1] + (child >> 1 & 1),
+          2 * cell.at[2] + (child >> 2) } };
+      this->fill(
+        tree, place, first + child, &children[2 * child * count], doubt, near, scratch, depth + 1);
+    }
+    scratch.locals[depth] = std::move(children);
+  }
+  scratch.lists[depth] = std::move(near);
+}
+
+void DipoleField::Build::emit_leaf(Subtree& tree, std::size_t entry, double half,
+  const std::vector<double>& local, const std::vector<Id>& near) const
+{
+  const int degree = this->field.order_;
+  tree.cells[entry] = ~static_cast<Id>(tree.run_count.size());
+  for (int l = 0; l <= degree; ++l)
+  {
+    for (int part = 0; part < (l > 0 ? 2 : 1); ++part)
+    {
+      double scale = std::pow(half, l) * (l > 0 ? 2.0 : 1.0);
+      for (int k = l; k <= degree; ++k)
+      {
+        tree.locals.push_back(scale * local[2 * harmonic_index(k, l) + part]);
+        scale *= half;
+      }
+    }
+  }
+  Id runs = 0;
+  for (const Id id : near)
+  {
+    const Node& node = this->nodes[id];
+    if (runs > 0 && tree.runs.back().first + tree.runs.back().count == node.first)
+    {
+      tree.runs.back().count += node.count;
+    }
+    else
+    {
+      tree.runs.push_back({ node.first, node.count });
+      ++runs;
+    }
+  }
+  tree.run_count.push_back(runs);
+}
+
+bool DipoleField::Build::fill_cells()
+{
+  DipoleField& f = this->field;
+  const Id across = 1 << f.top_level_;
+  const Index tops = static_cast<Index>(across) * across * across;
+  std::vector<Subtree> trees(static_cast<std::size_t>(tops));
+  const std::vector<double> nothing(2 * static_cast<std::size_t>(harmonic_count(f.order_)), 0.0);
+  const std::vector<Id> root(1, 0);
+  if (!parallel_for(this->context, tops, 1,
+        [&](Index begin, Index end)
+        {
+          const auto scratch = std::make_unique<Scratch>();
+          for (Index i = begin; i < end; ++i)
+          {
+            const auto at = static_cast<Id>(i);
+            this->fill(trees[i],
+              { f.top_level_, { at % across, at / across % across, at / across / across } }, 0,
+              nothing.data(), Doubt(), root, *scratch, 0);
+          }
+        }) ||
+    this->context.cancelled())
+  {
+    return false;
+  }
+  f.cells_.assign(static_cast<std::size_t>(tops), 0);
+  f.first_run_.clear();
+  f.runs_.clear();
+  f.float_locals_.clear();
+  f.double_locals_.clear();
+  this->doubtful.clear();
+  std::size_t cells = f.cells_.size(), leaves = 0, runs = 0;
+  for (const Subtree& tree : trees)
+  {
+    cells += tree.cells.size() - 1;
+    leaves += tree.run_count.size();
+    runs += tree.runs.size();
+  }
+  f.cells_.reserve(cells);
+  f.first_run_.reserve(leaves + 1);
+  f.runs_.reserve(runs);
+  const std::size_t coefficients = leaves * static_cast<std::size_t>(count_of_local(f.order_));
+  f.fine_ ? f.double_locals_.reserve(coefficients + polynomial_lanes)
+          : f.float_locals_.reserve(coefficients + polynomial_lanes);
+  Id run = 0;
+  for (Index i = 0; i < tops; ++i)
+  {
+    Subtree& tree = trees[i];
+    const auto offset = static_cast<Id>(f.cells_.size()) - 1;
+    const auto leaf_offset = static_cast<Id>(f.first_run_.size());
+    for (Id& entry : tree.cells)
+    {
+      entry = entry < 0 ? ~(~entry + leaf_offset) : entry + offset;
+    }
+    f.cells_[i] = tree.cells[0];
+    f.cells_.insert(f.cells_.end(), tree.cells.begin() + 1, tree.cells.end());
+    for (const Id count : tree.run_count)
+    {
+      f.first_run_.push_back(run);
+      run += count;
+    }
+    f.runs_.insert(f.runs_.end(), tree.runs.begin(), tree.runs.end());
+    this->doubtful.insert(this->doubtful.end(), tree.leaves.begin(), tree.leaves.end());
+    for (const double x : tree.locals)
+    {
+      f.fine_ ? f.double_locals_.push_back(x) : f.float_locals_.push_back(static_cast<float>(x));
+    }
+    tree = Subtree();
+  }
+  f.first_run_.push_back(run);
+  // The last row is read beyond its end.
+  f.fine_ ? f.double_locals_.resize(coefficients + polynomial_lanes)
+          : f.float_locals_.resize(coefficients + polynomial_lanes);
+  return true;
+}
+
+/// Largest error on points near triangles, all over the cells, around them, and where it must be
+/// feared: an expansion errs most at that corner of its cell which is next to what it holds.
+double DipoleField::Build::measure()
+{
+  DipoleField& f = this->field;
+  const Index blocks = f.block_count();
+  const BlockRun all{ 0, static_cast<Id>(blocks) };
+  const Index samples = std::clamp<Index>(2000000 / std::max<Index>(1, blocks), 256, 4096);
+  const Index feared = std::min<Index>(samples / 2, static_cast<Index>(this->doubtful.size()));
+  std::partial_sort(this->doubtful.begin(), this->doubtful.begin() + feared, this->doubtful.end(),
+    [](const DoubtfulLeaf& s, const DoubtfulLeaf& t)
+    {
+      return s.doubt.size != t.doubt.size ? s.doubt.size > t.doubt.size
+                                          : std::lexicographical_compare(s.center.begin(),
+                                              s.center.end(), t.center.begin(), t.center.end());
+    });
+  std::vector<double> errors(static_cast<std::size_t>(samples));
+  std::vector<double> float_errors(static_cast<std::size_t>(samples / 16 + 1), 0.0);
+  parallel_for(this->context, samples, 8,
+    [&](Index begin, Index end)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        // Low-discrepancy numbers: multiples of the powers of a root of x^4 = x + 1.
+        const double n = static_cast<double>(i) + 0.5;
+        Vec3 u(n * 0.8191725133961645, n * 0.6710436067037893, n * 0.5497004779019703);
+        u = u.unaryExpr([](double x) { return x - std::floor(x); });
+        Vec3 at;
+        if (i < feared)
+        {
+          const DoubtfulLeaf& leaf = this->doubtful[i];
+          for (int k = 0; k < 3; ++k)
+          {
+            at[k] = leaf.center[k] + (leaf.doubt.pull[k] > 0.0 ? 0.99 : -0.99) * leaf.half;
+          }
+        }
+        else if (i % 2)
+        {
+          const double beyond = i % 4 == 1 ? 0.5 : 0.01; // on each side
+          at = f.lower_ + f.size_ * ((1.0 + 2.0 * beyond) * u - Vec3::Constant(beyond));
+        }
+        else
+        {
+          const auto slot = std::min<Index>(blocks * triangle_lanes - 1,
+            static_cast<Index>(
+              n / static_cast<double>(samples) * static_cast<double>(blocks * triangle_lanes)));
+          const Corners c = f.corners(slot);
+          const Vec3 normal = (c[1] - c[0]).cross(c[2] - c[0]);
+          const double length = normal.norm();
+          at = (c[0] + c[1] + c[2]) / 3.0;
+          if (length > 0.0)
+          {
+            const double away = (i % 4 ? 1.0 : -1.0) * std::pow(20.0, u[0] - 1.0) * 2.0;
+            at += normal / length * away * std::sqrt(0.5 * length) + (u[1] - 0.5) * (c[1] - c[0]) +
+              (u[2] - 0.5) * (c[2] - c[0]);
+          }
+        }
+        bool touched = false;
+        const double sum = f.near_sum(&all, 1, at, touched);
+        errors[i] = std::abs(f.evaluate(at) - sum);
+        if (i % 16 == 0 && !f.fine_)
+        {
+          float_errors[i / 16] = std::abs(f.exact_sum(at) - sum);
+        }
+      }
+    });
+  this->float_error = *std::max_element(float_errors.begin(), float_errors.end());
+  return *std::max_element(errors.begin(), errors.end());
+}
+
+bool DipoleField::Build::run(const Triangles& triangles, const std::vector<int>& multiplicities)
+{
+  DipoleField& f = this->field;
+  this->take(triangles, multiplicities);
+  if (this->ids.empty())
+  {
+    return !this->context.cancelled();
+  }
+  const Tuning* tuning = tunings;
+  while (tuning->tolerance > this->options.tolerance)
+  {
+    ++tuning;
+  }
+  f.order_ = std::clamp(
+    this->options.order ? this->options.order : tuning->order, 2, largest_polynomial_order);
+  this->finest_cell =
+    this->options.finest_cell > 0.0 ? this->options.finest_cell : tuning->finest_cell;
+  f.fine_ = this->options.tolerance < float_tolerance;
+  this->cut_long_triangles();
+  {
+    const ProgressRange range(this->context, 0.0, 0.2);
+    if (!this->sort_triangles())
+    {
+      return false;
+    }
+  }
+  f.fine_ ? this->fill_blocks(f.double_blocks_) : this->fill_blocks(f.float_blocks_);
+  if (this->options.finest_cell <= 0.0 && f.block_count() <= small_field)
+  {
+    this->finest_cell *= finer;
+  }
+  {
+    const ProgressRange range(this->context, 0.2, 0.3);
+    if (!this->find_multipoles())
+    {
+      return false;
+    }
+  }
+  this->place_cells();
+  this->threshold = first_threshold * this->options.tolerance;
+  for (int round = 0;; ++round)
+  {
+    const ProgressRange range(this->context, 1.0 - 0.7 / (1 << round), 1.0 - 0.35 / (1 << round));
+    this->find_outer();
+    if (!this->fill_cells())
+    {
+      return false;
+    }
+    f.measured_error_ = this->measure();
+    if (this->context.cancelled())
+    {
+      return false;
+    }
+    const double wanted = wanted_error * this->options.tolerance;
+    if (this->float_error > largest_float_error * this->options.tolerance && !f.fine_)
+    {
+      f.fine_ = true;
+      this->fill_blocks(f.double_blocks_);
+      f.float_blocks_ = {};
+      continue;
+    }
+    if (f.measured_error_ <= wanted || round == 4)
+    {
+
+      return true;
+    }
+    this->threshold *= 0.8 * std::clamp(wanted / f.measured_error_, 0.02, 1.0);
+  }
+}
+
+bool DipoleField::build(const Points& points, const Triangles& triangles,
+  const std::vector<int>& multiplicities, double touch_tolerance, const Options& options,
+  ExecutionContext& context)
+{
+  *this = DipoleField();
+  this->points_ = &points;
+  this->touch_tolerance_ = touch_tolerance;
+  Build build(*this, context, options);
+  const bool done = build.run(triangles, multiplicities);
+  if (!done)
+  {
+    *this = DipoleField();
+  }
+  return done;
+}
+
+} // namespace bindpose

@@ -1,0 +1,145 @@
+// A cell starts as the square around the disc and is cut by the bisector of each neighbour; then
+// the part of the polygon inside the disc is measured: triangles with the centre for what lies
+// inside, sectors for what lies outside.
+#include "winding/point_areas.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+using Vec2 = Eigen::Vector2d;
+
+double cross(const Vec2& a, const Vec2& b)
+{
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Keeps the part of a convex polygon where x . towards <= limit.
+void cut(std::vector<Vec2>& polygon, const Vec2& towards, double limit, std::vector<Vec2>& room)
+{
+  room.clear();
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+  {
+    const Vec2& a = polygon[i];
+    const Vec2& b = polygon[(i + 1) % polygon.size()];
+    const double out_a = a.dot(towards) - limit;
+    const double out_b = b.dot(towards) - limit;
+    if (out_a <= 0.0)
+    {
+      room.push_back(a);
+    }
+    if ((out_a < 0.0 && out_b > 0.0) || (out_a > 0.0 && out_b < 0.0))
+    {
+      room.push_back(a + (out_a / (out_a - out_b)) * (b - a));
+    }
+  }
+  polygon.swap(room);
+}
+
+/// Signed area of the part of the triangle 0, a, b inside the disc of a radius about 0.
+double triangle_in_disc(const Vec2& a, const Vec2& b, double radius)
+{
+  const auto sector = [radius](const Vec2& from, const Vec2& to)
+  { return 0.5 * radius * radius * std::atan2(cross(from, to), from.dot(to)); };
+  const Vec2 along = b - a;
+  const double length = along.squaredNorm();
+  const double half = -a.dot(along);
+  const double root = half * half - length * (a.squaredNorm() - radius * radius);
+  if (!(root > 0.0) || length == 0.0)
+  {
+    return sector(a, b);
+  }
+  const double enters = std::max(0.0, (half - std::sqrt(root)) / length);
+  const double leaves = std::min(1.0, (half + std::sqrt(root)) / length);
+  if (enters >= leaves)
+  {
+    return sector(a, b);
+  }
+  const Vec2 in = a + enters * along;
+  const Vec2 out = a + leaves * along;
+  return (enters > 0.0 ? sector(a, in) : 0.0) + 0.5 * cross(in, out) +
+    (leaves < 1.0 ? sector(out, b) : 0.0);
+}
+
+/// Room for one thread's work.
+struct Scratch
+{
+  std::vector<PointTree::Neighbor> neighbors;
+  std::vector<Vec2> polygon, room;
+};
+
+double area_of(const Points& points, const Points& normals, PointTree::Id point, double tolerance,
+  Scratch& scratch)
+{
+  const Vec3 normal = normals.row(point);
+  if (scratch.neighbors.empty() || normal.isZero(0.0))
+  {
+    return 0.0;
+  }
+  const double radius = 0.5 * std::sqrt(scratch.neighbors.back().squared_distance);
+  if (2.0 * radius <= tolerance)
+  {
+    return 0.0;
+  }
+  const Vec3 right = normal.unitOrthogonal();
+  const Vec3 up = normal.cross(right);
+  scratch.polygon = { { -radius, -radius }, { radius, -radius }, { radius, radius },
+    { -radius, radius } };
+  int sharing = 1;
+  for (const PointTree::Neighbor& neighbor : scratch.neighbors)
+  {
+    if (normal.dot(normals.row(neighbor.point)) < 0.0)
+    {
+      continue;
+    }
+    const double distance = std::sqrt(neighbor.squared_distance);
+    if (distance <= tolerance)
+    {
+      ++sharing;
+      continue;
+    }
+    const Vec3 offset = (points.row(neighbor.point) - points.row(point)).transpose();
+    const Vec2 projected(offset.dot(right), offset.dot(up));
+    const double length = projected.norm();
+    constexpr double no_direction = 1e-9;
+    if (length > no_direction * distance)
+    {
+      cut(scratch.polygon, projected / length, 0.5 * distance, scratch.room);
+    }
+  }
+  double area = 0.0;
+  for (std::size_t i = 0; i < scratch.polygon.size(); ++i)
+  {
+    area += triangle_in_disc(
+      scratch.polygon[i], scratch.polygon[(i + 1) % scratch.polygon.size()], radius);
+  }
+  return area / sharing;
+}
+} // namespace
+
+bool estimate_point_areas(const Points& points, const Points& normals, const PointTree& tree,
+  Index neighbors, double tolerance, ExecutionContext& context, Eigen::VectorXd& areas)
+{
+  areas.setZero(points.rows());
+  constexpr Index block = 512;
+  return parallel_for(context, points.rows(), block,
+    [&](Index begin, Index end)
+    {
+      Scratch scratch;
+      for (Index i = begin; i < end; ++i)
+      {
+        // One after the other in the tree: the same boxes again and again.
+        const PointTree::Id point = tree.order()[i];
+        tree.nearest(points, point, neighbors, scratch.neighbors);
+        areas[point] = area_of(points, normals, point, tolerance, scratch);
+      }
+    });
+}
+
+} // namespace bindpose

@@ -1,0 +1,1093 @@
+// Each point is a dipole: its share at q is the derivative of the potential of a charge,
+// -m . grad (1 / |p - q|) with m = area n / (4 pi). Points are sorted into a tree, and each box of
+// it has multipoles about its centre, sums of the derivatives of the regular solid harmonics along
+// m. A point goes down the tree: boxes far enough away are seen as their multipoles, the points of
+// leaves that are not are summed one by one.
+//
+// "Far enough": the harmonics of degree n of a dipole m at y from the centre are at most
+// n |m| |y|^(n-1) / r^(n+1) at distance r (a zonal harmonic |y|^n P_n has no steeper slope than
+// n |y|^(n-1), by the inequality of Bernstein and Szego). With A = sum |m| |y|^order and all |y| at
+// most R, u = R / r < 1, what is left out after degree `order` is therefore at most
+//
+//   A / r^(order+2) (order + 1 + u / (1 - u)) / (1 - u)
+//
+// and a box is far enough where that is below a threshold, the same for all boxes. The bounds of
+// the boxes that a point sees are added up beside the value. Where they exceed the tolerance, the
+// point is evaluated again, with boxes farther away by the power of what is missing: so the
+// tolerance is kept at every point, and not only where it was tried. The threshold is found when
+// the tree is built, as the one that leaves next to no points to be evaluated again.
+//
+// Eight boxes or points are looked at beside each other, in lanes that do not mix until the sums
+// are added up, so that all machines give the same bits.
+#include "winding/point_cloud_winding_number.h"
+
+#include "base/parallel.h"
+#include "base/simd.h"
+#include "winding/exact_frame.h"
+#include "winding/point_areas.h"
+#include "winding/point_values.h"
+#include "winding/solid_harmonics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+namespace bindpose
+{
+
+namespace
+{
+using Id = PointTree::Id;
+constexpr double four_pi = 12.566370614359172954;
+/// Up to this many points their plain sum costs no more than the tree.
+constexpr Index few_points = 3000;
+constexpr Id leaf_size = 32;
+/// Beyond this distance, in units of the cloud, the winding number is 0 in double precision.
+constexpr double far_away = 1e100;
+/// Moments are kept below this, so that no sum overflows.
+constexpr double largest_moment = 1e100;
+/// Multipoles are not looked at from nearer than this: their powers would overflow.
+constexpr double nearest_multipole = 1e-12;
+
+struct Tuning
+{
+  double tolerance;
+  int order;
+};
+/// Measured on 100k points.
+constexpr Tuning tunings[] = { { 1e-2, 6 }, { 1e-3, 8 }, { 1e-5, 10 }, { 0.0, 12 } };
+
+/// Eight points with m = area n / (4 pi). Empty lanes repeat a point with m = 0.
+struct Dipoles
+{
+  HarmonicLanes at[3];
+  HarmonicLanes moment[3];
+};
+
+/// Eight boxes of the tree.
+struct Boxes
+{
+  HarmonicLanes center[3];
+  HarmonicLanes squared_reach; ///< seen as multipoles from farther than this; infinite when empty
+  HarmonicLanes bound; ///< of what multipoles leave out, times r^(order+2)
+  Id first_block[harmonic_lanes]; ///< of its dipoles
+  Id block_count[harmonic_lanes];
+  Id group[harmonic_lanes]; ///< what it is divided into; -1: a leaf
+};
+
+/// What the threshold's reach is found from.
+struct Extent
+{
+  double radius = 0.0; ///< of the farthest point with a moment
+  double power = 0.0; ///< A above
+};
+
+/// One coefficient's real or imaginary part in eight boxes; imaginary parts of m = 0 are left out.
+constexpr Index count_of_moments(int order)
+{
+  return (order + 1) * (order + 1) - 1;
+}
+
+using Pack __attribute__((vector_size(64), may_alias)) = double;
+using Mask __attribute__((vector_size(64))) = std::int64_t;
+
+BINDPOSE_ALWAYS_INLINE const Pack& pack(const HarmonicLanes& lanes)
+{
+  return reinterpret_cast<const Pack&>(lanes);
+}
+
+double sum_of(const HarmonicLanes& lanes)
+{
+  const double(&l)[harmonic_lanes] = lanes.lane;
+  return ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7]));
+}
+
+/// sums += the dipoles' shares; touching += -1 for every one that q coincides with, which has none.
+BINDPOSE_SIMD_CLONES void add_dipoles(const Dipoles* dipoles, Index count, const double (&q)[3],
+  double squared_tolerance, HarmonicLanes& sums, bool& touching)
+{
+  Pack sum = pack(sums);
+  Mask touched{};
+  for (const Dipoles* d = dipoles; d != dipoles + count; ++d)
+  {
+    const Pack x = pack(d->at[0]) - q[0];
+    const Pack y = pack(d->at[1]) - q[1];
+    const Pack z = pack(d->at[2]) - q[2];
+    const Pack squared = x * x + y * y + z * z;
+    HarmonicLanes root;
+    for (int i = 0; i < harmonic_lanes; ++i)
+    {
+      root.lane[i] = __builtin_sqrt(squared[i]);
+    }
+    const Pack share = (x * pack(d->moment[0]) + y * pack(d->moment[1]) + z * pack(d->moment[2])) /
+      (squared * pack(root));
+    const Mask touches = squared <= squared_tolerance;
+    sum += touches ? Pack{} : share;
+    touched |= touches;
+  }
+  reinterpret_cast<Pack&>(sums) = sum;
+  for (int i = 0; i < harmonic_lanes; ++i)
+  {
+    touching = touching || touched[i] != 0;
+  }
+}
+
+/// sums += the dipoles' shares of the gradient; those that q coincides with have none.
+BINDPOSE_SIMD_CLONES void add_dipole_gradients(const Dipoles* dipoles, Index count,
+  const double (&q)[3], double squared_tolerance, HarmonicLanes (&sums)[3])
+{
+  for (const Dipoles* d = dipoles; d != dipoles + count; ++d)
+  {
+    Pack at[3];
+    Pack squared{}, along{};
+    for (int k = 0; k < 3; ++k)
+    {
+      at[k] = pack(d->at[k]) - q[k];
+      squared += at[k] * at[k];
+      along += at[k] * pack(d->moment[k]);
+    }
+    HarmonicLanes root;
+    for (int i = 0; i < harmonic_lanes; ++i)
+    {
+      root.lane[i] = __builtin_sqrt(squared[i]);
+    }
+    const Pack inverse = 1.0 / (squared * pack(root));
+    const Pack steep = 3.0 * along / squared;
+    const Mask touches = squared <= squared_tolerance;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Pack share = (steep * at[k] - pack(d->moment[k])) * inverse;
+      reinterpret_cast<Pack&>(sums[k]) += touches ? Pack{} : share;
+    }
+  }
+}
+
+/// Which boxes are far enough, a bit for each; and where q is seen from their centres.
+/// bounds += what their multipoles leave out at most.
+BINDPOSE_SIMD_CLONES unsigned far_boxes(const Boxes& boxes, const double (&q)[3], int order,
+  double squared_stretch, HarmonicLanes (&from)[3], HarmonicLanes& bounds)
+{
+  Pack squared{};
+  for (int k = 0; k < 3; ++k)
+  {
+    const Pack x = q[k] - pack(boxes.center[k]);
+    reinterpret_cast<Pack&>(from[k]) = x;
+    squared += x * x;
+  }
+  const Mask is_far = squared > pack(boxes.squared_reach) * squared_stretch;
+  const Pack inverse = 1.0 / squared;
+  Pack bound = pack(boxes.bound);
+  for (int k = 0; k < order + 2; k += 2)
+  {
+    bound *= inverse;
+  }
+  reinterpret_cast<Pack&>(bounds) += is_far ? bound : Pack{};
+  unsigned bits = 0;
+  for (int i = 0; i < harmonic_lanes; ++i)
+  {
+    bits |= is_far[i] != 0 ? 1u << i : 0u;
+  }
+  return bits;
+}
+
+/// sums += multipoles of the boxes in `bits`.
+BINDPOSE_SIMD_CLONES void add_multipoles(int order, const HarmonicLanes* moments,
+  const Harmonics& harmonics, unsigned bits, HarmonicLanes& sums)
+{
+  Pack sum{};
+  for (int n = 1; n <= order; ++n)
+  {
+    const int row = harmonic_index(n, 0);
+    sum += pack(*moments++) * pack(harmonics.real[row]);
+    for (int m = 1; m <= n; ++m)
+    {
+      sum += pack(*moments++) * pack(harmonics.real[row + m]);
+      sum += pack(*moments++) * pack(harmonics.imaginary[row + m]);
+    }
+  }
+  for (int i = 0; i < harmonic_lanes; ++i)
+  {
+    // What is near may be infinite here: it is left out, not multiplied by 0.
+    sums.lane[i] += bits >> i & 1u ? sum[i] : 0.0;
+  }
+}
+
+/// sums += the gradient of multipoles of the boxes in `bits`, given harmonics of one degree more:
+/// d/dz T(n, m) = -T(n+1, m), (d/dx + i d/dy) T(n, m) = -T(n+1, m+1).
+BINDPOSE_SIMD_CLONES void add_multipole_gradients(int order, const HarmonicLanes* moments,
+  const Harmonics& harmonics, unsigned bits, HarmonicLanes (&sums)[3])
+{
+  Pack sum[3] = {};
+  for (int n = 1; n <= order; ++n)
+  {
+    const HarmonicLanes* const real = harmonics.real + harmonic_index(n + 1, 0);
+    const HarmonicLanes* const imaginary = harmonics.imaginary + harmonic_index(n + 1, 0);
+    const Pack whole = pack(*moments++);
+    sum[0] -= whole * pack(real[1]);
+    sum[1] -= whole * pack(imaginary[1]);
+    sum[2] -= whole * pack(real[0]);
+    for (int m = 1; m <= n; ++m)
+    {
+      const Pack re = pack(*moments++);
+      const Pack im = pack(*moments++);
+      sum[0] += 0.5 *
+        (re * (pack(real[m - 1]) - pack(real[m + 1])) +
+          im * (pack(imaginary[m - 1]) - pack(imaginary[m + 1])));
+      sum[1] += 0.5 *
+        (im * (pack(real[m - 1]) + pack(real[m + 1])) -
+          re * (pack(imaginary[m - 1]) + pack(imaginary[m + 1])));
+      sum[2] -= re * pack(real[m]) + im * pack(imaginary[m]);
+    }
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    for (int i = 0; i < harmonic_lanes; ++i)
+    {
+      sums[k].lane[i] += bits >> i & 1u ? sum[k][i] : 0.0;
+    }
+  }
+}
+
+/// The bound above at distance r, times r^(order+2).
+double bound_of(const Extent& extent, int order, double r)
+{
+  const double u = extent.radius / r;
+  return extent.power * (order + 1 + u / (1.0 - u)) / (1.0 - u);
+}
+
+/// Smallest distance at which the bound is below the threshold.
+double reach_of(const Extent& extent, int order, double threshold)
+{
+  if (extent.power == 0.0)
+  {
+    return extent.radius;
+  }
+  const auto too_near = [&](double r)
+  { return bound_of(extent, order, r) / std::pow(r, order + 2) > threshold; };
+  double upper = 2.0 * extent.radius;
+  while (too_near(upper))
+  {
+    upper *= 2.0;
+  }
+  double lower = extent.radius;
+  constexpr double precise_enough = 1e-3;
+  while (upper - lower > precise_enough * upper)
+  {
+    const double middle = 0.5 * (lower + upper);
+    (too_near(middle) ? lower : upper) = middle;
+  }
+  return upper;
+}
+
+Status check_input(PointsView points, PointsView normals, NumbersView areas,
+  const PointCloudWindingNumber::Options& options)
+{
+  const Index count = points.rows();
+  if (normals.rows() != count || (areas.size() != 0 && areas.size() != count))
+  {
+    return Status::invalid_input(std::to_string(count) +
+      " points need as many normals, and areas or none, not " + std::to_string(normals.rows()) +
+      " normals and " + std::to_string(areas.size()) + " areas");
+  }
+  if (count > std::numeric_limits<Id>::max() / 4)
+  {
+    return Status::invalid_input(
+      "the cloud has " + std::to_string(count) + " points, more than 2^29");
+  }
+  for (Index i = 0; i < count; ++i)
+  {
+    const auto bad = [i](const std::string& what)
+    { return Status::invalid_input("point " + std::to_string(i) + " has " + what); };
+    if (!points.row(i).allFinite())
+    {
+      return bad("a coordinate that is not a finite number");
+    }
+    if (!normals.row(i).allFinite())
+    {
+      return bad("a normal that is not a finite number");
+    }
+    if (areas.size() != 0 && !(areas[i] >= 0.0 && std::isfinite(areas[i])))
+    {
+      std::ostringstream text;
+      text << "the area " << areas[i] << "; areas are 0 or more, and finite";
+      return bad(text.str());
+    }
+  }
+  if (count == 1 && areas.size() == 0)
+  {
+    return Status::invalid_input(
+      "a single point has no neighbours to tell its area from: give its area");
+  }
+  if (options.method == WindingMethod::hierarchical || options.method == WindingMethod::crossings)
+  {
+    return Status::invalid_input(std::string("the method ") + to_string(options.method) +
+      " is for triangles; points have fast and direct");
+  }
+  if (!(options.tolerance >= 1e-8 && options.tolerance <= 0.1))
+  {
+    std::ostringstream text;
+    text << "the tolerance must lie between 1e-8 and 0.1, not at " << options.tolerance;
+    return Status::invalid_input(text.str());
+  }
+  if (options.area_neighbors < 3 || options.area_neighbors > 64)
+  {
+    return Status::invalid_input(
+      "area_neighbors must be 3 … 64, not " + std::to_string(options.area_neighbors));
+  }
+  return {};
+}
+
+/// Normals of length 1, or 0.
+Points directions(PointsView normals, Index& zero_normals)
+{
+  Points unit(normals.rows(), 3);
+  for (Index i = 0; i < normals.rows(); ++i)
+  {
+    const double length = normals.row(i).stableNorm();
+    zero_normals += length == 0.0;
+    if (length > 0.0)
+    {
+      unit.row(i) = normals.row(i).stableNormalized();
+    }
+    else
+    {
+      unit.row(i).setZero();
+    }
+  }
+  return unit;
+}
+} // namespace
+
+struct PointCloudWindingNumber::Parts
+{
+  Status status;
+  WindingMethod method = WindingMethod::direct;
+  ExactFrame frame;
+  Eigen::VectorXd areas;
+  std::vector<Dipoles> dipoles; ///< in the tree's order
+  int order = 0; ///< even
+  double tolerance = 0.0;
+  std::vector<Boxes> boxes; ///< of each group of the tree
+  std::vector<HarmonicLanes> moments; ///< of each group
+  std::vector<Extent> extents; ///< eight a group, while building
+
+  void take_dipoles(const Points& points, const Points& moments_of, const PointTree& tree);
+  bool find_multipoles(const PointTree& tree, ExecutionContext& context);
+  void find_multipole(const PointTree::Group& group, Index number, Harmonics (&room)[2]);
+  bool find_reaches(double threshold, ExecutionContext& context);
+  bool find_threshold(const Points& places, ExecutionContext& context);
+  double measured_error(const Points& places, ExecutionContext& context) const;
+  Points sample(const PointTree& tree) const;
+
+  bool winds_around(const Vec3& framed) const;
+  template <typename Far, typename Near>
+  double visit(const Vec3& framed, double squared_stretch, const Far& far, const Near& near) const;
+  template <typename Try>
+  void within_tolerance(const Try& attempt) const;
+  double plain_sum(const Vec3& framed, bool& touches) const;
+  double tree_sum(const Vec3& framed, bool& touches) const;
+  double at(const Vec3& query, bool exactly, bool& touches) const;
+  Vec3 plain_gradient(const Vec3& framed) const;
+  Vec3 tree_gradient(const Vec3& framed) const;
+  Vec3 gradient_at(const Vec3& query) const;
+};
+
+PointCloudWindingNumber::PointCloudWindingNumber() : parts_(new Parts) {}
+PointCloudWindingNumber::~PointCloudWindingNumber() = default;
+PointCloudWindingNumber::PointCloudWindingNumber(PointCloudWindingNumber&&) noexcept = default;
+PointCloudWindingNumber& PointCloudWindingNumber::operator=(
+  PointCloudWindingNumber&&) noexcept = default;
+
+// ---- Building ----------------------------------------------------------------------------------
+
+/// Hands on what is far, `far(box's number, where p is seen from, which of its eight boxes)`, and
+/// what is near, `near(first block, blocks)`. Returns what the multipoles leave out at most.
+template <typename Far, typename Near>
+double PointCloudWindingNumber::Parts::visit(
+  const Vec3& p, double squared_stretch, const Far& far, const Near& near) const
+{
+  HarmonicLanes bounds{};
+  const double q[3] = { p[0], p[1], p[2] };
+  // Each level leaves at most seven groups behind; 2^29 points have ten levels.
+  Id stack[128];
+  int waiting = 0;
+  stack[waiting++] = 0;
+  while (waiting > 0)
+  {
+    const Id number = stack[--waiting];
+    const Boxes& box = this->boxes[number];
+    HarmonicLanes from[3];
+    const unsigned far_off = far_boxes(box, q, this->order, squared_stretch, from, bounds);
+    if (far_off != 0)
+    {
+      far(number, from, far_off);
+    }
+    for (int c = 0; c < harmonic_lanes; ++c)
+    {
+      if (far_off >> c & 1u)
+      {
+        continue;
+      }
+      if (box.group[c] >= 0)
+      {
+        stack[waiting++] = box.group[c];
+      }
+      else if (box.block_count[c] > 0)
+      {
+        near(box.first_block[c], box.block_count[c]);
+      }
+    }
+  }
+  return sum_of(bounds);
+}
+
+/// Tries with all that is far farther and farther, until what `attempt` returns, what its value
+/// leaves out at most, is within the tolerance.
+template <typename Try>
+void PointCloudWindingNumber::Parts::within_tolerance(const Try& attempt) const
+{
+  double squared_stretch = 1.0;
+  for (;;)
+  {
+    const double error_bound = attempt(squared_stretch);
+    if (error_bound <= this->tolerance)
+    {
+      return;
+    }
+    // Bounds go with at least this power of the distance; children's are smaller still.
+    constexpr double margin = 1.05;
+    squared_stretch *= margin * std::pow(error_bound / this->tolerance, 2.0 / (this->order + 2));
+  }
+}
+
+void PointCloudWindingNumber::Parts::take_dipoles(
+  const Points& points, const Points& moments_of, const PointTree& tree)
+{
+  const std::vector<Id>& ids = tree.order();
+  this->dipoles.resize((ids.size() + harmonic_lanes - 1) / harmonic_lanes);
+  for (std::size_t i = 0; i < this->dipoles.size() * harmonic_lanes; ++i)
+  {
+    const Id id = ids[std::min(i, ids.size() - 1)];
+    Dipoles& block = this->dipoles[i / harmonic_lanes];
+    for (int k = 0; k < 3; ++k)
+    {
+      block.at[k].lane[i % harmonic_lanes] = points(id, k);
+      block.moment[k].lane[i % harmonic_lanes] = i < ids.size() ? moments_of(id, k) : 0.0;
+    }
+  }
+}
+
+bool PointCloudWindingNumber::Parts::find_multipoles(
+  const PointTree& tree, ExecutionContext& context)
+{
+  const std::size_t groups = tree.groups().size();
+  this->boxes.resize(groups);
+  this->moments.resize(groups * static_cast<std::size_t>(count_of_moments(this->order)));
+  this->extents.resize(groups * harmonic_lanes);
+  constexpr Index block = 16;
+  return parallel_for(context, static_cast<Index>(groups), block,
+    [&](Index begin, Index end)
+    {
+      const auto room = std::make_unique<Harmonics[][2]>(1);
+      for (Index g = begin; g < end; ++g)
+      {
+        this->find_multipole(tree.groups()[g], g, room[0]);
+      }
+    });
+}
+
+void PointCloudWindingNumber::Parts::find_multipole(
+  const PointTree::Group& group, Index number, Harmonics (&room)[2])
+{
+  Boxes& box = this->boxes[number];
+  HarmonicLanes* out = &this->moments[number * count_of_moments(this->order)];
+  for (int c = 0; c < harmonic_lanes; ++c)
+  {
+    if (c >= group.size)
+    {
+      box.squared_reach.lane[c] = std::numeric_limits<double>::infinity();
+      box.first_block[c] = box.block_count[c] = 0;
+      box.group[c] = -1;
+      continue;
+    }
+    const PointTree::Child& child = group.children[c];
+    box.first_block[c] = child.first / harmonic_lanes;
+    box.block_count[c] = (child.count + harmonic_lanes - 1) / harmonic_lanes;
+    box.group[c] = child.group;
+    const Dipoles* begin = &this->dipoles[box.first_block[c]];
+    const Dipoles* end = begin + box.block_count[c];
+
+    // About the mean of the points, by the size of their moments: it makes little of what is left
+    // out.
+    const auto each = [&](const auto& body)
+    {
+      for (const Dipoles* d = begin; d != end; ++d)
+      {
+        for (int i = 0; i < harmonic_lanes; ++i)
+        {
+          body(Vec3(d->at[0].lane[i], d->at[1].lane[i], d->at[2].lane[i]),
+            Vec3(d->moment[0].lane[i], d->moment[1].lane[i], d->moment[2].lane[i]).norm());
+        }
+      }
+    };
+    Vec3 center = Vec3::Zero();
+    double weights = 0.0;
+    each(
+      [&](const Vec3& at, double weight)
+      {
+        center += weight * at;
+        weights += weight;
+      });
+    center = weights > 0.0 ? Vec3(center / weights) : child.lower;
+    center = center.cwiseMax(child.lower).cwiseMin(child.upper);
+    Extent& extent = this->extents[number * harmonic_lanes + c];
+    each(
+      [&](const Vec3& at, double weight)
+      {
+        // All points, those without a moment too: whoever touches one must come to see it.
+        const double distance = (at - center).norm();
+        extent.radius = std::max(extent.radius, distance);
+        extent.power += weight * std::pow(distance, this->order);
+      });
+
+    Harmonics& harmonics = room[0];
+    Harmonics& sum = room[1];
+    sum.clear(this->order);
+    for (const Dipoles* d = begin; d != end; ++d)
+    {
+      HarmonicLanes at[3], normal[3];
+      for (int k = 0; k < 3; ++k)
+      {
+        for (int i = 0; i < harmonic_lanes; ++i)
+        {
+          at[k].lane[i] = d->at[k].lane[i] - center[k];
+          normal[k].lane[i] = -d->moment[k].lane[i];
+        }
+      }
+      regular_harmonics(this->order - 1, at, harmonics);
+      regular_derivative(this->order, harmonics, normal, sum);
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      box.center[k].lane[c] = center[k];
+    }
+    HarmonicLanes* to = out;
+    for (int n = 1; n <= this->order; ++n)
+    {
+      (to++)->lane[c] = sum_of(sum.real[harmonic_index(n, 0)]);
+      for (int m = 1; m <= n; ++m)
+      {
+        // m and -m together.
+        (to++)->lane[c] = 2.0 * sum_of(sum.real[harmonic_index(n, m)]);
+        (to++)->lane[c] = 2.0 * sum_of(sum.imaginary[harmonic_index(n, m)]);
+      }
+    }
+  }
+}
+
+bool PointCloudWindingNumber::Parts::find_reaches(double threshold, ExecutionContext& context)
+{
+  constexpr Index block = 64;
+  return parallel_for(context, static_cast<Index>(this->boxes.size()), block,
+    [&](Index begin, Index end)
+    {
+      for (Index g = begin; g < end; ++g)
+      {
+        for (int c = 0; c < harmonic_lanes; ++c)
+        {
+          this->boxes[g].bound.lane[c] = 0.0;
+          double& squared = this->boxes[g].squared_reach.lane[c];
+          if (this->boxes[g].block_count[c] > 0)
+          {
+            const Extent& extent = this->extents[g * harmonic_lanes + c];
+            const double reach = std::max({ reach_of(extent, this->order, threshold),
+              extent.radius + 2.0 * this->frame.tolerance, nearest_multipole });
+            squared = reach * reach;
+            this->boxes[g].bound.lane[c] = bound_of(extent, this->order, reach);
+          }
+        }
+      }
+    });
+}
+
+/// Points to measure errors at: half of them as near to points as these are to each other and some
+/// times farther, the others in and around the box.
+Points PointCloudWindingNumber::Parts::sample(const PointTree& tree) const
+{
+  constexpr Index count = 384;
+  Points result(count, 3);
+  std::uint64_t state = 1;
+  const auto uniform = [&state]
+  {
+    // SplitMix64.
+    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
+  };
+  const auto in_cube = [&]
+  {
+    const double x = uniform(), y = uniform(), z = uniform();
+    return Vec3(2.0 * x - 1.0, 2.0 * y - 1.0, 2.0 * z - 1.0);
+  };
+  Box box;
+  for (const PointTree::Child& child : tree.groups()[0].children)
+  {
+    if (child.count > 0)
+    {
+      box.add(child.lower);
+      box.add(child.upper);
+    }
+  }
+  const auto points = static_cast<double>(tree.order().size());
+  for (Index i = 0; i < count; ++i)
+  {
+    if (i % 2 == 0)
+    {
+      const auto place = static_cast<Index>(uniform() * points);
+      const Dipoles& block = this->dipoles[place / harmonic_lanes];
+      Vec3 lower = Vec3::Constant(far_away), upper = -lower, at;
+      for (int k = 0; k < 3; ++k)
+      {
+        at[k] = block.at[k].lane[place % harmonic_lanes];
+        for (int l = 0; l < harmonic_lanes; ++l)
+        {
+          lower[k] = std::min(lower[k], block.at[k].lane[l]);
+          upper[k] = std::max(upper[k], block.at[k].lane[l]);
+        }
+      }
+      const double distance = (upper - lower).norm() * std::exp2(4.0 * uniform() - 2.0);
+      result.row(i) = (at + distance * in_cube()).transpose();
+    }
+    else
+    {
+      const double width = i % 4 == 1 ? 1.1 : 2.0;
+      result.row(i) = (box.center() + 0.5 * width * in_cube().cwiseProduct(box.size())).transpose();
+    }
+  }
+  return result;
+}
+
+/// The largest threshold, within a few percent, with which the bounds at the places keep the
+/// tolerance.
+bool PointCloudWindingNumber::Parts::find_threshold(const Points& places, ExecutionContext& context)
+{
+  // A box's bound goes with the threshold, and their number a little against it.
+  double threshold = this->tolerance / 32.0;
+  constexpr int rounds = 4;
+  for (int round = 0; round < rounds; ++round)
+  {
+    const ProgressRange range(context, round / (rounds + 1.0), (round + 1) / (rounds + 1.0));
+    if (!this->find_reaches(threshold, context))
+    {
+      return false;
+    }
+    std::vector<double> bounds(static_cast<std::size_t>(places.rows()));
+    constexpr Index block = 16;
+    if (!parallel_for(context, places.rows(), block,
+          [&](Index begin, Index end)
+          {
+            for (Index i = begin; i < end; ++i)
+            {
+              bounds[i] = this->visit(
+                places.row(i), 1.0, [](Id, const auto&, unsigned) {}, [](Id, Id) {});
+            }
+          }))
+    {
+      return false;
+    }
+    const double largest = *std::max_element(bounds.begin(), bounds.end());
+    constexpr double most_at_once = 32.0;
+    threshold *= std::clamp(
+      0.9 * this->tolerance / std::max(largest, 1e-300), 1.0 / most_at_once, most_at_once);
+  }
+  const ProgressRange range(context, rounds / (rounds + 1.0), 1.0);
+  return this->find_reaches(threshold, context);
+}
+
+/// Largest difference from the plain sum at some places; negative when cancelled.
+double PointCloudWindingNumber::Parts::measured_error(
+  const Points& places, ExecutionContext& context) const
+{
+  std::vector<double> errors(static_cast<std::size_t>(places.rows()));
+  const bool done = parallel_for(context, places.rows(), 1,
+    [&](Index i, Index)
+    {
+      bool touches = false;
+      const Vec3 place = places.row(i);
+      errors[i] = std::abs(this->tree_sum(place, touches) - this->plain_sum(place, touches));
+    });
+  return done ? *std::max_element(errors.begin(), errors.end()) : -1.0;
+}
+
+Status PointCloudWindingNumber::build(PointsView points, PointsView normals, NumbersView areas,
+  ExecutionContext& context, const Options& options)
+{
+  this->parts_.reset(new Parts);
+  Parts& parts = *this->parts_;
+  Status& status = parts.status;
+  status = check_input(points, normals, areas, options);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const Index count = points.rows();
+  Report& report = status.report;
+  if (count == 0)
+  {
+    report.set("method", to_string(parts.method));
+    report.set("counts.points", 0);
+    status.warnings.emplace_back("the cloud has no point: its winding number is 0 everywhere");
+    return status;
+  }
+  parts.frame = ExactFrame(bounding_box(points));
+  const double scale = parts.frame.scale;
+  Points framed(count, 3);
+  for (Index i = 0; i < count; ++i)
+  {
+    framed.row(i) = parts.frame(points.row(i)).transpose();
+  }
+  Index zero_normals = 0;
+  Points moments = directions(normals, zero_normals);
+
+  PointTree tree;
+  bool done = true;
+  {
+    const ProgressRange range(context, 0.0, 0.2);
+    done = tree.build(framed, leaf_size, context);
+  }
+  Eigen::VectorXd framed_areas;
+  if (done && areas.size() == 0)
+  {
+    const ProgressRange range(context, 0.2, 0.6);
+    done = estimate_point_areas(
+      framed, moments, tree, options.area_neighbors, parts.frame.tolerance, context, framed_areas);
+    parts.areas = framed_areas / scale / scale;
+  }
+  else if (done)
+  {
+    parts.areas = areas;
+    framed_areas = parts.areas * scale * scale;
+  }
+  if (!done)
+  {
+    this->parts_.reset(new Parts);
+    this->parts_->status = Status::cancelled();
+    return this->parts_->status;
+  }
+
+  double area = 0.0, volume = 0.0;
+  Index zero_areas = 0;
+  const Vec3 center = 0.5 * framed.colwise().minCoeff() + 0.5 * framed.colwise().maxCoeff();
+  for (Index i = 0; i < count; ++i)
+  {
+    area += framed_areas[i];
+    volume += framed_areas[i] * moments.row(i).dot(framed.row(i) - center.transpose()) / 3.0;
+    zero_areas += framed_areas[i] == 0.0;
+    moments.row(i) *= framed_areas[i] / four_pi;
+  }
+  if (!(area <= largest_moment))
+  {
+    this->parts_.reset(new Parts);
+    this->parts_->status = Status::invalid_input(
+      "the areas are out of all proportion to the distances between the points");
+    return this->parts_->status;
+  }
+  report.set("counts.points", count);
+  report.set("counts.zero_normals", zero_normals);
+  report.set("counts.zero_areas", zero_areas);
+  report.set("area", area / scale / scale);
+  report.set("spacing", std::sqrt(area / static_cast<double>(count)) / scale);
+  report.set("volume", volume / scale / scale / scale);
+  if (zero_normals > 0)
+  {
+    status.warnings.push_back(std::to_string(zero_normals) + " of " + std::to_string(count) +
+      " points have a normal of length 0; they count nothing");
+  }
+  if (zero_areas > zero_normals && areas.size() == 0)
+  {
+    status.warnings.push_back(std::to_string(zero_areas) + " of " + std::to_string(count) +
+      " points have no area, as they share their place with many others; they count nothing");
+  }
+
+  parts.take_dipoles(framed, moments, tree);
+  parts.method = options.method == WindingMethod::fast ||
+      (options.method == WindingMethod::automatic && count > few_points)
+    ? WindingMethod::fast
+    : WindingMethod::direct;
+  std::string reason = "asked for";
+  if (options.method == WindingMethod::automatic)
+  {
+    reason = std::to_string(count) +
+      (count > few_points ? " points: their plain sum would take longer"
+                          : " points: too few for a structure to pay");
+  }
+  if (parts.method == WindingMethod::fast)
+  {
+    parts.tolerance = options.tolerance;
+    for (const Tuning& tuning : tunings)
+    {
+      parts.order = tuning.order;
+      if (options.tolerance >= tuning.tolerance)
+      {
+        break;
+      }
+    }
+    {
+      const ProgressRange range(context, 0.6, 0.8);
+      done = parts.find_multipoles(tree, context);
+    }
+    const Points places = done ? parts.sample(tree) : Points(0, 3);
+    if (done)
+    {
+      const ProgressRange range(context, 0.8, 0.9);
+      done = parts.find_threshold(places, context);
+    }
+    if (done)
+    {
+      const ProgressRange range(context, 0.9, 1.0);
+      const double error = parts.measured_error(places, context);
+      done = error >= 0.0;
+      report.set("error_bound", options.tolerance);
+      report.set("measured_error", error);
+    }
+    parts.extents = {};
+  }
+  report.set("method", to_string(parts.method));
+  report.set("method_reason", reason);
+  if (!done)
+  {
+    this->parts_.reset(new Parts);
+    this->parts_->status = Status::cancelled();
+  }
+  return this->parts_->status;
+}
+
+const Status& PointCloudWindingNumber::status() const
+{
+  return this->parts_->status;
+}
+
+WindingMethod PointCloudWindingNumber::method() const
+{
+  return this->parts_->method;
+}
+
+const Eigen::VectorXd& PointCloudWindingNumber::areas() const
+{
+  return this->parts_->areas;
+}
+
+Index PointCloudWindingNumber::memory() const
+{
+  const Parts& parts = *this->parts_;
+  return static_cast<Index>(sizeof(double) * static_cast<std::size_t>(parts.areas.size()) +
+    sizeof(Dipoles) * parts.dipoles.size() + sizeof(Boxes) * parts.boxes.size() +
+    sizeof(HarmonicLanes) * parts.moments.size());
+}
+
+// ---- Evaluating --------------------------------------------------------------------------------
+
+double PointCloudWindingNumber::Parts::plain_sum(const Vec3& p, bool& touches) const
+{
+  HarmonicLanes sums{};
+  const double q[3] = { p[0], p[1], p[2] };
+  add_dipoles(this->dipoles.data(), static_cast<Index>(this->dipoles.size()), q,
+    this->frame.tolerance * this->frame.tolerance, sums, touches);
+  return sum_of(sums);
+}
+
+double PointCloudWindingNumber::Parts::tree_sum(const Vec3& p, bool& touches) const
+{
+  const double q[3] = { p[0], p[1], p[2] };
+  const double squared_tolerance = this->frame.tolerance * this->frame.tolerance;
+  Harmonics harmonics;
+  HarmonicLanes sums;
+  this->within_tolerance(
+    [&](double squared_stretch)
+    {
+      sums = {};
+      return this->visit(
+        p, squared_stretch,
+        [&](Id number, const HarmonicLanes(&from)[3], unsigned bits)
+        {
+          irregular_harmonics(this->order, from, harmonics);
+          add_multipoles(this->order, &this->moments[number * count_of_moments(this->order)],
+            harmonics, bits, sums);
+        },
+        [&](Id first, Id count)
+        { add_dipoles(&this->dipoles[first], count, q, squared_tolerance, sums, touches); });
+    });
+  return sum_of(sums);
+}
+
+Vec3 PointCloudWindingNumber::Parts::tree_gradient(const Vec3& p) const
+{
+  const double q[3] = { p[0], p[1], p[2] };
+  const double squared_tolerance = this->frame.tolerance * this->frame.tolerance;
+  Harmonics harmonics;
+  HarmonicLanes sums[3];
+  this->within_tolerance(
+    [&](double squared_stretch)
+    {
+      std::fill_n(sums, 3, HarmonicLanes{});
+      return this->visit(
+        p, squared_stretch,
+        [&](Id number, const HarmonicLanes(&from)[3], unsigned bits)
+        {
+          irregular_harmonics(this->order + 1, from, harmonics);
+          add_multipole_gradients(this->order,
+            &this->moments[number * count_of_moments(this->order)], harmonics, bits, sums);
+        },
+        [&](Id first, Id count)
+        { add_dipole_gradients(&this->dipoles[first], count, q, squared_tolerance, sums); });
+    });
+  return { sum_of(sums[0]), sum_of(sums[1]), sum_of(sums[2]) };
+}
+
+Vec3 PointCloudWindingNumber::Parts::plain_gradient(const Vec3& p) const
+{
+  const double q[3] = { p[0], p[1], p[2] };
+  HarmonicLanes sums[3] = {};
+  add_dipole_gradients(this->dipoles.data(), static_cast<Index>(this->dipoles.size()), q,
+    this->frame.tolerance * this->frame.tolerance, sums);
+  return { sum_of(sums[0]), sum_of(sums[1]), sum_of(sums[2]) };
+}
+
+/// Nothing does far away in double precision.
+bool PointCloudWindingNumber::Parts::winds_around(const Vec3& framed) const
+{
+  return !this->dipoles.empty() && framed.cwiseAbs().maxCoeff() < far_away;
+}
+
+Vec3 PointCloudWindingNumber::Parts::gradient_at(const Vec3& query) const
+{
+  if (!query.allFinite())
+  {
+    return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+  const Vec3 p = this->frame(query);
+  if (!this->winds_around(p))
+  {
+    return Vec3::Zero();
+  }
+  return this->frame.scale *
+    (this->method == WindingMethod::direct ? this->plain_gradient(p) : this->tree_gradient(p));
+}
+
+double PointCloudWindingNumber::Parts::at(const Vec3& query, bool exactly, bool& touches) const
+{
+  touches = false;
+  if (!query.allFinite())
+  {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  const Vec3 p = this->frame(query);
+  if (!this->winds_around(p))
+  {
+    return 0.0;
+  }
+  return exactly || this->method == WindingMethod::direct ? this->plain_sum(p, touches)
+                                                          : this->tree_sum(p, touches);
+}
+
+double PointCloudWindingNumber::evaluate_at(const Vec3& point, bool* on_surface) const
+{
+  bool touches = false;
+  const double winding_number = this->parts_->at(point, false, touches);
+  if (on_surface)
+  {
+    *on_surface = touches;
+  }
+  return winding_number;
+}
+
+double PointCloudWindingNumber::evaluate_exactly_at(const Vec3& point, bool* on_surface) const
+{
+  bool touches = false;
+  const double winding_number = this->parts_->at(point, true, touches);
+  if (on_surface)
+  {
+    *on_surface = touches;
+  }
+  return winding_number;
+}
+
+template <typename PointAt>
+Status PointCloudWindingNumber::evaluate_points(Index count, const PointAt& point_at,
+  ExecutionContext& context, double* out, unsigned char* on_surface) const
+{
+  const Parts& parts = *this->parts_;
+  if (!parts.status.ok())
+  {
+    return parts.status;
+  }
+  const double nanoseconds = parts.method == WindingMethod::fast
+    ? 4000.0
+    : 1.0 + 8.0 * static_cast<double>(parts.dipoles.size());
+  return point_values(context, count, nanoseconds, out, on_surface,
+    [&](Index begin, Index end, unsigned char* flags)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        bool touches = false;
+        out[i] = parts.at(point_at(i), false, touches);
+        flags[i - begin] = touches;
+      }
+    });
+}
+
+Status PointCloudWindingNumber::evaluate(
+  PointsView queries, ExecutionContext& context, double* out, unsigned char* on_surface) const
+{
+  return this->evaluate_points(
+    queries.rows(), [queries](Index i) -> Vec3 { return queries.row(i); }, context, out,
+    on_surface);
+}
+
+Status PointCloudWindingNumber::evaluate(
+  PointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const
+{
+  out.resize(queries.rows());
+  return this->evaluate(queries, context, out.data());
+}
+
+Status PointCloudWindingNumber::evaluate(
+  const SampleGrid& grid, ExecutionContext& context, double* out, unsigned char* on_surface) const
+{
+  return this->evaluate_points(
+    grid.count(), [&grid](Index i) { return grid.point(i); }, context, out, on_surface);
+}
+
+template <typename PointAt>
+Status PointCloudWindingNumber::evaluate_gradients(
+  Index count, const PointAt& point_at, ExecutionContext& context, double* out) const
+{
+  const Parts& parts = *this->parts_;
+  if (!parts.status.ok())
+  {
+    return parts.status;
+  }
+  const double nanoseconds = parts.method == WindingMethod::fast
+    ? 8000.0
+    : 1.0 + 16.0 * static_cast<double>(parts.dipoles.size());
+  return point_gradients(context, count, nanoseconds,
+    [&](Index i) { Eigen::Map<Vec3>(out + 3 * i) = parts.gradient_at(point_at(i)); });
+}
+
+Status PointCloudWindingNumber::evaluate_gradient(
+  PointsView queries, ExecutionContext& context, double* out) const
+{
+  return this->evaluate_gradients(
+    queries.rows(), [queries](Index i) -> Vec3 { return queries.row(i); }, context, out);
+}
+
+Status PointCloudWindingNumber::evaluate_gradient(
+  const SampleGrid& grid, ExecutionContext& context, double* out) const
+{
+  return this->evaluate_gradients(
+    grid.count(), [&grid](Index i) { return grid.point(i); }, context, out);
+}
+
+} // namespace bindpose

@@ -1,0 +1,68 @@
+// The points' box is cut into 16 or 32 cells along each axis, numbered so that the eight of a cube
+// of two come one after the other, and so on upwards (Morton's order); the points are counted into
+// them.
+#include "winding/point_order.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace bindpose
+{
+
+std::vector<std::int32_t> order_by_place(const std::vector<Vec3>& points)
+{
+  // About where they are; those beyond count as at its sides.
+  Box box;
+  constexpr std::size_t some = 16;
+  for (std::size_t i = 0; i < points.size(); i += some)
+  {
+    if (points[i].allFinite())
+    {
+      box.add(points[i]);
+    }
+  }
+  constexpr std::size_t many = 16384;
+  const int bits = points.size() < many ? 4 : 5;
+  const double cells = std::ldexp(1.0, bits);
+  std::array<std::uint32_t, 32> spread{}; // bit i at 3 i
+  for (std::uint32_t i = 0; i < spread.size(); ++i)
+  {
+    for (int bit = 0; bit < 5; ++bit)
+    {
+      spread[i] |= (i >> bit & 1U) << (3 * bit);
+    }
+  }
+  Vec3 per_length = Vec3::Zero();
+  for (int k = 0; k < 3 && !box.empty(); ++k)
+  {
+    const double size = box.size()[k];
+    per_length[k] = size > 0.0 && std::isfinite(cells / size) ? cells / size : 0.0;
+  }
+  std::vector<std::uint32_t> keys(points.size());
+  std::vector<std::int32_t> begin((std::size_t(1) << (3 * bits)) + 1, 0);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    std::uint32_t key = 0;
+    for (int k = 0; k < 3; ++k)
+    {
+      const double at = (points[i][k] - box.lower[k]) * per_length[k];
+      const auto cell = static_cast<std::uint32_t>(at > 0.0 ? std::min(at, cells - 1.0) : 0.0);
+      key |= spread[cell] << k;
+    }
+    keys[i] = key;
+    begin[key + 1] += 1;
+  }
+  for (std::size_t c = 1; c < begin.size(); ++c)
+  {
+    begin[c] += begin[c - 1];
+  }
+  std::vector<std::int32_t> order(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    order[begin[keys[i]]++] = static_cast<std::int32_t>(i);
+  }
+  return order;
+}
+
+} // namespace bindpose

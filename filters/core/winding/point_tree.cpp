@@ -1,0 +1,165 @@
+// A group's points are halved three times, across the longest side of what is to be halved; so each
+// group has eight children of about the same size. Halves are cut at multiples of eight, so that
+// all leaves but the last are whole blocks.
+//
+// Neighbours: from the root down, nearest box first, as long as a box may hold a nearer one.
+#include "winding/point_tree.h"
+
+#include <algorithm>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr PointTree::Id large = 1 << 15; // milliseconds to divide
+
+bool is_nearer(const PointTree::Neighbor& x, const PointTree::Neighbor& y)
+{
+  return x.squared_distance != y.squared_distance ? x.squared_distance < y.squared_distance
+                                                  : x.point < y.point;
+}
+} // namespace
+
+bool PointTree::build(const Points& points, Id leaf_size, ExecutionContext& context)
+{
+  this->order_.clear();
+  this->groups_.clear();
+  this->leaf_size_ = leaf_size;
+  this->stopped_ = false;
+  const auto count = static_cast<Id>(points.rows());
+  if (count == 0)
+  {
+    return !context.cancelled();
+  }
+  std::vector<Item> items;
+  items.reserve(static_cast<std::size_t>(count));
+  for (Id i = 0; i < count; ++i)
+  {
+    items.push_back({ points.row(i), i });
+  }
+  this->groups_.emplace_back();
+  this->divide(items, 0, 0, count, context);
+  for (const Item& item : items)
+  {
+    this->order_.push_back(item.id);
+  }
+  return !this->stopped_;
+}
+
+void PointTree::divide(
+  std::vector<Item>& items, Id group, Id first, Id count, ExecutionContext& context)
+{
+  this->stopped_ = this->stopped_ || (count >= large && context.cancelled());
+  if (this->stopped_)
+  {
+    return;
+  }
+  Group divided;
+  this->add_children(items, divided, first, count, 3);
+  for (int c = 0; c < divided.size; ++c)
+  {
+    Child& child = divided.children[c];
+    if (child.count > this->leaf_size_)
+    {
+      child.group = static_cast<Id>(this->groups_.size());
+      this->groups_.emplace_back();
+      this->divide(items, child.group, child.first, child.count, context);
+    }
+    if (child.count >= large)
+    {
+      context.progress(
+        static_cast<double>(child.first + child.count) / static_cast<double>(items.size()));
+    }
+  }
+  this->groups_[group] = divided;
+}
+
+void PointTree::add_children(
+  std::vector<Item>& items, Group& group, Id first, Id count, int halvings)
+{
+  const auto begin = items.begin() + first;
+  Vec3 lower = begin->at;
+  Vec3 upper = lower;
+  for (auto item = begin; item != begin + count; ++item)
+  {
+    lower = lower.cwiseMin(item->at);
+    upper = upper.cwiseMax(item->at);
+  }
+  if (halvings == 0 || count <= this->leaf_size_)
+  {
+    group.children[group.size++] = { lower, upper, first, count, -1 };
+    return;
+  }
+  int axis = 0;
+  (upper - lower).maxCoeff(&axis);
+  const Id half = (count / 2 + width - 1) / width * width;
+  std::nth_element(begin, begin + half, begin + count,
+    [axis](const Item& x, const Item& y)
+    { return x.at[axis] != y.at[axis] ? x.at[axis] < y.at[axis] : x.id < y.id; });
+  this->add_children(items, group, first, half, halvings - 1);
+  this->add_children(items, group, first + half, count - half, halvings - 1);
+}
+
+void PointTree::nearest(
+  const Points& points, Id point, Index count, std::vector<Neighbor>& neighbors) const
+{
+  neighbors.clear();
+  const auto wanted =
+    static_cast<std::size_t>(std::min<Index>(count, static_cast<Index>(this->order_.size()) - 1));
+  if (wanted == 0)
+  {
+    return;
+  }
+  const Vec3 at = points.row(point);
+  const auto look = [&](const auto& look_again, Id number) -> void
+  {
+    const Group& group = this->groups_[number];
+    std::array<Neighbor, width> near{}; // children, nearest box first
+    for (int c = 0; c < group.size; ++c)
+    {
+      const Child& child = group.children[c];
+      const Vec3 beside = (child.lower - at).cwiseMax(at - child.upper).cwiseMax(Vec3::Zero());
+      const Neighbor box{ beside.squaredNorm(), c };
+      int place = c;
+      for (; place > 0 && is_nearer(box, near[place - 1]); --place)
+      {
+        near[place] = near[place - 1];
+      }
+      near[place] = box;
+    }
+    for (int k = 0; k < group.size; ++k)
+    {
+      if (neighbors.size() == wanted &&
+        near[k].squared_distance > neighbors.back().squared_distance)
+      {
+        return;
+      }
+      const Child& child = group.children[near[k].point];
+      if (child.group >= 0)
+      {
+        look_again(look_again, child.group);
+        continue;
+      }
+      for (Id i = child.first; i < child.first + child.count; ++i)
+      {
+        const Id other = this->order_[i];
+        const Neighbor neighbor{ (points.row(other).transpose() - at).squaredNorm(), other };
+        if (other == point ||
+          (neighbors.size() == wanted && !is_nearer(neighbor, neighbors.back())))
+        {
+          continue;
+        }
+        if (neighbors.size() == wanted)
+        {
+          neighbors.pop_back();
+        }
+        neighbors.insert(
+          std::upper_bound(neighbors.begin(), neighbors.end(), neighbor, is_nearer), neighbor);
+      }
+    }
+  };
+  look(look, 0);
+}
+
+} // namespace bindpose

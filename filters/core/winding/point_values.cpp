@@ -1,0 +1,74 @@
+#include "winding/point_values.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <vector>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Points of a block: some blocks for each thread, none so small that neighbours are torn apart, or
+/// so large that a cancel would wait.
+Index block_of(Index count, double nanoseconds_a_point)
+{
+  constexpr double shortest_block = 8e5, longest_block = 5e6; // nanoseconds
+  constexpr double largest_block = 32768.0, wanted_blocks = 16.0;
+  const double nanoseconds = std::max(1.0, nanoseconds_a_point);
+  const double most = std::clamp(longest_block / nanoseconds, 1.0, largest_block);
+  const double least = std::min(std::max(shortest_block / nanoseconds, 1.0), most);
+  return static_cast<Index>(std::clamp(static_cast<double>(count) / wanted_blocks, least, most));
+}
+} // namespace
+
+Status point_values(ExecutionContext& context, Index count, double nanoseconds_a_point,
+  const double* values, unsigned char* on_surface,
+  const std::function<void(Index begin, Index end, unsigned char* flags)>& body)
+{
+  std::atomic<Index> touching{ 0 };
+  std::atomic<Index> not_finite{ 0 };
+  const bool done = parallel_for(context, count, block_of(count, nanoseconds_a_point),
+    [&](Index begin, Index end)
+    {
+      std::vector<unsigned char> own(on_surface ? 0 : static_cast<std::size_t>(end - begin));
+      unsigned char* const flags = on_surface ? on_surface + begin : own.data();
+      body(begin, end, flags);
+      touching += std::count(flags, flags + (end - begin), static_cast<unsigned char>(1));
+      not_finite +=
+        std::count_if(values + begin, values + end, [](double value) { return std::isnan(value); });
+    });
+  if (!done)
+  {
+    return Status::cancelled();
+  }
+  Status status;
+  status.report.set("counts.queries", count);
+  status.report.set("counts.on_surface", touching.load());
+  if (not_finite > 0)
+  {
+    status.report.set("counts.not_finite", not_finite.load());
+    status.warnings.push_back(std::to_string(not_finite.load()) + " of " + std::to_string(count) +
+      " points have a coordinate that is not a finite number; their winding number is NaN");
+  }
+  return status;
+}
+
+Status point_gradients(ExecutionContext& context, Index count, double nanoseconds_a_point,
+  const std::function<void(Index i)>& body)
+{
+  const bool done = parallel_for(context, count, block_of(count, nanoseconds_a_point),
+    [&](Index begin, Index end)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        body(i);
+      }
+    });
+  return done ? Status() : Status::cancelled();
+}
+
+} // namespace bindpose

@@ -1,0 +1,290 @@
+// Between two points the winding number changes by the signed crossings of the segment that joins
+// them. A cell is convex, so the segment from a point to the cell's reference meets the cell's own
+// triangles only, and they are few.
+//
+// A segment from p to the reference r crosses the triangle a, b, c when p and r lie on different
+// sides of its plane, and p on the same side of the three planes through r and an edge. These four
+// planes are kept, as unit normals of 16 bits a coordinate: eight triangles at once, their signs
+// cost a few operations each, and an error bound that depends on nothing but how far p is from r.
+// Where a sign is open, it is told in doubles, of volumes made of the corners themselves; where it
+// is open then, too, the point touches the triangle or the segment an edge: not told.
+//
+// How the cells come about is told in winding_cells_build.cpp.
+#include "winding/winding_cells.h"
+
+#include "base/simd.h"
+#include "winding/segment_crossing.h"
+#include "winding/solid_angle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+/// What rounding moves one coordinate by, with some room for the rounding of floats.
+constexpr float rounded_by = 0.57f;
+} // namespace
+
+std::array<Vec3, 3> WindingCells::corners(Id face) const
+{
+  const Index own = this->triangles_->rows();
+  const auto row = face < own ? this->triangles_->row(face) : this->caps_->row(face - own);
+  return { Vec3(this->points_->row(row[0])), Vec3(this->points_->row(row[1])),
+    Vec3(this->points_->row(row[2])) };
+}
+
+bool WindingCells::is_outside(const Vec3& p) const
+{
+  return !((p.array() >= this->lower_.array()).all() && (p.array() <= this->upper_.array()).all());
+}
+
+std::array<WindingCells::Id, 3> WindingCells::place_of(const Node& node, const Vec3& p) const
+{
+  std::array<Id, 3> place;
+  for (int k = 0; k < 3; ++k)
+  {
+    place[k] =
+      std::clamp(static_cast<Id>((p[k] - node.lower[k]) * node.inverse), Id(0), node.size[k] - 1);
+  }
+  return place;
+}
+
+/// Signed crossings of the segment from the point q to the reference, which is the origin, in units
+/// of the planes' distances. Faces of which a sign is not clear are not counted but added to the
+/// unclear ones, so are those that the point touches within the length `touching`.
+BINDPOSE_SIMD_CLONES int WindingCells::tally(const Block* begin, const Block* end,
+  const Faces* faces, float touching, const float* q, Unclear& unclear)
+{
+  const float qx = q[0], qy = q[1], qz = q[2];
+  const float length = std::abs(qx) + std::abs(qy) + std::abs(qz);
+  // A point that touches a triangle at some place is on the right side of the planes through its
+  // edges by no less than minus what it is away from that place.
+  const float edge_bound = rounded_by * length + 1.01f * Block::one * touching;
+  const float side_bound = edge_bound + rounded_by * Block::one;
+  std::int32_t counts[lanes] = {};
+  for (const Block* block = begin; block != end; ++block)
+  {
+    float
+      plane[Block::numbers * lanes]; // a loop of its own: with it in the next one compilers give up
+    for (int k = 0; k < Block::numbers * lanes; ++k)
+    {
+      plane[k] = static_cast<float>(block->plane[k]);
+    }
+    std::int32_t open[lanes];
+    std::int32_t any = 0;
+    for (int i = 0; i < lanes; ++i)
+    {
+      const float u = qx * plane[i] + qy * plane[lanes + i] + qz * plane[2 * lanes + i];
+      const float v =
+        qx * plane[3 * lanes + i] + qy * plane[4 * lanes + i] + qz * plane[5 * lanes + i];
+      const float w =
+        qx * plane[6 * lanes + i] + qy * plane[7 * lanes + i] + qz * plane[8 * lanes + i];
+      const float across =
+        qx * plane[9 * lanes + i] + qy * plane[10 * lanes + i] + qz * plane[11 * lanes + i];
+      const float other_side = Block::one * plane[12 * lanes + i];
+      const float side = other_side - across;
+      const float least = u < v ? (u < w ? u : w) : (v < w ? v : w);
+      const float most = u > v ? (u > w ? u : w) : (v > w ? v : w);
+      const bool before = side > side_bound, behind = side < -side_bound;
+      const bool to_before = other_side > side_bound, to_behind = other_side < -side_bound;
+      const bool none =
+        ((least < -edge_bound) & (most > edge_bound)) | (before & to_before) | (behind & to_behind);
+      const bool outwards = (most < -edge_bound) & before & to_behind;
+      const bool inwards = (least > edge_bound) & behind & to_before;
+      counts[i] += (outwards ? 1 : 0) - (inwards ? 1 : 0);
+      open[i] = none | outwards | inwards ? 0 : 1;
+      any |= open[i];
+    }
+    if (any)
+    {
+      for (int i = 0; i < lanes; ++i)
+      {
+        unclear.add(open[i] ? faces[block - begin][i] : -1);
+      }
+    }
+  }
+  int sum = 0;
+  for (int i = 0; i < lanes; ++i)
+  {
+    sum += counts[i];
+  }
+  return sum;
+}
+
+bool WindingCells::count_in(const Leaf& found, const Vec3& p, int& count) const
+{
+  const Vec3 seen = static_cast<double>(found.per_length) * (p - found.reference);
+  const float q[3] = { static_cast<float>(seen[0]), static_cast<float>(seen[1]),
+    static_cast<float>(seen[2]) };
+  Unclear unclear;
+  count = found.count +
+    tally(this->arrays_.blocks.data() + found.begin, this->arrays_.blocks.data() + found.end,
+      this->arrays_.faces.data() + found.begin,
+      found.per_length * static_cast<float>(this->tolerance_), q, unclear);
+  if (unclear.number == 0)
+  {
+    return true;
+  }
+  if (unclear.number > Unclear::most)
+  {
+    return false;
+  }
+  for (Id k = 0; k < unclear.number; ++k)
+  {
+    const std::array<Vec3, 3> corners = this->corners(unclear.faces[k]);
+    const Vec3 u = corners[1] - corners[0];
+    const Vec3 v = corners[2] - corners[0];
+    const Vec3 r = corners[0] - p;
+    const double reach = u.lpNorm<1>() * v.lpNorm<1>();
+    if (std::abs(u.cross(v).dot(r)) <= reach * (2.0 * this->tolerance_ + 1e-14 * r.lpNorm<1>()) &&
+      touches_triangle(p, corners[0], corners[1], corners[2], this->tolerance_))
+    {
+      return false;
+    }
+    const Crossing what = crossing(p, found.reference, corners);
+    if (what == Crossing::unclear)
+    {
+      return false;
+    }
+    count += what == Crossing::outwards ? 1 : what == Crossing::inwards ? -1 : 0;
+  }
+  return true;
+}
+
+void WindingCells::evaluate(const Vec3* points, Index number, int* counts, bool* told) const
+{
+  // All points go down together: what one needs is on its way while the others are looked at.
+  std::array<const Cell*, most_at_once> cells;
+  std::array<Id, most_at_once> waiting;
+  Id left = 0;
+  const auto look_up = [&](Id i, Id id)
+  {
+    const Node& at = this->arrays_.nodes[id];
+    cells[i] = &this->cell_at(at, this->place_of(at, points[i]));
+    __builtin_prefetch(cells[i]);
+  };
+  for (Index i = 0; i < number; ++i)
+  {
+    counts[i] = 0;
+    told[i] = true;
+    if (!this->is_outside(points[i]))
+    {
+      waiting[left++] = static_cast<Id>(i);
+      look_up(static_cast<Id>(i), 0);
+    }
+  }
+  std::array<Id, most_at_once> in_leaves;
+  Id leaves = 0;
+  while (left > 0)
+  {
+    Id still = 0;
+    for (Id k = 0; k < left; ++k)
+    {
+      const Id i = waiting[k];
+      const Cell cell = *cells[i];
+      if (cell.kind == holds_nothing)
+      {
+        counts[i] = cell.value;
+      }
+      else if (cell.kind == holds_leaf)
+      {
+        __builtin_prefetch(&this->arrays_.leaves[cell.value]);
+        in_leaves[leaves++] = i;
+      }
+      else
+      {
+        __builtin_prefetch(&this->arrays_.nodes[cell.value]);
+        waiting[still++] = i;
+      }
+    }
+    for (Id k = 0; k < still; ++k)
+    {
+      look_up(waiting[k], cells[waiting[k]]->value);
+    }
+    left = still;
+  }
+  for (Id k = 0; k < leaves; ++k)
+  {
+    const Leaf& found = this->arrays_.leaves[cells[in_leaves[k]]->value];
+    const char* const begin =
+      reinterpret_cast<const char*>(this->arrays_.blocks.data() + found.begin);
+    const char* const end = reinterpret_cast<const char*>(this->arrays_.blocks.data() + found.end);
+    for (const char* line = begin; line < end && line < begin + 768; line += 64)
+    {
+      __builtin_prefetch(line);
+    }
+  }
+  for (Id k = 0; k < leaves; ++k)
+  {
+    const Id i = in_leaves[k];
+    told[i] = this->count_in(this->arrays_.leaves[cells[i]->value], points[i], counts[i]);
+  }
+}
+
+void WindingCells::evaluate_row(const double* xs, Index number, double y, double z, double* counts,
+  std::vector<Index>& untold) const
+{
+  if (!(y >= this->lower_.y() && y <= this->upper_.y() && z >= this->lower_.z() &&
+        z <= this->upper_.z()))
+  {
+    std::fill(counts, counts + number, 0.0);
+    return;
+  }
+  for (Index i = 0; i < number;)
+  {
+    Vec3 p(xs[i], y, z);
+    if (!(p.x() >= this->lower_.x() && p.x() <= this->upper_.x()))
+    {
+      counts[i++] = 0.0;
+      continue;
+    }
+    const Node* at = this->arrays_.nodes.data();
+    std::array<Id, 3> place = this->place_of(*at, p);
+    Cell cell = this->cell_at(*at, place);
+    while (cell.kind == holds_node)
+    {
+      at = &this->arrays_.nodes[cell.value];
+      place = this->place_of(*at, p);
+      cell = this->cell_at(*at, place);
+    }
+    // The cell's own part of the row, but for what rounding could put into its neighbour: whoever
+    // comes from elsewhere must find a point in the same cell.
+    const double lower = at->lower.x() + (place[0] + 1e-6) / at->inverse;
+    const double upper = at->lower.x() + (place[0] + 1 - 1e-6) / at->inverse;
+    Index end = i + 1;
+    while (end < number && xs[end] > lower && xs[end] < upper)
+    {
+      ++end;
+    }
+    if (cell.kind == holds_nothing)
+    {
+      std::fill(counts + i, counts + end, static_cast<double>(cell.value));
+      i = end;
+      continue;
+    }
+    const Leaf& found = this->arrays_.leaves[cell.value];
+    for (; i < end; ++i)
+    {
+      p.x() = xs[i];
+      int count = 0;
+      if (!this->count_in(found, p, count))
+      {
+        untold.push_back(i);
+      }
+      counts[i] = count;
+    }
+  }
+}
+
+Index WindingCells::memory() const
+{
+  const Arrays& all = this->arrays_;
+  return static_cast<Index>(all.nodes.capacity() * sizeof(Node) +
+    all.cells.capacity() * sizeof(Cell) + all.leaves.capacity() * sizeof(Leaf) +
+    all.blocks.capacity() * sizeof(Block) + all.faces.capacity() * sizeof(Faces));
+}
+
+} // namespace bindpose

@@ -1,0 +1,714 @@
+// From the box of the surface downwards: a box's triangles are sorted into its cells, and a cell
+// that still holds many is a box again. References get their numbers from each other: a cell's from
+// its neighbour's, the first one's from that of the box. What is in the cells of the whole is made
+// on all threads, in pieces that are joined in their order.
+#include "winding/winding_cells.h"
+
+#include "base/large_pages.h"
+#include "base/parallel.h"
+#include "winding/segment_crossing.h"
+#include "winding/solid_angle.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Cells with more triangles are cut further. Measured on refined_elephant.off: 30 take an eighth
+/// more memory and as much time, 56 an eighth less and a fifth more time next to the surface.
+constexpr std::size_t few = 40;
+/// Triangles that a new cell is meant to hold.
+constexpr double wanted = 18;
+constexpr int most_cells_along = 32;
+/// Of the whole, so that most points around a few large triangles are in cells without any.
+constexpr double fewest_cells_along = 8.0;
+constexpr int deepest = 12;
+/// Units of a plane's distance to a cell's size: a bit fewer than 16 bits hold.
+constexpr double distance_units = 32000.0;
+/// Cross products that are shorter, in units of the lengths they are made of (doubles around 1),
+/// have no direction to rely on.
+constexpr double shortest_product = 1e-9;
+
+/// Whether a triangle and a box have a point in common (Akenine-Moeller's separating axes); true
+/// when in doubt.
+bool overlaps(const std::array<Vec3, 3>& corners, const Vec3& center, const Vec3& half)
+{
+  const Vec3 a = corners[0] - center;
+  const Vec3 b = corners[1] - center;
+  const Vec3 c = corners[2] - center;
+  const auto apart = [&](const Vec3& axis)
+  {
+    const double pa = axis.dot(a), pb = axis.dot(b), pc = axis.dot(c);
+    const double reach = axis.cwiseAbs().dot(half);
+    const double rounding = 1e-14 * (std::abs(pa) + std::abs(pb) + std::abs(pc)) + 1e-14 * reach;
+    return std::min({ pa, pb, pc }) > reach + rounding ||
+      std::max({ pa, pb, pc }) < -reach - rounding;
+  };
+  const std::array<Vec3, 3> edges{ b - a, c - b, a - c };
+  if (apart(edges[0].cross(edges[1])))
+  {
+    return false;
+  }
+  for (const Vec3& edge : edges)
+  {
+    if (apart(Vec3(0.0, -edge.z(), edge.y())) || apart(Vec3(edge.z(), 0.0, -edge.x())) ||
+      apart(Vec3(-edge.y(), edge.x(), 0.0)))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// A triangle by its sorted corners; `turn` tells even from odd orders.
+struct SortedCorners
+{
+  std::array<Index, 3> ids;
+  int turn;
+  Index triangle;
+};
+
+SortedCorners sorted_corners(const Triangles& triangles, Index t)
+{
+  SortedCorners corners{ { triangles(t, 0), triangles(t, 1), triangles(t, 2) }, 1, t };
+  for (const auto& [i, k] : { std::pair{ 0, 1 }, std::pair{ 1, 2 }, std::pair{ 0, 1 } })
+  {
+    if (corners.ids[i] > corners.ids[k])
+    {
+      std::swap(corners.ids[i], corners.ids[k]);
+      corners.turn = -corners.turn;
+    }
+  }
+  return corners;
+}
+
+/// Triangles, and behind them caps, without the pairs that are each other turned over. Ascending.
+std::vector<std::int32_t> without_opposites(const Triangles& triangles, const Triangles& caps)
+{
+  std::vector<SortedCorners> of_caps;
+  for (Index t = 0; t < caps.rows(); ++t)
+  {
+    of_caps.push_back(sorted_corners(caps, t));
+  }
+  std::sort(of_caps.begin(), of_caps.end(),
+    [](const SortedCorners& x, const SortedCorners& y)
+    { return x.ids != y.ids ? x.ids < y.ids : x.triangle < y.triangle; });
+  std::vector<char> gone(of_caps.size(), 0);
+  std::vector<std::int32_t> kept;
+  kept.reserve(static_cast<std::size_t>(triangles.rows() + caps.rows()));
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    bool cancelled = false;
+    if (!of_caps.empty())
+    {
+      const SortedCorners own = sorted_corners(triangles, t);
+      auto cap = std::lower_bound(of_caps.begin(), of_caps.end(), own.ids,
+        [](const SortedCorners& x, const std::array<Index, 3>& ids) { return x.ids < ids; });
+      for (; cap != of_caps.end() && cap->ids == own.ids && !cancelled; ++cap)
+      {
+        char& is_gone = gone[static_cast<std::size_t>(cap - of_caps.begin())];
+        cancelled = !is_gone && cap->turn != own.turn;
+        is_gone = is_gone || cancelled;
+      }
+    }
+    if (!cancelled)
+    {
+      kept.push_back(static_cast<std::int32_t>(t));
+    }
+  }
+  for (std::size_t i = 0; i < of_caps.size(); ++i)
+  {
+    if (!gone[i])
+    {
+      kept.push_back(static_cast<std::int32_t>(triangles.rows() + of_caps[i].triangle));
+    }
+  }
+  std::sort(kept.begin(), kept.end());
+  return kept;
+}
+} // namespace
+
+/// Cuts boxes into cells.
+class WindingCells::Builder
+{
+public:
+  Builder(WindingCells& owner, ExecutionContext& context) : owner_(owner), context_(context) {}
+
+  bool build();
+
+private:
+  struct Box
+  {
+    Vec3 lower;
+    Vec3 size;
+    Vec3 reference; ///< a place whose winding number is `count`
+    int count = 0;
+    std::vector<Id> faces; ///< ascending
+    std::vector<std::array<Vec3, 3>> corners; ///< theirs: fetched once, read one after the other
+    int depth = 0;
+  };
+  /// A box's cells: faces of the cell c are faces[begin[c] ... begin[c + 1]), ascending places in
+  /// the box's list.
+  struct Grid
+  {
+    double cell = 0.0; ///< size of one
+    std::array<Id, 3> size;
+    std::size_t faces_before = 0; ///< of the box
+    std::vector<Id> begin;
+    std::vector<Id> faces;
+    std::vector<Vec3> references;
+    std::vector<int> counts; ///< winding numbers of the references
+
+    Id cells() const { return this->size[0] * this->size[1] * this->size[2]; }
+    std::array<Id, 3> place(Id c) const
+    {
+      return { c % this->size[0], c / this->size[0] % this->size[1],
+        c / this->size[0] / this->size[1] };
+    }
+    Id number(Id c) const { return this->begin[c + 1] - this->begin[c]; }
+  };
+  using List = std::pair<const Id*, const Id*>;
+  using Found = std::vector<std::pair<Id, Id>>; // cell, face
+
+  Grid cells_of(const Box& box, double most_along) const;
+  bool sort(const Box& box, bool on_all_threads, std::size_t most, Grid& grid) const;
+  bool find(
+    const Box& box, const Grid& grid, Index begin, Index end, std::size_t most, Found& found) const;
+  bool refer(const Box& box, Grid& grid) const;
+  static bool crossings(
+    const Box& box, const Vec3& from, const Vec3& to, List some, List others, int& count);
+  bool count_slowly(const Vec3& place, int& count) const;
+  bool cut_whole(const Box& whole);
+  bool cut(const Box& box, Arrays& made, std::size_t entries) const;
+  bool fill(
+    const Box& box, const Grid& grid, Id c, std::size_t entries, Arrays& made, Cell& cell) const;
+  static Id add_leaf(
+    const Box& box, const Vec3& reference, int count, double cell, List faces, Arrays& made);
+  void append(const Arrays& part, Id first, Id cells);
+
+  WindingCells& owner_;
+  ExecutionContext& context_;
+  std::vector<Id> faces_; // all of them
+};
+
+bool WindingCells::build(const Points& points, const Triangles& triangles, const Triangles& caps,
+  double tolerance, ExecutionContext& context)
+{
+  this->points_ = &points;
+  this->triangles_ = &triangles;
+  this->caps_ = &caps;
+  this->tolerance_ = tolerance;
+  return Builder(*this, context).build();
+}
+
+bool WindingCells::Builder::build()
+{
+  this->faces_ = without_opposites(*this->owner_.triangles_, *this->owner_.caps_);
+  Box all;
+  bindpose::Box bounds;
+  reserve_in_large_pages(all.corners, this->faces_.size());
+  for (const Id face : this->faces_)
+  {
+    all.corners.push_back(this->owner_.corners(face));
+    for (const Vec3& corner : all.corners.back())
+    {
+      bounds.add(corner);
+    }
+  }
+  if (!bounds.empty())
+  {
+    // Some room, so that no triangle lies in the box's sides, of no simple ratio, so that those of
+    // cells do not lie in the planes of axis-aligned surfaces.
+    const double room = 1e-3 * bounds.diagonal() + 16.0 * this->owner_.tolerance_;
+    all.lower = bounds.lower - Vec3(1.0137, 1.0719, 1.0431) * room;
+    all.size = bounds.upper + Vec3(1.0311, 1.0173, 1.0597) * room - all.lower;
+    all.faces = this->faces_;
+  }
+  else
+  {
+    all.lower = Vec3::Zero();
+    all.size = Vec3::Zero();
+  }
+  this->owner_.lower_ = all.lower;
+  this->owner_.upper_ = all.lower + all.size;
+  if (all.faces.empty())
+  {
+    this->owner_.upper_ = this->owner_.lower_ - Vec3::Ones(); // all is outside
+    return true;
+  }
+  return this->cut_whole(all);
+}
+
+/// Signed crossings of a segment with the faces of two lists, each face once; false when unclear.
+bool WindingCells::Builder::crossings(
+  const Box& box, const Vec3& from, const Vec3& to, List some, List others, int& count)
+{
+  count = 0;
+  while (some.first != some.second || others.first != others.second)
+  {
+    const bool both =
+      some.first != some.second && others.first != others.second && *some.first == *others.first;
+    const bool own =
+      others.first == others.second || (some.first != some.second && *some.first <= *others.first);
+    const Id face = own ? *some.first : *others.first;
+    some.first += own || both;
+    others.first += !own || both;
+    const Crossing found = crossing(from, to, box.corners[face]);
+    if (found == Crossing::unclear)
+    {
+      return false;
+    }
+    count += found == Crossing::outwards ? 1 : found == Crossing::inwards ? -1 : 0;
+  }
+  return true;
+}
+
+/// By the angles of all faces; false when the place touches one.
+bool WindingCells::Builder::count_slowly(const Vec3& place, int& count) const
+{
+  SolidAngleSum sum(place, this->owner_.tolerance_);
+  for (const Id face : this->faces_)
+  {
+    const std::array<Vec3, 3> corners = this->owner_.corners(face);
+    sum.add(corners[0], corners[1], corners[2]);
+  }
+  count = static_cast<int>(std::lround(sum.winding_number()));
+  return !sum.on_surface();
+}
+
+/// Cubic cells, about so many that a sheet of triangles leaves the wanted number in each.
+WindingCells::Builder::Grid WindingCells::Builder::cells_of(const Box& box, double most_along) const
+{
+  Grid grid;
+  grid.faces_before = box.faces.size();
+  const double fewest_along = box.depth == 0 ? fewest_cells_along : 2.0;
+  const double along = std::min(most_along,
+    std::max(fewest_along, std::round(std::sqrt(static_cast<double>(box.faces.size()) / wanted))));
+  grid.cell = box.size.maxCoeff() / along;
+  for (int k = 0; k < 3; ++k)
+  {
+    grid.size[k] = std::clamp(
+      static_cast<Id>(std::ceil(box.size[k] / grid.cell - 1e-6)), Id(1), Id(most_cells_along));
+  }
+  return grid;
+}
+
+/// The cells that faces [begin, end) of the box meet; false when cancelled, or when they are more
+/// than `most`.
+bool WindingCells::Builder::find(
+  const Box& box, const Grid& grid, Index begin, Index end, std::size_t most, Found& found) const
+{
+  const std::array<Id, 3>& size = grid.size;
+  // A little room, so that a point that rounding puts into the neighbouring cell is still told
+  // right.
+  const Vec3 half = Vec3::Constant(0.5 * grid.cell * (1.0 + 1e-9) + 4.0 * this->owner_.tolerance_);
+  const double inverse = 1.0 / grid.cell;
+  for (Index i = begin; i < end; ++i)
+  {
+    if (found.size() > most || (i % 16384 == 16383 && this->context_.cancelled()))
+    {
+      return false;
+    }
+    const std::array<Vec3, 3>& corners = box.corners[i];
+    const Vec3 lower = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]) - box.lower;
+    const Vec3 upper = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]) - box.lower;
+    std::array<Id, 3> from, to;
+    bool outside = false;
+    for (int k = 0; k < 3; ++k)
+    {
+      const double rim = half[k] - 0.5 * grid.cell;
+      const double low = (lower[k] - rim) * inverse;
+      const double high = (upper[k] + rim) * inverse;
+      outside = outside || low >= size[k] || high < 0.0;
+      from[k] = static_cast<Id>(std::clamp(low, 0.0, size[k] - 1.0));
+      to[k] = static_cast<Id>(std::clamp(high, 0.0, size[k] - 1.0));
+    }
+    const int wide = (from[0] < to[0]) + (from[1] < to[1]) + (from[2] < to[2]);
+    for (Id z = from[2]; z <= to[2] && !outside; ++z)
+    {
+      for (Id y = from[1]; y <= to[1]; ++y)
+      {
+        for (Id x = from[0]; x <= to[0]; ++x)
+        {
+          const Vec3 center = box.lower + grid.cell * Vec3(x + 0.5, y + 0.5, z + 0.5);
+          if (wide < 2 || overlaps(corners, center, half))
+          {
+            found.emplace_back((z * size[1] + y) * size[0] + x, static_cast<Id>(i));
+          }
+        }
+      }
+    }
+  }
+  return true;
+}
+
+/// Sorts the box's faces into its cells; false when cancelled, or when they would make more than
+/// `most` entries.
+bool WindingCells::Builder::sort(
+  const Box& box, bool on_all_threads, std::size_t most, Grid& grid) const
+{
+  const auto count = static_cast<Index>(box.faces.size());
+  const Index share = on_all_threads ? 16384 : count;
+  std::vector<Found> found(static_cast<std::size_t>((count + share - 1) / share));
+  std::atomic<bool> done{ true };
+  std::atomic<std::size_t> entries{ 0 };
+  const auto body = [&](Index begin, Index end)
+  {
+    Found& here = found[begin / share];
+    if (!done || !this->find(box, grid, begin, end, most, here) || (entries += here.size()) > most)
+    {
+      done = false;
+    }
+  };
+  if (on_all_threads)
+  {
+    done = parallel_for(this->context_, count, share, body) && done;
+  }
+  else
+  {
+    body(0, count);
+  }
+  if (!done)
+  {
+    return false;
+  }
+  grid.begin.assign(static_cast<std::size_t>(grid.cells()) + 1, 0);
+  for (const Found& part : found)
+  {
+    for (const auto& entry : part)
+    {
+      grid.begin[entry.first + 1] += 1;
+    }
+  }
+  for (Id c = 0; c < grid.cells(); ++c)
+  {
+    grid.begin[c + 1] += grid.begin[c];
+  }
+  grid.faces.resize(static_cast<std::size_t>(grid.begin.back()));
+  std::vector<Id> next(grid.begin.begin(), grid.begin.end() - 1);
+  for (const Found& part : found)
+  {
+    for (const auto& [c, face] : part)
+    {
+      grid.faces[next[c]++] = face;
+    }
+  }
+  return true;
+}
+
+/// References of the cells, and what winds around them; false when cancelled.
+bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
+{
+  const Id cells = grid.cells();
+  grid.references.resize(static_cast<std::size_t>(cells));
+  grid.counts.assign(static_cast<std::size_t>(cells), 0);
+  for (Id c = 0; c < cells; ++c)
+  {
+    if (c % 256 == 255 && this->context_.cancelled())
+    {
+      return false;
+    }
+    const auto [x, y, z] = grid.place(c);
+    const Id before = x > 0 ? c - 1 : y > 0 ? c - grid.size[0] : c - grid.size[0] * grid.size[1];
+    const Vec3 center = box.lower + grid.cell * Vec3(x + 0.5, y + 0.5, z + 0.5);
+    const auto list = [&](Id i)
+    { return List(grid.faces.data() + grid.begin[i], grid.faces.data() + grid.begin[i + 1]); };
+    bool told = false;
+    for (int attempt = 0; attempt < 32 && !told; ++attempt)
+    {
+      // Off the middle, in another direction each time, and of no simple ratio.
+      const double t = attempt + 1.0;
+      const Vec3 place = center +
+        0.05 * grid.cell *
+          Vec3(std::sin(1.7 * t + 0.3), std::sin(2.3 * t + 1.1), std::sin(3.1 * t + 2.3));
+      grid.references[c] = place;
+      const List none(nullptr, nullptr);
+      int& found = grid.counts[c];
+      if (c > 0)
+      {
+        told = crossings(box, place, grid.references[before], list(c), list(before), found);
+        found += grid.counts[before];
+      }
+      else if (box.depth == 0)
+      {
+        // From outside of everything.
+        const Vec3 step = grid.cell * Vec3(1.1, 0.03, 0.05);
+        told = crossings(box, place, place - step, list(c), none, found);
+      }
+      else
+      {
+        std::vector<Id> all(box.faces.size());
+        std::iota(all.begin(), all.end(), 0);
+        told = crossings(
+          box, place, box.reference, List(all.data(), all.data() + all.size()), none, found);
+        found += box.count;
+      }
+      if (!told && attempt % 8 == 7)
+      {
+        told = this->count_slowly(place, found);
+      }
+    }
+  }
+  return true;
+}
+
+bool WindingCells::Builder::cut_whole(const Box& whole)
+{
+  // Entries that all cells together may make, shared out by what they begin with: no more memory
+  // than a multiple of the surface's, however unlucky the faces lie. Triangles as large as the
+  // surface must do with fewer cells.
+  const double most = 16.0 * static_cast<double>(this->faces_.size()) + 1e5;
+  Grid grid;
+  {
+    const ProgressRange range(this->context_, 0.0, 0.3);
+    bool sorted = false;
+    for (double along = most_cells_along; !sorted && along >= 1.0 && !this->context_.cancelled();
+         along = 0.5 * whole.size.maxCoeff() / grid.cell)
+    {
+      grid = this->cells_of(whole, along);
+      sorted = this->sort(whole, true, static_cast<std::size_t>(most), grid);
+    }
+    if (!sorted || !this->refer(whole, grid))
+    {
+      return false;
+    }
+  }
+  const Id cells = grid.cells();
+  const double each = most / static_cast<double>(std::max<std::size_t>(1, grid.faces.size()));
+  constexpr Index cells_at_once = 16;
+  std::vector<Arrays> parts(static_cast<std::size_t>((cells + cells_at_once - 1) / cells_at_once));
+  Arrays& all = this->owner_.arrays_;
+  all = Arrays();
+  all.nodes.push_back({ whole.lower, 1.0 / grid.cell, grid.size, 0 });
+  all.cells.resize(static_cast<std::size_t>(cells));
+  std::atomic<bool> done{ true };
+  {
+    const ProgressRange range(this->context_, 0.3, 0.95);
+    done =
+      parallel_for(this->context_, cells, cells_at_once,
+        [&](Index begin, Index end)
+        {
+          for (auto c = static_cast<Id>(begin); c < end && done; ++c)
+          {
+            const auto entries = static_cast<std::size_t>(each * grid.number(c));
+            if (!this->fill(whole, grid, c, entries, parts[begin / cells_at_once], all.cells[c]))
+            {
+              done = false;
+            }
+          }
+        }) &&
+      done;
+  }
+  if (!done)
+  {
+    return false;
+  }
+  grid = Grid();
+  const auto make_room = [&](auto Arrays::*items)
+  {
+    std::size_t count = (all.*items).size();
+    for (const Arrays& part : parts)
+    {
+      count += (part.*items).size();
+    }
+    reserve_in_large_pages(all.*items, count);
+  };
+  make_room(&Arrays::nodes);
+  make_room(&Arrays::cells);
+  make_room(&Arrays::leaves);
+  make_room(&Arrays::blocks);
+  make_room(&Arrays::faces);
+  for (std::size_t i = 0; i < parts.size(); ++i)
+  {
+    const auto first = static_cast<Id>(i * cells_at_once);
+    this->append(parts[i], first, std::min(cells, first + static_cast<Id>(cells_at_once)));
+    parts[i] = Arrays();
+  }
+  return !this->context_.cancelled();
+}
+
+/// Joins what the cells [first, end) of the whole hold to the rest.
+void WindingCells::Builder::append(const Arrays& part, Id first, Id end)
+{
+  Arrays& all = this->owner_.arrays_;
+  const auto nodes = static_cast<Id>(all.nodes.size());
+  const auto cells = static_cast<Id>(all.cells.size());
+  const auto leaves = static_cast<Id>(all.leaves.size());
+  const auto blocks = static_cast<Id>(all.blocks.size());
+  const auto shift = [&](Cell& cell) {
+    cell.value += cell.kind == holds_node ? nodes : cell.kind == holds_leaf ? leaves : 0;
+  };
+  std::for_each(all.cells.begin() + first, all.cells.begin() + end, shift);
+  all.nodes.insert(all.nodes.end(), part.nodes.begin(), part.nodes.end());
+  all.cells.insert(all.cells.end(), part.cells.begin(), part.cells.end());
+  all.leaves.insert(all.leaves.end(), part.leaves.begin(), part.leaves.end());
+  all.blocks.insert(all.blocks.end(), part.blocks.begin(), part.blocks.end());
+  all.faces.insert(all.faces.end(), part.faces.begin(), part.faces.end());
+  std::for_each(
+    all.nodes.begin() + nodes, all.nodes.end(), [&](Node& node) { node.first += cells; });
+  std::for_each(all.cells.begin() + cells, all.cells.end(), shift);
+  for (auto leaf = all.leaves.begin() + leaves; leaf != all.leaves.end(); ++leaf)
+  {
+    leaf->begin += blocks;
+    leaf->end += blocks;
+  }
+}
+
+/// The box as a new node; false, and nothing is made, when cancelled or when its cells would hold
+/// more than so many entries.
+bool WindingCells::Builder::cut(const Box& box, Arrays& made, std::size_t entries) const
+{
+  Grid grid = this->cells_of(box, most_cells_along);
+  if (this->context_.cancelled() || !this->sort(box, false, entries, grid) ||
+    !this->refer(box, grid))
+  {
+    return false;
+  }
+  const Id cells = grid.cells();
+  const auto first = static_cast<Id>(made.cells.size());
+  made.cells.resize(static_cast<std::size_t>(first + cells));
+  made.nodes.push_back({ box.lower, 1.0 / grid.cell, grid.size, first });
+  const double each =
+    static_cast<double>(entries) / static_cast<double>(std::max<std::size_t>(1, grid.faces.size()));
+  for (Id c = 0; c < cells; ++c)
+  {
+    Cell cell{};
+    if (!this->fill(box, grid, c, static_cast<std::size_t>(each * grid.number(c)), made, cell))
+    {
+      return false;
+    }
+    made.cells[first + c] = cell;
+  }
+  return true;
+}
+
+/// What the cell c is, and all that is in it; false when cancelled.
+bool WindingCells::Builder::fill(
+  const Box& box, const Grid& grid, Id c, std::size_t entries, Arrays& made, Cell& cell) const
+{
+  const auto number = static_cast<std::size_t>(grid.number(c));
+  const List faces(grid.faces.data() + grid.begin[c], grid.faces.data() + grid.begin[c + 1]);
+  // Cutting must pay: a vertex of many triangles stays in one cell however small.
+  const bool shrinks = box.depth < 3 || 10 * number < 7 * grid.faces_before;
+  const bool large_enough = grid.cell > 1e6 * this->owner_.tolerance_;
+  if (number > few && shrinks && large_enough && box.depth < deepest && entries > number)
+  {
+    const auto [x, y, z] = grid.place(c);
+    Box inner;
+    inner.lower = box.lower + grid.cell * Vec3(x, y, z);
+    inner.size = Vec3::Constant(grid.cell);
+    inner.reference = grid.references[c];
+    inner.count = grid.counts[c];
+    inner.faces.reserve(number);
+    inner.corners.reserve(number);
+    for (const Id* face = faces.first; face < faces.second; ++face)
+    {
+      inner.faces.push_back(box.faces[*face]);
+      inner.corners.push_back(box.corners[*face]);
+    }
+    inner.depth = box.depth + 1;
+    cell = { static_cast<Id>(made.nodes.size()), holds_node };
+    if (this->cut(inner, made, entries))
+    {
+      return true;
+    }
+    if (this->context_.cancelled())
+    {
+      return false;
+    }
+    // Its faces are too large for smaller cells.
+  }
+  cell = { grid.counts[c], holds_nothing };
+  if (number > 0)
+  {
+    cell = { add_leaf(box, grid.references[c], grid.counts[c], grid.cell, faces, made),
+      holds_leaf };
+  }
+  return true;
+}
+
+namespace
+{
+/// Three whole numbers for the direction of a cross product; zeros where it has none: then every
+/// sign is open.
+std::array<double, 3> direction(const Vec3& product, double shortest, double one)
+{
+  const double length = product.norm();
+  if (!(length > shortest))
+  {
+    return { 0.0, 0.0, 0.0 };
+  }
+  const Vec3 scaled = product * (one / length);
+  return { scaled.x(), scaled.y(), scaled.z() };
+}
+} // namespace
+
+WindingCells::Id WindingCells::Builder::add_leaf(
+  const Box& box, const Vec3& reference, int count, double cell, List faces, Arrays& made)
+{
+  constexpr auto one = static_cast<double>(Block::one);
+  Leaf leaf;
+  leaf.reference = reference;
+  leaf.count = count;
+  leaf.per_length = static_cast<float>(distance_units / cell);
+  leaf.begin = static_cast<Id>(made.blocks.size());
+  for (const Id* first = faces.first; first < faces.second; first += lanes)
+  {
+    Block block;
+    Faces ids;
+    for (int lane = 0; lane < lanes; ++lane)
+    {
+      // A lane that is none: a plane far away.
+      std::array<double, Block::numbers> plane{};
+      plane[12] = one;
+      ids[lane] = -1;
+      if (first + lane < faces.second)
+      {
+        ids[lane] = box.faces[first[lane]];
+        const std::array<Vec3, 3>& corners = box.corners[first[lane]];
+        const std::array<Vec3, 3> seen{ corners[0] - reference, corners[1] - reference,
+          corners[2] - reference };
+        double reach = 0.0;
+        for (int k = 0; k < 3; ++k)
+        {
+          reach = std::max(reach, seen[k].norm());
+        }
+        for (int k = 0; k < 3; ++k)
+        {
+          const auto normal =
+            direction(seen[(k + 1) % 3].cross(seen[(k + 2) % 3]), shortest_product * reach, one);
+          std::copy(normal.begin(), normal.end(), plane.begin() + 3 * k);
+        }
+        const Vec3 u = corners[1] - corners[0];
+        const Vec3 v = corners[2] - corners[0];
+        const Vec3 product = u.cross(v);
+        const double longest = std::max(u.norm(), v.norm());
+        const auto normal =
+          direction(product, shortest_product * longest * std::max(1.0, reach / cell), one);
+        const double distance =
+          static_cast<double>(leaf.per_length) * product.dot(seen[0]) / product.norm();
+        const bool is_near = std::abs(distance) < one; // as it should be
+        std::copy(normal.begin(), normal.end(), plane.begin() + 9);
+        plane[12] = is_near && normal != std::array<double, 3>{} ? distance : 0.0;
+      }
+      for (int k = 0; k < Block::numbers; ++k)
+      {
+        // Rounded; a call would cost more than the rest.
+        block.plane[k * lanes + lane] =
+          static_cast<std::int16_t>(plane[k] + (plane[k] < 0.0 ? -0.5 : 0.5));
+      }
+    }
+    made.blocks.push_back(block);
+    made.faces.push_back(ids);
+  }
+  leaf.end = static_cast<Id>(made.blocks.size());
+  made.leaves.push_back(leaf);
+  return static_cast<Id>(made.leaves.size()) - 1;
+}
+
+} // namespace bindpose

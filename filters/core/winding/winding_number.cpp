@@ -1,0 +1,718 @@
+// Build: merge equal vertices, drop triangles that use a vertex twice, count edges, choose a
+// method, make its structures. Evaluate: each point on its own, so that neither threads nor the
+// extent of a grid can change a bit.
+//
+// Both crossings and fast close the surface by caps over its boundary. Surface and caps together
+// wind a whole number of times around a point, counted on a ray; what the caps wind on their own is
+// taken off, exactly as their sum, or fast as their field. Where a point touches the surface or a
+// cap, the tree or the plain sum tells.
+//
+// All of it happens in an exact frame: size about 1, near the origin, nothing rounded.
+#include "winding/winding_number.h"
+
+#include "base/parallel.h"
+#include "winding/boundary_caps.h"
+#include "winding/dipole_field.h"
+#include "winding/point_order.h"
+#include "winding/point_values.h"
+#include "winding/solid_angle.h"
+#include "winding/welded_surface.h"
+#include "winding/winding_cells.h"
+#include "winding/winding_tree.h"
+
+#include <algorithm>
+#include <atomic>
+#include <limits>
+#include <mutex>
+#include <sstream>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Below this many triangles their plain sum costs no more than a structure.
+constexpr Index few_triangles = 24;
+/// Up to this many open edges their sum costs less than descending the tree. (Nor does the tree pay
+/// where most edges are open. Measured: 14-20 ns an open edge, 20 ns a triangle, 20 to 600 us the
+/// tree, the more the rougher the surface.)
+constexpr Index few_open_edges = 15000;
+/// Up to this many open edges their exact sum costs about as much as the field of the caps.
+constexpr Index hardly_open = 12;
+/// Beyond this distance, in units of the mesh, the winding number is 0 in double precision.
+constexpr double far_away = 1e20;
+
+double direct_sum(
+  PointsView points, TrianglesView triangles, const Vec3& p, double tolerance, bool* on_surface)
+{
+  SolidAngleSum sum(p, tolerance);
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    sum.add(points.row(triangles(t, 0)), points.row(triangles(t, 1)), points.row(triangles(t, 2)));
+  }
+  if (on_surface)
+  {
+    *on_surface = sum.on_surface();
+  }
+  return sum.winding_number();
+}
+} // namespace
+
+const char* to_string(WindingMethod method)
+{
+  switch (method)
+  {
+    case WindingMethod::automatic:
+      return "automatic";
+    case WindingMethod::exact:
+      return "exact";
+    case WindingMethod::fast:
+      return "fast";
+    case WindingMethod::direct:
+      return "direct";
+    case WindingMethod::hierarchical:
+      return "hierarchical";
+    case WindingMethod::crossings:
+      return "crossings";
+  }
+  return "automatic";
+}
+
+struct WindingNumber::Parts
+{
+  Status status;
+  WindingMethod method = WindingMethod::direct;
+  ExactFrame frame;
+  Points points;
+  Triangles triangles;
+  Index max_leaf_size = 64;
+  // Made when first asked: touching points are rare.
+  mutable WindingTree tree;
+  mutable std::mutex tree_mutex;
+  mutable std::atomic<bool> tree_built{ false };
+  WindingCells cells;
+  std::vector<Edge> rim; ///< edges whose directions do not cancel
+  Triangles caps; ///< with them the surface is closed
+  SurfaceBoundary boundary; ///< ids and volumes are the input's
+  DipoleField field; ///< of the caps, when the method is fast
+
+  bool by_crossings() const
+  {
+    return this->method == WindingMethod::crossings || this->method == WindingMethod::fast;
+  }
+  void choose(WindingMethod wanted, Index open_edges);
+  bool build_tree(ExecutionContext& context) const;
+  void at(const Vec3* queries, Index number, double* winding_numbers, bool* on_surface) const;
+  Vec3 gradient_at(const Vec3& point) const;
+  double slowly_at(const Vec3& framed, bool* on_surface) const;
+  bool reaches(const SampleGrid& grid) const;
+  void caps_at(const Vec3* framed, Index count, double* winding_numbers, bool* touches) const;
+};
+
+WindingNumber::WindingNumber() : parts_(new Parts) {}
+WindingNumber::WindingNumber(PointsView points, TrianglesView triangles) : parts_(new Parts)
+{
+  ExecutionContext context;
+  this->build(points, triangles, context);
+}
+WindingNumber::~WindingNumber() = default;
+WindingNumber::WindingNumber(WindingNumber&&) noexcept = default;
+WindingNumber& WindingNumber::operator=(WindingNumber&&) noexcept = default;
+
+void WindingNumber::Parts::choose(WindingMethod wanted, Index open_edges)
+{
+  const Index count = this->triangles.rows();
+  std::string reason = "asked for";
+  this->method = wanted;
+  const std::string numbers =
+    std::to_string(count) + " triangles, " + std::to_string(open_edges) + " open edges: ";
+  if (wanted == WindingMethod::fast && open_edges == 0)
+  {
+    this->method = WindingMethod::crossings;
+    reason = numbers + "closed, exact is as fast";
+  }
+  else if (wanted == WindingMethod::automatic && count > few_triangles && open_edges > hardly_open)
+  {
+    this->method = WindingMethod::fast;
+    reason = numbers + "exact sums over these would take many times longer";
+  }
+  else if (wanted == WindingMethod::automatic || wanted == WindingMethod::exact)
+  {
+    if (count <= few_triangles && open_edges > 0)
+    {
+      this->method = WindingMethod::direct;
+      reason = numbers + "too few for a structure to pay";
+    }
+    else if (2 * open_edges > 3 * count)
+    {
+      this->method = WindingMethod::direct;
+      reason = numbers + "a soup that hardly shares an edge, nothing beats the plain sum";
+    }
+    else if (open_edges <= few_open_edges || 2 * open_edges >= count)
+    {
+      this->method = WindingMethod::crossings;
+      reason = numbers +
+        (open_edges ? "cheapest to sum these beside the crossings of a ray"
+                    : "closed, the crossings of a ray are all there is");
+    }
+    else
+    {
+      this->method = WindingMethod::hierarchical;
+      reason = numbers + "too many open edges to sum them at every point";
+    }
+  }
+  this->status.report.set("method", to_string(this->method));
+  this->status.report.set("method_reason", reason);
+}
+
+Status WindingNumber::build(
+  PointsView points, TrianglesView triangles, ExecutionContext& context, const Options& options)
+{
+  this->parts_.reset(new Parts);
+  Parts& parts = *this->parts_;
+  Status& status = parts.status;
+  status = check_mesh(points, triangles);
+  if (status.ok() && triangles.rows() > std::numeric_limits<std::int32_t>::max() / 4)
+  {
+    status = Status::invalid_input(
+      "the surface has " + std::to_string(triangles.rows()) + " triangles, more than 2^29");
+  }
+  if (status.ok() && !(options.tolerance >= 1e-8 && options.tolerance <= 0.1))
+  {
+    std::ostringstream text;
+    text << "the tolerance must lie between 1e-8 and 0.1, not at " << options.tolerance;
+    status = Status::invalid_input(text.str());
+  }
+  if (status.ok() && (options.max_leaf_size < 1 || options.max_leaf_size > 10000))
+  {
+    status = Status::invalid_input(
+      "max_leaf_size must be 1 … 10000, not " + std::to_string(options.max_leaf_size));
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+
+  Report& report = status.report;
+  parts.frame = triangles.rows() ? ExactFrame(bounding_box(points, triangles)) : ExactFrame();
+  WeldedSurface welded;
+  bool done = true;
+  {
+    const ProgressRange range(context, 0.0, 0.4);
+    done = weld_surface(points, triangles, parts.frame, context, welded);
+  }
+  parts.points = std::move(welded.points);
+  parts.triangles = std::move(welded.triangles);
+  if (done)
+  {
+    Index boundary = 0, nonmanifold = 0, open = 0;
+    for (const Edge& edge : welded.edges)
+    {
+      boundary += edge.uses == 1;
+      nonmanifold += edge.uses > 2;
+      open += edge.net_direction != 0;
+      if (edge.net_direction != 0)
+      {
+        parts.rim.push_back(edge);
+      }
+    }
+    parts.caps = boundary_caps(parts.rim);
+    parts.boundary = surface_boundary(parts.points, parts.triangles, parts.rim, parts.caps);
+    const double unit = 1.0 / parts.frame.scale;
+    double volume = 0.0;
+    for (SurfaceBoundary::BoundaryEdge& edge : parts.boundary.edges)
+    {
+      edge.from = welded.original_vertices[edge.from];
+      edge.to = welded.original_vertices[edge.to];
+    }
+    for (SurfaceBoundary::Component& component : parts.boundary.components)
+    {
+      component.volume *= unit * unit * unit;
+      volume += component.volume;
+    }
+    report.set("counts.vertices", points.rows());
+    report.set("counts.triangles", triangles.rows());
+    report.set("counts.boundary_edges", boundary);
+    report.set("counts.nonmanifold_edges", nonmanifold);
+    report.set("counts.open_edges", open);
+    report.set("counts.components", static_cast<Index>(parts.boundary.components.size()));
+    report.set("counts.merged_vertices", welded.merged_vertices);
+    report.set("counts.degenerate_triangles", welded.degenerate_triangles);
+    report.set("counts.duplicate_triangles", welded.duplicate_triangles);
+    report.set("volume", volume);
+    parts.choose(options.method, open);
+    if (parts.triangles.rows() == 0)
+    {
+      status.warnings.push_back(triangles.rows() == 0
+          ? "the surface has no triangle: its winding number is 0 everywhere"
+          : "all triangles are degenerate: the winding number is 0 everywhere");
+      parts.method = WindingMethod::direct;
+    }
+  }
+  if (done && parts.method == WindingMethod::fast)
+  {
+    parts.caps = smaller_caps(parts.points, parts.triangles, parts.caps);
+  }
+  parts.max_leaf_size = options.max_leaf_size;
+  if (done && parts.method == WindingMethod::hierarchical)
+  {
+    const ProgressRange range(context, 0.4, 1.0);
+    done = parts.build_tree(context);
+  }
+  if (done && parts.by_crossings())
+  {
+    const ProgressRange range(context, 0.4, parts.method == WindingMethod::fast ? 0.6 : 1.0);
+    done =
+      parts.cells.build(parts.points, parts.triangles, parts.caps, parts.frame.tolerance, context);
+  }
+  if (done && parts.method == WindingMethod::fast)
+  {
+    const ProgressRange range(context, 0.6, 1.0);
+    DipoleField::Options field;
+    field.tolerance = options.tolerance;
+    // The padding that grids have by default.
+    constexpr double padding = 0.1;
+    field.region = bounding_box(parts.points, parts.triangles);
+    const double pad = padding * field.region.diagonal();
+    field.region.lower.array() -= pad;
+    field.region.upper.array() += pad;
+    // Long caps are cut, at places that are rounded. So near to them that it shows, they count as
+    // touched, and the exact sum is asked.
+    const double shows = parts.frame.tolerance / options.tolerance;
+    done = parts.field.build(parts.points, parts.caps,
+      std::vector<int>(static_cast<std::size_t>(parts.caps.rows()), 1), shows, field, context);
+    report.set("error_bound", options.tolerance);
+    report.set("measured_error", parts.field.measured_error());
+  }
+  if (!done)
+  {
+    this->parts_.reset(new Parts);
+    this->parts_->status = Status::cancelled();
+  }
+  return this->parts_->status;
+}
+
+const Status& WindingNumber::status() const
+{
+  return this->parts_->status;
+}
+
+WindingMethod WindingNumber::method() const
+{
+  return this->parts_->method;
+}
+
+const SurfaceBoundary& WindingNumber::boundary() const
+{
+  return this->parts_->boundary;
+}
+
+Index WindingNumber::memory() const
+{
+  return static_cast<Index>(sizeof(double)) * this->parts_->points.size() +
+    static_cast<Index>(sizeof(Index)) *
+    (this->parts_->triangles.size() + this->parts_->caps.size()) +
+    this->parts_->tree.memory() + this->parts_->cells.memory() + this->parts_->field.memory();
+}
+
+/// At up to WindingCells::most_at_once points.
+void WindingNumber::Parts::at(
+  const Vec3* queries, Index number, double* winding_numbers, bool* on_surface) const
+{
+  std::array<Vec3, WindingCells::most_at_once> framed;
+  framed.fill(Vec3::Zero());
+  std::array<Index, WindingCells::most_at_once> asked; // those with an answer to look for
+  Index count = 0;
+  for (Index i = 0; i < number; ++i)
+  {
+    on_surface[i] = false;
+    const Vec3 p = this->frame(queries[i]);
+    winding_numbers[i] = queries[i].allFinite() ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+    if (this->triangles.rows() > 0 && p.cwiseAbs().maxCoeff() < far_away)
+    {
+      framed[count] = p;
+      asked[count++] = i;
+    }
+  }
+  if (!this->by_crossings())
+  {
+    for (Index k = 0; k < count; ++k)
+    {
+      winding_numbers[asked[k]] = this->slowly_at(framed[k], &on_surface[asked[k]]);
+    }
+    return;
+  }
+  std::array<int, WindingCells::most_at_once> crossed;
+  std::array<bool, WindingCells::most_at_once> told;
+  this->cells.evaluate(framed.data(), count, crossed.data(), told.data());
+  std::array<double, WindingCells::most_at_once> of_caps;
+  std::array<bool, WindingCells::most_at_once> touches;
+  this->caps_at(framed.data(), count, of_caps.data(), touches.data());
+  for (Index k = 0; k < count; ++k)
+  {
+    winding_numbers[asked[k]] = told[k] && !touches[k]
+      ? crossed[k] - of_caps[k]
+      : this->slowly_at(framed[k], &on_surface[asked[k]]);
+  }
+}
+
+/// What the caps wind, and whether the points touch them.
+void WindingNumber::Parts::caps_at(
+  const Vec3* framed, Index count, double* winding_numbers, bool* touches) const
+{
+  if (this->method == WindingMethod::fast && this->caps.rows() > 0)
+  {
+    this->field.evaluate(framed, count, winding_numbers, touches);
+    return;
+  }
+  for (Index i = 0; i < count; ++i)
+  {
+    touches[i] = false;
+    winding_numbers[i] = this->caps.rows() > 0
+      ? direct_sum(this->points, this->caps, framed[i], this->frame.tolerance, &touches[i])
+      : 0.0;
+  }
+}
+
+/// Where few points need it, not before the first does.
+bool WindingNumber::Parts::build_tree(ExecutionContext& context) const
+{
+  const std::lock_guard<std::mutex> lock(this->tree_mutex);
+  this->tree_built = this->tree_built ||
+    this->tree.build(
+      this->points, this->triangles, this->frame.tolerance, this->max_leaf_size, context);
+  return this->tree_built;
+}
+
+/// What is right everywhere.
+double WindingNumber::Parts::slowly_at(const Vec3& p, bool* on_surface) const
+{
+  if (this->method == WindingMethod::direct)
+  {
+    return direct_sum(this->points, this->triangles, p, this->frame.tolerance, on_surface);
+  }
+  if (!this->tree_built)
+  {
+    ExecutionContext quiet;
+    this->build_tree(quiet);
+  }
+  SolidAngleSum sum(p, this->frame.tolerance);
+  this->tree.add_to(sum, p);
+  if (on_surface)
+  {
+    *on_surface = sum.on_surface();
+  }
+  // What the cells tell without round-off must not have it when they happen not to.
+  const bool whole = this->rim.empty() && !sum.on_surface();
+  return whole ? std::round(sum.winding_number()) : sum.winding_number();
+}
+
+double WindingNumber::evaluate_exactly_at(const Vec3& point, bool* on_surface) const
+{
+  const Parts& parts = *this->parts_;
+  const Vec3 p = parts.frame(point);
+  if (parts.method == WindingMethod::fast && parts.triangles.rows() > 0 &&
+    p.cwiseAbs().maxCoeff() < far_away)
+  {
+    bool touches = false;
+    const double winding_number = parts.slowly_at(p, &touches);
+    if (on_surface)
+    {
+      *on_surface = touches;
+    }
+    return winding_number;
+  }
+  return this->evaluate_at(point, on_surface);
+}
+
+double WindingNumber::evaluate_at(const Vec3& point, bool* on_surface) const
+{
+  double winding_number = 0.0;
+  bool touches = false;
+  this->parts_->at(&point, 1, &winding_number, &touches);
+  if (on_surface)
+  {
+    *on_surface = touches;
+  }
+  return winding_number;
+}
+
+template <typename PointAt>
+Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
+  ExecutionContext& context, double* out, unsigned char* on_surface) const
+{
+  const Parts& parts = *this->parts_;
+  if (!parts.status.ok())
+  {
+    return parts.status;
+  }
+  // A tree may be no more than a list.
+  const double nanoseconds = parts.method == WindingMethod::fast ? 500.0
+    : parts.method == WindingMethod::crossings
+    ? 100.0 + 20.0 * static_cast<double>(parts.caps.rows())
+    : 20.0 * static_cast<double>(parts.triangles.rows());
+  return point_values(context, count, nanoseconds, out, on_surface,
+    [&](Index begin, Index end, unsigned char* flags)
+    {
+      // What cells hold is fetched once for the points that need it, in whatever order they come.
+      const Index count_here = end - begin;
+      std::vector<Vec3> points(static_cast<std::size_t>(count_here));
+      for (Index i = 0; i < count_here; ++i)
+      {
+        points[i] = point_at(begin + i);
+      }
+      const std::vector<std::int32_t> order = order_by_place(points);
+      constexpr Index at_once = WindingCells::most_at_once;
+      std::array<Vec3, at_once> some;
+      std::array<double, at_once> values;
+      std::array<bool, at_once> touches;
+      for (Index first = 0; first < count_here; first += at_once)
+      {
+        const Index number = std::min(at_once, count_here - first);
+        for (Index i = 0; i < number; ++i)
+        {
+          some[i] = points[order[first + i]];
+        }
+        parts.at(some.data(), number, values.data(), touches.data());
+        for (Index i = 0; i < number; ++i)
+        {
+          out[begin + order[first + i]] = values[i];
+          flags[order[first + i]] = touches[i];
+        }
+      }
+    });
+}
+
+namespace
+{
+auto points_of(const SampleGrid& grid)
+{
+  return [&grid](Index i) { return grid.point(i); };
+}
+
+auto points_of(PointsView queries)
+{
+  return [queries](Index i) -> Vec3 { return queries.row(i); };
+}
+} // namespace
+
+Status WindingNumber::evaluate(
+  PointsView queries, ExecutionContext& context, double* out, unsigned char* on_surface) const
+{
+  return this->evaluate_points(queries.rows(), points_of(queries), context, out, on_surface);
+}
+
+Status WindingNumber::evaluate(
+  const SampleGrid& grid, ExecutionContext& context, double* out, unsigned char* on_surface) const
+{
+  if (this->parts_->status.ok() && this->parts_->by_crossings() && this->parts_->reaches(grid))
+  {
+    return this->evaluate_rows(grid, context, out, on_surface);
+  }
+  return this->evaluate_points(grid.count(), points_of(grid), context, out, on_surface);
+}
+
+template <typename PointAt>
+Status WindingNumber::evaluate_gradients(
+  Index count, const PointAt& point_at, ExecutionContext& context, double* out) const
+{
+  const Parts& parts = *this->parts_;
+  if (!parts.status.ok())
+  {
+    return parts.status;
+  }
+  const double nanoseconds = parts.method == WindingMethod::fast
+    ? 1000.0
+    : 10.0 + 10.0 * static_cast<double>(parts.rim.size());
+  return point_gradients(context, count, nanoseconds,
+    [&](Index i) { Eigen::Map<Vec3>(out + 3 * i) = parts.gradient_at(point_at(i)); });
+}
+
+Status WindingNumber::evaluate_gradient(
+  PointsView queries, ExecutionContext& context, double* out) const
+{
+  return this->evaluate_gradients(queries.rows(), points_of(queries), context, out);
+}
+
+Status WindingNumber::evaluate_gradient(
+  const SampleGrid& grid, ExecutionContext& context, double* out) const
+{
+  return this->evaluate_gradients(grid.count(), points_of(grid), context, out);
+}
+
+/// The boundary edges' share (the field of a current that runs along them): the surface between
+/// them does not matter.
+Vec3 WindingNumber::Parts::gradient_at(const Vec3& point) const
+{
+  if (!point.allFinite())
+  {
+    return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
+  }
+  const Vec3 p = this->frame(point);
+  if (this->rim.empty() || !(p.cwiseAbs().maxCoeff() < far_away))
+  {
+    return Vec3::Zero();
+  }
+  if (this->method == WindingMethod::fast)
+  {
+    return -this->frame.scale * this->field.gradient(p);
+  }
+  Vec3 sum = Vec3::Zero();
+  for (const Edge& edge : this->rim)
+  {
+    const Vec3 a = this->points.row(edge.a).transpose() - p;
+    const Vec3 b = this->points.row(edge.b).transpose() - p;
+    const double la = a.norm();
+    const double lb = b.norm();
+    const double angle = la * lb + a.dot(b);
+    if (angle > 1e-28 * la * lb && la > 0.0 && lb > 0.0)
+    {
+      sum += edge.net_direction * ((la + lb) / (la * lb * angle)) * a.cross(b);
+    }
+  }
+  constexpr double four_pi = 12.56637061435917295;
+  return this->frame.scale / four_pi * sum;
+}
+
+/// All samples are where the cells can tell.
+bool WindingNumber::Parts::reaches(const SampleGrid& grid) const
+{
+  const auto corner = [&](int end)
+  { return this->frame(grid.point(grid.extent[end], grid.extent[2 + end], grid.extent[4 + end])); };
+  return this->triangles.rows() > 0 && grid.count() > 0 && corner(0).allFinite() &&
+    corner(1).allFinite() && corner(0).cwiseAbs().maxCoeff() < far_away &&
+    corner(1).cwiseAbs().maxCoeff() < far_away;
+}
+
+/// The grid's rows along x, each shared by neighbours that lie in one cell.
+Status WindingNumber::evaluate_rows(
+  const SampleGrid& grid, ExecutionContext& context, double* out, unsigned char* on_surface) const
+{
+  const Parts& parts = *this->parts_;
+  const Index length = grid.size(0);
+  std::vector<double> xs(static_cast<std::size_t>(length));
+  for (Index i = 0; i < length; ++i)
+  {
+    xs[i] = parts.frame(grid.point(grid.extent[0] + i, grid.extent[2], grid.extent[4])).x();
+  }
+  const bool closed = parts.caps.rows() == 0;
+  const bool fast = parts.method == WindingMethod::fast;
+  const Index cost = fast ? 10 : 1 + parts.caps.rows();
+  const Index block = std::max<Index>(1, 1000000 / (cost * length));
+  std::atomic<Index> touching{ 0 };
+  const bool done = parallel_for(context, grid.size(1) * grid.size(2), block,
+    [&](Index begin, Index end)
+    {
+      Index touching_here = 0;
+      std::vector<Index> untold;
+      std::vector<double> caps_wind(fast ? static_cast<std::size_t>(length) : 0);
+      std::vector<unsigned char> on_cap(caps_wind.size());
+      for (Index row = begin; row < end; ++row)
+      {
+        Vec3 p = parts.frame(grid.point(grid.extent[0], grid.extent[2] + row % grid.size(1),
+          grid.extent[4] + row / grid.size(1)));
+        double* values = out + row * length;
+        unsigned char* flags = on_surface ? on_surface + row * length : nullptr;
+        untold.clear();
+        parts.cells.evaluate_row(xs.data(), length, p.y(), p.z(), values, untold);
+        if (fast)
+        {
+          parts.field.evaluate_row(
+            xs.data(), p.y(), p.z(), length, caps_wind.data(), on_cap.data());
+        }
+        for (Index i = 0; i < length && !closed; ++i)
+        {
+          p.x() = xs[i];
+          bool touches = fast && on_cap[i];
+          double of_caps = fast ? caps_wind[i] : 0.0;
+          if (!fast)
+          {
+            parts.caps_at(&p, 1, &of_caps, &touches);
+          }
+          values[i] -= of_caps;
+          if (touches)
+          {
+            untold.push_back(i);
+          }
+        }
+        // A place may have been left by both.
+        std::sort(untold.begin(), untold.end());
+        untold.erase(std::unique(untold.begin(), untold.end()), untold.end());
+        if (flags)
+        {
+          std::fill_n(flags, length, static_cast<unsigned char>(0));
+        }
+        for (const Index i : untold)
+        {
+          p.x() = xs[i];
+          bool touches = false;
+          values[i] = parts.slowly_at(p, &touches);
+          touching_here += touches;
+          if (flags)
+          {
+            flags[i] = touches;
+          }
+        }
+      }
+      touching += touching_here;
+    });
+  if (!done)
+  {
+    return Status::cancelled();
+  }
+  Status status;
+  status.report.set("counts.queries", grid.count());
+  status.report.set("counts.on_surface", touching.load());
+  return status;
+}
+
+Status WindingNumber::evaluate(
+  PointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const
+{
+  out.resize(queries.rows());
+  return this->evaluate(queries, context, out.data());
+}
+
+Status WindingNumber::evaluate(
+  const SampleGrid& grid, ExecutionContext& context, Eigen::VectorXd& out) const
+{
+  out.resize(grid.count());
+  return this->evaluate(grid, context, out.data());
+}
+
+double winding_number_direct(
+  PointsView points, TrianglesView triangles, const Vec3& point, bool* on_surface)
+{
+  if (on_surface)
+  {
+    *on_surface = false;
+  }
+  if (triangles.rows() == 0 || !point.allFinite())
+  {
+    return point.allFinite() ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+  }
+  const ExactFrame frame(bounding_box(points, triangles));
+  const Vec3 p = frame(point);
+  if (!(p.cwiseAbs().maxCoeff() < far_away))
+  {
+    return 0.0;
+  }
+  SolidAngleSum sum(p, frame.tolerance);
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    const Vec3 a = frame(points.row(triangles(t, 0)));
+    const Vec3 b = frame(points.row(triangles(t, 1)));
+    const Vec3 c = frame(points.row(triangles(t, 2)));
+    if (a != b && b != c && c != a) // else it is none, and cannot be touched either
+    {
+      sum.add(a, b, c);
+    }
+  }
+  if (on_surface)
+  {
+    *on_surface = sum.on_surface();
+  }
+  return sum.winding_number();
+}
+
+} // namespace bindpose

@@ -1,0 +1,69 @@
+#ifndef bindpose_winding_winding_tree_h
+#define bindpose_winding_winding_tree_h
+
+#include "base/execution.h"
+#include "winding/solid_angle.h"
+
+#include <cstdint>
+
+namespace bindpose
+{
+
+/// Hierarchy of boxes over triangles for exact winding numbers (Jacobson, Kavan, Sorkine-Hornung,
+/// Robust Inside-Outside Segmentation using Generalized Winding Numbers, 2013).
+///
+/// Seen from outside a node's box, the node's triangles count as much as any other surface with the
+/// same boundary in that box; the node keeps a fan over its boundary edges as its cap. Exact up to
+/// round-off. On a soup, where every edge is boundary, caps gain nothing and the tree is a list.
+class WindingTree
+{
+public:
+  /// Points are centred and scaled, equal points are one vertex, ids below 2^31. Both matrices must
+  /// outlive the tree. A node of at most max_leaf_size triangles is not split.
+  /// @return false when cancelled.
+  bool build(const Points& points, const Triangles& triangles, double tolerance,
+    Index max_leaf_size, ExecutionContext& context);
+
+  /// Adds the solid angle of all triangles, seen from the sum's point. Thread-safe.
+  void add_to(SolidAngleSum& sum, const Vec3& point) const;
+
+  /// Bytes held.
+  Index memory() const;
+
+private:
+  using Id = std::int32_t;
+  /// An edge that runs a -> b `net` times more often than b -> a; a < b, net not 0.
+  struct NetEdge
+  {
+    Id a, b, net;
+  };
+  struct CapTriangle
+  {
+    Id a, b, c, multiplicity;
+  };
+  struct Node
+  {
+    double lower[3], upper[3];
+    Id first = 0, count = 0; ///< triangles, in order_
+    Id left = -1, right = -1; ///< children; -1: a leaf
+    Id cap_first = 0;
+    Id cap_count = -1; ///< -1: no cap, the triangles themselves are fewer
+  };
+
+  bool build_node(Id node, ExecutionContext& context, std::vector<NetEdge>& boundary);
+  std::vector<NetEdge> boundary_of_triangles(Id first, Id count) const;
+  void add_triangles(SolidAngleSum& sum, const Node& node) const;
+
+  const Points* points_ = nullptr;
+  const Triangles* triangles_ = nullptr;
+  double margin_ = 0.0;
+  Id max_leaf_size_ = 0;
+  std::vector<Vec3> centers_; // of triangles; while building only
+  std::vector<Id> order_;
+  std::vector<Node> nodes_;
+  std::vector<CapTriangle> caps_;
+};
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,602 @@
+// Winding numbers of curves in the plane that are known: whole ones, angles, symmetries; and the
+// plain sum of angles as a twin.
+#include "winding/curve_winding_number.h"
+
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace bindpose;
+
+namespace
+{
+constexpr double pi = 3.14159265358979323846;
+
+struct Curve
+{
+  PlanePoints points{ 0, 2 };
+  Segments segments{ 0, 2 };
+
+  /// Segments along the vertices, and back to the first one.
+  void add(const std::vector<Vec2>& vertices, bool closed)
+  {
+    const Index first = this->points.rows();
+    const auto count = static_cast<Index>(vertices.size());
+    this->points.conservativeResize(first + count, 2);
+    for (Index i = 0; i < count; ++i)
+    {
+      this->points.row(first + i) = vertices[i].transpose();
+    }
+    const Index added = closed ? count : count - 1;
+    const Index before = this->segments.rows();
+    this->segments.conservativeResize(before + added, 2);
+    for (Index i = 0; i < added; ++i)
+    {
+      this->segments.row(before + i) << first + i, first + (i + 1) % count;
+    }
+  }
+  void add_segment(Index from, Index to)
+  {
+    this->segments.conservativeResize(this->segments.rows() + 1, 2);
+    this->segments.row(this->segments.rows() - 1) << from, to;
+  }
+};
+
+Curve curve_of(const std::vector<Vec2>& vertices, bool closed = true)
+{
+  Curve curve;
+  curve.add(vertices, closed);
+  return curve;
+}
+
+/// [lower, upper]^2, counter-clockwise from the lower left corner.
+std::vector<Vec2> square(double lower = -1.0, double upper = 1.0)
+{
+  return { { lower, lower }, { upper, lower }, { upper, upper }, { lower, upper } };
+}
+
+std::vector<Vec2> reversed(std::vector<Vec2> vertices)
+{
+  std::reverse(vertices.begin(), vertices.end());
+  return vertices;
+}
+
+void expect_winding(const Curve& curve, const Vec2& p, double expected, double tolerance = 1e-15)
+{
+  EXPECT_NEAR(curve_winding_number_direct(curve.points, curve.segments, p), expected,
+    std::max(tolerance, 1e-14))
+    << "sum at " << p.transpose();
+  const CurveWindingNumber winding(curve.points, curve.segments);
+  EXPECT_TRUE(winding.status().ok()) << winding.status().message;
+  EXPECT_NEAR(winding.evaluate_at(p), expected, tolerance) << "at " << p.transpose();
+}
+
+/// A wiggly closed curve without crossings: r = 1 + amplitude cos(waves angle).
+std::vector<Vec2> flower(Index count, double amplitude, int waves)
+{
+  std::vector<Vec2> vertices;
+  for (Index i = 0; i < count; ++i)
+  {
+    const double angle = 2.0 * pi * static_cast<double>(i) / static_cast<double>(count);
+    const double r = 1.0 + amplitude * std::cos(waves * angle);
+    vertices.emplace_back(r * std::cos(angle), r * std::sin(angle));
+  }
+  return vertices;
+}
+
+PlanePoints random_points(Index count, double reach, std::uint64_t seed)
+{
+  test::Random random(seed);
+  PlanePoints points(count, 2);
+  for (Index i = 0; i < count; ++i)
+  {
+    points.row(i) << random.uniform(-reach, reach), random.uniform(-reach, reach);
+  }
+  return points;
+}
+} // namespace
+
+TEST(CurveWindingNumber, ClosedCurvesGiveWholeNumbersExactly)
+{
+  const Curve curve = curve_of(square());
+  const CurveWindingNumber winding(curve.points, curve.segments);
+  const Curve clockwise = curve_of(reversed(square()));
+  const CurveWindingNumber minus(clockwise.points, clockwise.segments);
+  test::Random random(7);
+  for (int i = 0; i < 2000; ++i)
+  {
+    const Vec2 p(random.uniform(-2.0, 2.0), random.uniform(-2.0, 2.0));
+    const double expected = p.cwiseAbs().maxCoeff() < 1.0 ? 1.0 : 0.0;
+    ASSERT_EQ(winding.evaluate_at(p), expected) << p.transpose();
+    ASSERT_EQ(minus.evaluate_at(p), -expected) << p.transpose();
+  }
+}
+
+TEST(CurveWindingNumber, ThreeSidesOfASquareAreThreeQuarters)
+{
+  expect_winding(curve_of(square(), false), Vec2::Zero(), 0.75);
+}
+
+TEST(CurveWindingNumber, SegmentSeenUnderARightAngleIsAQuarter)
+{
+  const Curve segment = curve_of({ { 1, -1 }, { 1, 1 } }, false);
+  expect_winding(segment, Vec2::Zero(), 0.25);
+  expect_winding(segment, Vec2(2, 0), -0.25);
+  // Straddling the ray, behind the point's left: the same angle.
+  expect_winding(curve_of({ { -1, 1 }, { -1, -1 } }, false), Vec2::Zero(), 0.25);
+  // 60 degrees under a segment of length 1 from the third corner of an equilateral triangle.
+  expect_winding(
+    curve_of({ { 0, 0 }, { 1, 0 } }, false), Vec2(0.5, 0.5 * std::sqrt(3.0)), 1.0 / 6.0);
+}
+
+TEST(CurveWindingNumber, PentagramWindsTwiceInItsCentreAndOnceInItsArms)
+{
+  std::vector<Vec2> vertices;
+  for (int i = 0; i < 5; ++i)
+  {
+    const double angle = 0.5 * pi + 4.0 * pi * i / 5.0;
+    vertices.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  const Curve star = curve_of(vertices);
+  expect_winding(star, Vec2(0, 0), 2.0, 0.0);
+  expect_winding(star, Vec2(0, 0.8), 1.0, 0.0);
+  expect_winding(star, Vec2(0, -0.8), 0.0, 0.0);
+  const Report report = CurveWindingNumber(star.points, star.segments).status().report;
+  EXPECT_EQ(report.number("counts.open_ends", -1), 0);
+}
+
+TEST(CurveWindingNumber, PartsAddUp)
+{
+  Curve nested = curve_of(square());
+  nested.add(square(-0.5, 0.5), true);
+  expect_winding(nested, Vec2::Zero(), 2.0, 0.0);
+  Curve ring = curve_of(square());
+  ring.add(reversed(square(-0.5, 0.5)), true);
+  expect_winding(ring, Vec2::Zero(), 0.0, 0.0);
+  expect_winding(ring, Vec2(0.75, 0), 1.0, 0.0);
+  Curve overlapping = curve_of(square());
+  overlapping.add(square(0.0, 2.0), true);
+  expect_winding(overlapping, Vec2(0.5, 0.5), 2.0, 0.0);
+  // The top again, and the top turned round.
+  Curve doubled = curve_of(square());
+  doubled.add_segment(2, 3);
+  expect_winding(doubled, Vec2::Zero(), 1.25);
+  Curve flipped = curve_of(square(), false);
+  flipped.segments.row(2) << 3, 2;
+  flipped.add_segment(3, 0);
+  expect_winding(flipped, Vec2::Zero(), 0.5);
+}
+
+TEST(CurveWindingNumber, PrincipalValueOnTheCurve)
+{
+  const Curve curve = curve_of(square());
+  const CurveWindingNumber winding(curve.points, curve.segments);
+  for (const auto& [p, expected] : std::vector<std::pair<Vec2, double>>{ { { 1, 0.3 }, 0.5 },
+         { { -0.2, -1 }, 0.5 }, { { -1, 0 }, 0.5 }, { { 1, 1 }, 0.25 }, { { -1, -1 }, 0.25 } })
+  {
+    expect_winding(curve, p, expected);
+    bool on_curve = false;
+    winding.evaluate_at(p, &on_curve);
+    EXPECT_TRUE(on_curve) << p.transpose();
+    winding.evaluate_at(p + Vec2(1e-6, 2e-6), &on_curve);
+    EXPECT_FALSE(on_curve) << p.transpose();
+  }
+  // Corners of a regular polygon, far from the origin: (n - 2) / (2 n).
+  std::vector<Vec2> vertices;
+  for (int i = 0; i < 7; ++i)
+  {
+    vertices.emplace_back(1e4 + std::cos(2.0 * pi * i / 7.0), std::sin(2.0 * pi * i / 7.0) - 3e4);
+  }
+  const Curve heptagon = curve_of(vertices);
+  expect_winding(heptagon, vertices[3], 5.0 / 14.0, 1e-10); // corners are rounded
+  expect_winding(heptagon, 0.5 * (vertices[1] + vertices[2]), 0.5, 1e-10);
+  expect_winding(heptagon, 0.3 * vertices[6] + 0.7 * vertices[0], 0.5, 1e-10);
+  // At an open end and on a doubled segment.
+  expect_winding(curve_of({ { 0, 0 }, { 1, 0 }, { 1, 1 } }, false), Vec2(0, 0), 0.125);
+  expect_winding(curve_of({ { 0, 0 }, { 1, 0 }, { 0, 0 } }, false), Vec2(0.5, 0), 0.0);
+}
+
+TEST(CurveWindingNumber, JumpsByOneAcrossTheCurveAndNotAcrossChords)
+{
+  const Curve curve = curve_of(square(), false); // the side x = -1 is open
+  const CurveWindingNumber winding(curve.points, curve.segments);
+  for (const double e : { 1e-3, 1e-6, 1e-9, 1e-14 })
+  {
+    const double inside = winding.evaluate_at(Vec2(0.25, -1.0 + e));
+    const double outside = winding.evaluate_at(Vec2(0.25, -1.0 - e));
+    EXPECT_NEAR(inside - outside, 1.0, e);
+    const double before = winding.evaluate_at(Vec2(-1.0 + e, 0.25));
+    const double behind = winding.evaluate_at(Vec2(-1.0 - e, 0.25));
+    EXPECT_NEAR(before - behind, 0.0, e);
+  }
+  // On the chord itself, on the line through it, and at its ends' height: no jump, no touch.
+  bool on_curve = true;
+  EXPECT_NEAR(winding.evaluate_at(Vec2(-1, 0.25), &on_curve),
+    curve_winding_number_direct(curve.points, curve.segments, Vec2(-1, 0.25)), 1e-15);
+  EXPECT_FALSE(on_curve);
+  EXPECT_NEAR(winding.evaluate_at(Vec2(-1, 0)), 0.5, 1e-15);
+  EXPECT_NEAR(winding.evaluate_at(Vec2(-1, 5)) + winding.evaluate_at(Vec2(-1, -5)), 0.0, 1e-15);
+}
+
+TEST(CurveWindingNumber, SameAsTheSumOfAnglesOnHeapsOnALattice)
+{
+  // Vertices and points on a small lattice: points on segments, at vertices, in line with them, at
+  // the same height; doubled, opposite, branching and collinear segments everywhere.
+  for (std::uint64_t seed = 1; seed <= 60; ++seed)
+  {
+    test::Random random(seed);
+    const Index lattice = 2 + random.below(9);
+    const Index vertices = 3 + random.below(40);
+    const Index segments = 1 + random.below(120);
+    Curve curve;
+    curve.points.resize(vertices, 2);
+    for (Index v = 0; v < vertices; ++v)
+    {
+      curve.points.row(v) << static_cast<double>(random.below(lattice)),
+        static_cast<double>(random.below(lattice));
+    }
+    curve.segments.resize(segments, 2);
+    const bool polyline = seed % 3 == 0;
+    for (Index e = 0; e < segments; ++e)
+    {
+      curve.segments.row(e) << (polyline ? e % vertices : random.below(vertices)),
+        (polyline ? (e + 1) % vertices : random.below(vertices));
+    }
+    const CurveWindingNumber winding(curve.points, curve.segments);
+    ASSERT_TRUE(winding.status().ok());
+    const bool closed = winding.status().report.number("counts.open_ends", -1) == 0;
+    for (Index i = -1; i <= 2 * lattice; ++i)
+    {
+      for (Index j = -1; j <= 2 * lattice; ++j)
+      {
+        const Vec2 p(0.5 * static_cast<double>(i), 0.5 * static_cast<double>(j));
+        bool touches = false, touches_direct = false;
+        const double value = winding.evaluate_at(p, &touches);
+        const double direct =
+          curve_winding_number_direct(curve.points, curve.segments, p, &touches_direct);
+        ASSERT_NEAR(value, direct, 1e-13) << "seed " << seed << " at " << p.transpose();
+        ASSERT_EQ(touches, touches_direct) << "seed " << seed << " at " << p.transpose();
+        if (closed && !touches)
+        {
+          ASSERT_EQ(value, std::round(value)) << "seed " << seed << " at " << p.transpose();
+        }
+      }
+    }
+  }
+}
+
+TEST(CurveWindingNumber, SameAsTheSumOfAnglesOnLongCurves)
+{
+  Curve curve = curve_of(flower(3000, 0.3, 9));
+  curve.add(flower(500, 0.1, 40), false);
+  for (Index i = 0; i < 200; ++i) // bits of a curve, scattered
+  {
+    test::Random random(static_cast<std::uint64_t>(i) + 99);
+    const Vec2 at(random.uniform(-1.5, 1.5), random.uniform(-1.5, 1.5));
+    curve.add({ at, at + Vec2(0.01, 0.02), at + Vec2(-0.02, 0.05) }, i % 2 == 0);
+  }
+  const CurveWindingNumber winding(curve.points, curve.segments);
+  EXPECT_EQ(winding.status().report.number("counts.open_ends", -1), 202);
+  EXPECT_EQ(winding.status().report.number("counts.components", -1), 202);
+  PlanePoints queries = random_points(2000, 1.6, 5);
+  for (Index i = 0; i < 600; ++i) // at vertices, at segments' middles, beside them
+  {
+    const Index e = (37 * i) % curve.segments.rows();
+    const Vec2 a = curve.points.row(curve.segments(e, 0));
+    const Vec2 b = curve.points.row(curve.segments(e, 1));
+    queries.row(i) = (i % 3 == 0 ? a : Vec2(0.5 * (a + b))).transpose();
+    queries(i, 0) += i % 3 == 1 ? 1e-13 : 0.0;
+  }
+  ExecutionContext context;
+  Eigen::VectorXd values;
+  const Status status = winding.evaluate(queries, context, values);
+  ASSERT_TRUE(status.ok());
+  EXPECT_GE(status.report.number("counts.on_surface", -1), 200);
+  for (Index i = 0; i < queries.rows(); ++i)
+  {
+    ASSERT_NEAR(
+      values[i], curve_winding_number_direct(curve.points, curve.segments, queries.row(i)), 1e-12)
+      << queries.row(i);
+  }
+}
+
+TEST(CurveWindingNumber, FlowerIsInsideWhereItsRadiusSays)
+{
+  // A polygon of n corners leaves its curve by less than 1e-5 here.
+  const Curve curve = curve_of(flower(20000, 0.3, 9));
+  const CurveWindingNumber winding(curve.points, curve.segments);
+  const PlanePoints queries = random_points(5000, 1.5, 11);
+  for (Index i = 0; i < queries.rows(); ++i)
+  {
+    const double r = queries.row(i).norm();
+    const double edge = 1.0 + 0.3 * std::cos(9.0 * std::atan2(queries(i, 1), queries(i, 0)));
+    if (std::abs(r - edge) > 1e-4)
+    {
+      ASSERT_EQ(winding.evaluate_at(queries.row(i)), r < edge ? 1.0 : 0.0) << queries.row(i);
+    }
+  }
+}
+
+TEST(CurveWindingNumber, GradientIsThatOfTheField)
+{
+  // In front of a segment from (1, -1) to (1, 1): the angle is 2 atan(1 / (1 - x)) on the axis, its
+  // derivative 2 / ((1 - x)^2 + 1); at 0 that makes 1 / (2 pi).
+  const Curve segment = curve_of({ { 1, -1 }, { 1, 1 } }, false);
+  ExecutionContext context;
+  PlanePoints query(1, 2);
+  query << 0, 0;
+  Vec2 gradient;
+  ASSERT_TRUE(CurveWindingNumber(segment.points, segment.segments)
+                .evaluate_gradient(query, context, gradient.data())
+                .ok());
+  EXPECT_NEAR(gradient.x(), 0.5 / pi, 1e-15);
+  EXPECT_NEAR(gradient.y(), 0.0, 1e-15);
+
+  Curve curve = curve_of(flower(200, 0.3, 5), false);
+  curve.add({ { -1, 0.3 }, { 0.4, 0.5 }, { 0.1, -0.8 } }, false);
+  curve.add(square(-0.1, 0.2), true);
+  for (const double unit : { 1.0, 1000.0 })
+  {
+    const CurveWindingNumber winding(PlanePoints(unit * curve.points), curve.segments);
+    PlanePoints queries = unit * random_points(200, 1.4, 3);
+    Eigen::VectorXd gradients(2 * queries.rows());
+    ASSERT_TRUE(winding.evaluate_gradient(queries, context, gradients.data()).ok());
+    for (Index i = 0; i < queries.rows(); ++i)
+    {
+      const Vec2 p = queries.row(i);
+      const double h = 1e-5 * unit;
+      for (int k = 0; k < 2; ++k)
+      {
+        const double difference =
+          winding.evaluate_at(p + h * Vec2::Unit(k)) - winding.evaluate_at(p - h * Vec2::Unit(k));
+        // Whole steps are jumps across the curve, which the gradient leaves out.
+        const double smooth = (difference - std::round(difference)) / (2.0 * h);
+        ASSERT_NEAR(unit * gradients[2 * i + k], unit * smooth, 1e-4) << p.transpose();
+      }
+    }
+  }
+  // Closed: none. At an open end: finite. Far away: none.
+  const Curve closed = curve_of(square());
+  ASSERT_TRUE(CurveWindingNumber(closed.points, closed.segments)
+                .evaluate_gradient(query, context, gradient.data())
+                .ok());
+  EXPECT_EQ(gradient, Vec2(0, 0));
+  PlanePoints special(3, 2);
+  special << 1, 1, 1e200, 0, std::numeric_limits<double>::quiet_NaN(), 0;
+  Eigen::VectorXd at(6);
+  ASSERT_TRUE(CurveWindingNumber(segment.points, segment.segments)
+                .evaluate_gradient(special, context, at.data())
+                .ok());
+  // Seen from (1, 1) only the other end, 2 below, has a share.
+  EXPECT_NEAR(at[0], 0.25 / pi, 1e-15);
+  EXPECT_NEAR(at[1], 0.0, 1e-15);
+  EXPECT_EQ(at[2], 0.0);
+  EXPECT_TRUE(std::isnan(at[4]));
+}
+
+TEST(CurveWindingNumber, ShiftsScalesAndOrderDoNotMatter)
+{
+  Curve curve = curve_of(flower(400, 0.3, 7));
+  curve.add(flower(90, 0.2, 3), false);
+  curve.add(square(-0.2, 0.3), false);
+  const auto snap = [](double x) { return std::round(x * 0x1p20) * 0x1p-20; };
+  curve.points = PlanePoints(curve.points.unaryExpr(snap));
+  const PlanePoints queries = random_points(300, 1.5, 17).unaryExpr(snap);
+  const auto values = [](const PlanePoints& points, const Segments& segments, const PlanePoints& at)
+  {
+    Eigen::VectorXd w;
+    ExecutionContext context;
+    EXPECT_TRUE(CurveWindingNumber(points, segments).evaluate(at, context, w).ok());
+    return w;
+  };
+  const Eigen::VectorXd expected = values(curve.points, curve.segments, queries);
+  for (const double shift : { 0x1p10, -0x1p26 })
+  {
+    const PlanePoints moved = curve.points.array() + shift;
+    const PlanePoints at = queries.array() + shift;
+    EXPECT_LE((values(moved, curve.segments, at) - expected).lpNorm<Eigen::Infinity>(), 1e-13);
+  }
+  for (const double scale : { 0x1p-30, 0x1p17, 0x1p100, 0x1p-1000, 0x1p990 })
+  {
+    EXPECT_EQ(values(scale * curve.points, curve.segments, scale * queries), expected) << scale;
+  }
+  PlanePoints shuffled = curve.points;
+  Segments renamed = curve.segments;
+  const Index n = shuffled.rows(); // 494 has no factor 101
+  for (Index v = 0; v < n; ++v)
+  {
+    shuffled.row((v * 101) % n) = curve.points.row(v);
+  }
+  for (Index e = 0; e < renamed.rows(); ++e)
+  {
+    const Index from = renamed.rows() - 1 - e;
+    renamed.row(e) << (curve.segments(from, 0) * 101) % n, (curve.segments(from, 1) * 101) % n;
+  }
+  EXPECT_LE((values(shuffled, renamed, queries) - expected).lpNorm<Eigen::Infinity>(), 1e-13);
+}
+
+TEST(CurveWindingNumber, HugeAndTinyCurvesAreNoExceptions)
+{
+  for (const double size : { 1e-320, 1e-300, 1.0, 1e150, 1e307, 1.7e308 })
+  {
+    const Curve curve = curve_of(square(-size, size));
+    EXPECT_EQ(CurveWindingNumber(curve.points, curve.segments).evaluate_at(Vec2::Zero()), 1.0)
+      << size;
+    expect_winding(curve_of(square(-size, size), false), Vec2::Zero(), 0.75);
+  }
+}
+
+TEST(CurveWindingNumber, ReportTellsWhatTheCurveIs)
+{
+  // Each side with ends of its own; one side twice; a segment without length, by id and by place.
+  Curve curve;
+  const std::vector<Vec2> corners = square();
+  for (int i = 0; i < 4; ++i)
+  {
+    curve.add({ corners[i], corners[(i + 1) % 4] }, false);
+  }
+  ExecutionContext context;
+  CurveWindingNumber winding;
+  Report report = winding.build(curve.points, curve.segments, context).report;
+  EXPECT_EQ(report.number("counts.vertices", -1), 8);
+  EXPECT_EQ(report.number("counts.segments", -1), 4);
+  EXPECT_EQ(report.number("counts.merged_vertices", -1), 4);
+  EXPECT_EQ(report.number("counts.open_ends", -1), 0);
+  EXPECT_EQ(report.number("counts.components", -1), 1);
+  EXPECT_EQ(report.number("area", -1), 4.0);
+  EXPECT_EQ(report.text("method"), "crossings");
+  EXPECT_EQ(winding.evaluate_at(Vec2(0.1, 0.2)), 1.0);
+  EXPECT_GT(winding.memory(), 0);
+
+  curve.add_segment(1, 0);
+  curve.add_segment(2, 2);
+  curve.add_segment(0, 7); // equal vertices
+  curve.add({ { 5, 5 }, { 6, 5 } }, false);
+  report = winding.build(curve.points, curve.segments, context).report;
+  EXPECT_EQ(report.number("counts.duplicate_segments", -1), 1);
+  EXPECT_EQ(report.number("counts.degenerate_segments", -1), 2);
+  EXPECT_EQ(report.number("counts.boundary_vertices", -1), 2);
+  EXPECT_EQ(report.number("counts.nonmanifold_vertices", -1), 2);
+  EXPECT_EQ(report.number("counts.open_ends", -1), 4);
+  EXPECT_EQ(report.number("counts.components", -1), 2);
+  // The lower side cancels; the way back over it is open.
+  EXPECT_NEAR(winding.evaluate_at(Vec2(0, 0)),
+    0.75 + (std::atan2(5.0, 6.0) - std::atan2(5.0, 5.0)) / (2.0 * pi), 1e-15);
+}
+
+TEST(CurveWindingNumber, NothingWindsAroundNothing)
+{
+  const CurveWindingNumber empty(PlanePoints(0, 2), Segments(0, 2));
+  EXPECT_TRUE(empty.status().ok());
+  EXPECT_EQ(empty.status().warnings.size(), 1u);
+  EXPECT_EQ(empty.evaluate_at(Vec2(1, 2)), 0.0);
+  EXPECT_EQ(CurveWindingNumber().evaluate_at(Vec2(1, 2)), 0.0); // never built
+  const Curve dot = curve_of({ { 3, 3 }, { 3, 3 } });
+  const CurveWindingNumber degenerate(dot.points, dot.segments);
+  EXPECT_EQ(degenerate.status().warnings.size(), 1u);
+  EXPECT_EQ(degenerate.evaluate_at(Vec2(3, 3)), 0.0);
+}
+
+TEST(CurveWindingNumber, BadInputIsNamed)
+{
+  ExecutionContext context;
+  CurveWindingNumber winding;
+  Curve curve = curve_of(square());
+  curve.segments(2, 1) = 4;
+  Status status = winding.build(curve.points, curve.segments, context);
+  EXPECT_EQ(status.code, StatusCode::invalid_input);
+  EXPECT_NE(status.message.find("segment 2 names vertex 4"), std::string::npos);
+  Eigen::VectorXd w;
+  EXPECT_EQ(winding.evaluate(curve.points, context, w).code, StatusCode::invalid_input);
+  curve.segments(2, 1) = -1;
+  EXPECT_EQ(winding.build(curve.points, curve.segments, context).code, StatusCode::invalid_input);
+  curve = curve_of(square());
+  for (const double bad :
+    { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
+  {
+    curve.points(3, 1) = bad;
+    status = winding.build(curve.points, curve.segments, context);
+    EXPECT_EQ(status.code, StatusCode::invalid_input);
+    EXPECT_NE(status.message.find("vertex 3"), std::string::npos);
+  }
+  // A vertex that nothing uses may be anything.
+  curve.points.row(3).setZero();
+  curve.points.conservativeResize(5, 2);
+  curve.points.row(4).setConstant(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_TRUE(winding.build(curve.points, curve.segments, context).ok());
+}
+
+TEST(CurveWindingNumber, PointsThatAreNoneGiveNaN)
+{
+  const Curve curve = curve_of(square());
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  PlanePoints queries(5, 2);
+  queries << 0, 0, nan, 0, 0, std::numeric_limits<double>::infinity(), 1e300, 0, 1, 1;
+  ExecutionContext context;
+  std::vector<double> values(5);
+  std::vector<unsigned char> flags(5, 7);
+  const Status status = CurveWindingNumber(curve.points, curve.segments)
+                          .evaluate(queries, context, values.data(), flags.data());
+  EXPECT_TRUE(status.ok());
+  EXPECT_EQ(status.report.number("counts.queries", -1), 5);
+  EXPECT_EQ(status.report.number("counts.not_finite", -1), 2);
+  EXPECT_EQ(status.report.number("counts.on_surface", -1), 1);
+  EXPECT_EQ(status.warnings.size(), 1u);
+  EXPECT_EQ(values[0], 1.0);
+  EXPECT_TRUE(std::isnan(values[1]));
+  EXPECT_TRUE(std::isnan(values[2]));
+  EXPECT_EQ(values[3], 0.0);
+  EXPECT_EQ(flags, (std::vector<unsigned char>{ 0, 0, 0, 0, 1 }));
+}
+
+TEST(CurveWindingNumber, SameBitsOnAnyNumberOfThreads)
+{
+  Curve curve = curve_of(flower(100000, 0.3, 9));
+  curve.add(flower(30000, 0.2, 4), false);
+  const PlanePoints queries = random_points(100000, 1.5, 23);
+  std::vector<Eigen::VectorXd> values;
+  for (const int threads : { 1, 2, 3 })
+  {
+    ExecutionContext context;
+    context.set_threads(threads);
+    CurveWindingNumber winding;
+    ASSERT_TRUE(winding.build(curve.points, curve.segments, context).ok());
+    values.emplace_back();
+    ASSERT_TRUE(winding.evaluate(queries, context, values.back()).ok());
+  }
+  EXPECT_EQ(values[0], values[1]);
+  EXPECT_EQ(values[0], values[2]);
+}
+
+TEST(CurveWindingNumber, CancelsMidwayAndRunsAgain)
+{
+  const Curve curve = curve_of(flower(200000, 0.3, 9));
+  const PlanePoints queries = random_points(300000, 1.5, 29);
+  int allowed = 0;
+  int asked = 0;
+  ExecutionContext probe({},
+    [&]
+    {
+      ++asked;
+      return false;
+    });
+  probe.set_threads(1);
+  CurveWindingNumber winding;
+  ASSERT_TRUE(winding.build(curve.points, curve.segments, probe).ok());
+  const int in_build = asked;
+  Eigen::VectorXd w;
+  ASSERT_TRUE(winding.evaluate(queries, probe, w).ok());
+  const int in_all = asked;
+  ASSERT_GT(in_build, 10);
+  ASSERT_GT(in_all, in_build + 5);
+  for (const int share : { 0, 1, 2, 3 })
+  {
+    allowed = in_build * share / 4;
+    ExecutionContext context({}, [&] { return --allowed < 0; });
+    context.set_threads(1);
+    EXPECT_EQ(winding.build(curve.points, curve.segments, context).code, StatusCode::cancelled);
+    EXPECT_EQ(winding.status().code, StatusCode::cancelled);
+  }
+  ExecutionContext quiet;
+  ASSERT_TRUE(winding.build(curve.points, curve.segments, quiet).ok());
+  allowed = 4;
+  ExecutionContext context({}, [&] { return --allowed < 0; });
+  context.set_threads(1);
+  EXPECT_EQ(winding.evaluate(queries, context, w).code, StatusCode::cancelled);
+  Eigen::VectorXd again;
+  EXPECT_TRUE(winding.evaluate(queries, quiet, again).ok());
+  double largest = 0.0;
+  std::vector<double> fractions;
+  ExecutionContext watched(
+    [&](double fraction, const std::string&) { fractions.push_back(fraction); }, {});
+  EXPECT_TRUE(winding.build(curve.points, curve.segments, watched).ok());
+  for (const double fraction : fractions)
+  {
+    EXPECT_GE(fraction, largest);
+    largest = fraction;
+  }
+}

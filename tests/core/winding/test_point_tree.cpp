@@ -1,0 +1,108 @@
+// The tree holds every point once, and finds what a search of all points finds.
+#include "winding/point_tree.h"
+
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+using namespace bindpose;
+
+namespace
+{
+Points random_points(Index count, std::uint64_t seed, bool on_lattice)
+{
+  test::Random random(seed);
+  Points points(count, 3);
+  for (Index i = 0; i < count; ++i)
+  {
+    Vec3 p = random.in_box(Vec3::Constant(-1.0), Vec3::Constant(1.0));
+    if (on_lattice)
+    {
+      p = (4.0 * p).array().round(); // many equal points and equal distances
+    }
+    points.row(i) = p.transpose();
+  }
+  return points;
+}
+} // namespace
+
+TEST(PointTree, HoldsEveryPointOnceInBoxesThatHoldThem)
+{
+  for (const Index count : { 1, 7, 8, 9, 16, 17, 255, 256, 257, 5000 })
+  {
+    const Points points = random_points(count, 3, false);
+    ExecutionContext context;
+    PointTree tree;
+    ASSERT_TRUE(tree.build(points, 16, context));
+    const std::set<PointTree::Id> ids(tree.order().begin(), tree.order().end());
+    EXPECT_EQ(static_cast<Index>(tree.order().size()), count);
+    EXPECT_EQ(static_cast<Index>(ids.size()), count);
+    Index in_leaves = 0;
+    for (const PointTree::Group& group : tree.groups())
+    {
+      for (int c = 0; c < group.size; ++c)
+      {
+        const PointTree::Child& child = group.children[c];
+        EXPECT_EQ(child.first % PointTree::width, 0);
+        EXPECT_GT(child.count, 0);
+        in_leaves += child.group < 0 ? child.count : 0;
+        EXPECT_LE(child.group < 0 ? child.count : 0, 16);
+        for (PointTree::Id i = child.first; i < child.first + child.count; ++i)
+        {
+          const Vec3 p = points.row(tree.order()[i]);
+          EXPECT_TRUE((p.array() >= child.lower.array()).all());
+          EXPECT_TRUE((p.array() <= child.upper.array()).all());
+        }
+      }
+    }
+    EXPECT_EQ(in_leaves, count);
+  }
+}
+
+TEST(PointTree, NearestAreThoseOfASearchOfAll)
+{
+  for (const bool on_lattice : { false, true })
+  {
+    const Points points = random_points(700, 5, on_lattice);
+    ExecutionContext context;
+    PointTree tree;
+    ASSERT_TRUE(tree.build(points, 16, context));
+    std::vector<PointTree::Neighbor> found;
+    for (PointTree::Id point = 0; point < 700; point += 13)
+    {
+      std::vector<std::pair<double, PointTree::Id>> all;
+      for (PointTree::Id other = 0; other < 700; ++other)
+      {
+        if (other != point)
+        {
+          all.emplace_back((points.row(other) - points.row(point)).squaredNorm(), other);
+        }
+      }
+      std::sort(all.begin(), all.end());
+      for (const Index count : { 1, 12, 699, 5000 })
+      {
+        tree.nearest(points, point, count, found);
+        ASSERT_EQ(static_cast<Index>(found.size()), std::min<Index>(count, 699));
+        for (std::size_t k = 0; k < found.size(); ++k)
+        {
+          ASSERT_EQ(found[k].point, all[k].second) << on_lattice;
+          ASSERT_EQ(found[k].squared_distance, all[k].first);
+        }
+      }
+    }
+  }
+}
+
+TEST(PointTree, NoPointsAndCancel)
+{
+  ExecutionContext context;
+  PointTree tree;
+  EXPECT_TRUE(tree.build(Points(0, 3), 16, context));
+  EXPECT_TRUE(tree.groups().empty());
+  ExecutionContext stopped;
+  stopped.request_cancel();
+  EXPECT_FALSE(tree.build(random_points(50000, 1, false), 16, stopped));
+}

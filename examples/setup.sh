@@ -20,7 +20,7 @@ libsuitesparse-dev:CHOLMOD,_the_sparse_solver
 libcgal-dev:exact_intersections_in_bindpose-mesher
 libtet1.5-dev:TetGen_in_bindpose-mesher
 libopenvdb-dev:OpenVDB,_volumes_as_.vdb_files
-libboost-dev:headers_that_OpenVDB's_use
+libboost-dev:Boost.Graph,_the_cut_between_inside_and_outside
 libcli11-dev:command_line_options
 nlohmann-json3-dev:reports_and_poses
 xvfb:pictures_without_a_display

@@ -50,6 +50,9 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
   bindpose::TetrahedralizeOptions options;
   options.method = static_cast<bindpose::TetMethod>(this->Method);
   options.winding_threshold = this->WindingThreshold;
+  options.segmentation = static_cast<bindpose::SegmentationMethod>(this->Segmentation);
+  options.cut_smoothness = this->CutSmoothness;
+  options.cut_sigma = this->CutSigma;
   options.resolution = this->Resolution;
   options.time_limit = this->TimeLimit;
   options.memory_limit = this->MemoryLimit;
@@ -91,6 +94,11 @@ void vtkTetrahedralizeSurface::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Method: " << to_string(static_cast<bindpose::TetMethod>(this->Method)) << "\n";
   os << indent << "WindingThreshold: " << this->WindingThreshold << "\n";
+  os << indent
+     << "Segmentation: " << to_string(static_cast<bindpose::SegmentationMethod>(this->Segmentation))
+     << "\n";
+  os << indent << "CutSmoothness: " << this->CutSmoothness << "\n";
+  os << indent << "CutSigma: " << this->CutSigma << "\n";
   os << indent << "Resolution: " << this->Resolution << "\n";
   os << indent << "TimeLimit: " << this->TimeLimit << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";

@@ -15,8 +15,8 @@
  * Methods:
  * - CDT keeps the input's points and triangles, cut where triangles cross, and adds points inside.
  *   Clean surfaces go to TetGen as they are; others are refined exactly, their hull is filled and
- *   tets are kept where the winding number reaches WindingThreshold. A helper process does the work
- *   (bindpose-mesher, built with the packages libcgal-dev and libtet1.5-dev).
+ *   tets are kept where the winding number says inside (see Segmentation). A helper process does
+ * the work (bindpose-mesher, built with the packages libcgal-dev and libtet1.5-dev).
  * - REMESH cuts a body-centred cubic lattice where the winding number passes the threshold. Keeps
  *   neither points nor triangles, but has dihedral angles above 10 degrees and needs no helper.
  *   Parts thinner than a lattice cube are lost.
@@ -30,7 +30,8 @@
  * inward_components, self_intersections, turned_triangles, turned_components, triangulated_cells,
  * ignored_cells} of the input, counts.{tets, tet_vertices, kept_vertices, tets_below_5_degrees},
  * volume, winding_volume (exact for clean surfaces, sampled otherwise), min_dihedral_angle
- * (degrees), resolution (of the lattice), seconds.*.
+ * (degrees), resolution (of the lattice), segmentation, energy, threshold_energy,
+ * counts.changed_by_cut (of the graph cut), seconds.*.
  *
  * Errors: invalid_input for a surface without 2D cells, with ids out of range or coordinates that
  * are not finite, for a flat one, and for one that encloses nothing; unavailable for CDT without
@@ -83,6 +84,40 @@ public:
    */
   vtkSetMacro(WindingThreshold, double);
   vtkGetMacro(WindingThreshold, double);
+  ///@}
+
+  enum SegmentationType
+  {
+    GRAPH_CUT = 0,
+    THRESHOLD = 1
+  };
+
+  ///@{
+  /**
+   * How CDT tells the tets of an open surface apart: GRAPH_CUT (default) decides for all of them
+   * together, so that the boundary follows the surface and is small and even across openings;
+   * THRESHOLD looks at each tet's winding number alone, and is taken too when the graph cut's
+   * volume is more than 10 % off. Closed surfaces leave nothing to decide.
+   */
+  vtkSetClampMacro(Segmentation, int, GRAPH_CUT, THRESHOLD);
+  vtkGetMacro(Segmentation, int);
+  void SetSegmentationToGraphCut() { this->SetSegmentation(GRAPH_CUT); }
+  void SetSegmentationToThreshold() { this->SetSegmentation(THRESHOLD); }
+  ///@}
+
+  ///@{
+  /// Weight of a small boundary against the winding numbers in GRAPH_CUT, 0 or more; default 1.
+  vtkSetMacro(CutSmoothness, double);
+  vtkGetMacro(CutSmoothness, double);
+  ///@}
+
+  ///@{
+  /**
+   * Difference of winding numbers between neighbouring tets that GRAPH_CUT takes for the surface,
+   * above 0; default 0.1. Larger values also let it cut where the number hardly changes.
+   */
+  vtkSetMacro(CutSigma, double);
+  vtkGetMacro(CutSigma, double);
   ///@}
 
   ///@{
@@ -139,6 +174,9 @@ private:
 
   int Method = AUTO;
   double WindingThreshold = 0.5;
+  int Segmentation = GRAPH_CUT;
+  double CutSmoothness = 1.0;
+  double CutSigma = 0.1;
   int Resolution = 40;
   double TimeLimit = 120.0;
   int MemoryLimit = 0;

@@ -29,6 +29,7 @@ from .running import run
 
 _WINDING = {"auto": "AUTO", "exact": "EXACT", "fast": "FAST"}
 _TETRAHEDRALIZE = {"auto": "AUTO", "cdt": "CDT", "remesh": "REMESH", "embed": "EMBED"}
+_SEGMENTATION = {"graph-cut": "GRAPH_CUT", "threshold": "THRESHOLD"}
 _SKINNING = {"lbs": "LINEAR_BLEND", "dqs": "DUAL_QUATERNION"}
 
 
@@ -158,8 +159,9 @@ def contains(surface, points, *, winding_threshold=0.5, method="auto", tolerance
     return Array(np.asarray(values) >= winding_threshold, values.report)
 
 
-def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, resolution=40, time_limit=120.0,
-                   memory_limit=0, threads=0, progress=None):
+def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentation="graph-cut", cut_smoothness=1.0,
+                   cut_sigma=0.1, quality=1.414, interior_edge=0.04, resolution=40, time_limit=120.0, memory_limit=0,
+                   threads=0, progress=None):
     """Fill the inside of a surface, however unclean, with tets.
 
     Parameters
@@ -170,6 +172,16 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, resolution=
         holds the surface. ``auto`` tries cdt, then remesh; the report says which and why.
     winding_threshold : float
         Inside is where the winding number is at least this.
+    segmentation : {"graph-cut", "threshold"}
+        How cdt tells an open surface's tets apart: all together by a graph cut, whose boundary is small across
+        openings, or each by its own winding number.
+    cut_smoothness, cut_sigma : float
+        Of the graph cut: weight of a small boundary, and the difference of winding numbers between neighbours
+        that counts as surface.
+    quality : float
+        Largest ratio of circumradius to shortest edge that cdt leaves inside, 1.1 to 10; 0 for any.
+    interior_edge : float
+        Longest edges that cdt leaves inside, as a fraction of the surface's diagonal; 0 for any.
     resolution : int
         Cells along the longest side for remesh and embed.
     time_limit : float
@@ -196,6 +208,11 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, resolution=
     filler.SetInputData(0, to_dataset(surface))
     filler.SetMethod(getattr(filler, _TETRAHEDRALIZE[_choice(method, _TETRAHEDRALIZE, "method")]))
     filler.SetWindingThreshold(winding_threshold)
+    filler.SetSegmentation(getattr(filler, _SEGMENTATION[_choice(segmentation, _SEGMENTATION, "segmentation")]))
+    filler.SetCutSmoothness(cut_smoothness)
+    filler.SetCutSigma(cut_sigma)
+    filler.SetQuality(quality)
+    filler.SetInteriorEdge(interior_edge)
     filler.SetResolution(int(resolution))
     filler.SetTimeLimit(time_limit)
     filler.SetMemoryLimit(memory_limit)

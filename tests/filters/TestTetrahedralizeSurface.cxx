@@ -215,7 +215,8 @@ TEST(TetrahedralizeSurface, PrintsItsParameters)
   std::ostringstream text;
   filter->Print(text);
   for (const char* word : { "Method: auto", "WindingThreshold: 0.5", "Resolution: 40",
-         "TimeLimit: 120", "MemoryLimit: 0", "Quality: 1.414", "InteriorEdge: 0.04" })
+         "Segmentation: graph-cut", "CutSmoothness: 1", "CutSigma: 0.1", "TimeLimit: 120",
+         "MemoryLimit: 0", "Quality: 1.414", "InteriorEdge: 0.04" })
   {
     EXPECT_THAT(text.str(), HasSubstr(word));
   }

@@ -37,6 +37,16 @@ void run_tetrahedralize(Session& session)
   tets->SetInputData(0, surface);
   tets->SetMethod(method_of(arguments.text("method")));
   tets->SetWindingThreshold(arguments.number("winding-threshold"));
+  tets->SetSegmentation(arguments.text("segmentation") == "threshold"
+      ? vtkTetrahedralizeSurface::THRESHOLD
+      : vtkTetrahedralizeSurface::GRAPH_CUT);
+  tets->SetCutSmoothness(arguments.number("cut-smoothness"));
+  tets->SetCutSigma(arguments.number("cut-sigma"));
+  tets->SetQuality(arguments.number("quality"));
+  tets->SetInteriorEdge(arguments.number("interior-edge"));
+  tets->SetResolution(arguments.integer("resolution"));
+  tets->SetTimeLimit(arguments.number("time-limit"));
+  tets->SetMemoryLimit(arguments.integer("memory-limit"));
   if (session.run(tets, "tetrahedralize", 0.0, 1.0, Merge::all))
   {
     session.write(tets->GetOutput(), output);

@@ -328,11 +328,38 @@ Status CdtTets::keep_inside(const MesherData& data)
   {
     return status;
   }
+  if (this->inside_.labels_are_exact() ||
+    this->options_.segmentation.method == SegmentationMethod::threshold)
+  {
+    return this->take_inside(data, w, SegmentationMethod::threshold);
+  }
+  const double start = this->context_.elapsed_seconds();
+  status = this->take_inside(data, w, SegmentationMethod::graph_cut);
+  if (status.ok() || !this->wrong_volume_)
+  {
+    return status;
+  }
+  // Smoothness was bought with too much volume: where the surface is mostly holes, or thin.
+  this->log_.add("graph cut", this->context_.elapsed_seconds() - start, status);
+  return this->take_inside(data, w, SegmentationMethod::threshold);
+}
+
+Status CdtTets::take_inside(
+  const MesherData& data, const Eigen::VectorXd& w, SegmentationMethod method)
+{
+  SegmentationOptions options = this->options_.segmentation;
+  options.method = method;
+  Segmentation segmentation;
+  Status status = segment_tets(data.points, data.tets, w, options, segmentation, this->context_);
+  if (!status.ok())
+  {
+    return status;
+  }
   Tets kept(data.tets.rows(), 4);
   Index count = 0;
   for (Index t = 0; t < data.tets.rows(); ++t)
   {
-    if (w[t] >= this->options_.winding_threshold)
+    if (segmentation.inside[t])
     {
       kept.row(count++) = data.tets.row(t);
     }
@@ -362,14 +389,21 @@ Status CdtTets::keep_inside(const MesherData& data)
     this->mesh_.points = data.points;
     this->mesh_.tets = kept;
     this->mesh_original_ = this->original_;
+    this->report_ = Report();
+    this->report_.set("segmentation", to_string(method));
+    if (method == SegmentationMethod::graph_cut)
+    {
+      this->report_.set("energy", segmentation.energy);
+      this->report_.set("threshold_energy", segmentation.threshold_energy);
+      this->report_.set("counts.changed_by_cut", segmentation.changed);
+    }
   }
   return fits    ? Status()
     : count == 0 ? Status::failure(StatusCode::internal_error, "no tet is inside")
                  : wrong_volume(volume, this->inside_);
 }
 
-// ---- Vertices inside
-// -----------------------------------------------------------------------------
+// ---- Vertices inside ---------------------------------------------------------------------------
 
 Status CdtTets::complete()
 {

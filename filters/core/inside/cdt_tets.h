@@ -3,6 +3,7 @@
 
 #include "base/execution.h"
 #include "inside/enclosed_region.h"
+#include "inside/segmentation.h"
 #include "inside/surface_repair.h"
 
 #include <limits>
@@ -31,7 +32,7 @@ private:
 /// See TetrahedralizeOptions.
 struct CdtOptions
 {
-  double winding_threshold = 0.5;
+  SegmentationOptions segmentation; ///< of open surfaces; a closed one's numbers are whole
   double time_limit = 120.0;
   Index memory_limit = 0;
   double quality = 1.414;
@@ -61,6 +62,9 @@ public:
   TetMesh& mesh() { return this->mesh_; }
   std::vector<Index>& original_vertices() { return this->mesh_original_; }
   const std::vector<std::string>& warnings() const { return this->warnings_; }
+  /// segmentation of the tets that are kept, and where it was a graph cut, energy,
+  /// threshold_energy, counts.changed_by_cut (see Segmentation).
+  const Report& report() const { return this->report_; }
 
 private:
   struct Move;
@@ -75,6 +79,7 @@ private:
     MesherAnswer& answer);
   bool final(const Status& status) const;
   Status keep_inside(const MesherData& data);
+  Status take_inside(const MesherData& data, const Eigen::VectorXd& w, SegmentationMethod method);
   Status fill();
   Status try_fill(const std::string& switches, const MesherData& coarse);
   Status accept_fill(MesherData& data, double volume);
@@ -97,6 +102,7 @@ private:
   std::vector<Index> mesh_original_;
   double misfit_ = std::numeric_limits<double>::infinity();
   std::vector<std::string> warnings_;
+  Report report_;
 };
 
 } // namespace bindpose

@@ -1,5 +1,6 @@
 #include "inside/tet_quality.h"
 
+#include "inside/tet_facets.h"
 #include "inside/triangle_predicates.h"
 
 #include <algorithm>
@@ -80,25 +81,7 @@ Status check_tets(PointsView points, TetsView tets)
 
 Index drop_crumbs(const Points& points, Tets& tets)
 {
-  constexpr int facet[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
-  struct Facet
-  {
-    std::array<Index, 3> key;
-    Index tet;
-  };
-  std::vector<Facet> facets;
-  facets.reserve(static_cast<std::size_t>(tets.rows()) * 4);
-  for (Index t = 0; t < tets.rows(); ++t)
-  {
-    for (const auto& f : facet)
-    {
-      std::array<Index, 3> key{ tets(t, f[0]), tets(t, f[1]), tets(t, f[2]) };
-      std::sort(key.begin(), key.end());
-      facets.push_back({ key, t });
-    }
-  }
-  std::sort(facets.begin(), facets.end(),
-    [](const Facet& x, const Facet& y) { return x.key != y.key ? x.key < y.key : x.tet < y.tet; });
+  const std::vector<TetFacet> facets = tet_facets(tets);
   std::vector<Index> group(static_cast<std::size_t>(tets.rows()));
   std::iota(group.begin(), group.end(), Index(0));
   const auto find = [&](Index t)
@@ -112,7 +95,7 @@ Index drop_crumbs(const Points& points, Tets& tets)
   };
   for (std::size_t i = 1; i < facets.size(); ++i)
   {
-    if (facets[i].key == facets[i - 1].key)
+    if (facets[i].vertices == facets[i - 1].vertices)
     {
       const Index a = find(facets[i - 1].tet);
       const Index b = find(facets[i].tet);
@@ -165,24 +148,12 @@ Index peel_slivers(const Points& points, Tets& tets, double height)
     {
       return removed;
     }
-    std::vector<std::pair<std::array<Index, 3>, Index>> facets;
-    facets.reserve(static_cast<std::size_t>(tets.rows()) * 4);
-    for (Index t = 0; t < tets.rows(); ++t)
-    {
-      for (int skip = 0; skip < 4; ++skip)
-      {
-        std::array<Index, 3> key{ tets(t, (skip + 1) % 4), tets(t, (skip + 2) % 4),
-          tets(t, (skip + 3) % 4) };
-        std::sort(key.begin(), key.end());
-        facets.emplace_back(key, t);
-      }
-    }
-    std::sort(facets.begin(), facets.end());
+    const std::vector<TetFacet> facets = tet_facets(tets);
     std::vector<char> at_boundary(slivers.size(), 0);
     for (std::size_t i = 0; i < facets.size();)
     {
-      const bool shared = i + 1 < facets.size() && facets[i + 1].first == facets[i].first;
-      at_boundary[facets[i].second] |= !shared;
+      const bool shared = i + 1 < facets.size() && facets[i + 1].vertices == facets[i].vertices;
+      at_boundary[facets[i].tet] |= !shared;
       i += shared ? 2 : 1;
     }
     Index kept = 0;

@@ -135,7 +135,8 @@ private:
     }
     const bool automatic = this->options_.method == TetMethod::automatic;
     CdtOptions options;
-    options.winding_threshold = this->options_.winding_threshold;
+    options.segmentation = { this->options_.segmentation, this->options_.winding_threshold,
+      this->options_.cut_smoothness, this->options_.cut_sigma };
     options.time_limit = this->options_.time_limit;
     options.memory_limit = this->options_.memory_limit;
     options.quality = this->options_.quality;
@@ -180,6 +181,7 @@ private:
     const Phase phase(this->context_, "cdt", 0.6, 1.0);
     Status status = cdt.complete();
     this->report_.set("method", to_string(TetMethod::cdt));
+    this->report_.merge(cdt.report());
     this->result_.mesh = std::move(cdt.mesh());
     this->result_.original_vertices = std::move(cdt.original_vertices());
     this->warnings_.insert(this->warnings_.end(), cdt.warnings().begin(), cdt.warnings().end());
@@ -327,6 +329,16 @@ Status check_options(const TetrahedralizeOptions& options)
   {
     return Status::invalid_input(
       "winding_threshold must be positive, not " + short_number(options.winding_threshold));
+  }
+  if (!(options.cut_smoothness >= 0.0) || !std::isfinite(options.cut_smoothness))
+  {
+    return Status::invalid_input(
+      "cut_smoothness must be 0 or more, not " + short_number(options.cut_smoothness));
+  }
+  if (!(options.cut_sigma > 0.0) || !std::isfinite(options.cut_sigma))
+  {
+    return Status::invalid_input(
+      "cut_sigma must be positive, not " + short_number(options.cut_sigma));
   }
   if (options.resolution < 4 || options.resolution > 1000)
   {

@@ -3,6 +3,7 @@
 
 #include "base/execution.h"
 #include "base/mesh.h"
+#include "inside/segmentation.h"
 
 #include <vector>
 
@@ -27,6 +28,11 @@ struct TetrahedralizeOptions
   /// Inside is where the winding number is at least this. 0.5 is half way through the surface;
   /// up to 0.9 pulls the lid of an opening inwards, 1.5 keeps what is enclosed twice.
   double winding_threshold = 0.5;
+  /// cdt of open surfaces only: see SegmentationOptions. (A closed surface's winding numbers are
+  /// whole between its triangles, and nothing is left to decide.)
+  SegmentationMethod segmentation = SegmentationMethod::graph_cut;
+  double cut_smoothness = 1.0; ///< >= 0
+  double cut_sigma = 0.1; ///< > 0
   /// Lattice cubes along the longest side (remesh, embed), 4 … 1000. Tets grow with its cube.
   Index resolution = 40;
   double time_limit = 120.0; ///< seconds for all of the helper's work, > 0
@@ -61,7 +67,9 @@ struct TetrahedralizeResult
 /// Report: method; rungs[].name, rungs[].seconds, rungs[].outcome (each thing tried, and why it was
 /// left); counts.* of the diagnosis; counts.tets, counts.tet_vertices, counts.kept_vertices;
 /// volume (of the tets), winding_volume (of {w >= threshold}: exact for clean surfaces, sampled
-/// otherwise), min_dihedral_angle (degrees), counts.tets_below_5_degrees.
+/// otherwise), min_dihedral_angle (degrees), counts.tets_below_5_degrees;
+/// segmentation (of cdt; a graph cut whose volume does not fit is left for the threshold), energy,
+/// threshold_energy, counts.changed_by_cut (see Segmentation).
 ///
 /// invalid_input: not finite, flat, or encloses nothing. unavailable: method cdt without helper.
 /// internal_error: no method gave a valid mesh; the message tells the last reason.

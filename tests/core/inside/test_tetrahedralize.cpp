@@ -604,6 +604,75 @@ TEST(Tetrahedralize, OptionsAreChecked)
   EXPECT_THAT(message([](auto& o) { o.memory_limit = -1; }), HasSubstr("memory_limit"));
   EXPECT_THAT(message([](auto& o) { o.quality = 1.0; }), HasSubstr("quality"));
   EXPECT_THAT(message([](auto& o) { o.interior_edge = -0.1; }), HasSubstr("interior_edge"));
+  EXPECT_THAT(message([](auto& o) { o.cut_smoothness = -1.0; }), HasSubstr("cut_smoothness"));
+  EXPECT_THAT(message([](auto& o) { o.cut_sigma = 0.0; }), HasSubstr("cut_sigma"));
+}
+
+/// Without every fifth triangle.
+TriangleMesh ragged(TriangleMesh mesh)
+{
+  Index kept = 0;
+  for (Index t = 0; t < mesh.triangles.rows(); ++t)
+  {
+    if (t % 5 != 0)
+    {
+      mesh.triangles.row(kept++) = mesh.triangles.row(t).eval();
+    }
+  }
+  mesh.triangles.conservativeResize(kept, 3);
+  return mesh;
+}
+
+TEST_F(Cdt, AnOpenSurfaceIsCutWithLessEnergy)
+{
+  const TriangleMesh closed = test::sphere(3);
+  const TriangleMesh mesh = ragged(closed);
+  TetrahedralizeOptions options;
+  options.method = TetMethod::cdt;
+  const Outcome cut = run(mesh, options);
+  ASSERT_TRUE(cut.status.ok()) << cut.status.message;
+  EXPECT_EQ(cut.status.report.text("segmentation"), "graph-cut");
+  EXPECT_GT(cut.number("counts.changed_by_cut"), 0.0);
+  EXPECT_LT(cut.number("energy"), cut.number("threshold_energy"));
+  EXPECT_TRUE(check_tets(cut.result.mesh.points, cut.result.mesh.tets).ok());
+  const double whole = signed_volume(closed.points, closed.triangles);
+  EXPECT_NEAR(cut.volume(), whole, 0.02 * whole);
+
+  options.segmentation = SegmentationMethod::threshold;
+  const Outcome plain = run(mesh, options);
+  ASSERT_TRUE(plain.status.ok()) << plain.status.message;
+  EXPECT_EQ(plain.status.report.text("segmentation"), "threshold");
+  EXPECT_EQ(plain.status.report.find("energy"), nullptr);
+  // The cut's skin is smaller: no ragged border across the holes.
+  const auto skin = [](const Outcome& outcome) {
+    return surface_area(outcome.result.mesh.points, boundary_triangles(outcome.result.mesh.tets));
+  };
+  EXPECT_LT(skin(cut), skin(plain));
+}
+
+TEST_F(Cdt, ACutThatLosesTheVolumeIsLeftForTheThreshold)
+{
+  const TriangleMesh mesh = ragged(test::torus(40, 20, 1.0, 0.4));
+  TetrahedralizeOptions options;
+  options.method = TetMethod::cdt;
+  options.segmentation = SegmentationMethod::threshold;
+  const Outcome plain = run(mesh, options);
+  ASSERT_TRUE(plain.status.ok()) << plain.status.message;
+  options.segmentation = SegmentationMethod::graph_cut;
+  options.cut_smoothness = 1e6; // smoothness at any price: all of the hull or nothing
+  options.cut_sigma = 10.0;
+  const Outcome smooth = run(mesh, options);
+  ASSERT_TRUE(smooth.status.ok()) << smooth.status.message;
+  EXPECT_EQ(smooth.status.report.text("segmentation"), "threshold");
+  EXPECT_EQ(smooth.volume(), plain.volume());
+}
+
+TEST_F(Cdt, AClosedSurfaceNeedsNoCut)
+{
+  const Outcome outcome = run(test::sphere(2), TetMethod::cdt);
+  ASSERT_TRUE(outcome.status.ok()) << outcome.status.message;
+  EXPECT_EQ(outcome.status.report.text("segmentation"), "threshold");
+  EXPECT_EQ(outcome.status.report.find("counts.changed_by_cut"), nullptr);
 }
 
 TEST(Tetrahedralize, TinyAndHugeCoordinates)

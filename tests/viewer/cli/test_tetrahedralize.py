@@ -70,3 +70,24 @@ def test_the_threshold_is_used(folder):
         folder.run("tetrahedralize", "two.off", "--method", "cdt", "--winding-threshold", threshold, "-o", "m.vtu",
                    "--overwrite").is_good()
         assert volumes(folder / "m.vtu").sum() == pytest.approx(volume, rel=1e-6)
+
+
+def test_how_an_open_surface_is_segmented(folder):
+    vertices, faces = shapes.sphere()
+    folder.off("open.off", (vertices, [f for i, f in enumerate(faces) if i % 5]))
+    words = ["tetrahedralize", "open.off", "-o", "m.vtu", "--overwrite", "--report", "-"]
+    cut = folder.run(*words, "--cut-smoothness", "2", "--cut-sigma", "0.2").is_good().report
+    assert cut["segmentation"] == "graph-cut" and cut["energy"] <= cut["threshold_energy"]
+    assert folder.run(*words, "--segmentation", "threshold").is_good().report["segmentation"] == "threshold"
+    folder.run(*words, "--segmentation", "guess").is_refused(code=1)
+    folder.run(*words, "--cut-sigma", "0").is_refused()
+
+
+def test_points_inside_as_wanted(folder):
+    folder.off("sphere.off", shapes.sphere())
+    words = ["tetrahedralize", "sphere.off", "-o", "m.vtu", "--overwrite", "--report", "-"]
+    none = folder.run(*words, "--quality", "0", "--interior-edge", "0").is_good().report["counts"]
+    many = folder.run(*words, "--interior-edge", "0.02").is_good().report["counts"]
+    assert 2 * none["tet_vertices"] < many["tet_vertices"]
+    folder.run(*words, "--quality", "0.5").is_refused()
+    folder.run(*words, "--time-limit", "-1").is_refused()

@@ -1,0 +1,234 @@
+// A node that is cheaper inside hangs on the source by the difference of its two costs, one that is
+// cheaper outside on the sink; what flows from source to sink until nothing more fits has filled
+// the cheapest edges that separate them. Costs become whole numbers first: flow arithmetic is then
+// exact, and the end does not depend on rounding.
+#include "inside/graph_cut.h"
+
+#include <boost/graph/boykov_kolmogorov_max_flow.hpp>
+#include <boost/graph/compressed_sparse_row_graph.hpp>
+#include <boost/range/iterator_range.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+using Flow = std::int64_t;
+using Network = boost::compressed_sparse_row_graph<boost::directedS, boost::no_property,
+  boost::no_property, boost::no_property, std::int64_t, std::int64_t>;
+using Vertex = boost::graph_traits<Network>::vertex_descriptor;
+using Arc = boost::graph_traits<Network>::edge_descriptor;
+using ArcIndex = boost::property_map<Network, boost::edge_index_t>::const_type;
+
+struct Stop
+{
+};
+
+/// Residual capacities; every write is a look at cancel now and then, for the algorithm has no hook
+/// for it.
+struct Residuals
+{
+  using key_type = Arc;
+  using value_type = Flow;
+  using reference = Flow&;
+  using category = boost::lvalue_property_map_tag;
+
+  ArcIndex index;
+  std::vector<Flow>* values;
+  ExecutionContext* context;
+  std::int64_t* countdown;
+
+  Flow& operator[](const Arc& arc) const { return (*this->values)[get(this->index, arc)]; }
+};
+
+Flow get(const Residuals& map, const Arc& arc)
+{
+  return map[arc];
+}
+
+void put(const Residuals& map, const Arc& arc, Flow value)
+{
+  constexpr std::int64_t often = 1 << 16;
+  if (--*map.countdown <= 0)
+  {
+    *map.countdown = often;
+    if (map.context->cancelled())
+    {
+      throw Stop();
+    }
+  }
+  map[arc] = value;
+}
+
+Status check(const CutEnergy& energy)
+{
+  const auto bad = [](double cost) { return !std::isfinite(cost) || cost < 0.0; };
+  const auto nodes = static_cast<Index>(energy.inside_costs.size());
+  if (energy.outside_costs.size() != energy.inside_costs.size())
+  {
+    return Status::invalid_input("there must be as many outside costs as inside costs");
+  }
+  for (Index i = 0; i < nodes; ++i)
+  {
+    if (bad(energy.inside_costs[i]) || bad(energy.outside_costs[i]))
+    {
+      return Status::invalid_input(
+        "a cost of node " + std::to_string(i) + " is negative or not finite");
+    }
+  }
+  for (std::size_t e = 0; e < energy.edges.size(); ++e)
+  {
+    const CutEnergy::Edge& edge = energy.edges[e];
+    if (bad(edge.cost) || std::min(edge.a, edge.b) < 0 || std::max(edge.a, edge.b) >= nodes ||
+      edge.a == edge.b)
+    {
+      return Status::invalid_input(
+        "edge " + std::to_string(e) + " has no two nodes or its cost is negative or not finite");
+    }
+  }
+  return {};
+}
+} // namespace
+
+double CutEnergy::of(const std::vector<char>& inside) const
+{
+  double sum = 0.0;
+  for (std::size_t i = 0; i < inside.size(); ++i)
+  {
+    sum += inside[i] ? this->inside_costs[i] : this->outside_costs[i];
+  }
+  for (const Edge& edge : this->edges)
+  {
+    sum += inside[edge.a] != inside[edge.b] ? edge.cost : 0.0;
+  }
+  return sum;
+}
+
+Status minimize(const CutEnergy& energy, std::vector<char>& inside, ExecutionContext& context)
+{
+  Status status = check(energy);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const auto nodes = static_cast<Index>(energy.inside_costs.size());
+  const Index source = nodes;
+  const Index sink = nodes + 1;
+  double sum = 0.0;
+  for (Index i = 0; i < nodes; ++i)
+  {
+    sum += std::abs(energy.outside_costs[i] - energy.inside_costs[i]);
+  }
+  for (const CutEnergy::Edge& edge : energy.edges)
+  {
+    sum += edge.cost;
+  }
+  const double scale = sum > 0.0 ? 0x1p40 / sum : 0.0;
+  const auto whole = [&](double cost) { return static_cast<Flow>(std::llround(scale * cost)); };
+
+  struct Line
+  {
+    Index from, to;
+    Flow capacity;
+    Index pair; ///< which of the pairs of opposite arcs
+  };
+  std::vector<Line> lines;
+  lines.reserve(2 * (energy.edges.size() + static_cast<std::size_t>(nodes)));
+  Index pairs = 0;
+  const auto connect = [&](Index a, Index b, Flow there, Flow back)
+  {
+    lines.push_back({ a, b, there, pairs });
+    lines.push_back({ b, a, back, pairs });
+    ++pairs;
+  };
+  for (Index i = 0; i < nodes; ++i)
+  {
+    const Flow gain = whole(energy.outside_costs[i] - energy.inside_costs[i]);
+    if (gain > 0)
+    {
+      connect(source, i, gain, 0);
+    }
+    else if (gain < 0)
+    {
+      connect(i, sink, -gain, 0);
+    }
+  }
+  for (const CutEnergy::Edge& edge : energy.edges)
+  {
+    const Flow capacity = whole(edge.cost);
+    if (capacity > 0)
+    {
+      connect(edge.a, edge.b, capacity, capacity);
+    }
+  }
+  std::sort(lines.begin(), lines.end(),
+    [](const Line& x, const Line& y) {
+      return x.from != y.from ? x.from < y.from : x.to != y.to ? x.to < y.to : x.pair < y.pair;
+    });
+  if (context.cancelled())
+  {
+    return Status::cancelled();
+  }
+
+  std::vector<std::pair<Index, Index>> ends;
+  std::vector<Flow> capacities;
+  std::vector<std::array<Index, 2>> arcs_of_pair(
+    static_cast<std::size_t>(pairs), { Index(-1), Index(-1) });
+  ends.reserve(lines.size());
+  capacities.reserve(lines.size());
+  for (std::size_t k = 0; k < lines.size(); ++k)
+  {
+    ends.emplace_back(lines[k].from, lines[k].to);
+    capacities.push_back(lines[k].capacity);
+    auto& arcs = arcs_of_pair[lines[k].pair];
+    arcs[arcs[0] >= 0] = static_cast<Index>(k);
+  }
+  const Network network(
+    boost::edges_are_sorted, ends.begin(), ends.end(), static_cast<std::int64_t>(nodes + 2));
+  const ArcIndex index = get(boost::edge_index, network);
+  std::vector<Arc> all;
+  all.reserve(lines.size());
+  for (const Arc& arc : boost::make_iterator_range(boost::edges(network)))
+  {
+    all.push_back(arc); // in the order of their indices
+  }
+  std::vector<Arc> reverse(lines.size());
+  for (const auto& arcs : arcs_of_pair)
+  {
+    reverse[arcs[0]] = all[arcs[1]];
+    reverse[arcs[1]] = all[arcs[0]];
+  }
+  const auto vertices = static_cast<std::size_t>(nodes + 2);
+  std::vector<Flow> residuals(capacities);
+  std::vector<Arc> predecessors(vertices);
+  std::vector<boost::default_color_type> colors(vertices, boost::gray_color);
+  std::vector<Index> distances(vertices, 0);
+  std::int64_t countdown = 0;
+  const auto of_vertex = get(boost::vertex_index, network);
+  try
+  {
+    boost::boykov_kolmogorov_max_flow(network,
+      boost::make_iterator_property_map(capacities.begin(), index),
+      Residuals{ index, &residuals, &context, &countdown },
+      boost::make_iterator_property_map(reverse.begin(), index),
+      boost::make_iterator_property_map(predecessors.begin(), of_vertex),
+      boost::make_iterator_property_map(colors.begin(), of_vertex),
+      boost::make_iterator_property_map(distances.begin(), of_vertex), of_vertex,
+      static_cast<Vertex>(source), static_cast<Vertex>(sink));
+  }
+  catch (const Stop&)
+  {
+    return Status::cancelled();
+  }
+  inside.resize(static_cast<std::size_t>(nodes));
+  for (Index i = 0; i < nodes; ++i)
+  {
+    inside[i] = colors[i] == boost::black_color; // the source's tree
+  }
+  return {};
+}
+
+} // namespace bindpose

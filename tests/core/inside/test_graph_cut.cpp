@@ -1,0 +1,186 @@
+#include "inside/graph_cut.h"
+
+#include "support/meshes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <limits>
+#include <thread>
+
+using namespace bindpose;
+using namespace bindpose::test;
+using testing::HasSubstr;
+
+namespace
+{
+CutEnergy random_energy(Index nodes, Index edges, Random& random)
+{
+  CutEnergy energy;
+  for (Index i = 0; i < nodes; ++i)
+  {
+    // Some nodes do not care, some are bound to one side.
+    const Index kind = random.below(5);
+    energy.inside_costs.push_back(kind == 0 ? 0.0 : kind == 1 ? 100.0 : random.uniform());
+    energy.outside_costs.push_back(kind == 0 ? 0.0 : random.uniform());
+  }
+  for (Index e = 0; e < edges; ++e)
+  {
+    const Index a = random.below(nodes);
+    const Index b = (a + 1 + random.below(nodes - 1)) % nodes; // any other, the same pair again too
+    energy.edges.push_back({ a, b, random.below(4) == 0 ? 0.0 : random.uniform() });
+  }
+  return energy;
+}
+
+/// The least energy of all labels.
+double brute_force(const CutEnergy& energy)
+{
+  const std::size_t nodes = energy.inside_costs.size();
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<char> inside(nodes);
+  for (std::size_t labels = 0; labels < (std::size_t(1) << nodes); ++labels)
+  {
+    for (std::size_t i = 0; i < nodes; ++i)
+    {
+      inside[i] = (labels >> i) & 1;
+    }
+    least = std::min(least, energy.of(inside));
+  }
+  return least;
+}
+
+Status minimized(const CutEnergy& energy, std::vector<char>& inside)
+{
+  ExecutionContext context;
+  return minimize(energy, inside, context);
+}
+
+/// A chain of nodes in a box of n^3 whose costs are noise: hard to decide.
+CutEnergy noise(Index n)
+{
+  Random random(7);
+  CutEnergy energy;
+  for (Index i = 0; i < n * n * n; ++i)
+  {
+    energy.inside_costs.push_back(random.uniform());
+    energy.outside_costs.push_back(random.uniform());
+    const Index step[3] = { 1, n, n * n };
+    for (int k = 0; k < 3; ++k)
+    {
+      if ((i / step[k]) % n + 1 < n)
+      {
+        energy.edges.push_back({ i, i + step[k], 0.3 });
+      }
+    }
+  }
+  return energy;
+}
+} // namespace
+
+TEST(GraphCut, EqualsBruteForce)
+{
+  Random random(1);
+  for (int instance = 0; instance < 400; ++instance)
+  {
+    const Index nodes = 2 + random.below(11);
+    const CutEnergy energy = random_energy(nodes, random.below(4 * nodes), random);
+    std::vector<char> inside;
+    ASSERT_TRUE(minimized(energy, inside).ok());
+    ASSERT_NEAR(energy.of(inside), brute_force(energy), 1e-9) << "instance " << instance;
+  }
+}
+
+TEST(GraphCut, WithoutEdgesEveryNodeTakesItsCheaperSide)
+{
+  CutEnergy energy;
+  energy.inside_costs = { 0.0, 1.0, 0.5, 0.5 };
+  energy.outside_costs = { 1.0, 0.0, 0.5, 0.6 };
+  std::vector<char> inside;
+  ASSERT_TRUE(minimized(energy, inside).ok());
+  EXPECT_EQ(inside, (std::vector<char>{ 1, 0, 0, 1 })); // the one that does not care is outside
+}
+
+TEST(GraphCut, ScaleDoesNotMatter)
+{
+  Random random(2);
+  CutEnergy energy = random_energy(200, 800, random);
+  std::vector<char> inside, scaled;
+  ASSERT_TRUE(minimized(energy, inside).ok());
+  for (const double factor : { 0x1p-200, 0x1p200 })
+  {
+    CutEnergy other = energy;
+    for (Index i = 0; i < 200; ++i)
+    {
+      other.inside_costs[i] *= factor;
+      other.outside_costs[i] *= factor;
+    }
+    for (CutEnergy::Edge& edge : other.edges)
+    {
+      edge.cost *= factor;
+    }
+    ASSERT_TRUE(minimized(other, scaled).ok());
+    EXPECT_EQ(scaled, inside);
+  }
+}
+
+TEST(GraphCut, NothingAndOneNode)
+{
+  std::vector<char> inside{ 1, 1 };
+  ASSERT_TRUE(minimized(CutEnergy(), inside).ok());
+  EXPECT_TRUE(inside.empty());
+  CutEnergy one;
+  one.inside_costs = { 0.0 };
+  one.outside_costs = { 0.25 };
+  ASSERT_TRUE(minimized(one, inside).ok());
+  EXPECT_EQ(inside, std::vector<char>{ 1 });
+}
+
+TEST(GraphCut, BadCostsAndNodesAreNamed)
+{
+  CutEnergy energy;
+  energy.inside_costs = { 0.0, 1.0 };
+  energy.outside_costs = { 0.0, std::numeric_limits<double>::quiet_NaN() };
+  std::vector<char> inside;
+  EXPECT_THAT(minimized(energy, inside).message, HasSubstr("node 1"));
+  energy.outside_costs = { 0.0, -1.0 };
+  EXPECT_EQ(minimized(energy, inside).code, StatusCode::invalid_input);
+  energy.outside_costs = { 0.0 };
+  EXPECT_EQ(minimized(energy, inside).code, StatusCode::invalid_input);
+  energy.outside_costs = { 0.0, 1.0 };
+  for (const CutEnergy::Edge& edge :
+    { CutEnergy::Edge{ 0, 2, 1.0 }, { -1, 0, 1.0 }, { 1, 1, 1.0 }, { 0, 1, -1.0 } })
+  {
+    energy.edges = { { 0, 1, 1.0 }, edge };
+    EXPECT_THAT(minimized(energy, inside).message, HasSubstr("edge 1"));
+  }
+}
+
+TEST(GraphCut, CancelStopsIt)
+{
+  const CutEnergy energy = noise(70); // seconds of work
+  ExecutionContext context;
+  std::chrono::steady_clock::time_point asked;
+  std::thread later(
+    [&]
+    {
+      std::this_thread::sleep_for(std::chrono::milliseconds(500));
+      asked = std::chrono::steady_clock::now();
+      context.request_cancel();
+    });
+  std::vector<char> inside;
+  const Status status = minimize(energy, inside, context);
+  const auto end = std::chrono::steady_clock::now();
+  later.join();
+  if (status.code == StatusCode::cancelled)
+  {
+    EXPECT_LT(
+      std::chrono::duration<double>(end - asked).count(), 1.0); // 200 ms when nothing else runs
+  }
+  else
+  {
+    EXPECT_TRUE(status.ok()) << status.message; // a fast machine was done before
+    EXPECT_LT(end, asked);
+  }
+}

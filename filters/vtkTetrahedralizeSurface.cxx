@@ -3,6 +3,7 @@
 
 #include "conversion.h"
 #include "inside/tetrahedralize.h"
+#include "surface_defects_data.h"
 
 #include "vtkCellData.h"
 #include "vtkDataSet.h"
@@ -13,13 +14,17 @@
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
+#include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 
 vtkStandardNewMacro(vtkTetrahedralizeSurface);
 
-vtkTetrahedralizeSurface::vtkTetrahedralizeSurface() = default;
+vtkTetrahedralizeSurface::vtkTetrahedralizeSurface()
+{
+  this->SetNumberOfOutputPorts(2);
+}
 
 vtkTetrahedralizeSurface::~vtkTetrahedralizeSurface() = default;
 
@@ -29,9 +34,9 @@ int vtkTetrahedralizeSurface::FillInputPortInformation(int, vtkInformation* info
   return 1;
 }
 
-int vtkTetrahedralizeSurface::FillOutputPortInformation(int, vtkInformation* info)
+int vtkTetrahedralizeSurface::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkUnstructuredGrid");
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), port == 0 ? "vtkUnstructuredGrid" : "vtkPolyData");
   return 1;
 }
 
@@ -39,7 +44,9 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
   vtkInformationVector** input, vtkInformationVector* output, bindpose::ExecutionContext& context)
 {
   vtkUnstructuredGrid* out = vtkUnstructuredGrid::GetData(output);
+  vtkPolyData* defects = vtkPolyData::GetData(output, 1);
   out->Initialize();
+  defects->Initialize();
   bindpose::SurfaceInput surface;
   bindpose::Status status = bindpose::to_surface(vtkDataSet::GetData(input[0]), surface);
   if (!status.ok())
@@ -86,6 +93,8 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
   std::copy(result.winding_numbers.data(),
     result.winding_numbers.data() + result.winding_numbers.size(), winding->GetPointer(0));
   out->GetCellData()->SetScalars(winding);
+  defects->ShallowCopy(
+    bindpose::to_polydata(result.defects, surface.points.view(), surface.cell_of_triangle));
   return status;
 }
 

@@ -11,6 +11,8 @@
  * **Output**: a vtkUnstructuredGrid of tets (VTK_TETRA, all of positive volume) with the point
  * array `OriginalPointIds` (id of the input point, ascending, then -1 for new points) and the cell
  * array `WindingNumber` (double, at the tets' centres).
+ * **Output 1**: a vtkPolyData that shows where the surface is unclean, as vtkSurfaceDefects does
+ * (which also works where there are no tets to be had).
  *
  * Methods:
  * - CDT keeps the input's points and triangles, cut where triangles cross, and adds points inside.
@@ -43,7 +45,7 @@
  * Numbers", ACM Transactions on Graphics 32(4), 2013. Labelle, Shewchuk, "Isosurface Stuffing: Fast
  * Tetrahedral Meshes with Good Dihedral Angles", ACM Transactions on Graphics 26(3), 2007.
  *
- * @sa vtkWindingNumberField vtkBoundedBiharmonicWeights vtkDelaunay3D
+ * @sa vtkSurfaceDefects vtkWindingNumberField vtkBoundedBiharmonicWeights vtkDelaunay3D
  */
 
 #ifndef vtkTetrahedralizeSurface_h

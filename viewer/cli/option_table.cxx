@@ -20,7 +20,9 @@ const std::vector<Verb>& verbs()
     "handles: .tgf, .vtp, or auto[:N] for N (8) points spread over the surface", true };
   static const std::vector<Verb> table{
     { "info", "say what a file holds",
-      { { "FILE", "", Kind::text, "", "", "any mesh, volume or handle file", true } } },
+      { { "FILE", "", Kind::text, "", "", "any mesh, volume or handle file", true },
+        { "--defects", "OUT", Kind::text, "", "",
+          "also write where a surface is unclean, as cells with the array Defect (.vtp)" } } },
     { "winding",
       "winding number of a surface, a plane curve or oriented points, on a grid or at points",
       { surface,

@@ -12,7 +12,9 @@
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkPointData.h"
+#include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkSurfaceDefects.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <cstdio>
@@ -275,6 +277,11 @@ void run_info(Session& session)
 {
   const std::string path = session.arguments().text("FILE");
   const std::string format = file_extension(path);
+  const std::string defects_path = session.arguments().text("defects");
+  if (!defects_path.empty() && !session.check_output(defects_path, "vtp"))
+  {
+    return;
+  }
   const auto data = session.read_any(path);
   if (!data)
   {
@@ -287,6 +294,23 @@ void run_info(Session& session)
     status.message = path + ": " + status.message;
     session.fail(status);
     return;
+  }
+  if (!defects_path.empty())
+  {
+    vtkNew<vtkSurfaceDefects> defects;
+    defects->SetInputData(0, data);
+    if (!session.run(defects, "defects", 0.0, 1.0, Merge::nothing))
+    {
+      return;
+    }
+    if (defects->GetOutput()->GetNumberOfCells() == 0)
+    {
+      session.warn("the surface has no defect, and " + defects_path + " was not written");
+    }
+    else if (!session.write(defects->GetOutput(), defects_path))
+    {
+      return;
+    }
   }
   const std::string kind = data->GetClassName();
   session.report().set("format", format);

@@ -282,7 +282,7 @@ double winding_of_shell(
 /// each, the closed shells that lie in it.
 struct InwardShells
 {
-  Index roots = 0;
+  std::vector<Index> roots; ///< shells that are inside out themselves
   std::vector<Index> turn; ///< shells to turn
 };
 
@@ -326,7 +326,10 @@ InwardShells inward_shells(
     {
       roots.push_back(s);
       turned[s] = shell.volume < 0.0;
-      result.roots += turned[s];
+      if (turned[s])
+      {
+        result.roots.push_back(s);
+      }
     }
     else
     {
@@ -394,6 +397,7 @@ void weld_and_drop(PointsView points, TrianglesView triangles, const RepairOptio
       repaired.triangles(t, k) = id[weld[triangles(repaired.original_triangles[t], k)]];
     }
   }
+  repaired.lowest_equal = weld;
 }
 
 Index count_duplicates(const Triangles& triangles)
@@ -462,10 +466,16 @@ Status repair_surface(PointsView points, TrianglesView triangles, const RepairOp
   const std::vector<Shell> shells = shells_of(repaired.points, repaired.triangles);
   const InwardShells inward = inward_shells(repaired.points, repaired.triangles, shells);
   found.components = static_cast<Index>(shells.size());
-  found.inward_components = inward.roots;
+  found.inward_components = static_cast<Index>(inward.roots.size());
+  for (const Index s : inward.roots)
+  {
+    repaired.inward_triangles.insert(
+      repaired.inward_triangles.end(), shells[s].triangles.begin(), shells[s].triangles.end());
+  }
+  std::sort(repaired.inward_triangles.begin(), repaired.inward_triangles.end());
   if (options.orient)
   {
-    repaired.turned_components = inward.roots;
+    repaired.turned_components = found.inward_components;
     for (const Index s : inward.turn)
     {
       for (const Index t : shells[s].triangles)

@@ -54,6 +54,8 @@ struct RepairedSurface
   Triangles triangles;
   std::vector<Index> original_vertices; ///< #V: the lowest input id among the welded ones
   std::vector<Index> original_triangles; ///< #F: input ids
+  std::vector<Index> lowest_equal; ///< #input V: the lowest input id welded with it, itself mostly
+  std::vector<Index> inward_triangles; ///< of closed components that are inside out, ascending
   SurfaceDiagnosis found; ///< in the input, before any triangle was turned
   Index turned_triangles = 0; ///< turned to agree with their neighbours
   Index turned_components = 0; ///< closed components turned right side out

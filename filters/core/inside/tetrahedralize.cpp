@@ -81,6 +81,7 @@ private:
         return status;
       }
     }
+    this->result_.defects = list_defects(this->points_, this->triangles_, this->surface_);
     const SurfaceDiagnosis& found = this->surface_.found;
     add_to_report(found, this->report_);
     if (this->surface_.triangles.rows() == 0)

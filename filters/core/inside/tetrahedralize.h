@@ -4,6 +4,7 @@
 #include "base/execution.h"
 #include "base/mesh.h"
 #include "inside/segmentation.h"
+#include "inside/surface_defects.h"
 
 #include <vector>
 
@@ -50,6 +51,7 @@ struct TetrahedralizeResult
   TetMesh mesh; ///< positive tets, no stray vertices
   std::vector<Index> original_vertices; ///< #V: id of the input vertex, ascending, then -1 for new
   Eigen::VectorXd winding_numbers; ///< #T: at the tets' centres
+  std::vector<DefectPlace> defects; ///< where the surface is unclean
 };
 
 /// Tets of what a surface encloses, whatever the surface: open, crossing, doubled, non-manifold,

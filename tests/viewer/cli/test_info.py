@@ -2,6 +2,7 @@
 
 import math
 
+import bindpose
 import pytest
 import shapes
 
@@ -24,6 +25,19 @@ def test_cube(folder):
     assert report["bounds"] == [-1, 1, -1, 1, -1, 1]
     assert report["diagonal"] == pytest.approx(2 * math.sqrt(3))
     assert report["seconds"]["total"] > 0 and report["peak_memory_bytes"] > 0
+
+
+def test_where_a_surface_is_unclean(folder):
+    folder.off("m.off", shapes.open_cube())
+    run = folder.run("info", "m.off", "--defects", "d.vtp").is_good()
+    assert run.new_files == ["d.vtp"] and "boundary edges" in run.out
+    defects = bindpose.read(folder / "d.vtp")
+    assert defects.GetNumberOfLines() == defects.GetNumberOfCells() == 4
+    assert defects.GetCellData().GetAbstractArray("DefectName").GetValue(0) == "boundary edge"
+    folder.off("cube.off", shapes.cube())
+    run = folder.run("info", "cube.off", "--defects", "none.vtp").is_good()
+    assert run.new_files == [] and "no defect" in run.err
+    folder.run("info", "m.off", "--defects", "d.off").is_refused()
 
 
 def test_unclean_surfaces(folder):

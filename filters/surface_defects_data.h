@@ -1,0 +1,22 @@
+#ifndef surface_defects_data_h
+#define surface_defects_data_h
+
+#include "inside/surface_defects.h"
+
+#include "vtkSmartPointer.h"
+
+class vtkPolyData;
+
+namespace bindpose
+{
+
+/// The places as cells of their own on the surface's points: vertices, lines, triangles, in this
+/// order. Point array `OriginalPointIds`; cell arrays `Defect` (int, see Defect), `DefectName`,
+/// `OriginalCellIds` and `CrossedCellIds` (cells of the surface, -1: none), `Component`.
+/// `cell_of_triangle` may be empty, see SurfaceInput.
+vtkSmartPointer<vtkPolyData> to_polydata(const std::vector<DefectPlace>& places, PointsView points,
+  const std::vector<Index>& cell_of_triangle);
+
+} // namespace bindpose
+
+#endif

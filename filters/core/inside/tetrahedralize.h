@@ -3,6 +3,7 @@
 
 #include "base/execution.h"
 #include "base/mesh.h"
+#include "inside/embedding_tets.h"
 
 #include <vector>
 
@@ -15,7 +16,7 @@ enum class TetMethod
   automatic, ///< cdt, then remesh
   cdt, ///< constrained Delaunay tets of the convex hull, kept where the surface winds around them
   remesh, ///< lattice tets cut at the isosurface of the winding number
-  embed ///< lattice tets that hold the surface
+  embed ///< lattice tets that hold the surface, each part its own
 };
 
 /// "auto", "cdt", "remesh", "embed".
@@ -28,7 +29,8 @@ struct TetrahedralizeOptions
   /// up to 0.9 pulls the lid of an opening inwards, 1.5 keeps what is enclosed twice.
   double winding_threshold = 0.5;
   /// Lattice cubes along the longest side (remesh, embed), 4 … 1000. Tets grow with its cube.
-  Index resolution = 40;
+  /// 0: automatic, 40 for remesh, as many as give about 30,000 tets for embed.
+  Index resolution = 0;
   double time_limit = 120.0; ///< seconds for all of the helper's work, > 0
   Index memory_limit = 0; ///< MiB of address space for the helper process, 0: no limit
   /// cdt only: largest ratio of circumradius to shortest edge that interior vertices are added for;
@@ -44,6 +46,10 @@ struct TetrahedralizeResult
   TetMesh mesh; ///< positive tets, no stray vertices
   std::vector<Index> original_vertices; ///< #V: id of the input vertex, ascending, then -1 for new
   Eigen::VectorXd winding_numbers; ///< #T: at the tets' centres
+  /// Of embed only, else empty: #T share of the tet that is inside, and where the input's points
+  /// lie.
+  Eigen::VectorXd inside_fractions;
+  PointBinding binding;
 };
 
 /// Tets of what a surface encloses, whatever the surface: open, crossing, doubled, non-manifold,
@@ -55,13 +61,15 @@ struct TetrahedralizeResult
 /// - **remesh** keeps neither, but has good angles and always ends; parts thinner than a lattice
 ///   cube are lost.
 /// - **embed** is not the inside but a lattice around it; every point of the surface is in a tet.
+///   Parts that are near but not connected share no vertex (embed_surface).
 ///
 /// Orientation is repaired first (repair_surface); what was turned is in a warning.
 ///
 /// Report: method; rungs[].name, rungs[].seconds, rungs[].outcome (each thing tried, and why it was
 /// left); counts.* of the diagnosis; counts.tets, counts.tet_vertices, counts.kept_vertices;
 /// volume (of the tets), winding_volume (of {w >= threshold}: exact for clean surfaces, sampled
-/// otherwise), min_dihedral_angle (degrees), counts.tets_below_5_degrees.
+/// otherwise), min_dihedral_angle (degrees), counts.tets_below_5_degrees; for remesh and embed
+/// resolution, for embed what embed_surface reports.
 ///
 /// invalid_input: not finite, flat, or encloses nothing. unavailable: method cdt without helper.
 /// internal_error: no method gave a valid mesh; the message tells the last reason.

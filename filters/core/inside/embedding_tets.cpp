@@ -1,0 +1,1582 @@
+// What is to be held, the material, is the surface and what it encloses. It is taken apart into
+// atoms, each in one lattice tet: a piece of a triangle, or a sample of the inside. Two atoms are
+// connected when the straight line between them stays in the material; both its tets' nodes then
+// see them as one part, for the tets around a node fill a convex body (a rhombic dodecahedron), so
+// that the line does not leave it.
+//
+// 1. Spacing: from volume and area, then corrected by the number of tets that it gives.
+// 2. Cubes with triangles are sampled on a sub-grid; the others are inside or outside as a whole,
+//    found from cube to cube, starting at the surface (a region that winds often enough and has no
+//    triangle in it has triangles at its border: winding numbers are harmonic).
+// 3. Lines between neighbouring samples are cut where triangles cross them. A stretch between two
+//    crossings is inside or not, by the winding number at its middle. Inside stretches connect what
+//    is at their ends. So a wall is never missed, however thin the gap behind it; connections that
+//    are thinner than the samples' distance are seen by the triangles around them.
+// 4. Triangles connect by shared vertices, and by shared edges in the tets that the edge goes
+//    through; within the tets around a node a triangle is one piece, being convex.
+// 5. Atoms that are connected in one tet make its parts. A union-find over (part, corner of its
+//    tet) finds the copies of nodes; parts with the same four copies are one tet.
+//
+// Every union keeps the smaller id, so that nothing depends on the order, nor on threads.
+#include "inside/embedding_tets.h"
+
+#include "base/exact.h"
+#include "base/parallel.h"
+#include "base/parallel_sort.h"
+#include "inside/disphenoid_lattice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
+
+namespace bindpose
+{
+
+namespace
+{
+using Key = DisphenoidLattice::Key;
+using Cube = DisphenoidLattice::Cube;
+using Id = std::int32_t;
+constexpr int halves = DisphenoidLattice::halves;
+
+// Samples of a cube. They lie off the planes of the lattice, so that a sample is in one tet.
+constexpr int samples_along = 6;
+constexpr int samples_of_cube = samples_along * samples_along * samples_along;
+constexpr double sample_shift[3] = { 0.62, 0.41, 0.53 };
+
+constexpr double wanted_tets = 30000.0;
+constexpr double fewest_tets = 20000.0;
+constexpr double most_tets = 45000.0;
+constexpr Index most_cubes = 4000000;
+constexpr Index most_sampled_cubes = 1000000;
+constexpr double most_pieces = 2e8;
+constexpr double most_pieces_of_choice = 3e7;
+constexpr Index largest_resolution = 1000;
+constexpr Index often = 1 << 15; // items between two looks at cancel
+
+class UnionFind
+{
+public:
+  void reset(std::size_t count)
+  {
+    this->parent_.resize(count);
+    std::iota(this->parent_.begin(), this->parent_.end(), Id(0));
+  }
+  Id find(Id i)
+  {
+    while (this->parent_[i] != i)
+    {
+      this->parent_[i] = this->parent_[this->parent_[i]];
+      i = this->parent_[i];
+    }
+    return i;
+  }
+  void unite(Id i, Id j)
+  {
+    i = this->find(i);
+    j = this->find(j);
+    (i < j ? this->parent_[j] : this->parent_[i]) = std::min(i, j);
+  }
+
+private:
+  std::vector<Id> parent_;
+};
+
+template <typename Item>
+void sort_unique(std::vector<Item>& items)
+{
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+}
+
+/// The place of a key that is there.
+Id place_in(const std::vector<Key>& sorted, Key key)
+{
+  return static_cast<Id>(std::lower_bound(sorted.begin(), sorted.end(), key) - sorted.begin());
+}
+
+Cube moved(Cube cube, int axis, int by)
+{
+  cube[axis] += by;
+  return cube;
+}
+
+// ---- The surface on a lattice
+// --------------------------------------------------------------------
+
+/// A surface with equal points welded.
+struct Welded
+{
+  std::vector<Id> of_point; ///< #V: welded id, -1 for a point that no triangle uses
+  std::vector<Vec3> points;
+  std::vector<std::array<Id, 3>> triangles;
+};
+
+bool weld(PointsView points, TrianglesView triangles, Welded& welded, ExecutionContext& context)
+{
+  std::vector<Id> order;
+  welded.of_point.assign(static_cast<std::size_t>(points.rows()), -1);
+  for (Index i = 0; i < triangles.size(); ++i)
+  {
+    Id& id = welded.of_point[triangles.data()[i]];
+    if (id < 0)
+    {
+      id = 0;
+      order.push_back(static_cast<Id>(triangles.data()[i]));
+    }
+  }
+  std::sort(order.begin(), order.end());
+  const auto compare = [&](Id i, Id j)
+  {
+    const double* p = points.data() + 3 * static_cast<Index>(i);
+    const double* q = points.data() + 3 * static_cast<Index>(j);
+    return std::lexicographical_compare(p, p + 3, q, q + 3);
+  };
+  if (!parallel_sort(context, order, compare))
+  {
+    return false;
+  }
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    if (i == 0 || compare(order[i - 1], order[i]))
+    {
+      welded.points.emplace_back(points.row(order[i]));
+    }
+    welded.of_point[order[i]] = static_cast<Id>(welded.points.size()) - 1;
+  }
+  welded.triangles.resize(static_cast<std::size_t>(triangles.rows()));
+  for (Index f = 0; f < triangles.rows(); ++f)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      welded.triangles[f][k] = welded.of_point[triangles(f, k)];
+    }
+  }
+  return true;
+}
+
+/// A triangle in a tet.
+struct Piece
+{
+  Key tet;
+  Id triangle;
+};
+
+/// Calls item(i, list) for all i on all threads; what is put into the lists is joined in order.
+template <typename Item, typename Body>
+bool gather(ExecutionContext& context, Index count, std::vector<Item>& all, const Body& body)
+{
+  constexpr Index block = 512;
+  std::vector<std::vector<Item>> of_block(static_cast<std::size_t>((count + block - 1) / block));
+  const bool whole = parallel_for(context, count, block,
+    [&](Index begin, Index end)
+    {
+      auto& list = of_block[static_cast<std::size_t>(begin / block)];
+      for (Index i = begin; i < end; ++i)
+      {
+        if (i % 64 == 0 && context.cancelled())
+        {
+          return;
+        }
+        body(i, list);
+      }
+    });
+  all.clear();
+  for (auto& list : of_block)
+  {
+    all.insert(all.end(), list.begin(), list.end());
+    std::vector<Item>().swap(list);
+  }
+  return whole && !context.cancelled();
+}
+
+enum class CubeKind : std::uint8_t
+{
+  outside,
+  inside,
+  sampled
+};
+
+/// Which tets and cubes of a lattice the surface goes through, and which cubes it encloses.
+class Cover
+{
+public:
+  Cover(const Welded& surface, const WindingNumber& winding, double threshold, const Box& box)
+    : surface_(surface), winding_(winding), threshold_(threshold), box_(box)
+  {
+  }
+
+  Status build(double spacing, ExecutionContext& context)
+  {
+    this->pieces.clear();
+    this->kinds.clear();
+    this->lattice = DisphenoidLattice(this->box_, spacing);
+    this->first_cube_ = DisphenoidLattice::cube_of(this->lattice.place_of(this->box_.lower));
+    this->last_cube_ = DisphenoidLattice::cube_of(this->lattice.place_of(this->box_.upper));
+    const auto count = static_cast<Index>(this->surface_.points.size());
+    this->places.resize(this->surface_.points.size());
+    this->tet_of_point.resize(this->surface_.points.size());
+    constexpr Index block = 4096;
+    if (!parallel_for(context, count, block,
+          [&](Index begin, Index end)
+          {
+            for (Index i = begin; i < end; ++i)
+            {
+              this->places[i] = this->lattice.place_of(this->surface_.points[i]);
+              this->tet_of_point[i] = DisphenoidLattice::locate(this->places[i]).tet;
+            }
+          }) ||
+      !this->find_pieces(context))
+    {
+      return Status::cancelled();
+    }
+    return this->find_cubes(context);
+  }
+
+  /// Tets that hold the surface or lie in cubes inside.
+  double count_tets() const
+  {
+    std::vector<Key> tets;
+    for (const Piece& piece : this->pieces)
+    {
+      tets.push_back(piece.tet);
+    }
+    for (const auto& [key, kind] : this->kinds)
+    {
+      for (int half = 0; half < halves && kind == CubeKind::inside; ++half)
+      {
+        tets.push_back(DisphenoidLattice::tet_of_half(DisphenoidLattice::cube_of(key), half));
+      }
+    }
+    sort_unique(tets);
+    return static_cast<double>(tets.size());
+  }
+
+  std::array<Vec3, 3> corners_of(Index triangle) const
+  {
+    const auto& t = this->surface_.triangles[triangle];
+    return { this->places[t[0]], this->places[t[1]], this->places[t[2]] };
+  }
+  CubeKind kind_of(const Cube& cube) const
+  {
+    const auto found = this->kinds.find(DisphenoidLattice::cube_key(cube));
+    return found == this->kinds.end() ? CubeKind::outside : found->second;
+  }
+  /// Calls body(tet) for the tets that the edge between two vertices goes through.
+  template <typename Body>
+  void tets_of_edge(Id a, Id b, const Body& body) const
+  {
+    const Vec3& p = this->places[std::min(a, b)];
+    const Vec3& q = this->places[std::max(a, b)];
+    DisphenoidLattice::for_pieces({ p, q, q },
+      [&](const Vec3& middle, const Vec3&, const Vec3&)
+      { body(DisphenoidLattice::locate(middle).tet); });
+  }
+
+  DisphenoidLattice lattice;
+  std::vector<Vec3> places; ///< of the vertices, in cubes
+  std::vector<Key> tet_of_point;
+  std::vector<Piece> pieces; ///< by triangle, then tet
+  std::vector<Index> first_piece; ///< #F + 1
+  std::unordered_map<Key, CubeKind> kinds; ///< of cubes at the surface or inside
+
+private:
+  bool find_pieces(ExecutionContext& context)
+  {
+    struct Found
+    {
+      Key tet;
+      Key cube;
+      Id triangle;
+    };
+    std::vector<Found> found;
+    const auto triangles = static_cast<Index>(this->surface_.triangles.size());
+    const bool whole = gather(context, triangles, found,
+      [&](Index f, std::vector<Found>& list)
+      {
+        const auto& t = this->surface_.triangles[f];
+        const std::size_t first = list.size();
+        const auto id = static_cast<Id>(f);
+        const auto add = [&](const Vec3& middle, const Vec3& lower, const Vec3& upper)
+        {
+          const Key tet = DisphenoidLattice::locate(middle).tet;
+          const Cube from = DisphenoidLattice::cube_of(lower);
+          const Cube to = DisphenoidLattice::cube_of(upper);
+          for (Id k = from[2]; k <= to[2]; ++k)
+          {
+            for (Id j = from[1]; j <= to[1]; ++j)
+            {
+              for (Id i = from[0]; i <= to[0]; ++i)
+              {
+                list.push_back({ tet, DisphenoidLattice::cube_key({ i, j, k }), id });
+              }
+            }
+          }
+        };
+        for (const Id v : t)
+        {
+          const Vec3& p = this->places[v];
+          add(p, p, p);
+        }
+        if (this->tet_of_point[t[0]] != this->tet_of_point[t[1]] ||
+          this->tet_of_point[t[1]] != this->tet_of_point[t[2]])
+        {
+          DisphenoidLattice::for_pieces(this->corners_of(f), add);
+          for (int k = 0; k < 3; ++k)
+          {
+            const Vec3& p = this->places[std::min(t[k], t[(k + 1) % 3])];
+            const Vec3& q = this->places[std::max(t[k], t[(k + 1) % 3])];
+            DisphenoidLattice::for_pieces({ p, q, q }, add);
+          }
+        }
+        const auto key = [](const Found& x) { return std::make_pair(x.tet, x.cube); };
+        std::sort(list.begin() + first, list.end(),
+          [&](const Found& x, const Found& y) { return key(x) < key(y); });
+        list.erase(std::unique(list.begin() + first, list.end(),
+                     [&](const Found& x, const Found& y) { return key(x) == key(y); }),
+          list.end());
+      });
+    if (!whole)
+    {
+      return false;
+    }
+    this->first_piece.assign(static_cast<std::size_t>(triangles) + 1, 0);
+    for (std::size_t i = 0; i < found.size(); ++i)
+    {
+      if (i == 0 || found[i].tet != found[i - 1].tet || found[i].triangle != found[i - 1].triangle)
+      {
+        this->pieces.push_back({ found[i].tet, found[i].triangle });
+        ++this->first_piece[static_cast<std::size_t>(found[i].triangle) + 1];
+      }
+      if (i == 0 || found[i].cube != found[i - 1].cube)
+      {
+        this->kinds.emplace(found[i].cube, CubeKind::sampled);
+      }
+    }
+    std::partial_sum(this->first_piece.begin(), this->first_piece.end(), this->first_piece.begin());
+    return true;
+  }
+
+  bool in_box(const Cube& cube) const
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      if (cube[k] < this->first_cube_[k] || cube[k] > this->last_cube_[k])
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  Status find_cubes(ExecutionContext& context)
+  {
+    std::vector<Key> border; // cubes whose neighbours are still to be looked at
+    for (const auto& [key, kind] : this->kinds)
+    {
+      border.push_back(key);
+    }
+    std::sort(border.begin(), border.end());
+    std::vector<Key> outside;
+    while (!border.empty())
+    {
+      std::vector<Key> next;
+      for (const Key key : border)
+      {
+        for (int side = 0; side < 6; ++side)
+        {
+          const Cube cube = moved(DisphenoidLattice::cube_of(key), side / 2, side % 2 ? 1 : -1);
+          const Key neighbor = DisphenoidLattice::cube_key(cube);
+          if (this->in_box(cube) && this->kinds.count(neighbor) == 0)
+          {
+            next.push_back(neighbor);
+          }
+        }
+      }
+      sort_unique(next);
+      Points centers(static_cast<Index>(next.size()), 3);
+      for (std::size_t i = 0; i < next.size(); ++i)
+      {
+        const Cube cube = DisphenoidLattice::cube_of(next[i]);
+        centers.row(static_cast<Index>(i)) =
+          this->lattice.point_at(Vec3(cube[0] + 0.5, cube[1] + 0.5, cube[2] + 0.5));
+      }
+      Eigen::VectorXd w;
+      const Status status = this->winding_.evaluate(centers, context, w);
+      if (!status.ok())
+      {
+        return status;
+      }
+      border.clear();
+      for (std::size_t i = 0; i < next.size(); ++i)
+      {
+        const bool inside = w[static_cast<Index>(i)] >= this->threshold_;
+        this->kinds[next[i]] = inside ? CubeKind::inside : CubeKind::outside;
+        (inside ? border : outside).push_back(next[i]);
+      }
+      if (static_cast<Index>(this->kinds.size()) > most_cubes)
+      {
+        return too_many_cubes();
+      }
+    }
+    // Through openings the inside ends in the middle of free cubes.
+    std::vector<Key> open;
+    for (const Key key : outside)
+    {
+      bool ends = false;
+      for (int side = 0; side < 6; ++side)
+      {
+        const Cube cube = moved(DisphenoidLattice::cube_of(key), side / 2, side % 2 ? 1 : -1);
+        if (this->kind_of(cube) == CubeKind::inside)
+        {
+          open.push_back(DisphenoidLattice::cube_key(cube));
+          ends = true;
+        }
+      }
+      if (ends)
+      {
+        open.push_back(key);
+      }
+    }
+    for (const Key key : open)
+    {
+      this->kinds[key] = CubeKind::sampled;
+    }
+    for (const Key key : outside)
+    {
+      const auto at = this->kinds.find(key);
+      if (at->second == CubeKind::outside)
+      {
+        this->kinds.erase(at);
+      }
+    }
+    return {};
+  }
+
+public:
+  static Status too_many_cubes()
+  {
+    return Status::invalid_input("the lattice would have more than " + std::to_string(most_cubes) +
+      " cubes; take a smaller resolution");
+  }
+
+private:
+  const Welded& surface_;
+  const WindingNumber& winding_;
+  double threshold_;
+  Box box_;
+  Cube first_cube_{}, last_cube_{}; ///< of the box
+};
+
+// ---- Atoms and what connects them
+// ------------------------------------------------------------------
+
+/// Whole numbers of a sample, over all cubes.
+using Sample = std::array<Id, 3>;
+
+class Embedding
+{
+public:
+  Embedding(PointsView points, const Welded& surface, const WindingNumber& winding,
+    double threshold, const Cover& cover, ExecutionContext& context)
+    : points_(points), surface_(surface), winding_(winding), threshold_(threshold), cover_(cover),
+      context_(context)
+  {
+  }
+
+  Status run(EmbeddingTets& result)
+  {
+    Status status;
+    {
+      const Phase phase(this->context_, "samples", 0.0, 0.6);
+      if (!this->number_atoms())
+      {
+        return this->cancelled_or(Cover::too_many_cubes());
+      }
+      status = this->sample();
+      if (!status.ok())
+      {
+        return status;
+      }
+    }
+    const Phase phase(this->context_, "connect", 0.6, 1.0);
+    if (!this->cut_lines())
+    {
+      return Status::cancelled();
+    }
+    status = this->connect_crossings();
+    if (!status.ok())
+    {
+      return status;
+    }
+    if (!this->connect_samples() || !this->connect_triangles())
+    {
+      return Status::cancelled();
+    }
+    this->connect_cubes();
+    if (!this->find_parts() || !this->join_corners() || !this->write(result))
+    {
+      return Status::cancelled();
+    }
+    return this->context_.cancelled() ? Status::cancelled() : Status();
+  }
+
+private:
+  Status cancelled_or(const Status& status) const
+  {
+    return this->context_.cancelled() ? Status::cancelled() : status;
+  }
+
+  /// Atoms: samples of sampled cubes, then halves of inside cubes, then pieces of triangles.
+  bool number_atoms()
+  {
+    for (const auto& [key, kind] : this->cover_.kinds)
+    {
+      (kind == CubeKind::sampled ? this->sampled_ : this->full_).push_back(key);
+    }
+    if (static_cast<Index>(this->sampled_.size()) > most_sampled_cubes)
+    {
+      return false;
+    }
+    std::sort(this->sampled_.begin(), this->sampled_.end());
+    std::sort(this->full_.begin(), this->full_.end());
+    for (const auto* cubes : { &this->sampled_, &this->full_ })
+    {
+      for (const Key key : *cubes)
+      {
+        for (int half = 0; half < halves; ++half)
+        {
+          this->tets_.push_back(
+            DisphenoidLattice::tet_of_half(DisphenoidLattice::cube_of(key), half));
+        }
+      }
+    }
+    std::vector<Key> of_half = this->tets_;
+    for (const Piece& piece : this->cover_.pieces)
+    {
+      this->tets_.push_back(piece.tet);
+    }
+    if (!parallel_sort(this->context_, this->tets_, std::less<>()))
+    {
+      return false;
+    }
+    this->tets_.erase(std::unique(this->tets_.begin(), this->tets_.end()), this->tets_.end());
+    this->half_tets_.resize(of_half.size());
+    for (std::size_t i = 0; i < of_half.size(); ++i)
+    {
+      this->half_tets_[i] = place_in(this->tets_, of_half[i]);
+    }
+    this->piece_tets_.resize(this->cover_.pieces.size());
+    for (std::size_t i = 0; i < this->piece_tets_.size(); ++i)
+    {
+      this->piece_tets_[i] = place_in(this->tets_, this->cover_.pieces[i].tet);
+    }
+    this->nodes_.resize(this->tets_.size());
+    for (std::size_t i = 0; i < this->tets_.size(); ++i)
+    {
+      this->nodes_[i] = DisphenoidLattice::corners(this->tets_[i]);
+    }
+    for (int s = 0; s < samples_of_cube; ++s)
+    {
+      this->half_of_sample_[s] = DisphenoidLattice::half_of(place_of_sample(position_of(s)));
+      ++this->samples_of_half_[this->half_of_sample_[s]];
+    }
+    for (std::size_t i = 0; i < this->sampled_.size(); ++i)
+    {
+      this->cube_id_[this->sampled_[i]] = static_cast<Id>(i);
+    }
+    for (std::size_t i = 0; i < this->full_.size(); ++i)
+    {
+      this->cube_id_[this->full_[i]] = -1 - static_cast<Id>(i);
+    }
+    this->first_full_ = static_cast<Id>(this->sampled_.size()) * samples_of_cube;
+    this->first_piece_ = this->first_full_ + static_cast<Id>(this->full_.size()) * halves;
+    const std::size_t atoms =
+      static_cast<std::size_t>(this->first_piece_) + this->piece_tets_.size();
+    this->atoms_.reset(atoms);
+    this->shares_.assign(atoms, 0.0F);
+    this->inside_.assign(static_cast<std::size_t>(this->first_full_), 0);
+    this->cut_.assign(static_cast<std::size_t>(this->first_full_), 0);
+    return !this->context_.cancelled();
+  }
+
+  static Sample position_of(int s)
+  {
+    return { s % samples_along, s / samples_along % samples_along,
+      s / (samples_along * samples_along) };
+  }
+  static Vec3 place_of_sample(const Sample& at)
+  {
+    return Vec3(at[0] + sample_shift[0], at[1] + sample_shift[1], at[2] + sample_shift[2]) /
+      samples_along;
+  }
+  Sample sample_of(Id sampled_cube, int s) const
+  {
+    const Cube cube = DisphenoidLattice::cube_of(this->sampled_[sampled_cube]);
+    Sample at = position_of(s);
+    for (int k = 0; k < 3; ++k)
+    {
+      at[k] += samples_along * cube[k];
+    }
+    return at;
+  }
+
+  /// A sample's atom; -1: it is outside of all cubes. In a sampled cube it may not be inside.
+  Id atom_of(const Sample& at) const
+  {
+    const Cube cube{ at[0] / samples_along, at[1] / samples_along, at[2] / samples_along };
+    const auto found = this->cube_id_.find(DisphenoidLattice::cube_key(cube));
+    if (found == this->cube_id_.end())
+    {
+      return -1;
+    }
+    const int s =
+      ((at[2] % samples_along) * samples_along + at[1] % samples_along) * samples_along +
+      at[0] % samples_along;
+    return found->second >= 0
+      ? found->second * samples_of_cube + s
+      : this->first_full_ + (-1 - found->second) * halves + this->half_of_sample_[s];
+  }
+  /// All atoms are but those of samples outside.
+  bool is_inside(Id atom) const
+  {
+    return atom >= this->first_full_ || (atom >= 0 && this->inside_[atom] != 0);
+  }
+  Id tet_of(Id atom) const
+  {
+    if (atom >= this->first_piece_)
+    {
+      return this->piece_tets_[atom - this->first_piece_];
+    }
+    if (atom >= this->first_full_)
+    {
+      return this->half_tets_[this->sampled_.size() * halves + (atom - this->first_full_)];
+    }
+    return this->half_tets_[(atom / samples_of_cube) * halves +
+      this->half_of_sample_[atom % samples_of_cube]];
+  }
+  /// The atom of a triangle in a tet, -1 when rounding left none there.
+  Id atom_of(Id triangle, Key tet) const
+  {
+    const auto begin = this->cover_.pieces.begin() + this->cover_.first_piece[triangle];
+    const auto end = this->cover_.pieces.begin() + this->cover_.first_piece[triangle + 1];
+    const auto at = std::lower_bound(
+      begin, end, tet, [](const Piece& piece, Key key) { return piece.tet < key; });
+    return at == end || at->tet != tet
+      ? -1
+      : this->first_piece_ + static_cast<Id>(at - this->cover_.pieces.begin());
+  }
+
+  void connect(Id a, Id b)
+  {
+    if (a < 0 || b < 0)
+    {
+      return;
+    }
+    if (this->tet_of(a) == this->tet_of(b))
+    {
+      this->atoms_.unite(a, b);
+    }
+    else
+    {
+      this->across_.emplace_back(a, b);
+    }
+  }
+
+  Status sample()
+  {
+    constexpr Index cubes_at_once = 4096;
+    const auto count = static_cast<Index>(this->sampled_.size());
+    for (Index begin = 0; begin < count; begin += cubes_at_once)
+    {
+      const Index end = std::min(count, begin + cubes_at_once);
+      const ProgressRange range(this->context_,
+        static_cast<double>(begin) / static_cast<double>(count),
+        static_cast<double>(end) / static_cast<double>(count));
+      Points points((end - begin) * samples_of_cube, 3);
+      for (Index i = 0; i < points.rows(); ++i)
+      {
+        const Sample at = this->sample_of(
+          static_cast<Id>(begin + i / samples_of_cube), static_cast<int>(i % samples_of_cube));
+        points.row(i) = this->cover_.lattice.point_at(place_of_sample(at));
+      }
+      Eigen::VectorXd w;
+      const Status status = this->winding_.evaluate(points, this->context_, w);
+      if (!status.ok())
+      {
+        return status;
+      }
+      for (Index i = 0; i < w.size(); ++i)
+      {
+        this->inside_[begin * samples_of_cube + i] = w[i] >= this->threshold_ ? 1 : 0;
+      }
+    }
+    return {};
+  }
+
+  // ---- Lines between samples ----
+
+  /// Where a triangle meets the line from a sample to the next along an axis.
+  struct Crossing
+  {
+    Key line; ///< axis and sample
+    double at; ///< 0 … 1 along the line
+    Id triangle;
+
+    int axis() const { return static_cast<int>(this->line >> 60); }
+    Sample sample() const
+    {
+      constexpr Key mask = (1 << 20) - 1;
+      return { static_cast<Id>(this->line & mask), static_cast<Id>(this->line >> 20 & mask),
+        static_cast<Id>(this->line >> 40 & mask) };
+    }
+  };
+  static Key line_key(int axis, const Sample& s)
+  {
+    return ((static_cast<Key>(axis) << 20 | static_cast<Key>(s[2])) << 20 | static_cast<Key>(s[1]))
+      << 20 |
+      static_cast<Key>(s[0]);
+  }
+
+  /// All crossings with lines along an axis: row by row in the projection along it, the exact sign
+  /// of three areas for every line between the triangle's borders. Lines that touch the border
+  /// count for both triangles at it.
+  static void crossings_of(
+    Id triangle, std::array<Vec3, 3> corner, int axis, std::vector<Crossing>& list)
+  {
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    for (Vec3& p : corner)
+    {
+      p = samples_along * p - Vec3(sample_shift[0], sample_shift[1], sample_shift[2]);
+    }
+    const int turn = orientation_2d(
+      corner[0][u], corner[0][v], corner[1][u], corner[1][v], corner[2][u], corner[2][v]);
+    if (turn == 0)
+    {
+      return; // seen from its edge: its neighbours are met
+    }
+    const auto range = [&](int k) {
+      return std::minmax({ corner[0][k], corner[1][k], corner[2][k] });
+    };
+    const auto [lowest, highest] = range(v);
+    const auto [left, right] = range(u);
+    const auto [near, far] = range(axis);
+    constexpr double slack = 1e-6;
+    for (double y = std::ceil(lowest); y <= highest; y += 1.0)
+    {
+      double from = right;
+      double to = left;
+      for (int k = 0; k < 3; ++k)
+      {
+        const Vec3& p = corner[k];
+        const Vec3& q = corner[(k + 1) % 3];
+        if (std::min(p[v], q[v]) <= y && y <= std::max(p[v], q[v]))
+        {
+          const double t = p[v] == q[v] ? 0.0 : (y - p[v]) / (q[v] - p[v]);
+          const double x = p[u] + t * (q[u] - p[u]);
+          from = std::min({ from, x, p[v] == q[v] ? q[u] : x });
+          to = std::max({ to, x, p[v] == q[v] ? q[u] : x });
+        }
+      }
+      for (double x = std::ceil(from - slack); x <= to + slack; x += 1.0)
+      {
+        bool hit = true;
+        double depth = 0.0;
+        double area = 0.0;
+        for (int k = 0; k < 3 && hit; ++k)
+        {
+          const Vec3& p = corner[(k + 1) % 3];
+          const Vec3& q = corner[(k + 2) % 3];
+          hit = turn * orientation_2d(p[u], p[v], q[u], q[v], x, y) >= 0;
+          const double part = std::abs((p[u] - x) * (q[v] - y) - (q[u] - x) * (p[v] - y));
+          area += part;
+          depth += part * corner[k][axis];
+        }
+        if (hit)
+        {
+          const double z = area > 0.0 ? std::clamp(depth / area, near, far) : near;
+          Sample s{};
+          s[axis] = static_cast<Id>(std::floor(z));
+          s[u] = static_cast<Id>(x);
+          s[v] = static_cast<Id>(y);
+          list.push_back({ line_key(axis, s), z - std::floor(z), triangle });
+        }
+      }
+    }
+  }
+
+  bool cut_lines()
+  {
+    if (!gather(this->context_, static_cast<Index>(this->surface_.triangles.size()),
+          this->crossings_,
+          [&](Index f, std::vector<Crossing>& list)
+          {
+            for (int axis = 0; axis < 3; ++axis)
+            {
+              crossings_of(static_cast<Id>(f), this->cover_.corners_of(f), axis, list);
+            }
+          }))
+    {
+      return false;
+    }
+    return parallel_sort(this->context_, this->crossings_,
+      [](const Crossing& a, const Crossing& b)
+      {
+        return a.line != b.line ? a.line < b.line
+          : a.at != b.at        ? a.at < b.at
+                                : a.triangle < b.triangle;
+      });
+  }
+
+  Vec3 place_on_line(const Crossing& crossing, double at) const
+  {
+    const Sample s = crossing.sample();
+    Vec3 place = place_of_sample(s);
+    place[crossing.axis()] =
+      (s[crossing.axis()] + at + sample_shift[crossing.axis()]) / samples_along;
+    return place;
+  }
+
+  /// Connects along the lines that are cut, and measures how much of them is inside.
+  Status connect_crossings()
+  {
+    const auto& list = this->crossings_;
+    // Stretches between two crossings, by the first of them.
+    std::vector<Index> stretches;
+    for (std::size_t i = 0; i + 1 < list.size(); ++i)
+    {
+      if (list[i].line == list[i + 1].line && list[i + 1].at - list[i].at > touching)
+      {
+        stretches.push_back(static_cast<Index>(i));
+      }
+    }
+    std::vector<char> inside_after(list.size(), 0);
+    {
+      Points middles(static_cast<Index>(stretches.size()), 3);
+      for (Index i = 0; i < middles.rows(); ++i)
+      {
+        const Crossing& crossing = list[stretches[i]];
+        middles.row(i) = this->cover_.lattice.point_at(
+          this->place_on_line(crossing, 0.5 * (crossing.at + list[stretches[i] + 1].at)));
+      }
+      Eigen::VectorXd w;
+      const Status status = this->winding_.evaluate(middles, this->context_, w);
+      if (!status.ok())
+      {
+        return status;
+      }
+      for (Index i = 0; i < w.size(); ++i)
+      {
+        inside_after[stretches[i]] = w[i] >= this->threshold_ ? 1 : 0;
+      }
+    }
+    // Which lines at a sample are cut: bits for lines up along x, y, z, then down.
+    for (const Crossing& crossing : list)
+    {
+      const int axis = crossing.axis();
+      const Id lower = this->atom_of(crossing.sample());
+      const Id upper = this->atom_of(next_of(crossing.sample(), axis));
+      this->mark(lower, axis);
+      this->mark(upper, axis + 3);
+    }
+    for (std::size_t begin = 0; begin < list.size();)
+    {
+      std::size_t end = begin;
+      while (end < list.size() && list[end].line == list[begin].line)
+      {
+        ++end;
+      }
+      if (begin / often != end / often && this->context_.cancelled())
+      {
+        return Status::cancelled();
+      }
+      this->connect_line(begin, end, inside_after);
+      begin = end;
+    }
+    return {};
+  }
+
+  static Sample next_of(Sample s, int axis)
+  {
+    ++s[axis];
+    return s;
+  }
+  void mark(Id sample, int line)
+  {
+    if (sample >= 0 && sample < this->first_full_)
+    {
+      this->cut_[sample] = static_cast<std::uint8_t>(this->cut_[sample] | 1U << line);
+    }
+  }
+
+  void connect_line(std::size_t begin, std::size_t end, const std::vector<char>& inside_after)
+  {
+    const auto& list = this->crossings_;
+    const int axis = list[begin].axis();
+    const Id lower = this->atom_of(list[begin].sample());
+    const Id upper = this->atom_of(next_of(list[begin].sample(), axis));
+    Id last = this->is_inside(lower) ? lower : -1;
+    double at = 0.0;
+    bool inside = last >= 0;
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      const Key tet = DisphenoidLattice::locate(this->place_on_line(list[i], list[i].at)).tet;
+      const Id atom = this->atom_of(list[i].triangle, tet);
+      if (inside)
+      {
+        this->measure(lower, upper, at, list[i].at, last >= 0 ? last : atom);
+      }
+      if (i > begin ? inside || list[i].at - at <= touching : inside)
+      {
+        this->connect(last, atom);
+      }
+      last = atom;
+      at = list[i].at;
+      inside = inside_after[i] != 0;
+    }
+    if (this->is_inside(upper))
+    {
+      this->measure(lower, upper, at, 1.0, upper);
+      this->connect(last, upper);
+    }
+  }
+
+  /// Adds a stretch of a line that is inside to its atom, half a line to each sample's cell.
+  void measure(Id lower, Id upper, double from, double to, Id atom)
+  {
+    if (atom < 0)
+    {
+      return;
+    }
+    this->add_share(lower, std::min(to, 0.5) - from, atom);
+    this->add_share(upper, to - std::max(from, 0.5), atom);
+  }
+  void add_share(Id sample, double length, Id atom)
+  {
+    if (length > 0.0 && sample >= 0 && sample < this->first_full_)
+    {
+      this->shares_[atom] += static_cast<float>(length / cut_axes(this->cut_[sample]));
+    }
+  }
+  static int cut_axes(unsigned cut)
+  {
+    const unsigned axes = (cut | cut >> 3) & 7U;
+    return static_cast<int>((axes & 1U) + (axes >> 1 & 1U) + (axes >> 2));
+  }
+
+  /// Connects samples along lines that are not cut, and measures their cells: as much of one is
+  /// inside as of the lines through the sample that are cut.
+  bool connect_samples()
+  {
+    for (Id cube = 0; cube < static_cast<Id>(this->sampled_.size()); ++cube)
+    {
+      if (cube % 64 == 0 && this->context_.cancelled())
+      {
+        return false;
+      }
+      for (int s = 0; s < samples_of_cube; ++s)
+      {
+        const Id atom = cube * samples_of_cube + s;
+        if (this->inside_[atom] == 0)
+        {
+          continue;
+        }
+        const unsigned cut = this->cut_[atom];
+        const Sample position = position_of(s);
+        double share = cut == 0 ? 1.0 : 0.0;
+        int stride = 1;
+        for (int axis = 0; axis < 3; ++axis, stride *= samples_along)
+        {
+          const bool up_is_cut = (cut >> axis & 1U) != 0;
+          const bool down_is_cut = (cut >> (axis + 3) & 1U) != 0;
+          if (up_is_cut != down_is_cut)
+          {
+            share += 0.5 / cut_axes(cut);
+          }
+          if (!up_is_cut)
+          {
+            const Id next = position[axis] + 1 < samples_along
+              ? atom + stride
+              : this->atom_of(next_of(this->sample_of(cube, s), axis));
+            if (this->is_inside(next))
+            {
+              this->connect(atom, next);
+            }
+          }
+          if (!down_is_cut && position[axis] == 0)
+          {
+            // Sampled neighbours look up themselves.
+            Sample below = this->sample_of(cube, s);
+            --below[axis];
+            const Id last = this->atom_of(below);
+            if (last >= this->first_full_)
+            {
+              this->connect(atom, last);
+            }
+          }
+        }
+        this->shares_[atom] += static_cast<float>(share);
+      }
+    }
+    return true;
+  }
+
+  /// Cubes inside hold nothing that separates.
+  void connect_cubes()
+  {
+    for (Id i = 0; i < static_cast<Id>(this->full_.size()); ++i)
+    {
+      const Cube cube = DisphenoidLattice::cube_of(this->full_[i]);
+      for (int half = 0; half < halves; ++half)
+      {
+        const Id atom = this->first_full_ + i * halves + half;
+        this->shares_[atom] = static_cast<float>(this->samples_of_half_[half]);
+        if (half % 2 == 0)
+        {
+          continue;
+        }
+        const auto above = this->cube_id_.find(
+          DisphenoidLattice::cube_key(moved(cube, half / 8, 1))); // across the half's face
+        if (above != this->cube_id_.end() && above->second < 0)
+        {
+          this->atoms_.unite(atom, this->first_full_ + (-1 - above->second) * halves + half - 1);
+        }
+      }
+    }
+  }
+
+  // ---- Triangles ----
+
+  bool connect_triangles()
+  {
+    // Around vertices.
+    const auto& triangles = this->surface_.triangles;
+    std::vector<Id> first_at(this->surface_.points.size(), -1);
+    struct Side
+    {
+      Id a, b, triangle;
+    };
+    std::vector<Side> sides;
+    for (std::size_t f = 0; f < triangles.size(); ++f)
+    {
+      if (f % often == 0 && this->context_.cancelled())
+      {
+        return false;
+      }
+      for (int k = 0; k < 3; ++k)
+      {
+        const Id v = triangles[f][k];
+        const Id w = triangles[f][(k + 1) % 3];
+        const Id atom = this->atom_of(static_cast<Id>(f), this->cover_.tet_of_point[v]);
+        Id& first = first_at[v];
+        if (first >= 0)
+        {
+          this->atoms_.unite(first, atom);
+        }
+        first = first >= 0 ? first : atom;
+        // An edge within one tet connects there as its vertices do.
+        if (this->cover_.tet_of_point[v] != this->cover_.tet_of_point[w])
+        {
+          sides.push_back({ std::min(v, w), std::max(v, w), static_cast<Id>(f) });
+        }
+      }
+    }
+    this->atom_of_vertex_ = std::move(first_at);
+    if (!parallel_sort(this->context_, sides,
+          [](const Side& x, const Side& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; }))
+    {
+      return false;
+    }
+    for (std::size_t i = 0; i + 1 < sides.size(); ++i)
+    {
+      if (i % often == 0 && this->context_.cancelled())
+      {
+        return false;
+      }
+      if (sides[i].a == sides[i + 1].a && sides[i].b == sides[i + 1].b)
+      {
+        this->cover_.tets_of_edge(sides[i].a, sides[i].b,
+          [&](Key tet)
+          {
+            this->connect(
+              this->atom_of(sides[i].triangle, tet), this->atom_of(sides[i + 1].triangle, tet));
+          });
+      }
+    }
+    return true;
+  }
+
+  // ---- Parts, copies of nodes, tets ----
+
+  bool find_parts()
+  {
+    const Id count = this->first_piece_ + static_cast<Id>(this->piece_tets_.size());
+    this->part_of_.assign(static_cast<std::size_t>(count), -1);
+    for (Id atom = 0; atom < count; ++atom)
+    {
+      if (atom % often == 0 && this->context_.cancelled())
+      {
+        return false;
+      }
+      if (!this->is_inside(atom))
+      {
+        continue;
+      }
+      const Id root = this->atoms_.find(atom);
+      if (root == atom)
+      {
+        this->part_of_[atom] = static_cast<Id>(this->part_tets_.size());
+        this->part_tets_.push_back(this->tet_of(atom));
+        this->part_shares_.push_back(0.0);
+      }
+      this->part_of_[atom] = this->part_of_[root];
+      this->part_shares_[this->part_of_[atom]] += static_cast<double>(this->shares_[atom]);
+    }
+    this->corners_.reset(4 * this->part_tets_.size());
+    return true;
+  }
+
+  /// Atoms of a convex piece of material: the nodes that two of them have in common see one part.
+  template <typename AtomAt>
+  void join_convex(Index count, const AtomAt& atom_at)
+  {
+    this->at_node_.clear();
+    for (Index i = 0; i < count; ++i)
+    {
+      const Id part = this->part_of_[atom_at(i)];
+      const auto& nodes = this->nodes_[this->part_tets_[part]];
+      for (int k = 0; k < 4; ++k)
+      {
+        this->at_node_.emplace_back(nodes[k], 4 * part + k);
+      }
+    }
+    std::sort(this->at_node_.begin(), this->at_node_.end());
+    for (std::size_t i = 1; i < this->at_node_.size(); ++i)
+    {
+      if (this->at_node_[i].first == this->at_node_[i - 1].first)
+      {
+        this->corners_.unite(this->at_node_[i].second, this->at_node_[i - 1].second);
+      }
+    }
+  }
+
+  bool join_corners()
+  {
+    for (std::size_t i = 0; i < this->across_.size(); ++i)
+    {
+      if (i % often == 0 && this->context_.cancelled())
+      {
+        return false;
+      }
+      const Id p = this->part_of_[this->across_[i].first];
+      const Id q = this->part_of_[this->across_[i].second];
+      const auto& of_p = this->nodes_[this->part_tets_[p]];
+      const auto& of_q = this->nodes_[this->part_tets_[q]];
+      for (int k = 0; k < 4; ++k)
+      {
+        for (int l = 0; l < 4; ++l)
+        {
+          if (of_p[k] == of_q[l])
+          {
+            this->corners_.unite(4 * p + k, 4 * q + l);
+          }
+        }
+      }
+    }
+    const auto& first = this->cover_.first_piece;
+    for (std::size_t f = 0; f + 1 < first.size(); ++f)
+    {
+      if (f % often == 0 && this->context_.cancelled())
+      {
+        return false;
+      }
+      if (first[f + 1] - first[f] > 1)
+      {
+        this->join_convex(first[f + 1] - first[f],
+          [&](Index i) { return this->first_piece_ + static_cast<Id>(first[f] + i); });
+      }
+    }
+    for (Id cube = 0; cube < static_cast<Id>(this->full_.size()); ++cube)
+    {
+      this->join_convex(
+        halves, [&](Index i) { return this->first_full_ + cube * halves + static_cast<Id>(i); });
+    }
+    return true;
+  }
+
+  bool write(EmbeddingTets& result)
+  {
+    // Parts with the same tet and the same copies of its nodes are one tet.
+    struct Copy
+    {
+      Id tet;
+      std::array<Id, 4> corners;
+      Id part;
+    };
+    std::vector<Copy> copies(this->part_tets_.size());
+    for (std::size_t p = 0; p < copies.size(); ++p)
+    {
+      copies[p].tet = this->part_tets_[p];
+      copies[p].part = static_cast<Id>(p);
+      for (int k = 0; k < 4; ++k)
+      {
+        copies[p].corners[k] = this->corners_.find(static_cast<Id>(4 * p + k));
+      }
+    }
+    const auto same = [](const Copy& a, const Copy& b)
+    { return a.tet == b.tet && a.corners == b.corners; };
+    if (!parallel_sort(this->context_, copies,
+          [](const Copy& a, const Copy& b)
+          { return a.tet != b.tet ? a.tet < b.tet : a.corners < b.corners; }))
+    {
+      return false;
+    }
+    std::vector<std::pair<Key, Id>> vertices; // node, copy
+    std::vector<Index> tet_of_part(copies.size());
+    std::vector<std::size_t> first_of_tet;
+    for (std::size_t i = 0; i < copies.size(); ++i)
+    {
+      if (i == 0 || !same(copies[i - 1], copies[i]))
+      {
+        result.lattice_tets += i == 0 || copies[i - 1].tet != copies[i].tet ? 1 : 0;
+        first_of_tet.push_back(i);
+        for (int k = 0; k < 4; ++k)
+        {
+          vertices.emplace_back(this->nodes_[copies[i].tet][k], copies[i].corners[k]);
+        }
+      }
+      tet_of_part[copies[i].part] = static_cast<Index>(first_of_tet.size()) - 1;
+    }
+    sort_unique(vertices);
+    const auto vertex_count = static_cast<Index>(vertices.size());
+    result.mesh.points.resize(vertex_count, 3);
+    for (Index v = 0; v < vertex_count; ++v)
+    {
+      result.mesh.points.row(v) = this->cover_.lattice.node_point(vertices[v].first);
+      result.duplicated_nodes += v > 0 && vertices[v].first == vertices[v - 1].first ? 1 : 0;
+    }
+    const auto tet_count = static_cast<Index>(first_of_tet.size());
+    result.mesh.tets.resize(tet_count, 4);
+    result.inside_fractions = Eigen::VectorXd::Zero(tet_count);
+    for (Index t = 0; t < tet_count; ++t)
+    {
+      const Copy& copy = copies[first_of_tet[t]];
+      for (int k = 0; k < 4; ++k)
+      {
+        const auto vertex = std::make_pair(this->nodes_[copy.tet][k], copy.corners[k]);
+        result.mesh.tets(t, k) =
+          std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin();
+      }
+    }
+    for (const Copy& copy : copies)
+    {
+      result.inside_fractions[tet_of_part[copy.part]] += this->part_shares_[copy.part];
+    }
+    for (Index t = 0; t < tet_count; ++t)
+    {
+      const int number = static_cast<int>(this->tets_[copies[first_of_tet[t]].tet] % 16);
+      const int samples =
+        this->samples_of_half_[2 * number] + this->samples_of_half_[2 * number + 1];
+      result.inside_fractions[t] = std::min(1.0, result.inside_fractions[t] / samples);
+    }
+    this->bind(tet_of_part, result);
+    return true;
+  }
+
+  void bind(const std::vector<Index>& tet_of_part, EmbeddingTets& result)
+  {
+    // For points that no triangle uses: of a tet's copies the one that holds most.
+    std::vector<Index> fullest(this->tets_.size(), -1);
+    for (std::size_t p = 0; p < tet_of_part.size(); ++p)
+    {
+      Index& best = fullest[this->part_tets_[p]];
+      const Index t = tet_of_part[p];
+      if (best < 0 || result.inside_fractions[t] > result.inside_fractions[best])
+      {
+        best = t;
+      }
+    }
+    PointBinding& binding = result.binding;
+    binding.tets.assign(static_cast<std::size_t>(this->points_.rows()), -1);
+    binding.coordinates.setZero(this->points_.rows(), 4);
+    for (Index i = 0; i < this->points_.rows(); ++i)
+    {
+      const Id vertex = this->surface_.of_point[i];
+      const Vec3 place = this->cover_.lattice.place_of(this->points_.row(i));
+      if (vertex < 0 && !((place.array() >= 0.0).all() && (place.array() < 65535.0).all()))
+      {
+        continue;
+      }
+      const auto location = DisphenoidLattice::locate(place);
+      Index tet = -1;
+      if (vertex >= 0)
+      {
+        tet = tet_of_part[this->part_of_[this->atom_of_vertex_[vertex]]];
+      }
+      else
+      {
+        const Id at = place_in(this->tets_, location.tet);
+        tet = at < static_cast<Id>(this->tets_.size()) && this->tets_[at] == location.tet
+          ? fullest[at]
+          : -1;
+      }
+      binding.tets[i] = tet;
+      for (int k = 0; k < 4 && tet >= 0; ++k)
+      {
+        binding.coordinates(i, k) = location.coordinates[k];
+      }
+    }
+  }
+
+  /// Crossings nearer than this share of the samples' distance are one.
+  static constexpr double touching = 1e-9;
+
+  PointsView points_;
+  const Welded& surface_;
+  const WindingNumber& winding_;
+  double threshold_;
+  const Cover& cover_;
+  ExecutionContext& context_;
+
+  std::vector<Key> sampled_, full_; // cubes, sorted
+  std::unordered_map<Key, Id> cube_id_; // place in sampled_, or -1 - place in full_
+  std::vector<Key> tets_; // sorted
+  std::vector<std::array<Key, 4>> nodes_; // of tets_
+  std::vector<Id> half_tets_; // places in tets_: 24 a sampled cube, then 24 a full one
+  std::vector<Id> piece_tets_; // places in tets_ of cover_.pieces
+  std::array<int, samples_of_cube> half_of_sample_{};
+  std::array<int, halves> samples_of_half_{};
+  Id first_full_ = 0; // of the atoms
+  Id first_piece_ = 0;
+
+  std::vector<std::uint8_t> inside_; // of the samples
+  std::vector<std::uint8_t> cut_; // of the samples: which of the six lines are
+  std::vector<Crossing> crossings_; // by line, then along it
+  std::vector<float> shares_; // of the atoms: how much is inside, in cells of a sample
+  std::vector<Id> atom_of_vertex_;
+  UnionFind atoms_; // those of one tet
+  std::vector<std::pair<Id, Id>> across_; // connected atoms of different tets
+
+  std::vector<Id> part_of_; // of the atoms
+  std::vector<Id> part_tets_; // places in tets_
+  std::vector<double> part_shares_;
+  UnionFind corners_; // 4 * part + corner
+  std::vector<std::pair<Key, Id>> at_node_;
+};
+
+// ---- The spacing
+// -----------------------------------------------------------------------------------
+
+/// What a surface measures, in units of its box's longest side.
+struct Measures
+{
+  double longest = 0.0;
+  double volume = 0.0, area = 0.0, perimeter = 0.0, triangles = 0.0;
+
+  Measures(const Welded& surface, const Box& box) : longest(box.size().maxCoeff())
+  {
+    const double unit = this->longest > 0.0 ? this->longest : 1.0;
+    for (const auto& t : surface.triangles)
+    {
+      const Vec3 a = (surface.points[t[0]] - box.lower) / unit;
+      const Vec3 b = (surface.points[t[1]] - box.lower) / unit;
+      const Vec3 c = (surface.points[t[2]] - box.lower) / unit;
+      this->area += 0.5 * (b - a).cross(c - a).norm();
+      this->volume += a.dot(b.cross(c)) / 6.0;
+      this->perimeter += (b - a).norm() + (c - b).norm() + (a - c).norm();
+    }
+    const Vec3 size = box.size() / unit;
+    this->volume = std::min(std::abs(this->volume), size.prod());
+    this->triangles = static_cast<double>(surface.triangles.size());
+  }
+  /// Tets that this many cubes along the longest side will give, by the mean number of lattice tets
+  /// that a volume, and a surface beyond it, goes through.
+  double tets(double cubes) const
+  {
+    const double most = 12.0 * std::pow(cubes + 2.0, 3);
+    return std::min(
+      most, 12.0 * this->volume * cubes * cubes * cubes + 6.0 * this->area * cubes * cubes);
+  }
+  /// Pieces of triangles, and crossings with the samples' lines.
+  double pieces(double cubes) const
+  {
+    return this->triangles + 4.0 * this->perimeter * cubes + 65.0 * this->area * cubes * cubes;
+  }
+  /// The largest number of cubes for which count(cubes) stays below a bound.
+  template <typename Count>
+  static double most_cubes_along(double bound, const Count& count)
+  {
+    double low = 1.0;
+    double high = static_cast<double>(largest_resolution);
+    constexpr int steps = 40;
+    for (int s = 0; s < steps; ++s)
+    {
+      const double middle = 0.5 * (low + high);
+      (count(middle) < bound ? low : high) = middle;
+    }
+    return low;
+  }
+};
+
+/// Builds the cover with about the wanted number of tets.
+Status choose_spacing(
+  const Measures& measures, double least_spacing, Cover& cover, ExecutionContext& context)
+{
+  const double most = std::min(Measures::most_cubes_along(most_pieces_of_choice,
+                                 [&](double cubes) { return measures.pieces(cubes); }),
+    std::max(1.0, measures.longest / least_spacing));
+  double cubes = std::min(
+    most, Measures::most_cubes_along(wanted_tets, [&](double c) { return measures.tets(c); }));
+  double last_cubes = 0.0;
+  double last_tets = 0.0;
+  constexpr int rounds = 6;
+  for (int round = 0;; ++round)
+  {
+    const ProgressRange range(context, 1.0 - std::pow(0.5, round), 1.0 - std::pow(0.5, round + 1));
+    const Status status = cover.build(std::max(measures.longest / cubes, least_spacing), context);
+    const double tets = status.ok() ? cover.count_tets() : 0.0;
+    if (!status.ok() || (tets >= fewest_tets && tets <= most_tets) || round + 1 == rounds)
+    {
+      return status;
+    }
+    // As a power of the resolution: between that of a thread and that of a solid.
+    double power = tets < wanted_tets ? 2.5 : 2.0;
+    if (last_cubes > 0.0 && last_cubes != cubes)
+    {
+      power = std::clamp(std::log(tets / last_tets) / std::log(cubes / last_cubes), 0.8, 3.2);
+    }
+    last_cubes = cubes;
+    last_tets = tets;
+    cubes = std::clamp(cubes * std::pow(wanted_tets / tets, 1.0 / power), 1.0, most);
+    if (cubes == last_cubes)
+    {
+      return status;
+    }
+  }
+}
+
+Index count_branching_facets(TetsView tets)
+{
+  std::vector<std::array<Index, 3>> facets;
+  facets.reserve(static_cast<std::size_t>(4 * tets.rows()));
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      std::array<Index, 3> facet{ tets(t, (k + 1) % 4), tets(t, (k + 2) % 4),
+        tets(t, (k + 3) % 4) };
+      std::sort(facet.begin(), facet.end());
+      facets.push_back(facet);
+    }
+  }
+  std::sort(facets.begin(), facets.end());
+  Index count = 0;
+  for (std::size_t i = 0; i + 2 < facets.size(); ++i)
+  {
+    const bool first = i == 0 || facets[i - 1] != facets[i];
+    count += first && facets[i] == facets[i + 2] ? 1 : 0;
+  }
+  return count;
+}
+
+Status check(PointsView points, TrianglesView triangles, const EmbeddingOptions& options)
+{
+  Status status = check_mesh(points, triangles);
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (triangles.rows() == 0)
+  {
+    return Status::invalid_input("the surface has no triangles");
+  }
+  constexpr Index most = std::numeric_limits<Id>::max() / 64;
+  if (triangles.rows() > most || points.rows() > std::numeric_limits<Id>::max())
+  {
+    return Status::invalid_input(
+      "the surface has more than " + std::to_string(most) + " triangles");
+  }
+  if (options.resolution < 0 || options.resolution > largest_resolution)
+  {
+    return Status::invalid_input("resolution must be from 0 to " +
+      std::to_string(largest_resolution) + " cubes, not " + std::to_string(options.resolution));
+  }
+  if (!std::isfinite(options.winding_threshold) || options.winding_threshold <= 0.0)
+  {
+    return Status::invalid_input("winding_threshold must be positive");
+  }
+  return {};
+}
+} // namespace
+
+Status embed_surface(PointsView points, TrianglesView triangles, const WindingNumber& winding,
+  const EmbeddingOptions& options, EmbeddingTets& result, ExecutionContext& context)
+{
+  result = EmbeddingTets();
+  Status status = check(points, triangles, options);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const Box box = bounding_box(points, triangles);
+  const double largest = box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).maxCoeff();
+  if (!(box.size().squaredNorm() <= std::numeric_limits<double>::max()))
+  {
+    return Status::invalid_input("the surface's coordinates are too large");
+  }
+  Welded surface;
+  Cover cover(surface, winding, options.winding_threshold, box);
+  {
+    const Phase phase(context, "lattice", 0.0, 0.4);
+    if (!weld(points, triangles, surface, context))
+    {
+      return Status::cancelled();
+    }
+    const Measures measures(surface, box);
+    double least = DisphenoidLattice::least_spacing(largest);
+    least = least > 0.0 ? least : 1.0;
+    if (options.resolution == 0 && measures.longest > 0.0)
+    {
+      status = choose_spacing(measures, least, cover, context);
+    }
+    else
+    {
+      const auto cubes = static_cast<double>(std::max<Index>(1, options.resolution));
+      if (measures.pieces(cubes) > most_pieces)
+      {
+        return Cover::too_many_cubes();
+      }
+      status = cover.build(std::max(measures.longest / cubes, least), context);
+    }
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  {
+    const Phase phase(context, "parts", 0.4, 1.0);
+    status =
+      Embedding(points, surface, winding, options.winding_threshold, cover, context).run(result);
+  }
+  if (!status.ok())
+  {
+    result = EmbeddingTets();
+    return status;
+  }
+  result.spacing = cover.lattice.spacing();
+  result.resolution = static_cast<Index>(std::ceil(box.size().maxCoeff() / result.spacing));
+  result.branching_facets = count_branching_facets(result.mesh.tets);
+  result.components = connected_components(result.mesh.points.rows(), result.mesh.tets).count;
+  status.report.set("spacing", result.spacing);
+  status.report.set("resolution", result.resolution);
+  status.report.set("counts.lattice_tets", result.lattice_tets);
+  status.report.set("counts.duplicated_nodes", result.duplicated_nodes);
+  status.report.set("counts.branching_facets", result.branching_facets);
+  status.report.set("counts.tet_components", result.components);
+  return status;
+}
+
+} // namespace bindpose

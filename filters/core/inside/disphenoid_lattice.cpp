@@ -83,13 +83,6 @@ double DisphenoidLattice::least_spacing(double largest_coordinate)
   return std::ldexp(largest_coordinate, -36);
 }
 
-DisphenoidLattice::Cube DisphenoidLattice::cube_of(const Vec3& place)
-{
-  return { static_cast<std::int32_t>(std::floor(place[0])),
-    static_cast<std::int32_t>(std::floor(place[1])),
-    static_cast<std::int32_t>(std::floor(place[2])) };
-}
-
 DisphenoidLattice::Key DisphenoidLattice::cube_key(const Cube& cube)
 {
   return ((static_cast<Key>(cube[2]) << cube_bits | static_cast<Key>(cube[1])) << cube_bits) |
@@ -161,13 +154,6 @@ int DisphenoidLattice::half_of(const Vec3& place)
   const Vec3 d = from_center(place, cube_of(place));
   const auto [a, m, n] = sorted_axes(d);
   return 2 * Frame::number(a, m, d[m] >= 0.0) + (d[a] >= 0.0 ? 1 : 0);
-}
-
-double DisphenoidLattice::along(int direction, const Vec3& place)
-{
-  const double x = place[direction / 2];
-  const double y = place[(direction / 2 + 1) % 3];
-  return direction % 2 ? x - y : x + y;
 }
 
 void DisphenoidLattice::cut(

@@ -37,7 +37,12 @@ public:
   Vec3 place_of(const Vec3& point) const { return (point - this->origin_) / this->spacing_; }
   Vec3 point_at(const Vec3& place) const { return this->origin_ + this->spacing_ * place; }
 
-  static Cube cube_of(const Vec3& place);
+  static Cube cube_of(const Vec3& place)
+  {
+    return { static_cast<std::int32_t>(std::floor(place[0])),
+      static_cast<std::int32_t>(std::floor(place[1])),
+      static_cast<std::int32_t>(std::floor(place[2])) };
+  }
   static Key cube_key(const Cube& cube);
   static Cube cube_of(Key cube_key);
 
@@ -90,7 +95,12 @@ private:
     }
   };
   static constexpr int directions = 6;
-  static double along(int direction, const Vec3& place);
+  static double along(int direction, const Vec3& place)
+  {
+    const double x = place[direction / 2];
+    const double y = place[(direction / 2 + 1) % 3];
+    return direction % 2 ? x - y : x + y;
+  }
   /// The part between `lower` and `upper`.
   static void cut(const Polygon& polygon, int direction, double lower, double upper, Polygon& part);
 

@@ -16,6 +16,9 @@
 //    through; within the tets around a node a triangle is one piece, being convex.
 // 5. Atoms that are connected in one tet make its parts. A union-find over (part, corner of its
 //    tet) finds the copies of nodes; parts with the same four copies are one tet.
+// 6. Where the tets around a node hold but a slice of material, no line between samples may lie in
+//    it. So before the last step, nodes with several copies are looked at again: straight probes
+//    from one copy's atoms to the nearest of another's, against all triangles around the node.
 //
 // Every union keeps the smaller id, so that nothing depends on the order, nor on threads.
 #include "inside/embedding_tets.h"
@@ -29,6 +32,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <tuple>
 #include <unordered_map>
 
 namespace bindpose
@@ -52,7 +56,7 @@ constexpr double most_tets = 45000.0;
 constexpr Index most_cubes = 4000000;
 constexpr Index most_sampled_cubes = 1000000;
 constexpr double most_pieces = 2e8;
-constexpr double most_pieces_of_choice = 3e7;
+constexpr double most_pieces_of_choice = 1e6; // beyond two a triangle
 constexpr Index largest_resolution = 1000;
 constexpr Index often = 1 << 15; // items between two looks at cancel
 
@@ -162,13 +166,14 @@ struct Piece
 {
   Key tet;
   Id triangle;
+  Vec3 middle; ///< a place of both
 };
 
 /// Calls item(i, list) for all i on all threads; what is put into the lists is joined in order.
 template <typename Item, typename Body>
-bool gather(ExecutionContext& context, Index count, std::vector<Item>& all, const Body& body)
+bool gather(ExecutionContext& context, Index count, std::vector<Item>& all, const Body& body,
+  Index block = 512)
 {
-  constexpr Index block = 512;
   std::vector<std::vector<Item>> of_block(static_cast<std::size_t>((count + block - 1) / block));
   const bool whole = parallel_for(context, count, block,
     [&](Index begin, Index end)
@@ -176,7 +181,7 @@ bool gather(ExecutionContext& context, Index count, std::vector<Item>& all, cons
       auto& list = of_block[static_cast<std::size_t>(begin / block)];
       for (Index i = begin; i < end; ++i)
       {
-        if (i % 64 == 0 && context.cancelled())
+        if (i % 16 == 0 && context.cancelled())
         {
           return;
         }
@@ -290,6 +295,7 @@ private:
       Key tet;
       Key cube;
       Id triangle;
+      Vec3 middle;
     };
     std::vector<Found> found;
     const auto triangles = static_cast<Index>(this->surface_.triangles.size());
@@ -310,7 +316,7 @@ private:
             {
               for (Id i = from[0]; i <= to[0]; ++i)
               {
-                list.push_back({ tet, DisphenoidLattice::cube_key({ i, j, k }), id });
+                list.push_back({ tet, DisphenoidLattice::cube_key({ i, j, k }), id, middle });
               }
             }
           }
@@ -326,13 +332,18 @@ private:
           DisphenoidLattice::for_pieces(this->corners_of(f), add);
           for (int k = 0; k < 3; ++k)
           {
-            const Vec3& p = this->places[std::min(t[k], t[(k + 1) % 3])];
-            const Vec3& q = this->places[std::max(t[k], t[(k + 1) % 3])];
-            DisphenoidLattice::for_pieces({ p, q, q }, add);
+            const Id v = t[k];
+            const Id w = t[(k + 1) % 3];
+            if (this->tet_of_point[v] != this->tet_of_point[w])
+            {
+              const Vec3& p = this->places[std::min(v, w)];
+              const Vec3& q = this->places[std::max(v, w)];
+              DisphenoidLattice::for_pieces({ p, q, q }, add);
+            }
           }
         }
         const auto key = [](const Found& x) { return std::make_pair(x.tet, x.cube); };
-        std::sort(list.begin() + first, list.end(),
+        std::stable_sort(list.begin() + first, list.end(),
           [&](const Found& x, const Found& y) { return key(x) < key(y); });
         list.erase(std::unique(list.begin() + first, list.end(),
                      [&](const Found& x, const Found& y) { return key(x) == key(y); }),
@@ -347,7 +358,7 @@ private:
     {
       if (i == 0 || found[i].tet != found[i - 1].tet || found[i].triangle != found[i - 1].triangle)
       {
-        this->pieces.push_back({ found[i].tet, found[i].triangle });
+        this->pieces.push_back({ found[i].tet, found[i].triangle, found[i].middle });
         ++this->first_piece[static_cast<std::size_t>(found[i].triangle) + 1];
       }
       if (i == 0 || found[i].cube != found[i - 1].cube)
@@ -516,7 +527,8 @@ public:
       return Status::cancelled();
     }
     this->connect_cubes();
-    if (!this->find_parts() || !this->join_corners() || !this->write(result))
+    if (!this->find_parts() || !this->join_corners() || !this->probe_nodes() ||
+      !this->write(result))
     {
       return Status::cancelled();
     }
@@ -1207,6 +1219,248 @@ private:
     return true;
   }
 
+  // ---- Probes ----
+
+  Vec3 place_of(Id atom) const
+  {
+    if (atom >= this->first_piece_)
+    {
+      return this->cover_.pieces[atom - this->first_piece_].middle;
+    }
+    if (atom < this->first_full_)
+    {
+      return place_of_sample(this->sample_of(atom / samples_of_cube, atom % samples_of_cube));
+    }
+    const auto& nodes = this->nodes_[this->tet_of(atom)];
+    const auto& lattice = this->cover_.lattice;
+    const Cube cube = DisphenoidLattice::cube_of(this->full_[(atom - this->first_full_) / halves]);
+    // The half's face and the cube's centre.
+    const Vec3 edge = 0.5 * (lattice.node_point(nodes[2]) + lattice.node_point(nodes[3]));
+    return 0.5 * (lattice.place_of(edge) + Vec3(cube[0] + 0.5, cube[1] + 0.5, cube[2] + 0.5));
+  }
+
+  /// Where the line from a to b meets a triangle, as a share of it; hits just beside the triangle
+  /// count too: all they do is to cut the line once more.
+  static bool meets(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& t, double& at)
+  {
+    const Vec3 u = t[1] - t[0];
+    const Vec3 v = t[2] - t[0];
+    const Vec3 d = b - a;
+    const Vec3 n = u.cross(v);
+    const double along = -n.dot(d);
+    if (along == 0.0)
+    {
+      return false;
+    }
+    const Vec3 p = a - t[0];
+    const Vec3 e = p.cross(d);
+    constexpr double slack = 1e-9;
+    const double s = v.dot(e) / along;
+    const double r = -u.dot(e) / along;
+    at = n.dot(p) / along;
+    return s >= -slack && r >= -slack && s + r <= 1.0 + slack && at > 0.0 && at < 1.0;
+  }
+
+  /// True when the line from a to b, crossed by these triangles only, stays in the material.
+  bool stays_inside(
+    const Vec3& a, const Vec3& b, const std::vector<Id>& triangles, std::vector<double>& cuts) const
+  {
+    const double length = (b - a).norm();
+    const auto inside_at = [&](double t)
+    {
+      const Vec3 p = this->cover_.lattice.point_at(a + t * (b - a));
+      return this->winding_.evaluate_at(p) >= this->threshold_;
+    };
+    if (length > touching && !inside_at(0.5))
+    {
+      return false;
+    }
+    cuts.assign({ 0.0, 1.0 });
+    for (const Id f : triangles)
+    {
+      double at = 0.0;
+      if (meets(a, b, this->cover_.corners_of(f), at))
+      {
+        cuts.push_back(at);
+      }
+    }
+    std::sort(cuts.begin(), cuts.end());
+    for (std::size_t i = 1; i < cuts.size(); ++i)
+    {
+      if ((cuts[i] - cuts[i - 1]) * length > touching && !inside_at(0.5 * (cuts[i] + cuts[i - 1])))
+      {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  using Corner = std::pair<Key, Id>; ///< a node and a (part, corner) there
+
+  /// Finds copies of one node that are connected: adds pairs of corners to unite.
+  void probe_node(const Corner* begin, const Corner* end, const std::vector<Id>& roots,
+    std::vector<std::pair<Id, Id>>& joined) const
+  {
+    struct Side
+    {
+      Id root;
+      std::vector<Vec3> places;
+    };
+    std::vector<Side> sides;
+    std::vector<Id> triangles;
+    for (const Corner* c = begin; c != end; ++c)
+    {
+      const Id root = roots[c->second];
+      auto side = std::find_if(
+        sides.begin(), sides.end(), [&](const Side& other) { return other.root == root; });
+      if (side == sides.end())
+      {
+        side = sides.insert(side, { root, {} });
+      }
+      const Id part = c->second / 4;
+      for (Index i = this->first_of_part_[part]; i < this->first_of_part_[part + 1]; ++i)
+      {
+        const Id atom = this->of_part_[i];
+        side->places.push_back(this->place_of(atom));
+        if (atom >= this->first_piece_)
+        {
+          triangles.push_back(this->cover_.pieces[atom - this->first_piece_].triangle);
+        }
+      }
+    }
+    sort_unique(triangles);
+    constexpr std::size_t most_places = 40;
+    for (Side& side : sides)
+    {
+      const std::size_t count = side.places.size();
+      for (std::size_t i = 0; i < most_places && count > most_places; ++i)
+      {
+        side.places[i] = side.places[i * count / most_places];
+      }
+      side.places.resize(std::min(count, most_places));
+    }
+    std::vector<double> cuts;
+    UnionFind sides_joined;
+    sides_joined.reset(sides.size());
+    for (std::size_t i = 0; i < sides.size(); ++i)
+    {
+      for (std::size_t j = i + 1; j < sides.size(); ++j)
+      {
+        const auto a = static_cast<Id>(i);
+        const auto b = static_cast<Id>(j);
+        if (sides_joined.find(a) != sides_joined.find(b) &&
+          this->probe(sides[i].places, sides[j].places, triangles, cuts))
+        {
+          sides_joined.unite(a, b);
+          joined.emplace_back(sides[i].root, sides[j].root);
+        }
+      }
+    }
+  }
+
+  bool probe(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
+    const std::vector<Id>& triangles, std::vector<double>& cuts) const
+  {
+    struct Line
+    {
+      double squared_length;
+      std::size_t from, to;
+      bool operator<(const Line& other) const
+      {
+        return std::tie(this->squared_length, this->from, this->to) <
+          std::tie(other.squared_length, other.from, other.to);
+      }
+    };
+    std::vector<Line> lines;
+    for (std::size_t i = 0; i < from.size(); ++i)
+    {
+      for (std::size_t j = 0; j < to.size(); ++j)
+      {
+        lines.push_back({ (from[i] - to[j]).squaredNorm(), i, j });
+      }
+    }
+    constexpr std::size_t most_lines = 12;
+    const std::size_t count = std::min(lines.size(), most_lines);
+    std::partial_sort(lines.begin(), lines.begin() + static_cast<Index>(count), lines.end());
+    lines.resize(count);
+    return std::any_of(lines.begin(), lines.end(),
+      [&](const Line& line)
+      { return this->stays_inside(from[line.from], to[line.to], triangles, cuts); });
+  }
+
+  bool probe_nodes()
+  {
+    const auto parts = static_cast<Id>(this->part_tets_.size());
+    this->first_of_part_.assign(static_cast<std::size_t>(parts) + 1, 0);
+    for (const Id part : this->part_of_)
+    {
+      if (part >= 0)
+      {
+        ++this->first_of_part_[part + 1];
+      }
+    }
+    std::partial_sum(
+      this->first_of_part_.begin(), this->first_of_part_.end(), this->first_of_part_.begin());
+    this->of_part_.resize(static_cast<std::size_t>(this->first_of_part_.back()));
+    std::vector<Index> next(this->first_of_part_.begin(), this->first_of_part_.end() - 1);
+    for (std::size_t atom = 0; atom < this->part_of_.size(); ++atom)
+    {
+      if (this->part_of_[atom] >= 0)
+      {
+        this->of_part_[next[this->part_of_[atom]]++] = static_cast<Id>(atom);
+      }
+    }
+    std::vector<Id> roots(4 * static_cast<std::size_t>(parts));
+    std::vector<Corner> corners(roots.size());
+    for (Id i = 0; i < 4 * parts; ++i)
+    {
+      roots[i] = this->corners_.find(i);
+      corners[i] = { this->nodes_[this->part_tets_[i / 4]][i % 4], i };
+    }
+    if (!parallel_sort(this->context_, corners, std::less<>()))
+    {
+      return false;
+    }
+    constexpr std::size_t most_copies = 12; // more: a soup, not a slice
+    std::vector<Id> copies;
+    std::vector<std::pair<Index, Index>> several; // ranges of corners of nodes with copies
+    for (std::size_t begin = 0; begin < corners.size();)
+    {
+      std::size_t end = begin;
+      copies.clear();
+      for (; end < corners.size() && corners[end].first == corners[begin].first; ++end)
+      {
+        copies.push_back(roots[corners[end].second]);
+      }
+      sort_unique(copies);
+      if (copies.size() > 1 && copies.size() <= most_copies)
+      {
+        several.emplace_back(begin, end);
+      }
+      begin = end;
+    }
+    std::vector<std::pair<Id, Id>> joined;
+    constexpr Index nodes_at_once = 16;
+    if (!gather(
+          this->context_, static_cast<Index>(several.size()), joined,
+          [&](Index i, std::vector<std::pair<Id, Id>>& list)
+          {
+            this->probe_node(
+              corners.data() + several[i].first, corners.data() + several[i].second, roots, list);
+          },
+          nodes_at_once))
+    {
+      return false;
+    }
+    for (const auto& [a, b] : joined)
+    {
+      this->corners_.unite(a, b);
+    }
+    return true;
+  }
+
+  // ---- The result ----
+
   bool write(EmbeddingTets& result)
   {
     // Parts with the same tet and the same copies of its nodes are one tet.
@@ -1363,6 +1617,8 @@ private:
   std::vector<Id> part_of_; // of the atoms
   std::vector<Id> part_tets_; // places in tets_
   std::vector<double> part_shares_;
+  std::vector<Index> first_of_part_; // of each part's atoms
+  std::vector<Id> of_part_;
   UnionFind corners_; // 4 * part + corner
   std::vector<std::pair<Key, Id>> at_node_;
 };

@@ -63,6 +63,9 @@ public:
   /// the tet around its upper face, 2k around its lower face.
   static constexpr int halves = 24;
   static Key tet_of_half(const Cube& cube, int half);
+  /// 0 … 11: which of the tets around its lower cube's upper faces it is; its halves are 2n + 1 of
+  /// that cube and 2n of the upper one.
+  static int number_of(Key tet) { return static_cast<int>(tet & 15U); }
   /// Which of its cube's halves a place is in.
   static int half_of(const Vec3& place);
 

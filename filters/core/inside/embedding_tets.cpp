@@ -4,10 +4,9 @@
 // see them as one part, for the tets around a node fill a convex body (a rhombic dodecahedron), so
 // that the line does not leave it.
 //
-// 1. Spacing: from volume and area, then corrected by the number of tets that it gives.
-// 2. Cubes with triangles are sampled on a sub-grid; the others are inside or outside as a whole,
-//    found from cube to cube, starting at the surface (a region that winds often enough and has no
-//    triangle in it has triangles at its border: winding numbers are harmonic).
+// 1. The lattice's spacing, what triangles go through, and cubes that are inside as a whole
+//    (lattice_cover.h).
+// 2. The other cubes at the surface are sampled on a sub-grid.
 // 3. Lines between neighbouring samples are cut where triangles cross them. A stretch between two
 //    crossings is inside or not, by the winding number at its middle. Inside stretches connect what
 //    is at their ends. So a wall is never missed, however thin the gap behind it; connections that
@@ -24,9 +23,10 @@
 #include "inside/embedding_tets.h"
 
 #include "base/exact.h"
-#include "base/parallel.h"
+#include "base/gather.h"
 #include "base/parallel_sort.h"
 #include "inside/disphenoid_lattice.h"
+#include "inside/lattice_cover.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,7 +42,7 @@ namespace
 {
 using Key = DisphenoidLattice::Key;
 using Cube = DisphenoidLattice::Cube;
-using Id = std::int32_t;
+using Id = LatticeCover::Id;
 constexpr int halves = DisphenoidLattice::halves;
 
 // Samples of a cube. They lie off the planes of the lattice, so that a sample is in one tet.
@@ -50,14 +50,7 @@ constexpr int samples_along = 6;
 constexpr int samples_of_cube = samples_along * samples_along * samples_along;
 constexpr double sample_shift[3] = { 0.62, 0.41, 0.53 };
 
-constexpr double wanted_tets = 30000.0;
-constexpr double fewest_tets = 20000.0;
-constexpr double most_tets = 45000.0;
-constexpr Index most_cubes = 4000000;
 constexpr Index most_sampled_cubes = 1000000;
-constexpr double most_pieces = 2e8;
-constexpr double most_pieces_of_choice = 1e6; // beyond two a triangle
-constexpr Index largest_resolution = 1000;
 constexpr Index often = 1 << 15; // items between two looks at cancel
 
 class UnionFind
@@ -107,391 +100,14 @@ Cube moved(Cube cube, int axis, int by)
   return cube;
 }
 
-// ---- The surface on a lattice
-// --------------------------------------------------------------------
-
-/// A surface with equal points welded.
-struct Welded
-{
-  std::vector<Id> of_point; ///< #V: welded id, -1 for a point that no triangle uses
-  std::vector<Vec3> points;
-  std::vector<std::array<Id, 3>> triangles;
-};
-
-bool weld(PointsView points, TrianglesView triangles, Welded& welded, ExecutionContext& context)
-{
-  std::vector<Id> order;
-  welded.of_point.assign(static_cast<std::size_t>(points.rows()), -1);
-  for (Index i = 0; i < triangles.size(); ++i)
-  {
-    Id& id = welded.of_point[triangles.data()[i]];
-    if (id < 0)
-    {
-      id = 0;
-      order.push_back(static_cast<Id>(triangles.data()[i]));
-    }
-  }
-  std::sort(order.begin(), order.end());
-  const auto compare = [&](Id i, Id j)
-  {
-    const double* p = points.data() + 3 * static_cast<Index>(i);
-    const double* q = points.data() + 3 * static_cast<Index>(j);
-    return std::lexicographical_compare(p, p + 3, q, q + 3);
-  };
-  if (!parallel_sort(context, order, compare))
-  {
-    return false;
-  }
-  for (std::size_t i = 0; i < order.size(); ++i)
-  {
-    if (i == 0 || compare(order[i - 1], order[i]))
-    {
-      welded.points.emplace_back(points.row(order[i]));
-    }
-    welded.of_point[order[i]] = static_cast<Id>(welded.points.size()) - 1;
-  }
-  welded.triangles.resize(static_cast<std::size_t>(triangles.rows()));
-  for (Index f = 0; f < triangles.rows(); ++f)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      welded.triangles[f][k] = welded.of_point[triangles(f, k)];
-    }
-  }
-  return true;
-}
-
-/// A triangle in a tet.
-struct Piece
-{
-  Key tet;
-  Id triangle;
-  Vec3 middle; ///< a place of both
-};
-
-/// Calls item(i, list) for all i on all threads; what is put into the lists is joined in order.
-template <typename Item, typename Body>
-bool gather(ExecutionContext& context, Index count, std::vector<Item>& all, const Body& body,
-  Index block = 512)
-{
-  std::vector<std::vector<Item>> of_block(static_cast<std::size_t>((count + block - 1) / block));
-  const bool whole = parallel_for(context, count, block,
-    [&](Index begin, Index end)
-    {
-      auto& list = of_block[static_cast<std::size_t>(begin / block)];
-      for (Index i = begin; i < end; ++i)
-      {
-        if (i % 16 == 0 && context.cancelled())
-        {
-          return;
-        }
-        body(i, list);
-      }
-    });
-  all.clear();
-  for (auto& list : of_block)
-  {
-    all.insert(all.end(), list.begin(), list.end());
-    std::vector<Item>().swap(list);
-  }
-  return whole && !context.cancelled();
-}
-
-enum class CubeKind : std::uint8_t
-{
-  outside,
-  inside,
-  sampled
-};
-
-/// Which tets and cubes of a lattice the surface goes through, and which cubes it encloses.
-class Cover
-{
-public:
-  Cover(const Welded& surface, const WindingNumber& winding, double threshold, const Box& box)
-    : surface_(surface), winding_(winding), threshold_(threshold), box_(box)
-  {
-  }
-
-  Status build(double spacing, ExecutionContext& context)
-  {
-    this->pieces.clear();
-    this->kinds.clear();
-    this->lattice = DisphenoidLattice(this->box_, spacing);
-    this->first_cube_ = DisphenoidLattice::cube_of(this->lattice.place_of(this->box_.lower));
-    this->last_cube_ = DisphenoidLattice::cube_of(this->lattice.place_of(this->box_.upper));
-    const auto count = static_cast<Index>(this->surface_.points.size());
-    this->places.resize(this->surface_.points.size());
-    this->tet_of_point.resize(this->surface_.points.size());
-    constexpr Index block = 4096;
-    if (!parallel_for(context, count, block,
-          [&](Index begin, Index end)
-          {
-            for (Index i = begin; i < end; ++i)
-            {
-              this->places[i] = this->lattice.place_of(this->surface_.points[i]);
-              this->tet_of_point[i] = DisphenoidLattice::locate(this->places[i]).tet;
-            }
-          }) ||
-      !this->find_pieces(context))
-    {
-      return Status::cancelled();
-    }
-    return this->find_cubes(context);
-  }
-
-  /// Tets that hold the surface or lie in cubes inside.
-  double count_tets() const
-  {
-    std::vector<Key> tets;
-    for (const Piece& piece : this->pieces)
-    {
-      tets.push_back(piece.tet);
-    }
-    for (const auto& [key, kind] : this->kinds)
-    {
-      for (int half = 0; half < halves && kind == CubeKind::inside; ++half)
-      {
-        tets.push_back(DisphenoidLattice::tet_of_half(DisphenoidLattice::cube_of(key), half));
-      }
-    }
-    sort_unique(tets);
-    return static_cast<double>(tets.size());
-  }
-
-  std::array<Vec3, 3> corners_of(Index triangle) const
-  {
-    const auto& t = this->surface_.triangles[triangle];
-    return { this->places[t[0]], this->places[t[1]], this->places[t[2]] };
-  }
-  CubeKind kind_of(const Cube& cube) const
-  {
-    const auto found = this->kinds.find(DisphenoidLattice::cube_key(cube));
-    return found == this->kinds.end() ? CubeKind::outside : found->second;
-  }
-  /// Calls body(tet) for the tets that the edge between two vertices goes through.
-  template <typename Body>
-  void tets_of_edge(Id a, Id b, const Body& body) const
-  {
-    const Vec3& p = this->places[std::min(a, b)];
-    const Vec3& q = this->places[std::max(a, b)];
-    DisphenoidLattice::for_pieces({ p, q, q },
-      [&](const Vec3& middle, const Vec3&, const Vec3&)
-      { body(DisphenoidLattice::locate(middle).tet); });
-  }
-
-  DisphenoidLattice lattice;
-  std::vector<Vec3> places; ///< of the vertices, in cubes
-  std::vector<Key> tet_of_point;
-  std::vector<Piece> pieces; ///< by triangle, then tet
-  std::vector<Index> first_piece; ///< #F + 1
-  std::unordered_map<Key, CubeKind> kinds; ///< of cubes at the surface or inside
-
-private:
-  bool find_pieces(ExecutionContext& context)
-  {
-    struct Found
-    {
-      Key tet;
-      Key cube;
-      Id triangle;
-      Vec3 middle;
-    };
-    std::vector<Found> found;
-    const auto triangles = static_cast<Index>(this->surface_.triangles.size());
-    const bool whole = gather(context, triangles, found,
-      [&](Index f, std::vector<Found>& list)
-      {
-        const auto& t = this->surface_.triangles[f];
-        const std::size_t first = list.size();
-        const auto id = static_cast<Id>(f);
-        const auto add = [&](const Vec3& middle, const Vec3& lower, const Vec3& upper)
-        {
-          const Key tet = DisphenoidLattice::locate(middle).tet;
-          const Cube from = DisphenoidLattice::cube_of(lower);
-          const Cube to = DisphenoidLattice::cube_of(upper);
-          for (Id k = from[2]; k <= to[2]; ++k)
-          {
-            for (Id j = from[1]; j <= to[1]; ++j)
-            {
-              for (Id i = from[0]; i <= to[0]; ++i)
-              {
-                list.push_back({ tet, DisphenoidLattice::cube_key({ i, j, k }), id, middle });
-              }
-            }
-          }
-        };
-        for (const Id v : t)
-        {
-          const Vec3& p = this->places[v];
-          add(p, p, p);
-        }
-        if (this->tet_of_point[t[0]] != this->tet_of_point[t[1]] ||
-          this->tet_of_point[t[1]] != this->tet_of_point[t[2]])
-        {
-          DisphenoidLattice::for_pieces(this->corners_of(f), add);
-          for (int k = 0; k < 3; ++k)
-          {
-            const Id v = t[k];
-            const Id w = t[(k + 1) % 3];
-            if (this->tet_of_point[v] != this->tet_of_point[w])
-            {
-              const Vec3& p = this->places[std::min(v, w)];
-              const Vec3& q = this->places[std::max(v, w)];
-              DisphenoidLattice::for_pieces({ p, q, q }, add);
-            }
-          }
-        }
-        const auto key = [](const Found& x) { return std::make_pair(x.tet, x.cube); };
-        std::stable_sort(list.begin() + first, list.end(),
-          [&](const Found& x, const Found& y) { return key(x) < key(y); });
-        list.erase(std::unique(list.begin() + first, list.end(),
-                     [&](const Found& x, const Found& y) { return key(x) == key(y); }),
-          list.end());
-      });
-    if (!whole)
-    {
-      return false;
-    }
-    this->first_piece.assign(static_cast<std::size_t>(triangles) + 1, 0);
-    for (std::size_t i = 0; i < found.size(); ++i)
-    {
-      if (i == 0 || found[i].tet != found[i - 1].tet || found[i].triangle != found[i - 1].triangle)
-      {
-        this->pieces.push_back({ found[i].tet, found[i].triangle, found[i].middle });
-        ++this->first_piece[static_cast<std::size_t>(found[i].triangle) + 1];
-      }
-      if (i == 0 || found[i].cube != found[i - 1].cube)
-      {
-        this->kinds.emplace(found[i].cube, CubeKind::sampled);
-      }
-    }
-    std::partial_sum(this->first_piece.begin(), this->first_piece.end(), this->first_piece.begin());
-    return true;
-  }
-
-  bool in_box(const Cube& cube) const
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      if (cube[k] < this->first_cube_[k] || cube[k] > this->last_cube_[k])
-      {
-        return false;
-      }
-    }
-    return true;
-  }
-
-  Status find_cubes(ExecutionContext& context)
-  {
-    std::vector<Key> border; // cubes whose neighbours are still to be looked at
-    for (const auto& [key, kind] : this->kinds)
-    {
-      border.push_back(key);
-    }
-    std::sort(border.begin(), border.end());
-    std::vector<Key> outside;
-    while (!border.empty())
-    {
-      std::vector<Key> next;
-      for (const Key key : border)
-      {
-        for (int side = 0; side < 6; ++side)
-        {
-          const Cube cube = moved(DisphenoidLattice::cube_of(key), side / 2, side % 2 ? 1 : -1);
-          const Key neighbor = DisphenoidLattice::cube_key(cube);
-          if (this->in_box(cube) && this->kinds.count(neighbor) == 0)
-          {
-            next.push_back(neighbor);
-          }
-        }
-      }
-      sort_unique(next);
-      Points centers(static_cast<Index>(next.size()), 3);
-      for (std::size_t i = 0; i < next.size(); ++i)
-      {
-        const Cube cube = DisphenoidLattice::cube_of(next[i]);
-        centers.row(static_cast<Index>(i)) =
-          this->lattice.point_at(Vec3(cube[0] + 0.5, cube[1] + 0.5, cube[2] + 0.5));
-      }
-      Eigen::VectorXd w;
-      const Status status = this->winding_.evaluate(centers, context, w);
-      if (!status.ok())
-      {
-        return status;
-      }
-      border.clear();
-      for (std::size_t i = 0; i < next.size(); ++i)
-      {
-        const bool inside = w[static_cast<Index>(i)] >= this->threshold_;
-        this->kinds[next[i]] = inside ? CubeKind::inside : CubeKind::outside;
-        (inside ? border : outside).push_back(next[i]);
-      }
-      if (static_cast<Index>(this->kinds.size()) > most_cubes)
-      {
-        return too_many_cubes();
-      }
-    }
-    // Through openings the inside ends in the middle of free cubes.
-    std::vector<Key> open;
-    for (const Key key : outside)
-    {
-      bool ends = false;
-      for (int side = 0; side < 6; ++side)
-      {
-        const Cube cube = moved(DisphenoidLattice::cube_of(key), side / 2, side % 2 ? 1 : -1);
-        if (this->kind_of(cube) == CubeKind::inside)
-        {
-          open.push_back(DisphenoidLattice::cube_key(cube));
-          ends = true;
-        }
-      }
-      if (ends)
-      {
-        open.push_back(key);
-      }
-    }
-    for (const Key key : open)
-    {
-      this->kinds[key] = CubeKind::sampled;
-    }
-    for (const Key key : outside)
-    {
-      const auto at = this->kinds.find(key);
-      if (at->second == CubeKind::outside)
-      {
-        this->kinds.erase(at);
-      }
-    }
-    return {};
-  }
-
-public:
-  static Status too_many_cubes()
-  {
-    return Status::invalid_input("the lattice would have more than " + std::to_string(most_cubes) +
-      " cubes; take a smaller resolution");
-  }
-
-private:
-  const Welded& surface_;
-  const WindingNumber& winding_;
-  double threshold_;
-  Box box_;
-  Cube first_cube_{}, last_cube_{}; ///< of the box
-};
-
-// ---- Atoms and what connects them
-// ------------------------------------------------------------------
-
 /// Whole numbers of a sample, over all cubes.
 using Sample = std::array<Id, 3>;
 
 class Embedding
 {
 public:
-  Embedding(PointsView points, const Welded& surface, const WindingNumber& winding,
-    double threshold, const Cover& cover, ExecutionContext& context)
+  Embedding(PointsView points, const LatticeSurface& surface, const WindingNumber& winding,
+    double threshold, const LatticeCover& cover, ExecutionContext& context)
     : points_(points), surface_(surface), winding_(winding), threshold_(threshold), cover_(cover),
       context_(context)
   {
@@ -504,7 +120,7 @@ public:
       const Phase phase(this->context_, "samples", 0.0, 0.6);
       if (!this->number_atoms())
       {
-        return this->cancelled_or(Cover::too_many_cubes());
+        return this->cancelled_or(LatticeCover::too_many_cubes());
       }
       status = this->sample();
       if (!status.ok())
@@ -546,7 +162,7 @@ private:
   {
     for (const auto& [key, kind] : this->cover_.kinds)
     {
-      (kind == CubeKind::sampled ? this->sampled_ : this->full_).push_back(key);
+      (kind == LatticeCover::Kind::cut ? this->sampled_ : this->full_).push_back(key);
     }
     if (static_cast<Index>(this->sampled_.size()) > most_sampled_cubes)
     {
@@ -566,7 +182,7 @@ private:
       }
     }
     std::vector<Key> of_half = this->tets_;
-    for (const Piece& piece : this->cover_.pieces)
+    for (const LatticeCover::Piece& piece : this->cover_.pieces)
     {
       this->tets_.push_back(piece.tet);
     }
@@ -675,7 +291,7 @@ private:
     const auto begin = this->cover_.pieces.begin() + this->cover_.first_piece[triangle];
     const auto end = this->cover_.pieces.begin() + this->cover_.first_piece[triangle + 1];
     const auto at = std::lower_bound(
-      begin, end, tet, [](const Piece& piece, Key key) { return piece.tet < key; });
+      begin, end, tet, [](const LatticeCover::Piece& piece, Key key) { return piece.tet < key; });
     return at == end || at->tet != tet
       ? -1
       : this->first_piece_ + static_cast<Id>(at - this->cover_.pieces.begin());
@@ -1525,16 +1141,30 @@ private:
           std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin();
       }
     }
+    double shares = 0.0;
     for (const Copy& copy : copies)
     {
       result.inside_fractions[tet_of_part[copy.part]] += this->part_shares_[copy.part];
+      shares += this->part_shares_[copy.part];
     }
     for (Index t = 0; t < tet_count; ++t)
     {
-      const int number = static_cast<int>(this->tets_[copies[first_of_tet[t]].tet] % 16);
-      const int samples =
-        this->samples_of_half_[2 * number] + this->samples_of_half_[2 * number + 1];
+      const int number = 2 * DisphenoidLattice::number_of(this->tets_[copies[first_of_tet[t]].tet]);
+      const int samples = this->samples_of_half_[number] + this->samples_of_half_[number + 1];
       result.inside_fractions[t] = std::min(1.0, result.inside_fractions[t] / samples);
+    }
+    // Tets hold 10 to 28 samples, by how they lie to the sub-grid: right for whole tets, but plates
+    // along it would come out too thick or too thin. The samples' own volume has no such bias.
+    constexpr double samples_of_tet = samples_of_cube / 12.0;
+    const double whole = (result.inside_fractions.array() >= 1.0).count();
+    const double cut = result.inside_fractions.sum() - whole;
+    if (cut > 0.0)
+    {
+      const double right = std::clamp((shares / samples_of_tet - whole) / cut, 0.5, 2.0);
+      for (double& fraction : result.inside_fractions)
+      {
+        fraction = fraction < 1.0 ? std::min(1.0, right * fraction) : fraction;
+      }
     }
     this->bind(tet_of_part, result);
     return true;
@@ -1589,10 +1219,10 @@ private:
   static constexpr double touching = 1e-9;
 
   PointsView points_;
-  const Welded& surface_;
+  const LatticeSurface& surface_;
   const WindingNumber& winding_;
   double threshold_;
-  const Cover& cover_;
+  const LatticeCover& cover_;
   ExecutionContext& context_;
 
   std::vector<Key> sampled_, full_; // cubes, sorted
@@ -1622,97 +1252,6 @@ private:
   UnionFind corners_; // 4 * part + corner
   std::vector<std::pair<Key, Id>> at_node_;
 };
-
-// ---- The spacing
-// -----------------------------------------------------------------------------------
-
-/// What a surface measures, in units of its box's longest side.
-struct Measures
-{
-  double longest = 0.0;
-  double volume = 0.0, area = 0.0, perimeter = 0.0, triangles = 0.0;
-
-  Measures(const Welded& surface, const Box& box) : longest(box.size().maxCoeff())
-  {
-    const double unit = this->longest > 0.0 ? this->longest : 1.0;
-    for (const auto& t : surface.triangles)
-    {
-      const Vec3 a = (surface.points[t[0]] - box.lower) / unit;
-      const Vec3 b = (surface.points[t[1]] - box.lower) / unit;
-      const Vec3 c = (surface.points[t[2]] - box.lower) / unit;
-      this->area += 0.5 * (b - a).cross(c - a).norm();
-      this->volume += a.dot(b.cross(c)) / 6.0;
-      this->perimeter += (b - a).norm() + (c - b).norm() + (a - c).norm();
-    }
-    const Vec3 size = box.size() / unit;
-    this->volume = std::min(std::abs(this->volume), size.prod());
-    this->triangles = static_cast<double>(surface.triangles.size());
-  }
-  /// Tets that this many cubes along the longest side will give, by the mean number of lattice tets
-  /// that a volume, and a surface beyond it, goes through.
-  double tets(double cubes) const
-  {
-    const double most = 12.0 * std::pow(cubes + 2.0, 3);
-    return std::min(
-      most, 12.0 * this->volume * cubes * cubes * cubes + 6.0 * this->area * cubes * cubes);
-  }
-  /// Pieces of triangles, and crossings with the samples' lines.
-  double pieces(double cubes) const
-  {
-    return this->triangles + 4.0 * this->perimeter * cubes + 65.0 * this->area * cubes * cubes;
-  }
-  /// The largest number of cubes for which count(cubes) stays below a bound.
-  template <typename Count>
-  static double most_cubes_along(double bound, const Count& count)
-  {
-    double low = 1.0;
-    double high = static_cast<double>(largest_resolution);
-    constexpr int steps = 40;
-    for (int s = 0; s < steps; ++s)
-    {
-      const double middle = 0.5 * (low + high);
-      (count(middle) < bound ? low : high) = middle;
-    }
-    return low;
-  }
-};
-
-/// Builds the cover with about the wanted number of tets.
-Status choose_spacing(
-  const Measures& measures, double least_spacing, Cover& cover, ExecutionContext& context)
-{
-  const double most = std::min(Measures::most_cubes_along(most_pieces_of_choice,
-                                 [&](double cubes) { return measures.pieces(cubes); }),
-    std::max(1.0, measures.longest / least_spacing));
-  double cubes = std::min(
-    most, Measures::most_cubes_along(wanted_tets, [&](double c) { return measures.tets(c); }));
-  double last_cubes = 0.0;
-  double last_tets = 0.0;
-  constexpr int rounds = 6;
-  for (int round = 0;; ++round)
-  {
-    const ProgressRange range(context, 1.0 - std::pow(0.5, round), 1.0 - std::pow(0.5, round + 1));
-    const Status status = cover.build(std::max(measures.longest / cubes, least_spacing), context);
-    const double tets = status.ok() ? cover.count_tets() : 0.0;
-    if (!status.ok() || (tets >= fewest_tets && tets <= most_tets) || round + 1 == rounds)
-    {
-      return status;
-    }
-    // As a power of the resolution: between that of a thread and that of a solid.
-    double power = tets < wanted_tets ? 2.5 : 2.0;
-    if (last_cubes > 0.0 && last_cubes != cubes)
-    {
-      power = std::clamp(std::log(tets / last_tets) / std::log(cubes / last_cubes), 0.8, 3.2);
-    }
-    last_cubes = cubes;
-    last_tets = tets;
-    cubes = std::clamp(cubes * std::pow(wanted_tets / tets, 1.0 / power), 1.0, most);
-    if (cubes == last_cubes)
-    {
-      return status;
-    }
-  }
-}
 
 Index count_branching_facets(TetsView tets)
 {
@@ -1755,10 +1294,11 @@ Status check(PointsView points, TrianglesView triangles, const EmbeddingOptions&
     return Status::invalid_input(
       "the surface has more than " + std::to_string(most) + " triangles");
   }
-  if (options.resolution < 0 || options.resolution > largest_resolution)
+  if (options.resolution < 0 || options.resolution > LatticeCover::largest_resolution)
   {
     return Status::invalid_input("resolution must be from 0 to " +
-      std::to_string(largest_resolution) + " cubes, not " + std::to_string(options.resolution));
+      std::to_string(LatticeCover::largest_resolution) + " cubes, not " +
+      std::to_string(options.resolution));
   }
   if (!std::isfinite(options.winding_threshold) || options.winding_threshold <= 0.0)
   {
@@ -1778,35 +1318,17 @@ Status embed_surface(PointsView points, TrianglesView triangles, const WindingNu
     return status;
   }
   const Box box = bounding_box(points, triangles);
-  const double largest = box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).maxCoeff();
-  if (!(box.size().squaredNorm() <= std::numeric_limits<double>::max()))
+  constexpr double largest_size = 1e100; // its cube is a volume
+  if (!(box.size().maxCoeff() <= largest_size))
   {
-    return Status::invalid_input("the surface's coordinates are too large");
+    return Status::invalid_input("the surface is larger than 1e100, too large for volumes");
   }
-  Welded surface;
-  Cover cover(surface, winding, options.winding_threshold, box);
+  LatticeSurface surface;
+  LatticeCover cover(surface, winding, options.winding_threshold, box);
   {
     const Phase phase(context, "lattice", 0.0, 0.4);
-    if (!weld(points, triangles, surface, context))
-    {
-      return Status::cancelled();
-    }
-    const Measures measures(surface, box);
-    double least = DisphenoidLattice::least_spacing(largest);
-    least = least > 0.0 ? least : 1.0;
-    if (options.resolution == 0 && measures.longest > 0.0)
-    {
-      status = choose_spacing(measures, least, cover, context);
-    }
-    else
-    {
-      const auto cubes = static_cast<double>(std::max<Index>(1, options.resolution));
-      if (measures.pieces(cubes) > most_pieces)
-      {
-        return Cover::too_many_cubes();
-      }
-      status = cover.build(std::max(measures.longest / cubes, least), context);
-    }
+    status = surface.build(points, triangles, context) ? cover.choose(options.resolution, context)
+                                                       : Status::cancelled();
     if (!status.ok())
     {
       return status;

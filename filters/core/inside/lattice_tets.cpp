@@ -11,7 +11,6 @@
 
 #include "base/parallel.h"
 #include "inside/tet_quality.h"
-#include "inside/triangle_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -561,51 +560,6 @@ Status stuff_lattice(const WindingNumber& winding, const Lattice& lattice, const
 {
   mesh = TetMesh();
   return Stuffing(winding, lattice, box, threshold).run(mesh, context);
-}
-
-Status cover_lattice(PointsView points, TrianglesView triangles, const WindingNumber& winding,
-  const Lattice& lattice, double threshold, TetMesh& mesh, ExecutionContext& context)
-{
-  mesh = TetMesh();
-  const Numbering numbering(lattice);
-  Eigen::VectorXd w;
-  {
-    const Phase phase(context, "sample", 0.0, 0.4);
-    Status status = sample(winding, lattice, numbering, w, context);
-    if (!status.ok())
-    {
-      return status;
-    }
-  }
-  const Phase phase(context, "cover", 0.4, 1.0);
-  const TriangleTree tree(points, triangles);
-  // A tet's centre is its circumcentre: all of it is within 0.559 spacings.
-  const double reach = 0.57 * lattice.spacing;
-  const auto keep = [&](const Tet& tet)
-  {
-    // No surface within reach: w is harmonic there and the mean of the vertices is that at the
-    // centre, near enough.
-    if (0.25 * (w[tet[0]] + w[tet[1]] + w[tet[2]] + w[tet[3]]) >= threshold)
-    {
-      return true;
-    }
-    const Vec3 center = 0.25 *
-      (numbering.point(tet[0]) + numbering.point(tet[1]) + numbering.point(tet[2]) +
-        numbering.point(tet[3]));
-    return tree.distance(center, reach) <= reach;
-  };
-  std::vector<Tet> tets;
-  if (!numbering.collect(context, keep, tets))
-  {
-    return Status::cancelled();
-  }
-  std::vector<Vec3> all(static_cast<std::size_t>(numbering.vertices()));
-  for (Index v = 0; v < numbering.vertices(); ++v)
-  {
-    all[v] = numbering.point(v);
-  }
-  compact(all, tets, mesh);
-  return {};
 }
 
 } // namespace bindpose

@@ -32,12 +32,6 @@ struct Lattice
 Status stuff_lattice(const WindingNumber& winding, const Lattice& lattice, const Box& box,
   double threshold, TetMesh& mesh, ExecutionContext& context);
 
-/// Lattice tets that hold the surface and its inside: those whose centre is within 0.57 spacing of
-/// the surface, so that every point of the surface is in one, or has w >= threshold. All dihedral
-/// angles are 60 or 90 degrees. Parts that come nearer than a cube share tets.
-Status cover_lattice(PointsView points, TrianglesView triangles, const WindingNumber& winding,
-  const Lattice& lattice, double threshold, TetMesh& mesh, ExecutionContext& context);
-
 } // namespace bindpose
 
 #endif

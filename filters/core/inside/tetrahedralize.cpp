@@ -1,9 +1,11 @@
-// The ladder: cdt (cdt_tets.h), then remesh (lattice_tets.h, finer when the volume is off). Every
+// The ladder: cdt (cdt_tets.h), then remesh (lattice_tets.h, finer when the volume is off); embed
+// (embedding_tets.h) stands beside it. Every
 // rung is judged by the volume it has against the volume that winds enough. When none fits, the one
 // that came nearest is taken, with a warning.
 #include "inside/tetrahedralize.h"
 
 #include "inside/cdt_tets.h"
+#include "inside/embedding_tets.h"
 #include "inside/enclosed_region.h"
 #include "inside/lattice_tets.h"
 #include "inside/surface_repair.h"
@@ -247,16 +249,27 @@ private:
     }
   }
 
+  /// The input's own points and triangles, so that every one of its points is bound; which way
+  /// triangles are turned matters to the winding number only.
   Status embed()
   {
     const double start = this->context_.elapsed_seconds();
-    const Lattice lattice = Lattice::around(this->box_, this->options_.resolution);
-    Status status =
-      cover_lattice(this->surface_.points, this->surface_.triangles, this->inside_.winding(),
-        lattice, this->options_.winding_threshold, this->result_.mesh, this->context_);
-    this->report_.set("resolution", Report::Value(this->options_.resolution));
-    this->log("lattice of " + std::to_string(this->options_.resolution) + " cubes", start, status);
-    return status.ok() ? this->complete_lattice(TetMethod::embed) : status;
+    EmbeddingOptions options;
+    options.winding_threshold = this->options_.winding_threshold;
+    options.resolution = this->options_.resolution;
+    EmbeddingTets embedding;
+    Status status = embed_surface(
+      this->points_, this->triangles_, this->inside_.winding(), options, embedding, this->context_);
+    this->log("lattice of " + std::to_string(embedding.resolution) + " cubes", start, status);
+    if (!status.ok())
+    {
+      return status;
+    }
+    this->report_.merge(status.report);
+    this->result_.mesh = std::move(embedding.mesh);
+    this->result_.inside_fractions = std::move(embedding.inside_fractions);
+    this->result_.binding = std::move(embedding.binding);
+    return this->complete_lattice(TetMethod::embed);
   }
 
   Status complete_lattice(TetMethod method)
@@ -341,10 +354,10 @@ Status check_options(const TetrahedralizeOptions& options)
     return Status::invalid_input(
       "cut_sigma must be positive, not " + short_number(options.cut_sigma));
   }
-  if (options.resolution < 4 || options.resolution > 1000)
+  if (options.resolution != 0 && (options.resolution < 4 || options.resolution > 1000))
   {
     return Status::invalid_input(
-      "resolution must be from 4 to 1000 cubes, not " + std::to_string(options.resolution));
+      "resolution must be 0 or from 4 to 1000 cubes, not " + std::to_string(options.resolution));
   }
   if (!(options.time_limit > 0.0))
   {
@@ -394,7 +407,12 @@ Status tetrahedralize(PointsView points, TrianglesView triangles,
   {
     return status;
   }
-  return Ladder(points, triangles, options, result, context).run();
+  TetrahedralizeOptions used = options;
+  if (used.resolution == 0 && used.method != TetMethod::embed)
+  {
+    used.resolution = 40;
+  }
+  return Ladder(points, triangles, used, result, context).run();
 }
 
 } // namespace bindpose

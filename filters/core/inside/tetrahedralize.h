@@ -3,6 +3,7 @@
 
 #include "base/execution.h"
 #include "base/mesh.h"
+#include "inside/embedding_tets.h"
 #include "inside/segmentation.h"
 #include "inside/surface_defects.h"
 
@@ -17,7 +18,7 @@ enum class TetMethod
   automatic, ///< cdt, then remesh
   cdt, ///< constrained Delaunay tets of the convex hull, kept where the surface winds around them
   remesh, ///< lattice tets cut at the isosurface of the winding number
-  embed ///< lattice tets that hold the surface
+  embed ///< lattice tets that hold the surface, each part its own
 };
 
 /// "auto", "cdt", "remesh", "embed".
@@ -35,7 +36,8 @@ struct TetrahedralizeOptions
   double cut_smoothness = 1.0; ///< >= 0
   double cut_sigma = 0.1; ///< > 0
   /// Lattice cubes along the longest side (remesh, embed), 4 … 1000. Tets grow with its cube.
-  Index resolution = 40;
+  /// 0: automatic, 40 for remesh, as many as give about 30,000 tets for embed.
+  Index resolution = 0;
   double time_limit = 120.0; ///< seconds for all of the helper's work, > 0
   Index memory_limit = 0; ///< MiB of address space for the helper process, 0: no limit
   /// cdt only: largest ratio of circumradius to shortest edge that interior vertices are added for;
@@ -52,6 +54,10 @@ struct TetrahedralizeResult
   std::vector<Index> original_vertices; ///< #V: id of the input vertex, ascending, then -1 for new
   Eigen::VectorXd winding_numbers; ///< #T: at the tets' centres
   std::vector<DefectPlace> defects; ///< where the surface is unclean
+  /// Of embed only, else empty: #T share of the tet that is inside, and where the input's points
+  /// lie.
+  Eigen::VectorXd inside_fractions;
+  PointBinding binding;
 };
 
 /// Tets of what a surface encloses, whatever the surface: open, crossing, doubled, non-manifold,
@@ -63,6 +69,7 @@ struct TetrahedralizeResult
 /// - **remesh** keeps neither, but has good angles and always ends; parts thinner than a lattice
 ///   cube are lost.
 /// - **embed** is not the inside but a lattice around it; every point of the surface is in a tet.
+///   Parts that are near but not connected share no vertex (embed_surface).
 ///
 /// Orientation is repaired first (repair_surface); what was turned is in a warning.
 ///
@@ -71,7 +78,8 @@ struct TetrahedralizeResult
 /// volume (of the tets), winding_volume (of {w >= threshold}: exact for clean surfaces, sampled
 /// otherwise), min_dihedral_angle (degrees), counts.tets_below_5_degrees;
 /// segmentation (of cdt; a graph cut whose volume does not fit is left for the threshold), energy,
-/// threshold_energy, counts.changed_by_cut (see Segmentation).
+/// threshold_energy, counts.changed_by_cut (see Segmentation); for remesh and embed resolution, for
+/// embed what embed_surface reports.
 ///
 /// invalid_input: not finite, flat, or encloses nothing. unavailable: method cdt without helper.
 /// internal_error: no method gave a valid mesh; the message tells the last reason.

@@ -25,19 +25,6 @@ TetMesh stuffed(const TriangleMesh& mesh, Index resolution, int threads = 0)
   return tets;
 }
 
-TetMesh covered(const TriangleMesh& mesh, Index resolution, int threads = 0)
-{
-  ExecutionContext context;
-  context.set_threads(threads);
-  const WindingNumber winding(mesh.points, mesh.triangles);
-  const Lattice lattice = Lattice::around(bounding_box(mesh.points, mesh.triangles), resolution);
-  TetMesh tets;
-  const Status status =
-    cover_lattice(mesh.points, mesh.triangles, winding, lattice, 0.5, tets, context);
-  EXPECT_TRUE(status.ok()) << status.message;
-  return tets;
-}
-
 /// Vertices - edges + facets - tets.
 Index euler_characteristic(const TetMesh& mesh)
 {
@@ -56,25 +43,6 @@ Index euler_characteristic(const TetMesh& mesh)
   const auto edges = static_cast<Index>(mesh_edges(facets).size());
   const Index boundary = boundary_triangles(mesh.tets).rows();
   return mesh.points.rows() - edges + (4 * mesh.tets.rows() + boundary) / 2 - mesh.tets.rows();
-}
-
-bool inside_some_tet(const TetMesh& mesh, const Vec3& p)
-{
-  for (Index t = 0; t < mesh.tets.rows(); ++t)
-  {
-    Eigen::Matrix3d m;
-    const Vec3 a = mesh.points.row(mesh.tets(t, 0));
-    for (int k = 0; k < 3; ++k)
-    {
-      m.col(k) = mesh.points.row(mesh.tets(t, k + 1)).transpose() - a;
-    }
-    const Vec3 x = m.inverse() * (p - a);
-    if (x.minCoeff() >= -1e-9 && x.sum() <= 1.0 + 1e-9)
-    {
-      return true;
-    }
-  }
-  return false;
 }
 } // namespace
 
@@ -135,42 +103,12 @@ TEST(LatticeTets, NothingEnclosedGivesNothing)
   EXPECT_EQ(stuffed(test::grid(2, 2), 8).tets.rows(), 0);
 }
 
-TEST(LatticeTets, CoverHoldsEveryPointOfTheSurface)
-{
-  for (const TriangleMesh& surface :
-    { test::open_cube(), test::torus(24, 12, 1.0, 0.3), test::grid(3, 3) })
-  {
-    const TetMesh mesh = covered(surface, 10);
-    ASSERT_TRUE(check_tets(mesh.points, mesh.tets).ok());
-    EXPECT_NEAR(measure_tets(mesh.points, mesh.tets).min_dihedral_angle, 60.0, 1e-9);
-    test::Random random(2);
-    for (int round = 0; round < 60; ++round)
-    {
-      const Index t = random.below(surface.triangles.rows());
-      double s = random.uniform(), r = random.uniform();
-      s = s + r > 1.0 ? 1.0 - s : s;
-      r = s + r > 1.0 ? 1.0 - s : r;
-      const Vec3 a = surface.points.row(surface.triangles(t, 0));
-      const Vec3 b = surface.points.row(surface.triangles(t, 1));
-      const Vec3 c = surface.points.row(surface.triangles(t, 2));
-      EXPECT_TRUE(inside_some_tet(mesh, a + s * (b - a) + r * (c - a)));
-    }
-  }
-  // The inside is filled too.
-  EXPECT_TRUE(inside_some_tet(covered(test::cube(), 10), Vec3(0.1, 0.2, 0.3)));
-  EXPECT_GE(
-    tet_volumes(covered(test::cube(), 10).points, covered(test::cube(), 10).tets).sum(), 8.0);
-}
-
 TEST(LatticeTets, SameBitsForAnyNumberOfThreads)
 {
   const TriangleMesh surface = test::torus(24, 12, 1.0, 0.4);
   const TetMesh one = stuffed(surface, 16, 1), many = stuffed(surface, 16, 4);
   EXPECT_EQ(one.points, many.points);
   EXPECT_EQ(one.tets, many.tets);
-  const TetMesh cover_one = covered(surface, 12, 1), cover_many = covered(surface, 12, 4);
-  EXPECT_EQ(cover_one.points, cover_many.points);
-  EXPECT_EQ(cover_one.tets, cover_many.tets);
 }
 
 TEST(LatticeTets, MovesAndScalesWithTheSurface)
@@ -192,9 +130,5 @@ TEST(LatticeTets, CancelEndsSoon)
   context.request_cancel();
   TetMesh tets;
   EXPECT_EQ(stuff_lattice(winding, Lattice::around(box, 60), box, 0.5, tets, context).code,
-    StatusCode::cancelled);
-  EXPECT_EQ(cover_lattice(
-              mesh.points, mesh.triangles, winding, Lattice::around(box, 60), 0.5, tets, context)
-              .code,
     StatusCode::cancelled);
 }

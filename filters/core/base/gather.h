@@ -1,0 +1,43 @@
+#ifndef bindpose_base_gather_h
+#define bindpose_base_gather_h
+
+#include "base/parallel.h"
+
+#include <vector>
+
+namespace bindpose
+{
+
+/// Calls body(i, list) for all i in [0, count) on the context's threads and joins what the bodies
+/// put into their lists, in the order of i: the same for any number of threads. Looks at cancel
+/// every 16 items. @return false when cancelled; `all` is then not complete.
+template <typename Item, typename Body>
+bool gather(ExecutionContext& context, Index count, std::vector<Item>& all, const Body& body,
+  Index block = 512)
+{
+  std::vector<std::vector<Item>> of_block(static_cast<std::size_t>((count + block - 1) / block));
+  const bool whole = parallel_for(context, count, block,
+    [&](Index begin, Index end)
+    {
+      auto& list = of_block[static_cast<std::size_t>(begin / block)];
+      for (Index i = begin; i < end; ++i)
+      {
+        if (i % 16 == 0 && context.cancelled())
+        {
+          return;
+        }
+        body(i, list);
+      }
+    });
+  all.clear();
+  for (auto& list : of_block)
+  {
+    all.insert(all.end(), list.begin(), list.end());
+    std::vector<Item>().swap(list);
+  }
+  return whole && !context.cancelled();
+}
+
+} // namespace bindpose
+
+#endif

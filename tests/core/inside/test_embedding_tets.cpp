@@ -1,0 +1,686 @@
+#include "inside/embedding_tets.h"
+
+#include "inside/surface_repair.h"
+#include "inside/tet_quality.h"
+
+#include "core/fuzz/hostile_surfaces.h"
+#include "support/demo_meshes.h"
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <set>
+#include <thread>
+
+using namespace bindpose;
+
+namespace
+{
+EmbeddingTets embedded(const TriangleMesh& mesh, Index resolution = 0, int threads = 0)
+{
+  ExecutionContext context;
+  context.set_threads(threads);
+  const WindingNumber winding(mesh.points, mesh.triangles);
+  EmbeddingOptions options;
+  options.resolution = resolution;
+  EmbeddingTets result;
+  const Status status =
+    embed_surface(mesh.points, mesh.triangles, winding, options, result, context);
+  EXPECT_TRUE(status.ok()) << status.message;
+  return result;
+}
+
+/// An axis-aligned box.
+TriangleMesh box(const Vec3& lower, const Vec3& upper)
+{
+  TriangleMesh mesh = test::cube(0.0, 1.0);
+  for (Index i = 0; i < mesh.points.rows(); ++i)
+  {
+    const Vec3 p = mesh.points.row(i);
+    mesh.points.row(i) = lower + p.cwiseProduct(upper - lower);
+  }
+  return mesh;
+}
+
+Index euler_characteristic(const TetMesh& mesh)
+{
+  std::set<std::array<Index, 3>> facets;
+  std::set<std::array<Index, 2>> edges;
+  for (Index t = 0; t < mesh.tets.rows(); ++t)
+  {
+    std::array<Index, 4> v{ mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3) };
+    std::sort(v.begin(), v.end());
+    for (int i = 0; i < 4; ++i)
+    {
+      facets.insert({ v[i == 0 ? 1 : 0], v[i <= 1 ? 2 : 1], v[i <= 2 ? 3 : 2] });
+      for (int j = i + 1; j < 4; ++j)
+      {
+        edges.insert({ v[i], v[j] });
+      }
+    }
+  }
+  return mesh.points.rows() - static_cast<Index>(edges.size()) + static_cast<Index>(facets.size()) -
+    mesh.tets.rows();
+}
+
+/// Vertices of the tets that hold the points for which chosen(point) is true.
+template <typename Chosen>
+std::set<Index> vertices_of(const EmbeddingTets& result, const Points& points, const Chosen& chosen)
+{
+  std::set<Index> vertices;
+  for (Index i = 0; i < points.rows(); ++i)
+  {
+    if (chosen(Vec3(points.row(i))))
+    {
+      const Index t = result.binding.tets[i];
+      vertices.insert(result.mesh.tets.row(t).begin(), result.mesh.tets.row(t).end());
+    }
+  }
+  return vertices;
+}
+
+/// Shortest way along edges from one set of vertices to each vertex.
+std::vector<double> distances(const TetMesh& mesh, const std::set<Index>& from)
+{
+  std::vector<std::vector<Index>> neighbors(static_cast<std::size_t>(mesh.points.rows()));
+  for (Index t = 0; t < mesh.tets.rows(); ++t)
+  {
+    for (int k = 1; k < 16; ++k)
+    {
+      if (k / 4 != k % 4)
+      {
+        neighbors[mesh.tets(t, k / 4)].push_back(mesh.tets(t, k % 4));
+      }
+    }
+  }
+  std::vector<double> distance(neighbors.size(), std::numeric_limits<double>::infinity());
+  using Entry = std::pair<double, Index>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  for (const Index v : from)
+  {
+    distance[v] = 0.0;
+    queue.emplace(0.0, v);
+  }
+  while (!queue.empty())
+  {
+    const auto [d, v] = queue.top();
+    queue.pop();
+    for (const Index w : neighbors[v])
+    {
+      const double to = d + (mesh.points.row(v) - mesh.points.row(w)).norm();
+      if (d <= distance[v] && to < distance[w])
+      {
+        distance[w] = to;
+        queue.emplace(to, w);
+      }
+    }
+  }
+  return distance;
+}
+
+/// What every embedding promises. `far`: coordinates are large against the surface's size.
+void expect_valid(const TriangleMesh& surface, const EmbeddingTets& result)
+{
+  const TetMesh& mesh = result.mesh;
+  ASSERT_GT(mesh.tets.rows(), 0);
+  ASSERT_TRUE(check_mesh(mesh.points, mesh.tets).ok());
+  const Status status = check_tets(mesh.points, mesh.tets);
+  EXPECT_TRUE(status.ok()) << status.message;
+  EXPECT_NEAR(measure_tets(mesh.points, mesh.tets).min_dihedral_angle, 60.0, 1e-6);
+  const Components components = connected_components(mesh.points.rows(), mesh.tets);
+  EXPECT_EQ(std::count(components.of_vertex.begin(), components.of_vertex.end(), -1), 0);
+  EXPECT_EQ(components.count, result.components);
+  ASSERT_EQ(result.inside_fractions.size(), mesh.tets.rows());
+  EXPECT_GE(result.inside_fractions.minCoeff(), 0.0);
+  EXPECT_LE(result.inside_fractions.maxCoeff(), 1.0);
+  // All points that are used are bound, exactly.
+  const PointBinding& binding = result.binding;
+  ASSERT_EQ(static_cast<Index>(binding.tets.size()), surface.points.rows());
+  ASSERT_EQ(binding.coordinates.rows(), surface.points.rows());
+  const double diagonal = bounding_box(surface.points, surface.triangles).diagonal();
+  for (Index i = 0; i < surface.triangles.size(); ++i)
+  {
+    const Index v = surface.triangles.data()[i];
+    const Vec3 p = surface.points.row(v);
+    const Index t = binding.tets[v];
+    ASSERT_TRUE(t >= 0 && t < mesh.tets.rows());
+    Vec3 rest = Vec3::Zero();
+    for (int k = 0; k < 4; ++k)
+    {
+      ASSERT_GE(binding.coordinates(v, k), -1e-12);
+      rest += binding.coordinates(v, k) * (mesh.points.row(mesh.tets(t, k)).transpose() - p);
+    }
+    ASSERT_LE(rest.norm(), 1e-12 * std::max(diagonal, result.spacing)) << v;
+    ASSERT_NEAR(binding.coordinates.row(v).sum(), 1.0, 1e-14);
+  }
+  // Triangles hold together: their corners are bound to one component.
+  for (Index f = 0; f < surface.triangles.rows(); ++f)
+  {
+    const auto component = [&](int k)
+    { return components.of_vertex[mesh.tets(binding.tets[surface.triangles(f, k)], 0)]; };
+    ASSERT_TRUE(component(0) == component(1) && component(1) == component(2)) << f;
+  }
+}
+
+/// Brute force: the tets of a component that hold a point.
+bool is_held(const EmbeddingTets& result, const Components& components, Index component,
+  const Vec3& p, double tolerance)
+{
+  const TetMesh& mesh = result.mesh;
+  for (Index t = 0; t < mesh.tets.rows(); ++t)
+  {
+    const Vec3 a = mesh.points.row(mesh.tets(t, 0));
+    if (components.of_vertex[mesh.tets(t, 0)] != component ||
+      (a - p).norm() > 1.01 * result.spacing)
+    {
+      continue;
+    }
+    Eigen::Matrix3d m;
+    for (int k = 0; k < 3; ++k)
+    {
+      m.col(k) = (mesh.points.row(mesh.tets(t, k + 1)).transpose() - a) / result.spacing;
+    }
+    const Vec3 x = m.inverse() * ((p - a) / result.spacing);
+    if (x.minCoeff() >= -tolerance && x.sum() <= 1.0 + tolerance)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+void expect_held(const TriangleMesh& surface, const EmbeddingTets& result, int samples)
+{
+  const Components components = connected_components(result.mesh.points.rows(), result.mesh.tets);
+  test::Random random(5);
+  for (int i = 0; i < samples; ++i)
+  {
+    const Index f = random.below(surface.triangles.rows());
+    double s = random.uniform(), r = random.uniform();
+    s = s + r > 1.0 ? 1.0 - s : s;
+    r = s + r > 1.0 ? 1.0 - s : r;
+    const Vec3 a = surface.points.row(surface.triangles(f, 0));
+    const Vec3 b = surface.points.row(surface.triangles(f, 1));
+    const Vec3 c = surface.points.row(surface.triangles(f, 2));
+    const Index t = result.binding.tets[surface.triangles(f, 0)];
+    EXPECT_TRUE(is_held(result, components, components.of_vertex[result.mesh.tets(t, 0)],
+      a + s * (b - a) + r * (c - a), 1e-6));
+  }
+}
+
+/// A palm with four fingers, cut from a grid of cells: a closed surface. Fingers are 0.2 wide and
+/// `gap` apart, of length 2 from y = 0; the palm is below.
+TriangleMesh fork(double gap)
+{
+  std::vector<double> xs;
+  for (int finger = 0; finger < 4; ++finger)
+  {
+    xs.push_back(finger * (0.2 + gap));
+    xs.push_back(xs.back() + 0.2);
+  }
+  const std::vector<double> ys{ -0.6, 0.0, 2.0 };
+  const std::vector<double> zs{ 0.0, 0.3 };
+  const auto solid = [&](int i, int j)
+  { return i >= 0 && i < 7 && ((j == 0) || (j == 1 && i % 2 == 0)); };
+  TriangleMesh mesh;
+  const auto id = [](int i, int j, int k) { return static_cast<Index>((k * 3 + j) * 8 + i); };
+  mesh.points.resize(48, 3);
+  for (int k = 0; k < 2; ++k)
+  {
+    for (int j = 0; j < 3; ++j)
+    {
+      for (int i = 0; i < 8; ++i)
+      {
+        mesh.points.row(id(i, j, k)) << xs[i], ys[j], zs[k];
+      }
+    }
+  }
+  std::vector<std::array<Index, 3>> triangles;
+  const auto quad = [&](Index a, Index b, Index c, Index d)
+  {
+    triangles.push_back({ a, b, c });
+    triangles.push_back({ a, c, d });
+  };
+  for (int j = 0; j < 2; ++j)
+  {
+    for (int i = 0; i < 7; ++i)
+    {
+      if (!solid(i, j))
+      {
+        continue;
+      }
+      quad(id(i, j, 0), id(i, j + 1, 0), id(i + 1, j + 1, 0), id(i + 1, j, 0));
+      quad(id(i, j, 1), id(i + 1, j, 1), id(i + 1, j + 1, 1), id(i, j + 1, 1));
+      if (!solid(i - 1, j))
+      {
+        quad(id(i, j, 0), id(i, j, 1), id(i, j + 1, 1), id(i, j + 1, 0));
+      }
+      if (!solid(i + 1, j))
+      {
+        quad(id(i + 1, j, 0), id(i + 1, j + 1, 0), id(i + 1, j + 1, 1), id(i + 1, j, 1));
+      }
+      if (j == 0)
+      {
+        quad(id(i, 0, 0), id(i + 1, 0, 0), id(i + 1, 0, 1), id(i, 0, 1));
+      }
+      if (j == 1 || !solid(i, 1))
+      {
+        quad(id(i, j + 1, 0), id(i, j + 1, 1), id(i + 1, j + 1, 1), id(i + 1, j + 1, 0));
+      }
+    }
+  }
+  mesh.triangles.resize(static_cast<Index>(triangles.size()), 3);
+  for (std::size_t t = 0; t < triangles.size(); ++t)
+  {
+    mesh.triangles.row(static_cast<Index>(t)) << triangles[t][0], triangles[t][1], triangles[t][2];
+  }
+  return mesh;
+}
+} // namespace
+
+TEST(EmbeddingTets, ABallIsOnePieceWithoutCopies)
+{
+  for (const Index resolution : { 0, 5, 9, 20 })
+  {
+    const TriangleMesh ball = test::sphere(4);
+    const EmbeddingTets result = embedded(ball, resolution);
+    expect_valid(ball, result);
+    EXPECT_EQ(result.components, 1);
+    EXPECT_EQ(result.duplicated_nodes, 0);
+    EXPECT_EQ(result.branching_facets, 0);
+    EXPECT_EQ(result.lattice_tets, result.mesh.tets.rows());
+    EXPECT_EQ(euler_characteristic(result.mesh), 1);
+    EXPECT_TRUE(count_edges(boundary_triangles(result.mesh.tets)).closed);
+  }
+}
+
+TEST(EmbeddingTets, AnyConvexBodyHasNoCopies)
+{
+  test::Random random(7);
+  for (int round = 0; round < 6; ++round)
+  {
+    TriangleMesh body = round % 2 == 0 ? test::cube() : test::sphere(2);
+    // Flat and long ones: a part of a cube thick.
+    const Vec3 scale = random.in_box(Vec3::Constant(0.02), Vec3::Ones());
+    const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(random.uniform(0.0, 3.0), Vec3(1.0, 2.0, 3.0).normalized())
+        .toRotationMatrix();
+    body.points = (body.points * scale.asDiagonal() * turn).eval();
+    const EmbeddingTets result = embedded(body, 12);
+    expect_valid(body, result);
+    EXPECT_EQ(result.components, 1);
+    EXPECT_EQ(result.duplicated_nodes, 0) << scale.transpose();
+  }
+}
+
+TEST(EmbeddingTets, TopologyIsTheSurfaces)
+{
+  const TriangleMesh torus = test::torus(48, 24, 1.0, 0.4);
+  EXPECT_EQ(euler_characteristic(embedded(torus).mesh), 0);
+  const TriangleMesh shell = test::join(test::sphere(3), test::flipped(test::sphere(3, 0.5)));
+  EXPECT_EQ(euler_characteristic(embedded(shell).mesh), 2) << "a ball with a cavity";
+  // A ring closed in space but not in the surface: a cut narrower than anything else.
+  TriangleMesh ring = test::torus(48, 24, 1.0, 0.2);
+  const EmbeddingTets whole = embedded(ring, 20);
+  EXPECT_EQ(euler_characteristic(whole.mesh), 0);
+}
+
+TEST(EmbeddingTets, BarsThatAreNearShareNoVertex)
+{
+  for (const double gap : { 0.3, 0.01, 1e-6 }) // in cubes
+  {
+    constexpr Index resolution = 16;
+    const double cube = 4.0 / 16.0;
+    const TriangleMesh lower = box({ 0.0, 0.0, 0.0 }, { 4.0, 0.4, 0.5 });
+    const TriangleMesh upper = box({ 0.0, 0.4 + gap * cube, 0.0 }, { 4.0, 0.8 + gap * cube, 0.5 });
+    const TriangleMesh bars = test::join(lower, upper);
+    const EmbeddingTets result = embedded(bars, resolution);
+    expect_valid(bars, result);
+    expect_held(bars, result, 100);
+    EXPECT_EQ(result.components, 2) << gap;
+    EXPECT_GT(result.duplicated_nodes, 0);
+    const auto of_lower =
+      vertices_of(result, bars.points, [](const Vec3& p) { return p[1] <= 0.4; });
+    for (const Index v : vertices_of(result, bars.points, [](const Vec3& p) { return p[1] > 0.4; }))
+    {
+      EXPECT_EQ(of_lower.count(v), 0u);
+    }
+    // As if each were alone on that lattice.
+    const Eigen::VectorXd volumes = tet_volumes(result.mesh.points, result.mesh.tets);
+    EXPECT_NEAR(volumes.dot(result.inside_fractions), 2.0 * 4.0 * 0.4 * 0.5, 0.03 * 1.6);
+  }
+}
+
+TEST(EmbeddingTets, SolidsThatOverlapAreOne)
+{
+  const TriangleMesh bars = test::join(
+    box({ 0.0, 0.0, 0.0 }, { 4.0, 0.4, 0.5 }), box({ 0.0, 0.3, 0.0 }, { 4.0, 0.8, 0.5 }));
+  const EmbeddingTets result = embedded(bars, 16);
+  expect_valid(bars, result);
+  EXPECT_EQ(result.components, 1);
+  EXPECT_EQ(result.duplicated_nodes, 0) << "their union is convex, and inner walls do not part";
+}
+
+TEST(EmbeddingTets, FingersAreConnectedThroughThePalmOnly)
+{
+  for (const double gap : { 0.05, 0.01 })
+  {
+    const TriangleMesh hand = fork(gap);
+    ASSERT_TRUE(count_edges(hand.triangles).closed);
+    const double volume = 0.3 * (4 * 0.2 * 2.0 + (0.8 + 3 * gap) * 0.6);
+    ASSERT_NEAR(signed_volume(hand.points, hand.triangles), volume, 1e-12);
+    const EmbeddingTets result = embedded(hand, 20); // a cube is 0.13
+    expect_valid(hand, result);
+    expect_held(hand, result, 100);
+    EXPECT_EQ(result.components, 1);
+    EXPECT_EQ(euler_characteristic(result.mesh), 1);
+    const auto tips = [&](int finger)
+    {
+      const double from = finger * (0.2 + gap);
+      return vertices_of(result, hand.points,
+        [=](const Vec3& p)
+        { return p[1] > 1.9 && p[0] >= from - 1e-9 && p[0] <= from + 0.2 + 1e-9; });
+    };
+    const std::vector<double> way = distances(result.mesh, tips(0));
+    for (int finger = 1; finger < 4; ++finger)
+    {
+      for (const Index v : tips(finger))
+      {
+        EXPECT_GT(way[v], 2.0 * 2.0 - 4.0 * result.spacing) << "down one finger, up the other";
+      }
+    }
+    const Eigen::VectorXd volumes = tet_volumes(result.mesh.points, result.mesh.tets);
+    EXPECT_NEAR(volumes.dot(result.inside_fractions), volume, 0.04 * volume);
+  }
+}
+
+TEST(EmbeddingTets, InsideFractionsGiveTheVolume)
+{
+  const TriangleMesh shapes[] = { test::sphere(4), test::cube(), test::torus(64, 32, 1.0, 0.3),
+    test::join(test::sphere(4), test::flipped(test::sphere(4, 0.8))),
+    box({ 0.0, 0.0, 0.0 }, { 4.0, 3.0, 0.02 }) };
+  for (const TriangleMesh& shape : shapes)
+  {
+    const double volume = signed_volume(shape.points, shape.triangles);
+    const auto error = [&](Index resolution)
+    {
+      const EmbeddingTets result = embedded(shape, resolution);
+      const double sum =
+        tet_volumes(result.mesh.points, result.mesh.tets).dot(result.inside_fractions);
+      return std::abs(sum / volume - 1.0);
+    };
+    EXPECT_LT(error(8), 0.06);
+    EXPECT_LT(error(16), 0.04);
+    EXPECT_LT(error(24), 0.01);
+  }
+  // Open: the inside ends in the opening, where the winding number is a half.
+  const TriangleMesh open = test::open_cube();
+  const EmbeddingTets result = embedded(open, 16);
+  expect_valid(open, result);
+  EXPECT_NEAR(
+    tet_volumes(result.mesh.points, result.mesh.tets).dot(result.inside_fractions), 8.0, 0.4);
+}
+
+TEST(EmbeddingTets, WhatEnclosesNothingIsHeldToo)
+{
+  TriangleMesh triangle = test::grid(1, 1);
+  triangle.triangles.conservativeResize(1, 3);
+  TriangleMesh needle = triangle;
+  needle.points.row(1) << 1.0, 1e-14, 0.0;
+  needle.points.row(3) << 0.5, 0.0, 0.0;
+  TriangleMesh point = triangle;
+  point.points.setConstant(3.0);
+  for (const TriangleMesh& mesh : { triangle, needle, point, test::grid(3, 2),
+         test::join(test::grid(2, 2), test::flipped(test::grid(2, 2))) })
+  {
+    for (const Index resolution : { 0, 7 })
+    {
+      const EmbeddingTets result = embedded(mesh, resolution);
+      expect_valid(mesh, result);
+      expect_held(mesh, result, 20);
+      EXPECT_EQ(result.inside_fractions.maxCoeff(), 0.0);
+    }
+  }
+  const EmbeddingTets result = embedded(test::grid(1, 1));
+  EXPECT_GT(result.mesh.tets.rows(), 15000);
+  EXPECT_LT(result.mesh.tets.rows(), 60000);
+}
+
+TEST(EmbeddingTets, SheetsThatAreNearAreApart)
+{
+  // They face each other: winding numbers are -1 between them and 0 elsewhere.
+  const TriangleMesh sheets = test::join(
+    test::grid(4, 4), test::flipped(test::translated(test::grid(4, 4), Vec3(0.0, 0.0, 1e-4))));
+  const EmbeddingTets result = embedded(sheets, 10);
+  expect_valid(sheets, result);
+  EXPECT_EQ(result.components, 2);
+  EXPECT_EQ(result.mesh.tets.rows(), 2 * result.lattice_tets);
+}
+
+TEST(EmbeddingTets, TheNumberOfTetsIsChosen)
+{
+  const TriangleMesh shapes[] = { test::sphere(3), test::cube(), test::torus(64, 16, 1.0, 0.02),
+    test::grid(2, 2), box({ 0.0, 0.0, 0.0 }, { 100.0, 1.0, 1.0 }),
+    test::join(test::sphere(3), test::sphere(3, 1.0, Vec3(50.0, 0.0, 0.0))) };
+  for (const TriangleMesh& shape : shapes)
+  {
+    const EmbeddingTets result = embedded(shape);
+    EXPECT_GE(result.lattice_tets, 15000);
+    EXPECT_LE(result.mesh.tets.rows(), 60000);
+  }
+}
+
+TEST(EmbeddingTets, UncleanSurfaces)
+{
+  TriangleMesh soup = test::sphere(3); // every triangle its own corners
+  {
+    Points points(3 * soup.triangles.rows(), 3);
+    for (Index i = 0; i < points.rows(); ++i)
+    {
+      points.row(i) = soup.points.row(soup.triangles.data()[i]);
+      soup.triangles.data()[i] = i;
+    }
+    soup.points = points;
+  }
+  TriangleMesh doubled = test::cube();
+  doubled.triangles.resize(24, 3);
+  doubled.triangles << test::cube().triangles, test::cube().triangles;
+  TriangleMesh wall = test::cube(); // three triangles at an edge
+  wall.triangles.conservativeResize(14, 3);
+  wall.triangles.row(12) << 0, 3, 7;
+  wall.triangles.row(13) << 0, 7, 4;
+  TriangleMesh holes = test::sphere(3);
+  TriangleMesh flipped = test::sphere(3);
+  for (Index f = 0; f < flipped.triangles.rows(); f += 5)
+  {
+    std::swap(flipped.triangles(f, 1), flipped.triangles(f, 2));
+    holes.triangles.row(f) << 0, 0, 0; // degenerate
+  }
+  TriangleMesh stray = test::sphere(2); // points that nothing uses
+  stray.points.conservativeResize(stray.points.rows() + 3, 3);
+  stray.points.bottomRows(3) << 0.1, 0.0, 0.0, 1e9, 0.0, 0.0,
+    std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0;
+  const std::pair<TriangleMesh, Index> cases[] = { { soup, 1 }, { doubled, 1 }, { wall, 1 },
+    { holes, 1 }, { flipped, 1 }, { stray, 1 },
+    { test::join(test::sphere(3), test::translated(test::sphere(3), Vec3(1.0, 0.0, 0.0))), 1 },
+    { test::join(test::torus(32, 16, 1.0, 0.4), test::sphere(3, 0.7)), 1 },
+    { test::join(test::sphere(3), test::sphere(3, 0.5)), 1 },
+    { test::join(test::cube(), test::translated(test::cube(), Vec3(2.000001, 0.0, 0.0))), 2 },
+    { test::join(test::sphere(3), test::translated(test::grid(2, 2), Vec3(1.01, 0.0, 0.0))), 2 } };
+  int number = 0;
+  for (const auto& [mesh, components] : cases)
+  {
+    SCOPED_TRACE(number++);
+    for (const Index resolution : { 6, 15 })
+    {
+      const EmbeddingTets result = embedded(mesh, resolution);
+      expect_valid(mesh, result);
+      expect_held(mesh, result, 50);
+      EXPECT_EQ(result.components, components);
+    }
+  }
+  const EmbeddingTets result = embedded(stray, 10);
+  const Index last = stray.points.rows() - 1;
+  EXPECT_GE(result.binding.tets[last - 2], 0) << "inside";
+  EXPECT_EQ(result.binding.tets[last - 1], -1);
+  EXPECT_EQ(result.binding.tets[last], -1);
+}
+
+TEST(EmbeddingTets, HostileSurfaces)
+{
+  test::Random random(11);
+  for (int round = 0; round < 60; ++round)
+  {
+    SCOPED_TRACE(round);
+    const TriangleMesh mesh = round % 2 == 0 ? test::hostile_surface(random, 200)
+                                             : test::hostile_closed_surface(random, 200);
+    if (mesh.triangles.rows() == 0)
+    {
+      continue;
+    }
+    const EmbeddingTets result = embedded(mesh, 3 + random.below(10));
+    expect_valid(mesh, result);
+    expect_held(mesh, result, 10);
+  }
+}
+
+TEST(EmbeddingTets, HostilePlaces)
+{
+  test::Random random(12);
+  for (int round = 0; round < 30; ++round)
+  {
+    SCOPED_TRACE(round);
+    const TriangleMesh mesh = test::placed(random, test::hostile_surface(random, 60));
+    if (mesh.triangles.rows() == 0)
+    {
+      continue;
+    }
+    const double size = bounding_box(mesh.points, mesh.triangles).size().maxCoeff();
+    if (size > 1e-90 && size < 1e90) // so that volumes are doubles
+    {
+      expect_valid(mesh, embedded(mesh, 6));
+      continue;
+    }
+    ExecutionContext context;
+    EmbeddingTets result;
+    const WindingNumber winding(mesh.points, mesh.triangles);
+    const Status status =
+      embed_surface(mesh.points, mesh.triangles, winding, EmbeddingOptions(), result, context);
+    EXPECT_TRUE(status.ok() || status.code == StatusCode::invalid_input);
+    EXPECT_EQ(status.ok(), result.mesh.tets.rows() > 0);
+  }
+  for (const double scale : { 1e-9, 1e9 })
+  {
+    TriangleMesh mesh = test::torus(24, 12, 1.0, 0.4);
+    mesh.points *= scale;
+    const EmbeddingTets result = embedded(mesh);
+    expect_valid(mesh, result);
+    EXPECT_EQ(result.components, 1);
+  }
+  TriangleMesh far = test::sphere(3);
+  far.points.array() += 1e9;
+  expect_valid(far, embedded(far, 10));
+}
+
+TEST(EmbeddingTets, RealSurfaces)
+{
+  for (const char* name : { "hand.off", "elephant-with-holes.off", "cow.off" })
+  {
+    SCOPED_TRACE(name);
+    const TriangleMesh mesh = test::demo_mesh(name);
+    if (mesh.triangles.rows() == 0)
+    {
+      continue;
+    }
+    const EmbeddingTets result = embedded(mesh);
+    expect_valid(mesh, result);
+    EXPECT_GE(result.lattice_tets, 15000);
+    EXPECT_LE(result.mesh.tets.rows(), 60000);
+    EXPECT_LT(result.branching_facets, result.mesh.tets.rows() / 50);
+  }
+}
+
+TEST(EmbeddingTets, ScalesWithTheSurface)
+{
+  const TriangleMesh surface =
+    test::join(test::torus(24, 12, 1.0, 0.4), test::sphere(3, 0.55, Vec3(0.02, 0.0, 0.0)));
+  TriangleMesh large = surface;
+  large.points *= 1024.0;
+  const EmbeddingTets a = embedded(surface), b = embedded(large);
+  EXPECT_EQ(a.mesh.tets, b.mesh.tets);
+  EXPECT_EQ(Points(1024.0 * a.mesh.points), b.mesh.points);
+  EXPECT_EQ(a.inside_fractions, b.inside_fractions);
+  EXPECT_EQ(a.binding.tets, b.binding.tets);
+  EXPECT_EQ(a.binding.coordinates, b.binding.coordinates);
+}
+
+TEST(EmbeddingTets, SameBitsForAnyNumberOfThreads)
+{
+  for (const TriangleMesh& surface : { fork(0.02), test::open_cube() })
+  {
+    const EmbeddingTets one = embedded(surface, 0, 1), two = embedded(surface, 0, 2);
+    EXPECT_EQ(one.mesh.points, two.mesh.points);
+    EXPECT_EQ(one.mesh.tets, two.mesh.tets);
+    EXPECT_EQ(one.inside_fractions, two.inside_fractions);
+    EXPECT_EQ(one.binding.tets, two.binding.tets);
+    EXPECT_EQ(one.binding.coordinates, two.binding.coordinates);
+  }
+}
+
+TEST(EmbeddingTets, BadInputIsNamed)
+{
+  const TriangleMesh mesh = test::cube();
+  const WindingNumber winding(mesh.points, mesh.triangles);
+  const auto message = [&](const TriangleMesh& surface, Index resolution, double threshold)
+  {
+    ExecutionContext context;
+    EmbeddingOptions options;
+    options.resolution = resolution;
+    options.winding_threshold = threshold;
+    EmbeddingTets result;
+    const Status status =
+      embed_surface(surface.points, surface.triangles, winding, options, result, context);
+    EXPECT_EQ(status.code, StatusCode::invalid_input);
+    EXPECT_EQ(result.mesh.tets.rows(), 0);
+    return status.message;
+  };
+  EXPECT_EQ(message({}, 0, 0.5), "the surface has no triangles");
+  EXPECT_EQ(message(mesh, -1, 0.5), "resolution must be from 0 to 1000 cubes, not -1");
+  EXPECT_EQ(message(mesh, 1001, 0.5), "resolution must be from 0 to 1000 cubes, not 1001");
+  EXPECT_EQ(message(mesh, 0, 0.0), "winding_threshold must be positive");
+  EXPECT_EQ(message(mesh, 1000, 0.5),
+    "the lattice would have more than 4000000 cubes; take a smaller resolution");
+  TriangleMesh bad = mesh;
+  bad.points(3, 1) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(message(bad, 0, 0.5), "");
+  bad = mesh;
+  bad.triangles(3, 1) = 99;
+  EXPECT_NE(message(bad, 0, 0.5), "");
+}
+
+TEST(EmbeddingTets, CancelEndsSoon)
+{
+  const TriangleMesh mesh = test::sphere(5);
+  const WindingNumber winding(mesh.points, mesh.triangles);
+  for (const int after : { 0, 1, 5, 20, 60 })
+  {
+    // Cancelled at the n-th sign of progress.
+    std::atomic<bool> stop{ after == 0 };
+    std::atomic<int> signs{ 0 };
+    ExecutionContext context([&](double, const std::string&) { stop = stop || ++signs >= after; },
+      [&] { return stop.load(); });
+    EmbeddingOptions options;
+    options.resolution = 40;
+    EmbeddingTets result;
+    const Status status =
+      embed_surface(mesh.points, mesh.triangles, winding, options, result, context);
+    EXPECT_TRUE(status.ok() || status.code == StatusCode::cancelled);
+    EXPECT_EQ(status.ok(), !stop) << after;
+    EXPECT_EQ(status.ok(), result.mesh.tets.rows() > 0);
+  }
+}

@@ -28,8 +28,9 @@
  * Report: counts.{points, segments, crossings, open_ends, vertices, triangles, kept_points,
  * outside_handles, ignored_cells, pixels, inside_pixels, contour_points, outline_points, loops},
  * area, min_angle (degrees), longest_edge, turned (1: the curves ran clockwise and were turned),
- * domain ("alpha", "rectangle" or "curves"), handles[].{name, vertex} (the point's id, of a bone
- * the head's, -1 outside), seconds.{outline, arrange, winding, fill}.
+ * grid (what is nearer was merged, 0 mostly), domain ("alpha", "rectangle" or "curves"),
+ * handles[].{name, vertex} (the point's id, of a bone the head's, -1 outside), seconds.{outline,
+ * arrange, winding, fill}.
  *
  * Errors: invalid_input for an image without pixels, with several layers, turned or transparent
  * everywhere; for curves that are not there, not in a plane z = const, all on one line, not finite,

@@ -3,6 +3,8 @@
 // 2. The helper splits curves and bones where they meet, and triangulates their convex hull.
 // 3. A triangle is kept where the winding number, averaged over it, reaches the threshold. Around
 //    closed curves it is constant on each triangle.
+//    Where curves almost touch, closer than refinement can work with, steps 1 to 3 are repeated on
+//    a grid of 1e-12 of the size, which merges what is nearer.
 // 4. The helper refines what is kept. Curves and bones in it, and its outline, stay edges.
 // 5. Vertices are numbered: those of the input first.
 #include "inside/planar_shape.h"
@@ -91,7 +93,7 @@ Status check_options(const PlanarShapeOptions& options)
 class Gathered
 {
 public:
-  Index add(const Vec2& p, Index original)
+  Index add(const Vec2& p, const Vec2& place, Index original)
   {
     const auto [entry, fresh] =
       this->ids_.emplace(std::make_pair(p.x() + 0.0, p.y() + 0.0), this->count()); // no -0
@@ -99,13 +101,15 @@ public:
     {
       this->points.push_back(p);
       this->originals.push_back(original);
+      this->places.push_back(place);
     }
     return entry->second;
   }
   Index count() const { return static_cast<Index>(this->points.size()); }
 
-  std::vector<Vec2> points;
+  std::vector<Vec2> points; ///< scaled
   std::vector<Index> originals; ///< lowest input id, -1 for a handle's
+  std::vector<Vec2> places; ///< as they came in
 
 private:
   std::map<std::pair<double, double>, Index> ids_;
@@ -119,29 +123,38 @@ double cross(const Vec2& a, const Vec2& b)
 class Builder
 {
 public:
-  Builder(const PlanarShapeOptions& options, ExecutionContext& context)
-    : options_(options), context_(context)
+  Builder(PlanePointsView points, SegmentsView segments, const PlanarHandles& handles,
+    const PlanarShapeOptions& options, ExecutionContext& context)
+    : points_(points), segments_(segments), input_handles_(handles), options_(options),
+      context_(context)
   {
   }
 
-  void gather(PlanePointsView points, SegmentsView segments, const PlanarHandles& handles);
+  Status run(PlanarShape& shape);
+
+private:
   Status scale();
+  void gather();
   Status arrange();
   Status keep();
   Status fill();
   void number(PlanarShape& shape);
   void report(const PlanarShape& shape, Status& status) const;
-
-private:
+  Status run_job(const std::vector<std::string>& arguments, MesherAnswer& answer);
+  Vec2 scaled(const Vec2& p) const;
+  double smallest_height() const;
+  bool places_fit() const;
   Vec2 point(Index v) const { return this->data_.points.row(v).head<2>().transpose(); }
   double mean_winding(Index triangle) const;
-  Status run(const std::vector<std::string>& arguments, MesherAnswer& answer);
   Vec2 unscaled(Index v) const
   {
     const Vec2 p = this->point(v);
     return { std::ldexp(p.x(), this->exponent_), std::ldexp(p.y(), this->exponent_) };
   }
 
+  PlanePointsView points_;
+  SegmentsView segments_;
+  const PlanarHandles& input_handles_;
   const PlanarShapeOptions& options_;
   ExecutionContext& context_;
   Gathered gathered_;
@@ -151,6 +164,9 @@ private:
   int exponent_ = 0;
   double diagonal_ = 0.0; ///< of the curves, scaled
   PlanePoints curve_points_; ///< scaled
+  double finest_ = 0.0; ///< smallest height of a kept triangle, scaled
+  double finest_allowed_ = 0.0; ///< that refinement can work with
+  double grid_ = 0.0; ///< scaled; 0: none
   CurveWindingNumber winding_;
   MesherData data_;
   Index crossings_ = 0;
@@ -159,39 +175,15 @@ private:
   std::vector<std::string> warnings_;
 };
 
-void Builder::gather(PlanePointsView points, SegmentsView segments, const PlanarHandles& handles)
-{
-  std::set<Index> used(segments.data(), segments.data() + segments.size());
-  std::map<Index, Index> gathered;
-  for (const Index v : used) // ascending: the lowest id stands for equal ones
-  {
-    gathered[v] = this->gathered_.add(points.row(v).transpose(), v);
-  }
-  this->curves_.resize(segments.rows(), 2);
-  for (Index e = 0; e < segments.rows(); ++e)
-  {
-    this->curves_.row(e) << gathered[segments(e, 0)], gathered[segments(e, 1)];
-  }
-  for (Index h = 0; h < handles.points.rows(); ++h)
-  {
-    this->handles_.push_back(this->gathered_.add(handles.points.row(h).transpose(), none));
-  }
-  this->bones_.resize(handles.bones.rows(), 2);
-  for (Index b = 0; b < handles.bones.rows(); ++b)
-  {
-    this->bones_.row(b) << this->handles_[handles.bones(b, 0)], this->handles_[handles.bones(b, 1)];
-  }
-}
-
 Status Builder::scale()
 {
-  const std::vector<Vec2>& points = this->gathered_.points;
   Vec2 lower = Vec2::Constant(std::numeric_limits<double>::max());
   Vec2 upper = -lower;
-  for (Index k = 0; k < this->curves_.size(); ++k)
+  for (Index k = 0; k < this->segments_.size(); ++k)
   {
-    lower = lower.cwiseMin(points[this->curves_.data()[k]]);
-    upper = upper.cwiseMax(points[this->curves_.data()[k]]);
+    const Vec2 p = this->points_.row(this->segments_.data()[k]).transpose();
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
   }
   const Vec2 half = 0.5 * upper - 0.5 * lower; // without overflow
   if (half.maxCoeff() <= 0.0)
@@ -200,29 +192,80 @@ Status Builder::scale()
   }
   std::frexp(half.maxCoeff(), &this->exponent_);
   this->exponent_ += 1;
-  this->data_.points.resize(this->gathered_.count(), 3);
-  for (Index v = 0; v < this->gathered_.count(); ++v)
-  {
-    this->data_.points.row(v) << std::ldexp(points[v].x(), -this->exponent_),
-      std::ldexp(points[v].y(), -this->exponent_), 0.0;
-  }
-  if (!this->data_.points.allFinite())
+  this->diagonal_ = 2.0 * this->scaled(half).norm();
+  const double farthest = this->scaled(lower.cwiseAbs().cwiseMax(upper.cwiseAbs())).maxCoeff();
+  if (!std::isfinite(farthest))
   {
     return Status::invalid_input("the curves lie too far from the origin for their size");
   }
-  this->diagonal_ = std::ldexp(half.x(), 1 - this->exponent_);
-  this->diagonal_ = std::hypot(this->diagonal_, std::ldexp(half.y(), 1 - this->exponent_));
-  this->curve_points_ = this->data_.points.leftCols<2>();
+  // A part of the size that nobody means, or a few units in the last place of the coordinates.
+  int exponent = 0;
+  std::frexp(std::max(0x1p-40 * this->diagonal_, 0x1p-49 * farthest), &exponent);
+  this->finest_allowed_ = std::ldexp(1.0, exponent);
   return {};
 }
 
-Status Builder::run(const std::vector<std::string>& arguments, MesherAnswer& answer)
+/// On the grid, if there is one.
+Vec2 Builder::scaled(const Vec2& p) const
+{
+  Vec2 result(std::ldexp(p.x(), -this->exponent_), std::ldexp(p.y(), -this->exponent_));
+  if (this->grid_ > 0.0)
+  {
+    result = Vec2(std::round(result.x() / this->grid_), std::round(result.y() / this->grid_)) *
+      this->grid_;
+  }
+  return result;
+}
+
+void Builder::gather()
+{
+  this->gathered_ = Gathered();
+  this->handles_.clear();
+  const auto add = [&](const Vec2& place, Index original)
+  { return this->gathered_.add(this->scaled(place), place, original); };
+  const std::set<Index> used(
+    this->segments_.data(), this->segments_.data() + this->segments_.size());
+  std::map<Index, Index> gathered;
+  for (const Index v : used) // ascending: the lowest id stands for equal ones
+  {
+    gathered[v] = add(this->points_.row(v).transpose(), v);
+  }
+  this->curves_.resize(this->segments_.rows(), 2);
+  for (Index e = 0; e < this->segments_.rows(); ++e)
+  {
+    this->curves_.row(e) << gathered[this->segments_(e, 0)], gathered[this->segments_(e, 1)];
+  }
+  const PlanarHandles& handles = this->input_handles_;
+  for (Index h = 0; h < handles.points.rows(); ++h)
+  {
+    this->handles_.push_back(add(handles.points.row(h).transpose(), none));
+  }
+  this->bones_.resize(handles.bones.rows(), 2);
+  for (Index b = 0; b < handles.bones.rows(); ++b)
+  {
+    this->bones_.row(b) << this->handles_[handles.bones(b, 0)], this->handles_[handles.bones(b, 1)];
+  }
+  this->data_ = MesherData();
+  this->data_.points.resize(this->gathered_.count(), 3);
+  for (Index v = 0; v < this->gathered_.count(); ++v)
+  {
+    this->data_.points.row(v) << this->gathered_.points[v].transpose(), 0.0;
+  }
+  this->curve_points_ = this->data_.points.leftCols<2>();
+}
+
+Status Builder::run_job(const std::vector<std::string>& arguments, MesherAnswer& answer)
 {
   MesherRequest request;
   request.arguments = arguments;
-  request.time_limit =
-    std::max(this->options_.time_limit - this->context_.elapsed_seconds(), 0.001);
+  request.time_limit = this->options_.time_limit - this->context_.elapsed_seconds();
   request.memory_limit = this->options_.memory_limit;
+  if (request.time_limit <= 0.0)
+  {
+    return Status::failure(StatusCode::internal_error,
+      "the time limit of " + short_number(this->options_.time_limit) + " s was over before " +
+        arguments.front());
+  }
   return run_mesher(request, this->data_, answer, this->context_);
 }
 
@@ -232,7 +275,7 @@ Status Builder::arrange()
   this->data_.segments.resize(this->curves_.rows() + this->bones_.rows(), 2);
   this->data_.segments << this->curves_, this->bones_;
   MesherAnswer answer;
-  const Status status = this->run({ "arrange" }, answer);
+  const Status status = this->run_job({ "arrange", "--grid", exact_number(this->grid_) }, answer);
   if (!status.ok())
   {
     return status;
@@ -254,6 +297,10 @@ double Builder::mean_winding(Index triangle) const
   const Vec2 c = this->point(this->data_.triangles(triangle, 2));
   const Vec2 center = (a + b + c) / 3.0;
   const double root = std::sqrt(15.0);
+  if (this->open_ends_ == 0)
+  {
+    return this->winding_.evaluate_at(center);
+  }
   double sum = 9.0 / 40.0 * this->winding_.evaluate_at(center);
   for (const double sign : { -1.0, 1.0 })
   {
@@ -267,6 +314,20 @@ double Builder::mean_winding(Index triangle) const
   return sum;
 }
 
+double Builder::smallest_height() const
+{
+  double smallest = std::numeric_limits<double>::max();
+  for (Index t = 0; t < this->data_.triangles.rows(); ++t)
+  {
+    const Vec2 a = this->point(this->data_.triangles(t, 0));
+    const Vec2 b = this->point(this->data_.triangles(t, 1)) - a;
+    const Vec2 c = this->point(this->data_.triangles(t, 2)) - a;
+    const double longest = std::max({ b.norm(), c.norm(), (c - b).norm() });
+    smallest = std::min(smallest, cross(b, c) / longest);
+  }
+  return smallest;
+}
+
 Status Builder::keep()
 {
   const Phase phase(this->context_, "winding", 0.4, 0.5);
@@ -274,8 +335,6 @@ Status Builder::keep()
   if (status.ok() && status.report.number("area", 0.0) < 0.0)
   {
     this->turned_ = true;
-    this->warnings_.emplace_back(
-      "the curves run clockwise around their inside; they are taken the other way round");
     this->curves_.col(0).swap(this->curves_.col(1));
     status = this->winding_.build(this->curve_points_, this->curves_, this->context_);
   }
@@ -318,6 +377,7 @@ Status Builder::keep()
       short_number(this->options_.winding_threshold));
   }
   this->data_.triangles.conservativeResize(kept, 3);
+  this->finest_ = this->smallest_height();
   Index inside = 0;
   for (Index e = 0; e < this->data_.segments.rows(); ++e)
   {
@@ -339,9 +399,9 @@ Status Builder::fill()
   const double seconds = this->options_.time_limit - this->context_.elapsed_seconds();
   constexpr double part = 0.8; // the rest is for reading and writing
   const Status status =
-    this->run({ "fill-plane", "--min-angle", exact_number(this->options_.min_angle), "--edge",
-                exact_number(this->options_.edge * this->diagonal_), "--time",
-                exact_number(std::max(part * seconds, 0.0)) },
+    this->run_job({ "fill-plane", "--min-angle", exact_number(this->options_.min_angle), "--edge",
+                    exact_number(this->options_.edge * this->diagonal_), "--time",
+                    exact_number(std::max(part * seconds, 0.0)) },
       answer);
   if (!status.ok())
   {
@@ -363,6 +423,24 @@ Status Builder::fill()
   return {};
 }
 
+/// Whether the triangles stay positive when the grid's points go back to where they came from.
+bool Builder::places_fit() const
+{
+  const auto place = [&](Index v)
+  { return v < this->gathered_.count() ? this->gathered_.places[v] : this->unscaled(v); };
+  for (Index t = 0; t < this->data_.triangles.rows(); ++t)
+  {
+    const Vec2 a = place(this->data_.triangles(t, 0));
+    const Vec2 b = place(this->data_.triangles(t, 1)) - a;
+    const Vec2 c = place(this->data_.triangles(t, 2)) - a;
+    if (!(cross(b, c) > 0.0))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
 void Builder::number(PlanarShape& shape)
 {
   std::vector<Index> ids(static_cast<std::size_t>(this->data_.points.rows()), none);
@@ -373,6 +451,7 @@ void Builder::number(PlanarShape& shape)
   const auto count = static_cast<Index>(std::count(ids.begin(), ids.end(), 0));
   shape.points.resize(count, 2);
   shape.original_vertices.assign(static_cast<std::size_t>(count), none);
+  const bool exact_places = this->grid_ == 0.0 || this->places_fit();
   Index at = 0;
   for (Index v = 0; v < static_cast<Index>(ids.size()); ++v) // the input's come first, ascending
   {
@@ -381,8 +460,8 @@ void Builder::number(PlanarShape& shape)
       continue;
     }
     const bool gathered = v < this->gathered_.count();
-    shape.points.row(at) =
-      gathered ? this->gathered_.points[v].transpose() : this->unscaled(v).transpose();
+    const Vec2 place = gathered && exact_places ? this->gathered_.places[v] : this->unscaled(v);
+    shape.points.row(at) = place.transpose();
     shape.original_vertices[at] = gathered ? this->gathered_.originals[v] : none;
     ids[v] = at++;
   }
@@ -439,7 +518,13 @@ void Builder::report(const PlanarShape& shape, Status& status) const
   report.set("min_angle", smallest_angle);
   report.set("longest_edge", std::ldexp(longest, this->exponent_));
   report.set("turned", this->turned_ ? 1 : 0);
+  report.set("grid", std::ldexp(this->grid_, this->exponent_));
   status.warnings = this->warnings_;
+  if (this->turned_)
+  {
+    status.warnings.emplace_back(
+      "the curves run clockwise around their inside; they are taken the other way round");
+  }
   if (!this->handles_.empty())
   {
     const auto outside = static_cast<Index>(
@@ -452,6 +537,29 @@ void Builder::report(const PlanarShape& shape, Status& status) const
         " points of handles lie outside of the shape and are no vertices of it");
     }
   }
+}
+
+Status Builder::run(PlanarShape& shape)
+{
+  Status status = this->scale();
+  for (int attempt = 0; status.ok() && attempt < 2; ++attempt)
+  {
+    this->gather();
+    status = this->arrange();
+    status = status.ok() ? this->keep() : status;
+    if (!status.ok() || this->grid_ > 0.0 || this->finest_ >= this->finest_allowed_)
+    {
+      break;
+    }
+    this->grid_ = this->finest_allowed_;
+  }
+  status = status.ok() ? this->fill() : status;
+  if (status.ok())
+  {
+    this->number(shape);
+    this->report(shape, status);
+  }
+  return status;
 }
 } // namespace
 
@@ -480,21 +588,11 @@ Status planar_shape(PlanePointsView points, SegmentsView segments, const PlanarH
   {
     return status;
   }
-  Builder builder(options, context);
-  builder.gather(points, segments, handles);
-  for (Status (Builder::*step)() :
-    { &Builder::scale, &Builder::arrange, &Builder::keep, &Builder::fill })
+  if (context.cancelled())
   {
-    status = context.cancelled() ? Status::cancelled() : (builder.*step)();
-    if (!status.ok())
-    {
-      return status;
-    }
+    return Status::cancelled();
   }
-  builder.number(shape);
-  status = Status();
-  builder.report(shape, status);
-  return status;
+  return Builder(points, segments, handles, options, context).run(shape);
 }
 
 } // namespace bindpose

@@ -53,7 +53,9 @@ struct PlanarShape
 ///
 /// Report: counts.points, counts.segments, counts.crossings (vertices new by splitting),
 /// counts.open_ends, counts.vertices, counts.triangles, counts.kept_points, counts.outside_handles,
-/// area, min_angle (degrees, of the mesh), longest_edge (length), turned (1: the other way round).
+/// area, min_angle (degrees, of the mesh), longest_edge (length), turned (1: the other way round),
+/// grid (length, 0 for none: where curves come closer to each other than 1e-12 of the diagonal, or
+/// than 8 units in the last place of the coordinates, what is nearer than this was merged).
 ///
 /// invalid_input: not finite, ids out of range, no segment, everything on one line, nothing that is
 /// wound around often enough, options out of range. unavailable: no helper executable

@@ -30,8 +30,11 @@ std::string refine(MesherData& data, const RefineOptions& options);
 /// the convex hull of all points with the pieces as edges. Input points keep their ids, new ones
 /// come behind; of equal points the first one is used. Triangles are counter-clockwise; none when
 /// all points lie on one line. Reports rounds.
+/// With a grid above 0 (a power of two, to which the points are rounded already) new points are
+/// rounded to it, and edges go through the points that they pass at less than half of it: nothing
+/// finer is left.
 /// @return empty, or why it gave up.
-std::string arrange(MesherData& data);
+std::string arrange(MesherData& data, double grid = 0.0);
 
 struct FillOptions
 {

@@ -82,7 +82,7 @@ std::string run(const std::string& job, const std::map<std::string, std::string>
   }
   if (job == "arrange")
   {
-    return bindpose::arrange(data);
+    return bindpose::arrange(data, number(options, "--grid", 0.0));
   }
   if (job == "fill-plane")
   {

@@ -3,7 +3,9 @@
 // Arrangement: all points and segments go into a constrained Delaunay triangulation with exact
 // coordinates, which splits segments wherever they cross, overlap or meet a point. New vertices are
 // rounded to doubles; rounding bends the pieces by an ulp and may let them cross anew, so the
-// pieces are inserted again until nothing new appears.
+// pieces are inserted again until nothing new appears. Curves that almost touch leave gaps that
+// refinement cannot work with; then points are rounded to a coarser grid and edges bent to the
+// points they pass (snap rounding: Hobby; Guibas and Marimont), by the same rounds.
 //
 // Filling: Delaunay refinement (Ruppert, Shewchuk; CGAL's Delaunay_mesher_2), step by step under a
 // limit of points. Angles up to 20.6 degrees can always be had, but for those that the outline has
@@ -73,6 +75,50 @@ Pair edge_of(Index a, Index b)
 double rounded(const Exact::FT& x)
 {
   return CGAL::to_double(CGAL::exact(x));
+}
+
+/// The nearest point of the grid, if there is one.
+double snapped(double x, double grid)
+{
+  return grid > 0.0 ? std::round(x / grid) * grid : x;
+}
+
+/// Leads edges through vertices that they pass at less than half of the grid. @return whether any.
+bool bend(const Arrangement& arrangement, const Plane& plane, double grid, Pairs& edges)
+{
+  bool any = false;
+  for (auto f = arrangement.finite_faces_begin(); f != arrangement.finite_faces_end(); ++f)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index a = f->vertex(Arrangement::ccw(k))->info().value;
+      const Index b = f->vertex(Arrangement::cw(k))->info().value;
+      const Index v = f->vertex(k)->info().value;
+      const auto edge = edges.find(edge_of(a, b));
+      if (edge == edges.end() || v == a || v == b)
+      {
+        continue;
+      }
+      const auto difference = [&](Index from, Index to)
+      {
+        return Coordinates{ plane.points[to][0] - plane.points[from][0],
+          plane.points[to][1] - plane.points[from][1] };
+      };
+      const Coordinates along = difference(a, b);
+      const Coordinates to_v = difference(a, v);
+      const double length = std::hypot(along[0], along[1]);
+      const double way = (along[0] * to_v[0] + along[1] * to_v[1]) / length;
+      const double beside = std::abs(along[0] * to_v[1] - along[1] * to_v[0]) / length;
+      if (beside < 0.5 * grid && way > 0.0 && way < length)
+      {
+        edges.erase(edge);
+        edges.insert(edge_of(a, v));
+        edges.insert(edge_of(v, b));
+        any = true;
+      }
+    }
+  }
+  return any;
 }
 
 /// Inserts points and edges. @return empty, or why it gave up.
@@ -293,7 +339,7 @@ void collect(const Filling& filling, MesherData& data)
 }
 } // namespace
 
-std::string arrange(MesherData& data)
+std::string arrange(MesherData& data, double grid)
 {
   Plane plane;
   for (Index v = 0; v < data.points.rows(); ++v)
@@ -325,7 +371,8 @@ std::string arrange(MesherData& data)
     {
       if (v->info().value < 0)
       {
-        v->info().value = plane.add({ rounded(v->point().x()), rounded(v->point().y()) });
+        v->info().value = plane.add(
+          { snapped(rounded(v->point().x()), grid), snapped(rounded(v->point().y()), grid) });
         fresh = true;
       }
     }
@@ -340,6 +387,7 @@ std::string arrange(MesherData& data)
         edges.insert(edge_of(a, b));
       }
     }
+    fresh = (grid > 0.0 && bend(arrangement, plane, grid, edges)) || fresh;
     if (!fresh)
     {
       tell_report("rounds", round);

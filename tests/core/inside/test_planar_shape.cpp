@@ -425,6 +425,27 @@ TEST_F(PlanarShapeTest, ScaleAndPlaceDoNotMatter)
   }
 }
 
+TEST_F(PlanarShapeTest, CurvesThatAlmostTouch)
+{
+  // Corners of a coarse lattice, hit up to 1e-14: closer than doubles can refine.
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> any(0.0, 1.0);
+  std::vector<Vec2> corners;
+  std::vector<Vec2> rounded;
+  for (int k = 0; k < 60; ++k)
+  {
+    const Vec2 p(std::round(10.0 * any(random)) / 10.0, std::round(10.0 * any(random)) / 10.0);
+    rounded.push_back(p);
+    corners.push_back(p + 1e-14 * Vec2(any(random), any(random)));
+  }
+  options.edge = 0.0;
+  options.min_angle = 20.0;
+  const double expected = area(Curves().add(rounded));
+  EXPECT_NEAR(area(Curves().add(corners)), expected, 1e-9);
+  EXPECT_GT(status.report.number("grid", -1), 0.0);
+  EXPECT_LT(status.report.number("grid", -1), 1e-11);
+}
+
 TEST_F(PlanarShapeTest, SameForAnyNumberOfThreads)
 {
   const Curves star = Curves().add(pentagram());

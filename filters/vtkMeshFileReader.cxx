@@ -98,9 +98,19 @@ vtkSmartPointer<vtkPolyData> to_polydata(const bindpose::PolygonMesh& mesh)
     polygons->InsertNextCell(mesh.offsets[f + 1] - mesh.offsets[f],
       reinterpret_cast<const vtkIdType*>(mesh.corners.data() + mesh.offsets[f]));
   }
+  vtkNew<vtkCellArray> lines;
+  for (Index l = 0; l < mesh.line_count(); ++l)
+  {
+    lines->InsertNextCell(mesh.line_offsets[l + 1] - mesh.line_offsets[l],
+      reinterpret_cast<const vtkIdType*>(mesh.line_corners.data() + mesh.line_offsets[l]));
+  }
   auto data = vtkSmartPointer<vtkPolyData>::New();
   data->SetPoints(bindpose::to_vtk_points(mesh.points));
   data->SetPolys(polygons);
+  if (mesh.line_count() > 0)
+  {
+    data->SetLines(lines);
+  }
   return data;
 }
 

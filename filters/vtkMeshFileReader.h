@@ -14,7 +14,7 @@
  *
  * OFF, OBJ, PLY, STL and MEDIT files are read by Bindpose itself: coordinates are doubles, and
  * vertices stay shared whatever texture coordinates and normals the file carries; those are not
- * read.
+ * read. An OBJ file without a face gives its lines.
  *
  * A missing, empty, truncated or wrong file, and coordinates that are not finite in the text
  * formats, give INVALID_INPUT with one sentence that names the file (and line, where there are

@@ -22,6 +22,7 @@ endif()
 find_package(VTK 9.1 REQUIRED COMPONENTS ${bindpose_vtk_components}
   OPTIONAL_COMPONENTS GUISupportQt)
 find_package(CLI11 2.1 REQUIRED)
+find_package(PNG REQUIRED)
 include(BindposeCoreDependencies)
 
 # ---- Qt viewer ----

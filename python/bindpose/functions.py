@@ -9,9 +9,12 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from . import BindposeFilters as filters
 from .errors import BindposeWarning, InvalidInput, Unavailable
+from .files import read
 from .handle_sets import to_handles
+from .images import is_image_file, read_image, to_image
 from .meshes import (
     Array,
+    PlanarShape,
     Tets,
     add_point_array,
     copy_report,
@@ -21,8 +24,10 @@ from .meshes import (
     points_of,
     shallow_copy,
     tets_of,
+    to_curves,
     to_dataset,
     to_vtk_points,
+    triangles_of,
 )
 from .running import report as report_of
 from .running import run
@@ -222,6 +227,83 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
     if is_dataset(surface):
         return result
     return Tets(points_of(result), tets_of(result), point_array(result, "OriginalPointIds"), report)
+
+
+def planar_shape(image_or_curves, *, rectangle=False, simplify=0.5, winding_threshold=0.5, min_angle=30.0, edge=0.02,
+                 handles=None, time_limit=120.0, memory_limit=0, threads=0, progress=None):
+    """What an image shows, or what curves in a plane enclose, as quality triangles.
+
+    Parameters
+    ----------
+    image_or_curves : vtkImageData, vtkPolyData, array, pair of arrays, str or path-like
+        An image: a dataset, a png, jpg, tif or bmp file, or an array with its first row on top,
+        #rows x #columns of alpha (0 to 1, bool, or unsigned integers) or x 4 with alpha as the last.
+        It is cut out where alpha is at least one half; without alpha it is taken as a whole.
+        Curves: a dataset or mesh file with lines or polygons in a plane z = const, or arrays
+        (points #V x 2 or x 3, segments #E x 2), counter-clockwise around the inside.
+    rectangle : bool
+        The whole image, whatever its alpha.
+    simplify : float
+        Pixels that simplifying may move the image's outline by, 0 to 1.
+    winding_threshold : float
+        Inside is where the curves' winding number is at least this.
+    min_angle : float
+        Smallest angle of a triangle in degrees, 0 to 33, where the outline has none smaller.
+    edge : float
+        Longest edge of a triangle, as a fraction of the diagonal; 0 for no bound.
+    handles : vtkPolyData, str or path-like, optional
+        Handle dataset or file: points become points of the mesh, bones rows of edges.
+    time_limit : float
+        Seconds for the meshing process.
+    memory_limit : int
+        MiB for the meshing process; 0 for none.
+    threads, progress
+        See `winding_number`.
+
+    Returns
+    -------
+    PlanarShape or vtkPolyData
+        Arrays for arrays; a dataset has the point arrays ``TCoords`` (texture coordinates) and
+        ``OriginalPointIds`` and the cell array ``WindingNumber``.
+
+    Raises
+    ------
+    InvalidInput
+        An image that is transparent everywhere, curves that enclose nothing or are not in a plane.
+    Unavailable
+        The meshing program is not there; the text names the packages.
+
+    See Also
+    --------
+    tetrahedralize : the same for surfaces
+    """
+    data, as_arrays = image_or_curves, False
+    if isinstance(data, (str, os.PathLike)):
+        data = read_image(data) if is_image_file(data) else read(data)
+    elif isinstance(data, np.ndarray):
+        data, as_arrays = to_image(data), True
+    elif not is_dataset(data):
+        data, as_arrays = to_curves(data), True
+    if not data.IsA("vtkImageData") and not data.IsA("vtkPolyData"):
+        raise InvalidInput(f"a {data.GetClassName()} is neither an image nor curves")
+    shaper = filters.vtkPlanarShape()
+    shaper.SetInputData(0, data)
+    if handles is not None:
+        shaper.SetInputData(1, to_handles(handles, data))
+    shaper.SetRectangle(bool(rectangle))
+    shaper.SetSimplify(simplify)
+    shaper.SetWindingThreshold(winding_threshold)
+    shaper.SetMinAngle(min_angle)
+    shaper.SetEdge(edge)
+    shaper.SetTimeLimit(time_limit)
+    shaper.SetMemoryLimit(memory_limit)
+    shaper.SetNumberOfThreads(threads)
+    report = run(shaper, progress)
+    result = shaper.GetOutput()
+    if not as_arrays:
+        return result
+    return PlanarShape(points_of(result), triangles_of(result), point_array(result, "TCoords"),
+                       point_array(result, "OriginalPointIds"), report)
 
 
 def _make_weights(method):

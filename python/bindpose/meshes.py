@@ -58,6 +58,29 @@ class Tets(NamedTuple):
     report: dict
 
 
+class PlanarShape(NamedTuple):
+    """A shape in the plane as arrays; ``vertices, triangles = result[:2]`` works.
+
+    Attributes
+    ----------
+    vertices : (#V, 3) array of float
+    triangles : (#F, 3) array of int
+        Vertex ids, counter-clockwise.
+    texture : (#V, 2) array of float
+        Texture coordinates: 0 to 1 over the image, or over the curves' bounds.
+    original_ids : (#V,) array of int
+        Point of the curves (or of the image's outline) that each vertex is, -1 for new ones.
+    report : dict
+        See `bindpose.report`.
+    """
+
+    vertices: np.ndarray
+    triangles: np.ndarray
+    texture: np.ndarray
+    original_ids: np.ndarray
+    report: dict
+
+
 def is_dataset(mesh):
     """A VTK dataset (PyVista's are), not arrays."""
     return isinstance(mesh, vtkDataObject)
@@ -113,6 +136,22 @@ def to_dataset(mesh):
     return data
 
 
+def to_curves(curves):
+    """Points #V x 2 (or x 3) and segments #E x 2 as a vtkPolyData of lines."""
+    try:
+        points, segments = np.asarray(curves[0], dtype=float), np.asarray(curves[1])
+    except (TypeError, ValueError, IndexError, KeyError):
+        raise InvalidInput("curves are a vtkPolyData or a pair of arrays (points, segments)") from None
+    if points.ndim == 2 and points.shape[1] == 2:
+        points = np.column_stack([points, np.zeros(len(points))])
+    if segments.ndim != 2 or segments.shape[1] != 2 or segments.dtype.kind not in "iu":
+        raise InvalidInput("segments are whole numbers, #E x 2")
+    data = vtkPolyData()
+    data.SetPoints(to_vtk_points(points))
+    data.SetLines(_to_cells(segments))
+    return data
+
+
 def is_tets(data):
     """Tets, by the first cell; filters look at the others."""
     return data.GetNumberOfCells() > 0 and data.GetCellType(0) == VTK_TETRA
@@ -121,6 +160,12 @@ def is_tets(data):
 def points_of(data):
     """(#V, 3) coordinates of a point set; a copy."""
     return np.array(numpy_support.vtk_to_numpy(data.GetPoints().GetData()), dtype=float)
+
+
+def triangles_of(data):
+    """(#F, 3) vertex ids of a polydata of triangles; a copy."""
+    connectivity = numpy_support.vtk_to_numpy(data.GetPolys().GetConnectivityArray())
+    return np.array(connectivity, dtype=np.int64).reshape(-1, 3)
 
 
 def tets_of(data):

@@ -4,7 +4,8 @@ import pytest
 from running import EXAMPLES, is_refused, numbers_of, script
 
 GALLERY = EXAMPLES / "gallery"
-NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "cost_of_a_point", "growth", "jump_and_harmonic", "open_crossing_flipped"]
+NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "cost_of_a_point", "cut_out_cartoon", "growth", "image_rectangle",
+         "jump_and_harmonic", "open_crossing_flipped"]
 
 
 def test_open_crossing_flipped(tmp_path):
@@ -87,6 +88,25 @@ def test_cost_of_a_point(tmp_path):
     assert numbers["elephant 89k, grid 64³, exact: Y"] < 5 < numbers["elephant with holes 4k, scattered, 1e-3: Y"] * 5 < 500
 
 
+def test_cut_out_cartoon(tmp_path):
+    numbers = numbers_of("gallery/cut_out_cartoon.py", tmp_path)
+    assert numbers["loops"] == 2  # the arm on the hip
+    assert numbers["smallest angle, degrees"] >= 30 - 1e-6
+    assert numbers["farthest from the drawing, pixels"] <= 1
+    assert numbers["area / area of the drawing"] == pytest.approx(1, abs=0.02)
+    assert numbers["unposed: largest difference from the picture, of 255"] <= 1
+    assert numbers["triangles turned over"] == 0
+
+
+def test_image_rectangle(tmp_path):
+    numbers = numbers_of("gallery/image_rectangle.py", tmp_path)
+    assert numbers["area / pixels"] == pytest.approx(1, abs=1e-12)
+    assert numbers["smallest angle, degrees"] >= 25
+    assert numbers["points that are no vertices"] == 0
+    assert numbers["unposed: largest difference from the picture, of 255"] <= 1
+    assert numbers["triangles turned over"] == 0
+
+
 def test_without_a_display_it_finds_one(tmp_path):
     numbers_of("gallery/jump_and_harmonic.py", tmp_path, environment={"DISPLAY": ""})
 
@@ -100,7 +120,7 @@ def test_what_is_wrong_is_one_sentence(tmp_path):
 
 def test_the_readme_has_them_all():
     text = (GALLERY / "README.md").read_text()
-    scripts = {path.stem for path in GALLERY.glob("*.py")} - {"charts", "common", "meshes", "refresh"}
+    scripts = {path.stem for path in GALLERY.glob("*.py")} - {"charts", "common", "meshes", "planar", "refresh"}
     assert scripts == set(NAMES)
     for name in [*NAMES, "inside_outside"]:
         assert f"](../pictures/{name}.png)" in text

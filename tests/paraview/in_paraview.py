@@ -15,7 +15,7 @@ from paraview.simple import *  # noqa: F403  LoadPlugin adds the plugin's functi
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 FILTERS = (
-    "WindingNumberField TetrahedralizeSurface FarthestPointHandles BoundedBiharmonicWeights MonotoneWeights "
+    "WindingNumberField PlanarShape TetrahedralizeSurface FarthestPointHandles BoundedBiharmonicWeights MonotoneWeights "
     "UnconstrainedWeights TransferWeights PoseHandles SkinningDeformation ReducedARAP"
 ).split()
 SOURCES = "BindposeMeshReader BindposeHandleReader".split()

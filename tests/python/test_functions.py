@@ -194,3 +194,80 @@ def test_not_converged_is_a_warning_with_a_result():
 def test_errors_are_exceptions(call, sentence):
     with pytest.raises(bindpose.InvalidInput, match=sentence):
         call()
+
+
+def area_of(vertices, triangles):
+    a, b, c = (vertices[triangles[:, k], :2] for k in range(3))
+    twice = np.cross(b - a, c - a)
+    assert (twice > 0).all()
+    return twice.sum() / 2
+
+
+def test_planar_shape_of_arrays():
+    square = [[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1], [1, 2], [2, 3]]
+    shape = bindpose.planar_shape(square, edge=0.1)
+    assert area_of(*shape[:2]) == pytest.approx(1, abs=1e-14)  # the gap is closed
+    assert shape.texture == pytest.approx(shape.vertices[:, :2])
+    assert list(shape.original_ids[:5]) == [0, 1, 2, 3, -1]
+    assert shape.report["min_angle"] >= 30 - 1e-9 and shape.report["domain"] == "curves"
+
+
+def test_planar_shape_of_images(tmp_path):
+    y, x = np.mgrid[:60, :80]
+    inside = np.hypot(x - 30.2, y - 20.7) < 15
+    shape = bindpose.planar_shape(inside)
+    assert area_of(*shape[:2]) == pytest.approx(np.pi * 225, rel=0.03)
+    middle = shape.vertices.mean(axis=0)  # rows count from the top, y from below
+    assert middle[:2] == pytest.approx([30.2, 59 - 20.7], abs=1)
+    assert shape.texture == pytest.approx((shape.vertices[:, :2] + 0.5) / [80, 60], abs=1e-12)
+    pixels = np.zeros((60, 80, 4), np.uint8)
+    pixels[..., 3] = 255 * inside
+    assert np.array_equal(bindpose.planar_shape(pixels).triangles, shape.triangles)
+    whole = bindpose.planar_shape(pixels, rectangle=True)
+    assert area_of(*whole[:2]) == pytest.approx(4800)
+    assert area_of(*bindpose.planar_shape(pixels[..., :3])[:2]) == pytest.approx(4800)
+
+
+def test_planar_shape_is_the_programs(tmp_path):
+    y, x = np.mgrid[:60, :80]
+    pixels = np.full((60, 80, 4), 200, np.uint8)
+    pixels[..., 3] = 255 * (np.hypot(x - 40, y - 30) < 25)
+    (tmp_path / "disc.png").write_bytes(shapes.png(80, 60, lambda x, y: pixels[y, x]))
+    program(tmp_path, "outline", "disc.png", "-o", "disc.vtp")
+    theirs = bindpose.read(tmp_path / "disc.vtp")
+    ours = bindpose.planar_shape(tmp_path / "disc.png")
+    assert isinstance(ours, vtkPolyData)
+    assert np.array_equal(points_of(theirs), points_of(ours))
+    assert np.array_equal(points_of(ours), bindpose.planar_shape(pixels).vertices)
+
+
+def test_planar_shape_with_handles_takes_weights():
+    handles = bindpose.handles(points=[[0.25, 0.5, 0]], bones=[[[0.5, 0.5, 0], [0.8, 0.6, 0]]])
+    square = [[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1], [1, 2], [2, 3], [3, 0]]
+    shape = bindpose.planar_shape(square, handles=handles, edge=0.05)
+    vertices = shape.report["handles"]
+    assert [handle["name"] for handle in vertices] == ["p1", "b1"]
+    assert shape.vertices[vertices[0]["vertex"]] == pytest.approx([0.25, 0.5, 0])
+    weights = bindpose.weights((shape.vertices, shape.triangles), handles, domain="surface")
+    assert weights[vertices[0]["vertex"]] == pytest.approx([1, 0], abs=1e-9)
+    assert weights[vertices[1]["vertex"]] == pytest.approx([0, 1], abs=1e-9)
+    assert weights.min() >= -1e-6 and weights.max() <= 1 + 1e-6
+
+
+@pytest.mark.parametrize("value, words", [
+    (np.zeros((5, 5)), "transparent"), (np.zeros((0, 5)), "no pixels"), (np.zeros(5), "an image is"),
+    (([[0, 0], [1, 1], [2, 2]], [[0, 1], [1, 2]]), "one line"), (([[0, 0]], [[0, 1, 2]]), "segments"),
+    ((3, 4), "segments"), ("nowhere.png", "no such file"), (vtkImageData(), "no pixels"), (vtkPolyData(), "no lines")])
+def test_planar_shape_refuses(value, words):
+    with pytest.raises(bindpose.InvalidInput, match=words):
+        bindpose.planar_shape(value)
+
+
+@pytest.mark.parametrize("ending", ["png", "jpg", "tif", "bmp"])
+def test_planar_shape_refuses_damaged_pictures(tmp_path, ending):
+    whole = shapes.png(80, 60, lambda x, y: (x, y, 0, 255))
+    for data in (b"", b"text", whole[:150], whole[:60] + b"x" + whole[61:]):
+        path = tmp_path / f"broken.{ending}"
+        path.write_bytes(data)
+        with pytest.raises(bindpose.InvalidInput, match=path.name):
+            bindpose.planar_shape(path)

@@ -10,6 +10,7 @@ class Session;
 void run_info(Session& session);
 void run_winding(Session& session);
 void run_tetrahedralize(Session& session);
+void run_outline(Session& session);
 void run_weights(Session& session);
 void run_deform(Session& session);
 void run_render(Session& session);

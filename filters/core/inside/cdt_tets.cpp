@@ -89,7 +89,7 @@ Status CdtTets::build(double seconds)
   {
     const Phase phase(this->context_, "tetgen", 0.0, 0.6);
     this->original_ = this->surface_.original_vertices;
-    const MesherData data{ this->surface_.points, this->surface_.triangles, {}, {}, {} };
+    const MesherData data{ this->surface_.points, this->surface_.triangles, {}, {}, {}, {} };
     status = this->try_tetgen("tetgen", data, "pYA", false);
     if (status.ok() || this->final(status))
     {
@@ -240,7 +240,7 @@ Status CdtTets::refine(const Move& move, MesherData& refined)
   {
     this->original_ = moved.original_vertices;
     MesherAnswer answer;
-    const MesherData input{ moved.points, moved.triangles, {}, {}, {} };
+    const MesherData input{ moved.points, moved.triangles, {}, {}, {}, {} };
     status = this->run_job({ "refine" }, input, 25.0, answer);
     refined = std::move(answer.data);
     if (status.ok() && refined.triangles.rows() == 0)
@@ -431,7 +431,7 @@ Status CdtTets::complete()
 /// way of small tets.
 Status CdtTets::fill()
 {
-  const MesherData coarse{ this->mesh_.points, {}, this->mesh_.tets, {}, {} };
+  const MesherData coarse{ this->mesh_.points, {}, this->mesh_.tets, {}, {}, {} };
   const std::string size = this->options_.interior_edge > 0.0 ? "a" : "";
   const std::string good =
     this->options_.quality > 0.0 ? "q" + short_number(this->options_.quality) + "/10" : "";

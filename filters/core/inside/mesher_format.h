@@ -2,6 +2,7 @@
 #define bindpose_inside_mesher_format_h
 
 #include "base/mesh.h"
+#include "winding/curve_winding_number.h"
 
 #include <vector>
 
@@ -17,6 +18,7 @@ struct MesherData
   Tets tets; ///< #T x 4
   std::vector<Index> regions; ///< #T or none: equal for tets that no triangle separates
   std::vector<double> largest_volumes; ///< #T or none: bound on a tet's volume, <= 0 for none
+  Segments segments; ///< #E x 2: curves in the plane z = 0
 };
 
 /// Writes the record to a file descriptor. @return false when not all could be written (disk full).

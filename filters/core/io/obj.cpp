@@ -1,4 +1,5 @@
-// OBJ: "v x y z" and "f a b c …", ids from 1, each corner "a", "a/t", "a//n" or "a/t/n".
+// OBJ: "v x y z" and "f a b c …", ids from 1, each corner "a", "a/t", "a//n" or "a/t/n". Lines
+// "l a b …" count where there is no face.
 #include "io/obj.h"
 
 #include "io/text_scanner.h"
@@ -23,9 +24,11 @@ Status read_vertex(TextScanner& scanner, std::vector<Vec3>& points)
   return {};
 }
 
-Status read_face(TextScanner& scanner, Index vertices, PolygonMesh& mesh)
+/// A face with three corners or more, or a line with two vertices or more.
+Status read_entry(TextScanner& scanner, Index vertices, const std::string& what, std::size_t fewest,
+  std::vector<Index>& corners, std::vector<Index>& offsets, Index& skipped)
 {
-  const std::size_t begin = mesh.corners.size();
+  const std::size_t begin = corners.size();
   std::string_view word;
   while (scanner.next_word(word))
   {
@@ -33,22 +36,38 @@ Status read_face(TextScanner& scanner, Index vertices, PolygonMesh& mesh)
     Index id = 0;
     if (!parse_index(number, id))
     {
-      return scanner.error("a vertex id of a face is expected");
+      return scanner.error("a vertex id of a " + what + " is expected");
     }
     const Index vertex = id < 0 ? vertices + id : id - 1;
     if (id == 0 || vertex < 0)
     {
-      return scanner.error("a face names vertex " + std::to_string(id) + ", which does not exist");
+      return scanner.error(
+        "a " + what + " names vertex " + std::to_string(id) + ", which does not exist");
     }
-    mesh.corners.push_back(vertex);
+    corners.push_back(vertex);
   }
-  if (mesh.corners.size() < begin + 3)
+  if (corners.size() < begin + fewest)
   {
-    mesh.corners.resize(begin);
-    mesh.skipped += 1;
+    corners.resize(begin);
+    skipped += 1;
     return {};
   }
-  mesh.end_polygon();
+  offsets.push_back(static_cast<Index>(corners.size()));
+  return {};
+}
+
+/// Ids may come before their vertices: they are compared with the final number.
+Status check_entries(
+  const std::string& path, const std::string& what, const std::vector<Index>& corners, Index count)
+{
+  for (const Index vertex : corners)
+  {
+    if (vertex >= count)
+    {
+      return Status::invalid_input(path + ": a " + what + " names vertex " +
+        std::to_string(vertex + 1) + ", but there are " + std::to_string(count) + " vertices");
+    }
+  }
   return {};
 }
 } // namespace
@@ -74,23 +93,34 @@ Status read_obj(const std::string& path, PolygonMesh& mesh)
     }
     else if (word == "f")
     {
-      status = read_face(scanner, static_cast<Index>(points.size()), mesh);
+      status = read_entry(scanner, static_cast<Index>(points.size()), "face", 3, mesh.corners,
+        mesh.offsets, mesh.skipped);
+    }
+    else if (word == "l")
+    {
+      Index skipped = 0;
+      status = read_entry(scanner, static_cast<Index>(points.size()), "line", 2, mesh.line_corners,
+        mesh.line_offsets, skipped);
     }
   }
-  if (status.ok() && (points.empty() || mesh.polygon_count() == 0))
+  if (mesh.polygon_count() > 0)
+  {
+    mesh.line_corners.clear();
+    mesh.line_offsets.resize(1);
+  }
+  const auto count = static_cast<Index>(points.size());
+  if (status.ok() && (count == 0 || mesh.polygon_count() + mesh.line_count() == 0))
   {
     status = Status::invalid_input(path + " is not a usable OBJ file: it has " +
-      std::to_string(points.size()) + " vertices and " + std::to_string(mesh.polygon_count()) +
-      " faces");
+      std::to_string(count) + " vertices and " + std::to_string(mesh.polygon_count()) + " faces");
   }
-  // Faces may come before their vertices: ids are compared with the final number.
-  for (const Index vertex : mesh.corners)
+  if (status.ok())
   {
-    if (status.ok() && vertex >= static_cast<Index>(points.size()))
-    {
-      status = Status::invalid_input(path + ": a face names vertex " + std::to_string(vertex + 1) +
-        ", but there are " + std::to_string(points.size()) + " vertices");
-    }
+    status = check_entries(path, "face", mesh.corners, count);
+  }
+  if (status.ok())
+  {
+    status = check_entries(path, "line", mesh.line_corners, count);
   }
   if (!status.ok())
   {

@@ -12,10 +12,15 @@ struct PolygonMesh
   Points points;
   std::vector<Index> offsets{ 0 };
   std::vector<Index> corners; ///< vertex ids
+  /// Polylines: line l has the vertices line_corners[line_offsets[l], line_offsets[l + 1]). Only of
+  /// OBJ files without a face, which are curves.
+  std::vector<Index> line_offsets{ 0 };
+  std::vector<Index> line_corners;
   /// Entries of the file with fewer than three corners, which are left out.
   Index skipped = 0;
 
   Index polygon_count() const { return static_cast<Index>(this->offsets.size()) - 1; }
+  Index line_count() const { return static_cast<Index>(this->line_offsets.size()) - 1; }
   void end_polygon() { this->offsets.push_back(static_cast<Index>(this->corners.size())); }
 };
 

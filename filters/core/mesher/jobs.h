@@ -26,6 +26,31 @@ struct RefineOptions
 /// @return empty, or why it gave up.
 std::string refine(MesherData& data, const RefineOptions& options);
 
+/// Splits segments where they meet each other or a point (z is ignored), exactly, and triangulates
+/// the convex hull of all points with the pieces as edges. Input points keep their ids, new ones
+/// come behind; of equal points the first one is used. Triangles are counter-clockwise; none when
+/// all points lie on one line. Reports rounds.
+/// With a grid above 0 (a power of two, to which the points are rounded already) new points are
+/// rounded to it, and edges go through the points that they pass at less than half of it: nothing
+/// finer is left.
+/// @return empty, or why it gave up.
+std::string arrange(MesherData& data, double grid = 0.0);
+
+struct FillOptions
+{
+  double min_angle = 30.0; ///< degrees
+  double longest_edge = 0.0; ///< 0: no bound
+  double time_limit = 120.0; ///< seconds after which it refines no further
+};
+
+/// Quality triangles of the region that triangles of arrange() cover, by Delaunay refinement: their
+/// outline and the segments, which must be edges of them, stay edges, split where need be. Points
+/// keep their ids, new ones come behind. Where the angles cannot be had with a reasonable number of
+/// points, it is tried again with 20.6 degrees. Reports min_angle (the bound that was used),
+/// stopped (1: the bounds do not hold everywhere).
+/// @return empty, or why it gave up.
+std::string fill_plane(MesherData& data, const FillOptions& options);
+
 /// The tets of the Delaunay triangulation of all points; facets are not constraints.
 std::string delaunay(MesherData& data);
 

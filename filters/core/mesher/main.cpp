@@ -80,7 +80,19 @@ std::string run(const std::string& job, const std::map<std::string, std::string>
   {
     return bindpose::delaunay(data);
   }
-  return "unknown job '" + job + "' (refine, tetgen or delaunay)";
+  if (job == "arrange")
+  {
+    return bindpose::arrange(data, number(options, "--grid", 0.0));
+  }
+  if (job == "fill-plane")
+  {
+    bindpose::FillOptions fill;
+    fill.min_angle = number(options, "--min-angle", fill.min_angle);
+    fill.longest_edge = number(options, "--edge", fill.longest_edge);
+    fill.time_limit = number(options, "--time", fill.time_limit);
+    return bindpose::fill_plane(data, fill);
+  }
+  return "unknown job '" + job + "' (refine, tetgen, delaunay, arrange or fill-plane)";
 }
 } // namespace
 

@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""A cut-out cartoon bends as what it shows, not as the rectangle around it.
+
+A picture with alpha, drawn by code, becomes a mesh of its opaque part: outline, holes and all, with every bone
+a row of edges. Weights and a pose then carry the picture along. Left the picture; in the middle the mesh and its
+bones; right the posed mesh with the picture as its texture.
+
+Numbers: how far the mesh's outline is from what was drawn, in pixels; its smallest angle; the seconds of outline
+and mesh; the largest difference from the picture of the
+unposed mesh drawn pixel on pixel; triangles that the pose turns over.
+"""
+
+import time
+
+import common
+import bindpose
+import numpy as np
+
+import planar
+
+POSE = {"arm": 18, "hand": 30, "head": -14, "other arm": 0, "left leg": -12, "right leg": 16, "tail": -8, "tip": -55}
+
+
+def farthest_from_drawing(points, edges, size):
+    """Largest distance of the outline from where the drawing's distance function is 0, in pixels."""
+    share = np.linspace(0, 1, 9)[:, None, None]
+    along = ((1 - share) * points[edges[:, 0]] + share * points[edges[:, 1]]).reshape(-1, 2)
+    x, y = ((along + 0.5) / size).T
+    return float(np.abs(planar.cat_distance(x, y)).max() * size)
+
+
+def make(options):
+    size = 256 if options.small else 1024
+    pixels = planar.cat(size)
+    handles = planar.bones_of(size)
+    picture = planar.write_png(pixels, options.scratch / "cat.png")
+    start = time.perf_counter()
+    cut_out = bindpose.planar_shape(picture, handles=handles)
+    seconds = time.perf_counter() - start
+    report = bindpose.report(cut_out)
+    triangles, points = planar.triangles_of(cut_out), planar.points_of(cut_out)
+    outline = planar.outline_of(triangles)
+
+    weighted = bindpose.weights(cut_out, handles, domain="surface")
+    turned = {name: {"rotate": {"axis": [0, 0, 1], "degrees": degrees}} for name, degrees in POSE.items()}
+    # The hand goes where its arm goes, the tip where the tail goes.
+    for child, parent in (("hand", "arm"), ("tip", "tail")):
+        at, joint = (np.array([x, y]) * size - 0.5 for x, y in (planar.BONES[child][0], planar.BONES[parent][0]))
+        angle = np.radians(POSE[parent])
+        spin = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+        turned[child]["translate"] = [*(joint + spin @ (at - joint) - at), 0.0]
+        turned[child]["rotate"]["degrees"] += POSE[parent]
+    posed = bindpose.deform(weighted, handles, {"handles": turned})
+
+    texture = planar.to_texture(pixels)
+    alpha = pixels[..., 3:] / 255
+    on_paper = np.rint(pixels[..., :3] * alpha + planar.paper(size) * (1 - alpha)).astype(np.uint8)
+    whole = bindpose.planar_shape(picture, rectangle=True, edge=0, min_angle=0)
+    box = (-0.06 * size, 1.06 * size, -0.03 * size, 1.03 * size)
+    window = planar.show([
+        ("a picture with alpha", [planar.textured(whole, planar.to_texture(on_paper))]),
+        (f"its mesh: {len(triangles)} triangles, angles from {report['min_angle']:.0f}°",
+         [planar.textured(cut_out, texture), planar.wires(cut_out), *planar.handle_actors(handles, 0.011 * size)]),
+        ("posed", [planar.textured(posed, texture)])], box, title="A cut-out bends as what it shows")
+    common.write_picture(window, options.picture)
+    x, y = planar.pixel_centers(size)
+    return {
+        "pixels": pixels.shape[0] * pixels.shape[1],
+        "outline points": report["counts"]["outline_points"],
+        "loops": report["counts"]["loops"],
+        "triangles": len(triangles),
+        "smallest angle, degrees": report["min_angle"],
+        "farthest from the drawing, pixels": farthest_from_drawing(points, outline, size),
+        "area / area of the drawing": report["area"] / float((planar.cat_distance(x, y) < 0).sum()),
+        "outline and mesh, seconds": seconds,
+        "unposed: largest difference from the picture, of 255": planar.difference(cut_out, pixels, planar.cat_distance(x, y) < -2 / size),
+        "triangles turned over": int((planar.signed_areas(planar.points_of(posed), triangles) <= 0).sum()),
+    }
+
+
+if __name__ == "__main__":
+    common.main(__file__, __doc__, make)

@@ -1,0 +1,461 @@
+// Curves in the plane: exact arrangement, and quality triangles of a region.
+//
+// Arrangement: all points and segments go into a constrained Delaunay triangulation with exact
+// coordinates, which splits segments wherever they cross, overlap or meet a point. New vertices are
+// rounded to doubles; rounding bends the pieces by an ulp and may let them cross anew, so the
+// pieces are inserted again until nothing new appears. Curves that almost touch leave gaps that
+// refinement cannot work with; then points are rounded to a coarser grid and edges bent to the
+// points they pass (snap rounding: Hobby; Guibas and Marimont), by the same rounds.
+//
+// Filling: Delaunay refinement (Ruppert, Shewchuk; CGAL's Delaunay_mesher_2), step by step under a
+// limit of points. Angles up to 20.6 degrees can always be had, but for those that the outline has
+// itself; 30 degrees mostly can.
+#include "mesher/jobs.h"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_mesh_face_base_2.h>
+#include <CGAL/Delaunay_mesh_size_criteria_2.h>
+#include <CGAL/Delaunay_mesh_vertex_base_2.h>
+#include <CGAL/Delaunay_mesher_2.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace bindpose
+{
+
+namespace
+{
+using Exact = CGAL::Exact_predicates_exact_constructions_kernel;
+using Inexact = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Pair = std::pair<Index, Index>;
+using Pairs = std::set<Pair>; // unordered edges: the lower id first
+using Coordinates = std::array<double, 2>;
+
+/// An id for a vertex that has none yet: the value that a default-made one has is no id.
+struct VertexId
+{
+  Index value = -1;
+};
+
+using ExactVertex = CGAL::Triangulation_vertex_base_with_info_2<VertexId, Exact>;
+using ExactFace = CGAL::Constrained_triangulation_face_base_2<Exact>;
+using Arrangement = CGAL::Constrained_Delaunay_triangulation_2<Exact,
+  CGAL::Triangulation_data_structure_2<ExactVertex, ExactFace>, CGAL::Exact_intersections_tag>;
+
+struct Plane
+{
+  std::vector<Coordinates> points;
+  std::map<Coordinates, Index> ids; // of all points, by coordinates; the first of equal ones
+
+  Index add(const Coordinates& p)
+  {
+    const auto [entry, fresh] = this->ids.emplace(p, static_cast<Index>(this->points.size()));
+    if (fresh)
+    {
+      this->points.push_back(p);
+    }
+    return entry->second;
+  }
+};
+
+Pair edge_of(Index a, Index b)
+{
+  return { std::min(a, b), std::max(a, b) };
+}
+
+/// The exact value's rounding; an interval around it would depend on how it was computed.
+double rounded(const Exact::FT& x)
+{
+  return CGAL::to_double(CGAL::exact(x));
+}
+
+/// The nearest point of the grid, if there is one.
+double snapped(double x, double grid)
+{
+  return grid > 0.0 ? std::round(x / grid) * grid : x;
+}
+
+/// Leads edges through vertices that they pass at less than half of the grid. @return whether any.
+bool bend(const Arrangement& arrangement, const Plane& plane, double grid, Pairs& edges)
+{
+  bool any = false;
+  for (auto f = arrangement.finite_faces_begin(); f != arrangement.finite_faces_end(); ++f)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index a = f->vertex(Arrangement::ccw(k))->info().value;
+      const Index b = f->vertex(Arrangement::cw(k))->info().value;
+      const Index v = f->vertex(k)->info().value;
+      const auto edge = edges.find(edge_of(a, b));
+      if (edge == edges.end() || v == a || v == b)
+      {
+        continue;
+      }
+      const auto difference = [&](Index from, Index to)
+      {
+        return Coordinates{ plane.points[to][0] - plane.points[from][0],
+          plane.points[to][1] - plane.points[from][1] };
+      };
+      const Coordinates along = difference(a, b);
+      const Coordinates to_v = difference(a, v);
+      const double length = std::hypot(along[0], along[1]);
+      const double way = (along[0] * to_v[0] + along[1] * to_v[1]) / length;
+      const double beside = std::abs(along[0] * to_v[1] - along[1] * to_v[0]) / length;
+      if (beside < 0.5 * grid && way > 0.0 && way < length)
+      {
+        edges.erase(edge);
+        edges.insert(edge_of(a, v));
+        edges.insert(edge_of(v, b));
+        any = true;
+      }
+    }
+  }
+  return any;
+}
+
+/// Inserts points and edges. @return empty, or why it gave up.
+std::string insert(const Plane& plane, const Pairs& edges, Arrangement& arrangement)
+{
+  std::vector<std::pair<Exact::Point_2, VertexId>> points;
+  points.reserve(plane.ids.size());
+  for (const auto& [p, id] : plane.ids)
+  {
+    points.emplace_back(Exact::Point_2(p[0], p[1]), VertexId{ id });
+  }
+  arrangement.insert(points.begin(), points.end());
+  std::vector<Arrangement::Vertex_handle> vertices(plane.points.size());
+  for (auto v = arrangement.finite_vertices_begin(); v != arrangement.finite_vertices_end(); ++v)
+  {
+    vertices[v->info().value] = v;
+  }
+  constexpr std::size_t growth = 20;
+  constexpr std::size_t many = 2000000;
+  const std::size_t limit = growth * vertices.size() + many;
+  std::size_t done = 0;
+  for (const auto& [a, b] : edges)
+  {
+    arrangement.insert_constraint(vertices[a], vertices[b]);
+    if (arrangement.number_of_vertices() > limit)
+    {
+      return "the curves cross in more than " + std::to_string(limit) + " points";
+    }
+    constexpr std::size_t often = 4096;
+    if (++done % often == 0)
+    {
+      tell_progress(0.5 * static_cast<double>(done) / static_cast<double>(edges.size()));
+    }
+  }
+  return {};
+}
+
+using FillVertex = CGAL::Delaunay_mesh_vertex_base_2<Inexact,
+  CGAL::Triangulation_vertex_base_with_info_2<VertexId, Inexact>>;
+using FillFace = CGAL::Delaunay_mesh_face_base_2<Inexact>;
+using Filling = CGAL::Constrained_Delaunay_triangulation_2<Inexact,
+  CGAL::Triangulation_data_structure_2<FillVertex, FillFace>, CGAL::Exact_predicates_tag>;
+using Criteria = CGAL::Delaunay_mesh_size_criteria_2<Filling>;
+
+/// The region as a triangulation whose faces know whether they are inside.
+std::string build(const MesherData& data, Filling& filling)
+{
+  // Sides of triangles that no neighbour has, as they run: inside is to their left.
+  std::set<Pair> outline;
+  std::set<Index> used;
+  for (Index t = 0; t < data.triangles.rows(); ++t)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index a = data.triangles(t, k);
+      const Index b = data.triangles(t, (k + 1) % 3);
+      used.insert(a);
+      if (outline.erase({ b, a }) == 0)
+      {
+        outline.insert({ a, b });
+      }
+    }
+  }
+  std::vector<std::pair<Inexact::Point_2, VertexId>> points;
+  for (const Index v : used)
+  {
+    points.emplace_back(Inexact::Point_2(data.points(v, 0), data.points(v, 1)), VertexId{ v });
+  }
+  filling.insert(points.begin(), points.end());
+  std::map<Index, Filling::Vertex_handle> vertices;
+  for (auto v = filling.finite_vertices_begin(); v != filling.finite_vertices_end(); ++v)
+  {
+    vertices[v->info().value] = v;
+  }
+  for (const auto& [a, b] : outline)
+  {
+    filling.insert_constraint(vertices.at(a), vertices.at(b));
+  }
+  for (Index e = 0; e < data.segments.rows(); ++e)
+  {
+    filling.insert_constraint(vertices.at(data.segments(e, 0)), vertices.at(data.segments(e, 1)));
+  }
+  if (filling.number_of_vertices() != used.size())
+  {
+    return "the region's edges cross";
+  }
+  for (auto f = filling.all_faces_begin(); f != filling.all_faces_end(); ++f)
+  {
+    f->set_in_domain(false);
+  }
+  std::vector<Filling::Face_handle> front;
+  const auto enter = [&](Filling::Face_handle face)
+  {
+    if (!face->is_in_domain() && !filling.is_infinite(face))
+    {
+      face->set_in_domain(true);
+      front.push_back(face);
+    }
+  };
+  for (const auto& [a, b] : outline)
+  {
+    Filling::Face_handle face;
+    int side = 0;
+    if (!filling.is_edge(vertices.at(a), vertices.at(b), face, side))
+    {
+      return "the region's outline is no set of edges";
+    }
+    const bool left = face->vertex(Filling::ccw(side))->info().value == a;
+    enter(left ? face : face->neighbor(side));
+  }
+  while (!front.empty())
+  {
+    const Filling::Face_handle face = front.back();
+    front.pop_back();
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index a = face->vertex(Filling::ccw(k))->info().value;
+      const Index b = face->vertex(Filling::cw(k))->info().value;
+      if (outline.count({ a, b }) == 0)
+      {
+        enter(face->neighbor(k));
+      }
+    }
+  }
+  return {};
+}
+
+class Clock
+{
+public:
+  double seconds() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->start_).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+double area_of(const MesherData& data)
+{
+  double twice = 0.0;
+  for (Index t = 0; t < data.triangles.rows(); ++t)
+  {
+    const auto corner = [&](int k) { return data.points.row(data.triangles(t, k)); };
+    twice += (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm();
+  }
+  return 0.5 * twice;
+}
+
+/// @return whether the bounds hold everywhere, with no more vertices than the limit.
+bool refine(Filling& filling, double min_angle, const FillOptions& options, std::size_t limit,
+  const Clock& clock)
+{
+  const double sine = std::sin(min_angle * M_PI / 180.0);
+  const Criteria criteria(sine * sine, options.longest_edge);
+  CGAL::Delaunay_mesher_2<Filling, Criteria> mesher(filling, criteria);
+  mesher.init(true);
+  std::size_t steps = 0;
+  while (!mesher.is_refinement_done())
+  {
+    mesher.step_by_step_refine_mesh();
+    constexpr std::size_t often = 1024;
+    if (++steps % often == 0)
+    {
+      const auto vertices = static_cast<double>(filling.number_of_vertices());
+      tell_progress(std::min(vertices / static_cast<double>(limit), 1.0));
+      if (filling.number_of_vertices() > limit || clock.seconds() > options.time_limit)
+      {
+        return false;
+      }
+    }
+  }
+  return true;
+}
+
+void collect(const Filling& filling, MesherData& data)
+{
+  std::vector<Inexact::Point_2> fresh;
+  std::map<Filling::Vertex_handle, Index> ids;
+  std::vector<std::array<Index, 3>> triangles;
+  for (auto f = filling.finite_faces_begin(); f != filling.finite_faces_end(); ++f)
+  {
+    if (!f->is_in_domain())
+    {
+      continue;
+    }
+    std::array<Index, 3> triangle{};
+    for (int k = 0; k < 3; ++k)
+    {
+      const Filling::Vertex_handle v = f->vertex(k);
+      triangle[k] = v->info().value;
+      if (triangle[k] < 0)
+      {
+        const Index next = data.points.rows() + static_cast<Index>(fresh.size());
+        const auto [entry, is_new] = ids.emplace(v, next);
+        if (is_new)
+        {
+          fresh.push_back(v->point());
+        }
+        triangle[k] = entry->second;
+      }
+    }
+    triangles.push_back(triangle);
+  }
+  const Index old = data.points.rows();
+  data.points.conservativeResize(old + static_cast<Index>(fresh.size()), 3);
+  for (std::size_t k = 0; k < fresh.size(); ++k)
+  {
+    data.points.row(old + static_cast<Index>(k)) << fresh[k].x(), fresh[k].y(), 0.0;
+  }
+  data.triangles.resize(static_cast<Index>(triangles.size()), 3);
+  for (Index t = 0; t < data.triangles.rows(); ++t)
+  {
+    data.triangles.row(t) << triangles[t][0], triangles[t][1], triangles[t][2];
+  }
+  data.segments.resize(0, 2);
+}
+} // namespace
+
+std::string arrange(MesherData& data, double grid)
+{
+  Plane plane;
+  for (Index v = 0; v < data.points.rows(); ++v)
+  {
+    plane.points.push_back({ data.points(v, 0), data.points(v, 1) });
+    plane.ids.emplace(plane.points.back(), v);
+  }
+  Pairs edges;
+  for (Index e = 0; e < data.segments.rows(); ++e)
+  {
+    const Index a = plane.ids.at(plane.points[data.segments(e, 0)]);
+    const Index b = plane.ids.at(plane.points[data.segments(e, 1)]);
+    if (a != b)
+    {
+      edges.insert(edge_of(a, b));
+    }
+  }
+  constexpr int round_limit = 30;
+  for (int round = 1;; ++round)
+  {
+    Arrangement arrangement;
+    std::string error = insert(plane, edges, arrangement);
+    if (!error.empty())
+    {
+      return error;
+    }
+    bool fresh = false;
+    for (auto v = arrangement.finite_vertices_begin(); v != arrangement.finite_vertices_end(); ++v)
+    {
+      if (v->info().value < 0)
+      {
+        v->info().value = plane.add(
+          { snapped(rounded(v->point().x()), grid), snapped(rounded(v->point().y()), grid) });
+        fresh = true;
+      }
+    }
+    edges.clear();
+    for (auto e = arrangement.constrained_edges_begin(); e != arrangement.constrained_edges_end();
+         ++e)
+    {
+      const Index a = e->first->vertex(Arrangement::ccw(e->second))->info().value;
+      const Index b = e->first->vertex(Arrangement::cw(e->second))->info().value;
+      if (a != b) // rounding may bring both ends together
+      {
+        edges.insert(edge_of(a, b));
+      }
+    }
+    fresh = (grid > 0.0 && bend(arrangement, plane, grid, edges)) || fresh;
+    if (!fresh)
+    {
+      tell_report("rounds", round);
+      data.triangles.resize(static_cast<Index>(arrangement.number_of_faces()), 3);
+      Index t = 0;
+      for (auto f = arrangement.finite_faces_begin(); f != arrangement.finite_faces_end(); ++f, ++t)
+      {
+        for (int k = 0; k < 3; ++k)
+        {
+          data.triangles(t, k) = f->vertex(k)->info().value;
+        }
+      }
+      data.triangles.conservativeResize(t, 3);
+      break;
+    }
+    if (round == round_limit)
+    {
+      return "curves still cross after " + std::to_string(round) + " rounds of splitting";
+    }
+  }
+  data.points.resize(static_cast<Index>(plane.points.size()), 3);
+  for (Index v = 0; v < data.points.rows(); ++v)
+  {
+    data.points.row(v) << plane.points[v][0], plane.points[v][1], 0.0;
+  }
+  data.segments.resize(static_cast<Index>(edges.size()), 2);
+  Index e = 0;
+  for (const auto& [a, b] : edges)
+  {
+    data.segments.row(e++) << a, b;
+  }
+  return {};
+}
+
+std::string fill_plane(MesherData& data, const FillOptions& options)
+{
+  const Clock clock;
+  // An equilateral triangle with half the longest edge is smaller than what refinement leaves.
+  const double triangles = options.longest_edge > 0.0
+    ? area_of(data) / (0.4 * 0.25 * options.longest_edge * options.longest_edge)
+    : 0.0;
+  constexpr double many = 20000.0;
+  constexpr double growth = 30.0;
+  const auto limit =
+    static_cast<std::size_t>(many + triangles + growth * static_cast<double>(data.points.rows()));
+  constexpr double always = 20.6; // degrees
+  Filling filling;
+  double angle = options.min_angle;
+  bool done = false;
+  for (;;)
+  {
+    std::string error = build(data, filling);
+    if (!error.empty())
+    {
+      return error;
+    }
+    done = refine(filling, angle, options, limit, clock);
+    if (done || angle <= always || clock.seconds() > options.time_limit)
+    {
+      break;
+    }
+    angle = always;
+    filling.clear();
+  }
+  collect(filling, data);
+  tell_report("min_angle", angle);
+  tell_report("stopped", done ? 0.0 : 1.0);
+  return {};
+}
+
+} // namespace bindpose

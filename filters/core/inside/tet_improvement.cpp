@@ -343,8 +343,8 @@ private:
     const Vec3 p = this->point(a), q = this->point(b);
     const Vec3 one = (q - p).cross(this->point(first) - p);
     const Vec3 other = (this->point(last) - p).cross(q - p);
-    const Vec3 new_one = (this->point(last) - this->point(first)).cross(p - this->point(first));
-    const Vec3 new_other = (q - this->point(first)).cross(this->point(last) - this->point(first));
+    const Vec3 new_one = (p - this->point(first)).cross(this->point(last) - this->point(first));
+    const Vec3 new_other = (this->point(last) - this->point(first)).cross(q - this->point(first));
     const auto flat = [](const Vec3& x, const Vec3& y)
     { return x.dot(y) > flat_cosine * x.norm() * y.norm(); };
     if (!flat(one, other) || !flat(new_one, new_other) || !flat(one, new_one))

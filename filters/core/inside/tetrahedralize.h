@@ -14,7 +14,7 @@ enum class TetMethod
 {
   automatic, ///< cdt, then remesh
   cdt, ///< constrained Delaunay tets of the convex hull, kept where the surface winds around them
-  remesh, ///< lattice tets cut at the isosurface of the winding number
+  remesh, ///< well-shaped tets of the winding number's field, graded
   embed ///< lattice tets that hold the surface
 };
 
@@ -27,7 +27,8 @@ struct TetrahedralizeOptions
   /// Inside is where the winding number is at least this. 0.5 is half way through the surface;
   /// up to 0.9 pulls the lid of an opening inwards, 1.5 keeps what is enclosed twice.
   double winding_threshold = 0.5;
-  /// Lattice cubes along the longest side (remesh, embed), 4 … 1000. Tets grow with its cube.
+  /// Lattice cubes along the longest side (remesh, embed), 4 … 1000. Tets grow with its cube; those
+  /// of remesh have edges from 0.2 to 1.4 cubes.
   Index resolution = 40;
   double time_limit = 120.0; ///< seconds for all of the helper's work, > 0
   Index memory_limit = 0; ///< MiB of address space for the helper process, 0: no limit
@@ -52,7 +53,10 @@ struct TetrahedralizeResult
 ///
 /// - **cdt** keeps the input's vertices and triangles, cut where triangles cross. Clean surfaces go
 ///   to TetGen as they are. The work is done by the helper executable bindpose-mesher.
-/// - **remesh** keeps neither, but has good angles and always ends; parts thinner than a lattice
+/// - **remesh** has good angles. Delaunay refinement by the helper grades edges by the surface's own
+///   and keeps its vertices where they are not too near to each other, not its triangles
+///   (remesh_tets.h). Without the helper, or when it fails, runs out of time or the volume does not
+///   fit, a lattice is cut, which always ends: it keeps no vertex, and parts thinner than a lattice
 ///   cube are lost.
 /// - **embed** is not the inside but a lattice around it; every point of the surface is in a tet.
 ///
@@ -61,7 +65,8 @@ struct TetrahedralizeResult
 /// Report: method; rungs[].name, rungs[].seconds, rungs[].outcome (each thing tried, and why it was
 /// left); counts.* of the diagnosis; counts.tets, counts.tet_vertices, counts.kept_vertices;
 /// volume (of the tets), winding_volume (of {w >= threshold}: exact for clean surfaces, sampled
-/// otherwise), min_dihedral_angle (degrees), counts.tets_below_5_degrees.
+/// otherwise), min_dihedral_angle (degrees), counts.tets_below_5_degrees; for remesh by refinement
+/// distance_max and distance_mean (of the tets' boundary and the surface, percent of its diagonal).
 ///
 /// invalid_input: not finite, flat, or encloses nothing. unavailable: method cdt without helper.
 /// internal_error: no method gave a valid mesh; the message tells the last reason.

@@ -301,6 +301,22 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
     constexpr double sparse = 1.0;
     start.insert(sites.points.row(i), sparse);
   }
+  // Where the surface is open, all of it that bounds the inside may lie in one plane.
+  std::vector<std::pair<Kernel::Point_3, Domain::Index>> more;
+  constexpr int some = 100;
+  if (complex.triangulation().dimension() < 3)
+  {
+    domain.construct_initial_points_object()(std::back_inserter(more), some);
+  }
+  for (const auto& [p, index] : more)
+  {
+    constexpr double anywhere = 0.0;
+    start.insert(to_vec3(p), anywhere);
+  }
+  if (complex.triangulation().dimension() < 3)
+  {
+    return "the boundary of the inside is flat";
+  }
   tell_report("seconds.start", seconds());
 
   CGAL::refine_mesh_3(complex, domain, Criteria(field), CGAL::parameters::no_reset_c3t3(),

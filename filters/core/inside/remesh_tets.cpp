@@ -25,6 +25,13 @@ std::string exact_number(double x)
   return text.str();
 }
 
+std::string short_number(double x)
+{
+  std::ostringstream text;
+  text << x;
+  return text.str();
+}
+
 Status check_input(PointsView points, TrianglesView triangles, const RemeshOptions& options)
 {
   Status status = check_mesh(points, triangles);
@@ -34,9 +41,8 @@ Status check_input(PointsView points, TrianglesView triangles, const RemeshOptio
   }
   const auto bad = [](const char* name, const char* range, double value)
   {
-    std::ostringstream text;
-    text << name << " must be " << range << ", not " << value;
-    return Status::invalid_input(text.str());
+    return Status::invalid_input(
+      std::string(name) + " must be " + range + ", not " + short_number(value));
   };
   constexpr double least = 1e-4;
   if (!(options.winding_threshold > 0.0) || !std::isfinite(options.winding_threshold))
@@ -173,8 +179,7 @@ Status remesh_tets(PointsView points, TrianglesView triangles, const WindingNumb
   MesherRequest request;
   request.arguments = { "remesh", "--threshold", exact_number(options.winding_threshold),
     "--smallest", exact_number(options.smallest_edge * diagonal), "--largest",
-    exact_number(options.largest_edge * diagonal), "--tets", exact_number(options.tet_limit),
-    "--time", exact_number(options.time_limit) };
+    exact_number(options.largest_edge * diagonal), "--tets", exact_number(options.tet_limit) };
   request.time_limit = options.time_limit;
   request.memory_limit = options.memory_limit;
   MesherAnswer answer;
@@ -189,6 +194,12 @@ Status remesh_tets(PointsView points, TrianglesView triangles, const WindingNumb
   {
     return status;
   }
+  if (answer.data.tets.rows() == 0)
+  {
+    return Status::invalid_input("the surface encloses nothing: its winding number is below the "
+                                 "threshold of " +
+      short_number(options.winding_threshold) + " on both sides of every triangle, or above it");
+  }
   const Ids ids = ids_of(points, triangles);
   if (!improve(ids, region, answer, context))
   {
@@ -202,6 +213,9 @@ Status remesh_tets(PointsView points, TrianglesView triangles, const WindingNumb
     return status;
   }
   status.report = answer.report;
+  result.boundary_vertices =
+    static_cast<Index>(answer.report.number("counts.boundary_vertices", 0.0));
+  status.report.set("counts.boundary_vertices", Report::Value(result.boundary_vertices));
   const Phase phase(context, "distance", 0.9, 1.0);
   if (!measure_distance(result.mesh, region, result.distance, context))
   {

@@ -47,11 +47,12 @@ struct RemeshJobOptions
   double largest_edge = 0.0; ///< length, >= smallest_edge
   double growth = 0.3; ///< by how much lengths may differ, relative to the distance
   double tet_limit = 5e5; ///< about
-  double time_limit = 60.0; ///< seconds, for what improves a mesh that is there
 };
 
 /// Tets of {winding number >= winding_threshold} of the surface given by data.triangles. Vertices
-/// of the surface that are kept have their coordinates; ids are new.
+/// of the surface that are kept have their coordinates; ids are new. No tets when nothing is
+/// enclosed. Reports counts.boundary_vertices (of the surface, where it bounds the inside), seconds.*
+/// since the start. @return empty, or why it gave up.
 std::string remesh(MesherData& data, RemeshJobOptions options);
 
 } // namespace bindpose

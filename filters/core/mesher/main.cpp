@@ -87,7 +87,6 @@ std::string run(const std::string& job, const std::map<std::string, std::string>
     remesh.smallest_edge = number(options, "--smallest", remesh.smallest_edge);
     remesh.largest_edge = number(options, "--largest", remesh.largest_edge);
     remesh.tet_limit = number(options, "--tets", remesh.tet_limit);
-    remesh.time_limit = number(options, "--time", remesh.time_limit);
     return bindpose::remesh(data, remesh);
   }
   return "unknown job '" + job + "' (refine, tetgen, delaunay or remesh)";

@@ -25,7 +25,6 @@
 #include <CGAL/refine_mesh_3.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <map>
 
@@ -261,9 +260,11 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   sampling.largest = options.largest_edge;
   BoundarySites sites;
   sample_boundary(region, sampling, sites, context);
+  tell_report("counts.boundary_vertices", static_cast<double>(sites.vertices.size()));
   if (sites.points.rows() == 0)
   {
-    return "no triangle bounds the inside";
+    data = MesherData(); // nothing is enclosed
+    return {};
   }
   const SizingField field = make_field(sites, options);
   const CreasePoints creases = find_creases(region, field);
@@ -319,8 +320,18 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   }
   tell_report("seconds.start", seconds());
 
+  // About five tets a vertex: far more vertices than expected are a refinement that does not end.
+  const auto most_vertices =
+    static_cast<std::size_t>(options.tet_limit) + 2 * complex.triangulation().number_of_vertices();
+  CGAL::Mesh_error_code code = CGAL::CGAL_MESH_3_NO_ERROR;
   CGAL::refine_mesh_3(complex, domain, Criteria(field), CGAL::parameters::no_reset_c3t3(),
-    CGAL::parameters::no_perturb(), CGAL::parameters::no_exude(), CGAL::parameters::manifold());
+    CGAL::parameters::no_perturb(), CGAL::parameters::no_exude(), CGAL::parameters::manifold(),
+    CGAL::parameters::mesh_3_options(CGAL::parameters::maximal_number_of_vertices = most_vertices,
+      CGAL::parameters::pointer_to_error_code = &code));
+  if (code != CGAL::CGAL_MESH_3_NO_ERROR)
+  {
+    return "refinement does not end: " + std::to_string(most_vertices) + " vertices";
+  }
   tell_report("seconds.refine", seconds());
   if (complex.number_of_cells_in_complex() == 0)
   {

@@ -48,8 +48,9 @@ CreasePoints find_creases(const RegionBoundary& region, const SizingField& field
     }
   }
   std::sort(sides.begin(), sides.end(),
-    [](const Side& x, const Side& y)
-    { return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.triangle < y.triangle; });
+    [](const Side& x, const Side& y) {
+      return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.triangle < y.triangle;
+    });
   const double smooth = cosine(angle);
   std::vector<std::pair<Index, Index>> ends; // (vertex, other end), both ways
   std::vector<Vec3> between;

@@ -10,12 +10,8 @@ namespace bindpose
 
 RegionBoundary::RegionBoundary(
   PointsView points, TrianglesView triangles, const WindingNumber& winding, double threshold)
-  : points_(points),
-    triangles_(triangles),
-    winding_(winding),
-    threshold_(threshold),
-    box_(bounding_box(points, triangles)),
-    step_(1e-6 * box_.diagonal()),
+  : points_(points), triangles_(triangles), winding_(winding), threshold_(threshold),
+    box_(bounding_box(points, triangles)), step_(1e-6 * box_.diagonal()),
     closed_(winding.status().report.number("counts.open_edges", 1.0) == 0.0)
 {
 }

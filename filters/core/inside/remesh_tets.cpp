@@ -1,5 +1,6 @@
 // The helper meshes (mesher/remesh_job.cpp); here its result is checked, its vertices are found
-// among the input's by their coordinates, the worst tets are improved, and the distance is measured.
+// among the input's by their coordinates, the worst tets are improved, and the distance is
+// measured.
 #include "inside/remesh_tets.h"
 
 #include "inside/mesher_process.h"
@@ -89,15 +90,15 @@ Ids ids_of(PointsView points, TrianglesView triangles)
   for (Index k = 0; k < triangles.size(); ++k)
   {
     const Index v = triangles.data()[k];
-    const auto [entry, fresh] = ids.emplace(
-      std::array<double, 3>{ points(v, 0), points(v, 1), points(v, 2) }, v);
+    const auto [entry, fresh] =
+      ids.emplace(std::array<double, 3>{ points(v, 0), points(v, 1), points(v, 2) }, v);
     entry->second = std::min(entry->second, v);
   }
   return ids;
 }
 
-bool improve(const Ids& ids, const RegionBoundary& region, MesherAnswer& answer,
-  ExecutionContext& context)
+bool improve(
+  const Ids& ids, const RegionBoundary& region, MesherAnswer& answer, ExecutionContext& context)
 {
   MesherData& data = answer.data;
   for (Index t = 0; t < data.tets.rows(); ++t)
@@ -138,8 +139,8 @@ void number_vertices(const Ids& ids, const MesherData& data, RemeshResult& resul
   }
   std::vector<Index> order(original.size());
   std::iota(order.begin(), order.end(), Index(0));
-  order.erase(std::remove_if(order.begin(), order.end(),
-                [&](Index v) { return original[v] == unused; }),
+  order.erase(
+    std::remove_if(order.begin(), order.end(), [&](Index v) { return original[v] == unused; }),
     order.end());
   std::stable_sort(order.begin(), order.end(),
     [&](Index a, Index b)

@@ -34,10 +34,10 @@ struct RemeshResult
 };
 
 /// Tets of good shape of {winding number >= threshold} by Delaunay refinement in the helper
-/// executable bindpose-mesher (CGAL's Mesh_3), with edges graded from the surface's own; vertices of
-/// the surface stay where they are not too near to each other for good tets. Any surface will do:
-/// where it is open, the isosurface closes it; what lies inside (crossing parts, inner walls) is
-/// gone. Creases sharper than 30 degrees stay but for the edges at which surfaces cross.
+/// executable bindpose-mesher (CGAL's Mesh_3), with edges graded from the surface's own; vertices
+/// of the surface stay where they are not too near to each other for good tets. Any surface will
+/// do: where it is open, the isosurface closes it; what lies inside (crossing parts, inner walls)
+/// is gone. Creases sharper than 30 degrees stay but for the edges at which surfaces cross.
 ///
 /// Report: what the helper counts, seconds.*, counts.kept_vertices, counts.boundary_vertices,
 /// distance_max and distance_mean (percent of the diagonal).

@@ -96,8 +96,8 @@ double SizingField::at(const Vec3& p) const
     {
       for (Index i = node.begin; i < node.end; ++i)
       {
-        best = std::min(best,
-          this->lengths_[i] + this->growth_ * (this->sites_.row(i).transpose() - p).norm());
+        best = std::min(
+          best, this->lengths_[i] + this->growth_ * (this->sites_.row(i).transpose() - p).norm());
       }
       continue;
     }

@@ -72,8 +72,7 @@ bool measure(const std::vector<Sample>& samples, const TriangleTree& tree,
       {
         if (samples[i].weight > 0.0)
         {
-          distances[i] =
-            tree.distance(samples[i].point, std::numeric_limits<double>::infinity());
+          distances[i] = tree.distance(samples[i].point, std::numeric_limits<double>::infinity());
         }
       }
     });

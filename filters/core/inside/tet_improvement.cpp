@@ -134,8 +134,7 @@ private:
       }
     }
     std::sort(flat.begin(), flat.end(),
-      [&](Index a, Index b)
-      {
+      [&](Index a, Index b) {
         return this->quality_[a] != this->quality_[b] ? this->quality_[a] < this->quality_[b]
                                                       : a < b;
       });
@@ -429,8 +428,8 @@ private:
       for (const auto& f : facets)
       {
         const std::array<Index, 3> facet{ tet[f[0]], tet[f[1]], tet[f[2]] };
-        if (std::find(facet.begin(), facet.end(), v) == facet.end() ||
-          !this->boundary_[facet[0]] || !this->boundary_[facet[1]] || !this->boundary_[facet[2]])
+        if (std::find(facet.begin(), facet.end(), v) == facet.end() || !this->boundary_[facet[0]] ||
+          !this->boundary_[facet[1]] || !this->boundary_[facet[2]])
         {
           continue;
         }

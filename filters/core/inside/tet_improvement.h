@@ -36,8 +36,8 @@ using OntoSurface = std::function<bool(Vec3& p, const Vec3& n, double reach)>;
 /// vertices. No step makes the worst of the tets that it touches worse. The boundary stays but for
 /// flat tets on it, edges within 15 degrees of flat, and vertices that move along `surface`;
 /// vertices at creases of more than 40 degrees and held ones do not move.
-/// The tets must be positive and meet in common facets. held: #V. Cost: some 20 us for each tet that
-/// is too flat and pass.
+/// The tets must be positive and meet in common facets. held: #V. Cost: some 20 us for each tet
+/// that is too flat and pass.
 /// @return false when cancelled; the mesh is valid all the same.
 bool improve_tets(TetMesh& mesh, std::vector<char> held, const OntoSurface& surface,
   const ImproveOptions& options, Improvement& done, ExecutionContext& context);

@@ -1,6 +1,7 @@
-// The ladder: cdt (cdt_tets.h), then remesh: Delaunay refinement (remesh_tets.h), else a lattice that
-// is cut (lattice_tets.h, finer when the volume is off). Every rung is judged by the volume it has against the volume that winds enough. When none fits, the one
-// that came nearest is taken, with a warning.
+// The ladder: cdt (cdt_tets.h), then remesh: Delaunay refinement (remesh_tets.h), else a lattice
+// that is cut (lattice_tets.h, finer when the volume is off). Every rung is judged by the volume it
+// has against the volume that winds enough. When none fits, the one that came nearest is taken,
+// with a warning.
 #include "inside/tetrahedralize.h"
 
 #include "inside/cdt_tets.h"
@@ -255,8 +256,8 @@ private:
     }
   }
 
-  /// Delaunay refinement by the helper. Its edges are as long as the surface's own within bounds that
-  /// the resolution gives; by default 0.005 and 0.035 of the box's longest side.
+  /// Delaunay refinement by the helper. Its edges are as long as the surface's own within bounds
+  /// that the resolution gives; by default 0.005 and 0.035 of the box's longest side.
   Status refine_inside()
   {
     const double start = this->context_.elapsed_seconds();

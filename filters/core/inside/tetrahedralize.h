@@ -53,7 +53,8 @@ struct TetrahedralizeResult
 ///
 /// - **cdt** keeps the input's vertices and triangles, cut where triangles cross. Clean surfaces go
 ///   to TetGen as they are. The work is done by the helper executable bindpose-mesher.
-/// - **remesh** has good angles. Delaunay refinement by the helper grades edges by the surface's own
+/// - **remesh** has good angles. Delaunay refinement by the helper grades edges by the surface's
+/// own
 ///   and keeps its vertices where they are not too near to each other, not its triangles
 ///   (remesh_tets.h). Without the helper, or when it fails, runs out of time or the volume does not
 ///   fit, a lattice is cut, which always ends: it keeps no vertex, and parts thinner than a lattice

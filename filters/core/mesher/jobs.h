@@ -51,8 +51,8 @@ struct RemeshJobOptions
 
 /// Tets of {winding number >= winding_threshold} of the surface given by data.triangles. Vertices
 /// of the surface that are kept have their coordinates; ids are new. No tets when nothing is
-/// enclosed. Reports counts.boundary_vertices (of the surface, where it bounds the inside), seconds.*
-/// since the start. @return empty, or why it gave up.
+/// enclosed. Reports counts.boundary_vertices (of the surface, where it bounds the inside),
+/// seconds.* since the start. @return empty, or why it gave up.
 std::string remesh(MesherData& data, RemeshJobOptions options);
 
 } // namespace bindpose

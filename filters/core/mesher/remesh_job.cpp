@@ -218,8 +218,7 @@ void take_result(const Complex& complex, MesherData& data)
     std::array<Index, 4> tet{};
     for (int k = 0; k < 4; ++k)
     {
-      const auto [entry, fresh] =
-        ids.emplace(cell->vertex(k), static_cast<Index>(points.size()));
+      const auto [entry, fresh] = ids.emplace(cell->vertex(k), static_cast<Index>(points.size()));
       if (fresh)
       {
         points.push_back(to_vec3(cell->vertex(k)->point().point()));
@@ -273,8 +272,8 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   const Box box = region.box();
   const double radius = 0.5 * box.diagonal();
   constexpr double error = 1e-7;
-  const Domain domain = Domain::create_implicit_mesh_domain(
-    [&](const Kernel::Point_3& p) { return region.holds(to_vec3(p)) ? -1.0 : 1.0; },
+  const Domain domain = Domain::create_implicit_mesh_domain([&](const Kernel::Point_3& p)
+    { return region.holds(to_vec3(p)) ? -1.0 : 1.0; },
     Kernel::Sphere_3(to_point(box.center()), 1.21 * radius * radius),
     CGAL::parameters::relative_error_bound = error);
   Complex complex;

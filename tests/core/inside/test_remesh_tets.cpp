@@ -372,8 +372,8 @@ TEST_F(Remesh, TheLadderKeepsVerticesAndReportsDistances)
   EXPECT_GT(status.report.number("counts.kept_vertices", 0.0), 0.99 * mesh.points.rows());
   EXPECT_GE(status.report.number("min_dihedral_angle", 0.0), 8.0);
   EXPECT_LT(status.report.number("distance_max", 100.0), 0.5);
-  EXPECT_LE(status.report.number("distance_mean", 100.0),
-    status.report.number("distance_max", -1.0));
+  EXPECT_LE(
+    status.report.number("distance_mean", 100.0), status.report.number("distance_max", -1.0));
 }
 
 TEST(RemeshTets, WithoutHelperTheLadderCutsALattice)

@@ -39,8 +39,7 @@ TEST(SurfaceDistance, OfBoxesIsKnown)
   EXPECT_GT(low.mean, 0.25 / 7.0);
   EXPECT_LT(low.mean, 0.25 / 3.0);
   // Everywhere 0.1 too large: at the corners sqrt(3) of that.
-  const SurfaceDistance large =
-    distance_of(box(Vec3(-1.1, -1.1, -1.1), Vec3(1.1, 1.1, 1.1)), cube);
+  const SurfaceDistance large = distance_of(box(Vec3(-1.1, -1.1, -1.1), Vec3(1.1, 1.1, 1.1)), cube);
   EXPECT_NEAR(large.maximum, 0.1 * std::sqrt(3.0), 1e-12);
   EXPECT_GT(large.mean, 0.1);
   EXPECT_LT(large.mean, 0.13);
@@ -57,8 +56,7 @@ TEST(SurfaceDistance, MissingPartsCountFromTheSurface)
 TEST(SurfaceDistance, LidsDoNotCount)
 {
   // The region of the open cube ends at the top of its box, where there is no triangle.
-  const SurfaceDistance open =
-    distance_of(box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), test::open_cube());
+  const SurfaceDistance open = distance_of(box(Vec3(-1, -1, -1), Vec3(1, 1, 1)), test::open_cube());
   EXPECT_NEAR(open.maximum, 0.0, 1e-9);
 }
 

@@ -43,7 +43,7 @@ bool improve(TetMesh& mesh, const std::vector<char>& held, Improvement& done)
 
 TEST(TetImprovement, MakesTheFlattestBetterAndKeepsTheVolume)
 {
-  TetMesh mesh = shaken_box(0.04);
+  TetMesh mesh = shaken_box(0.055);
   ASSERT_TRUE(check_tets(mesh.points, mesh.tets).ok());
   const double before = angle(mesh);
   const Triangles skin = boundary_triangles(mesh.tets);
@@ -66,7 +66,7 @@ TEST(TetImprovement, HeldVerticesMoveOnlyWhenNothingElseHelps)
   ASSERT_TRUE(improve(mesh, std::vector<char>(mesh.points.rows(), 1), done));
   EXPECT_EQ(mesh.points, before.points);
   EXPECT_EQ(mesh.tets, before.tets);
-  TetMesh flat = shaken_box(0.04);
+  TetMesh flat = shaken_box(0.055);
   const double angle_before = angle(flat);
   ASSERT_TRUE(improve(flat, std::vector<char>(flat.points.rows(), 1), done));
   EXPECT_EQ(done.moved_vertices, 0);
@@ -100,7 +100,7 @@ TEST(TetImprovement, AFlatTetOnTheBoundaryGoes)
 
 TEST(TetImprovement, CancelledAtOnceIsStillAMesh)
 {
-  TetMesh mesh = shaken_box(0.04);
+  TetMesh mesh = shaken_box(0.055);
   ExecutionContext context;
   context.request_cancel();
   Improvement done;

@@ -1,13 +1,14 @@
-// The ladder: cdt (cdt_tets.h), then remesh (lattice_tets.h, finer when the volume is off); embed
-// (embedding_tets.h) stands beside it. Every
-// rung is judged by the volume it has against the volume that winds enough. When none fits, the one
-// that came nearest is taken, with a warning.
+// The ladder: cdt (cdt_tets.h), then remesh: Delaunay refinement (remesh_tets.h), else a lattice
+// that is cut (lattice_tets.h, finer when the volume is off). Every rung is judged by the volume it
+// has against the volume that winds enough. When none fits, the one that came nearest is taken,
+// with a warning. embed (embedding_tets.h) stands beside the ladder.
 #include "inside/tetrahedralize.h"
 
 #include "inside/cdt_tets.h"
 #include "inside/embedding_tets.h"
 #include "inside/enclosed_region.h"
 #include "inside/lattice_tets.h"
+#include "inside/remesh_tets.h"
 #include "inside/surface_repair.h"
 #include "inside/tet_quality.h"
 
@@ -127,6 +128,7 @@ private:
 
   Status climb()
   {
+    this->climb_start_ = this->context_.elapsed_seconds();
     if (this->options_.method == TetMethod::embed)
     {
       return this->embed();
@@ -162,7 +164,7 @@ private:
       if (status.ok())
       {
         this->warn("method cdt was left (" + why +
-          "); the tets are remesh's and do not keep the surface's vertices");
+          "); the tets are remesh's and do not keep the surface's triangles");
       }
       if (status.ok() || status.code == StatusCode::cancelled)
       {
@@ -205,6 +207,15 @@ private:
 
   Status remesh(bool finer_when_needed)
   {
+    {
+      const Phase phase(this->context_, "remesh", 0.0, 0.7);
+      const Status refined = this->refine_inside();
+      if (refined.ok() || refined.code == StatusCode::cancelled)
+      {
+        return refined;
+      }
+    }
+    const ProgressRange range(this->context_, 0.7, 1.0);
     constexpr double most_cubes = 4e6;
     for (Index resolution = this->options_.resolution;; resolution *= 2)
     {
@@ -247,6 +258,54 @@ private:
         return status;
       }
     }
+  }
+
+  /// Delaunay refinement by the helper. Its edges are as long as the surface's own within bounds
+  /// that the resolution gives; by default 0.005 and 0.035 of the box's longest side.
+  Status refine_inside()
+  {
+    const double start = this->context_.elapsed_seconds();
+    const double cube = this->box_.size().maxCoeff() /
+      (this->box_.diagonal() * static_cast<double>(this->options_.resolution));
+    constexpr double shortest = 0.2;
+    constexpr double longest = 1.4;
+    RemeshOptions options;
+    options.winding_threshold = this->options_.winding_threshold;
+    options.smallest_edge = shortest * cube;
+    options.largest_edge = longest * cube;
+    options.memory_limit = this->options_.memory_limit;
+    // What method cdt has left of the helper's time.
+    constexpr double least_share = 0.25;
+    options.time_limit = std::max(this->options_.time_limit - (start - this->climb_start_),
+      least_share * this->options_.time_limit);
+    RemeshResult result;
+    Status status = remesh_tets(this->surface_.points, this->surface_.triangles,
+      this->inside_.winding(), options, result, this->context_);
+    if (status.ok())
+    {
+      const double volume = tet_volumes(result.mesh.points, result.mesh.tets).sum();
+      if (!this->inside_.fits(volume))
+      {
+        status = wrong_volume(volume, this->inside_);
+      }
+    }
+    this->log("Delaunay refinement of the inside", start, status);
+    if (!status.ok())
+    {
+      return status;
+    }
+    for (const char* key : { "distance_max", "distance_mean" })
+    {
+      this->report_.set(key, Report::Value(status.report.number(key, 0.0)));
+    }
+    this->report_.set("method", to_string(TetMethod::remesh));
+    this->result_.mesh = std::move(result.mesh);
+    this->result_.original_vertices = std::move(result.original_vertices);
+    for (Index& id : this->result_.original_vertices)
+    {
+      id = id < 0 ? -1 : this->surface_.original_vertices[id];
+    }
+    return {};
   }
 
   /// The input's own points and triangles, so that every one of its points is bound; which way
@@ -330,6 +389,7 @@ private:
   RepairedSurface surface_;
   Box box_;
   EnclosedRegion inside_;
+  double climb_start_ = 0.0;
   TetMesh lattice_mesh_; ///< of remesh, when it did not fit
   double lattice_misfit_ = std::numeric_limits<double>::infinity();
   Report report_;

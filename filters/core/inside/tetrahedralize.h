@@ -17,7 +17,7 @@ enum class TetMethod
 {
   automatic, ///< cdt, then remesh
   cdt, ///< constrained Delaunay tets of the convex hull, kept where the surface winds around them
-  remesh, ///< lattice tets cut at the isosurface of the winding number
+  remesh, ///< well-shaped tets of the winding number's field, graded
   embed ///< lattice tets that hold the surface, each part its own
 };
 
@@ -35,8 +35,9 @@ struct TetrahedralizeOptions
   SegmentationMethod segmentation = SegmentationMethod::graph_cut;
   double cut_smoothness = 1.0; ///< >= 0
   double cut_sigma = 0.1; ///< > 0
-  /// Lattice cubes along the longest side (remesh, embed), 4 … 1000. Tets grow with its cube.
-  /// 0: automatic, 40 for remesh, as many as give about 30,000 tets for embed.
+  /// Lattice cubes along the longest side (remesh, embed), 4 … 1000. Tets grow with its cube; those
+  /// of remesh have edges from 0.2 to 1.4 cubes. 0: automatic, 40 for remesh, as many as give about
+  /// 30,000 tets for embed.
   Index resolution = 0;
   double time_limit = 120.0; ///< seconds for all of the helper's work, > 0
   Index memory_limit = 0; ///< MiB of address space for the helper process, 0: no limit
@@ -66,8 +67,11 @@ struct TetrahedralizeResult
 ///
 /// - **cdt** keeps the input's vertices and triangles, cut where triangles cross. Clean surfaces go
 ///   to TetGen as they are. The work is done by the helper executable bindpose-mesher.
-/// - **remesh** keeps neither, but has good angles and always ends; parts thinner than a lattice
-///   cube are lost.
+/// - **remesh** has good angles. Delaunay refinement by the helper grades edges by the
+///   surface's own and keeps its vertices where they are not too near to each other, not its
+///   triangles (remesh_tets.h). Without the helper, or when it fails, runs out of time or the
+///   volume does not fit, a lattice is cut, which always ends: it keeps no vertex, and parts
+///   thinner than a lattice cube are lost.
 /// - **embed** is not the inside but a lattice around it; every point of the surface is in a tet.
 ///   Parts that are near but not connected share no vertex (embed_surface).
 ///
@@ -80,6 +84,8 @@ struct TetrahedralizeResult
 /// segmentation (of cdt; a graph cut whose volume does not fit is left for the threshold), energy,
 /// threshold_energy, counts.changed_by_cut (see Segmentation); for remesh and embed resolution, for
 /// embed what embed_surface reports.
+/// For remesh by refinement distance_max and distance_mean (of the tets' boundary and the surface,
+/// percent of its diagonal).
 ///
 /// invalid_input: not finite, flat, or encloses nothing. unavailable: method cdt without helper.
 /// internal_error: no method gave a valid mesh; the message tells the last reason.

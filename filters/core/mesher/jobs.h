@@ -65,6 +65,21 @@ struct TetgenOptions
 /// positive.
 std::string tetgen(MesherData& data, const TetgenOptions& options);
 
+struct RemeshJobOptions
+{
+  double winding_threshold = 0.5;
+  double smallest_edge = 0.0; ///< length, > 0; raised when the tets would be more than tet_limit
+  double largest_edge = 0.0; ///< length, >= smallest_edge
+  double growth = 0.3; ///< by how much lengths may differ, relative to the distance
+  double tet_limit = 5e5; ///< about
+};
+
+/// Tets of {winding number >= winding_threshold} of the surface given by data.triangles. Vertices
+/// of the surface that are kept have their coordinates; ids are new. No tets when nothing is
+/// enclosed. Reports counts.boundary_vertices (of the surface, where it bounds the inside),
+/// seconds.* since the start. @return empty, or why it gave up.
+std::string remesh(MesherData& data, RemeshJobOptions options);
+
 } // namespace bindpose
 
 #endif

@@ -92,7 +92,16 @@ std::string run(const std::string& job, const std::map<std::string, std::string>
     fill.time_limit = number(options, "--time", fill.time_limit);
     return bindpose::fill_plane(data, fill);
   }
-  return "unknown job '" + job + "' (refine, tetgen, delaunay, arrange or fill-plane)";
+  if (job == "remesh")
+  {
+    bindpose::RemeshJobOptions remesh;
+    remesh.winding_threshold = number(options, "--threshold", remesh.winding_threshold);
+    remesh.smallest_edge = number(options, "--smallest", remesh.smallest_edge);
+    remesh.largest_edge = number(options, "--largest", remesh.largest_edge);
+    remesh.tet_limit = number(options, "--tets", remesh.tet_limit);
+    return bindpose::remesh(data, remesh);
+  }
+  return "unknown job '" + job + "' (refine, tetgen, delaunay, arrange, fill-plane or remesh)";
 }
 } // namespace
 

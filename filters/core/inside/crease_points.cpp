@@ -1,0 +1,115 @@
+#include "inside/crease_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+struct Side
+{
+  Index a, b; ///< the edge, a < b
+  Index triangle;
+  int corner; ///< the edge's first corner in the triangle
+};
+
+/// The cosine of a turn of the surface that makes an edge, or two edges of a crease, sharp.
+double cosine(double degrees)
+{
+  return std::cos(degrees / 57.295779513082320877);
+}
+
+/// A triangle's edge bounds the region when its middle does, seen from inside the triangle.
+bool bounds(const RegionBoundary& region, const Side& side)
+{
+  const Vec3 middle = 0.5 *
+    (region.corner(side.triangle, side.corner) +
+      region.corner(side.triangle, (side.corner + 1) % 3));
+  const Vec3 apex = region.corner(side.triangle, (side.corner + 2) % 3);
+  constexpr double inwards = 0.02;
+  return region.bounded_at(side.triangle, (1.0 - inwards) * middle + inwards * apex);
+}
+} // namespace
+
+CreasePoints find_creases(const RegionBoundary& region, const SizingField& field, double angle)
+{
+  const TrianglesView triangles = region.triangles();
+  std::vector<Side> sides;
+  sides.reserve(static_cast<std::size_t>(triangles.size()));
+  for (Index f = 0; f < triangles.rows(); ++f)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index a = triangles(f, k);
+      const Index b = triangles(f, (k + 1) % 3);
+      sides.push_back({ std::min(a, b), std::max(a, b), f, k });
+    }
+  }
+  std::sort(sides.begin(), sides.end(),
+    [](const Side& x, const Side& y) {
+      return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.triangle < y.triangle;
+    });
+  const double smooth = cosine(angle);
+  std::vector<std::pair<Index, Index>> ends; // (vertex, other end), both ways
+  std::vector<Vec3> between;
+  for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
+  {
+    while (j < sides.size() && sides[j].a == sides[i].a && sides[j].b == sides[i].b)
+    {
+      ++j;
+    }
+    if (j - i == 2 &&
+      region.normal(sides[i].triangle).dot(region.normal(sides[i + 1].triangle)) > smooth)
+    {
+      continue;
+    }
+    if (std::none_of(sides.begin() + static_cast<std::ptrdiff_t>(i),
+          sides.begin() + static_cast<std::ptrdiff_t>(j),
+          [&](const Side& side) { return bounds(region, side); }))
+    {
+      continue;
+    }
+    ends.emplace_back(sides[i].a, sides[i].b);
+    ends.emplace_back(sides[i].b, sides[i].a);
+    const Vec3 a = region.points().row(sides[i].a);
+    const Vec3 b = region.points().row(sides[i].b);
+    constexpr double most = 1000.0;
+    // Closer than the length wanted: facets beside the crease then rarely cut it off.
+    constexpr double dense = 0.7;
+    const double length = dense * std::min({ field.at(a), field.at(b), field.at(0.5 * (a + b)) });
+    const double parts = std::min(std::ceil((b - a).norm() / length), most);
+    for (double part = 1.0; part < parts; ++part)
+    {
+      between.emplace_back(a + part / parts * (b - a));
+    }
+  }
+  CreasePoints creases;
+  std::sort(ends.begin(), ends.end());
+  for (std::size_t i = 0, j = 0; i < ends.size(); i = j)
+  {
+    const Index v = ends[i].first;
+    while (j < ends.size() && ends[j].first == v)
+    {
+      ++j;
+    }
+    bool straight = j - i == 2;
+    if (straight)
+    {
+      const Vec3 p = region.points().row(v);
+      const Vec3 before = region.points().row(ends[i].second);
+      const Vec3 after = region.points().row(ends[i + 1].second);
+      straight = (p - before).normalized().dot((after - p).normalized()) > smooth;
+    }
+    (straight ? creases.vertices : creases.corners).push_back(v);
+  }
+  creases.between.resize(static_cast<Index>(between.size()), 3);
+  for (std::size_t i = 0; i < between.size(); ++i)
+  {
+    creases.between.row(static_cast<Index>(i)) = between[i];
+  }
+  return creases;
+}
+
+} // namespace bindpose

@@ -1,0 +1,231 @@
+// The helper meshes (mesher/remesh_job.cpp); here its result is checked, its vertices are found
+// among the input's by their coordinates, the worst tets are improved, and the distance is
+// measured.
+#include "inside/remesh_tets.h"
+
+#include "inside/mesher_process.h"
+#include "inside/tet_improvement.h"
+#include "inside/tet_quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <sstream>
+
+namespace bindpose
+{
+
+namespace
+{
+std::string exact_number(double x)
+{
+  std::ostringstream text;
+  text.precision(17);
+  text << x;
+  return text.str();
+}
+
+std::string short_number(double x)
+{
+  std::ostringstream text;
+  text << x;
+  return text.str();
+}
+
+Status check_input(PointsView points, TrianglesView triangles, const RemeshOptions& options)
+{
+  Status status = check_mesh(points, triangles);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const auto bad = [](const char* name, const char* range, double value)
+  {
+    return Status::invalid_input(
+      std::string(name) + " must be " + range + ", not " + short_number(value));
+  };
+  constexpr double least = 1e-4;
+  if (!(options.winding_threshold > 0.0) || !std::isfinite(options.winding_threshold))
+  {
+    return bad("winding_threshold", "positive", options.winding_threshold);
+  }
+  if (!(options.smallest_edge >= least && options.smallest_edge <= 1.0))
+  {
+    return bad("smallest_edge", "from 0.0001 to 1", options.smallest_edge);
+  }
+  if (!(options.largest_edge >= options.smallest_edge && options.largest_edge <= 1.0))
+  {
+    return bad("largest_edge", "from smallest_edge to 1", options.largest_edge);
+  }
+  if (!(options.tet_limit >= 1000.0))
+  {
+    return bad("tet_limit", "at least 1000", options.tet_limit);
+  }
+  if (!(options.time_limit > 0.0))
+  {
+    return bad("time_limit", "positive", options.time_limit);
+  }
+  if (options.memory_limit < 0)
+  {
+    return Status::invalid_input("memory_limit must not be negative");
+  }
+  if (triangles.rows() == 0)
+  {
+    return Status::invalid_input("the surface has no triangles");
+  }
+  if (!(bounding_box(points, triangles).diagonal() > 0.0))
+  {
+    return Status::invalid_input("all points of the surface are one point");
+  }
+  return {};
+}
+
+using Ids = std::map<std::array<double, 3>, Index>;
+
+/// The lowest id of the vertices with some coordinates.
+Ids ids_of(PointsView points, TrianglesView triangles)
+{
+  Ids ids;
+  for (Index k = 0; k < triangles.size(); ++k)
+  {
+    const Index v = triangles.data()[k];
+    const auto [entry, fresh] =
+      ids.emplace(std::array<double, 3>{ points(v, 0), points(v, 1), points(v, 2) }, v);
+    entry->second = std::min(entry->second, v);
+  }
+  return ids;
+}
+
+bool improve(
+  const Ids& ids, const RegionBoundary& region, MesherAnswer& answer, ExecutionContext& context)
+{
+  MesherData& data = answer.data;
+  for (Index t = 0; t < data.tets.rows(); ++t)
+  {
+    if (tet_volume(data.points.row(data.tets(t, 0)), data.points.row(data.tets(t, 1)),
+          data.points.row(data.tets(t, 2)), data.points.row(data.tets(t, 3))) < 0.0)
+    {
+      std::swap(data.tets(t, 0), data.tets(t, 1));
+    }
+  }
+  std::vector<char> held(static_cast<std::size_t>(data.points.rows()));
+  for (Index v = 0; v < data.points.rows(); ++v)
+  {
+    held[v] = ids.count({ data.points(v, 0), data.points(v, 1), data.points(v, 2) }) > 0;
+  }
+  const Phase phase(context, "improve", 0.8, 0.9);
+  TetMesh mesh{ std::move(data.points), std::move(data.tets) };
+  Improvement done;
+  const bool whole = improve_tets(
+    mesh, std::move(held),
+    [&](Vec3& p, const Vec3& n, double reach) { return region.onto_boundary(p, n, reach); },
+    ImproveOptions(), done, context);
+  data.points = std::move(mesh.points);
+  data.tets = std::move(mesh.tets);
+  return whole;
+}
+
+/// Drops stray vertices and numbers the input's vertices first.
+void number_vertices(const Ids& ids, const MesherData& data, RemeshResult& result)
+{
+  constexpr Index unused = -2;
+  std::vector<Index> original(static_cast<std::size_t>(data.points.rows()), unused);
+  for (Index k = 0; k < data.tets.size(); ++k)
+  {
+    const Index v = data.tets.data()[k];
+    const auto entry = ids.find({ data.points(v, 0), data.points(v, 1), data.points(v, 2) });
+    original[v] = entry == ids.end() ? -1 : entry->second;
+  }
+  std::vector<Index> order(original.size());
+  std::iota(order.begin(), order.end(), Index(0));
+  order.erase(
+    std::remove_if(order.begin(), order.end(), [&](Index v) { return original[v] == unused; }),
+    order.end());
+  std::stable_sort(order.begin(), order.end(),
+    [&](Index a, Index b)
+    {
+      const bool a_kept = original[a] >= 0;
+      const bool b_kept = original[b] >= 0;
+      return a_kept != b_kept ? a_kept : a_kept && original[a] < original[b];
+    });
+  std::vector<Index> number(original.size(), -1);
+  result.mesh.points.resize(static_cast<Index>(order.size()), 3);
+  result.original_vertices.resize(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    number[order[i]] = static_cast<Index>(i);
+    result.mesh.points.row(static_cast<Index>(i)) = data.points.row(order[i]);
+    result.original_vertices[i] = original[order[i]];
+  }
+  result.mesh.tets.resize(data.tets.rows(), 4);
+  for (Index k = 0; k < data.tets.size(); ++k)
+  {
+    result.mesh.tets.data()[k] = number[data.tets.data()[k]];
+  }
+}
+} // namespace
+
+Status remesh_tets(PointsView points, TrianglesView triangles, const WindingNumber& winding,
+  const RemeshOptions& options, RemeshResult& result, ExecutionContext& context)
+{
+  result = RemeshResult();
+  Status status = check_input(points, triangles, options);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const RegionBoundary region(points, triangles, winding, options.winding_threshold);
+  const double diagonal = region.box().diagonal();
+  MesherRequest request;
+  request.arguments = { "remesh", "--threshold", exact_number(options.winding_threshold),
+    "--smallest", exact_number(options.smallest_edge * diagonal), "--largest",
+    exact_number(options.largest_edge * diagonal), "--tets", exact_number(options.tet_limit) };
+  request.time_limit = options.time_limit;
+  request.memory_limit = options.memory_limit;
+  MesherAnswer answer;
+  {
+    const Phase phase(context, "remesh", 0.0, 0.8);
+    MesherData data;
+    data.points = points;
+    data.triangles = triangles;
+    status = run_mesher(request, data, answer, context);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (answer.data.tets.rows() == 0)
+  {
+    return Status::invalid_input("the surface encloses nothing: its winding number is below the "
+                                 "threshold of " +
+      short_number(options.winding_threshold) + " on both sides of every triangle, or above it");
+  }
+  const Ids ids = ids_of(points, triangles);
+  if (!improve(ids, region, answer, context))
+  {
+    return Status::cancelled();
+  }
+  number_vertices(ids, answer.data, result);
+  status = check_tets(result.mesh.points, result.mesh.tets);
+  if (!status.ok())
+  {
+    result = RemeshResult();
+    return status;
+  }
+  status.report = answer.report;
+  result.boundary_vertices =
+    static_cast<Index>(answer.report.number("counts.boundary_vertices", 0.0));
+  status.report.set("counts.boundary_vertices", Report::Value(result.boundary_vertices));
+  const Phase phase(context, "distance", 0.9, 1.0);
+  if (!measure_distance(result.mesh, region, result.distance, context))
+  {
+    result = RemeshResult();
+    return Status::cancelled();
+  }
+  status.report.set("distance_max", Report::Value(100.0 * result.distance.maximum / diagonal));
+  status.report.set("distance_mean", Report::Value(100.0 * result.distance.mean / diagonal));
+  return status;
+}
+
+} // namespace bindpose

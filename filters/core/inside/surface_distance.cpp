@@ -1,0 +1,162 @@
+#include "inside/surface_distance.h"
+
+#include "base/parallel.h"
+#include "inside/triangle_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bindpose
+{
+
+namespace
+{
+/// A point to measure from, and the area that it stands for; weight 0: left out.
+struct Sample
+{
+  Vec3 point = Vec3::Zero();
+  double weight = 0.0;
+};
+
+/// Each triangle's centre and each vertex, for two thirds and a third of the area.
+template <typename AtCenter, typename AtCorner>
+bool collect(PointsView points, TrianglesView triangles, const AtCenter& at_center,
+  const AtCorner& at_corner, std::vector<Sample>& samples, ExecutionContext& context)
+{
+  const Index n = triangles.rows();
+  samples.assign(static_cast<std::size_t>(n + points.rows()), Sample());
+  std::vector<std::array<bool, 3>> corners(static_cast<std::size_t>(n));
+  constexpr Index block = 64;
+  const bool whole = parallel_for(context, n, block,
+    [&](Index begin, Index end)
+    {
+      for (Index f = begin; f < end; ++f)
+      {
+        const Vec3 a = points.row(triangles(f, 0));
+        const Vec3 b = points.row(triangles(f, 1));
+        const Vec3 c = points.row(triangles(f, 2));
+        const Vec3 center = (a + b + c) / 3.0;
+        const bool counts = at_center(f, center);
+        samples[f] = { center, counts ? (b - a).cross(c - a).norm() / 3.0 : 0.0 };
+        for (int k = 0; k < 3; ++k)
+        {
+          corners[f][k] = at_corner(f, k, counts);
+        }
+      }
+    });
+  for (Index f = 0; f < n && whole; ++f)
+  {
+    const Vec3 a = points.row(triangles(f, 0));
+    const Vec3 b = points.row(triangles(f, 1));
+    const Vec3 c = points.row(triangles(f, 2));
+    for (int k = 0; k < 3; ++k)
+    {
+      Sample& sample = samples[n + triangles(f, k)];
+      sample.point = points.row(triangles(f, k));
+      sample.weight += corners[f][k] ? (b - a).cross(c - a).norm() / 18.0 : 0.0;
+    }
+  }
+  return whole;
+}
+
+bool measure(const std::vector<Sample>& samples, const TriangleTree& tree,
+  SurfaceDistance& distance, ExecutionContext& context)
+{
+  std::vector<double> distances(samples.size(), 0.0);
+  constexpr Index block = 64;
+  const bool whole = parallel_for(context, static_cast<Index>(samples.size()), block,
+    [&](Index begin, Index end)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        if (samples[i].weight > 0.0)
+        {
+          distances[i] = tree.distance(samples[i].point, std::numeric_limits<double>::infinity());
+        }
+      }
+    });
+  double sum = 0.0;
+  double weights = 0.0;
+  for (std::size_t i = 0; i < samples.size(); ++i)
+  {
+    sum += samples[i].weight > 0.0 ? samples[i].weight * distances[i] : 0.0;
+    weights += samples[i].weight;
+    distance.samples += samples[i].weight > 0.0;
+    distance.maximum = std::max(distance.maximum, distances[i]);
+  }
+  distance.mean = std::max(distance.mean, weights > 0.0 ? sum / weights : 0.0);
+  return whole;
+}
+
+/// Where a boundary of tets goes along without the surface.
+class Lids
+{
+public:
+  Lids(const RegionBoundary& region, const TriangleTree& tree) : region_(region), tree_(tree) {}
+
+  /// The region ends near p, along the normal n at most `reach` away, at no triangle.
+  bool contain(const Vec3& p, const Vec3& n, double reach) const
+  {
+    Vec3 end = p;
+    if (!this->region_.onto_boundary(end, n, reach))
+    {
+      return false;
+    }
+    const double near = 1e-4 * this->region_.box().diagonal();
+    return !(this->tree_.distance(end, near) <= near);
+  }
+
+private:
+  const RegionBoundary& region_;
+  const TriangleTree& tree_;
+};
+} // namespace
+
+bool measure_distance(const TetMesh& mesh, const RegionBoundary& region, SurfaceDistance& distance,
+  ExecutionContext& context)
+{
+  distance = SurfaceDistance();
+  const Triangles skin = boundary_triangles(mesh.tets);
+  if (skin.rows() == 0 || region.triangles().rows() == 0)
+  {
+    distance.maximum = distance.mean = std::numeric_limits<double>::infinity();
+    return true;
+  }
+  const TriangleTree surface_tree(region.points(), region.triangles());
+  const TriangleTree skin_tree(mesh.points, skin);
+  std::vector<Sample> samples;
+  {
+    const ProgressRange range(context, 0.0, 0.5);
+    if (!collect(
+          region.points(), region.triangles(),
+          [&](Index f, const Vec3& center) { return region.bounded_at(f, center); },
+          [&](Index f, int k, bool) { return region.bounded_at_corner(f, k); }, samples, context) ||
+      !measure(samples, skin_tree, distance, context))
+    {
+      return false;
+    }
+  }
+  const ProgressRange range(context, 0.5, 1.0);
+  const Lids lids(region, surface_tree);
+  const bool may_have_lids = !region.closed();
+  const auto on_surface = [&](Index f, const Vec3& center)
+  {
+    if (!may_have_lids)
+    {
+      return true;
+    }
+    const Vec3 a = mesh.points.row(skin(f, 0));
+    const Vec3 b = mesh.points.row(skin(f, 1));
+    const Vec3 c = mesh.points.row(skin(f, 2));
+    const double size = std::sqrt(std::max((b - a).squaredNorm(), (c - a).squaredNorm()));
+    return !lids.contain(center, (b - a).cross(c - a).normalized(), 0.5 * size);
+  };
+  // A vertex counts when a triangle of it does; where lid and surface meet both are near.
+  return collect(
+           mesh.points, skin, on_surface, [](Index, int, bool counts) { return counts; }, samples,
+           context) &&
+    measure(samples, surface_tree, distance, context);
+}
+
+} // namespace bindpose

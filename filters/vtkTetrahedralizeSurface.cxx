@@ -23,7 +23,7 @@ vtkStandardNewMacro(vtkTetrahedralizeSurface);
 
 vtkTetrahedralizeSurface::vtkTetrahedralizeSurface()
 {
-  this->SetNumberOfOutputPorts(2);
+  this->SetNumberOfOutputPorts(3);
 }
 
 vtkTetrahedralizeSurface::~vtkTetrahedralizeSurface() = default;
@@ -40,13 +40,43 @@ int vtkTetrahedralizeSurface::FillOutputPortInformation(int port, vtkInformation
   return 1;
 }
 
+namespace
+{
+/// The surface with the tet and the coordinates in it of every point.
+vtkSmartPointer<vtkPolyData> to_bound_surface(
+  const bindpose::SurfaceInput& surface, const bindpose::PointBinding& binding)
+{
+  auto result = bindpose::to_polydata(surface.points.view(), surface.triangles.view());
+  vtkNew<vtkIdTypeArray> tets;
+  tets->SetName("TetIds");
+  tets->SetNumberOfValues(static_cast<vtkIdType>(binding.tets.size()));
+  std::copy(binding.tets.begin(), binding.tets.end(), tets->GetPointer(0));
+  vtkNew<vtkDoubleArray> coordinates;
+  coordinates->SetName("BarycentricCoordinates");
+  coordinates->SetNumberOfComponents(4);
+  coordinates->SetNumberOfTuples(binding.coordinates.rows());
+  for (bindpose::Index v = 0; v < binding.coordinates.rows(); ++v)
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      coordinates->SetValue(4 * v + k, binding.coordinates(v, k));
+    }
+  }
+  result->GetPointData()->AddArray(tets);
+  result->GetPointData()->AddArray(coordinates);
+  return result;
+}
+} // namespace
+
 bindpose::Status vtkTetrahedralizeSurface::Execute(
   vtkInformationVector** input, vtkInformationVector* output, bindpose::ExecutionContext& context)
 {
   vtkUnstructuredGrid* out = vtkUnstructuredGrid::GetData(output);
   vtkPolyData* defects = vtkPolyData::GetData(output, 1);
   out->Initialize();
+  vtkPolyData* bound = vtkPolyData::GetData(output, 2);
   defects->Initialize();
+  bound->Initialize();
   bindpose::SurfaceInput surface;
   bindpose::Status status = bindpose::to_surface(vtkDataSet::GetData(input[0]), surface);
   if (!status.ok())
@@ -93,6 +123,16 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
   std::copy(result.winding_numbers.data(),
     result.winding_numbers.data() + result.winding_numbers.size(), winding->GetPointer(0));
   out->GetCellData()->SetScalars(winding);
+  if (result.inside_fractions.size() > 0)
+  {
+    vtkNew<vtkDoubleArray> fractions;
+    fractions->SetName("InsideFraction");
+    fractions->SetNumberOfValues(result.inside_fractions.size());
+    std::copy(result.inside_fractions.data(),
+      result.inside_fractions.data() + result.inside_fractions.size(), fractions->GetPointer(0));
+    out->GetCellData()->AddArray(fractions);
+    bound->ShallowCopy(to_bound_surface(surface, result.binding));
+  }
   defects->ShallowCopy(
     bindpose::to_polydata(result.defects, surface.points.view(), surface.cell_of_triangle));
   return status;

@@ -13,17 +13,24 @@
  * array `WindingNumber` (double, at the tets' centres).
  * **Output 1**: a vtkPolyData that shows where the surface is unclean, as vtkSurfaceDefects does
  * (which also works where there are no tets to be had).
+ * **Output 2**: of EMBED, else empty: the surface's points and triangles as a vtkPolyData with the
+ * point arrays `TetIds` (the cell of output 0 that holds the point; -1 for a point of no triangle
+ * that none holds) and `BarycentricCoordinates` (4 components, in the order of the cell's points).
+ * Output 0 then has the cell array `InsideFraction` (share of the tet that is inside).
  *
  * Methods:
  * - CDT keeps the input's points and triangles, cut where triangles cross, and adds points inside.
  *   Clean surfaces go to TetGen as they are; others are refined exactly, their hull is filled and
  *   tets are kept where the winding number says inside (see Segmentation). A helper process does
  * the work (bindpose-mesher, built with the packages libcgal-dev and libtet1.5-dev).
- * - REMESH cuts a body-centred cubic lattice where the winding number passes the threshold. Keeps
- *   neither points nor triangles, but has dihedral angles above 10 degrees and needs no helper.
- *   Parts thinner than a lattice cube are lost.
- * - EMBED is the lattice itself, wherever it touches the surface or its inside: every point of the
- *   surface lies in a tet; dihedral angles are 60 and 90 degrees.
+ * - REMESH makes well-shaped tets of where the winding number reaches the threshold, graded by the
+ *   surface's edges, by Delaunay refinement in the helper process; keeps points that are not too
+ *   near to each other, not the triangles. Without the helper, or where that fails, it cuts a
+ *   body-centred cubic lattice: no point is kept, dihedral angles are above 10 degrees, and parts
+ *   thinner than a lattice cube are lost.
+ * - EMBED is a body-centred cubic lattice wherever it touches the surface or its inside: every
+ *   point of the surface lies in a tet; dihedral angles are 60 and 90 degrees. Parts that are near
+ *   but not connected inside share no point, even in one lattice cube.
  * - AUTO (default) tries CDT, then REMESH.
  *
  * Report: method, rungs[].{name, seconds, outcome} (all that was tried and why it was left),
@@ -32,8 +39,10 @@
  * inward_components, self_intersections, turned_triangles, turned_components, triangulated_cells,
  * ignored_cells} of the input, counts.{tets, tet_vertices, kept_vertices, tets_below_5_degrees},
  * volume, winding_volume (exact for clean surfaces, sampled otherwise), min_dihedral_angle
- * (degrees), resolution (of the lattice), segmentation, energy, threshold_energy,
- * counts.changed_by_cut (of the graph cut), seconds.*.
+ * (degrees), resolution (of the lattice), distance_max, distance_mean (REMESH by refinement: of
+ * the tets' boundary and the surface, % of its diagonal), spacing, counts.{lattice_tets,
+ * duplicated_nodes, branching_facets, tet_components} (EMBED), segmentation, energy,
+ * threshold_energy, counts.changed_by_cut (of the graph cut), seconds.*.
  *
  * Errors: invalid_input for a surface without 2D cells, with ids out of range or coordinates that
  * are not finite, for a flat one, and for one that encloses nothing; unavailable for CDT without
@@ -124,10 +133,11 @@ public:
 
   ///@{
   /**
-   * Lattice cubes along the longest side of the surface's box, 4 to 1000, default 40 (REMESH,
-   * EMBED). The number of tets grows with its cube: a solid block has 12 tets a cube.
+   * Lattice cubes along the longest side of the surface's box, 4 to 1000 (REMESH, EMBED); edges of
+   * REMESH are 0.2 to 1.4 cubes long. The number of tets grows with its cube: a solid block has 12
+   * tets a cube. 0 (default): 40 for REMESH, as many as give about 30,000 tets for EMBED.
    */
-  vtkSetClampMacro(Resolution, int, 4, 1000);
+  vtkSetClampMacro(Resolution, int, 0, 1000);
   vtkGetMacro(Resolution, int);
   ///@}
 
@@ -179,7 +189,7 @@ private:
   int Segmentation = GRAPH_CUT;
   double CutSmoothness = 1.0;
   double CutSigma = 0.1;
-  int Resolution = 40;
+  int Resolution = 0;
   double TimeLimit = 120.0;
   int MemoryLimit = 0;
   double Quality = 1.414;

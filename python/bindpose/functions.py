@@ -165,7 +165,7 @@ def contains(surface, points, *, winding_threshold=0.5, method="auto", tolerance
 
 
 def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentation="graph-cut", cut_smoothness=1.0,
-                   cut_sigma=0.1, quality=1.414, interior_edge=0.04, resolution=40, time_limit=120.0, memory_limit=0,
+                   cut_sigma=0.1, quality=1.414, interior_edge=0.04, resolution=0, time_limit=120.0, memory_limit=0,
                    threads=0, progress=None):
     """Fill the inside of a surface, however unclean, with tets.
 
@@ -188,7 +188,8 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
     interior_edge : float
         Longest edges that cdt leaves inside, as a fraction of the surface's diagonal; 0 for any.
     resolution : int
-        Cells along the longest side for remesh and embed.
+        Lattice cubes along the longest side for remesh and embed, 4 to 1000; 0 for 40 (remesh) or about 30,000
+        tets (embed).
     time_limit : float
         Seconds for the meshing process.
     memory_limit : int

@@ -123,6 +123,56 @@ TEST(TetrahedralizeSurface, LatticeMethods)
   EXPECT_EQ(ids->GetRange()[1], -1.0);
 }
 
+TEST(TetrahedralizeSurface, EmbedBindsTheSurface)
+{
+  const TriangleMesh sphere = test::sphere(3);
+  vtkNew<vtkTetrahedralizeSurface> filter;
+  filter->SetInputData(to_polydata(sphere.points, sphere.triangles));
+  filter->SetMethodToEmbed();
+  filter->Update();
+  ASSERT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::OK) << filter->GetStatusMessage();
+  auto* grid = grid_of(filter);
+  EXPECT_GE(grid->GetNumberOfCells(), 15000);
+  EXPECT_LE(grid->GetNumberOfCells(), 60000);
+  EXPECT_GE(read_report(grid).number("min_dihedral_angle", -1), 30.0);
+  auto* fractions = vtkDoubleArray::SafeDownCast(grid->GetCellData()->GetArray("InsideFraction"));
+  ASSERT_NE(fractions, nullptr);
+  TetInput tets;
+  ASSERT_TRUE(to_tets(grid, tets).ok());
+  const Eigen::VectorXd volumes = tet_volumes(tets.points.view(), tets.tets.view());
+  double inside = 0.0;
+  for (Index t = 0; t < volumes.size(); ++t)
+  {
+    inside += fractions->GetValue(t) * volumes[t];
+  }
+  const double volume = signed_volume(sphere.points, sphere.triangles);
+  EXPECT_NEAR(inside, volume, 0.01 * volume);
+
+  auto* bound = vtkPolyData::SafeDownCast(filter->GetOutput(2));
+  ASSERT_EQ(bound->GetNumberOfPoints(), sphere.points.rows());
+  EXPECT_EQ(bound->GetNumberOfCells(), sphere.triangles.rows());
+  auto* cells = vtkIdTypeArray::SafeDownCast(bound->GetPointData()->GetArray("TetIds"));
+  auto* coordinates =
+    vtkDoubleArray::SafeDownCast(bound->GetPointData()->GetArray("BarycentricCoordinates"));
+  ASSERT_TRUE(cells && coordinates);
+  for (Index v = 0; v < sphere.points.rows(); ++v)
+  {
+    Vec3 p = Vec3::Zero();
+    for (int k = 0; k < 4; ++k)
+    {
+      EXPECT_GE(coordinates->GetComponent(v, k), -1e-12);
+      p += coordinates->GetComponent(v, k) *
+        tets.points.view().row(tets.tets.view()(cells->GetValue(v), k)).transpose();
+    }
+    EXPECT_LT((p - sphere.points.row(v).transpose()).norm(), 1e-12);
+  }
+  // Other methods bind nothing.
+  filter->SetMethodToCDT();
+  filter->Update();
+  EXPECT_EQ(filter->GetOutput(2)->GetNumberOfPoints(), 0);
+  EXPECT_EQ(filter->GetOutput(0)->GetCellData()->GetArray("InsideFraction"), nullptr);
+}
+
 TEST(TetrahedralizeSurface, SecondUpdateDoesNothing)
 {
   const TriangleMesh cube = test::cube();
@@ -214,7 +264,7 @@ TEST(TetrahedralizeSurface, PrintsItsParameters)
   vtkNew<vtkTetrahedralizeSurface> filter;
   std::ostringstream text;
   filter->Print(text);
-  for (const char* word : { "Method: auto", "WindingThreshold: 0.5", "Resolution: 40",
+  for (const char* word : { "Method: auto", "WindingThreshold: 0.5", "Resolution: 0",
          "Segmentation: graph-cut", "CutSmoothness: 1", "CutSigma: 0.1", "TimeLimit: 120",
          "MemoryLimit: 0", "Quality: 1.414", "InteriorEdge: 0.04" })
   {

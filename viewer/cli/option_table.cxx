@@ -74,8 +74,11 @@ const std::vector<Verb>& verbs()
           "largest circumradius to shortest edge that cdt leaves inside, 1.1 to 10; 0: any" },
         { "--interior-edge", "FRACTION", Kind::number, "0.04", "",
           "longest edges that cdt leaves inside, of the surface's diagonal; 0: any" },
-        { "--resolution", "CUBES", Kind::integer, "40", "",
-          "lattice cubes along the longest side (remesh, embed)", false, false, 4 },
+        { "--resolution", "CUBES", Kind::integer, "0", "",
+          "lattice cubes along the longest side (remesh, embed), 4 to 1000; 0: 40 for remesh, "
+          "about "
+          "30,000 tets for embed",
+          false, false, 0 },
         { "--time-limit", "SECONDS", Kind::number, "120", "", "for the meshing process" },
         { "--memory-limit", "MIB", Kind::integer, "0", "",
           "address space of the meshing process; 0: no limit", false, false, 0 },

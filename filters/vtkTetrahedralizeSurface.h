@@ -108,7 +108,7 @@ public:
    * How CDT tells the tets of an open surface apart: GRAPH_CUT (default) decides for all of them
    * together, so that the boundary follows the surface and is small and even across openings;
    * THRESHOLD looks at each tet's winding number alone, and is taken too when the graph cut's
-   * volume is more than 10 % off. Closed surfaces leave nothing to decide.
+   * volume is more than 5 % off. Closed surfaces leave nothing to decide.
    */
   vtkSetClampMacro(Segmentation, int, GRAPH_CUT, THRESHOLD);
   vtkGetMacro(Segmentation, int);

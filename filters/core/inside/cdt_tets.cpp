@@ -379,8 +379,11 @@ Status CdtTets::take_inside(
     return status;
   }
   const double volume = tet_volumes(data.points, kept).sum();
-  const bool fits = this->inside_.fits(volume);
   const double misfit = this->inside_.misfit(volume);
+  // A smooth boundary may cost less than what makes a threshold's tets wrong: they are the way out.
+  constexpr double price_of_smoothness = 0.05;
+  const bool fits = this->inside_.fits(volume) &&
+    (method == SegmentationMethod::threshold || misfit <= price_of_smoothness);
   this->wrong_volume_ = !fits;
   if (fits || misfit < this->misfit_)
   {

@@ -1,5 +1,5 @@
-// 1. Vertices that segments and handles use are gathered, equal ones once, and scaled by a power of
-//    two to about 1, which rounds nothing.
+// 1. Vertices that segments and handles use are gathered, equal ones once, moved towards the origin
+//    when they are far from it and scaled by a power of two to about 1, which rounds nothing.
 // 2. The helper splits curves and bones where they meet, and triangulates their convex hull.
 // 3. A triangle is kept where the winding number, averaged over it, reaches the threshold. Around
 //    closed curves it is constant on each triangle.
@@ -138,18 +138,20 @@ private:
   Status arrange();
   Status keep();
   Status fill();
-  void number(PlanarShape& shape);
+  Status try_fill(double angle, double seconds, MesherAnswer& answer);
+  Status number(PlanarShape& shape);
   void report(const PlanarShape& shape, Status& status) const;
-  Status run_job(const std::vector<std::string>& arguments, MesherAnswer& answer);
+  Status run_job(const std::vector<std::string>& arguments, double seconds, MesherAnswer& answer);
   Vec2 scaled(const Vec2& p) const;
   double smallest_height() const;
-  bool places_fit() const;
+  bool fits(bool exact) const;
   Vec2 point(Index v) const { return this->data_.points.row(v).head<2>().transpose(); }
   double mean_winding(Index triangle) const;
   Vec2 unscaled(Index v) const
   {
     const Vec2 p = this->point(v);
-    return { std::ldexp(p.x(), this->exponent_), std::ldexp(p.y(), this->exponent_) };
+    return Vec2(std::ldexp(p.x(), this->exponent_), std::ldexp(p.y(), this->exponent_)) +
+      this->shift_;
   }
 
   PlanePointsView points_;
@@ -162,6 +164,8 @@ private:
   Segments bones_;
   std::vector<Index> handles_; ///< gathered vertex of each handle point
   int exponent_ = 0;
+  Vec2 shift_ = Vec2::Zero(); ///< what is at the scaled origin
+  double rounding_ = 0.0; ///< 8 units in the last place of the coordinates, scaled
   double diagonal_ = 0.0; ///< of the curves, scaled
   PlanePoints curve_points_; ///< scaled
   double finest_ = 0.0; ///< smallest height of a kept triangle, scaled
@@ -192,15 +196,23 @@ Status Builder::scale()
   }
   std::frexp(half.maxCoeff(), &this->exponent_);
   this->exponent_ += 1;
-  this->diagonal_ = 2.0 * this->scaled(half).norm();
-  const double farthest = this->scaled(lower.cwiseAbs().cwiseMax(upper.cwiseAbs())).maxCoeff();
+  const auto to_scale = [&](double x) { return std::ldexp(x, -this->exponent_); };
+  this->diagonal_ = 2.0 * std::hypot(to_scale(half.x()), to_scale(half.y()));
+  const double farthest = to_scale(lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).maxCoeff());
   if (!std::isfinite(farthest))
   {
     return Status::invalid_input("the curves lie too far from the origin for their size");
   }
-  // A part of the size that nobody means, or a few units in the last place of the coordinates.
+  // Differences of numbers that are within a factor of two are exact (Sterbenz).
+  for (int k = 0; k < 2; ++k)
+  {
+    const double size = 2.0 * half[k];
+    this->shift_[k] = lower[k] > size ? lower[k] : upper[k] < -size ? upper[k] : 0.0;
+  }
+  this->rounding_ = 0x1p-49 * farthest;
+  // A part of the size that nobody means, or what rounding leaves of details.
   int exponent = 0;
-  std::frexp(std::max(0x1p-40 * this->diagonal_, 0x1p-49 * farthest), &exponent);
+  std::frexp(std::max(0x1p-40 * this->diagonal_, this->rounding_), &exponent);
   this->finest_allowed_ = std::ldexp(1.0, exponent);
   return {};
 }
@@ -208,7 +220,8 @@ Status Builder::scale()
 /// On the grid, if there is one.
 Vec2 Builder::scaled(const Vec2& p) const
 {
-  Vec2 result(std::ldexp(p.x(), -this->exponent_), std::ldexp(p.y(), -this->exponent_));
+  const Vec2 moved = p - this->shift_;
+  Vec2 result(std::ldexp(moved.x(), -this->exponent_), std::ldexp(moved.y(), -this->exponent_));
   if (this->grid_ > 0.0)
   {
     result = Vec2(std::round(result.x() / this->grid_), std::round(result.y() / this->grid_)) *
@@ -254,11 +267,12 @@ void Builder::gather()
   this->curve_points_ = this->data_.points.leftCols<2>();
 }
 
-Status Builder::run_job(const std::vector<std::string>& arguments, MesherAnswer& answer)
+Status Builder::run_job(
+  const std::vector<std::string>& arguments, double seconds, MesherAnswer& answer)
 {
   MesherRequest request;
   request.arguments = arguments;
-  request.time_limit = this->options_.time_limit - this->context_.elapsed_seconds();
+  request.time_limit = seconds;
   request.memory_limit = this->options_.memory_limit;
   if (request.time_limit <= 0.0)
   {
@@ -275,7 +289,8 @@ Status Builder::arrange()
   this->data_.segments.resize(this->curves_.rows() + this->bones_.rows(), 2);
   this->data_.segments << this->curves_, this->bones_;
   MesherAnswer answer;
-  const Status status = this->run_job({ "arrange", "--grid", exact_number(this->grid_) }, answer);
+  const Status status = this->run_job({ "arrange", "--grid", exact_number(this->grid_) },
+    this->options_.time_limit - this->context_.elapsed_seconds(), answer);
   if (!status.ok())
   {
     return status;
@@ -395,14 +410,27 @@ Status Builder::keep()
 Status Builder::fill()
 {
   const Phase phase(this->context_, "fill", 0.5, 1.0);
+  constexpr double always = 20.6; // degrees, see fill_plane()
+  std::vector<double> angles{ this->options_.min_angle };
+  for (const double weaker : { always, 0.0 })
+  {
+    if (weaker < angles.back())
+    {
+      angles.push_back(weaker);
+    }
+  }
   MesherAnswer answer;
-  const double seconds = this->options_.time_limit - this->context_.elapsed_seconds();
-  constexpr double part = 0.8; // the rest is for reading and writing
-  const Status status =
-    this->run_job({ "fill-plane", "--min-angle", exact_number(this->options_.min_angle), "--edge",
-                    exact_number(this->options_.edge * this->diagonal_), "--time",
-                    exact_number(std::max(part * seconds, 0.0)) },
-      answer);
+  Status status;
+  for (std::size_t k = 0; k < angles.size(); ++k)
+  {
+    // The helper may crash or hang over gaps at the limit of doubles; others get their turn, too.
+    const double seconds = this->options_.time_limit - this->context_.elapsed_seconds();
+    status = this->try_fill(angles[k], k + 1 < angles.size() ? 0.5 * seconds : seconds, answer);
+    if (status.code != StatusCode::internal_error)
+    {
+      break;
+    }
+  }
   if (!status.ok())
   {
     return status;
@@ -416,23 +444,41 @@ Status Builder::fill()
   else if (answer.report.number("min_angle", 0.0) < this->options_.min_angle)
   {
     this->warnings_.emplace_back("angles of " + short_number(this->options_.min_angle) +
-      " degrees would have taken too many "
-      "points; the smallest angle aimed at was " +
+      " degrees could not be had everywhere; the smallest angle aimed at was " +
       short_number(answer.report.number("min_angle", 0.0)));
   }
   return {};
 }
 
-/// Whether the triangles stay positive when the grid's points go back to where they came from.
-bool Builder::places_fit() const
+Status Builder::try_fill(double angle, double seconds, MesherAnswer& answer)
+{
+  constexpr double part = 0.8; // the rest is for reading and writing
+  constexpr double fine = 0x1p-10; // triangles of the angles asked for have no reason to be smaller
+  const double edge = this->options_.edge * this->diagonal_;
+  const double detail = edge > 0.0 ? std::min(edge, this->finest_) : this->finest_;
+  const double floor = std::max(fine * detail, this->rounding_);
+  return this->run_job(
+    { "fill-plane", "--min-angle", exact_number(angle), "--edge", exact_number(edge), "--floor",
+      exact_number(floor), "--time", exact_number(part * seconds) },
+    seconds, answer);
+}
+
+/// Whether the triangles stay positive where they came from: new points are rounded there, and
+/// those of the input go back to their places before they were put on the grid, if `exact`.
+bool Builder::fits(bool exact) const
 {
   const auto place = [&](Index v)
-  { return v < this->gathered_.count() ? this->gathered_.places[v] : this->unscaled(v); };
+  { return exact && v < this->gathered_.count() ? this->gathered_.places[v] : this->unscaled(v); };
   for (Index t = 0; t < this->data_.triangles.rows(); ++t)
   {
-    const Vec2 a = place(this->data_.triangles(t, 0));
-    const Vec2 b = place(this->data_.triangles(t, 1)) - a;
-    const Vec2 c = place(this->data_.triangles(t, 2)) - a;
+    const auto side = [&](int from, int to) // scaled, or areas could underflow
+    {
+      const Vec2 along =
+        place(this->data_.triangles(t, to)) - place(this->data_.triangles(t, from));
+      return Vec2(std::ldexp(along.x(), -this->exponent_), std::ldexp(along.y(), -this->exponent_));
+    };
+    const Vec2 b = side(0, 1);
+    const Vec2 c = side(0, 2);
     if (!(cross(b, c) > 0.0))
     {
       return false;
@@ -441,8 +487,14 @@ bool Builder::places_fit() const
   return true;
 }
 
-void Builder::number(PlanarShape& shape)
+Status Builder::number(PlanarShape& shape)
 {
+  const bool exact = this->fits(true);
+  if (!exact && !this->fits(false))
+  {
+    return Status::failure(StatusCode::internal_error,
+      "rounding turned a triangle over: the curves lie too far from the origin for their detail");
+  }
   std::vector<Index> ids(static_cast<std::size_t>(this->data_.points.rows()), none);
   for (Index k = 0; k < this->data_.triangles.size(); ++k)
   {
@@ -451,7 +503,6 @@ void Builder::number(PlanarShape& shape)
   const auto count = static_cast<Index>(std::count(ids.begin(), ids.end(), 0));
   shape.points.resize(count, 2);
   shape.original_vertices.assign(static_cast<std::size_t>(count), none);
-  const bool exact_places = this->grid_ == 0.0 || this->places_fit();
   Index at = 0;
   for (Index v = 0; v < static_cast<Index>(ids.size()); ++v) // the input's come first, ascending
   {
@@ -460,7 +511,7 @@ void Builder::number(PlanarShape& shape)
       continue;
     }
     const bool gathered = v < this->gathered_.count();
-    const Vec2 place = gathered && exact_places ? this->gathered_.places[v] : this->unscaled(v);
+    const Vec2 place = gathered && exact ? this->gathered_.places[v] : this->unscaled(v);
     shape.points.row(at) = place.transpose();
     shape.original_vertices[at] = gathered ? this->gathered_.originals[v] : none;
     ids[v] = at++;
@@ -483,6 +534,7 @@ void Builder::number(PlanarShape& shape)
     }
     shape.winding_numbers[t] = this->winding_.evaluate_at(center);
   }
+  return {};
 }
 
 void Builder::report(const PlanarShape& shape, Status& status) const
@@ -554,9 +606,9 @@ Status Builder::run(PlanarShape& shape)
     this->grid_ = this->finest_allowed_;
   }
   status = status.ok() ? this->fill() : status;
+  status = status.ok() ? this->number(shape) : status;
   if (status.ok())
   {
-    this->number(shape);
     this->report(shape, status);
   }
   return status;

@@ -40,6 +40,7 @@ struct FillOptions
 {
   double min_angle = 30.0; ///< degrees
   double longest_edge = 0.0; ///< 0: no bound
+  double floor = 0.0; ///< triangles with a shorter side are not refined for their angles
   double time_limit = 120.0; ///< seconds after which it refines no further
 };
 

@@ -89,6 +89,7 @@ std::string run(const std::string& job, const std::map<std::string, std::string>
     bindpose::FillOptions fill;
     fill.min_angle = number(options, "--min-angle", fill.min_angle);
     fill.longest_edge = number(options, "--edge", fill.longest_edge);
+    fill.floor = number(options, "--floor", fill.floor);
     fill.time_limit = number(options, "--time", fill.time_limit);
     return bindpose::fill_plane(data, fill);
   }

@@ -161,7 +161,60 @@ using FillVertex = CGAL::Delaunay_mesh_vertex_base_2<Inexact,
 using FillFace = CGAL::Delaunay_mesh_face_base_2<Inexact>;
 using Filling = CGAL::Constrained_Delaunay_triangulation_2<Inexact,
   CGAL::Triangulation_data_structure_2<FillVertex, FillFace>, CGAL::Exact_predicates_tag>;
-using Criteria = CGAL::Delaunay_mesh_size_criteria_2<Filling>;
+
+/// Angles and lengths; but triangles with a side below a floor are not refined for their angles.
+/// Where bounds above 20.6 degrees have no solution, refinement would go on to the last bit.
+class Criteria : public CGAL::Delaunay_mesh_size_criteria_2<Filling>
+{
+public:
+  using Base = CGAL::Delaunay_mesh_size_criteria_2<Filling>;
+
+  Criteria(double sine_squared, double longest_edge, double floor)
+    : CGAL::Delaunay_mesh_criteria_2<Filling>(sine_squared), // a virtual base
+      Base(sine_squared, longest_edge), floor_(floor)
+  {
+  }
+
+  class Is_bad : public Base::Is_bad
+  {
+  public:
+    using BaseIsBad = Base::Is_bad;
+
+    Is_bad(const BaseIsBad& base, double floor) : BaseIsBad(base), floor_squared_(floor * floor) {}
+
+    CGAL::Mesh_2::Face_badness operator()(const Quality quality) const
+    {
+      return BaseIsBad::operator()(quality);
+    }
+    CGAL::Mesh_2::Face_badness operator()(const Filling::Face_handle& face, Quality& quality) const
+    {
+      const CGAL::Mesh_2::Face_badness badness = BaseIsBad::operator()(face, quality);
+      return badness == CGAL::Mesh_2::BAD && this->is_tiny(face) ? CGAL::Mesh_2::NOT_BAD : badness;
+    }
+
+  private:
+    bool is_tiny(const Filling::Face_handle& face) const
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        const auto& a = face->vertex(k)->point();
+        const auto& b = face->vertex(Filling::ccw(k))->point();
+        if (CGAL::squared_distance(a, b) < this->floor_squared_)
+        {
+          return true;
+        }
+      }
+      return false;
+    }
+
+    double floor_squared_;
+  };
+
+  Is_bad is_bad_object() const { return { Base::is_bad_object(), this->floor_ }; }
+
+private:
+  double floor_;
+};
 
 /// The region as a triangulation whose faces know whether they are inside.
 std::string build(const MesherData& data, Filling& filling)
@@ -274,7 +327,7 @@ bool refine(Filling& filling, double min_angle, const FillOptions& options, std:
   const Clock& clock)
 {
   const double sine = std::sin(min_angle * M_PI / 180.0);
-  const Criteria criteria(sine * sine, options.longest_edge);
+  const Criteria criteria(sine * sine, options.longest_edge, options.floor);
   CGAL::Delaunay_mesher_2<Filling, Criteria> mesher(filling, criteria);
   mesher.init(true);
   std::size_t steps = 0;

@@ -99,9 +99,9 @@ def test_handles_are_vertices(folder):
     report = folder.run("tetrahedralize", "bar.off", "--handles", "handles.tgf", "-o", "bar.vtu", "--report", "-").is_good().report
     mesh = bindpose.read(folder / "bar.vtu")
     heads = [points_of(mesh)[handle["vertex"]] for handle in report["handles"]]
-    handles = bindpose.read(folder / "handles.tgf")
+    assert len(heads) == 2
     for head in heads:
-        assert np.abs(points_of(handles) - head).max(axis=1).min() == 0
+        assert list(head) in [[0.5, 0.5, 0.5], [3, 0.5, 0.5]]
     folder.run("tetrahedralize", "bar.off", "--handles", "none.tgf", "-o", "b.vtu").is_refused("none.tgf")
 
 

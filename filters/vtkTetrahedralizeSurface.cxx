@@ -95,6 +95,9 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
   options.memory_limit = this->MemoryLimit;
   options.quality = this->Quality;
   options.interior_edge = this->InteriorEdge;
+  options.wrap_alpha = this->WrapAlpha;
+  options.wrap_offset = this->WrapOffset;
+  options.ftetwild_epsilon = this->FtetwildEpsilon;
   bindpose::TetrahedralizeResult result;
   status = bindpose::tetrahedralize(
     surface.points.view(), surface.triangles.view(), options, result, context);
@@ -153,4 +156,7 @@ void vtkTetrahedralizeSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "Quality: " << this->Quality << "\n";
   os << indent << "InteriorEdge: " << this->InteriorEdge << "\n";
+  os << indent << "WrapAlpha: " << this->WrapAlpha << "\n";
+  os << indent << "WrapOffset: " << this->WrapOffset << "\n";
+  os << indent << "FtetwildEpsilon: " << this->FtetwildEpsilon << "\n";
 }

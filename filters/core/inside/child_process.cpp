@@ -3,11 +3,13 @@
 // given to another process.
 #include "inside/child_process.h"
 
+#include "base/number_text.h"
+
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <sstream>
+#include <filesystem>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -229,15 +231,8 @@ void FileDescriptor::close()
 
 bool executable_file(const std::string& path)
 {
-  return !path.empty() && ::access(path.c_str(), X_OK) == 0;
-}
-
-std::string seconds_words(double seconds)
-{
-  std::ostringstream text;
-  text.precision(3);
-  text << seconds << " s";
-  return text.str();
+  std::error_code none;
+  return std::filesystem::is_regular_file(path, none) && ::access(path.c_str(), X_OK) == 0;
 }
 
 std::string memory_words(Index memory_limit)
@@ -299,7 +294,8 @@ Status run_child(const ChildRequest& request,
     if (end.seconds > request.time_limit)
     {
       return Status::failure(StatusCode::internal_error,
-        request.name + " was stopped at its time limit of " + seconds_words(request.time_limit));
+        request.name + " was stopped at its time limit of " + short_number(request.time_limit) +
+          " s");
     }
   }
 }

@@ -46,8 +46,6 @@ Status run_child(const ChildRequest& request,
   const std::function<void(const std::string&)>& take_line, ChildEnd& end,
   ExecutionContext& context);
 
-/// "3.2 s"
-std::string seconds_words(double seconds);
 /// " under a memory limit of 500 MiB", empty without a limit.
 std::string memory_words(Index memory_limit);
 

@@ -20,8 +20,8 @@ namespace
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-/// Counts the vertices that are added. How many there will be is known roughly only: a wrap has
-/// equilateral triangles of about this size in alphas, as measured, on both sides of a sheet.
+/// Counts the vertices that are added. How many there will be is not known: the bar is half way
+/// when there is one for every square of side alpha that the surface has room for.
 class Progress : public CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor
 {
 public:

@@ -35,7 +35,7 @@
  *   process. Winding numbers have no say, so it is for surfaces whose orientation is hopeless; flat
  *   ones and loose triangles have a wrap, too. What is closed up to gaps of two WrapAlpha becomes
  *   solid, and what is open becomes a **thin shell**: a warning names its volume and the winding
- *   number's. The whole surface is in it; no point is kept.
+ *   number's. The whole surface is in it or on its boundary; no point is kept.
  * - FTETWILD runs the program fTetWild (https://github.com/wildmeshing/fTetWild), where its
  *   executable FloatTetwild_bin or ftetwild is on PATH or named by the environment variable
  *   BINDPOSE_FTETWILD. Its tets are well shaped and within FtetwildEpsilon of the surface; no point

@@ -87,7 +87,8 @@ struct TetrahedralizeResult
 /// - **wrap** is cdt of an alpha wrap (wrap_surface.h), by the helper: for surfaces whose
 ///   orientation is hopeless, sheets and loose triangles; winding numbers have no say. What is
 ///   closed up to gaps of two alpha becomes solid, and **what is open becomes a thin shell**, with
-///   a warning that names both volumes. All of the surface is in it; no vertex is kept.
+///   a warning that names both volumes. All of the surface is in it or, at
+///   corners, on its boundary; no vertex is kept.
 /// - **ftetwild** is what the program fTetWild makes of the surface, where it is installed
 ///   (ftetwild_process.h). winding_threshold must be 0.5. No vertex is kept.
 ///

@@ -23,17 +23,18 @@ struct WrapOptions
 /// A closed surface that holds any triangles in it: open, crossing, loose, of no thickness, however
 /// oriented (Portaneri, Rouxel-Labbé, Hemmer, Cohen-Steiner, Alliez, Alpha Wrapping with an Offset,
 /// 2022), by the helper executable bindpose-mesher. It is 2-manifold, without crossings, oriented
-/// outwards and as near as `offset` wherever a ball of radius alpha reaches the surface from
-/// outside; one component for each part of the surface that is alpha away from the others. What is
-/// closed up to gaps of 2 alpha becomes solid, whatever lies inside; what is open becomes a shell
-/// of thickness 2 offset.
+/// outwards, and follows the surface wherever a ball of radius alpha reaches it from outside: its
+/// vertices lie at the distance `offset` from the surface, while its triangles may come nearer, at
+/// corners so near that they touch. Parts that are nearer to each other than 2 alpha are joined.
+/// What is closed up to gaps of 2 alpha becomes solid, whatever lies inside; what is open becomes a
+/// shell of thickness 2 offset.
 ///
 /// `wrap_points` (#W x 3) and `wrap_triangles` (#G x 3) are all new.
 ///
 /// invalid_input: not finite, larger than 1e100, ids out of range, no triangles, all in one point,
 /// an option out of range. unavailable: no helper. internal_error: the helper failed, ran out of
-/// time or memory. Cost: about 0.13 ms a triangle of the wrap, 5,000 of
-/// which the defaults give a shape like an elephant, 12,000 with half the alpha.
+/// time or memory. Cost: about 0.13 ms a triangle of the wrap; the defaults give an elephant 5,000
+/// of them, half the alpha 12,000.
 Status wrap_surface(PointsView points, TrianglesView triangles, const WrapOptions& options,
   Points& wrap_points, Triangles& wrap_triangles, ExecutionContext& context);
 

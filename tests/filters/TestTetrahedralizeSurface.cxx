@@ -154,7 +154,6 @@ TEST(TetrahedralizeSurface, WrapHoldsASheet)
   ASSERT_NE(ids, nullptr);
   EXPECT_EQ(ids->GetRange()[1], -1.0);
   filter->SetWrapOffset(-1.0);
-  filter->SetErrorCode(0);
   vtkNew<Listener> listener;
   listener->listen(filter);
   filter->Update();

@@ -5,7 +5,6 @@
 #include "inside/child_process.h"
 #include "inside/scratch_folder.h"
 #include "inside/tet_quality.h"
-#include "io/medit.h"
 #include "io/off.h"
 
 #include "support/environment.h"
@@ -55,6 +54,31 @@ cp "$input" "$here/input.off"
 echo scratch > "${output}_sf.obj"
 )";
 
+/// The cube in the frame that fTetWild works in, as its MeshIO.cpp writes it, with a vertex that
+/// nothing uses.
+std::string the_cube()
+{
+  const TetMesh box = test::tet_box(2, 2, 2, Vec3::Constant(-0.5), Vec3::Constant(0.5));
+  std::ostringstream text;
+  text.precision(16);
+  text << "MeshVersionFormatted 1\nDimension 3\nVertices\n" << box.points.rows() + 1 << "\n";
+  for (Index v = 0; v < box.points.rows(); ++v)
+  {
+    text << box.points(v, 0) << " " << box.points(v, 1) << " " << box.points(v, 2) << " 0\n";
+  }
+  text << "3 3 3 0\nTriangles\n0\nTetrahedra\n" << box.tets.rows() << "\n";
+  for (Index t = 0; t < box.tets.rows(); ++t)
+  {
+    for (const int k : { 0, 1, 3, 2 })
+    {
+      text << box.tets(t, k) + 1 << " ";
+    }
+    text << "0\n";
+  }
+  text << "End";
+  return text.str();
+}
+
 /// A script in fTetWild's place; also watches that nothing is left behind.
 class FakeFtetwild
 {
@@ -65,14 +89,7 @@ public:
       variable_("BINDPOSE_FTETWILD", this->program_), temporary_("TMPDIR", this->empty_.path())
   {
     ::chmod(this->program_.c_str(), 0755);
-    // The cube in the frame that fTetWild works in, as it writes it: turned over, with a vertex
-    // that nothing uses.
-    TetMesh box = test::tet_box(2, 2, 2, Vec3::Constant(-0.5), Vec3::Constant(0.5));
-    box.tets.col(2).swap(box.tets.col(3));
-    box.points.conservativeResize(box.points.rows() + 1, 3);
-    box.points.bottomRows(1).setConstant(3.0);
-    EXPECT_TRUE(
-      write_medit(this->scripts_ / "tets.mesh", box.points, Triangles(0, 3), box.tets).ok());
+    this->scripts_.write("tets.mesh", the_cube());
     this->descriptors_ = open_descriptors();
   }
   ~FakeFtetwild()

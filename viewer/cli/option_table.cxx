@@ -77,6 +77,10 @@ const std::vector<Verb>& verbs()
         { "--interior-edge", "FRACTION", Kind::number, "0.04", "",
           "longest edges that cdt and wrap leave inside, and those that ftetwild aims at, of the "
           "surface's diagonal; 0: any" },
+        { "--handles", "HANDLES", Kind::text, "", "",
+          "handles, .tgf or .vtp: cdt and wrap make their points points of the mesh, and put "
+          "points along "
+          "bones and cages" },
         { "--resolution", "CUBES", Kind::integer, "0", "",
           "lattice cubes along the longest side (remesh, embed), 4 to 1000; 0: 40 for remesh, "
           "about "

@@ -4,6 +4,7 @@
 #include "base/execution.h"
 #include "base/mesh.h"
 #include "inside/embedding_tets.h"
+#include "inside/handle_places.h"
 #include "inside/segmentation.h"
 #include "inside/surface_defects.h"
 
@@ -57,6 +58,9 @@ struct TetrahedralizeOptions
   /// ftetwild only: how far the boundary may be from the surface, as a fraction of the diagonal,
   /// 0.00001 … 0.1.
   double ftetwild_epsilon = 1e-3;
+  /// cdt and wrap: points that become vertices where they are inside, segments and triangles on
+  /// which vertices are put at the local edge length. (insert_handles splits other methods' tets.)
+  HandlePlaces handles;
 };
 
 struct TetrahedralizeResult
@@ -65,6 +69,7 @@ struct TetrahedralizeResult
   std::vector<Index> original_vertices; ///< #V: id of the input vertex, ascending, then -1 for new
   Eigen::VectorXd winding_numbers; ///< #T: at the tets' centres
   std::vector<DefectPlace> defects; ///< where the surface is unclean
+  std::vector<Index> handle_vertices; ///< of cdt, #H: vertex at the handles' point, -1 for none
   /// Of embed only, else empty: #T share of the tet that is inside, and where the input's points
   /// lie.
   Eigen::VectorXd inside_fractions;
@@ -99,7 +104,11 @@ struct TetrahedralizeResult
 /// Report: method; rungs[].name, rungs[].seconds, rungs[].outcome (each thing tried, and why it was
 /// left); counts.* of the diagnosis; counts.tets, counts.tet_vertices, counts.kept_vertices;
 /// volume (of the tets), winding_volume (of {w >= threshold}: exact for clean surfaces, sampled
-/// otherwise), min_dihedral_angle (degrees), counts.tets_below_5_degrees;
+/// otherwise), winding_volume_error (its standard error, relative), min_dihedral_angle (degrees),
+/// counts.tets_below_5_degrees, quality[].dihedral_angle, quality[].tets (how many tets have their
+/// smallest dihedral angle from this many degrees to the next);
+/// counts.handle_points, counts.handle_vertices (of cdt with handles: how many of their points are
+/// vertices);
 /// segmentation (of cdt; a graph cut whose volume does not fit is left for the threshold), energy,
 /// threshold_energy, counts.changed_by_cut (see Segmentation); for remesh and embed resolution, for
 /// embed what embed_surface reports.
@@ -107,9 +116,10 @@ struct TetrahedralizeResult
 /// boundary and the surface where that bounds the inside, percent of its diagonal); for wrap
 /// counts.wrap_triangles.
 ///
-/// invalid_input: not finite, flat (but for embed and wrap), or encloses nothing (the same).
-/// unavailable: method cdt or wrap without helper, ftetwild without fTetWild.
-/// internal_error: no method gave a valid mesh; the message tells the last reason.
+/// invalid_input: not finite, flat (but for embed and wrap), or encloses nothing (the same); or, of
+/// method automatic, neither cdt nor remesh gives a valid mesh: the message tells the last reason
+/// and names method embed. unavailable: method cdt or wrap without helper, ftetwild without
+/// fTetWild. internal_error: the method asked for gave no valid mesh.
 /// Cost: about 10 us a triangle and 5 us a tet for clean surfaces, 50 us a triangle for others.
 Status tetrahedralize(PointsView points, TrianglesView triangles,
   const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context);

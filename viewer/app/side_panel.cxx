@@ -49,7 +49,8 @@ QString sentence_of(const QString& phase)
   } table[] = {
     { "repair", QT_TRANSLATE_NOOP("SidePanel", "Looking at the surface") },
     { "winding", QT_TRANSLATE_NOOP("SidePanel", "Finding the inside") },
-    { "tetrahedralize cdt refine tetgen label fill improve remesh distance lattice sample cut check",
+    { "tetrahedralize cdt refine tetgen label fill improve remesh distance lattice sample cut "
+      "check",
       QT_TRANSLATE_NOOP("SidePanel", "Filling it with tets") },
     { "insert", QT_TRANSLATE_NOOP("SidePanel", "Placing the handles") },
     { "analyse guide weights", QT_TRANSLATE_NOOP("SidePanel", "Solving for the weights") },

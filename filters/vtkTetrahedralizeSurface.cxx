@@ -11,6 +11,7 @@
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
+#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -42,6 +43,15 @@ int vtkTetrahedralizeSurface::FillOutputPortInformation(int port, vtkInformation
 
 namespace
 {
+vtkSmartPointer<vtkDoubleArray> to_array(const char* name, const Eigen::VectorXd& values)
+{
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName(name);
+  array->SetNumberOfValues(values.size());
+  std::copy(values.data(), values.data() + values.size(), array->GetPointer(0));
+  return array;
+}
+
 /// The surface with the tet and the coordinates in it of every point.
 vtkSmartPointer<vtkPolyData> to_bound_surface(
   const bindpose::SurfaceInput& surface, const bindpose::PointBinding& binding)
@@ -95,6 +105,7 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
   options.memory_limit = this->MemoryLimit;
   options.quality = this->Quality;
   options.interior_edge = this->InteriorEdge;
+  options.keep_outside = this->KeepOutside;
   bindpose::TetrahedralizeResult result;
   status = bindpose::tetrahedralize(
     surface.points.view(), surface.triangles.view(), options, result, context);
@@ -117,20 +128,18 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
   ids->SetNumberOfValues(static_cast<vtkIdType>(result.original_vertices.size()));
   std::copy(result.original_vertices.begin(), result.original_vertices.end(), ids->GetPointer(0));
   out->GetPointData()->AddArray(ids);
-  vtkNew<vtkDoubleArray> winding;
-  winding->SetName("WindingNumber");
-  winding->SetNumberOfValues(result.winding_numbers.size());
-  std::copy(result.winding_numbers.data(),
-    result.winding_numbers.data() + result.winding_numbers.size(), winding->GetPointer(0));
-  out->GetCellData()->SetScalars(winding);
+  out->GetCellData()->SetScalars(to_array("WindingNumber", result.winding_numbers));
+  vtkNew<vtkIntArray> labels;
+  labels->SetName("Label");
+  for (const bindpose::TetLabel label : result.labels)
+  {
+    labels->InsertNextValue(static_cast<int>(label));
+  }
+  out->GetCellData()->AddArray(labels);
+  out->GetCellData()->AddArray(to_array("MinDihedralAngle", result.min_dihedral_angles));
   if (result.inside_fractions.size() > 0)
   {
-    vtkNew<vtkDoubleArray> fractions;
-    fractions->SetName("InsideFraction");
-    fractions->SetNumberOfValues(result.inside_fractions.size());
-    std::copy(result.inside_fractions.data(),
-      result.inside_fractions.data() + result.inside_fractions.size(), fractions->GetPointer(0));
-    out->GetCellData()->AddArray(fractions);
+    out->GetCellData()->AddArray(to_array("InsideFraction", result.inside_fractions));
     bound->ShallowCopy(to_bound_surface(surface, result.binding));
   }
   defects->ShallowCopy(
@@ -153,4 +162,5 @@ void vtkTetrahedralizeSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "Quality: " << this->Quality << "\n";
   os << indent << "InteriorEdge: " << this->InteriorEdge << "\n";
+  os << indent << "KeepOutside: " << (this->KeepOutside ? "on" : "off") << "\n";
 }

@@ -10,7 +10,10 @@
  * cells are ignored and counted).
  * **Output**: a vtkUnstructuredGrid of tets (VTK_TETRA, all of positive volume) with the point
  * array `OriginalPointIds` (id of the input point, ascending, then -1 for new points) and the cell
- * array `WindingNumber` (double, at the tets' centres).
+ * arrays `WindingNumber` (double, at the tets' centres), `Label` (int: 1 inside, 2 inside though
+ * the winding number is below the threshold, 0 outside, -1 outside though it is not below; outside
+ * ones are there with KeepOutside and EMBED only) and `MinDihedralAngle` (double, the tet's
+ * smallest, degrees).
  * **Output 1**: a vtkPolyData that shows where the surface is unclean, as vtkSurfaceDefects does
  * (which also works where there are no tets to be had).
  * **Output 2**: of EMBED, else empty: the surface's points and triangles as a vtkPolyData with the
@@ -42,7 +45,8 @@
  * (degrees), resolution (of the lattice), distance_max, distance_mean (REMESH by refinement: of
  * the tets' boundary and the surface, % of its diagonal), spacing, counts.{lattice_tets,
  * duplicated_nodes, branching_facets, tet_components} (EMBED), segmentation, energy,
- * threshold_energy, counts.changed_by_cut (of the graph cut), seconds.*.
+ * threshold_energy, counts.changed_by_cut (of the graph cut), counts.tets_inside (KeepOutside),
+ * seconds.*.
  *
  * Errors: invalid_input for a surface without 2D cells, with ids out of range or coordinates that
  * are not finite, for a flat one, and for one that encloses nothing; unavailable for CDT without
@@ -171,6 +175,18 @@ public:
   vtkGetMacro(InteriorEdge, double);
   ///@}
 
+  ///@{
+  /**
+   * CDT only (INVALID_INPUT otherwise): keep all tets of the surface's convex hull, or of a box
+   * around it where that was needed, for inspection: those with `Label` above 0 are inside.
+   * `WindingNumber` is then what the segmentation decided on, and no points are added for Quality
+   * and InteriorEdge. Default off.
+   */
+  vtkSetMacro(KeepOutside, bool);
+  vtkGetMacro(KeepOutside, bool);
+  vtkBooleanMacro(KeepOutside, bool);
+  ///@}
+
 protected:
   vtkTetrahedralizeSurface();
   ~vtkTetrahedralizeSurface() override;
@@ -194,6 +210,7 @@ private:
   int MemoryLimit = 0;
   double Quality = 1.414;
   double InteriorEdge = 0.04;
+  bool KeepOutside = false;
 };
 
 #endif

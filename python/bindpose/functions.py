@@ -165,8 +165,8 @@ def contains(surface, points, *, winding_threshold=0.5, method="auto", tolerance
 
 
 def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentation="graph-cut", cut_smoothness=1.0,
-                   cut_sigma=0.1, quality=1.414, interior_edge=0.04, resolution=0, time_limit=120.0, memory_limit=0,
-                   threads=0, progress=None):
+                   cut_sigma=0.1, quality=1.414, interior_edge=0.04, keep_outside=False, resolution=0, time_limit=120.0,
+                   memory_limit=0, threads=0, progress=None):
     """Fill the inside of a surface, however unclean, with tets.
 
     Parameters
@@ -187,6 +187,8 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
         Largest ratio of circumradius to shortest edge that cdt leaves inside, 1.1 to 10; 0 for any.
     interior_edge : float
         Longest edges that cdt leaves inside, as a fraction of the surface's diagonal; 0 for any.
+    keep_outside : bool
+        With cdt: all tets of the hull, for inspection; ``Label`` is above 0 where they are inside.
     resolution : int
         Lattice cubes along the longest side for remesh and embed, 4 to 1000; 0 for 40 (remesh) or about 30,000
         tets (embed).
@@ -200,13 +202,14 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
     Returns
     -------
     Tets or vtkUnstructuredGrid
-        Arrays for arrays; a dataset has the point array ``OriginalPointIds`` and the cell array
-        ``WindingNumber``.
+        Arrays for arrays; a dataset has the point array ``OriginalPointIds`` and the cell arrays
+        ``WindingNumber``, ``Label`` (1 inside, 2 inside though the winding number is below the
+        threshold, 0 outside, -1 outside though it is not below) and ``MinDihedralAngle`` (degrees).
 
     Raises
     ------
     InvalidInput
-        Not a surface, or one that encloses nothing.
+        Not a surface, or one that encloses nothing; `keep_outside` with another method than cdt.
     Unavailable
         The meshing program is not there; the text names the packages.
     """
@@ -219,6 +222,7 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
     filler.SetCutSigma(cut_sigma)
     filler.SetQuality(quality)
     filler.SetInteriorEdge(interior_edge)
+    filler.SetKeepOutside(bool(keep_outside))
     filler.SetResolution(int(resolution))
     filler.SetTimeLimit(time_limit)
     filler.SetMemoryLimit(memory_limit)

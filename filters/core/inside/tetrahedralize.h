@@ -47,13 +47,30 @@ struct TetrahedralizeOptions
   /// cdt only: longest edges inside, as a fraction of the surface's diagonal; 0: no bound. Smooth
   /// weights need vertices inside, not only on the surface.
   double interior_edge = 0.04;
+  /// cdt only: keep all tets of the surface's convex hull (or of a box around it, where that was
+  /// needed), as the segmentation told them apart: labels says which are inside. No vertices are
+  /// added.
+  bool keep_outside = false;
+};
+
+/// What became of a tet. The numbers are those of the array `Label`: above 0 is inside.
+enum class TetLabel
+{
+  outside_above = -1, ///< outside, though its winding number reaches the threshold
+  outside = 0,
+  inside = 1,
+  inside_below = 2 ///< inside, though its winding number is below the threshold
 };
 
 struct TetrahedralizeResult
 {
   TetMesh mesh; ///< positive tets, no stray vertices
   std::vector<Index> original_vertices; ///< #V: id of the input vertex, ascending, then -1 for new
-  Eigen::VectorXd winding_numbers; ///< #T: at the tets' centres
+  /// #T: at the tets' centres; with keep_outside what the segmentation decided on, which is a mean
+  /// for large tets near the threshold.
+  Eigen::VectorXd winding_numbers;
+  std::vector<TetLabel> labels; ///< #T; a tet of embed is inside where its centre is
+  Eigen::VectorXd min_dihedral_angles; ///< #T, degrees
   std::vector<DefectPlace> defects; ///< where the surface is unclean
   /// Of embed only, else empty: #T share of the tet that is inside, and where the input's points
   /// lie.
@@ -79,15 +96,15 @@ struct TetrahedralizeResult
 ///
 /// Report: method; rungs[].name, rungs[].seconds, rungs[].outcome (each thing tried, and why it was
 /// left); counts.* of the diagnosis; counts.tets, counts.tet_vertices, counts.kept_vertices;
-/// volume (of the tets), winding_volume (of {w >= threshold}: exact for clean surfaces, sampled
-/// otherwise), min_dihedral_angle (degrees), counts.tets_below_5_degrees;
-/// segmentation (of cdt; a graph cut whose volume does not fit is left for the threshold), energy,
-/// threshold_energy, counts.changed_by_cut (see Segmentation); for remesh and embed resolution, for
-/// embed what embed_surface reports.
-/// For remesh by refinement distance_max and distance_mean (of the tets' boundary and the surface,
-/// percent of its diagonal).
+/// volume (of the tets inside), winding_volume (of {w >= threshold}: exact for clean surfaces,
+/// sampled otherwise), min_dihedral_angle (degrees), counts.tets_below_5_degrees; segmentation (of
+/// cdt; a graph cut whose volume does not fit is left for the threshold), energy, threshold_energy,
+/// counts.changed_by_cut (see Segmentation); for remesh and embed resolution, for embed what
+/// embed_surface reports. For remesh by refinement distance_max and distance_mean (of the tets'
+/// boundary and the surface, percent of its diagonal).
 ///
-/// invalid_input: not finite, flat, or encloses nothing. unavailable: method cdt without helper.
+/// invalid_input: not finite, flat, or encloses nothing; keep_outside with another method than cdt.
+/// unavailable: method cdt without helper.
 /// internal_error: no method gave a valid mesh; the message tells the last reason.
 /// Cost: about 10 us a triangle and 5 us a tet for clean surfaces, 50 us a triangle for others.
 Status tetrahedralize(PointsView points, TrianglesView triangles,

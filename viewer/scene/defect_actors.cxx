@@ -83,7 +83,7 @@ std::vector<vtkSmartPointer<vtkActor>> make_defects(vtkPolyData* defects, double
       vtkProperty* property = actor->GetProperty();
       property->LightingOff();
       property->SetLineWidth(static_cast<float>(line_width));
-      property->SetPointSize(static_cast<float>(3.5 * line_width));
+      property->SetPointSize(static_cast<float>(3.0 * line_width));
       property->SetRenderPointsAsSpheres(dots); // round
       property->SetOpacity(hidden ? 0.35 : 1.0);
       // Far nearer than it is, as depth goes, or just before the surface that it lies in.

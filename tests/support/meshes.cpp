@@ -225,4 +225,23 @@ Vec3 Random::in_box(const Vec3& lower, const Vec3& upper)
   return { x, y, z };
 }
 
+Index euler_characteristic(const TetMesh& mesh)
+{
+  constexpr int facet[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
+  Triangles facets(4 * mesh.tets.rows(), 3);
+  for (Index t = 0; t < mesh.tets.rows(); ++t)
+  {
+    for (int f = 0; f < 4; ++f)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        facets(4 * t + f, k) = mesh.tets(t, facet[f][k]);
+      }
+    }
+  }
+  const auto edges = static_cast<Index>(mesh_edges(facets).size());
+  const Index boundary = boundary_triangles(mesh.tets).rows();
+  return mesh.points.rows() - edges + (4 * mesh.tets.rows() + boundary) / 2 - mesh.tets.rows();
+}
+
 } // namespace bindpose::test

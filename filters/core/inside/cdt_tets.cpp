@@ -10,13 +10,13 @@
 // better and weights have something to vary over.
 #include "inside/cdt_tets.h"
 
+#include "base/number_text.h"
 #include "inside/mesher_process.h"
 #include "inside/tet_quality.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 
 namespace bindpose
 {
@@ -41,13 +41,6 @@ double scatter(std::uint64_t n)
   return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
 }
 
-std::string short_number(double x)
-{
-  std::ostringstream text;
-  text.precision(4);
-  text << x;
-  return text.str();
-}
 } // namespace
 
 void RungLog::add(const std::string& rung, double seconds, const Status& status)
@@ -89,7 +82,9 @@ Status CdtTets::build(double seconds)
   {
     const Phase phase(this->context_, "tetgen", 0.0, 0.6);
     this->original_ = this->surface_.original_vertices;
-    const MesherData data{ this->surface_.points, this->surface_.triangles, {}, {}, {}, {} };
+    MesherData data;
+    data.points = this->surface_.points;
+    data.triangles = this->surface_.triangles;
     // Without c, TetGen throws the outside away itself.
     status = this->try_tetgen("tetgen", data, this->options_.keep_outside ? "pYcA" : "pYA", false);
     if (status.ok() || this->final(status))
@@ -241,7 +236,9 @@ Status CdtTets::refine(const Move& move, MesherData& refined)
   {
     this->original_ = moved.original_vertices;
     MesherAnswer answer;
-    const MesherData input{ moved.points, moved.triangles, {}, {}, {}, {} };
+    MesherData input;
+    input.points = std::move(moved.points);
+    input.triangles = std::move(moved.triangles);
     status = this->run_job({ "refine" }, input, 25.0, answer);
     refined = std::move(answer.data);
     if (status.ok() && refined.triangles.rows() == 0)
@@ -465,7 +462,9 @@ Status CdtTets::complete()
 /// way of small tets.
 Status CdtTets::fill()
 {
-  const MesherData coarse{ this->mesh_.points, {}, this->mesh_.tets, {}, {}, {} };
+  MesherData coarse;
+  coarse.points = this->mesh_.points;
+  coarse.tets = this->mesh_.tets;
   const std::string size = this->options_.interior_edge > 0.0 ? "a" : "";
   const std::string good =
     this->options_.quality > 0.0 ? "q" + short_number(this->options_.quality) + "/10" : "";

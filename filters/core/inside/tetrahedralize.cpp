@@ -4,6 +4,7 @@
 // with a warning. embed (embedding_tets.h) stands beside the ladder.
 #include "inside/tetrahedralize.h"
 
+#include "base/number_text.h"
 #include "inside/cdt_tets.h"
 #include "inside/embedding_tets.h"
 #include "inside/enclosed_region.h"
@@ -15,21 +16,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 
 namespace bindpose
 {
 
 namespace
 {
-std::string short_number(double x)
-{
-  std::ostringstream text;
-  text.precision(4);
-  text << x;
-  return text.str();
-}
-
 /// "1 triangle was", "2 triangles were"
 std::string counted(Index count, const char* one, const char* many)
 {

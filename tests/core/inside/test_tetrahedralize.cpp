@@ -8,6 +8,7 @@
 #include "support/demo_meshes.h"
 #include "support/files.h"
 #include "support/meshes.h"
+#include "support/needs_mesher.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -179,16 +180,8 @@ private:
 };
 
 /// Tests of method cdt, which needs the helper.
-class Cdt : public testing::Test
+class Cdt : public test::NeedsMesher
 {
-protected:
-  void SetUp() override
-  {
-    if (find_mesher().empty())
-    {
-      GTEST_SKIP() << "bindpose-mesher is not built: libcgal-dev, libtet1.5-dev";
-    }
-  }
 };
 } // namespace
 

@@ -4,14 +4,13 @@
 #include "conversion.h"
 #include "inside/tetrahedralize.h"
 #include "surface_defects_data.h"
+#include "tets_data.h"
 
-#include "vtkCellData.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
-#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
@@ -43,15 +42,6 @@ int vtkTetrahedralizeSurface::FillOutputPortInformation(int port, vtkInformation
 
 namespace
 {
-vtkSmartPointer<vtkDoubleArray> to_array(const char* name, const Eigen::VectorXd& values)
-{
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetName(name);
-  array->SetNumberOfValues(values.size());
-  std::copy(values.data(), values.data() + values.size(), array->GetPointer(0));
-  return array;
-}
-
 /// The surface with the tet and the coordinates in it of every point.
 vtkSmartPointer<vtkPolyData> to_bound_surface(
   const bindpose::SurfaceInput& surface, const bindpose::PointBinding& binding)
@@ -122,24 +112,9 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
     return status;
   }
 
-  out->ShallowCopy(bindpose::to_unstructured_grid(result.mesh.points, result.mesh.tets));
-  vtkNew<vtkIdTypeArray> ids;
-  ids->SetName("OriginalPointIds");
-  ids->SetNumberOfValues(static_cast<vtkIdType>(result.original_vertices.size()));
-  std::copy(result.original_vertices.begin(), result.original_vertices.end(), ids->GetPointer(0));
-  out->GetPointData()->AddArray(ids);
-  out->GetCellData()->SetScalars(to_array("WindingNumber", result.winding_numbers));
-  vtkNew<vtkIntArray> labels;
-  labels->SetName("Label");
-  for (const bindpose::TetLabel label : result.labels)
-  {
-    labels->InsertNextValue(static_cast<int>(label));
-  }
-  out->GetCellData()->AddArray(labels);
-  out->GetCellData()->AddArray(to_array("MinDihedralAngle", result.min_dihedral_angles));
+  out->ShallowCopy(bindpose::to_unstructured_grid(result));
   if (result.inside_fractions.size() > 0)
   {
-    out->GetCellData()->AddArray(to_array("InsideFraction", result.inside_fractions));
     bound->ShallowCopy(to_bound_surface(surface, result.binding));
   }
   defects->ShallowCopy(

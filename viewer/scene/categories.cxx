@@ -2,6 +2,7 @@
 // palettes of Paul Tol).
 #include "scene/categories.h"
 
+#include "base/number_text.h"
 #include "inside/surface_defects.h"
 #include "report_field_data.h"
 

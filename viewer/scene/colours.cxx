@@ -171,7 +171,7 @@ ColourMap level_map(const ColourMap& map, const std::vector<double>& levels)
     const Rgb c = colour_of(map, levels[i]);
     result.table->SetTableValue(i, c[0], c[1], c[2], 1.0);
     result.ticks.push_back(i + 0.5);
-    result.texts.push_back(short_number(levels[i]));
+    result.texts.push_back(legend_number(levels[i]));
   }
   return result;
 }
@@ -200,7 +200,7 @@ ColourMap with_levels(ColourMap map, const std::vector<double>& levels)
   return map;
 }
 
-std::string short_number(double value)
+std::string legend_number(double value)
 {
   char text[40];
   std::snprintf(text, sizeof text, "%.3g", value == 0.0 ? 0.0 : value);

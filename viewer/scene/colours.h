@@ -66,7 +66,7 @@ ColourMap level_map(const ColourMap& map, const std::vector<double>& levels);
 /// The map with the levels among its ticks; ticks that would touch them are left out.
 ColourMap with_levels(ColourMap map, const std::vector<double>& levels);
 /// A value as legends write it: three digits.
-std::string short_number(double value);
+std::string legend_number(double value);
 
 } // namespace bindpose
 

@@ -33,7 +33,7 @@ std::string tick_text(const ColourMap& map, std::size_t tick)
   }
   if (map.decimals < 0)
   {
-    return short_number(map.ticks[tick]);
+    return legend_number(map.ticks[tick]);
   }
   char text[40];
   std::snprintf(text, sizeof text, "%.*f", map.decimals, map.ticks[tick]);

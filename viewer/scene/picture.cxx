@@ -215,8 +215,8 @@ Status check_volumes(
   {
     if (!(level > lower && level <= upper))
     {
-      result.warnings.push_back("no isosurface at " + short_number(level) +
-        ": the values run from " + short_number(lower) + " to " + short_number(upper));
+      result.warnings.push_back("no isosurface at " + legend_number(level) +
+        ": the values run from " + legend_number(lower) + " to " + legend_number(upper));
     }
   }
   return result;

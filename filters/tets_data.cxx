@@ -4,10 +4,12 @@
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
+#include "vtkStringArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
@@ -27,7 +29,8 @@ vtkSmartPointer<vtkDoubleArray> to_array(const char* name, const Eigen::VectorXd
 }
 } // namespace
 
-vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(const TetrahedralizeResult& result)
+vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(
+  const TetrahedralizeResult& result, const std::string& method)
 {
   const auto grid = to_unstructured_grid(result.mesh.points, result.mesh.tets);
   vtkNew<vtkIdTypeArray> ids;
@@ -48,6 +51,11 @@ vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(const TetrahedralizeRe
   {
     grid->GetCellData()->AddArray(to_array("InsideFraction", result.inside_fractions));
   }
+  // Unlike the report it stays when the tets are written and read again.
+  vtkNew<vtkStringArray> name;
+  name->SetName("Method");
+  name->InsertNextValue(method);
+  grid->GetFieldData()->AddArray(name);
   return grid;
 }
 

@@ -6,15 +6,18 @@
 
 #include "vtkSmartPointer.h"
 
+#include <string>
+
 class vtkUnstructuredGrid;
 
 namespace bindpose
 {
 
 /// Output 0 of vtkTetrahedralizeSurface: tets with `OriginalPointIds`, `WindingNumber`, `Label`,
-/// `MinDihedralAngle` and, of embed, `InsideFraction`.
+/// `MinDihedralAngle` and, of embed, `InsideFraction`; field data `Method`.
+/// @param method  what the report says
 BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(
-  const TetrahedralizeResult& result);
+  const TetrahedralizeResult& result, const std::string& method);
 
 } // namespace bindpose
 

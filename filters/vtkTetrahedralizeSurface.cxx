@@ -112,7 +112,7 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
     return status;
   }
 
-  out->ShallowCopy(bindpose::to_unstructured_grid(result));
+  out->ShallowCopy(bindpose::to_unstructured_grid(result, status.report.text("method")));
   if (result.inside_fractions.size() > 0)
   {
     bound->ShallowCopy(to_bound_surface(surface, result.binding));

@@ -7,7 +7,6 @@
 #include "inside/surface_defects.h"
 #include "inside/surface_repair.h"
 #include "inside/tetrahedralize.h"
-#include "report_field_data.h"
 #include "surface_defects_data.h"
 #include "tets_data.h"
 
@@ -148,8 +147,7 @@ void Inspection::make_tets(int method)
       Status done = tetrahedralize(mesh.points, mesh.triangles, options, result, context);
       if (done.usable())
       {
-        *made = to_unstructured_grid(result);
-        attach_report(*made, done.report);
+        *made = to_unstructured_grid(result, done.report.text("method"));
       }
       return done;
     });

@@ -95,6 +95,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   keep_place(this->count_);
   column->addWidget(this->count_);
 
+  column->addSpacing(10);
   this->shrink_label_ = heading(tr("Size of each tet"), this);
   column->addWidget(this->shrink_label_);
   this->shrink_ = new ValueRow(this);

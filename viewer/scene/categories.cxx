@@ -4,13 +4,14 @@
 
 #include "base/number_text.h"
 #include "inside/surface_defects.h"
-#include "report_field_data.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
+#include "vtkFieldData.h"
 #include "vtkLookupTable.h"
 #include "vtkPolyData.h"
+#include "vtkStringArray.h"
 
 #include <algorithm>
 
@@ -93,12 +94,13 @@ Status count_labels(vtkDataSet* tets, std::vector<Category>& categories)
 
 Status count_rung(vtkDataSet* tets, std::vector<Category>& categories)
 {
-  const std::string method = read_report(tets).text("method");
-  if (method.empty())
+  auto* array = vtkStringArray::SafeDownCast(tets->GetFieldData()->GetAbstractArray("Method"));
+  if (!array || array->GetNumberOfValues() == 0)
   {
     return Status::invalid_input("the tets do not say how they were made; bindpose tetrahedralize "
-                                 "writes it (field data Report.method of a .vtu file)");
+                                 "writes it (field data 'Method' of a .vtu file)");
   }
+  const std::string method = array->GetValue(0);
   auto found = std::find_if(categories.begin(), categories.end(),
     [&](const Category& category) { return category.name == method; });
   found = found == categories.end() ? categories.end() - 1 : found;

@@ -27,7 +27,7 @@ struct Category
 /// The four values of the cell array `Label` of vtkTetrahedralizeSurface, each with its colour:
 /// decisions against the winding number are the darker.
 const std::vector<Category>& label_categories();
-/// The ways to make tets: cdt, remesh, embed, ftetwild; what a report may name else is "other".
+/// The ways to make tets: cdt, remesh, embed, ftetwild; what is named else is "other".
 const std::vector<Category>& rung_categories();
 /// The kinds of defects, in the order of vtkSurfaceDefects.
 const std::vector<Category>& defect_categories();
@@ -35,7 +35,7 @@ const std::vector<Category>& defect_categories();
 /// How many cells have each label. invalid_input when there is no such cell array or a value is
 /// none of the labels.
 Status count_labels(vtkDataSet* tets, std::vector<Category>& categories);
-/// All tets as one rung, by the report in the field data. invalid_input when there is none.
+/// All tets as one rung, by the field data `Method`. invalid_input when there is none.
 Status count_rung(vtkDataSet* tets, std::vector<Category>& categories);
 
 /// Whether a dataset shows defects, as vtkSurfaceDefects gives them.

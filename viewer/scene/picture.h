@@ -47,7 +47,7 @@ enum class ColourBy
   winding_number, ///< the array WindingNumber
   label, ///< tets: the decision in the cell array Label
   quality, ///< tets: the smallest dihedral angle, degrees
-  rung ///< tets: the method that made them, by their report
+  rung ///< tets: the method that made them, by the field data Method
 };
 
 /// A plane in space.

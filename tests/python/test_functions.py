@@ -99,6 +99,18 @@ def test_tetrahedralize():
     assert is_tets(grid) and np.array_equal(tets_of(grid), tets) and np.array_equal(points_of(grid), vertices)
 
 
+def test_tets_of_the_hull():
+    two = np.vstack([BAR[0], np.asarray(BAR[0]) + [0.0, 0.0, 2.0]]), np.vstack([BAR[1], np.asarray(BAR[1]) + len(BAR[0])])
+    grid = bindpose.tetrahedralize(to_dataset(two), method="cdt", keep_outside=True)
+    labels = vtk_to_numpy(grid.GetCellData().GetArray("Label"))
+    a, b, c, d = np.moveaxis(points_of(grid)[tets_of(grid)], 1, 0)
+    volumes = np.einsum("ij,ij->i", b - a, np.cross(c - a, d - a)) / 6
+    assert volumes.sum() == pytest.approx(18) and volumes[labels > 0].sum() == pytest.approx(12)
+    assert set(labels) == {0, 1} and grid.GetFieldData().GetAbstractArray("Method").GetValue(0) == "cdt"
+    with pytest.raises(bindpose.InvalidInput, match="cdt"):
+        bindpose.tetrahedralize(BAR, keep_outside=True)
+
+
 def test_weights_are_the_programs(tmp_path):
     handles = bindpose.handles(bones=BONES)
     ours = bindpose.weights(BAR, handles)

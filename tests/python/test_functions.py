@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import shapes
 from bindpose.meshes import add_point_array, is_tets, point_array, points_of, tets_of, to_dataset
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 
 PROGRAM = os.environ["BINDPOSE_PROGRAM"]
@@ -109,6 +110,13 @@ def test_tets_of_the_hull():
     assert set(labels) == {0, 1} and grid.GetFieldData().GetAbstractArray("Method").GetValue(0) == "cdt"
     with pytest.raises(bindpose.InvalidInput, match="cdt"):
         bindpose.tetrahedralize(BAR, keep_outside=True)
+
+
+def test_tetrahedralize_with_handles():
+    handles = bindpose.handles(bones=BONES)
+    vertices, _, _, report = bindpose.tetrahedralize(BAR, handles=handles)
+    for handle in report["handles"]:
+        assert (np.abs(points_of(handles) - vertices[handle["vertex"]]).max(axis=1) == 0).any()
 
 
 def test_weights_are_the_programs(tmp_path):

@@ -1,5 +1,7 @@
 #include "support/meshes.h"
 
+#include "base/tet_facets.h"
+
 #include <cmath>
 #include <map>
 
@@ -227,21 +229,20 @@ Vec3 Random::in_box(const Vec3& lower, const Vec3& upper)
 
 Index euler_characteristic(const TetMesh& mesh)
 {
-  constexpr int facet[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
-  Triangles facets(4 * mesh.tets.rows(), 3);
-  for (Index t = 0; t < mesh.tets.rows(); ++t)
+  const std::vector<TetFacet> facets = tet_facets(mesh.tets);
+  Triangles distinct(static_cast<Index>(facets.size()), 3);
+  Index count = 0;
+  for (std::size_t i = 0; i < facets.size(); ++i)
   {
-    for (int f = 0; f < 4; ++f)
+    if (i == 0 || facets[i].vertices != facets[i - 1].vertices)
     {
-      for (int k = 0; k < 3; ++k)
-      {
-        facets(4 * t + f, k) = mesh.tets(t, facet[f][k]);
-      }
+      const auto& v = facets[i].vertices;
+      distinct.row(count++) << v[0], v[1], v[2];
     }
   }
-  const auto edges = static_cast<Index>(mesh_edges(facets).size());
-  const Index boundary = boundary_triangles(mesh.tets).rows();
-  return mesh.points.rows() - edges + (4 * mesh.tets.rows() + boundary) / 2 - mesh.tets.rows();
+  distinct.conservativeResize(count, 3);
+  const auto edges = static_cast<Index>(mesh_edges(distinct).size());
+  return mesh.points.rows() - edges + count - mesh.tets.rows();
 }
 
 } // namespace bindpose::test

@@ -76,6 +76,9 @@ const std::vector<Verb>& verbs()
           "longest edges that cdt leaves inside, of the surface's diagonal; 0: any" },
         { "--keep-outside", "", Kind::flag, "", "",
           "with --method cdt: write all tets of the hull, to look at the array Label" },
+        { "--handles", "HANDLES", Kind::text, "", "",
+          "handles, .tgf or .vtp: cdt makes their points points of the mesh, and puts points along "
+          "bones and cages" },
         { "--resolution", "CUBES", Kind::integer, "0", "",
           "lattice cubes along the longest side (remesh, embed), 4 to 1000; 0: 40 for remesh, "
           "about "

@@ -3,6 +3,7 @@
 // driver's antialiasing smooths neither isolines nor colour bands.
 #include "scene/picture.h"
 
+#include "base/number_text.h"
 #include "conversion.h"
 #include "io/atomic_file.h"
 #include "scene/categories.h"
@@ -215,8 +216,9 @@ Status check_volumes(
   {
     if (!(level > lower && level <= upper))
     {
-      result.warnings.push_back("no isosurface at " + legend_number(level) +
-        ": the values run from " + legend_number(lower) + " to " + legend_number(upper));
+      result.warnings.push_back("no isosurface at " + short_number(level, legend_digits) +
+        ": the values run from " + short_number(lower, legend_digits) + " to " +
+        short_number(upper, legend_digits));
     }
   }
   return result;

@@ -12,14 +12,14 @@ std::string with_digits(double x, int digits)
 {
   std::ostringstream text;
   text.precision(digits);
-  text << x;
+  text << (x == 0.0 ? 0.0 : x); // no -0
   return text.str();
 }
 } // namespace
 
-std::string short_number(double x)
+std::string short_number(double x, int digits)
 {
-  return with_digits(x, 4);
+  return with_digits(x, digits);
 }
 
 std::string exact_number(double x)

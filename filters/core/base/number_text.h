@@ -6,8 +6,8 @@
 namespace bindpose
 {
 
-/// Four digits, as messages show numbers: "0.5", "1.235e-07".
-std::string short_number(double x);
+/// Few digits, as messages and legends show numbers: "0.5", "1.235e-07".
+std::string short_number(double x, int digits = 4);
 /// As many digits as give the same double back.
 std::string exact_number(double x);
 

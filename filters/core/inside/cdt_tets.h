@@ -3,7 +3,9 @@
 
 #include "base/execution.h"
 #include "inside/enclosed_region.h"
+#include "inside/handle_places.h"
 #include "inside/segmentation.h"
+#include "inside/sizing_field.h"
 #include "inside/surface_repair.h"
 
 #include <limits>
@@ -38,6 +40,7 @@ struct CdtOptions
   double quality = 1.414;
   double interior_edge = 0.04;
   bool keep_outside = false; ///< the tets that were told apart as they are, outside ones, too
+  HandlePlaces handles;
 };
 
 /// "the tets hold 3.9, but the winding number encloses 8"
@@ -58,8 +61,8 @@ public:
   double misfit() const { return this->misfit_; }
   /// Of the tets inside.
   double volume() const { return this->volume_; }
-  /// Adds vertices inside and numbers the input's vertices first. Only cancelled is a failure; what
-  /// else goes wrong is a warning.
+  /// Adds vertices inside, those of handles first, makes flat tets better and numbers the input's
+  /// vertices first. Only cancelled is a failure; what else goes wrong is a warning.
   Status complete();
 
   TetMesh& mesh() { return this->mesh_; }
@@ -89,8 +92,12 @@ private:
   Status take_inside(const MesherData& data, const Eigen::VectorXd& w, SegmentationMethod method);
   void take_all(const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside);
   Status fill();
+  Status fill(const MesherData& coarse);
   Status try_fill(const std::string& switches, const MesherData& coarse);
   Status accept_fill(MesherData& data, double volume);
+  Status place_handles();
+  SizingField lengths_inside(const Triangles& boundary) const;
+  Status improve();
   double mean_surface_edge() const;
   double volume_bound() const;
   void renumber();
@@ -110,6 +117,8 @@ private:
   Eigen::VectorXd winding_numbers_;
   std::vector<char> kept_;
   std::vector<Index> mesh_original_;
+  Index surface_vertices_ = 0; ///< the mesh's first vertices before it was filled
+  Points handle_points_; ///< of handles, inside; behind the surface's vertices when it was filled
   double misfit_ = std::numeric_limits<double>::infinity();
   double volume_ = 0.0;
   std::vector<std::string> warnings_;

@@ -401,7 +401,7 @@ private:
         return status;
       }
     }
-    const double volume = this->label_tets();
+    this->label_tets();
     const TetQuality quality = measure_tets(mesh.points, mesh.tets);
     const auto& ids = this->result_.original_vertices;
     const auto kept =
@@ -410,7 +410,10 @@ private:
     this->report_.set("counts.tet_vertices", Report::Value(mesh.points.rows()));
     this->report_.set("counts.kept_vertices", Report::Value(kept));
     this->report_.set("counts.tets_below_5_degrees", Report::Value(quality.below_5_degrees));
-    this->report_.set("volume", Report::Value(volume));
+    if (this->inside_tets_.empty())
+    {
+      this->report_.set("volume", Report::Value(quality.volume));
+    }
     this->report_.set("winding_volume", Report::Value(this->inside_.volume()));
     this->report_.set("winding_volume_error", Report::Value(this->inside_.volume_error()));
     this->report_.set("min_dihedral_angle", Report::Value(quality.min_dihedral_angle));
@@ -425,8 +428,8 @@ private:
     return {};
   }
 
-  /// Labels and angles. @return the volume of the tets inside; of embed, of all.
-  double label_tets()
+  /// Labels and angles; of the whole hull how many tets are inside, and their volume.
+  void label_tets()
   {
     const TetMesh& mesh = this->result_.mesh;
     const Eigen::VectorXd volumes = tet_volumes(mesh.points, mesh.tets);
@@ -445,14 +448,14 @@ private:
       const auto tet = mesh.tets.row(t);
       this->result_.min_dihedral_angles[t] = min_dihedral_angle(mesh.points.row(tet[0]),
         mesh.points.row(tet[1]), mesh.points.row(tet[2]), mesh.points.row(tet[3]));
-      volume += inside || !all_stay ? volumes[t] : 0.0;
+      volume += inside ? volumes[t] : 0.0;
       kept += inside;
     }
     if (!this->inside_tets_.empty())
     {
       this->report_.set("counts.tets_inside", Report::Value(kept));
+      this->report_.set("volume", Report::Value(volume));
     }
-    return volume;
   }
 
   void warn(const std::string& sentence) { this->warnings_.push_back(sentence); }

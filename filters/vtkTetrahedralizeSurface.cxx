@@ -112,6 +112,9 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
   options.quality = this->Quality;
   options.interior_edge = this->InteriorEdge;
   options.keep_outside = this->KeepOutside;
+  options.wrap_alpha = this->WrapAlpha;
+  options.wrap_offset = this->WrapOffset;
+  options.ftetwild_epsilon = this->FtetwildEpsilon;
   options.handles = bindpose::to_handle_places(handles);
   bindpose::TetrahedralizeResult result;
   status = bindpose::tetrahedralize(
@@ -159,4 +162,7 @@ void vtkTetrahedralizeSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Quality: " << this->Quality << "\n";
   os << indent << "InteriorEdge: " << this->InteriorEdge << "\n";
   os << indent << "KeepOutside: " << (this->KeepOutside ? "on" : "off") << "\n";
+  os << indent << "WrapAlpha: " << this->WrapAlpha << "\n";
+  os << indent << "WrapOffset: " << this->WrapOffset << "\n";
+  os << indent << "FtetwildEpsilon: " << this->FtetwildEpsilon << "\n";
 }

@@ -119,6 +119,25 @@ def test_tetrahedralize_with_handles():
         assert (np.abs(points_of(handles) - vertices[handle["vertex"]]).max(axis=1) == 0).any()
 
 
+def test_tetrahedralize_around_a_sheet():
+    vertices, tets, original, report = bindpose.tetrahedralize(shapes.flat(), method="wrap", wrap_alpha=0.1,
+                                                               wrap_offset=0.01)
+    p = vertices[tets]
+    volume = np.einsum("ti,ti->t", np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), p[:, 3] - p[:, 0]) / 6
+    # A square of side 1, two offsets thick and rounded at the rim.
+    assert volume.min() > 0 and 1.8 * 0.01 * 2**0.5 < volume.sum() < 2.2 * 0.01 * 2**0.5
+    assert (original == -1).all() and report["method"] == "wrap"
+    assert any("thin shell" in warning for warning in report["warnings"])
+
+
+def test_ftetwild_is_named_where_it_is_missing(monkeypatch):
+    monkeypatch.setenv("BINDPOSE_FTETWILD", "/nowhere/ftetwild")
+    with pytest.raises(bindpose.Unavailable, match="/nowhere/ftetwild"):
+        bindpose.tetrahedralize(shapes.cube(), method="ftetwild")
+    with pytest.raises(bindpose.InvalidInput, match="ftetwild_epsilon"):
+        bindpose.tetrahedralize(shapes.cube(), method="ftetwild", ftetwild_epsilon=1)
+
+
 def test_weights_are_the_programs(tmp_path):
     handles = bindpose.handles(bones=BONES)
     ours = bindpose.weights(BAR, handles)

@@ -12,6 +12,8 @@
 #include "vtkOutputWindow.h"
 
 #include <exception>
+#include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <new>
 
@@ -81,5 +83,9 @@ int main(int argc, char** argv)
   {
     session.fail(Status::failure(StatusCode::internal_error, error.what()));
   }
-  return session.finish();
+  const int code = session.finish();
+  // No clean-up of libraries: OpenBLAS waits for ever for threads that found no memory (ulimit -v).
+  std::cout.flush();
+  std::fflush(nullptr);
+  std::_Exit(code);
 }

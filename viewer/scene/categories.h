@@ -27,7 +27,7 @@ struct Category
 /// The four values of the cell array `Label` of vtkTetrahedralizeSurface, each with its colour:
 /// decisions against the winding number are the darker.
 const std::vector<Category>& label_categories();
-/// The ways to make tets: cdt, remesh, embed, ftetwild; what is named else is "other".
+/// The ways to make tets: cdt, remesh, embed, wrap, ftetwild; what is named else is "other".
 const std::vector<Category>& rung_categories();
 /// The kinds of defects, in the order of vtkSurfaceDefects.
 const std::vector<Category>& defect_categories();

@@ -1,17 +1,21 @@
 // The ladder: cdt (cdt_tets.h), then remesh: Delaunay refinement (remesh_tets.h), else a lattice
 // that is cut (lattice_tets.h, finer when the volume is off). Every rung is judged by the volume it
 // has against the volume that winds enough. When none fits, the one that came nearest is taken,
-// with a warning. embed (embedding_tets.h) stands beside the ladder.
+// with a warning. embed (embedding_tets.h), wrap (wrap_surface.h, filled as cdt does it) and
+// ftetwild (ftetwild_process.h) stand beside the ladder.
 #include "inside/tetrahedralize.h"
 
 #include "base/number_text.h"
 #include "inside/cdt_tets.h"
 #include "inside/embedding_tets.h"
 #include "inside/enclosed_region.h"
+#include "inside/ftetwild_process.h"
 #include "inside/lattice_tets.h"
 #include "inside/remesh_tets.h"
+#include "inside/surface_distance.h"
 #include "inside/surface_repair.h"
 #include "inside/tet_quality.h"
+#include "inside/wrap_surface.h"
 
 #include <algorithm>
 #include <array>
@@ -99,7 +103,9 @@ private:
           ? "the surface has no triangles"
           : "no triangle of the surface has an area, so it encloses nothing");
     }
-    if (found.flat && this->options_.method != TetMethod::embed)
+    const bool holds_anything =
+      this->options_.method == TetMethod::embed || this->options_.method == TetMethod::wrap;
+    if (found.flat && !holds_anything)
     {
       return Status::invalid_input(
         "the surface is flat: all its points lie in one plane, so it encloses nothing");
@@ -139,21 +145,21 @@ private:
     {
       return this->embed();
     }
+    if (this->options_.method == TetMethod::wrap)
+    {
+      return this->wrap();
+    }
+    if (this->options_.method == TetMethod::ftetwild)
+    {
+      return this->ftetwild();
+    }
     if (this->options_.method == TetMethod::remesh)
     {
       const Status status = this->remesh(false);
       return status.ok() ? status : this->take_lattice(status);
     }
     const bool automatic = this->options_.method == TetMethod::automatic;
-    CdtOptions options;
-    options.segmentation = { this->options_.segmentation, this->options_.winding_threshold,
-      this->options_.cut_smoothness, this->options_.cut_sigma };
-    options.time_limit = this->options_.time_limit;
-    options.memory_limit = this->options_.memory_limit;
-    options.quality = this->options_.quality;
-    options.interior_edge = this->options_.interior_edge;
-    options.keep_outside = this->options_.keep_outside;
-    options.handles = this->options_.handles;
+    const CdtOptions options = this->cdt_options();
     CdtTets cdt(this->surface_, this->inside_, options, this->log_, this->context_);
     Status status;
     {
@@ -189,9 +195,23 @@ private:
     return automatic && !status.ok() ? no_method_fits(status) : status;
   }
 
-  Status take_cdt(CdtTets& cdt)
+  CdtOptions cdt_options() const
   {
-    const Phase phase(this->context_, "cdt", 0.6, 1.0);
+    CdtOptions options;
+    options.segmentation = { this->options_.segmentation, this->options_.winding_threshold,
+      this->options_.cut_smoothness, this->options_.cut_sigma };
+    options.time_limit = this->options_.time_limit;
+    options.memory_limit = this->options_.memory_limit;
+    options.quality = this->options_.quality;
+    options.interior_edge = this->options_.interior_edge;
+    options.keep_outside = this->options_.keep_outside;
+    options.handles = this->options_.handles;
+    return options;
+  }
+
+  Status take_cdt(CdtTets& cdt, double begin = 0.6, double end = 1.0)
+  {
+    const Phase phase(this->context_, "cdt", begin, end);
     Status status = cdt.complete();
     this->report_.set("method", to_string(TetMethod::cdt));
     this->report_.merge(cdt.report());
@@ -238,7 +258,7 @@ private:
     }
     this->warn(status.message + ": parts thinner than a lattice cube are lost");
     this->result_.mesh = std::move(this->lattice_mesh_);
-    return this->complete_lattice(TetMethod::remesh);
+    return this->keep_no_vertex(TetMethod::remesh);
   }
 
   Status remesh(bool finer_when_needed)
@@ -283,7 +303,7 @@ private:
       this->log("lattice of " + std::to_string(resolution) + " cubes, cut", start, status);
       if (status.ok())
       {
-        return this->complete_lattice(TetMethod::remesh);
+        return this->keep_no_vertex(TetMethod::remesh);
       }
       const double finer_cubes = 8.0 * static_cast<double>(lattice.cubes[0]) *
         static_cast<double>(lattice.cubes[1]) * static_cast<double>(lattice.cubes[2]);
@@ -370,10 +390,154 @@ private:
     this->result_.mesh = std::move(embedding.mesh);
     this->result_.inside_fractions = std::move(embedding.inside_fractions);
     this->result_.binding = std::move(embedding.binding);
-    return this->complete_lattice(TetMethod::embed);
+    return this->keep_no_vertex(TetMethod::embed);
   }
 
-  Status complete_lattice(TetMethod method)
+  /// A closed surface around the surface, filled as any clean surface is.
+  Status wrap()
+  {
+    RepairedSurface wrap;
+    EnclosedRegion around;
+    Status status;
+    {
+      const Phase phase(this->context_, "wrap", 0.0, 0.5);
+      status = this->wrap_closely(wrap, around);
+    }
+    if (!status.ok())
+    {
+      return status;
+    }
+    CdtOptions options = this->cdt_options();
+    options.segmentation.winding_threshold = wrap_threshold;
+    options.time_limit = std::max(this->time_left(), 1.0);
+    CdtTets cdt(wrap, around, options, this->log_, this->context_);
+    {
+      const Phase phase(this->context_, "cdt", 0.5, 0.7);
+      constexpr double share = 0.75; // leave time for vertices inside
+      status = cdt.build(share * options.time_limit);
+    }
+    if (status.ok())
+    {
+      status = this->take_cdt(cdt, 0.7, 0.9);
+    }
+    if (!status.ok())
+    {
+      return status;
+    }
+    this->report_.set("counts.wrap_triangles", Report::Value(wrap.triangles.rows()));
+    if (this->surface_.found.boundary_edges > 0)
+    {
+      const TetMesh& mesh = this->result_.mesh;
+      this->warn("the surface is open (" + std::to_string(this->surface_.found.boundary_edges) +
+        " boundary edges), and where that is wider than two wrap_alpha, a wrap is a thin shell: it "
+        "holds " +
+        short_number(tet_volumes(mesh.points, mesh.tets).sum()) +
+        ", while the winding number encloses " + short_number(this->inside_.volume()));
+    }
+    this->keep_no_vertex(TetMethod::wrap);
+    return this->report_distance();
+  }
+
+  Status wrap_closely(RepairedSurface& wrap, EnclosedRegion& around)
+  {
+    const double start = this->context_.elapsed_seconds();
+    WrapOptions options;
+    options.alpha = this->options_.wrap_alpha;
+    options.offset = this->options_.wrap_offset;
+    options.memory_limit = this->options_.memory_limit;
+    constexpr double share = 0.75; // leave time to fill it
+    options.time_limit = share * this->options_.time_limit;
+    Points points;
+    Triangles triangles;
+    Status status;
+    {
+      const ProgressRange range(this->context_, 0.0, 0.8);
+      status = wrap_surface(this->surface_.points, this->surface_.triangles, options, points,
+        triangles, this->context_);
+    }
+    this->log("alpha wrap", start, status);
+    const ProgressRange range(this->context_, 0.8, 1.0);
+    if (status.ok())
+    {
+      RepairOptions as_it_is;
+      as_it_is.orient = false;
+      status = repair_surface(points, triangles, as_it_is, wrap, this->context_);
+    }
+    bool turned = false;
+    return status.ok() ? around.build(wrap, wrap_threshold, turned, this->context_) : status;
+  }
+
+  Status ftetwild()
+  {
+    const double start = this->context_.elapsed_seconds();
+    FtetwildOptions options;
+    options.epsilon = this->options_.ftetwild_epsilon;
+    options.edge = this->options_.interior_edge;
+    options.time_limit = this->options_.time_limit;
+    options.memory_limit = this->options_.memory_limit;
+    Status status;
+    {
+      const Phase phase(this->context_, "ftetwild", 0.0, 0.9);
+      status = run_ftetwild(this->surface_.points, this->surface_.triangles, options,
+        this->result_.mesh, this->context_);
+    }
+    if (status.ok())
+    {
+      status = this->judge_volume();
+    }
+    this->log("fTetWild", start, status);
+    if (!status.ok())
+    {
+      return status;
+    }
+    this->keep_no_vertex(TetMethod::ftetwild);
+    return this->report_distance();
+  }
+
+  /// What does not fit is taken with a warning when it is not off by too much.
+  Status judge_volume()
+  {
+    const TetMesh& mesh = this->result_.mesh;
+    if (mesh.tets.rows() == 0)
+    {
+      return this->inside_.encloses_nothing();
+    }
+    const double volume = tet_volumes(mesh.points, mesh.tets).sum();
+    if (this->inside_.fits(volume))
+    {
+      return {};
+    }
+    const Status wrong = wrong_volume(volume, this->inside_);
+    if (this->inside_.misfit(volume) > worst_misfit)
+    {
+      return wrong;
+    }
+    this->warn(wrong.message);
+    return {};
+  }
+
+  Status report_distance()
+  {
+    const Phase phase(this->context_, "distance", 0.9, 1.0);
+    const RegionBoundary region(this->surface_.points, this->surface_.triangles,
+      this->inside_.winding(), this->options_.winding_threshold);
+    SurfaceDistance distance;
+    if (!measure_distance(this->result_.mesh, region, distance, this->context_))
+    {
+      return Status::cancelled();
+    }
+    const double percent = 100.0 / this->box_.diagonal();
+    this->report_.set("distance_max", Report::Value(percent * distance.maximum));
+    this->report_.set("distance_mean", Report::Value(percent * distance.mean));
+    return {};
+  }
+
+  double time_left() const
+  {
+    return this->options_.time_limit - (this->context_.elapsed_seconds() - this->climb_start_);
+  }
+
+  Status keep_no_vertex(TetMethod method)
   {
     this->report_.set("method", to_string(method));
     this->result_.original_vertices.assign(
@@ -467,6 +631,8 @@ private:
 
   /// A volume that is off by more than a factor of two is no result.
   static constexpr double worst_misfit = 0.6931471805599453;
+  /// A wrap winds once around its inside, whatever the surface does.
+  static constexpr double wrap_threshold = 0.5;
 
   PointsView points_;
   TrianglesView triangles_;
@@ -531,6 +697,12 @@ Status check_options(const TetrahedralizeOptions& options)
     return Status::invalid_input(
       "interior_edge must not be negative, but is " + short_number(options.interior_edge));
   }
+  constexpr double ftetwilds_threshold = 0.5;
+  if (options.method == TetMethod::ftetwild && options.winding_threshold != ftetwilds_threshold)
+  {
+    return Status::invalid_input("method ftetwild knows no other winding_threshold than 0.5, not " +
+      short_number(options.winding_threshold));
+  }
   return check_places(options.handles);
 }
 } // namespace
@@ -545,6 +717,10 @@ const char* to_string(TetMethod method)
       return "remesh";
     case TetMethod::embed:
       return "embed";
+    case TetMethod::wrap:
+      return "wrap";
+    case TetMethod::ftetwild:
+      return "ftetwild";
     case TetMethod::automatic:
       break;
   }

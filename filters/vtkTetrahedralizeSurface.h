@@ -17,7 +17,7 @@
  * arrays `WindingNumber` (double, at the tets' centres), `Label` (int: 1 inside, 2 inside though
  * the winding number is below the threshold, 0 outside, -1 outside though it is not below; outside
  * ones are there with KeepOutside and EMBED only) and `MinDihedralAngle` (double, the tet's
- * smallest, degrees), and the field data array `Method` ("cdt", "remesh" or "embed").
+ * smallest, degrees), and the field data array `Method` (as in the report).
  * **Output 1**: a vtkPolyData that shows where the surface is unclean, as vtkSurfaceDefects does
  * (which also works where there are no tets to be had).
  * **Output 2**: of EMBED, else empty: the surface's points and triangles as a vtkPolyData with the

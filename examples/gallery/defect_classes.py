@@ -5,7 +5,7 @@ Crossing triangles, edges of three and more triangles, open boundaries, several 
 and a cone through it, an elephant full of holes, and a house made by code that has all four, with counts that
 are known beforehand. Above the surfaces with their defects, below their tets, cut open.
 
-Numbers: the places of each kind (vtkSurfaceDefects), and that tets come out: how many, by which method, their
+Numbers: how many of each kind (vtkSurfaceDefects; crossings by pairs of triangles), and that tets come out: how many, by which method, their
 volume beside the one that the winding number encloses, and the smallest of all tets' volumes, which is positive.
 """
 

@@ -14,7 +14,10 @@
  * other methods where handles need it.
  * **Output**: a vtkUnstructuredGrid of tets (VTK_TETRA, all of positive volume) with the point
  * array `OriginalPointIds` (id of the input point, ascending, then -1 for new points) and the cell
- * array `WindingNumber` (double, at the tets' centres).
+ * arrays `WindingNumber` (double, at the tets' centres), `Label` (int: 1 inside, 2 inside though
+ * the winding number is below the threshold, 0 outside, -1 outside though it is not below; outside
+ * ones are there with KeepOutside and EMBED only) and `MinDihedralAngle` (double, the tet's
+ * smallest, degrees), and the field data array `Method` (as in the report).
  * **Output 1**: a vtkPolyData that shows where the surface is unclean, as vtkSurfaceDefects does
  * (which also works where there are no tets to be had).
  * **Output 2**: of EMBED, else empty: the surface's points and triangles as a vtkPolyData with the
@@ -57,11 +60,11 @@
  * WRAP, FTETWILD: of the tets' boundary and the surface where that bounds the inside, % of its
  * diagonal), counts.wrap_triangles (WRAP), spacing, counts.{lattice_tets,
  * duplicated_nodes, branching_facets, tet_components} (EMBED), segmentation, energy,
- * threshold_energy, counts.changed_by_cut (of the graph cut), quality[].{dihedral_angle, tets} (how
- * many tets have their smallest dihedral angle from this many degrees to the next),
- * winding_volume_error (standard error of sampling, relative), counts.{handle_points,
- * handle_vertices} and handles[].{name, vertex} (CDT, WRAP with handles: the point's id, of a bone
- * the head's, -1 where it is no point of the mesh), seconds.*.
+ * threshold_energy, counts.changed_by_cut (of the graph cut), counts.tets_inside (KeepOutside),
+ * quality[].{dihedral_angle, tets} (how many tets have their smallest dihedral angle from this many
+ * degrees to the next), winding_volume_error (standard error of sampling, relative),
+ * counts.{handle_points, handle_vertices} and handles[].{name, vertex} (CDT, WRAP with handles: the
+ * point's id, of a bone the head's, -1 where it is no point of the mesh), seconds.*.
  *
  * Errors: invalid_input for a surface without 2D cells, with ids out of range or coordinates that
  * are not finite, for a flat one and one that encloses nothing (but of EMBED and WRAP), and for one
@@ -204,6 +207,18 @@ public:
 
   ///@{
   /**
+   * CDT only (INVALID_INPUT otherwise): keep all tets of the surface's convex hull, or of a box
+   * around it where that was needed, for inspection: those with `Label` above 0 are inside.
+   * `WindingNumber` is then what the segmentation decided on, and no points are added for Quality
+   * and InteriorEdge. Default off.
+   */
+  vtkSetMacro(KeepOutside, bool);
+  vtkGetMacro(KeepOutside, bool);
+  vtkBooleanMacro(KeepOutside, bool);
+  ///@}
+
+  ///@{
+  /**
    * Radius of the ball that carves the wrap of WRAP from outside, as a fraction of the surface's
    * diagonal, 0.0001 to 1; default 0.02. Gaps narrower than twice this are closed; edges are up to
    * about twice as long; triangles and seconds grow with 1 over its square.
@@ -253,6 +268,7 @@ private:
   int MemoryLimit = 0;
   double Quality = 1.414;
   double InteriorEdge = 0.04;
+  bool KeepOutside = false;
   double WrapAlpha = 0.02;
   double WrapOffset = 0.001;
   double FtetwildEpsilon = 0.001;

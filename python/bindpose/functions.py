@@ -166,8 +166,8 @@ def contains(surface, points, *, winding_threshold=0.5, method="auto", tolerance
 
 
 def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentation="graph-cut", cut_smoothness=1.0,
-                   cut_sigma=0.1, quality=1.414, interior_edge=0.04, resolution=0, wrap_alpha=0.02, wrap_offset=0.001,
-                   ftetwild_epsilon=0.001, time_limit=120.0, memory_limit=0, handles=None, threads=0,
+                   cut_sigma=0.1, quality=1.414, interior_edge=0.04, keep_outside=False, resolution=0, wrap_alpha=0.02,
+                   wrap_offset=0.001, ftetwild_epsilon=0.001, time_limit=120.0, memory_limit=0, handles=None, threads=0,
                    progress=None):
     """Fill the inside of a surface, however unclean, with tets.
 
@@ -192,6 +192,8 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
     interior_edge : float
         Longest edges that cdt and wrap leave inside, as a fraction of the surface's diagonal; 0 for any.
         ftetwild aims at this length; 0 for its own 0.05.
+    keep_outside : bool
+        With cdt: all tets of the hull, for inspection; ``Label`` is above 0 where they are inside.
     handles : vtkPolyData, str or path-like, optional
         Handle dataset or file. With cdt and wrap their points become points of the tets where they are inside, and bones
         and cages get points along them.
@@ -213,13 +215,14 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
     Returns
     -------
     Tets or vtkUnstructuredGrid
-        Arrays for arrays; a dataset has the point array ``OriginalPointIds`` and the cell array
-        ``WindingNumber``.
+        Arrays for arrays; a dataset has the point array ``OriginalPointIds`` and the cell arrays
+        ``WindingNumber``, ``Label`` (1 inside, 2 inside though the winding number is below the
+        threshold, 0 outside, -1 outside though it is not below) and ``MinDihedralAngle`` (degrees).
 
     Raises
     ------
     InvalidInput
-        Not a surface, or one that encloses nothing.
+        Not a surface, or one that encloses nothing; `keep_outside` with another method than cdt.
     Unavailable
         The meshing program is not there; the text names the packages, or where to get it.
     """
@@ -235,6 +238,7 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
     filler.SetCutSigma(cut_sigma)
     filler.SetQuality(quality)
     filler.SetInteriorEdge(interior_edge)
+    filler.SetKeepOutside(bool(keep_outside))
     filler.SetResolution(int(resolution))
     filler.SetWrapAlpha(wrap_alpha)
     filler.SetWrapOffset(wrap_offset)

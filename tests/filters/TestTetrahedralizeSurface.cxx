@@ -15,11 +15,13 @@
 #include "vtkCubeSource.h"
 #include "vtkDoubleArray.h"
 #include "vtkErrorCode.h"
+#include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkStringArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gmock/gmock.h>
@@ -88,6 +90,42 @@ TEST(TetrahedralizeSurface, ArraysAndReport)
   EXPECT_GT(report.number("min_dihedral_angle", -1), 0.0);
   EXPECT_GE(report.number("seconds.tetrahedralize", -1), 0.0);
   EXPECT_NE(report.find("rungs[].name"), nullptr);
+}
+
+TEST(TetrahedralizeSurface, EveryTetKnowsItsLabelAndAngle)
+{
+  const TriangleMesh sphere = test::sphere(2);
+  vtkNew<vtkTetrahedralizeSurface> filter;
+  filter->SetInputData(to_polydata(sphere.points, sphere.triangles));
+  for (const int method : { vtkTetrahedralizeSurface::REMESH, vtkTetrahedralizeSurface::EMBED })
+  {
+    filter->SetMethod(method);
+    filter->Update();
+    ASSERT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::OK) << filter->GetStatusMessage();
+    vtkUnstructuredGrid* grid = grid_of(filter);
+    const bool embed = method == vtkTetrahedralizeSurface::EMBED;
+    vtkDataArray* labels = grid->GetCellData()->GetArray("Label");
+    vtkDataArray* winding = grid->GetCellData()->GetArray("WindingNumber");
+    vtkDataArray* angles = grid->GetCellData()->GetArray("MinDihedralAngle");
+    ASSERT_TRUE(labels && winding && angles);
+    double smallest = 180.0;
+    for (vtkIdType t = 0; t < grid->GetNumberOfCells(); ++t)
+    {
+      const bool above = winding->GetComponent(t, 0) >= 0.5;
+      EXPECT_EQ(labels->GetComponent(t, 0), above ? 1 : embed ? 0 : 2);
+      smallest = std::min(smallest, angles->GetComponent(t, 0));
+    }
+    EXPECT_NEAR(smallest, read_report(filter->GetOutput()).number("min_dihedral_angle", -1), 1e-9);
+    auto* name = vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("Method"));
+    ASSERT_NE(name, nullptr);
+    EXPECT_EQ(name->GetValue(0), embed ? "embed" : "remesh");
+  }
+  filter->KeepOutsideOn();
+  vtkNew<Listener> listener;
+  listener->listen(filter);
+  filter->Update();
+  EXPECT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::INVALID_INPUT);
+  EXPECT_THAT(filter->GetStatusMessage(), HasSubstr("cdt"));
 }
 
 TEST(TetrahedralizeSurface, PolygonsAndUnstructuredGridsAreSurfaces)

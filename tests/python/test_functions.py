@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import shapes
 from bindpose.meshes import add_point_array, is_tets, point_array, points_of, tets_of, to_dataset
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 
 PROGRAM = os.environ["BINDPOSE_PROGRAM"]
@@ -97,6 +98,18 @@ def test_tetrahedralize():
     assert report["method"] == "cdt" and bindpose.report(bindpose.tetrahedralize(BAR))["method"] == "cdt"
     grid = bindpose.tetrahedralize(to_dataset(BAR))
     assert is_tets(grid) and np.array_equal(tets_of(grid), tets) and np.array_equal(points_of(grid), vertices)
+
+
+def test_tets_of_the_hull():
+    two = np.vstack([BAR[0], np.asarray(BAR[0]) + [0.0, 0.0, 2.0]]), np.vstack([BAR[1], np.asarray(BAR[1]) + len(BAR[0])])
+    grid = bindpose.tetrahedralize(to_dataset(two), method="cdt", keep_outside=True)
+    labels = vtk_to_numpy(grid.GetCellData().GetArray("Label"))
+    a, b, c, d = np.moveaxis(points_of(grid)[tets_of(grid)], 1, 0)
+    volumes = np.einsum("ij,ij->i", b - a, np.cross(c - a, d - a)) / 6
+    assert volumes.sum() == pytest.approx(18) and volumes[labels > 0].sum() == pytest.approx(12)
+    assert set(labels) == {0, 1} and grid.GetFieldData().GetAbstractArray("Method").GetValue(0) == "cdt"
+    with pytest.raises(bindpose.InvalidInput, match="cdt"):
+        bindpose.tetrahedralize(BAR, keep_outside=True)
 
 
 def test_tetrahedralize_with_handles():

@@ -77,6 +77,8 @@ const std::vector<Verb>& verbs()
         { "--interior-edge", "FRACTION", Kind::number, "0.04", "",
           "longest edges that cdt and wrap leave inside, and those that ftetwild aims at, of the "
           "surface's diagonal; 0: any" },
+        { "--keep-outside", "", Kind::flag, "", "",
+          "with --method cdt: write all tets of the hull, to look at the array Label" },
         { "--handles", "HANDLES", Kind::text, "", "",
           "handles, .tgf or .vtp: cdt and wrap make their points points of the mesh, and put "
           "points along "
@@ -139,6 +141,10 @@ const std::vector<Verb>& verbs()
       { { "FILE", "", Kind::text, "", "", "surfaces, tets, volumes; one tile each", true, true },
         { "-o,--output", "OUT", Kind::text, "", "", ".png", true },
         { "--array", "NAME", Kind::text, "", "", "colour by this array" },
+        { "--color", "WHAT", Kind::choice, "array", "array|winding-number|label|quality|rung",
+          "colour by --array, or tets by their winding number, by what the segmentation decided, "
+          "by "
+          "their smallest dihedral angle, or by the method that made them" },
         { "--component", "NAME", Kind::text, "", "", "component of the array, by name or number" },
         { "--handles", "HANDLES", Kind::text, "", "", "draw these handles, too" },
         { "--handle-names", "", Kind::flag, "", "", "write the name beside each handle" },
@@ -152,8 +158,13 @@ const std::vector<Verb>& verbs()
         { "--azimuth", "DEGREES", Kind::number, "0", "", "look from farther to the right" },
         { "--elevation", "DEGREES", Kind::number, "0", "", "look from higher up" },
         { "--zoom", "FACTOR", Kind::number, "1", "", "larger in the picture" },
-        { "--section", "FRACTION", Kind::number, "0.5", "",
-          "where tets are cut and volumes are sliced, from 0 (back) to 1 (front)" },
+        { "--section", "PLANE", Kind::text, "0.5", "",
+          "where tets are cut and volumes are sliced: from 0 (back) to 1 (front), x=0.2, or "
+          "NX,NY,NZ@X,Y,Z for a normal and a point; none: tets whole" },
+        { "--shrink", "SIZE", Kind::number, "1", "",
+          "draw each tet this large, of its own size, above 0 to 1, apart from the others" },
+        { "--defects", "", Kind::flag, "", "",
+          "show where surfaces are unclean, those of --context, too, with names and counts" },
         { "--isosurface", "LEVEL,…", Kind::text, "", "",
           "show volumes by the surfaces where the value is this, instead of by a slice" },
         { "--volume", "", Kind::flag, "", "",

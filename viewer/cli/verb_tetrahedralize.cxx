@@ -56,6 +56,7 @@ void run_tetrahedralize(Session& session)
   tets->SetCutSigma(arguments.number("cut-sigma"));
   tets->SetQuality(arguments.number("quality"));
   tets->SetInteriorEdge(arguments.number("interior-edge"));
+  tets->SetKeepOutside(arguments.has("keep-outside"));
   tets->SetResolution(arguments.integer("resolution"));
   tets->SetWrapAlpha(arguments.number("wrap-alpha"));
   tets->SetWrapOffset(arguments.number("wrap-offset"));

@@ -188,8 +188,7 @@ private:
     // Nothing fits: what came nearest.
     if (cdt.misfit() < worst_misfit && cdt.misfit() <= this->lattice_misfit_)
     {
-      const TetMesh& mesh = cdt.mesh();
-      this->warn(wrong_volume(tet_volumes(mesh.points, mesh.tets).sum(), this->inside_).message);
+      this->warn(wrong_volume(cdt.volume(), this->inside_).message);
       return this->take_cdt(cdt);
     }
     status = this->take_lattice(status);
@@ -205,6 +204,7 @@ private:
     options.memory_limit = this->options_.memory_limit;
     options.quality = this->options_.quality;
     options.interior_edge = this->options_.interior_edge;
+    options.keep_outside = this->options_.keep_outside;
     options.handles = this->options_.handles;
     return options;
   }
@@ -216,6 +216,8 @@ private:
     this->report_.set("method", to_string(TetMethod::cdt));
     this->report_.merge(cdt.report());
     this->result_.mesh = std::move(cdt.mesh());
+    this->inside_tets_ = cdt.inside();
+    this->result_.winding_numbers = cdt.winding_numbers();
     this->result_.original_vertices = std::move(cdt.original_vertices());
     this->warnings_.insert(this->warnings_.end(), cdt.warnings().begin(), cdt.warnings().end());
     this->find_handles();
@@ -553,13 +555,17 @@ private:
     {
       return status;
     }
-    const Points centers = centers_of(mesh.points, mesh.tets);
-    status =
-      this->inside_.winding().evaluate(centers, this->context_, this->result_.winding_numbers);
-    if (!status.usable())
+    if (this->result_.winding_numbers.size() == 0)
     {
-      return status;
+      const Points centers = centers_of(mesh.points, mesh.tets);
+      status =
+        this->inside_.winding().evaluate(centers, this->context_, this->result_.winding_numbers);
+      if (!status.usable())
+      {
+        return status;
+      }
     }
+    this->label_tets();
     const TetQuality quality = measure_tets(mesh.points, mesh.tets);
     const auto& ids = this->result_.original_vertices;
     const auto kept =
@@ -568,7 +574,10 @@ private:
     this->report_.set("counts.tet_vertices", Report::Value(mesh.points.rows()));
     this->report_.set("counts.kept_vertices", Report::Value(kept));
     this->report_.set("counts.tets_below_5_degrees", Report::Value(quality.below_5_degrees));
-    this->report_.set("volume", Report::Value(quality.volume));
+    if (this->inside_tets_.empty())
+    {
+      this->report_.set("volume", Report::Value(quality.volume));
+    }
     this->report_.set("winding_volume", Report::Value(this->inside_.volume()));
     this->report_.set("winding_volume_error", Report::Value(this->inside_.volume_error()));
     this->report_.set("min_dihedral_angle", Report::Value(quality.min_dihedral_angle));
@@ -581,6 +590,36 @@ private:
     this->report_.set("quality[].tets",
       std::vector<std::int64_t>(quality.histogram.tets.begin(), quality.histogram.tets.end()));
     return {};
+  }
+
+  /// Labels and angles; of the whole hull how many tets are inside, and their volume.
+  void label_tets()
+  {
+    const TetMesh& mesh = this->result_.mesh;
+    const Eigen::VectorXd volumes = tet_volumes(mesh.points, mesh.tets);
+    const bool all_stay = this->options_.method != TetMethod::embed;
+    this->result_.labels.resize(static_cast<std::size_t>(mesh.tets.rows()));
+    this->result_.min_dihedral_angles.resize(mesh.tets.rows());
+    double volume = 0.0;
+    Index kept = 0;
+    for (Index t = 0; t < mesh.tets.rows(); ++t)
+    {
+      const bool above = this->result_.winding_numbers[t] >= this->options_.winding_threshold;
+      const bool inside = this->inside_tets_.empty() ? above || all_stay : this->inside_tets_[t];
+      this->result_.labels[t] = inside ? (above ? TetLabel::inside : TetLabel::inside_below)
+        : above                        ? TetLabel::outside_above
+                                       : TetLabel::outside;
+      const auto tet = mesh.tets.row(t);
+      this->result_.min_dihedral_angles[t] = min_dihedral_angle(mesh.points.row(tet[0]),
+        mesh.points.row(tet[1]), mesh.points.row(tet[2]), mesh.points.row(tet[3]));
+      volume += inside ? volumes[t] : 0.0;
+      kept += inside;
+    }
+    if (!this->inside_tets_.empty())
+    {
+      this->report_.set("counts.tets_inside", Report::Value(kept));
+      this->report_.set("volume", Report::Value(volume));
+    }
   }
 
   void warn(const std::string& sentence) { this->warnings_.push_back(sentence); }
@@ -605,6 +644,7 @@ private:
   Box box_;
   EnclosedRegion inside_;
   double climb_start_ = 0.0;
+  std::vector<char> inside_tets_; ///< of keep_outside, else empty
   TetMesh lattice_mesh_; ///< of remesh, when it did not fit
   double lattice_misfit_ = std::numeric_limits<double>::infinity();
   Report report_;
@@ -642,6 +682,10 @@ Status check_options(const TetrahedralizeOptions& options)
   if (options.memory_limit < 0)
   {
     return Status::invalid_input("memory_limit must not be negative");
+  }
+  if (options.keep_outside && options.method != TetMethod::cdt)
+  {
+    return Status::invalid_input("keep_outside needs method cdt: only that fills the hull");
   }
   if (!(options.quality == 0.0 || (options.quality >= 1.1 && options.quality <= 10.0)))
   {

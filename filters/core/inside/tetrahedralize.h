@@ -51,6 +51,10 @@ struct TetrahedralizeOptions
   /// Smooth weights need vertices inside, not only on the surface. ftetwild: the edge length that
   /// it aims at everywhere; 0: its own 0.05.
   double interior_edge = 0.04;
+  /// cdt only: keep all tets of the surface's convex hull (or of a box around it, where that was
+  /// needed), as the segmentation told them apart: labels says which are inside. No vertices are
+  /// added, not for handles either.
+  bool keep_outside = false;
   /// wrap only, fractions of the surface's diagonal: radius of the ball that carves (0.0001 … 1)
   /// and distance of the wrap from the surface (0.000001 … 1): see WrapOptions.
   double wrap_alpha = 0.02;
@@ -63,11 +67,24 @@ struct TetrahedralizeOptions
   HandlePlaces handles;
 };
 
+/// What became of a tet. The numbers are those of the array `Label`: above 0 is inside.
+enum class TetLabel
+{
+  outside_above = -1, ///< outside, though its winding number reaches the threshold
+  outside = 0,
+  inside = 1,
+  inside_below = 2 ///< inside, though its winding number is below the threshold
+};
+
 struct TetrahedralizeResult
 {
   TetMesh mesh; ///< positive tets, no stray vertices
   std::vector<Index> original_vertices; ///< #V: id of the input vertex, ascending, then -1 for new
-  Eigen::VectorXd winding_numbers; ///< #T: at the tets' centres
+  /// #T: at the tets' centres; with keep_outside what the segmentation decided on, which is a mean
+  /// for large tets near the threshold.
+  Eigen::VectorXd winding_numbers;
+  std::vector<TetLabel> labels; ///< #T; a tet of embed is inside where its centre is
+  Eigen::VectorXd min_dihedral_angles; ///< #T, degrees
   std::vector<DefectPlace> defects; ///< where the surface is unclean
   std::vector<Index> handle_vertices; ///< of cdt, #H: vertex at the handles' point, -1 for none
   /// Of embed only, else empty: #T share of the tet that is inside, and where the input's points
@@ -103,12 +120,11 @@ struct TetrahedralizeResult
 ///
 /// Report: method; rungs[].name, rungs[].seconds, rungs[].outcome (each thing tried, and why it was
 /// left); counts.* of the diagnosis; counts.tets, counts.tet_vertices, counts.kept_vertices;
-/// volume (of the tets), winding_volume (of {w >= threshold}: exact for clean surfaces, sampled
-/// otherwise), winding_volume_error (its standard error, relative), min_dihedral_angle (degrees),
-/// counts.tets_below_5_degrees, quality[].dihedral_angle, quality[].tets (how many tets have their
-/// smallest dihedral angle from this many degrees to the next);
-/// counts.handle_points, counts.handle_vertices (of cdt with handles: how many of their points are
-/// vertices);
+/// volume (of the tets inside), winding_volume (of {w >= threshold}: exact for clean surfaces,
+/// sampled otherwise), winding_volume_error (its standard error, relative), min_dihedral_angle
+/// (degrees), counts.tets_below_5_degrees, quality[].dihedral_angle, quality[].tets (how many tets
+/// have their smallest dihedral angle from this many degrees to the next); counts.handle_points,
+/// counts.handle_vertices (of cdt with handles: how many of their points are vertices);
 /// segmentation (of cdt; a graph cut whose volume does not fit is left for the threshold), energy,
 /// threshold_energy, counts.changed_by_cut (see Segmentation); for remesh and embed resolution, for
 /// embed what embed_surface reports.
@@ -116,7 +132,8 @@ struct TetrahedralizeResult
 /// boundary and the surface where that bounds the inside, percent of its diagonal); for wrap
 /// counts.wrap_triangles.
 ///
-/// invalid_input: not finite, flat (but for embed and wrap), or encloses nothing (the same); or, of
+/// invalid_input: not finite, flat (but for embed and wrap), or encloses nothing (the same);
+/// keep_outside with another method than cdt; or, of
 /// method automatic, neither cdt nor remesh gives a valid mesh: the message tells the last reason
 /// and names method embed. unavailable: method cdt or wrap without helper, ftetwild without
 /// fTetWild. internal_error: the method asked for gave no valid mesh.

@@ -647,6 +647,48 @@ TEST_F(Cdt, AnOpenSurfaceIsCutWithLessEnergy)
   EXPECT_LT(skin(cut), skin(plain));
 }
 
+TEST_F(Cdt, TheWholeHullCanBeKept)
+{
+  // Two boxes with a gap: a fifth of their hull is outside.
+  const TriangleMesh closed =
+    test::join(test::cube(0.0, 1.0), test::translated(test::cube(0.0, 1.0), Vec3(1.5, 0, 0)));
+  TriangleMesh open = closed;
+  open.triangles.conservativeResize(open.triangles.rows() - 2, 3);
+  for (const TriangleMesh& mesh : { closed, open })
+  {
+    TetrahedralizeOptions options;
+    options.method = TetMethod::cdt;
+    const Outcome kept = run(mesh, options);
+    ASSERT_TRUE(kept.status.ok()) << kept.status.message;
+    options.keep_outside = true;
+    const Outcome outcome = run(mesh, options);
+    ASSERT_TRUE(outcome.status.ok()) << outcome.status.message;
+    const TetrahedralizeResult& result = outcome.result;
+    EXPECT_NEAR(outcome.volume(), 2.5, 1e-9) << "the hull";
+    const Eigen::VectorXd volumes = tet_volumes(result.mesh.points, result.mesh.tets);
+    ASSERT_EQ(static_cast<Index>(result.labels.size()), volumes.size());
+    double inside = 0.0;
+    Index count = 0;
+    for (Index t = 0; t < volumes.size(); ++t)
+    {
+      const bool above = result.winding_numbers[t] >= options.winding_threshold;
+      const int label = static_cast<int>(result.labels[t]);
+      EXPECT_EQ(above, label == 1 || label == -1) << t;
+      inside += label > 0 ? volumes[t] : 0.0;
+      count += label > 0;
+    }
+    EXPECT_NEAR(inside, kept.volume(), 1e-9) << "what is inside is what is kept else";
+    EXPECT_NEAR(outcome.number("volume"), inside, 1e-12);
+    EXPECT_EQ(outcome.number("counts.tets_inside"), count);
+    EXPECT_EQ(outcome.number("counts.tets"), volumes.size());
+    // Of all corners of the boxes; no vertex is added.
+    EXPECT_EQ(result.mesh.points.rows(), mesh.points.rows());
+  }
+  TetrahedralizeOptions options;
+  options.keep_outside = true;
+  EXPECT_EQ(run(closed, options).status.code, StatusCode::invalid_input);
+}
+
 TEST_F(Cdt, ACutThatLosesTheVolumeIsLeftForTheThreshold)
 {
   const TriangleMesh mesh = ragged(test::torus(40, 20, 1.0, 0.4));

@@ -13,6 +13,7 @@
 #include "io/atomic_file.h"
 #include "pose/pose_file.h"
 #include "report_field_data.h"
+#include "scene/categories.h"
 #include "scene/curves.h"
 #include "scene/volume.h"
 
@@ -327,6 +328,10 @@ bool MainWindow::open(const QString& path)
   if (auto* image = vtkImageData::SafeDownCast(read))
   {
     return this->set_volume(image, name);
+  }
+  if (is_defect_data(read))
+  {
+    return refuse("these are defects of a surface; open the surface, whose panel Tets shows them");
   }
   if (is_curve_data(read))
   {

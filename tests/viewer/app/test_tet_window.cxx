@@ -20,6 +20,7 @@
 #include "vtkProperty.h"
 #include "vtkSurfaceDefects.h"
 #include "vtkUnstructuredGrid.h"
+#include "vtkXMLPolyDataWriter.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -33,6 +34,7 @@
 #include <QThread>
 
 #include <algorithm>
+#include <cstdio>
 
 using namespace bindpose;
 
@@ -273,6 +275,15 @@ TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
     all += seen[kind].count;
   }
   EXPECT_EQ(seen[2].count, 4) << "boundary edges";
+  // As a file of their own they are neither handles nor a surface.
+  const std::string path = testing::TempDir() + "bindpose_defects.vtp";
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(shown);
+  writer->SetFileName(path.c_str());
+  writer->Write();
+  EXPECT_FALSE(this->window.open(QString::fromStdString(path)));
+  std::remove(path.c_str());
+  EXPECT_NE(this->window.error().indexOf("defects of a surface"), -1);
   EXPECT_EQ(seen[8].count, 12) << "triangles that look inwards";
   EXPECT_NE(this->find<QLabel>(QString("%1 places").arg(all)), nullptr);
   EXPECT_LT(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);

@@ -172,3 +172,14 @@ def test_ftetwild_is_run_where_it_is(folder):
     folder.run(*words, "--overwrite", environment=nowhere).is_refused("/nowhere/ftetwild")
     folder.write("ftetwild", "#!/bin/sh\necho its last words; exit 3\n")
     folder.run(*words, "--overwrite", environment=there).is_refused("its last words", code=5)
+
+
+def test_the_whole_hull(folder):
+    vertices, faces = shapes.cube()
+    far = [[x + 3, y, z] for x, y, z in vertices]
+    folder.off("two.off", (vertices + far, faces + [[v + 8 for v in face] for face in faces]))
+    run = folder.run("tetrahedralize", "two.off", "--method", "cdt", "--keep-outside", "-o", "h.vtu", "--report", "-")
+    report = run.is_good().report
+    assert report["volume"] == pytest.approx(16) and 0 < report["counts"]["tets_inside"] < report["counts"]["tets"]
+    assert folder.run("info", "h.vtu", "--report", "-").is_good().report["volume"] == pytest.approx(20)
+    folder.run("tetrahedralize", "two.off", "--keep-outside", "-o", "n.vtu").is_refused("cdt")

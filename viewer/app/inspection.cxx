@@ -21,6 +21,8 @@ TetrahedralizeOptions options_of(int method)
   TetrahedralizeOptions options;
   options.method = method == TetPanel::remesh ? TetMethod::remesh
     : method == TetPanel::embed               ? TetMethod::embed
+    : method == TetPanel::wrap                ? TetMethod::wrap
+    : method == TetPanel::ftetwild            ? TetMethod::ftetwild
     : method == TetPanel::automatic           ? TetMethod::automatic
                                               : TetMethod::cdt;
   options.keep_outside = method == TetPanel::whole_hull;

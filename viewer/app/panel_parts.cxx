@@ -67,8 +67,8 @@ QString sentence_of(const QString& phase)
   } table[] = {
     { "repair", QT_TRANSLATE_NOOP("Panel", "Looking at the surface") },
     { "winding", QT_TRANSLATE_NOOP("Panel", "Finding the inside") },
-    { "tetrahedralize cdt refine tetgen label fill improve remesh distance lattice sample cut "
-      "cover check",
+    { "tetrahedralize cdt refine tetgen label fill improve remesh distance wrap ftetwild "
+      "lattice sample samples connect parts cut check",
       QT_TRANSLATE_NOOP("Panel", "Filling it with tets") },
     { "insert", QT_TRANSLATE_NOOP("Panel", "Placing the handles") },
     { "analyse guide weights", QT_TRANSLATE_NOOP("Panel", "Solving for the weights") },

@@ -39,11 +39,16 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->method_->addItem(tr("Constrained (cdt)"));
   this->method_->addItem(tr("Remeshed"));
   this->method_->addItem(tr("Embedding lattice"));
+  this->method_->addItem(tr("Alpha wrap"));
+  this->method_->addItem(tr("fTetWild"));
   this->method_->addItem(tr("Whole hull (cdt)"));
-  this->method_->setToolTip(tr("Constrained: keeps the surface's triangles.\n"
-                               "Remeshed: well-shaped tets.\n"
-                               "Embedding lattice: merely holds the surface.\n"
-                               "Whole hull: outside tets, too, to see what is decided."));
+  this->method_->setToolTip(
+    tr("Constrained: keeps the surface's triangles.\n"
+       "Remeshed: well-shaped tets.\n"
+       "Embedding lattice: merely holds the surface.\n"
+       "Alpha wrap: the inside of a skin around it; open surfaces become shells.\n"
+       "fTetWild: where that program is installed.\n"
+       "Whole hull: outside tets, too, to see what is decided."));
   column->addWidget(this->method_);
   auto* buttons = new QHBoxLayout;
   this->make_ = button(tr("Make tets"), this);

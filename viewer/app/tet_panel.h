@@ -25,6 +25,8 @@ public:
     constrained,
     remesh,
     embed,
+    wrap,
+    ftetwild,
     whole_hull
   };
   /// What colours them, in the order of its list.

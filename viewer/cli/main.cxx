@@ -11,6 +11,8 @@
 #include "vtkObjectFactory.h"
 #include "vtkOutputWindow.h"
 
+#include <csignal>
+#include <cstdlib>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -54,6 +56,8 @@ void run(Session& session)
 int main(int argc, char** argv)
 {
   catch_interrupts();
+  // A file that may not grow further is a write that fails, not the end. The helper inherits this.
+  std::signal(SIGXFSZ, SIG_IGN);
   vtkNew<SilentOutputWindow> silent;
   vtkOutputWindow::SetInstance(silent);
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // it has a way of its own
@@ -76,6 +80,10 @@ int main(int argc, char** argv)
   catch (const std::bad_alloc&)
   {
     session.fail(Status::failure(StatusCode::internal_error, "out of memory"));
+    // Without a normal end: OpenBLAS's threads ask for memory until they get some, and the end of
+    // the program would wait for them.
+    const int code = session.finish();
+    std::_Exit(code);
   }
   catch (const std::exception& error)
   {

@@ -21,7 +21,7 @@ class Horror:
     triangles: np.ndarray  # #F x 3 ids
     volume: float = None  # of the inside, None: not known by a formula
     tolerance: float = 1e-9  # of the volume, relative
-    encloses: bool = True  # False: nothing, to be refused with a sentence
+    encloses: bool = True  # False: nothing, to be refused with a sentence; None: not known
 
 
 # ---- Clean parts -----------------------------------------------------------------------------------
@@ -484,7 +484,7 @@ def flat():
 def wavy_sheet():
     points, faces = sheet(24)
     points[:, 2] = 0.05 * np.sin(9 * points[:, 0]) * np.cos(7 * points[:, 1])
-    return Horror(points, faces, encloses=False)
+    return Horror(points, faces, encloses=None)  # the winding number reaches 0.5 in the hollows
 
 
 def there_and_back():

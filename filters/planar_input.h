@@ -33,12 +33,6 @@ Status to_planar_input(vtkImageData* image, bool rectangle, const ImageOutlineOp
 /// The lines and the sides of the polygons of a polydata in a plane z = const.
 Status to_planar_input(vtkPolyData* curves, PlanarInput& input);
 
-/// Handles for the mesh: all their points but regions' pivots, bones and cage elements as segments.
-/// names[i] and points[i]: each handle's name and its row (a bone's head) of handles.points; -1 for
-/// regions.
-Status to_planar_handles(vtkPolyData* data, PlanarHandles& handles, std::vector<std::string>& names,
-  std::vector<Index>& points);
-
 } // namespace bindpose
 
 #endif

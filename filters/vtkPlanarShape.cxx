@@ -3,6 +3,7 @@
 #include "vtkPlanarShape.h"
 
 #include "conversion.h"
+#include "handle_geometry.h"
 #include "planar_input.h"
 
 #include "vtkCellData.h"
@@ -95,13 +96,11 @@ bindpose::Status vtkPlanarShape::Execute(
     status = curves ? bindpose::to_planar_input(curves, planar)
                     : bindpose::Status::invalid_input("there is no image and there are no curves");
   }
-  bindpose::PlanarHandles handles;
-  std::vector<std::string> names;
-  std::vector<bindpose::Index> rows;
+  bindpose::HandleGeometry handles;
   vtkPolyData* handle_data = vtkPolyData::GetData(input[1]);
   if (status.ok() && handle_data)
   {
-    status = bindpose::to_planar_handles(handle_data, handles, names, rows);
+    status = bindpose::to_handle_geometry(handle_data, handles);
   }
   if (!status.ok())
   {
@@ -115,7 +114,8 @@ bindpose::Status vtkPlanarShape::Execute(
   options.time_limit = this->TimeLimit;
   options.memory_limit = this->MemoryLimit;
   bindpose::PlanarShape shape;
-  status = bindpose::planar_shape(planar.points, planar.segments, handles, options, shape, context);
+  status = bindpose::planar_shape(
+    planar.points, planar.segments, bindpose::to_planar_handles(handles), options, shape, context);
   bindpose::Report report = planar.report;
   report.merge(status.report);
   status.report = report;
@@ -123,15 +123,9 @@ bindpose::Status vtkPlanarShape::Execute(
   {
     return status;
   }
-  if (!names.empty())
+  if (!handles.names.empty())
   {
-    std::vector<bindpose::Index> vertices;
-    for (const bindpose::Index row : rows)
-    {
-      vertices.push_back(row < 0 ? -1 : shape.handle_vertices[row]);
-    }
-    status.report.set("handles[].name", names);
-    status.report.set("handles[].vertex", vertices);
+    bindpose::report_handles(handles, shape.handle_vertices, status.report);
   }
 
   bindpose::Points points(shape.points.rows(), 3);

@@ -2,6 +2,7 @@
 #include "vtkTetrahedralizeSurface.h"
 
 #include "conversion.h"
+#include "handle_geometry.h"
 #include "inside/tetrahedralize.h"
 #include "surface_defects_data.h"
 
@@ -23,14 +24,19 @@ vtkStandardNewMacro(vtkTetrahedralizeSurface);
 
 vtkTetrahedralizeSurface::vtkTetrahedralizeSurface()
 {
+  this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(3);
 }
 
 vtkTetrahedralizeSurface::~vtkTetrahedralizeSurface() = default;
 
-int vtkTetrahedralizeSurface::FillInputPortInformation(int, vtkInformation* info)
+int vtkTetrahedralizeSurface::FillInputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  info->Set(INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkPolyData");
+  if (port == 1)
+  {
+    info->Set(INPUT_IS_OPTIONAL(), 1);
+  }
   return 1;
 }
 
@@ -84,6 +90,16 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
     return status;
   }
 
+  bindpose::HandleGeometry handles;
+  if (vtkPolyData* handle_data = vtkPolyData::GetData(input[1]))
+  {
+    status = bindpose::to_handle_geometry(handle_data, handles);
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+
   bindpose::TetrahedralizeOptions options;
   options.method = static_cast<bindpose::TetMethod>(this->Method);
   options.winding_threshold = this->WindingThreshold;
@@ -95,6 +111,7 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
   options.memory_limit = this->MemoryLimit;
   options.quality = this->Quality;
   options.interior_edge = this->InteriorEdge;
+  options.handles = bindpose::to_handle_places(handles);
   bindpose::TetrahedralizeResult result;
   status = bindpose::tetrahedralize(
     surface.points.view(), surface.triangles.view(), options, result, context);
@@ -109,6 +126,10 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
   if (!status.usable())
   {
     return status;
+  }
+  if (!result.handle_vertices.empty())
+  {
+    bindpose::report_handles(handles, result.handle_vertices, status.report);
   }
 
   out->ShallowCopy(bindpose::to_unstructured_grid(result.mesh.points, result.mesh.tets));

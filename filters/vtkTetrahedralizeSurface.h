@@ -8,6 +8,10 @@
  *
  * **Input 0**: a vtkPointSet with 2D cells (polygons and strips are split into triangles; other
  * cells are ignored and counted).
+ * **Input 1** (optional): handles (see vtkHandleFileReader) that CDT makes part of the mesh where
+ * they are inside: points, ends of bones and cage vertices become points of it, bones and cages get
+ * points along them at the local edge length. The weights filters split the cells of other methods
+ * where handles need it.
  * **Output**: a vtkUnstructuredGrid of tets (VTK_TETRA, all of positive volume) with the point
  * array `OriginalPointIds` (id of the input point, ascending, then -1 for new points) and the cell
  * array `WindingNumber` (double, at the tets' centres).
@@ -42,11 +46,16 @@
  * (degrees), resolution (of the lattice), distance_max, distance_mean (REMESH by refinement: of
  * the tets' boundary and the surface, % of its diagonal), spacing, counts.{lattice_tets,
  * duplicated_nodes, branching_facets, tet_components} (EMBED), segmentation, energy,
- * threshold_energy, counts.changed_by_cut (of the graph cut), seconds.*.
+ * threshold_energy, counts.changed_by_cut (of the graph cut), quality[].{dihedral_angle, tets} (how
+ * many tets have their smallest dihedral angle from this many degrees to the next),
+ * winding_volume_error (standard error of sampling, relative), counts.{handle_points,
+ * handle_vertices} and handles[].{name, vertex} (CDT with handles: the point's id, of a bone the
+ * head's, -1 where it is no point of the mesh), seconds.*.
  *
  * Errors: invalid_input for a surface without 2D cells, with ids out of range or coordinates that
- * are not finite, for a flat one, and for one that encloses nothing; unavailable for CDT without
- * the helper; internal_error when no method gave a valid mesh. Cost: 5k triangles 0.3 s, 90k
+ * are not finite, for a flat one, and for one that encloses nothing or that neither CDT nor REMESH
+ * can fill (the text names EMBED, which takes any); unavailable for CDT without the helper;
+ * internal_error when the method asked for gave no valid mesh. Cost: 5k triangles 0.3 s, 90k
  * triangles 4 s when clean.
  *
  * @par Thanks:
@@ -69,6 +78,9 @@ public:
   static vtkTetrahedralizeSurface* New();
   vtkTypeMacro(vtkTetrahedralizeSurface, vtkBindposeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  /// The handles, by a connection; null for none.
+  void SetHandlesConnection(vtkAlgorithmOutput* handles) { this->SetInputConnection(1, handles); }
 
   enum MethodType
   {

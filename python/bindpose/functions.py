@@ -166,7 +166,7 @@ def contains(surface, points, *, winding_threshold=0.5, method="auto", tolerance
 
 def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentation="graph-cut", cut_smoothness=1.0,
                    cut_sigma=0.1, quality=1.414, interior_edge=0.04, resolution=0, time_limit=120.0, memory_limit=0,
-                   threads=0, progress=None):
+                   handles=None, threads=0, progress=None):
     """Fill the inside of a surface, however unclean, with tets.
 
     Parameters
@@ -187,6 +187,9 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
         Largest ratio of circumradius to shortest edge that cdt leaves inside, 1.1 to 10; 0 for any.
     interior_edge : float
         Longest edges that cdt leaves inside, as a fraction of the surface's diagonal; 0 for any.
+    handles : vtkPolyData, str or path-like, optional
+        Handle dataset or file. With cdt their points become points of the tets where they are inside, and bones
+        and cages get points along them.
     resolution : int
         Lattice cubes along the longest side for remesh and embed, 4 to 1000; 0 for 40 (remesh) or about 30,000
         tets (embed).
@@ -210,8 +213,11 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
     Unavailable
         The meshing program is not there; the text names the packages.
     """
+    data = to_dataset(surface)
     filler = filters.vtkTetrahedralizeSurface()
-    filler.SetInputData(0, to_dataset(surface))
+    filler.SetInputData(0, data)
+    if handles is not None:
+        filler.SetInputData(1, to_handles(handles, data))
     filler.SetMethod(getattr(filler, _TETRAHEDRALIZE[_choice(method, _TETRAHEDRALIZE, "method")]))
     filler.SetWindingThreshold(winding_threshold)
     filler.SetSegmentation(getattr(filler, _SEGMENTATION[_choice(segmentation, _SEGMENTATION, "segmentation")]))
@@ -317,10 +323,10 @@ def _make_weights(method):
     return result
 
 
-def _fill_or_embed(data, threads, progress):
+def _fill_or_embed(data, handles, threads, progress):
     """Tets of the inside; where there is none, a lattice that holds the surface will do for weights."""
     try:
-        return tetrahedralize(data, threads=threads, progress=progress)
+        return tetrahedralize(data, handles=handles, threads=threads, progress=progress)
     except (InvalidInput, Unavailable) as first:
         try:
             tets = tetrahedralize(data, method="embed", threads=threads, progress=progress)
@@ -403,7 +409,7 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", region
         if domain == "surface":
             raise InvalidInput("the mesh holds tets: domain 'surface' needs a surface")
     elif domain != "surface":
-        solved_on = _fill_or_embed(data, threads, progress)
+        solved_on = _fill_or_embed(data, handle_data, threads, progress)
         if regions or data.GetPointData().GetArray(label_name):
             solved_on = _carry_labels(data, solved_on, label_name)
     solver = _make_weights(method)

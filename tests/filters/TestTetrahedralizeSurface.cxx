@@ -5,6 +5,8 @@
 #include "report_field_data.h"
 #include "support/files.h"
 #include "support/meshes.h"
+#include "inside/mesher_process.h"
+#include "vtkBoundedBiharmonicWeights.h"
 #include "vtkTetrahedralizeSurface.h"
 
 #include "vtkAppendFilter.h"
@@ -257,6 +259,45 @@ TEST(TetrahedralizeSurface, AbortKillsTheHelper)
   listener->on_progress = nullptr;
   filter->Update();
   EXPECT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::OK);
+}
+
+TEST(TetrahedralizeSurface, HandlesArePartOfTheMesh)
+{
+  if (bindpose::find_mesher().empty())
+  {
+    GTEST_SKIP() << "bindpose-mesher is not built: libcgal-dev, libtet1.5-dev";
+  }
+  Handles handles(3);
+  handles[0].name = "spine";
+  handles[0].kind = HandleKind::bone;
+  handles[0].head = Vec3(-0.5, 0.1, 0.05);
+  handles[0].tail = Vec3(0.5, 0.1, 0.05);
+  handles[1].name = "eye";
+  handles[1].head = handles[1].tail = Vec3(0.2, -0.3, 0.4);
+  handles[2].name = "away";
+  handles[2].head = handles[2].tail = Vec3(9, 9, 0);
+  const TriangleMesh ball = test::sphere(3);
+  vtkNew<vtkTetrahedralizeSurface> filter;
+  filter->SetInputData(0, to_polydata(ball.points, ball.triangles));
+  filter->SetInputData(1, to_polydata(handles));
+  filter->Update();
+  ASSERT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::OK);
+  const Report report = read_report(filter->GetOutput());
+  const auto vertices = std::get<std::vector<std::int64_t>>(*report.find("handles[].vertex"));
+  ASSERT_EQ(vertices.size(), 3u);
+  for (std::size_t h = 0; h < 2; ++h)
+  {
+    ASSERT_GE(vertices[h], 0);
+    EXPECT_EQ(Vec3(filter->GetOutput()->GetPoint(vertices[h])), handles[h].head);
+  }
+  EXPECT_EQ(vertices[2], -1);
+  // Weights on it split cells only for the one that lies outside.
+  handles.pop_back();
+  vtkNew<vtkBoundedBiharmonicWeights> weights;
+  weights->SetInputData(0, filter->GetOutput());
+  weights->SetInputData(1, to_polydata(handles));
+  weights->Update();
+  EXPECT_EQ(read_report(weights->GetOutput()).number("counts.inserted_vertices", -1), 0);
 }
 
 TEST(TetrahedralizeSurface, PrintsItsParameters)

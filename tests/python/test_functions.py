@@ -99,6 +99,13 @@ def test_tetrahedralize():
     assert is_tets(grid) and np.array_equal(tets_of(grid), tets) and np.array_equal(points_of(grid), vertices)
 
 
+def test_tetrahedralize_with_handles():
+    handles = bindpose.handles(bones=BONES)
+    vertices, _, _, report = bindpose.tetrahedralize(BAR, handles=handles)
+    for handle in report["handles"]:
+        assert (np.abs(points_of(handles) - vertices[handle["vertex"]]).max(axis=1) == 0).any()
+
+
 def test_weights_are_the_programs(tmp_path):
     handles = bindpose.handles(bones=BONES)
     ours = bindpose.weights(BAR, handles)

@@ -1,5 +1,7 @@
 #include "support/meshes.h"
 
+#include "base/tet_facets.h"
+
 #include <cmath>
 #include <map>
 
@@ -223,6 +225,24 @@ Vec3 Random::in_box(const Vec3& lower, const Vec3& upper)
   const double y = this->uniform(lower.y(), upper.y());
   const double z = this->uniform(lower.z(), upper.z());
   return { x, y, z };
+}
+
+Index euler_characteristic(const TetMesh& mesh)
+{
+  const std::vector<TetFacet> facets = tet_facets(mesh.tets);
+  Triangles distinct(static_cast<Index>(facets.size()), 3);
+  Index count = 0;
+  for (std::size_t i = 0; i < facets.size(); ++i)
+  {
+    if (i == 0 || facets[i].vertices != facets[i - 1].vertices)
+    {
+      const auto& v = facets[i].vertices;
+      distinct.row(count++) << v[0], v[1], v[2];
+    }
+  }
+  distinct.conservativeResize(count, 3);
+  const auto edges = static_cast<Index>(mesh_edges(distinct).size());
+  return mesh.points.rows() - edges + count - mesh.tets.rows();
 }
 
 } // namespace bindpose::test

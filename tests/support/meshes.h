@@ -31,6 +31,9 @@ TriangleMesh flipped(TriangleMesh mesh);
 TetMesh tet_box(
   int nx, int ny, int nz, const Vec3& lower = Vec3::Zero(), const Vec3& upper = Vec3::Ones());
 
+/// Vertices - edges + facets - tets: 1 for a ball, 0 for a solid torus, 2 for a shell.
+Index euler_characteristic(const TetMesh& mesh);
+
 /// Deterministic numbers in [0, 1): the same on every machine, unlike std's distributions.
 class Random
 {

@@ -33,8 +33,10 @@ void run_bind(const BindInput& input, ExecutionContext& context, BindResult& res
   TetrahedralizeResult tets;
   {
     Phase phase(context, "tetrahedralize", 0.0, 0.3);
-    if (!take(
-          tetrahedralize(input.surface.points, input.surface.triangles, {}, tets, context), result))
+    TetrahedralizeOptions options;
+    options.handles = input.handle_places;
+    if (!take(tetrahedralize(input.surface.points, input.surface.triangles, options, tets, context),
+          result))
     {
       return;
     }

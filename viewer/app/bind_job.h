@@ -3,6 +3,7 @@
 
 #include "base/mesh.h"
 #include "base/status.h"
+#include "inside/handle_places.h"
 #include "weights/handles.h"
 
 #include <QObject>
@@ -15,6 +16,7 @@ struct BindInput
 {
   bindpose::TriangleMesh surface;
   bindpose::Handles handles;
+  bindpose::HandlePlaces handle_places; ///< of these: what becomes part of the tets
   std::vector<bindpose::Index> region_of_vertex; ///< #V labels, empty without regions
   bool monotone = false; ///< monotone weights instead of bounded ones
 };

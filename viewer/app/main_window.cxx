@@ -8,6 +8,7 @@
 #include "volume_view.h"
 
 #include "conversion.h"
+#include "handle_geometry.h"
 #include "io/atomic_file.h"
 #include "pose/pose_file.h"
 #include "report_field_data.h"
@@ -525,7 +526,12 @@ void MainWindow::bind()
   }
   this->hide_error();
   SurfaceInput surface;
-  const Status status = to_surface(this->rest_, surface);
+  HandleGeometry geometry;
+  Status status = to_surface(this->rest_, surface);
+  if (status.ok())
+  {
+    status = to_handle_geometry(this->handle_data_, geometry);
+  }
   if (!status.ok())
   {
     this->show_error(tr("Cannot bind: %1.").arg(QString::fromStdString(status.message)));
@@ -535,6 +541,7 @@ void MainWindow::bind()
   input.surface.points = surface.points.view();
   input.surface.triangles = surface.triangles.view();
   input.handles = this->handles_;
+  input.handle_places = to_handle_places(geometry);
   input.monotone = this->panel_->monotone();
   if (vtkDataArray* regions = this->rest_->GetPointData()->GetArray("RegionId"))
   {

@@ -74,6 +74,9 @@ const std::vector<Verb>& verbs()
           "largest circumradius to shortest edge that cdt leaves inside, 1.1 to 10; 0: any" },
         { "--interior-edge", "FRACTION", Kind::number, "0.04", "",
           "longest edges that cdt leaves inside, of the surface's diagonal; 0: any" },
+        { "--handles", "HANDLES", Kind::text, "", "",
+          "handles, .tgf or .vtp: cdt makes their points points of the mesh, and puts points along "
+          "bones and cages" },
         { "--resolution", "CUBES", Kind::integer, "0", "",
           "lattice cubes along the longest side (remesh, embed), 4 to 1000; 0: 40 for remesh, "
           "about "

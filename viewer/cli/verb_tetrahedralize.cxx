@@ -4,6 +4,7 @@
 
 #include "vtkDataSet.h"
 #include "vtkNew.h"
+#include "vtkPolyData.h"
 #include "vtkTetrahedralizeSurface.h"
 
 namespace bindpose::cli
@@ -35,6 +36,15 @@ void run_tetrahedralize(Session& session)
   }
   vtkNew<vtkTetrahedralizeSurface> tets;
   tets->SetInputData(0, surface);
+  if (arguments.has("handles"))
+  {
+    const auto handles = session.read_handles(arguments.text("handles"), nullptr);
+    if (!handles)
+    {
+      return;
+    }
+    tets->SetInputData(1, handles);
+  }
   tets->SetMethod(method_of(arguments.text("method")));
   tets->SetWindingThreshold(arguments.number("winding-threshold"));
   tets->SetSegmentation(arguments.text("segmentation") == "threshold"

@@ -133,10 +133,11 @@ bool carry_labels(
 }
 
 /// Fills the surface; where that is impossible, a lattice that holds it will do for weights.
-vtkSmartPointer<vtkDataSet> fill(Session& session, vtkDataSet* surface)
+vtkSmartPointer<vtkDataSet> fill(Session& session, vtkDataSet* surface, vtkPolyData* handles)
 {
   vtkNew<vtkTetrahedralizeSurface> tets;
   tets->SetInputData(0, surface);
+  tets->SetInputData(1, handles);
   const Status first = session.try_run(tets, "tetrahedralize", 0.0, 0.3, Merge::numbers);
   if (first.usable())
   {
@@ -206,7 +207,7 @@ void run_weights(Session& session)
   const bool through_tets = !tets_given && !solve_on_surface;
   if (through_tets)
   {
-    solved_on = fill(session, mesh);
+    solved_on = fill(session, mesh, handles);
     if (!solved_on)
     {
       return;

@@ -2,12 +2,13 @@
 // anchors' lightness falls evenly from 92 to 22.
 #include "scene/colours.h"
 
+#include "base/number_text.h"
+
 #include "vtkLookupTable.h"
 #include "vtkMath.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace bindpose
 {
@@ -171,7 +172,7 @@ ColourMap level_map(const ColourMap& map, const std::vector<double>& levels)
     const Rgb c = colour_of(map, levels[i]);
     result.table->SetTableValue(i, c[0], c[1], c[2], 1.0);
     result.ticks.push_back(i + 0.5);
-    result.texts.push_back(short_number(levels[i]));
+    result.texts.push_back(short_number(levels[i], legend_digits));
   }
   return result;
 }
@@ -198,13 +199,6 @@ ColourMap with_levels(ColourMap map, const std::vector<double>& levels)
   map.ticks = ticks;
   map.decimals = -1;
   return map;
-}
-
-std::string short_number(double value)
-{
-  char text[40];
-  std::snprintf(text, sizeof text, "%.3g", value == 0.0 ? 0.0 : value);
-  return text;
 }
 
 } // namespace bindpose

@@ -65,8 +65,8 @@ Rgb colour_of(const ColourMap& map, double value);
 ColourMap level_map(const ColourMap& map, const std::vector<double>& levels);
 /// The map with the levels among its ticks; ticks that would touch them are left out.
 ColourMap with_levels(ColourMap map, const std::vector<double>& levels);
-/// A value as legends write it: three digits.
-std::string short_number(double value);
+/// Of short_number, as legends write values.
+constexpr int legend_digits = 3;
 
 } // namespace bindpose
 

@@ -2,6 +2,8 @@
 // so that no two pictures have the same type size.
 #include "scene/legend.h"
 
+#include "base/number_text.h"
+
 #include "vtkActor2D.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -33,7 +35,7 @@ std::string tick_text(const ColourMap& map, std::size_t tick)
   }
   if (map.decimals < 0)
   {
-    return short_number(map.ticks[tick]);
+    return short_number(map.ticks[tick], legend_digits);
   }
   char text[40];
   std::snprintf(text, sizeof text, "%.*f", map.decimals, map.ticks[tick]);

@@ -3,6 +3,7 @@
 // driver's antialiasing smooths neither isolines nor colour bands.
 #include "scene/picture.h"
 
+#include "base/number_text.h"
 #include "io/atomic_file.h"
 #include "scene/display.h"
 #include "scene/legend.h"
@@ -145,8 +146,9 @@ Status check_volumes(
   {
     if (!(level > lower && level <= upper))
     {
-      result.warnings.push_back("no isosurface at " + short_number(level) +
-        ": the values run from " + short_number(lower) + " to " + short_number(upper));
+      result.warnings.push_back("no isosurface at " + short_number(level, legend_digits) +
+        ": the values run from " + short_number(lower, legend_digits) + " to " +
+        short_number(upper, legend_digits));
     }
   }
   return result;

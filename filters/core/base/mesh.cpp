@@ -1,5 +1,7 @@
 #include "base/mesh.h"
 
+#include "base/tet_facets.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -175,32 +177,11 @@ Eigen::VectorXd tet_volumes(PointsView points, TetsView tets)
 
 Triangles boundary_triangles(TetsView tets)
 {
-  // Facet k lies opposite to vertex k, ordered to point away from it.
-  constexpr int facet[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
-  struct Facet
+  const std::vector<TetFacet> facets = tet_facets(tets);
+  std::vector<TetFacet> single;
+  for (std::size_t i = 0, j = 0; i < facets.size(); i = j)
   {
-    std::array<Index, 3> key;
-    Index tet;
-    int side;
-  };
-  std::vector<Facet> facets;
-  facets.reserve(static_cast<std::size_t>(tets.rows()) * 4);
-  for (Index t = 0; t < tets.rows(); ++t)
-  {
-    for (int k = 0; k < 4; ++k)
-    {
-      std::array<Index, 3> key{ tets(t, facet[k][0]), tets(t, facet[k][1]), tets(t, facet[k][2]) };
-      std::sort(key.begin(), key.end());
-      facets.push_back({ key, t, k });
-    }
-  }
-  std::sort(facets.begin(), facets.end(),
-    [](const Facet& x, const Facet& y) { return x.key != y.key ? x.key < y.key : x.tet < y.tet; });
-  std::vector<Facet> single;
-  for (std::size_t i = 0; i < facets.size();)
-  {
-    std::size_t j = i + 1;
-    while (j < facets.size() && facets[j].key == facets[i].key)
+    while (j < facets.size() && facets[j].vertices == facets[i].vertices)
     {
       ++j;
     }
@@ -208,17 +189,16 @@ Triangles boundary_triangles(TetsView tets)
     {
       single.push_back(facets[i]);
     }
-    i = j;
   }
   std::sort(single.begin(), single.end(),
-    [](const Facet& x, const Facet& y)
+    [](const TetFacet& x, const TetFacet& y)
     { return x.tet != y.tet ? x.tet < y.tet : x.side < y.side; });
   Triangles result(static_cast<Index>(single.size()), 3);
   for (Index i = 0; i < result.rows(); ++i)
   {
     for (int k = 0; k < 3; ++k)
     {
-      result(i, k) = tets(single[i].tet, facet[single[i].side][k]);
+      result(i, k) = tets(single[i].tet, facet_corners[single[i].side][k]);
     }
   }
   return result;

@@ -10,13 +10,15 @@
 // better and weights have something to vary over.
 #include "inside/cdt_tets.h"
 
+#include "base/number_text.h"
 #include "inside/mesher_process.h"
+#include "inside/tet_improvement.h"
 #include "inside/tet_quality.h"
+#include "inside/triangle_tree.h"
 
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <sstream>
 
 namespace bindpose
 {
@@ -41,13 +43,6 @@ double scatter(std::uint64_t n)
   return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
 }
 
-std::string short_number(double x)
-{
-  std::ostringstream text;
-  text.precision(4);
-  text << x;
-  return text.str();
-}
 } // namespace
 
 void RungLog::add(const std::string& rung, double seconds, const Status& status)
@@ -89,7 +84,9 @@ Status CdtTets::build(double seconds)
   {
     const Phase phase(this->context_, "tetgen", 0.0, 0.6);
     this->original_ = this->surface_.original_vertices;
-    const MesherData data{ this->surface_.points, this->surface_.triangles, {}, {}, {}, {} };
+    MesherData data;
+    data.points = this->surface_.points;
+    data.triangles = this->surface_.triangles;
     status = this->try_tetgen("tetgen", data, "pYA", false);
     if (status.ok() || this->final(status))
     {
@@ -240,7 +237,9 @@ Status CdtTets::refine(const Move& move, MesherData& refined)
   {
     this->original_ = moved.original_vertices;
     MesherAnswer answer;
-    const MesherData input{ moved.points, moved.triangles, {}, {}, {}, {} };
+    MesherData input;
+    input.points = std::move(moved.points);
+    input.triangles = std::move(moved.triangles);
     status = this->run_job({ "refine" }, input, 25.0, answer);
     refined = std::move(answer.data);
     if (status.ok() && refined.triangles.rows() == 0)
@@ -365,7 +364,9 @@ Status CdtTets::take_inside(
     }
   }
   kept.conservativeResize(count, 4);
-  drop_crumbs(data.points, kept);
+  constexpr double lone = 1e-4; // of the volume: where numbers waver, a tet stays by itself
+  this->inside_.labels_are_exact() ? drop_crumbs(data.points, kept)
+                                   : drop_crumbs(data.points, kept, lone);
   constexpr double flat = 1e-11; // of the diagonal
   peel_slivers(data.points, kept, flat * this->diagonal_);
   if (count == 0 && this->inside_.labels_are_exact())
@@ -412,29 +413,64 @@ Status CdtTets::complete()
 {
   this->finer_is_no_better_ = false;
   this->deadline_ = std::max(this->start_ + this->options_.time_limit, this->deadline_);
-  if (this->options_.quality > 0.0 || this->options_.interior_edge > 0.0)
+  const bool refine = this->options_.quality > 0.0 || this->options_.interior_edge > 0.0;
+  Status status;
+  if (refine || !this->options_.handles.empty())
   {
-    const Phase phase(this->context_, "fill", 0.0, 1.0);
-    Status status = this->fill();
-    if (status.code == StatusCode::cancelled)
-    {
-      return status;
-    }
-    if (!status.ok())
+    const Phase phase(this->context_, "fill", 0.0, 0.8);
+    status = this->fill();
+    if (!status.ok() && status.code != StatusCode::cancelled)
     {
       this->warnings_.push_back("no vertices were added inside (" + status.message + ")");
     }
   }
+  if (this->options_.quality > 0.0 && status.code != StatusCode::cancelled)
+  {
+    const Phase phase(this->context_, "improve", 0.8, 1.0);
+    status = this->improve();
+  }
   this->renumber();
-  return {};
+  return status.code == StatusCode::cancelled ? status : Status();
+}
+
+Status CdtTets::fill()
+{
+  // What stands behind the last vertex of a tet is inserted: the handles' points, none of the
+  // hull's.
+  this->surface_vertices_ = this->mesh_.tets.maxCoeff() + 1;
+  this->mesh_.points.conservativeResize(this->surface_vertices_, 3);
+  this->mesh_original_.resize(
+    std::min(this->mesh_original_.size(), static_cast<std::size_t>(this->surface_vertices_)));
+  MesherData coarse;
+  coarse.tets = this->mesh_.tets;
+  coarse.points = this->mesh_.points;
+  if (this->options_.handles.empty())
+  {
+    return this->fill(coarse);
+  }
+  Status status = this->place_handles();
+  const Index count = this->handle_points_.rows();
+  if (status.ok())
+  {
+    coarse.points.conservativeResize(this->surface_vertices_ + count, 3);
+    coarse.points.bottomRows(count) = this->handle_points_;
+    status = this->fill(coarse);
+  }
+  if (!status.ok() && status.code != StatusCode::cancelled && count > 0)
+  {
+    this->warnings_.push_back("handles are no vertices of the tets (" + status.message + ")");
+    this->handle_points_.resize(0, 3);
+    coarse.points = this->mesh_.points;
+    status = this->fill(coarse);
+  }
+  return status;
 }
 
 /// Ways to add vertices, the first that works. What is bounded by many needles (CAD) stays bad with
 /// the boundary left alone; then its triangles may be split, and so may large ones that are in the
 /// way of small tets.
-Status CdtTets::fill()
+Status CdtTets::fill(const MesherData& coarse)
 {
-  const MesherData coarse{ this->mesh_.points, {}, this->mesh_.tets, {}, {}, {} };
   const std::string size = this->options_.interior_edge > 0.0 ? "a" : "";
   const std::string good =
     this->options_.quality > 0.0 ? "q" + short_number(this->options_.quality) + "/10" : "";
@@ -502,6 +538,102 @@ Status CdtTets::accept_fill(MesherData& data, double volume)
     this->mesh_.tets = std::move(data.tets);
   }
   return status;
+}
+
+/// Points of the handles that lie inside, and points between them. Those between keep some distance
+/// from the boundary: there are vertices enough there, and TetGen would squeeze flat tets between.
+Status CdtTets::place_handles()
+{
+  const Points& points = this->mesh_.points;
+  const Triangles boundary = boundary_triangles(this->mesh_.tets);
+  const SizingField field = this->lengths_inside(boundary);
+  const HandleSamples samples =
+    sample_places(this->options_.handles, [&](const Vec3& p) { return field.at(p); });
+  WindingNumber winding;
+  Status status = winding.build(points, boundary, this->context_);
+  Eigen::VectorXd w;
+  status = status.ok() ? winding.evaluate(samples.points, this->context_, w) : status;
+  if (!status.usable())
+  {
+    return status;
+  }
+  const TriangleTree tree(points, boundary);
+  this->handle_points_.resize(samples.points.rows(), 3);
+  Index kept = 0;
+  for (Index i = 0; i < samples.points.rows(); ++i)
+  {
+    const Vec3 p = samples.points.row(i);
+    constexpr double near = 0.3; // of the local length
+    constexpr double touching = 1e-6; // of the diagonal
+    const double distance = i < samples.chosen ? touching * this->diagonal_ : near * field.at(p);
+    constexpr double half = 0.5; // the numbers are 0 and 1
+    if (w[i] > half && tree.distance(p, distance) > distance)
+    {
+      this->handle_points_.row(kept++) = p;
+    }
+  }
+  this->handle_points_.conservativeResize(kept, 3);
+  return {};
+}
+
+/// How long edges inside become: as long as the boundary's, growing with the distance to it.
+SizingField CdtTets::lengths_inside(const Triangles& boundary) const
+{
+  const Points& points = this->mesh_.points;
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(points.rows());
+  Eigen::VectorXd counts = Eigen::VectorXd::Zero(points.rows());
+  for (const Edge& edge : mesh_edges(boundary))
+  {
+    const double length = (points.row(edge.a) - points.row(edge.b)).norm();
+    for (const Index v : { edge.a, edge.b })
+    {
+      sums[v] += length;
+      counts[v] += 1.0;
+    }
+  }
+  Points sites(points.rows(), 3);
+  Eigen::VectorXd lengths(points.rows());
+  Index count = 0;
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    if (counts[v] > 0.0)
+    {
+      sites.row(count) = points.row(v);
+      lengths[count++] = sums[v] / counts[v];
+    }
+  }
+  sites.conservativeResize(count, 3);
+  lengths.conservativeResize(count);
+  constexpr double growth = 0.3;
+  const double largest = this->options_.interior_edge > 0.0 ? this->options_.interior_edge : 1.0;
+  return SizingField(sites, lengths, growth, largest * this->diagonal_);
+}
+
+/// Swaps edges and facets inside, and moves vertices that are neither the surface's nor a handle's,
+/// where tets are flat.
+Status CdtTets::improve()
+{
+  const double start = this->context_.elapsed_seconds();
+  TetMesh mesh = this->mesh_;
+  std::vector<char> held(static_cast<std::size_t>(mesh.points.rows()), 0);
+  // The surface's come first, then the handles'.
+  const Index last = this->surface_vertices_ + this->handle_points_.rows();
+  std::fill_n(held.begin(), std::min(last, mesh.points.rows()), 1);
+  ImproveOptions options;
+  options.least_angle = 0.0; // held vertices never move
+  options.keep_boundary = true;
+  Improvement done;
+  if (!improve_tets(mesh, std::move(held), {}, options, done, this->context_))
+  {
+    return Status::cancelled();
+  }
+  const Status status = check_tets(mesh.points, mesh.tets);
+  this->log_.add("flat tets swapped", this->context_.elapsed_seconds() - start, status);
+  if (status.ok())
+  {
+    this->mesh_ = std::move(mesh);
+  }
+  return {};
 }
 
 double CdtTets::mean_surface_edge() const

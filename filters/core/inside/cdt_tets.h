@@ -3,7 +3,9 @@
 
 #include "base/execution.h"
 #include "inside/enclosed_region.h"
+#include "inside/handle_places.h"
 #include "inside/segmentation.h"
+#include "inside/sizing_field.h"
 #include "inside/surface_repair.h"
 
 #include <limits>
@@ -37,6 +39,7 @@ struct CdtOptions
   Index memory_limit = 0;
   double quality = 1.414;
   double interior_edge = 0.04;
+  HandlePlaces handles;
 };
 
 /// "the tets hold 3.9, but the winding number encloses 8"
@@ -55,8 +58,8 @@ public:
   Status build(double seconds);
   /// EnclosedRegion::misfit of the tets that are there, infinity for none.
   double misfit() const { return this->misfit_; }
-  /// Adds vertices inside and numbers the input's vertices first. Only cancelled is a failure; what
-  /// else goes wrong is a warning.
+  /// Adds vertices inside, those of handles first, makes flat tets better and numbers the input's
+  /// vertices first. Only cancelled is a failure; what else goes wrong is a warning.
   Status complete();
 
   TetMesh& mesh() { return this->mesh_; }
@@ -81,8 +84,12 @@ private:
   Status keep_inside(const MesherData& data);
   Status take_inside(const MesherData& data, const Eigen::VectorXd& w, SegmentationMethod method);
   Status fill();
+  Status fill(const MesherData& coarse);
   Status try_fill(const std::string& switches, const MesherData& coarse);
   Status accept_fill(MesherData& data, double volume);
+  Status place_handles();
+  SizingField lengths_inside(const Triangles& boundary) const;
+  Status improve();
   double mean_surface_edge() const;
   double volume_bound() const;
   void renumber();
@@ -100,6 +107,8 @@ private:
   bool finer_is_no_better_ = false; ///< then more of the same will not help
   TetMesh mesh_;
   std::vector<Index> mesh_original_;
+  Index surface_vertices_ = 0; ///< the mesh's first vertices before it was filled
+  Points handle_points_; ///< of handles, inside; behind the surface's vertices when it was filled
   double misfit_ = std::numeric_limits<double>::infinity();
   std::vector<std::string> warnings_;
   Report report_;

@@ -1,5 +1,7 @@
 #include "inside/crease_points.h"
 
+#include "inside/triangle_sides.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,13 +10,6 @@ namespace bindpose
 
 namespace
 {
-struct Side
-{
-  Index a, b; ///< the edge, a < b
-  Index triangle;
-  int corner; ///< the edge's first corner in the triangle
-};
-
 /// The cosine of a turn of the surface that makes an edge, or two edges of a crease, sharp.
 double cosine(double degrees)
 {
@@ -22,7 +17,7 @@ double cosine(double degrees)
 }
 
 /// A triangle's edge bounds the region when its middle does, seen from inside the triangle.
-bool bounds(const RegionBoundary& region, const Side& side)
+bool bounds(const RegionBoundary& region, const TriangleSide& side)
 {
   const Vec3 middle = 0.5 *
     (region.corner(side.triangle, side.corner) +
@@ -35,28 +30,13 @@ bool bounds(const RegionBoundary& region, const Side& side)
 
 CreasePoints find_creases(const RegionBoundary& region, const SizingField& field, double angle)
 {
-  const TrianglesView triangles = region.triangles();
-  std::vector<Side> sides;
-  sides.reserve(static_cast<std::size_t>(triangles.size()));
-  for (Index f = 0; f < triangles.rows(); ++f)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const Index a = triangles(f, k);
-      const Index b = triangles(f, (k + 1) % 3);
-      sides.push_back({ std::min(a, b), std::max(a, b), f, k });
-    }
-  }
-  std::sort(sides.begin(), sides.end(),
-    [](const Side& x, const Side& y) {
-      return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.triangle < y.triangle;
-    });
+  const std::vector<TriangleSide> sides = sides_by_edge(region.triangles());
   const double smooth = cosine(angle);
   std::vector<std::pair<Index, Index>> ends; // (vertex, other end), both ways
   std::vector<Vec3> between;
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
   {
-    while (j < sides.size() && sides[j].a == sides[i].a && sides[j].b == sides[i].b)
+    while (j < sides.size() && sides[j].same_edge(sides[i]))
     {
       ++j;
     }
@@ -67,7 +47,7 @@ CreasePoints find_creases(const RegionBoundary& region, const SizingField& field
     }
     if (std::none_of(sides.begin() + static_cast<std::ptrdiff_t>(i),
           sides.begin() + static_cast<std::ptrdiff_t>(j),
-          [&](const Side& side) { return bounds(region, side); }))
+          [&](const TriangleSide& side) { return bounds(region, side); }))
     {
       continue;
     }

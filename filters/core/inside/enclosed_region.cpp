@@ -3,13 +3,13 @@
 // triangles; an open one needs a look at every tet.
 #include "inside/enclosed_region.h"
 
+#include "base/number_text.h"
 #include "inside/tet_quality.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <sstream>
 
 namespace bindpose
 {
@@ -128,14 +128,11 @@ double EnclosedRegion::misfit(double volume) const
 
 Status EnclosedRegion::encloses_nothing() const
 {
-  std::ostringstream text;
-  text.precision(4);
-  text << "the surface encloses nothing: its winding number reaches " << this->largest_winding_
-       << (this->largest_winding_ < this->threshold_
-              ? ", below the threshold of "
-              : ", only in specks of no size the threshold of ")
-       << this->threshold_;
-  return Status::invalid_input(text.str());
+  return Status::invalid_input("the surface encloses nothing: its winding number reaches " +
+    short_number(this->largest_winding_) +
+    (this->largest_winding_ < this->threshold_ ? ", below the threshold of "
+                                               : ", only in specks of no size the threshold of ") +
+    short_number(this->threshold_));
 }
 
 bool EnclosedRegion::fits(double volume) const

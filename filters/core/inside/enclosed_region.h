@@ -21,6 +21,8 @@ public:
   const WindingNumber& winding() const { return this->winding_; }
   /// Exact for a clean surface of one component, sampled otherwise.
   double volume() const { return this->volume_; }
+  /// Standard error of volume() from sampling, relative; 0 where it is exact.
+  double volume_error() const { return this->volume_error_; }
   /// Within 10 %, and what sampling may be wrong by.
   bool fits(double volume) const;
   /// |log(volume / volume())|: 0 for equal, the same for half and double, infinity for none.

@@ -9,6 +9,7 @@
 // 5. Vertices are numbered: those of the input first.
 #include "inside/planar_shape.h"
 
+#include "base/number_text.h"
 #include "base/parallel.h"
 #include "inside/mesher_process.h"
 
@@ -16,7 +17,6 @@
 #include <cmath>
 #include <map>
 #include <set>
-#include <sstream>
 
 namespace bindpose
 {
@@ -24,22 +24,6 @@ namespace bindpose
 namespace
 {
 constexpr Index none = -1;
-
-std::string short_number(double x)
-{
-  std::ostringstream text;
-  text.precision(4);
-  text << x;
-  return text.str();
-}
-
-std::string exact_number(double x)
-{
-  std::ostringstream text;
-  text.precision(17);
-  text << x;
-  return text.str();
-}
 
 Status check_segments(PlanePointsView points, SegmentsView segments, const std::string& what)
 {

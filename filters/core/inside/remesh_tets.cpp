@@ -3,6 +3,7 @@
 // measured.
 #include "inside/remesh_tets.h"
 
+#include "base/number_text.h"
 #include "inside/mesher_process.h"
 #include "inside/tet_improvement.h"
 #include "inside/tet_quality.h"
@@ -11,28 +12,12 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <sstream>
 
 namespace bindpose
 {
 
 namespace
 {
-std::string exact_number(double x)
-{
-  std::ostringstream text;
-  text.precision(17);
-  text << x;
-  return text.str();
-}
-
-std::string short_number(double x)
-{
-  std::ostringstream text;
-  text << x;
-  return text.str();
-}
-
 Status check_input(PointsView points, TrianglesView triangles, const RemeshOptions& options)
 {
   Status status = check_mesh(points, triangles);

@@ -1,7 +1,7 @@
 #include "inside/segmentation.h"
 
 #include "inside/graph_cut.h"
-#include "inside/tet_facets.h"
+#include "base/tet_facets.h"
 
 #include <algorithm>
 #include <cmath>
@@ -70,20 +70,21 @@ Status segment_tets(PointsView points, TetsView tets, const Eigen::VectorXd& win
   {
     return Status::invalid_input("cut_sigma must be positive");
   }
-  const CutEnergy energy = energy_of(points, tets, winding_numbers, options);
   std::vector<char> above(static_cast<std::size_t>(tets.rows()));
   for (Index t = 0; t < tets.rows(); ++t)
   {
     above[t] = winding_numbers[t] >= options.winding_threshold;
   }
   result.inside = above;
-  if (options.method == SegmentationMethod::graph_cut)
+  if (options.method == SegmentationMethod::threshold)
   {
-    Status status = minimize(energy, result.inside, context);
-    if (!status.ok())
-    {
-      return status;
-    }
+    return {};
+  }
+  const CutEnergy energy = energy_of(points, tets, winding_numbers, options);
+  Status status = minimize(energy, result.inside, context);
+  if (!status.ok())
+  {
+    return status;
   }
   result.threshold_energy = energy.of(above);
   result.energy = energy.of(result.inside);

@@ -32,7 +32,7 @@ struct SegmentationOptions
 struct Segmentation
 {
   std::vector<char> inside; ///< #T
-  double energy = 0.0; ///< of these labels
+  double energy = 0.0; ///< of these labels; of graph_cut only, as what follows
   double threshold_energy = 0.0; ///< of the plain threshold's, never less
   Index changed = 0; ///< tets that the threshold labels otherwise
 };

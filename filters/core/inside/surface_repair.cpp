@@ -8,6 +8,7 @@
 #include "inside/surface_repair.h"
 
 #include "inside/triangle_predicates.h"
+#include "inside/triangle_sides.h"
 #include "inside/triangle_tree.h"
 
 #include <algorithm>
@@ -112,34 +113,6 @@ bool is_flat(const Points& points, const Triangles& triangles)
   return true;
 }
 
-/// Sides of triangles, grouped by edge. Sorted by (a, b, triangle).
-struct Side
-{
-  Index a, b; ///< a < b
-  Index triangle;
-  bool forward; ///< the triangle runs a -> b
-};
-
-std::vector<Side> sides_of(const Triangles& triangles)
-{
-  std::vector<Side> sides;
-  sides.reserve(static_cast<std::size_t>(triangles.size()));
-  for (Index t = 0; t < triangles.rows(); ++t)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      const Index from = triangles(t, k);
-      const Index to = triangles(t, (k + 1) % 3);
-      sides.push_back({ std::min(from, to), std::max(from, to), t, from < to });
-    }
-  }
-  std::sort(sides.begin(), sides.end(),
-    [](const Side& x, const Side& y) {
-      return x.a != y.a ? x.a < y.a : x.b != y.b ? x.b < y.b : x.triangle < y.triangle;
-    });
-  return sides;
-}
-
 double area(const Points& points, const Triangles& triangles, Index t)
 {
   const Vec3 a = points.row(triangles(t, 0));
@@ -151,7 +124,7 @@ double area(const Points& points, const Triangles& triangles, Index t)
 /// Turns the smaller part of every patch whose triangles disagree. @return triangles turned.
 Index agree_within_patches(const Points& points, Triangles& triangles)
 {
-  const std::vector<Side> sides = sides_of(triangles);
+  const std::vector<TriangleSide> sides = sides_by_edge(triangles);
   struct Neighbour
   {
     Index triangle = -1;
@@ -162,7 +135,7 @@ Index agree_within_patches(const Points& points, Triangles& triangles)
   for (std::size_t i = 0; i < sides.size();)
   {
     std::size_t j = i + 1;
-    while (j < sides.size() && sides[j].a == sides[i].a && sides[j].b == sides[i].b)
+    while (j < sides.size() && sides[j].same_edge(sides[i]))
     {
       ++j;
     }

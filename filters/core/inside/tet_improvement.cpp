@@ -8,6 +8,7 @@
 // In the last passes held vertices of tets that are still too flat may move.
 #include "inside/tet_improvement.h"
 
+#include "base/tet_facets.h"
 #include "inside/tet_quality.h"
 
 #include <algorithm>
@@ -20,7 +21,6 @@ namespace bindpose
 namespace
 {
 using Tet = std::array<Index, 4>;
-constexpr int facets[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
 constexpr double better = 1e-3; // degrees: what counts as an improvement
 constexpr std::size_t longest_ring = 8;
 // Cosines between the normals of boundary triangles.
@@ -247,7 +247,7 @@ private:
         }
       }
     }
-    for (const auto& f : facets)
+    for (const auto& f : facet_corners)
     {
       if (this->remove_facet(t, tet[f[0]], tet[f[1]], tet[f[2]]))
       {
@@ -271,7 +271,7 @@ private:
     {
       return false;
     }
-    if (!ring.closed && !this->may_swap_boundary(a, b, ring))
+    if (!ring.closed && (this->options_.keep_boundary || !this->may_swap_boundary(a, b, ring)))
     {
       return false;
     }
@@ -425,7 +425,7 @@ private:
     for (const Index t : this->at_[v])
     {
       const Tet& tet = this->tets_[t];
-      for (const auto& f : facets)
+      for (const auto& f : facet_corners)
       {
         const std::array<Index, 3> facet{ tet[f[0]], tet[f[1]], tet[f[2]] };
         if (std::find(facet.begin(), facet.end(), v) == facet.end() || !this->boundary_[facet[0]] ||

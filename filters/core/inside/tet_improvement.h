@@ -17,6 +17,7 @@ struct ImproveOptions
   /// Held vertices of tets that stay below this may move after all, degrees.
   double least_angle = 8.5;
   Index passes = 12; ///< over the tets that are too flat, at most
+  bool keep_boundary = false; ///< not one of its triangles changes
 };
 
 /// What it did.
@@ -34,8 +35,8 @@ using OntoSurface = std::function<bool(Vec3& p, const Vec3& n, double reach)>;
 /// Makes the flattest tets of a mesh better by replacing edges and facets between tets (Freitag and
 /// Ollivier-Gooch, Tetrahedral Mesh Improvement Using Swapping and Smoothing, 1997) and by moving
 /// vertices. No step makes the worst of the tets that it touches worse. The boundary stays but for
-/// flat tets on it, edges within 15 degrees of flat, and vertices that move along `surface`;
-/// vertices at creases of more than 40 degrees and held ones do not move.
+/// flat tets on it, edges within 15 degrees of flat, and vertices that move along `surface` (none
+/// when that is empty); vertices at creases of more than 40 degrees and held ones do not move.
 /// The tets must be positive and meet in common facets. held: #V. Cost: some 20 us for each tet
 /// that is too flat and pass.
 /// @return false when cancelled; the mesh is valid all the same.

@@ -1,6 +1,6 @@
 #include "inside/tet_quality.h"
 
-#include "inside/tet_facets.h"
+#include "base/tet_facets.h"
 #include "inside/triangle_predicates.h"
 
 #include <algorithm>
@@ -46,6 +46,8 @@ TetQuality measure_tets(PointsView points, TetsView tets)
     quality.min_dihedral_angle = std::min(quality.min_dihedral_angle, angle);
     constexpr double sliver = 5.0;
     quality.below_5_degrees += angle < sliver;
+    const auto bin = static_cast<std::size_t>(angle / DihedralHistogram::bin);
+    ++quality.histogram.tets[std::min(bin, quality.histogram.tets.size() - 1)];
   }
   for (const Edge& edge : mesh_edges(boundary_triangles(tets)))
   {
@@ -54,10 +56,10 @@ TetQuality measure_tets(PointsView points, TetsView tets)
   return quality;
 }
 
-Status check_tets(PointsView points, TetsView tets)
+Status check_tets(PointsView points, TetsView tets, bool may_branch)
 {
-  std::vector<std::array<Index, 4>> keys;
-  keys.reserve(static_cast<std::size_t>(tets.rows()));
+  const auto failure = [](const std::string& what)
+  { return Status::failure(StatusCode::internal_error, what); };
   for (Index t = 0; t < tets.rows(); ++t)
   {
     const Vec3 a = points.row(tets(t, 0)), b = points.row(tets(t, 1));
@@ -65,21 +67,44 @@ Status check_tets(PointsView points, TetsView tets)
     // In truth, and in the doubles of whoever integrates over it.
     if (orientation_3d(a, b, c, d) <= 0 || !(tet_volume(a, b, c, d) > 0.0))
     {
-      return Status::failure(
-        StatusCode::internal_error, "tet " + std::to_string(t) + " has no positive volume");
+      return failure("tet " + std::to_string(t) + " has no positive volume");
     }
-    keys.push_back({ tets(t, 0), tets(t, 1), tets(t, 2), tets(t, 3) });
-    std::sort(keys.back().begin(), keys.back().end());
   }
-  std::sort(keys.begin(), keys.end());
-  if (std::adjacent_find(keys.begin(), keys.end()) != keys.end())
+  const std::vector<TetFacet> facets = tet_facets(tets);
+  // The facet runs the way of its sorted vertices, as seen from outside of its tet.
+  const auto forward = [&](const TetFacet& facet)
   {
-    return Status::failure(StatusCode::internal_error, "a tet is there twice");
+    const auto& corners = facet_corners[facet.side];
+    const Index a = tets(facet.tet, corners[0]), b = tets(facet.tet, corners[1]);
+    const Index c = tets(facet.tet, corners[2]);
+    return (a < b) + (b < c) + (c < a) == 2;
+  };
+  for (std::size_t i = 0, j = 0; i < facets.size(); i = j)
+  {
+    while (j < facets.size() && facets[j].vertices == facets[i].vertices)
+    {
+      ++j;
+    }
+    for (std::size_t k = i + 1; k < j; ++k)
+    {
+      for (std::size_t l = i; l < k; ++l)
+      {
+        if (tets(facets[k].tet, facets[k].side) == tets(facets[l].tet, facets[l].side))
+        {
+          return failure("tet " + std::to_string(facets[k].tet) + " is there twice");
+        }
+      }
+    }
+    if (!may_branch && (j - i > 2 || (j - i == 2 && forward(facets[i]) == forward(facets[i + 1]))))
+    {
+      return failure(
+        "tets overlap at a facet of tet " + std::to_string(facets[i].tet) + ": no closed boundary");
+    }
   }
   return {};
 }
 
-Index drop_crumbs(const Points& points, Tets& tets)
+Index drop_crumbs(const Points& points, Tets& tets, double lone)
 {
   const std::vector<TetFacet> facets = tet_facets(tets);
   std::vector<Index> group(static_cast<std::size_t>(tets.rows()));
@@ -104,16 +129,18 @@ Index drop_crumbs(const Points& points, Tets& tets)
   }
   const Eigen::VectorXd volumes = tet_volumes(points, tets);
   Eigen::VectorXd of_group = Eigen::VectorXd::Zero(tets.rows());
+  std::vector<Index> size(group.size(), 0);
   for (Index t = 0; t < tets.rows(); ++t)
   {
     of_group[find(t)] += volumes[t];
+    ++size[find(t)];
   }
   constexpr double crumb = 1e-8;
-  const double least = crumb * volumes.sum();
+  const double all = volumes.sum();
   Index kept = 0;
   for (Index t = 0; t < tets.rows(); ++t)
   {
-    if (of_group[find(t)] >= least)
+    if (of_group[find(t)] >= (size[find(t)] > 1 ? crumb : lone) * all)
     {
       tets.row(kept++) = tets.row(t).eval();
     }

@@ -3,11 +3,21 @@
 
 #include "base/mesh.h"
 
+#include <array>
+
 namespace bindpose
 {
 
 /// Smallest of a tet's six dihedral angles, degrees; 0 for a tet without volume.
 double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+/// How many tets have their smallest dihedral angle in [5 k, 5 (k + 1)) degrees. No tet's is above
+/// a regular one's 70.53.
+struct DihedralHistogram
+{
+  static constexpr double bin = 5.0;
+  std::array<Index, 15> tets{};
+};
 
 struct TetQuality
 {
@@ -15,17 +25,21 @@ struct TetQuality
   double min_volume = 0.0;
   double min_dihedral_angle = 0.0; ///< degrees, of the worst tet
   Index below_5_degrees = 0; ///< tets whose smallest dihedral angle is below 5 degrees
+  DihedralHistogram histogram;
   Index boundary_edges_open = 0; ///< edges at which the boundary is not closed
 };
 
 TetQuality measure_tets(PointsView points, TetsView tets);
 
-/// internal_error naming the first tet that is flat, turned over or there twice; ids are in range.
-Status check_tets(PointsView points, TetsView tets);
+/// internal_error naming the first tet that is flat, turned over, there twice, or that shares a
+/// facet with two others or with one on the same side (else the boundary is closed); with
+/// may_branch a facet may have any number of tets. Ids must be in range.
+Status check_tets(PointsView points, TetsView tets, bool may_branch = false);
 
 /// Removes groups of tets, joined by facets, that hold less than 1e-8 of the volume: crumbs of
-/// rounding. @return how many tets went.
-Index drop_crumbs(const Points& points, Tets& tets);
+/// rounding; and tets that no facet joins to another with less than `lone` of it.
+/// @return how many tets went.
+Index drop_crumbs(const Points& points, Tets& tets, double lone = 1e-8);
 
 /// Removes tets at the boundary that are flatter than `height` (smallest height of a tet), again
 /// and again until none is left there. The boundary moves by less than that. @return how many went.

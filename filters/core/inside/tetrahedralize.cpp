@@ -4,6 +4,7 @@
 // with a warning. embed (embedding_tets.h) stands beside the ladder.
 #include "inside/tetrahedralize.h"
 
+#include "base/number_text.h"
 #include "inside/cdt_tets.h"
 #include "inside/embedding_tets.h"
 #include "inside/enclosed_region.h"
@@ -13,27 +14,32 @@
 #include "inside/tet_quality.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <sstream>
+#include <map>
 
 namespace bindpose
 {
 
 namespace
 {
-std::string short_number(double x)
-{
-  std::ostringstream text;
-  text.precision(4);
-  text << x;
-  return text.str();
-}
-
 /// "1 triangle was", "2 triangles were"
 std::string counted(Index count, const char* one, const char* many)
 {
   return std::to_string(count) + " " + (count == 1 ? one : many) + (count == 1 ? " was" : " were");
+}
+
+/// Neither cdt nor remesh: what is left to do is said, whatever the reason.
+Status no_method_fits(Status status)
+{
+  if (status.code == StatusCode::cancelled)
+  {
+    return status;
+  }
+  status.code = StatusCode::invalid_input;
+  status.message += "; method embed (--method embed) holds any surface in a lattice of tets";
+  return status;
 }
 
 class Ladder
@@ -146,6 +152,7 @@ private:
     options.memory_limit = this->options_.memory_limit;
     options.quality = this->options_.quality;
     options.interior_edge = this->options_.interior_edge;
+    options.handles = this->options_.handles;
     CdtTets cdt(this->surface_, this->inside_, options, this->log_, this->context_);
     Status status;
     {
@@ -178,7 +185,8 @@ private:
       this->warn(wrong_volume(tet_volumes(mesh.points, mesh.tets).sum(), this->inside_).message);
       return this->take_cdt(cdt);
     }
-    return this->take_lattice(status);
+    status = this->take_lattice(status);
+    return automatic && !status.ok() ? no_method_fits(status) : status;
   }
 
   Status take_cdt(CdtTets& cdt)
@@ -190,7 +198,33 @@ private:
     this->result_.mesh = std::move(cdt.mesh());
     this->result_.original_vertices = std::move(cdt.original_vertices());
     this->warnings_.insert(this->warnings_.end(), cdt.warnings().begin(), cdt.warnings().end());
+    this->find_handles();
     return status;
+  }
+
+  /// The vertices at the handles' points.
+  void find_handles()
+  {
+    const Points& handles = this->options_.handles.points;
+    if (handles.rows() == 0)
+    {
+      return;
+    }
+    std::map<std::array<double, 3>, Index> vertices;
+    const Points& points = this->result_.mesh.points;
+    for (Index v = points.rows() - 1; v >= 0; --v)
+    {
+      vertices[{ points(v, 0), points(v, 1), points(v, 2) }] = v;
+    }
+    Index found = 0;
+    for (Index h = 0; h < handles.rows(); ++h)
+    {
+      const auto entry = vertices.find({ handles(h, 0), handles(h, 1), handles(h, 2) });
+      this->result_.handle_vertices.push_back(entry == vertices.end() ? -1 : entry->second);
+      found += entry != vertices.end();
+    }
+    this->report_.set("counts.handle_points", Report::Value(handles.rows()));
+    this->report_.set("counts.handle_vertices", Report::Value(found));
   }
 
   /// The lattice tets that came nearest, with a warning; `status` when there are none.
@@ -217,7 +251,7 @@ private:
     }
     const ProgressRange range(this->context_, 0.7, 1.0);
     constexpr double most_cubes = 4e6;
-    for (Index resolution = this->options_.resolution;; resolution *= 2)
+    for (Index resolution = this->remesh_resolution();; resolution *= 2)
     {
       const double start = this->context_.elapsed_seconds();
       const Phase phase(this->context_, "lattice", 0.0, 1.0);
@@ -253,11 +287,17 @@ private:
         static_cast<double>(lattice.cubes[1]) * static_cast<double>(lattice.cubes[2]);
       constexpr Index finest = 4; // times the first resolution
       if (!finer_when_needed || this->inside_.volume() <= 0.0 || finer_cubes > most_cubes ||
-        resolution >= finest * this->options_.resolution)
+        resolution >= finest * this->remesh_resolution())
       {
         return status;
       }
     }
+  }
+
+  Index remesh_resolution() const
+  {
+    constexpr Index automatic = 40;
+    return this->options_.resolution == 0 ? automatic : this->options_.resolution;
   }
 
   /// Delaunay refinement by the helper. Its edges are as long as the surface's own within bounds
@@ -266,7 +306,7 @@ private:
   {
     const double start = this->context_.elapsed_seconds();
     const double cube = this->box_.size().maxCoeff() /
-      (this->box_.diagonal() * static_cast<double>(this->options_.resolution));
+      (this->box_.diagonal() * static_cast<double>(this->remesh_resolution()));
     constexpr double shortest = 0.2;
     constexpr double longest = 1.4;
     RemeshOptions options;
@@ -344,7 +384,7 @@ private:
   Status check()
   {
     const TetMesh& mesh = this->result_.mesh;
-    Status status = check_tets(mesh.points, mesh.tets);
+    Status status = check_tets(mesh.points, mesh.tets, this->options_.method == TetMethod::embed);
     if (!status.ok())
     {
       return status;
@@ -366,7 +406,16 @@ private:
     this->report_.set("counts.tets_below_5_degrees", Report::Value(quality.below_5_degrees));
     this->report_.set("volume", Report::Value(quality.volume));
     this->report_.set("winding_volume", Report::Value(this->inside_.volume()));
+    this->report_.set("winding_volume_error", Report::Value(this->inside_.volume_error()));
     this->report_.set("min_dihedral_angle", Report::Value(quality.min_dihedral_angle));
+    std::vector<double> from;
+    for (std::size_t bin = 0; bin < quality.histogram.tets.size(); ++bin)
+    {
+      from.push_back(DihedralHistogram::bin * static_cast<double>(bin));
+    }
+    this->report_.set("quality[].dihedral_angle", from);
+    this->report_.set("quality[].tets",
+      std::vector<std::int64_t>(quality.histogram.tets.begin(), quality.histogram.tets.end()));
     return {};
   }
 
@@ -438,7 +487,7 @@ Status check_options(const TetrahedralizeOptions& options)
     return Status::invalid_input(
       "interior_edge must not be negative, but is " + short_number(options.interior_edge));
   }
-  return {};
+  return check_places(options.handles);
 }
 } // namespace
 
@@ -467,12 +516,7 @@ Status tetrahedralize(PointsView points, TrianglesView triangles,
   {
     return status;
   }
-  TetrahedralizeOptions used = options;
-  if (used.resolution == 0 && used.method != TetMethod::embed)
-  {
-    used.resolution = 40;
-  }
-  return Ladder(points, triangles, used, result, context).run();
+  return Ladder(points, triangles, options, result, context).run();
 }
 
 } // namespace bindpose

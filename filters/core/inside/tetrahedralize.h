@@ -4,6 +4,7 @@
 #include "base/execution.h"
 #include "base/mesh.h"
 #include "inside/embedding_tets.h"
+#include "inside/handle_places.h"
 #include "inside/segmentation.h"
 #include "inside/surface_defects.h"
 
@@ -47,6 +48,9 @@ struct TetrahedralizeOptions
   /// cdt only: longest edges inside, as a fraction of the surface's diagonal; 0: no bound. Smooth
   /// weights need vertices inside, not only on the surface.
   double interior_edge = 0.04;
+  /// cdt only: points that become vertices where they are inside, segments and triangles on which
+  /// vertices are put at the local edge length. (insert_handles splits other methods' tets.)
+  HandlePlaces handles;
 };
 
 struct TetrahedralizeResult
@@ -55,6 +59,7 @@ struct TetrahedralizeResult
   std::vector<Index> original_vertices; ///< #V: id of the input vertex, ascending, then -1 for new
   Eigen::VectorXd winding_numbers; ///< #T: at the tets' centres
   std::vector<DefectPlace> defects; ///< where the surface is unclean
+  std::vector<Index> handle_vertices; ///< of cdt, #H: vertex at the handles' point, -1 for none
   /// Of embed only, else empty: #T share of the tet that is inside, and where the input's points
   /// lie.
   Eigen::VectorXd inside_fractions;
@@ -80,15 +85,20 @@ struct TetrahedralizeResult
 /// Report: method; rungs[].name, rungs[].seconds, rungs[].outcome (each thing tried, and why it was
 /// left); counts.* of the diagnosis; counts.tets, counts.tet_vertices, counts.kept_vertices;
 /// volume (of the tets), winding_volume (of {w >= threshold}: exact for clean surfaces, sampled
-/// otherwise), min_dihedral_angle (degrees), counts.tets_below_5_degrees;
+/// otherwise), winding_volume_error (its standard error, relative), min_dihedral_angle (degrees),
+/// counts.tets_below_5_degrees, quality[].dihedral_angle, quality[].tets (how many tets have their
+/// smallest dihedral angle from this many degrees to the next);
+/// counts.handle_points, counts.handle_vertices (of cdt with handles: how many of their points are
+/// vertices);
 /// segmentation (of cdt; a graph cut whose volume does not fit is left for the threshold), energy,
 /// threshold_energy, counts.changed_by_cut (see Segmentation); for remesh and embed resolution, for
 /// embed what embed_surface reports.
 /// For remesh by refinement distance_max and distance_mean (of the tets' boundary and the surface,
 /// percent of its diagonal).
 ///
-/// invalid_input: not finite, flat, or encloses nothing. unavailable: method cdt without helper.
-/// internal_error: no method gave a valid mesh; the message tells the last reason.
+/// invalid_input: not finite, flat, or encloses nothing; or, of method automatic, neither cdt nor
+/// remesh gives a valid mesh: the message tells the last reason and names method embed.
+/// unavailable: method cdt without helper. internal_error: the method asked for gave no valid mesh.
 /// Cost: about 10 us a triangle and 5 us a tet for clean surfaces, 50 us a triangle for others.
 Status tetrahedralize(PointsView points, TrianglesView triangles,
   const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context);

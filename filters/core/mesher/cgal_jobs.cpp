@@ -11,6 +11,7 @@
 //    and duplicates are dropped.
 // Rounding moves vertices by an ulp and may let triangles cross anew: rounds repeat until none do.
 #include "mesher/jobs.h"
+#include "mesher/stopwatch.h"
 
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -23,7 +24,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <map>
 #include <set>
 
@@ -291,18 +291,6 @@ void cut(Soup& soup, const Face& face, const Cuts& cuts, std::vector<Face>& piec
   }
 }
 
-class Clock
-{
-public:
-  double seconds() const
-  {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->start_).count();
-  }
-
-private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 std::string too_long(double limit)
 {
   return "still splitting crossing triangles after " + std::to_string(static_cast<int>(limit)) +
@@ -310,7 +298,7 @@ std::string too_long(double limit)
 }
 
 /// One round on pairs that cross. @return empty, or why it gave up.
-std::string split(Soup& soup, const std::vector<Pair>& pairs, const Clock& clock,
+std::string split(Soup& soup, const std::vector<Pair>& pairs, const Stopwatch& clock,
   const RefineOptions& options, std::size_t face_limit)
 {
   std::map<Index, Cuts> cuts;
@@ -357,7 +345,7 @@ std::string split(Soup& soup, const std::vector<Pair>& pairs, const Clock& clock
 
 std::string refine(MesherData& data, const RefineOptions& options)
 {
-  const Clock clock;
+  const Stopwatch clock;
   Soup soup;
   soup.points.resize(static_cast<std::size_t>(data.points.rows()));
   for (Index v = 0; v < data.points.rows(); ++v)

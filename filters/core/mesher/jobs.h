@@ -62,8 +62,8 @@ struct TetgenOptions
 };
 
 /// Tets by TetGen: of the points and triangles (switch p), or of given tets (switch r) with
-/// largest_volumes. The first points of the result are the input's, with their ids; tets are
-/// positive.
+/// largest_volumes; points behind the last that such a tet uses are inserted where they are inside.
+/// The first points of the result are the input's, with their ids; tets are positive.
 std::string tetgen(MesherData& data, const TetgenOptions& options);
 
 struct RemeshJobOptions

@@ -11,6 +11,7 @@
 // limit of points. Angles up to 20.6 degrees can always be had, but for those that the outline has
 // itself; 30 degrees mostly can.
 #include "mesher/jobs.h"
+#include "mesher/stopwatch.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
 #include <CGAL/Delaunay_mesh_face_base_2.h>
@@ -23,7 +24,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <set>
@@ -299,18 +299,6 @@ std::string build(const MesherData& data, Filling& filling)
   return {};
 }
 
-class Clock
-{
-public:
-  double seconds() const
-  {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->start_).count();
-  }
-
-private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 double area_of(const MesherData& data)
 {
   double twice = 0.0;
@@ -324,7 +312,7 @@ double area_of(const MesherData& data)
 
 /// @return whether the bounds hold everywhere, with no more vertices than the limit.
 bool refine(Filling& filling, double min_angle, const FillOptions& options, std::size_t limit,
-  const Clock& clock)
+  const Stopwatch& clock)
 {
   const double sine = std::sin(min_angle * M_PI / 180.0);
   const Criteria criteria(sine * sine, options.longest_edge, options.floor);
@@ -477,7 +465,7 @@ std::string arrange(MesherData& data, double grid)
 
 std::string fill_plane(MesherData& data, const FillOptions& options)
 {
-  const Clock clock;
+  const Stopwatch clock;
   // An equilateral triangle with half the longest edge is smaller than what refinement leaves.
   const double triangles = options.longest_edge > 0.0
     ? area_of(data) / (0.4 * 0.25 * options.longest_edge * options.longest_edge)

@@ -12,6 +12,7 @@
 // Slivers stay: tet_improvement.h is better at them than exudation and perturbation are (measured:
 // 2 and 7 degrees after exudation, 12 after improvement), and always ends.
 #include "mesher/jobs.h"
+#include "mesher/stopwatch.h"
 
 #include "inside/crease_points.h"
 #include "inside/region_boundary.h"
@@ -25,7 +26,6 @@
 #include <CGAL/refine_mesh_3.h>
 
 #include <algorithm>
-#include <chrono>
 #include <map>
 
 namespace bindpose
@@ -243,9 +243,7 @@ void take_result(const Complex& complex, MesherData& data)
 
 std::string remesh(MesherData& data, RemeshJobOptions options)
 {
-  const auto clock = std::chrono::steady_clock::now();
-  const auto seconds = [&]
-  { return std::chrono::duration<double>(std::chrono::steady_clock::now() - clock).count(); };
+  const Stopwatch clock;
   ExecutionContext context;
   WindingNumber winding;
   const Status status = winding.build(data.points, data.triangles, context);
@@ -267,7 +265,7 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   }
   const SizingField field = make_field(sites, options);
   const CreasePoints creases = find_creases(region, field);
-  tell_report("seconds.sample", seconds());
+  tell_report("seconds.sample", clock.seconds());
 
   const Box box = region.box();
   const double radius = 0.5 * box.diagonal();
@@ -317,7 +315,7 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   {
     return "the boundary of the inside is flat";
   }
-  tell_report("seconds.start", seconds());
+  tell_report("seconds.start", clock.seconds());
 
   // About five tets a vertex: far more vertices than expected are a refinement that does not end.
   const auto most_vertices =
@@ -331,7 +329,7 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   {
     return "refinement does not end: " + std::to_string(most_vertices) + " vertices";
   }
-  tell_report("seconds.refine", seconds());
+  tell_report("seconds.refine", clock.seconds());
   if (complex.number_of_cells_in_complex() == 0)
   {
     return "refinement found no cell inside";

@@ -52,13 +52,17 @@ void set_facet(tetgenio::facet& facet, const Index* ids)
   }
 }
 
+void set_points(const double* coordinates, Index count, tetgenio& in)
+{
+  in.firstnumber = 0;
+  in.numberofpoints = static_cast<int>(count);
+  in.pointlist = new REAL[static_cast<std::size_t>(3 * count)];
+  std::copy(coordinates, coordinates + 3 * count, in.pointlist);
+}
+
 void fill_input(
   const MesherData& data, const Points& points, const Triangles& triangles, bool tets, tetgenio& in)
 {
-  in.firstnumber = 0;
-  in.numberofpoints = static_cast<int>(points.rows());
-  in.pointlist = new REAL[static_cast<std::size_t>(points.size())];
-  std::copy(points.data(), points.data() + points.size(), in.pointlist);
   if (tets)
   {
     in.numberofcorners = 4;
@@ -121,14 +125,22 @@ std::string tetgen(MesherData& data, const TetgenOptions& options)
   {
     add_box(points, triangles);
   }
-  tetgenio in, out;
+  tetgenio in, added, out;
   fill_input(data, points, triangles, from_tets, in);
   std::string switches = options.switches + "Q";
+  // Behind the tets' vertices: points to insert.
+  const Index used = from_tets ? data.tets.maxCoeff() + 1 : points.rows();
+  set_points(points.data(), used, in);
+  if (used < points.rows())
+  {
+    switches += "i";
+    set_points(points.row(used).data(), points.rows() - used, added);
+  }
   tetgenbehavior behavior;
   behavior.parse_commandline(switches.data());
   // Only exactly coplanar triangles are one facet; within other facets edges could be flipped.
   behavior.facet_ang_tol = 180.0;
-  ::tetrahedralize(&behavior, &in, &out);
+  ::tetrahedralize(&behavior, &in, &out, &added);
 
   // New numbers: input vertices keep theirs, the others follow in TetGen's order.
   std::unordered_map<Key, Index, KeyHash> ids;

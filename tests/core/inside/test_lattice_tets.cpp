@@ -24,26 +24,6 @@ TetMesh stuffed(const TriangleMesh& mesh, Index resolution, int threads = 0)
   EXPECT_TRUE(status.ok()) << status.message;
   return tets;
 }
-
-/// Vertices - edges + facets - tets.
-Index euler_characteristic(const TetMesh& mesh)
-{
-  constexpr int facet[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
-  Triangles facets(4 * mesh.tets.rows(), 3);
-  for (Index t = 0; t < mesh.tets.rows(); ++t)
-  {
-    for (int f = 0; f < 4; ++f)
-    {
-      for (int k = 0; k < 3; ++k)
-      {
-        facets(4 * t + f, k) = mesh.tets(t, facet[f][k]);
-      }
-    }
-  }
-  const auto edges = static_cast<Index>(mesh_edges(facets).size());
-  const Index boundary = boundary_triangles(mesh.tets).rows();
-  return mesh.points.rows() - edges + (4 * mesh.tets.rows() + boundary) / 2 - mesh.tets.rows();
-}
 } // namespace
 
 TEST(LatticeTets, StuffingHasGoodAnglesAndTheRightVolume)
@@ -62,7 +42,7 @@ TEST(LatticeTets, StuffingHasGoodAnglesAndTheRightVolume)
     const double error = std::abs(quality.volume - volume) / volume;
     EXPECT_LT(error, 0.6 * last_error) << resolution;
     last_error = error;
-    EXPECT_EQ(euler_characteristic(mesh), 1) << "a ball";
+    EXPECT_EQ(test::euler_characteristic(mesh), 1) << "a ball";
   }
   EXPECT_LT(last_error, 0.01);
 }
@@ -70,10 +50,10 @@ TEST(LatticeTets, StuffingHasGoodAnglesAndTheRightVolume)
 TEST(LatticeTets, StuffingKeepsTheTopology)
 {
   const TetMesh torus = stuffed(test::torus(48, 24, 1.0, 0.4), 24);
-  EXPECT_EQ(euler_characteristic(torus), 0);
+  EXPECT_EQ(test::euler_characteristic(torus), 0);
   const TetMesh shell =
     stuffed(test::join(test::sphere(3), test::flipped(test::sphere(3, 0.5))), 24);
-  EXPECT_EQ(euler_characteristic(shell), 2) << "a ball with a cavity";
+  EXPECT_EQ(test::euler_characteristic(shell), 2) << "a ball with a cavity";
   EXPECT_GE(measure_tets(shell.points, shell.tets).min_dihedral_angle, 10.7);
 }
 

@@ -6,6 +6,7 @@
 
 #include "support/files.h"
 #include "support/meshes.h"
+#include "support/needs_mesher.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -271,16 +272,8 @@ TEST(MesherProcess, ADetachedGrandchildDoesNotHang)
 // ---- The real helper
 // -----------------------------------------------------------------------------
 
-class RealHelper : public testing::Test
+class RealHelper : public test::NeedsMesher
 {
-protected:
-  void SetUp() override
-  {
-    if (find_mesher().empty())
-    {
-      GTEST_SKIP() << "bindpose-mesher is not built: libcgal-dev, libtet1.5-dev";
-    }
-  }
 };
 
 TEST_F(RealHelper, RefinesUntilNothingCrosses)

@@ -1,7 +1,7 @@
 // Triangles of what curves enclose: areas known exactly, angles, edges, handles, bad input.
 #include "inside/planar_shape.h"
 
-#include "inside/mesher_process.h"
+#include "support/needs_mesher.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -152,17 +152,9 @@ void expect_mesh(const PlanarShape& shape)
   }
 }
 
-class PlanarShapeTest : public testing::Test
+class PlanarShapeTest : public test::NeedsMesher
 {
 protected:
-  void SetUp() override
-  {
-    if (find_mesher().empty())
-    {
-      GTEST_SKIP() << "bindpose-mesher is not built: libcgal-dev, libtet1.5-dev";
-    }
-  }
-
   Status run(const Curves& curves)
   {
     ExecutionContext context;

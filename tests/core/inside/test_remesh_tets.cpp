@@ -7,6 +7,7 @@
 
 #include "support/files.h"
 #include "support/meshes.h"
+#include "support/needs_mesher.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -178,16 +179,8 @@ std::string sleeping_helper(const test::Folder& folder)
   return path;
 }
 
-class Remesh : public testing::Test
+class Remesh : public test::NeedsMesher
 {
-protected:
-  void SetUp() override
-  {
-    if (find_mesher().empty())
-    {
-      GTEST_SKIP() << "bindpose-mesher is not built: libcgal-dev, libtet1.5-dev";
-    }
-  }
 };
 } // namespace
 

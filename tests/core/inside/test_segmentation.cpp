@@ -1,7 +1,7 @@
 #include "inside/segmentation.h"
 
+#include "base/tet_facets.h"
 #include "inside/graph_cut.h"
-#include "inside/tet_facets.h"
 
 #include "support/meshes.h"
 

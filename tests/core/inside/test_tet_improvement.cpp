@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <vector>
 
 using namespace bindpose;
 
@@ -107,4 +110,52 @@ TEST(TetImprovement, CancelledAtOnceIsStillAMesh)
   EXPECT_FALSE(improve_tets(mesh, std::vector<char>(mesh.points.rows(), 0), {}, {}, done, context));
   EXPECT_TRUE(check_tets(mesh.points, mesh.tets).ok());
   EXPECT_NEAR(tet_volumes(mesh.points, mesh.tets).sum(), 1.0, 1e-12);
+}
+
+TEST(TetImprovement, KeepsTheBoundaryWhenAsked)
+{
+  // Beside inner vertices, those of the sides move within their planes: there are flat tets there.
+  TetMesh mesh = shaken_box(0.05);
+  test::Random random(5);
+  for (Index v = 0; v < mesh.points.rows(); ++v)
+  {
+    const Vec3 p = mesh.points.row(v);
+    if (p.z() > 1.0 - 1e-9 && p.head<2>().minCoeff() > 1e-9 && p.head<2>().maxCoeff() < 1.0 - 1e-9)
+    {
+      mesh.points(v, 0) += random.uniform(-0.05, 0.05);
+    }
+  }
+  ASSERT_TRUE(check_tets(mesh.points, mesh.tets).ok());
+  const auto sorted = [](const Triangles& triangles)
+  {
+    std::vector<std::array<Index, 3>> list;
+    for (Index t = 0; t < triangles.rows(); ++t)
+    {
+      list.push_back({ triangles(t, 0), triangles(t, 1), triangles(t, 2) });
+      std::rotate(list.back().begin(), std::min_element(list.back().begin(), list.back().end()),
+        list.back().end());
+    }
+    std::sort(list.begin(), list.end());
+    return list;
+  };
+  const auto before = sorted(boundary_triangles(mesh.tets));
+  const Points points = mesh.points;
+  const double angle_before = angle(mesh);
+  ImproveOptions options;
+  options.keep_boundary = true;
+  options.angle = 20.0;
+  ExecutionContext context;
+  Improvement done;
+  ASSERT_TRUE(
+    improve_tets(mesh, std::vector<char>(mesh.points.rows(), 0), {}, options, done, context));
+  EXPECT_GT(angle(mesh), angle_before);
+  EXPECT_EQ(sorted(boundary_triangles(mesh.tets)), before);
+  for (const auto& triangle : before)
+  {
+    for (const Index v : triangle)
+    {
+      ASSERT_EQ(mesh.points.row(v), points.row(v));
+    }
+  }
+  EXPECT_EQ(done.removed_tets, 0);
 }

@@ -8,6 +8,7 @@
 #include "support/demo_meshes.h"
 #include "support/files.h"
 #include "support/meshes.h"
+#include "support/needs_mesher.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <numeric>
 #include <thread>
 
 #include <sys/stat.h>
@@ -61,9 +63,10 @@ void expect_valid(const Outcome& outcome, const TriangleMesh& surface)
   const TetMesh& mesh = outcome.result.mesh;
   ASSERT_GT(mesh.tets.rows(), 0);
   ASSERT_TRUE(check_mesh(mesh.points, mesh.tets).ok());
-  EXPECT_TRUE(check_tets(mesh.points, mesh.tets).ok());
+  const bool branches = outcome.number("counts.branching_facets") > 0.0;
+  EXPECT_TRUE(check_tets(mesh.points, mesh.tets, branches).ok());
   EXPECT_GT(tet_volumes(mesh.points, mesh.tets).minCoeff(), 0.0);
-  if (!(outcome.number("counts.branching_facets") > 0.0))
+  if (!branches)
   {
     EXPECT_TRUE(count_edges(boundary_triangles(mesh.tets)).closed);
   }
@@ -85,26 +88,11 @@ void expect_valid(const Outcome& outcome, const TriangleMesh& surface)
   EXPECT_EQ(outcome.number("counts.tets"), mesh.tets.rows());
   EXPECT_DOUBLE_EQ(outcome.number("volume"), outcome.volume());
   EXPECT_GT(outcome.number("min_dihedral_angle"), 0.0);
-}
-
-/// Vertices - edges + facets - tets.
-Index euler_characteristic(const TetMesh& mesh)
-{
-  constexpr int facet[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
-  Triangles facets(4 * mesh.tets.rows(), 3);
-  for (Index t = 0; t < mesh.tets.rows(); ++t)
-  {
-    for (int f = 0; f < 4; ++f)
-    {
-      for (int k = 0; k < 3; ++k)
-      {
-        facets(4 * t + f, k) = mesh.tets(t, facet[f][k]);
-      }
-    }
-  }
-  const auto edges = static_cast<Index>(mesh_edges(facets).size());
-  const Index boundary = boundary_triangles(mesh.tets).rows();
-  return mesh.points.rows() - edges + (4 * mesh.tets.rows() + boundary) / 2 - mesh.tets.rows();
+  const auto column = [&](const char* key) { return outcome.status.report.find(key); };
+  ASSERT_NE(column("quality[].tets"), nullptr);
+  const auto& histogram = std::get<std::vector<std::int64_t>>(*column("quality[].tets"));
+  EXPECT_EQ(std::accumulate(histogram.begin(), histogram.end(), std::int64_t(0)), mesh.tets.rows());
+  EXPECT_EQ(histogram[0], outcome.number("counts.tets_below_5_degrees"));
 }
 
 /// Vertices - edges + triangles; half of it is the characteristic of what a closed surface bounds.
@@ -179,16 +167,8 @@ private:
 };
 
 /// Tests of method cdt, which needs the helper.
-class Cdt : public testing::Test
+class Cdt : public test::NeedsMesher
 {
-protected:
-  void SetUp() override
-  {
-    if (find_mesher().empty())
-    {
-      GTEST_SKIP() << "bindpose-mesher is not built: libcgal-dev, libtet1.5-dev";
-    }
-  }
 };
 } // namespace
 
@@ -220,7 +200,7 @@ TEST_F(Cdt, ClosedSurfacesAreFilledExactly)
     EXPECT_EQ(outcome.method(), "cdt");
     EXPECT_NEAR(outcome.volume(), volume, 1e-10 * volume);
     EXPECT_NEAR(outcome.number("winding_volume"), volume, 0.1 * volume);
-    EXPECT_EQ(euler_characteristic(outcome.result.mesh), c.euler);
+    EXPECT_EQ(test::euler_characteristic(outcome.result.mesh), c.euler);
     EXPECT_EQ(outcome.number("counts.kept_vertices"), c.mesh.points.rows()) << "all vertices stay";
     EXPECT_NEAR(outcome.result.winding_numbers.minCoeff(), 1.0, 1e-9);
     EXPECT_NEAR(outcome.result.winding_numbers.maxCoeff(), 1.0, 1e-9);
@@ -329,7 +309,7 @@ TEST_F(Cdt, CrossingSurfacesKeepTheirVerticesAndTriangles)
   const double balls = 8.0 / 3.0 * pi - pi * (4.0 + d) * (2.0 - d) * (2.0 - d) / 12.0;
   const double shrink = signed_volume(spheres.points, spheres.triangles) / (8.0 / 3.0 * pi);
   EXPECT_NEAR(outcome.volume(), balls * shrink, 0.003 * balls);
-  EXPECT_EQ(euler_characteristic(outcome.result.mesh), 1);
+  EXPECT_EQ(test::euler_characteristic(outcome.result.mesh), 1);
   // Inside twice: w = 2 there, and with a threshold of 1.5 only the lens is kept.
   EXPECT_NEAR(outcome.result.winding_numbers.maxCoeff(), 2.0, 1e-9);
   TetrahedralizeOptions lens;
@@ -752,4 +732,170 @@ TEST_F(Cdt, RandomSoupsGiveTetsOrASentence)
       EXPECT_FALSE(outcome.status.message.empty());
     }
   }
+}
+
+// ---- Handles
+// -------------------------------------------------------------------------------------
+
+namespace
+{
+HandlePlaces places_of(const std::vector<Vec3>& points)
+{
+  HandlePlaces places;
+  places.points.resize(static_cast<Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    places.points.row(static_cast<Index>(i)) = points[i];
+  }
+  return places;
+}
+
+/// Vertices on the segment between two points, ordered along it, as fractions.
+std::vector<double> vertices_on(const Points& points, const Vec3& a, const Vec3& b)
+{
+  std::vector<double> at;
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    const Vec3 d = points.row(v).transpose() - a;
+    const double t = d.dot(b - a) / (b - a).squaredNorm();
+    if (t > -1e-9 && t < 1.0 + 1e-9 && (d - t * (b - a)).norm() < 1e-9)
+    {
+      at.push_back(t);
+    }
+  }
+  std::sort(at.begin(), at.end());
+  return at;
+}
+} // namespace
+
+TEST_F(Cdt, PointsOfHandlesBecomeVertices)
+{
+  const TriangleMesh ball = test::sphere(3);
+  TetrahedralizeOptions options;
+  options.method = TetMethod::cdt;
+  // Inside, at a vertex of the surface, outside, and on the middle of a triangle.
+  const Vec3 vertex = ball.points.row(7);
+  const Vec3 middle =
+    (ball.points.row(ball.triangles(5, 0)) + ball.points.row(ball.triangles(5, 1)) +
+      ball.points.row(ball.triangles(5, 2)))
+      .transpose() /
+    3.0;
+  options.handles = places_of({ Vec3(0.1, 0.2, 0.3), vertex, Vec3(2, 0, 0), middle });
+  const Outcome outcome = run(ball, options);
+  expect_valid(outcome, ball);
+  const auto& found = outcome.result.handle_vertices;
+  ASSERT_EQ(found.size(), 4u);
+  ASSERT_GE(found[0], 0);
+  EXPECT_EQ(Vec3(outcome.result.mesh.points.row(found[0])), Vec3(0.1, 0.2, 0.3));
+  ASSERT_GE(found[1], 0);
+  EXPECT_EQ(outcome.result.original_vertices[found[1]], 7);
+  EXPECT_EQ(found[2], -1);
+  EXPECT_EQ(found[3], -1) << "the surface's triangles stay as they are";
+  EXPECT_EQ(outcome.number("counts.handle_points"), 4);
+  EXPECT_EQ(outcome.number("counts.handle_vertices"), 2);
+  EXPECT_NEAR(outcome.volume(), signed_volume(ball.points, ball.triangles), 1e-12);
+  EXPECT_EQ(boundary_triangles(outcome.result.mesh.tets).rows(), ball.triangles.rows());
+}
+
+TEST_F(Cdt, BonesAndCagesGetVerticesAtTheLocalEdgeLength)
+{
+  const TriangleMesh ball = test::sphere(4);
+  const Vec3 head(-0.6, 0.05, 0.02), tail(0.6, -0.03, 0.01);
+  const Vec3 a(-0.3, 0.3, 0.2), b(0.4, 0.35, 0.25), c(0.1, -0.1, 0.5);
+  TetrahedralizeOptions options;
+  options.method = TetMethod::cdt;
+  options.handles = places_of({ head, tail, a, b, c });
+  options.handles.segments.resize(1, 2);
+  options.handles.segments << 0, 1;
+  options.handles.triangles.resize(1, 3);
+  options.handles.triangles << 2, 3, 4;
+  const Outcome outcome = run(ball, options);
+  expect_valid(outcome, ball);
+  const TetMesh& mesh = outcome.result.mesh;
+  const std::vector<double> on = vertices_on(mesh.points, head, tail);
+  ASSERT_GE(on.size(), 8u);
+  EXPECT_NEAR(on.front(), 0.0, 1e-12);
+  EXPECT_NEAR(on.back(), 1.0, 1e-12);
+  const double largest = 0.04 * bounding_box(ball.points).diagonal();
+  for (std::size_t i = 1; i < on.size(); ++i)
+  {
+    EXPECT_LT((on[i] - on[i - 1]) * (tail - head).norm(), 1.01 * largest);
+  }
+  // On the cage's face: no point of it is far from a vertex on it.
+  std::vector<Vec3> face;
+  const Vec3 normal = (b - a).cross(c - a).normalized();
+  for (Index v = 0; v < mesh.points.rows(); ++v)
+  {
+    const Vec3 p = mesh.points.row(v);
+    if (std::abs((p - a).dot(normal)) < 1e-9)
+    {
+      face.push_back(p);
+    }
+  }
+  for (int i = 0; i <= 10; ++i)
+  {
+    for (int j = 0; i + j <= 10; ++j)
+    {
+      const Vec3 p = a + 0.1 * i * (b - a) + 0.1 * j * (c - a);
+      double nearest = 1e9;
+      for (const Vec3& q : face)
+      {
+        nearest = std::min(nearest, (p - q).norm());
+      }
+      EXPECT_LT(nearest, largest);
+    }
+  }
+}
+
+TEST_F(Cdt, HandlesNeedNoRefinement)
+{
+  TetrahedralizeOptions options;
+  options.method = TetMethod::cdt;
+  options.quality = 0.0;
+  options.interior_edge = 0.0;
+  options.handles = places_of({ Vec3(0.1, 0.0, 0.2) });
+  const Outcome outcome = run(test::cube(), options);
+  expect_valid(outcome, test::cube());
+  EXPECT_EQ(outcome.result.mesh.points.rows(), 9);
+  EXPECT_EQ(outcome.result.handle_vertices, std::vector<Index>{ 8 });
+  EXPECT_NEAR(outcome.volume(), 8.0, 1e-12);
+}
+
+TEST(Tetrahedralize, BadHandlesAreRefused)
+{
+  TetrahedralizeOptions options;
+  options.handles = places_of({ Vec3(0, 0, std::numeric_limits<double>::quiet_NaN()) });
+  EXPECT_THAT(run(test::cube(), options).status.message, HasSubstr("not finite"));
+  options.handles = places_of({ Vec3::Zero() });
+  options.handles.segments.resize(1, 2);
+  options.handles.segments << 0, 1;
+  const Outcome outcome = run(test::cube(), options);
+  EXPECT_EQ(outcome.status.code, StatusCode::invalid_input);
+  EXPECT_THAT(outcome.status.message, HasSubstr("handle segment 0 has point 1"));
+}
+
+// ---- Nothing to fill
+// -----------------------------------------------------------------------------
+
+TEST(Tetrahedralize, WhereNothingFitsEmbedIsNamed)
+{
+  TetrahedralizeOptions options;
+  options.winding_threshold = 1.5;
+  const Outcome outcome = run(test::cube(), options);
+  EXPECT_EQ(outcome.status.code, StatusCode::invalid_input);
+  EXPECT_THAT(outcome.status.message, HasSubstr("--method embed"));
+  EXPECT_EQ(outcome.result.mesh.tets.rows(), 0);
+  options.method = TetMethod::embed;
+  expect_valid(run(test::cube(), options), test::cube());
+}
+
+TEST_F(Cdt, FlatTetsAreSwappedAndTheSurfaceStays)
+{
+  const TriangleMesh elephant = test::demo_mesh("elephant.off");
+  const Outcome outcome = run(elephant, TetMethod::cdt);
+  expect_valid(outcome, elephant);
+  EXPECT_GE(outcome.number("min_dihedral_angle"), 8.0);
+  EXPECT_NEAR(
+    outcome.volume(), signed_volume(elephant.points, elephant.triangles), 1e-10 * outcome.volume());
+  EXPECT_EQ(boundary_triangles(outcome.result.mesh.tets).rows(), elephant.triangles.rows());
 }

@@ -91,3 +91,30 @@ def test_points_inside_as_wanted(folder):
     assert 2 * none["tet_vertices"] < many["tet_vertices"]
     folder.run(*words, "--quality", "0.5").is_refused()
     folder.run(*words, "--time-limit", "-1").is_refused()
+
+
+def test_handles_are_vertices(folder):
+    folder.off("bar.off", shapes.bar())
+    folder.write("handles.tgf", shapes.TWO_BONES)
+    report = folder.run("tetrahedralize", "bar.off", "--handles", "handles.tgf", "-o", "bar.vtu", "--report", "-").is_good().report
+    mesh = bindpose.read(folder / "bar.vtu")
+    heads = [points_of(mesh)[handle["vertex"]] for handle in report["handles"]]
+    handles = bindpose.read(folder / "handles.tgf")
+    for head in heads:
+        assert np.abs(points_of(handles) - head).max(axis=1).min() == 0
+    folder.run("tetrahedralize", "bar.off", "--handles", "none.tgf", "-o", "b.vtu").is_refused("none.tgf")
+
+
+def test_what_cannot_be_filled_names_embed(folder):
+    folder.off("cube.off", shapes.cube())
+    run = folder.run("tetrahedralize", "cube.off", "--winding-threshold", "1.5", "-o", "cube.vtu")
+    run.is_refused("--method embed")
+    folder.run("tetrahedralize", "cube.off", "--winding-threshold", "1.5", "--method", "embed", "-o", "cube.vtu").is_good()
+
+
+def test_the_histogram_counts_every_tet(folder):
+    folder.off("bar.off", shapes.bar())
+    report = folder.run("tetrahedralize", "bar.off", "-o", "bar.vtu", "--report", "-").is_good().report
+    assert sum(entry["tets"] for entry in report["quality"]) == report["counts"]["tets"]
+    worst = min(entry["dihedral_angle"] for entry in report["quality"] if entry["tets"])
+    assert worst <= report["min_dihedral_angle"] < worst + 5

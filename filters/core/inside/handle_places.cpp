@@ -1,0 +1,159 @@
+// A line is cut into pieces that are equal when measured in local lengths. A triangle is halved at
+// its longest edge until that is short enough; the middles of edges that were cut are its samples.
+#include "inside/handle_places.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <vector>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr double most = 1000.0; // pieces of a line
+
+class Sampler
+{
+public:
+  Sampler(const Points& points, const std::function<double(const Vec3&)>& length) : length_(length)
+  {
+    for (Index i = 0; i < points.rows(); ++i)
+    {
+      this->add(points.row(i));
+    }
+    this->chosen_ = static_cast<Index>(this->list_.size());
+  }
+
+  void line(const Vec3& a, const Vec3& b)
+  {
+    const double whole = (b - a).norm();
+    // passed[i]: how many lengths fit between a and the fraction at[i].
+    std::vector<double> passed{ 0.0 };
+    std::vector<double> at{ 0.0 };
+    while (at.back() < 1.0 && whole > 0.0)
+    {
+      const double here = std::max(this->length_(a + at.back() * (b - a)) / whole, 1.0 / most);
+      constexpr double part = 0.5; // of a length: it changes on the way
+      const double step = std::min(part * here, 1.0 - at.back());
+      passed.push_back(passed.back() + step / here);
+      at.push_back(1.0 - at.back() - step < 1e-9 ? 1.0 : at.back() + step);
+    }
+    const int pieces = std::max(2, static_cast<int>(std::ceil(passed.back())));
+    std::size_t next = 1;
+    for (int piece = 1; piece < pieces && whole > 0.0; ++piece)
+    {
+      const double wanted = passed.back() * piece / pieces;
+      while (passed[next] < wanted)
+      {
+        ++next;
+      }
+      const double f = (wanted - passed[next - 1]) / (passed[next] - passed[next - 1]);
+      this->add(a + (at[next - 1] + f * (at[next] - at[next - 1])) * (b - a));
+    }
+  }
+
+  void triangle(const Vec3& a, const Vec3& b, const Vec3& c)
+  {
+    const double shortest = std::max({ (a - b).norm(), (b - c).norm(), (c - a).norm() }) / most;
+    std::vector<std::array<Vec3, 3>> left{ { a, b, c } };
+    while (!left.empty())
+    {
+      const std::array<Vec3, 3> corners = left.back();
+      left.pop_back();
+      int longest = 0;
+      const auto edge = [&](int k) { return (corners[(k + 1) % 3] - corners[k]).norm(); };
+      for (int k = 1; k < 3; ++k)
+      {
+        longest = edge(k) > edge(longest) ? k : longest;
+      }
+      const Vec3& from = corners[longest];
+      const Vec3& to = corners[(longest + 1) % 3];
+      const Vec3& apex = corners[(longest + 2) % 3];
+      const Vec3 middle = 0.5 * (from + to);
+      if (edge(longest) <= std::max(shortest, this->length_(middle)))
+      {
+        continue;
+      }
+      this->add(middle);
+      left.push_back({ from, middle, apex });
+      left.push_back({ middle, to, apex });
+    }
+  }
+
+  HandleSamples result() const
+  {
+    HandleSamples samples;
+    samples.chosen = this->chosen_;
+    samples.points.resize(static_cast<Index>(this->list_.size()), 3);
+    for (std::size_t i = 0; i < this->list_.size(); ++i)
+    {
+      samples.points.row(static_cast<Index>(i)) = this->list_[i];
+    }
+    return samples;
+  }
+
+private:
+  void add(const Vec3& p)
+  {
+    if (this->seen_.insert({ p.x(), p.y(), p.z() }).second)
+    {
+      this->list_.push_back(p);
+    }
+  }
+
+  const std::function<double(const Vec3&)>& length_;
+  std::vector<Vec3> list_;
+  Index chosen_ = 0;
+  std::set<std::array<double, 3>> seen_;
+};
+
+template <typename Matrix>
+Status check_ids(const Matrix& ids, Index count, const char* what)
+{
+  for (Index i = 0; i < ids.rows(); ++i)
+  {
+    for (Index k = 0; k < ids.cols(); ++k)
+    {
+      if (ids(i, k) < 0 || ids(i, k) >= count)
+      {
+        return Status::invalid_input(std::string("handle ") + what + " " + std::to_string(i) +
+          " has point " + std::to_string(ids(i, k)) + ", but there are only " +
+          std::to_string(count));
+      }
+    }
+  }
+  return {};
+}
+} // namespace
+
+Status check_places(const HandlePlaces& places)
+{
+  if (!places.points.allFinite())
+  {
+    return Status::invalid_input("a handle has a coordinate that is not finite");
+  }
+  Status status = check_ids(places.segments, places.points.rows(), "segment");
+  return status.ok() ? check_ids(places.triangles, places.points.rows(), "triangle") : status;
+}
+
+HandleSamples sample_places(
+  const HandlePlaces& places, const std::function<double(const Vec3&)>& length)
+{
+  Sampler sampler(places.points, length);
+  for (Index s = 0; s < places.segments.rows(); ++s)
+  {
+    sampler.line(
+      places.points.row(places.segments(s, 0)), places.points.row(places.segments(s, 1)));
+  }
+  for (Index t = 0; t < places.triangles.rows(); ++t)
+  {
+    sampler.triangle(places.points.row(places.triangles(t, 0)),
+      places.points.row(places.triangles(t, 1)), places.points.row(places.triangles(t, 2)));
+  }
+  return sampler.result();
+}
+
+} // namespace bindpose

@@ -1,0 +1,24 @@
+#ifndef bindpose_mesher_stopwatch_h
+#define bindpose_mesher_stopwatch_h
+
+#include <chrono>
+
+namespace bindpose
+{
+
+/// Seconds since it was made.
+class Stopwatch
+{
+public:
+  double seconds() const
+  {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - this->start_).count();
+  }
+
+private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,113 @@
+#include "inside/handle_places.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace bindpose;
+using testing::HasSubstr;
+
+namespace
+{
+HandlePlaces corners()
+{
+  HandlePlaces places;
+  places.points.resize(3, 3);
+  places.points << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  return places;
+}
+} // namespace
+
+TEST(HandlePlaces, ALineIsCutIntoPiecesOfTheLocalLength)
+{
+  HandlePlaces places = corners();
+  places.segments.resize(1, 2);
+  places.segments << 0, 1;
+  const HandleSamples even = sample_places(places, [](const Vec3&) { return 0.1; });
+  EXPECT_EQ(even.chosen, 3);
+  ASSERT_EQ(even.points.rows(), 3 + 9);
+  for (Index i = 0; i < 9; ++i)
+  {
+    EXPECT_NEAR(even.points(3 + i, 0), 0.1 * static_cast<double>(i + 1), 1e-9);
+  }
+  // Lengths that grow from one end: pieces do, too, and none is longer than what is asked there.
+  const auto growing = [](const Vec3& p) { return 0.05 + 0.3 * p.x(); };
+  const HandleSamples graded = sample_places(places, growing);
+  double last = 0.0;
+  double last_piece = 0.0;
+  for (Index i = 3; i < graded.points.rows(); ++i)
+  {
+    const double piece = graded.points(i, 0) - last;
+    EXPECT_GT(piece, last_piece);
+    EXPECT_LT(piece, growing(graded.points.row(i)) * 1.01);
+    last = graded.points(i, 0);
+    last_piece = piece;
+  }
+}
+
+TEST(HandlePlaces, ABoneHasAPointBetweenItsEndsAndNeverTooMany)
+{
+  HandlePlaces places = corners();
+  places.segments.resize(1, 2);
+  places.segments << 0, 1;
+  EXPECT_EQ(sample_places(places, [](const Vec3&) { return 10.0; }).points.rows(), 4);
+  EXPECT_LE(sample_places(places, [](const Vec3&) { return 1e-12; }).points.rows(), 3 + 1001);
+}
+
+TEST(HandlePlaces, ATriangleIsCoveredAndEveryPlaceIsThereOnce)
+{
+  HandlePlaces places = corners();
+  places.segments.resize(3, 2);
+  places.segments << 0, 1, 1, 2, 2, 0;
+  places.triangles.resize(1, 3);
+  places.triangles << 0, 1, 2;
+  const HandleSamples samples = sample_places(places, [](const Vec3&) { return 0.1; });
+  for (Index i = 0; i < samples.points.rows(); ++i)
+  {
+    const Vec3 p = samples.points.row(i);
+    EXPECT_EQ(p.z(), 0.0);
+    EXPECT_GE(p.head<2>().minCoeff(), -1e-12);
+    EXPECT_LE(p.head<2>().sum(), 1.0 + 1e-12);
+    for (Index j = 0; j < i; ++j)
+    {
+      ASSERT_NE(samples.points.row(i), samples.points.row(j));
+    }
+  }
+  for (int i = 0; i <= 20; ++i)
+  {
+    for (int j = 0; i + j <= 20; ++j)
+    {
+      const Vec3 p(0.05 * i, 0.05 * j, 0.0);
+      EXPECT_LT((samples.points.rowwise() - p.transpose()).rowwise().norm().minCoeff(), 0.1);
+    }
+  }
+}
+
+TEST(HandlePlaces, EndsAtOnePlace)
+{
+  HandlePlaces places = corners();
+  places.points.row(1) = places.points.row(0);
+  places.segments.resize(1, 2);
+  places.segments << 0, 1;
+  places.triangles.resize(1, 3);
+  places.triangles << 0, 0, 1;
+  const HandleSamples samples = sample_places(places, [](const Vec3&) { return 0.1; });
+  EXPECT_EQ(samples.points.rows(), 2);
+  EXPECT_EQ(samples.chosen, 2);
+}
+
+TEST(HandlePlaces, BadOnesAreRefused)
+{
+  HandlePlaces places = corners();
+  EXPECT_TRUE(check_places(places).ok());
+  places.triangles.resize(1, 3);
+  places.triangles << 0, 1, 3;
+  EXPECT_THAT(check_places(places).message, HasSubstr("handle triangle 0 has point 3"));
+  places.triangles << 0, 1, -1;
+  EXPECT_EQ(check_places(places).code, StatusCode::invalid_input);
+  places.triangles.resize(0, 3);
+  places.points(1, 1) = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(check_places(places).message, HasSubstr("not finite"));
+}

@@ -1,0 +1,96 @@
+#include "inside/tet_quality.h"
+
+#include "support/meshes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+using namespace bindpose;
+using testing::HasSubstr;
+
+namespace
+{
+/// A triangle with apices above and below it: one tet for each.
+TetMesh fan(const std::vector<Vec3>& apices)
+{
+  TetMesh mesh;
+  mesh.points.resize(3 + static_cast<Index>(apices.size()), 3);
+  mesh.points.topRows(3) << 0, 0, 0, 1, 0, 0, 0, 1, 0;
+  mesh.tets.resize(static_cast<Index>(apices.size()), 4);
+  for (std::size_t i = 0; i < apices.size(); ++i)
+  {
+    const auto t = static_cast<Index>(i);
+    mesh.points.row(3 + t) = apices[i];
+    mesh.tets.row(t) << 0, 1, 2, 3 + t;
+    if (apices[i].z() < 0.0)
+    {
+      mesh.tets.row(t) << 1, 0, 2, 3 + t;
+    }
+  }
+  return mesh;
+}
+} // namespace
+
+TEST(TetQuality, TetsMeetAtMostInPairsOnOppositeSides)
+{
+  const TetMesh good = fan({ Vec3(0.2, 0.2, 1), Vec3(0.2, 0.2, -1) });
+  EXPECT_TRUE(check_tets(good.points, good.tets).ok());
+  const TetMesh same_side = fan({ Vec3(0.2, 0.2, 1), Vec3(0.3, 0.2, 0.5) });
+  EXPECT_THAT(check_tets(same_side.points, same_side.tets).message, HasSubstr("overlap"));
+  const TetMesh three = fan({ Vec3(0.2, 0.2, 1), Vec3(0.2, 0.2, -1), Vec3(0.3, 0.2, 2) });
+  EXPECT_THAT(check_tets(three.points, three.tets).message, HasSubstr("no closed boundary"));
+  EXPECT_TRUE(check_tets(three.points, three.tets, true).ok());
+  TetMesh twice = three;
+  twice.tets.row(2) << 1, 2, 0, 3; // the first once more
+  EXPECT_THAT(
+    check_tets(twice.points, twice.tets, true).message, HasSubstr("tet 2 is there twice"));
+  TetMesh turned = good;
+  turned.tets.row(1).head<2>().reverseInPlace();
+  EXPECT_THAT(check_tets(turned.points, turned.tets).message, HasSubstr("tet 1 has no positive"));
+}
+
+TEST(TetQuality, TheHistogramCountsEveryTetOnce)
+{
+  // A regular tet: all its dihedral angles are arccos(1/3), 70.53 degrees.
+  TetMesh regular;
+  regular.points.resize(4, 3);
+  regular.points << 1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1;
+  regular.tets.resize(1, 4);
+  regular.tets << 0, 2, 1, 3;
+  if (tet_volumes(regular.points, regular.tets)[0] < 0.0)
+  {
+    regular.tets.row(0).head<2>().reverseInPlace();
+  }
+  const TetQuality best = measure_tets(regular.points, regular.tets);
+  EXPECT_NEAR(best.min_dihedral_angle, 70.528779365509308, 1e-9);
+  EXPECT_EQ(best.histogram.tets[14], 1);
+  // Kuhn's tets: 45 degrees.
+  const TetMesh box = test::tet_box(2, 3, 4, Vec3::Zero(), Vec3(2, 3, 4));
+  const TetQuality quality = measure_tets(box.points, box.tets);
+  const auto& bins = quality.histogram.tets;
+  EXPECT_EQ(std::accumulate(bins.begin(), bins.end(), Index(0)), box.tets.rows());
+  EXPECT_EQ(bins[8] + bins[9], box.tets.rows());
+}
+
+TEST(TetQuality, CrumbsAndLoneTetsGo)
+{
+  // A large tet, a chain of two small ones, and a small one by itself.
+  TetMesh mesh = test::tet_box(1, 1, 1);
+  const Index n = mesh.points.rows();
+  const Index m = mesh.tets.rows();
+  mesh.points.conservativeResize(n + 9, 3);
+  mesh.tets.conservativeResize(m + 3, 4);
+  const double h = 0.02; // a tet of h^3 / 6 = 1.3e-6
+  mesh.points.bottomRows(9) << 5, 0, 0, 5 + h, 0, 0, 5, h, 0, 5, 0, h, 5, 0, -h, //
+    7, 0, 0, 7 + h, 0, 0, 7, h, 0, 7, 0, h;
+  mesh.tets.row(m) << n, n + 1, n + 2, n + 3;
+  mesh.tets.row(m + 1) << n + 1, n, n + 2, n + 4;
+  mesh.tets.row(m + 2) << n + 5, n + 6, n + 7, n + 8;
+  ASSERT_TRUE(check_tets(mesh.points, mesh.tets).ok());
+  Tets tets = mesh.tets;
+  EXPECT_EQ(drop_crumbs(mesh.points, tets), 0);
+  EXPECT_EQ(drop_crumbs(mesh.points, tets, 1e-4), 1);
+  EXPECT_EQ(tets, mesh.tets.topRows(m + 2));
+}

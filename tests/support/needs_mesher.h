@@ -1,0 +1,26 @@
+#ifndef bindpose_tests_support_needs_mesher_h
+#define bindpose_tests_support_needs_mesher_h
+
+#include "inside/mesher_process.h"
+
+#include <gtest/gtest.h>
+
+namespace bindpose::test
+{
+
+/// Tests of what the helper executable does: skipped where it is not built.
+class NeedsMesher : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    if (find_mesher().empty())
+    {
+      GTEST_SKIP() << "bindpose-mesher is not built: libcgal-dev, libtet1.5-dev";
+    }
+  }
+};
+
+} // namespace bindpose::test
+
+#endif

@@ -33,7 +33,7 @@ SECONDS = 120
 TRIANGLES = 100_000  # of surfaces that SECONDS are promised for
 SPECK = 1e-6  # of the box: a volume that need not be found
 DEFECTS = ["duplicate_vertices", "degenerate_triangles", "duplicate_triangles", "boundary_edges", "nonmanifold_edges",
-           "misoriented_edges", "inward_components", "self_intersections"]
+           "misoriented_edges", "inward_components", "self_intersections", "triangulated_cells"]
 FACETS = np.array([[1, 2, 3], [0, 3, 2], [0, 1, 3], [0, 2, 1]])
 
 
@@ -210,7 +210,8 @@ def broken_volume(row):
     if (not 0.9 <= ratio <= 1.1 and not told) or not 0.5 <= ratio <= 2.0:
         return [f"volume {volume:g}, but the winding number encloses {winding:g}"]
     broken = []
-    if row.rung == "cdt" and not any(report["counts"][defect] for defect in DEFECTS) and report["counts"]["components"] == 1:
+    # Polygons are triangulated in more than one way.
+    if row.rung == "cdt" and not any(report["counts"].get(defect) for defect in DEFECTS) and report["counts"]["components"] == 1:
         true = horrors.volume(read_off(row.surface.path))
         if abs(volume / true - 1) > 1e-10:
             broken.append(f"volume {volume:.15g}, by the divergence theorem {true:.15g}")

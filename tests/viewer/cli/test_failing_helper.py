@@ -6,7 +6,6 @@ import pathlib
 import resource
 import signal
 import subprocess
-import tempfile
 import threading
 import time
 
@@ -49,13 +48,12 @@ def runs(number):
 
 
 @pytest.fixture(autouse=True)
-def nothing_is_left():
-    """No new file of ours in the folder for temporary ones."""
-    def ours():
-        return {name for name in os.listdir(tempfile.gettempdir()) if "bindpose" in name or ".part-" in name}
-    before = ours()
+def nothing_is_left(tmp_path_factory, monkeypatch):
+    """A folder for temporary files that stays empty."""
+    temporary = tmp_path_factory.mktemp("temporary")
+    monkeypatch.setenv("TMPDIR", str(temporary))
     yield
-    assert ours() <= before
+    assert os.listdir(temporary) == []
 
 
 def start(folder, *words, **more):

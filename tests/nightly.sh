@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # What is too long for tests/run.sh: sanitizers, the build without GPL and AGPL parts and OpenVDB, naming on all
-# files, the quickstart, every surface of libcgal-demo through the mesher, the plugin in ParaView. Ends with a summary.
-# usage: tests/nightly.sh [asan|permissive|tidy|quickstart|surfaces|paraview …]   (default: all)
+# files, the quickstart, every surface of libcgal-demo and every made horror through the mesher, a thousand random
+# unclean surfaces, a million triangles, the plugin in ParaView. Ends with a summary.
+# usage: tests/nightly.sh [asan|permissive|tidy|quickstart|surfaces|fuzz|million|paraview …]   (default: all)
 set -uo pipefail
 program=nightly.sh
 install=yes
@@ -54,7 +55,18 @@ quickstart()
 
 surfaces()
 {
-  /usr/bin/python3 "$root/tests/support/all_surfaces.py" --build "$build_dir"
+  /usr/bin/python3 "$root/tests/support/all_surfaces.py" --build "$build_dir" --method auto --method remesh --method embed
+}
+
+fuzz()
+( # without sanitizers: 1,020 abused and 272 hostile surfaces, 1,360 on lattices
+  export BINDPOSE_FUZZ_FACTOR=${BINDPOSE_FUZZ_FACTOR:-34}
+  ctest --test-dir "$build_dir" --no-tests=error --output-on-failure -j "$(nproc)" -R '^core\.FuzzTetrahedralize\.'
+)
+
+million()
+{
+  /usr/bin/python3 "$root/tests/support/measure_tets.py" --build "$build_dir" --table million
 }
 
 paraview()
@@ -63,7 +75,7 @@ paraview()
 }
 
 parts=("$@")
-[ $# -gt 0 ] || parts=(asan permissive tidy quickstart surfaces paraview)
+[ $# -gt 0 ] || parts=(asan permissive tidy quickstart surfaces fuzz million paraview)
 for name in "${parts[@]}"; do
   part "$name" "$name"
 done

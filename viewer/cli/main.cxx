@@ -11,9 +11,10 @@
 #include "vtkObjectFactory.h"
 #include "vtkOutputWindow.h"
 
-#include <exception>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <new>
 
@@ -56,6 +57,8 @@ void run(Session& session)
 int main(int argc, char** argv)
 {
   catch_interrupts();
+  // A file that may not grow further is a write that fails, not the end. The helper inherits this.
+  std::signal(SIGXFSZ, SIG_IGN);
   vtkNew<SilentOutputWindow> silent;
   vtkOutputWindow::SetInstance(silent);
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF); // it has a way of its own

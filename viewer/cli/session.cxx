@@ -150,10 +150,11 @@ Status Session::try_run(vtkBindposeAlgorithm* algorithm, const std::string& stag
       this->warn(warning);
     }
   }
-  if (!status.usable())
+  if (!status.usable() && merge != Merge::all)
   {
     return status;
   }
+  // Of a failure, too: what was found in the input, and each thing that was tried.
   for (const auto& [key, value] : status.report.entries())
   {
     const bool seconds = starts_with(key, "seconds.");
@@ -335,6 +336,10 @@ void Session::write_report()
   if (path == "-")
   {
     std::cout << text << std::flush;
+    if (!std::cout)
+    {
+      this->invalid("cannot write the report to the standard output");
+    }
   }
   else
   {

@@ -358,7 +358,8 @@ std::string refine(MesherData& data, const RefineOptions& options)
     soup.faces.push_back({ data.triangles(f, 0), data.triangles(f, 1), data.triangles(f, 2) });
   }
   soup.tidy();
-  constexpr std::size_t small = 1000; // a few triangles may well fall into many pieces
+  // A few hundred large triangles may well fall into tens of thousands of pieces, and be meshed.
+  constexpr std::size_t small = 10000;
   const auto face_limit = static_cast<std::size_t>(
     options.growth_limit * static_cast<double>(std::max(soup.faces.size(), small)));
   int round = 0;

@@ -277,6 +277,37 @@ TEST_F(RealHelper, RefinesUntilNothingCrosses)
     signed_volume(two.points, two.triangles), 1e-12);
 }
 
+TEST_F(RealHelper, AFewTrianglesMayFallIntoManyPieces)
+{
+  // 14 squares across each axis: each is cut into 15 x 15 by the others.
+  constexpr int count = 14;
+  TriangleMesh mesh;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    for (int k = 0; k < count; ++k)
+    {
+      TriangleMesh square = test::grid(1, 1);
+      square.points.col(2).setConstant((k + 1.0) / 32.0);
+      for (Index v = 0; v < 4; ++v)
+      {
+        const Vec3 p = square.points.row(v);
+        square.points.row(v) << p[(axis + 2) % 3], p[axis], p[(axis + 1) % 3];
+      }
+      mesh = test::join(mesh, square);
+    }
+  }
+  MesherAnswer answer;
+  const Status status = run_real({ "refine" }, mesh, answer);
+  ASSERT_TRUE(status.ok()) << status.message;
+  const MesherData& refined = answer.data;
+  EXPECT_GE(refined.triangles.rows(), 3 * count * 2 * (count + 1) * (count + 1));
+  EXPECT_NEAR(surface_area(refined.points, refined.triangles), 3.0 * count, 1e-9);
+  ExecutionContext context;
+  std::vector<std::pair<Index, Index>> pairs;
+  ASSERT_TRUE(crossing_pairs(refined.points, refined.triangles, pairs, context));
+  EXPECT_EQ(pairs.size(), 0u);
+}
+
 TEST_F(RealHelper, CleanSurfacesAreLeftAlone)
 {
   MesherAnswer answer;

@@ -281,6 +281,37 @@ TEST_F(Cdt, UncleanCubesHoldTheirVolume)
   EXPECT_EQ(run(test::flipped(test::cube())).number("counts.turned_components"), 1);
 }
 
+TEST_F(Cdt, ManyPartsMostlyInsideOutOthersTouchOneIsOpen)
+{
+  // Every second cube of 4 x 4 x 4: they touch in edges and vertices. Below them 16 cubes apart
+  // from each other, most of them inside out, and beside them one without a top.
+  TriangleMesh mesh = test::translated(test::open_cube(), Vec3(8.0, 0.0, 0.0));
+  Index turned = 0;
+  for (int k = 0; k < 64; ++k)
+  {
+    const Vec3 at(k % 4, k / 4 % 4, k / 16);
+    if (static_cast<int>(at.sum()) % 2 == 0)
+    {
+      mesh = test::join(mesh, test::translated(test::cube(0.0, 1.0), at));
+    }
+    if (k < 16)
+    {
+      const TriangleMesh apart = test::translated(test::cube(0.0, 1.0), 1.5 * at + Vec3(0, 0, -3));
+      const bool inside_out = k % 5 != 0;
+      turned += inside_out ? 1 : 0;
+      mesh = test::join(mesh, inside_out ? test::flipped(apart) : apart);
+    }
+  }
+  const Outcome outcome = run(mesh);
+  expect_valid(outcome, mesh);
+  EXPECT_EQ(outcome.method(), "cdt");
+  EXPECT_NEAR(outcome.volume(), 32.0 + 16.0 + 8.0, 1e-9);
+  EXPECT_GT(outcome.number("counts.nonmanifold_edges"), 0.0);
+  EXPECT_EQ(outcome.number("counts.boundary_edges"), 4.0);
+  EXPECT_EQ(outcome.number("counts.turned_components"), turned);
+  EXPECT_FALSE(outcome.status.warnings.empty());
+}
+
 TEST_F(Cdt, CrossingSurfacesKeepTheirVerticesAndTriangles)
 {
   const TriangleMesh spheres =

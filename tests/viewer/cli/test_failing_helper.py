@@ -1,0 +1,238 @@
+"""What goes wrong around tetrahedralize: helper killed or missing, no room, no memory, Ctrl-C. Never half a file."""
+
+import contextlib
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import threading
+import time
+
+import pytest
+import shapes
+from driver import PROGRAM
+
+HELPER = pathlib.Path(PROGRAM).parent / "bindpose-mesher"
+needs_helper = pytest.mark.skipif(not HELPER.exists(), reason="built without bindpose-mesher")
+
+
+def children(parent):
+    """Process ids of the children that are no zombies."""
+    found = []
+    for entry in os.listdir("/proc"):
+        with contextlib.suppress(OSError, ValueError):
+            if entry.isdigit():
+                state, mother = pathlib.Path("/proc", entry, "stat").read_text().rpartition(")")[2].split()[:2]
+                if int(mother) == parent and state != "Z":
+                    found.append(int(entry))
+    return found
+
+
+def wait_for_helper(process, seconds=60):
+    """The first child of the process."""
+    give_up = time.monotonic() + seconds
+    while time.monotonic() < give_up:
+        found = children(process.pid)
+        if found:
+            return found[0]
+        assert process.poll() is None, "it ended without a helper"
+        time.sleep(0.002)
+    raise AssertionError("no helper was started")
+
+
+def runs(number):
+    with contextlib.suppress(OSError):
+        return pathlib.Path("/proc", str(number), "stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    return False
+
+
+@pytest.fixture(autouse=True)
+def nothing_is_left(tmp_path_factory, monkeypatch):
+    """A folder for temporary files that stays empty."""
+    temporary = tmp_path_factory.mktemp("temporary")
+    monkeypatch.setenv("TMPDIR", str(temporary))
+    yield
+    assert os.listdir(temporary) == []
+
+
+def start(folder, *words, **more):
+    return subprocess.Popen([PROGRAM, "tetrahedralize", *words], cwd=folder.path, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, text=True, **more)
+
+
+def sleeping_helper(folder):
+    """A helper that does nothing for a minute, to be found in the environment."""
+    os.mkdir(folder / "helper")
+    folder.write("helper/bindpose-mesher", "#!/bin/sh\nexec sleep 60\n")
+    os.chmod(folder / "helper/bindpose-mesher", 0o755)
+    return {**os.environ, "BINDPOSE_MESHER": str(folder / "helper/bindpose-mesher")}
+
+
+# ---- The helper ------------------------------------------------------------------------------------
+
+
+def test_missing_helper(folder):
+    folder.off("s.off", shapes.sphere())
+    nowhere = {"BINDPOSE_MESHER": "/nowhere/bindpose-mesher"}
+    words = ["tetrahedralize", "s.off", "-o", "s.vtu", "--report", "-"]
+    folder.run(*words, "--method", "cdt", environment=nowhere).is_refused("/nowhere/bindpose-mesher")
+    run = folder.run(*words, environment=nowhere).is_good()
+    assert run.report["method"] == "remesh" and run.report["volume"] == pytest.approx(4.1, rel=0.05)
+    assert "cdt was left" in run.err
+    assert folder.run(*words, "--overwrite", "--method", "embed", environment=nowhere).is_good().report["method"] == "embed"
+
+
+@needs_helper
+def test_a_helper_killed_once(folder):
+    """The next attempt answers."""
+    folder.off("s.off", shapes.sphere(100, 60))
+    process = start(folder, "s.off", "-o", "s.vtu", "--report", "-")
+    os.kill(wait_for_helper(process), signal.SIGKILL)
+    out, err = process.communicate(timeout=300)
+    assert process.returncode == 0, err
+    assert "signal 9" in out and sorted(os.listdir(folder.path)) == ["s.off", "s.vtu"]
+
+
+@needs_helper
+@pytest.mark.parametrize("method, code", [("auto", 0), ("remesh", 0), ("cdt", 5)])
+def test_a_helper_killed_again_and_again(folder, method, code):
+    """The lattice needs none; cdt alone ends with one sentence, and tells all that it tried."""
+    folder.off("s.off", shapes.sphere(60, 40))
+    process = start(folder, "s.off", "--method", method, "-o", "s.vtu", "--report", "r.json")
+    stop = threading.Event()
+
+    def kill():
+        while not stop.is_set():
+            for child in children(process.pid):
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(child, signal.SIGKILL)
+
+    killer = threading.Thread(target=kill)
+    killer.start()
+    try:
+        _out, err = process.communicate(timeout=300)
+    finally:
+        stop.set()
+        killer.join()
+    assert process.returncode == code, err
+    assert sorted(os.listdir(folder.path)) == ["r.json", "s.off"] + (["s.vtu"] if code == 0 else [])
+    report = (folder / "r.json").read_text()
+    assert "signal 9" in report and '"self_intersections": 0' in report
+    if code == 0:
+        assert '"method": "remesh"' in report
+    else:
+        assert err.count("\n") == 1 and "signal 9" in err
+
+
+# ---- No room ---------------------------------------------------------------------------------------
+
+
+def limited(kind, size):
+    return lambda: resource.setrlimit(kind, (size, size))
+
+
+@pytest.mark.parametrize("ending", ["vtu", "vtk", "mesh"])
+@pytest.mark.parametrize("size", [500, 20000])
+def test_a_full_disk(folder, ending, size):
+    """No file may grow beyond the limit, as if the disk were full then."""
+    folder.off("s.off", shapes.sphere())
+    process = start(folder, "s.off", "--method", "embed", "-o", f"s.{ending}",
+                    preexec_fn=limited(resource.RLIMIT_FSIZE, size))
+    _out, err = process.communicate(timeout=300)
+    assert process.returncode == 2, err
+    assert err.startswith(f"bindpose tetrahedralize: cannot write s.{ending}") and err.count("\n") == 1, err
+    assert os.listdir(folder.path) == ["s.off"]
+
+
+@needs_helper
+def test_no_room_for_the_helper(folder):
+    """Its meshes are files in memory, under the same limit."""
+    folder.off("s.off", shapes.sphere(60, 40))
+    process = start(folder, "s.off", "--method", "cdt", "-o", "s.vtu",
+                    preexec_fn=limited(resource.RLIMIT_FSIZE, 10000))
+    _out, err = process.communicate(timeout=300)
+    assert process.returncode == 5 and "no room to hand the mesh to bindpose-mesher" in err, err
+    assert err.count("\n") == 1 and os.listdir(folder.path) == ["s.off"]
+
+
+def test_a_report_that_nobody_can_read(folder):
+    folder.off("c.off", shapes.cube())
+    with open("/dev/full", "w", encoding="ascii") as full:
+        done = subprocess.run([PROGRAM, "tetrahedralize", "c.off", "--method", "embed", "-o", "c.vtu", "--report", "-"],
+                              cwd=folder.path, stdout=full, stderr=subprocess.PIPE, text=True, check=False, timeout=300)
+    assert done.returncode == 2 and "cannot write the report" in done.stderr
+
+
+# ---- No memory -------------------------------------------------------------------------------------
+
+
+@needs_helper
+def test_the_memory_limit_of_the_helper(folder):
+    folder.off("s.off", shapes.sphere(60, 40))
+    words = ["tetrahedralize", "s.off", "-o", "s.vtu", "--memory-limit", "10", "--report", "-"]
+    run = folder.run(*words, "--method", "cdt")
+    run.is_refused("memory limit of 10 MiB", code=5)
+    run = folder.run(*words).is_good()
+    assert run.report["method"] == "remesh" and "memory limit of 10 MiB" in run.err
+
+
+@pytest.mark.parametrize("mebibytes", [400, 700])
+def test_little_memory_for_all(folder, mebibytes):
+    """ulimit -v: tets or one sentence, and an end."""
+    folder.off("s.off", shapes.sphere(240, 160))
+    process = start(folder, "s.off", "--method", "embed", "-o", "s.vtu",
+                    preexec_fn=limited(resource.RLIMIT_AS, mebibytes << 20), env={**os.environ, "OPENBLAS_NUM_THREADS": "1"})
+    _out, err = process.communicate(timeout=60)
+    if "shared librar" in err:
+        pytest.skip("the libraries alone need more")
+    assert process.returncode in (0, 5), err
+    assert sorted(os.listdir(folder.path)) == ["s.off"] + (["s.vtu"] if process.returncode == 0 else [])
+    assert process.returncode == 0 or err == "bindpose tetrahedralize: out of memory\n"
+
+
+# ---- Cancelled -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_cancel_kills_the_helper_at_once(folder, number):
+    folder.off("s.off", shapes.sphere())
+    before = sorted(os.listdir(folder.path))
+    process = start(folder, "s.off", "-o", "s.vtu", env=sleeping_helper(folder))
+    helper = wait_for_helper(process)
+    process.send_signal(number)
+    asked = time.monotonic()
+    while runs(helper):
+        assert time.monotonic() - asked < 5
+        time.sleep(0.002)
+    killed = time.monotonic() - asked
+    _out, err = process.communicate(timeout=60)
+    assert process.returncode == 4 and err == "bindpose tetrahedralize: cancelled\n"
+    assert killed < 0.2
+    assert sorted(os.listdir(folder.path)) == ["helper", *before]
+
+
+@needs_helper
+def test_no_helper_outlives_the_program(folder):
+    folder.off("s.off", shapes.sphere(200, 120))
+    process = start(folder, "s.off", "-o", "s.vtu")
+    helper = wait_for_helper(process)
+    process.kill()
+    process.communicate(timeout=60)
+    asked = time.monotonic()
+    while runs(helper) and time.monotonic() - asked < 5:
+        time.sleep(0.002)
+    assert not runs(helper)
+
+
+# ---- Sizes -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("scale", [1e-9, 1e9])
+@pytest.mark.parametrize("method", ["auto", "remesh", "embed"])
+def test_tiny_and_huge_coordinates(folder, scale, method):
+    vertices, faces = shapes.sphere()
+    folder.off("s.off", ([[scale * x for x in v] for v in vertices], faces))
+    report = folder.run("tetrahedralize", "s.off", "--method", method, "-o", "s.vtu", "--report", "-").is_good().report
+    assert report["winding_volume"] == pytest.approx(4.1 * scale**3, rel=0.02)
+    assert method == "embed" or report["volume"] == pytest.approx(4.1 * scale**3, rel=0.03)

@@ -235,6 +235,20 @@ bool executable_file(const std::string& path)
   return std::filesystem::is_regular_file(path, none) && ::access(path.c_str(), X_OK) == 0;
 }
 
+Status check_limits(double time_limit, Index memory_limit)
+{
+  if (!(time_limit > 0.0))
+  {
+    return Status::invalid_input(
+      "time_limit must be positive, not " + short_number(time_limit) + " s");
+  }
+  if (memory_limit < 0)
+  {
+    return Status::invalid_input("memory_limit must not be negative");
+  }
+  return {};
+}
+
 std::string memory_words(Index memory_limit)
 {
   return memory_limit > 0 ? " under a memory limit of " + std::to_string(memory_limit) + " MiB"

@@ -46,6 +46,9 @@ Status run_child(const ChildRequest& request,
   const std::function<void(const std::string&)>& take_line, ChildEnd& end,
   ExecutionContext& context);
 
+/// invalid_input for a time limit (seconds) that is not positive or a memory limit (MiB) below 0.
+Status check_limits(double time_limit, Index memory_limit);
+
 /// " under a memory limit of 500 MiB", empty without a limit.
 std::string memory_words(Index memory_limit);
 

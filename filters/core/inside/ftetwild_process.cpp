@@ -39,16 +39,7 @@ Status check_options(const FtetwildOptions& options)
     return Status::invalid_input(
       "the edge length must be from 0 to 1, not " + short_number(options.edge));
   }
-  if (!(options.time_limit > 0.0))
-  {
-    return Status::invalid_input(
-      "time_limit must be positive, not " + short_number(options.time_limit) + " s");
-  }
-  if (options.memory_limit < 0)
-  {
-    return Status::invalid_input("memory_limit must not be negative");
-  }
-  return {};
+  return check_limits(options.time_limit, options.memory_limit);
 }
 
 /// What fTetWild prints: progress, and its last words.

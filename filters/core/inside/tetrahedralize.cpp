@@ -7,6 +7,7 @@
 
 #include "base/number_text.h"
 #include "inside/cdt_tets.h"
+#include "inside/child_process.h"
 #include "inside/embedding_tets.h"
 #include "inside/enclosed_region.h"
 #include "inside/ftetwild_process.h"
@@ -674,14 +675,10 @@ Status check_options(const TetrahedralizeOptions& options)
     return Status::invalid_input(
       "resolution must be 0 or from 4 to 1000 cubes, not " + std::to_string(options.resolution));
   }
-  if (!(options.time_limit > 0.0))
+  Status limits = check_limits(options.time_limit, options.memory_limit);
+  if (!limits.ok())
   {
-    return Status::invalid_input(
-      "time_limit must be positive, not " + short_number(options.time_limit) + " s");
-  }
-  if (options.memory_limit < 0)
-  {
-    return Status::invalid_input("memory_limit must not be negative");
+    return limits;
   }
   if (options.keep_outside && options.method != TetMethod::cdt)
   {

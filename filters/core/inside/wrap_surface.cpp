@@ -3,6 +3,7 @@
 #include "inside/wrap_surface.h"
 
 #include "base/number_text.h"
+#include "inside/child_process.h"
 #include "inside/mesher_process.h"
 #include "inside/unit_frame.h"
 
@@ -25,16 +26,7 @@ Status check_options(const WrapOptions& options)
     return Status::invalid_input(
       "wrap_offset must be from 0.000001 to 1, not " + short_number(options.offset));
   }
-  if (!(options.time_limit > 0.0))
-  {
-    return Status::invalid_input(
-      "time_limit must be positive, not " + short_number(options.time_limit) + " s");
-  }
-  if (options.memory_limit < 0)
-  {
-    return Status::invalid_input("memory_limit must not be negative");
-  }
-  return {};
+  return check_limits(options.time_limit, options.memory_limit);
 }
 } // namespace
 

@@ -49,10 +49,6 @@ TetQuality measure_tets(PointsView points, TetsView tets)
     const auto bin = static_cast<std::size_t>(angle / DihedralHistogram::bin);
     ++quality.histogram.tets[std::min(bin, quality.histogram.tets.size() - 1)];
   }
-  for (const Edge& edge : mesh_edges(boundary_triangles(tets)))
-  {
-    quality.boundary_edges_open += edge.net_direction != 0;
-  }
   return quality;
 }
 

@@ -26,7 +26,6 @@ struct TetQuality
   double min_dihedral_angle = 0.0; ///< degrees, of the worst tet
   Index below_5_degrees = 0; ///< tets whose smallest dihedral angle is below 5 degrees
   DihedralHistogram histogram;
-  Index boundary_edges_open = 0; ///< edges at which the boundary is not closed
 };
 
 TetQuality measure_tets(PointsView points, TetsView tets);

@@ -291,6 +291,10 @@ private:
       {
         status = this->inside_.encloses_nothing();
       }
+      else if (status = check_tets(mesh.points, mesh.tets); !status.ok())
+      {
+        // No other reason is needed.
+      }
       else if (!this->inside_.fits(volume))
       {
         status = wrong_volume(volume, this->inside_);
@@ -551,10 +555,15 @@ private:
   Status check()
   {
     const TetMesh& mesh = this->result_.mesh;
-    Status status = check_tets(mesh.points, mesh.tets, this->options_.method == TetMethod::embed);
-    if (!status.ok())
+    Status status;
+    const bool embedded = this->options_.method == TetMethod::embed;
+    if (embedded || this->options_.keep_outside) // all others were checked, or left, by their rung
     {
-      return status;
+      status = check_tets(mesh.points, mesh.tets, embedded);
+      if (!status.ok())
+      {
+        return status;
+      }
     }
     if (this->result_.winding_numbers.size() == 0)
     {

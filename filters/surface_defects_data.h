@@ -1,6 +1,7 @@
 #ifndef surface_defects_data_h
 #define surface_defects_data_h
 
+#include "BindposeFiltersModule.h" // for export macro
 #include "inside/surface_defects.h"
 
 #include "vtkSmartPointer.h"
@@ -14,7 +15,8 @@ namespace bindpose
 /// order. Point array `OriginalPointIds`; cell arrays `Defect` (int, see Defect), `DefectName`,
 /// `OriginalCellIds` and `CrossedCellIds` (cells of the surface, -1: none), `Component`.
 /// `cell_of_triangle` may be empty, see SurfaceInput.
-vtkSmartPointer<vtkPolyData> to_polydata(const std::vector<DefectPlace>& places, PointsView points,
+BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkPolyData> to_polydata(
+  const std::vector<DefectPlace>& places, PointsView points,
   const std::vector<Index>& cell_of_triangle);
 
 } // namespace bindpose

@@ -5,8 +5,8 @@
 #include "handle_geometry.h"
 #include "inside/tetrahedralize.h"
 #include "surface_defects_data.h"
+#include "tets_data.h"
 
-#include "vtkCellData.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdTypeArray.h"
@@ -111,6 +111,10 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
   options.memory_limit = this->MemoryLimit;
   options.quality = this->Quality;
   options.interior_edge = this->InteriorEdge;
+  options.keep_outside = this->KeepOutside;
+  options.wrap_alpha = this->WrapAlpha;
+  options.wrap_offset = this->WrapOffset;
+  options.ftetwild_epsilon = this->FtetwildEpsilon;
   options.handles = bindpose::to_handle_places(handles);
   bindpose::TetrahedralizeResult result;
   status = bindpose::tetrahedralize(
@@ -132,26 +136,9 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
     bindpose::report_handles(handles, result.handle_vertices, status.report);
   }
 
-  out->ShallowCopy(bindpose::to_unstructured_grid(result.mesh.points, result.mesh.tets));
-  vtkNew<vtkIdTypeArray> ids;
-  ids->SetName("OriginalPointIds");
-  ids->SetNumberOfValues(static_cast<vtkIdType>(result.original_vertices.size()));
-  std::copy(result.original_vertices.begin(), result.original_vertices.end(), ids->GetPointer(0));
-  out->GetPointData()->AddArray(ids);
-  vtkNew<vtkDoubleArray> winding;
-  winding->SetName("WindingNumber");
-  winding->SetNumberOfValues(result.winding_numbers.size());
-  std::copy(result.winding_numbers.data(),
-    result.winding_numbers.data() + result.winding_numbers.size(), winding->GetPointer(0));
-  out->GetCellData()->SetScalars(winding);
+  out->ShallowCopy(bindpose::to_unstructured_grid(result, status.report.text("method")));
   if (result.inside_fractions.size() > 0)
   {
-    vtkNew<vtkDoubleArray> fractions;
-    fractions->SetName("InsideFraction");
-    fractions->SetNumberOfValues(result.inside_fractions.size());
-    std::copy(result.inside_fractions.data(),
-      result.inside_fractions.data() + result.inside_fractions.size(), fractions->GetPointer(0));
-    out->GetCellData()->AddArray(fractions);
     bound->ShallowCopy(to_bound_surface(surface, result.binding));
   }
   defects->ShallowCopy(
@@ -174,4 +161,8 @@ void vtkTetrahedralizeSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "Quality: " << this->Quality << "\n";
   os << indent << "InteriorEdge: " << this->InteriorEdge << "\n";
+  os << indent << "KeepOutside: " << (this->KeepOutside ? "on" : "off") << "\n";
+  os << indent << "WrapAlpha: " << this->WrapAlpha << "\n";
+  os << indent << "WrapOffset: " << this->WrapOffset << "\n";
+  os << indent << "FtetwildEpsilon: " << this->FtetwildEpsilon << "\n";
 }

@@ -8,13 +8,16 @@
  *
  * **Input 0**: a vtkPointSet with 2D cells (polygons and strips are split into triangles; other
  * cells are ignored and counted).
- * **Input 1** (optional): handles (see vtkHandleFileReader) that CDT makes part of the mesh where
- * they are inside: points, ends of bones and cage vertices become points of it, bones and cages get
- * points along them at the local edge length. The weights filters split the cells of other methods
- * where handles need it.
+ * **Input 1** (optional): handles (see vtkHandleFileReader) that CDT and WRAP make part of the mesh
+ * where they are inside: points, ends of bones and cage vertices become points of it, bones and
+ * cages get points along them at the local edge length. The weights filters split the cells of
+ * other methods where handles need it.
  * **Output**: a vtkUnstructuredGrid of tets (VTK_TETRA, all of positive volume) with the point
  * array `OriginalPointIds` (id of the input point, ascending, then -1 for new points) and the cell
- * array `WindingNumber` (double, at the tets' centres).
+ * arrays `WindingNumber` (double, at the tets' centres), `Label` (int: 1 inside, 2 inside though
+ * the winding number is below the threshold, 0 outside, -1 outside though it is not below; outside
+ * ones are there with KeepOutside and EMBED only) and `MinDihedralAngle` (double, the tet's
+ * smallest, degrees), and the field data array `Method` (as in the report).
  * **Output 1**: a vtkPolyData that shows where the surface is unclean, as vtkSurfaceDefects does
  * (which also works where there are no tets to be had).
  * **Output 2**: of EMBED, else empty: the surface's points and triangles as a vtkPolyData with the
@@ -35,7 +38,17 @@
  * - EMBED is a body-centred cubic lattice wherever it touches the surface or its inside: every
  *   point of the surface lies in a tet; dihedral angles are 60 and 90 degrees. Parts that are near
  *   but not connected inside share no point, even in one lattice cube.
- * - AUTO (default) tries CDT, then REMESH.
+ * - WRAP fills, as CDT does, a closed surface around the surface: CGAL's alpha wrap, by the helper
+ *   process. Winding numbers have no say, so it is for surfaces whose orientation is hopeless; flat
+ *   ones and loose triangles have a wrap, too. What is closed up to gaps of two WrapAlpha becomes
+ *   solid, and what is open becomes a **thin shell**: a warning names its volume and the winding
+ *   number's. The whole surface is in it or on its boundary; no point is kept.
+ * - FTETWILD runs the program fTetWild (https://github.com/wildmeshing/fTetWild), where its
+ *   executable FloatTetwild_bin or ftetwild is on PATH or named by the environment variable
+ *   BINDPOSE_FTETWILD. Its tets are well shaped and within FtetwildEpsilon of the surface; no point
+ *   is kept; WindingThreshold must be 0.5. Files go through a temporary folder, which is always
+ *   removed. Minutes are normal.
+ * - AUTO (default) tries CDT, then REMESH, and nothing else.
  *
  * Report: method, rungs[].{name, seconds, outcome} (all that was tried and why it was left),
  * counts.{vertices, triangles, duplicate_vertices, unreferenced_vertices, degenerate_triangles,
@@ -43,25 +56,29 @@
  * inward_components, self_intersections, turned_triangles, turned_components, triangulated_cells,
  * ignored_cells} of the input, counts.{tets, tet_vertices, kept_vertices, tets_below_5_degrees},
  * volume, winding_volume (exact for clean surfaces, sampled otherwise), min_dihedral_angle
- * (degrees), resolution (of the lattice), distance_max, distance_mean (REMESH by refinement: of
- * the tets' boundary and the surface, % of its diagonal), spacing, counts.{lattice_tets,
+ * (degrees), resolution (of the lattice), distance_max, distance_mean (REMESH by refinement,
+ * WRAP, FTETWILD: of the tets' boundary and the surface where that bounds the inside, % of its
+ * diagonal), counts.wrap_triangles (WRAP), spacing, counts.{lattice_tets,
  * duplicated_nodes, branching_facets, tet_components} (EMBED), segmentation, energy,
- * threshold_energy, counts.changed_by_cut (of the graph cut), quality[].{dihedral_angle, tets} (how
- * many tets have their smallest dihedral angle from this many degrees to the next),
- * winding_volume_error (standard error of sampling, relative), counts.{handle_points,
- * handle_vertices} and handles[].{name, vertex} (CDT with handles: the point's id, of a bone the
- * head's, -1 where it is no point of the mesh), seconds.*.
+ * threshold_energy, counts.changed_by_cut (of the graph cut), counts.tets_inside (KeepOutside),
+ * quality[].{dihedral_angle, tets} (how many tets have their smallest dihedral angle from this many
+ * degrees to the next), winding_volume_error (standard error of sampling, relative),
+ * counts.{handle_points, handle_vertices} and handles[].{name, vertex} (CDT, WRAP with handles: the
+ * point's id, of a bone the head's, -1 where it is no point of the mesh), seconds.*.
  *
  * Errors: invalid_input for a surface without 2D cells, with ids out of range or coordinates that
- * are not finite, for a flat one, and for one that encloses nothing or that neither CDT nor REMESH
- * can fill (the text names EMBED, which takes any); unavailable for CDT without the helper;
- * internal_error when the method asked for gave no valid mesh. Cost: 5k triangles 0.3 s, 90k
- * triangles 4 s when clean.
+ * are not finite, for a flat one and one that encloses nothing (but of EMBED and WRAP), and for one
+ * that neither CDT nor REMESH can fill (the text names EMBED, which takes any); unavailable for CDT
+ * and WRAP without the helper and for FTETWILD without fTetWild; internal_error when the method
+ * asked for gave no valid mesh. Cost: 5k triangles 0.3 s, 90k triangles 4 s when clean.
  *
  * @par Thanks:
  * Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding
  * Numbers", ACM Transactions on Graphics 32(4), 2013. Labelle, Shewchuk, "Isosurface Stuffing: Fast
  * Tetrahedral Meshes with Good Dihedral Angles", ACM Transactions on Graphics 26(3), 2007.
+ * Portaneri, Rouxel-Labbé, Hemmer, Cohen-Steiner, Alliez, "Alpha Wrapping with an Offset", ACM
+ * Transactions on Graphics 41(4), 2022. Hu, Schneider, Wang, Zorin, Panozzo, "Fast Tetrahedral
+ * Meshing in the Wild", ACM Transactions on Graphics 39(4), 2020.
  *
  * @sa vtkSurfaceDefects vtkWindingNumberField vtkBoundedBiharmonicWeights vtkDelaunay3D
  */
@@ -87,17 +104,21 @@ public:
     AUTO = 0,
     CDT = 1,
     REMESH = 2,
-    EMBED = 3
+    EMBED = 3,
+    WRAP = 4,
+    FTETWILD = 5
   };
 
   ///@{
-  /// AUTO (default), CDT, REMESH or EMBED.
-  vtkSetClampMacro(Method, int, AUTO, EMBED);
+  /// AUTO (default), CDT, REMESH, EMBED, WRAP or FTETWILD.
+  vtkSetClampMacro(Method, int, AUTO, FTETWILD);
   vtkGetMacro(Method, int);
   void SetMethodToAuto() { this->SetMethod(AUTO); }
   void SetMethodToCDT() { this->SetMethod(CDT); }
   void SetMethodToRemesh() { this->SetMethod(REMESH); }
   void SetMethodToEmbed() { this->SetMethod(EMBED); }
+  void SetMethodToWrap() { this->SetMethod(WRAP); }
+  void SetMethodToFtetwild() { this->SetMethod(FTETWILD); }
   ///@}
 
   ///@{
@@ -154,21 +175,21 @@ public:
   ///@}
 
   ///@{
-  /// Seconds that the helper process may take in all, above 0; default 120.
+  /// Seconds that the helper process, or fTetWild, may take in all, above 0; default 120.
   vtkSetMacro(TimeLimit, double);
   vtkGetMacro(TimeLimit, double);
   ///@}
 
   ///@{
-  /// MiB of address space that the helper process may take; 0 (default): no limit.
+  /// MiB of address space that the helper process, or fTetWild, may take; 0 (default): no limit.
   vtkSetClampMacro(MemoryLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(MemoryLimit, int);
   ///@}
 
   ///@{
   /**
-   * Largest ratio of circumradius to shortest edge of a tet that CDT adds points for: 1.1 (many
-   * points) to 10; default 1.414; 0 adds none for this reason.
+   * Largest ratio of circumradius to shortest edge of a tet that CDT and WRAP add points for: 1.1
+   * (many points) to 10; default 1.414; 0 adds none for this reason.
    */
   vtkSetMacro(Quality, double);
   vtkGetMacro(Quality, double);
@@ -176,11 +197,52 @@ public:
 
   ///@{
   /**
-   * Longest edges that CDT leaves inside, as a fraction of the surface's diagonal, 0 or more;
-   * default 0.04; 0: no bound. Smooth weights need points inside, not only on the surface.
+   * Longest edges that CDT and WRAP leave inside, as a fraction of the surface's diagonal, 0 or
+   * more; default 0.04; 0: no bound. Smooth weights need points inside, not only on the surface.
+   * FTETWILD aims at this length everywhere; 0: at its own 0.05.
    */
   vtkSetMacro(InteriorEdge, double);
   vtkGetMacro(InteriorEdge, double);
+  ///@}
+
+  ///@{
+  /**
+   * CDT only (INVALID_INPUT otherwise): keep all tets of the surface's convex hull, or of a box
+   * around it where that was needed, for inspection: those with `Label` above 0 are inside.
+   * `WindingNumber` is then what the segmentation decided on, and no points are added for Quality
+   * and InteriorEdge. Default off.
+   */
+  vtkSetMacro(KeepOutside, bool);
+  vtkGetMacro(KeepOutside, bool);
+  vtkBooleanMacro(KeepOutside, bool);
+  ///@}
+
+  ///@{
+  /**
+   * Radius of the ball that carves the wrap of WRAP from outside, as a fraction of the surface's
+   * diagonal, 0.0001 to 1; default 0.02. Gaps narrower than twice this are closed; edges are up to
+   * about twice as long; triangles and seconds grow with 1 over its square.
+   */
+  vtkSetMacro(WrapAlpha, double);
+  vtkGetMacro(WrapAlpha, double);
+  ///@}
+
+  ///@{
+  /**
+   * How far outside of the surface the wrap's points lie, as a fraction of the diagonal, 0.000001
+   * to 1; default 0.001. Half of the thickness of what a sheet becomes.
+   */
+  vtkSetMacro(WrapOffset, double);
+  vtkGetMacro(WrapOffset, double);
+  ///@}
+
+  ///@{
+  /**
+   * How far the boundary of FTETWILD may be from the surface, as a fraction of its diagonal,
+   * 0.00001 to 0.1; default 0.001. Smaller ones take longer.
+   */
+  vtkSetMacro(FtetwildEpsilon, double);
+  vtkGetMacro(FtetwildEpsilon, double);
   ///@}
 
 protected:
@@ -206,6 +268,10 @@ private:
   int MemoryLimit = 0;
   double Quality = 1.414;
   double InteriorEdge = 0.04;
+  bool KeepOutside = false;
+  double WrapAlpha = 0.02;
+  double WrapOffset = 0.001;
+  double FtetwildEpsilon = 0.001;
 };
 
 #endif

@@ -26,7 +26,8 @@ except ModuleNotFoundError as error:
         sys.exit(f"{sys.executable} has no {error.name}; take the Python that VTK was built for, often /usr/bin/python3")
     sys.exit(f"there is no package bindpose in {BUILD}; run examples/quickstart.sh first, or set PYTHONPATH")
 import quickstart  # noqa: E402  the demo meshes
-from vtkmodules.vtkIOImage import vtkPNGWriter  # noqa: E402
+from vtkmodules.vtkFiltersCore import vtkImageAppend  # noqa: E402
+from vtkmodules.vtkIOImage import vtkPNGReader, vtkPNGWriter  # noqa: E402
 from vtkmodules.vtkRenderingCore import vtkWindowToImageFilter  # noqa: E402
 
 
@@ -43,9 +44,9 @@ def program():
     return found
 
 
-def render(options, *words):
-    """Draws `options.picture` by `bindpose render`, from files in `options.scratch`."""
-    words = ["render", *map(str, words), "-o", str(options.picture), "--overwrite", "--quiet"]
+def render(options, *words, picture=None):
+    """Draws `options.picture`, or another one, by `bindpose render`, from files in `options.scratch`."""
+    words = ["render", *map(str, words), "-o", str(picture or options.picture), "--overwrite", "--quiet"]
     done = subprocess.run([program(), *words], cwd=options.scratch, stderr=subprocess.PIPE, text=True, check=False)
     if done.returncode:
         raise Stop(done.stderr.strip() or f"bindpose render ended with exit code {done.returncode}")
@@ -63,6 +64,26 @@ def write_picture(window, path):
     writer.Write()
     if writer.GetErrorCode():
         raise OSError(f"cannot write {path}")
+
+
+def side_by_side(options, pictures, columns):
+    """Pictures of equal size, row by row, as `options.picture`."""
+    rows = vtkImageAppend()
+    rows.SetAppendAxis(1)
+    for first in reversed(range(0, len(pictures), columns)):  # images begin below
+        row = vtkImageAppend()
+        row.SetAppendAxis(0)
+        for picture in pictures[first:first + columns]:
+            reader = vtkPNGReader()
+            reader.SetFileName(str(picture))
+            row.AddInputConnection(reader.GetOutputPort())
+        rows.AddInputConnection(row.GetOutputPort())
+    writer = vtkPNGWriter()
+    writer.SetFileName(str(options.picture))
+    writer.SetInputConnection(rows.GetOutputPort())
+    writer.Write()
+    if writer.GetErrorCode():
+        raise OSError(f"cannot write {options.picture}")
 
 
 def demo_mesh(options, name):

@@ -92,6 +92,14 @@ def triangles_of(surface):
     return vertices, np.array(vtk_to_numpy(surface.GetPolys().GetConnectivityArray())).reshape(-1, 3)
 
 
+def tet_volumes(tets):
+    """Of a vtkUnstructuredGrid of tets, #T, in its own order."""
+    from bindpose.meshes import points_of, tets_of
+
+    a, b, c, d = np.moveaxis(points_of(tets)[tets_of(tets)], 1, 0)
+    return np.einsum("ij,ij->i", b - a, np.cross(c - a, d - a)) / 6
+
+
 def plain_winding_number(mesh, points):
     """The definition: the sum of all triangles' signed solid angles / 4 pi, at #P points (Van Oosterom and
     Strackee, 1983). The yardstick that the package's numbers are held against."""

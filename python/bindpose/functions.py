@@ -33,7 +33,8 @@ from .running import report as report_of
 from .running import run
 
 _WINDING = {"auto": "AUTO", "exact": "EXACT", "fast": "FAST"}
-_TETRAHEDRALIZE = {"auto": "AUTO", "cdt": "CDT", "remesh": "REMESH", "embed": "EMBED"}
+_TETRAHEDRALIZE = {"auto": "AUTO", "cdt": "CDT", "remesh": "REMESH", "embed": "EMBED", "wrap": "WRAP",
+                   "ftetwild": "FTETWILD"}
 _SEGMENTATION = {"graph-cut": "GRAPH_CUT", "threshold": "THRESHOLD"}
 _SKINNING = {"lbs": "LINEAR_BLEND", "dqs": "DUAL_QUATERNION"}
 
@@ -165,16 +166,19 @@ def contains(surface, points, *, winding_threshold=0.5, method="auto", tolerance
 
 
 def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentation="graph-cut", cut_smoothness=1.0,
-                   cut_sigma=0.1, quality=1.414, interior_edge=0.04, resolution=0, time_limit=120.0, memory_limit=0,
-                   handles=None, threads=0, progress=None):
+                   cut_sigma=0.1, quality=1.414, interior_edge=0.04, keep_outside=False, resolution=0, wrap_alpha=0.02,
+                   wrap_offset=0.001, ftetwild_epsilon=0.001, time_limit=120.0, memory_limit=0, handles=None, threads=0,
+                   progress=None):
     """Fill the inside of a surface, however unclean, with tets.
 
     Parameters
     ----------
     surface : vtkDataSet or (vertices, triangles)
-    method : {"auto", "cdt", "remesh", "embed"}
+    method : {"auto", "cdt", "remesh", "embed", "wrap", "ftetwild"}
         ``cdt`` keeps the surface's vertices, ``remesh`` follows the winding number, ``embed`` merely
-        holds the surface. ``auto`` tries cdt, then remesh; the report says which and why.
+        holds the surface. ``wrap`` fills a closed surface around it, a thin shell where the surface is
+        open, whatever the winding number. ``ftetwild`` runs the program fTetWild where it is installed.
+        ``auto`` tries cdt, then remesh, and nothing else; the report says which and why.
     winding_threshold : float
         Inside is where the winding number is at least this.
     segmentation : {"graph-cut", "threshold"}
@@ -184,15 +188,23 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
         Of the graph cut: weight of a small boundary, and the difference of winding numbers between neighbours
         that counts as surface.
     quality : float
-        Largest ratio of circumradius to shortest edge that cdt leaves inside, 1.1 to 10; 0 for any.
+        Largest ratio of circumradius to shortest edge that cdt and wrap leave inside, 1.1 to 10; 0 for any.
     interior_edge : float
-        Longest edges that cdt leaves inside, as a fraction of the surface's diagonal; 0 for any.
+        Longest edges that cdt and wrap leave inside, as a fraction of the surface's diagonal; 0 for any.
+        ftetwild aims at this length; 0 for its own 0.05.
+    keep_outside : bool
+        With cdt: all tets of the hull, for inspection; ``Label`` is above 0 where they are inside.
     handles : vtkPolyData, str or path-like, optional
-        Handle dataset or file. With cdt their points become points of the tets where they are inside, and bones
+        Handle dataset or file. With cdt and wrap their points become points of the tets where they are inside, and bones
         and cages get points along them.
     resolution : int
         Lattice cubes along the longest side for remesh and embed, 4 to 1000; 0 for 40 (remesh) or about 30,000
         tets (embed).
+    wrap_alpha, wrap_offset : float
+        Of wrap, as fractions of the diagonal: radius of the ball that carves it (gaps below twice this are
+        closed), and its distance from the surface.
+    ftetwild_epsilon : float
+        Of ftetwild: how far from the surface the tets may end, as a fraction of the diagonal.
     time_limit : float
         Seconds for the meshing process.
     memory_limit : int
@@ -203,15 +215,16 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
     Returns
     -------
     Tets or vtkUnstructuredGrid
-        Arrays for arrays; a dataset has the point array ``OriginalPointIds`` and the cell array
-        ``WindingNumber``.
+        Arrays for arrays; a dataset has the point array ``OriginalPointIds`` and the cell arrays
+        ``WindingNumber``, ``Label`` (1 inside, 2 inside though the winding number is below the
+        threshold, 0 outside, -1 outside though it is not below) and ``MinDihedralAngle`` (degrees).
 
     Raises
     ------
     InvalidInput
-        Not a surface, or one that encloses nothing.
+        Not a surface, or one that encloses nothing; `keep_outside` with another method than cdt.
     Unavailable
-        The meshing program is not there; the text names the packages.
+        The meshing program is not there; the text names the packages, or where to get it.
     """
     data = to_dataset(surface)
     filler = filters.vtkTetrahedralizeSurface()
@@ -225,7 +238,11 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
     filler.SetCutSigma(cut_sigma)
     filler.SetQuality(quality)
     filler.SetInteriorEdge(interior_edge)
+    filler.SetKeepOutside(bool(keep_outside))
     filler.SetResolution(int(resolution))
+    filler.SetWrapAlpha(wrap_alpha)
+    filler.SetWrapOffset(wrap_offset)
+    filler.SetFtetwildEpsilon(ftetwild_epsilon)
     filler.SetTimeLimit(time_limit)
     filler.SetMemoryLimit(memory_limit)
     filler.SetNumberOfThreads(threads)

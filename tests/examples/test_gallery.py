@@ -4,8 +4,8 @@ import pytest
 from running import EXAMPLES, is_refused, numbers_of, script
 
 GALLERY = EXAMPLES / "gallery"
-NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "cost_of_a_point", "cut_out_cartoon", "growth", "image_rectangle",
-         "jump_and_harmonic", "open_crossing_flipped"]
+NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "cost_of_a_point", "cut_out_cartoon",
+         "defect_classes", "growth", "hull_segmentation", "image_rectangle", "jump_and_harmonic", "open_crossing_flipped"]
 
 
 def test_open_crossing_flipped(tmp_path):
@@ -86,6 +86,30 @@ def test_cost_of_a_point(tmp_path):
     numbers = numbers_of("gallery/cost_of_a_point.py", tmp_path)
     assert numbers["largest error beyond what is allowed"] <= 0.0
     assert numbers["elephant 89k, grid 64³, exact: Y"] < 5 < numbers["elephant with holes 4k, scattered, 1e-3: Y"] * 5 < 500
+
+
+def test_defect_classes(tmp_path):
+    numbers = numbers_of("gallery/defect_classes.py", tmp_path)
+    # The house is known: a wall of 16 x 16 squares inside, a window of 4 x 4 squares, and a ring.
+    assert numbers["house: non-manifold edges"] == 4 * 16
+    assert numbers["house: boundary edges"] == 4 * 4
+    assert numbers["house: components"] == 2
+    assert numbers["house: self-intersections"] > 100 and numbers["mask and cone: self-intersections"] > 50
+    assert numbers["elephant: boundary edges"] > 1000
+    for name in ("mask and cone", "elephant", "house"):
+        assert numbers[f"{name}: tets"] > 1000
+        assert numbers[f"{name}: smallest volume of a tet"] > 0
+        assert numbers[f"{name}: volume / enclosed by the winding number"] == pytest.approx(1, abs=0.1)
+
+
+def test_hull_segmentation(tmp_path):
+    numbers = numbers_of("gallery/hull_segmentation.py", tmp_path)
+    assert 0 < numbers["tets kept"] < numbers["tets of the hull"]
+    assert numbers["volume kept"] < numbers["volume of the hull's tets"]
+    assert numbers["volume kept"] == pytest.approx(numbers["volume enclosed by the winding number"], rel=0.05)
+    assert numbers["energy of the graph cut"] <= numbers["energy of the threshold"]
+    assert numbers["energies, largest relative difference from their definition"] < 1e-6
+    assert numbers["tets that the cut has changed"] > 0
 
 
 def test_cut_out_cartoon(tmp_path):

@@ -2,6 +2,7 @@
 #include "TestFilter.h"
 
 #include "conversion.h"
+#include "inside/mesher_process.h"
 #include "report_field_data.h"
 #include "support/files.h"
 #include "support/meshes.h"
@@ -14,16 +15,19 @@
 #include "vtkCubeSource.h"
 #include "vtkDoubleArray.h"
 #include "vtkErrorCode.h"
+#include "vtkFieldData.h"
 #include "vtkIdTypeArray.h"
 #include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkStringArray.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <sstream>
@@ -88,6 +92,42 @@ TEST(TetrahedralizeSurface, ArraysAndReport)
   EXPECT_NE(report.find("rungs[].name"), nullptr);
 }
 
+TEST(TetrahedralizeSurface, EveryTetKnowsItsLabelAndAngle)
+{
+  const TriangleMesh sphere = test::sphere(2);
+  vtkNew<vtkTetrahedralizeSurface> filter;
+  filter->SetInputData(to_polydata(sphere.points, sphere.triangles));
+  for (const int method : { vtkTetrahedralizeSurface::REMESH, vtkTetrahedralizeSurface::EMBED })
+  {
+    filter->SetMethod(method);
+    filter->Update();
+    ASSERT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::OK) << filter->GetStatusMessage();
+    vtkUnstructuredGrid* grid = grid_of(filter);
+    const bool embed = method == vtkTetrahedralizeSurface::EMBED;
+    vtkDataArray* labels = grid->GetCellData()->GetArray("Label");
+    vtkDataArray* winding = grid->GetCellData()->GetArray("WindingNumber");
+    vtkDataArray* angles = grid->GetCellData()->GetArray("MinDihedralAngle");
+    ASSERT_TRUE(labels && winding && angles);
+    double smallest = 180.0;
+    for (vtkIdType t = 0; t < grid->GetNumberOfCells(); ++t)
+    {
+      const bool above = winding->GetComponent(t, 0) >= 0.5;
+      EXPECT_EQ(labels->GetComponent(t, 0), above ? 1 : embed ? 0 : 2);
+      smallest = std::min(smallest, angles->GetComponent(t, 0));
+    }
+    EXPECT_NEAR(smallest, read_report(filter->GetOutput()).number("min_dihedral_angle", -1), 1e-9);
+    auto* name = vtkStringArray::SafeDownCast(grid->GetFieldData()->GetAbstractArray("Method"));
+    ASSERT_NE(name, nullptr);
+    EXPECT_EQ(name->GetValue(0), embed ? "embed" : "remesh");
+  }
+  filter->KeepOutsideOn();
+  vtkNew<Listener> listener;
+  listener->listen(filter);
+  filter->Update();
+  EXPECT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::INVALID_INPUT);
+  EXPECT_THAT(filter->GetStatusMessage(), HasSubstr("cdt"));
+}
+
 TEST(TetrahedralizeSurface, PolygonsAndUnstructuredGridsAreSurfaces)
 {
   vtkNew<vtkCubeSource> cube; // quads, each with points of its own
@@ -123,6 +163,60 @@ TEST(TetrahedralizeSurface, LatticeMethods)
     vtkIdTypeArray::SafeDownCast(filter->GetOutput()->GetPointData()->GetArray("OriginalPointIds"));
   ASSERT_NE(ids, nullptr);
   EXPECT_EQ(ids->GetRange()[1], -1.0);
+}
+
+TEST(TetrahedralizeSurface, WrapHoldsASheet)
+{
+  if (find_mesher().empty())
+  {
+    GTEST_SKIP() << "bindpose-mesher is not built: libcgal-dev, libtet1.5-dev";
+  }
+  const TriangleMesh sheet = test::grid(3, 2);
+  vtkNew<vtkTetrahedralizeSurface> filter;
+  filter->SetInputData(to_polydata(sheet.points, sheet.triangles));
+  filter->SetMethodToWrap();
+  filter->SetWrapAlpha(0.1);
+  filter->SetWrapOffset(0.01);
+  filter->Update();
+  ASSERT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::OK) << filter->GetStatusMessage();
+  // Two offsets thick, and rounded at the rim.
+  const double diagonal = bounding_box(sheet.points).diagonal();
+  const double offset = 0.01 * diagonal;
+  const double area = surface_area(sheet.points, sheet.triangles);
+  EXPECT_GT(volume_of(grid_of(filter)), 1.8 * offset * area);
+  EXPECT_LT(
+    volume_of(grid_of(filter)), 2.0 * offset * area + 4.0 * diagonal * 4.0 * offset * offset);
+  const Report report = read_report(filter->GetOutput());
+  EXPECT_EQ(report.text("method"), "wrap");
+  EXPECT_GT(report.number("counts.wrap_triangles", 0), 0);
+  EXPECT_GE(report.number("distance_max", 0), 0.99);
+  auto* ids =
+    vtkIdTypeArray::SafeDownCast(filter->GetOutput()->GetPointData()->GetArray("OriginalPointIds"));
+  ASSERT_NE(ids, nullptr);
+  EXPECT_EQ(ids->GetRange()[1], -1.0);
+  filter->SetWrapOffset(-1.0);
+  vtkNew<Listener> listener;
+  listener->listen(filter);
+  filter->Update();
+  ASSERT_EQ(listener->errors.size(), 1u);
+  EXPECT_THAT(listener->errors[0], HasSubstr("wrap_offset"));
+}
+
+TEST(TetrahedralizeSurface, FtetwildIsSaidToBeMissing)
+{
+  ::setenv("BINDPOSE_FTETWILD", "/nowhere/ftetwild", 1);
+  const TriangleMesh cube = test::cube();
+  vtkNew<vtkTetrahedralizeSurface> filter;
+  vtkNew<Listener> listener;
+  listener->listen(filter);
+  filter->SetInputData(to_polydata(cube.points, cube.triangles));
+  filter->SetMethodToFtetwild();
+  filter->Update();
+  ::unsetenv("BINDPOSE_FTETWILD");
+  EXPECT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::UNAVAILABLE);
+  ASSERT_EQ(listener->errors.size(), 1u);
+  EXPECT_THAT(listener->errors[0], HasSubstr("/nowhere/ftetwild"));
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
 }
 
 TEST(TetrahedralizeSurface, EmbedBindsTheSurface)
@@ -284,13 +378,21 @@ TEST(TetrahedralizeSurface, HandlesArePartOfTheMesh)
   ASSERT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::OK);
   const Report report = read_report(filter->GetOutput());
   const auto vertices = std::get<std::vector<std::int64_t>>(*report.find("handles[].vertex"));
+  const auto names = std::get<std::vector<std::string>>(*report.find("handles[].name"));
   ASSERT_EQ(vertices.size(), 3u);
-  for (std::size_t h = 0; h < 2; ++h)
+  for (std::size_t h = 0; h < 3; ++h)
   {
+    const auto handle = std::find_if(
+      handles.begin(), handles.end(), [&](const Handle& one) { return one.name == names[h]; });
+    ASSERT_NE(handle, handles.end());
+    if (names[h] == "away")
+    {
+      EXPECT_EQ(vertices[h], -1);
+      continue;
+    }
     ASSERT_GE(vertices[h], 0);
-    EXPECT_EQ(Vec3(filter->GetOutput()->GetPoint(vertices[h])), handles[h].head);
+    EXPECT_EQ(Vec3(filter->GetOutput()->GetPoint(vertices[h])), handle->head);
   }
-  EXPECT_EQ(vertices[2], -1);
   // Weights on it split cells only for the one that lies outside.
   handles.pop_back();
   vtkNew<vtkBoundedBiharmonicWeights> weights;
@@ -305,9 +407,10 @@ TEST(TetrahedralizeSurface, PrintsItsParameters)
   vtkNew<vtkTetrahedralizeSurface> filter;
   std::ostringstream text;
   filter->Print(text);
-  for (const char* word : { "Method: auto", "WindingThreshold: 0.5", "Resolution: 0",
-         "Segmentation: graph-cut", "CutSmoothness: 1", "CutSigma: 0.1", "TimeLimit: 120",
-         "MemoryLimit: 0", "Quality: 1.414", "InteriorEdge: 0.04" })
+  for (const char* word :
+    { "Method: auto", "WindingThreshold: 0.5", "Resolution: 0", "Segmentation: graph-cut",
+      "CutSmoothness: 1", "CutSigma: 0.1", "TimeLimit: 120", "MemoryLimit: 0", "Quality: 1.414",
+      "InteriorEdge: 0.04", "WrapAlpha: 0.02", "WrapOffset: 0.001", "FtetwildEpsilon: 0.001" })
   {
     EXPECT_THAT(text.str(), HasSubstr(word));
   }

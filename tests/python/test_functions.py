@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import shapes
 from bindpose.meshes import add_point_array, is_tets, point_array, points_of, tets_of, to_dataset
+from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 
 PROGRAM = os.environ["BINDPOSE_PROGRAM"]
@@ -99,11 +100,42 @@ def test_tetrahedralize():
     assert is_tets(grid) and np.array_equal(tets_of(grid), tets) and np.array_equal(points_of(grid), vertices)
 
 
+def test_tets_of_the_hull():
+    two = np.vstack([BAR[0], np.asarray(BAR[0]) + [0.0, 0.0, 2.0]]), np.vstack([BAR[1], np.asarray(BAR[1]) + len(BAR[0])])
+    grid = bindpose.tetrahedralize(to_dataset(two), method="cdt", keep_outside=True)
+    labels = vtk_to_numpy(grid.GetCellData().GetArray("Label"))
+    a, b, c, d = np.moveaxis(points_of(grid)[tets_of(grid)], 1, 0)
+    volumes = np.einsum("ij,ij->i", b - a, np.cross(c - a, d - a)) / 6
+    assert volumes.sum() == pytest.approx(18) and volumes[labels > 0].sum() == pytest.approx(12)
+    assert set(labels) == {0, 1} and grid.GetFieldData().GetAbstractArray("Method").GetValue(0) == "cdt"
+    with pytest.raises(bindpose.InvalidInput, match="cdt"):
+        bindpose.tetrahedralize(BAR, keep_outside=True)
+
+
 def test_tetrahedralize_with_handles():
     handles = bindpose.handles(bones=BONES)
     vertices, _, _, report = bindpose.tetrahedralize(BAR, handles=handles)
     for handle in report["handles"]:
         assert (np.abs(points_of(handles) - vertices[handle["vertex"]]).max(axis=1) == 0).any()
+
+
+def test_tetrahedralize_around_a_sheet():
+    vertices, tets, original, report = bindpose.tetrahedralize(shapes.flat(), method="wrap", wrap_alpha=0.1,
+                                                               wrap_offset=0.01)
+    p = vertices[tets]
+    volume = np.einsum("ti,ti->t", np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), p[:, 3] - p[:, 0]) / 6
+    # A square of side 1, two offsets thick and rounded at the rim.
+    assert volume.min() > 0 and 1.8 * 0.01 * 2**0.5 < volume.sum() < 2.2 * 0.01 * 2**0.5
+    assert (original == -1).all() and report["method"] == "wrap"
+    assert any("thin shell" in warning for warning in report["warnings"])
+
+
+def test_ftetwild_is_named_where_it_is_missing(monkeypatch):
+    monkeypatch.setenv("BINDPOSE_FTETWILD", "/nowhere/ftetwild")
+    with pytest.raises(bindpose.Unavailable, match="/nowhere/ftetwild"):
+        bindpose.tetrahedralize(shapes.cube(), method="ftetwild")
+    with pytest.raises(bindpose.InvalidInput, match="ftetwild_epsilon"):
+        bindpose.tetrahedralize(shapes.cube(), method="ftetwild", ftetwild_epsilon=1)
 
 
 def test_weights_are_the_programs(tmp_path):

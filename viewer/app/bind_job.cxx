@@ -1,5 +1,4 @@
-// The kernels in a row, on copies, with one execution context: its progress goes to the window's
-// thread as queued signals, its cancel is an atomic flag.
+// The kernels in a row, on copies, with one execution context.
 #include "bind_job.h"
 
 #include "base/execution.h"
@@ -8,7 +7,7 @@
 #include "weights/monotone_weights.h"
 #include "weights/transfer.h"
 
-#include <QString>
+#include <memory>
 
 using namespace bindpose;
 
@@ -77,69 +76,33 @@ void run_bind(const BindInput& input, ExecutionContext& context, BindResult& res
 }
 } // namespace
 
-BindJob::BindJob(QObject* parent) : QObject(parent) {}
-
-BindJob::~BindJob()
+BindJob::BindJob(QObject* parent) : QObject(parent)
 {
-  this->cancel();
-  if (this->thread_.joinable())
-  {
-    this->thread_.join();
-  }
+  QObject::connect(&this->job_, &KernelJob::progress, this, &BindJob::progress);
 }
 
 void BindJob::start(BindInput input)
 {
-  if (this->running_)
+  if (this->is_running())
   {
     return;
   }
-  if (this->thread_.joinable())
-  {
-    this->thread_.join();
-  }
-  this->running_ = true;
-  this->cancel_ = false;
-  this->thread_ = std::thread(
-    [this, input = std::move(input)]
+  auto made = std::make_shared<BindResult>();
+  QObject::disconnect(&this->job_, &KernelJob::finished, this, nullptr);
+  QObject::connect(&this->job_, &KernelJob::finished, this,
+    [this, made]
     {
-      BindResult result;
-      ExecutionContext context(
-        [this](double fraction, const std::string& phase)
-        {
-          const QString name = QString::fromStdString(phase);
-          QMetaObject::invokeMethod(
-            this, [this, fraction, name] { Q_EMIT this->progress(fraction, name); },
-            Qt::QueuedConnection);
-        },
-        [this] { return this->cancel_.load(); });
-      try
+      this->result_ = { this->job_.status(), {} };
+      if (this->result_.status.code != StatusCode::cancelled)
       {
-        run_bind(input, context, result);
+        this->result_.weights = std::move(made->weights);
       }
-      catch (const std::exception& error)
-      {
-        result.status = Status::failure(StatusCode::internal_error, error.what());
-      }
-      result.status.report.merge(context.seconds());
-      result.status.report.set("seconds.total", context.elapsed_seconds());
-      QMetaObject::invokeMethod(
-        this,
-        [this, result]
-        {
-          this->result_ = result;
-          if (this->cancel_) // after its end, but before anybody has seen it
-          {
-            this->result_ = { Status::failure(StatusCode::cancelled, "cancelled"), {} };
-          }
-          this->running_ = false;
-          Q_EMIT this->finished();
-        },
-        Qt::QueuedConnection);
+      Q_EMIT this->finished();
     });
-}
-
-void BindJob::cancel()
-{
-  this->cancel_ = true;
+  this->job_.start(
+    [made, input = std::move(input)](ExecutionContext& context)
+    {
+      run_bind(input, context, *made);
+      return made->status;
+    });
 }

@@ -4,12 +4,10 @@
 #include "base/mesh.h"
 #include "base/status.h"
 #include "inside/handle_places.h"
+#include "kernel_job.h"
 #include "weights/handles.h"
 
 #include <QObject>
-
-#include <atomic>
-#include <thread>
 
 /// What a bind needs: copies, so that nothing is shared with the window while it runs.
 struct BindInput
@@ -36,12 +34,11 @@ class BindJob : public QObject
 
 public:
   explicit BindJob(QObject* parent = nullptr);
-  ~BindJob() override;
 
   void start(BindInput input);
   /// Ends the job soon; finished() still comes, with the status cancelled.
-  void cancel();
-  bool is_running() const { return this->running_; }
+  void cancel() { this->job_.cancel(); }
+  bool is_running() const { return this->job_.is_running(); }
   /// The last result; to be read after finished().
   const BindResult& result() const { return this->result_; }
 
@@ -51,10 +48,8 @@ Q_SIGNALS:
   void finished();
 
 private:
-  std::thread thread_;
-  std::atomic<bool> cancel_{ false };
-  bool running_ = false;
   BindResult result_;
+  KernelJob job_;
 };
 
 #endif

@@ -1,5 +1,6 @@
 #include "main_window.h"
 
+#include "inspection.h"
 #include "panel_column.h"
 #include "pose_history.h"
 #include "side_panel.h"
@@ -12,6 +13,7 @@
 #include "io/atomic_file.h"
 #include "pose/pose_file.h"
 #include "report_field_data.h"
+#include "scene/categories.h"
 #include "scene/curves.h"
 #include "scene/volume.h"
 
@@ -29,6 +31,7 @@
 #include "vtkMeshFileWriter.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 #include <fstream>
@@ -172,6 +175,12 @@ void MainWindow::make_layout()
   this->volume_view_ = new VolumeView(this->viewport_);
   this->panels_ = new PanelColumn(centre);
   this->panel_ = this->panels_->side();
+  this->inspection_ = new Inspection(this->viewport_, this->panels_->tet());
+  QObject::connect(
+    this->inspection_, &Inspection::surface_look_changed, this, &MainWindow::update_surface_look);
+  QObject::connect(this->inspection_, &Inspection::failed, this, &MainWindow::show_error);
+  QObject::connect(this->panels_, &PanelColumn::panel_shown, this->inspection_,
+    [this](int panel) { this->inspection_->set_active(panel == PanelColumn::tets); });
   rows->addWidget(this->viewport_, 1);
   columns->addLayout(rows, 1);
   columns->addWidget(this->panels_);
@@ -258,7 +267,8 @@ void MainWindow::make_menus()
         tr("<table cellspacing='6'>"
            "<tr><td><b>Drag a handle</b></td><td>moves it; a bone's tip turns the bone</td></tr>"
            "<tr><td><b>Esc</b> while dragging</td><td>takes the drag back</td></tr>"
-           "<tr><td><b>Drag a slice</b></td><td>moves it; its arrow, when free, turns it</td></tr>"
+           "<tr><td><b>Drag a slice or cut</b></td><td>moves it; its arrow, when free, turns "
+           "it</td></tr>"
            "<tr><td><b>Drag elsewhere</b></td><td>turns the view</td></tr>"
            "<tr><td><b>Shift-drag, wheel</b></td><td>moves the view, zooms</td></tr>"
            "<tr><td><b>1, 2, 3</b></td><td>linear blend, dual quaternions, "
@@ -319,6 +329,10 @@ bool MainWindow::open(const QString& path)
   {
     return this->set_volume(image, name);
   }
+  if (is_defect_data(read))
+  {
+    return refuse("these are defects of a surface; open the surface, whose panel Tets shows them");
+  }
   if (is_curve_data(read))
   {
     return this->set_curves(vtkPolyData::SafeDownCast(read));
@@ -344,6 +358,9 @@ bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name)
   this->rest_ = skin;
   this->shown_ = skin;
   this->viewport_->set_surface(skin);
+  TetInput tets;
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(mesh);
+  this->inspection_->set_surface(skin, grid && to_tets(grid, tets).ok() ? grid : nullptr);
   if (!this->has_curves_)
   {
     this->viewport_->set_curves(skin->GetNumberOfLines() > 0 ? skin.Get() : nullptr);
@@ -351,6 +368,10 @@ bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name)
   this->viewport_->reset_view();
   this->setWindowTitle(QString("%1 — Bindpose").arg(name));
   this->connect_weights();
+  if (this->inspection_->tet_view()->tets() && !this->handle_data_)
+  {
+    this->panels_->show_panel(PanelColumn::tets);
+  }
   return true;
 }
 
@@ -406,7 +427,8 @@ bool MainWindow::set_volume(vtkImageData* volume, const QString& name)
   this->panels_->volume()->set_values(lowest, highest);
   this->volume_view_->set_level(this->panels_->volume()->level());
   this->volume_view_->set_volume(volume, lowest, highest);
-  this->panels_->show_volume(true);
+  this->panels_->set_open(true, this->rest_ || this->handle_data_, this->rest_);
+  this->panels_->show_panel(PanelColumn::volume_slice);
   if (!this->rest_)
   {
     this->setWindowTitle(QString("%1 — Bindpose").arg(name));
@@ -449,7 +471,7 @@ void MainWindow::connect_volume()
   QObject::connect(panel, &VolumePanel::level_chosen, view, &VolumeView::set_level);
   QObject::connect(panel, &VolumePanel::cloud_wanted, view, &VolumeView::show_cloud);
   QObject::connect(
-    panel, &VolumePanel::surface_look_chosen, this->viewport_, &Viewport::set_surface_look);
+    panel, &VolumePanel::surface_look_chosen, this, &MainWindow::update_surface_look);
   QObject::connect(panel, &VolumePanel::close_wanted, this, &MainWindow::close_volume);
   const auto show_position = [panel, view]
   {
@@ -768,10 +790,9 @@ void MainWindow::update_panel()
       : this->rest_                         ? tr("Needs handles.")
                                             : tr("Needs a mesh."));
   const bool volume = this->volume_view_->volume();
-  this->panels_->set_open(volume, this->rest_ || this->handle_data_);
+  this->panels_->set_open(volume, this->rest_ || this->handle_data_, this->rest_);
   this->panels_->volume()->set_has_surface(this->rest_);
-  this->viewport_->set_surface_look(
-    volume ? this->panels_->volume()->surface_look() : Viewport::solid);
+  this->update_surface_look();
   const bool nothing = !this->rest_ && !this->handle_data_ && !volume && !this->has_curves_;
   this->empty_->setVisible(nothing);
   this->save_shape_->setEnabled(this->rest_);
@@ -780,6 +801,15 @@ void MainWindow::update_panel()
   this->bind_->setEnabled(ready && !binding);
   this->rest_pose_->setEnabled(bound);
   this->methods_->setEnabled(bound);
+}
+
+/// Tets take the surface's place, and defects shine through it; else a volume decides.
+void MainWindow::update_surface_look()
+{
+  const int look = this->inspection_->surface_look();
+  this->viewport_->set_surface_look(look == Viewport::solid && this->volume_view_->volume()
+      ? this->panels_->volume()->surface_look()
+      : look);
 }
 
 void MainWindow::show_column(int column)

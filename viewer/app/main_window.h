@@ -16,6 +16,7 @@ class QActionGroup;
 class QFrame;
 class QLabel;
 class QUndoStack;
+class Inspection;
 class PanelColumn;
 class SidePanel;
 class Viewport;
@@ -24,7 +25,8 @@ class vtkDataSet;
 class vtkImageData;
 
 /// The window of `bindpose view`: open a surface and handles, bind, drag; or open a volume of
-/// winding numbers, alone or along with a surface and its boundary curves, and inspect it.
+/// winding numbers, alone or along with a surface and its boundary curves, and inspect it. Of a
+/// surface the tets and defects can be looked at, of tets the inside.
 ///
 /// Three things are kept: the surface at rest (with or without weights), the handles (edited in
 /// place by the drag widget: pose arrays only), and the history of the pose. All else is derived.
@@ -60,6 +62,7 @@ public:
   SidePanel* panel() const { return this->panel_; }
   PanelColumn* panels() const { return this->panels_; }
   VolumeView* volume_view() const { return this->volume_view_; }
+  Inspection* inspection() const { return this->inspection_; }
   /// What is under the mouse on the slice, as the status bar shows it.
   QString reading() const;
   /// The sentence in the error bar; empty when it is hidden.
@@ -75,6 +78,7 @@ private:
   void show_error(const QString& sentence);
   void hide_error();
   void connect_volume();
+  void update_surface_look();
   void connect_weights();
   void bind_finished();
   void update_pose();
@@ -92,6 +96,7 @@ private:
 
   Viewport* viewport_ = nullptr;
   VolumeView* volume_view_ = nullptr;
+  Inspection* inspection_ = nullptr;
   PanelColumn* panels_ = nullptr;
   SidePanel* panel_ = nullptr; // one of them
   QFrame* error_bar_ = nullptr;

@@ -1,17 +1,21 @@
 #include "panel_column.h"
 
+#include "panel_parts.h"
 #include "side_panel.h"
+#include "tet_panel.h"
 #include "volume_panel.h"
 
 #include <QButtonGroup>
+#include <QFrame>
 #include <QHBoxLayout>
 #include <QPushButton>
-#include <QVariant>
+#include <QStyle>
 #include <QVBoxLayout>
+#include <QVariant>
 
 PanelColumn::PanelColumn(QWidget* parent)
   : QWidget(parent), choice_(new QFrame(this)), buttons_(new QButtonGroup(this)),
-    side_(new SidePanel(this)), volume_(new VolumePanel(this))
+    side_(new SidePanel(this)), tet_(new TetPanel(this)), volume_(new VolumePanel(this))
 {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -20,40 +24,64 @@ PanelColumn::PanelColumn(QWidget* parent)
   auto* row = new QHBoxLayout(this->choice_);
   row->setContentsMargins(16, 14, 16, 0);
   row->setSpacing(0);
-  const char* const names[] = { QT_TR_NOOP("Bind and pose"), QT_TR_NOOP("Volume") };
-  const char* const places[] = { "first", "last" };
-  for (int k = 0; k < 2; ++k)
+  const char* const names[] = { QT_TR_NOOP("Bind and pose"), QT_TR_NOOP("Tets"),
+    QT_TR_NOOP("Volume") };
+  for (int k = 0; k < 3; ++k)
   {
-    auto* segment = new QPushButton(tr(names[k]), this->choice_);
+    QPushButton* segment = button(tr(names[k]), this->choice_);
     segment->setObjectName("segment");
-    segment->setProperty("place", places[k]);
-    segment->setFocusPolicy(Qt::TabFocus);
     segment->setCheckable(true);
     this->buttons_->addButton(segment, k);
     row->addWidget(segment, 1);
   }
   column->addWidget(this->choice_);
-  column->addWidget(this->side_, 1);
-  column->addWidget(this->volume_, 1);
-  // Equally wide, so that the picture does not jump.
-  this->volume_->setFixedWidth(this->side_->sizeHint().width());
-  QObject::connect(this->buttons_, &QButtonGroup::idClicked, this,
-    [this](int which) { this->show_volume(which == 1); });
-  this->set_open(false, false);
+  for (QFrame* panel : { static_cast<QFrame*>(this->side_), static_cast<QFrame*>(this->tet_),
+         static_cast<QFrame*>(this->volume_) })
+  {
+    column->addWidget(panel, 1);
+    // Equally wide, so that the picture does not jump.
+    if (panel != this->side_)
+    {
+      panel->setFixedWidth(this->side_->sizeHint().width());
+    }
+  }
+  QObject::connect(this->buttons_, &QButtonGroup::idClicked, this, &PanelColumn::show_panel);
+  this->set_open(false, false, false);
 }
 
-void PanelColumn::set_open(bool volume, bool shape)
+void PanelColumn::set_open(bool volume, bool shape, bool surface)
 {
-  this->choice_->setVisible(volume && shape);
-  if (!volume)
+  const bool open[] = { shape, surface, volume };
+  this->choice_->setVisible(shape + surface + volume > 1);
+  const auto buttons = this->buttons_->buttons();
+  int last = -1;
+  for (int k = 0; k < 3; ++k)
   {
-    this->show_volume(false);
+    buttons[k]->setVisible(open[k]);
+    buttons[k]->setProperty("place", last < 0 ? "first" : "middle");
+    last = open[k] ? k : last;
+  }
+  if (last >= 0)
+  {
+    buttons[last]->setProperty("place", "last");
+  }
+  for (QAbstractButton* each : buttons)
+  {
+    each->style()->unpolish(each); // the style looks at the place again
+    each->style()->polish(each);
+  }
+  const int shown = this->buttons_->checkedId();
+  if (shown < 0 || !open[shown])
+  {
+    this->show_panel(volume && !shape ? volume_slice : bind_and_pose);
   }
 }
 
-void PanelColumn::show_volume(bool shown)
+void PanelColumn::show_panel(int panel)
 {
-  this->buttons_->button(shown ? 1 : 0)->setChecked(true);
-  this->volume_->setVisible(shown);
-  this->side_->setVisible(!shown);
+  this->buttons_->button(panel)->setChecked(true);
+  this->side_->setVisible(panel == bind_and_pose);
+  this->tet_->setVisible(panel == tets);
+  this->volume_->setVisible(panel == volume_slice);
+  Q_EMIT this->panel_shown(panel);
 }

@@ -6,10 +6,12 @@
 class QButtonGroup;
 class QFrame;
 class SidePanel;
+class TetPanel;
 class VolumePanel;
 
-/// The column right of the picture: the panel to bind and pose with, and, while a volume is open,
-/// the panel to inspect it with; buttons on top choose when there is work for both.
+/// The column right of the picture: the panel to bind and pose with, the panel to inspect tets and
+/// defects with, and, while a volume is open, the panel to inspect that with; buttons on top choose
+/// when there is work for several.
 class PanelColumn : public QWidget
 {
   Q_OBJECT
@@ -17,16 +19,28 @@ class PanelColumn : public QWidget
 public:
   explicit PanelColumn(QWidget* parent = nullptr);
 
+  enum Panel
+  {
+    bind_and_pose,
+    tets,
+    volume_slice
+  };
+
   SidePanel* side() const { return this->side_; }
+  TetPanel* tet() const { return this->tet_; }
   VolumePanel* volume() const { return this->volume_; }
   /// What is open decides what can be chosen.
-  void set_open(bool volume, bool shape);
-  void show_volume(bool shown);
+  void set_open(bool volume, bool shape, bool surface);
+  void show_panel(int panel);
+
+Q_SIGNALS:
+  void panel_shown(int panel);
 
 private:
   QFrame* choice_;
   QButtonGroup* buttons_;
   SidePanel* side_;
+  TetPanel* tet_;
   VolumePanel* volume_;
 };
 

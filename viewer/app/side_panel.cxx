@@ -1,5 +1,7 @@
 #include "side_panel.h"
 
+#include "panel_parts.h"
+
 #include <QButtonGroup>
 #include <QComboBox>
 #include <QHBoxLayout>
@@ -12,13 +14,6 @@
 
 namespace
 {
-QLabel* heading(const QString& text, QWidget* parent)
-{
-  auto* label = new QLabel(text, parent);
-  label->setObjectName("heading");
-  return label;
-}
-
 const char* const mode_names[] = { QT_TRANSLATE_NOOP("SidePanel", "full"),
   QT_TRANSLATE_NOOP("SidePanel", "position"), QT_TRANSLATE_NOOP("SidePanel", "free") };
 
@@ -29,40 +24,6 @@ QComboBox* combo(QWidget* parent)
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   box->setMinimumContentsLength(8);
   return box;
-}
-
-/// A button that the mouse presses without taking the keyboard to it.
-QPushButton* button(const QString& text, QWidget* parent)
-{
-  auto* result = new QPushButton(text, parent);
-  result->setFocusPolicy(Qt::TabFocus);
-  return result;
-}
-
-/// What a phase of the kernels does, in words.
-QString sentence_of(const QString& phase)
-{
-  static const struct
-  {
-    const char* phases;
-    const char* sentence;
-  } table[] = {
-    { "repair", QT_TRANSLATE_NOOP("SidePanel", "Looking at the surface") },
-    { "winding", QT_TRANSLATE_NOOP("SidePanel", "Finding the inside") },
-    { "tetrahedralize cdt refine tetgen label fill lattice sample cut cover check",
-      QT_TRANSLATE_NOOP("SidePanel", "Filling it with tets") },
-    { "insert", QT_TRANSLATE_NOOP("SidePanel", "Placing the handles") },
-    { "analyse guide weights", QT_TRANSLATE_NOOP("SidePanel", "Solving for the weights") },
-    { "transfer", QT_TRANSLATE_NOOP("SidePanel", "Taking the weights to the surface") },
-  };
-  for (const auto& row : table)
-  {
-    if (QString(row.phases).split(' ').contains(phase))
-    {
-      return SidePanel::tr(row.sentence);
-    }
-  }
-  return phase;
 }
 } // namespace
 

@@ -135,9 +135,13 @@ void Viewport::set_curves(vtkPolyData* curves)
   this->refresh();
 }
 
-void Viewport::show_winding_legend(bool shown)
+void Viewport::show_legend(LegendPlace place, const QString& name, const bindpose::ColourMap& map)
 {
-  this->winding_legend_ = shown;
+  this->legends_.erase(place);
+  if (!name.isEmpty())
+  {
+    this->legends_[place] = { name, map };
+  }
   this->draw_legend();
   this->refresh();
 }
@@ -178,10 +182,13 @@ void Viewport::draw_legend()
   const int font = static_cast<int>(13 * scale);
   bindpose::PixelBox box;
   box.x = static_cast<int>(20 * scale);
-  box.height = static_cast<int>(240 * scale);
   box.y = static_cast<int>(24 * scale);
   const auto add = [&](const bindpose::ColourMap& map, const QString& name)
   {
+    // A legend of words is as high as its lines.
+    box.height = map.texts.empty() && !map.ticks.empty()
+      ? static_cast<int>(240 * scale)
+      : static_cast<int>((2.5 + 1.7 * map.texts.size()) * font);
     box.width = bindpose::legend_width(map, name.toStdString(), font);
     bindpose::add_legend(this->legend_, map, name.toStdString(), box, font);
     box.x += box.width + 2 * font;
@@ -190,9 +197,9 @@ void Viewport::draw_legend()
   {
     add(bindpose::weight_map(), this->column_name_);
   }
-  if (this->winding_legend_)
+  for (const auto& [place, legend] : this->legends_)
   {
-    add(bindpose::winding_map(), tr("Winding number w"));
+    add(legend.second, legend.first);
   }
 }
 
@@ -249,6 +256,19 @@ void Viewport::reset_view()
   bindpose::fit_camera(this->renderer_->GetActiveCamera(), points, frame, view,
     static_cast<double>(this->width()) / this->height(), 0.12);
   this->renderer_->ResetCameraClippingRange();
+}
+
+void Viewport::ray_at(int x, int y, bindpose::Vec3& from, bindpose::Vec3& along) const
+{
+  const auto world = [&](double depth)
+  {
+    this->renderer_->SetDisplayPoint(x + 0.5, y + 0.5, depth);
+    this->renderer_->DisplayToWorld();
+    return bindpose::Vec3(
+      Eigen::Map<const Eigen::Vector4d>(this->renderer_->GetWorldPoint()).hnormalized());
+  };
+  from = world(0.0);
+  along = (world(1.0) - from).normalized();
 }
 
 void Viewport::set_handles(vtkPolyData* handles)

@@ -5,10 +5,12 @@
 #include <QVTKOpenGLNativeWidget.h>
 
 #include "base/mesh.h"
+#include "scene/colours.h"
 
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
 
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -51,8 +53,14 @@ public:
   void set_surface_look(int look);
   /// Lines, drawn as tubes; null: none.
   void set_curves(vtkPolyData* curves);
-  /// The winding number's colours beside the column's.
-  void show_winding_legend(bool shown);
+  /// Legends beside the column's, each in its place; with an empty name none.
+  enum LegendPlace
+  {
+    volume_legend,
+    tet_legend,
+    defect_legend
+  };
+  void show_legend(LegendPlace place, const QString& name, const bindpose::ColourMap& map = {});
   /// A box that reset_view() shows besides surface and curves; empty: none.
   void set_also_shown(const bindpose::Box& box);
   /// Looks at everything from the side that shows most of it.
@@ -63,6 +71,9 @@ public:
   bool save_picture(const QString& path);
 
   vtkHandleSetWidget* handle_widget() const { return this->handles_; }
+  /// The places that a pixel of VTK's (from the lower left) shows: from the near clipping plane on,
+  /// along a unit vector.
+  void ray_at(int x, int y, bindpose::Vec3& from, bindpose::Vec3& along) const;
   vtkRenderer* renderer() const { return this->renderer_; }
   vtkActor* surface_actor() const { return this->actor_; }
 
@@ -83,7 +94,7 @@ private:
   vtkSmartPointer<vtkPolyData> curve_data_;
   bindpose::Box also_shown_;
   QString column_name_;
-  bool winding_legend_ = false;
+  std::map<LegendPlace, std::pair<QString, bindpose::ColourMap>> legends_;
   int look_ = solid;
   bool refresh_pending_ = false;
   QTimer settle_; // after a drag

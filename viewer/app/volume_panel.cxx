@@ -1,29 +1,18 @@
 #include "volume_panel.h"
 
+#include "panel_parts.h"
 #include "value_row.h"
 #include "viewport.h"
 
 #include <QButtonGroup>
 #include <QCheckBox>
 #include <QComboBox>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QPushButton>
-#include <QVariant>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
 #include <algorithm>
-
-namespace
-{
-QLabel* heading(const QString& text, QWidget* parent)
-{
-  auto* label = new QLabel(text, parent);
-  label->setObjectName("heading");
-  return label;
-}
-} // namespace
 
 VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
 {
@@ -36,27 +25,7 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   this->slice_ = new QCheckBox(tr("Show the slice"), this);
   this->slice_->setChecked(true);
   column->addWidget(this->slice_);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(0);
-  this->orientations_ = new QButtonGroup(this);
-  const char* const names[] = { "X", "Y", "Z", QT_TR_NOOP("Free") };
-  const char* const tips[] = { QT_TR_NOOP("Perpendicular to the x axis"),
-    QT_TR_NOOP("Perpendicular to the y axis"), QT_TR_NOOP("Perpendicular to the z axis"),
-    QT_TR_NOOP("Turned by its arrow") };
-  const char* const places[] = { "first", "second", "middle", "last" };
-  for (int k = 0; k < 4; ++k)
-  {
-    auto* segment = new QPushButton(tr(names[k]), this);
-    segment->setObjectName("segment");
-    segment->setProperty("place", places[k]);
-    segment->setFocusPolicy(Qt::TabFocus);
-    segment->setCheckable(true);
-    segment->setToolTip(tr(tips[k]));
-    this->orientations_->addButton(segment, k);
-    row->addWidget(segment, 1);
-  }
-  this->orientations_->button(2)->setChecked(true);
-  column->addLayout(row);
+  this->orientations_ = add_orientations(column, this);
   this->position_ = new ValueRow(this);
   this->position_->setToolTip(tr("Where the slice lies along its normal; the mouse drags it, too"));
   column->addWidget(this->position_);
@@ -91,8 +60,7 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->surface_);
 
   column->addStretch(1);
-  auto* close = new QPushButton(tr("Close the volume"), this);
-  close->setFocusPolicy(Qt::TabFocus);
+  QPushButton* close = button(tr("Close the volume"), this);
   column->addWidget(close);
 
   QObject::connect(this->slice_, &QCheckBox::toggled, this,

@@ -30,7 +30,7 @@ public:
 
 Q_SIGNALS:
   void slice_wanted(bool shown);
-  void orientation_chosen(int orientation); ///< of VolumeView
+  void orientation_chosen(int orientation); ///< of PlaneHandle
   void position_chosen(double position);
   void isosurface_wanted(bool shown);
   void level_chosen(double level);

@@ -2,6 +2,7 @@
 #define volume_view_h
 
 #include "base/mesh.h"
+#include "plane_handle.h"
 
 #include "vtkImageData.h"
 #include "vtkNew.h"
@@ -12,8 +13,6 @@
 
 class Viewport;
 class vtkActor;
-class vtkImplicitPlaneRepresentation;
-class vtkImplicitPlaneWidget2;
 class vtkPolyDataMapper;
 class vtkVolume;
 
@@ -24,17 +23,7 @@ class VolumeView : public QObject
   Q_OBJECT
 
 public:
-  /// What the slice is perpendicular to: an axis, or whatever the user turns it to.
-  enum Orientation
-  {
-    x_axis = 0,
-    y_axis = 1,
-    z_axis = 2,
-    free_plane = 3
-  };
-
   explicit VolumeView(Viewport* viewport);
-  ~VolumeView() override;
 
   /// An image that bindpose::check_volume() accepts, with its smallest and largest value; null:
   /// none. Starts with a slice through the middle.
@@ -42,14 +31,14 @@ public:
   vtkImageData* volume() const { return this->image_; }
 
   void show_slice(bool shown);
-  void set_orientation(int orientation);
+  void set_orientation(int orientation); ///< of PlaneHandle
   /// Moves the slice along its normal to this place: its coordinate for an axis.
   void set_position(double position);
-  double position() const { return this->origin_.dot(this->normal_); }
+  double position() const { return this->plane_->position(); }
   /// Smallest and largest position at which the slice meets the volume.
-  std::pair<double, double> positions() const;
-  bindpose::Vec3 slice_origin() const { return this->origin_; }
-  bindpose::Vec3 slice_normal() const { return this->normal_; }
+  std::pair<double, double> positions() const { return this->plane_->positions(); }
+  bindpose::Vec3 slice_origin() const { return this->plane_->origin(); }
+  bindpose::Vec3 slice_normal() const { return this->plane_->normal(); }
 
   void show_isosurface(bool shown);
   void set_level(double level);
@@ -73,32 +62,22 @@ Q_SIGNALS:
   void area_changed(double area);
 
 private:
-  void place_widget();
-  void widget_caught();
-  void widget_moved();
-  void ray_at(int x, int y, bindpose::Vec3& from, bindpose::Vec3& along) const;
   void mouse_moved();
   void mouse_left();
   void update_slice();
   void update_isosurface();
-  bindpose::Vec3 center() const;
 
   Viewport* viewport_;
   vtkSmartPointer<vtkImageData> image_;
   double lowest_ = 0.0;
   double highest_ = 1.0;
 
-  vtkNew<vtkImplicitPlaneWidget2> widget_;
-  vtkNew<vtkImplicitPlaneRepresentation> plane_;
+  PlaneHandle* plane_;
   vtkNew<vtkPolyDataMapper> slice_mapper_;
   vtkNew<vtkActor> slice_actor_;
   vtkNew<vtkPolyDataMapper> contour_mapper_;
   vtkNew<vtkActor> contour_actor_; // where the slice is at 0.5
   bool slice_shown_ = true;
-  int orientation_ = z_axis;
-  bindpose::Vec3 grip_ = bindpose::Vec3::Zero(); // of the slice, where the mouse has caught it
-  bindpose::Vec3 origin_ = bindpose::Vec3::Zero();
-  bindpose::Vec3 normal_ = bindpose::Vec3::UnitZ();
 
   vtkNew<vtkPolyDataMapper> isosurface_mapper_;
   vtkNew<vtkActor> isosurface_actor_;

@@ -12,6 +12,7 @@
 #include "vtkOutputWindow.h"
 
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <iostream>
@@ -80,14 +81,14 @@ int main(int argc, char** argv)
   catch (const std::bad_alloc&)
   {
     session.fail(Status::failure(StatusCode::internal_error, "out of memory"));
-    // Without a normal end: OpenBLAS's threads ask for memory until they get some, and the end of
-    // the program would wait for them.
-    const int code = session.finish();
-    std::_Exit(code);
   }
   catch (const std::exception& error)
   {
     session.fail(Status::failure(StatusCode::internal_error, error.what()));
   }
-  return session.finish();
+  const int code = session.finish();
+  // No clean-up of libraries: OpenBLAS waits for ever for threads that found no memory (ulimit -v).
+  std::cout.flush();
+  std::fflush(nullptr);
+  std::_Exit(code);
 }

@@ -59,9 +59,10 @@ const std::vector<Verb>& verbs()
           "value of a .vdb file outside of the grid" } } },
     { "tetrahedralize", "fill the inside of a surface with tets",
       { surface,
-        { "--method", "METHOD", Kind::choice, "auto", "auto|cdt|remesh|embed",
+        { "--method", "METHOD", Kind::choice, "auto", "auto|cdt|remesh|embed|wrap|ftetwild",
           "cdt keeps the surface's vertices, remesh follows the winding number, embed merely holds "
-          "the surface; auto tries cdt, then remesh" },
+          "the surface, wrap fills a closed surface around it (a thin shell where it is open), "
+          "ftetwild runs fTetWild where it is installed; auto tries cdt, then remesh" },
         { "--winding-threshold", "NUMBER", Kind::number, "0.5", "",
           "inside is where the winding number is at least this" },
         { "--segmentation", "METHOD", Kind::choice, "graph-cut", "graph-cut|threshold",
@@ -71,17 +72,29 @@ const std::vector<Verb>& verbs()
         { "--cut-sigma", "NUMBER", Kind::number, "0.1", "",
           "difference of winding numbers between tets that counts as surface" },
         { "--quality", "RATIO", Kind::number, "1.414", "",
-          "largest circumradius to shortest edge that cdt leaves inside, 1.1 to 10; 0: any" },
+          "largest circumradius to shortest edge that cdt and wrap leave inside, 1.1 to 10; 0: "
+          "any" },
         { "--interior-edge", "FRACTION", Kind::number, "0.04", "",
-          "longest edges that cdt leaves inside, of the surface's diagonal; 0: any" },
+          "longest edges that cdt and wrap leave inside, and those that ftetwild aims at, of the "
+          "surface's diagonal; 0: any" },
+        { "--keep-outside", "", Kind::flag, "", "",
+          "with --method cdt: write all tets of the hull, to look at the array Label" },
         { "--handles", "HANDLES", Kind::text, "", "",
-          "handles, .tgf or .vtp: cdt makes their points points of the mesh, and puts points along "
+          "handles, .tgf or .vtp: cdt and wrap make their points points of the mesh, and put "
+          "points along "
           "bones and cages" },
         { "--resolution", "CUBES", Kind::integer, "0", "",
           "lattice cubes along the longest side (remesh, embed), 4 to 1000; 0: 40 for remesh, "
           "about "
           "30,000 tets for embed",
           false, false, 0 },
+        { "--wrap-alpha", "FRACTION", Kind::number, "0.02", "",
+          "of wrap: radius of the ball that carves it, of the surface's diagonal; gaps below twice "
+          "this are closed" },
+        { "--wrap-offset", "FRACTION", Kind::number, "0.001", "",
+          "of wrap: its distance from the surface, of the diagonal" },
+        { "--ftetwild-epsilon", "FRACTION", Kind::number, "0.001", "",
+          "of ftetwild: how far from the surface the tets may end, of the diagonal" },
         { "--time-limit", "SECONDS", Kind::number, "120", "", "for the meshing process" },
         { "--memory-limit", "MIB", Kind::integer, "0", "",
           "address space of the meshing process; 0: no limit", false, false, 0 },
@@ -128,6 +141,10 @@ const std::vector<Verb>& verbs()
       { { "FILE", "", Kind::text, "", "", "surfaces, tets, volumes; one tile each", true, true },
         { "-o,--output", "OUT", Kind::text, "", "", ".png", true },
         { "--array", "NAME", Kind::text, "", "", "colour by this array" },
+        { "--color", "WHAT", Kind::choice, "array", "array|winding-number|label|quality|rung",
+          "colour by --array, or tets by their winding number, by what the segmentation decided, "
+          "by "
+          "their smallest dihedral angle, or by the method that made them" },
         { "--component", "NAME", Kind::text, "", "", "component of the array, by name or number" },
         { "--handles", "HANDLES", Kind::text, "", "", "draw these handles, too" },
         { "--handle-names", "", Kind::flag, "", "", "write the name beside each handle" },
@@ -141,8 +158,13 @@ const std::vector<Verb>& verbs()
         { "--azimuth", "DEGREES", Kind::number, "0", "", "look from farther to the right" },
         { "--elevation", "DEGREES", Kind::number, "0", "", "look from higher up" },
         { "--zoom", "FACTOR", Kind::number, "1", "", "larger in the picture" },
-        { "--section", "FRACTION", Kind::number, "0.5", "",
-          "where tets are cut and volumes are sliced, from 0 (back) to 1 (front)" },
+        { "--section", "PLANE", Kind::text, "0.5", "",
+          "where tets are cut and volumes are sliced: from 0 (back) to 1 (front), x=0.2, or "
+          "NX,NY,NZ@X,Y,Z for a normal and a point; none: tets whole" },
+        { "--shrink", "SIZE", Kind::number, "1", "",
+          "draw each tet this large, of its own size, above 0 to 1, apart from the others" },
+        { "--defects", "", Kind::flag, "", "",
+          "show where surfaces are unclean, those of --context, too, with names and counts" },
         { "--isosurface", "LEVEL,…", Kind::text, "", "",
           "show volumes by the surfaces where the value is this, instead of by a slice" },
         { "--volume", "", Kind::flag, "", "",

@@ -6,11 +6,14 @@
 #include "cli/verbs.h"
 
 #include "io/text_scanner.h"
+#include "scene/categories.h"
 #include "scene/display.h"
 #include "scene/picture.h"
 
 #include "vtkDataSet.h"
+#include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkSurfaceDefects.h"
 
 #include <cstdlib>
 
@@ -92,6 +95,54 @@ bool parse_pair(const std::string& text, char separator, double& first, double& 
     parse_number(text.substr(at + 1), second);
 }
 
+bool parse_vector(const std::string& text, Vec3& vector)
+{
+  const std::vector<std::string> words = split_at_commas(text);
+  return words.size() == 3 && parse_number(words[0], vector[0]) &&
+    parse_number(words[1], vector[1]) && parse_number(words[2], vector[2]);
+}
+
+/// --section: a fraction, an axis' plane, a normal and a point, or none.
+bool read_section(Session& session, PictureOptions& options)
+{
+  const std::string text = session.arguments().text("section");
+  if (text == "none")
+  {
+    options.cut = false;
+    return true;
+  }
+  if (parse_number(text, options.section))
+  {
+    return true;
+  }
+  Plane plane;
+  const std::size_t at = text.find('@');
+  double place = 0.0;
+  if (text.size() > 2 && text[0] >= 'x' && text[0] <= 'z' && text[1] == '=' &&
+    parse_number(text.substr(2), place))
+  {
+    plane.normal = Vec3::Unit(text[0] - 'x');
+    plane.origin = place * plane.normal;
+  }
+  else if (at == std::string::npos || !parse_vector(text.substr(0, at), plane.normal) ||
+    !parse_vector(text.substr(at + 1), plane.origin))
+  {
+    return session.invalid("--section " + text +
+      ": expected is a number from 0 to 1, a plane as in x=0.2 or 1,0,0@0.2,0,0, or none");
+  }
+  options.section_plane = plane;
+  return true;
+}
+
+ColourBy colour_by(const std::string& word)
+{
+  return word == "winding-number" ? ColourBy::winding_number
+    : word == "label"             ? ColourBy::label
+    : word == "quality"           ? ColourBy::quality
+    : word == "rung"              ? ColourBy::rung
+                                  : ColourBy::array;
+}
+
 bool read_options(Session& session, PictureOptions& options)
 {
   const Arguments& arguments = session.arguments();
@@ -113,6 +164,13 @@ bool read_options(Session& session, PictureOptions& options)
   }
   options.array = arguments.text("array");
   options.component = arguments.text("component");
+  options.colour_by = colour_by(arguments.text("color"));
+  if (options.colour_by != ColourBy::array &&
+    (!options.array.empty() || !options.component.empty()))
+  {
+    return session.invalid(
+      "--color " + arguments.text("color") + " goes without --array and --component");
+  }
   if (options.array.empty() && !options.component.empty())
   {
     options.array = "Weights"; // the array whose components have names
@@ -134,12 +192,60 @@ bool read_options(Session& session, PictureOptions& options)
   options.title = arguments.text("title");
   options.edges = arguments.has("edges");
   options.handle_names = arguments.has("handle-names");
-  options.section = arguments.number("section");
+  options.shrink = arguments.number("shrink");
   options.view.up = arguments.text("up");
   options.view.azimuth = arguments.number("azimuth");
   options.view.elevation = arguments.number("elevation");
   options.view.zoom = arguments.number("zoom");
-  return true;
+  return read_section(session, options);
+}
+
+vtkSmartPointer<vtkPolyData> defects_of(Session& session, vtkDataSet* surface)
+{
+  vtkNew<vtkSurfaceDefects> defects;
+  defects->SetInputData(0, surface);
+  return session.run(defects, "defects", 0.0, 1.0, Merge::nothing)
+    ? vtkPolyData::SafeDownCast(defects->GetOutput())
+    : nullptr;
+}
+
+/// --defects: of every surface among the files and their context.
+bool add_defects(Session& session, std::vector<Tile>& tiles)
+{
+  bool any = false;
+  const auto is_surface = [](vtkDataSet* data)
+  {
+    auto* polydata = vtkPolyData::SafeDownCast(data);
+    return polydata && polydata->GetNumberOfPolys() + polydata->GetNumberOfStrips() > 0 &&
+      !is_defect_data(data);
+  };
+  std::vector<vtkSmartPointer<vtkDataSet>> found; // of the context, which all tiles share
+  for (const auto& data : tiles.front().context)
+  {
+    if (is_surface(data))
+    {
+      found.push_back(defects_of(session, data));
+      if (!found.back())
+      {
+        return false;
+      }
+    }
+  }
+  for (Tile& tile : tiles)
+  {
+    tile.context.insert(tile.context.end(), found.begin(), found.end());
+    if (is_surface(tile.data))
+    {
+      any = true;
+      tile.defects = defects_of(session, tile.data);
+      if (!tile.defects)
+      {
+        return false;
+      }
+    }
+  }
+  return any || !found.empty() ||
+    session.invalid("--defects: there is no surface; name it by --context SURFACE");
 }
 } // namespace
 
@@ -188,6 +294,10 @@ void run_render(Session& session)
     {
       tile.context.push_back(context);
     }
+  }
+  if (arguments.has("defects") && !add_defects(session, tiles))
+  {
+    return;
   }
   if (arguments.has("handles"))
   {

@@ -14,10 +14,12 @@ namespace
 {
 int method_of(const std::string& word)
 {
-  return word == "cdt" ? vtkTetrahedralizeSurface::CDT
-    : word == "remesh" ? vtkTetrahedralizeSurface::REMESH
-    : word == "embed"  ? vtkTetrahedralizeSurface::EMBED
-                       : vtkTetrahedralizeSurface::AUTO;
+  return word == "cdt"   ? vtkTetrahedralizeSurface::CDT
+    : word == "remesh"   ? vtkTetrahedralizeSurface::REMESH
+    : word == "embed"    ? vtkTetrahedralizeSurface::EMBED
+    : word == "wrap"     ? vtkTetrahedralizeSurface::WRAP
+    : word == "ftetwild" ? vtkTetrahedralizeSurface::FTETWILD
+                         : vtkTetrahedralizeSurface::AUTO;
 }
 } // namespace
 
@@ -54,7 +56,11 @@ void run_tetrahedralize(Session& session)
   tets->SetCutSigma(arguments.number("cut-sigma"));
   tets->SetQuality(arguments.number("quality"));
   tets->SetInteriorEdge(arguments.number("interior-edge"));
+  tets->SetKeepOutside(arguments.has("keep-outside"));
   tets->SetResolution(arguments.integer("resolution"));
+  tets->SetWrapAlpha(arguments.number("wrap-alpha"));
+  tets->SetWrapOffset(arguments.number("wrap-offset"));
+  tets->SetFtetwildEpsilon(arguments.number("ftetwild-epsilon"));
   tets->SetTimeLimit(arguments.number("time-limit"));
   tets->SetMemoryLimit(arguments.integer("memory-limit"));
   if (session.run(tets, "tetrahedralize", 0.0, 1.0, Merge::all))

@@ -2,11 +2,15 @@
 // over all of them, so that equal colours mean equal numbers across a picture.
 #include "scene/colouring.h"
 
+#include "conversion.h"
+#include "inside/tet_quality.h"
+
 #include "vtkCellData.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
 #include "vtkPolyData.h"
 
 #include <algorithm>
@@ -127,9 +131,151 @@ std::string component_words(vtkDataArray* array)
 
 } // namespace
 
+namespace
+{
+// Beyond a regular tet's smallest (and largest) dihedral angle no tet's smallest one can be.
+constexpr double regular_angle = 70.52877936550931;
+
+bool names_tets(ColourBy by)
+{
+  return by == ColourBy::label || by == ColourBy::quality || by == ColourBy::rung;
+}
+
+std::string word_of(ColourBy by)
+{
+  return by == ColourBy::label ? "label" : by == ColourBy::quality ? "quality" : "rung";
+}
+
+// Quality, labels and rungs: what tets have, whatever their arrays.
+vtkSmartPointer<vtkDoubleArray> tet_values(vtkDataSet* data, const Colouring& colouring)
+{
+  TetInput tets;
+  if (!data || !to_tets(data, tets).ok())
+  {
+    return nullptr;
+  }
+  const PointsView points = tets.points.view();
+  const Index count = tets.tets.view().rows();
+  auto values = vtkSmartPointer<vtkDoubleArray>::New();
+  values->SetName(colour_array_name);
+  values->SetNumberOfValues(count);
+  if (colouring.by == ColourBy::quality)
+  {
+    for (Index t = 0; t < count; ++t)
+    {
+      const auto tet = tets.tets.view().row(t);
+      values->SetValue(t,
+        min_dihedral_angle(
+          points.row(tet[0]), points.row(tet[1]), points.row(tet[2]), points.row(tet[3])));
+    }
+    return values;
+  }
+  const std::vector<double> shown = category_values(colouring.categories);
+  std::vector<Category> own = colouring.categories;
+  for (Category& category : own)
+  {
+    category.count = 0;
+  }
+  if (colouring.by == ColourBy::rung)
+  {
+    if (!count_rung(data, own).ok())
+    {
+      return nullptr;
+    }
+    const auto its = std::find_if(
+      own.begin(), own.end(), [](const Category& category) { return category.count > 0; });
+    values->Fill(shown[static_cast<std::size_t>(its - own.begin())]);
+    return values;
+  }
+  if (!count_labels(data, own).ok())
+  {
+    return nullptr;
+  }
+  vtkDataArray* labels = data->GetCellData()->GetArray("Label");
+  for (Index t = 0; t < count; ++t)
+  {
+    const auto its = std::find_if(own.begin(), own.end(),
+      [&](const Category& category) { return category.value == labels->GetComponent(t, 0); });
+    values->SetValue(t, shown[static_cast<std::size_t>(its - own.begin())]);
+  }
+  return values;
+}
+
+// For what only tets have: the map, from all tiles that hold tets.
+Status choose_tet_colouring(
+  const std::vector<Tile>& tiles, const PictureOptions& options, Colouring& colouring)
+{
+  const bool given = options.range[0] <= options.range[1];
+  if (given && colouring.by != ColourBy::quality)
+  {
+    return Status::invalid_input("colours by " + word_of(colouring.by) + " have no range");
+  }
+  if (colouring.by != ColourBy::quality)
+  {
+    colouring.categories = colouring.by == ColourBy::label ? label_categories() : rung_categories();
+  }
+  bool any = false;
+  for (const Tile& tile : tiles)
+  {
+    TetInput tets;
+    if (!vtkPointSet::SafeDownCast(tile.data) || !to_tets(tile.data, tets).ok())
+    {
+      continue;
+    }
+    any = true;
+    const Status status = colouring.by == ColourBy::label
+      ? count_labels(tile.data, colouring.categories)
+      : colouring.by == ColourBy::rung ? count_rung(tile.data, colouring.categories)
+                                       : Status();
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  if (!any)
+  {
+    return Status::invalid_input(
+      "only tets are coloured by " + word_of(colouring.by) + ", and there are none");
+  }
+  colouring.kind = Colouring::Kind::other;
+  if (colouring.by == ColourBy::quality)
+  {
+    colouring.map =
+      sequential_map(given ? options.range[0] : 0.0, given ? options.range[1] : regular_angle, 0);
+  }
+  else
+  {
+    colouring.map = category_map(colouring.categories);
+  }
+  return {};
+}
+} // namespace
+
+std::string Colouring::legend_name() const
+{
+  switch (this->by)
+  {
+    case ColourBy::label:
+      return "Label";
+    case ColourBy::quality:
+      return "Min. angle (°)";
+    case ColourBy::rung:
+      return "Method";
+    case ColourBy::array:
+    case ColourBy::winding_number:
+      break;
+  }
+  return this->component_name.empty() ? this->array : this->array + " " + this->component_name;
+}
+
 vtkSmartPointer<vtkDoubleArray> colour_values(
   vtkDataSet* data, const Colouring& colouring, bool& on_points)
 {
+  if (names_tets(colouring.by))
+  {
+    on_points = false;
+    return tet_values(data, colouring);
+  }
   const FoundArray found = find_array(data, colouring.array);
   const int component = found.array ? find_component(found.array, colouring.component) : -2;
   if (colouring.kind == Colouring::Kind::none || component == -2)
@@ -151,8 +297,22 @@ Status choose_colouring(
   const std::vector<Tile>& tiles, const PictureOptions& options, Colouring& colouring)
 {
   colouring = Colouring();
+  colouring.by = options.colour_by;
   colouring.array = options.array;
   colouring.component = options.component;
+  if (colouring.by != ColourBy::array)
+  {
+    if (!colouring.array.empty() || !colouring.component.empty())
+    {
+      return Status::invalid_input(
+        "colours come from an array or from what else is named, not from both");
+    }
+    if (names_tets(colouring.by))
+    {
+      return choose_tet_colouring(tiles, options, colouring);
+    }
+    colouring.array = "WindingNumber";
+  }
   for (const Tile& tile : tiles)
   {
     auto* image = vtkImageData::SafeDownCast(tile.data);

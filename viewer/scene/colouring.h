@@ -1,6 +1,7 @@
 #ifndef bindpose_scene_colouring_h
 #define bindpose_scene_colouring_h
 
+#include "scene/categories.h"
 #include "scene/colours.h"
 #include "scene/picture.h"
 
@@ -27,10 +28,14 @@ struct Colouring
     other
   };
   Kind kind = Kind::none;
+  ColourBy by = ColourBy::array;
   std::string array;
   std::string component; ///< as asked for
   std::string component_name; ///< as shown: name or number, empty for single numbers and lengths
   ColourMap map;
+  std::vector<Category> categories; ///< of labels and rungs
+
+  std::string legend_name() const;
 };
 
 /// Finds the array and component in the tiles and the range of their values.
@@ -38,7 +43,7 @@ Status choose_colouring(
   const std::vector<Tile>& tiles, const PictureOptions& options, Colouring& colouring);
 
 /// The shown number as an array of its own, on the same points or cells; null when the data lacks
-/// the array or its component.
+/// the array or its component, or what only tets have.
 vtkSmartPointer<vtkDoubleArray> colour_values(
   vtkDataSet* data, const Colouring& colouring, bool& on_points);
 

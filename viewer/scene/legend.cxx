@@ -48,6 +48,14 @@ double text_width(const std::string& text, int font_size)
   return 0.66 * font_size * static_cast<double>(text.size());
 }
 
+// Of words in plain letters: many letters are nearer to their mean width.
+double words_width(const std::string& text, int font_size)
+{
+  constexpr std::size_t many = 8;
+  return text.size() > many ? 0.54 * font_size * static_cast<double>(text.size())
+                            : text_width(text, font_size);
+}
+
 int bar_width(int font_size)
 {
   return static_cast<int>(1.1 * font_size);
@@ -119,7 +127,7 @@ int legend_width(const ColourMap& map, const std::string& name, int font_size)
   double ticks = 0.0;
   for (std::size_t i = 0; i < map.ticks.size(); ++i)
   {
-    ticks = std::max(ticks, text_width(tick_text(map, i), font_size));
+    ticks = std::max(ticks, words_width(tick_text(map, i), font_size));
   }
   const double bar = bar_width(font_size) + 0.6 * font_size + ticks;
   return static_cast<int>(std::ceil(std::max(bar, text_width(name, font_size))));
@@ -134,6 +142,12 @@ void add_legend(vtkRenderer* renderer, const ColourMap& map, const std::string& 
   const double left = box.x;
   const double right = box.x + bar_width(font_size);
   const double line = std::max(1.0, std::round(font_size / 14.0));
+  add_text(
+    renderer, name, left, box.y + box.height - 0.5 * font_size, font_size, TextAlign::left, true);
+  if (map.ticks.empty())
+  {
+    return; // nothing to tell but that
+  }
   FlatShapes shapes;
   shapes.add_box(left - line, bottom - line, right + line, top + line, palette::line);
   const int count = static_cast<int>(map.table->GetNumberOfTableValues());
@@ -154,8 +168,6 @@ void add_legend(vtkRenderer* renderer, const ColourMap& map, const std::string& 
     add_text(renderer, tick_text(map, i), right + 0.6 * font_size, y, font_size, TextAlign::left);
   }
   shapes.add_to(renderer);
-  add_text(
-    renderer, name, left, box.y + box.height - 0.5 * font_size, font_size, TextAlign::left, true);
 }
 
 } // namespace bindpose

@@ -29,7 +29,7 @@ void add_text(vtkRenderer* renderer, const std::string& text, double x, double y
   TextAlign align, bool bold = false);
 
 /// A vertical bar with the map's colours, its ticks right of it and the name above it, filling
-/// the box.
+/// the box; of a map without ticks the name only.
 void add_legend(vtkRenderer* renderer, const ColourMap& map, const std::string& name,
   const PixelBox& box, int font_size);
 

@@ -4,7 +4,9 @@
 #include "scene/picture.h"
 
 #include "base/number_text.h"
+#include "conversion.h"
 #include "io/atomic_file.h"
+#include "scene/categories.h"
 #include "scene/display.h"
 #include "scene/legend.h"
 #include "scene/tile_actors.h"
@@ -30,11 +32,18 @@ namespace bindpose
 {
 namespace
 {
+/// A colour map with the name above it.
+struct Legend
+{
+  ColourMap map;
+  std::string name;
+};
+
 struct Layout
 {
   std::vector<PixelBox> tiles; // of the window
   std::vector<PixelBox> label_boxes; // below each tile
-  PixelBox legend;
+  std::vector<PixelBox> legends; // right of the tiles, one below the other
   int font = 12; // window pixels
   double title_y = 0.0;
 };
@@ -56,6 +65,16 @@ Status check_options(const std::vector<Tile>& tiles, const PictureOptions& optio
   {
     return Status::invalid_input("the section lies between 0 and 1");
   }
+  if (options.section_plane &&
+    (!options.section_plane->origin.allFinite() || !options.section_plane->normal.allFinite() ||
+      options.section_plane->normal.norm() <= 0.0))
+  {
+    return Status::invalid_input("the plane of a section has a point and a normal");
+  }
+  if (!(options.shrink > 0.0 && options.shrink <= 1.0))
+  {
+    return Status::invalid_input("tets shrink to a size above 0 and up to 1");
+  }
   if (!in(options.view.zoom, 1e-3, 1e3))
   {
     return Status::invalid_input("the zoom lies between 0.001 and 1000");
@@ -76,7 +95,8 @@ Status check_options(const std::vector<Tile>& tiles, const PictureOptions& optio
   {
     for (const auto& data : tile.context)
     {
-      if (!data || data->GetNumberOfPoints() == 0 || vtkImageData::SafeDownCast(data))
+      const bool empty = data && data->GetNumberOfPoints() == 0 && !is_defect_data(data);
+      if (!data || empty || vtkImageData::SafeDownCast(data))
       {
         return Status::invalid_input("the context of a picture is a surface, tets or curves");
       }
@@ -109,6 +129,56 @@ Status check_options(const std::vector<Tile>& tiles, const PictureOptions& optio
     }
   }
   return Status();
+}
+
+bool has_tets(const Tile& tile)
+{
+  TetInput tets;
+  return vtkPointSet::SafeDownCast(tile.data) && to_tets(tile.data, tets).ok();
+}
+
+// Options that would do nothing.
+Status check_tets(const std::vector<Tile>& tiles, const PictureOptions& options)
+{
+  const bool tets = std::any_of(tiles.begin(), tiles.end(), has_tets);
+  if (options.shrink < 1.0 && !tets)
+  {
+    return Status::invalid_input("only tets shrink, and there are none");
+  }
+  const bool volumes = std::any_of(tiles.begin(), tiles.end(),
+    [](const Tile& tile) { return vtkImageData::SafeDownCast(tile.data) != nullptr; });
+  if (options.section_plane && !tets && !volumes)
+  {
+    return Status::invalid_input("only tets and volumes have a section, and there are none");
+  }
+  return {};
+}
+
+// All defects of the picture; those of a context stand in every tile and count once.
+std::vector<Category> all_defects(const std::vector<Tile>& tiles, bool& any)
+{
+  std::vector<Category> categories = defect_categories();
+  std::vector<vtkDataSet*> seen;
+  const auto add = [&](vtkDataSet* data)
+  {
+    if (is_defect_data(data) && std::find(seen.begin(), seen.end(), data) == seen.end())
+    {
+      seen.push_back(data);
+      count_defects(vtkPolyData::SafeDownCast(data), categories);
+    }
+  };
+  for (const Tile& tile : tiles)
+  {
+    add(tile.data);
+    any = any || tile.defects;
+    add(tile.defects);
+    for (const auto& data : tile.context)
+    {
+      add(data);
+    }
+  }
+  any = any || !seen.empty();
+  return categories;
 }
 
 // Whether what isosurfaces and a cloud are wanted of can give them; warns of levels that nothing
@@ -157,7 +227,8 @@ Status check_volumes(
 bool sorts_by_depth(const std::vector<Tile>& tiles, const PictureOptions& options)
 {
   return options.isosurfaces.size() > 1 ||
-    std::any_of(tiles.begin(), tiles.end(), [](const Tile& tile) { return !tile.context.empty(); });
+    std::any_of(tiles.begin(), tiles.end(),
+      [](const Tile& tile) { return !tile.context.empty() || tile.defects; });
 }
 
 // As many columns as make the tiles' shape most like the shapes' own.
@@ -189,8 +260,37 @@ ColourMap make_legend_map(const PictureOptions& options, const ColourMap& map)
                         : level_map(map, options.isosurfaces);
 }
 
+// Boxes at the right border, each as high as it needs, together in the middle.
+int place_legends(const std::vector<Legend>& legends, int width, int top, Layout& layout)
+{
+  const int margin = layout.font;
+  int right = width;
+  int height = 0;
+  for (const Legend& legend : legends)
+  {
+    PixelBox box;
+    box.width = legend_width(legend.map, legend.name, layout.font);
+    // A bar of fields is as long as their texts need.
+    const double fields = legend.map.texts.empty() ? 17.5 : 1.7 * legend.map.texts.size();
+    box.height = static_cast<int>(
+      std::min(0.62 * top / std::min<double>(legends.size(), 1.5), (2.5 + fields) * layout.font));
+    height += box.height + (height > 0 ? 2 * margin : 0);
+    right = std::min(right, width - margin - box.width - margin / 2);
+    layout.legends.push_back(box);
+  }
+  int y = (top + height) / 2;
+  for (PixelBox& box : layout.legends)
+  {
+    y -= box.height;
+    box.x = right + margin / 2;
+    box.y = y;
+    y -= 2 * margin;
+  }
+  return right;
+}
+
 Layout make_layout(const std::vector<Tile>& tiles, const PictureOptions& options,
-  const ColourMap* legend, const std::string& legend_name, double shape_aspect)
+  const std::vector<Legend>& legends, double shape_aspect)
 {
   const int scale = options.supersampling;
   const int width = options.width * scale;
@@ -199,24 +299,13 @@ Layout make_layout(const std::vector<Tile>& tiles, const PictureOptions& options
   layout.font = scale *
     std::clamp(
       static_cast<int>(std::lround(std::min(options.width, options.height) / 42.0)), 10, 40);
-  const int margin = layout.font;
   int top = height;
   if (!options.title.empty())
   {
     top -= static_cast<int>(2.6 * layout.font);
     layout.title_y = height - 1.5 * layout.font;
   }
-  int right = width;
-  if (legend)
-  {
-    layout.legend.width = legend_width(*legend, legend_name, layout.font);
-    // A bar of levels is as long as its texts need.
-    const double fields = legend->texts.empty() ? 17.5 : 1.7 * legend->texts.size();
-    layout.legend.height = static_cast<int>(std::min(0.62 * top, (2.5 + fields) * layout.font));
-    layout.legend.x = width - margin - layout.legend.width;
-    layout.legend.y = (top - layout.legend.height) / 2;
-    right = layout.legend.x - margin / 2;
-  }
+  const int right = place_legends(legends, width, top, layout);
   const int count = static_cast<int>(tiles.size());
   const int columns = options.columns > 0 ? std::min(options.columns, count)
                                           : choose_columns(count, right, top, shape_aspect);
@@ -324,6 +413,29 @@ Points all_points(const std::vector<Tile>& tiles, const PictureOptions& options,
 }
 } // namespace
 
+namespace
+{
+void report_categories(
+  const std::vector<Category>& categories, const std::string& key, Report& report)
+{
+  std::vector<std::string> names;
+  std::vector<std::int64_t> counts;
+  for (const Category& category : categories)
+  {
+    if (category.count > 0)
+    {
+      names.push_back(category.name);
+      counts.push_back(category.count);
+    }
+  }
+  if (!names.empty())
+  {
+    report.set(key + ".name", names);
+    report.set(key + ".count", counts);
+  }
+}
+} // namespace
+
 Eigen::Vector2d PictureGeometry::project(std::size_t tile, const Vec3& point) const
 {
   return (this->tiles.at(tile).world_to_pixel * point.homogeneous()).hnormalized().head<2>();
@@ -345,6 +457,11 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
   if (status.ok() && (options.volume || !options.isosurfaces.empty()))
   {
     status = check_volumes(tiles, options, colouring);
+  }
+  const Status useful = status.ok() ? check_tets(tiles, options) : Status();
+  if (!useful.ok())
+  {
+    return useful;
   }
   if (!status.ok())
   {
@@ -371,13 +488,19 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
   const double shape_aspect = std::clamp(
     (size[across] + 1e-9 * size.norm() + 1e-300) / (size[frame.up] + 1e-9 * size.norm() + 1e-300),
     0.2, 5.0);
-  const std::string legend_name = colouring.component_name.empty()
-    ? colouring.array
-    : colouring.array + " " + colouring.component_name;
-  const bool with_legend = options.legend && colouring.kind != Colouring::Kind::none;
-  const ColourMap legend = with_legend ? make_legend_map(options, colouring.map) : ColourMap();
-  const Layout layout =
-    make_layout(tiles, options, with_legend ? &legend : nullptr, legend_name, shape_aspect);
+  std::vector<Legend> legends;
+  if (options.legend && colouring.kind != Colouring::Kind::none)
+  {
+    legends.push_back({ make_legend_map(options, colouring.map), colouring.legend_name() });
+  }
+  bool with_defects = false;
+  const std::vector<Category> defects = all_defects(tiles, with_defects);
+  if (options.legend && with_defects)
+  {
+    legends.push_back({ category_map(defects), "Defects" });
+    legends.back().name = legends.back().map.texts.empty() ? "No defects" : "Defects";
+  }
+  const Layout layout = make_layout(tiles, options, legends, shape_aspect);
   const int scale = options.supersampling;
   const int width = options.width * scale;
   const int height = options.height * scale;
@@ -404,6 +527,7 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     palette::gradient_top[0], palette::gradient_top[1], palette::gradient_top[2]);
   window->AddRenderer(paper);
 
+  Index tets_shown = 0;
   vtkNew<vtkCamera> camera;
   const PixelBox& first = layout.tiles.front();
   fit_camera(camera, points, frame, options.view, static_cast<double>(first.width) / first.height);
@@ -418,7 +542,7 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     renderer->SetActiveCamera(camera);
     window->AddRenderer(renderer);
     add_lights(renderer);
-    const Status drawn = add_tile(renderer, tiles[i], options, colouring, frame, scale);
+    const Status drawn = add_tile(renderer, tiles[i], options, colouring, frame, scale, tets_shown);
     if (!drawn.ok())
     {
       return drawn;
@@ -448,9 +572,9 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     add_text(writing, tiles[i].label, box.x + 0.5 * box.width, box.y + 0.55 * box.height,
       layout.font, TextAlign::center);
   }
-  if (layout.legend.width > 0)
+  for (std::size_t i = 0; i < legends.size(); ++i)
   {
-    add_legend(writing, legend, legend_name, layout.legend, layout.font);
+    add_legend(writing, legends[i].map, legends[i].name, layout.legends[i], layout.font);
   }
 
   window->Render();
@@ -465,9 +589,16 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
   status.report.set("picture.width", options.width);
   status.report.set("picture.height", options.height);
   status.report.set("picture.tiles", static_cast<int>(tiles.size()));
-  if (colouring.kind != Colouring::Kind::none)
+  if (tets_shown > 0)
   {
-    status.report.set("picture.array", Report::Value(colouring.array));
+    status.report.set("picture.tets", tets_shown);
+  }
+  report_categories(colouring.categories, "picture.colours[]", status.report);
+  report_categories(defects, "picture.defects[]", status.report);
+  if (colouring.kind != Colouring::Kind::none && colouring.categories.empty())
+  {
+    status.report.set("picture.array",
+      Report::Value(colouring.by == ColourBy::quality ? std::string("quality") : colouring.array));
     if (!colouring.component_name.empty())
     {
       status.report.set("picture.component", Report::Value(colouring.component_name));

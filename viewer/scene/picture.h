@@ -8,6 +8,7 @@
 #include "vtkSmartPointer.h"
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,7 +22,8 @@ namespace bindpose
 /// One dataset of a picture. How it is drawn follows from what it is:
 /// - surface: smooth shaded, sharp edges kept; arrays as colours; weights in bands with isolines;
 /// - tets: cut open along the middle, whole tets kept ("crinkle cut"), the laid-open sides in
-///   another colour with edges; arrays as colours on all sides;
+///   another colour with edges, or all tets shrunk; arrays as colours on all sides;
+/// - defects (what vtkSurfaceDefects gives): each kind in its colour, with a legend;
 /// - image volume: one slice through the middle; a winding number also shows where it is 0.5; or,
 ///   asked for, isosurfaces or the volume as a cloud instead of the slice;
 /// - handles (a polydata with HandleKind or HandleName): drawn over everything else;
@@ -34,6 +36,25 @@ struct Tile
   std::string label; ///< below the tile; may be empty
   /// Drawn along, uncoloured: surfaces and skins see-through, curves as tubes.
   std::vector<vtkSmartPointer<vtkDataSet>> context{};
+  /// Of vtkSurfaceDefects, drawn over a surface, which is then see-through; may be null.
+  vtkSmartPointer<vtkPolyData> defects{};
+};
+
+/// What gives the colours.
+enum class ColourBy
+{
+  array, ///< the array of that name
+  winding_number, ///< the array WindingNumber
+  label, ///< tets: the decision in the cell array Label
+  quality, ///< tets: the smallest dihedral angle, degrees
+  rung ///< tets: the method that made them, by the field data Method
+};
+
+/// A plane in space.
+struct Plane
+{
+  Vec3 origin = Vec3::Zero();
+  Vec3 normal = Vec3::UnitZ(); ///< any length above 0
 };
 
 enum class Background
@@ -50,11 +71,12 @@ struct PictureOptions
   /// Point or cell array that gives the colours. Empty: none, but for an image volume
   /// WindingNumber or else its first array.
   std::string array;
+  ColourBy colour_by = ColourBy::array; ///< others than array want `array` to be empty
   /// Name or number of the array's component. Empty: the first of Weights, the length of a
   /// 3-vector, the first of others.
   std::string component;
   /// Values at the ends of the colours; lower > upper: from the data of all tiles (weights 0 to 1,
-  /// winding numbers -1 to 2 whatever the data).
+  /// winding numbers -1 to 2, quality 0 to a regular tet's 70.5 whatever the data).
   std::array<double, 2> range = { 0.0, -1.0 };
   View view;
   Background background = Background::white;
@@ -66,7 +88,11 @@ struct PictureOptions
   bool handle_names = false; ///< beside each handle
   bool cut = true; ///< tets: lay the inside open; else only the outside is seen
   /// Where cuts and slices lie along the view's depth axis: 0 at its lower end, 1 at its upper.
+  /// What lies towards the camera is taken away.
   double section = 0.5;
+  /// Cuts and slices by this plane instead.
+  std::optional<Plane> section_plane;
+  double shrink = 1.0; ///< size of each tet, of its own, in (0, 1]; below 1 they stand apart
   /// Levels whose isosurfaces image volumes show instead of a slice, each in the map's colour.
   /// Those with no other inside (the highest; the lowest when below 0) are solid, the others
   /// see-through.
@@ -96,16 +122,17 @@ struct PictureGeometry
 /// unsigned char RGB, or RGBA for a transparent background (not premultiplied).
 /// invalid_input, one sentence, for: no tile or an empty one, an array or component that no tile
 /// has (naming those there are), options out of range, isosurfaces or a cloud of what
-/// check_volume() refuses. Warns of levels that are not reached. unavailable when there is no
-/// display.
+/// check_volume() refuses, a section that leaves no tet, colours of tets where there are none.
+/// Warns of levels that are not reached. unavailable when there is no display.
 /// The same input gives the same picture on the same machine and driver.
 Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& options,
   vtkSmartPointer<vtkImageData>& image, PictureGeometry* geometry = nullptr);
 
 /// The same into a PNG file, whole or not at all. invalid_input also when the file is there and
 /// may not be overwritten, or cannot be written. Report: picture.width, picture.height,
-/// picture.tiles, picture.array, picture.component, picture.range, picture.isosurfaces where they
-/// apply.
+/// picture.tiles, picture.array, picture.component, picture.range, picture.isosurfaces,
+/// picture.tets (drawn), picture.colours[].name and .count (labels, rungs), picture.defects[].name
+/// and .count where they apply.
 Status render_to_png(const std::vector<Tile>& tiles, const PictureOptions& options,
   const std::string& path, bool overwrite = false);
 

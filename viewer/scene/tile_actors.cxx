@@ -5,7 +5,9 @@
 
 #include "conversion.h"
 #include "scene/curves.h"
+#include "scene/defect_actors.h"
 #include "scene/shaded_surface.h"
+#include "scene/tet_cut.h"
 #include "scene/volume.h"
 #include "scene/volume_rendering.h"
 #include "vtkHandleSetRepresentation.h"
@@ -35,7 +37,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace bindpose
 {
@@ -166,13 +167,13 @@ void use_edges(vtkActor* actor, const Rgb& colour, double width)
   actor->GetProperty()->SetLineWidth(static_cast<float>(width));
 }
 
-void add_surface(vtkRenderer* renderer, vtkPolyData* surface, const PictureOptions& options,
-  const Colouring& colouring, double scale)
+vtkSmartPointer<vtkActor> add_surface(vtkRenderer* renderer, vtkPolyData* surface,
+  const PictureOptions& options, const Colouring& colouring, double scale)
 {
   const ShadedSurface shaded(surface);
   if (shaded.polydata()->GetNumberOfPolys() == 0)
   {
-    return;
+    return nullptr;
   }
   const auto actor = add_actor(renderer, shaded.polydata(), colouring);
   push_back(actor);
@@ -192,6 +193,7 @@ void add_surface(vtkRenderer* renderer, vtkPolyData* surface, const PictureOptio
     }
     add_contours(renderer, shaded.polydata(), levels, 1.2 * scale, palette::line);
   }
+  return actor;
 }
 
 void add_flat(vtkRenderer* renderer, vtkPolyData* faces, const Colouring& colouring, double scale)
@@ -207,39 +209,20 @@ void add_flat(vtkRenderer* renderer, vtkPolyData* faces, const Colouring& colour
   use_edges(actor, palette::cut_edges, 0.7 * scale);
 }
 
-// ---- Tets --------------------------------------------------------------------------------------
-
-// Tets with their middle on the far side of the section; all when the cut is off. The near side
-// is the one that the camera of the default view is on.
-std::vector<Index> kept_tets(
-  PointsView points, TetsView tets, const PictureOptions& options, const Frame& frame)
+// The plane of cuts and slices.
+Plane section_of(const Box& box, const PictureOptions& options, const Frame& frame)
 {
-  const Box box = bounding_box(points);
-  const double at =
-    box.lower[frame.depth] + options.section * (box.upper[frame.depth] - box.lower[frame.depth]);
-  const double side = view_direction(frame, View())[frame.depth] > 0.0 ? 1.0 : -1.0;
-  std::vector<Index> kept;
-  for (Index t = 0; t < tets.rows(); ++t)
+  if (options.section_plane)
   {
-    double middle = 0.0;
-    for (int k = 0; k < 4; ++k)
-    {
-      middle += 0.25 * points(tets(t, k), frame.depth);
-    }
-    if (!options.cut || side * (middle - at) <= 0.0)
-    {
-      kept.push_back(t);
-    }
+    return *options.section_plane;
   }
-  return kept;
+  Plane plane;
+  plane.origin = box.lower + options.section * box.size();
+  plane.normal = Vec3::Unit(frame.depth);
+  return plane;
 }
 
-std::array<Index, 3> face_key(const Eigen::Ref<const Eigen::Matrix<Index, 1, 3>>& face)
-{
-  std::array<Index, 3> key{ face[0], face[1], face[2] };
-  std::sort(key.begin(), key.end());
-  return key;
-}
+// ---- Tets --------------------------------------------------------------------------------------
 
 // Faces with the grid's points and the shown number; for a number per tet, owners say whose.
 vtkSmartPointer<vtkPolyData> face_polydata(
@@ -262,83 +245,94 @@ vtkSmartPointer<vtkPolyData> face_polydata(
   return data;
 }
 
-void add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& input,
-  const PictureOptions& options, const Colouring& colouring, const Frame& frame, double scale)
+void add_shrunk(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& input,
+  const std::vector<char>& kept, double factor, const Colouring& colouring, double scale)
 {
-  const TetsView tets = input.tets.view();
-  const std::vector<Index> kept = kept_tets(input.points.view(), tets, options, frame);
-  const Triangles outside = boundary_triangles(tets);
-  std::set<std::array<Index, 3>> outside_keys;
-  for (Index f = 0; f < outside.rows(); ++f)
+  const ShrunkTets shrunk = shrink_tets(input.points.view(), input.tets.view(), kept, factor);
+  const auto data = face_polydata(grid, shrunk.triangles, shrunk.tets);
+  data->SetPoints(to_vtk_points(shrunk.points));
+  data->GetPointData()->Initialize();
+  if (auto* point_values =
+        vtkDoubleArray::SafeDownCast(grid->GetPointData()->GetArray(colour_array_name)))
   {
-    outside_keys.insert(face_key(outside.row(f)));
-  }
-  Tets kept_cells(static_cast<Index>(kept.size()), 4);
-  std::vector<std::pair<std::array<Index, 3>, Index>> owner_of_face;
-  constexpr int corners[4][3] = { { 0, 1, 2 }, { 0, 1, 3 }, { 0, 2, 3 }, { 1, 2, 3 } };
-  for (Index i = 0; i < kept_cells.rows(); ++i)
-  {
-    kept_cells.row(i) = tets.row(kept[i]);
-    for (const auto& corner : corners)
+    vtkNew<vtkDoubleArray> values;
+    values->SetName(colour_array_name);
+    for (const Index vertex : shrunk.vertices)
     {
-      const Eigen::Matrix<Index, 1, 3> face(
-        kept_cells(i, corner[0]), kept_cells(i, corner[1]), kept_cells(i, corner[2]));
-      owner_of_face.emplace_back(face_key(face), kept[i]);
+      values->InsertNextValue(point_values->GetValue(vertex));
     }
+    data->GetPointData()->AddArray(values);
   }
-  std::sort(owner_of_face.begin(), owner_of_face.end());
-  const Triangles seen = boundary_triangles(kept_cells);
-  Triangles parts[2] = { Triangles(seen.rows(), 3), Triangles(seen.rows(), 3) };
-  std::vector<Index> owners[2];
-  for (Index f = 0; f < seen.rows(); ++f)
+  add_flat(renderer, data, colouring, scale);
+}
+
+Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& input,
+  const PictureOptions& options, const Colouring& colouring, const Frame& frame, double scale,
+  Index& shown)
+{
+  TetCut cut(input.points.view(), input.tets.view());
+  if (options.cut)
   {
-    const std::array<Index, 3> key = face_key(seen.row(f));
-    const int part = outside_keys.count(key) ? 0 : 1;
-    parts[part].row(static_cast<Index>(owners[part].size())) = seen.row(f);
-    owners[part].push_back(
-      std::lower_bound(owner_of_face.begin(), owner_of_face.end(), std::make_pair(key, Index(-1)))
-        ->second);
+    const Plane plane = section_of(bounding_box(input.points.view()), options, frame);
+    const bool towards = view_direction(frame, options.view).dot(plane.normal) >= 0.0;
+    cut.keep_behind(plane.origin, towards ? plane.normal : Vec3(-plane.normal));
   }
-  for (int part : { 0, 1 })
+  if (cut.kept_count() == 0)
   {
-    const Triangles faces = parts[part].topRows(static_cast<Index>(owners[part].size()));
-    const auto data = face_polydata(grid, faces, owners[part]);
-    if (part == 0)
-    {
-      add_surface(renderer, data, options, colouring, scale);
-    }
-    else
-    {
-      add_flat(renderer, data, colouring, scale);
-    }
+    return Status::invalid_input("the section leaves no tet: all lie towards the camera");
   }
+  shown += cut.kept_count();
+  if (options.shrink < 1.0)
+  {
+    add_shrunk(renderer, grid, input, cut.kept(), options.shrink, colouring, scale);
+    return {};
+  }
+  const auto outside = face_polydata(grid, cut.outside().triangles, cut.outside().tets);
+  add_surface(renderer, outside, options, colouring, scale);
+  add_flat(renderer, face_polydata(grid, cut.laid_open().triangles, cut.laid_open().tets),
+    colouring, scale);
+  return {};
 }
 
 // ---- Volumes -----------------------------------------------------------------------------------
 
-void add_slice(vtkRenderer* renderer, vtkImageData* image, const PictureOptions& options,
-  const Colouring& colouring, const Frame& frame, double scale, bool shell_wanted)
+// A plane of samples, or a cut by any plane.
+vtkSmartPointer<vtkPolyData> slice_faces(
+  vtkImageData* image, const PictureOptions& options, const Frame& frame)
 {
+  if (options.section_plane && image->GetPointData()->HasArray(colour_array_name) &&
+    image->GetDataDimension() == 3)
+  {
+    return slice(
+      image, colour_array_name, options.section_plane->origin, options.section_plane->normal);
+  }
   int extent[6];
   image->GetExtent(extent);
   const int axis = frame.depth;
   const int last = extent[2 * axis + 1] - extent[2 * axis];
-  const int slice = extent[2 * axis] + static_cast<int>(std::lround(options.section * last));
-  extent[2 * axis] = extent[2 * axis + 1] = slice;
+  const int at = extent[2 * axis] + static_cast<int>(std::lround(options.section * last));
+  extent[2 * axis] = extent[2 * axis + 1] = at;
   vtkNew<vtkExtractVOI> cut;
   cut->SetInputData(image);
   cut->SetVOI(extent);
   vtkNew<vtkDataSetSurfaceFilter> faces;
   faces->SetInputConnection(cut->GetOutputPort());
   faces->Update();
-  const auto actor = add_actor(renderer, faces->GetOutput(), colouring);
+  return faces->GetOutput();
+}
+
+void add_slice(vtkRenderer* renderer, vtkImageData* image, const PictureOptions& options,
+  const Colouring& colouring, const Frame& frame, double scale, bool shell_wanted)
+{
+  const auto faces = slice_faces(image, options, frame);
+  const auto actor = add_actor(renderer, faces, colouring);
   switch_off_light(actor);
   push_back(actor);
   if (colouring.kind != Colouring::Kind::winding)
   {
     return;
   }
-  add_contours(renderer, faces->GetOutput(), { 0.5 }, 1.6 * scale, palette::line);
+  add_contours(renderer, faces, { 0.5 }, 1.6 * scale, palette::line);
   if (shell_wanted && image->GetDataDimension() == 3 &&
     image->GetPointData()->HasArray(colour_array_name))
   {
@@ -492,7 +486,7 @@ Points shown_points(
         bounds[2 * axis + 1] = box.upper[axis];
       }
     }
-    else if (frame)
+    else if (frame && !options.section_plane)
     {
       double* side = bounds + 2 * frame->depth;
       side[0] = side[1] = side[0] + options.section * (side[1] - side[0]);
@@ -549,8 +543,21 @@ void add_curves(vtkRenderer* renderer, vtkPolyData* data, double radius, double 
   }
 }
 
+void add_defects(vtkRenderer* renderer, vtkPolyData* defects, double scale)
+{
+  for (const auto& actor : make_defects(defects, 2.5 * scale))
+  {
+    renderer->AddActor(actor);
+  }
+}
+
 void add_context(vtkRenderer* renderer, vtkDataSet* data, double radius, double scale)
 {
+  if (is_defect_data(data))
+  {
+    add_defects(renderer, vtkPolyData::SafeDownCast(data), scale);
+    return;
+  }
   vtkNew<vtkDataSetSurfaceFilter> skin;
   vtkSmartPointer<vtkPolyData> surface = vtkPolyData::SafeDownCast(data);
   if (!surface)
@@ -571,7 +578,7 @@ void add_context(vtkRenderer* renderer, vtkDataSet* data, double radius, double 
 } // namespace
 
 Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& options,
-  const Colouring& colouring, const Frame& frame, double scale)
+  const Colouring& colouring, const Frame& frame, double scale, Index& tets_shown)
 {
   if (auto* image = vtkImageData::SafeDownCast(tile.data))
   {
@@ -593,6 +600,10 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
   {
     add_handles(renderer, vtkPolyData::SafeDownCast(tile.data), options, scale);
   }
+  else if (is_defect_data(tile.data) && colouring.kind == Colouring::Kind::none)
+  {
+    add_defects(renderer, vtkPolyData::SafeDownCast(tile.data), scale);
+  }
   else if (is_curve_data(tile.data) && colouring.kind == Colouring::Kind::none)
   {
     add_curves(
@@ -601,7 +612,12 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
   else if (auto* polydata = vtkPolyData::SafeDownCast(tile.data))
   {
     const auto surface = with_colour_values(polydata, colouring);
-    add_surface(renderer, surface, options, colouring, scale);
+    const auto actor = add_surface(renderer, surface, options, colouring, scale);
+    if (actor && tile.defects)
+    {
+      actor->GetProperty()->SetOpacity(0.4); // most defects lie inside or behind
+      sort_by_depth(renderer);
+    }
     add_lines_and_points(renderer, surface, colouring, scale);
   }
   else if (tile.data)
@@ -610,8 +626,12 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
     auto* grid = vtkUnstructuredGrid::SafeDownCast(tile.data);
     if (grid && to_tets(grid, tets).ok())
     {
-      add_tets(
-        renderer, with_colour_values(grid, colouring), tets, options, colouring, frame, scale);
+      const Status status = add_tets(renderer, with_colour_values(grid, colouring), tets, options,
+        colouring, frame, scale, tets_shown);
+      if (!status.ok())
+      {
+        return status;
+      }
     }
     else
     {
@@ -639,6 +659,10 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
   for (const auto& data : tile.context)
   {
     add_context(renderer, data, tube_radius(tile, options, colouring), scale);
+  }
+  if (tile.defects)
+  {
+    add_defects(renderer, tile.defects, scale);
   }
   if (tile.handles)
   {

@@ -22,8 +22,10 @@ Points shown_points(const Tile& tile, const PictureOptions& options, const Colou
 
 /// Adds a tile's props to its renderer.
 /// @param scale  window pixels per picture pixel, for line widths and handle sizes
+/// @param tets_shown  grows by the tets that are drawn
+/// @return invalid_input when the section leaves none of a tile's tets
 Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& options,
-  const Colouring& colouring, const Frame& frame, double scale);
+  const Colouring& colouring, const Frame& frame, double scale, Index& tets_shown);
 
 /// Key, fill and back light that stay with the camera.
 void add_lights(vtkRenderer* renderer);

@@ -87,7 +87,8 @@ Status CdtTets::build(double seconds)
     MesherData data;
     data.points = this->surface_.points;
     data.triangles = this->surface_.triangles;
-    status = this->try_tetgen("tetgen", data, "pYA", false);
+    // Without c, TetGen throws the outside away itself.
+    status = this->try_tetgen("tetgen", data, this->options_.keep_outside ? "pYcA" : "pYA", false);
     if (status.ok() || this->final(status))
     {
       return status;
@@ -390,8 +391,13 @@ Status CdtTets::take_inside(
   {
     // What does not fit is still better than nothing, should nothing fit better.
     this->misfit_ = misfit;
+    this->volume_ = volume;
     this->mesh_.points = data.points;
     this->mesh_.tets = kept;
+    if (this->options_.keep_outside)
+    {
+      this->take_all(data, w, segmentation.inside);
+    }
     this->mesh_original_ = this->original_;
     this->report_ = Report();
     this->report_.set("segmentation", to_string(method));
@@ -407,12 +413,41 @@ Status CdtTets::take_inside(
                  : wrong_volume(volume, this->inside_);
 }
 
+/// All tets that were told apart, but those that rounding has flattened.
+void CdtTets::take_all(
+  const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside)
+{
+  const double flat = 1e-15 * std::pow(this->diagonal_, 3.0);
+  const Eigen::VectorXd volumes = tet_volumes(data.points, data.tets);
+  this->mesh_.tets = data.tets;
+  this->winding_numbers_ = w;
+  this->kept_ = inside;
+  Index count = 0;
+  for (Index t = 0; t < data.tets.rows(); ++t)
+  {
+    if (volumes[t] > flat)
+    {
+      this->mesh_.tets.row(count) = data.tets.row(t);
+      this->winding_numbers_[count] = w[t];
+      this->kept_[count++] = inside[t];
+    }
+  }
+  this->mesh_.tets.conservativeResize(count, 4);
+  this->winding_numbers_.conservativeResize(count);
+  this->kept_.resize(static_cast<std::size_t>(count));
+}
+
 // ---- Vertices inside ---------------------------------------------------------------------------
 
 Status CdtTets::complete()
 {
   this->finer_is_no_better_ = false;
   this->deadline_ = std::max(this->start_ + this->options_.time_limit, this->deadline_);
+  if (this->options_.keep_outside)
+  {
+    this->renumber(); // they are to be seen as they were told apart
+    return {};
+  }
   const bool refine = this->options_.quality > 0.0 || this->options_.interior_edge > 0.0;
   Status status;
   if (refine || !this->options_.handles.empty())

@@ -39,6 +39,7 @@ struct CdtOptions
   Index memory_limit = 0;
   double quality = 1.414;
   double interior_edge = 0.04;
+  bool keep_outside = false; ///< the tets that were told apart as they are, outside ones, too
   HandlePlaces handles;
 };
 
@@ -58,6 +59,8 @@ public:
   Status build(double seconds);
   /// EnclosedRegion::misfit of the tets that are there, infinity for none.
   double misfit() const { return this->misfit_; }
+  /// Of the tets inside.
+  double volume() const { return this->volume_; }
   /// Adds vertices inside, those of handles first, makes flat tets better and numbers the input's
   /// vertices first. Only cancelled is a failure; what else goes wrong is a warning.
   Status complete();
@@ -65,6 +68,10 @@ public:
   TetMesh& mesh() { return this->mesh_; }
   std::vector<Index>& original_vertices() { return this->mesh_original_; }
   const std::vector<std::string>& warnings() const { return this->warnings_; }
+  /// Of keep_outside, else empty: #T the winding numbers that the decision was made from, and 1 for
+  /// the tets that are inside.
+  const Eigen::VectorXd& winding_numbers() const { return this->winding_numbers_; }
+  const std::vector<char>& inside() const { return this->kept_; }
   /// segmentation of the tets that are kept, and where it was a graph cut, energy,
   /// threshold_energy, counts.changed_by_cut (see Segmentation).
   const Report& report() const { return this->report_; }
@@ -83,6 +90,7 @@ private:
   bool final(const Status& status) const;
   Status keep_inside(const MesherData& data);
   Status take_inside(const MesherData& data, const Eigen::VectorXd& w, SegmentationMethod method);
+  void take_all(const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside);
   Status fill();
   Status fill(const MesherData& coarse);
   Status try_fill(const std::string& switches, const MesherData& coarse);
@@ -106,10 +114,13 @@ private:
   bool wrong_volume_ = false; ///< the rung's tets are there, but their volume is wrong
   bool finer_is_no_better_ = false; ///< then more of the same will not help
   TetMesh mesh_;
+  Eigen::VectorXd winding_numbers_;
+  std::vector<char> kept_;
   std::vector<Index> mesh_original_;
   Index surface_vertices_ = 0; ///< the mesh's first vertices before it was filled
   Points handle_points_; ///< of handles, inside; behind the surface's vertices when it was filled
   double misfit_ = std::numeric_limits<double>::infinity();
+  double volume_ = 0.0;
   std::vector<std::string> warnings_;
   Report report_;
 };

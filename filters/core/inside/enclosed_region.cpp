@@ -79,6 +79,12 @@ Status EnclosedRegion::sample(
   const RepairedSurface& surface, double& negative, ExecutionContext& context)
 {
   Status status = this->winding_.build(surface.points, surface.triangles, context);
+  if (surface.found.flat)
+  {
+    this->volume_ = 0.0;
+    this->volume_error_ = 0.0;
+    return status.usable() ? Status() : status;
+  }
   // More samples until enough are inside, as long as that costs less than a second or two: a sample
   // costs about 1 us, and 15 ns for every open edge where the number is exact.
   const double cost = this->winding_.method() == WindingMethod::fast

@@ -11,6 +11,7 @@
 
 #include "base/number_text.h"
 #include "base/parallel.h"
+#include "inside/child_process.h"
 #include "inside/mesher_process.h"
 
 #include <algorithm>
@@ -66,11 +67,7 @@ Status check_options(const PlanarShapeOptions& options)
   {
     return Status::invalid_input("the longest edge must be at least 1e-4 of the diagonal, or 0");
   }
-  if (!(options.time_limit > 0.0))
-  {
-    return Status::invalid_input("the time limit must be above 0 seconds");
-  }
-  return {};
+  return check_limits(options.time_limit, options.memory_limit);
 }
 
 /// Vertices that are used, equal ones once.

@@ -4,6 +4,7 @@
 #include "inside/remesh_tets.h"
 
 #include "base/number_text.h"
+#include "inside/child_process.h"
 #include "inside/mesher_process.h"
 #include "inside/tet_improvement.h"
 #include "inside/tet_quality.h"
@@ -47,13 +48,10 @@ Status check_input(PointsView points, TrianglesView triangles, const RemeshOptio
   {
     return bad("tet_limit", "at least 1000", options.tet_limit);
   }
-  if (!(options.time_limit > 0.0))
+  Status limits = check_limits(options.time_limit, options.memory_limit);
+  if (!limits.ok())
   {
-    return bad("time_limit", "positive", options.time_limit);
-  }
-  if (options.memory_limit < 0)
-  {
-    return Status::invalid_input("memory_limit must not be negative");
+    return limits;
   }
   if (triangles.rows() == 0)
   {

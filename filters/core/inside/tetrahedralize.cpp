@@ -1,17 +1,22 @@
 // The ladder: cdt (cdt_tets.h), then remesh: Delaunay refinement (remesh_tets.h), else a lattice
 // that is cut (lattice_tets.h, finer when the volume is off). Every rung is judged by the volume it
 // has against the volume that winds enough. When none fits, the one that came nearest is taken,
-// with a warning. embed (embedding_tets.h) stands beside the ladder.
+// with a warning. embed (embedding_tets.h), wrap (wrap_surface.h, filled as cdt does it) and
+// ftetwild (ftetwild_process.h) stand beside the ladder.
 #include "inside/tetrahedralize.h"
 
 #include "base/number_text.h"
 #include "inside/cdt_tets.h"
+#include "inside/child_process.h"
 #include "inside/embedding_tets.h"
 #include "inside/enclosed_region.h"
+#include "inside/ftetwild_process.h"
 #include "inside/lattice_tets.h"
 #include "inside/remesh_tets.h"
+#include "inside/surface_distance.h"
 #include "inside/surface_repair.h"
 #include "inside/tet_quality.h"
+#include "inside/wrap_surface.h"
 
 #include <algorithm>
 #include <array>
@@ -99,7 +104,9 @@ private:
           ? "the surface has no triangles"
           : "no triangle of the surface has an area, so it encloses nothing");
     }
-    if (found.flat && this->options_.method != TetMethod::embed)
+    const bool holds_anything =
+      this->options_.method == TetMethod::embed || this->options_.method == TetMethod::wrap;
+    if (found.flat && !holds_anything)
     {
       return Status::invalid_input(
         "the surface is flat: all its points lie in one plane, so it encloses nothing");
@@ -139,20 +146,21 @@ private:
     {
       return this->embed();
     }
+    if (this->options_.method == TetMethod::wrap)
+    {
+      return this->wrap();
+    }
+    if (this->options_.method == TetMethod::ftetwild)
+    {
+      return this->ftetwild();
+    }
     if (this->options_.method == TetMethod::remesh)
     {
       const Status status = this->remesh(false);
       return status.ok() ? status : this->take_lattice(status);
     }
     const bool automatic = this->options_.method == TetMethod::automatic;
-    CdtOptions options;
-    options.segmentation = { this->options_.segmentation, this->options_.winding_threshold,
-      this->options_.cut_smoothness, this->options_.cut_sigma };
-    options.time_limit = this->options_.time_limit;
-    options.memory_limit = this->options_.memory_limit;
-    options.quality = this->options_.quality;
-    options.interior_edge = this->options_.interior_edge;
-    options.handles = this->options_.handles;
+    const CdtOptions options = this->cdt_options();
     CdtTets cdt(this->surface_, this->inside_, options, this->log_, this->context_);
     Status status;
     {
@@ -181,21 +189,36 @@ private:
     // Nothing fits: what came nearest.
     if (cdt.misfit() < worst_misfit && cdt.misfit() <= this->lattice_misfit_)
     {
-      const TetMesh& mesh = cdt.mesh();
-      this->warn(wrong_volume(tet_volumes(mesh.points, mesh.tets).sum(), this->inside_).message);
+      this->warn(wrong_volume(cdt.volume(), this->inside_).message);
       return this->take_cdt(cdt);
     }
     status = this->take_lattice(status);
     return automatic && !status.ok() ? no_method_fits(status) : status;
   }
 
-  Status take_cdt(CdtTets& cdt)
+  CdtOptions cdt_options() const
   {
-    const Phase phase(this->context_, "cdt", 0.6, 1.0);
+    CdtOptions options;
+    options.segmentation = { this->options_.segmentation, this->options_.winding_threshold,
+      this->options_.cut_smoothness, this->options_.cut_sigma };
+    options.time_limit = this->options_.time_limit;
+    options.memory_limit = this->options_.memory_limit;
+    options.quality = this->options_.quality;
+    options.interior_edge = this->options_.interior_edge;
+    options.keep_outside = this->options_.keep_outside;
+    options.handles = this->options_.handles;
+    return options;
+  }
+
+  Status take_cdt(CdtTets& cdt, double begin = 0.6, double end = 1.0)
+  {
+    const Phase phase(this->context_, "cdt", begin, end);
     Status status = cdt.complete();
     this->report_.set("method", to_string(TetMethod::cdt));
     this->report_.merge(cdt.report());
     this->result_.mesh = std::move(cdt.mesh());
+    this->inside_tets_ = cdt.inside();
+    this->result_.winding_numbers = cdt.winding_numbers();
     this->result_.original_vertices = std::move(cdt.original_vertices());
     this->warnings_.insert(this->warnings_.end(), cdt.warnings().begin(), cdt.warnings().end());
     this->find_handles();
@@ -236,7 +259,7 @@ private:
     }
     this->warn(status.message + ": parts thinner than a lattice cube are lost");
     this->result_.mesh = std::move(this->lattice_mesh_);
-    return this->complete_lattice(TetMethod::remesh);
+    return this->keep_no_vertex(TetMethod::remesh);
   }
 
   Status remesh(bool finer_when_needed)
@@ -281,7 +304,7 @@ private:
       this->log("lattice of " + std::to_string(resolution) + " cubes, cut", start, status);
       if (status.ok())
       {
-        return this->complete_lattice(TetMethod::remesh);
+        return this->keep_no_vertex(TetMethod::remesh);
       }
       const double finer_cubes = 8.0 * static_cast<double>(lattice.cubes[0]) *
         static_cast<double>(lattice.cubes[1]) * static_cast<double>(lattice.cubes[2]);
@@ -368,10 +391,154 @@ private:
     this->result_.mesh = std::move(embedding.mesh);
     this->result_.inside_fractions = std::move(embedding.inside_fractions);
     this->result_.binding = std::move(embedding.binding);
-    return this->complete_lattice(TetMethod::embed);
+    return this->keep_no_vertex(TetMethod::embed);
   }
 
-  Status complete_lattice(TetMethod method)
+  /// A closed surface around the surface, filled as any clean surface is.
+  Status wrap()
+  {
+    RepairedSurface wrap;
+    EnclosedRegion around;
+    Status status;
+    {
+      const Phase phase(this->context_, "wrap", 0.0, 0.5);
+      status = this->wrap_closely(wrap, around);
+    }
+    if (!status.ok())
+    {
+      return status;
+    }
+    CdtOptions options = this->cdt_options();
+    options.segmentation.winding_threshold = wrap_threshold;
+    options.time_limit = std::max(this->time_left(), 1.0);
+    CdtTets cdt(wrap, around, options, this->log_, this->context_);
+    {
+      const Phase phase(this->context_, "cdt", 0.5, 0.7);
+      constexpr double share = 0.75; // leave time for vertices inside
+      status = cdt.build(share * options.time_limit);
+    }
+    if (status.ok())
+    {
+      status = this->take_cdt(cdt, 0.7, 0.9);
+    }
+    if (!status.ok())
+    {
+      return status;
+    }
+    this->report_.set("counts.wrap_triangles", Report::Value(wrap.triangles.rows()));
+    if (this->surface_.found.boundary_edges > 0)
+    {
+      const TetMesh& mesh = this->result_.mesh;
+      this->warn("the surface is open (" + std::to_string(this->surface_.found.boundary_edges) +
+        " boundary edges), and where that is wider than two wrap_alpha, a wrap is a thin shell: it "
+        "holds " +
+        short_number(tet_volumes(mesh.points, mesh.tets).sum()) +
+        ", while the winding number encloses " + short_number(this->inside_.volume()));
+    }
+    this->keep_no_vertex(TetMethod::wrap);
+    return this->report_distance();
+  }
+
+  Status wrap_closely(RepairedSurface& wrap, EnclosedRegion& around)
+  {
+    const double start = this->context_.elapsed_seconds();
+    WrapOptions options;
+    options.alpha = this->options_.wrap_alpha;
+    options.offset = this->options_.wrap_offset;
+    options.memory_limit = this->options_.memory_limit;
+    constexpr double share = 0.75; // leave time to fill it
+    options.time_limit = share * this->options_.time_limit;
+    Points points;
+    Triangles triangles;
+    Status status;
+    {
+      const ProgressRange range(this->context_, 0.0, 0.8);
+      status = wrap_surface(this->surface_.points, this->surface_.triangles, options, points,
+        triangles, this->context_);
+    }
+    this->log("alpha wrap", start, status);
+    const ProgressRange range(this->context_, 0.8, 1.0);
+    if (status.ok())
+    {
+      RepairOptions as_it_is;
+      as_it_is.orient = false;
+      status = repair_surface(points, triangles, as_it_is, wrap, this->context_);
+    }
+    bool turned = false;
+    return status.ok() ? around.build(wrap, wrap_threshold, turned, this->context_) : status;
+  }
+
+  Status ftetwild()
+  {
+    const double start = this->context_.elapsed_seconds();
+    FtetwildOptions options;
+    options.epsilon = this->options_.ftetwild_epsilon;
+    options.edge = this->options_.interior_edge;
+    options.time_limit = this->options_.time_limit;
+    options.memory_limit = this->options_.memory_limit;
+    Status status;
+    {
+      const Phase phase(this->context_, "ftetwild", 0.0, 0.9);
+      status = run_ftetwild(this->surface_.points, this->surface_.triangles, options,
+        this->result_.mesh, this->context_);
+    }
+    if (status.ok())
+    {
+      status = this->judge_volume();
+    }
+    this->log("fTetWild", start, status);
+    if (!status.ok())
+    {
+      return status;
+    }
+    this->keep_no_vertex(TetMethod::ftetwild);
+    return this->report_distance();
+  }
+
+  /// What does not fit is taken with a warning when it is not off by too much.
+  Status judge_volume()
+  {
+    const TetMesh& mesh = this->result_.mesh;
+    if (mesh.tets.rows() == 0)
+    {
+      return this->inside_.encloses_nothing();
+    }
+    const double volume = tet_volumes(mesh.points, mesh.tets).sum();
+    if (this->inside_.fits(volume))
+    {
+      return {};
+    }
+    const Status wrong = wrong_volume(volume, this->inside_);
+    if (this->inside_.misfit(volume) > worst_misfit)
+    {
+      return wrong;
+    }
+    this->warn(wrong.message);
+    return {};
+  }
+
+  Status report_distance()
+  {
+    const Phase phase(this->context_, "distance", 0.9, 1.0);
+    const RegionBoundary region(this->surface_.points, this->surface_.triangles,
+      this->inside_.winding(), this->options_.winding_threshold);
+    SurfaceDistance distance;
+    if (!measure_distance(this->result_.mesh, region, distance, this->context_))
+    {
+      return Status::cancelled();
+    }
+    const double percent = 100.0 / this->box_.diagonal();
+    this->report_.set("distance_max", Report::Value(percent * distance.maximum));
+    this->report_.set("distance_mean", Report::Value(percent * distance.mean));
+    return {};
+  }
+
+  double time_left() const
+  {
+    return this->options_.time_limit - (this->context_.elapsed_seconds() - this->climb_start_);
+  }
+
+  Status keep_no_vertex(TetMethod method)
   {
     this->report_.set("method", to_string(method));
     this->result_.original_vertices.assign(
@@ -389,13 +556,17 @@ private:
     {
       return status;
     }
-    const Points centers = centers_of(mesh.points, mesh.tets);
-    status =
-      this->inside_.winding().evaluate(centers, this->context_, this->result_.winding_numbers);
-    if (!status.usable())
+    if (this->result_.winding_numbers.size() == 0)
     {
-      return status;
+      const Points centers = centers_of(mesh.points, mesh.tets);
+      status =
+        this->inside_.winding().evaluate(centers, this->context_, this->result_.winding_numbers);
+      if (!status.usable())
+      {
+        return status;
+      }
     }
+    this->label_tets();
     const TetQuality quality = measure_tets(mesh.points, mesh.tets);
     const auto& ids = this->result_.original_vertices;
     const auto kept =
@@ -404,7 +575,10 @@ private:
     this->report_.set("counts.tet_vertices", Report::Value(mesh.points.rows()));
     this->report_.set("counts.kept_vertices", Report::Value(kept));
     this->report_.set("counts.tets_below_5_degrees", Report::Value(quality.below_5_degrees));
-    this->report_.set("volume", Report::Value(quality.volume));
+    if (this->inside_tets_.empty())
+    {
+      this->report_.set("volume", Report::Value(quality.volume));
+    }
     this->report_.set("winding_volume", Report::Value(this->inside_.volume()));
     this->report_.set("winding_volume_error", Report::Value(this->inside_.volume_error()));
     this->report_.set("min_dihedral_angle", Report::Value(quality.min_dihedral_angle));
@@ -419,6 +593,36 @@ private:
     return {};
   }
 
+  /// Labels and angles; of the whole hull how many tets are inside, and their volume.
+  void label_tets()
+  {
+    const TetMesh& mesh = this->result_.mesh;
+    const Eigen::VectorXd volumes = tet_volumes(mesh.points, mesh.tets);
+    const bool all_stay = this->options_.method != TetMethod::embed;
+    this->result_.labels.resize(static_cast<std::size_t>(mesh.tets.rows()));
+    this->result_.min_dihedral_angles.resize(mesh.tets.rows());
+    double volume = 0.0;
+    Index kept = 0;
+    for (Index t = 0; t < mesh.tets.rows(); ++t)
+    {
+      const bool above = this->result_.winding_numbers[t] >= this->options_.winding_threshold;
+      const bool inside = this->inside_tets_.empty() ? above || all_stay : this->inside_tets_[t];
+      this->result_.labels[t] = inside ? (above ? TetLabel::inside : TetLabel::inside_below)
+        : above                        ? TetLabel::outside_above
+                                       : TetLabel::outside;
+      const auto tet = mesh.tets.row(t);
+      this->result_.min_dihedral_angles[t] = min_dihedral_angle(mesh.points.row(tet[0]),
+        mesh.points.row(tet[1]), mesh.points.row(tet[2]), mesh.points.row(tet[3]));
+      volume += inside ? volumes[t] : 0.0;
+      kept += inside;
+    }
+    if (!this->inside_tets_.empty())
+    {
+      this->report_.set("counts.tets_inside", Report::Value(kept));
+      this->report_.set("volume", Report::Value(volume));
+    }
+  }
+
   void warn(const std::string& sentence) { this->warnings_.push_back(sentence); }
 
   void log(const std::string& rung, double start, const Status& status)
@@ -428,6 +632,8 @@ private:
 
   /// A volume that is off by more than a factor of two is no result.
   static constexpr double worst_misfit = 0.6931471805599453;
+  /// A wrap winds once around its inside, whatever the surface does.
+  static constexpr double wrap_threshold = 0.5;
 
   PointsView points_;
   TrianglesView triangles_;
@@ -439,6 +645,7 @@ private:
   Box box_;
   EnclosedRegion inside_;
   double climb_start_ = 0.0;
+  std::vector<char> inside_tets_; ///< of keep_outside, else empty
   TetMesh lattice_mesh_; ///< of remesh, when it did not fit
   double lattice_misfit_ = std::numeric_limits<double>::infinity();
   Report report_;
@@ -468,14 +675,14 @@ Status check_options(const TetrahedralizeOptions& options)
     return Status::invalid_input(
       "resolution must be 0 or from 4 to 1000 cubes, not " + std::to_string(options.resolution));
   }
-  if (!(options.time_limit > 0.0))
+  Status limits = check_limits(options.time_limit, options.memory_limit);
+  if (!limits.ok())
   {
-    return Status::invalid_input(
-      "time_limit must be positive, not " + short_number(options.time_limit) + " s");
+    return limits;
   }
-  if (options.memory_limit < 0)
+  if (options.keep_outside && options.method != TetMethod::cdt)
   {
-    return Status::invalid_input("memory_limit must not be negative");
+    return Status::invalid_input("keep_outside needs method cdt: only that fills the hull");
   }
   if (!(options.quality == 0.0 || (options.quality >= 1.1 && options.quality <= 10.0)))
   {
@@ -486,6 +693,12 @@ Status check_options(const TetrahedralizeOptions& options)
   {
     return Status::invalid_input(
       "interior_edge must not be negative, but is " + short_number(options.interior_edge));
+  }
+  constexpr double ftetwilds_threshold = 0.5;
+  if (options.method == TetMethod::ftetwild && options.winding_threshold != ftetwilds_threshold)
+  {
+    return Status::invalid_input("method ftetwild knows no other winding_threshold than 0.5, not " +
+      short_number(options.winding_threshold));
   }
   return check_places(options.handles);
 }
@@ -501,6 +714,10 @@ const char* to_string(TetMethod method)
       return "remesh";
     case TetMethod::embed:
       return "embed";
+    case TetMethod::wrap:
+      return "wrap";
+    case TetMethod::ftetwild:
+      return "ftetwild";
     case TetMethod::automatic:
       break;
   }

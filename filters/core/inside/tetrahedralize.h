@@ -19,10 +19,12 @@ enum class TetMethod
   automatic, ///< cdt, then remesh
   cdt, ///< constrained Delaunay tets of the convex hull, kept where the surface winds around them
   remesh, ///< well-shaped tets of the winding number's field, graded
-  embed ///< lattice tets that hold the surface, each part its own
+  embed, ///< lattice tets that hold the surface, each part its own
+  wrap, ///< cdt of a closed surface around the surface
+  ftetwild ///< by the program fTetWild, where it is installed
 };
 
-/// "auto", "cdt", "remesh", "embed".
+/// "auto", "cdt", "remesh", "embed", "wrap", "ftetwild".
 const char* to_string(TetMethod method);
 
 struct TetrahedralizeOptions
@@ -40,24 +42,49 @@ struct TetrahedralizeOptions
   /// of remesh have edges from 0.2 to 1.4 cubes. 0: automatic, 40 for remesh, as many as give about
   /// 30,000 tets for embed.
   Index resolution = 0;
-  double time_limit = 120.0; ///< seconds for all of the helper's work, > 0
-  Index memory_limit = 0; ///< MiB of address space for the helper process, 0: no limit
-  /// cdt only: largest ratio of circumradius to shortest edge that interior vertices are added for;
-  /// 1.1 … 2, 0: none are added. The surface's triangles are never split for it.
+  double time_limit = 120.0; ///< seconds for all of the helper's or fTetWild's work, > 0
+  Index memory_limit = 0; ///< MiB of address space for a helper process, 0: no limit
+  /// cdt and wrap only: largest ratio of circumradius to shortest edge that interior vertices are
+  /// added for; 1.1 … 2, 0: none are added. The surface's triangles are never split for it.
   double quality = 1.414;
-  /// cdt only: longest edges inside, as a fraction of the surface's diagonal; 0: no bound. Smooth
-  /// weights need vertices inside, not only on the surface.
+  /// cdt and wrap: longest edges inside, as a fraction of the surface's diagonal; 0: no bound.
+  /// Smooth weights need vertices inside, not only on the surface. ftetwild: the edge length that
+  /// it aims at everywhere; 0: its own 0.05.
   double interior_edge = 0.04;
-  /// cdt only: points that become vertices where they are inside, segments and triangles on which
-  /// vertices are put at the local edge length. (insert_handles splits other methods' tets.)
+  /// cdt only: keep all tets of the surface's convex hull (or of a box around it, where that was
+  /// needed), as the segmentation told them apart: labels says which are inside. No vertices are
+  /// added, not for handles either.
+  bool keep_outside = false;
+  /// wrap only, fractions of the surface's diagonal: radius of the ball that carves (0.0001 … 1)
+  /// and distance of the wrap from the surface (0.000001 … 1): see WrapOptions.
+  double wrap_alpha = 0.02;
+  double wrap_offset = 0.001;
+  /// ftetwild only: how far the boundary may be from the surface, as a fraction of the diagonal,
+  /// 0.00001 … 0.1.
+  double ftetwild_epsilon = 1e-3;
+  /// cdt and wrap: points that become vertices where they are inside, segments and triangles on
+  /// which vertices are put at the local edge length. (insert_handles splits other methods' tets.)
   HandlePlaces handles;
+};
+
+/// What became of a tet. The numbers are those of the array `Label`: above 0 is inside.
+enum class TetLabel
+{
+  outside_above = -1, ///< outside, though its winding number reaches the threshold
+  outside = 0,
+  inside = 1,
+  inside_below = 2 ///< inside, though its winding number is below the threshold
 };
 
 struct TetrahedralizeResult
 {
   TetMesh mesh; ///< positive tets, no stray vertices
   std::vector<Index> original_vertices; ///< #V: id of the input vertex, ascending, then -1 for new
-  Eigen::VectorXd winding_numbers; ///< #T: at the tets' centres
+  /// #T: at the tets' centres; with keep_outside what the segmentation decided on, which is a mean
+  /// for large tets near the threshold.
+  Eigen::VectorXd winding_numbers;
+  std::vector<TetLabel> labels; ///< #T; a tet of embed is inside where its centre is
+  Eigen::VectorXd min_dihedral_angles; ///< #T, degrees
   std::vector<DefectPlace> defects; ///< where the surface is unclean
   std::vector<Index> handle_vertices; ///< of cdt, #H: vertex at the handles' point, -1 for none
   /// Of embed only, else empty: #T share of the tet that is inside, and where the input's points
@@ -79,26 +106,37 @@ struct TetrahedralizeResult
 ///   thinner than a lattice cube are lost.
 /// - **embed** is not the inside but a lattice around it; every point of the surface is in a tet.
 ///   Parts that are near but not connected share no vertex (embed_surface).
+/// - **wrap** is cdt of an alpha wrap (wrap_surface.h), by the helper: for surfaces whose
+///   orientation is hopeless, sheets and loose triangles; winding numbers have no say. What is
+///   closed up to gaps of two alpha becomes solid, and **what is open becomes a thin shell**, with
+///   a warning that names both volumes. All of the surface is in it or, at
+///   corners, on its boundary; no vertex is kept.
+/// - **ftetwild** is what the program fTetWild makes of the surface, where it is installed
+///   (ftetwild_process.h). winding_threshold must be 0.5. No vertex is kept.
+///
+/// auto takes neither embed nor wrap nor ftetwild.
 ///
 /// Orientation is repaired first (repair_surface); what was turned is in a warning.
 ///
 /// Report: method; rungs[].name, rungs[].seconds, rungs[].outcome (each thing tried, and why it was
 /// left); counts.* of the diagnosis; counts.tets, counts.tet_vertices, counts.kept_vertices;
-/// volume (of the tets), winding_volume (of {w >= threshold}: exact for clean surfaces, sampled
-/// otherwise), winding_volume_error (its standard error, relative), min_dihedral_angle (degrees),
-/// counts.tets_below_5_degrees, quality[].dihedral_angle, quality[].tets (how many tets have their
-/// smallest dihedral angle from this many degrees to the next);
-/// counts.handle_points, counts.handle_vertices (of cdt with handles: how many of their points are
-/// vertices);
+/// volume (of the tets inside), winding_volume (of {w >= threshold}: exact for clean surfaces,
+/// sampled otherwise), winding_volume_error (its standard error, relative), min_dihedral_angle
+/// (degrees), counts.tets_below_5_degrees, quality[].dihedral_angle, quality[].tets (how many tets
+/// have their smallest dihedral angle from this many degrees to the next); counts.handle_points,
+/// counts.handle_vertices (of cdt with handles: how many of their points are vertices);
 /// segmentation (of cdt; a graph cut whose volume does not fit is left for the threshold), energy,
 /// threshold_energy, counts.changed_by_cut (see Segmentation); for remesh and embed resolution, for
 /// embed what embed_surface reports.
-/// For remesh by refinement distance_max and distance_mean (of the tets' boundary and the surface,
-/// percent of its diagonal).
+/// For remesh by refinement, wrap and ftetwild distance_max and distance_mean (of the tets'
+/// boundary and the surface where that bounds the inside, percent of its diagonal); for wrap
+/// counts.wrap_triangles.
 ///
-/// invalid_input: not finite, flat, or encloses nothing; or, of method automatic, neither cdt nor
-/// remesh gives a valid mesh: the message tells the last reason and names method embed.
-/// unavailable: method cdt without helper. internal_error: the method asked for gave no valid mesh.
+/// invalid_input: not finite, flat (but for embed and wrap), or encloses nothing (the same);
+/// keep_outside with another method than cdt; or, of
+/// method automatic, neither cdt nor remesh gives a valid mesh: the message tells the last reason
+/// and names method embed. unavailable: method cdt or wrap without helper, ftetwild without
+/// fTetWild. internal_error: the method asked for gave no valid mesh.
 /// Cost: about 10 us a triangle and 5 us a tet for clean surfaces, 50 us a triangle for others.
 Status tetrahedralize(PointsView points, TrianglesView triangles,
   const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context);

@@ -81,6 +81,18 @@ struct RemeshJobOptions
 /// seconds.* since the start. @return empty, or why it gave up.
 std::string remesh(MesherData& data, RemeshJobOptions options);
 
+struct WrapJobOptions
+{
+  double alpha =
+    0.0; ///< length, > 0: a ball of this radius carves, so this is about the edges' size
+  double offset = 0.0; ///< length, > 0: how far outside of the triangles the wrap's vertices lie
+};
+
+/// A closed, orientable surface without crossings that strictly contains all triangles, whatever
+/// they are: CGAL's alpha wrap. Points and triangles become the wrap's, outwards; ids are new.
+/// @return empty, or why it gave up.
+std::string wrap(MesherData& data, const WrapJobOptions& options);
+
 } // namespace bindpose
 
 #endif

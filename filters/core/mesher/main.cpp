@@ -102,7 +102,13 @@ std::string run(const std::string& job, const std::map<std::string, std::string>
     remesh.tet_limit = number(options, "--tets", remesh.tet_limit);
     return bindpose::remesh(data, remesh);
   }
-  return "unknown job '" + job + "' (refine, tetgen, delaunay, arrange, fill-plane or remesh)";
+  if (job == "wrap")
+  {
+    return bindpose::wrap(
+      data, { number(options, "--alpha", 0.0), number(options, "--offset", 0.0) });
+  }
+  return "unknown job '" + job +
+    "' (refine, tetgen, delaunay, arrange, fill-plane, remesh or wrap)";
 }
 } // namespace
 

@@ -463,6 +463,40 @@ TEST(FuzzTetrahedralize, LatticesOfAbusedSurfaces)
   std::cout << "[ fuzz ] " << filled << " of them were filled\n";
 }
 
+/// A wrap is there for everything that has an area.
+TEST(FuzzTetrahedralize, WrapsOfAbusedSurfaces)
+{
+  if (find_mesher().empty())
+  {
+    GTEST_SKIP() << "bindpose-mesher is not built: libcgal-dev, libtet1.5-dev";
+  }
+  test::fuzz("wraps", 24,
+    [&](test::Random& random)
+    {
+      const TriangleMesh surface = abused(random);
+      TetrahedralizeOptions options;
+      options.method = TetMethod::wrap;
+      options.wrap_alpha = random.uniform(0.05, 0.3);
+      options.wrap_offset = options.wrap_alpha * random.uniform(0.03, 0.5);
+      options.interior_edge = 0.15;
+      TetrahedralizeResult result;
+      ExecutionContext context;
+      const Status status =
+        tetrahedralize(surface.points, surface.triangles, options, result, context);
+      SCOPED_TRACE(status.message);
+      test::expect_spoken(status);
+      if (!status.usable())
+      {
+        EXPECT_EQ(status.code, StatusCode::invalid_input);
+        return;
+      }
+      expect_valid(surface, result, status);
+      const double distance = status.report.number("distance_max", -1.0);
+      EXPECT_GE(distance, 99.0 * options.wrap_offset);
+      EXPECT_LE(distance, 100.0);
+    });
+}
+
 /// Heaps, needles, layers and the like of any size and anywhere: most enclose next to nothing.
 TEST(FuzzTetrahedralize, HostileSurfaces)
 {

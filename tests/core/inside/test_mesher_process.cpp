@@ -4,9 +4,11 @@
 #include "inside/tet_quality.h"
 #include "inside/triangle_tree.h"
 
+#include "support/environment.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/needs_mesher.h"
+#include "support/processes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,47 +24,12 @@
 #include <unistd.h>
 
 using namespace bindpose;
+using test::Environment;
+using test::open_descriptors;
 using testing::HasSubstr;
 
 namespace
 {
-/// Sets an environment variable for the life of a test.
-class Environment
-{
-public:
-  Environment(const char* name, const std::string& value) : name_(name)
-  {
-    const char* before = std::getenv(name);
-    this->had_ = before != nullptr;
-    this->before_ = before ? before : "";
-    ::setenv(name, value.c_str(), 1);
-  }
-  ~Environment()
-  {
-    if (this->had_)
-    {
-      ::setenv(this->name_, this->before_.c_str(), 1);
-    }
-    else
-    {
-      ::unsetenv(this->name_);
-    }
-  }
-  Environment(const Environment&) = delete;
-  Environment& operator=(const Environment&) = delete;
-
-private:
-  const char* name_;
-  bool had_ = false;
-  std::string before_;
-};
-
-std::size_t open_descriptors()
-{
-  const auto files = std::filesystem::directory_iterator("/proc/self/fd");
-  return static_cast<std::size_t>(std::distance(begin(files), end(files)));
-}
-
 /// A shell script in the helper's place; also watches that nothing is left behind.
 class FakeHelper
 {

@@ -3,9 +3,11 @@
 #include "inside/mesher_process.h"
 #include "inside/tet_quality.h"
 #include "inside/triangle_tree.h"
+#include "io/medit.h"
 #include "winding/winding_number.h"
 
 #include "support/demo_meshes.h"
+#include "support/environment.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/needs_mesher.h"
@@ -24,6 +26,7 @@
 #include <sys/stat.h>
 
 using namespace bindpose;
+using test::Environment;
 using testing::HasSubstr;
 
 namespace
@@ -150,21 +153,6 @@ TriangleMesh unwelded(const TriangleMesh& mesh)
   }
   return soup;
 }
-
-class Environment
-{
-public:
-  Environment(const char* name, const std::string& value) : name_(name)
-  {
-    ::setenv(name, value.c_str(), 1);
-  }
-  ~Environment() { ::unsetenv(this->name_); }
-  Environment(const Environment&) = delete;
-  Environment& operator=(const Environment&) = delete;
-
-private:
-  const char* name_;
-};
 
 /// Tests of method cdt, which needs the helper.
 class Cdt : public test::NeedsMesher
@@ -690,6 +678,48 @@ TEST_F(Cdt, AnOpenSurfaceIsCutWithLessEnergy)
   EXPECT_LT(skin(cut), skin(plain));
 }
 
+TEST_F(Cdt, TheWholeHullCanBeKept)
+{
+  // Two boxes with a gap: a fifth of their hull is outside.
+  const TriangleMesh closed =
+    test::join(test::cube(0.0, 1.0), test::translated(test::cube(0.0, 1.0), Vec3(1.5, 0, 0)));
+  TriangleMesh open = closed;
+  open.triangles.conservativeResize(open.triangles.rows() - 2, 3);
+  for (const TriangleMesh& mesh : { closed, open })
+  {
+    TetrahedralizeOptions options;
+    options.method = TetMethod::cdt;
+    const Outcome kept = run(mesh, options);
+    ASSERT_TRUE(kept.status.ok()) << kept.status.message;
+    options.keep_outside = true;
+    const Outcome outcome = run(mesh, options);
+    ASSERT_TRUE(outcome.status.ok()) << outcome.status.message;
+    const TetrahedralizeResult& result = outcome.result;
+    EXPECT_NEAR(outcome.volume(), 2.5, 1e-9) << "the hull";
+    const Eigen::VectorXd volumes = tet_volumes(result.mesh.points, result.mesh.tets);
+    ASSERT_EQ(static_cast<Index>(result.labels.size()), volumes.size());
+    double inside = 0.0;
+    Index count = 0;
+    for (Index t = 0; t < volumes.size(); ++t)
+    {
+      const bool above = result.winding_numbers[t] >= options.winding_threshold;
+      const int label = static_cast<int>(result.labels[t]);
+      EXPECT_EQ(above, label == 1 || label == -1) << t;
+      inside += label > 0 ? volumes[t] : 0.0;
+      count += label > 0;
+    }
+    EXPECT_NEAR(inside, kept.volume(), 1e-9) << "what is inside is what is kept else";
+    EXPECT_NEAR(outcome.number("volume"), inside, 1e-12);
+    EXPECT_EQ(outcome.number("counts.tets_inside"), count);
+    EXPECT_EQ(outcome.number("counts.tets"), volumes.size());
+    // Of all corners of the boxes; no vertex is added.
+    EXPECT_EQ(result.mesh.points.rows(), mesh.points.rows());
+  }
+  TetrahedralizeOptions options;
+  options.keep_outside = true;
+  EXPECT_EQ(run(closed, options).status.code, StatusCode::invalid_input);
+}
+
 TEST_F(Cdt, ACutThatLosesTheVolumeIsLeftForTheThreshold)
 {
   const TriangleMesh mesh = ragged(test::torus(40, 20, 1.0, 0.4));
@@ -929,4 +959,224 @@ TEST_F(Cdt, FlatTetsAreSwappedAndTheSurfaceStays)
   EXPECT_NEAR(
     outcome.volume(), signed_volume(elephant.points, elephant.triangles), 1e-10 * outcome.volume());
   EXPECT_EQ(boundary_triangles(outcome.result.mesh.tets).rows(), elephant.triangles.rows());
+}
+
+// ---- wrap and ftetwild -------------------------------------------------------------------------
+
+namespace
+{
+class Wrap : public test::NeedsMesher
+{
+};
+
+/// Every vertex and centre of the surface lies in a tet or on their boundary.
+void expect_to_hold(const TetMesh& mesh, const TriangleMesh& surface)
+{
+  ExecutionContext context;
+  WindingNumber winding;
+  const Triangles skin = boundary_triangles(mesh.tets);
+  ASSERT_TRUE(winding.build(mesh.points, skin, context).ok());
+  const TriangleTree tree(mesh.points, skin);
+  const double near = 1e-14 * bounding_box(surface.points, surface.triangles).diagonal();
+  const auto held = [&](const Vec3& p)
+  { return std::abs(winding.evaluate_exactly_at(p) - 1.0) < 1e-6 || tree.distance(p, 1e9) < near; };
+  for (Index f = 0; f < surface.triangles.rows(); ++f)
+  {
+    Vec3 center = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3 p = surface.points.row(surface.triangles(f, k));
+      EXPECT_TRUE(held(p)) << f;
+      center += p / 3.0;
+    }
+    EXPECT_TRUE(held(center)) << f;
+  }
+}
+} // namespace
+
+TEST_F(Wrap, HoldsAnySurface)
+{
+  TriangleMesh triangle = test::grid(1, 1);
+  triangle.triangles.conservativeResize(1, 3);
+  struct Case
+  {
+    const char* name;
+    TriangleMesh mesh;
+    Index characteristic;
+    double enclosed; ///< by winding numbers of at least 0.5
+    const char* warning; ///< empty: none
+  };
+  const TriangleMesh torus = test::torus(24, 12, 1.0, 0.4);
+  const TriangleMesh far_apart =
+    test::join(triangle, test::translated(triangle, Vec3(0.1, 0.2, 3.0)));
+  TetrahedralizeOptions options;
+  options.method = TetMethod::wrap;
+  options.wrap_alpha = 0.08;
+  options.wrap_offset = 0.004;
+  for (const Case& c : { Case{ "cube", test::cube(), 1, 8.0, "" },
+         Case{ "torus", torus, 0, signed_volume(torus.points, torus.triangles), "" },
+         Case{ "open cube", test::open_cube(), 1, 8.0, "thin shell" },
+         Case{ "triangle", triangle, 1, 0.0, "thin shell" },
+         Case{ "sheet", test::grid(3, 2), 1, 0.0, "10 boundary edges" },
+         Case{ "soup", far_apart, 2, 0.0, "6 boundary edges" },
+         Case{
+           "doubled both ways", test::join(test::cube(), test::flipped(test::cube())), 1, 0.0, "" },
+         Case{ "unwelded", unwelded(test::cube()), 1, 8.0, "" } })
+  {
+    SCOPED_TRACE(c.name);
+    const Outcome outcome = run(c.mesh, options);
+    expect_valid(outcome, c.mesh);
+    EXPECT_EQ(outcome.method(), "wrap");
+    expect_to_hold(outcome.result.mesh, c.mesh);
+    EXPECT_EQ(test::euler_characteristic(outcome.result.mesh), c.characteristic);
+    EXPECT_EQ(outcome.number("counts.kept_vertices"), 0.0);
+    EXPECT_EQ(outcome.result.original_vertices.front(), -1);
+    EXPECT_NEAR(outcome.number("winding_volume"), c.enclosed, 0.01 * c.enclosed);
+    // No nearer than the offset anywhere, and that near at least somewhere; concave corners are
+    // farther, by what the ball leaves in them.
+    EXPECT_GE(outcome.number("distance_max"), 100.0 * options.wrap_offset * 0.99);
+    EXPECT_LE(outcome.number("distance_max"), 100.0 * (options.wrap_alpha + options.wrap_offset));
+    const auto& warnings = outcome.status.warnings;
+    const std::string all = warnings.empty() ? "" : warnings.back();
+    EXPECT_THAT(all, HasSubstr(c.warning));
+    if (*c.warning == 0)
+    {
+      EXPECT_THAT(all, Not(HasSubstr("thin shell")));
+    }
+  }
+}
+
+TEST_F(Wrap, AnOpenSurfaceIsWarnedOfWithBothVolumes)
+{
+  TetrahedralizeOptions options;
+  options.method = TetMethod::wrap;
+  options.wrap_alpha = 0.05;
+  options.wrap_offset = 0.002;
+  const Outcome outcome = run(test::open_cube(), options);
+  expect_valid(outcome, test::open_cube());
+  ASSERT_FALSE(outcome.status.warnings.empty());
+  const std::string& warning = outcome.status.warnings.back();
+  EXPECT_THAT(warning, HasSubstr("4 boundary edges"));
+  EXPECT_THAT(warning, HasSubstr("the winding number encloses 8"));
+  // Five sides of 4, two offsets thick, and in each of the eight inner edges of length 2 what the
+  // ball leaves, less than the square of its radius.
+  const double diagonal = std::sqrt(12.0);
+  const double shell = 20.0 * 2.0 * options.wrap_offset * diagonal;
+  const double fillets = 16.0 * std::pow((options.wrap_alpha + options.wrap_offset) * diagonal, 2);
+  EXPECT_GT(outcome.volume(), 0.97 * shell);
+  EXPECT_LT(outcome.volume(), 1.1 * shell + fillets);
+  EXPECT_THAT(warning, HasSubstr("it holds 0."));
+}
+
+TEST_F(Wrap, ThresholdsAndThreadsDoNotMatter)
+{
+  TetrahedralizeOptions options;
+  options.method = TetMethod::wrap;
+  options.wrap_alpha = 0.1;
+  const TriangleMesh mesh = test::torus(20, 10, 1.0, 0.4);
+  const Outcome one = run(mesh, options, 1);
+  options.winding_threshold = 1.5;
+  const Outcome two = run(mesh, options, 2);
+  expect_valid(one, mesh);
+  expect_valid(two, mesh);
+  EXPECT_EQ(one.result.mesh.points, two.result.mesh.points);
+  EXPECT_EQ(one.result.mesh.tets, two.result.mesh.tets);
+  EXPECT_EQ(two.number("winding_volume"), 0.0);
+}
+
+TEST_F(Wrap, SizesInsideAreKept)
+{
+  TetrahedralizeOptions options;
+  options.method = TetMethod::wrap;
+  options.quality = 0.0;
+  options.interior_edge = 0.0;
+  const Outcome none = run(test::sphere(2), options);
+  options.interior_edge = 0.03;
+  const Outcome many = run(test::sphere(2), options);
+  EXPECT_GT(many.number("counts.tet_vertices"), 1.5 * none.number("counts.tet_vertices"));
+  EXPECT_EQ(many.number("counts.wrap_triangles"), none.number("counts.wrap_triangles"));
+}
+
+TEST_F(Wrap, PointsOfHandlesBecomeVertices)
+{
+  TetrahedralizeOptions options;
+  options.method = TetMethod::wrap;
+  options.wrap_alpha = 0.1;
+  options.handles = places_of({ Vec3(0.1, 0.2, 0.3), Vec3(2, 0, 0) });
+  const Outcome outcome = run(test::sphere(2), options);
+  expect_valid(outcome, test::sphere(2));
+  const auto& found = outcome.result.handle_vertices;
+  ASSERT_EQ(found.size(), 2u);
+  ASSERT_GE(found[0], 0);
+  EXPECT_EQ(Vec3(outcome.result.mesh.points.row(found[0])), Vec3(0.1, 0.2, 0.3));
+  EXPECT_EQ(found[1], -1);
+}
+
+TEST_F(Wrap, IsOneSentenceWhereThereIsNone)
+{
+  TriangleMesh nan = test::cube();
+  nan.points(4, 2) = std::numeric_limits<double>::quiet_NaN();
+  TriangleMesh needle = test::grid(1, 1);
+  needle.points.col(1).setZero();
+  TetrahedralizeOptions options;
+  options.method = TetMethod::wrap;
+  EXPECT_THAT(run(nan, options).status.message, HasSubstr("vertex 4"));
+  EXPECT_THAT(
+    run({ Points(0, 3), Triangles(0, 3) }, options).status.message, HasSubstr("no triangles"));
+  EXPECT_THAT(run(needle, options).status.message, HasSubstr("area"));
+  options.wrap_alpha = 0.0;
+  EXPECT_THAT(run(test::cube(), options).status.message, HasSubstr("wrap_alpha"));
+  options.wrap_alpha = 0.0005;
+  options.time_limit = 0.5;
+  const Outcome late = run(test::cube(), options);
+  EXPECT_EQ(late.status.code, StatusCode::internal_error);
+  EXPECT_THAT(late.status.message, HasSubstr("time limit"));
+  EXPECT_EQ(late.result.mesh.tets.rows(), 0);
+}
+
+TEST(Tetrahedralize, WrapNeedsTheHelper)
+{
+  const Environment no_helper("BINDPOSE_MESHER", "/nowhere");
+  EXPECT_EQ(run(test::cube(), TetMethod::wrap).status.code, StatusCode::unavailable);
+}
+
+TEST(Tetrahedralize, FtetwildIsJudgedLikeAnyOther)
+{
+  // In its place a script that gives the cube in its own frame, whatever it is asked.
+  test::Folder folder;
+  const TetMesh box = test::tet_box(2, 2, 2, Vec3::Constant(-0.5), Vec3::Constant(0.5));
+  ASSERT_TRUE(write_medit(folder / "tets.mesh", box.points, Triangles(0, 3), box.tets).ok());
+  const std::string path = folder.write("ftetwild",
+    "#!/bin/sh\nwhile [ \"$1\" != --output ]; do shift; done\ncp \"$(dirname "
+    "\"$0\")/tets.mesh\" \"$2\"\n");
+  ::chmod(path.c_str(), 0755);
+  const Environment program("BINDPOSE_FTETWILD", path);
+  const Outcome right = run(test::cube(), TetMethod::ftetwild);
+  expect_valid(right, test::cube());
+  EXPECT_EQ(right.method(), "ftetwild");
+  EXPECT_NEAR(right.volume(), 8.0, 1e-12);
+  EXPECT_NEAR(right.number("distance_max"), 0.0, 1e-12);
+  EXPECT_EQ(right.number("counts.kept_vertices"), 0.0);
+  EXPECT_TRUE(right.status.warnings.empty());
+  // A box of 1.4 times the volume: taken with a warning, and as far off as it is.
+  TriangleMesh longer = test::cube();
+  longer.points.col(0) *= 1.0 / 1.4;
+  const Outcome off = run(longer, TetMethod::ftetwild);
+  expect_valid(off, longer);
+  ASSERT_EQ(off.status.warnings.size(), 1u);
+  EXPECT_THAT(off.status.warnings[0], HasSubstr("but the winding number encloses"));
+  EXPECT_GT(off.number("distance_max"), 5.0);
+  // More than twice: no result.
+  TriangleMesh thin = test::cube();
+  thin.points.col(0) *= 0.2;
+  const Outcome wrong = run(thin, TetMethod::ftetwild);
+  EXPECT_EQ(wrong.status.code, StatusCode::internal_error);
+  EXPECT_EQ(wrong.result.mesh.tets.rows(), 0);
+  // It has its own idea of inside.
+  TetrahedralizeOptions options;
+  options.method = TetMethod::ftetwild;
+  options.winding_threshold = 0.7;
+  EXPECT_THAT(run(test::cube(), options).status.message, HasSubstr("winding_threshold"));
+  const Environment none("BINDPOSE_FTETWILD", "/nowhere");
+  EXPECT_EQ(run(test::cube(), TetMethod::ftetwild).status.code, StatusCode::unavailable);
 }

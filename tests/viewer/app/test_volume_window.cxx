@@ -1,5 +1,7 @@
 // Volumes in the window, as a person inspects them: real mouse events of Qt on the picture, sliders
 // and buttons of the panel; what is asserted are places, winding numbers and areas in closed form.
+#include "window_test.h"
+
 #include "main_window.h"
 #include "panel_column.h"
 #include "side_panel.h"
@@ -33,7 +35,6 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
-#include <QMouseEvent>
 #include <QPushButton>
 #include <QSlider>
 
@@ -93,31 +94,12 @@ vtkSmartPointer<vtkPolyData> square_boundary()
   return data;
 }
 
-class VolumeWindow : public testing::Test
+class VolumeWindow : public test::WindowTest
 {
 protected:
-  VolumeWindow()
-  {
-    this->window.show();
-    QApplication::processEvents();
-  }
-
   VolumeView* view() { return this->window.volume_view(); }
   VolumePanel* panel() { return this->window.panels()->volume(); }
 
-  template <typename Widget>
-  Widget* find(const QString& text)
-  {
-    for (Widget* widget : this->window.panels()->findChildren<Widget*>())
-    {
-      if (widget->text() == text)
-      {
-        return widget;
-      }
-    }
-    ADD_FAILURE() << "there is no " << text.toStdString();
-    return nullptr;
-  }
   /// The rows of the panel: position, level.
   ValueRow* row(int which) { return this->panel()->findChildren<ValueRow*>()[which]; }
 
@@ -126,34 +108,6 @@ protected:
     ASSERT_TRUE(this->window.set_volume(image, "field.vti")) << this->window.error().toStdString();
     this->render();
   }
-
-  void render()
-  {
-    QApplication::processEvents();
-    this->window.viewport()->renderWindow()->Render();
-    QApplication::processEvents();
-  }
-
-  /// Where a place is in the picture, in Qt's pixels from the upper left.
-  QPoint pixel(const Vec3& place)
-  {
-    vtkRenderer* renderer = this->window.viewport()->renderer();
-    renderer->SetWorldPoint(place.x(), place.y(), place.z(), 1.0);
-    renderer->WorldToDisplay();
-    const double* d = renderer->GetDisplayPoint();
-    return { static_cast<int>(d[0]),
-      this->window.viewport()->height() - 1 - static_cast<int>(d[1]) };
-  }
-
-  void mouse(QEvent::Type type, const QPoint& at, Qt::MouseButton button, Qt::MouseButtons held)
-  {
-    Viewport* viewport = this->window.viewport();
-    QMouseEvent event(type, at, viewport->mapToGlobal(at), button, held, Qt::NoModifier);
-    QApplication::sendEvent(viewport, &event);
-    QApplication::processEvents();
-  }
-
-  void hover(const QPoint& at) { this->mouse(QEvent::MouseMove, at, Qt::NoButton, Qt::NoButton); }
 
   /// What is read at a place. The screen is shared with other tests, whose windows may cover this
   /// one: then the mouse has left it, and comes again.
@@ -170,39 +124,6 @@ protected:
     }
     return this->window.reading();
   }
-
-  void drag(const QPoint& from, const QPoint& to)
-  {
-    this->hover(from);
-    this->mouse(QEvent::MouseButtonPress, from, Qt::LeftButton, Qt::LeftButton);
-    for (int step = 1; step <= 5; ++step)
-    {
-      this->mouse(QEvent::MouseMove, from + (to - from) * step / 5, Qt::NoButton, Qt::LeftButton);
-    }
-    this->mouse(QEvent::MouseButtonRelease, to, Qt::LeftButton, Qt::NoButton);
-    this->render();
-  }
-
-  QImage picture()
-  {
-    this->render();
-    return this->window.viewport()->grabFramebuffer();
-  }
-
-  static int count(const QImage& image, const std::function<bool(const QColor&)>& which)
-  {
-    int result = 0;
-    for (int y = 0; y < image.height(); ++y)
-    {
-      for (int x = 0; x < image.width(); ++x)
-      {
-        result += which(image.pixelColor(x, y));
-      }
-    }
-    return result;
-  }
-
-  MainWindow window;
 };
 
 bool is_green(const QColor& c)

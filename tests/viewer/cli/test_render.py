@@ -115,3 +115,80 @@ def test_volumes_that_have_no_isosurface(folder, values, size, sentence):
 </PointData></Piece></ImageData></VTKFile>''')
     for words in (["--isosurface", "0.5"], ["--volume"]):
         folder.run("render", "w.vti", "-o", "s.png", *words).is_refused(sentence)
+
+
+def open_sphere():
+    """A sphere without its cap: 24 open edges."""
+    vertices, faces = shapes.sphere()
+    return vertices, [face for face in faces if 0 not in face]
+
+
+@pytest.fixture
+def tets(folder):
+    """Lattice tets (no helper needed) of a sphere, as a file with arrays and one without."""
+    folder.off("sphere.off", shapes.sphere())
+    folder.off("open.off", open_sphere())
+    for file in ("tets.vtu", "tets.mesh"):
+        folder.run("tetrahedralize", "sphere.off", "--method", "embed", "--resolution", "8", "-o", file).is_good()
+    return folder
+
+
+def test_tets_inside_out(tets):
+    small = ["--size", "200x150", "--report", "-", "-o"]
+    whole = tets.run("render", "tets.vtu", "--section", "none", *small, "w.png").is_good().report["picture"]["tets"]
+    counts = tets.run("info", "tets.vtu", "--report", "-").is_good().report["counts"]
+    assert whole == counts["tets"]
+    # A plane and its other side, seen from the front and from behind, share the tets.
+    front = tets.run("render", "tets.vtu", "--section", "z=0.01", *small, "f.png").is_good().report["picture"]["tets"]
+    back = tets.run("render", "tets.vtu", "--section", "0,0,1@0,0,0.01", "--azimuth", "180", *small, "b.png")
+    assert 0 < front < whole and front + back.is_good().report["picture"]["tets"] == whole
+    run = tets.run("render", "tets.vtu", "--color", "label", "--shrink", "0.7", *small, "l.png").is_good()
+    classes = run.report["picture"]["colours"]
+    assert [c["name"] for c in classes] == ["outside", "inside"] and sum(c["count"] for c in classes) == whole
+    run = tets.run("render", "tets.vtu", "--color", "rung", *small, "r.png").is_good()
+    assert run.report["picture"]["colours"] == [{"name": "embed", "count": whole}]
+    run = tets.run("render", "tets.mesh", "--color", "quality", *small, "q.png").is_good()
+    assert run.report["picture"]["range"][0] == 0 and 70 < run.report["picture"]["range"][1] < 71
+    tets.run("render", "tets.vtu", "--color", "winding-number", *small, "n.png").is_good()
+
+
+def test_defects_are_counted(tets):
+    small = ["--size", "200x150", "--report", "-", "-o"]
+    found = [{"name": "unreferenced vertex", "count": 1}, {"name": "boundary edge", "count": 24}]
+    run = tets.run("render", "open.off", "--defects", *small, "d.png").is_good()
+    assert run.report["picture"]["defects"] == found
+    # Over tets, by the surface they come from, or from a file; two tiles show it twice, and count it once.
+    run = tets.run("render", "tets.vtu", "tets.mesh", "--context", "open.off", "--defects", *small, "t.png").is_good()
+    assert run.report["picture"]["defects"] == found
+    tets.run("info", "open.off", "--defects", "d.vtp", "--quiet").is_good()
+    run = tets.run("render", "d.vtp", *small, "f.png").is_good()
+    assert run.report["picture"]["defects"] == found
+    run = tets.run("render", "sphere.off", "--defects", *small, "c.png").is_good()
+    assert "defects" not in run.report["picture"]
+
+
+@pytest.mark.parametrize("file, words, sentence", [
+    ("tets.vtu", ["--section", "q=1"], "--section q=1"),
+    ("tets.vtu", ["--section", "x="], "--section x="),
+    ("tets.vtu", ["--section", "1,0@0,0,0"], "--section 1,0@0,0,0"),
+    ("tets.vtu", ["--section", "0,0,0@0,0,0"], "plane of a section"),
+    ("tets.vtu", ["--section", "1.5"], "between 0 and 1"),
+    ("tets.vtu", ["--section", "z=-9"], "leaves no tet"),
+    ("tets.vtu", ["--shrink", "0"], "shrink"),
+    ("tets.vtu", ["--shrink", "1.1"], "shrink"),
+    ("tets.vtu", ["--color", "label", "--array", "Label"], "--color label"),
+    ("tets.vtu", ["--color", "label", "--range", "0,1"], "no range"),
+    ("tets.vtu", ["--defects"], "--context SURFACE"),
+    ("tets.mesh", ["--color", "label"], "no cell array 'Label'"),
+    ("tets.mesh", ["--color", "rung"], "how they were made"),
+    ("tets.mesh", ["--color", "winding-number"], "WindingNumber"),
+    ("sphere.off", ["--color", "quality"], "only tets"),
+    ("sphere.off", ["--shrink", "0.5"], "only tets"),
+    ("sphere.off", ["--section", "x=0"], "only tets and volumes"),
+])
+def test_what_tets_do_not_have(tets, file, words, sentence):
+    tets.run("render", file, "-o", "s.png", *words).is_refused(sentence)
+
+
+def test_an_unknown_colour_is_usage(tets):
+    tets.run("render", "tets.vtu", "-o", "s.png", "--color", "mood").is_refused("mood", code=1)

@@ -99,9 +99,9 @@ def test_handles_are_vertices(folder):
     report = folder.run("tetrahedralize", "bar.off", "--handles", "handles.tgf", "-o", "bar.vtu", "--report", "-").is_good().report
     mesh = bindpose.read(folder / "bar.vtu")
     heads = [points_of(mesh)[handle["vertex"]] for handle in report["handles"]]
-    handles = bindpose.read(folder / "handles.tgf")
+    assert len(heads) == 2
     for head in heads:
-        assert np.abs(points_of(handles) - head).max(axis=1).min() == 0
+        assert list(head) in [[0.5, 0.5, 0.5], [3, 0.5, 0.5]]
     folder.run("tetrahedralize", "bar.off", "--handles", "none.tgf", "-o", "b.vtu").is_refused("none.tgf")
 
 
@@ -118,3 +118,68 @@ def test_the_histogram_counts_every_tet(folder):
     assert sum(entry["tets"] for entry in report["quality"]) == report["counts"]["tets"]
     worst = min(entry["dihedral_angle"] for entry in report["quality"] if entry["tets"])
     assert worst <= report["min_dihedral_angle"] < worst + 5
+
+
+def test_a_wrap_makes_a_shell_of_what_is_open(folder):
+    folder.off("open.off", shapes.open_cube())
+    run = folder.run("tetrahedralize", "open.off", "--method", "wrap", "--wrap-alpha", "0.05", "--wrap-offset", "0.002",
+                     "-o", "m.vtu", "--report", "-").is_good()
+    report = run.report
+    assert report["method"] == "wrap" and report["counts"]["kept_vertices"] == 0
+    assert volumes(folder / "m.vtu").min() > 0
+    # Five sides of 4, two offsets thick at least.
+    assert 20 * 2 * 0.002 * 12**0.5 < report["volume"] < 1
+    assert report["winding_volume"] == pytest.approx(8, rel=0.02)
+    assert "thin shell" in run.err and "4 boundary edges" in run.err
+    assert report["distance_max"] >= 0.199
+
+
+@pytest.mark.parametrize("mesh", [shapes.flat(), shapes.one_triangle()])
+def test_a_wrap_holds_what_encloses_nothing(folder, mesh):
+    folder.off("m.off", mesh)
+    folder.run("tetrahedralize", "m.off", "--method", "wrap", "--wrap-alpha", "0.1", "-o", "m.mesh").is_good()
+    assert volumes(folder / "m.mesh").min() > 0
+
+
+def test_wraps_that_cannot_be(folder):
+    folder.off("cube.off", shapes.cube())
+    words = ["tetrahedralize", "cube.off", "--method", "wrap", "-o", "m.vtu"]
+    folder.run(*words, "--wrap-alpha", "0").is_refused("wrap_alpha")
+    folder.run(*words, "--wrap-offset", "-1").is_refused("wrap_offset")
+    folder.run(*words, "--wrap-alpha", "0.0005", "--time-limit", "0.3").is_refused("time limit", code=5)
+
+
+FAKE_FTETWILD = """#!/bin/sh
+while [ "$1" != --output ]; do shift; done
+cp "$(dirname "$0")/tets.mesh" "$2"
+"""
+
+
+def test_ftetwild_is_run_where_it_is(folder):
+    """A program in its place gives the cube of its frame: a diagonal from 1 to 2, around the origin."""
+    folder.off("unit.off", shapes.cube(-0.5, 0.5))
+    folder.run("tetrahedralize", "unit.off", "-o", "tets.mesh").is_good()
+    folder.off("cube.off", shapes.cube())
+    (folder / folder.write("ftetwild", FAKE_FTETWILD)).chmod(0o755)
+    there = {"BINDPOSE_FTETWILD": str(folder / "ftetwild"), "TMPDIR": str(folder.path)}
+    words = ["tetrahedralize", "cube.off", "--method", "ftetwild", "-o", "m.vtu"]
+    run = folder.run(*words, "--report", "-", environment=there).is_good()
+    assert run.new_files == ["m.vtu"], "nothing temporary"
+    assert run.report["method"] == "ftetwild"
+    assert volumes(folder / "m.vtu").sum() == pytest.approx(8, rel=1e-12)
+    assert run.report["distance_max"] == pytest.approx(0, abs=1e-9)
+    nowhere = {"BINDPOSE_FTETWILD": "/nowhere/ftetwild"}
+    folder.run(*words, "--overwrite", environment=nowhere).is_refused("/nowhere/ftetwild")
+    folder.write("ftetwild", "#!/bin/sh\necho its last words; exit 3\n")
+    folder.run(*words, "--overwrite", environment=there).is_refused("its last words", code=5)
+
+
+def test_the_whole_hull(folder):
+    vertices, faces = shapes.cube()
+    far = [[x + 3, y, z] for x, y, z in vertices]
+    folder.off("two.off", (vertices + far, faces + [[v + 8 for v in face] for face in faces]))
+    run = folder.run("tetrahedralize", "two.off", "--method", "cdt", "--keep-outside", "-o", "h.vtu", "--report", "-")
+    report = run.is_good().report
+    assert report["volume"] == pytest.approx(16) and 0 < report["counts"]["tets_inside"] < report["counts"]["tets"]
+    assert folder.run("info", "h.vtu", "--report", "-").is_good().report["volume"] == pytest.approx(20)
+    folder.run("tetrahedralize", "two.off", "--keep-outside", "-o", "n.vtu").is_refused("cdt")

@@ -7,6 +7,7 @@
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkImageData.h"
+#include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPNGReader.h"
 #include "vtkPointData.h"
@@ -141,6 +142,78 @@ TEST(Picture, DrawsEveryKindOfData)
   // A dataset without the array is drawn plain beside one that has it.
   options.array = "Weights";
   EXPECT_TRUE(try_to_draw({ { ball(), nullptr, "a" }, { cloud, nullptr, "b" } }, options).ok());
+}
+
+TEST(Picture, TetsAreColouredByWhatTheyHave)
+{
+  const TetMesh box = test::tet_box(2, 2, 2);
+  const auto tets = to_unstructured_grid(box.points, box.tets);
+  const Tile tile{ tets, nullptr, "" };
+  const auto refused = [&](const PictureOptions& options, const Tile& what)
+  {
+    const Status status = try_to_draw({ what }, options);
+    EXPECT_EQ(status.code, StatusCode::invalid_input);
+    EXPECT_EQ(status.message.find('\n'), std::string::npos);
+    return status.message;
+  };
+  PictureOptions options = tiny();
+  options.colour_by = ColourBy::label;
+  EXPECT_THAT(refused(options, tile), HasSubstr("no cell array 'Label'"));
+  options.colour_by = ColourBy::rung;
+  EXPECT_THAT(refused(options, tile), HasSubstr("how they were made"));
+  options.colour_by = ColourBy::winding_number;
+  EXPECT_THAT(refused(options, tile), HasSubstr("no array 'WindingNumber'"));
+  options.colour_by = ColourBy::quality;
+  EXPECT_THAT(refused(options, { ball(), nullptr, "" }), HasSubstr("only tets"));
+  const Status drawn = try_to_draw({ tile, { ball(), nullptr, "" } }, options);
+  EXPECT_TRUE(drawn.ok()) << drawn.message;
+  EXPECT_EQ(drawn.report.text("picture.array"), "quality");
+  options.array = "Weights";
+  EXPECT_THAT(refused(options, tile), HasSubstr("not from both"));
+
+  vtkNew<vtkIntArray> labels;
+  labels->SetName("Label");
+  for (Index t = 0; t < box.tets.rows(); ++t)
+  {
+    labels->InsertNextValue(t == 7 ? 2 : 1);
+  }
+  tets->GetCellData()->AddArray(labels);
+  options = tiny();
+  options.colour_by = ColourBy::label;
+  const Status labelled = try_to_draw({ tile }, options);
+  ASSERT_TRUE(labelled.ok()) << labelled.message;
+  const auto* counts = labelled.report.find("picture.colours[].count");
+  ASSERT_NE(counts, nullptr);
+  EXPECT_EQ(std::get<std::vector<std::int64_t>>(*counts),
+    (std::vector<std::int64_t>{ box.tets.rows() - 1, 1 }));
+  labels->SetValue(3, 5);
+  EXPECT_THAT(refused(options, tile), HasSubstr("'Label' of cell 3 is 5"));
+}
+
+TEST(Picture, SectionsAndSizesThatLeaveNothing)
+{
+  const TetMesh box = test::tet_box(2, 2, 2);
+  const Tile tile{ to_unstructured_grid(box.points, box.tets), nullptr, "" };
+  PictureOptions options = tiny();
+  options.section_plane = Plane{ Vec3(0, 0, -3), Vec3(0, 0, 1) };
+  EXPECT_THAT(try_to_draw({ tile }, options).message, HasSubstr("leaves no tet"));
+  options.section_plane = Plane{ Vec3(0, 0, 0.5), Vec3(0, 0, 0) };
+  EXPECT_THAT(try_to_draw({ tile }, options).message, HasSubstr("plane"));
+  options.section_plane = Plane{ Vec3(0, 0, 0.5), Vec3(0, 0, 1) };
+  EXPECT_THAT(
+    try_to_draw({ { ball(), nullptr, "" } }, options).message, HasSubstr("only tets and volumes"));
+  const Status half = try_to_draw({ tile }, options);
+  ASSERT_TRUE(half.ok()) << half.message;
+  EXPECT_EQ(half.report.number("picture.tets", -1), box.tets.rows() / 2);
+  for (const double size : { 0.0, -1.0, 1.5, std::numeric_limits<double>::quiet_NaN() })
+  {
+    options = tiny();
+    options.shrink = size;
+    EXPECT_THAT(try_to_draw({ tile }, options).message, HasSubstr("shrink"));
+  }
+  options.shrink = 0.5;
+  EXPECT_THAT(
+    try_to_draw({ { ball(), nullptr, "" } }, options).message, HasSubstr("only tets shrink"));
 }
 
 TEST(Picture, FilesAppearWholeOrNotAtAll)

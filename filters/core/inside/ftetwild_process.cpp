@@ -1,0 +1,212 @@
+// The surface is written as OFF, the tets are read as MEDIT, which fTetWild writes when the
+// output's name ends in .mesh. Its lines tell which of its five stages has ended; how long each
+// will take is a guess.
+#include "inside/ftetwild_process.h"
+
+#include "base/number_text.h"
+#include "inside/child_process.h"
+#include "inside/scratch_folder.h"
+#include "inside/tet_quality.h"
+#include "inside/unit_frame.h"
+#include "io/medit.h"
+#include "io/off.h"
+
+#include <cstdlib>
+#include <sstream>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr const char* variable = "BINDPOSE_FTETWILD";
+constexpr const char* missing =
+  "the executable FloatTetwild_bin (or ftetwild) of fTetWild is not on PATH and not named by the "
+  "environment variable BINDPOSE_FTETWILD; it can be built from "
+  "https://github.com/wildmeshing/fTetWild";
+
+Status check_options(const FtetwildOptions& options)
+{
+  constexpr double least = 1e-5;
+  constexpr double most = 0.1;
+  if (!(options.epsilon >= least && options.epsilon <= most))
+  {
+    return Status::invalid_input(
+      "ftetwild_epsilon must be from 0.00001 to 0.1, not " + short_number(options.epsilon));
+  }
+  if (!(options.edge >= 0.0 && options.edge <= 1.0))
+  {
+    return Status::invalid_input(
+      "the edge length must be from 0 to 1, not " + short_number(options.edge));
+  }
+  return check_limits(options.time_limit, options.memory_limit);
+}
+
+/// What fTetWild prints: progress, and its last words.
+class Lines
+{
+public:
+  void take(const std::string& line, ExecutionContext& context)
+  {
+    struct Stage
+    {
+      const char* words;
+      double done;
+    };
+    for (const Stage& stage :
+      { Stage{ "preprocessing ", 0.1 }, Stage{ "tetrahedralizing ", 0.2 }, Stage{ "cutting ", 0.4 },
+        Stage{ "mesh optimization ", 0.9 }, Stage{ "winding number ", 0.95 } })
+    {
+      if (line.find(stage.words) != std::string::npos)
+      {
+        context.progress(stage.done);
+      }
+    }
+    if (!line.empty())
+    {
+      constexpr std::size_t enough = 200;
+      this->last_ = line.substr(0, enough);
+    }
+  }
+  const std::string& last() const { return this->last_; }
+
+private:
+  std::string last_;
+};
+
+/// Tets turned to be positive, stray vertices dropped.
+TetMesh clean_up(const MeditMesh& read)
+{
+  TetMesh mesh{ Points(0, 3), read.tets };
+  if (tet_volumes(read.points, mesh.tets).sum() < 0.0)
+  {
+    mesh.tets.col(0).swap(mesh.tets.col(1)); // all have one orientation
+  }
+  std::vector<Index> number(static_cast<std::size_t>(read.points.rows()), -1);
+  std::vector<Index> used;
+  for (Index k = 0; k < mesh.tets.size(); ++k)
+  {
+    Index& v = mesh.tets.data()[k];
+    if (number[v] < 0)
+    {
+      number[v] = static_cast<Index>(used.size());
+      used.push_back(v);
+    }
+    v = number[v];
+  }
+  mesh.points.resize(static_cast<Index>(used.size()), 3);
+  for (std::size_t v = 0; v < used.size(); ++v)
+  {
+    mesh.points.row(static_cast<Index>(v)) = read.points.row(used[v]);
+  }
+  return mesh;
+}
+} // namespace
+
+std::string find_ftetwild()
+{
+  if (const char* chosen = std::getenv(variable))
+  {
+    return executable_file(chosen) ? std::string(chosen) : std::string();
+  }
+  const char* path = std::getenv("PATH");
+  for (const char* name : { "FloatTetwild_bin", "ftetwild" })
+  {
+    std::istringstream folders(path ? path : "");
+    std::string folder;
+    while (std::getline(folders, folder, ':'))
+    {
+      std::string file = (folder.empty() ? "." : folder) + "/" + name;
+      if (executable_file(file))
+      {
+        return file;
+      }
+    }
+  }
+  return {};
+}
+
+Status run_ftetwild(PointsView points, TrianglesView triangles, const FtetwildOptions& options,
+  TetMesh& mesh, ExecutionContext& context)
+{
+  mesh = TetMesh();
+  Status status = check_options(options);
+  if (status.ok())
+  {
+    status = check_frame(points, triangles);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  ChildRequest request;
+  request.name = "fTetWild";
+  request.path = find_ftetwild();
+  if (request.path.empty())
+  {
+    const char* chosen = std::getenv(variable);
+    return Status::failure(StatusCode::unavailable,
+      chosen ? std::string(variable) + " names no executable file: " + chosen
+             : std::string(missing));
+  }
+  ScratchFolder folder("ftetwild");
+  if (folder.path().empty())
+  {
+    return Status::failure(StatusCode::internal_error, folder.error());
+  }
+  // fTetWild knows lengths that do not scale.
+  const UnitFrame frame(bounding_box(points, triangles));
+  const std::string surface = folder.path() + "/surface.off";
+  const std::string tets = folder.path() + "/tets.mesh";
+  status = write_off(surface, to_polygons(frame.into(points), triangles));
+  if (!status.ok())
+  {
+    return Status::failure(StatusCode::internal_error, status.message);
+  }
+  request.arguments = { "--input", surface, "--output", tets, "--epsr",
+    exact_number(options.epsilon), "--level", "2", "--no-binary", "--no-color" };
+  if (options.edge > 0.0)
+  {
+    request.arguments.insert(request.arguments.end(), { "--lr", exact_number(options.edge) });
+  }
+  if (context.threads() > 0)
+  {
+    request.arguments.insert(
+      request.arguments.end(), { "--max-threads", std::to_string(context.threads()) });
+  }
+  request.folder = folder.path();
+  request.time_limit = options.time_limit;
+  request.memory_limit = options.memory_limit;
+  request.started = [&](int group) { folder.guard_group(group); };
+  Lines lines;
+  ChildEnd end;
+  status = run_child(
+    request, [&](const std::string& line) { lines.take(line, context); }, end, context);
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (!end.failure.empty())
+  {
+    return Status::failure(StatusCode::internal_error,
+      request.name + " " + end.failure + memory_words(options.memory_limit) +
+        (lines.last().empty() ? "" : "; its last words: " + lines.last()));
+  }
+  MeditMesh read;
+  status = read_medit(tets, read);
+  if (!status.ok())
+  {
+    return Status::failure(
+      StatusCode::internal_error, request.name + " wrote no readable mesh: " + status.message);
+  }
+  mesh = clean_up(read);
+  mesh.points = frame.back(mesh.points);
+  status = check_tets(mesh.points, mesh.tets);
+  if (!status.ok())
+  {
+    mesh = TetMesh();
+  }
+  return status;
+}
+
+} // namespace bindpose

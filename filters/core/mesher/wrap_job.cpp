@@ -1,0 +1,89 @@
+// Alpha wrapping (Portaneri, Rouxel-Labbé, Hemmer, Cohen-Steiner, Alliez, Alpha Wrapping with an
+// Offset, ACM Transactions on Graphics 41(4), 2022) by CGAL. A Delaunay triangulation is carved
+// from outside: through every facet that a ball of radius alpha fits through, unless what is behind
+// it touches the surface; then a vertex is added at the distance `offset` from it. It asks for
+// nothing but distances to triangles, so it ends for any of them, and what is left is closed.
+#include "mesher/jobs.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/alpha_wrap_3.h>
+
+#include <array>
+#include <vector>
+
+namespace bindpose
+{
+
+namespace
+{
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+/// Counts the vertices that are added. How many there will be is not known: the bar is half way
+/// when there is one for every square of side alpha that the surface has room for.
+class Progress : public CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor
+{
+public:
+  explicit Progress(double expected) : expected_(expected) {}
+
+  template <typename Wrapper, typename VertexHandle>
+  void after_Steiner_point_insertion(const Wrapper&, VertexHandle)
+  {
+    constexpr int seldom = 512;
+    if (++this->count_ % seldom == 0)
+    {
+      const double done = static_cast<double>(this->count_);
+      tell_progress(0.95 * done / (done + this->expected_));
+    }
+  }
+
+private:
+  double expected_;
+  std::int64_t count_ = 0;
+};
+} // namespace
+
+std::string wrap(MesherData& data, const WrapJobOptions& options)
+{
+  std::vector<Kernel::Point_3> points;
+  for (Index v = 0; v < data.points.rows(); ++v)
+  {
+    points.emplace_back(data.points(v, 0), data.points(v, 1), data.points(v, 2));
+  }
+  std::vector<std::array<std::size_t, 3>> triangles;
+  for (Index f = 0; f < data.triangles.rows(); ++f)
+  {
+    triangles.push_back({ static_cast<std::size_t>(data.triangles(f, 0)),
+      static_cast<std::size_t>(data.triangles(f, 1)),
+      static_cast<std::size_t>(data.triangles(f, 2)) });
+  }
+  if (!(options.alpha > 0.0) || !(options.offset > 0.0))
+  {
+    return "alpha and offset must be positive";
+  }
+  Progress progress(surface_area(data.points, data.triangles) / (options.alpha * options.alpha));
+  Mesh mesh;
+  CGAL::alpha_wrap_3(points, triangles, options.alpha, options.offset, mesh,
+    CGAL::parameters::default_values(), CGAL::parameters::visitor(std::ref(progress)));
+
+  data = MesherData();
+  data.points.resize(static_cast<Index>(mesh.number_of_vertices()), 3);
+  data.triangles.resize(static_cast<Index>(mesh.number_of_faces()), 3);
+  for (const Mesh::Vertex_index v : mesh.vertices())
+  {
+    const Kernel::Point_3& p = mesh.point(v);
+    data.points.row(static_cast<Index>(v.idx())) << p.x(), p.y(), p.z();
+  }
+  for (const Mesh::Face_index f : mesh.faces())
+  {
+    int k = 0;
+    for (const Mesh::Vertex_index v : mesh.vertices_around_face(mesh.halfedge(f)))
+    {
+      data.triangles(static_cast<Index>(f.idx()), k++) = static_cast<Index>(v.idx());
+    }
+  }
+  return data.triangles.rows() > 0 ? std::string() : "the wrap is empty";
+}
+
+} // namespace bindpose

@@ -1,0 +1,131 @@
+// A program in a process of its own: how it ends, and that nothing of it is left.
+#include "inside/child_process.h"
+
+#include "support/files.h"
+#include "support/processes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+using namespace bindpose;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+namespace
+{
+class Shell
+{
+public:
+  explicit Shell(const std::string& script)
+  {
+    this->request.name = "the shell";
+    this->request.path = "/bin/sh";
+    this->request.arguments = { "-c", script };
+  }
+
+  Status run(ExecutionContext* context = nullptr)
+  {
+    ExecutionContext own;
+    return run_child(
+      this->request, [&](const std::string& line) { this->lines.push_back(line); }, this->end,
+      context ? *context : own);
+  }
+
+  ChildRequest request;
+  ChildEnd end;
+  std::vector<std::string> lines;
+};
+
+bool dies_soon(const std::string& process)
+{
+  return test::soon([&] { return test::gone(std::stoi(process)); });
+}
+} // namespace
+
+TEST(ChildProcess, LinesOfBothOutputsArrive)
+{
+  Shell shell("echo one; echo two >&2; printf three; cat; echo; printf 'no end'");
+  ASSERT_TRUE(shell.run().ok());
+  EXPECT_THAT(shell.lines, ElementsAre("one", "two", "three"));
+  EXPECT_EQ(shell.end.failure, "");
+}
+
+TEST(ChildProcess, EndsAreTold)
+{
+  Shell seven("exit 7");
+  ASSERT_TRUE(seven.run().ok());
+  EXPECT_EQ(seven.end.failure, "ended with code 7");
+  EXPECT_FALSE(seven.end.by_signal);
+  Shell crash("kill -SEGV $$");
+  ASSERT_TRUE(crash.run().ok());
+  EXPECT_THAT(crash.end.failure, HasSubstr("signal 11"));
+  EXPECT_TRUE(crash.end.by_signal);
+  Shell nowhere("true");
+  nowhere.request.path = "/nowhere/program";
+  const Status status = nowhere.run();
+  EXPECT_EQ(status.code, StatusCode::unavailable);
+  EXPECT_THAT(status.message, HasSubstr("/nowhere/program cannot be started"));
+}
+
+TEST(ChildProcess, RunsInItsFolder)
+{
+  const test::Folder folder;
+  Shell shell("pwd -P; cat /dev/stdin");
+  shell.request.folder = folder.path();
+  ASSERT_TRUE(shell.run().ok());
+  EXPECT_THAT(shell.lines, ElementsAre(std::filesystem::canonical(folder.path()).string()));
+}
+
+TEST(ChildProcess, MemoryIsLimitedFromOutside)
+{
+  // The limit may come a moment after the start.
+  Shell shell("sleep 0.2; ulimit -v; ulimit -c");
+  shell.request.memory_limit = 500;
+  ASSERT_TRUE(shell.run().ok());
+  EXPECT_THAT(shell.lines, ElementsAre("512000", "0"));
+}
+
+TEST(ChildProcess, ItsGroupIsKilledWhateverTheEnd)
+{
+  const std::string leaves_one = "sleep 60 & echo $!; ";
+  std::vector<int> groups;
+  {
+    Shell shell(leaves_one + "exit 0");
+    shell.request.started = [&](int group) { groups.push_back(group); };
+    ASSERT_TRUE(shell.run().ok());
+    ASSERT_EQ(shell.lines.size(), 1u);
+    EXPECT_TRUE(dies_soon(shell.lines[0])) << "after its own end";
+  }
+  ASSERT_EQ(groups.size(), 2u);
+  EXPECT_GT(groups[0], 0);
+  EXPECT_EQ(groups[1], 0) << "nothing is left";
+  {
+    Shell shell(leaves_one + "wait");
+    shell.request.time_limit = 0.3;
+    const Status status = shell.run();
+    EXPECT_EQ(status.code, StatusCode::internal_error);
+    EXPECT_EQ(status.message, "the shell was stopped at its time limit of 0.3 s");
+    ASSERT_EQ(shell.lines.size(), 1u);
+    EXPECT_TRUE(dies_soon(shell.lines[0])) << "after the time limit";
+  }
+  {
+    Shell shell(leaves_one + "wait");
+    ExecutionContext context;
+    std::thread user(
+      [&]
+      {
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        context.request_cancel();
+      });
+    EXPECT_EQ(shell.run(&context).code, StatusCode::cancelled);
+    user.join();
+    ASSERT_EQ(shell.lines.size(), 1u);
+    EXPECT_TRUE(dies_soon(shell.lines[0])) << "after a cancel";
+    EXPECT_EQ(shell.run(&context).code, StatusCode::cancelled);
+    EXPECT_EQ(shell.lines.size(), 1u) << "cancelled before: not started";
+  }
+}

@@ -1,0 +1,140 @@
+// Tets and defects, each picture with numbers that must hold in it whatever its baseline says.
+#include "render/drawing.h"
+#include "render/harness.h"
+#include "render/shapes.h"
+
+#include "conversion.h"
+#include "scene/categories.h"
+#include "scene/colours.h"
+#include "support/meshes.h"
+
+#include "vtkCellData.h"
+#include "vtkImageData.h"
+#include "vtkIntArray.h"
+#include "vtkPolyData.h"
+#include "vtkSurfaceDefects.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace bindpose;
+using namespace bindpose::test;
+
+namespace
+{
+/// How far a lit colour is from what it was mixed from: the largest difference of the shares of
+/// red, green and blue. Light changes the sum, hardly the shares.
+double hue_distance(const Pixel& p, const Rgb& colour)
+{
+  const double its = std::max(1, p.r + p.g + p.b);
+  const double sum = colour[0] + colour[1] + colour[2];
+  return std::max({ std::abs(p.r / its - colour[0] / sum), std::abs(p.g / its - colour[1] / sum),
+    std::abs(p.b / its - colour[2] / sum) });
+}
+
+long long painted(const Drawing& drawing)
+{
+  return drawing.count([](const Pixel& p) { return !is_paper(p); });
+}
+} // namespace
+
+TEST(Render, tets_shrunk)
+{
+  PictureOptions options = small_picture();
+  options.section_plane = Plane{ Vec3(0, 0, 0.6), Vec3(0, 0, 2) };
+  const Drawing whole = draw({ { tet_brick(), nullptr, "" } }, options);
+  options.shrink = 0.5;
+  const Drawing drawing = draw({ { tet_brick(), nullptr, "" } }, options);
+  // Nothing sticks out, and paper is seen between what was one piece.
+  long long gaps = 0;
+  for (int y = 0; y < 300; ++y)
+  {
+    for (int x = 0; x < 400; ++x)
+    {
+      const bool before = !is_paper(pixel_at(whole.image, x, y));
+      const bool after = !is_paper(pixel_at(drawing.image, x, y));
+      EXPECT_FALSE(after && !before) << x << " " << y;
+      gaps += before && !after;
+    }
+  }
+  EXPECT_GT(gaps, painted(whole) / 50);
+  // The smaller, the less is left; size 1 leaves no gap.
+  options.shrink = 0.25;
+  EXPECT_LT(painted(draw({ { tet_brick(), nullptr, "" } }, options)), 3 * painted(drawing) / 4);
+  options.shrink = 1.0;
+  EXPECT_EQ(painted(draw({ { tet_brick(), nullptr, "" } }, options)), painted(whole));
+  // The half towards the camera is gone, wherever the normal points.
+  options.section_plane->normal *= -1.0;
+  EXPECT_EQ(painted(draw({ { tet_brick(), nullptr, "" } }, options)), painted(whole));
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, tets_labels)
+{
+  // Four blocks side by side, one a label.
+  TetMesh mesh = tet_box(8, 4, 4, Vec3::Zero(), Vec3(2, 1, 1));
+  const auto grid = to_unstructured_grid(mesh.points, mesh.tets);
+  vtkNew<vtkIntArray> labels;
+  labels->SetName("Label");
+  for (Index t = 0; t < mesh.tets.rows(); ++t)
+  {
+    double x = 0.0;
+    for (int k = 0; k < 4; ++k)
+    {
+      x += 0.25 * mesh.points(mesh.tets(t, k), 0);
+    }
+    labels->InsertNextValue(static_cast<int>(std::floor(2.0 * x)) - 1);
+  }
+  grid->GetCellData()->AddArray(labels);
+  PictureOptions options = small_picture();
+  options.colour_by = ColourBy::label;
+  options.cut = false;
+  const Drawing drawing = draw({ { grid, nullptr, "" } }, options);
+  for (const Category& category : label_categories())
+  {
+    const Pixel seen = drawing.at(Vec3(0.25 + 0.5 * (category.value + 1), 0.4, 1.0));
+    EXPECT_LT(hue_distance(seen, category.colour), 0.06) << category.name;
+  }
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, tets_quality)
+{
+  // All tets of the subdivided cube have 45 degrees.
+  const TetMesh mesh = tet_box(4, 4, 4);
+  PictureOptions options = small_picture();
+  options.colour_by = ColourBy::quality;
+  options.cut = false;
+  const Drawing drawing =
+    draw({ { to_unstructured_grid(mesh.points, mesh.tets), nullptr, "" } }, options);
+  const Rgb expected = sequential_colour(45.0 / 70.528779);
+  for (const Vec3& place : { Vec3(0.31, 0.4, 1.0), Vec3(0.71, 0.83, 1.0), Vec3(1.0, 0.3, 0.6) })
+  {
+    EXPECT_LT(hue_distance(drawing.at(place), expected), 0.06) << place.transpose();
+  }
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, defects)
+{
+  const TriangleMesh mesh = join(open_cube(), translated(sphere(2, 0.5), Vec3(-0.2, 0.9, 0.1)));
+  const auto surface = to_polydata(mesh.points, mesh.triangles);
+  vtkNew<vtkSurfaceDefects> filter;
+  filter->SetInputData(surface);
+  filter->Update();
+  PictureOptions options = small_picture();
+  Tile tile{ surface, nullptr, "" };
+  tile.defects = vtkPolyData::SafeDownCast(filter->GetOutput());
+  const Drawing drawing = draw({ tile }, options);
+  const auto& kinds = defect_categories();
+  // The border of the opening, and the two triangles of the lid that the sphere crosses.
+  EXPECT_LT(hue_distance(drawing.at(Vec3(0.3, -1.0, 1.0)), kinds[2].colour), 0.08);
+  EXPECT_LT(hue_distance(drawing.at(Vec3(0.85, 1.0, 0.7)), kinds[7].colour), 0.08);
+  // What is clean is see-through grey.
+  const Pixel grey = drawing.at(Vec3(1.0, 0.0, 0.0));
+  EXPECT_LT(std::max({ grey.r, grey.g, grey.b }) - std::min({ grey.r, grey.g, grey.b }), 30);
+  expect_baseline(drawing.image);
+}

@@ -1,0 +1,50 @@
+#ifndef bindpose_tests_support_processes_h
+#define bindpose_tests_support_processes_h
+
+#include <chrono>
+#include <csignal>
+#include <cstddef>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <thread>
+
+#include <sys/types.h>
+
+namespace bindpose::test
+{
+
+inline std::size_t open_descriptors()
+{
+  const auto files = std::filesystem::directory_iterator("/proc/self/fd");
+  return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+}
+
+/// Nothing of it runs any more: there is no such process, or it is dead and not yet reaped by the
+/// one that it was handed to.
+inline bool gone(pid_t process)
+{
+  if (::kill(process, 0) != 0)
+  {
+    return true;
+  }
+  std::ifstream file("/proc/" + std::to_string(process) + "/stat");
+  std::string id, name, state;
+  file >> id >> name >> state;
+  return state.empty() || state == "Z" || state == "X";
+}
+
+/// Waits until it holds, 5 s at most.
+inline bool soon(const std::function<bool()>& holds)
+{
+  for (int i = 0; i < 500 && !holds(); ++i)
+  {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return holds();
+}
+
+} // namespace bindpose::test
+
+#endif

@@ -1,0 +1,397 @@
+// Tets and defects in the window, as a person inspects them; what is asserted are counts by brute
+// force, places, and what vtkSurfaceDefects says.
+#include "window_test.h"
+
+#include "inspection.h"
+#include "side_panel.h"
+#include "tet_panel.h"
+#include "value_row.h"
+
+#include "conversion.h"
+#include "scene/categories.h"
+#include "scene/colours.h"
+
+#include "support/meshes.h"
+
+#include "vtkActor.h"
+#include "vtkCellData.h"
+#include "vtkIntArray.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkSurfaceDefects.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkXMLPolyDataWriter.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QPushButton>
+#include <QSlider>
+#include <QStyle>
+#include <QStyleOptionComboBox>
+#include <QThread>
+
+#include <algorithm>
+#include <cstdio>
+
+using namespace bindpose;
+
+namespace
+{
+/// A box around 0 of n^3 cells of six tets each.
+TetMesh box_of(int n)
+{
+  return test::tet_box(n, n, n, Vec3(-1, -1, -1), Vec3(1, 1, 1));
+}
+
+vtkSmartPointer<vtkUnstructuredGrid> tets_of(const TetMesh& mesh)
+{
+  return to_unstructured_grid(mesh.points, mesh.tets);
+}
+
+Index count_behind(const TetMesh& mesh, const Vec3& origin, const Vec3& normal)
+{
+  Index count = 0;
+  for (Index t = 0; t < mesh.tets.rows(); ++t)
+  {
+    Vec3 center = Vec3::Zero();
+    for (int k = 0; k < 4; ++k)
+    {
+      center += 0.25 * mesh.points.row(mesh.tets(t, k)).transpose();
+    }
+    count += (center - origin).dot(normal) <= 0.0;
+  }
+  return count;
+}
+
+bool is_cut(const QColor& c)
+{
+  return c.blue() > c.red() + 20 && c.green() > c.red() + 20;
+}
+
+class TetWindow : public test::WindowTest
+{
+protected:
+  Inspection* inspection() { return this->window.inspection(); }
+  TetView* view() { return this->inspection()->tet_view(); }
+  TetPanel* panel() { return this->window.panels()->tet(); }
+  /// The rows of the panel: position, size.
+  ValueRow* row(int which) { return this->panel()->findChildren<ValueRow*>()[which]; }
+  QComboBox* list(const QString& item)
+  {
+    for (QComboBox* box : this->panel()->findChildren<QComboBox*>())
+    {
+      if (box->findText(item) >= 0)
+      {
+        return box;
+      }
+    }
+    ADD_FAILURE() << "no list has " << item.toStdString();
+    return nullptr;
+  }
+  void choose(const QString& item) { this->list(item)->setCurrentText(item); }
+
+  void open(vtkDataSet* mesh, int panel = PanelColumn::tets)
+  {
+    ASSERT_TRUE(this->window.set_mesh(mesh, "mesh")) << this->window.error().toStdString();
+    this->window.panels()->show_panel(panel);
+    this->render();
+  }
+
+  /// Until no job is running.
+  void wait()
+  {
+    QElapsedTimer clock;
+    clock.start();
+    do
+    {
+      QThread::msleep(5);
+      QApplication::processEvents();
+    } while (this->inspection()->is_busy() && clock.elapsed() < 60000);
+    QApplication::processEvents();
+  }
+};
+} // namespace
+
+TEST_F(TetWindow, TetsAreOpenedCutOpen)
+{
+  const TetMesh mesh = box_of(5);
+  ASSERT_TRUE(this->window.set_mesh(tets_of(mesh), "box"));
+  EXPECT_TRUE(this->panel()->isVisible());
+  EXPECT_EQ(this->view()->shown_count(),
+    count_behind(mesh, this->view()->plane()->origin(), this->view()->plane()->normal()));
+  EXPECT_LT(this->view()->shown_count(), mesh.tets.rows());
+  EXPECT_FALSE(this->window.viewport()->surface_actor()->GetVisibility());
+  const QImage image = this->picture();
+  // The plane lies in the middle of a layer of cells; what is laid open is within one of them.
+  EXPECT_GT(count(image, is_cut), 5000);
+  EXPECT_TRUE(is_cut(image.pixelColor(this->pixel(Vec3(0.11, 0.23, 0.0)))));
+  // Whole, there is no cut to be seen.
+  this->find<QCheckBox>("Cut them open")->setChecked(false);
+  EXPECT_EQ(this->view()->shown_count(), mesh.tets.rows());
+  EXPECT_LT(count(this->picture(), is_cut), 20);
+  // The other half, and the whole add up, but for centres on the plane.
+  this->find<QCheckBox>("Cut them open")->setChecked(true);
+  const Index behind = this->view()->shown_count();
+  this->find<QCheckBox>("Keep the other side")->setChecked(true);
+  EXPECT_GE(this->view()->shown_count() + behind, mesh.tets.rows());
+  EXPECT_EQ(this->view()->shown_count(),
+    count_behind(mesh, this->view()->plane()->origin(), -this->view()->plane()->normal()));
+}
+
+TEST_F(TetWindow, TheMouseDragsThePlane)
+{
+  const TetMesh mesh = box_of(6);
+  this->open(tets_of(mesh));
+  this->row(0)->field()->setValue(0.1);
+  this->render();
+  this->drag(this->pixel(Vec3(0.5, 0.4, 0.1)), this->pixel(Vec3(0.5, 0.4, 0.6)));
+  EXPECT_NEAR(this->view()->plane()->position(), 0.6, 0.08);
+  EXPECT_NEAR(this->row(0)->value(), this->view()->plane()->position(), 0.01);
+  EXPECT_EQ(this->view()->plane()->normal(), Vec3(0, 0, 1));
+  EXPECT_EQ(this->view()->shown_count(),
+    count_behind(mesh, this->view()->plane()->origin(), Vec3(0, 0, 1)));
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const char* const names[] = { "X", "Y", "Z" };
+    this->find<QPushButton>(names[axis])->click();
+    EXPECT_EQ(this->view()->plane()->normal(), Vec3(Vec3::Unit(axis)));
+    this->row(0)->slider()->setValue(300 + 100 * axis);
+    EXPECT_EQ(this->view()->shown_count(),
+      count_behind(mesh, this->view()->plane()->origin(), Vec3::Unit(axis)));
+  }
+  // At the lower end nothing is left, and that is said.
+  this->row(0)->slider()->setValue(0);
+  EXPECT_EQ(this->view()->shown_count(), 0);
+  EXPECT_NE(this->find<QLabel>("No tet is on this side."), nullptr);
+}
+
+TEST_F(TetWindow, AHundredThousandTetsFollowTheMouse)
+{
+  const TetMesh mesh = box_of(26);
+  ASSERT_GT(mesh.tets.rows(), 100000);
+  this->open(tets_of(mesh));
+  this->choose("By quality");
+  const auto median = [this]
+  {
+    std::vector<double> times;
+    for (int step = 0; step < 21; ++step)
+    {
+      this->row(0)->slider()->setValue(200 + 29 * step);
+      times.push_back(this->view()->milliseconds());
+    }
+    std::nth_element(times.begin(), times.begin() + 10, times.end());
+    return times[10];
+  };
+  EXPECT_LT(median(), 30.0);
+  this->row(1)->field()->setValue(0.8);
+  EXPECT_LT(median(), 60.0);
+}
+
+TEST_F(TetWindow, ShrunkTetsStandApart)
+{
+  this->open(tets_of(box_of(3)));
+  this->find<QCheckBox>("Cut them open")->setChecked(false);
+  const auto backgrounds = [this]
+  {
+    // Where the front stands: z = 1, seen obliquely.
+    const QImage image = this->picture();
+    int bright = 0;
+    for (int i = 1; i < 100; ++i)
+    {
+      for (int j = 1; j < 100; ++j)
+      {
+        const QColor c = image.pixelColor(this->pixel(Vec3(0.018 * i - 0.9, 0.018 * j - 0.9, 1.0)));
+        bright += c.red() > 218 && c.green() > 218 && c.blue() > 218;
+      }
+    }
+    return bright;
+  };
+  EXPECT_LT(backgrounds(), 30);
+  this->row(1)->field()->setValue(0.3);
+  EXPECT_GT(backgrounds(), 1000);
+  this->row(1)->field()->setValue(1.0);
+  EXPECT_LT(backgrounds(), 30);
+}
+
+TEST_F(TetWindow, ColoursAreThoseOfTheLegend)
+{
+  const TetMesh mesh = box_of(4);
+  const auto grid = tets_of(mesh);
+  vtkNew<vtkIntArray> labels;
+  labels->SetName("Label");
+  for (Index t = 0; t < mesh.tets.rows(); ++t)
+  {
+    labels->InsertNextValue(mesh.points(mesh.tets(t, 0), 0) < -0.01 ? 0 : 1);
+  }
+  grid->GetCellData()->AddArray(labels);
+  this->open(grid);
+  this->find<QCheckBox>("Cut them open")->setChecked(false);
+  this->choose("By label");
+  EXPECT_EQ(this->window.error(), QString());
+  const QImage image = this->picture();
+  const QColor left = image.pixelColor(this->pixel(Vec3(-0.6, 0.13, 1.0)));
+  const QColor right = image.pixelColor(this->pixel(Vec3(0.66, 0.13, 1.0)));
+  EXPECT_GT(left.blue(), left.red() + 20) << "outside: blue";
+  EXPECT_GT(right.red(), right.blue() + 30) << "inside: orange";
+  // What the tets do not have is said, and the colours stay.
+  const auto refused = [this](const char* item, const char* words)
+  {
+    this->choose(item);
+    EXPECT_NE(this->window.error().indexOf(words), -1) << this->window.error().toStdString();
+    EXPECT_EQ(this->list("By label")->currentText(), QString("By label"));
+  };
+  refused("By winding number", "no array 'WindingNumber'");
+  refused("By method", "do not say how they were made");
+  EXPECT_EQ(this->picture().pixelColor(this->pixel(Vec3(0.66, 0.13, 1.0))), right);
+  this->choose("By quality");
+  this->choose("Plain");
+}
+
+TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
+{
+  const TriangleMesh mesh = test::join(
+    test::open_cube(), test::translated(test::flipped(test::cube()), Vec3(0.5, 0.3, 0.2)));
+  const auto surface = to_polydata(mesh.points, mesh.triangles);
+  vtkNew<vtkSurfaceDefects> filter;
+  filter->SetInputData(surface);
+  filter->Update();
+  this->open(surface);
+  EXPECT_EQ(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
+  this->find<QCheckBox>("Show its defects")->setChecked(true);
+  this->wait();
+  vtkPolyData* shown = this->inspection()->defect_view().defects();
+  ASSERT_NE(shown, nullptr) << this->window.error().toStdString();
+  std::vector<Category> expected = defect_categories();
+  std::vector<Category> seen = defect_categories();
+  count_defects(vtkPolyData::SafeDownCast(filter->GetOutput()), expected);
+  count_defects(shown, seen);
+  Index all = 0;
+  for (std::size_t kind = 0; kind < seen.size(); ++kind)
+  {
+    EXPECT_EQ(seen[kind].count, expected[kind].count) << seen[kind].name;
+    all += seen[kind].count;
+  }
+  EXPECT_EQ(seen[2].count, 4) << "boundary edges";
+  // As a file of their own they are neither handles nor a surface.
+  const std::string path = testing::TempDir() + "bindpose_defects.vtp";
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetInputData(shown);
+  writer->SetFileName(path.c_str());
+  writer->Write();
+  EXPECT_FALSE(this->window.open(QString::fromStdString(path)));
+  std::remove(path.c_str());
+  EXPECT_NE(this->window.error().indexOf("defects of a surface"), -1);
+  EXPECT_EQ(seen[8].count, 12) << "triangles that look inwards";
+  EXPECT_NE(this->find<QLabel>(QString("%1 places").arg(all)), nullptr);
+  EXPECT_LT(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
+  // The edge of the opening is green in the picture.
+  const QColor edge = this->picture().pixelColor(this->pixel(Vec3(-1.0, -0.4, 1.0)));
+  EXPECT_GT(edge.green(), edge.red() + 30);
+  // Another surface has other ones; in the other panel there are none.
+  const TriangleMesh clean = test::cube();
+  ASSERT_TRUE(this->window.set_mesh(to_polydata(clean.points, clean.triangles), "cube"));
+  this->wait();
+  ASSERT_NE(this->inspection()->defect_view().defects(), nullptr);
+  EXPECT_EQ(this->inspection()->defect_view().defects()->GetNumberOfCells(), 0);
+  this->find<QPushButton>("Bind and pose")->click();
+  EXPECT_EQ(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
+}
+
+TEST_F(TetWindow, TetsAreMadeAndAFailureKeepsThem)
+{
+  const TriangleMesh flat = test::grid(4, 4);
+  this->open(to_polydata(flat.points, flat.triangles));
+  this->choose("Embedding lattice");
+  this->find<QPushButton>("Make tets")->click();
+  EXPECT_TRUE(this->inspection()->is_busy());
+  this->wait();
+  ASSERT_NE(this->view()->tets(), nullptr) << this->window.error().toStdString();
+  const Index made = this->view()->tets()->GetNumberOfCells();
+  EXPECT_GT(made, 100);
+  EXPECT_GT(this->view()->shown_count(), 0);
+  this->choose("By method");
+  EXPECT_EQ(this->window.error(), QString());
+  // A flat surface encloses nothing.
+  vtkUnstructuredGrid* before = this->view()->tets();
+  this->choose("Automatic");
+  this->find<QPushButton>("Make tets again")->click();
+  this->wait();
+  EXPECT_NE(this->window.error().indexOf("flat"), -1) << this->window.error().toStdString();
+  EXPECT_EQ(this->window.error().count('\n'), 0);
+  EXPECT_EQ(this->view()->tets(), before);
+  EXPECT_GT(this->view()->shown_count(), 0);
+  // While another mesh is opened, work stops.
+  this->choose("Embedding lattice");
+  this->find<QPushButton>("Make tets again")->click();
+  const TriangleMesh ball = test::sphere(2);
+  ASSERT_TRUE(this->window.set_mesh(to_polydata(ball.points, ball.triangles), "ball"));
+  this->wait();
+  EXPECT_EQ(this->view()->tets(), nullptr);
+  EXPECT_TRUE(this->window.viewport()->surface_actor()->GetVisibility());
+}
+
+TEST_F(TetWindow, ThePanelDecidesWhatIsSeen)
+{
+  this->open(tets_of(box_of(3)));
+  EXPECT_FALSE(this->window.viewport()->surface_actor()->GetVisibility());
+  this->find<QPushButton>("Bind and pose")->click();
+  EXPECT_TRUE(this->window.panel()->isVisible());
+  EXPECT_TRUE(this->window.viewport()->surface_actor()->GetVisibility());
+  EXPECT_EQ(this->view()->shown_count(), 0);
+  this->find<QPushButton>("Tets")->click();
+  EXPECT_GT(this->view()->shown_count(), 0);
+  this->find<QCheckBox>("Show the tets")->setChecked(false);
+  EXPECT_TRUE(this->window.viewport()->surface_actor()->GetVisibility());
+  EXPECT_FALSE(this->find<QCheckBox>("Cut them open")->isEnabled());
+}
+
+TEST_F(TetWindow, NoTextOfTheTetPanelIsClipped)
+{
+  this->open(tets_of(box_of(20)));
+  this->find<QCheckBox>("Show its defects")->setChecked(true);
+  this->wait();
+  for (const QSize& size : { QSize(900, 680), QSize(1280, 800), QSize(1920, 1080) })
+  {
+    this->window.resize(size);
+    this->render();
+    EXPECT_EQ(this->window.size(), size);
+    for (QPushButton* button : this->window.panels()->findChildren<QPushButton*>())
+    {
+      if (button->isVisible())
+      {
+        EXPECT_LE(button->sizeHint().width(), button->width()) << button->text().toStdString();
+        EXPECT_LE(button->sizeHint().height(), button->height()) << button->text().toStdString();
+      }
+    }
+    for (QCheckBox* box : this->panel()->findChildren<QCheckBox*>())
+    {
+      EXPECT_LE(box->sizeHint().width(), box->width()) << box->text().toStdString();
+      EXPECT_LE(box->sizeHint().height(), box->height()) << box->text().toStdString();
+    }
+    for (QComboBox* box : this->panel()->findChildren<QComboBox*>())
+    {
+      QStyleOptionComboBox option;
+      option.initFrom(box);
+      const int room =
+        box->style()
+          ->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, box)
+          .width();
+      for (int item = 0; item < box->count(); ++item)
+      {
+        EXPECT_LE(box->fontMetrics().horizontalAdvance(box->itemText(item)), room)
+          << box->itemText(item).toStdString();
+      }
+    }
+    for (QLabel* label : this->panel()->findChildren<QLabel*>())
+    {
+      EXPECT_LE(label->sizeHint().height(), label->height()) << label->text().toStdString();
+      if (!label->wordWrap())
+      {
+        EXPECT_LE(label->sizeHint().width(), label->width()) << label->text().toStdString();
+      }
+    }
+  }
+}

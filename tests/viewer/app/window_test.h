@@ -1,0 +1,112 @@
+#ifndef bindpose_tests_viewer_app_window_test_h
+#define bindpose_tests_viewer_app_window_test_h
+
+// The window as a person uses it: real mouse events of Qt on the picture, buttons by their texts.
+
+#include "main_window.h"
+#include "panel_column.h"
+#include "viewport.h"
+
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+
+#include <QApplication>
+#include <QImage>
+#include <QMouseEvent>
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace bindpose::test
+{
+
+class WindowTest : public testing::Test
+{
+protected:
+  WindowTest()
+  {
+    this->window.show();
+    QApplication::processEvents();
+  }
+
+  /// The one with this text; when there are several, the visible one.
+  template <typename Widget>
+  Widget* find(const QString& text)
+  {
+    Widget* found = nullptr;
+    for (Widget* widget : this->window.panels()->findChildren<Widget*>())
+    {
+      if (widget->text() == text && (!found || widget->isVisible()))
+      {
+        found = widget;
+      }
+    }
+    EXPECT_NE(found, nullptr) << "there is no " << text.toStdString();
+    return found;
+  }
+  void render()
+  {
+    QApplication::processEvents();
+    this->window.viewport()->renderWindow()->Render();
+    QApplication::processEvents();
+  }
+
+  /// Where a place is in the picture, in Qt's pixels from the upper left.
+  QPoint pixel(const Vec3& place)
+  {
+    vtkRenderer* renderer = this->window.viewport()->renderer();
+    renderer->SetWorldPoint(place.x(), place.y(), place.z(), 1.0);
+    renderer->WorldToDisplay();
+    const double* d = renderer->GetDisplayPoint();
+    return { static_cast<int>(d[0]),
+      this->window.viewport()->height() - 1 - static_cast<int>(d[1]) };
+  }
+
+  void mouse(QEvent::Type type, const QPoint& at, Qt::MouseButton button, Qt::MouseButtons held)
+  {
+    Viewport* viewport = this->window.viewport();
+    QMouseEvent event(type, at, viewport->mapToGlobal(at), button, held, Qt::NoModifier);
+    QApplication::sendEvent(viewport, &event);
+    QApplication::processEvents();
+  }
+
+  void hover(const QPoint& at) { this->mouse(QEvent::MouseMove, at, Qt::NoButton, Qt::NoButton); }
+
+  void drag(const QPoint& from, const QPoint& to)
+  {
+    this->hover(from);
+    this->mouse(QEvent::MouseButtonPress, from, Qt::LeftButton, Qt::LeftButton);
+    for (int step = 1; step <= 5; ++step)
+    {
+      this->mouse(QEvent::MouseMove, from + (to - from) * step / 5, Qt::NoButton, Qt::LeftButton);
+    }
+    this->mouse(QEvent::MouseButtonRelease, to, Qt::LeftButton, Qt::NoButton);
+    this->render();
+  }
+
+  QImage picture()
+  {
+    this->render();
+    return this->window.viewport()->grabFramebuffer();
+  }
+
+  static int count(const QImage& image, const std::function<bool(const QColor&)>& which)
+  {
+    int result = 0;
+    for (int y = 0; y < image.height(); ++y)
+    {
+      for (int x = 0; x < image.width(); ++x)
+      {
+        result += which(image.pixelColor(x, y));
+      }
+    }
+    return result;
+  }
+
+  MainWindow window;
+};
+
+} // namespace bindpose::test
+
+#endif

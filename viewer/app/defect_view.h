@@ -1,0 +1,33 @@
+#ifndef defect_view_h
+#define defect_view_h
+
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <vector>
+
+class Viewport;
+class vtkActor;
+
+/// Defects of a surface in the picture, with a legend of their kinds and counts.
+class DefectView
+{
+public:
+  explicit DefectView(Viewport* viewport);
+
+  /// As vtkSurfaceDefects gives them; null: none.
+  void set_defects(vtkPolyData* defects);
+  vtkPolyData* defects() const { return this->defects_; }
+  void show(bool shown);
+  bool is_shown() const { return this->shown_ && this->defects_; }
+
+private:
+  void update();
+
+  Viewport* viewport_;
+  vtkSmartPointer<vtkPolyData> defects_;
+  std::vector<vtkSmartPointer<vtkActor>> actors_;
+  bool shown_ = false;
+};
+
+#endif

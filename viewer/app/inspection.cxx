@@ -1,0 +1,265 @@
+#include "inspection.h"
+
+#include "tet_panel.h"
+#include "viewport.h"
+
+#include "conversion.h"
+#include "inside/surface_defects.h"
+#include "inside/surface_repair.h"
+#include "inside/tetrahedralize.h"
+#include "surface_defects_data.h"
+#include "tets_data.h"
+
+#include <memory>
+
+using namespace bindpose;
+
+namespace
+{
+TetrahedralizeOptions options_of(int method)
+{
+  TetrahedralizeOptions options;
+  options.method = method == TetPanel::remesh ? TetMethod::remesh
+    : method == TetPanel::embed               ? TetMethod::embed
+    : method == TetPanel::wrap                ? TetMethod::wrap
+    : method == TetPanel::ftetwild            ? TetMethod::ftetwild
+    : method == TetPanel::automatic           ? TetMethod::automatic
+                                              : TetMethod::cdt;
+  options.keep_outside = method == TetPanel::whole_hull;
+  return options;
+}
+
+/// A copy that a thread can have for itself.
+TriangleMesh copy_of(const SurfaceInput& surface)
+{
+  TriangleMesh mesh;
+  mesh.points = surface.points.view();
+  mesh.triangles = surface.triangles.view();
+  return mesh;
+}
+
+Status find_defects(
+  const TriangleMesh& mesh, vtkSmartPointer<vtkPolyData>& defects, ExecutionContext& context)
+{
+  RepairOptions options;
+  options.orient = false;
+  RepairedSurface repaired;
+  Status status = repair_surface(mesh.points, mesh.triangles, options, repaired, context);
+  if (status.ok())
+  {
+    defects = to_polydata(list_defects(mesh.points, mesh.triangles, repaired), mesh.points, {});
+  }
+  return status;
+}
+} // namespace
+
+Inspection::Inspection(Viewport* viewport, TetPanel* panel)
+  : QObject(viewport), panel_(panel), tets_(new TetView(viewport)), defects_(viewport)
+{
+  QObject::connect(panel, &TetPanel::make_wanted, this, &Inspection::make_tets);
+  QObject::connect(panel, &TetPanel::cancel_wanted, this, [this] { this->tet_job_.cancel(); });
+  QObject::connect(
+    panel, &TetPanel::tets_wanted, this, [this] { this->set_active(this->active_); });
+  QObject::connect(panel, &TetPanel::cut_wanted, this->tets_, &TetView::set_cut);
+  QObject::connect(panel, &TetPanel::other_side_wanted, this->tets_, &TetView::set_other_side);
+  QObject::connect(panel, &TetPanel::orientation_chosen, this,
+    [this](int orientation)
+    {
+      this->tets_->set_orientation(orientation);
+      this->show_position();
+    });
+  QObject::connect(panel, &TetPanel::position_chosen, this->tets_, &TetView::set_position);
+  QObject::connect(panel, &TetPanel::shrink_chosen, this->tets_, &TetView::set_shrink);
+  QObject::connect(panel, &TetPanel::colours_chosen, this, &Inspection::choose_colours);
+  QObject::connect(panel, &TetPanel::defects_wanted, this, &Inspection::update_defects);
+  QObject::connect(this->tets_, &TetView::plane_moved, this, &Inspection::show_position);
+  QObject::connect(this->tets_, &TetView::count_changed, panel, &TetPanel::set_count);
+  QObject::connect(&this->tet_job_, &KernelJob::progress, panel, &TetPanel::set_progress);
+  QObject::connect(&this->tet_job_, &KernelJob::finished, this, &Inspection::tets_finished);
+  QObject::connect(&this->defect_job_, &KernelJob::finished, this, &Inspection::defects_finished);
+}
+
+void Inspection::set_active(bool active)
+{
+  this->active_ = active;
+  this->tets_->show(active && this->panel_->wants_tets());
+  this->update_defects();
+}
+
+void Inspection::set_surface(vtkPolyData* surface, vtkUnstructuredGrid* tets)
+{
+  this->cancel();
+  this->surface_ = surface;
+  this->defects_.set_defects(nullptr);
+  this->tets_->set_tets(tets);
+  this->colours_ = TetPanel::plain;
+  this->tets_->set_colours(std::nullopt);
+  this->panel_->set_colours(TetPanel::plain);
+  this->panel_->set_note(tets
+      ? tr("%L1 tets, as they were opened.").arg(qlonglong(tets->GetNumberOfCells()))
+      : tr("None yet."));
+  this->update_panel();
+  this->show_position();
+  this->panel_->show_tets(tets != nullptr);
+  this->set_active(this->active_);
+}
+
+void Inspection::cancel()
+{
+  this->tet_job_.cancel();
+  this->defect_job_.cancel();
+}
+
+int Inspection::surface_look() const
+{
+  return this->tets_->is_shown() ? Viewport::hidden
+    : this->defects_.is_shown()  ? Viewport::see_through
+                                 : Viewport::solid;
+}
+
+void Inspection::update_panel()
+{
+  this->panel_->set_state(
+    this->surface_ != nullptr, this->tet_job_.is_running(), this->tets_->tets() != nullptr);
+}
+
+void Inspection::show_position()
+{
+  const auto [lowest, highest] = this->tets_->plane()->positions();
+  this->panel_->set_position(this->tets_->plane()->position(), lowest, highest);
+}
+
+// ---- Tets --------------------------------------------------------------------------------------
+
+void Inspection::make_tets(int method)
+{
+  SurfaceInput surface;
+  const Status status =
+    this->surface_ ? to_surface(this->surface_, surface) : Status::invalid_input("no surface");
+  if (!status.ok() || this->tet_job_.is_running())
+  {
+    return;
+  }
+  this->made_tets_ = std::make_shared<vtkSmartPointer<vtkUnstructuredGrid>>();
+  this->tet_job_.start(
+    [made = this->made_tets_, mesh = copy_of(surface), options = options_of(method)](
+      ExecutionContext& context)
+    {
+      TetrahedralizeResult result;
+      Status done = tetrahedralize(mesh.points, mesh.triangles, options, result, context);
+      if (done.usable())
+      {
+        *made = to_unstructured_grid(result, done.report.text("method"));
+      }
+      return done;
+    });
+  this->panel_->set_note(tr("Starting …"));
+  this->update_panel();
+}
+
+void Inspection::tets_finished()
+{
+  this->update_panel();
+  const Status& status = this->tet_job_.status();
+  if (status.code == StatusCode::cancelled || !this->surface_)
+  {
+    this->panel_->set_note(
+      this->tets_->tets() ? tr("Cancelled; the tets stay as they were.") : tr("Cancelled."));
+    return;
+  }
+  if (!status.usable() || !*this->made_tets_)
+  {
+    this->panel_->set_note(
+      this->tets_->tets() ? tr("Failed; the tets stay as they were.") : tr("Failed."));
+    Q_EMIT this->failed(tr("Cannot make tets: %1.").arg(QString::fromStdString(status.message)));
+    return;
+  }
+  this->tets_->set_tets(*this->made_tets_);
+  this->choose_colours(this->colours_);
+  this->update_panel();
+  this->show_position();
+  this->panel_->set_note(tr("%L1 tets by %2 in %3 s.")
+                           .arg(qlonglong(this->tets_->tets()->GetNumberOfCells()))
+                           .arg(QString::fromStdString(status.report.text("method")))
+                           .arg(status.report.number("seconds.total", 0.0), 0, 'f', 1));
+  this->panel_->show_tets(true);
+  this->set_active(this->active_);
+  if (!status.warnings.empty())
+  {
+    Q_EMIT this->failed(
+      tr("Tets are there, but: %1.").arg(QString::fromStdString(status.warnings.front())));
+  }
+}
+
+void Inspection::choose_colours(int colours)
+{
+  std::optional<ColourBy> by;
+  switch (colours)
+  {
+    case TetPanel::winding_number:
+      by = ColourBy::winding_number;
+      break;
+    case TetPanel::label:
+      by = ColourBy::label;
+      break;
+    case TetPanel::quality:
+      by = ColourBy::quality;
+      break;
+    case TetPanel::rung:
+      by = ColourBy::rung;
+      break;
+    default:
+      break;
+  }
+  const Status status = this->tets_->set_colours(by);
+  if (status.ok())
+  {
+    this->colours_ = colours;
+    return;
+  }
+  this->panel_->set_colours(this->colours_);
+  Q_EMIT this->failed(
+    tr("Cannot colour the tets: %1.").arg(QString::fromStdString(status.message)));
+}
+
+// ---- Defects -----------------------------------------------------------------------------------
+
+/// Finds them when they are wanted for the first time.
+void Inspection::update_defects()
+{
+  const bool wanted = this->active_ && this->panel_->wants_defects() && this->surface_;
+  this->defects_.show(wanted);
+  SurfaceInput surface;
+  if (wanted && !this->defects_.defects() && !this->defect_job_.is_running() &&
+    to_surface(this->surface_, surface).ok())
+  {
+    this->made_defects_ = std::make_shared<vtkSmartPointer<vtkPolyData>>();
+    this->defect_job_.start(
+      [made = this->made_defects_, mesh = copy_of(surface)](ExecutionContext& context)
+      { return find_defects(mesh, *made, context); });
+  }
+  vtkPolyData* found = this->defects_.defects();
+  this->panel_->set_defects_note(!wanted ? QString()
+      : !found                           ? tr("Looking at the surface …")
+               : tr("%L1 places").arg(qlonglong(found->GetNumberOfCells())));
+  Q_EMIT this->surface_look_changed();
+}
+
+void Inspection::defects_finished()
+{
+  const Status& status = this->defect_job_.status();
+  if (status.code == StatusCode::cancelled)
+  {
+    this->update_defects(); // of the surface that has come meanwhile
+    return;
+  }
+  if (!status.ok() || !*this->made_defects_)
+  {
+    this->panel_->show_defects(false);
+    Q_EMIT this->failed(
+      tr("Cannot look at the surface: %1.").arg(QString::fromStdString(status.message)));
+    return;
+  }
+  this->defects_.set_defects(*this->made_defects_);
+  this->update_defects();
+}

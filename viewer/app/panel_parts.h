@@ -1,0 +1,22 @@
+#ifndef panel_parts_h
+#define panel_parts_h
+
+#include <QString>
+
+class QBoxLayout;
+class QButtonGroup;
+class QLabel;
+class QPushButton;
+class QWidget;
+
+// What the panels right of the picture are made of.
+
+QLabel* heading(const QString& text, QWidget* parent);
+/// A button that the mouse presses without taking the keyboard to it.
+QPushButton* button(const QString& text, QWidget* parent);
+/// A row of buttons X, Y, Z and Free, whose ids are PlaneHandle's orientations; Z is pressed.
+QButtonGroup* add_orientations(QBoxLayout* column, QWidget* parent);
+/// What a phase of the kernels does, in words.
+QString sentence_of(const QString& phase);
+
+#endif

@@ -1,0 +1,188 @@
+// VTK's plane widget moves and turns the plane. Its own picture of the plane is all but invisible:
+// it is there to be caught by the mouse.
+#include "plane_handle.h"
+
+#include "viewport.h"
+
+#include "scene/colours.h"
+
+#include "vtkCommand.h"
+#include "vtkImplicitPlaneRepresentation.h"
+#include "vtkImplicitPlaneWidget2.h"
+#include "vtkProperty.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+#include "vtkWidgetEventTranslator.h"
+
+#include <algorithm>
+#include <cmath>
+
+using bindpose::Vec3;
+
+namespace
+{
+void colour(vtkProperty* property, const bindpose::Rgb& rgb, double opacity)
+{
+  property->SetColor(rgb[0], rgb[1], rgb[2]);
+  property->SetOpacity(opacity);
+}
+} // namespace
+
+PlaneHandle::PlaneHandle(Viewport* viewport, QObject* parent) : QObject(parent), viewport_(viewport)
+{
+  vtkRenderer* renderer = viewport->renderer();
+  this->plane_->SetPlaceFactor(1.0);
+  this->plane_->TubingOff();
+  this->plane_->OutlineTranslationOff();
+  this->plane_->ScaleEnabledOff();
+  this->plane_->CropPlaneToBoundingBoxOn();
+  this->plane_->SetEdgeColor(
+    bindpose::palette::line[0], bindpose::palette::line[1], bindpose::palette::line[2]);
+  colour(this->plane_->GetOutlineProperty(), bindpose::palette::edges, 1.0);
+  colour(this->plane_->GetSelectedOutlineProperty(), bindpose::palette::edges, 1.0);
+  // Not quite clear: what is clear cannot be caught.
+  colour(this->plane_->GetPlaneProperty(), bindpose::palette::white, 0.005);
+  colour(this->plane_->GetSelectedPlaneProperty(), bindpose::palette::white, 0.005);
+  this->widget_->SetInteractor(viewport->interactor());
+  this->widget_->SetRepresentation(this->plane_);
+  this->widget_->SetCurrentRenderer(renderer);
+  this->widget_->SetDefaultRenderer(renderer);
+  this->widget_->SetPriority(0.4F); // handles lie before it
+  // The other buttons move and zoom the view, here as everywhere.
+  for (const unsigned long event :
+    { vtkCommand::MiddleButtonPressEvent, vtkCommand::MiddleButtonReleaseEvent,
+      vtkCommand::RightButtonPressEvent, vtkCommand::RightButtonReleaseEvent })
+  {
+    this->widget_->GetEventTranslator()->RemoveTranslation(event);
+  }
+  this->widget_->AddObserver(vtkCommand::StartInteractionEvent, this, &PlaneHandle::widget_caught);
+  this->widget_->AddObserver(vtkCommand::InteractionEvent, this, &PlaneHandle::widget_moved);
+}
+
+PlaneHandle::~PlaneHandle()
+{
+  this->widget_->SetInteractor(nullptr);
+}
+
+void PlaneHandle::set_box(const bindpose::Box& box)
+{
+  this->box_ = box;
+  if (!box.empty())
+  {
+    double bounds[6];
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      bounds[2 * axis] = box.lower[axis];
+      bounds[2 * axis + 1] = box.upper[axis];
+    }
+    this->plane_->PlaceWidget(bounds);
+    this->origin_ = box.center();
+  }
+  this->place_widget();
+}
+
+void PlaneHandle::draw_box(bool drawn)
+{
+  this->plane_->SetDrawOutline(drawn);
+}
+
+void PlaneHandle::show(bool shown)
+{
+  this->shown_ = shown;
+  this->place_widget();
+}
+
+void PlaneHandle::set_orientation(int orientation)
+{
+  this->orientation_ = orientation;
+  if (orientation != free_plane)
+  {
+    this->normal_ = Vec3::Unit(orientation);
+  }
+  this->place_widget();
+}
+
+void PlaneHandle::set_position(double position)
+{
+  this->origin_ += (position - this->position()) * this->normal_;
+  this->place_widget();
+}
+
+std::pair<double, double> PlaneHandle::positions() const
+{
+  if (this->box_.empty())
+  {
+    return { 0.0, 1.0 };
+  }
+  std::pair<double, double> range{ 1e300, -1e300 };
+  const Vec3 ends[2] = { this->box_.lower, this->box_.upper };
+  for (int corner = 0; corner < 8; ++corner)
+  {
+    const Vec3 place(ends[corner & 1].x(), ends[corner >> 1 & 1].y(), ends[corner >> 2 & 1].z());
+    range.first = std::min(range.first, place.dot(this->normal_));
+    range.second = std::max(range.second, place.dot(this->normal_));
+  }
+  return range;
+}
+
+/// The widget stands where the plane is, and can be turned only when that is wanted.
+void PlaneHandle::place_widget()
+{
+  const bool turns = this->orientation_ == free_plane;
+  this->plane_->SetNormalToXAxis(this->orientation_ == x_axis);
+  this->plane_->SetNormalToYAxis(this->orientation_ == y_axis);
+  this->plane_->SetNormalToZAxis(this->orientation_ == z_axis);
+  this->plane_->SetNormal(this->normal_.data());
+  this->plane_->SetOrigin(this->origin_.data());
+  const bindpose::Rgb arrow{ 0.17, 0.42, 0.66 }; // the window's accent
+  colour(this->plane_->GetNormalProperty(), arrow, turns ? 1.0 : 0.0);
+  colour(this->plane_->GetSelectedNormalProperty(), bindpose::palette::line, turns ? 1.0 : 0.0);
+  this->widget_->SetEnabled(this->shown_ && !this->box_.empty());
+}
+
+void PlaneHandle::widget_caught()
+{
+  int at[2];
+  this->viewport_->interactor()->GetEventPosition(at);
+  Vec3 from;
+  Vec3 along;
+  this->viewport_->ray_at(at[0], at[1], from, along);
+  const double slope = along.dot(this->normal_);
+  this->grip_ = std::abs(slope) > 1e-6
+    ? Vec3(from + (this->position() - from.dot(this->normal_)) / slope * along)
+    : this->origin_;
+}
+
+/// The widget pushes its plane by the mouse's way along the normal as the picture shows it, which
+/// is little when one looks along the normal. Here the place that the mouse has caught follows it:
+/// to the point of its line along the normal that is nearest to the mouse's ray.
+void PlaneHandle::widget_moved()
+{
+  const bool pushed =
+    this->plane_->GetInteractionState() == vtkImplicitPlaneRepresentation::Pushing;
+  const double before = this->position();
+  this->plane_->GetOrigin(this->origin_.data());
+  this->plane_->GetNormal(this->normal_.data());
+  if (pushed)
+  {
+    int at[2];
+    this->viewport_->interactor()->GetEventPosition(at);
+    Vec3 from;
+    Vec3 along;
+    this->viewport_->ray_at(at[0], at[1], from, along);
+    const double slope = along.dot(this->normal_);
+    const double steep = 1.0 - slope * slope;
+    double position = this->position();
+    if (steep > 0.01) // else the normal is seen as a point: the widget's way is as good as any
+    {
+      const Vec3 gap = from - this->grip_;
+      position =
+        this->grip_.dot(this->normal_) + (gap.dot(this->normal_) - gap.dot(along) * slope) / steep;
+    }
+    const auto [first, last] = this->positions();
+    position = std::isfinite(position) ? std::clamp(position, first, last) : before;
+    this->origin_ += (position - this->position()) * this->normal_;
+    this->plane_->SetOrigin(this->origin_.data());
+  }
+  Q_EMIT this->moved();
+}

@@ -1,0 +1,242 @@
+#include "tet_panel.h"
+
+#include "panel_parts.h"
+#include "value_row.h"
+
+#include <QButtonGroup>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+
+TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
+{
+  this->setObjectName("panel");
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(16, 14, 16, 14);
+  column->setSpacing(7);
+  const auto keep_place = [](QWidget* widget)
+  {
+    // What comes and goes keeps its place, so that nothing below it jumps.
+    QSizePolicy policy = widget->sizePolicy();
+    policy.setRetainSizeWhenHidden(true);
+    widget->setSizePolicy(policy);
+  };
+  const auto note = [this]
+  {
+    auto* line = new QLabel(this);
+    line->setObjectName("note");
+    return line;
+  };
+
+  column->addWidget(heading(tr("Tets"), this));
+  this->method_ = new QComboBox(this);
+  this->method_->addItem(tr("Automatic"));
+  this->method_->addItem(tr("Constrained (cdt)"));
+  this->method_->addItem(tr("Remeshed"));
+  this->method_->addItem(tr("Embedding lattice"));
+  this->method_->addItem(tr("Alpha wrap"));
+  this->method_->addItem(tr("fTetWild"));
+  this->method_->addItem(tr("Whole hull (cdt)"));
+  this->method_->setToolTip(
+    tr("Constrained: keeps the surface's triangles.\n"
+       "Remeshed: well-shaped tets.\n"
+       "Embedding lattice: merely holds the surface.\n"
+       "Alpha wrap: the inside of a skin around it; open surfaces become shells.\n"
+       "fTetWild: where that program is installed.\n"
+       "Whole hull: outside tets, too, to see what is decided."));
+  column->addWidget(this->method_);
+  auto* buttons = new QHBoxLayout;
+  this->make_ = button(tr("Make tets"), this);
+  this->make_->setObjectName("primary");
+  this->make_->setToolTip(tr("Fills the surface; the window can be used meanwhile"));
+  this->cancel_ = button(tr("Cancel"), this);
+  this->cancel_->setToolTip(tr("Stops; the tets stay as they were"));
+  buttons->addWidget(this->make_, 1);
+  buttons->addWidget(this->cancel_);
+  column->addLayout(buttons);
+  this->bar_ = new QProgressBar(this);
+  this->bar_->setRange(0, 1000);
+  this->bar_->setTextVisible(false);
+  keep_place(this->bar_);
+  column->addWidget(this->bar_);
+  this->note_ = note();
+  this->note_->setWordWrap(true);
+  this->note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  this->note_->setFixedHeight(2 * this->note_->fontMetrics().lineSpacing() + 2);
+  column->addWidget(this->note_);
+
+  this->tets_ = new QCheckBox(tr("Show the tets"), this);
+  column->addWidget(this->tets_);
+  this->colours_ = new QComboBox(this);
+  this->colours_->addItem(tr("Plain"));
+  this->colours_->addItem(tr("By winding number"));
+  this->colours_->addItem(tr("By label"));
+  this->colours_->addItem(tr("By quality"));
+  this->colours_->addItem(tr("By method"));
+  this->colours_->setToolTip(
+    tr("Winding number: of the tet's centre.\n"
+       "Label: inside or outside, and where that goes against the number.\n"
+       "Quality: the smallest dihedral angle.\n"
+       "Method: what made the tets."));
+  column->addWidget(this->colours_);
+
+  column->addSpacing(10);
+  column->addWidget(heading(tr("Cut"), this));
+  this->cut_ = new QCheckBox(tr("Cut them open"), this);
+  this->cut_->setChecked(true);
+  column->addWidget(this->cut_);
+  this->orientations_ = add_orientations(column, this);
+  this->position_ = new ValueRow(this);
+  this->position_->setToolTip(tr("Where the plane lies along its normal; the mouse drags it, too"));
+  column->addWidget(this->position_);
+  this->other_side_ = new QCheckBox(tr("Keep the other side"), this);
+  column->addWidget(this->other_side_);
+  this->count_ = note();
+  keep_place(this->count_);
+  column->addWidget(this->count_);
+
+  column->addSpacing(10);
+  this->shrink_label_ = heading(tr("Size of each tet"), this);
+  column->addWidget(this->shrink_label_);
+  this->shrink_ = new ValueRow(this);
+  this->shrink_->set_range(0.1, 1.0);
+  this->shrink_->set_value(1.0);
+  this->shrink_->setToolTip(tr("Below 1 the tets stand apart"));
+  column->addWidget(this->shrink_);
+
+  column->addSpacing(10);
+  column->addWidget(heading(tr("Surface"), this));
+  this->defects_ = new QCheckBox(tr("Show its defects"), this);
+  this->defects_->setToolTip(tr("Open, crossing and doubled places, each kind in its colour"));
+  column->addWidget(this->defects_);
+  this->defects_note_ = note();
+  keep_place(this->defects_note_);
+  column->addWidget(this->defects_note_);
+  column->addStretch(1);
+
+  QObject::connect(this->make_, &QPushButton::clicked, this,
+    [this] { Q_EMIT this->make_wanted(this->method_->currentIndex()); });
+  QObject::connect(this->cancel_, &QPushButton::clicked, this,
+    [this]
+    {
+      this->set_note(tr("Stopping …"));
+      Q_EMIT this->cancel_wanted();
+    });
+  QObject::connect(this->tets_, &QCheckBox::toggled, this,
+    [this](bool shown)
+    {
+      this->enable();
+      Q_EMIT this->tets_wanted(shown);
+    });
+  QObject::connect(this->cut_, &QCheckBox::toggled, this,
+    [this](bool cut)
+    {
+      this->enable();
+      Q_EMIT this->cut_wanted(cut);
+    });
+  QObject::connect(this->other_side_, &QCheckBox::toggled, this, &TetPanel::other_side_wanted);
+  QObject::connect(
+    this->orientations_, &QButtonGroup::idClicked, this, &TetPanel::orientation_chosen);
+  QObject::connect(this->position_, &ValueRow::value_chosen, this, &TetPanel::position_chosen);
+  QObject::connect(this->shrink_, &ValueRow::value_chosen, this, &TetPanel::shrink_chosen);
+  QObject::connect(this->colours_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+    &TetPanel::colours_chosen);
+  QObject::connect(this->defects_, &QCheckBox::toggled, this, &TetPanel::defects_wanted);
+  this->set_state(false, false, false);
+}
+
+void TetPanel::set_state(bool has_surface, bool making, bool has_tets)
+{
+  this->has_tets_ = has_tets;
+  this->method_->setEnabled(has_surface && !making);
+  this->make_->setText(has_tets ? tr("Make tets again") : tr("Make tets"));
+  this->make_->setEnabled(has_surface && !making);
+  this->cancel_->setVisible(making);
+  this->bar_->setValue(0);
+  this->bar_->setVisible(making);
+  this->defects_->setEnabled(has_surface);
+  this->enable();
+}
+
+/// What can be chosen follows from what is there and shown.
+void TetPanel::enable()
+{
+  const bool shown = this->has_tets_ && this->tets_->isChecked();
+  this->tets_->setEnabled(this->has_tets_);
+  for (QWidget* widget : { static_cast<QWidget*>(this->cut_), static_cast<QWidget*>(this->colours_),
+         static_cast<QWidget*>(this->shrink_label_), static_cast<QWidget*>(this->shrink_) })
+  {
+    widget->setEnabled(shown);
+  }
+  const bool cut = shown && this->cut_->isChecked();
+  this->position_->setEnabled(cut);
+  this->other_side_->setEnabled(cut);
+  for (QAbstractButton* orientation : this->orientations_->buttons())
+  {
+    orientation->setEnabled(cut);
+  }
+  this->count_->setVisible(shown);
+}
+
+void TetPanel::set_progress(double fraction, const QString& phase)
+{
+  this->bar_->setValue(static_cast<int>(1000.0 * fraction));
+  if (this->note_->text() != tr("Stopping …"))
+  {
+    this->set_note(tr("%1, %2 %").arg(sentence_of(phase)).arg(static_cast<int>(100.0 * fraction)));
+  }
+}
+
+void TetPanel::set_note(const QString& text)
+{
+  this->note_->setText(text);
+}
+
+void TetPanel::set_position(double position, double lowest, double highest)
+{
+  this->position_->set_range(lowest, highest);
+  this->position_->set_value(position);
+}
+
+void TetPanel::set_count(qlonglong shown, qlonglong all)
+{
+  this->count_->setText(shown == 0 ? tr("No tet is on this side.")
+      : shown == all               ? tr("All %L1 tets").arg(all)
+                                   : tr("%L1 of %L2 tets").arg(shown).arg(all));
+}
+
+void TetPanel::set_defects_note(const QString& text)
+{
+  this->defects_note_->setText(text);
+}
+
+bool TetPanel::wants_tets() const
+{
+  return this->tets_->isChecked();
+}
+
+void TetPanel::show_tets(bool shown)
+{
+  this->tets_->setChecked(shown);
+}
+
+bool TetPanel::wants_defects() const
+{
+  return this->defects_->isChecked();
+}
+
+void TetPanel::show_defects(bool shown)
+{
+  this->defects_->setChecked(shown);
+}
+
+void TetPanel::set_colours(int colours)
+{
+  const QSignalBlocker quiet(this->colours_);
+  this->colours_->setCurrentIndex(colours);
+}

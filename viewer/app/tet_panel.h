@@ -1,0 +1,93 @@
+#ifndef tet_panel_h
+#define tet_panel_h
+
+#include <QFrame>
+
+class QButtonGroup;
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+class ValueRow;
+
+/// The panel right of the picture for a surface's tets and defects: make them, cut them open, look.
+/// Like SidePanel it only tells what the user wants.
+class TetPanel : public QFrame
+{
+  Q_OBJECT
+
+public:
+  /// The ways to make tets, in the order of their list.
+  enum Method
+  {
+    automatic,
+    constrained,
+    remesh,
+    embed,
+    wrap,
+    ftetwild,
+    whole_hull
+  };
+  /// What colours them, in the order of its list.
+  enum Colours
+  {
+    plain,
+    winding_number,
+    label,
+    quality,
+    rung
+  };
+
+  explicit TetPanel(QWidget* parent = nullptr);
+
+  void set_state(bool has_surface, bool making, bool has_tets);
+  void set_progress(double fraction, const QString& phase);
+  /// One or two lines under the make button.
+  void set_note(const QString& text);
+  void set_position(double position, double lowest, double highest);
+  /// One line under the cut.
+  void set_count(qlonglong shown, qlonglong all);
+  void set_defects_note(const QString& text);
+
+  bool wants_tets() const;
+  void show_tets(bool shown);
+  bool wants_defects() const;
+  void show_defects(bool shown);
+  void set_colours(int colours);
+
+Q_SIGNALS:
+  void make_wanted(int method);
+  void cancel_wanted();
+  void tets_wanted(bool shown);
+  void cut_wanted(bool cut);
+  void other_side_wanted(bool other);
+  void orientation_chosen(int orientation); ///< of PlaneHandle
+  void position_chosen(double position);
+  void shrink_chosen(double factor);
+  void colours_chosen(int colours);
+  void defects_wanted(bool shown);
+
+private:
+  void enable();
+
+  QComboBox* method_;
+  QPushButton* make_;
+  QPushButton* cancel_;
+  QProgressBar* bar_;
+  QLabel* note_;
+  QCheckBox* tets_;
+  QComboBox* colours_;
+  QCheckBox* cut_;
+  QCheckBox* other_side_;
+  QButtonGroup* orientations_;
+  ValueRow* position_;
+  QLabel* count_;
+  QLabel* shrink_label_;
+  ValueRow* shrink_;
+  QCheckBox* defects_;
+  QLabel* defects_note_;
+  bool has_tets_ = false;
+};
+
+#endif

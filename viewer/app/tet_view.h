@@ -1,0 +1,84 @@
+#ifndef tet_view_h
+#define tet_view_h
+
+#include "base/status.h"
+#include "conversion.h"
+#include "plane_handle.h"
+#include "scene/colouring.h"
+#include "scene/tet_cut.h"
+
+#include "vtkActor.h"
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <QObject>
+#include <QTimer>
+
+#include <array>
+#include <optional>
+
+class Viewport;
+
+/// Tets in the picture: cut open by a plane that the mouse drags, shrunk, coloured. Whole tets are
+/// taken away; those whose centre is behind the plane stay.
+class TetView : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit TetView(Viewport* viewport);
+
+  /// Tets as bindpose::to_tets() accepts them; null: none. The plane goes through their middle.
+  bindpose::Status set_tets(vtkUnstructuredGrid* tets);
+  vtkUnstructuredGrid* tets() const { return this->grid_; }
+
+  void show(bool shown);
+  bool is_shown() const { return this->shown_ && this->grid_; }
+  void set_cut(bool cut);
+  /// The other half stays.
+  void set_other_side(bool other);
+  void set_orientation(int orientation); ///< of PlaneHandle
+  void set_position(double position);
+  PlaneHandle* plane() const { return this->plane_; }
+  /// Size of each tet, of its own, in (0, 1].
+  void set_shrink(double factor);
+  /// Nothing: plain. Fails, and leaves the colours as they are, when the tets have no such thing.
+  bindpose::Status set_colours(std::optional<bindpose::ColourBy> by);
+
+  bindpose::Index shown_count() const { return this->is_shown() ? this->cut_.kept_count() : 0; }
+  /// What the last change of plane or size took, without the drawing.
+  double milliseconds() const { return this->milliseconds_; }
+
+Q_SIGNALS:
+  /// The mouse has moved or turned the plane.
+  void plane_moved();
+  void count_changed(qlonglong shown, qlonglong all);
+
+private:
+  void update();
+  void draw_shrunk();
+  void draw(int part, const bindpose::Triangles& triangles,
+    const std::vector<bindpose::Index>& tets, vtkPoints* points);
+
+  Viewport* viewport_;
+  PlaneHandle* plane_;
+  vtkSmartPointer<vtkUnstructuredGrid> grid_;
+  bindpose::TetInput input_;
+  bindpose::TetCut cut_;
+  bindpose::Colouring colouring_;
+  vtkSmartPointer<vtkDoubleArray> values_; // #T, null when plain
+  bool shown_ = false;
+  bool cut_open_ = true;
+  bool other_side_ = false;
+  double shrink_ = 1.0;
+  double milliseconds_ = 0.0;
+  QTimer settle_; // after a drag
+  // The boundary, and what the cut lays open or shrunk tets.
+  std::array<vtkNew<vtkPolyDataMapper>, 2> mappers_;
+  std::array<vtkNew<vtkActor>, 2> actors_;
+};
+
+#endif

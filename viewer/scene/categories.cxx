@@ -1,0 +1,171 @@
+// Colours are told apart by colour-blind eyes, too: neighbours differ in lightness (after the
+// palettes of Paul Tol).
+#include "scene/categories.h"
+
+#include "base/number_text.h"
+#include "inside/surface_defects.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkFieldData.h"
+#include "vtkLookupTable.h"
+#include "vtkPolyData.h"
+#include "vtkStringArray.h"
+
+#include <algorithm>
+
+namespace bindpose
+{
+
+const std::vector<Category>& label_categories()
+{
+  static const std::vector<Category> table{
+    { -1, "outside, w above", { 0.12, 0.25, 0.52 } },
+    { 0, "outside", { 0.64, 0.79, 0.90 } },
+    { 1, "inside", { 0.93, 0.68, 0.45 } },
+    { 2, "inside, w below", { 0.60, 0.10, 0.16 } },
+  };
+  return table;
+}
+
+const std::vector<Category>& rung_categories()
+{
+  static const std::vector<Category> table{
+    { 0, "cdt", { 0.27, 0.47, 0.67 } },
+    { 1, "remesh", { 0.80, 0.73, 0.27 } },
+    { 2, "embed", { 0.67, 0.20, 0.47 } },
+    { 3, "wrap", { 0.40, 0.80, 0.93 } },
+    { 4, "ftetwild", { 0.13, 0.53, 0.20 } },
+    { 5, "other", { 0.62, 0.62, 0.62 } },
+  };
+  return table;
+}
+
+const std::vector<Category>& defect_categories()
+{
+  static const std::vector<Category> table = []
+  {
+    constexpr Rgb colours[defect_kinds] = { { 0.20, 0.13, 0.53 }, { 0.55, 0.55, 0.13 },
+      { 0.05, 0.46, 0.32 }, { 0.80, 0.20, 0.07 }, { 0.95, 0.60, 0.15 }, { 0.30, 0.30, 0.30 },
+      { 0.00, 0.40, 0.75 }, { 0.87, 0.15, 0.52 }, { 0.20, 0.70, 0.90 } };
+    std::vector<Category> categories;
+    for (int kind = 0; kind < defect_kinds; ++kind)
+    {
+      categories.push_back({ kind, to_string(static_cast<Defect>(kind)), colours[kind] });
+    }
+    return categories;
+  }();
+  return table;
+}
+
+namespace
+{
+/// The number of the first value that is no category's, or -1.
+Index count_values(vtkDataArray* array, std::vector<Category>& categories)
+{
+  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  {
+    const double value = array->GetComponent(i, 0);
+    const auto found = std::find_if(categories.begin(), categories.end(),
+      [&](const Category& category) { return value == category.value; });
+    if (found == categories.end())
+    {
+      return i;
+    }
+    ++found->count;
+  }
+  return -1;
+}
+} // namespace
+
+Status count_labels(vtkDataSet* tets, std::vector<Category>& categories)
+{
+  vtkDataArray* labels = tets->GetCellData()->GetArray("Label");
+  if (!labels)
+  {
+    return Status::invalid_input(
+      "the tets have no cell array 'Label'; bindpose tetrahedralize writes it (.vtu)");
+  }
+  const Index bad = count_values(labels, categories);
+  return bad < 0 ? Status()
+                 : Status::invalid_input("'Label' of cell " + std::to_string(bad) + " is " +
+                     short_number(labels->GetComponent(bad, 0)) + "; labels are -1, 0, 1 and 2");
+}
+
+Status count_rung(vtkDataSet* tets, std::vector<Category>& categories)
+{
+  auto* array = vtkStringArray::SafeDownCast(tets->GetFieldData()->GetAbstractArray("Method"));
+  if (!array || array->GetNumberOfValues() == 0)
+  {
+    return Status::invalid_input("the tets do not say how they were made; bindpose tetrahedralize "
+                                 "writes it (field data 'Method' of a .vtu file)");
+  }
+  const std::string method = array->GetValue(0);
+  auto found = std::find_if(categories.begin(), categories.end(),
+    [&](const Category& category) { return category.name == method; });
+  found = found == categories.end() ? categories.end() - 1 : found;
+  found->count += tets->GetNumberOfCells();
+  return {};
+}
+
+bool is_defect_data(vtkDataSet* data)
+{
+  auto* polydata = vtkPolyData::SafeDownCast(data);
+  return polydata && polydata->GetCellData()->GetArray("Defect") &&
+    polydata->GetCellData()->HasArray("DefectName");
+}
+
+void count_defects(vtkPolyData* defects, std::vector<Category>& categories)
+{
+  count_values(defects->GetCellData()->GetArray("Defect"), categories);
+}
+
+namespace
+{
+/// "12,345"
+std::string grouped(Index count)
+{
+  std::string digits = std::to_string(count);
+  for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
+  {
+    digits.insert(static_cast<std::size_t>(at), ",");
+  }
+  return digits;
+}
+} // namespace
+
+ColourMap category_map(const std::vector<Category>& categories)
+{
+  ColourMap map;
+  std::vector<Category> used;
+  std::copy_if(categories.begin(), categories.end(), std::back_inserter(used),
+    [](const Category& category) { return category.count > 0; });
+  const int count = static_cast<int>(used.size());
+  map.upper = std::max(1, count);
+  map.table = vtkSmartPointer<vtkLookupTable>::New();
+  map.table->SetNumberOfTableValues(std::max(1, count));
+  map.table->SetTableRange(map.lower, map.upper);
+  for (int i = 0; i < count; ++i)
+  {
+    const Rgb& c = used[i].colour;
+    map.table->SetTableValue(i, c[0], c[1], c[2], 1.0);
+    map.ticks.push_back(i + 0.5);
+    map.texts.push_back(used[i].name + ": " + grouped(used[i].count));
+  }
+  return map;
+}
+
+std::vector<double> category_values(const std::vector<Category>& categories)
+{
+  std::vector<double> values;
+  double next = 0.5;
+  for (const Category& category : categories)
+  {
+    values.push_back(category.count > 0 ? next : -1.0);
+    next += category.count > 0 ? 1.0 : 0.0;
+  }
+  return values;
+}
+
+} // namespace bindpose

@@ -1,0 +1,99 @@
+#include "scene/defect_actors.h"
+
+#include "scene/categories.h"
+
+#include "vtkActor.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+namespace
+{
+/// One cell array of the defects, cells coloured by kind.
+vtkSmartPointer<vtkActor> make_actor(
+  vtkPolyData* defects, vtkCellArray* cells, vtkIdType first, vtkPolyData* part)
+{
+  const auto& categories = defect_categories();
+  vtkDataArray* kinds = defects->GetCellData()->GetArray("Defect");
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(3);
+  for (vtkIdType i = 0; i < cells->GetNumberOfCells(); ++i)
+  {
+    const double kind = kinds->GetComponent(first + i, 0);
+    const auto last = static_cast<double>(categories.size() - 1);
+    const Rgb& c = categories[static_cast<std::size_t>(std::clamp(kind, 0.0, last))].colour;
+    for (const double channel : c)
+    {
+      colours->InsertNextValue(static_cast<unsigned char>(std::lround(255.0 * channel)));
+    }
+  }
+  part->SetPoints(defects->GetPoints());
+  part->GetCellData()->SetScalars(colours);
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(part);
+  mapper->SetScalarModeToUseCellData();
+  mapper->SetColorModeToDirectScalars();
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  actor->PickableOff();
+  return actor;
+}
+} // namespace
+
+std::vector<vtkSmartPointer<vtkActor>> make_defects(vtkPolyData* defects, double line_width)
+{
+  std::vector<vtkSmartPointer<vtkActor>> actors;
+  vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
+  const vtkIdType verts = defects->GetNumberOfVerts();
+  const vtkIdType lines = defects->GetNumberOfLines();
+  if (defects->GetNumberOfPolys() > 0)
+  {
+    vtkNew<vtkPolyData> part;
+    part->SetPolys(defects->GetPolys());
+    const auto faces = make_actor(defects, defects->GetPolys(), verts + lines, part);
+    // Lit from all sides alike: the colour names the defect.
+    faces->GetProperty()->SetInterpolationToFlat();
+    faces->GetProperty()->SetAmbient(0.45);
+    faces->GetProperty()->SetDiffuse(0.55);
+    faces->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(-2.0, -2.0);
+    actors.push_back(faces);
+  }
+  for (const bool hidden : { true, false })
+  {
+    for (const bool dots : { false, true })
+    {
+      if ((dots ? verts : lines) == 0)
+      {
+        continue;
+      }
+      vtkNew<vtkPolyData> part;
+      dots ? part->SetVerts(defects->GetVerts()) : part->SetLines(defects->GetLines());
+      const auto actor = make_actor(
+        defects, dots ? defects->GetVerts() : defects->GetLines(), dots ? 0 : verts, part);
+      vtkProperty* property = actor->GetProperty();
+      property->LightingOff();
+      property->SetLineWidth(static_cast<float>(line_width));
+      property->SetPointSize(static_cast<float>(3.0 * line_width));
+      property->SetRenderPointsAsSpheres(dots); // round
+      property->SetOpacity(hidden ? 0.35 : 1.0);
+      // Far nearer than it is, as depth goes, or just before the surface that it lies in.
+      const double nearer = hidden ? -66000.0 : -8.0;
+      actor->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, nearer);
+      actor->GetMapper()->SetRelativeCoincidentTopologyPointOffsetParameter(nearer);
+      actors.push_back(actor);
+    }
+  }
+  return actors;
+}
+
+} // namespace bindpose

@@ -236,6 +236,7 @@ std::string build(const MesherData& data, Filling& filling)
     }
   }
   std::vector<std::pair<Inexact::Point_2, VertexId>> points;
+  points.reserve(used.size());
   for (const Index v : used)
   {
     points.emplace_back(Inexact::Point_2(data.points(v, 0), data.points(v, 1)), VertexId{ v });

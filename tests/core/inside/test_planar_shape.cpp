@@ -518,7 +518,7 @@ TEST_F(PlanarShapeTest, RefusesOptions)
   }
   options = good;
   options.time_limit = 0.0;
-  refuses(curves, "time limit");
+  refuses(curves, "time_limit");
   options = good;
   handles.points.resize(1, 2);
   handles.points << NAN, 0.0;

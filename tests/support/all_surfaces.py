@@ -395,7 +395,7 @@ def main():
         print("\n".join(f"  BROKEN {row.surface.name}: {text}" for row in rows for text in row.broken))
     if options.markdown:
         words = " ".join(f"--method {method}" for method in results)
-        options.markdown.write_text(as_markdown(results, f"tests/support/all_surfaces.py --build build {words}"))
+        options.markdown.write_text(as_markdown(results, f"/usr/bin/python3 tests/support/all_surfaces.py --build build {words}"))
     return 1 if failures else 0
 
 

@@ -171,7 +171,7 @@ def main():
             million = horrors.torus(1000, 500)
             tables.append(million_table(options, made(scratch, torus=million, loose=horrors.unwelded(million)), scratch))
     if options.markdown:
-        options.markdown.write_text(as_markdown(tables, f"tests/support/measure_tets.py --build build --runs {options.runs}", options.runs))
+        options.markdown.write_text(as_markdown(tables, f"/usr/bin/python3 tests/support/measure_tets.py --build build --runs {options.runs}", options.runs))
     return 0
 
 

@@ -158,8 +158,7 @@ protected:
   Status run(const Curves& curves)
   {
     ExecutionContext context;
-    Status status = planar_shape(curves.points, curves.segments, handles, options, shape, context);
-    return status;
+    return planar_shape(curves.points, curves.segments, handles, options, shape, context);
   }
   double area(const Curves& curves)
   {

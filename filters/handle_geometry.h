@@ -4,7 +4,7 @@
 #include "BindposeFiltersModule.h" // for export macro
 #include "base/status.h"
 #include "inside/handle_places.h"
-#include "inside/planar_shape.h"
+#include "planar/planar_shape.h"
 
 #include <array>
 #include <string>

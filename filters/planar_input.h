@@ -2,8 +2,8 @@
 #define planar_input_h
 
 #include "base/status.h"
-#include "inside/image_outline.h"
-#include "inside/planar_shape.h"
+#include "planar/image_outline.h"
+#include "planar/planar_shape.h"
 
 #include <string>
 #include <vector>

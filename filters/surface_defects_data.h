@@ -2,7 +2,7 @@
 #define surface_defects_data_h
 
 #include "BindposeFiltersModule.h" // for export macro
-#include "inside/surface_defects.h"
+#include "surface/surface_defects.h"
 
 #include "vtkSmartPointer.h"
 

@@ -1,6 +1,7 @@
-// Glue around the kernel bindpose::unconstrained_weights().
+// Glue around the kernels bindpose::unconstrained_weights() and bindpose::baseline_weights().
 #include "vtkUnconstrainedWeights.h"
 
+#include "weights/baseline_weights.h"
 #include "weights/unconstrained_weights.h"
 
 #include "vtkObjectFactory.h"
@@ -17,7 +18,7 @@ vtkUnconstrainedWeights::~vtkUnconstrainedWeights() = default;
 
 void vtkUnconstrainedWeights::SetMethod(int value)
 {
-  value = std::clamp(value, 1, 3);
+  value = std::clamp<int>(value, HARMONIC, BONE_HEAT);
   if (this->Method != value)
   {
     this->Method = value;
@@ -25,12 +26,49 @@ void vtkUnconstrainedWeights::SetMethod(int value)
   }
 }
 
+void vtkUnconstrainedWeights::SetPower(double value)
+{
+  if (this->Power != value)
+  {
+    this->Power = value;
+    this->BindModified();
+  }
+}
+
+void vtkUnconstrainedWeights::SetSmoothing(double value)
+{
+  if (this->Smoothing != value)
+  {
+    this->Smoothing = value;
+    this->BindModified();
+  }
+}
+
+void vtkUnconstrainedWeights::SetHeat(double value)
+{
+  if (this->Heat != value)
+  {
+    this->Heat = value;
+    this->BindModified();
+  }
+}
+
 Status vtkUnconstrainedWeights::Solve(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, WeightsResult& result)
 {
+  if (this->Method >= INVERSE_DISTANCE)
+  {
+    BaselineWeightsOptions own;
+    static_cast<WeightsOptions&>(own) = options;
+    own.method = static_cast<BaselineMethod>(this->Method);
+    own.power = this->Power;
+    own.smoothing = this->Smoothing;
+    own.heat = this->Heat;
+    return baseline_weights(problem, own, context, result);
+  }
   UnconstrainedWeightsOptions own;
   static_cast<WeightsOptions&>(own) = options;
-  own.order = this->Method;
+  own.method = static_cast<UnconstrainedMethod>(this->Method);
   return unconstrained_weights(problem, own, context, result);
 }
 
@@ -38,4 +76,7 @@ void vtkUnconstrainedWeights::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Method: " << this->Method << "\n";
+  os << indent << "Power: " << this->Power << "\n";
+  os << indent << "Smoothing: " << this->Smoothing << "\n";
+  os << indent << "Heat: " << this->Heat << "\n";
 }

@@ -36,6 +36,7 @@ using namespace bindpose;
 namespace
 {
 constexpr char array_name[] = "Weights";
+constexpr char raw_name[] = "RawWeights";
 constexpr char mask_name[] = "WeightsMask";
 constexpr char original_ids_name[] = "OriginalPointIds";
 
@@ -123,6 +124,7 @@ struct vtkWeightsAlgorithm::Cache
   BindKey key;
   Status status;
   vtkSmartPointer<vtkDoubleArray> weights;
+  vtkSmartPointer<vtkDoubleArray> raw; // null: not asked for
   vtkSmartPointer<vtkUnsignedCharArray> mask; // null: all vertices have weights
   std::vector<vtkSmartPointer<vtkDoubleArray>> certificates;
   // Null unless handles were inserted:
@@ -135,6 +137,11 @@ struct vtkWeightsAlgorithm::Cache
   void add_arrays(vtkDataSet* output) const
   {
     output->GetPointData()->AddArray(this->weights);
+    output->GetPointData()->RemoveArray(raw_name);
+    if (this->raw)
+    {
+      output->GetPointData()->AddArray(this->raw);
+    }
     output->GetPointData()->RemoveArray(mask_name);
     if (this->mask)
     {
@@ -230,6 +237,15 @@ void vtkWeightsAlgorithm::SetRegionArrayName(const std::string& name)
   }
 }
 
+void vtkWeightsAlgorithm::SetKeepRaw(bool keep)
+{
+  if (this->KeepRaw != keep)
+  {
+    this->KeepRaw = keep;
+    this->BindModified();
+  }
+}
+
 void vtkWeightsAlgorithm::SetKeepMesh(bool keep)
 {
   if (this->KeepMesh != keep)
@@ -297,6 +313,10 @@ Status vtkWeightsAlgorithm::Bind(
   }
 
   bound.weights = to_weights_array(array_name, result.weights, handles);
+  if (this->KeepRaw)
+  {
+    bound.raw = to_weights_array(raw_name, result.raw, handles);
+  }
   bound.certificates = to_certificate_arrays(array_name, result);
   const std::vector<VertexRole>& roles = problem.constraints.roles;
   if (std::count(roles.begin(), roles.end(), VertexRole::unreferenced) > 0)
@@ -400,5 +420,6 @@ void vtkWeightsAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "RegionArrayName: " << this->RegionArrayName << "\n";
   os << indent << "KeepMesh: " << (this->KeepMesh ? "on" : "off") << "\n";
+  os << indent << "KeepRaw: " << (this->KeepRaw ? "on" : "off") << "\n";
   os << indent << "NumberOfBinds: " << this->NumberOfBinds << "\n";
 }

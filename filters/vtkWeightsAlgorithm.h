@@ -16,6 +16,9 @@
  * triangles. KeepMesh leaves the mesh as it is and takes the corners of the cell that holds a
  * handle instead.
  *
+ * KeepRaw adds the point array `RawWeights`: the columns as they were solved for, which the
+ * certificate is about; their rows need not sum to one.
+ *
  * **Certificate**, in field data, a value a column, of the columns as solved for (before rows are
  * divided by their sums): `WeightsRelativeGap` (how far the energy is above its minimum at most, as
  * a share), `WeightsKKTResidual`, `WeightsMinimum`, `WeightsMaximum`, `WeightsInteriorExtrema`
@@ -90,6 +93,14 @@ public:
   vtkBooleanMacro(KeepMesh, bool);
   ///@}
 
+  ///@{
+  /// Whether the point array RawWeights is added: the columns before rows are divided by their
+  /// sums. Default off.
+  void SetKeepRaw(bool keep);
+  vtkGetMacro(KeepRaw, bool);
+  vtkBooleanMacro(KeepRaw, bool);
+  ///@}
+
   /// How often weights were solved for.
   vtkGetMacro(NumberOfBinds, int);
 
@@ -128,6 +139,7 @@ private:
   int MaximumIterations = 100;
   std::string RegionArrayName = "RegionId";
   bool KeepMesh = false;
+  bool KeepRaw = false;
   int NumberOfBinds = 0;
   vtkTimeStamp BindTime;
   std::unique_ptr<Cache> Bound;

@@ -5,7 +5,7 @@
 #include "base/execution.h"
 #include "winding/curve_winding_number.h"
 #include "winding/point_cloud_winding_number.h"
-#include "inside/surface_repair.h"
+#include "surface/surface_repair.h"
 #include "winding/winding_number.h"
 
 #include "vtkCellArray.h"

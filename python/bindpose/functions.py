@@ -336,7 +336,7 @@ def _make_weights(method):
     if method == "monotone":
         return filters.vtkMonotoneWeights()
     result = filters.vtkUnconstrainedWeights()
-    result.SetMethod(getattr(result, method.upper()))
+    result.SetMethod(getattr(result, method.upper().replace("-", "_")))
     return result
 
 
@@ -369,7 +369,7 @@ def _carry_labels(surface, tets, name):
 
 
 def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", regions=None, tolerance=1e-6,
-            maximum_iterations=100, threads=0, progress=None):
+            maximum_iterations=100, keep_mesh=False, threads=0, progress=None):
     """Smooth weights, one function a handle, at the mesh's own points.
 
     Parameters
@@ -379,7 +379,9 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", region
     handles : vtkPolyData, str or path-like
         A handle dataset (see `bindpose.handles`), a .tgf or .vtp file, or "auto:N" for N points
         spread over the surface.
-    method : {"bounded-biharmonic", "monotone", "biharmonic", "triharmonic", "harmonic"}
+    method : {"bounded-biharmonic", "monotone", "harmonic", "biharmonic", "triharmonic", \
+              "graph-biharmonic", "linear-subspace", "inverse-distance", "smoothed-harmonic", "bone-heat"}
+        All but the first two are to compare with: see ``vtkUnconstrainedWeights``.
     domain : {"auto", "volume", "surface"}
         Where to solve for a surface: in its volume, through tets, or on itself. ``auto`` is
         ``volume``. Tets are solved on directly.
@@ -389,6 +391,9 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", region
     tolerance : float
         Of the certificate: relative gap and natural residual of each column.
     maximum_iterations : int
+        At most for a handle.
+    keep_mesh : bool
+        Split no cell: the corners around a handle stand for it.
     threads, progress
         See `winding_number`.
 
@@ -415,7 +420,8 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", region
     Jacobson, Baran, Popović, Sorkine, "Bounded biharmonic weights for real-time deformation", 2011;
     Jacobson, Weinkauf, Sorkine, "Smooth shape-aware functions with controlled extrema", 2012.
     """
-    methods = ("bounded-biharmonic", "monotone", "biharmonic", "triharmonic", "harmonic")
+    methods = ("bounded-biharmonic", "monotone", "harmonic", "biharmonic", "triharmonic", "graph-biharmonic",
+               "linear-subspace", "inverse-distance", "smoothed-harmonic", "bone-heat")
     _choice(method, methods, "method")
     _choice(domain, ("auto", "volume", "surface"), "domain")
     data = to_dataset(mesh)
@@ -435,6 +441,7 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", region
     solver.SetRegionArrayName(label_name)
     solver.SetTolerance(tolerance)
     solver.SetMaximumIterations(int(maximum_iterations))
+    solver.SetKeepMesh(bool(keep_mesh))
     solver.SetNumberOfThreads(threads)
     report = run(solver, progress)
     transfer = filters.vtkTransferWeights()

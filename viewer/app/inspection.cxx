@@ -4,8 +4,8 @@
 #include "viewport.h"
 
 #include "conversion.h"
-#include "inside/surface_defects.h"
-#include "inside/surface_repair.h"
+#include "surface/surface_defects.h"
+#include "surface/surface_repair.h"
 #include "inside/tetrahedralize.h"
 #include "surface_defects_data.h"
 #include "tets_data.h"

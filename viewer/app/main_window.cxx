@@ -1,5 +1,7 @@
 #include "main_window.h"
 
+#include "error_bar.h"
+#include "help_boxes.h"
 #include "inspection.h"
 #include "panel_column.h"
 #include "pose_history.h"
@@ -7,34 +9,27 @@
 #include "viewport.h"
 #include "volume_panel.h"
 #include "volume_view.h"
+#include "window_files.h"
 
 #include "conversion.h"
 #include "handle_geometry.h"
-#include "io/atomic_file.h"
-#include "pose/pose_file.h"
 #include "report_field_data.h"
-#include "scene/categories.h"
-#include "scene/curves.h"
 #include "scene/volume.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetSurfaceFilter.h"
 #include "vtkDoubleArray.h"
-#include "vtkHandleFileReader.h"
 #include "vtkHandleSetRepresentation.h"
 #include "vtkHandleSetWidget.h"
 #include "vtkImageData.h"
 #include "vtkMeshFileReader.h"
-#include "vtkMeshFileWriter.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include <QAction>
 #include <QActionGroup>
@@ -45,9 +40,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenuBar>
-#include <QMessageBox>
 #include <QMimeData>
-#include <QPushButton>
 #include <QStatusBar>
 #include <QUndoStack>
 #include <QVBoxLayout>
@@ -56,21 +49,6 @@ using namespace bindpose;
 
 namespace
 {
-/// Readers and writers speak through their status; nothing goes to the terminal.
-void quiet(vtkObject* object)
-{
-  vtkNew<vtkCallbackCommand> nothing;
-  nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-  object->AddObserver(vtkCommand::ErrorEvent, nothing);
-  object->AddObserver(vtkCommand::WarningEvent, nothing);
-}
-
-bool looks_like_handles(vtkDataSet* data)
-{
-  auto* polydata = vtkPolyData::SafeDownCast(data);
-  return polydata && polydata->GetNumberOfPolys() + polydata->GetNumberOfStrips() == 0;
-}
-
 /// A file's name for a title or a sentence: exporters write names that no line holds.
 QString short_name(const QString& path)
 {
@@ -144,21 +122,7 @@ void MainWindow::make_layout()
   auto* rows = new QVBoxLayout;
   rows->setSpacing(0);
 
-  this->error_bar_ = new QFrame(centre);
-  this->error_bar_->setObjectName("error");
-  auto* error_row = new QHBoxLayout(this->error_bar_);
-  error_row->setContentsMargins(14, 8, 8, 8);
-  this->error_text_ = new QLabel(this->error_bar_);
-  this->error_text_->setWordWrap(true);
-  // A long word (a path) must not widen the window.
-  this->error_text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  this->error_text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  auto* close = new QPushButton(tr("Close"), this->error_bar_);
-  close->setFocusPolicy(Qt::TabFocus);
-  QObject::connect(close, &QPushButton::clicked, this, &MainWindow::hide_error);
-  error_row->addWidget(this->error_text_, 1);
-  error_row->addWidget(close, 0, Qt::AlignTop);
-  this->error_bar_->hide();
+  this->error_bar_ = new ErrorBar(centre);
   rows->addWidget(this->error_bar_);
 
   this->viewport_ = new Viewport(centre);
@@ -260,85 +224,35 @@ void MainWindow::make_menus()
   this->methods_->actions().front()->setChecked(true);
 
   QMenu* help = this->menuBar()->addMenu(tr("&Help"));
-  add(help, tr("&Mouse and keys"), QKeySequence(Qt::Key_F1),
-    [this]
-    {
-      QMessageBox box(QMessageBox::NoIcon, tr("Mouse and keys"),
-        tr("<table cellspacing='6'>"
-           "<tr><td><b>Drag a handle</b></td><td>moves it; a bone's tip turns the bone</td></tr>"
-           "<tr><td><b>Esc</b> while dragging</td><td>takes the drag back</td></tr>"
-           "<tr><td><b>Drag a slice or cut</b></td><td>moves it; its arrow, when free, turns "
-           "it</td></tr>"
-           "<tr><td><b>Drag elsewhere</b></td><td>turns the view</td></tr>"
-           "<tr><td><b>Shift-drag, wheel</b></td><td>moves the view, zooms</td></tr>"
-           "<tr><td><b>1, 2, 3</b></td><td>linear blend, dual quaternions, "
-           "as&nbsp;rigid&nbsp;as&nbsp;possible</td></tr>"
-           "<tr><td><b>Ctrl+B</b></td><td>binds</td></tr>"
-           "<tr><td><b>Ctrl+R</b></td><td>takes all handles back to rest</td></tr>"
-           "<tr><td><b>Ctrl+Z, Ctrl+Y</b></td><td>undoes, redoes</td></tr>"
-           "<tr><td><b>Home</b></td><td>shows the whole shape</td></tr></table>"),
-        QMessageBox::Close, this);
-      box.exec();
-    });
-  add(help, tr("&About Bindpose"), QKeySequence(),
-    [this]
-    {
-      QMessageBox::about(this, tr("About Bindpose"),
-        tr("<b>Bindpose %1</b>"
-           "<p>Any triangle mesh to a shape that a person bends in real time.</p>"
-           "<p>Own code under the BSD 3-clause licence.</p>")
-          .arg(BINDPOSE_VERSION));
-    });
+  add(help, tr("&Mouse and keys"), QKeySequence(Qt::Key_F1), [this] { show_mouse_and_keys(this); });
+  add(help, tr("&About Bindpose"), QKeySequence(), [this] { show_about(this); });
 }
 
 // ---- Opening -----------------------------------------------------------------------------------
 
 bool MainWindow::open(const QString& path)
 {
-  const std::string file = path.toStdString();
   const QString name = short_name(path);
-  // The readers name the whole path; here the name says enough.
-  const auto refuse = [&](const std::string& message)
+  OpenedFile file;
+  const Status status = read_file(path.toStdString(), file);
+  if (!status.ok())
   {
-    this->show_error(QString::fromStdString(message).replace(path, name));
-    this->error_text_->setToolTip(path);
+    // The readers name the whole path; here the name says enough.
+    this->error_bar_->show_sentence(
+      QString::fromStdString(status.message).replace(path, name), path);
     return false;
-  };
-  if (path.endsWith(".tgf", Qt::CaseInsensitive))
-  {
-    vtkNew<vtkHandleFileReader> reader;
-    quiet(reader);
-    reader->SetFileName(file.c_str());
-    reader->Update();
-    if (reader->GetStatus() != vtkBindposeAlgorithm::OK)
-    {
-      return refuse(reader->GetStatusMessage());
-    }
-    return this->set_handles(vtkPolyData::SafeDownCast(reader->GetOutput()), name);
   }
-  vtkNew<vtkMeshFileReader> reader;
-  quiet(reader);
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  if (reader->GetStatus() != vtkBindposeAlgorithm::OK)
+  switch (file.kind)
   {
-    return refuse(reader->GetStatusMessage());
+    case OpenedFile::Kind::handles:
+      return this->set_handles(vtkPolyData::SafeDownCast(file.data), name);
+    case OpenedFile::Kind::volume:
+      return this->set_volume(vtkImageData::SafeDownCast(file.data), name);
+    case OpenedFile::Kind::curves:
+      return this->set_curves(vtkPolyData::SafeDownCast(file.data));
+    default:
+      return this->set_mesh(file.data, name);
   }
-  vtkDataSet* read = reader->GetOutput();
-  if (auto* image = vtkImageData::SafeDownCast(read))
-  {
-    return this->set_volume(image, name);
-  }
-  if (is_defect_data(read))
-  {
-    return refuse("these are defects of a surface; open the surface, whose panel Tets shows them");
-  }
-  if (is_curve_data(read))
-  {
-    return this->set_curves(vtkPolyData::SafeDownCast(read));
-  }
-  return looks_like_handles(read) ? this->set_handles(vtkPolyData::SafeDownCast(read), name)
-                                  : this->set_mesh(read, name);
 }
 
 bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name)
@@ -352,7 +266,7 @@ bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name)
     return false;
   }
   this->cancel_bind();
-  this->hide_error();
+  this->error_bar_->hide();
   this->history_->clear();
   this->deformation_.clear();
   this->rest_ = skin;
@@ -386,7 +300,7 @@ bool MainWindow::set_handles(vtkPolyData* handle_data, const QString& name)
     return false;
   }
   this->cancel_bind();
-  this->hide_error();
+  this->error_bar_->hide();
   this->history_->clear();
   this->deformation_.clear();
   this->handles_ = handles;
@@ -421,7 +335,7 @@ bool MainWindow::set_volume(vtkImageData* volume, const QString& name)
     this->show_error(QString("%1: %2").arg(name, QString::fromStdString(status.message)));
     return false;
   }
-  this->hide_error();
+  this->error_bar_->hide();
   const double lowest = status.report.number("volume.minimum", 0.0);
   const double highest = status.report.number("volume.maximum", 1.0);
   this->panels_->volume()->set_values(lowest, highest);
@@ -441,7 +355,7 @@ bool MainWindow::set_volume(vtkImageData* volume, const QString& name)
 
 bool MainWindow::set_curves(vtkPolyData* curves)
 {
-  this->hide_error();
+  this->error_bar_->hide();
   const bool alone = !this->rest_ && !this->handle_data_ && !this->volume_view_->volume();
   this->has_curves_ = true;
   this->viewport_->set_curves(curves);
@@ -546,7 +460,7 @@ void MainWindow::bind()
   {
     return;
   }
-  this->hide_error();
+  this->error_bar_->hide();
   SurfaceInput surface;
   HandleGeometry geometry;
   Status status = to_surface(this->rest_, surface);
@@ -844,35 +758,9 @@ void MainWindow::save(const QString& what)
     }
     return;
   }
-  Status status;
-  if (what == "pose")
-  {
-    std::string text;
-    status = format_pose_file({ this->pose() }, 24.0, this->handles_, text);
-    AtomicFile file;
-    if (status.ok())
-    {
-      status = file.open(path.toStdString(), true); // the dialog has asked
-    }
-    if (status.ok())
-    {
-      std::ofstream(file.temporary()) << text;
-      status = file.commit();
-    }
-  }
-  else
-  {
-    vtkNew<vtkMeshFileWriter> writer;
-    quiet(writer);
-    writer->SetInputData(this->shown_);
-    writer->SetFileName(path.toStdString().c_str());
-    writer->OverwriteOn(); // the dialog has asked
-    writer->Update();
-    if (writer->GetStatus() != vtkBindposeAlgorithm::OK)
-    {
-      status = Status::invalid_input(writer->GetStatusMessage());
-    }
-  }
+  const Status status = what == "pose"
+    ? write_pose(this->pose(), this->handles_, path.toStdString())
+    : write_shape(this->shown_, path.toStdString());
   if (!status.ok())
   {
     this->show_error(QString::fromStdString(status.message));
@@ -881,14 +769,7 @@ void MainWindow::save(const QString& what)
 
 void MainWindow::show_error(const QString& sentence)
 {
-  this->error_text_->setText(sentence);
-  this->error_text_->setToolTip(QString());
-  this->error_bar_->show();
-}
-
-void MainWindow::hide_error()
-{
-  this->error_bar_->hide();
+  this->error_bar_->show_sentence(sentence);
 }
 
 QString MainWindow::reading() const
@@ -898,5 +779,5 @@ QString MainWindow::reading() const
 
 QString MainWindow::error() const
 {
-  return this->error_bar_->isHidden() ? QString() : this->error_text_->text();
+  return this->error_bar_->sentence();
 }

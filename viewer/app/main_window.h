@@ -13,9 +13,9 @@
 
 class QAction;
 class QActionGroup;
-class QFrame;
 class QLabel;
 class QUndoStack;
+class ErrorBar;
 class Inspection;
 class PanelColumn;
 class SidePanel;
@@ -76,7 +76,6 @@ private:
   void make_menus();
   void make_layout();
   void show_error(const QString& sentence);
-  void hide_error();
   void connect_volume();
   void update_surface_look();
   void connect_weights();
@@ -99,8 +98,7 @@ private:
   Inspection* inspection_ = nullptr;
   PanelColumn* panels_ = nullptr;
   SidePanel* panel_ = nullptr; // one of them
-  QFrame* error_bar_ = nullptr;
-  QLabel* error_text_ = nullptr;
+  ErrorBar* error_bar_ = nullptr;
   QLabel* hint_ = nullptr;
   QLabel* reading_ = nullptr;
   QLabel* empty_ = nullptr; // in the middle of the picture as long as nothing is open

@@ -140,13 +140,18 @@ void PlaneHandle::place_widget()
   this->widget_->SetEnabled(this->shown_ && !this->box_.empty());
 }
 
-void PlaneHandle::widget_caught()
+void PlaneHandle::mouse_ray(Vec3& from, Vec3& along) const
 {
   int at[2];
   this->viewport_->interactor()->GetEventPosition(at);
+  this->viewport_->ray_at(at[0], at[1], from, along);
+}
+
+void PlaneHandle::widget_caught()
+{
   Vec3 from;
   Vec3 along;
-  this->viewport_->ray_at(at[0], at[1], from, along);
+  this->mouse_ray(from, along);
   const double slope = along.dot(this->normal_);
   this->grip_ = std::abs(slope) > 1e-6
     ? Vec3(from + (this->position() - from.dot(this->normal_)) / slope * along)
@@ -165,11 +170,9 @@ void PlaneHandle::widget_moved()
   this->plane_->GetNormal(this->normal_.data());
   if (pushed)
   {
-    int at[2];
-    this->viewport_->interactor()->GetEventPosition(at);
     Vec3 from;
     Vec3 along;
-    this->viewport_->ray_at(at[0], at[1], from, along);
+    this->mouse_ray(from, along);
     const double slope = along.dot(this->normal_);
     const double steep = 1.0 - slope * slope;
     double position = this->position();

@@ -54,6 +54,8 @@ Q_SIGNALS:
 
 private:
   void place_widget();
+  /// The line of sight through the mouse.
+  void mouse_ray(bindpose::Vec3& from, bindpose::Vec3& along) const;
   void widget_caught();
   void widget_moved();
 

@@ -5,7 +5,7 @@
 
 #include "conversion.h"
 #include "file_kind.h"
-#include "inside/surface_repair.h"
+#include "surface/surface_repair.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

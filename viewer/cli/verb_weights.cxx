@@ -27,19 +27,46 @@ namespace bindpose::cli
 
 namespace
 {
-vtkSmartPointer<vtkWeightsAlgorithm> make_weights(const std::string& method)
+vtkSmartPointer<vtkWeightsAlgorithm> make_method(const std::string& method, int order)
 {
   if (method == "bounded-biharmonic")
   {
-    return vtkSmartPointer<vtkBoundedBiharmonicWeights>::New();
+    const auto weights = vtkSmartPointer<vtkBoundedBiharmonicWeights>::New();
+    weights->SetOrder(order);
+    return weights;
   }
   if (method == "monotone")
   {
-    return vtkSmartPointer<vtkMonotoneWeights>::New();
+    const auto weights = vtkSmartPointer<vtkMonotoneWeights>::New();
+    weights->SetOrder(order);
+    return weights;
   }
+  static const std::map<std::string, int> methods = {
+    { "harmonic", vtkUnconstrainedWeights::HARMONIC },
+    { "biharmonic", vtkUnconstrainedWeights::BIHARMONIC },
+    { "triharmonic", vtkUnconstrainedWeights::TRIHARMONIC },
+    { "graph-biharmonic", vtkUnconstrainedWeights::GRAPH_BIHARMONIC },
+    { "linear-subspace", vtkUnconstrainedWeights::LINEAR_SUBSPACE },
+    { "inverse-distance", vtkUnconstrainedWeights::INVERSE_DISTANCE },
+    { "smoothed-harmonic", vtkUnconstrainedWeights::SMOOTHED_HARMONIC },
+    { "bone-heat", vtkUnconstrainedWeights::BONE_HEAT },
+  };
   auto weights = vtkSmartPointer<vtkUnconstrainedWeights>::New();
-  weights->SetMethod(
-    method == "harmonic" ? vtkUnconstrainedWeights::HARMONIC : vtkUnconstrainedWeights::BIHARMONIC);
+  weights->SetMethod(methods.at(method));
+  return weights;
+}
+
+vtkSmartPointer<vtkWeightsAlgorithm> make_weights(const Arguments& arguments)
+{
+  const auto weights = make_method(arguments.text("method"), arguments.integer("order"));
+  constexpr double tight = 1e-9;
+  if (arguments.text("certificate") == "tight")
+  {
+    weights->SetTolerance(tight);
+  }
+  weights->SetMaximumIterations(arguments.integer("iterations"));
+  weights->SetKeepRaw(arguments.has("raw"));
+  weights->SetKeepMesh(arguments.has("keep-mesh"));
   return weights;
 }
 
@@ -219,8 +246,7 @@ void run_weights(Session& session)
       return;
     }
   }
-  const std::string method = arguments.text("method");
-  const auto weights = make_weights(method);
+  const auto weights = make_weights(arguments);
   weights->SetInputData(0, solved_on);
   weights->SetInputData(1, handles);
   if (!regions.empty())
@@ -246,7 +272,19 @@ void run_weights(Session& session)
     return;
   }
   session.report().merge(of_weights); // the transfer's own keys stay beside
-  const auto result = own_copy(transfer->GetOutput());
+  auto result = own_copy(transfer->GetOutput());
+  vtkNew<vtkTransferWeights> raw;
+  if (arguments.has("raw"))
+  {
+    raw->SetArrayName("RawWeights");
+    raw->SetInputData(0, result);
+    raw->SetInputData(1, weights->GetOutput());
+    if (!session.run(raw, "transfer_raw", 0.98, 1.0, Merge::nothing))
+    {
+      return;
+    }
+    result = own_copy(raw->GetOutput());
+  }
   Report in_file = read_report(transfer->GetOutput());
   in_file.merge(read_report(weights->GetOutput()));
   attach_report(result, in_file);

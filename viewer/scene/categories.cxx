@@ -3,7 +3,7 @@
 #include "scene/categories.h"
 
 #include "base/number_text.h"
-#include "inside/surface_defects.h"
+#include "surface/surface_defects.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"

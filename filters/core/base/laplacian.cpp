@@ -1,5 +1,8 @@
 #include "base/laplacian.h"
 
+#include "base/tet_facets.h"
+#include "base/triangle_sides.h"
+
 #include <cmath>
 #include <vector>
 
@@ -8,6 +11,14 @@ namespace bindpose
 
 namespace
 {
+SparseMatrix from_entries(
+  Index vertex_count, const std::vector<Eigen::Triplet<double, int>>& entries)
+{
+  SparseMatrix matrix(vertex_count, vertex_count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
 template <typename Elements, typename Cotangents, std::size_t EdgeCount>
 SparseMatrix assemble(Index vertex_count, const Elements& elements, const Cotangents& c,
   const int (&edges)[EdgeCount][2])
@@ -27,9 +38,7 @@ SparseMatrix assemble(Index vertex_count, const Elements& elements, const Cotang
       entries.emplace_back(j, j, w);
     }
   }
-  SparseMatrix matrix(vertex_count, vertex_count);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+  return from_entries(vertex_count, entries);
 }
 } // namespace
 
@@ -94,6 +103,76 @@ SparseMatrix stiffness_matrix(PointsView points, TrianglesView triangles)
 SparseMatrix stiffness_matrix(PointsView points, TetsView tets)
 {
   return assemble(points.rows(), tets, cotangent_weights(points, tets), tet_edges);
+}
+
+SparseMatrix boundary_flux(PointsView points, TrianglesView triangles)
+{
+  std::vector<Eigen::Triplet<double, int>> entries;
+  const std::vector<TriangleSide> sides = sides_by_edge(triangles);
+  for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
+  {
+    j = end_of_edge(sides, i);
+    const Index t = sides[i].triangle;
+    const int k = (sides[i].corner + 2) % 3; // opposite to the edge
+    const Vec3 p[3] = { points.row(triangles(t, 0)), points.row(triangles(t, 1)),
+      points.row(triangles(t, 2)) };
+    const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]); // of twice the area
+    const double squared = normal.squaredNorm();
+    if (j > i + 1 || !(squared > 0.0))
+    {
+      continue;
+    }
+    const Vec3 unit = normal / std::sqrt(squared);
+    const Vec3 outwards = (p[(k + 2) % 3] - p[(k + 1) % 3]).cross(unit); // as long as the edge
+    for (Index c = 0; c < 3; ++c)
+    {
+      const Vec3 gradient = normal.cross(p[(c + 2) % 3] - p[(c + 1) % 3]) / squared;
+      const double half = 0.5 * outwards.dot(gradient);
+      for (const int end : { (k + 1) % 3, (k + 2) % 3 })
+      {
+        entries.emplace_back(
+          static_cast<int>(triangles(t, end)), static_cast<int>(triangles(t, c)), half);
+      }
+    }
+  }
+  return from_entries(points.rows(), entries);
+}
+
+SparseMatrix boundary_flux(PointsView points, TetsView tets)
+{
+  std::vector<Eigen::Triplet<double, int>> entries;
+  const std::vector<TetFacet> facets = tet_facets(tets);
+  for (std::size_t i = 0, j = 0; i < facets.size(); i = j)
+  {
+    while (j < facets.size() && facets[j].vertices == facets[i].vertices)
+    {
+      ++j;
+    }
+    const Index t = facets[i].tet;
+    const auto& corners = facet_corners[facets[i].side];
+    const auto at = [&](int k) -> Vec3 { return points.row(tets(t, k)); };
+    const double six_volumes = (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0));
+    if (j > i + 1 || !(six_volumes > 0.0))
+    {
+      continue;
+    }
+    const auto twice_area = [&](int side) -> Vec3
+    {
+      const auto& c = facet_corners[side];
+      return (at(c[1]) - at(c[0])).cross(at(c[2]) - at(c[0]));
+    };
+    const Vec3 outwards = 0.5 * twice_area(facets[i].side);
+    for (int c = 0; c < 4; ++c)
+    {
+      // The gradient points from the facet opposite to the corner.
+      const double third = outwards.dot(-twice_area(c)) / six_volumes / 3.0;
+      for (const int end : corners)
+      {
+        entries.emplace_back(static_cast<int>(tets(t, end)), static_cast<int>(tets(t, c)), third);
+      }
+    }
+  }
+  return from_entries(points.rows(), entries);
 }
 
 Eigen::VectorXd lumped_mass(PointsView points, TrianglesView triangles)

@@ -30,6 +30,12 @@ constexpr int tet_edges[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3
 SparseMatrix stiffness_matrix(PointsView points, TrianglesView triangles);
 SparseMatrix stiffness_matrix(PointsView points, TetsView tets);
 
+/// N (#V x #V): N_ij is the integral over the boundary of phi_i n . grad phi_j, what flows out.
+/// With it (K - N) u = 0 for every linear u, at the boundary as well. Zero for a closed surface; in
+/// a surface n lies in the triangle, normal to its open edge.
+SparseMatrix boundary_flux(PointsView points, TrianglesView triangles);
+SparseMatrix boundary_flux(PointsView points, TetsView tets);
+
 /// Lumped mass, #V. Triangles: Voronoi areas, clamped in obtuse triangles (they sum to the area);
 /// tets: a quarter of each volume. A vertex that nothing uses gets 0.
 Eigen::VectorXd lumped_mass(PointsView points, TrianglesView triangles);

@@ -1,10 +1,10 @@
 #include "base/mesh.h"
 
+#include "base/disjoint_sets.h"
 #include "base/tet_facets.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 
 namespace bindpose
@@ -37,41 +37,10 @@ Status check_elements(PointsView points, const Elements& elements, const char* e
   return {};
 }
 
-/// Union-find with path halving; the smaller id is the root, so component ids follow vertex ids.
-class DisjointSets
-{
-public:
-  explicit DisjointSets(Index count) : parent_(static_cast<std::size_t>(count))
-  {
-    std::iota(this->parent_.begin(), this->parent_.end(), Index(0));
-  }
-  Index find(Index v)
-  {
-    while (this->parent_[v] != v)
-    {
-      this->parent_[v] = this->parent_[this->parent_[v]];
-      v = this->parent_[v];
-    }
-    return v;
-  }
-  void unite(Index a, Index b)
-  {
-    a = this->find(a);
-    b = this->find(b);
-    if (a != b)
-    {
-      this->parent_[std::max(a, b)] = std::min(a, b);
-    }
-  }
-
-private:
-  std::vector<Index> parent_;
-};
-
 template <typename Elements>
 Components components_of(Index vertex_count, const Elements& elements)
 {
-  DisjointSets sets(vertex_count);
+  DisjointSets<Index> sets(static_cast<std::size_t>(vertex_count));
   std::vector<char> used(static_cast<std::size_t>(vertex_count), 0);
   for (Index e = 0; e < elements.rows(); ++e)
   {

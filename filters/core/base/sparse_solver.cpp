@@ -8,8 +8,10 @@
 // results depend on the number of threads. CHOLMOD also assembles supernodes in OpenMP regions of
 // four threads, which only get in each other's way there; they are made inactive for the call.
 // For the same reason OpenBLAS should be the threaded one, told to use one thread: the one built
-// without threads cannot be called by two threads at once (see ExclusiveBlas).
+// without threads cannot be called by two threads at once (see SerialBlas).
 #include "base/sparse_solver.h"
+
+#include "base/supernodes.h"
 
 #include <Eigen/SparseCholesky>
 
@@ -17,6 +19,8 @@
 #include <mutex>
 
 #ifdef BINDPOSE_HAS_CHOLMOD
+#include "base/serial_blas.h"
+
 #include <cholmod.h>
 #include <dlfcn.h>
 #endif
@@ -43,6 +47,7 @@ public:
   virtual Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) = 0;
   virtual void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) = 0;
   virtual std::unique_ptr<Factorisation> clone() const = 0;
+  virtual std::shared_ptr<const Supernodes> supernodes() const { return nullptr; }
   virtual double nonzeros() const = 0;
   virtual double operations() const = 0;
 };
@@ -121,85 +126,11 @@ private:
 };
 
 #ifdef BINDPOSE_HAS_CHOLMOD
-template <typename Function>
-Function* find_function(const char* name)
-{
-  return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
-}
-
-/// While it lives, OpenMP regions started from this thread run on this thread alone.
-class SerialRegions
-{
-public:
-  SerialRegions()
-  {
-    static auto* get = find_function<int()>("omp_get_max_active_levels");
-    static auto* set = find_function<void(int)>("omp_set_max_active_levels");
-    if (get && set)
-    {
-      this->set_ = set;
-      this->levels_ = get();
-      set(0);
-    }
-  }
-  ~SerialRegions()
-  {
-    if (this->set_)
-    {
-      this->set_(this->levels_);
-    }
-  }
-  SerialRegions(const SerialRegions&) = delete;
-  SerialRegions& operator=(const SerialRegions&) = delete;
-
-private:
-  void (*set_)(int) = nullptr;
-  int levels_ = 1;
-};
-
-/// A threaded OpenBLAS is told once to use one thread.
-void make_blas_serial()
-{
-  static std::once_flag once;
-  std::call_once(once,
-    []
-    {
-      if (auto* set_threads = find_function<void(int)>("openblas_set_num_threads"))
-      {
-        set_threads(1);
-      }
-    });
-}
-
-/// OpenBLAS built without threads (libopenblas0-serial) has no locks either: two calls at the same
-/// time share a work buffer and give wrong numbers now and then. With it, one call at a time.
-class ExclusiveBlas
-{
-public:
-  ExclusiveBlas()
-  {
-    static const bool needed = []
-    {
-      auto* parallel = find_function<int()>("openblas_get_parallel");
-      return parallel && parallel() == 0;
-    }();
-    static std::mutex one_at_a_time;
-    if (needed)
-    {
-      this->lock_ = std::unique_lock<std::mutex>(one_at_a_time);
-    }
-  }
-
-private:
-  std::unique_lock<std::mutex> lock_;
-};
-
 class CholmodFactorisation : public Factorisation
 {
 public:
   explicit CholmodFactorisation(SparseSolver::Ordering ordering) : ordering_(ordering)
   {
-    make_blas_serial();
     cholmod_start(&this->common_);
     this->common_.print = 0;
     this->common_.supernodal = CHOLMOD_SUPERNODAL;
@@ -232,6 +163,7 @@ public:
     {
       return this->failure("analysed");
     }
+    this->copy_supernodes();
     this->nonzeros_ = this->common_.lnz;
     this->operations_ = this->common_.fl;
     return {};
@@ -239,8 +171,7 @@ public:
 
   Status factor(const SparseMatrix& matrix) override
   {
-    const SerialRegions serial;
-    const ExclusiveBlas exclusive;
+    const SerialBlas serial;
     cholmod_sparse a = view(matrix);
     cholmod_factorize(&a, this->factor_, &this->common_);
     if (this->common_.status == CHOLMOD_NOT_POSDEF)
@@ -261,8 +192,7 @@ public:
 
   Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) override
   {
-    const SerialRegions serial;
-    const ExclusiveBlas exclusive;
+    const SerialBlas serial;
     cholmod_dense b = view(rhs);
     cholmod_dense* x = cholmod_solve(CHOLMOD_A, this->factor_, &b, &this->common_);
     Eigen::MatrixXd result =
@@ -273,8 +203,7 @@ public:
 
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) override
   {
-    const SerialRegions serial;
-    const ExclusiveBlas exclusive;
+    const SerialBlas serial;
     cholmod_dense b = view(rhs);
     cholmod_solve2(CHOLMOD_A, this->factor_, &b, nullptr, &this->x_, nullptr, &this->y_, &this->e_,
       &this->common_);
@@ -289,16 +218,32 @@ public:
       // A numeric factor is copied without its numbers.
       copy->factor_ = cholmod_copy_factor(this->factor_, &copy->common_);
       cholmod_change_factor(CHOLMOD_PATTERN, 1, 1, 1, 1, copy->factor_, &copy->common_);
+      copy->supernodes_ = this->supernodes_;
       copy->nonzeros_ = this->nonzeros_;
       copy->operations_ = this->operations_;
     }
     return copy;
   }
 
+  std::shared_ptr<const Supernodes> supernodes() const override { return this->supernodes_; }
   double nonzeros() const override { return this->nonzeros_; }
   double operations() const override { return this->operations_; }
 
 private:
+  void copy_supernodes()
+  {
+    const auto copy = [](const void* from, size_t count) {
+      return std::vector<int>(static_cast<const int*>(from), static_cast<const int*>(from) + count);
+    };
+    const cholmod_factor& factor = *this->factor_;
+    auto nodes = std::make_shared<Supernodes>();
+    nodes->order = copy(factor.Perm, factor.n);
+    nodes->first_column = copy(factor.super, factor.nsuper + 1);
+    nodes->first_row = copy(factor.pi, factor.nsuper + 1);
+    nodes->first_value = copy(factor.px, factor.nsuper + 1);
+    nodes->rows = copy(factor.s, factor.ssize);
+    this->supernodes_ = std::move(nodes);
+  }
   static cholmod_sparse view(const SparseMatrix& matrix)
   {
     cholmod_sparse a{};
@@ -353,6 +298,7 @@ private:
   cholmod_dense* x_ = nullptr; // kept between solves
   cholmod_dense* y_ = nullptr;
   cholmod_dense* e_ = nullptr;
+  std::shared_ptr<const Supernodes> supernodes_;
   double nonzeros_ = 0.0;
   double operations_ = 0.0;
 };
@@ -481,6 +427,11 @@ SparseSolver SparseSolver::clone() const
     copy.impl_->factorisation = this->impl_->factorisation->clone();
   }
   return copy;
+}
+
+std::shared_ptr<const Supernodes> SparseSolver::supernodes() const
+{
+  return this->impl_->factorisation ? this->impl_->factorisation->supernodes() : nullptr;
 }
 
 Index SparseSolver::size() const

@@ -12,6 +12,8 @@
 namespace bindpose
 {
 
+struct Supernodes;
+
 /// Sparse Cholesky factorisation of symmetric positive definite matrices: the pattern is analysed
 /// once, then any number of matrices of that pattern are factored, each solves for any number of
 /// right-hand sides.
@@ -71,6 +73,10 @@ public:
 
   /// A solver with this one's analysis and no factorisation, for use on another thread.
   SparseSolver clone() const;
+
+  /// Where the factor's nonzeros are; null for Eigen's backend and before analyse(). For
+  /// factorisations of another kind (see FloatCholesky).
+  std::shared_ptr<const Supernodes> supernodes() const;
 
   /// Unknowns analysed, nonzeros of the factor, floating point operations of one factorisation.
   Index size() const;

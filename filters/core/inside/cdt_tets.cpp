@@ -1,20 +1,21 @@
-// A clean surface goes to TetGen as it is. Any other is first refined exactly until triangles meet
-// only in shared vertices and edges; TetGen then fills the convex hull (or a box around it) with
-// tets that keep all these triangles, and tets with a winding number below the threshold are thrown
-// away. TetGen 1.5 fails on some inputs with one set of switches and on others with another, so
+// A clean surface goes to TetGen as it is, which adds vertices inside in the same run. Any other is
+// first refined exactly until triangles meet only in shared vertices and edges; TetGen then fills the
+// convex hull (or a box around it) with tets that keep all these triangles, and tets with a winding
+// number below the threshold are thrown away. Where openings bound much of what is enclosed, small
+// tets in a box come first: they can end where the winding number does. TetGen 1.5 fails on some inputs with one set of switches and on others with another, so
 // several are tried; then the same with vertices rounded to a coarser grid (which welds nearly
 // coincident ones) and with vertices moved a little (which takes soups apart). Last comes a plain
 // Delaunay triangulation of the refined vertices, whose tets need not respect the triangles.
 //
-// Kept tets get vertices inside, by TetGen's refinement with the boundary left alone: angles become
-// better and weights have something to vary over.
+// Kept tets that have none yet get vertices inside, by TetGen's refinement with the boundary left
+// alone: angles become better and weights have something to vary over.
 #include "inside/cdt_tets.h"
 
 #include "base/number_text.h"
-#include "inside/mesher_process.h"
+#include "helper/mesher_process.h"
 #include "inside/tet_improvement.h"
 #include "inside/tet_quality.h"
-#include "inside/triangle_tree.h"
+#include "surface/triangle_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +34,9 @@ struct CdtTets::Move
 
 namespace
 {
+/// Height of tets at the boundary that are taken off, of the diagonal.
+constexpr double flat = 1e-11;
+
 /// A number in [-1, 1) from an integer, the same everywhere (splitmix64).
 double scatter(std::uint64_t n)
 {
@@ -79,6 +83,7 @@ CdtTets::CdtTets(const RepairedSurface& surface, EnclosedRegion& inside, const C
 Status CdtTets::build(double seconds)
 {
   this->deadline_ = this->context_.elapsed_seconds() + seconds;
+  const Move no_move{ "", 0.0, 0.0 };
   Status status;
   if (this->surface_.clean())
   {
@@ -88,7 +93,16 @@ Status CdtTets::build(double seconds)
     data.points = this->surface_.points;
     data.triangles = this->surface_.triangles;
     // Without c, TetGen throws the outside away itself.
-    status = this->try_tetgen("tetgen", data, this->options_.keep_outside ? "pYcA" : "pYA", false);
+    if (this->fills() && !this->options_.keep_outside && this->options_.handles.empty() &&
+      !this->triangles_are_large())
+    {
+      status = this->try_filled_tets(no_move, data);
+      if (status.ok() || this->final(status))
+      {
+        return status;
+      }
+    }
+    status = this->try_tetgen(this->options_.keep_outside ? "pYcA" : "pYA", no_move, data, false);
     if (status.ok() || this->final(status))
     {
       return status;
@@ -96,7 +110,7 @@ Status CdtTets::build(double seconds)
   }
   MesherData first_refined;
   std::vector<Index> first_original;
-  constexpr Move moves[] = { { "", 0.0, 0.0 }, { ", vertices rounded", 0x1p-20, 0.0 },
+  const Move moves[] = { no_move, { ", vertices rounded", 0x1p-20, 0.0 },
     { ", vertices moved by 1e-5", 0.0, 1e-5 }, { ", vertices moved by 1e-4", 0.0, 1e-4 } };
   for (const Move& move : moves)
   {
@@ -111,6 +125,13 @@ Status CdtTets::build(double seconds)
       }
       status = this->try_switches(move, refined);
     }
+    const double moved = std::max(move.snap, move.jitter);
+    if (status.ok() && moved > 0.0)
+    {
+      this->warnings_.push_back(
+        "tets were possible only with the surface's vertices moved, by up to " +
+        short_number(moved) + " of its diagonal");
+    }
     if (status.ok() || this->final(status))
     {
       return status;
@@ -124,7 +145,26 @@ Status CdtTets::build(double seconds)
   return status;
 }
 
-/// TetGen on refined triangles, with one set of switches after the other.
+/// Tets with vertices inside at once: TetGen is quicker than in two steps, where it manages.
+Status CdtTets::try_filled_tets(const Move& move, const MesherData& surface)
+{
+  constexpr double seconds = 10.0;
+  const std::string size =
+    this->options_.interior_edge > 0.0 ? "a" + short_number(this->volume_bound()) : "";
+  Status status =
+    this->try_tetgen("pYA" + this->quality_switch() + size, move, surface, false, seconds);
+  this->filled_ = status.ok() && !this->too_many_are_bad();
+  if (status.ok() && !this->filled_)
+  {
+    status = Status::failure(StatusCode::internal_error, "too many tets are flat");
+  }
+  return status;
+}
+
+/// TetGen on refined triangles, with one set of switches after the other. Across wide openings the
+/// triangles alone make tets too coarse to end where the winding number does, which may be outside
+/// the convex hull: they begin with small tets. Sheets with a sliver in front of them, where all is
+/// in doubt, do not: small tets miss the sliver, too.
 Status CdtTets::try_switches(const Move& move, const MesherData& refined)
 {
   struct Way
@@ -133,46 +173,75 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
     bool box;
   };
   const Phase phase(this->context_, "tetgen", 0.4, 1.0);
-  const auto name = [&](const std::string& switches, bool box)
-  { return "tetgen " + switches + (box ? " in a box" : "") + move.name; };
+  constexpr double wide_open = 1.5;
+  constexpr double sheet = 14.0;
+  const double doubt = this->inside_.doubtful_share();
+  const bool fine_first = doubt > wide_open && doubt < sheet;
+  bool fine_tried = false;
+  bool fine_is_wrong = false;
   Status status;
+  const auto done = [&]() { return status.ok() || this->final(status); };
+  const auto try_fine = [&]()
+  {
+    fine_tried = true;
+    status = this->try_fine_tets(move, refined);
+    fine_is_wrong = this->wrong_volume_;
+  };
+  if (fine_first)
+  {
+    try_fine();
+    if (done())
+    {
+      return status;
+    }
+  }
   for (const Way& way :
     { Way{ "pYcA", false }, Way{ "pYA", true }, Way{ "pcA", false }, Way{ "pA", true } })
   {
-    status = this->try_tetgen(name(way.switches, way.box), refined, way.switches, way.box);
-    if (status.ok() || this->final(status))
+    status = this->try_tetgen(way.switches, move, refined, way.box);
+    if (!done() && this->wrong_volume_ && !fine_tried)
+    {
+      try_fine();
+    }
+    // When small tets are no better, TetGen did what it could.
+    this->finer_is_no_better_ = fine_is_wrong && this->wrong_volume_;
+    if (done())
     {
       break;
-    }
-    if (this->wrong_volume_)
-    {
-      // TetGen did what it could: across wide openings the tets are too coarse to end where the
-      // winding number does, which may be outside the convex hull. Small tets need small triangles.
-      const double box = bounding_box(refined.points).size().prod();
-      constexpr double tets_inside = 400.0;
-      constexpr double most_tets = 2e4; // in the box, before TetGen grades them
-      const double bound = std::max(
-        std::min(this->volume_bound(), this->inside_.volume() / tets_inside), box / most_tets);
-      const std::string fine = "pAq2a" + short_number(bound);
-      status = this->try_tetgen(name(fine, true), refined, fine, true);
-      if (status.ok() || this->wrong_volume_ || this->final(status))
-      {
-        this->finer_is_no_better_ = this->wrong_volume_;
-        break;
-      }
     }
   }
   return status;
 }
 
-Status CdtTets::try_tetgen(
-  const std::string& name, const MesherData& input, const std::string& switches, bool box)
+/// Tets small enough to tell where the region ends between triangles, in a box around it.
+Status CdtTets::try_fine_tets(const Move& move, const MesherData& refined)
 {
+  this->wrong_volume_ = false;
+  if (this->fine_takes_too_long_)
+  {
+    return Status::failure(StatusCode::internal_error, "small tets take too long");
+  }
+  const double start = this->context_.elapsed_seconds();
+  const double box = bounding_box(refined.points).size().prod();
+  constexpr double tets_inside = 400.0;
+  constexpr double most_tets = 2e4; // in the box, before TetGen grades them
+  const double bound =
+    std::max(std::min(this->volume_bound(), this->inside_.volume() / tets_inside), box / most_tets);
+  const Status status = this->try_tetgen("pAq2a" + short_number(bound), move, refined, true);
+  constexpr double too_long = 20.0; // seconds
+  this->fine_takes_too_long_ = !status.ok() && this->context_.elapsed_seconds() - start > too_long;
+  return status;
+}
+
+Status CdtTets::try_tetgen(
+  const std::string& switches, const Move& move, const MesherData& input, bool box, double seconds)
+{
+  const std::string name = "tetgen " + switches + (box ? " in a box" : "") + move.name;
   const double start = this->context_.elapsed_seconds();
   this->wrong_volume_ = false;
   MesherAnswer answer;
   Status status = this->run_job(
-    { "tetgen", "--switches", switches, "--box", box ? "1" : "0" }, input, 30.0, answer);
+    { "tetgen", "--switches", switches, "--box", box ? "1" : "0" }, input, seconds, answer);
   if (status.ok())
   {
     status = this->keep_inside(answer.data);
@@ -233,6 +302,7 @@ Status CdtTets::refine(const Move& move, MesherData& refined)
   const Phase phase(this->context_, "refine", 0.0, 0.4);
   const double start = this->context_.elapsed_seconds();
   RepairedSurface moved;
+  bool rounded = false;
   Status status = this->move_vertices(move, moved);
   if (status.ok())
   {
@@ -242,14 +312,15 @@ Status CdtTets::refine(const Move& move, MesherData& refined)
     input.points = std::move(moved.points);
     input.triangles = std::move(moved.triangles);
     status = this->run_job({ "refine" }, input, 25.0, answer);
+    rounded = answer.report.number("rounded", 0.0) > 0.0;
     refined = std::move(answer.data);
     if (status.ok() && refined.triangles.rows() == 0)
     {
       status = Status::failure(StatusCode::internal_error, "no triangles are left");
     }
   }
-  this->log_.add(
-    std::string("refine") + move.name, this->context_.elapsed_seconds() - start, status);
+  this->log_.add(std::string("refine") + move.name + (rounded ? ", rounded to 2^-42" : ""),
+    this->context_.elapsed_seconds() - start, status);
   return status;
 }
 
@@ -365,17 +436,18 @@ Status CdtTets::take_inside(
     }
   }
   kept.conservativeResize(count, 4);
-  constexpr double lone = 1e-4; // of the volume: where numbers waver, a tet stays by itself
-  this->inside_.labels_are_exact() ? drop_crumbs(data.points, kept)
-                                   : drop_crumbs(data.points, kept, lone);
-  constexpr double flat = 1e-11; // of the diagonal
-  peel_slivers(data.points, kept, flat * this->diagonal_);
+  std::vector<TetFacet> facets = tet_facets(kept);
+  // Of the volume. Where numbers waver, a tet stays by itself.
+  const double lone = this->inside_.labels_are_exact() ? 1e-8 : 1e-4;
+  drop_crumbs(data.points, kept, facets, lone);
+  peel_slivers(data.points, kept, facets, flat * this->diagonal_);
   if (count == 0 && this->inside_.labels_are_exact())
   {
     this->finer_is_no_better_ = true;
     return this->inside_.encloses_nothing();
   }
-  status = check_tets(data.points, kept);
+  status = this->swap_flat(data.points, kept, facets);
+  status = status.ok() ? check_tets(data.points, kept, facets) : status;
   if (!status.ok())
   {
     return status;
@@ -413,6 +485,37 @@ Status CdtTets::take_inside(
                  : wrong_volume(volume, this->inside_);
 }
 
+/// TetGen leaves tets of no volume, or of rounding, now and then, not at the boundary: edges and
+/// facets around them are swapped until they are gone.
+Status CdtTets::swap_flat(const Points& points, Tets& tets, std::vector<TetFacet>& facets)
+{
+  constexpr double rounding = 1e-12; // of the cube on the longest edge
+  const Eigen::VectorXd volumes = tet_volumes(points, tets);
+  bool any = false;
+  for (Index t = 0; t < tets.rows() && !any; ++t)
+  {
+    any = !(volumes[t] > rounding * std::pow(longest_edge(points, tets, t), 3.0));
+  }
+  if (!any)
+  {
+    return {};
+  }
+  TetMesh mesh{ points, tets };
+  ImproveOptions options;
+  options.angle = 1e-8; // degrees
+  options.least_angle = 0.0; // no vertex moves
+  options.keep_boundary = true;
+  Improvement done;
+  if (!improve_tets(mesh, std::vector<char>(static_cast<std::size_t>(points.rows()), 1), {},
+        options, done, this->context_))
+  {
+    return Status::cancelled();
+  }
+  tets = std::move(mesh.tets);
+  facets = tet_facets(tets);
+  return {};
+}
+
 /// All tets that were told apart, but those that rounding has flattened.
 void CdtTets::take_all(
   const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside)
@@ -448,9 +551,12 @@ Status CdtTets::complete()
     this->renumber(); // they are to be seen as they were told apart
     return {};
   }
-  const bool refine = this->options_.quality > 0.0 || this->options_.interior_edge > 0.0;
   Status status;
-  if (refine || !this->options_.handles.empty())
+  if (this->filled_)
+  {
+    this->surface_vertices_ = this->surface_.points.rows();
+  }
+  else if (this->fills() || !this->options_.handles.empty())
   {
     const Phase phase(this->context_, "fill", 0.0, 0.8);
     status = this->fill();
@@ -507,13 +613,10 @@ Status CdtTets::fill()
 Status CdtTets::fill(const MesherData& coarse)
 {
   const std::string size = this->options_.interior_edge > 0.0 ? "a" : "";
-  const std::string good =
-    this->options_.quality > 0.0 ? "q" + short_number(this->options_.quality) + "/10" : "";
+  const std::string good = this->quality_switch();
   const std::string fair = good.empty() ? "" : "q2";
-  const bool large_triangles = this->options_.interior_edge > 0.0 &&
-    this->mean_surface_edge() > 3.0 * this->options_.interior_edge * this->diagonal_;
   Status status;
-  if (large_triangles)
+  if (this->triangles_are_large())
   {
     status = this->try_fill("r" + good + size, coarse);
     if (status.ok() || this->final(status))
@@ -526,10 +629,7 @@ Status CdtTets::fill(const MesherData& coarse)
   {
     status = this->try_fill("rY" + fair + size, coarse);
   }
-  const Index bad = measure_tets(this->mesh_.points, this->mesh_.tets).below_5_degrees;
-  constexpr double too_many = 0.2;
-  if (!good.empty() && !this->final(status) &&
-    static_cast<double>(bad) > too_many * static_cast<double>(this->mesh_.tets.rows()))
+  if (!good.empty() && !this->final(status) && this->too_many_are_bad())
   {
     const Status split = this->try_fill("r" + fair + size, coarse);
     status = split.ok() || split.code == StatusCode::cancelled ? split : status;
@@ -662,13 +762,40 @@ Status CdtTets::improve()
   {
     return Status::cancelled();
   }
-  const Status status = check_tets(mesh.points, mesh.tets);
+  std::vector<TetFacet> facets = tet_facets(mesh.tets);
+  peel_slivers(mesh.points, mesh.tets, facets, flat * this->diagonal_);
+  const Status status = check_tets(mesh.points, mesh.tets, facets);
   this->log_.add("flat tets swapped", this->context_.elapsed_seconds() - start, status);
   if (status.ok())
   {
     this->mesh_ = std::move(mesh);
   }
   return {};
+}
+
+/// Vertices are wanted inside.
+bool CdtTets::fills() const
+{
+  return this->options_.quality > 0.0 || this->options_.interior_edge > 0.0;
+}
+
+std::string CdtTets::quality_switch() const
+{
+  return this->options_.quality > 0.0 ? "q" + short_number(this->options_.quality) + "/10" : "";
+}
+
+/// So that tets of the wanted size do not fit to them.
+bool CdtTets::triangles_are_large() const
+{
+  return this->options_.interior_edge > 0.0 &&
+    this->mean_surface_edge() > 3.0 * this->options_.interior_edge * this->diagonal_;
+}
+
+bool CdtTets::too_many_are_bad() const
+{
+  constexpr double too_many = 0.2;
+  const Index bad = measure_tets(this->mesh_.points, this->mesh_.tets).below_5_degrees;
+  return static_cast<double>(bad) > too_many * static_cast<double>(this->mesh_.tets.rows());
 }
 
 double CdtTets::mean_surface_edge() const

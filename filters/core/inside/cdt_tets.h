@@ -2,11 +2,12 @@
 #define bindpose_inside_cdt_tets_h
 
 #include "base/execution.h"
+#include "base/tet_facets.h"
 #include "inside/enclosed_region.h"
 #include "inside/handle_places.h"
 #include "inside/segmentation.h"
 #include "inside/sizing_field.h"
-#include "inside/surface_repair.h"
+#include "surface/surface_repair.h"
 
 #include <limits>
 #include <string>
@@ -80,8 +81,10 @@ private:
   struct Move;
 
   Status try_switches(const Move& move, const MesherData& refined);
-  Status try_tetgen(
-    const std::string& name, const MesherData& input, const std::string& switches, bool box);
+  Status try_fine_tets(const Move& move, const MesherData& refined);
+  Status try_filled_tets(const Move& move, const MesherData& surface);
+  Status try_tetgen(const std::string& switches, const Move& move, const MesherData& input,
+    bool box, double seconds = 30.0);
   Status try_delaunay(const MesherData& refined);
   Status refine(const Move& move, MesherData& refined);
   Status move_vertices(const Move& move, RepairedSurface& moved);
@@ -90,6 +93,7 @@ private:
   bool final(const Status& status) const;
   Status keep_inside(const MesherData& data);
   Status take_inside(const MesherData& data, const Eigen::VectorXd& w, SegmentationMethod method);
+  Status swap_flat(const Points& points, Tets& tets, std::vector<TetFacet>& facets);
   void take_all(const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside);
   Status fill();
   Status fill(const MesherData& coarse);
@@ -98,6 +102,10 @@ private:
   Status place_handles();
   SizingField lengths_inside(const Triangles& boundary) const;
   Status improve();
+  bool fills() const;
+  std::string quality_switch() const;
+  bool triangles_are_large() const;
+  bool too_many_are_bad() const;
   double mean_surface_edge() const;
   double volume_bound() const;
   void renumber();
@@ -113,6 +121,8 @@ private:
   std::vector<Index> original_; ///< input id of the first vertices of the rung's points
   bool wrong_volume_ = false; ///< the rung's tets are there, but their volume is wrong
   bool finer_is_no_better_ = false; ///< then more of the same will not help
+  bool fine_takes_too_long_ = false; ///< small tets were tried, until the time was up
+  bool filled_ = false; ///< the mesh has its vertices inside already
   TetMesh mesh_;
   Eigen::VectorXd winding_numbers_;
   std::vector<char> kept_;

@@ -1,6 +1,6 @@
 #include "inside/crease_points.h"
 
-#include "inside/triangle_sides.h"
+#include "base/triangle_sides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,10 +36,7 @@ CreasePoints find_creases(const RegionBoundary& region, const SizingField& field
   std::vector<Vec3> between;
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
   {
-    while (j < sides.size() && sides[j].same_edge(sides[i]))
-    {
-      ++j;
-    }
+    j = end_of_edge(sides, i);
     if (j - i == 2 &&
       region.normal(sides[i].triangle).dot(region.normal(sides[i + 1].triangle)) > smooth)
     {

@@ -18,19 +18,9 @@ namespace
 {
 constexpr double smallest_volume_ratio = 0.9;
 constexpr double largest_volume_ratio = 1.1;
-
-double longest_edge(const Points& points, const Tets& tets, Index t)
-{
-  double longest = 0.0;
-  for (int i = 0; i < 4; ++i)
-  {
-    for (int j = 0; j < i; ++j)
-    {
-      longest = std::max(longest, (points.row(tets(t, i)) - points.row(tets(t, j))).squaredNorm());
-    }
-  }
-  return std::sqrt(longest);
-}
+/// Numbers this near to the threshold belong to openings (or to nothing): walls have them far
+/// apart.
+constexpr double doubtful = 0.25;
 
 /// Points spread evenly over a box, the same every time: an additive recurrence with the powers of
 /// the root of x^4 = x + 1, the three-dimensional golden ratio.
@@ -113,6 +103,8 @@ Status EnclosedRegion::sample(
     negative = cell * static_cast<double>((w.array() <= -threshold).count());
     this->volume_ = cell * hits;
     this->volume_error_ = hits > 0.0 ? 1.0 / std::sqrt(hits) : 1.0;
+    this->doubtful_share_ =
+      static_cast<double>(((w.array() - threshold).abs() < doubtful).count()) / std::max(hits, 1.0);
     this->largest_winding_ = std::max(this->largest_winding_, w.maxCoeff());
     const double next_samples = growth * static_cast<double>(w.size());
     if (hits >= enough || negative > this->volume_ || next_samples > most_samples ||
@@ -214,7 +206,6 @@ Status EnclosedRegion::label_tets(
     }
   }
   constexpr double large = 0.05; // of the diagonal
-  constexpr double doubtful = 0.25;
   std::vector<Index> tets;
   for (Index t = 0; t < data.tets.rows(); ++t)
   {
@@ -241,6 +232,16 @@ Status EnclosedRegion::label_tets(
   for (std::size_t i = 0; i < tets.size() && status.usable(); ++i)
   {
     w[tets[i]] = 0.25 * values.segment(4 * static_cast<Index>(i), 4).sum();
+  }
+  // TetGen's box is larger. In front of a sheet another one may add to its half: no inside.
+  for (Index t = 0; t < w.size(); ++t)
+  {
+    const Vec3 p = centers.row(t);
+    if ((p.array() < this->box_.lower.array()).any() ||
+      (p.array() > this->box_.upper.array()).any())
+    {
+      w[t] = 0.0;
+    }
   }
   return status.usable() ? Status() : status;
 }

@@ -1,8 +1,8 @@
 #ifndef bindpose_inside_enclosed_region_h
 #define bindpose_inside_enclosed_region_h
 
-#include "inside/mesher_format.h"
-#include "inside/surface_repair.h"
+#include "helper/mesher_format.h"
+#include "surface/surface_repair.h"
 #include "winding/winding_number.h"
 
 namespace bindpose
@@ -23,6 +23,9 @@ public:
   double volume() const { return this->volume_; }
   /// Standard error of volume() from sampling, relative; 0 where it is exact.
   double volume_error() const { return this->volume_error_; }
+  /// Volume where the number is within a quarter of the threshold, as a multiple of volume(): near
+  /// 0 where the surface itself bounds what it encloses, over 1 where its openings do.
+  double doubtful_share() const { return this->doubtful_share_; }
   /// Within 10 %, and what sampling may be wrong by.
   bool fits(double volume) const;
   /// |log(volume / volume())|: 0 for equal, the same for half and double, infinity for none.
@@ -33,7 +36,8 @@ public:
   Status encloses_nothing() const;
 
   /// Winding number of each tet: of its region's largest tet when the surface is closed, else at
-  /// its centre or, for large tets near the threshold, the mean of four points.
+  /// its centre or, for large tets near the threshold, the mean of four points; 0 for a tet whose
+  /// centre is outside of the surface's box.
   Status label(const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context);
 
 private:
@@ -47,6 +51,7 @@ private:
   bool closed_ = false;
   double volume_ = 0.0;
   double volume_error_ = 1.0; ///< relative
+  double doubtful_share_ = 0.0;
   double largest_winding_ = 0.0;
 };
 

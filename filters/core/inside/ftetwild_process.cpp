@@ -4,10 +4,10 @@
 #include "inside/ftetwild_process.h"
 
 #include "base/number_text.h"
-#include "inside/child_process.h"
-#include "inside/scratch_folder.h"
+#include "helper/child_process.h"
+#include "helper/scratch_folder.h"
 #include "inside/tet_quality.h"
-#include "inside/unit_frame.h"
+#include "surface/unit_frame.h"
 #include "io/medit.h"
 #include "io/off.h"
 

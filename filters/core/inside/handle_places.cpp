@@ -2,6 +2,8 @@
 // its longest edge until that is short enough; the middles of edges that were cut are its samples.
 #include "inside/handle_places.h"
 
+#include "base/line_pieces.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,28 +32,17 @@ public:
   void line(const Vec3& a, const Vec3& b)
   {
     const double whole = (b - a).norm();
-    // passed[i]: how many lengths fit between a and the fraction at[i].
-    std::vector<double> passed{ 0.0 };
-    std::vector<double> at{ 0.0 };
-    while (at.back() < 1.0 && whole > 0.0)
+    if (!(whole > 0.0))
     {
-      const double here = std::max(this->length_(a + at.back() * (b - a)) / whole, 1.0 / most);
-      constexpr double part = 0.5; // of a length: it changes on the way
-      const double step = std::min(part * here, 1.0 - at.back());
-      passed.push_back(passed.back() + step / here);
-      at.push_back(1.0 - at.back() - step < 1e-9 ? 1.0 : at.back() + step);
+      return;
     }
-    const int pieces = std::max(2, static_cast<int>(std::ceil(passed.back())));
-    std::size_t next = 1;
-    for (int piece = 1; piece < pieces && whole > 0.0; ++piece)
+    const auto length = [&](double t)
+    { return std::max(this->length_(a + t * (b - a)) / whole, 1.0 / most); };
+    const auto pieces = [](double lengths)
+    { return std::max(2, static_cast<int>(std::ceil(lengths))); };
+    for (const double cut : line_cuts(0.0, 1.0, length, pieces))
     {
-      const double wanted = passed.back() * piece / pieces;
-      while (passed[next] < wanted)
-      {
-        ++next;
-      }
-      const double f = (wanted - passed[next - 1]) / (passed[next] - passed[next - 1]);
-      this->add(a + (at[next - 1] + f * (at[next] - at[next - 1])) * (b - a));
+      this->add(a + cut * (b - a));
     }
   }
 

@@ -4,8 +4,8 @@
 #include "inside/remesh_tets.h"
 
 #include "base/number_text.h"
-#include "inside/child_process.h"
-#include "inside/mesher_process.h"
+#include "helper/child_process.h"
+#include "helper/mesher_process.h"
 #include "inside/tet_improvement.h"
 #include "inside/tet_quality.h"
 

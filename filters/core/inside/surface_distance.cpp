@@ -1,7 +1,7 @@
 #include "inside/surface_distance.h"
 
 #include "base/parallel.h"
-#include "inside/triangle_tree.h"
+#include "surface/triangle_tree.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,10 @@
 #include "inside/tet_quality.h"
 
-#include "base/tet_facets.h"
-#include "inside/triangle_predicates.h"
+#include "base/disjoint_sets.h"
+#include "surface/triangle_predicates.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace bindpose
 {
@@ -32,6 +31,19 @@ double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   return degrees * std::acos(std::min(largest_cosine, 1.0));
 }
 
+double longest_edge(const Points& points, const Tets& tets, Index t)
+{
+  double longest = 0.0;
+  for (int i = 0; i < 4; ++i)
+  {
+    for (int j = 0; j < i; ++j)
+    {
+      longest = std::max(longest, (points.row(tets(t, i)) - points.row(tets(t, j))).squaredNorm());
+    }
+  }
+  return std::sqrt(longest);
+}
+
 TetQuality measure_tets(PointsView points, TetsView tets)
 {
   TetQuality quality;
@@ -54,6 +66,12 @@ TetQuality measure_tets(PointsView points, TetsView tets)
 
 Status check_tets(PointsView points, TetsView tets, bool may_branch)
 {
+  return check_tets(points, tets, tet_facets(tets), may_branch);
+}
+
+Status check_tets(
+  PointsView points, TetsView tets, const std::vector<TetFacet>& facets, bool may_branch)
+{
   const auto failure = [](const std::string& what)
   { return Status::failure(StatusCode::internal_error, what); };
   for (Index t = 0; t < tets.rows(); ++t)
@@ -66,7 +84,6 @@ Status check_tets(PointsView points, TetsView tets, bool may_branch)
       return failure("tet " + std::to_string(t) + " has no positive volume");
     }
   }
-  const std::vector<TetFacet> facets = tet_facets(tets);
   // The facet runs the way of its sorted vertices, as seen from outside of its tet.
   const auto forward = [&](const TetFacet& facet)
   {
@@ -100,53 +117,44 @@ Status check_tets(PointsView points, TetsView tets, bool may_branch)
   return {};
 }
 
-Index drop_crumbs(const Points& points, Tets& tets, double lone)
+Index drop_crumbs(const Points& points, Tets& tets, std::vector<TetFacet>& facets, double lone)
 {
-  const std::vector<TetFacet> facets = tet_facets(tets);
-  std::vector<Index> group(static_cast<std::size_t>(tets.rows()));
-  std::iota(group.begin(), group.end(), Index(0));
-  const auto find = [&](Index t)
-  {
-    while (group[t] != t)
-    {
-      group[t] = group[group[t]];
-      t = group[t];
-    }
-    return t;
-  };
+  DisjointSets<Index> groups(static_cast<std::size_t>(tets.rows()));
   for (std::size_t i = 1; i < facets.size(); ++i)
   {
     if (facets[i].vertices == facets[i - 1].vertices)
     {
-      const Index a = find(facets[i - 1].tet);
-      const Index b = find(facets[i].tet);
-      group[std::max(a, b)] = std::min(a, b);
+      groups.unite(facets[i - 1].tet, facets[i].tet);
     }
   }
   const Eigen::VectorXd volumes = tet_volumes(points, tets);
   Eigen::VectorXd of_group = Eigen::VectorXd::Zero(tets.rows());
-  std::vector<Index> size(group.size(), 0);
+  std::vector<Index> size(static_cast<std::size_t>(tets.rows()), 0);
   for (Index t = 0; t < tets.rows(); ++t)
   {
-    of_group[find(t)] += volumes[t];
-    ++size[find(t)];
+    of_group[groups.find(t)] += volumes[t];
+    ++size[groups.find(t)];
   }
   constexpr double crumb = 1e-8;
   const double all = volumes.sum();
   Index kept = 0;
   for (Index t = 0; t < tets.rows(); ++t)
   {
-    if (of_group[find(t)] >= (size[find(t)] > 1 ? crumb : lone) * all)
+    if (of_group[groups.find(t)] >= (size[groups.find(t)] > 1 ? crumb : lone) * all)
     {
       tets.row(kept++) = tets.row(t).eval();
     }
   }
   const Index dropped = tets.rows() - kept;
-  tets.conservativeResize(kept, 4);
+  if (dropped > 0)
+  {
+    tets.conservativeResize(kept, 4);
+    facets = tet_facets(tets);
+  }
   return dropped;
 }
 
-Index peel_slivers(const Points& points, Tets& tets, double height)
+Index peel_slivers(const Points& points, Tets& tets, std::vector<TetFacet>& facets, double height)
 {
   const auto flat = [&](Index t)
   {
@@ -171,7 +179,6 @@ Index peel_slivers(const Points& points, Tets& tets, double height)
     {
       return removed;
     }
-    const std::vector<TetFacet> facets = tet_facets(tets);
     std::vector<char> at_boundary(slivers.size(), 0);
     for (std::size_t i = 0; i < facets.size();)
     {
@@ -193,6 +200,7 @@ Index peel_slivers(const Points& points, Tets& tets, double height)
     }
     removed += tets.rows() - kept;
     tets.conservativeResize(kept, 4);
+    facets = tet_facets(tets);
   }
 }
 

@@ -2,14 +2,19 @@
 #define bindpose_inside_tet_quality_h
 
 #include "base/mesh.h"
+#include "base/tet_facets.h"
 
 #include <array>
+#include <vector>
 
 namespace bindpose
 {
 
 /// Smallest of a tet's six dihedral angles, degrees; 0 for a tet without volume.
 double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+
+/// Of tet t.
+double longest_edge(const Points& points, const Tets& tets, Index t);
 
 /// How many tets have their smallest dihedral angle in [5 k, 5 (k + 1)) degrees. No tet's is above
 /// a regular one's 70.53.
@@ -34,15 +39,20 @@ TetQuality measure_tets(PointsView points, TetsView tets);
 /// facet with two others or with one on the same side (else the boundary is closed); with
 /// may_branch a facet may have any number of tets. Ids must be in range.
 Status check_tets(PointsView points, TetsView tets, bool may_branch = false);
+/// The same with the tet_facets of the tets, which cost most of it.
+Status check_tets(
+  PointsView points, TetsView tets, const std::vector<TetFacet>& facets, bool may_branch = false);
 
 /// Removes groups of tets, joined by facets, that hold less than 1e-8 of the volume: crumbs of
 /// rounding; and tets that no facet joins to another with less than `lone` of it.
-/// @return how many tets went.
-Index drop_crumbs(const Points& points, Tets& tets, double lone = 1e-8);
+/// `facets`: tet_facets of the tets, before and after. @return how many tets went.
+Index drop_crumbs(
+  const Points& points, Tets& tets, std::vector<TetFacet>& facets, double lone = 1e-8);
 
 /// Removes tets at the boundary that are flatter than `height` (smallest height of a tet), again
-/// and again until none is left there. The boundary moves by less than that. @return how many went.
-Index peel_slivers(const Points& points, Tets& tets, double height);
+/// and again until none is left there. The boundary moves by less than that. `facets`: tet_facets
+/// of the tets, before and after. @return how many went.
+Index peel_slivers(const Points& points, Tets& tets, std::vector<TetFacet>& facets, double height);
 
 /// #T x 3 mean of the four vertices.
 Points centers_of(const Points& points, const Tets& tets);

@@ -3,10 +3,10 @@
 
 #include "base/execution.h"
 #include "base/mesh.h"
-#include "inside/embedding_tets.h"
+#include "embedding/embedding_tets.h"
 #include "inside/handle_places.h"
 #include "inside/segmentation.h"
-#include "inside/surface_defects.h"
+#include "surface/surface_defects.h"
 
 #include <vector>
 

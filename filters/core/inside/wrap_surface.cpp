@@ -3,9 +3,9 @@
 #include "inside/wrap_surface.h"
 
 #include "base/number_text.h"
-#include "inside/child_process.h"
-#include "inside/mesher_process.h"
-#include "inside/unit_frame.h"
+#include "helper/child_process.h"
+#include "helper/mesher_process.h"
+#include "surface/unit_frame.h"
 
 namespace bindpose
 {

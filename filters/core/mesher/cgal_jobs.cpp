@@ -10,6 +10,9 @@
 //    triangle it lies on, so neighbours still fit. Equal vertices are welded, triangles of no area
 //    and duplicates are dropped.
 // Rounding moves vertices by an ulp and may let triangles cross anew: rounds repeat until none do.
+// Where sheets lie in each other but for the rounding of whoever computed them, every round leaves
+// more crossings than it found; then all begins anew with the input's vertices rounded to a grid
+// that is far coarser than doubles and far finer than shapes, in which such sheets coincide.
 #include "mesher/jobs.h"
 #include "mesher/stopwatch.h"
 
@@ -24,6 +27,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -341,11 +346,9 @@ std::string split(Soup& soup, const std::vector<Pair>& pairs, const Stopwatch& c
   soup.tidy();
   return {};
 }
-} // namespace
 
-std::string refine(MesherData& data, const RefineOptions& options)
+Soup soup_of(const MesherData& data)
 {
-  const Stopwatch clock;
   Soup soup;
   soup.points.resize(static_cast<std::size_t>(data.points.rows()));
   for (Index v = 0; v < data.points.rows(); ++v)
@@ -358,21 +361,59 @@ std::string refine(MesherData& data, const RefineOptions& options)
     soup.faces.push_back({ data.triangles(f, 0), data.triangles(f, 1), data.triangles(f, 2) });
   }
   soup.tidy();
+  return soup;
+}
+
+/// To a grid of about 2^-42 (2e-13) of the diagonal.
+void round_points(MesherData& data)
+{
+  constexpr double fraction = 0x1p-42;
+  const double step =
+    std::exp2(std::round(std::log2(fraction * bounding_box(data.points).diagonal())));
+  data.points = (data.points / step).array().round() * step;
+}
+} // namespace
+
+std::string refine(MesherData& data, const RefineOptions& options)
+{
+  const Stopwatch clock;
+  Soup soup = soup_of(data);
   // A few hundred large triangles may well fall into tens of thousands of pieces, and be meshed.
   constexpr std::size_t small = 10000;
   const auto face_limit = static_cast<std::size_t>(
     options.growth_limit * static_cast<double>(std::max(soup.faces.size(), small)));
+  constexpr std::size_t few = 64; // pairs; so many come and go
+  constexpr int patience = 3; // rounds
+  bool rounded = false;
+  std::size_t before = std::numeric_limits<std::size_t>::max();
+  int growing = 0; // rounds after which more crossed than before
   int round = 0;
   for (; round < options.round_limit; ++round)
   {
     const std::vector<Pair> pairs = crossing_pairs(soup);
-    if (round == 0)
+    if (round == 0 && !rounded)
     {
       tell_report("counts.self_intersections", static_cast<double>(pairs.size()));
     }
     if (pairs.empty())
     {
       break;
+    }
+    growing += pairs.size() > std::max(before, few) ? 1 : 0;
+    before = std::max(pairs.size(), few);
+    if (growing > 0 && !rounded)
+    {
+      round_points(data);
+      soup = soup_of(data);
+      rounded = true;
+      growing = 0;
+      before = std::numeric_limits<std::size_t>::max();
+      round = -1;
+      continue;
+    }
+    if (growing == patience)
+    {
+      return "more triangles cross after every round of splitting";
     }
     std::string error = split(soup, pairs, clock, options, face_limit);
     if (!error.empty())
@@ -384,6 +425,7 @@ std::string refine(MesherData& data, const RefineOptions& options)
   {
     return "triangles still cross after " + std::to_string(round) + " rounds of splitting";
   }
+  tell_report("rounded", rounded ? 1.0 : 0.0);
   tell_report("rounds", round);
   data = MesherData();
   data.points.resize(static_cast<Index>(soup.points.size()), 3);

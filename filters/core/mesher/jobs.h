@@ -1,7 +1,7 @@
 #ifndef bindpose_mesher_jobs_h
 #define bindpose_mesher_jobs_h
 
-#include "inside/mesher_format.h"
+#include "helper/mesher_format.h"
 
 #include <string>
 
@@ -22,7 +22,8 @@ struct RefineOptions
 
 /// Splits triangles along their intersections until they meet only in shared vertices and edges.
 /// Input vertices keep their ids and coordinates, new ones come behind; triangles of zero area and
-/// duplicates are dropped. Reports self_intersections (pairs in the input), rounds.
+/// duplicates are dropped. Where that does not end, input vertices are rounded to about 2e-13 of
+/// the diagonal first. Reports self_intersections (pairs in the input), rounded (0 or 1), rounds.
 /// @return empty, or why it gave up.
 std::string refine(MesherData& data, const RefineOptions& options);
 

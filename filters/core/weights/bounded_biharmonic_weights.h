@@ -14,7 +14,7 @@ struct BoundedWeightsOptions : WeightsOptions
 
 /// Bounded biharmonic weights: for each handle the minimiser of the k-harmonic energy between 0 and
 /// 1 that is 1 on the handle and 0 on all others; rows are divided by their sums afterwards.
-/// Converged, with a certificate a column. Cost: 10 to 15 sparse factorisations a handle.
+/// Converged, with a certificate a column. Cost: see BoxQp.
 /// Jacobson et al. 2011, Bounded biharmonic weights for real-time deformation.
 Status bounded_biharmonic_weights(const WeightsProblem& problem,
   const BoundedWeightsOptions& options, ExecutionContext& context, WeightsResult& result);

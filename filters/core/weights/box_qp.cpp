@@ -1,8 +1,10 @@
-// One analysis and one factorisation of Q's free block; then each column is solved for by the
-// interior-point method of interior_point.cpp, in a workspace that the next column uses again.
+// One analysis and one factorisation of Q's free block in double precision. Then all columns get
+// their starts together (barrier_start.cpp), and each one is solved for by the interior-point
+// method of interior_point.cpp, in a workspace that the next column uses again.
 #include "weights/box_qp.h"
 
 #include "base/parallel.h"
+#include "weights/barrier_start.h"
 #include "weights/interior_point.h"
 
 #include <chrono>
@@ -23,10 +25,13 @@ double seconds_since(Clock::time_point start)
 }
 } // namespace
 
-struct BoxQp::Impl : BoxQpMatrices
+struct BoxQp::Impl : SplitForm
 {
+  using SplitForm::SplitForm;
+
   BoxQpOptions options;
   SparseSolver solver; // of A itself
+  FloatCholesky single; // for the columns; not analysed where it is unavailable
   double first_factor_seconds = 0.0;
   mutable std::mutex inverse_mutex;
   mutable std::mutex pool_mutex;
@@ -43,6 +48,7 @@ struct BoxQp::Impl : BoxQpMatrices
     }
     auto workspace = std::make_unique<BoxQpWorkspace>();
     workspace->solver = this->solver.clone();
+    workspace->single = this->single.clone();
     workspace->matrix = this->lower;
     return workspace;
   }
@@ -66,6 +72,35 @@ struct BoxQp::Impl : BoxQpMatrices
     }
     return result;
   }
+  /// Starts for all columns. Those with a start of their own or with ordered pairs get none.
+  std::vector<CentralStart> find_starts(const std::vector<BoxQpColumn>& columns,
+    const Eigen::MatrixXd& unconstrained, ExecutionContext& context) const
+  {
+    std::vector<CentralStart> starts(columns.size());
+    std::vector<std::size_t> wanted;
+    std::vector<BoxQpColumn> some;
+    Eigen::MatrixXd free_of_bounds(unconstrained.rows(), unconstrained.cols());
+    for (std::size_t j = 0; j < columns.size() && this->single.analysed(); ++j)
+    {
+      if (columns[j].pairs.empty() && columns[j].start.size() == 0)
+      {
+        free_of_bounds.col(static_cast<Index>(wanted.size())) =
+          unconstrained.col(static_cast<Index>(j));
+        wanted.push_back(j);
+        some.push_back(columns[j]);
+      }
+    }
+    if (!wanted.empty())
+    {
+      FloatCholesky own = this->single.clone();
+      std::vector<CentralStart> found = barrier_start(*this, some, free_of_bounds, own, context);
+      for (std::size_t k = 0; k < wanted.size(); ++k)
+      {
+        starts[wanted[k]] = std::move(found[k]);
+      }
+    }
+    return starts;
+  }
   void give_back(std::unique_ptr<BoxQpWorkspace> workspace) const
   {
     const std::lock_guard<std::mutex> lock(this->pool_mutex);
@@ -74,62 +109,10 @@ struct BoxQp::Impl : BoxQpMatrices
 };
 
 BoxQp::BoxQp(const SparseMatrix& q, std::vector<Index> fixed, const BoxQpOptions& options)
-  : impl_(new Impl)
+  : impl_(new Impl(q, std::move(fixed)))
 {
   Impl& impl = *this->impl_;
   impl.options = options;
-  impl.q = q;
-  impl.q.makeCompressed();
-  impl.fixed = std::move(fixed);
-  impl.is_free.assign(static_cast<std::size_t>(q.rows()), 1);
-  std::vector<Index> fixed_of_vertex(static_cast<std::size_t>(q.rows()), -1);
-  for (std::size_t i = 0; i < impl.fixed.size(); ++i)
-  {
-    impl.is_free[impl.fixed[i]] = 0;
-    fixed_of_vertex[impl.fixed[i]] = static_cast<Index>(i);
-  }
-  impl.free_of_vertex.assign(static_cast<std::size_t>(q.rows()), -1);
-  for (Index v = 0; v < q.rows(); ++v)
-  {
-    if (impl.is_free[v])
-    {
-      impl.free_of_vertex[v] = static_cast<Index>(impl.free_vertices.size());
-      impl.free_vertices.push_back(v);
-    }
-  }
-  const auto n = static_cast<int>(impl.free_vertices.size());
-  std::vector<Eigen::Triplet<double, int>> inner;
-  std::vector<Eigen::Triplet<double, int>> outer;
-  for (Index v = 0; v < q.cols(); ++v)
-  {
-    for (SparseMatrix::InnerIterator entry(impl.q, static_cast<int>(v)); entry; ++entry)
-    {
-      const auto i = static_cast<int>(impl.free_of_vertex[entry.row()]);
-      const auto j = static_cast<int>(impl.free_of_vertex[v]);
-      if (i >= 0 && j >= 0)
-      {
-        inner.emplace_back(i, j, entry.value());
-      }
-      else if (i >= 0)
-      {
-        outer.emplace_back(i, static_cast<int>(fixed_of_vertex[v]), entry.value());
-      }
-    }
-  }
-  for (int i = 0; i < n; ++i)
-  {
-    inner.emplace_back(i, i, 0.0); // every diagonal entry exists
-  }
-  impl.a.resize(n, n);
-  impl.a.setFromTriplets(inner.begin(), inner.end());
-  impl.to_fixed.resize(n, static_cast<int>(impl.fixed.size()));
-  impl.to_fixed.setFromTriplets(outer.begin(), outer.end());
-  impl.lower = impl.a.triangularView<Eigen::Lower>();
-  impl.lower.makeCompressed();
-  for (int i = 0; i < n; ++i)
-  {
-    impl.diagonal.push_back(impl.lower.outerIndexPtr()[i]);
-  }
   impl.solver = SparseSolver(options.solver);
 }
 
@@ -146,6 +129,12 @@ Status BoxQp::prepare(ExecutionContext& context)
   {
     Phase phase(context, "analyse");
     status = impl.solver.analyse(impl.lower);
+    if (status.ok())
+    {
+      impl.single = FloatCholesky();
+      const Status single = impl.single.analyse(impl.solver, impl.lower);
+      status = single.code == StatusCode::unavailable ? status : single;
+    }
   }
   if (status.ok() && !context.cancelled())
   {
@@ -252,6 +241,14 @@ std::vector<BoxQpSolution> BoxQp::solve_all(
     solutions[j].w = VectorXd::Zero(impl.q.rows());
   }
   const Eigen::MatrixXd free_of_bounds = this->unconstrained(fixed_values);
+  std::vector<CentralStart> starts;
+  const auto start = Clock::now();
+  {
+    const ProgressRange range(context, 0.0, 0.1);
+    starts = impl.find_starts(columns, free_of_bounds, context);
+  }
+  const double start_seconds = seconds_since(start) / std::max<double>(1.0, double(columns.size()));
+  const ProgressRange range(context, 0.1, 1.0);
   parallel_for(context, static_cast<Index>(columns.size()), 1,
     [&](Index begin, Index end)
     {
@@ -260,8 +257,9 @@ std::vector<BoxQpSolution> BoxQp::solve_all(
         auto workspace = impl.take_workspace();
         const VectorXd unconstrained = free_of_bounds.col(j);
         solutions[j] = interior_point(
-          impl, impl.options, columns[j], unconstrained,
+          impl, impl.options, columns[j], unconstrained, starts[static_cast<std::size_t>(j)],
           [&](const VectorXd& r) { return impl.inverse(r); }, *workspace, context);
+        solutions[j].solve_seconds += start_seconds;
         impl.give_back(std::move(workspace));
       }
     });
@@ -280,7 +278,7 @@ Index BoxQp::analyses() const
 
 Index BoxQp::factorisations() const
 {
-  return this->impl_->solver.factorisations();
+  return this->impl_->solver.factorisations() + this->impl_->single.factorisations();
 }
 
 double BoxQp::first_factor_seconds() const

@@ -7,6 +7,7 @@
 // so the search tree is built once.
 #include "weights/handle_insertion.h"
 
+#include "base/line_pieces.h"
 #include "weights/simplex_locator.h"
 
 #include <algorithm>
@@ -173,25 +174,16 @@ void Inserter::add_bone_samples(
     {
       continue;
     }
-    // How many local edge lengths fit into the gap, by steps of half of one.
-    std::vector<double> passed{ 0.0 };
-    std::vector<double> at{ stops[i] };
-    while (at.back() < stops[i + 1])
+    const auto edge_at = [&](double t)
     {
-      const SimplexLocation here = this->locator_->locate(head + at.back() * axis);
-      const double edge = std::max(mean_edge_length(this->domain_, here.element), 1e-3 * length);
-      const double step = std::min(0.5 * edge / length, stops[i + 1] - at.back());
-      passed.push_back(passed.back() + step * length / edge);
-      at.push_back(stops[i + 1] - at.back() - step < 1e-9 ? stops[i + 1] : at.back() + step);
-    }
-    const int pieces = std::max(bare ? 2 : 1, static_cast<int>(std::lround(passed.back())));
-    for (int piece = 1; piece < pieces; ++piece)
+      const SimplexLocation here = this->locator_->locate(head + t * axis);
+      return std::max(mean_edge_length(this->domain_, here.element) / length, 1e-3);
+    };
+    const auto pieces = [&](double edges)
+    { return std::max(bare ? 2 : 1, static_cast<int>(std::lround(edges))); };
+    for (const double cut : line_cuts(stops[i], stops[i + 1], edge_at, pieces))
     {
-      const double wanted = passed.back() * piece / pieces;
-      const auto next = std::lower_bound(passed.begin(), passed.end(), wanted) - passed.begin();
-      const double f = (wanted - passed[next - 1]) / (passed[next] - passed[next - 1]);
-      const double t = at[next - 1] + f * (at[next] - at[next - 1]);
-      between.push_back({ head + t * axis, handle, -1 });
+      between.push_back({ head + cut * axis, handle, -1 });
     }
   }
 }

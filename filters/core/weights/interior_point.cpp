@@ -8,14 +8,26 @@
 // whose pattern is A's own: bounds touch the diagonal, pairs are edges of the mesh and A reaches at
 // least as far. So one ordering and one symbolic analysis serve everything.
 //
+// The factorisation is in single precision where that is available, as the preconditioner of one or
+// two steps of conjugate gradients in double precision (float_cholesky.cpp); what it cannot solve
+// well enough is factored in double precision. With ordered pairs it always is: their multipliers
+// span too many orders of magnitude.
+//
 // Slacks are variables of their own (s = x only in the limit): an iterate may leave the bounds for
 // a while, which saves about a third of the iterations against x = s. Each factorisation is used
 // for a predictor, Mehrotra's corrector and a few of Gondzio's centrality correctors. Primal and
 // dual steps differ without pairs and are equal with them (measured to be best in both cases).
 //
+// The path's end is slow: a vertex whose weight is tiny though no bound holds it nears its value
+// with the square root of mu. So once the weights hardly move, a projected Newton method takes over
+// that solves with the last factor (projected_newton.cpp). Where it does not settle, the path goes
+// on as if nothing had been.
+//
 // What is returned is never the interior iterate but its projection to the bounds (and to the order
 // of the pairs), and what is tested is the certificate of that projection.
 #include "weights/interior_point.h"
+
+#include "weights/projected_newton.h"
 
 #include <algorithm>
 #include <chrono>
@@ -50,11 +62,11 @@ struct PairRow
 class InteriorPoint
 {
 public:
-  InteriorPoint(const BoxQpMatrices& matrices, const BoxQpOptions& options,
-    const BoxQpColumn& column, const VectorXd& unconstrained, const Inverse& inverse,
+  InteriorPoint(const SplitForm& matrices, const BoxQpOptions& options, const BoxQpColumn& column,
+    const VectorXd& unconstrained, const CentralStart& start, const Inverse& inverse,
     BoxQpWorkspace& workspace, ExecutionContext& context)
     : matrices_(matrices), options_(options), column_(column), unconstrained_(unconstrained),
-      inverse_(inverse), workspace_(workspace), context_(context)
+      start_(start), inverse_(inverse), workspace_(workspace), context_(context)
   {
   }
 
@@ -70,17 +82,22 @@ private:
   {
     VectorXd x, s, z;
   };
-  Direction solve(const VectorXd& target);
+  Status factor_double();
+  VectorXd multiply(const VectorXd& x) const;
+  bool solve_refined(const VectorXd& rhs, double accuracy, VectorXd& x);
+  Direction solve(const VectorXd& target, double accuracy);
+  bool finish(double enough);
   static double longest_step(const VectorXd& at, const VectorXd& direction);
   void step_lengths(const Direction& d, double& primal, double& dual) const;
   Direction find_direction();
-  void certify_iterate();
+  void certify_iterate(bool second_bound = false);
   void order_pairs(VectorXd& w) const;
 
-  const BoxQpMatrices& matrices_;
+  const SplitForm& matrices_;
   const BoxQpOptions& options_;
   const BoxQpColumn& column_;
   const VectorXd& unconstrained_; // #V
+  const CentralStart& start_;
   const Inverse& inverse_;
   BoxQpWorkspace& workspace_;
   ExecutionContext& context_;
@@ -96,6 +113,11 @@ private:
   VectorXd x_, s_, z_;
   VectorXd rd_, rp_; // residuals of the first two conditions
   VectorXd quotient_; // z / s
+  VectorXd extra_, inverse_diagonal_; // what is added to A, and 1 / the sum's diagonal
+  double shift_ = 0.0; // that single precision needed so far
+  bool in_single_ = false; // the last factorisation is in single precision
+  bool single_is_enough_ = true;
+  Status failure_; // of a factorisation within solve()
   double mu_ = 0.0;
   BoxQpSolution best_;
   BoxQpSolution result_;
@@ -283,6 +305,47 @@ Status InteriorPoint::factor(const VectorXd& d)
       }
     }
   }
+  Status status;
+  this->in_single_ = false;
+  if (this->workspace_.single.analysed() && this->single_is_enough_ && this->rows_.empty())
+  {
+    this->extra_ = VectorXd::Zero(this->c_.size());
+    for (Index i = 0; i < nb; ++i)
+    {
+      this->extra_[this->bounded_[i]] = d[i] + d[nb + i];
+    }
+    this->inverse_diagonal_.resize(this->c_.size());
+    for (Index i = 0; i < this->c_.size(); ++i)
+    {
+      this->inverse_diagonal_[i] = 1.0 / values[matrices.diagonal[i]];
+    }
+    // Where a pivot fails in single precision a shift helps, and conjugate gradients undo it. What
+    // one iteration needed the next one will need.
+    constexpr double least_shift = 1e-6;
+    constexpr double largest_shift = 1e-3;
+    do
+    {
+      status = this->workspace_.single.factor(matrix, this->shift_, this->context_);
+      this->result_.factorisations += 1;
+    } while (status.code == StatusCode::invalid_input &&
+      (this->shift_ = std::max(least_shift, 10.0 * this->shift_)) < 1.5 * largest_shift);
+    this->in_single_ = status.ok();
+    this->single_is_enough_ = status.code != StatusCode::invalid_input;
+  }
+  if (!this->in_single_ && status.code != StatusCode::cancelled)
+  {
+    status = this->factor_double();
+  }
+  this->result_.factor_seconds += seconds_since(start);
+  return status;
+}
+
+/// Factors the workspace's matrix in double precision.
+Status InteriorPoint::factor_double()
+{
+  const auto& matrices = this->matrices_;
+  SparseMatrix& matrix = this->workspace_.matrix;
+  double* values = matrix.valuePtr();
   Status status = this->workspace_.solver.factor(matrix);
   this->result_.factorisations += 1;
   // Round-off can make a pivot fail that is positive in exact arithmetic: a relative shift of the
@@ -298,12 +361,59 @@ Status InteriorPoint::factor(const VectorXd& d)
     status = this->workspace_.solver.factor(matrix);
     this->result_.factorisations += 1;
   }
-  this->result_.factor_seconds += seconds_since(start);
   return status;
 }
 
+/// The matrix that was factored, times x.
+VectorXd InteriorPoint::multiply(const VectorXd& x) const
+{
+  VectorXd y = this->matrices_.a.transpose() * x + this->extra_.cwiseProduct(x);
+  for (std::size_t i = 0; i < this->pinned_.size(); ++i)
+  {
+    if (this->pinned_[i])
+    {
+      y[static_cast<Index>(i)] = 0.0;
+    }
+  }
+  return y;
+}
+
+/// Conjugate gradients in double precision, preconditioned by the factor in single precision: one
+/// or two steps are usual.
+/// @param accuracy wanted, |residual| / |rhs| in the norm of the inverse diagonal.
+/// @return false when that was not reached.
+bool InteriorPoint::solve_refined(const VectorXd& rhs, double accuracy, VectorXd& x)
+{
+  constexpr int most_steps = 20;
+  const auto squared_norm = [this](const VectorXd& v)
+  { return v.cwiseAbs2().dot(this->inverse_diagonal_); };
+  const double wanted = accuracy * accuracy * squared_norm(rhs);
+  VectorXd r = rhs;
+  VectorXd z;
+  VectorXd p;
+  double last = 0.0;
+  x = VectorXd::Zero(rhs.size());
+  for (int k = 0; k < most_steps && squared_norm(r) > wanted; ++k)
+  {
+    this->workspace_.single.solve(r, z);
+    const double now = r.dot(z);
+    p = k == 0 ? z : VectorXd(z + (now / last) * p);
+    last = now;
+    const VectorXd product = this->multiply(p);
+    const double curvature = p.dot(product);
+    if (!(curvature > 0.0))
+    {
+      break;
+    }
+    x += (now / curvature) * p;
+    r -= (now / curvature) * product;
+  }
+  return squared_norm(r) <= wanted;
+}
+
 /// The step that linearises s z = s z + target: target is what each product is to change by.
-InteriorPoint::Direction InteriorPoint::solve(const VectorXd& target)
+/// @param accuracy of the linear system's solution where it is in single precision.
+InteriorPoint::Direction InteriorPoint::solve(const VectorXd& target, double accuracy)
 {
   const VectorXd per_s = target.cwiseQuotient(this->s_);
   VectorXd rhs =
@@ -316,7 +426,19 @@ InteriorPoint::Direction InteriorPoint::solve(const VectorXd& target)
     }
   }
   Direction d;
-  this->workspace_.solver.solve(rhs, d.x);
+  if (this->in_single_ && !this->solve_refined(rhs, accuracy, d.x) && !this->context_.cancelled())
+  {
+    // From here on this column takes double precision.
+    const auto start = Clock::now();
+    this->in_single_ = false;
+    this->single_is_enough_ = false;
+    this->failure_ = this->factor_double();
+    this->result_.factor_seconds += seconds_since(start);
+  }
+  if (!this->in_single_ && this->failure_.ok())
+  {
+    this->workspace_.solver.solve(rhs, d.x);
+  }
   d.s = this->apply(d.x) + this->rp_;
   d.z = per_s - this->quotient_.cwiseProduct(d.s);
   return d;
@@ -349,7 +471,10 @@ InteriorPoint::Direction InteriorPoint::find_direction()
 {
   const double count = static_cast<double>(this->s_.size());
   const VectorXd products = this->s_.cwiseProduct(this->z_);
-  Direction d = this->solve(-products);
+  // Measured: tighter saves no iteration.
+  constexpr double predictor_accuracy = 1e-2;
+  constexpr double step_accuracy = 1e-3;
+  Direction d = this->solve(-products, predictor_accuracy);
   double primal;
   double dual;
   this->step_lengths(d, primal, dual);
@@ -358,7 +483,7 @@ InteriorPoint::Direction InteriorPoint::find_direction()
   const double wanted = sigma * this->mu_;
   VectorXd target =
     VectorXd::Constant(products.size(), wanted) - products - primal * dual * d.s.cwiseProduct(d.z);
-  d = this->solve(target);
+  d = this->solve(target, step_accuracy);
   this->step_lengths(d, primal, dual);
 
   constexpr int correctors = 5;
@@ -376,7 +501,7 @@ InteriorPoint::Direction InteriorPoint::find_direction()
       change[i] = v < lowest ? lowest - v : v > highest ? std::max(highest - v, -highest) : 0.0;
     }
     const VectorXd next_target = target + change;
-    Direction next = this->solve(next_target);
+    Direction next = this->solve(next_target, step_accuracy);
     double next_primal;
     double next_dual;
     this->step_lengths(next, next_primal, next_dual);
@@ -396,6 +521,13 @@ void InteriorPoint::set_start()
 {
   const auto& matrices = this->matrices_;
   const auto n = static_cast<Index>(matrices.free_vertices.size());
+  if (this->start_.mu > 0.0)
+  {
+    this->x_ = this->start_.x;
+    this->s_ = (this->apply(this->x_) + this->h_).cwiseMax(1e-12);
+    this->z_ = this->start_.mu * this->s_.cwiseInverse();
+    return;
+  }
   const VectorXd& guess = this->column_.start.size() ? this->column_.start : this->unconstrained_;
   this->x_.resize(n);
   for (Index i = 0; i < n; ++i)
@@ -453,7 +585,8 @@ void InteriorPoint::order_pairs(VectorXd& w) const
   }
 }
 
-void InteriorPoint::certify_iterate()
+/// @param second_bound ask for the second bound at once (see Certificate).
+void InteriorPoint::certify_iterate(bool second_bound)
 {
   const auto& matrices = this->matrices_;
   this->result_.w = this->given_;
@@ -470,16 +603,49 @@ void InteriorPoint::certify_iterate()
   }
   const BoundedEnergy problem{ matrices.q, this->free_here_ };
   Certificate& certificate = this->result_.certificate;
-  certificate = certify(problem, this->result_.w, this->column_.pairs, this->result_.multipliers);
+  certificate = certify(problem, this->result_.w, this->column_.pairs, this->result_.multipliers,
+    second_bound ? this->inverse_ : Inverse());
   // When the iterate itself is near enough and only the first bound says otherwise, that is
   // round-off: the second bound decides.
   const double tolerance = this->options_.tolerance;
-  if (certificate.relative_gap > tolerance && certificate.kkt_residual <= tolerance &&
+  if (!second_bound && certificate.relative_gap > tolerance &&
+    certificate.kkt_residual <= tolerance &&
     this->s_.dot(this->z_) <= tolerance * certificate.energy)
   {
     certificate = certify(
       problem, this->result_.w, this->column_.pairs, this->result_.multipliers, this->inverse_);
   }
+}
+
+/// Lets a projected Newton method go on from the iterate; the iterate itself stays as it is.
+/// @param enough largest move that counts as settled.
+/// @return true when it settled: result_ then holds what it came to and the certificate of that.
+bool InteriorPoint::finish(double enough)
+{
+  constexpr int rounds = 6;
+  VectorXd x = this->x_.cwiseMax(0.0).cwiseMin(1.0);
+  const double moved = projected_newton(
+    this->matrices_, this->c_, this->pinned_,
+    [this](const VectorXd& r, VectorXd& z)
+    {
+      if (this->in_single_)
+      {
+        this->workspace_.single.solve(r, z);
+      }
+      else
+      {
+        this->workspace_.solver.solve(r, z);
+      }
+    },
+    rounds, enough, this->context_, x);
+  if (!(moved <= enough))
+  {
+    return false;
+  }
+  std::swap(x, this->x_);
+  this->certify_iterate(true);
+  std::swap(x, this->x_);
+  return true;
 }
 
 BoxQpSolution InteriorPoint::run()
@@ -500,6 +666,11 @@ BoxQpSolution InteriorPoint::run()
   constexpr int most_settling = 6;
   const double settled = std::max(tolerance, std::min(5.0 * tolerance, 2e-6));
   int settling = 0;
+  // A projected Newton method takes over as soon as it works: it converges many times faster than
+  // the path, by solves with the factor at hand. Measured: further away it fails too often; a
+  // certified iterate is worth one try at any rate.
+  double near = 4e-5;
+  int tries = 0;
   double moved = this->bounded_.empty() ? 0.0 : 1.0;
   const auto done = [&]
   {
@@ -524,6 +695,11 @@ BoxQpSolution InteriorPoint::run()
       continue;
     }
     const Direction d = this->find_direction();
+    if (!this->failure_.ok())
+    {
+      status = this->failure_;
+      break;
+    }
     double primal;
     double dual;
     this->step_lengths(d, primal, dual);
@@ -542,6 +718,19 @@ BoxQpSolution InteriorPoint::run()
     {
       this->best_ = this->result_;
     }
+    if (!done() && this->rows_.empty() &&
+      (moved <= near || (tries == 0 && worst(this->best_.certificate) <= tolerance)))
+    {
+      const BoxQpSolution iterate = this->result_;
+      if (this->finish(0.1 * settled) && worst(this->result_.certificate) <= tolerance)
+      {
+        this->best_ = this->result_;
+        moved = 0.0;
+      }
+      this->result_ = iterate;
+      near = 0.3 * moved; // what failed is not worth another try before that
+      ++tries;
+    }
   }
   this->best_.iterations = this->result_.iterations;
   this->best_.factorisations = this->result_.factorisations;
@@ -556,19 +745,12 @@ BoxQpSolution InteriorPoint::run()
 }
 } // namespace
 
-int BoxQpMatrices::position(Index i, Index j) const
+BoxQpSolution interior_point(const SplitForm& matrices, const BoxQpOptions& options,
+  const BoxQpColumn& column, const VectorXd& unconstrained, const CentralStart& start,
+  const Inverse& inverse, BoxQpWorkspace& workspace, ExecutionContext& context)
 {
-  const int* begin = this->lower.innerIndexPtr() + this->lower.outerIndexPtr()[j];
-  const int* end = this->lower.innerIndexPtr() + this->lower.outerIndexPtr()[j + 1];
-  const int* at = std::lower_bound(begin, end, static_cast<int>(i));
-  return at != end && *at == i ? static_cast<int>(at - this->lower.innerIndexPtr()) : -1;
-}
-
-BoxQpSolution interior_point(const BoxQpMatrices& matrices, const BoxQpOptions& options,
-  const BoxQpColumn& column, const VectorXd& unconstrained, const Inverse& inverse,
-  BoxQpWorkspace& workspace, ExecutionContext& context)
-{
-  return InteriorPoint(matrices, options, column, unconstrained, inverse, workspace, context).run();
+  return InteriorPoint(matrices, options, column, unconstrained, start, inverse, workspace, context)
+    .run();
 }
 
 } // namespace bindpose

@@ -1,19 +1,134 @@
 #include "weights/unconstrained_weights.h"
 
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
 namespace bindpose
 {
+
+namespace
+{
+/// Whether the fixed vertices of every connected part span space (the plane, for a flat part): only
+/// then a linear function is told by its values there.
+bool fixed_vertices_span(const WeightsProblem& problem)
+{
+  const Components& components = problem.constraints.components;
+  const Points& points = problem.mesh.domain.points;
+  const auto spread = [&](const std::vector<Index>& vertices) -> Eigen::Vector3d
+  {
+    Points centred(static_cast<Index>(vertices.size()), 3);
+    for (Index i = 0; i < centred.rows(); ++i)
+    {
+      centred.row(i) = points.row(vertices[i]) / problem.diagonal;
+    }
+    centred.rowwise() -= centred.colwise().mean().eval();
+    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(centred.transpose() * centred)
+      .eigenvalues()
+      .cwiseMax(0.0)
+      .cwiseSqrt();
+  };
+  std::vector<std::vector<Index>> fixed(static_cast<std::size_t>(components.count));
+  std::vector<std::vector<Index>> all(fixed.size());
+  for (const Index v : problem.fixed)
+  {
+    if (components.of_vertex[v] >= 0)
+    {
+      fixed[components.of_vertex[v]].push_back(v);
+    }
+  }
+  for (Index v = 0; v < problem.vertex_count(); ++v)
+  {
+    if (components.of_vertex[v] >= 0)
+    {
+      all[components.of_vertex[v]].push_back(v);
+    }
+  }
+  constexpr double flat = 1e-6; // of the diagonal
+  for (std::size_t c = 0; c < fixed.size(); ++c)
+  {
+    const auto dimensions = (spread(all[c]).array() > flat).count();
+    if (fixed[c].size() < static_cast<std::size_t>(dimensions) + 1 ||
+      (spread(fixed[c]).array() > flat).count() < dimensions)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// (K - N)' M^-1 (K - N), where N takes what flows through the boundary: nothing is left of a
+/// linear function.
+SparseMatrix linear_subspace_energy(const WeightsProblem& problem, bool spanned)
+{
+  const Domain& domain = problem.mesh.domain;
+  const Points scaled = domain.points / problem.diagonal;
+  const SparseMatrix flux = domain.is_volume() ? boundary_flux(scaled, domain.tets)
+                                               : boundary_flux(scaled, domain.triangles);
+  const SparseMatrix inside = problem.stiffness - flux;
+  const Eigen::VectorXd inverse_mass =
+    problem.mass.unaryExpr([](double m) { return m > 0.0 ? 1.0 / m : 0.0; });
+  SparseMatrix q = SparseMatrix(inside.transpose()) * inverse_mass.asDiagonal() * inside;
+  if (!spanned)
+  {
+    constexpr double little = 1e-6;
+    q += little * harmonic_energy(problem.stiffness, problem.mass, 2);
+  }
+  return 0.5 * (q + SparseMatrix(q.transpose()));
+}
+} // namespace
+
+const char* to_string(UnconstrainedMethod method)
+{
+  switch (method)
+  {
+    case UnconstrainedMethod::harmonic:
+      return "harmonic";
+    case UnconstrainedMethod::biharmonic:
+      return "biharmonic";
+    case UnconstrainedMethod::triharmonic:
+      return "triharmonic";
+    case UnconstrainedMethod::graph_biharmonic:
+      return "graph-biharmonic";
+    case UnconstrainedMethod::linear_subspace:
+      return "linear-subspace";
+  }
+  return "";
+}
 
 Status unconstrained_weights(const WeightsProblem& problem,
   const UnconstrainedWeightsOptions& options, ExecutionContext& context, WeightsResult& result)
 {
   result = {};
-  if (options.order < 1 || options.order > 3)
+  std::vector<std::string> warnings;
+  SparseMatrix q;
+  switch (options.method)
   {
-    return Status::invalid_input("the order of weights without bounds is 1, 2 or 3");
+    case UnconstrainedMethod::harmonic:
+    case UnconstrainedMethod::biharmonic:
+    case UnconstrainedMethod::triharmonic:
+      q = harmonic_energy(problem.stiffness, problem.mass, static_cast<int>(options.method));
+      break;
+    case UnconstrainedMethod::graph_biharmonic:
+      q = harmonic_energy(problem.stiffness, Eigen::VectorXd::Ones(problem.vertex_count()), 2);
+      break;
+    case UnconstrainedMethod::linear_subspace:
+    {
+      const bool spanned = fixed_vertices_span(problem);
+      q = linear_subspace_energy(problem, spanned);
+      if (!spanned)
+      {
+        warnings.emplace_back("the handles do not span the shape: what is linear is not told by "
+                              "them, and a millionth of the biharmonic energy decides");
+      }
+      break;
+    }
+    default:
+      return Status::invalid_input("there is no such method of weights without bounds");
   }
-  const SparseMatrix q = harmonic_energy(problem.stiffness, problem.mass, options.order);
   BoxQp solver(q, problem.fixed, { options.tolerance, options.maximum_iterations, options.solver });
-  const Status status = solver.prepare(context);
+  Status status = solver.prepare(context);
   if (!status.ok())
   {
     return status;
@@ -24,14 +139,15 @@ Status unconstrained_weights(const WeightsProblem& problem,
     return Status::cancelled();
   }
   result.analyses = solver.analyses();
-  constexpr const char* names[3] = { "harmonic", "biharmonic", "triharmonic" };
   Eigen::MatrixXd fallback(problem.vertex_count(), problem.handle_count());
   for (std::size_t j = 0; j < solutions.size(); ++j)
   {
     fallback.col(static_cast<Index>(j)) = solutions[j].w;
   }
-  return finish_weights(
-    problem, names[options.order - 1], options.tolerance, solutions, fallback, context, result);
+  status = finish_weights(
+    problem, to_string(options.method), options.tolerance, solutions, fallback, context, result);
+  status.warnings.insert(status.warnings.end(), warnings.begin(), warnings.end());
+  return status;
 }
 
 } // namespace bindpose

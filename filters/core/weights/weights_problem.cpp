@@ -138,12 +138,14 @@ Status make_weights_problem(const Domain& domain, const std::vector<Index>& regi
   }
   Points scaled = refined.points;
   scaled.rowwise() -= box.center().transpose();
-  scaled /= box.diagonal();
+  problem.diagonal = box.diagonal();
+  scaled /= problem.diagonal;
   problem.stiffness = refined.is_volume() ? stiffness_matrix(scaled, refined.tets)
                                           : stiffness_matrix(scaled, refined.triangles);
   problem.mass = refined.is_volume() ? lumped_mass(scaled, refined.tets)
                                      : lumped_mass(scaled, refined.triangles);
-  problem.mass /= problem.mass.maxCoeff();
+  problem.mass_unit = problem.mass.maxCoeff();
+  problem.mass /= problem.mass_unit;
   problem.graph = vertex_graph(refined);
   collect_fixed(problem);
   report_problem(problem, status);

@@ -32,6 +32,8 @@ struct WeightsProblem
   /// Cotangent stiffness and lumped mass of the mesh scaled to diagonal 1; the largest mass is 1.
   SparseMatrix stiffness;
   Eigen::VectorXd mass;
+  double diagonal = 1.0; ///< of the mesh, what was scaled to 1
+  double mass_unit = 1.0; ///< the largest mass of the scaled mesh
   VertexGraph graph;
   /// All vertices whose rows are known beforehand (handles, tethered, followers, unreferenced) and
   /// those rows, #fixed x #handles.

@@ -1,0 +1,49 @@
+#ifndef bindpose_base_disjoint_sets_h
+#define bindpose_base_disjoint_sets_h
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+namespace bindpose
+{
+
+/// Union-find with path halving over 0 … count - 1. The smaller id is the root, so that ids of sets
+/// follow those of their members, and nothing depends on the order of unions.
+template <typename Id>
+class DisjointSets
+{
+public:
+  DisjointSets() = default;
+  explicit DisjointSets(std::size_t count) { this->reset(count); }
+
+  /// Each id by itself.
+  void reset(std::size_t count)
+  {
+    this->parent_.resize(count);
+    std::iota(this->parent_.begin(), this->parent_.end(), Id(0));
+  }
+  Id find(Id i)
+  {
+    while (this->parent_[i] != i)
+    {
+      this->parent_[i] = this->parent_[this->parent_[i]];
+      i = this->parent_[i];
+    }
+    return i;
+  }
+  void unite(Id i, Id j)
+  {
+    i = this->find(i);
+    j = this->find(j);
+    (i < j ? this->parent_[j] : this->parent_[i]) = std::min(i, j);
+  }
+
+private:
+  std::vector<Id> parent_;
+};
+
+} // namespace bindpose
+
+#endif

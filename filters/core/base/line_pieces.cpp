@@ -1,0 +1,39 @@
+#include "base/line_pieces.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace bindpose
+{
+
+std::vector<double> line_cuts(double from, double to, const std::function<double(double)>& length,
+  const std::function<int(double)>& pieces)
+{
+  // passed[i]: how many lengths fit between the start and at[i].
+  std::vector<double> passed{ 0.0 };
+  std::vector<double> at{ from };
+  while (at.back() < to)
+  {
+    constexpr double part = 0.5; // of a length: it changes on the way
+    const double here = length(at.back());
+    const double step = std::min(part * here, to - at.back());
+    passed.push_back(passed.back() + step / here);
+    at.push_back(to - at.back() - step < 1e-9 ? to : at.back() + step);
+  }
+  const int count = pieces(passed.back());
+  std::vector<double> cuts;
+  std::size_t next = 1;
+  for (int piece = 1; piece < count; ++piece)
+  {
+    const double wanted = passed.back() * piece / count;
+    while (passed[next] < wanted)
+    {
+      ++next;
+    }
+    const double f = (wanted - passed[next - 1]) / (passed[next] - passed[next - 1]);
+    cuts.push_back(at[next - 1] + f * (at[next] - at[next - 1]));
+  }
+  return cuts;
+}
+
+} // namespace bindpose

@@ -1,0 +1,390 @@
+// Steps 3 and 4 of embedding_tets.cpp.
+#include "embedding/atom_connections.h"
+
+#include "base/gather.h"
+#include "base/parallel_sort.h"
+#include "embedding/line_crossings.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <utility>
+
+namespace bindpose
+{
+
+namespace
+{
+using Key = EmbeddingAtoms::Key;
+using Cube = EmbeddingAtoms::Cube;
+using Id = EmbeddingAtoms::Id;
+using Sample = EmbeddingAtoms::Sample;
+
+constexpr Index often = 1 << 15; // items between two looks at cancel
+
+Cube moved(Cube cube, int axis, int by)
+{
+  cube[axis] += by;
+  return cube;
+}
+
+class Connector
+{
+public:
+  Connector(const LatticeSurface& surface, const WindingNumber& winding, double threshold,
+    const LatticeCover& cover, const EmbeddingAtoms& atoms, AtomConnections& result,
+    ExecutionContext& context)
+    : surface_(surface), winding_(winding), threshold_(threshold), cover_(cover), atoms_(atoms),
+      result_(result), context_(context)
+  {
+  }
+
+  Status run()
+  {
+    const auto count = static_cast<std::size_t>(this->atoms_.count());
+    this->result_.within.reset(count);
+    this->result_.shares.assign(count, 0.0F);
+    this->cut_.assign(static_cast<std::size_t>(this->atoms_.first_full), 0);
+    if (!this->cut_lines())
+    {
+      return Status::cancelled();
+    }
+    const Status status = this->connect_crossings();
+    if (!status.ok())
+    {
+      return status;
+    }
+    if (!this->connect_samples() || !this->connect_triangles())
+    {
+      return Status::cancelled();
+    }
+    this->connect_cubes();
+    return {};
+  }
+
+private:
+  void connect(Id a, Id b)
+  {
+    if (a < 0 || b < 0)
+    {
+      return;
+    }
+    if (this->atoms_.tet_of(a) == this->atoms_.tet_of(b))
+    {
+      this->result_.within.unite(a, b);
+    }
+    else
+    {
+      this->result_.across.emplace_back(a, b);
+    }
+  }
+
+  // ---- Lines between samples ----
+
+  bool cut_lines()
+  {
+    if (!gather(this->context_, static_cast<Index>(this->surface_.triangles.size()),
+          this->crossings_,
+          [&](Index f, std::vector<LineCrossing>& list)
+          {
+            for (int axis = 0; axis < 3; ++axis)
+            {
+              add_line_crossings(static_cast<Id>(f), this->cover_.corners_of(f), axis, list);
+            }
+          }))
+    {
+      return false;
+    }
+    return parallel_sort(this->context_, this->crossings_,
+      [](const LineCrossing& a, const LineCrossing& b)
+      {
+        return a.line != b.line ? a.line < b.line
+          : a.at != b.at        ? a.at < b.at
+                                : a.triangle < b.triangle;
+      });
+  }
+
+  /// Connects along the lines that are cut, and measures how much of them is inside.
+  Status connect_crossings()
+  {
+    const auto& list = this->crossings_;
+    // Stretches between two crossings, by the first of them.
+    std::vector<Index> stretches;
+    for (std::size_t i = 0; i + 1 < list.size(); ++i)
+    {
+      if (list[i].line == list[i + 1].line && list[i + 1].at - list[i].at > LineCrossing::touching)
+      {
+        stretches.push_back(static_cast<Index>(i));
+      }
+    }
+    std::vector<char> inside_after(list.size(), 0);
+    {
+      Points middles(static_cast<Index>(stretches.size()), 3);
+      for (Index i = 0; i < middles.rows(); ++i)
+      {
+        const LineCrossing& crossing = list[stretches[i]];
+        middles.row(i) = this->cover_.lattice.point_at(
+          crossing.place(0.5 * (crossing.at + list[stretches[i] + 1].at)));
+      }
+      Eigen::VectorXd w;
+      const Status status = this->winding_.evaluate(middles, this->context_, w);
+      if (!status.ok())
+      {
+        return status;
+      }
+      for (Index i = 0; i < w.size(); ++i)
+      {
+        inside_after[stretches[i]] = w[i] >= this->threshold_ ? 1 : 0;
+      }
+    }
+    // Which lines at a sample are cut: bits for lines up along x, y, z, then down.
+    for (const LineCrossing& crossing : list)
+    {
+      const int axis = crossing.axis();
+      const Id lower = this->atoms_.atom_of(crossing.sample());
+      const Id upper = this->atoms_.atom_of(CubeSamples::next_of(crossing.sample(), axis));
+      this->mark(lower, axis);
+      this->mark(upper, axis + 3);
+    }
+    for (std::size_t begin = 0; begin < list.size();)
+    {
+      std::size_t end = begin;
+      while (end < list.size() && list[end].line == list[begin].line)
+      {
+        ++end;
+      }
+      if (begin / often != end / often && this->context_.cancelled())
+      {
+        return Status::cancelled();
+      }
+      this->connect_line(begin, end, inside_after);
+      begin = end;
+    }
+    return {};
+  }
+
+  void mark(Id sample, int line)
+  {
+    if (sample >= 0 && sample < this->atoms_.first_full)
+    {
+      this->cut_[sample] = static_cast<std::uint8_t>(this->cut_[sample] | 1U << line);
+    }
+  }
+
+  void connect_line(std::size_t begin, std::size_t end, const std::vector<char>& inside_after)
+  {
+    const auto& list = this->crossings_;
+    const int axis = list[begin].axis();
+    const Id lower = this->atoms_.atom_of(list[begin].sample());
+    const Id upper = this->atoms_.atom_of(CubeSamples::next_of(list[begin].sample(), axis));
+    Id last = this->atoms_.is_inside(lower) ? lower : -1;
+    double at = 0.0;
+    bool inside = last >= 0;
+    for (std::size_t i = begin; i < end; ++i)
+    {
+      const Key tet = DisphenoidLattice::locate(list[i].place(list[i].at)).tet;
+      const Id atom = this->atoms_.atom_of(list[i].triangle, tet);
+      if (inside)
+      {
+        this->measure(lower, upper, at, list[i].at, last >= 0 ? last : atom);
+      }
+      if (i > begin ? inside || list[i].at - at <= LineCrossing::touching : inside)
+      {
+        this->connect(last, atom);
+      }
+      last = atom;
+      at = list[i].at;
+      inside = inside_after[i] != 0;
+    }
+    if (this->atoms_.is_inside(upper))
+    {
+      this->measure(lower, upper, at, 1.0, upper);
+      this->connect(last, upper);
+    }
+  }
+
+  /// Adds a stretch of a line that is inside to its atom, half a line to each sample's cell.
+  void measure(Id lower, Id upper, double from, double to, Id atom)
+  {
+    if (atom < 0)
+    {
+      return;
+    }
+    this->add_share(lower, std::min(to, 0.5) - from, atom);
+    this->add_share(upper, to - std::max(from, 0.5), atom);
+  }
+  void add_share(Id sample, double length, Id atom)
+  {
+    if (length > 0.0 && sample >= 0 && sample < this->atoms_.first_full)
+    {
+      this->result_.shares[atom] += static_cast<float>(length / cut_axes(this->cut_[sample]));
+    }
+  }
+  static int cut_axes(unsigned cut)
+  {
+    const unsigned axes = (cut | cut >> 3) & 7U;
+    return static_cast<int>((axes & 1U) + (axes >> 1 & 1U) + (axes >> 2));
+  }
+
+  /// Connects samples along lines that are not cut, and measures their cells: as much of one is
+  /// inside as of the lines through the sample that are cut.
+  bool connect_samples()
+  {
+    for (Id cube = 0; cube < static_cast<Id>(this->atoms_.sampled.size()); ++cube)
+    {
+      if (cube % 64 == 0 && this->context_.cancelled())
+      {
+        return false;
+      }
+      for (int s = 0; s < CubeSamples::of_cube; ++s)
+      {
+        const Id atom = cube * CubeSamples::of_cube + s;
+        if (!this->atoms_.is_inside(atom))
+        {
+          continue;
+        }
+        const unsigned cut = this->cut_[atom];
+        const Sample position = CubeSamples::position_of(s);
+        double share = cut == 0 ? 1.0 : 0.0;
+        int stride = 1;
+        for (int axis = 0; axis < 3; ++axis, stride *= CubeSamples::along)
+        {
+          const bool up_is_cut = (cut >> axis & 1U) != 0;
+          const bool down_is_cut = (cut >> (axis + 3) & 1U) != 0;
+          if (up_is_cut != down_is_cut)
+          {
+            share += 0.5 / cut_axes(cut);
+          }
+          if (!up_is_cut)
+          {
+            const Id next = position[axis] + 1 < CubeSamples::along
+              ? atom + stride
+              : this->atoms_.atom_of(CubeSamples::next_of(this->atoms_.sample_of(cube, s), axis));
+            if (this->atoms_.is_inside(next))
+            {
+              this->connect(atom, next);
+            }
+          }
+          if (!down_is_cut && position[axis] == 0)
+          {
+            // Sampled neighbours look up themselves.
+            Sample below = this->atoms_.sample_of(cube, s);
+            --below[axis];
+            const Id last = this->atoms_.atom_of(below);
+            if (last >= this->atoms_.first_full)
+            {
+              this->connect(atom, last);
+            }
+          }
+        }
+        this->result_.shares[atom] += static_cast<float>(share);
+      }
+    }
+    return true;
+  }
+
+  /// Cubes inside hold nothing that separates.
+  void connect_cubes()
+  {
+    for (Id i = 0; i < static_cast<Id>(this->atoms_.full.size()); ++i)
+    {
+      const Cube cube = DisphenoidLattice::cube_of(this->atoms_.full[i]);
+      for (int half = 0; half < EmbeddingAtoms::halves; ++half)
+      {
+        const Id atom = this->atoms_.first_full + i * EmbeddingAtoms::halves + half;
+        this->result_.shares[atom] = static_cast<float>(this->atoms_.samples_of_half[half]);
+        if (half % 2 == 0)
+        {
+          continue;
+        }
+        const Id above = this->atoms_.full_cube(moved(cube, half / 8, 1)); // across the half's face
+        if (above >= 0)
+        {
+          this->result_.within.unite(
+            atom, this->atoms_.first_full + above * EmbeddingAtoms::halves + half - 1);
+        }
+      }
+    }
+  }
+
+  // ---- Triangles ----
+
+  bool connect_triangles()
+  {
+    // Around vertices.
+    const auto& triangles = this->surface_.triangles;
+    std::vector<Id> first_at(this->surface_.points.size(), -1);
+    struct Side
+    {
+      Id a, b, triangle;
+    };
+    std::vector<Side> sides;
+    for (std::size_t f = 0; f < triangles.size(); ++f)
+    {
+      if (f % often == 0 && this->context_.cancelled())
+      {
+        return false;
+      }
+      for (int k = 0; k < 3; ++k)
+      {
+        const Id v = triangles[f][k];
+        const Id w = triangles[f][(k + 1) % 3];
+        const Id atom = this->atoms_.atom_of(static_cast<Id>(f), this->cover_.tet_of_point[v]);
+        Id& first = first_at[v];
+        if (first >= 0)
+        {
+          this->result_.within.unite(first, atom);
+        }
+        first = first >= 0 ? first : atom;
+        // An edge within one tet connects there as its vertices do.
+        if (this->cover_.tet_of_point[v] != this->cover_.tet_of_point[w])
+        {
+          sides.push_back({ std::min(v, w), std::max(v, w), static_cast<Id>(f) });
+        }
+      }
+    }
+    this->result_.of_vertex = std::move(first_at);
+    if (!parallel_sort(this->context_, sides,
+          [](const Side& x, const Side& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; }))
+    {
+      return false;
+    }
+    for (std::size_t i = 0; i + 1 < sides.size(); ++i)
+    {
+      if (i % often == 0 && this->context_.cancelled())
+      {
+        return false;
+      }
+      if (sides[i].a == sides[i + 1].a && sides[i].b == sides[i + 1].b)
+      {
+        this->cover_.tets_of_edge(sides[i].a, sides[i].b,
+          [&](Key tet)
+          {
+            this->connect(this->atoms_.atom_of(sides[i].triangle, tet),
+              this->atoms_.atom_of(sides[i + 1].triangle, tet));
+          });
+      }
+    }
+    return true;
+  }
+
+  const LatticeSurface& surface_;
+  const WindingNumber& winding_;
+  double threshold_;
+  const LatticeCover& cover_;
+  const EmbeddingAtoms& atoms_;
+  AtomConnections& result_;
+  ExecutionContext& context_;
+
+  std::vector<std::uint8_t> cut_; // of the samples: which of the six lines are
+  std::vector<LineCrossing> crossings_; // by line, then along it
+};
+} // namespace
+
+Status connect_atoms(const LatticeSurface& surface, const WindingNumber& winding, double threshold,
+  const LatticeCover& cover, const EmbeddingAtoms& atoms, AtomConnections& result,
+  ExecutionContext& context)
+{
+  return Connector(surface, winding, threshold, cover, atoms, result, context).run();
+}
+
+} // namespace bindpose

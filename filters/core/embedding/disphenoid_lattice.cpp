@@ -1,0 +1,188 @@
+// A tet's key: its lower cube, the axis across the face, which of the other two axes the edge of
+// the face is away on, and on which side. Seen from the lower centre c, with a the axis across, m
+// the one the edge is away on (side s), n the one the edge runs along, its nodes are c, c + a,
+// c + (a + s m - n) / 2 and c + (a + s m + n) / 2. A place d from the centre of its cube is in the
+// tet whose a, m, n sort |d| from large to small: the coordinates are sums of these.
+#include "embedding/disphenoid_lattice.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr int cube_bits = 16;
+constexpr int node_bits = 17; // nodes count half cubes
+constexpr int tet_bits = 4;
+constexpr double margin = 2.0;
+
+/// The axes across, away and along, and the side.
+struct Frame
+{
+  int a, m, n;
+  int side;
+
+  explicit Frame(int number)
+    : a(number / 4), m((a + 1 + number / 2 % 2) % 3), n(3 - a - m), side(number % 2 ? 1 : -1)
+  {
+  }
+  static int number(int a, int m, bool positive)
+  {
+    return 4 * a + 2 * (m == (a + 1) % 3 ? 0 : 1) + (positive ? 1 : 0);
+  }
+  /// True when the volume of c, c + a, the edge's lower and its upper end is positive.
+  bool even() const { return (this->m == (this->a + 1) % 3) == (this->side > 0); }
+};
+
+/// The axes by the size of |d|, largest first; the first of equal ones.
+std::array<int, 3> sorted_axes(const Vec3& d)
+{
+  std::array<int, 3> axes{ 0, 1, 2 };
+  const auto less = [&](int i, int j) { return std::abs(d[i]) < std::abs(d[j]); };
+  if (less(axes[0], axes[1]))
+  {
+    std::swap(axes[0], axes[1]);
+  }
+  if (less(axes[1], axes[2]))
+  {
+    std::swap(axes[1], axes[2]);
+    if (less(axes[0], axes[1]))
+    {
+      std::swap(axes[0], axes[1]);
+    }
+  }
+  return axes;
+}
+
+Vec3 from_center(const Vec3& place, const DisphenoidLattice::Cube& cube)
+{
+  return { place[0] - cube[0] - 0.5, place[1] - cube[1] - 0.5, place[2] - cube[2] - 0.5 };
+}
+} // namespace
+
+DisphenoidLattice::DisphenoidLattice(const Box& box, double spacing)
+{
+  constexpr double digits = 256.0;
+  int exponent = 0;
+  const double mantissa = std::frexp(spacing, &exponent);
+  this->spacing_ = std::ldexp(std::ceil(mantissa * digits) / digits, exponent);
+  // Off the box's own planes by fractions of a cube that differ: surfaces that are aligned with the
+  // axes, or go through the middle, lie in no plane of the lattice.
+  constexpr double fraction[3] = { 21.0, 13.0, 35.0 };
+  const double unit = this->spacing_ / 64.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    this->origin_[k] = (std::floor(box.lower[k] / unit) - 64.0 * margin - fraction[k]) * unit;
+  }
+}
+
+double DisphenoidLattice::least_spacing(double largest_coordinate)
+{
+  return std::ldexp(largest_coordinate, -36);
+}
+
+DisphenoidLattice::Key DisphenoidLattice::cube_key(const Cube& cube)
+{
+  return ((static_cast<Key>(cube[2]) << cube_bits | static_cast<Key>(cube[1])) << cube_bits) |
+    static_cast<Key>(cube[0]);
+}
+
+DisphenoidLattice::Cube DisphenoidLattice::cube_of(Key cube_key)
+{
+  constexpr Key mask = (Key(1) << cube_bits) - 1;
+  return { static_cast<std::int32_t>(cube_key & mask),
+    static_cast<std::int32_t>(cube_key >> cube_bits & mask),
+    static_cast<std::int32_t>(cube_key >> 2 * cube_bits & mask) };
+}
+
+DisphenoidLattice::Location DisphenoidLattice::locate(const Vec3& place)
+{
+  Cube cube = cube_of(place);
+  const Vec3 d = from_center(place, cube);
+  const auto [a, m, n] = sorted_axes(d);
+  const bool upper = d[a] >= 0.0;
+  const double across = std::abs(d[a]);
+  const double away = std::abs(d[m]);
+  const double own = std::max(0.0, 1.0 - across - away);
+  const double other = across - away;
+  cube[a] -= upper ? 0 : 1;
+  const int number = Frame::number(a, m, d[m] >= 0.0);
+  const double low_end = away - d[n];
+  const double high_end = away + d[n];
+  const bool even = Frame(number).even();
+  return { cube_key(cube) << tet_bits | static_cast<Key>(number),
+    { upper ? own : other, upper ? other : own, even ? low_end : high_end,
+      even ? high_end : low_end } };
+}
+
+std::array<DisphenoidLattice::Key, 4> DisphenoidLattice::corners(Key tet)
+{
+  const Frame frame(static_cast<int>(tet & ((Key(1) << tet_bits) - 1)));
+  const Cube cube = cube_of(tet >> tet_bits);
+  const auto node = [&](int a, int m, int n)
+  {
+    std::array<Key, 3> at{};
+    at[frame.a] = static_cast<Key>(2 * cube[frame.a] + 1 + a);
+    at[frame.m] = static_cast<Key>(2 * cube[frame.m] + 1 + m);
+    at[frame.n] = static_cast<Key>(2 * cube[frame.n] + 1 + n);
+    return (at[2] << node_bits | at[1]) << node_bits | at[0];
+  };
+  const int end = frame.even() ? 1 : -1;
+  return { node(0, 0, 0), node(2, 0, 0), node(1, frame.side, -end), node(1, frame.side, end) };
+}
+
+Vec3 DisphenoidLattice::node_point(Key node) const
+{
+  constexpr Key mask = (Key(1) << node_bits) - 1;
+  return this->point_at(0.5 *
+    Vec3(static_cast<double>(node & mask), static_cast<double>(node >> node_bits & mask),
+      static_cast<double>(node >> 2 * node_bits & mask)));
+}
+
+DisphenoidLattice::Key DisphenoidLattice::tet_of_half(const Cube& cube, int half)
+{
+  const int number = half / 2;
+  Cube lower = cube;
+  lower[Frame(number).a] -= half % 2 ? 0 : 1;
+  return cube_key(lower) << tet_bits | static_cast<Key>(number);
+}
+
+int DisphenoidLattice::half_of(const Vec3& place)
+{
+  const Vec3 d = from_center(place, cube_of(place));
+  const auto [a, m, n] = sorted_axes(d);
+  return 2 * Frame::number(a, m, d[m] >= 0.0) + (d[a] >= 0.0 ? 1 : 0);
+}
+
+void DisphenoidLattice::cut(
+  const Polygon& polygon, int direction, double lower, double upper, Polygon& part)
+{
+  // Two half spaces, one after the other (Sutherland and Hodgman).
+  Polygon below;
+  for (const bool first : { true, false })
+  {
+    const Polygon& from = first ? polygon : below;
+    Polygon& to = first ? below : part;
+    const double bound = first ? upper : lower;
+    const double sign = first ? 1.0 : -1.0;
+    for (int i = 0; i < from.count; ++i)
+    {
+      const Vec3& p = from.places[i];
+      const Vec3& q = from.places[(i + 1) % from.count];
+      const double at_p = sign * (along(direction, p) - bound);
+      const double at_q = sign * (along(direction, q) - bound);
+      if (at_p <= 0.0)
+      {
+        to.add(p);
+      }
+      if ((at_p < 0.0 && at_q > 0.0) || (at_p > 0.0 && at_q < 0.0))
+      {
+        to.add(p + (q - p) * (at_p / (at_p - at_q)));
+      }
+    }
+  }
+}
+
+} // namespace bindpose

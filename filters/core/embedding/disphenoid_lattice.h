@@ -1,0 +1,158 @@
+#ifndef bindpose_embedding_disphenoid_lattice_h
+#define bindpose_embedding_disphenoid_lattice_h
+
+#include "base/mesh.h"
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace bindpose
+{
+
+/// The body-centred cubic lattice, unbounded and stored nowhere: everything is known by keys. Its
+/// nodes are the corners and centres of cubes of side `spacing`; around the face between two cubes
+/// lie four equal tets (both centres and one edge of the face), dihedral angles 60 and 90 degrees.
+/// Their facets lie in the planes where the sum or the difference of two coordinates, in cubes, is
+/// whole.
+///
+/// Lengths are in cubes from the origin ("place"); cubes from (0, 0, 0) to (65535, 65535, 65535).
+class DisphenoidLattice
+{
+public:
+  using Key = std::uint64_t;
+  using Cube = std::array<std::int32_t, 3>;
+
+  DisphenoidLattice() = default;
+  /// A lattice that leaves two cubes or more free around the box. The spacing is rounded up to 8
+  /// binary digits and the origin to a 64th of it, so that coordinates of nodes are exact when it
+  /// is at least least_spacing().
+  DisphenoidLattice(const Box& box, double spacing);
+  /// The smallest spacing whose nodes are exact for coordinates of this size.
+  static double least_spacing(double largest_coordinate);
+
+  double spacing() const { return this->spacing_; }
+  const Vec3& origin() const { return this->origin_; }
+  Vec3 place_of(const Vec3& point) const { return (point - this->origin_) / this->spacing_; }
+  Vec3 point_at(const Vec3& place) const { return this->origin_ + this->spacing_ * place; }
+
+  static Cube cube_of(const Vec3& place)
+  {
+    return { static_cast<std::int32_t>(std::floor(place[0])),
+      static_cast<std::int32_t>(std::floor(place[1])),
+      static_cast<std::int32_t>(std::floor(place[2])) };
+  }
+  static Key cube_key(const Cube& cube);
+  static Cube cube_of(Key cube_key);
+
+  /// A place's tet, and its barycentric coordinates, none of them negative, in the order of
+  /// corners(). Places on a facet, edge or node belong to one of the tets there, always the same.
+  struct Location
+  {
+    Key tet = 0;
+    std::array<double, 4> coordinates{};
+  };
+  static Location locate(const Vec3& place);
+
+  /// Keys of a tet's nodes, in the order that makes its volume positive.
+  static std::array<Key, 4> corners(Key tet);
+  Vec3 node_point(Key node) const;
+
+  /// A tet lies in two cubes, one half in each: those are 24 of a cube. Half 2k + 1 of a cube is in
+  /// the tet around its upper face, 2k around its lower face.
+  static constexpr int halves = 24;
+  static Key tet_of_half(const Cube& cube, int half);
+  /// 0 … 11: which of the tets around its lower cube's upper faces it is; its halves are 2n + 1 of
+  /// that cube and 2n of the upper one.
+  static int number_of(Key tet) { return static_cast<int>(tet & 15U); }
+  /// Which of its cube's halves a place is in.
+  static int half_of(const Vec3& place);
+
+  /// The pieces of a triangle (or segment: three places, two of them equal) between the lattice's
+  /// planes: calls piece(middle, lower, upper) with a place in each and its bounds. Pieces thinner
+  /// than 1e-9 cubes are left out.
+  template <typename Piece>
+  static void for_pieces(const std::array<Vec3, 3>& places, const Piece& piece)
+  {
+    Polygon whole;
+    for (const Vec3& place : places)
+    {
+      whole.add(place);
+    }
+    slice(whole, 0, piece);
+  }
+
+private:
+  struct Polygon
+  {
+    static constexpr int most = 24; ///< 3, one more for each of 12 planes, and some for rounding
+    std::array<Vec3, most> places;
+    int count = 0;
+    void add(const Vec3& place)
+    {
+      if (this->count < most)
+      {
+        this->places[this->count++] = place;
+      }
+    }
+  };
+  static constexpr int directions = 6;
+  static double along(int direction, const Vec3& place)
+  {
+    const double x = place[direction / 2];
+    const double y = place[(direction / 2 + 1) % 3];
+    return direction % 2 ? x - y : x + y;
+  }
+  /// The part between `lower` and `upper`.
+  static void cut(const Polygon& polygon, int direction, double lower, double upper, Polygon& part);
+
+  template <typename Piece>
+  static void slice(const Polygon& polygon, int direction, const Piece& piece)
+  {
+    if (direction == directions)
+    {
+      Vec3 middle = Vec3::Zero();
+      Vec3 lower = polygon.places[0], upper = polygon.places[0];
+      for (int i = 0; i < polygon.count; ++i)
+      {
+        middle += polygon.places[i] / polygon.count;
+        lower = lower.cwiseMin(polygon.places[i]);
+        upper = upper.cwiseMax(polygon.places[i]);
+      }
+      piece(middle, lower, upper);
+      return;
+    }
+    double low = along(direction, polygon.places[0]);
+    double high = low;
+    for (int i = 1; i < polygon.count; ++i)
+    {
+      const double at = along(direction, polygon.places[i]);
+      low = at < low ? at : low;
+      high = at > high ? at : high;
+    }
+    constexpr double thin = 1e-9;
+    double from = std::floor(low + thin);
+    if (from + 1.0 >= high - thin)
+    {
+      slice(polygon, direction + 1, piece);
+      return;
+    }
+    for (; from < high - thin; from += 1.0)
+    {
+      Polygon part;
+      cut(polygon, direction, from, from + 1.0, part);
+      if (part.count > 0)
+      {
+        slice(part, direction + 1, piece);
+      }
+    }
+  }
+
+  Vec3 origin_ = Vec3::Zero();
+  double spacing_ = 1.0;
+};
+
+} // namespace bindpose
+
+#endif

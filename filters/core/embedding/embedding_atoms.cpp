@@ -1,0 +1,148 @@
+#include "embedding/embedding_atoms.h"
+
+#include "base/parallel_sort.h"
+
+#include <algorithm>
+#include <functional>
+
+namespace bindpose
+{
+
+namespace
+{
+using Key = EmbeddingAtoms::Key;
+using Id = EmbeddingAtoms::Id;
+
+constexpr Index most_sampled_cubes = 1000000;
+
+/// The place of a key that is there.
+Id place_in(const std::vector<Key>& sorted, Key key)
+{
+  return static_cast<Id>(std::lower_bound(sorted.begin(), sorted.end(), key) - sorted.begin());
+}
+} // namespace
+
+Status EmbeddingAtoms::number(ExecutionContext& context)
+{
+  for (const auto& [key, kind] : this->cover_.kinds)
+  {
+    (kind == LatticeCover::Kind::cut ? this->sampled : this->full).push_back(key);
+  }
+  if (static_cast<Index>(this->sampled.size()) > most_sampled_cubes)
+  {
+    return context.cancelled() ? Status::cancelled() : LatticeCover::too_many_cubes();
+  }
+  std::sort(this->sampled.begin(), this->sampled.end());
+  std::sort(this->full.begin(), this->full.end());
+  for (const auto* cubes : { &this->sampled, &this->full })
+  {
+    for (const Key key : *cubes)
+    {
+      for (int half = 0; half < halves; ++half)
+      {
+        this->tets.push_back(DisphenoidLattice::tet_of_half(DisphenoidLattice::cube_of(key), half));
+      }
+    }
+  }
+  std::vector<Key> of_half = this->tets;
+  for (const LatticeCover::Piece& piece : this->cover_.pieces)
+  {
+    this->tets.push_back(piece.tet);
+  }
+  if (!parallel_sort(context, this->tets, std::less<>()))
+  {
+    return Status::cancelled();
+  }
+  this->tets.erase(std::unique(this->tets.begin(), this->tets.end()), this->tets.end());
+  this->half_tets_.resize(of_half.size());
+  for (std::size_t i = 0; i < of_half.size(); ++i)
+  {
+    this->half_tets_[i] = place_in(this->tets, of_half[i]);
+  }
+  this->piece_tets_.resize(this->cover_.pieces.size());
+  for (std::size_t i = 0; i < this->piece_tets_.size(); ++i)
+  {
+    this->piece_tets_[i] = place_in(this->tets, this->cover_.pieces[i].tet);
+  }
+  this->nodes.resize(this->tets.size());
+  for (std::size_t i = 0; i < this->tets.size(); ++i)
+  {
+    this->nodes[i] = DisphenoidLattice::corners(this->tets[i]);
+  }
+  for (int s = 0; s < CubeSamples::of_cube; ++s)
+  {
+    this->half_of_sample_[s] =
+      DisphenoidLattice::half_of(CubeSamples::place_of(CubeSamples::position_of(s)));
+    ++this->samples_of_half[this->half_of_sample_[s]];
+  }
+  for (std::size_t i = 0; i < this->sampled.size(); ++i)
+  {
+    this->cube_id_[this->sampled[i]] = static_cast<Id>(i);
+  }
+  for (std::size_t i = 0; i < this->full.size(); ++i)
+  {
+    this->cube_id_[this->full[i]] = -1 - static_cast<Id>(i);
+  }
+  this->first_full = static_cast<Id>(this->sampled.size()) * CubeSamples::of_cube;
+  this->first_piece = this->first_full + static_cast<Id>(this->full.size()) * halves;
+  this->inside_.assign(static_cast<std::size_t>(this->first_full), 0);
+  return context.cancelled() ? Status::cancelled() : Status();
+}
+
+Status EmbeddingAtoms::find_inside(
+  const WindingNumber& winding, double threshold, ExecutionContext& context)
+{
+  constexpr Index cubes_at_once = 4096;
+  const auto count = static_cast<Index>(this->sampled.size());
+  for (Index begin = 0; begin < count; begin += cubes_at_once)
+  {
+    const Index end = std::min(count, begin + cubes_at_once);
+    const ProgressRange range(context, static_cast<double>(begin) / static_cast<double>(count),
+      static_cast<double>(end) / static_cast<double>(count));
+    Points points((end - begin) * CubeSamples::of_cube, 3);
+    for (Index i = 0; i < points.rows(); ++i)
+    {
+      const Sample at = this->sample_of(static_cast<Id>(begin + i / CubeSamples::of_cube),
+        static_cast<int>(i % CubeSamples::of_cube));
+      points.row(i) = this->cover_.lattice.point_at(CubeSamples::place_of(at));
+    }
+    Eigen::VectorXd w;
+    const Status status = winding.evaluate(points, context, w);
+    if (!status.ok())
+    {
+      return status;
+    }
+    for (Index i = 0; i < w.size(); ++i)
+    {
+      this->inside_[begin * CubeSamples::of_cube + i] = w[i] >= threshold ? 1 : 0;
+    }
+  }
+  return {};
+}
+
+Id EmbeddingAtoms::place_of_tet(Key tet) const
+{
+  const Id at = place_in(this->tets, tet);
+  return at < static_cast<Id>(this->tets.size()) && this->tets[at] == tet ? at : -1;
+}
+
+Vec3 EmbeddingAtoms::place_of(Id atom) const
+{
+  if (atom >= this->first_piece)
+  {
+    return this->cover_.pieces[atom - this->first_piece].middle;
+  }
+  if (atom < this->first_full)
+  {
+    return CubeSamples::place_of(
+      this->sample_of(atom / CubeSamples::of_cube, atom % CubeSamples::of_cube));
+  }
+  const auto& corners = this->nodes[this->tet_of(atom)];
+  const auto& lattice = this->cover_.lattice;
+  const Cube cube = DisphenoidLattice::cube_of(this->full[(atom - this->first_full) / halves]);
+  // The half's face and the cube's centre.
+  const Vec3 edge = 0.5 * (lattice.node_point(corners[2]) + lattice.node_point(corners[3]));
+  return 0.5 * (lattice.place_of(edge) + Vec3(cube[0] + 0.5, cube[1] + 0.5, cube[2] + 0.5));
+}
+
+} // namespace bindpose

@@ -1,0 +1,410 @@
+// Steps 5 and 6 of embedding_tets.cpp.
+#include "embedding/embedding_parts.h"
+
+#include "base/gather.h"
+#include "base/parallel_sort.h"
+#include "base/sort_unique.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <numeric>
+#include <utility>
+
+namespace bindpose
+{
+
+namespace
+{
+using Key = EmbeddingAtoms::Key;
+using Id = EmbeddingAtoms::Id;
+
+constexpr Index often = 1 << 15; // items between two looks at cancel
+
+class Parts
+{
+public:
+  Parts(PointsView points, const LatticeSurface& surface, const LatticeCover& cover,
+    const EmbeddingAtoms& atoms, AtomConnections& connections, const MaterialProbes& probes,
+    ExecutionContext& context)
+    : points_(points), surface_(surface), cover_(cover), atoms_(atoms), connections_(connections),
+      probes_(probes), context_(context)
+  {
+  }
+
+  bool run(EmbeddingTets& result)
+  {
+    return this->find_parts() && this->join_corners() && this->probe_nodes() && this->write(result);
+  }
+
+private:
+  // ---- Parts, copies of nodes ----
+
+  bool find_parts()
+  {
+    const Id count = this->atoms_.count();
+    this->part_of_.assign(static_cast<std::size_t>(count), -1);
+    for (Id atom = 0; atom < count; ++atom)
+    {
+      if (atom % often == 0 && this->context_.cancelled())
+      {
+        return false;
+      }
+      if (!this->atoms_.is_inside(atom))
+      {
+        continue;
+      }
+      const Id root = this->connections_.within.find(atom);
+      if (root == atom)
+      {
+        this->part_of_[atom] = static_cast<Id>(this->part_tets_.size());
+        this->part_tets_.push_back(this->atoms_.tet_of(atom));
+        this->part_shares_.push_back(0.0);
+      }
+      this->part_of_[atom] = this->part_of_[root];
+      this->part_shares_[this->part_of_[atom]] +=
+        static_cast<double>(this->connections_.shares[atom]);
+    }
+    this->corners_.reset(4 * this->part_tets_.size());
+    return true;
+  }
+
+  /// Atoms of a convex piece of material: the nodes that two of them have in common see one part.
+  template <typename AtomAt>
+  void join_convex(Index count, const AtomAt& atom_at)
+  {
+    this->at_node_.clear();
+    for (Index i = 0; i < count; ++i)
+    {
+      const Id part = this->part_of_[atom_at(i)];
+      const auto& nodes = this->atoms_.nodes[this->part_tets_[part]];
+      for (int k = 0; k < 4; ++k)
+      {
+        this->at_node_.emplace_back(nodes[k], 4 * part + k);
+      }
+    }
+    std::sort(this->at_node_.begin(), this->at_node_.end());
+    for (std::size_t i = 1; i < this->at_node_.size(); ++i)
+    {
+      if (this->at_node_[i].first == this->at_node_[i - 1].first)
+      {
+        this->corners_.unite(this->at_node_[i].second, this->at_node_[i - 1].second);
+      }
+    }
+  }
+
+  bool join_corners()
+  {
+    for (std::size_t i = 0; i < this->connections_.across.size(); ++i)
+    {
+      if (i % often == 0 && this->context_.cancelled())
+      {
+        return false;
+      }
+      const Id p = this->part_of_[this->connections_.across[i].first];
+      const Id q = this->part_of_[this->connections_.across[i].second];
+      const auto& of_p = this->atoms_.nodes[this->part_tets_[p]];
+      const auto& of_q = this->atoms_.nodes[this->part_tets_[q]];
+      for (int k = 0; k < 4; ++k)
+      {
+        for (int l = 0; l < 4; ++l)
+        {
+          if (of_p[k] == of_q[l])
+          {
+            this->corners_.unite(4 * p + k, 4 * q + l);
+          }
+        }
+      }
+    }
+    const auto& first = this->cover_.first_piece;
+    for (std::size_t f = 0; f + 1 < first.size(); ++f)
+    {
+      if (f % often == 0 && this->context_.cancelled())
+      {
+        return false;
+      }
+      if (first[f + 1] - first[f] > 1)
+      {
+        this->join_convex(first[f + 1] - first[f],
+          [&](Index i) { return this->atoms_.first_piece + static_cast<Id>(first[f] + i); });
+      }
+    }
+    for (Id cube = 0; cube < static_cast<Id>(this->atoms_.full.size()); ++cube)
+    {
+      this->join_convex(EmbeddingAtoms::halves,
+        [&](Index i)
+        { return this->atoms_.first_full + cube * EmbeddingAtoms::halves + static_cast<Id>(i); });
+    }
+    return true;
+  }
+
+  // ---- Probes ----
+
+  using Corner = std::pair<Key, Id>; ///< a node and a (part, corner) there
+
+  /// Finds copies of one node that are connected: adds pairs of corners to unite.
+  void probe_node(const Corner* begin, const Corner* end, const std::vector<Id>& roots,
+    std::vector<std::pair<Id, Id>>& joined) const
+  {
+    std::vector<MaterialProbes::Side> sides;
+    std::vector<Id> triangles;
+    for (const Corner* c = begin; c != end; ++c)
+    {
+      const Id root = roots[c->second];
+      auto side = std::find_if(sides.begin(), sides.end(),
+        [&](const MaterialProbes::Side& other) { return other.root == root; });
+      if (side == sides.end())
+      {
+        side = sides.insert(side, { root, {} });
+      }
+      const Id part = c->second / 4;
+      for (Index i = this->first_of_part_[part]; i < this->first_of_part_[part + 1]; ++i)
+      {
+        const Id atom = this->of_part_[i];
+        side->places.push_back(this->atoms_.place_of(atom));
+        if (atom >= this->atoms_.first_piece)
+        {
+          triangles.push_back(this->cover_.pieces[atom - this->atoms_.first_piece].triangle);
+        }
+      }
+    }
+    this->probes_.connect(std::move(sides), std::move(triangles), joined);
+  }
+
+  bool probe_nodes()
+  {
+    const auto parts = static_cast<Id>(this->part_tets_.size());
+    this->first_of_part_.assign(static_cast<std::size_t>(parts) + 1, 0);
+    for (const Id part : this->part_of_)
+    {
+      if (part >= 0)
+      {
+        ++this->first_of_part_[part + 1];
+      }
+    }
+    std::partial_sum(
+      this->first_of_part_.begin(), this->first_of_part_.end(), this->first_of_part_.begin());
+    this->of_part_.resize(static_cast<std::size_t>(this->first_of_part_.back()));
+    std::vector<Index> next(this->first_of_part_.begin(), this->first_of_part_.end() - 1);
+    for (std::size_t atom = 0; atom < this->part_of_.size(); ++atom)
+    {
+      if (this->part_of_[atom] >= 0)
+      {
+        this->of_part_[next[this->part_of_[atom]]++] = static_cast<Id>(atom);
+      }
+    }
+    std::vector<Id> roots(4 * static_cast<std::size_t>(parts));
+    std::vector<Corner> corners(roots.size());
+    for (Id i = 0; i < 4 * parts; ++i)
+    {
+      roots[i] = this->corners_.find(i);
+      corners[i] = { this->atoms_.nodes[this->part_tets_[i / 4]][i % 4], i };
+    }
+    if (!parallel_sort(this->context_, corners, std::less<>()))
+    {
+      return false;
+    }
+    constexpr std::size_t most_copies = 12; // more: a soup, not a slice
+    std::vector<Id> copies;
+    std::vector<std::pair<Index, Index>> several; // ranges of corners of nodes with copies
+    for (std::size_t begin = 0; begin < corners.size();)
+    {
+      std::size_t end = begin;
+      copies.clear();
+      for (; end < corners.size() && corners[end].first == corners[begin].first; ++end)
+      {
+        copies.push_back(roots[corners[end].second]);
+      }
+      sort_unique(copies);
+      if (copies.size() > 1 && copies.size() <= most_copies)
+      {
+        several.emplace_back(begin, end);
+      }
+      begin = end;
+    }
+    std::vector<std::pair<Id, Id>> joined;
+    constexpr Index nodes_at_once = 16;
+    if (!gather(
+          this->context_, static_cast<Index>(several.size()), joined,
+          [&](Index i, std::vector<std::pair<Id, Id>>& list)
+          {
+            this->probe_node(
+              corners.data() + several[i].first, corners.data() + several[i].second, roots, list);
+          },
+          nodes_at_once))
+    {
+      return false;
+    }
+    for (const auto& [a, b] : joined)
+    {
+      this->corners_.unite(a, b);
+    }
+    return true;
+  }
+
+  // ---- The result ----
+
+  bool write(EmbeddingTets& result)
+  {
+    // Parts with the same tet and the same copies of its nodes are one tet.
+    struct Copy
+    {
+      Id tet;
+      std::array<Id, 4> corners;
+      Id part;
+    };
+    std::vector<Copy> copies(this->part_tets_.size());
+    for (std::size_t p = 0; p < copies.size(); ++p)
+    {
+      copies[p].tet = this->part_tets_[p];
+      copies[p].part = static_cast<Id>(p);
+      for (int k = 0; k < 4; ++k)
+      {
+        copies[p].corners[k] = this->corners_.find(static_cast<Id>(4 * p + k));
+      }
+    }
+    const auto same = [](const Copy& a, const Copy& b)
+    { return a.tet == b.tet && a.corners == b.corners; };
+    if (!parallel_sort(this->context_, copies,
+          [](const Copy& a, const Copy& b)
+          { return a.tet != b.tet ? a.tet < b.tet : a.corners < b.corners; }))
+    {
+      return false;
+    }
+    std::vector<std::pair<Key, Id>> vertices; // node, copy
+    std::vector<Index> tet_of_part(copies.size());
+    std::vector<std::size_t> first_of_tet;
+    for (std::size_t i = 0; i < copies.size(); ++i)
+    {
+      if (i == 0 || !same(copies[i - 1], copies[i]))
+      {
+        result.lattice_tets += i == 0 || copies[i - 1].tet != copies[i].tet ? 1 : 0;
+        first_of_tet.push_back(i);
+        for (int k = 0; k < 4; ++k)
+        {
+          vertices.emplace_back(this->atoms_.nodes[copies[i].tet][k], copies[i].corners[k]);
+        }
+      }
+      tet_of_part[copies[i].part] = static_cast<Index>(first_of_tet.size()) - 1;
+    }
+    sort_unique(vertices);
+    const auto vertex_count = static_cast<Index>(vertices.size());
+    result.mesh.points.resize(vertex_count, 3);
+    for (Index v = 0; v < vertex_count; ++v)
+    {
+      result.mesh.points.row(v) = this->cover_.lattice.node_point(vertices[v].first);
+      result.duplicated_nodes += v > 0 && vertices[v].first == vertices[v - 1].first ? 1 : 0;
+    }
+    const auto tet_count = static_cast<Index>(first_of_tet.size());
+    result.mesh.tets.resize(tet_count, 4);
+    result.inside_fractions = Eigen::VectorXd::Zero(tet_count);
+    for (Index t = 0; t < tet_count; ++t)
+    {
+      const Copy& copy = copies[first_of_tet[t]];
+      for (int k = 0; k < 4; ++k)
+      {
+        const auto vertex = std::make_pair(this->atoms_.nodes[copy.tet][k], copy.corners[k]);
+        result.mesh.tets(t, k) =
+          std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin();
+      }
+    }
+    double shares = 0.0;
+    for (const Copy& copy : copies)
+    {
+      result.inside_fractions[tet_of_part[copy.part]] += this->part_shares_[copy.part];
+      shares += this->part_shares_[copy.part];
+    }
+    for (Index t = 0; t < tet_count; ++t)
+    {
+      const int number =
+        2 * DisphenoidLattice::number_of(this->atoms_.tets[copies[first_of_tet[t]].tet]);
+      const int samples =
+        this->atoms_.samples_of_half[number] + this->atoms_.samples_of_half[number + 1];
+      result.inside_fractions[t] = std::min(1.0, result.inside_fractions[t] / samples);
+    }
+    // Tets hold 10 to 28 samples, by how they lie to the sub-grid: right for whole tets, but plates
+    // along it would come out too thick or too thin. The samples' own volume has no such bias.
+    constexpr double samples_of_tet = CubeSamples::of_cube / 12.0;
+    const double whole = (result.inside_fractions.array() >= 1.0).count();
+    const double cut = result.inside_fractions.sum() - whole;
+    if (cut > 0.0)
+    {
+      const double right = std::clamp((shares / samples_of_tet - whole) / cut, 0.5, 2.0);
+      for (double& fraction : result.inside_fractions)
+      {
+        fraction = fraction < 1.0 ? std::min(1.0, right * fraction) : fraction;
+      }
+    }
+    this->bind(tet_of_part, result);
+    return true;
+  }
+
+  void bind(const std::vector<Index>& tet_of_part, EmbeddingTets& result)
+  {
+    // For points that no triangle uses: of a tet's copies the one that holds most.
+    std::vector<Index> fullest(this->atoms_.tets.size(), -1);
+    for (std::size_t p = 0; p < tet_of_part.size(); ++p)
+    {
+      Index& best = fullest[this->part_tets_[p]];
+      const Index t = tet_of_part[p];
+      if (best < 0 || result.inside_fractions[t] > result.inside_fractions[best])
+      {
+        best = t;
+      }
+    }
+    PointBinding& binding = result.binding;
+    binding.tets.assign(static_cast<std::size_t>(this->points_.rows()), -1);
+    binding.coordinates.setZero(this->points_.rows(), 4);
+    for (Index i = 0; i < this->points_.rows(); ++i)
+    {
+      const Id vertex = this->surface_.of_point[i];
+      const Vec3 place = this->cover_.lattice.place_of(this->points_.row(i));
+      if (vertex < 0 && !((place.array() >= 0.0).all() && (place.array() < 65535.0).all()))
+      {
+        continue;
+      }
+      const auto location = DisphenoidLattice::locate(place);
+      Index tet = -1;
+      if (vertex >= 0)
+      {
+        tet = tet_of_part[this->part_of_[this->connections_.of_vertex[vertex]]];
+      }
+      else
+      {
+        const Id at = this->atoms_.place_of_tet(location.tet);
+        tet = at >= 0 ? fullest[at] : -1;
+      }
+      binding.tets[i] = tet;
+      for (int k = 0; k < 4 && tet >= 0; ++k)
+      {
+        binding.coordinates(i, k) = location.coordinates[k];
+      }
+    }
+  }
+
+  PointsView points_;
+  const LatticeSurface& surface_;
+  const LatticeCover& cover_;
+  const EmbeddingAtoms& atoms_;
+  AtomConnections& connections_;
+  const MaterialProbes& probes_;
+  ExecutionContext& context_;
+
+  std::vector<Id> part_of_; // of the atoms
+  std::vector<Id> part_tets_; // places in atoms_.tets
+  std::vector<double> part_shares_;
+  std::vector<Index> first_of_part_; // of each part's atoms
+  std::vector<Id> of_part_;
+  DisjointSets<Id> corners_; // 4 * part + corner
+  std::vector<std::pair<Key, Id>> at_node_;
+};
+} // namespace
+
+bool make_embedding(PointsView points, const LatticeSurface& surface, const LatticeCover& cover,
+  const EmbeddingAtoms& atoms, AtomConnections connections, const MaterialProbes& probes,
+  EmbeddingTets& result, ExecutionContext& context)
+{
+  return Parts(points, surface, cover, atoms, connections, probes, context).run(result);
+}
+
+} // namespace bindpose

@@ -1,0 +1,24 @@
+#ifndef bindpose_embedding_embedding_parts_h
+#define bindpose_embedding_embedding_parts_h
+
+#include "base/execution.h"
+#include "base/mesh.h"
+#include "embedding/atom_connections.h"
+#include "embedding/embedding_atoms.h"
+#include "embedding/embedding_tets.h"
+#include "embedding/lattice_cover.h"
+#include "embedding/material_probes.h"
+
+namespace bindpose
+{
+
+/// Makes tets of connected atoms, and binds the points of the surface to them: fills mesh,
+/// inside_fractions, binding, lattice_tets and duplicated_nodes of an empty result.
+/// @return false when cancelled.
+bool make_embedding(PointsView points, const LatticeSurface& surface, const LatticeCover& cover,
+  const EmbeddingAtoms& atoms, AtomConnections connections, const MaterialProbes& probes,
+  EmbeddingTets& result, ExecutionContext& context);
+
+} // namespace bindpose
+
+#endif

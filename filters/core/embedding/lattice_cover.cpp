@@ -1,0 +1,416 @@
+// Triangles are cut by the lattice's planes; the cubes they go through are where the inside may
+// end. Other cubes are inside or not as a whole: found from cube to cube, starting at the surface,
+// since a region that winds often enough and has no triangle in it has triangles at its border
+// (winding numbers are harmonic there).
+#include "embedding/lattice_cover.h"
+
+#include "base/gather.h"
+#include "base/parallel_sort.h"
+#include "base/sort_unique.h"
+
+#include <cmath>
+#include <numeric>
+
+namespace bindpose
+{
+
+namespace
+{
+using Key = LatticeCover::Key;
+using Cube = LatticeCover::Cube;
+using Id = LatticeCover::Id;
+
+constexpr double wanted_tets = 30000.0;
+constexpr double fewest_tets = 20000.0;
+constexpr double most_tets = 45000.0;
+constexpr double most_pieces = 2e8;
+constexpr double most_pieces_of_choice = 1e6; // beyond two a triangle
+
+/// The cube across one of six sides.
+Cube neighbor_of(Key cube_key, int side)
+{
+  Cube cube = DisphenoidLattice::cube_of(cube_key);
+  cube[side / 2] += side % 2 ? 1 : -1;
+  return cube;
+}
+
+/// What a surface measures, in units of its box's longest side.
+struct Measures
+{
+  double longest = 0.0;
+  double volume = 0.0, area = 0.0, perimeter = 0.0, triangles = 0.0;
+
+  Measures(const LatticeSurface& surface, const Box& box) : longest(box.size().maxCoeff())
+  {
+    const double unit = this->longest > 0.0 ? this->longest : 1.0;
+    for (const auto& t : surface.triangles)
+    {
+      const Vec3 a = (surface.points[t[0]] - box.lower) / unit;
+      const Vec3 b = (surface.points[t[1]] - box.lower) / unit;
+      const Vec3 c = (surface.points[t[2]] - box.lower) / unit;
+      this->area += 0.5 * (b - a).cross(c - a).norm();
+      this->volume += a.dot(b.cross(c)) / 6.0;
+      this->perimeter += (b - a).norm() + (c - b).norm() + (a - c).norm();
+    }
+    const Vec3 size = box.size() / unit;
+    this->volume = std::min(std::abs(this->volume), size.prod());
+    this->triangles = static_cast<double>(surface.triangles.size());
+  }
+  /// Tets that this many cubes along the longest side will give, by the mean number of lattice tets
+  /// that a volume, and a surface beyond it, goes through.
+  double tets(double cubes) const
+  {
+    const double most = 12.0 * std::pow(cubes + 2.0, 3);
+    return std::min(
+      most, 12.0 * this->volume * cubes * cubes * cubes + 6.0 * this->area * cubes * cubes);
+  }
+  /// Pieces of triangles, and crossings with the samples' lines.
+  double pieces(double cubes) const
+  {
+    return this->triangles + 4.0 * this->perimeter * cubes + 65.0 * this->area * cubes * cubes;
+  }
+  /// The largest number of cubes for which count(cubes) stays below a bound.
+  template <typename Count>
+  static double most_cubes_along(double bound, const Count& count)
+  {
+    double low = 1.0;
+    double high = static_cast<double>(LatticeCover::largest_resolution);
+    constexpr int steps = 40;
+    for (int s = 0; s < steps; ++s)
+    {
+      const double middle = 0.5 * (low + high);
+      (count(middle) < bound ? low : high) = middle;
+    }
+    return low;
+  }
+};
+
+} // namespace
+
+bool LatticeSurface::build(PointsView all, TrianglesView faces, ExecutionContext& context)
+{
+  std::vector<Id> order;
+  this->of_point.assign(static_cast<std::size_t>(all.rows()), -1);
+  for (Index i = 0; i < faces.size(); ++i)
+  {
+    Id& id = this->of_point[faces.data()[i]];
+    if (id < 0)
+    {
+      id = 0;
+      order.push_back(static_cast<Id>(faces.data()[i]));
+    }
+  }
+  std::sort(order.begin(), order.end());
+  const auto compare = [&](Id i, Id j)
+  {
+    const double* p = all.data() + 3 * static_cast<Index>(i);
+    const double* q = all.data() + 3 * static_cast<Index>(j);
+    return std::lexicographical_compare(p, p + 3, q, q + 3);
+  };
+  if (!parallel_sort(context, order, compare))
+  {
+    return false;
+  }
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    if (i == 0 || compare(order[i - 1], order[i]))
+    {
+      this->points.emplace_back(all.row(order[i]));
+    }
+    this->of_point[order[i]] = static_cast<Id>(this->points.size()) - 1;
+  }
+  this->triangles.resize(static_cast<std::size_t>(faces.rows()));
+  for (Index f = 0; f < faces.rows(); ++f)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      this->triangles[f][k] = this->of_point[faces(f, k)];
+    }
+  }
+  return true;
+}
+
+Status LatticeCover::build(double spacing, ExecutionContext& context)
+{
+  this->pieces.clear();
+  this->kinds.clear();
+  this->lattice = DisphenoidLattice(this->box_, spacing);
+  this->first_cube_ = DisphenoidLattice::cube_of(this->lattice.place_of(this->box_.lower));
+  this->last_cube_ = DisphenoidLattice::cube_of(this->lattice.place_of(this->box_.upper));
+  const auto count = static_cast<Index>(this->surface_.points.size());
+  this->places.resize(this->surface_.points.size());
+  this->tet_of_point.resize(this->surface_.points.size());
+  constexpr Index block = 4096;
+  if (!parallel_for(context, count, block,
+        [&](Index begin, Index end)
+        {
+          for (Index i = begin; i < end; ++i)
+          {
+            this->places[i] = this->lattice.place_of(this->surface_.points[i]);
+            this->tet_of_point[i] = DisphenoidLattice::locate(this->places[i]).tet;
+          }
+        }) ||
+    !this->find_pieces(context))
+  {
+    return Status::cancelled();
+  }
+  return this->find_cubes(context);
+}
+
+bool LatticeCover::find_pieces(ExecutionContext& context)
+{
+  struct Found
+  {
+    Key tet;
+    Key cube;
+    Id triangle;
+    Vec3 middle;
+  };
+  std::vector<Found> found;
+  const auto triangles = static_cast<Index>(this->surface_.triangles.size());
+  const bool whole = gather(context, triangles, found,
+    [&](Index f, std::vector<Found>& list)
+    {
+      const auto& t = this->surface_.triangles[f];
+      const std::size_t first = list.size();
+      const auto id = static_cast<Id>(f);
+      const auto add = [&](const Vec3& middle, const Vec3& lower, const Vec3& upper)
+      {
+        const Key tet = DisphenoidLattice::locate(middle).tet;
+        const Cube from = DisphenoidLattice::cube_of(lower);
+        const Cube to = DisphenoidLattice::cube_of(upper);
+        for (Id k = from[2]; k <= to[2]; ++k)
+        {
+          for (Id j = from[1]; j <= to[1]; ++j)
+          {
+            for (Id i = from[0]; i <= to[0]; ++i)
+            {
+              list.push_back({ tet, DisphenoidLattice::cube_key({ i, j, k }), id, middle });
+            }
+          }
+        }
+      };
+      for (const Id v : t)
+      {
+        const Vec3& p = this->places[v];
+        add(p, p, p);
+      }
+      if (this->tet_of_point[t[0]] != this->tet_of_point[t[1]] ||
+        this->tet_of_point[t[1]] != this->tet_of_point[t[2]])
+      {
+        DisphenoidLattice::for_pieces(this->corners_of(f), add);
+        for (int k = 0; k < 3; ++k)
+        {
+          const Id v = t[k];
+          const Id w = t[(k + 1) % 3];
+          if (this->tet_of_point[v] != this->tet_of_point[w])
+          {
+            const Vec3& p = this->places[std::min(v, w)];
+            const Vec3& q = this->places[std::max(v, w)];
+            DisphenoidLattice::for_pieces({ p, q, q }, add);
+          }
+        }
+      }
+      const auto key = [](const Found& x) { return std::make_pair(x.tet, x.cube); };
+      std::stable_sort(list.begin() + first, list.end(),
+        [&](const Found& x, const Found& y) { return key(x) < key(y); });
+      list.erase(std::unique(list.begin() + first, list.end(),
+                   [&](const Found& x, const Found& y) { return key(x) == key(y); }),
+        list.end());
+    });
+  if (!whole)
+  {
+    return false;
+  }
+  this->first_piece.assign(static_cast<std::size_t>(triangles) + 1, 0);
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    if (i == 0 || found[i].tet != found[i - 1].tet || found[i].triangle != found[i - 1].triangle)
+    {
+      this->pieces.push_back({ found[i].tet, found[i].triangle, found[i].middle });
+      ++this->first_piece[static_cast<std::size_t>(found[i].triangle) + 1];
+    }
+    if (i == 0 || found[i].cube != found[i - 1].cube)
+    {
+      this->kinds.emplace(found[i].cube, Kind::cut);
+    }
+  }
+  std::partial_sum(this->first_piece.begin(), this->first_piece.end(), this->first_piece.begin());
+  return true;
+}
+
+bool LatticeCover::in_box(const Cube& cube) const
+{
+  for (int k = 0; k < 3; ++k)
+  {
+    if (cube[k] < this->first_cube_[k] || cube[k] > this->last_cube_[k])
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+LatticeCover::Kind LatticeCover::kind_of(const Cube& cube) const
+{
+  const auto found = this->kinds.find(DisphenoidLattice::cube_key(cube));
+  return found == this->kinds.end() ? Kind::outside : found->second;
+}
+
+Status LatticeCover::find_cubes(ExecutionContext& context)
+{
+  std::vector<Key> border; // cubes whose neighbours are still to be looked at
+  for (const auto& [key, kind] : this->kinds)
+  {
+    border.push_back(key);
+  }
+  std::sort(border.begin(), border.end());
+  std::vector<Key> outside;
+  while (!border.empty())
+  {
+    std::vector<Key> next;
+    for (const Key key : border)
+    {
+      for (int side = 0; side < 6; ++side)
+      {
+        const Cube cube = neighbor_of(key, side);
+        const Key neighbor = DisphenoidLattice::cube_key(cube);
+        if (this->in_box(cube) && this->kinds.count(neighbor) == 0)
+        {
+          next.push_back(neighbor);
+        }
+      }
+    }
+    sort_unique(next);
+    Points centers(static_cast<Index>(next.size()), 3);
+    for (std::size_t i = 0; i < next.size(); ++i)
+    {
+      const Cube cube = DisphenoidLattice::cube_of(next[i]);
+      centers.row(static_cast<Index>(i)) =
+        this->lattice.point_at(Vec3(cube[0] + 0.5, cube[1] + 0.5, cube[2] + 0.5));
+    }
+    Eigen::VectorXd w;
+    const Status status = this->winding_.evaluate(centers, context, w);
+    if (!status.ok())
+    {
+      return status;
+    }
+    border.clear();
+    for (std::size_t i = 0; i < next.size(); ++i)
+    {
+      const bool inside = w[static_cast<Index>(i)] >= this->threshold_;
+      this->kinds[next[i]] = inside ? Kind::inside : Kind::outside;
+      (inside ? border : outside).push_back(next[i]);
+    }
+    if (static_cast<Index>(this->kinds.size()) > most_cubes)
+    {
+      return too_many_cubes();
+    }
+  }
+  // Through openings the inside ends in the middle of free cubes.
+  std::vector<Key> open;
+  for (const Key key : outside)
+  {
+    bool ends = false;
+    for (int side = 0; side < 6; ++side)
+    {
+      const Cube cube = neighbor_of(key, side);
+      if (this->kind_of(cube) == Kind::inside)
+      {
+        open.push_back(DisphenoidLattice::cube_key(cube));
+        ends = true;
+      }
+    }
+    if (ends)
+    {
+      open.push_back(key);
+    }
+  }
+  for (const Key key : open)
+  {
+    this->kinds[key] = Kind::cut;
+  }
+  for (const Key key : outside)
+  {
+    const auto at = this->kinds.find(key);
+    if (at->second == Kind::outside)
+    {
+      this->kinds.erase(at);
+    }
+  }
+  return {};
+}
+
+Status LatticeCover::too_many_cubes()
+{
+  return Status::invalid_input("the lattice would have more than " + std::to_string(most_cubes) +
+    " cubes; take a smaller resolution");
+}
+
+/// Tets that hold the surface or lie in cubes inside.
+double LatticeCover::count_tets() const
+{
+  std::vector<Key> tets;
+  for (const Piece& piece : this->pieces)
+  {
+    tets.push_back(piece.tet);
+  }
+  for (const auto& [key, kind] : this->kinds)
+  {
+    for (int half = 0; half < DisphenoidLattice::halves && kind == Kind::inside; ++half)
+    {
+      tets.push_back(DisphenoidLattice::tet_of_half(DisphenoidLattice::cube_of(key), half));
+    }
+  }
+  sort_unique(tets);
+  return static_cast<double>(tets.size());
+}
+
+Status LatticeCover::choose(Index resolution, ExecutionContext& context)
+{
+  const Measures measures(this->surface_, this->box_);
+  const double largest =
+    this->box_.lower.cwiseAbs().cwiseMax(this->box_.upper.cwiseAbs()).maxCoeff();
+  double least_spacing = DisphenoidLattice::least_spacing(largest);
+  least_spacing = least_spacing > 0.0 ? least_spacing : 1.0;
+  if (resolution > 0 || !(measures.longest > 0.0))
+  {
+    const auto cubes = static_cast<double>(std::max<Index>(1, resolution));
+    return measures.pieces(cubes) > most_pieces
+      ? too_many_cubes()
+      : this->build(std::max(measures.longest / cubes, least_spacing), context);
+  }
+  const double most = std::min(Measures::most_cubes_along(most_pieces_of_choice,
+                                 [&](double cubes) { return measures.pieces(cubes); }),
+    std::max(1.0, measures.longest / least_spacing));
+  double cubes = std::min(
+    most, Measures::most_cubes_along(wanted_tets, [&](double c) { return measures.tets(c); }));
+  double last_cubes = 0.0;
+  double last_tets = 0.0;
+  constexpr int rounds = 6;
+  for (int round = 0;; ++round)
+  {
+    const ProgressRange range(context, 1.0 - std::pow(0.5, round), 1.0 - std::pow(0.5, round + 1));
+    const Status status = this->build(std::max(measures.longest / cubes, least_spacing), context);
+    const double tets = status.ok() ? this->count_tets() : 0.0;
+    if (!status.ok() || (tets >= fewest_tets && tets <= most_tets) || round + 1 == rounds)
+    {
+      return status;
+    }
+    // As a power of the resolution: between that of a thread and that of a solid.
+    double power = tets < wanted_tets ? 2.5 : 2.0;
+    if (last_cubes > 0.0 && last_cubes != cubes)
+    {
+      power = std::clamp(std::log(tets / last_tets) / std::log(cubes / last_cubes), 0.8, 3.2);
+    }
+    last_cubes = cubes;
+    last_tets = tets;
+    cubes = std::clamp(cubes * std::pow(wanted_tets / tets, 1.0 / power), 1.0, most);
+    if (cubes == last_cubes)
+    {
+      return status;
+    }
+  }
+}
+
+} // namespace bindpose

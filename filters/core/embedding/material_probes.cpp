@@ -1,0 +1,137 @@
+// A probe is cut where triangles cross it, and stays inside when the winding number at the middle
+// of every piece says so.
+#include "embedding/material_probes.h"
+
+#include "base/disjoint_sets.h"
+#include "base/sort_unique.h"
+#include "embedding/line_crossings.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Where the line from a to b meets a triangle, as a share of it; hits just beside the triangle
+/// count too: all they do is to cut the line once more.
+bool meets(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& t, double& at)
+{
+  const Vec3 u = t[1] - t[0];
+  const Vec3 v = t[2] - t[0];
+  const Vec3 d = b - a;
+  const Vec3 n = u.cross(v);
+  const double along = -n.dot(d);
+  if (along == 0.0)
+  {
+    return false;
+  }
+  const Vec3 p = a - t[0];
+  const Vec3 e = p.cross(d);
+  constexpr double slack = 1e-9;
+  const double s = v.dot(e) / along;
+  const double r = -u.dot(e) / along;
+  at = n.dot(p) / along;
+  return s >= -slack && r >= -slack && s + r <= 1.0 + slack && at > 0.0 && at < 1.0;
+}
+} // namespace
+
+bool MaterialProbes::stays_inside(
+  const Vec3& a, const Vec3& b, const std::vector<Id>& triangles, std::vector<double>& cuts) const
+{
+  const double length = (b - a).norm();
+  const auto inside_at = [&](double t)
+  {
+    const Vec3 p = this->cover_.lattice.point_at(a + t * (b - a));
+    return this->winding_.evaluate_at(p) >= this->threshold_;
+  };
+  if (length > LineCrossing::touching && !inside_at(0.5))
+  {
+    return false;
+  }
+  cuts.assign({ 0.0, 1.0 });
+  for (const Id f : triangles)
+  {
+    double at = 0.0;
+    if (meets(a, b, this->cover_.corners_of(f), at))
+    {
+      cuts.push_back(at);
+    }
+  }
+  std::sort(cuts.begin(), cuts.end());
+  for (std::size_t i = 1; i < cuts.size(); ++i)
+  {
+    if ((cuts[i] - cuts[i - 1]) * length > LineCrossing::touching &&
+      !inside_at(0.5 * (cuts[i] + cuts[i - 1])))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool MaterialProbes::connects(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
+  const std::vector<Id>& triangles, std::vector<double>& cuts) const
+{
+  struct Line
+  {
+    double squared_length;
+    std::size_t from, to;
+    bool operator<(const Line& other) const
+    {
+      return std::tie(this->squared_length, this->from, this->to) <
+        std::tie(other.squared_length, other.from, other.to);
+    }
+  };
+  std::vector<Line> lines;
+  for (std::size_t i = 0; i < from.size(); ++i)
+  {
+    for (std::size_t j = 0; j < to.size(); ++j)
+    {
+      lines.push_back({ (from[i] - to[j]).squaredNorm(), i, j });
+    }
+  }
+  constexpr std::size_t most_lines = 12;
+  const std::size_t count = std::min(lines.size(), most_lines);
+  std::partial_sort(lines.begin(), lines.begin() + static_cast<Index>(count), lines.end());
+  lines.resize(count);
+  return std::any_of(lines.begin(), lines.end(),
+    [&](const Line& line)
+    { return this->stays_inside(from[line.from], to[line.to], triangles, cuts); });
+}
+
+void MaterialProbes::connect(
+  std::vector<Side> sides, std::vector<Id> triangles, std::vector<std::pair<Id, Id>>& joined) const
+{
+  sort_unique(triangles);
+  constexpr std::size_t most_places = 40;
+  for (Side& side : sides)
+  {
+    const std::size_t count = side.places.size();
+    for (std::size_t i = 0; i < most_places && count > most_places; ++i)
+    {
+      side.places[i] = side.places[i * count / most_places];
+    }
+    side.places.resize(std::min(count, most_places));
+  }
+  std::vector<double> cuts;
+  DisjointSets<Id> sides_joined(sides.size());
+  for (std::size_t i = 0; i < sides.size(); ++i)
+  {
+    for (std::size_t j = i + 1; j < sides.size(); ++j)
+    {
+      const auto a = static_cast<Id>(i);
+      const auto b = static_cast<Id>(j);
+      if (sides_joined.find(a) != sides_joined.find(b) &&
+        this->connects(sides[i].places, sides[j].places, triangles, cuts))
+      {
+        sides_joined.unite(a, b);
+        joined.emplace_back(sides[i].root, sides[j].root);
+      }
+    }
+  }
+}
+
+} // namespace bindpose

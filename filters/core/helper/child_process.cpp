@@ -1,0 +1,317 @@
+// The program's lines come through a pipe, which is polled so that cancel and time limit are looked
+// at every 20 ms. Its group is killed before the leader is reaped: until then its number cannot be
+// given to another process.
+#include "helper/child_process.h"
+
+#include "base/number_text.h"
+
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace bindpose
+{
+
+namespace
+{
+/// Standard input, output and error, and the folder.
+class SpawnActions
+{
+public:
+  SpawnActions(const ChildRequest& request, int lines)
+  {
+    posix_spawn_file_actions_init(&this->actions_);
+    if (request.input >= 0)
+    {
+      posix_spawn_file_actions_adddup2(&this->actions_, request.input, 0);
+    }
+    else
+    {
+      posix_spawn_file_actions_addopen(&this->actions_, 0, "/dev/null", O_RDONLY, 0);
+    }
+    posix_spawn_file_actions_adddup2(
+      &this->actions_, request.output >= 0 ? request.output : lines, 1);
+    posix_spawn_file_actions_adddup2(&this->actions_, lines, 2);
+    if (!request.folder.empty())
+    {
+      posix_spawn_file_actions_addchdir_np(&this->actions_, request.folder.c_str());
+    }
+  }
+  ~SpawnActions() { posix_spawn_file_actions_destroy(&this->actions_); }
+  SpawnActions(const SpawnActions&) = delete;
+  SpawnActions& operator=(const SpawnActions&) = delete;
+  const posix_spawn_file_actions_t* get() const { return &this->actions_; }
+
+private:
+  posix_spawn_file_actions_t actions_{};
+};
+
+/// A process group of its own, and signals: what the application blocks or ignores must not make
+/// the program deaf.
+class SpawnAttributes
+{
+public:
+  SpawnAttributes()
+  {
+    posix_spawnattr_init(&this->attributes_);
+    sigset_t none, defaults;
+    sigemptyset(&none);
+    sigemptyset(&defaults);
+    for (const int signal : { SIGINT, SIGTERM, SIGPIPE, SIGSEGV, SIGABRT })
+    {
+      sigaddset(&defaults, signal);
+    }
+    posix_spawnattr_setsigmask(&this->attributes_, &none);
+    posix_spawnattr_setsigdefault(&this->attributes_, &defaults);
+    posix_spawnattr_setpgroup(&this->attributes_, 0);
+    posix_spawnattr_setflags(
+      &this->attributes_, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+  }
+  ~SpawnAttributes() { posix_spawnattr_destroy(&this->attributes_); }
+  SpawnAttributes(const SpawnAttributes&) = delete;
+  SpawnAttributes& operator=(const SpawnAttributes&) = delete;
+  const posix_spawnattr_t* get() const { return &this->attributes_; }
+
+private:
+  posix_spawnattr_t attributes_{};
+};
+
+/// The process and its group; killed and reaped on every way out.
+class Child
+{
+public:
+  explicit Child(const ChildRequest& request) : request_(request) {}
+  ~Child() { this->finish(); }
+  Child(const Child&) = delete;
+  Child& operator=(const Child&) = delete;
+
+  /// @return an error number, 0 for none.
+  int start(int lines)
+  {
+    const SpawnActions actions(this->request_, lines);
+    const SpawnAttributes attributes;
+    std::vector<char*> words{ const_cast<char*>(this->request_.path.c_str()) };
+    for (const std::string& argument : this->request_.arguments)
+    {
+      words.push_back(const_cast<char*>(argument.c_str()));
+    }
+    words.push_back(nullptr);
+    const int error = ::posix_spawn(&this->id_, this->request_.path.c_str(), actions.get(),
+      attributes.get(), words.data(), environ);
+    if (error)
+    {
+      this->id_ = -1;
+      return error;
+    }
+    this->set_limits();
+    this->tell(this->id_);
+    return 0;
+  }
+
+  /// True once it has ended.
+  bool ended() const
+  {
+    siginfo_t info{};
+    return ::waitid(P_PID, static_cast<id_t>(this->id_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
+      info.si_pid == this->id_;
+  }
+
+  /// Kills what is left of the group and reaps the process. @return its status as of waitpid.
+  int finish()
+  {
+    int status = 0;
+    if (this->id_ > 0)
+    {
+      ::kill(-this->id_, SIGKILL);
+      while (::waitpid(this->id_, &status, 0) < 0 && errno == EINTR)
+      {
+      }
+      this->id_ = -1;
+      this->tell(0);
+    }
+    return status;
+  }
+
+private:
+  void set_limits() const
+  {
+    // From outside, so that it holds for programs that know nothing of it; what they have taken in
+    // the first microseconds counts, too.
+    const rlimit none{ 0, 0 };
+    ::prlimit(this->id_, RLIMIT_CORE, &none, nullptr);
+    if (this->request_.memory_limit > 0)
+    {
+      const auto bytes = static_cast<rlim_t>(this->request_.memory_limit) << 20;
+      const rlimit memory{ bytes, bytes };
+      ::prlimit(this->id_, RLIMIT_AS, &memory, nullptr);
+    }
+  }
+
+  void tell(int group) const
+  {
+    if (this->request_.started)
+    {
+      this->request_.started(group);
+    }
+  }
+
+  const ChildRequest& request_;
+  pid_t id_ = -1;
+};
+
+/// Takes what comes through the pipe apart.
+class Lines
+{
+public:
+  explicit Lines(const std::function<void(const std::string&)>& take) : take_(take) {}
+
+  /// @return false at the end of the pipe.
+  bool read(int pipe)
+  {
+    char block[4096];
+    const ssize_t got = ::read(pipe, block, sizeof(block));
+    if (got <= 0)
+    {
+      return got < 0 && (errno == EINTR || errno == EAGAIN);
+    }
+    this->pending_.append(block, static_cast<std::size_t>(got));
+    std::size_t end = 0;
+    while ((end = this->pending_.find('\n')) != std::string::npos)
+    {
+      this->take_(this->pending_.substr(0, end));
+      this->pending_.erase(0, end + 1);
+    }
+    constexpr std::size_t longest = 65536;
+    if (this->pending_.size() > longest)
+    {
+      this->pending_.clear(); // noise without line ends
+    }
+    return true;
+  }
+
+private:
+  const std::function<void(const std::string&)>& take_;
+  std::string pending_;
+};
+
+void judge(int status, ChildEnd& end)
+{
+  end.by_signal = WIFSIGNALED(status);
+  if (end.by_signal)
+  {
+    end.failure = "was ended by signal " + std::to_string(WTERMSIG(status)) + " (" +
+      ::strsignal(WTERMSIG(status)) + ")";
+  }
+  else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+  {
+    end.failure = "ended with code " + std::to_string(WEXITSTATUS(status));
+  }
+}
+} // namespace
+
+void FileDescriptor::close()
+{
+  if (this->descriptor_ >= 0)
+  {
+    ::close(this->descriptor_);
+  }
+  this->descriptor_ = -1;
+}
+
+bool executable_file(const std::string& path)
+{
+  std::error_code none;
+  return std::filesystem::is_regular_file(path, none) && ::access(path.c_str(), X_OK) == 0;
+}
+
+Status check_limits(double time_limit, Index memory_limit)
+{
+  if (!(time_limit > 0.0))
+  {
+    return Status::invalid_input(
+      "time_limit must be positive, not " + short_number(time_limit) + " s");
+  }
+  if (memory_limit < 0)
+  {
+    return Status::invalid_input("memory_limit must not be negative");
+  }
+  return {};
+}
+
+std::string memory_words(Index memory_limit)
+{
+  return memory_limit > 0 ? " under a memory limit of " + std::to_string(memory_limit) + " MiB"
+                          : std::string();
+}
+
+Status run_child(const ChildRequest& request,
+  const std::function<void(const std::string&)>& take_line, ChildEnd& end,
+  ExecutionContext& context)
+{
+  using Clock = std::chrono::steady_clock;
+  end = ChildEnd();
+  if (context.cancelled())
+  {
+    return Status::cancelled();
+  }
+  int ends[2] = { -1, -1 };
+  if (::pipe2(ends, O_CLOEXEC) != 0)
+  {
+    return Status::failure(StatusCode::internal_error,
+      "no pipe to " + request.name + " can be had: " + std::strerror(errno));
+  }
+  const FileDescriptor lines_read(ends[0]);
+  FileDescriptor lines_write(ends[1]);
+  const Clock::time_point start = Clock::now();
+  Child child(request);
+  if (const int error = child.start(lines_write.get()))
+  {
+    return Status::failure(
+      StatusCode::unavailable, request.path + " cannot be started: " + std::strerror(error));
+  }
+  lines_write.close();
+
+  Lines lines(take_line);
+  bool open = true;
+  for (;;)
+  {
+    pollfd wait{ open ? lines_read.get() : -1, POLLIN, 0 };
+    const int patience = open ? 20 : 1; // ms between looks at cancel and clock
+    const int ready = ::poll(&wait, 1, patience);
+    if (open && ready > 0)
+    {
+      open = lines.read(lines_read.get());
+    }
+    end.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    if (context.cancelled())
+    {
+      return Status::cancelled();
+    }
+    // The pipe is read to its end first: the last line may be the one that explains the end. A
+    // grandchild could hold it open, so the end of the child itself counts when nothing is ready.
+    if ((!open || ready == 0) && child.ended())
+    {
+      judge(child.finish(), end);
+      return {};
+    }
+    if (end.seconds > request.time_limit)
+    {
+      return Status::failure(StatusCode::internal_error,
+        request.name + " was stopped at its time limit of " + short_number(request.time_limit) +
+          " s");
+    }
+  }
+}
+
+} // namespace bindpose

@@ -1,0 +1,148 @@
+// The record: 8 bytes magic, six 64-bit counts, the arrays one behind the other in the machine's
+// own byte order, and the magic again, so that a truncated file is seen.
+#include "helper/mesher_format.h"
+
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+#include <unistd.h>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr std::array<char, 8> magic{ 'B', 'P', 'M', 'E', 'S', 'H', '0', '2' };
+
+bool write_all(int file, const void* data, std::size_t size)
+{
+  const char* at = static_cast<const char*>(data);
+  while (size > 0)
+  {
+    const ssize_t written = ::write(file, at, size);
+    if (written < 0 && errno == EINTR)
+    {
+      continue;
+    }
+    if (written <= 0)
+    {
+      return false;
+    }
+    at += written;
+    size -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+bool read_all(int file, std::vector<char>& bytes)
+{
+  constexpr std::size_t block = std::size_t(1) << 20;
+  std::size_t size = 0;
+  for (;;)
+  {
+    bytes.resize(size + block);
+    const ssize_t got = ::read(file, bytes.data() + size, block);
+    if (got < 0 && errno == EINTR)
+    {
+      continue;
+    }
+    if (got < 0)
+    {
+      return false;
+    }
+    size += static_cast<std::size_t>(got);
+    if (got == 0)
+    {
+      bytes.resize(size);
+      return true;
+    }
+  }
+}
+
+bool ids_in_range(const Index* ids, Index count, Index vertices)
+{
+  for (Index k = 0; k < count; ++k)
+  {
+    if (ids[k] < 0 || ids[k] >= vertices)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+} // namespace
+
+bool write_mesher_data(int file, const MesherData& data)
+{
+  const std::array<Index, 6> counts{ data.points.rows(), data.triangles.rows(), data.tets.rows(),
+    static_cast<Index>(data.regions.size()), static_cast<Index>(data.largest_volumes.size()),
+    data.segments.rows() };
+  return write_all(file, magic.data(), magic.size()) &&
+    write_all(file, counts.data(), sizeof(counts)) &&
+    write_all(file, data.points.data(), sizeof(double) * data.points.size()) &&
+    write_all(file, data.triangles.data(), sizeof(Index) * data.triangles.size()) &&
+    write_all(file, data.tets.data(), sizeof(Index) * data.tets.size()) &&
+    write_all(file, data.regions.data(), sizeof(Index) * data.regions.size()) &&
+    write_all(file, data.largest_volumes.data(), sizeof(double) * data.largest_volumes.size()) &&
+    write_all(file, data.segments.data(), sizeof(Index) * data.segments.size()) &&
+    write_all(file, magic.data(), magic.size());
+}
+
+bool read_mesher_data(int file, MesherData& data)
+{
+  data = MesherData();
+  std::vector<char> bytes;
+  std::array<Index, 6> counts{};
+  if (!read_all(file, bytes) || bytes.size() < 2 * magic.size() + sizeof(counts) ||
+    std::memcmp(bytes.data(), magic.data(), magic.size()) != 0)
+  {
+    return false;
+  }
+  std::memcpy(counts.data(), bytes.data() + magic.size(), sizeof(counts));
+  constexpr std::array<std::size_t, 6> sizes{ 24, 24, 32, 8, 8, 16 };
+  std::size_t expected = 2 * magic.size() + sizeof(counts);
+  for (std::size_t k = 0; k < counts.size(); ++k)
+  {
+    // No product may overflow before it is compared.
+    if (counts[k] < 0 || static_cast<std::size_t>(counts[k]) > bytes.size() / sizes[k])
+    {
+      return false;
+    }
+    expected += static_cast<std::size_t>(counts[k]) * sizes[k];
+  }
+  if (expected != bytes.size() ||
+    std::memcmp(bytes.data() + bytes.size() - magic.size(), magic.data(), magic.size()) != 0)
+  {
+    return false;
+  }
+  const char* at = bytes.data() + magic.size() + sizeof(counts);
+  const auto take = [&](void* to, std::size_t size)
+  {
+    if (size > 0)
+    {
+      std::memcpy(to, at, size);
+    }
+    at += size;
+  };
+  data.points.resize(counts[0], 3);
+  data.triangles.resize(counts[1], 3);
+  data.tets.resize(counts[2], 4);
+  data.regions.resize(static_cast<std::size_t>(counts[3]));
+  data.largest_volumes.resize(static_cast<std::size_t>(counts[4]));
+  data.segments.resize(counts[5], 2);
+  take(data.points.data(), sizeof(double) * data.points.size());
+  take(data.triangles.data(), sizeof(Index) * data.triangles.size());
+  take(data.tets.data(), sizeof(Index) * data.tets.size());
+  take(data.regions.data(), sizeof(Index) * data.regions.size());
+  take(data.largest_volumes.data(), sizeof(double) * data.largest_volumes.size());
+  take(data.segments.data(), sizeof(Index) * data.segments.size());
+  return data.points.allFinite() &&
+    ids_in_range(data.triangles.data(), data.triangles.size(), counts[0]) &&
+    ids_in_range(data.tets.data(), data.tets.size(), counts[0]) &&
+    ids_in_range(data.segments.data(), data.segments.size(), counts[0]) &&
+    (counts[3] == 0 || counts[3] == counts[2]) && (counts[4] == 0 || counts[4] == counts[2]);
+}
+
+} // namespace bindpose

@@ -1,0 +1,206 @@
+// The helper reads its job from standard input and writes the result to standard output; both are
+// anonymous files, so that no pipe can block and nothing has to be removed. Standard error is
+// lines: "progress FRACTION", "report KEY NUMBER", "error TEXT"; anything else is what a
+// library printed before it died, and is kept for the message.
+#include "helper/mesher_process.h"
+
+#include "helper/child_process.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr const char* missing_helper =
+  "the helper executable bindpose-mesher is missing; the packages libcgal-dev and libtet1.5-dev "
+  "are needed to build it";
+
+/// A file without a name, closed on exec, on a descriptor that cannot collide with 0, 1 and 2.
+int anonymous_file(const char* name)
+{
+  const int file = ::memfd_create(name, MFD_CLOEXEC);
+  if (file < 0 || file > 2)
+  {
+    return file;
+  }
+  const int moved = ::fcntl(file, F_DUPFD_CLOEXEC, 3);
+  ::close(file);
+  return moved;
+}
+
+std::string folder_of(const std::string& path)
+{
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "." : path.substr(0, slash);
+}
+
+/// What the helper's lines say.
+class Lines
+{
+public:
+  void take(const std::string& line, ExecutionContext& context, Report& report)
+  {
+    std::istringstream words(line);
+    std::string kind, key;
+    double number = 0.0;
+    words >> kind;
+    if (kind == "progress" && words >> number)
+    {
+      context.progress(number);
+    }
+    else if (kind == "report" && words >> key >> number)
+    {
+      report.set(key, Report::Value(number));
+    }
+    else if (kind == "error")
+    {
+      this->error_ = line.size() > 6 ? line.substr(6) : std::string();
+    }
+    else if (!line.empty())
+    {
+      constexpr std::size_t enough = 200;
+      this->noise_ = line.substr(0, enough);
+    }
+  }
+
+  std::string error() const { return this->error_; }
+  std::string noise() const { return this->noise_; }
+
+private:
+  std::string error_;
+  std::string noise_;
+};
+
+Status judge_end(
+  const ChildEnd& end, const Lines& lines, const MesherRequest& request, const std::string& job)
+{
+  if (end.failure.empty() && lines.error().empty())
+  {
+    return {};
+  }
+  const std::string limit = memory_words(request.memory_limit);
+  std::string message = job + " " + end.failure + limit;
+  if (end.by_signal)
+  {
+    message += lines.noise().empty() ? "" : "; its last words: " + lines.noise();
+  }
+  else if (!lines.error().empty())
+  {
+    message = job + ": " + lines.error() + limit;
+  }
+  else
+  {
+    message += lines.noise().empty() ? "" : ": " + lines.noise();
+  }
+  return Status::failure(StatusCode::internal_error, message);
+}
+} // namespace
+
+std::string find_mesher()
+{
+  if (const char* chosen = std::getenv("BINDPOSE_MESHER"))
+  {
+    return executable_file(chosen) ? std::string(chosen) : std::string();
+  }
+  std::vector<std::string> folders;
+  char self[4096];
+  const ssize_t length = ::readlink("/proc/self/exe", self, sizeof(self) - 1);
+  if (length > 0)
+  {
+    folders.push_back(folder_of(std::string(self, static_cast<std::size_t>(length))));
+  }
+  // The library that holds this function: a plugin's folder, lib/libX.so, or
+  // lib/ARCHITECTURE/libX.so.
+  Dl_info info{};
+  if (::dladdr(reinterpret_cast<void*>(&find_mesher), &info) && info.dli_fname)
+  {
+    const std::string library = folder_of(info.dli_fname);
+    folders.push_back(library);
+    folders.push_back(library + "/../bin");
+    folders.push_back(library + "/../../bin");
+  }
+#ifdef BINDPOSE_MESHER_BUILD_FOLDER
+  folders.emplace_back(BINDPOSE_MESHER_BUILD_FOLDER);
+#endif
+  for (const std::string& folder : folders)
+  {
+    std::string path = folder + "/bindpose-mesher";
+    if (executable_file(path))
+    {
+      return path;
+    }
+  }
+  return {};
+}
+
+Status run_mesher(const MesherRequest& request, const MesherData& input, MesherAnswer& answer,
+  ExecutionContext& context)
+{
+  answer = MesherAnswer();
+  if (context.cancelled())
+  {
+    return Status::cancelled();
+  }
+  const std::string path = find_mesher();
+  if (path.empty())
+  {
+    const char* chosen = std::getenv("BINDPOSE_MESHER");
+    return Status::failure(StatusCode::unavailable,
+      chosen ? std::string("BINDPOSE_MESHER names no executable file: ") + chosen
+             : std::string(missing_helper));
+  }
+  const FileDescriptor input_file(anonymous_file("bindpose-mesher-input"));
+  const FileDescriptor output_file(anonymous_file("bindpose-mesher-output"));
+  if (input_file.get() < 0 || output_file.get() < 0 ||
+    !write_mesher_data(input_file.get(), input) || ::lseek(input_file.get(), 0, SEEK_SET) != 0)
+  {
+    return Status::failure(StatusCode::internal_error,
+      std::string("no room to hand the mesh to bindpose-mesher: ") + std::strerror(errno));
+  }
+  ChildRequest child;
+  child.path = path;
+  child.arguments = request.arguments;
+  child.input = input_file.get();
+  child.output = output_file.get();
+  child.time_limit = request.time_limit;
+  child.name = "bindpose-mesher" +
+    (request.arguments.empty() ? std::string() : " " + request.arguments.front());
+  if (request.memory_limit > 0)
+  {
+    // The helper sets its limit itself: it can say so when it has run into it.
+    child.arguments.insert(
+      child.arguments.end(), { "--memory", std::to_string(request.memory_limit) });
+  }
+  Lines lines;
+  ChildEnd end;
+  Status status = run_child(
+    child, [&](const std::string& line) { lines.take(line, context, answer.report); }, end,
+    context);
+  answer.seconds = end.seconds;
+  if (status.ok())
+  {
+    status = judge_end(end, lines, request, child.name);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (::lseek(output_file.get(), 0, SEEK_SET) != 0 ||
+    !read_mesher_data(output_file.get(), answer.data))
+  {
+    return Status::failure(StatusCode::internal_error, child.name + " wrote no readable mesh");
+  }
+  return {};
+}
+
+} // namespace bindpose

@@ -1,0 +1,109 @@
+// The guard is a shell that reads process groups from a socket, line by line, until its end, which
+// comes when the object goes or when this process dies in whatever way. Then it kills the last
+// group it was told of (none after an empty line) and removes the folder. It leads a process group
+// of its own: a Ctrl-C in the terminal does not reach it.
+#include "helper/scratch_folder.h"
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include <csignal>
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+extern char** environ;
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr const char* guard_script = "trap '' HUP INT TERM\n"
+                                     "group=\n"
+                                     "while read -r line; do group=$line; done\n"
+                                     "[ -z \"$group\" ] || kill -s KILL -- \"-$group\"\n"
+                                     "rm -rf -- \"$1\"\n";
+} // namespace
+
+ScratchFolder::ScratchFolder(const std::string& purpose)
+{
+  std::error_code failure;
+  const std::filesystem::path parent = std::filesystem::temp_directory_path(failure);
+  if (failure)
+  {
+    this->error_ = "there is no folder for temporary files: " + failure.message();
+    return;
+  }
+  std::string pattern = (parent / ("bindpose-" + purpose + "-XXXXXX")).string();
+  if (!::mkdtemp(pattern.data()))
+  {
+    this->error_ =
+      "no temporary folder can be made in " + parent.string() + ": " + std::strerror(errno);
+    return;
+  }
+  this->path_ = pattern;
+  this->start_guard();
+}
+
+ScratchFolder::~ScratchFolder()
+{
+  if (!this->path_.empty())
+  {
+    std::error_code ignored;
+    std::filesystem::remove_all(this->path_, ignored);
+  }
+  if (this->line_ >= 0)
+  {
+    ::close(this->line_);
+  }
+  while (this->guard_ > 0 && ::waitpid(this->guard_, nullptr, 0) < 0 && errno == EINTR)
+  {
+  }
+}
+
+void ScratchFolder::guard_group(int group)
+{
+  if (this->line_ >= 0)
+  {
+    const std::string line = group > 0 ? std::to_string(group) + "\n" : "\n";
+    // Without a guard there is nobody to tell; no signal for that.
+    static_cast<void>(::send(this->line_, line.data(), line.size(), MSG_NOSIGNAL));
+  }
+}
+
+void ScratchFolder::start_guard()
+{
+  int ends[2] = { -1, -1 };
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+  {
+    return;
+  }
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, ends[1], 0);
+  posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addopen(&actions, 2, "/dev/null", O_WRONLY, 0);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  std::string script = guard_script;
+  std::string shell = "sh", option = "-c", name = "bindpose-guard";
+  char* words[] = { shell.data(), option.data(), script.data(), name.data(), this->path_.data(),
+    nullptr };
+  if (::posix_spawn(&this->guard_, "/bin/sh", &actions, &attributes, words, environ) != 0)
+  {
+    this->guard_ = -1;
+  }
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  ::close(ends[1]);
+  this->line_ = ends[0];
+}
+
+} // namespace bindpose

@@ -1,0 +1,591 @@
+// Marching squares with two rows of alpha in memory: a frame of alpha 0 is put around the image,
+// each line between neighbouring pixels of which one is inside gets one vertex, and each cell
+// between four pixels links the vertices on its sides, with the inside on the left. Every vertex
+// then has one successor, and loops are read off.
+//
+// Simplification removes vertices, and only such that no loop can come to cross or touch another:
+// between its neighbours p and n a vertex v may go when the triangle p v n holds no other vertex.
+// First come passes that try every second vertex at a quarter of the tolerance: straight lines
+// halve at every pass, and no chain of contour points is looked at more than about log(length)
+// times. Then each vertex in turn looks as far ahead as it can: it takes the farthest vertex to
+// which a straight line stays within the tolerance, even where nearer ones fail, as they do on
+// stairs of pixels.
+#include "planar/image_outline.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr Index none = -1;
+constexpr Index longest_contour = Index(1) << 25;
+
+/// The contour, link by link.
+struct Contour
+{
+  std::vector<Vec2> points;
+  std::vector<Index> next;
+};
+
+/// A row of alpha between two columns of the frame.
+struct AlphaLine
+{
+  explicit AlphaLine(Index columns) : values(static_cast<std::size_t>(columns + 2), 0.0f) {}
+  std::vector<float> values;
+};
+
+class MarchingSquares
+{
+public:
+  MarchingSquares(Index columns, Index rows, const AlphaRow& alpha, double threshold)
+    : columns_(columns), rows_(rows), alpha_(alpha), threshold_(static_cast<float>(threshold)),
+      lower_(columns), upper_(columns), bottom_(static_cast<std::size_t>(columns + 2), none),
+      top_(static_cast<std::size_t>(columns + 2), none)
+  {
+  }
+
+  Status run(Contour& contour, Index& inside, ExecutionContext& context)
+  {
+    inside = 0;
+    for (Index row = -1; row < this->rows_; ++row) // cells between row and row + 1
+    {
+      if (context.cancelled())
+      {
+        return Status::cancelled();
+      }
+      context.progress(static_cast<double>(row + 1) / static_cast<double>(this->rows_ + 1));
+      this->read(row + 1, inside);
+      this->link(row, contour);
+      if (static_cast<Index>(contour.points.size()) > longest_contour)
+      {
+        return Status::invalid_input("the image's outline has more than " +
+          std::to_string(longest_contour) + " points: blur the alpha or shrink the image");
+      }
+      std::swap(this->lower_, this->upper_);
+      std::swap(this->bottom_, this->top_);
+    }
+    return {};
+  }
+
+private:
+  bool is_inside(float value) const { return value >= this->threshold_; }
+
+  void read(Index row, Index& inside)
+  {
+    std::vector<float>& values = this->upper_.values;
+    if (row == this->rows_)
+    {
+      std::fill(values.begin(), values.end(), 0.0f);
+      return;
+    }
+    this->alpha_(row, values.data() + 1);
+    for (Index x = 1; x <= this->columns_; ++x)
+    {
+      values[x] = std::isfinite(values[x]) ? values[x] : 0.0f;
+      inside += this->is_inside(values[x]);
+    }
+  }
+
+  /// How far from a to b the threshold is; never at an end, so that no two vertices coincide.
+  double crossing(float a, float b) const
+  {
+    constexpr double margin = 0x1p-10;
+    const double t =
+      (double(this->threshold_) - double(a)) / (double(b) - double(a)); // one of them is inside
+    return std::clamp(t, margin, 1.0 - margin);
+  }
+
+  Index add(double x, double y, Contour& contour)
+  {
+    contour.points.emplace_back(x, y);
+    contour.next.push_back(none);
+    return static_cast<Index>(contour.points.size()) - 1;
+  }
+
+  void link(Index row, Contour& contour)
+  {
+    const float* lower = this->lower_.values.data();
+    const float* upper = this->upper_.values.data();
+    Index left = none;
+    bool was_a = false; // the left column of the frame is outside
+    bool was_d = false;
+    for (Index x = 0; x <= this->columns_; ++x) // cell between columns x - 1 and x of the image
+    {
+      const bool a = was_a;
+      const bool d = was_d;
+      const bool b = this->is_inside(lower[x + 1]);
+      const bool c = this->is_inside(upper[x + 1]);
+      was_a = b;
+      was_d = c;
+      this->top_[x] = none;
+      if (a == b && b == c && c == d)
+      {
+        left = none;
+        continue;
+      }
+      const double at = static_cast<double>(x - 1);
+      if (c != d)
+      {
+        this->top_[x] = this->add(
+          at + this->crossing(upper[x], upper[x + 1]), static_cast<double>(row + 1), contour);
+      }
+      const Index right = b == c
+        ? none
+        : this->add(at + 1.0, static_cast<double>(row) + this->crossing(lower[x + 1], upper[x + 1]),
+            contour);
+      this->link_cell({ a, b, c, d }, { this->bottom_[x], right, this->top_[x], left },
+        { lower[x], lower[x + 1], upper[x + 1], upper[x] }, contour);
+      left = right;
+    }
+  }
+
+  /// Corners counter-clockwise from lower left; side k lies between corners k and k + 1. Each run
+  /// of inside corners is left behind at its last side, to where a run begins.
+  void link_cell(const std::array<bool, 4>& in, const std::array<Index, 4>& sides,
+    const std::array<float, 4>& values, Contour& contour) const
+  {
+    const bool saddle = in[0] == in[2] && in[1] == in[3];
+    bool joined = false;
+    if (saddle)
+    {
+      const double v[4] = { values[0], values[1], values[2], values[3] };
+      const double value = (v[0] * v[2] - v[1] * v[3]) / (v[0] + v[2] - v[1] - v[3]);
+      joined = value >= double(this->threshold_);
+    }
+    Index begin = none;
+    for (int k = 0; k < 4; ++k)
+    {
+      if (!in[k] && in[(k + 1) % 4])
+      {
+        begin = sides[k];
+      }
+    }
+    for (int k = 0; k < 4; ++k)
+    {
+      if (in[k] && !in[(k + 1) % 4])
+      {
+        contour.next[sides[k]] = saddle ? sides[(k + (joined ? 1 : 3)) % 4] : begin;
+      }
+    }
+  }
+
+  Index columns_;
+  Index rows_;
+  const AlphaRow& alpha_;
+  float threshold_;
+  AlphaLine lower_;
+  AlphaLine upper_;
+  std::vector<Index> bottom_; // vertices on the sides of the row of cells, by column
+  std::vector<Index> top_;
+};
+
+/// Vertices in the order of their loops; loop l is [starts[l], starts[l + 1]).
+struct Loops
+{
+  std::vector<Vec2> points;
+  std::vector<Index> starts{ 0 };
+};
+
+Loops read_loops(Contour& contour)
+{
+  Loops loops;
+  loops.points.reserve(contour.points.size());
+  for (std::size_t first = 0; first < contour.points.size(); ++first)
+  {
+    Index v = static_cast<Index>(first);
+    while (contour.next[v] != none)
+    {
+      loops.points.push_back(contour.points[v]);
+      v = std::exchange(contour.next[v], none);
+    }
+    if (static_cast<Index>(loops.points.size()) > loops.starts.back())
+    {
+      loops.starts.push_back(static_cast<Index>(loops.points.size()));
+    }
+  }
+  return loops;
+}
+
+double cross(const Vec2& a, const Vec2& b)
+{
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+double squared_distance(const Vec2& p, const Vec2& a, const Vec2& b)
+{
+  const Vec2 along = b - a;
+  const double length = along.squaredNorm();
+  const double t = length > 0.0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0.0;
+  return (p - a - t * along).squaredNorm();
+}
+
+/// Vertices by square cells of the plane.
+class VertexGrid
+{
+public:
+  VertexGrid(Index columns, Index rows)
+    : width_((columns + 2) / side + 1), height_((rows + 2) / side + 1)
+  {
+  }
+
+  void fill(const std::vector<Vec2>& points, const std::vector<char>& alive)
+  {
+    this->starts_.assign(static_cast<std::size_t>(this->width_ * this->height_ + 1), 0);
+    const auto count = static_cast<Index>(points.size());
+    for (Index v = 0; v < count; ++v)
+    {
+      this->starts_[this->cell(points[v]) + 1] += alive[v];
+    }
+    for (std::size_t c = 1; c < this->starts_.size(); ++c)
+    {
+      this->starts_[c] += this->starts_[c - 1];
+    }
+    this->ids_.resize(static_cast<std::size_t>(this->starts_.back()));
+    std::vector<Index> at(this->starts_.begin(), this->starts_.end() - 1);
+    for (Index v = 0; v < count; ++v)
+    {
+      if (alive[v])
+      {
+        this->ids_[at[this->cell(points[v])]++] = v;
+      }
+    }
+  }
+
+  /// True when visit(id) is true for a vertex near the triangle: rows of cells that it meets, from
+  /// its leftmost to its rightmost point in the row.
+  template <typename Visit>
+  bool any(const std::array<Vec2, 3>& corners, const Visit& visit) const
+  {
+    const auto [low, high] = std::minmax({ corners[0].y(), corners[1].y(), corners[2].y() });
+    for (Index row = this->index(low, this->height_); row <= this->index(high, this->height_);
+         ++row)
+    {
+      const double bottom = static_cast<double>(row * side) - 1.0 - slack;
+      const double top = bottom + side + 2.0 * slack;
+      double left = std::numeric_limits<double>::max();
+      double right = std::numeric_limits<double>::lowest();
+      for (int k = 0; k < 3; ++k)
+      {
+        const Vec2& a = corners[k];
+        const Vec2& b = corners[(k + 1) % 3];
+        const double rise = b.y() - a.y();
+        // The part of the side within the row's strip.
+        double from = 0.0;
+        double to = 1.0;
+        if (rise != 0.0)
+        {
+          const auto [s, e] = std::minmax({ (bottom - a.y()) / rise, (top - a.y()) / rise });
+          from = std::max(from, s);
+          to = std::min(to, e);
+        }
+        if (from <= to)
+        {
+          for (const double t : { from, to })
+          {
+            const double x = a.x() + t * (b.x() - a.x());
+            left = std::min(left, x);
+            right = std::max(right, x);
+          }
+        }
+      }
+      if (left > right)
+      {
+        continue;
+      }
+      const Index first = this->index(left - slack, this->width_);
+      const Index last = this->index(right + slack, this->width_);
+      for (Index k = this->starts_[row * this->width_ + first];
+           k < this->starts_[row * this->width_ + last + 1]; ++k)
+      {
+        if (visit(this->ids_[k]))
+        {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+private:
+  static constexpr Index side = 8; // pixels
+  static constexpr double slack = 1e-6;
+
+  Index index(double x, Index count) const
+  {
+    return std::clamp<Index>(static_cast<Index>(x + 1.0) / side, 0, count - 1);
+  }
+  Index cell(const Vec2& p) const
+  {
+    return this->index(p.y(), this->height_) * this->width_ + this->index(p.x(), this->width_);
+  }
+
+  Index width_;
+  Index height_;
+  std::vector<Index> starts_;
+  std::vector<Index> ids_;
+};
+
+class Simplifier
+{
+public:
+  Simplifier(const Loops& loops, Index columns, Index rows)
+    : loops_(loops), grid_(columns, rows), alive_(loops.points.size(), 1),
+      next_(loops.points.size()), previous_(loops.points.size())
+  {
+    for (std::size_t l = 0; l + 1 < loops.starts.size(); ++l)
+    {
+      const Index begin = loops.starts[l];
+      const Index end = loops.starts[l + 1];
+      for (Index v = begin; v < end; ++v)
+      {
+        this->next_[v] = v + 1 < end ? v + 1 : begin;
+        this->previous_[v] = v > begin ? v - 1 : end - 1;
+      }
+      this->left_.push_back(end - begin);
+    }
+  }
+
+  Status run(double tolerance, ExecutionContext& context)
+  {
+    constexpr double first = 0.25;
+    for (bool fewer = true; fewer;)
+    {
+      if (context.cancelled())
+      {
+        return Status::cancelled();
+      }
+      fewer = this->halve(first * tolerance);
+    }
+    context.progress(0.5);
+    for (bool fewer = true; fewer;)
+    {
+      if (context.cancelled())
+      {
+        return Status::cancelled();
+      }
+      fewer = this->leap(tolerance);
+    }
+    return {};
+  }
+
+  /// What is left.
+  void collect(ImageOutline& outline) const
+  {
+    const Index count = std::count(this->alive_.begin(), this->alive_.end(), 1);
+    outline.points.resize(count, 2);
+    outline.segments.resize(count, 2);
+    Index at = 0;
+    for (std::size_t l = 0; l + 1 < this->loops_.starts.size(); ++l)
+    {
+      const Index first = at;
+      for (Index v = this->loops_.starts[l]; v < this->loops_.starts[l + 1]; ++v)
+      {
+        if (this->alive_[v])
+        {
+          outline.points.row(at) = this->loops_.points[v].transpose();
+          outline.segments.row(at) << at, at + 1;
+          ++at;
+        }
+      }
+      outline.segments(at - 1, 1) = first;
+    }
+  }
+
+private:
+  bool halve(double tolerance)
+  {
+    this->grid_.fill(this->loops_.points, this->alive_);
+    bool fewer = false;
+    for (std::size_t l = 0; l + 1 < this->loops_.starts.size(); ++l)
+    {
+      for (Index v = this->loops_.starts[l]; v < this->loops_.starts[l + 1]; ++v)
+      {
+        const Index p = this->previous_[v];
+        const Index n = this->next_[v];
+        if (this->alive_[v] && this->left_[l] > fewest &&
+          this->deviation(l, p, n, tolerance) <= tolerance && !this->holds_vertex(p, v, n))
+        {
+          fewer = true;
+          this->remove(l, p, n, 1);
+          this->alive_[v] = 0;
+          v = n > v ? n : v; // the neighbour stays for this pass
+        }
+      }
+    }
+    return fewer;
+  }
+
+  bool leap(double tolerance)
+  {
+    this->grid_.fill(this->loops_.points, this->alive_);
+    bool fewer = false;
+    for (std::size_t l = 0; l + 1 < this->loops_.starts.size(); ++l)
+    {
+      for (Index v = this->loops_.starts[l]; v < this->loops_.starts[l + 1]; ++v)
+      {
+        fewer = (this->alive_[v] && this->leap_from(l, v, tolerance)) || fewer;
+      }
+    }
+    return fewer;
+  }
+
+  /// Takes vertices behind p away one after the other, then puts back those behind the last one to
+  /// which the line from p was good.
+  bool leap_from(std::size_t loop, Index p, double tolerance)
+  {
+    constexpr std::size_t farthest = 256; // vertices
+    constexpr double hopeless = 3.0; // times the tolerance
+    std::vector<Index>& gone = this->gone_;
+    gone.clear();
+    std::size_t good = 0;
+    Index v = this->next_[p];
+    while (this->left_[loop] - static_cast<Index>(gone.size()) > fewest && gone.size() < farthest)
+    {
+      const Index n = this->next_[v];
+      const double deviation = this->deviation(loop, p, n, hopeless * tolerance);
+      if (deviation > hopeless * tolerance || this->holds_vertex(p, v, n))
+      {
+        break;
+      }
+      this->alive_[v] = 0;
+      gone.push_back(v);
+      good = deviation <= tolerance ? gone.size() : good;
+      v = n;
+    }
+    for (std::size_t k = good; k < gone.size(); ++k)
+    {
+      this->alive_[gone[k]] = 1;
+    }
+    if (good > 0)
+    {
+      this->remove(loop, p, this->next_[gone[good - 1]], static_cast<Index>(good));
+    }
+    return good > 0;
+  }
+
+  void remove(std::size_t loop, Index p, Index n, Index count)
+  {
+    this->left_[loop] -= count;
+    this->next_[p] = n;
+    this->previous_[n] = p;
+  }
+
+  /// Largest distance of the contour's points between p and n from their line; looks no further
+  /// once it is above the limit.
+  double deviation(std::size_t loop, Index p, Index n, double limit) const
+  {
+    const std::vector<Vec2>& points = this->loops_.points;
+    double largest = 0.0;
+    for (Index u = this->after(loop, p); u != n && largest <= limit * limit;
+         u = this->after(loop, u))
+    {
+      largest = std::max(largest, squared_distance(points[u], points[p], points[n]));
+    }
+    return std::sqrt(largest);
+  }
+
+  /// The contour's next point, gone or not.
+  Index after(std::size_t loop, Index v) const
+  {
+    return v + 1 < this->loops_.starts[loop + 1] ? v + 1 : this->loops_.starts[loop];
+  }
+
+  /// Whether another vertex lies in the closed triangle, or close to it by rounding.
+  bool holds_vertex(Index p, Index v, Index n) const
+  {
+    const std::vector<Vec2>& points = this->loops_.points;
+    std::array<Vec2, 3> corners{ points[p], points[v], points[n] };
+    if (cross(corners[1] - corners[0], corners[2] - corners[0]) < 0.0)
+    {
+      std::swap(corners[1], corners[2]);
+    }
+    constexpr double slack = 1e-9;
+    return this->grid_.any(corners,
+      [&](Index u)
+      {
+        if (u == p || u == v || u == n || !this->alive_[u])
+        {
+          return false;
+        }
+        for (int k = 0; k < 3; ++k)
+        {
+          const Vec2 side = corners[(k + 1) % 3] - corners[k];
+          if (cross(side, points[u] - corners[k]) < -slack * (1.0 + side.norm()))
+          {
+            return false;
+          }
+        }
+        return true;
+      });
+  }
+
+  static constexpr Index fewest = 4; // a single pixel's diamond stays one
+
+  const Loops& loops_;
+  VertexGrid grid_;
+  std::vector<char> alive_;
+  std::vector<Index> next_; // among those alive
+  std::vector<Index> previous_;
+  std::vector<Index> left_; // vertices, by loop
+  std::vector<Index> gone_;
+};
+} // namespace
+
+Status image_outline(Index columns, Index rows, const AlphaRow& alpha,
+  const ImageOutlineOptions& options, ImageOutline& outline, ExecutionContext& context)
+{
+  outline = ImageOutline();
+  const Phase phase(context, "outline");
+  if (columns < 1 || rows < 1)
+  {
+    return Status::invalid_input("the image has no pixels");
+  }
+  if (!(options.threshold > 0.0 && options.threshold <= 1.0))
+  {
+    return Status::invalid_input("the alpha threshold must lie above 0 and not above 1");
+  }
+  if (!(options.simplify >= 0.0 && options.simplify <= 1.0))
+  {
+    return Status::invalid_input("the outline is simplified by 0 to 1 pixel");
+  }
+  Contour contour;
+  Index inside = 0;
+  Status status;
+  {
+    const ProgressRange range(context, 0.0, 0.7);
+    status = MarchingSquares(columns, rows, alpha, options.threshold).run(contour, inside, context);
+  }
+  if (status.ok() && inside == 0)
+  {
+    status =
+      Status::invalid_input("the image is transparent everywhere: no pixel's alpha reaches " +
+        std::to_string(options.threshold));
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  status.report.set("counts.pixels", columns * rows);
+  status.report.set("counts.inside_pixels", inside);
+  status.report.set("counts.contour_points", static_cast<Index>(contour.points.size()));
+  const Loops loops = read_loops(contour);
+  Simplifier simplifier(loops, columns, rows);
+  if (options.simplify > 0.0)
+  {
+    const ProgressRange range(context, 0.7, 1.0);
+    const Status simplified = simplifier.run(options.simplify, context);
+    if (!simplified.ok())
+    {
+      return simplified;
+    }
+  }
+  simplifier.collect(outline);
+  status.report.set("counts.outline_points", outline.points.rows());
+  status.report.set("counts.loops", static_cast<Index>(loops.starts.size()) - 1);
+  return status;
+}
+
+} // namespace bindpose

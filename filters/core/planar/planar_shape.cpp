@@ -1,0 +1,631 @@
+// 1. Vertices that segments and handles use are gathered, equal ones once, moved towards the origin
+//    when they are far from it and scaled by a power of two to about 1, which rounds nothing.
+// 2. The helper splits curves and bones where they meet, and triangulates their convex hull.
+// 3. A triangle is kept where the winding number, averaged over it, reaches the threshold. Around
+//    closed curves it is constant on each triangle.
+//    Where curves almost touch, closer than refinement can work with, steps 1 to 3 are repeated on
+//    a grid of 1e-12 of the size, which merges what is nearer.
+// 4. The helper refines what is kept. Curves and bones in it, and its outline, stay edges.
+// 5. Vertices are numbered: those of the input first.
+#include "planar/planar_shape.h"
+
+#include "base/number_text.h"
+#include "base/parallel.h"
+#include "helper/child_process.h"
+#include "helper/mesher_process.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr Index none = -1;
+
+Status check_segments(PlanePointsView points, SegmentsView segments, const std::string& what)
+{
+  for (Index e = 0; e < segments.rows(); ++e)
+  {
+    for (int k = 0; k < 2; ++k)
+    {
+      const Index v = segments(e, k);
+      if (v < 0 || v >= points.rows())
+      {
+        return Status::invalid_input(what + " " + std::to_string(e) + " has vertex " +
+          std::to_string(v) + ", but there are only " + std::to_string(points.rows()));
+      }
+      if (!points.row(v).allFinite())
+      {
+        return Status::invalid_input(what + " " + std::to_string(e) + " has vertex " +
+          std::to_string(v) + " with a coordinate that is not a finite number");
+      }
+    }
+  }
+  return {};
+}
+
+Status check_options(const PlanarShapeOptions& options)
+{
+  if (!(options.winding_threshold > 0.0) || !std::isfinite(options.winding_threshold))
+  {
+    return Status::invalid_input("the winding threshold must be a number above 0");
+  }
+  constexpr double largest_angle = 33.0;
+  if (!(options.min_angle >= 0.0 && options.min_angle <= largest_angle))
+  {
+    return Status::invalid_input("the smallest angle must lie between 0 and 33 degrees");
+  }
+  if (!(options.edge >= 0.0) || !std::isfinite(options.edge))
+  {
+    return Status::invalid_input("the longest edge is a fraction of the diagonal, 0 or more");
+  }
+  if (options.edge > 0.0 && options.edge < 1e-4)
+  {
+    return Status::invalid_input("the longest edge must be at least 1e-4 of the diagonal, or 0");
+  }
+  return check_limits(options.time_limit, options.memory_limit);
+}
+
+/// Vertices that are used, equal ones once.
+class Gathered
+{
+public:
+  Index add(const Vec2& p, const Vec2& place, Index original)
+  {
+    const auto [entry, fresh] =
+      this->ids_.emplace(std::make_pair(p.x() + 0.0, p.y() + 0.0), this->count()); // no -0
+    if (fresh)
+    {
+      this->points.push_back(p);
+      this->originals.push_back(original);
+      this->places.push_back(place);
+    }
+    return entry->second;
+  }
+  Index count() const { return static_cast<Index>(this->points.size()); }
+
+  std::vector<Vec2> points; ///< scaled
+  std::vector<Index> originals; ///< lowest input id, -1 for a handle's
+  std::vector<Vec2> places; ///< as they came in
+
+private:
+  std::map<std::pair<double, double>, Index> ids_;
+};
+
+double cross(const Vec2& a, const Vec2& b)
+{
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+class Builder
+{
+public:
+  Builder(PlanePointsView points, SegmentsView segments, const PlanarHandles& handles,
+    const PlanarShapeOptions& options, ExecutionContext& context)
+    : points_(points), segments_(segments), input_handles_(handles), options_(options),
+      context_(context)
+  {
+  }
+
+  Status run(PlanarShape& shape);
+
+private:
+  Status scale();
+  void gather();
+  Status arrange();
+  Status keep();
+  Status fill();
+  Status try_fill(double angle, double seconds, MesherAnswer& answer);
+  Status number(PlanarShape& shape);
+  void report(const PlanarShape& shape, Status& status) const;
+  Status run_job(const std::vector<std::string>& arguments, double seconds, MesherAnswer& answer);
+  Vec2 scaled(const Vec2& p) const;
+  double smallest_height() const;
+  bool fits(bool exact) const;
+  Vec2 point(Index v) const { return this->data_.points.row(v).head<2>().transpose(); }
+  double mean_winding(Index triangle) const;
+  Vec2 unscaled(Index v) const
+  {
+    const Vec2 p = this->point(v);
+    return Vec2(std::ldexp(p.x(), this->exponent_), std::ldexp(p.y(), this->exponent_)) +
+      this->shift_;
+  }
+
+  PlanePointsView points_;
+  SegmentsView segments_;
+  const PlanarHandles& input_handles_;
+  const PlanarShapeOptions& options_;
+  ExecutionContext& context_;
+  Gathered gathered_;
+  Segments curves_; ///< as they run
+  Segments bones_;
+  std::vector<Index> handles_; ///< gathered vertex of each handle point
+  int exponent_ = 0;
+  Vec2 shift_ = Vec2::Zero(); ///< what is at the scaled origin
+  double rounding_ = 0.0; ///< 8 units in the last place of the coordinates, scaled
+  double diagonal_ = 0.0; ///< of the curves, scaled
+  PlanePoints curve_points_; ///< scaled
+  double finest_ = 0.0; ///< smallest height of a kept triangle, scaled
+  double finest_allowed_ = 0.0; ///< that refinement can work with
+  double grid_ = 0.0; ///< scaled; 0: none
+  CurveWindingNumber winding_;
+  MesherData data_;
+  Index crossings_ = 0;
+  Index open_ends_ = 0;
+  bool turned_ = false;
+  std::vector<std::string> warnings_;
+};
+
+Status Builder::scale()
+{
+  Vec2 lower = Vec2::Constant(std::numeric_limits<double>::max());
+  Vec2 upper = -lower;
+  for (Index k = 0; k < this->segments_.size(); ++k)
+  {
+    const Vec2 p = this->points_.row(this->segments_.data()[k]).transpose();
+    lower = lower.cwiseMin(p);
+    upper = upper.cwiseMax(p);
+  }
+  const Vec2 half = 0.5 * upper - 0.5 * lower; // without overflow
+  if (half.maxCoeff() <= 0.0)
+  {
+    return Status::invalid_input("all points of the curves coincide");
+  }
+  std::frexp(half.maxCoeff(), &this->exponent_);
+  this->exponent_ += 1;
+  const auto to_scale = [&](double x) { return std::ldexp(x, -this->exponent_); };
+  this->diagonal_ = 2.0 * std::hypot(to_scale(half.x()), to_scale(half.y()));
+  const double farthest = to_scale(lower.cwiseAbs().cwiseMax(upper.cwiseAbs()).maxCoeff());
+  if (!std::isfinite(farthest))
+  {
+    return Status::invalid_input("the curves lie too far from the origin for their size");
+  }
+  // Differences of numbers that are within a factor of two are exact (Sterbenz).
+  for (int k = 0; k < 2; ++k)
+  {
+    const double size = 2.0 * half[k];
+    this->shift_[k] = lower[k] > size ? lower[k] : upper[k] < -size ? upper[k] : 0.0;
+  }
+  this->rounding_ = 0x1p-49 * farthest;
+  // A part of the size that nobody means, or what rounding leaves of details.
+  int exponent = 0;
+  std::frexp(std::max(0x1p-40 * this->diagonal_, this->rounding_), &exponent);
+  this->finest_allowed_ = std::ldexp(1.0, exponent);
+  return {};
+}
+
+/// On the grid, if there is one.
+Vec2 Builder::scaled(const Vec2& p) const
+{
+  const Vec2 moved = p - this->shift_;
+  Vec2 result(std::ldexp(moved.x(), -this->exponent_), std::ldexp(moved.y(), -this->exponent_));
+  if (this->grid_ > 0.0)
+  {
+    result = Vec2(std::round(result.x() / this->grid_), std::round(result.y() / this->grid_)) *
+      this->grid_;
+  }
+  return result;
+}
+
+void Builder::gather()
+{
+  this->gathered_ = Gathered();
+  this->handles_.clear();
+  const auto add = [&](const Vec2& place, Index original)
+  { return this->gathered_.add(this->scaled(place), place, original); };
+  const std::set<Index> used(
+    this->segments_.data(), this->segments_.data() + this->segments_.size());
+  std::map<Index, Index> gathered;
+  for (const Index v : used) // ascending: the lowest id stands for equal ones
+  {
+    gathered[v] = add(this->points_.row(v).transpose(), v);
+  }
+  this->curves_.resize(this->segments_.rows(), 2);
+  for (Index e = 0; e < this->segments_.rows(); ++e)
+  {
+    this->curves_.row(e) << gathered[this->segments_(e, 0)], gathered[this->segments_(e, 1)];
+  }
+  const PlanarHandles& handles = this->input_handles_;
+  for (Index h = 0; h < handles.points.rows(); ++h)
+  {
+    this->handles_.push_back(add(handles.points.row(h).transpose(), none));
+  }
+  this->bones_.resize(handles.bones.rows(), 2);
+  for (Index b = 0; b < handles.bones.rows(); ++b)
+  {
+    this->bones_.row(b) << this->handles_[handles.bones(b, 0)], this->handles_[handles.bones(b, 1)];
+  }
+  this->data_ = MesherData();
+  this->data_.points.resize(this->gathered_.count(), 3);
+  for (Index v = 0; v < this->gathered_.count(); ++v)
+  {
+    this->data_.points.row(v) << this->gathered_.points[v].transpose(), 0.0;
+  }
+  this->curve_points_ = this->data_.points.leftCols<2>();
+}
+
+Status Builder::run_job(
+  const std::vector<std::string>& arguments, double seconds, MesherAnswer& answer)
+{
+  MesherRequest request;
+  request.arguments = arguments;
+  request.time_limit = seconds;
+  request.memory_limit = this->options_.memory_limit;
+  if (request.time_limit <= 0.0)
+  {
+    return Status::failure(StatusCode::internal_error,
+      "the time limit of " + short_number(this->options_.time_limit) + " s was over before " +
+        arguments.front());
+  }
+  return run_mesher(request, this->data_, answer, this->context_);
+}
+
+Status Builder::arrange()
+{
+  const Phase phase(this->context_, "arrange", 0.0, 0.4);
+  this->data_.segments.resize(this->curves_.rows() + this->bones_.rows(), 2);
+  this->data_.segments << this->curves_, this->bones_;
+  MesherAnswer answer;
+  const Status status = this->run_job({ "arrange", "--grid", exact_number(this->grid_) },
+    this->options_.time_limit - this->context_.elapsed_seconds(), answer);
+  if (!status.ok())
+  {
+    return status;
+  }
+  this->data_ = std::move(answer.data);
+  this->crossings_ = this->data_.points.rows() - this->gathered_.count();
+  if (this->data_.triangles.rows() == 0)
+  {
+    return Status::invalid_input("all points of the curves lie on one line: they enclose nothing");
+  }
+  return {};
+}
+
+/// By a rule of degree 5 with 7 points (Radon): the centre, and two points towards each corner.
+double Builder::mean_winding(Index triangle) const
+{
+  const Vec2 a = this->point(this->data_.triangles(triangle, 0));
+  const Vec2 b = this->point(this->data_.triangles(triangle, 1));
+  const Vec2 c = this->point(this->data_.triangles(triangle, 2));
+  const Vec2 center = (a + b + c) / 3.0;
+  const double root = std::sqrt(15.0);
+  if (this->open_ends_ == 0)
+  {
+    return this->winding_.evaluate_at(center);
+  }
+  double sum = 9.0 / 40.0 * this->winding_.evaluate_at(center);
+  for (const double sign : { -1.0, 1.0 })
+  {
+    const double weight = (155.0 + sign * root) / 1200.0;
+    const double way = (1.0 - sign * root) / 7.0; // from the centre to the corner
+    for (const Vec2& corner : { a, b, c })
+    {
+      sum += weight * this->winding_.evaluate_at(center + way * (corner - center));
+    }
+  }
+  return sum;
+}
+
+double Builder::smallest_height() const
+{
+  double smallest = std::numeric_limits<double>::max();
+  for (Index t = 0; t < this->data_.triangles.rows(); ++t)
+  {
+    const Vec2 a = this->point(this->data_.triangles(t, 0));
+    const Vec2 b = this->point(this->data_.triangles(t, 1)) - a;
+    const Vec2 c = this->point(this->data_.triangles(t, 2)) - a;
+    const double longest = std::max({ b.norm(), c.norm(), (c - b).norm() });
+    smallest = std::min(smallest, cross(b, c) / longest);
+  }
+  return smallest;
+}
+
+Status Builder::keep()
+{
+  const Phase phase(this->context_, "winding", 0.4, 0.5);
+  Status status = this->winding_.build(this->curve_points_, this->curves_, this->context_);
+  if (status.ok() && status.report.number("area", 0.0) < 0.0)
+  {
+    this->turned_ = true;
+    this->curves_.col(0).swap(this->curves_.col(1));
+    status = this->winding_.build(this->curve_points_, this->curves_, this->context_);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  this->open_ends_ = static_cast<Index>(status.report.number("counts.open_ends", 0.0));
+  Eigen::VectorXd means(this->data_.triangles.rows());
+  const bool complete = parallel_for(this->context_, means.size(), 256,
+    [&](Index begin, Index end)
+    {
+      for (Index t = begin; t < end; ++t)
+      {
+        means[t] = this->mean_winding(t);
+      }
+    });
+  if (!complete)
+  {
+    return Status::cancelled();
+  }
+  std::set<std::pair<Index, Index>> edges;
+  Index kept = 0;
+  for (Index t = 0; t < means.size(); ++t)
+  {
+    if (means[t] >= this->options_.winding_threshold - 1e-9)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        edges.insert(std::minmax(
+          Index(this->data_.triangles(t, k)), Index(this->data_.triangles(t, (k + 1) % 3))));
+      }
+      this->data_.triangles.row(kept++) = this->data_.triangles.row(t).eval();
+    }
+  }
+  if (kept == 0)
+  {
+    return Status::invalid_input("the curves enclose nothing: the largest winding number is " +
+      short_number(means.maxCoeff()) + ", and inside begins at " +
+      short_number(this->options_.winding_threshold));
+  }
+  this->data_.triangles.conservativeResize(kept, 3);
+  this->finest_ = this->smallest_height();
+  Index inside = 0;
+  for (Index e = 0; e < this->data_.segments.rows(); ++e)
+  {
+    const Index a = this->data_.segments(e, 0);
+    const Index b = this->data_.segments(e, 1);
+    if (edges.count(std::minmax(a, b)))
+    {
+      this->data_.segments.row(inside++) << a, b;
+    }
+  }
+  this->data_.segments.conservativeResize(inside, 2);
+  return {};
+}
+
+Status Builder::fill()
+{
+  const Phase phase(this->context_, "fill", 0.5, 1.0);
+  constexpr double always = 20.6; // degrees, see fill_plane()
+  std::vector<double> angles{ this->options_.min_angle };
+  for (const double weaker : { always, 0.0 })
+  {
+    if (weaker < angles.back())
+    {
+      angles.push_back(weaker);
+    }
+  }
+  MesherAnswer answer;
+  Status status;
+  for (std::size_t k = 0; k < angles.size(); ++k)
+  {
+    // The helper may crash or hang over gaps at the limit of doubles; others get their turn, too.
+    const double seconds = this->options_.time_limit - this->context_.elapsed_seconds();
+    status = this->try_fill(angles[k], k + 1 < angles.size() ? 0.5 * seconds : seconds, answer);
+    if (status.code != StatusCode::internal_error)
+    {
+      break;
+    }
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  this->data_ = std::move(answer.data);
+  if (answer.report.number("stopped", 0.0) > 0.0)
+  {
+    this->warnings_.emplace_back("the triangles were not refined to the end: it would have taken "
+                                 "too many points or too much time");
+  }
+  else if (answer.report.number("min_angle", 0.0) < this->options_.min_angle)
+  {
+    this->warnings_.emplace_back("angles of " + short_number(this->options_.min_angle) +
+      " degrees could not be had everywhere; the smallest angle aimed at was " +
+      short_number(answer.report.number("min_angle", 0.0)));
+  }
+  return {};
+}
+
+Status Builder::try_fill(double angle, double seconds, MesherAnswer& answer)
+{
+  constexpr double part = 0.8; // the rest is for reading and writing
+  constexpr double fine = 0x1p-10; // triangles of the angles asked for have no reason to be smaller
+  const double edge = this->options_.edge * this->diagonal_;
+  const double detail = edge > 0.0 ? std::min(edge, this->finest_) : this->finest_;
+  const double floor = std::max(fine * detail, this->rounding_);
+  return this->run_job(
+    { "fill-plane", "--min-angle", exact_number(angle), "--edge", exact_number(edge), "--floor",
+      exact_number(floor), "--time", exact_number(part * seconds) },
+    seconds, answer);
+}
+
+/// Whether the triangles stay positive where they came from: new points are rounded there, and
+/// those of the input go back to their places before they were put on the grid, if `exact`.
+bool Builder::fits(bool exact) const
+{
+  const auto place = [&](Index v)
+  { return exact && v < this->gathered_.count() ? this->gathered_.places[v] : this->unscaled(v); };
+  for (Index t = 0; t < this->data_.triangles.rows(); ++t)
+  {
+    const auto side = [&](int from, int to) // scaled, or areas could underflow
+    {
+      const Vec2 along =
+        place(this->data_.triangles(t, to)) - place(this->data_.triangles(t, from));
+      return Vec2(std::ldexp(along.x(), -this->exponent_), std::ldexp(along.y(), -this->exponent_));
+    };
+    const Vec2 b = side(0, 1);
+    const Vec2 c = side(0, 2);
+    if (!(cross(b, c) > 0.0))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+Status Builder::number(PlanarShape& shape)
+{
+  const bool exact = this->fits(true);
+  if (!exact && !this->fits(false))
+  {
+    return Status::failure(StatusCode::internal_error,
+      "rounding turned a triangle over: the curves lie too far from the origin for their detail");
+  }
+  std::vector<Index> ids(static_cast<std::size_t>(this->data_.points.rows()), none);
+  for (Index k = 0; k < this->data_.triangles.size(); ++k)
+  {
+    ids[this->data_.triangles.data()[k]] = 0;
+  }
+  const auto count = static_cast<Index>(std::count(ids.begin(), ids.end(), 0));
+  shape.points.resize(count, 2);
+  shape.original_vertices.assign(static_cast<std::size_t>(count), none);
+  Index at = 0;
+  for (Index v = 0; v < static_cast<Index>(ids.size()); ++v) // the input's come first, ascending
+  {
+    if (ids[v] == none)
+    {
+      continue;
+    }
+    const bool gathered = v < this->gathered_.count();
+    const Vec2 place = gathered && exact ? this->gathered_.places[v] : this->unscaled(v);
+    shape.points.row(at) = place.transpose();
+    shape.original_vertices[at] = gathered ? this->gathered_.originals[v] : none;
+    ids[v] = at++;
+  }
+  shape.handle_vertices.clear();
+  for (const Index v : this->handles_)
+  {
+    shape.handle_vertices.push_back(ids[v]);
+  }
+  const Index triangles = this->data_.triangles.rows();
+  shape.winding_numbers.resize(triangles);
+  shape.triangles.resize(triangles, 3);
+  for (Index t = 0; t < triangles; ++t)
+  {
+    Vec2 center = Vec2::Zero();
+    for (int k = 0; k < 3; ++k)
+    {
+      center += this->point(this->data_.triangles(t, k)) / 3.0;
+      shape.triangles(t, k) = ids[this->data_.triangles(t, k)];
+    }
+    shape.winding_numbers[t] = this->winding_.evaluate_at(center);
+  }
+  return {};
+}
+
+void Builder::report(const PlanarShape& shape, Status& status) const
+{
+  double area = 0.0;
+  double longest = 0.0;
+  double smallest_angle = 180.0;
+  for (Index t = 0; t < shape.triangles.rows(); ++t)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec2 a = this->point(this->data_.triangles(t, k));
+      const Vec2 b = this->point(this->data_.triangles(t, (k + 1) % 3)) - a;
+      const Vec2 c = this->point(this->data_.triangles(t, (k + 2) % 3)) - a;
+      area += k == 0 ? 0.5 * cross(b, c) : 0.0;
+      longest = std::max(longest, b.norm());
+      smallest_angle = std::min(smallest_angle, std::atan2(cross(b, c), b.dot(c)) * 180.0 / M_PI);
+    }
+  }
+  const auto kept = std::count_if(shape.original_vertices.begin(), shape.original_vertices.end(),
+    [](Index original) { return original != none; });
+  Report& report = status.report;
+  report.set("counts.points",
+    static_cast<Index>(std::count_if(this->gathered_.originals.begin(),
+      this->gathered_.originals.end(), [](Index original) { return original != none; })));
+  report.set("counts.segments", this->curves_.rows());
+  report.set("counts.crossings", this->crossings_);
+  report.set("counts.open_ends", this->open_ends_);
+  report.set("counts.vertices", shape.points.rows());
+  report.set("counts.triangles", shape.triangles.rows());
+  report.set("counts.kept_points", static_cast<Index>(kept));
+  report.set("area", std::ldexp(area, 2 * this->exponent_));
+  report.set("min_angle", smallest_angle);
+  report.set("longest_edge", std::ldexp(longest, this->exponent_));
+  report.set("turned", this->turned_ ? 1 : 0);
+  report.set("grid", std::ldexp(this->grid_, this->exponent_));
+  status.warnings = this->warnings_;
+  if (this->turned_)
+  {
+    status.warnings.emplace_back(
+      "the curves run clockwise around their inside; they are taken the other way round");
+  }
+  if (!this->handles_.empty())
+  {
+    const auto outside = static_cast<Index>(
+      std::count(shape.handle_vertices.begin(), shape.handle_vertices.end(), none));
+    report.set("counts.outside_handles", outside);
+    if (outside > 0)
+    {
+      status.warnings.push_back(std::to_string(outside) + " of " +
+        std::to_string(shape.handle_vertices.size()) +
+        " points of handles lie outside of the shape and are no vertices of it");
+    }
+  }
+}
+
+Status Builder::run(PlanarShape& shape)
+{
+  Status status = this->scale();
+  for (int attempt = 0; status.ok() && attempt < 2; ++attempt)
+  {
+    this->gather();
+    status = this->arrange();
+    status = status.ok() ? this->keep() : status;
+    if (!status.ok() || this->grid_ > 0.0 || this->finest_ >= this->finest_allowed_)
+    {
+      break;
+    }
+    this->grid_ = this->finest_allowed_;
+  }
+  status = status.ok() ? this->fill() : status;
+  status = status.ok() ? this->number(shape) : status;
+  if (status.ok())
+  {
+    this->report(shape, status);
+  }
+  return status;
+}
+} // namespace
+
+Status planar_shape(PlanePointsView points, SegmentsView segments, const PlanarHandles& handles,
+  const PlanarShapeOptions& options, PlanarShape& shape, ExecutionContext& context)
+{
+  shape = PlanarShape();
+  Status status = check_options(options);
+  if (status.ok() && segments.rows() == 0)
+  {
+    status = Status::invalid_input("there are no curves");
+  }
+  if (status.ok())
+  {
+    status = check_segments(points, segments, "segment");
+  }
+  if (status.ok())
+  {
+    status = check_segments(handles.points, handles.bones, "bone");
+  }
+  if (status.ok() && !handles.points.allFinite())
+  {
+    status = Status::invalid_input("a handle has a coordinate that is not a finite number");
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (context.cancelled())
+  {
+    return Status::cancelled();
+  }
+  return Builder(points, segments, handles, options, context).run(shape);
+}
+
+} // namespace bindpose

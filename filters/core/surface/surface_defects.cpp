@@ -1,0 +1,209 @@
+// The repaired surface has the maps between the input's ids and its own; edges are looked at with
+// the input's orientation, for the repaired one may have been turned.
+#include "surface/surface_defects.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace bindpose
+{
+
+namespace
+{
+class Lister
+{
+public:
+  Lister(PointsView points, TrianglesView triangles, const RepairedSurface& repaired)
+    : points_(points), triangles_(triangles), repaired_(repaired),
+      components_(connected_components(repaired.points.rows(), repaired.triangles)),
+      id_(static_cast<std::size_t>(points.rows()), -1)
+  {
+    for (std::size_t v = 0; v < repaired.original_vertices.size(); ++v)
+    {
+      this->id_[repaired.original_vertices[v]] = static_cast<Index>(v);
+    }
+  }
+
+  std::vector<DefectPlace> run()
+  {
+    this->vertices();
+    this->edges();
+    this->degenerate();
+    this->duplicates();
+    this->crossings();
+    for (const Index t : this->repaired_.inward_triangles)
+    {
+      this->add(Defect::inward_component, this->repaired_.original_triangles[t]);
+    }
+    return std::move(this->places_);
+  }
+
+private:
+  /// The repaired surface's vertex, -1 for one that none of its triangles uses.
+  Index welded(Index input_vertex) const
+  {
+    return this->id_[this->repaired_.lowest_equal[input_vertex]];
+  }
+
+  Index component_of(Index input_vertex) const
+  {
+    const Index v = this->welded(input_vertex);
+    return v < 0 ? -1 : this->components_.of_vertex[v];
+  }
+
+  void add(Defect defect, Index triangle, Index crossed = -1)
+  {
+    DefectPlace place;
+    place.defect = defect;
+    place.triangle = triangle;
+    place.crossed = crossed;
+    for (int k = 0; k < 3; ++k)
+    {
+      place.vertices.push_back(this->triangles_(triangle, k));
+      place.component = std::max(place.component, this->component_of(place.vertices.back()));
+    }
+    this->places_.push_back(std::move(place));
+  }
+
+  void vertices()
+  {
+    std::vector<char> used(static_cast<std::size_t>(this->points_.rows()), 0);
+    for (Index k = 0; k < this->triangles_.size(); ++k)
+    {
+      used[this->triangles_.data()[k]] = 1;
+    }
+    for (const Defect defect : { Defect::duplicate_vertex, Defect::unreferenced_vertex })
+    {
+      for (Index v = 0; v < this->points_.rows(); ++v)
+      {
+        if (defect == Defect::duplicate_vertex ? this->repaired_.lowest_equal[v] != v : !used[v])
+        {
+          this->places_.push_back({ defect, { v }, -1, -1, this->component_of(v) });
+        }
+      }
+    }
+  }
+
+  void edges()
+  {
+    Triangles as_given(this->repaired_.triangles.rows(), 3);
+    for (Index t = 0; t < as_given.rows(); ++t)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        as_given(t, k) = this->welded(this->triangles_(this->repaired_.original_triangles[t], k));
+      }
+    }
+    const std::vector<Edge> edges = mesh_edges(as_given);
+    for (const Defect defect :
+      { Defect::boundary_edge, Defect::nonmanifold_edge, Defect::misoriented_edge })
+    {
+      for (const Edge& edge : edges)
+      {
+        const bool here = defect == Defect::boundary_edge ? edge.uses == 1
+          : defect == Defect::nonmanifold_edge            ? edge.uses >= 3
+                                               : edge.uses == 2 && edge.net_direction != 0;
+        if (here)
+        {
+          this->places_.push_back({ defect,
+            { this->repaired_.original_vertices[edge.a],
+              this->repaired_.original_vertices[edge.b] },
+            -1, -1, this->components_.of_vertex[edge.a] });
+        }
+      }
+    }
+  }
+
+  void degenerate()
+  {
+    Index next = 0; // of the triangles that were kept, ascending
+    const auto& kept = this->repaired_.original_triangles;
+    for (Index t = 0; t < this->triangles_.rows(); ++t)
+    {
+      if (next < static_cast<Index>(kept.size()) && kept[next] == t)
+      {
+        ++next;
+      }
+      else
+      {
+        this->add(Defect::degenerate_triangle, t);
+      }
+    }
+  }
+
+  void duplicates()
+  {
+    struct Key
+    {
+      std::array<Index, 3> vertices;
+      Index triangle;
+    };
+    std::vector<Key> keys;
+    for (Index t = 0; t < this->repaired_.triangles.rows(); ++t)
+    {
+      const auto row = this->repaired_.triangles.row(t);
+      keys.push_back({ { row[0], row[1], row[2] }, this->repaired_.original_triangles[t] });
+      std::sort(keys.back().vertices.begin(), keys.back().vertices.end());
+    }
+    std::sort(keys.begin(), keys.end(),
+      [](const Key& x, const Key& y)
+      { return x.vertices != y.vertices ? x.vertices < y.vertices : x.triangle < y.triangle; });
+    std::vector<Index> found;
+    for (std::size_t i = 1; i < keys.size(); ++i)
+    {
+      if (keys[i].vertices == keys[i - 1].vertices)
+      {
+        found.push_back(keys[i].triangle);
+      }
+    }
+    std::sort(found.begin(), found.end());
+    for (const Index t : found)
+    {
+      this->add(Defect::duplicate_triangle, t);
+    }
+  }
+
+  void crossings()
+  {
+    constexpr Index none = std::numeric_limits<Index>::max();
+    std::vector<Index> met(static_cast<std::size_t>(this->repaired_.triangles.rows()), none);
+    for (const auto& [s, t] : this->repaired_.crossings)
+    {
+      met[s] = std::min(met[s], t);
+      met[t] = std::min(met[t], s);
+    }
+    for (std::size_t t = 0; t < met.size(); ++t)
+    {
+      if (met[t] != none)
+      {
+        this->add(Defect::self_intersection, this->repaired_.original_triangles[t],
+          this->repaired_.original_triangles[met[t]]);
+      }
+    }
+  }
+
+  PointsView points_;
+  TrianglesView triangles_;
+  const RepairedSurface& repaired_;
+  Components components_;
+  std::vector<Index> id_; // of an input vertex in the repaired surface, -1: not there
+  std::vector<DefectPlace> places_;
+};
+} // namespace
+
+const char* to_string(Defect defect)
+{
+  constexpr const char* words[defect_kinds] = { "duplicate vertex", "unreferenced vertex",
+    "boundary edge", "non-manifold edge", "misoriented edge", "degenerate triangle",
+    "duplicate triangle", "self-intersection", "inward component" };
+  return words[static_cast<int>(defect)];
+}
+
+std::vector<DefectPlace> list_defects(
+  PointsView points, TrianglesView triangles, const RepairedSurface& repaired)
+{
+  return Lister(points, triangles, repaired).run();
+}
+
+} // namespace bindpose

@@ -1,0 +1,576 @@
+// Weld, drop, count, orient.
+//
+// Orientation has two steps. First within patches of triangles joined by edges that two triangles
+// use: a walk over such edges gives every triangle a parity; the parity with the smaller area is
+// turned. Then whole shells: components, or patches that are closed by themselves (solids that
+// touch in an edge or a vertex). A closed shell that lies in no other one and has negative volume
+// is inside out; it is turned together with what lies in it, so that a cavity (an inner shell
+// turned against the outer one) stays a cavity.
+#include "surface/surface_repair.h"
+
+#include "base/disjoint_sets.h"
+#include "surface/triangle_predicates.h"
+#include "base/triangle_sides.h"
+#include "surface/triangle_tree.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace bindpose
+{
+
+namespace
+{
+using Key = std::array<Index, 3>;
+
+Key sorted_key(TrianglesView triangles, Index t)
+{
+  Key key{ triangles(t, 0), triangles(t, 1), triangles(t, 2) };
+  std::sort(key.begin(), key.end());
+  return key;
+}
+
+/// For every vertex the lowest id with the same coordinates; unused vertices keep their own.
+std::vector<Index> weld_map(const Points& points, const std::vector<char>& used)
+{
+  std::vector<Index> order;
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    if (used[v])
+    {
+      order.push_back(v);
+    }
+  }
+  const auto compare = [&](Index a, Index b)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      if (points(a, k) != points(b, k))
+      {
+        return points(a, k) < points(b, k) ? -1 : 1;
+      }
+    }
+    return 0;
+  };
+  std::sort(order.begin(), order.end(),
+    [&](Index a, Index b)
+    {
+      const int c = compare(a, b);
+      return c != 0 ? c < 0 : a < b;
+    });
+  std::vector<Index> map(static_cast<std::size_t>(points.rows()));
+  std::iota(map.begin(), map.end(), Index(0));
+  for (std::size_t i = 1; i < order.size(); ++i)
+  {
+    if (compare(order[i - 1], order[i]) == 0)
+    {
+      map[order[i]] = map[order[i - 1]];
+    }
+  }
+  return map;
+}
+
+void snap_points(Points& points, const std::vector<char>& used, double fraction)
+{
+  Box box;
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    if (used[v])
+    {
+      box.add(points.row(v));
+    }
+  }
+  if (box.diagonal() <= 0.0)
+  {
+    return;
+  }
+  const double step = std::exp2(std::round(std::log2(fraction * box.diagonal())));
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      points(v, k) = std::round(points(v, k) / step) * step;
+    }
+  }
+}
+
+bool is_flat(const Points& points, const Triangles& triangles)
+{
+  if (triangles.rows() == 0)
+  {
+    return true;
+  }
+  const Vec3 a = points.row(triangles(0, 0));
+  const Vec3 b = points.row(triangles(0, 1));
+  const Vec3 c = points.row(triangles(0, 2));
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    if (orientation_3d(a, b, c, points.row(v)) != 0)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+double area(const Points& points, const Triangles& triangles, Index t)
+{
+  const Vec3 a = points.row(triangles(t, 0));
+  const Vec3 b = points.row(triangles(t, 1));
+  const Vec3 c = points.row(triangles(t, 2));
+  return 0.5 * (b - a).cross(c - a).norm();
+}
+
+/// Turns the smaller part of every patch whose triangles disagree. @return triangles turned.
+Index agree_within_patches(const Points& points, Triangles& triangles)
+{
+  const std::vector<TriangleSide> sides = sides_by_edge(triangles);
+  struct Neighbour
+  {
+    Index triangle = -1;
+    bool agrees = true;
+  };
+  std::vector<std::array<Neighbour, 3>> neighbours(static_cast<std::size_t>(triangles.rows()));
+  std::vector<char> count(neighbours.size(), 0);
+  for (std::size_t i = 0; i < sides.size();)
+  {
+    const std::size_t j = end_of_edge(sides, i);
+    if (j == i + 2)
+    {
+      const bool agrees = sides[i].forward != sides[i + 1].forward;
+      const Index s = sides[i].triangle;
+      const Index t = sides[i + 1].triangle;
+      neighbours[s][count[s]++] = { t, agrees };
+      neighbours[t][count[t]++] = { s, agrees };
+    }
+    i = j;
+  }
+  std::vector<signed char> parity(neighbours.size(), -1);
+  std::vector<Index> patch;
+  Index turned = 0;
+  for (Index start = 0; start < triangles.rows(); ++start)
+  {
+    if (parity[start] >= 0)
+    {
+      continue;
+    }
+    patch.assign(1, start);
+    parity[start] = 0;
+    bool orientable = true;
+    double areas[2] = { 0.0, 0.0 };
+    for (std::size_t i = 0; i < patch.size(); ++i)
+    {
+      const Index t = patch[i];
+      areas[parity[t]] += area(points, triangles, t);
+      for (int k = 0; k < count[t]; ++k)
+      {
+        const Neighbour& n = neighbours[t][k];
+        const auto expected = static_cast<signed char>(n.agrees ? parity[t] : 1 - parity[t]);
+        if (parity[n.triangle] < 0)
+        {
+          parity[n.triangle] = expected;
+          patch.push_back(n.triangle);
+        }
+        orientable = orientable && parity[n.triangle] == expected;
+      }
+    }
+    if (!orientable)
+    {
+      continue; // one-sided, like a Moebius strip: no orientation is right
+    }
+    const int minority = areas[1] <= areas[0] ? 1 : 0;
+    for (const Index t : patch)
+    {
+      if (parity[t] == minority)
+      {
+        std::swap(triangles(t, 1), triangles(t, 2));
+        ++turned;
+      }
+    }
+  }
+  return turned;
+}
+
+struct Shell
+{
+  std::vector<Index> triangles;
+  Box box;
+  double volume = 0.0;
+  bool closed = true;
+};
+
+/// #F patch of each triangle: triangles joined by edges that two triangles use; named by one of
+/// its triangles.
+std::vector<Index> patches_of(const std::vector<TriangleSide>& sides, Index triangle_count)
+{
+  DisjointSets<Index> sets(static_cast<std::size_t>(triangle_count));
+  for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
+  {
+    j = end_of_edge(sides, i);
+    if (j == i + 2)
+    {
+      sets.unite(sides[i].triangle, sides[i + 1].triangle);
+    }
+  }
+  std::vector<Index> patch(static_cast<std::size_t>(triangle_count));
+  for (Index t = 0; t < triangle_count; ++t)
+  {
+    patch[t] = sets.find(t);
+  }
+  return patch;
+}
+
+/// #F shell of each triangle: first a component each for what is not closed by itself, then the
+/// patches that are: solids that touch in edges or vertices have one each. @return the shells.
+std::vector<Shell> told_apart(
+  const Triangles& triangles, const Components& components, std::vector<Index>& shell_of)
+{
+  const std::vector<TriangleSide> sides = sides_by_edge(triangles);
+  const std::vector<Index> patch = patches_of(sides, triangles.rows());
+  // Group by group at every edge: do the directions cancel?
+  const auto close = [&](const auto& group_of, std::vector<char>& closed)
+  {
+    std::vector<std::pair<Index, int>> directions;
+    for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
+    {
+      j = end_of_edge(sides, i);
+      directions.clear();
+      for (std::size_t k = i; k < j; ++k)
+      {
+        directions.emplace_back(group_of(sides[k].triangle), sides[k].forward ? 1 : -1);
+      }
+      std::sort(directions.begin(), directions.end());
+      for (std::size_t k = 0, l = 0; k < directions.size(); k = l)
+      {
+        int sum = 0;
+        for (l = k; l < directions.size() && directions[l].first == directions[k].first; ++l)
+        {
+          sum += directions[l].second;
+        }
+        closed[directions[k].first] = closed[directions[k].first] && sum == 0;
+      }
+    }
+  };
+  std::vector<char> closed_patch(patch.size(), 1);
+  close([&](Index t) { return patch[t]; }, closed_patch);
+  std::vector<Shell> shells(static_cast<std::size_t>(components.count));
+  std::vector<Index> shell_of_patch(patch.size(), -1);
+  shell_of.resize(patch.size());
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    Index& shell = shell_of_patch[patch[t]];
+    if (!closed_patch[patch[t]])
+    {
+      shell = components.of_vertex[triangles(t, 0)];
+    }
+    else if (shell < 0)
+    {
+      shell = static_cast<Index>(shells.size());
+      shells.emplace_back();
+    }
+    shell_of[t] = shell;
+  }
+  std::vector<char> closed(shells.size(), 1);
+  close([&](Index t) { return shell_of[t]; }, closed);
+  for (std::size_t s = 0; s < shells.size(); ++s)
+  {
+    shells[s].closed = closed[s];
+  }
+  return shells;
+}
+
+std::vector<Shell> shells_of(
+  const Points& points, const Triangles& triangles, const Components& components)
+{
+  std::vector<Index> shell_of;
+  std::vector<Shell> shells = told_apart(triangles, components, shell_of);
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    Shell& shell = shells[shell_of[t]];
+    shell.triangles.push_back(t);
+    for (int k = 0; k < 3; ++k)
+    {
+      shell.box.add(points.row(triangles(t, k)));
+    }
+  }
+  for (Shell& shell : shells)
+  {
+    const Vec3 c = shell.box.center();
+    for (const Index t : shell.triangles)
+    {
+      shell.volume += tet_volume(
+        c, points.row(triangles(t, 0)), points.row(triangles(t, 1)), points.row(triangles(t, 2)));
+    }
+  }
+  return shells;
+}
+
+/// Winding number of one closed shell at a point: the plain sum of solid angles.
+double winding_of_shell(
+  const Points& points, const Triangles& triangles, const Shell& shell, const Vec3& p)
+{
+  double half_angles = 0.0;
+  for (const Index t : shell.triangles)
+  {
+    const Vec3 a = points.row(triangles(t, 0)).transpose() - p;
+    const Vec3 b = points.row(triangles(t, 1)).transpose() - p;
+    const Vec3 c = points.row(triangles(t, 2)).transpose() - p;
+    const double la = a.norm(), lb = b.norm(), lc = c.norm();
+    half_angles +=
+      std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
+  }
+  constexpr double two_pi = 6.283185307179586477;
+  return half_angles / two_pi;
+}
+
+/// Most of some of its triangles' centres do: where shells touch, numbers are between.
+bool lies_in(
+  const Points& points, const Triangles& triangles, const Shell& shell, const Shell& container)
+{
+  constexpr std::size_t looks = 5;
+  constexpr double inside = 0.75;
+  const std::size_t step = (shell.triangles.size() + looks - 1) / looks;
+  int in = 0;
+  int out = 0;
+  for (std::size_t i = 0; i < shell.triangles.size(); i += step)
+  {
+    const auto t = triangles.row(shell.triangles[i]);
+    const Vec3 p = (points.row(t[0]) + points.row(t[1]) + points.row(t[2])) / 3.0;
+    (std::abs(winding_of_shell(points, triangles, container, p)) > inside ? in : out) += 1;
+  }
+  return in > out;
+}
+
+/// Shells that are inside out: closed, in no other closed shell, of negative volume; and, behind
+/// each, the closed shells that lie in it.
+struct InwardShells
+{
+  std::vector<Index> roots; ///< shells that are inside out themselves
+  std::vector<Index> turn; ///< shells to turn
+};
+
+InwardShells inward_shells(
+  const Points& points, const Triangles& triangles, const std::vector<Shell>& shells)
+{
+  std::vector<Index> order;
+  for (std::size_t s = 0; s < shells.size(); ++s)
+  {
+    // Nothing is inside out that encloses next to nothing (a sheet and its turned copy).
+    constexpr double rounding = 1e-12;
+    const double size = shells[s].box.diagonal();
+    if (shells[s].closed && std::abs(shells[s].volume) > rounding * size * size * size)
+    {
+      order.push_back(static_cast<Index>(s));
+    }
+  }
+  std::sort(order.begin(), order.end(),
+    [&](Index s, Index t)
+    {
+      const double x = std::abs(shells[s].volume);
+      const double y = std::abs(shells[t].volume);
+      return x != y ? x > y : s < t;
+    });
+  InwardShells result;
+  std::vector<Index> roots;
+  std::vector<char> turned(shells.size(), 0);
+  for (const Index s : order)
+  {
+    const Shell& shell = shells[s];
+    const auto container = std::find_if(roots.begin(), roots.end(),
+      [&](Index r)
+      {
+        const Box& box = shells[r].box;
+        return (box.lower.array() <= shell.box.lower.array()).all() &&
+          (shell.box.upper.array() <= box.upper.array()).all() &&
+          lies_in(points, triangles, shell, shells[r]);
+      });
+    if (container == roots.end())
+    {
+      roots.push_back(s);
+      turned[s] = shell.volume < 0.0;
+      if (turned[s])
+      {
+        result.roots.push_back(s);
+      }
+    }
+    else
+    {
+      turned[s] = turned[*container];
+    }
+    if (turned[s])
+    {
+      result.turn.push_back(s);
+    }
+  }
+  return result;
+}
+
+void weld_and_drop(PointsView points, TrianglesView triangles, const RepairOptions& options,
+  RepairedSurface& repaired)
+{
+  SurfaceDiagnosis& found = repaired.found;
+  std::vector<char> used(static_cast<std::size_t>(points.rows()), 0);
+  for (Index k = 0; k < triangles.size(); ++k)
+  {
+    used[triangles.data()[k]] = 1;
+  }
+  Points moved = points;
+  if (options.snap > 0.0)
+  {
+    snap_points(moved, used, options.snap);
+  }
+  const std::vector<Index> weld = weld_map(moved, used);
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    found.unreferenced_vertices += !used[v];
+    found.duplicate_vertices += weld[v] != v;
+  }
+  std::vector<char> keep(static_cast<std::size_t>(points.rows()), 0);
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    const Key key{ weld[triangles(t, 0)], weld[triangles(t, 1)], weld[triangles(t, 2)] };
+    if (collinear(moved.row(key[0]), moved.row(key[1]), moved.row(key[2])))
+    {
+      found.degenerate_triangles += 1;
+      continue;
+    }
+    repaired.original_triangles.push_back(t);
+    keep[key[0]] = keep[key[1]] = keep[key[2]] = 1;
+  }
+  std::vector<Index> id(keep.size(), -1);
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    if (keep[v])
+    {
+      id[v] = static_cast<Index>(repaired.original_vertices.size());
+      repaired.original_vertices.push_back(v);
+    }
+  }
+  repaired.points.resize(static_cast<Index>(repaired.original_vertices.size()), 3);
+  for (Index v = 0; v < repaired.points.rows(); ++v)
+  {
+    repaired.points.row(v) = moved.row(repaired.original_vertices[v]);
+  }
+  repaired.triangles.resize(static_cast<Index>(repaired.original_triangles.size()), 3);
+  for (Index t = 0; t < repaired.triangles.rows(); ++t)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      repaired.triangles(t, k) = id[weld[triangles(repaired.original_triangles[t], k)]];
+    }
+  }
+  repaired.lowest_equal = weld;
+}
+
+Index count_duplicates(const Triangles& triangles)
+{
+  std::vector<Key> keys;
+  keys.reserve(static_cast<std::size_t>(triangles.rows()));
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    keys.push_back(sorted_key(triangles, t));
+  }
+  std::sort(keys.begin(), keys.end());
+  Index duplicates = 0;
+  for (std::size_t i = 1; i < keys.size(); ++i)
+  {
+    duplicates += keys[i] == keys[i - 1];
+  }
+  return duplicates;
+}
+} // namespace
+
+void add_to_report(const SurfaceDiagnosis& d, Report& report)
+{
+  const auto set = [&](const char* key, Index value) { report.set(key, Report::Value(value)); };
+  set("counts.vertices", d.vertices);
+  set("counts.triangles", d.triangles);
+  set("counts.duplicate_vertices", d.duplicate_vertices);
+  set("counts.unreferenced_vertices", d.unreferenced_vertices);
+  set("counts.degenerate_triangles", d.degenerate_triangles);
+  set("counts.duplicate_triangles", d.duplicate_triangles);
+  set("counts.boundary_edges", d.boundary_edges);
+  set("counts.nonmanifold_edges", d.nonmanifold_edges);
+  set("counts.misoriented_edges", d.misoriented_edges);
+  set("counts.components", d.components);
+  set("counts.inward_components", d.inward_components);
+  set("counts.self_intersections", d.self_intersections);
+}
+
+Status repair_surface(PointsView points, TrianglesView triangles, const RepairOptions& options,
+  RepairedSurface& repaired, ExecutionContext& context)
+{
+  repaired = RepairedSurface();
+  Status status = check_mesh(points, triangles);
+  if (!status.ok())
+  {
+    return status;
+  }
+  SurfaceDiagnosis& found = repaired.found;
+  found.vertices = points.rows();
+  found.triangles = triangles.rows();
+  weld_and_drop(points, triangles, options, repaired);
+  found.flat = is_flat(repaired.points, repaired.triangles);
+  found.duplicate_triangles = count_duplicates(repaired.triangles);
+  const EdgeCounts edges = count_edges(repaired.triangles);
+  found.boundary_edges = edges.boundary;
+  found.nonmanifold_edges = edges.nonmanifold;
+  found.misoriented_edges = edges.misoriented;
+  found.closed = edges.closed && repaired.triangles.rows() > 0;
+  if (context.cancelled())
+  {
+    return Status::cancelled();
+  }
+  if (options.orient && found.misoriented_edges > 0)
+  {
+    repaired.turned_triangles = agree_within_patches(repaired.points, repaired.triangles);
+  }
+  const Components components = connected_components(repaired.points.rows(), repaired.triangles);
+  const std::vector<Shell> shells = shells_of(repaired.points, repaired.triangles, components);
+  const InwardShells inward = inward_shells(repaired.points, repaired.triangles, shells);
+  found.components = components.count;
+  found.inward_components = static_cast<Index>(inward.roots.size());
+  for (const Index s : inward.roots)
+  {
+    repaired.inward_triangles.insert(
+      repaired.inward_triangles.end(), shells[s].triangles.begin(), shells[s].triangles.end());
+  }
+  std::sort(repaired.inward_triangles.begin(), repaired.inward_triangles.end());
+  if (options.orient)
+  {
+    repaired.turned_components = found.inward_components;
+    for (const Index s : inward.turn)
+    {
+      for (const Index t : shells[s].triangles)
+      {
+        std::swap(repaired.triangles(t, 1), repaired.triangles(t, 2));
+      }
+    }
+  }
+  repaired.closed =
+    repaired.turned_triangles == 0 ? found.closed : count_edges(repaired.triangles).closed;
+  if (options.count_self_intersections)
+  {
+    if (!crossing_pairs(repaired.points, repaired.triangles, repaired.crossings, context))
+    {
+      return Status::cancelled();
+    }
+    found.self_intersections = static_cast<Index>(repaired.crossings.size());
+  }
+  return context.cancelled() ? Status::cancelled() : Status();
+}
+
+Status diagnose_surface(PointsView points, TrianglesView triangles, SurfaceDiagnosis& diagnosis,
+  ExecutionContext& context)
+{
+  RepairOptions options;
+  options.orient = false;
+  RepairedSurface repaired;
+  Status status = repair_surface(points, triangles, options, repaired, context);
+  diagnosis = repaired.found;
+  return status;
+}
+
+} // namespace bindpose

@@ -1,0 +1,287 @@
+// Top-down tree, split at the median of the longest side; ties by triangle id, so that the tree and
+// everything that comes from it are the same on every machine.
+#include "surface/triangle_tree.h"
+
+#include "base/parallel.h"
+#include "surface/triangle_predicates.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr Index leaf_size = 4;
+constexpr Index most_crossings = 1000;
+
+bool boxes_meet(const Box& a, const Box& b)
+{
+  return (a.lower.array() <= b.upper.array()).all() && (b.lower.array() <= a.upper.array()).all();
+}
+
+double squared_distance(const Box& box, const Vec3& p)
+{
+  return (box.lower - p).cwiseMax(p - box.upper).cwiseMax(0.0).squaredNorm();
+}
+} // namespace
+
+TriangleTree::TriangleTree(PointsView points, TrianglesView triangles)
+  : points_(points), triangles_(triangles)
+{
+  const auto count = static_cast<std::size_t>(triangles.rows());
+  std::vector<Item> items(count);
+  this->boxes_.resize(count);
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      this->boxes_[t].add(points.row(triangles(t, k)));
+    }
+    items[t] = { this->boxes_[t].center(), t };
+  }
+  this->nodes_.reserve(count);
+  if (triangles.rows() > 0)
+  {
+    this->build(items, 0, triangles.rows());
+  }
+  std::vector<Box> boxes(count);
+  this->order_.resize(count);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    this->order_[i] = items[i].triangle;
+    boxes[i] = this->boxes_[items[i].triangle];
+  }
+  this->boxes_ = std::move(boxes);
+}
+
+Box TriangleTree::build(std::vector<Item>& items, Index begin, Index end)
+{
+  const std::size_t self = this->nodes_.size();
+  this->nodes_.push_back({ Box(), begin, end, -1 });
+  Box box;
+  if (end - begin <= leaf_size)
+  {
+    for (Index i = begin; i < end; ++i)
+    {
+      const Box& one = this->boxes_[items[i].triangle];
+      box.add(one.lower);
+      box.add(one.upper);
+    }
+    this->leaves_.push_back(static_cast<Index>(self));
+  }
+  else
+  {
+    Box centers;
+    for (Index i = begin; i < end; ++i)
+    {
+      centers.add(items[i].center);
+    }
+    Index axis = 0;
+    centers.size().maxCoeff(&axis);
+    const Index middle = begin + (end - begin) / 2;
+    std::nth_element(items.begin() + begin, items.begin() + middle, items.begin() + end,
+      [axis](const Item& a, const Item& b)
+      {
+        return a.center[axis] != b.center[axis] ? a.center[axis] < b.center[axis]
+                                                : a.triangle < b.triangle;
+      });
+    box = this->build(items, begin, middle);
+    this->nodes_[self].right = static_cast<Index>(this->nodes_.size());
+    const Box right = this->build(items, middle, end);
+    box.add(right.lower);
+    box.add(right.upper);
+  }
+  this->nodes_[self].box = box;
+  return box;
+}
+
+double TriangleTree::distance(const Vec3& p, double limit) const
+{
+  double best = limit * limit;
+  bool found = false;
+  std::vector<Index> stack;
+  if (!this->nodes_.empty())
+  {
+    stack.push_back(0);
+  }
+  while (!stack.empty())
+  {
+    const Index at = stack.back();
+    stack.pop_back();
+    const Node& node = this->nodes_[at];
+    if (squared_distance(node.box, p) > best)
+    {
+      continue;
+    }
+    if (node.right < 0)
+    {
+      for (Index i = node.begin; i < node.end; ++i)
+      {
+        const auto t = this->triangles_.row(this->order_[i]);
+        const double d = (closest_point(p, this->points_.row(t[0]), this->points_.row(t[1]),
+                            this->points_.row(t[2])) -
+          p)
+                           .squaredNorm();
+        if (d <= best)
+        {
+          best = d;
+          found = true;
+        }
+      }
+      continue;
+    }
+    // The nearer child last: it is looked at first.
+    const Index left = at + 1;
+    const bool left_nearer = squared_distance(this->nodes_[left].box, p) <=
+      squared_distance(this->nodes_[node.right].box, p);
+    stack.push_back(left_nearer ? node.right : left);
+    stack.push_back(left_nearer ? left : node.right);
+  }
+  return found ? std::sqrt(best) : std::numeric_limits<double>::infinity();
+}
+
+/// From the root: below nodes that `enter` says true of, to leaves; until `at_leaf` says false.
+template <typename Enter, typename AtLeaf>
+void TriangleTree::visit(const Enter& enter, const AtLeaf& at_leaf) const
+{
+  std::vector<Index> stack;
+  if (!this->nodes_.empty())
+  {
+    stack.push_back(0);
+  }
+  while (!stack.empty())
+  {
+    const Index at = stack.back();
+    stack.pop_back();
+    const Node& node = this->nodes_[at];
+    if (!enter(node))
+    {
+      continue;
+    }
+    if (node.right >= 0)
+    {
+      stack.push_back(node.right);
+      stack.push_back(at + 1);
+    }
+    else if (!at_leaf(node))
+    {
+      return;
+    }
+  }
+}
+
+bool TriangleTree::segment_meets(
+  const Vec3& a, const Vec3& b, const std::function<bool(Index)>& counts) const
+{
+  Box box;
+  box.add(a);
+  box.add(b);
+  const Vec3 along = b - a;
+  // Slabs: where along the segment it is between the planes of a box, for each axis.
+  const auto passes = [&](const Box& node)
+  {
+    if (!boxes_meet(node, box))
+    {
+      return false;
+    }
+    double first = 0.0;
+    double last = 1.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      if (along[k] != 0.0)
+      {
+        const double t = (node.lower[k] - a[k]) / along[k];
+        const double u = (node.upper[k] - a[k]) / along[k];
+        constexpr double rounding = 1e-12;
+        first = std::max(first, std::min(t, u) - rounding);
+        last = std::min(last, std::max(t, u) + rounding);
+      }
+    }
+    return first <= last;
+  };
+  bool met = false;
+  this->visit([&](const Node& node) { return passes(node.box); },
+    [&](const Node& node)
+    {
+      for (Index i = node.begin; i < node.end && !met; ++i)
+      {
+        const auto t = this->triangles_.row(this->order_[i]);
+        met = passes(this->boxes_[i]) && counts(this->order_[i]) &&
+          segment_meets_triangle(
+            a, b, this->points_.row(t[0]), this->points_.row(t[1]), this->points_.row(t[2]));
+      }
+      return !met;
+    });
+  return met;
+}
+
+void TriangleTree::pairs_of_leaf(Index leaf, const std::function<bool(Index, Index)>& found) const
+{
+  const Node& own = this->nodes_[this->leaves_[leaf]];
+  std::array<bool, leaf_size> finished{};
+  Index left = own.end - own.begin; // triangles that are not finished
+  this->visit([&](const Node& node)
+    { return node.end > own.begin && boxes_meet(node.box, own.box); },
+    [&](const Node& node)
+    {
+      for (Index i = own.begin; i < own.end; ++i)
+      {
+        bool& done = finished[i - own.begin];
+        for (Index j = std::max(i + 1, node.begin); j < node.end && !done; ++j)
+        {
+          if (boxes_meet(this->boxes_[i], this->boxes_[j]) &&
+            !found(this->order_[i], this->order_[j]))
+          {
+            done = true;
+            --left;
+          }
+        }
+      }
+      return left > 0;
+    });
+}
+
+bool crossing_pairs(PointsView points, TrianglesView triangles,
+  std::vector<std::pair<Index, Index>>& pairs, ExecutionContext& context)
+{
+  const TriangleTree tree(points, triangles);
+  const Index block = 64;
+  const Index blocks = (tree.leaf_count() + block - 1) / block;
+  std::vector<std::vector<std::pair<Index, Index>>> of_block(static_cast<std::size_t>(blocks));
+  const bool whole = parallel_for(context, tree.leaf_count(), block,
+    [&](Index begin, Index end)
+    {
+      auto& mine = of_block[static_cast<std::size_t>(begin / block)];
+      for (Index leaf = begin; leaf < end; ++leaf)
+      {
+        std::map<Index, Index> crossed; // by triangle
+        Index looked = 0;
+        tree.pairs_of_leaf(leaf,
+          [&](Index f, Index g)
+          {
+            constexpr Index often = 1024;
+            const bool goes_on = ++looked % often != 0 || !context.cancelled();
+            if (!triangles_cross(points, triangles, f, g))
+            {
+              return goes_on;
+            }
+            mine.push_back(std::minmax(f, g));
+            return goes_on && ++crossed[f] < most_crossings;
+          });
+      }
+    });
+  pairs.clear();
+  for (const auto& list : of_block)
+  {
+    pairs.insert(pairs.end(), list.begin(), list.end());
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return whole && !context.cancelled();
+}
+
+} // namespace bindpose

@@ -1,0 +1,47 @@
+#include "surface/unit_frame.h"
+
+#include <cmath>
+
+namespace bindpose
+{
+
+UnitFrame::UnitFrame(const Box& box)
+  : center_(box.center()), scale_(std::exp2(-std::floor(std::log2(box.diagonal()))))
+{
+}
+
+Points UnitFrame::into(PointsView points) const
+{
+  return (points.rowwise() - this->center_.transpose()) * this->scale_;
+}
+
+Points UnitFrame::back(PointsView points) const
+{
+  return (points / this->scale_).rowwise() + this->center_.transpose();
+}
+
+Status check_frame(PointsView points, TrianglesView triangles)
+{
+  Status status = check_mesh(points, triangles);
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (triangles.rows() == 0)
+  {
+    return Status::invalid_input("the surface has no triangles");
+  }
+  const double diagonal = bounding_box(points, triangles).diagonal();
+  if (!(diagonal > 0.0))
+  {
+    return Status::invalid_input("all points of the surface are one point");
+  }
+  constexpr double largest = 1e100;
+  if (!(diagonal < largest))
+  {
+    return Status::invalid_input("the surface is larger than 1e100");
+  }
+  return {};
+}
+
+} // namespace bindpose

@@ -1,0 +1,225 @@
+// The problem is the sum of a quadratic and of barriers, one a vertex. Douglas-Rachford splitting
+// treats them in turn, in the metric P, a small multiple of A's diagonal:
+//   y = argmin barrier(y) + 1/2 |y - z|_P^2      (a scalar equation a vertex)
+//   x = argmin quadratic(x) + 1/2 |x - (2y - z)|_P^2 = (A + P)^-1 (P (2y - z) - c)
+//   z = z + relaxation (x - y)
+// The matrix A + P is the same for all columns and steps, so the solves of all columns share its
+// factor and run as dense products. Anderson acceleration: z jumps to the combination of the last
+// few steps that would make the change x - y smallest if the map were linear.
+//
+// The constants were measured on boxes and on real shapes of 5k to 70k vertices.
+#include "weights/barrier_start.h"
+
+#include "base/parallel.h"
+
+#include <Eigen/Cholesky>
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+using Eigen::MatrixXd;
+using Eigen::MatrixXf;
+using Eigen::VectorXd;
+using Eigen::VectorXf;
+
+constexpr double relative_mu = 1e-3; // the gap aimed at
+constexpr double metric = 3e-3; // of A's diagonal
+constexpr double relaxation = 1.7;
+constexpr int steps = 80;
+constexpr int memory = 8; // steps that Anderson acceleration looks back
+constexpr Index largest_block = 8; // columns that are solved for together
+
+/// The y in (0, 1) with p (y - z) = mu / y - mu / (1 - y): Newton's method from the better end.
+double barrier_step(double z, double mu_per_p)
+{
+  // Without the other bound's barrier the equation is quadratic; start from the nearer one.
+  const bool low = z < 0.5;
+  const double t = low ? z : 1.0 - z;
+  const double root = std::sqrt(t * t + 4.0 * mu_per_p);
+  double y = t > 0.0 ? 0.5 * (t + root) : 2.0 * mu_per_p / (root - t);
+  y = std::min(y, 0.5);
+  for (int k = 0; k < 4; ++k)
+  {
+    const double other = 1.0 - y;
+    const double f = y - t - mu_per_p / y + mu_per_p / other;
+    const double slope = 1.0 + mu_per_p / (y * y) + mu_per_p / (other * other);
+    const double next = y - f / slope;
+    y = next > 0.0 ? next : 0.5 * y;
+    if (std::abs(f) < 1e-9 * slope * y)
+    {
+      break;
+    }
+  }
+  y = std::clamp(y, 1e-300, 1.0);
+  return low ? y : 1.0 - y;
+}
+
+/// The last steps of one column, and the jump they suggest. Inner products in the metric.
+class Anderson
+{
+public:
+  explicit Anderson(Index size) : points_(size, memory), changes_(size, memory) {}
+
+  /// @param z where the map was applied; becomes where to apply it next.
+  /// @param change map(z) - z
+  void accelerate(VectorXd& z, const VectorXd& change, const VectorXd& weights)
+  {
+    const VectorXf f = change.cwiseProduct(weights).cast<float>();
+    const VectorXf at = z.cwiseProduct(weights).cast<float>();
+    const double size = f.squaredNorm();
+    if (this->count_ < 0 || size > 4.0 * this->last_size_)
+    {
+      this->count_ = 0; // the past is of no use
+    }
+    else
+    {
+      const int slot = this->next_;
+      this->points_.col(slot) = at - this->last_point_;
+      this->changes_.col(slot) = f - this->last_change_;
+      this->next_ = (slot + 1) % memory;
+      this->count_ = std::min(this->count_ + 1, memory);
+      this->gram_.row(slot).head(this->count_) =
+        (this->changes_.leftCols(this->count_).transpose() * this->changes_.col(slot))
+          .cast<double>()
+          .transpose();
+      this->gram_.col(slot).head(this->count_) =
+        this->gram_.row(slot).head(this->count_).transpose();
+    }
+    this->last_size_ = size;
+    this->last_point_ = at;
+    this->last_change_ = f;
+    z += change;
+    if (this->count_ > 0)
+    {
+      const int m = this->count_;
+      MatrixXd gram = this->gram_.topLeftCorner(m, m);
+      gram.diagonal() *= 1.0 + 1e-6;
+      gram.diagonal().array() += 1e-30;
+      const VectorXd gamma =
+        gram.ldlt().solve((this->changes_.leftCols(m).transpose() * f).cast<double>());
+      if (gamma.allFinite())
+      {
+        const VectorXf g = gamma.cast<float>();
+        z -= (this->points_.leftCols(m) * g + this->changes_.leftCols(m) * g)
+               .cast<double>()
+               .cwiseQuotient(weights);
+      }
+    }
+    else
+    {
+      this->next_ = 0;
+    }
+  }
+
+private:
+  MatrixXf points_, changes_; // differences of successive z and of successive changes
+  MatrixXd gram_ = MatrixXd::Zero(memory, memory);
+  VectorXf last_point_, last_change_;
+  double last_size_ = 0.0;
+  int count_ = -1; // columns in use; -1: nothing seen yet
+  int next_ = 0;
+};
+} // namespace
+
+std::vector<CentralStart> barrier_start(const SplitForm& matrices,
+  const std::vector<BoxQpColumn>& columns, const MatrixXd& unconstrained, FloatCholesky& single,
+  ExecutionContext& context)
+{
+  const auto n = static_cast<Index>(matrices.free_vertices.size());
+  const auto count = static_cast<Index>(columns.size());
+  std::vector<CentralStart> starts(columns.size());
+  VectorXd p(n);
+  SparseMatrix shifted = matrices.lower;
+  for (Index i = 0; i < n; ++i)
+  {
+    double& diagonal = shifted.valuePtr()[matrices.diagonal[i]];
+    p[i] = metric * diagonal;
+    diagonal += p[i];
+  }
+  if (!single.factor(shifted, 0.0, context).ok())
+  {
+    return starts;
+  }
+  const VectorXd weights = p.cwiseSqrt();
+  const Index blocks = (count + largest_block - 1) / largest_block;
+  const Index block = (count + blocks - 1) / blocks;
+  parallel_for(context, blocks, 1,
+    [&](Index begin, Index)
+    {
+      const Index first = std::min(begin * block, count);
+      const Index width = std::min(block, count - first);
+      MatrixXd z(n, width), y(n, width), rhs(n, width), x;
+      MatrixXd c(n, width);
+      std::vector<char> pinned(static_cast<std::size_t>(n * width), 0);
+      VectorXd mu(width);
+      std::vector<Anderson> anderson;
+      for (Index k = 0; k < width; ++k)
+      {
+        const BoxQpColumn& column = columns[static_cast<std::size_t>(first + k)];
+        const VectorXd free_of_bounds = unconstrained.col(first + k);
+        c.col(k) = matrices.to_fixed * column.fixed_values;
+        mu[k] = relative_mu * 0.5 * free_of_bounds.dot(matrices.q.transpose() * free_of_bounds) /
+          static_cast<double>(2 * n);
+        for (Index i = 0; i < n; ++i)
+        {
+          z(i, k) = std::clamp(free_of_bounds[matrices.free_vertices[i]], 0.0, 1.0);
+        }
+        for (std::size_t i = 0; i < column.pinned.size(); ++i)
+        {
+          const Index at = matrices.free_of_vertex[column.pinned[i]];
+          if (at >= 0)
+          {
+            pinned[static_cast<std::size_t>(k * n + at)] = 1;
+            y(at, k) = column.pinned_values[static_cast<Index>(i)];
+          }
+        }
+        anderson.emplace_back(n);
+      }
+      for (int step = 0; step <= steps && !context.cancelled(); ++step)
+      {
+        for (Index k = 0; k < width; ++k)
+        {
+          const char* given = pinned.data() + k * n;
+          for (Index i = 0; i < n; ++i)
+          {
+            if (!given[i])
+            {
+              y(i, k) = barrier_step(z(i, k), mu[k] / p[i]);
+            }
+          }
+        }
+        if (step == steps)
+        {
+          break;
+        }
+        rhs = p.asDiagonal() * (2.0 * y - z) - c;
+        single.solve(rhs, x);
+        for (Index k = 0; k < width; ++k)
+        {
+          VectorXd at = z.col(k);
+          const VectorXd change = relaxation * (x.col(k) - y.col(k));
+          anderson[static_cast<std::size_t>(k)].accelerate(at, change, weights);
+          z.col(k) = at;
+        }
+        if (begin == 0)
+        {
+          context.progress(static_cast<double>(step) / steps / static_cast<double>(blocks));
+        }
+      }
+      for (Index k = 0; k < width; ++k)
+      {
+        CentralStart& start = starts[static_cast<std::size_t>(first + k)];
+        start.x = y.col(k);
+        start.mu =
+          !context.cancelled() && std::isfinite(mu[k]) && start.x.allFinite() ? mu[k] : 0.0;
+      }
+    });
+  return starts;
+}
+
+} // namespace bindpose

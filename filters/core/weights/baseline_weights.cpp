@@ -1,0 +1,439 @@
+// Distances are straight ones from vertices to the handles' own geometry: points, segments of
+// bones, labelled vertices of regions. What is solved for are the vertices that are not fixed:
+//   smoothed harmonic   (M + length^4 Q) w = M h, from K h = 0 and the biharmonic Q = K M^-1 K:
+//   from
+//                       h, for no length, to the biharmonic weights, for a great one
+//   bone heat           (K + M H) w_j = M H p_j, H = heat / d^2 where the nearest handle is in
+//                       sight, p_j its share among the nearest
+// with M the true masses of the mesh scaled to diagonal 1, so that units do not matter.
+#include "weights/baseline_weights.h"
+
+#include "base/parallel.h"
+#include "surface/triangle_predicates.h"
+#include "surface/triangle_tree.h"
+#include "weights/simplex_locator.h"
+#include "weights/split_form.h"
+
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+
+namespace bindpose
+{
+
+namespace
+{
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Places of the handles that are nearest to points.
+class HandleDistances
+{
+public:
+  explicit HandleDistances(const WeightsProblem& problem) : problem_(problem)
+  {
+    const HandleConstraints& constraints = problem.constraints;
+    this->region_points_.resize(problem.handles.size());
+    this->region_triangles_.resize(problem.handles.size());
+    this->regions_.resize(problem.handles.size());
+    for (std::size_t j = 0; j < problem.handles.size(); ++j)
+    {
+      if (problem.handles[j].kind != HandleKind::region)
+      {
+        continue;
+      }
+      // Its vertices, as triangles without area.
+      std::vector<Index> members;
+      for (std::size_t i = 0; i < constraints.vertices.size(); ++i)
+      {
+        if (constraints.values(static_cast<Index>(i), static_cast<Index>(j)) > 0.0)
+        {
+          members.push_back(constraints.vertices[i]);
+        }
+      }
+      Points& points = this->region_points_[j];
+      Triangles& triangles = this->region_triangles_[j];
+      points.resize(static_cast<Index>(members.size()), 3);
+      triangles.resize(points.rows(), 3);
+      for (Index i = 0; i < points.rows(); ++i)
+      {
+        points.row(i) = problem.mesh.domain.points.row(members[i]);
+        triangles.row(i).setConstant(i);
+      }
+      this->regions_[j] = std::make_unique<SimplexLocator>(points, triangles);
+    }
+  }
+
+  /// The point of handle j that is nearest to p. Thread-safe.
+  Vec3 nearest(std::size_t j, const Vec3& p) const
+  {
+    const Handle& handle = this->problem_.handles[j];
+    if (handle.kind == HandleKind::region)
+    {
+      const SimplexLocation place = this->regions_[j]->locate(p);
+      return place.element < 0 ? handle.head : Vec3(this->region_points_[j].row(place.element));
+    }
+    return closest_point(p, handle.head, handle.tail, handle.tail);
+  }
+
+private:
+  const WeightsProblem& problem_;
+  std::vector<Points> region_points_;
+  std::vector<Triangles> region_triangles_;
+  std::vector<std::unique_ptr<SimplexLocator>> regions_;
+};
+
+bool solved(const WeightsProblem& problem, Index v)
+{
+  return problem.constraints.roles[v] == VertexRole::solved;
+}
+
+MatrixXd with_fixed_rows(const WeightsProblem& problem)
+{
+  MatrixXd w = MatrixXd::Zero(problem.vertex_count(), problem.handle_count());
+  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
+  {
+    w.row(problem.fixed[i]) = problem.fixed_values.row(static_cast<Index>(i));
+  }
+  return w;
+}
+
+Status inverse_distances(
+  const WeightsProblem& problem, double power, ExecutionContext& context, MatrixXd& w)
+{
+  const HandleDistances distances(problem);
+  const Index m = problem.handle_count();
+  const bool whole = parallel_for(context, problem.vertex_count(), 256,
+    [&](Index begin, Index end)
+    {
+      VectorXd d(m);
+      for (Index v = begin; v < end; ++v)
+      {
+        if (!solved(problem, v))
+        {
+          continue;
+        }
+        const Vec3 p = problem.mesh.domain.points.row(v);
+        for (Index j = 0; j < m; ++j)
+        {
+          d[j] = (distances.nearest(static_cast<std::size_t>(j), p) - p).norm();
+        }
+        // Relative to the nearest: no power overflows.
+        const double least = d.minCoeff();
+        for (Index j = 0; j < m; ++j)
+        {
+          w(v, j) = least > 0.0 ? std::pow(least / d[j], power) : double(d[j] == 0.0);
+        }
+        w.row(v) /= w.row(v).sum();
+      }
+    });
+  return whole ? Status() : Status::cancelled();
+}
+
+/// A symmetric matrix whose block of the vertices that are solved for is factored.
+class FreeSystem
+{
+public:
+  FreeSystem(const WeightsProblem& problem, const SparseMatrix& matrix)
+    : form_(matrix, problem.fixed), values_(problem.fixed_values)
+  {
+  }
+
+  Status factor(const SparseSolver::Options& options, ExecutionContext& context)
+  {
+    if (this->form_.free_vertices.empty())
+    {
+      return {};
+    }
+    this->solver_ = SparseSolver(options);
+    Status status = this->solver_.analyse(this->form_.lower);
+    status = status.ok() && !context.cancelled() ? this->solver_.factor(this->form_.lower) : status;
+    return context.cancelled() ? Status::cancelled() : status;
+  }
+
+  /// The solved rows of w from the right-hand side (#V x m).
+  /// @return of each column the largest residual, as the change of one vertex that would mend it.
+  VectorXd solve(const MatrixXd& rhs, MatrixXd& w) const
+  {
+    const std::vector<Index>& free = this->form_.free_vertices;
+    MatrixXd right(static_cast<Index>(free.size()), rhs.cols());
+    for (Index i = 0; i < right.rows(); ++i)
+    {
+      right.row(i) = rhs.row(free[i]);
+    }
+    right -= this->form_.to_fixed * this->values_;
+    const MatrixXd x = this->solver_.solve(right);
+    MatrixXd residuals = right - this->form_.a * x;
+    for (Index i = 0; i < right.rows(); ++i)
+    {
+      w.row(free[i]) = x.row(i);
+      residuals.row(i) /= this->form_.lower.valuePtr()[this->form_.diagonal[i]];
+    }
+    return free.empty() ? VectorXd::Zero(rhs.cols())
+                        : VectorXd(residuals.cwiseAbs().colwise().maxCoeff().transpose());
+  }
+
+private:
+  SplitForm form_;
+  const MatrixXd& values_; ///< #fixed x m
+  SparseSolver solver_;
+};
+
+SparseMatrix with_diagonal(const SparseMatrix& matrix, double factor, const VectorXd& diagonal)
+{
+  SparseMatrix sum = factor * matrix;
+  SparseMatrix d(matrix.rows(), matrix.cols());
+  d.reserve(Eigen::VectorXi::Constant(matrix.cols(), 1));
+  for (int v = 0; v < matrix.cols(); ++v)
+  {
+    d.insert(v, v) = diagonal[v];
+  }
+  return SparseMatrix(sum + d);
+}
+
+Status smoothed_harmonic(const WeightsProblem& problem, const BaselineWeightsOptions& options,
+  ExecutionContext& context, MatrixXd& w, VectorXd& residuals)
+{
+  const MatrixXd zero = MatrixXd::Zero(w.rows(), w.cols());
+  FreeSystem harmonic(problem, problem.stiffness);
+  Status status = harmonic.factor(options.solver, context);
+  if (!status.ok())
+  {
+    return status;
+  }
+  residuals = harmonic.solve(zero, w);
+  if (options.smoothing == 0.0)
+  {
+    return {};
+  }
+  const VectorXd mass = problem.mass_unit * problem.mass;
+  const SparseMatrix matrix = with_diagonal(
+    harmonic_energy(problem.stiffness, mass, 2), std::pow(options.smoothing, 4.0), mass);
+  FreeSystem system(problem, matrix);
+  status = system.factor(options.solver, context);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const MatrixXd rhs = mass.asDiagonal() * w;
+  residuals = residuals.cwiseMax(system.solve(rhs, w));
+  return {};
+}
+
+/// What hides handles from vertices: the boundary of a volume, a surface itself; of a flat shape
+/// the edges of its outline, made into walls.
+struct Walls
+{
+  Points points;
+  Triangles triangles;
+  std::vector<std::array<Index, 3>> vertices; ///< of the domain, that a triangle belongs to
+};
+
+bool is_flat(const Domain& domain, double diagonal, Vec3& normal)
+{
+  const Vec3 centre = domain.points.colwise().mean();
+  const Points centred = domain.points.rowwise() - centre.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(centred.transpose() * centred);
+  normal = axes.eigenvectors().col(0);
+  constexpr double flat = 1e-9;
+  return (centred * normal).cwiseAbs().maxCoeff() <= flat * diagonal;
+}
+
+Walls walls_of(const WeightsProblem& problem)
+{
+  const Domain& domain = problem.mesh.domain;
+  Walls walls;
+  Vec3 normal;
+  if (domain.is_volume() || !is_flat(domain, problem.diagonal, normal))
+  {
+    walls.points = domain.points;
+    walls.triangles = domain.is_volume() ? boundary_triangles(domain.tets) : domain.triangles;
+    for (Index f = 0; f < walls.triangles.rows(); ++f)
+    {
+      walls.vertices.push_back(
+        { walls.triangles(f, 0), walls.triangles(f, 1), walls.triangles(f, 2) });
+    }
+    return walls;
+  }
+  const Index n = domain.points.rows();
+  const Vec3 up = problem.diagonal * normal;
+  walls.points.resize(2 * n, 3);
+  walls.points << domain.points.rowwise() - up.transpose(),
+    domain.points.rowwise() + up.transpose();
+  std::vector<std::array<Index, 3>> triangles;
+  for (const Edge& edge : mesh_edges(domain.triangles))
+  {
+    if (edge.uses == 1)
+    {
+      triangles.push_back({ edge.a, edge.b, n + edge.b });
+      triangles.push_back({ edge.a, n + edge.b, n + edge.a });
+      walls.vertices.insert(walls.vertices.end(), 2, { edge.a, edge.b, edge.b });
+    }
+  }
+  walls.triangles.resize(static_cast<Index>(triangles.size()), 3);
+  for (Index f = 0; f < walls.triangles.rows(); ++f)
+  {
+    walls.triangles.row(f) << triangles[f][0], triangles[f][1], triangles[f][2];
+  }
+  return walls;
+}
+
+/// H for every vertex, and the shares p of the handles nearest to it.
+Status heat_sources(const WeightsProblem& problem, double heat, ExecutionContext& context,
+  VectorXd& h, MatrixXd& p, Index& heated)
+{
+  const Walls walls = walls_of(problem);
+  const TriangleTree tree(walls.points, walls.triangles);
+  const HandleDistances distances(problem);
+  const Index m = problem.handle_count();
+  h = VectorXd::Zero(problem.vertex_count());
+  p = MatrixXd::Zero(problem.vertex_count(), m);
+  const bool whole = parallel_for(context, problem.vertex_count(), 64,
+    [&](Index begin, Index end)
+    {
+      VectorXd d(m);
+      for (Index v = begin; v < end; ++v)
+      {
+        if (!solved(problem, v))
+        {
+          continue;
+        }
+        const Vec3 at = problem.mesh.domain.points.row(v);
+        for (Index j = 0; j < m; ++j)
+        {
+          d[j] = (distances.nearest(static_cast<std::size_t>(j), at) - at).norm();
+        }
+        constexpr double equally_near = 1.0001;
+        const double least = std::max(d.minCoeff(), 1e-6 * problem.diagonal);
+        for (Index j = 0; j < m; ++j)
+        {
+          if (d[j] > equally_near * least)
+          {
+            continue;
+          }
+          const Vec3 to = distances.nearest(static_cast<std::size_t>(j), at);
+          // A handle on the surface touches it; so does the vertex.
+          constexpr double short_of = 1e-3;
+          const Vec3 from = at + short_of * (to - at);
+          const Vec3 until = to + short_of * (at - to);
+          const bool hidden = tree.segment_meets(from, until,
+            [&](Index f)
+            {
+              const auto& own = walls.vertices[f];
+              return std::find(own.begin(), own.end(), v) == own.end();
+            });
+          p(v, j) = hidden ? 0.0 : 1.0;
+        }
+        const double sum = p.row(v).sum();
+        if (sum > 0.0)
+        {
+          p.row(v) /= sum;
+          const double distance = least / problem.diagonal;
+          h[v] = heat / (distance * distance);
+        }
+      }
+    });
+  heated = (h.array() > 0.0).count();
+  return whole ? Status() : Status::cancelled();
+}
+
+Status bone_heat(const WeightsProblem& problem, const BaselineWeightsOptions& options,
+  ExecutionContext& context, MatrixXd& w, VectorXd& residuals, Index& heated)
+{
+  VectorXd h;
+  MatrixXd p;
+  Status status = heat_sources(problem, options.heat, context, h, p, heated);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const VectorXd sources = (problem.mass_unit * problem.mass).cwiseProduct(h);
+  const SparseMatrix matrix = with_diagonal(problem.stiffness, 1.0, sources);
+  const MatrixXd rhs = sources.asDiagonal() * p;
+  FreeSystem system(problem, matrix);
+  status = system.factor(options.solver, context);
+  if (!status.ok())
+  {
+    return status;
+  }
+  residuals = system.solve(rhs, w);
+  return {};
+}
+
+Status check_options(const BaselineWeightsOptions& options)
+{
+  const auto positive = [](double x) { return x > 0.0 && std::isfinite(x); };
+  if (!positive(options.power) || !positive(options.heat))
+  {
+    return Status::invalid_input("power and heat must be positive");
+  }
+  return options.smoothing >= 0.0 && std::isfinite(options.smoothing)
+    ? Status()
+    : Status::invalid_input("smoothing must not be negative");
+}
+} // namespace
+
+const char* to_string(BaselineMethod method)
+{
+  switch (method)
+  {
+    case BaselineMethod::inverse_distance:
+      return "inverse-distance";
+    case BaselineMethod::smoothed_harmonic:
+      return "smoothed-harmonic";
+    case BaselineMethod::bone_heat:
+      return "bone-heat";
+  }
+  return "";
+}
+
+Status baseline_weights(const WeightsProblem& problem, const BaselineWeightsOptions& options,
+  ExecutionContext& context, WeightsResult& result)
+{
+  result = {};
+  Status status = check_options(options);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const Phase phase(context, "weights", 0.1, 0.95);
+  MatrixXd w = with_fixed_rows(problem);
+  VectorXd residuals = VectorXd::Zero(problem.handle_count());
+  Index heated = -1;
+  switch (options.method)
+  {
+    case BaselineMethod::inverse_distance:
+      status = inverse_distances(problem, options.power, context, w);
+      break;
+    case BaselineMethod::smoothed_harmonic:
+      status = smoothed_harmonic(problem, options, context, w, residuals);
+      break;
+    case BaselineMethod::bone_heat:
+      status = bone_heat(problem, options, context, w, residuals, heated);
+      break;
+    default:
+      status = Status::invalid_input("there is no such baseline method");
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  std::vector<BoxQpSolution> solutions(static_cast<std::size_t>(w.cols()));
+  for (Index j = 0; j < w.cols(); ++j)
+  {
+    solutions[j].w = w.col(j);
+    solutions[j].certificate.kkt_residual = residuals[j];
+  }
+  status = finish_weights(
+    problem, to_string(options.method), options.tolerance, solutions, w, context, result);
+  if (heated >= 0 && status.usable())
+  {
+    status.report.set("counts.heated_vertices", Report::Value(heated));
+  }
+  return status;
+}
+
+} // namespace bindpose

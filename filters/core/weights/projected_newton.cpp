@@ -1,0 +1,81 @@
+// A vertex is held at a bound for a round when its own Newton step, with all others fixed, would
+// cross that bound. For the others the gradient is brought to zero by preconditioned conjugate
+// gradients, roughly, and what then lies outside of the bounds is projected back to them.
+#include "weights/projected_newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+using Eigen::VectorXd;
+
+double projected_newton(const SplitForm& matrices, const VectorXd& c,
+  const std::vector<char>& pinned, const Preconditioner& preconditioner, int rounds, double enough,
+  const ExecutionContext& context, VectorXd& x)
+{
+  constexpr int steps = 5; // of conjugate gradients a round
+  constexpr double reduction = 0.05; // of the error's energy norm that ends them
+  const Eigen::Index n = x.size();
+  const SparseMatrix& a = matrices.a; // symmetric: the product with its transpose is the faster one
+  std::vector<char> held(static_cast<std::size_t>(n));
+  const auto release = [&](VectorXd& v)
+  {
+    for (Eigen::Index i = 0; i < n; ++i)
+    {
+      v[i] = held[i] ? 0.0 : v[i];
+    }
+  };
+  VectorXd g = a.transpose() * x + c;
+  VectorXd r, z, p, ap;
+  double moved = 1.0;
+  double before = 1e300;
+  // Moves that do not get smaller: the vertices to be held are not found yet.
+  for (int round = 0;
+       round < rounds && moved > enough && moved < 0.9 * before && !context.cancelled(); ++round)
+  {
+    before = round == 0 ? 1e300 : moved;
+    VectorXd start = x;
+    for (Eigen::Index i = 0; i < n; ++i)
+    {
+      const double newton = x[i] - g[i] / matrices.lower.valuePtr()[matrices.diagonal[i]];
+      held[i] = pinned[i] || newton <= 0.0 || newton >= 1.0;
+      start[i] = pinned[i] ? x[i] : newton <= 0.0 ? 0.0 : newton >= 1.0 ? 1.0 : x[i];
+    }
+    r = -(g + a.transpose() * (start - x));
+    release(r);
+    VectorXd next = start;
+    double first = 0.0;
+    double last = 0.0;
+    for (int k = 0; k < steps; ++k)
+    {
+      preconditioner(r, z);
+      release(z);
+      const double now = r.dot(z);
+      if (!(now > 0.0) || now <= reduction * reduction * first)
+      {
+        break;
+      }
+      first = k == 0 ? now : first;
+      p = k == 0 ? z : VectorXd(z + (now / last) * p);
+      last = now;
+      ap = a.transpose() * p;
+      release(ap);
+      const double curvature = p.dot(ap);
+      if (!(curvature > 0.0))
+      {
+        break;
+      }
+      next += (now / curvature) * p;
+      r -= (now / curvature) * ap;
+    }
+    next = next.cwiseMax(0.0).cwiseMin(1.0);
+    moved = (next - x).cwiseAbs().maxCoeff();
+    g += a.transpose() * (next - x);
+    x = next;
+  }
+  return moved;
+}
+
+} // namespace bindpose

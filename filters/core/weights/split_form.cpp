@@ -1,0 +1,71 @@
+#include "weights/split_form.h"
+
+#include <algorithm>
+
+namespace bindpose
+{
+
+SplitForm::SplitForm(const SparseMatrix& form, std::vector<Index> given)
+  : q(form), fixed(std::move(given))
+{
+  this->q.makeCompressed();
+  this->is_free.assign(static_cast<std::size_t>(form.rows()), 1);
+  std::vector<Index> fixed_of_vertex(static_cast<std::size_t>(form.rows()), -1);
+  for (std::size_t i = 0; i < this->fixed.size(); ++i)
+  {
+    this->is_free[this->fixed[i]] = 0;
+    fixed_of_vertex[this->fixed[i]] = static_cast<Index>(i);
+  }
+  this->free_of_vertex.assign(static_cast<std::size_t>(form.rows()), -1);
+  for (Index v = 0; v < form.rows(); ++v)
+  {
+    if (this->is_free[v])
+    {
+      this->free_of_vertex[v] = static_cast<Index>(this->free_vertices.size());
+      this->free_vertices.push_back(v);
+    }
+  }
+  const auto n = static_cast<int>(this->free_vertices.size());
+  std::vector<Eigen::Triplet<double, int>> inner;
+  std::vector<Eigen::Triplet<double, int>> outer;
+  for (Index v = 0; v < form.cols(); ++v)
+  {
+    for (SparseMatrix::InnerIterator entry(this->q, static_cast<int>(v)); entry; ++entry)
+    {
+      const auto i = static_cast<int>(this->free_of_vertex[entry.row()]);
+      const auto j = static_cast<int>(this->free_of_vertex[v]);
+      if (i >= 0 && j >= 0)
+      {
+        inner.emplace_back(i, j, entry.value());
+      }
+      else if (i >= 0)
+      {
+        outer.emplace_back(i, static_cast<int>(fixed_of_vertex[v]), entry.value());
+      }
+    }
+  }
+  for (int i = 0; i < n; ++i)
+  {
+    inner.emplace_back(i, i, 0.0); // every diagonal entry exists
+  }
+  this->a.resize(n, n);
+  this->a.setFromTriplets(inner.begin(), inner.end());
+  this->to_fixed.resize(n, static_cast<int>(this->fixed.size()));
+  this->to_fixed.setFromTriplets(outer.begin(), outer.end());
+  this->lower = this->a.triangularView<Eigen::Lower>();
+  this->lower.makeCompressed();
+  for (int i = 0; i < n; ++i)
+  {
+    this->diagonal.push_back(this->lower.outerIndexPtr()[i]);
+  }
+}
+
+int SplitForm::position(Index i, Index j) const
+{
+  const int* begin = this->lower.innerIndexPtr() + this->lower.outerIndexPtr()[j];
+  const int* end = this->lower.innerIndexPtr() + this->lower.outerIndexPtr()[j + 1];
+  const int* at = std::lower_bound(begin, end, static_cast<int>(i));
+  return at != end && *at == i ? static_cast<int>(at - this->lower.innerIndexPtr()) : -1;
+}
+
+} // namespace bindpose

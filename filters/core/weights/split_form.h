@@ -1,0 +1,35 @@
+#ifndef bindpose_weights_split_form_h
+#define bindpose_weights_split_form_h
+
+#include "base/laplacian.h"
+
+#include <vector>
+
+namespace bindpose
+{
+
+/// A quadratic form, split into the vertices that are solved for and those whose values are given.
+struct SplitForm
+{
+  SplitForm() = default;
+  /// @param q symmetric, #V x #V, both triangles.
+  /// @param fixed ids of the fixed vertices, each once.
+  SplitForm(const SparseMatrix& q, std::vector<Index> fixed);
+
+  SparseMatrix q; ///< #V x #V, both triangles
+  std::vector<Index> fixed;
+  std::vector<char> is_free; ///< #V
+  std::vector<Index> free_vertices;
+  std::vector<Index> free_of_vertex; ///< #V, -1: not free
+  SparseMatrix a; ///< free x free, both triangles
+  SparseMatrix lower; ///< its lower triangle, every diagonal entry stored
+  SparseMatrix to_fixed; ///< free x fixed
+  std::vector<int> diagonal; ///< where in lower's values the diagonal is
+
+  /// Position of entry (i, j), i > j, in lower's values; -1 when there is none.
+  int position(Index i, Index j) const;
+};
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,34 @@
+#include "error_bar.h"
+
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPushButton>
+
+ErrorBar::ErrorBar(QWidget* parent) : QFrame(parent), text_(new QLabel(this))
+{
+  this->setObjectName("error");
+  auto* row = new QHBoxLayout(this);
+  row->setContentsMargins(14, 8, 8, 8);
+  this->text_->setWordWrap(true);
+  // A long word (a path) must not widen the window.
+  this->text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  this->text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  auto* close = new QPushButton(tr("Close"), this);
+  close->setFocusPolicy(Qt::TabFocus);
+  QObject::connect(close, &QPushButton::clicked, this, &QWidget::hide);
+  row->addWidget(this->text_, 1);
+  row->addWidget(close, 0, Qt::AlignTop);
+  this->hide();
+}
+
+void ErrorBar::show_sentence(const QString& sentence, const QString& tool_tip)
+{
+  this->text_->setText(sentence);
+  this->text_->setToolTip(tool_tip);
+  this->show();
+}
+
+QString ErrorBar::sentence() const
+{
+  return this->isHidden() ? QString() : this->text_->text();
+}

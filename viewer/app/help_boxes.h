@@ -1,0 +1,11 @@
+#ifndef help_boxes_h
+#define help_boxes_h
+
+class QWidget;
+
+// What the menu Help shows.
+
+void show_mouse_and_keys(QWidget* window);
+void show_about(QWidget* window);
+
+#endif

@@ -1,0 +1,113 @@
+#include "window_files.h"
+
+#include "io/atomic_file.h"
+#include "pose/pose_file.h"
+#include "scene/categories.h"
+#include "scene/curves.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
+#include "vtkHandleFileReader.h"
+#include "vtkImageData.h"
+#include "vtkMeshFileReader.h"
+#include "vtkMeshFileWriter.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+
+#include <QString>
+
+#include <fstream>
+
+using namespace bindpose;
+
+namespace
+{
+/// Readers and writers speak through their status.
+void quiet(vtkObject* object)
+{
+  vtkNew<vtkCallbackCommand> nothing;
+  nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  object->AddObserver(vtkCommand::ErrorEvent, nothing);
+  object->AddObserver(vtkCommand::WarningEvent, nothing);
+}
+
+bool looks_like_handles(vtkDataSet* data)
+{
+  auto* polydata = vtkPolyData::SafeDownCast(data);
+  return polydata && polydata->GetNumberOfPolys() + polydata->GetNumberOfStrips() == 0;
+}
+
+template <typename Reader>
+Status read_with(Reader* reader, const std::string& path, OpenedFile& file)
+{
+  quiet(reader);
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  if (reader->GetStatus() != vtkBindposeAlgorithm::OK)
+  {
+    return Status::invalid_input(reader->GetStatusMessage());
+  }
+  file.data = vtkDataSet::SafeDownCast(reader->GetOutput());
+  return {};
+}
+} // namespace
+
+Status read_file(const std::string& path, OpenedFile& file)
+{
+  if (QString::fromStdString(path).endsWith(".tgf", Qt::CaseInsensitive))
+  {
+    vtkNew<vtkHandleFileReader> reader;
+    file.kind = OpenedFile::Kind::handles;
+    return read_with(reader.Get(), path, file);
+  }
+  vtkNew<vtkMeshFileReader> reader;
+  Status status = read_with(reader.Get(), path, file);
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (vtkImageData::SafeDownCast(file.data))
+  {
+    file.kind = OpenedFile::Kind::volume;
+    return status;
+  }
+  if (is_defect_data(file.data))
+  {
+    return Status::invalid_input(
+      "these are defects of a surface; open the surface, whose panel Tets shows them");
+  }
+  file.kind = is_curve_data(file.data) ? OpenedFile::Kind::curves
+    : looks_like_handles(file.data)    ? OpenedFile::Kind::handles
+                                       : OpenedFile::Kind::mesh;
+  return status;
+}
+
+Status write_shape(vtkPolyData* shape, const std::string& path)
+{
+  vtkNew<vtkMeshFileWriter> writer;
+  quiet(writer);
+  writer->SetInputData(shape);
+  writer->SetFileName(path.c_str());
+  writer->OverwriteOn();
+  writer->Update();
+  return writer->GetStatus() == vtkBindposeAlgorithm::OK
+    ? Status()
+    : Status::invalid_input(writer->GetStatusMessage());
+}
+
+Status write_pose(const Pose& pose, const Handles& handles, const std::string& path)
+{
+  std::string text;
+  Status status = format_pose_file({ pose }, 24.0, handles, text);
+  AtomicFile file;
+  if (status.ok())
+  {
+    status = file.open(path, true);
+  }
+  if (status.ok())
+  {
+    std::ofstream(file.temporary()) << text;
+    status = file.commit();
+  }
+  return status;
+}

@@ -1,0 +1,37 @@
+#ifndef window_files_h
+#define window_files_h
+
+#include "base/status.h"
+#include "pose/pose.h"
+#include "weights/handles.h"
+
+#include "vtkDataSet.h"
+#include "vtkSmartPointer.h"
+
+#include <string>
+
+class vtkPolyData;
+
+// What the window reads and writes. Nothing goes to the terminal.
+
+/// What a file holds, by its contents.
+struct OpenedFile
+{
+  enum class Kind
+  {
+    mesh,
+    handles, ///< vtkPolyData
+    volume, ///< vtkImageData
+    curves ///< vtkPolyData
+  };
+  Kind kind = Kind::mesh;
+  vtkSmartPointer<vtkDataSet> data;
+};
+bindpose::Status read_file(const std::string& path, OpenedFile& file);
+
+/// These replace the file that is there: the dialog has asked.
+bindpose::Status write_shape(vtkPolyData* shape, const std::string& path);
+bindpose::Status write_pose(
+  const bindpose::Pose& pose, const bindpose::Handles& handles, const std::string& path);
+
+#endif

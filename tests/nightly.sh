@@ -61,7 +61,7 @@ surfaces()
 fuzz()
 ( # without sanitizers: 1,020 abused and 272 hostile surfaces, 1,360 on lattices
   export BINDPOSE_FUZZ_FACTOR=${BINDPOSE_FUZZ_FACTOR:-34}
-  ctest --test-dir "$build_dir" --no-tests=error --output-on-failure -j "$(nproc)" -R '^core\.FuzzTetrahedralize\.'
+  ctest --test-dir "$build_dir" --no-tests=error --output-on-failure -j "$(nproc)" -R '^core\.Fuzz(Tetrahedralize|Wrap)\.'
 )
 
 million()

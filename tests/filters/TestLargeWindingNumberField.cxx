@@ -4,6 +4,7 @@
 #include "conversion.h"
 #include "report_field_data.h"
 #include "support/meshes.h"
+#include "support/sanitized.h"
 #include "vtkWindingNumberField.h"
 
 #include "vtkDoubleArray.h"
@@ -115,10 +116,6 @@ TEST(LargeWindingNumberField, StopsWithinAFifthOfASecond)
       shortest = std::min(shortest, std::chrono::duration<double>(Clock::now() - asked).count());
     }
     std::printf("  asked at %.0f %%, stopped after %.0f ms\n", 100.0 * when, 1e3 * shortest);
-#if defined(__SANITIZE_ADDRESS__) // several times slower
-    EXPECT_LT(shortest, 1.0) << when;
-#else
-    EXPECT_LT(shortest, 0.2) << when;
-#endif
+    EXPECT_LT(shortest, test::sanitized ? 1.0 : 0.2) << when;
   }
 }

@@ -3,6 +3,8 @@
 
 #include "conversion.h"
 #include "report_field_data.h"
+#include "support/environment.h"
+#include "support/needs_mesher.h"
 #include "vtkPlanarShape.h"
 
 #include "vtkCellArray.h"
@@ -24,6 +26,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <sstream>
 
 using namespace bindpose;
@@ -84,23 +87,9 @@ double area_of(vtkDataSet* data)
   return status.ok() ? surface_area(surface.points.view(), surface.triangles.view()) : 0.0;
 }
 
-class PlanarShapeFilter : public testing::Test
+class PlanarShapeFilter : public test::NeedsMesher
 {
 protected:
-  void SetUp() override
-  {
-    vtkNew<vtkPlanarShape> probe;
-    vtkNew<Listener> listener;
-    listener->listen(probe);
-    probe->SetInputData(polyline(square, true));
-    probe->Update();
-    if (probe->GetStatus() == vtkPlanarShape::UNAVAILABLE)
-    {
-      EXPECT_THAT(probe->GetStatusMessage(), HasSubstr("libcgal-dev"));
-      GTEST_SKIP() << "bindpose-mesher is not built: libcgal-dev, libtet1.5-dev";
-    }
-  }
-
   void update(int expected = vtkPlanarShape::OK)
   {
     filter->Update();
@@ -300,6 +289,24 @@ TEST_F(PlanarShapeFilter, Refuses)
   lines->InsertNextCell({ 0, 1, 9 });
   wrong->SetLines(lines);
   refuses(wrong, "point 9");
+}
+
+TEST(PlanarShapeWithoutHelper, SaysWhatIsMissing)
+{
+  const bool built = !find_mesher().empty();
+  std::optional<test::Environment> nowhere;
+  if (built)
+  {
+    nowhere.emplace("BINDPOSE_MESHER", "/nowhere");
+  }
+  vtkNew<vtkPlanarShape> filter;
+  vtkNew<Listener> listener;
+  listener->listen(filter);
+  filter->SetInputData(polyline(square, true));
+  filter->Update();
+  EXPECT_EQ(filter->GetStatus(), vtkPlanarShape::UNAVAILABLE);
+  EXPECT_THAT(filter->GetStatusMessage(), HasSubstr(built ? "/nowhere" : "libcgal-dev"));
+  EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
 }
 
 TEST_F(PlanarShapeFilter, PrintsWhatItHas)

@@ -11,7 +11,7 @@
 #include "TestFilter.h"
 
 #include "conversion.h"
-#include "inside/triangle_predicates.h"
+#include "surface/triangle_predicates.h"
 #include "winding/winding_number.h"
 #include "support/demo_meshes.h"
 #include "support/meshes.h"

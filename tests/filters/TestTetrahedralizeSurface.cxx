@@ -2,11 +2,10 @@
 #include "TestFilter.h"
 
 #include "conversion.h"
-#include "inside/mesher_process.h"
 #include "report_field_data.h"
-#include "support/files.h"
 #include "support/meshes.h"
-#include "inside/mesher_process.h"
+#include "support/needs_mesher.h"
+#include "support/stand_in.h"
 #include "vtkBoundedBiharmonicWeights.h"
 #include "vtkTetrahedralizeSurface.h"
 
@@ -29,10 +28,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
+#include <optional>
 #include <sstream>
-
-#include <sys/stat.h>
 
 using namespace bindpose;
 using bindpose::test::Listener;
@@ -40,6 +37,11 @@ using testing::HasSubstr;
 
 namespace
 {
+/// Tests of what needs the helper.
+class TetrahedralizeSurfaceByHelper : public test::NeedsMesher
+{
+};
+
 vtkUnstructuredGrid* grid_of(vtkTetrahedralizeSurface* filter)
 {
   return vtkUnstructuredGrid::SafeDownCast(filter->GetOutput());
@@ -165,12 +167,8 @@ TEST(TetrahedralizeSurface, LatticeMethods)
   EXPECT_EQ(ids->GetRange()[1], -1.0);
 }
 
-TEST(TetrahedralizeSurface, WrapHoldsASheet)
+TEST_F(TetrahedralizeSurfaceByHelper, WrapHoldsASheet)
 {
-  if (find_mesher().empty())
-  {
-    GTEST_SKIP() << "bindpose-mesher is not built: libcgal-dev, libtet1.5-dev";
-  }
   const TriangleMesh sheet = test::grid(3, 2);
   vtkNew<vtkTetrahedralizeSurface> filter;
   filter->SetInputData(to_polydata(sheet.points, sheet.triangles));
@@ -204,7 +202,7 @@ TEST(TetrahedralizeSurface, WrapHoldsASheet)
 
 TEST(TetrahedralizeSurface, FtetwildIsSaidToBeMissing)
 {
-  ::setenv("BINDPOSE_FTETWILD", "/nowhere/ftetwild", 1);
+  const test::Environment nowhere("BINDPOSE_FTETWILD", "/nowhere/ftetwild");
   const TriangleMesh cube = test::cube();
   vtkNew<vtkTetrahedralizeSurface> filter;
   vtkNew<Listener> listener;
@@ -212,7 +210,6 @@ TEST(TetrahedralizeSurface, FtetwildIsSaidToBeMissing)
   filter->SetInputData(to_polydata(cube.points, cube.triangles));
   filter->SetMethodToFtetwild();
   filter->Update();
-  ::unsetenv("BINDPOSE_FTETWILD");
   EXPECT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::UNAVAILABLE);
   ASSERT_EQ(listener->errors.size(), 1u);
   EXPECT_THAT(listener->errors[0], HasSubstr("/nowhere/ftetwild"));
@@ -321,11 +318,8 @@ TEST(TetrahedralizeSurface, ErrorsAreOneSentenceAndAnEmptyOutput)
 
 TEST(TetrahedralizeSurface, AbortKillsTheHelper)
 {
-  test::Folder folder;
-  const std::string path = folder.write(
-    "bindpose-mesher", "#!/bin/sh\nwhile true; do echo progress 0.5 >&2; sleep 0.02; done\n");
-  ::chmod(path.c_str(), 0755);
-  ::setenv("BINDPOSE_MESHER", path.c_str(), 1);
+  std::optional<test::StandIn> helper(
+    std::in_place, "BINDPOSE_MESHER", "while true; do echo progress 0.5 >&2; sleep 0.02; done\n");
   const TriangleMesh cube = test::cube();
   vtkNew<vtkTetrahedralizeSurface> filter;
   vtkNew<Listener> listener;
@@ -343,7 +337,7 @@ TEST(TetrahedralizeSurface, AbortKillsTheHelper)
   filter->Update();
   const double waited =
     std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count();
-  ::unsetenv("BINDPOSE_MESHER");
+  helper.reset();
   EXPECT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::CANCELLED);
   EXPECT_TRUE(listener->errors.empty());
   EXPECT_LT(waited, 0.2);
@@ -355,12 +349,8 @@ TEST(TetrahedralizeSurface, AbortKillsTheHelper)
   EXPECT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::OK);
 }
 
-TEST(TetrahedralizeSurface, HandlesArePartOfTheMesh)
+TEST_F(TetrahedralizeSurfaceByHelper, HandlesArePartOfTheMesh)
 {
-  if (bindpose::find_mesher().empty())
-  {
-    GTEST_SKIP() << "bindpose-mesher is not built: libcgal-dev, libtet1.5-dev";
-  }
   Handles handles(3);
   handles[0].name = "spine";
   handles[0].kind = HandleKind::bone;

@@ -155,7 +155,8 @@ def test_weights_are_the_programs(tmp_path):
     assert bindpose.report(theirs)["status"] == "ok"
 
 
-@pytest.mark.parametrize("method", ["monotone", "biharmonic", "triharmonic", "harmonic"])
+@pytest.mark.parametrize("method", ["monotone", "biharmonic", "triharmonic", "harmonic", "graph-biharmonic",
+                                    "linear-subspace", "inverse-distance", "smoothed-harmonic", "bone-heat"])
 def test_weights_on_given_tets(method):
     tets = bindpose.tetrahedralize(BAR)
     w = bindpose.weights(tets[:2], "auto:3", method=method)

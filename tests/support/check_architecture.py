@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The arrows of the house, read from the includes: fails where one points upwards.
 
-core names no VTK header; inside core base <- winding <- inside <- weights <- pose, io on base only (inside may use it); filters
-do not know the viewer; nothing outside the tests includes a test's header. The ParaView plugin has no
+core names no VTK header; inside core base <- winding <- (surface, helper, planar, embedding) <- inside <- weights <- pose, io on base only
+(inside may use it); filters do not know the viewer; nothing outside the tests includes a test's header. The ParaView plugin has no
 sources of its own, and a proxy for every filter that can be made.
 """
 
@@ -18,11 +18,15 @@ CORE_ARROWS = {
     "base": {"base"},
     "io": {"base", "io"},
     "winding": {"base", "winding"},
+    "surface": {"base", "surface"},
+    "helper": {"base", "winding", "helper"},
+    "planar": {"base", "winding", "helper", "planar"},
+    "embedding": {"base", "winding", "embedding"},
     # inside talks to fTetWild through files.
-    "inside": {"base", "io", "winding", "inside"},
-    "weights": {"base", "winding", "inside", "weights"},
+    "inside": {"base", "io", "winding", "surface", "helper", "embedding", "inside"},
+    "weights": {"base", "winding", "surface", "inside", "weights"},
     "pose": {"base", "winding", "inside", "weights", "pose"},
-    "mesher": {"base", "inside", "mesher"},
+    "mesher": {"base", "winding", "surface", "helper", "planar", "inside", "mesher"},
 }
 
 

@@ -10,6 +10,7 @@
 
 #include "base/status.h"
 #include "support/meshes.h"
+#include "support/sanitized.h"
 
 #include <gtest/gtest.h>
 
@@ -49,11 +50,7 @@ void fuzz(const char* what, Index base, const Body& body)
   const Index first = only > 0 ? only : 1;
   const Index last = only > 0 ? only : fuzz_rounds(base);
   const bool trace = std::getenv("BINDPOSE_FUZZ_TRACE") != nullptr;
-#if defined(__SANITIZE_ADDRESS__)
-  constexpr double longest = 400.0;
-#else
-  constexpr double longest = 60.0;
-#endif
+  constexpr double longest = sanitized ? 400.0 : 60.0;
   Index seed = first;
   for (; seed <= last && !testing::Test::HasFailure(); ++seed)
   {

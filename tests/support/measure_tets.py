@@ -43,6 +43,11 @@ def bindpose(program, surface, folder, *words):
     return sum(report["seconds"].get(phase, 0.0) for phase in WORK), report
 
 
+def repeated(options, surface, folder, *words):
+    """Seconds and reports of all runs."""
+    return zip(*(bindpose(options.program, surface, folder, *words) for _ in range(options.runs)))
+
+
 def spread(seconds):
     return f"{statistics.median(seconds):.2f} ({min(seconds):.2f} to {max(seconds):.2f})"
 
@@ -78,10 +83,8 @@ def clean_table(options, surfaces, plain, scratch):
 def unclean_table(options, surfaces, scratch):
     rows = [["unclean surface", "triangles", "rung", "tets", "s", "volume %"]]
     for name, path in surfaces.items():
-        ours, report = [], {}
-        for _ in range(options.runs):
-            seconds, report = bindpose(options.program, path, scratch)
-            ours.append(seconds)
+        ours, reports = repeated(options, path, scratch)
+        report = reports[-1]
         rows.append([name, str(report["counts"]["triangles"]), report["method"], str(report["counts"]["tets"]), spread(ours),
                      f"{100 * (report['volume'] / report['winding_volume'] - 1):+.2f}"])
         print(rows[-1], flush=True)
@@ -91,11 +94,9 @@ def unclean_table(options, surfaces, scratch):
 def embed_table(options, surfaces, scratch):
     rows = [["embedded surface", "triangles", "tets", "s", "of it embedding", "angle"]]
     for name, path in surfaces.items():
-        ours, inner, report = [], [], {}
-        for _ in range(options.runs):
-            seconds, report = bindpose(options.program, path, scratch, "--method", "embed")
-            ours.append(seconds)
-            inner.append(report["seconds"]["tetrahedralize"])
+        ours, reports = repeated(options, path, scratch, "--method", "embed")
+        inner = [report["seconds"]["tetrahedralize"] for report in reports]
+        report = reports[-1]
         rows.append([name, str(report["counts"]["triangles"]), str(report["counts"]["tets"]), spread(ours), spread(inner),
                      f"{report['min_dihedral_angle']:.0f}"])
         print(rows[-1], flush=True)

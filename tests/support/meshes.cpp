@@ -160,6 +160,19 @@ TriangleMesh flipped(TriangleMesh mesh)
   return mesh;
 }
 
+TriangleMesh unwelded(const TriangleMesh& mesh)
+{
+  TriangleMesh soup;
+  soup.points.resize(mesh.triangles.size(), 3);
+  soup.triangles.resize(mesh.triangles.rows(), 3);
+  for (Index k = 0; k < mesh.triangles.size(); ++k)
+  {
+    soup.points.row(k) = mesh.points.row(mesh.triangles.data()[k]);
+    soup.triangles.data()[k] = k;
+  }
+  return soup;
+}
+
 TetMesh tet_box(int nx, int ny, int nz, const Vec3& lower, const Vec3& upper)
 {
   TetMesh mesh;

@@ -26,6 +26,8 @@ TriangleMesh join(const TriangleMesh& a, const TriangleMesh& b);
 TriangleMesh translated(TriangleMesh mesh, const Vec3& by);
 /// All triangles turned inside out.
 TriangleMesh flipped(TriangleMesh mesh);
+/// Every triangle with corners of its own, as in an STL file.
+TriangleMesh unwelded(const TriangleMesh& mesh);
 
 /// A box of nx * ny * nz cells of six tets each (Kuhn's subdivision), all positive.
 TetMesh tet_box(

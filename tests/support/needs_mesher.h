@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_support_needs_mesher_h
 #define bindpose_tests_support_needs_mesher_h
 
-#include "inside/mesher_process.h"
+#include "helper/mesher_process.h"
 
 #include <gtest/gtest.h>
 

@@ -68,6 +68,29 @@ TEST(Laplacian, LinearFunctionsAreHarmonicAndHaveTheirDirichletEnergy)
   EXPECT_NEAR(f2.dot(k2 * f2), 5.0, 1e-12);
 }
 
+TEST(Laplacian, WithWhatFlowsOutNothingIsLeftOfALinearFunction)
+{
+  TetMesh tets = test::tet_box(4, 3, 3);
+  disturb(tets.points);
+  const Eigen::VectorXd f =
+    tets.points * Vec3(1, 2, -3) + 4.0 * Eigen::VectorXd::Ones(tets.points.rows());
+  const SparseMatrix k = stiffness_matrix(tets.points, tets.tets);
+  EXPECT_GT((k * f).cwiseAbs().maxCoeff(), 0.01);
+  EXPECT_LT((k * f - boundary_flux(tets.points, tets.tets) * f).cwiseAbs().maxCoeff(), 1e-13);
+
+  TriangleMesh plane = test::grid(5, 4);
+  disturb(plane.points);
+  plane.points.col(2).setZero();
+  const Eigen::VectorXd f2 = plane.points * Vec3(1, 2, 0);
+  const SparseMatrix k2 = stiffness_matrix(plane.points, plane.triangles);
+  EXPECT_GT((k2 * f2).cwiseAbs().maxCoeff(), 0.01);
+  EXPECT_LT(
+    (k2 * f2 - boundary_flux(plane.points, plane.triangles) * f2).cwiseAbs().maxCoeff(), 1e-13);
+
+  const TriangleMesh closed = test::sphere(2);
+  EXPECT_EQ(boundary_flux(closed.points, closed.triangles).nonZeros(), 0);
+}
+
 TEST(Laplacian, MassSumsToMeasure)
 {
   TriangleMesh surface = test::torus(12, 9, 1.0, 0.4);

@@ -1,15 +1,16 @@
 // Small surfaces, abused: whatever comes back holds what every result promises, or is one sentence.
 #include "inside/tetrahedralize.h"
 
-#include "inside/mesher_process.h"
 #include "inside/tet_quality.h"
 #include "winding/winding_number.h"
 #include "core/fuzz/hostile_surfaces.h"
+#include "support/environment.h"
 #include "support/fuzz.h"
+#include "support/needs_mesher.h"
+#include "support/sanitized.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
 
 using namespace bindpose;
@@ -89,19 +90,6 @@ void jitter(test::Random& random, TriangleMesh& mesh, double size)
   }
 }
 
-TriangleMesh unwelded(const TriangleMesh& mesh)
-{
-  TriangleMesh soup;
-  soup.points.resize(mesh.triangles.size(), 3);
-  soup.triangles.resize(mesh.triangles.rows(), 3);
-  for (Index k = 0; k < mesh.triangles.size(); ++k)
-  {
-    soup.points.row(k) = mesh.points.row(mesh.triangles.data()[k]);
-    soup.triangles.data()[k] = k;
-  }
-  return soup;
-}
-
 /// Triangles between random vertices of the surface: crossing, degenerate, whatever.
 void add_loose(test::Random& random, TriangleMesh& mesh)
 {
@@ -142,7 +130,7 @@ TriangleMesh abused(test::Random& random)
               random.in_box(-Vec3::Ones(), Vec3::Ones())));
         break;
       case 5:
-        mesh = unwelded(mesh);
+        mesh = test::unwelded(mesh);
         break;
       case 6:
       {
@@ -210,34 +198,6 @@ double allowed_move(const Status& status)
   return allowed;
 }
 
-/// While it lives, bindpose-mesher cannot be found.
-class NoHelper
-{
-public:
-  NoHelper()
-  {
-    const char* before = std::getenv("BINDPOSE_MESHER");
-    this->before_ = before ? before : "";
-    ::setenv("BINDPOSE_MESHER", "/nowhere", 1);
-  }
-  ~NoHelper()
-  {
-    if (this->before_.empty())
-    {
-      ::unsetenv("BINDPOSE_MESHER");
-    }
-    else
-    {
-      ::setenv("BINDPOSE_MESHER", this->before_.c_str(), 1);
-    }
-  }
-  NoHelper(const NoHelper&) = delete;
-  NoHelper& operator=(const NoHelper&) = delete;
-
-private:
-  std::string before_;
-};
-
 void expect_kept_vertices(
   const TriangleMesh& surface, const TetrahedralizeResult& result, const Status& status)
 {
@@ -304,6 +264,17 @@ void expect_bound(const TriangleMesh& surface, const TetrahedralizeResult& resul
   }
 }
 
+/// Tets, or one sentence.
+Status fill(const TriangleMesh& surface, const TetrahedralizeOptions& options,
+  TetrahedralizeResult& result, int threads = 0)
+{
+  ExecutionContext context;
+  context.set_threads(threads);
+  Status status = tetrahedralize(surface.points, surface.triangles, options, result, context);
+  test::expect_spoken(status);
+  return status;
+}
+
 /// Embedding has no excuse: there is a triangle with an area, or one sentence.
 void expect_embedding(const TriangleMesh& surface, Index resolution)
 {
@@ -311,8 +282,7 @@ void expect_embedding(const TriangleMesh& surface, Index resolution)
   options.method = TetMethod::embed;
   options.resolution = resolution;
   TetrahedralizeResult result;
-  ExecutionContext context;
-  const Status status = tetrahedralize(surface.points, surface.triangles, options, result, context);
+  const Status status = fill(surface, options, result);
   SCOPED_TRACE("embed: " + status.message);
   if (surface_area(surface.points, surface.triangles) > 0.0)
   {
@@ -330,9 +300,10 @@ void expect_embedding(const TriangleMesh& surface, Index resolution)
 void expect_repeatable(const TriangleMesh& surface, const TetrahedralizeOptions& options,
   const TetrahedralizeResult& result, const Status& status)
 {
-#if defined(__SANITIZE_ADDRESS__)
-  return; // takes long enough once
-#endif
+  if (test::sanitized)
+  {
+    return; // takes long enough once
+  }
   for (const auto& [name, outcome] : rungs(status))
   {
     if (outcome.find("time") != std::string::npos)
@@ -341,9 +312,7 @@ void expect_repeatable(const TriangleMesh& surface, const TetrahedralizeOptions&
     }
   }
   TetrahedralizeResult again;
-  ExecutionContext context;
-  context.set_threads(3);
-  const Status second = tetrahedralize(surface.points, surface.triangles, options, again, context);
+  const Status second = fill(surface, options, again, 3);
   EXPECT_EQ(second.code, status.code);
   EXPECT_EQ(second.message, status.message);
   EXPECT_EQ(second.warnings, status.warnings);
@@ -381,6 +350,10 @@ void expect_volume(test::Random& random, const TriangleMesh& surface,
     EXPECT_NEAR(winding, expected, 0.1 * box);
   }
 }
+
+class FuzzWrap : public test::NeedsMesher
+{
+};
 } // namespace
 
 TEST(FuzzTetrahedralize, AbusedSurfaces)
@@ -402,11 +375,8 @@ TEST(FuzzTetrahedralize, AbusedSurfaces)
       options.interior_edge = 0.15;
       options.winding_threshold = test::chance(random, 0.7) ? 0.5 : random.uniform(0.2, 0.9);
       TetrahedralizeResult result;
-      ExecutionContext context;
-      const Status status =
-        tetrahedralize(surface.points, surface.triangles, options, result, context);
+      const Status status = fill(surface, options, result);
       SCOPED_TRACE(std::string(to_string(options.method)) + ": " + status.message);
-      test::expect_spoken(status);
       expect_repeatable(surface, options, result, status);
       expect_embedding(surface, options.resolution);
       if (!status.usable())
@@ -434,7 +404,7 @@ TEST(FuzzTetrahedralize, AbusedSurfaces)
 /// No helper is there, as in a build without it: many more cases of what surrounds it.
 TEST(FuzzTetrahedralize, LatticesOfAbusedSurfaces)
 {
-  const NoHelper nowhere;
+  const test::Environment no_helper("BINDPOSE_MESHER", "/nowhere");
   Index filled = 0;
   test::fuzz("surfaces on lattices", 40,
     [&](test::Random& random)
@@ -445,11 +415,8 @@ TEST(FuzzTetrahedralize, LatticesOfAbusedSurfaces)
       options.resolution = 4 + random.below(7);
       options.winding_threshold = test::chance(random, 0.7) ? 0.5 : random.uniform(0.2, 0.9);
       TetrahedralizeResult result;
-      ExecutionContext context;
-      const Status status =
-        tetrahedralize(surface.points, surface.triangles, options, result, context);
+      const Status status = fill(surface, options, result);
       SCOPED_TRACE(std::string(to_string(options.method)) + ": " + status.message);
-      test::expect_spoken(status);
       if (!status.usable())
       {
         EXPECT_TRUE(
@@ -464,12 +431,8 @@ TEST(FuzzTetrahedralize, LatticesOfAbusedSurfaces)
 }
 
 /// A wrap is there for everything that has an area.
-TEST(FuzzTetrahedralize, WrapsOfAbusedSurfaces)
+TEST_F(FuzzWrap, AbusedSurfaces)
 {
-  if (find_mesher().empty())
-  {
-    GTEST_SKIP() << "bindpose-mesher is not built: libcgal-dev, libtet1.5-dev";
-  }
   test::fuzz("wraps", 24,
     [&](test::Random& random)
     {
@@ -480,11 +443,8 @@ TEST(FuzzTetrahedralize, WrapsOfAbusedSurfaces)
       options.wrap_offset = options.wrap_alpha * random.uniform(0.03, 0.5);
       options.interior_edge = 0.15;
       TetrahedralizeResult result;
-      ExecutionContext context;
-      const Status status =
-        tetrahedralize(surface.points, surface.triangles, options, result, context);
+      const Status status = fill(surface, options, result);
       SCOPED_TRACE(status.message);
-      test::expect_spoken(status);
       if (!status.usable())
       {
         EXPECT_EQ(status.code, StatusCode::invalid_input);
@@ -513,11 +473,8 @@ TEST(FuzzTetrahedralize, HostileSurfaces)
       options.resolution = 8;
       options.time_limit = 15.0;
       TetrahedralizeResult result;
-      ExecutionContext context;
-      const Status status =
-        tetrahedralize(surface.points, surface.triangles, options, result, context);
+      const Status status = fill(surface, options, result);
       SCOPED_TRACE(status.message);
-      test::expect_spoken(status);
       if (!status.usable())
       {
         EXPECT_TRUE(

@@ -1,5 +1,6 @@
 // Handles anywhere: on, in and off the mesh, touching each other. Weights are what they promise to
 // be or there is one sentence.
+#include "weights/baseline_weights.h"
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
 #include "weights/unconstrained_weights.h"
@@ -163,6 +164,7 @@ void expect_same_shape(const Domain& before, const HandleInsertion& after)
 enum class Method
 {
   unconstrained,
+  baseline,
   bounded,
   monotone
 };
@@ -175,8 +177,17 @@ Status solve(Random& random, const WeightsProblem& problem, Method method, Weigh
   if (method == Method::unconstrained)
   {
     UnconstrainedWeightsOptions options;
-    options.order = 1 + static_cast<int>(random.below(3));
+    options.method = static_cast<UnconstrainedMethod>(1 + random.below(5));
     return unconstrained_weights(problem, options, context, result);
+  }
+  if (method == Method::baseline)
+  {
+    BaselineWeightsOptions options;
+    options.method = static_cast<BaselineMethod>(6 + random.below(3));
+    options.smoothing = random.below(2) == 0 ? 0.0 : random.uniform(1e-3, 1.0);
+    options.power = random.uniform(0.1, 9.0);
+    options.heat = std::exp(random.uniform(-7.0, 7.0));
+    return baseline_weights(problem, options, context, result);
   }
   if (method == Method::bounded)
   {
@@ -195,7 +206,7 @@ void expect_weights(
   ASSERT_EQ(result.weights.rows(), problem.vertex_count());
   ASSERT_EQ(result.weights.cols(), problem.handle_count());
   ASSERT_TRUE(result.weights.allFinite() && result.raw.allFinite());
-  if (method != Method::unconstrained)
+  if (method == Method::bounded || method == Method::monotone)
   {
     for (const Weights* weights : { &result.raw, &result.weights })
     {
@@ -255,7 +266,7 @@ TEST(FuzzWeights, HandlesAnywhere)
       {
         EXPECT_EQ(problem.constraints.values.col(h).maxCoeff(), 1.0) << "a handle without a vertex";
       }
-      const auto method = static_cast<Method>(random.below(3));
+      const auto method = static_cast<Method>(random.below(4));
       SCOPED_TRACE(static_cast<int>(method));
       WeightsResult result;
       const Status status = solve(random, problem, method, result);

@@ -8,7 +8,7 @@
 #include "winding/exact_frame.h"
 #include "winding/point_cloud_winding_number.h"
 #include "winding/solid_angle.h"
-#include "inside/triangle_predicates.h"
+#include "surface/triangle_predicates.h"
 #include "winding/winding_number.h"
 
 #include "core/fuzz/hostile_surfaces.h"

@@ -2,26 +2,26 @@
 // program itself where it is installed.
 #include "inside/ftetwild_process.h"
 
-#include "inside/child_process.h"
-#include "inside/scratch_folder.h"
+#include "helper/child_process.h"
+#include "helper/scratch_folder.h"
 #include "inside/tet_quality.h"
 #include "io/off.h"
 
+#include "support/cancel_later.h"
 #include "support/environment.h"
 #include "support/files.h"
 #include "support/meshes.h"
 #include "support/processes.h"
+#include "support/watched_stand_in.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <limits>
-#include <thread>
 
 #include <sys/stat.h>
 #include <sys/wait.h>
@@ -80,23 +80,14 @@ std::string the_cube()
   return text.str();
 }
 
-/// A script in fTetWild's place; also watches that nothing is left behind.
-class FakeFtetwild
+/// A script in fTetWild's place.
+class FakeFtetwild : public test::WatchedStandIn
 {
 public:
   explicit FakeFtetwild(const std::string& script)
-    : program_(
-        this->scripts_.write("ftetwild", std::string("#!/bin/sh\n") + parse_arguments + script)),
-      variable_("BINDPOSE_FTETWILD", this->program_), temporary_("TMPDIR", this->empty_.path())
+    : WatchedStandIn("BINDPOSE_FTETWILD", parse_arguments + script)
   {
-    ::chmod(this->program_.c_str(), 0755);
-    this->scripts_.write("tets.mesh", the_cube());
-    this->descriptors_ = open_descriptors();
-  }
-  ~FakeFtetwild()
-  {
-    EXPECT_EQ(open_descriptors(), this->descriptors_) << "a file or socket was left open";
-    EXPECT_EQ(this->empty_.number_of_files(), 0u) << "a temporary file was left";
+    this->folder().write("tets.mesh", the_cube());
   }
 
   Status run(const TriangleMesh& surface, const FtetwildOptions& options = {},
@@ -106,20 +97,10 @@ public:
     return run_ftetwild(
       surface.points, surface.triangles, options, this->mesh, context ? *context : own);
   }
-  std::string file(const std::string& name) const { return this->scripts_ / name; }
-  std::string arguments() const { return this->scripts_.read("arguments"); }
-  pid_t process() const { return std::atoi(this->scripts_.read("pid").c_str()); }
-  const test::Folder& temporary() const { return this->empty_; }
+  std::string file(const std::string& name) const { return this->folder() / name; }
+  std::string arguments() const { return this->folder().read("arguments"); }
 
   TetMesh mesh;
-
-private:
-  test::Folder scripts_;
-  test::Folder empty_;
-  std::string program_;
-  Environment variable_;
-  Environment temporary_;
-  std::size_t descriptors_ = 0;
 };
 
 constexpr const char* writes_the_cube = "cp \"$here/tets.mesh\" \"$output\"\n";
@@ -232,18 +213,9 @@ TEST(Ftetwild, TimeLimitAndCancelKillItAtOnce)
   EXPECT_TRUE(gone(fake.process())) << "still running";
 
   ExecutionContext context;
-  std::chrono::steady_clock::time_point asked;
-  std::thread user(
-    [&]
-    {
-      std::this_thread::sleep_for(std::chrono::milliseconds(400));
-      asked = std::chrono::steady_clock::now();
-      context.request_cancel();
-    });
+  test::CancelLater user(context, 400);
   status = fake.run(test::cube(), {}, &context);
-  const double waited =
-    std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count();
-  user.join();
+  const double waited = user.waited();
   EXPECT_EQ(status.code, StatusCode::cancelled);
   EXPECT_LT(waited, 0.2);
   EXPECT_TRUE(gone(fake.process())) << "still running";

@@ -1,13 +1,15 @@
 #include "inside/remesh_tets.h"
 
-#include "inside/mesher_process.h"
+#include "helper/mesher_process.h"
 #include "inside/tet_quality.h"
 #include "inside/tetrahedralize.h"
-#include "inside/triangle_tree.h"
+#include "surface/triangle_tree.h"
 
-#include "support/files.h"
+#include "support/cancel_later.h"
+#include "support/environment.h"
 #include "support/meshes.h"
 #include "support/needs_mesher.h"
+#include "support/stand_in.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,13 +17,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <map>
 #include <set>
-#include <thread>
-
-#include <sys/stat.h>
 
 using namespace bindpose;
 using testing::HasSubstr;
@@ -157,27 +155,7 @@ TriangleMesh shaken_soup(const TriangleMesh& mesh, double by)
   return soup;
 }
 
-class Environment
-{
-public:
-  Environment(const char* name, const std::string& value) : name_(name)
-  {
-    ::setenv(name, value.c_str(), 1);
-  }
-  ~Environment() { ::unsetenv(this->name_); }
-  Environment(const Environment&) = delete;
-  Environment& operator=(const Environment&) = delete;
-
-private:
-  const char* name_;
-};
-
-std::string sleeping_helper(const test::Folder& folder)
-{
-  const std::string path = folder.write("bindpose-mesher", "#!/bin/sh\nexec sleep 60\n");
-  ::chmod(path.c_str(), 0755);
-  return path;
-}
+constexpr const char* sleeps = "exec sleep 60\n";
 
 class Remesh : public test::NeedsMesher
 {
@@ -371,7 +349,7 @@ TEST_F(Remesh, TheLadderKeepsVerticesAndReportsDistances)
 
 TEST(RemeshTets, WithoutHelperTheLadderCutsALattice)
 {
-  const Environment no_helper("BINDPOSE_MESHER", "/nowhere");
+  const test::Environment no_helper("BINDPOSE_MESHER", "/nowhere");
   const TriangleMesh mesh = test::sphere(2);
   EXPECT_EQ(run(mesh).status.code, StatusCode::unavailable);
   EXPECT_EQ(run(mesh).result.mesh.tets.rows(), 0);
@@ -394,8 +372,7 @@ TEST(RemeshTets, WithoutHelperTheLadderCutsALattice)
 
 TEST(RemeshTets, ASlowHelperIsStoppedAtTheLimit)
 {
-  const test::Folder folder;
-  const Environment helper("BINDPOSE_MESHER", sleeping_helper(folder));
+  const test::StandIn helper("BINDPOSE_MESHER", sleeps);
   RemeshOptions options;
   options.time_limit = 0.3;
   const Outcome outcome = run(test::sphere(2), options);
@@ -406,25 +383,16 @@ TEST(RemeshTets, ASlowHelperIsStoppedAtTheLimit)
 
 TEST(RemeshTets, CancelKillsTheHelper)
 {
-  const test::Folder folder;
-  const Environment helper("BINDPOSE_MESHER", sleeping_helper(folder));
+  const test::StandIn helper("BINDPOSE_MESHER", sleeps);
   const TriangleMesh mesh = test::sphere(2);
   const WindingNumber winding(mesh.points, mesh.triangles);
   ExecutionContext context;
-  std::chrono::steady_clock::time_point asked;
-  std::thread user(
-    [&]
-    {
-      std::this_thread::sleep_for(std::chrono::milliseconds(300));
-      asked = std::chrono::steady_clock::now();
-      context.request_cancel();
-    });
+  test::CancelLater user(context, 300);
   RemeshResult result;
   const Status status = remesh_tets(mesh.points, mesh.triangles, winding, {}, result, context);
-  const auto ended = std::chrono::steady_clock::now();
-  user.join();
+  const double waited = user.waited();
   EXPECT_EQ(status.code, StatusCode::cancelled);
-  EXPECT_LT(std::chrono::duration<double>(ended - asked).count(), 0.2);
+  EXPECT_LT(waited, 0.2);
   EXPECT_EQ(result.mesh.tets.rows(), 0);
 }
 

@@ -90,7 +90,10 @@ TEST(TetQuality, CrumbsAndLoneTetsGo)
   mesh.tets.row(m + 2) << n + 5, n + 6, n + 7, n + 8;
   ASSERT_TRUE(check_tets(mesh.points, mesh.tets).ok());
   Tets tets = mesh.tets;
-  EXPECT_EQ(drop_crumbs(mesh.points, tets), 0);
-  EXPECT_EQ(drop_crumbs(mesh.points, tets, 1e-4), 1);
+  std::vector<TetFacet> facets = tet_facets(tets);
+  EXPECT_EQ(drop_crumbs(mesh.points, tets, facets), 0);
+  EXPECT_EQ(drop_crumbs(mesh.points, tets, facets, 1e-4), 1);
   EXPECT_EQ(tets, mesh.tets.topRows(m + 2));
+  EXPECT_EQ(facets.size(), static_cast<std::size_t>(4 * tets.rows()));
+  EXPECT_TRUE(check_tets(mesh.points, tets, facets).ok());
 }

@@ -1,13 +1,13 @@
 // Alpha wraps: closed, around everything, near.
 #include "inside/wrap_surface.h"
 
-#include "inside/triangle_tree.h"
+#include "surface/triangle_tree.h"
 #include "winding/winding_number.h"
 
 #include "support/environment.h"
-#include "support/files.h"
 #include "support/meshes.h"
 #include "support/needs_mesher.h"
+#include "support/stand_in.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,8 +16,6 @@
 #include <cmath>
 #include <limits>
 #include <thread>
-
-#include <sys/stat.h>
 
 using namespace bindpose;
 using test::Environment;
@@ -273,10 +271,7 @@ TEST(WrapSurfaceInput, NeedsTheHelper)
 
 TEST(WrapSurfaceInput, AHelperThatGivesTheSurfaceBackIsNotBelieved)
 {
-  test::Folder folder;
-  const std::string path = folder.write("bindpose-mesher", "#!/bin/sh\ncat\n");
-  ::chmod(path.c_str(), 0755);
-  const Environment helper("BINDPOSE_MESHER", path);
+  const test::StandIn helper("BINDPOSE_MESHER", "cat\n");
   TriangleMesh wrap;
   const Status status = run(test::open_cube(), {}, wrap);
   EXPECT_EQ(status.code, StatusCode::internal_error);

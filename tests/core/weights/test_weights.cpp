@@ -56,7 +56,7 @@ WeightsResult unconstrained(const WeightsProblem& problem, int order)
 {
   ExecutionContext context;
   UnconstrainedWeightsOptions options;
-  options.order = order;
+  options.method = static_cast<UnconstrainedMethod>(order);
   WeightsResult result;
   const Status status = unconstrained_weights(problem, options, context, result);
   EXPECT_TRUE(status.ok()) << status.message;

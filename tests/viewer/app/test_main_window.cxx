@@ -1,5 +1,7 @@
 // The window as a person uses it: open, bind, drag, undo, cancel. Drags are synthetic events on the
 // interactor; what is asserted is where vertices are.
+#include "unclipped.h"
+
 #include "main_window.h"
 #include "side_panel.h"
 #include "style.h"
@@ -22,15 +24,12 @@
 #include "vtkRenderer.h"
 
 #include <QApplication>
-#include <QComboBox>
 #include <QElapsedTimer>
 #include <QLabel>
 #include <QListWidget>
 #include <QMenuBar>
 #include <QProgressBar>
 #include <QPushButton>
-#include <QStyle>
-#include <QStyleOptionComboBox>
 #include <QSurfaceFormat>
 #include <QUndoStack>
 
@@ -475,29 +474,8 @@ TEST_F(Window, NoTextOfThePanelIsClipped)
     this->window.resize(size);
     QApplication::processEvents();
     EXPECT_EQ(this->window.size(), size);
-    for (QComboBox* box : this->window.panel()->findChildren<QComboBox*>())
-    {
-      QStyleOptionComboBox option;
-      option.initFrom(box);
-      option.editable = false;
-      const int room =
-        box->style()
-          ->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, box)
-          .width();
-      for (int item = 0; item < box->count(); ++item)
-      {
-        EXPECT_LE(box->fontMetrics().horizontalAdvance(box->itemText(item)), room)
-          << box->itemText(item).toStdString();
-      }
-    }
-    for (QPushButton* button : this->window.panel()->findChildren<QPushButton*>())
-    {
-      if (button->isVisible())
-      {
-        EXPECT_LE(button->sizeHint().width(), button->width()) << button->text().toStdString();
-        EXPECT_LE(button->sizeHint().height(), button->height()) << button->text().toStdString();
-      }
-    }
+    test::expect_unclipped_items(this->window.panel());
+    test::expect_unclipped_buttons(this->window.panel());
     for (QLabel* label : this->window.panel()->findChildren<QLabel*>())
     {
       EXPECT_LE(label->heightForWidth(label->width()), label->height())

@@ -1,5 +1,6 @@
 // Tets and defects in the window, as a person inspects them; what is asserted are counts by brute
 // force, places, and what vtkSurfaceDefects says.
+#include "unclipped.h"
 #include "window_test.h"
 
 #include "inspection.h"
@@ -29,8 +30,6 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QSlider>
-#include <QStyle>
-#include <QStyleOptionComboBox>
 #include <QThread>
 
 #include <algorithm>
@@ -355,36 +354,14 @@ TEST_F(TetWindow, NoTextOfTheTetPanelIsClipped)
   this->wait();
   for (const QSize& size : { QSize(900, 680), QSize(1280, 800), QSize(1920, 1080) })
   {
-    this->window.resize(size);
-    this->render();
-    EXPECT_EQ(this->window.size(), size);
-    for (QPushButton* button : this->window.panels()->findChildren<QPushButton*>())
-    {
-      if (button->isVisible())
-      {
-        EXPECT_LE(button->sizeHint().width(), button->width()) << button->text().toStdString();
-        EXPECT_LE(button->sizeHint().height(), button->height()) << button->text().toStdString();
-      }
-    }
+    this->resize(size);
+    test::expect_unclipped_buttons(this->window.panels());
     for (QCheckBox* box : this->panel()->findChildren<QCheckBox*>())
     {
       EXPECT_LE(box->sizeHint().width(), box->width()) << box->text().toStdString();
       EXPECT_LE(box->sizeHint().height(), box->height()) << box->text().toStdString();
     }
-    for (QComboBox* box : this->panel()->findChildren<QComboBox*>())
-    {
-      QStyleOptionComboBox option;
-      option.initFrom(box);
-      const int room =
-        box->style()
-          ->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, box)
-          .width();
-      for (int item = 0; item < box->count(); ++item)
-      {
-        EXPECT_LE(box->fontMetrics().horizontalAdvance(box->itemText(item)), room)
-          << box->itemText(item).toStdString();
-      }
-    }
+    test::expect_unclipped_items(this->panel());
     for (QLabel* label : this->panel()->findChildren<QLabel*>())
     {
       EXPECT_LE(label->sizeHint().height(), label->height()) << label->text().toStdString();

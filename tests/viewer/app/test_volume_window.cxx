@@ -1,5 +1,6 @@
 // Volumes in the window, as a person inspects them: real mouse events of Qt on the picture, sliders
 // and buttons of the panel; what is asserted are places, winding numbers and areas in closed form.
+#include "unclipped.h"
 #include "window_test.h"
 
 #include "main_window.h"
@@ -360,17 +361,8 @@ TEST_F(VolumeWindow, NoTextOfTheVolumePanelIsClipped)
   this->row(1)->slider()->setValue(300);
   for (const QSize& size : { QSize(900, 600), QSize(1280, 800), QSize(1920, 1080) })
   {
-    this->window.resize(size);
-    this->render();
-    EXPECT_EQ(this->window.size(), size);
-    for (QPushButton* button : this->window.panels()->findChildren<QPushButton*>())
-    {
-      if (button->isVisible())
-      {
-        EXPECT_LE(button->sizeHint().width(), button->width()) << button->text().toStdString();
-        EXPECT_LE(button->sizeHint().height(), button->height()) << button->text().toStdString();
-      }
-    }
+    this->resize(size);
+    test::expect_unclipped_buttons(this->window.panels());
     for (QCheckBox* box : this->panel()->findChildren<QCheckBox*>())
     {
       EXPECT_LE(box->sizeHint().width(), box->width()) << box->text().toStdString();

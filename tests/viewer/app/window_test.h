@@ -52,6 +52,13 @@ protected:
     QApplication::processEvents();
   }
 
+  void resize(const QSize& size)
+  {
+    this->window.resize(size);
+    this->render();
+    EXPECT_EQ(this->window.size(), size);
+  }
+
   /// Where a place is in the picture, in Qt's pixels from the upper left.
   QPoint pixel(const Vec3& place)
   {

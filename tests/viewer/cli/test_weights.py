@@ -15,8 +15,8 @@ def bar(folder):
     return folder
 
 
-def weights_of(path):
-    return point_array(bindpose.read(path), "Weights")
+def weights_of(path, name="Weights"):
+    return point_array(bindpose.read(path), name)
 
 
 def check(weights, points):
@@ -83,13 +83,49 @@ def test_domain_surface(bar):
     bar.run("weights", "bar.off", "--handles", "auto:4", "--domain", "surface", "-o", "w.vtu").is_refused("no tets")
 
 
-@pytest.mark.parametrize("method", ["monotone", "biharmonic", "harmonic"])
+OTHERS = ["monotone", "harmonic", "biharmonic", "triharmonic", "graph-biharmonic", "linear-subspace", "inverse-distance",
+          "smoothed-harmonic", "bone-heat"]
+
+
+@pytest.mark.parametrize("method", OTHERS)
 def test_other_methods(bar, method):
-    bar.run("weights", "bar.off", "--handles", "points.tgf", "--method", method, "-o", "w.vtp").is_good()
+    run = bar.run("weights", "bar.off", "--handles", "points.tgf", "--method", method, "-o", "w.vtp", "--report", "-").is_good()
+    assert run.report["method"] == method
     weights = weights_of(bar / "w.vtp")
     assert weights.sum(axis=1) == pytest.approx(np.ones(len(weights)), abs=1e-9)
-    if method != "biharmonic":
+    if method in ("monotone", "harmonic", "inverse-distance", "bone-heat"):
         assert weights.min() >= -1e-9
+
+
+def test_raw_columns_and_their_certificate(bar):
+    run = bar.run("weights", "bar.off", "--handles", "points.tgf", "--certificate", "tight", "--order", "3", "--raw",
+                  "-o", "w.vtu", "--report", "-").is_good()
+    assert run.report["method"] == "bounded-triharmonic"
+    assert run.report["relative_gap"] <= 1e-9 and run.report["kkt_residual"] <= 1e-9
+    raw, weights = weights_of(bar / "w.vtu", "RawWeights"), weights_of(bar / "w.vtu")
+    assert raw.min() >= 0 and raw.max() <= 1
+    sums = raw.sum(axis=1, keepdims=True)
+    assert np.abs(sums - 1).max() == pytest.approx(run.report["row_sum_error"], abs=1e-12)
+    assert weights == pytest.approx(raw / sums, abs=1e-12)
+    bar.run("weights", "bar.off", "--handles", "points.tgf", "--raw", "-o", "w.vtp").is_good()
+    assert weights_of(bar / "w.vtp", "RawWeights").shape == weights_of(bar / "w.vtp").shape
+    bar.run("weights", "bar.off", "--handles", "points.tgf", "-o", "w2.vtp").is_good()
+    assert weights_of(bar / "w2.vtp", "RawWeights") is None
+
+
+def test_too_few_iterations_are_exit_three(bar):
+    run = bar.run("weights", "bar.off", "--handles", "points.tgf", "--iterations", "1", "-o", "w.vtp", "--report", "-")
+    assert run.code == 3 and run.report["status"] == "not_converged" and run.report["relative_gap"] > 1e-6
+    assert "not certified" in run.err
+    assert weights_of(bar / "w.vtp").sum(axis=1) == pytest.approx(1, abs=1e-9), "the result is kept"
+    bar.run("weights", "bar.off", "--handles", "points.tgf", "--iterations", "0", "-o", "w2.vtp").is_refused("iterations")
+
+
+def test_the_mesh_can_be_kept(bar):
+    bar.run("tetrahedralize", "bar.off", "-o", "tets.vtu").is_good()
+    kept = bar.run("weights", "tets.vtu", "--handles", "points.tgf", "--keep-mesh", "-o", "w.vtu",
+                   "--report", "-").is_good()
+    assert kept.report["counts"]["inserted_vertices"] == 0
 
 
 def test_automatic_handles(bar):

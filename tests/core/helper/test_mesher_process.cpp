@@ -1,51 +1,39 @@
 // The helper process: what it gives, and what is left of it when it fails.
-#include "inside/mesher_process.h"
+#include "helper/mesher_process.h"
 
 #include "inside/tet_quality.h"
-#include "inside/triangle_tree.h"
+#include "surface/triangle_tree.h"
 
+#include "support/cancel_later.h"
 #include "support/environment.h"
-#include "support/files.h"
 #include "support/meshes.h"
 #include "support/needs_mesher.h"
-#include "support/processes.h"
+#include "support/watched_stand_in.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
 
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <thread>
 
 #include <sys/mman.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 using namespace bindpose;
 using test::Environment;
-using test::open_descriptors;
 using testing::HasSubstr;
 
 namespace
 {
-/// A shell script in the helper's place; also watches that nothing is left behind.
-class FakeHelper
+/// A shell script in the helper's place.
+class FakeHelper : public test::WatchedStandIn
 {
 public:
-  explicit FakeHelper(const std::string& script)
-    : path_(this->scripts_.write("bindpose-mesher", "#!/bin/sh\n" + script)),
-      helper_("BINDPOSE_MESHER", this->path_), temporary_("TMPDIR", this->empty_.path())
-  {
-    ::chmod(this->path_.c_str(), 0755);
-    this->descriptors_ = open_descriptors();
-  }
-  ~FakeHelper()
-  {
-    EXPECT_EQ(open_descriptors(), this->descriptors_) << "a file or pipe was left open";
-    EXPECT_EQ(this->empty_.number_of_files(), 0u) << "a temporary file was left";
-  }
+  explicit FakeHelper(const std::string& script) : WatchedStandIn("BINDPOSE_MESHER", script) {}
 
   Status run(double time_limit = 10.0, ExecutionContext* context = nullptr)
   {
@@ -56,18 +44,8 @@ public:
     input.triangles = test::cube().triangles;
     return run_mesher(request, input, this->answer, context ? *context : own);
   }
-  /// The process id that the script wrote into the file "pid" beside it.
-  pid_t script_process() const { return std::atoi(this->scripts_.read("pid").c_str()); }
 
   MesherAnswer answer;
-
-private:
-  test::Folder scripts_;
-  test::Folder empty_;
-  std::string path_;
-  Environment helper_;
-  Environment temporary_;
-  std::size_t descriptors_ = 0;
 };
 
 constexpr const char* write_process = "echo $$ > \"$(dirname \"$0\")/pid\"\n";
@@ -201,29 +179,21 @@ TEST(MesherProcess, TimeLimitKillsTheHelper)
   EXPECT_LT(seconds_since(start), 5.0);
   EXPECT_EQ(status.code, StatusCode::internal_error);
   EXPECT_THAT(status.message, HasSubstr("time limit of 0.3 s"));
-  ASSERT_GT(helper.script_process(), 0);
-  EXPECT_NE(::kill(helper.script_process(), 0), 0) << "still running";
+  ASSERT_GT(helper.process(), 0);
+  EXPECT_NE(::kill(helper.process(), 0), 0) << "still running";
 }
 
 TEST(MesherProcess, CancelKillsTheHelperAtOnce)
 {
   FakeHelper helper(std::string(write_process) + "exec sleep 60");
   ExecutionContext context;
-  std::chrono::steady_clock::time_point asked;
-  std::thread user(
-    [&]
-    {
-      std::this_thread::sleep_for(std::chrono::milliseconds(300));
-      asked = std::chrono::steady_clock::now();
-      context.request_cancel();
-    });
+  test::CancelLater user(context, 300);
   const Status status = helper.run(60.0, &context);
-  const double waited = seconds_since(asked);
-  user.join();
+  const double waited = user.waited();
   EXPECT_EQ(status.code, StatusCode::cancelled);
   EXPECT_LT(waited, 0.2);
-  ASSERT_GT(helper.script_process(), 0);
-  EXPECT_NE(::kill(helper.script_process(), 0), 0) << "still running";
+  ASSERT_GT(helper.process(), 0);
+  EXPECT_NE(::kill(helper.process(), 0), 0) << "still running";
   // Cancelled before it starts: it does not.
   EXPECT_EQ(helper.run(60.0, &context).code, StatusCode::cancelled);
 }
@@ -306,6 +276,28 @@ TEST_F(RealHelper, AFewTrianglesMayFallIntoManyPieces)
   std::vector<std::pair<Index, Index>> pairs;
   ASSERT_TRUE(crossing_pairs(refined.points, refined.triangles, pairs, context));
   EXPECT_EQ(pairs.size(), 0u);
+}
+
+TEST_F(RealHelper, SheetsThatNearlyCoincideAreRounded)
+{
+  // A sphere and the same turned there and back: some vertices are an ulp away, triangles cross at
+  // angles of rounding.
+  const TriangleMesh sphere = test::sphere(4);
+  TriangleMesh twin = sphere;
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).matrix();
+  twin.points = (twin.points * turn) * turn.transpose();
+  const TriangleMesh both = test::join(sphere, twin);
+  MesherAnswer answer;
+  const Status status = run_real({ "refine" }, both, answer);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(answer.report.number("rounded", 0.0), 1.0);
+  ASSERT_GE(answer.data.points.rows(), both.points.rows());
+  EXPECT_LT(
+    (answer.data.points.topRows(both.points.rows()) - both.points).cwiseAbs().maxCoeff(), 1e-12);
+  ExecutionContext context;
+  std::vector<std::pair<Index, Index>> pairs;
+  ASSERT_TRUE(crossing_pairs(answer.data.points, answer.data.triangles, pairs, context));
+  EXPECT_TRUE(pairs.empty());
 }
 
 TEST_F(RealHelper, CleanSurfacesAreLeftAlone)

@@ -1,6 +1,6 @@
-#include "inside/embedding_tets.h"
+#include "embedding/embedding_tets.h"
 
-#include "inside/surface_repair.h"
+#include "surface/surface_repair.h"
 #include "inside/tet_quality.h"
 
 #include "core/fuzz/hostile_surfaces.h"

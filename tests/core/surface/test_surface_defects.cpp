@@ -1,4 +1,4 @@
-#include "inside/surface_defects.h"
+#include "surface/surface_defects.h"
 
 #include "support/meshes.h"
 

@@ -1,7 +1,7 @@
-#include "inside/surface_repair.h"
+#include "surface/surface_repair.h"
 
-#include "inside/triangle_predicates.h"
-#include "inside/triangle_tree.h"
+#include "surface/triangle_predicates.h"
+#include "surface/triangle_tree.h"
 
 #include "support/demo_meshes.h"
 #include "support/meshes.h"
@@ -34,20 +34,6 @@ RepairedSurface repair(const TriangleMesh& mesh, const RepairOptions& options = 
   EXPECT_TRUE(status.ok()) << status.message;
   return repaired;
 }
-
-/// Every triangle with corners of its own, as in an STL file.
-TriangleMesh unwelded(const TriangleMesh& mesh)
-{
-  TriangleMesh soup;
-  soup.points.resize(mesh.triangles.size(), 3);
-  soup.triangles.resize(mesh.triangles.rows(), 3);
-  for (Index k = 0; k < mesh.triangles.size(); ++k)
-  {
-    soup.points.row(k) = mesh.points.row(mesh.triangles.data()[k]);
-    soup.triangles.data()[k] = k;
-  }
-  return soup;
-}
 } // namespace
 
 TEST(SurfaceRepair, CleanSurfacesAreClean)
@@ -73,12 +59,12 @@ TEST(SurfaceRepair, CleanSurfacesAreClean)
 TEST(SurfaceRepair, WeldsEqualVerticesAndRemembersThem)
 {
   const TriangleMesh cube = test::cube();
-  const RepairedSurface repaired = repair(unwelded(cube));
+  const RepairedSurface repaired = repair(test::unwelded(cube));
   EXPECT_EQ(repaired.points.rows(), 8);
   EXPECT_EQ(repaired.found.duplicate_vertices, 36 - 8);
   EXPECT_EQ(repaired.found.boundary_edges, 0);
   EXPECT_TRUE(repaired.clean());
-  const TriangleMesh soup = unwelded(cube);
+  const TriangleMesh soup = test::unwelded(cube);
   for (Index v = 0; v < 8; ++v)
   {
     EXPECT_EQ(repaired.points.row(v), soup.points.row(repaired.original_vertices[v]));
@@ -86,7 +72,7 @@ TEST(SurfaceRepair, WeldsEqualVerticesAndRemembersThem)
   EXPECT_NEAR(signed_volume(repaired.points, repaired.triangles), 8.0, 1e-14);
   // Minus zero is zero.
   TriangleMesh signs = test::cube(0.0, 1.0);
-  signs = unwelded(signs);
+  signs = test::unwelded(signs);
   signs.points.row(0) *= -1.0;
   EXPECT_EQ(repair(signs).points.rows(), 8);
 }
@@ -194,9 +180,51 @@ TEST(SurfaceRepair, InsideOutComponentsAreTurnedWithWhatLiesInThem)
     1e-12);
 }
 
+TEST(SurfaceRepair, SolidsThatTouchAreTurnedOneByOne)
+{
+  // A chain of cubes, each in an edge or a vertex with the next; every other one inside out.
+  TriangleMesh chain;
+  const int count = 9;
+  for (int i = 0; i < count; ++i)
+  {
+    const int z = i / 2; // they meet in an edge along z, then in a vertex
+    const TriangleMesh cube = test::translated(test::cube(0.0, 1.0), Vec3(i, i, z));
+    chain = i == 0 ? cube : test::join(chain, i % 2 ? test::flipped(cube) : cube);
+  }
+  const RepairedSurface repaired = repair(chain);
+  EXPECT_EQ(repaired.found.components, 1);
+  EXPECT_EQ(repaired.found.inward_components, count / 2);
+  EXPECT_EQ(repaired.turned_components, count / 2);
+  EXPECT_NEAR(signed_volume(repaired.points, repaired.triangles), count, 1e-12);
+}
+
+TEST(SurfaceRepair, ACavityThatTouchesStaysACavity)
+{
+  // A tet that touches the inside of the cube around it in a vertex, then in an edge.
+  for (const double top : { 0.0, 1.0 })
+  {
+    TriangleMesh tet;
+    tet.points.resize(4, 3);
+    tet.points << -1, -1, -1, 0.5, -0.5, 0, -0.5, 0.5, 0, -1 + 0.5 * (1 - top),
+      -1 + 0.5 * (1 - top), top;
+    tet.triangles.resize(4, 3);
+    tet.triangles << 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3;
+    const double inner = signed_volume(tet.points, tet.triangles);
+    ASSERT_GT(inner, 0.1);
+    for (const bool inward : { false, true })
+    {
+      const TriangleMesh hollow = test::join(test::cube(), test::flipped(tet));
+      const RepairedSurface repaired = repair(inward ? test::flipped(hollow) : hollow);
+      EXPECT_EQ(repaired.found.components, 1);
+      EXPECT_EQ(repaired.turned_components, inward ? 1 : 0);
+      EXPECT_NEAR(signed_volume(repaired.points, repaired.triangles), 8.0 - inner, 1e-12);
+    }
+  }
+}
+
 TEST(SurfaceRepair, SnappingWeldsWhatNearlyCoincides)
 {
-  TriangleMesh mesh = unwelded(test::sphere(2));
+  TriangleMesh mesh = test::unwelded(test::sphere(2));
   test::Random random(3);
   for (Index k = 0; k < mesh.points.size(); ++k)
   {
@@ -343,6 +371,51 @@ TEST(SurfaceRepair, TreeDistancesAreBruteForce)
     EXPECT_DOUBLE_EQ(tree.distance(p, 10.0), nearest);
     EXPECT_TRUE(std::isinf(tree.distance(p, 0.5 * nearest)));
   }
+}
+
+TEST(SurfaceRepair, SegmentsMeetTrianglesAsBruteForceSays)
+{
+  const TriangleMesh mesh = test::torus(30, 14, 1.0, 0.4);
+  const TriangleTree tree(mesh.points, mesh.triangles);
+  test::Random random(11);
+  int met = 0;
+  for (int i = 0; i < 2000; ++i)
+  {
+    // Of all lengths; every fourth one along an axis, every eighth one between two vertices.
+    const Vec3 a = i % 8 == 7 ? Vec3(mesh.points.row(random.below(mesh.points.rows())))
+                              : random.in_box(Vec3(-1.6, -1.6, -0.6), Vec3(1.6, 1.6, 0.6));
+    Vec3 b = i % 8 == 7
+      ? Vec3(mesh.points.row(random.below(mesh.points.rows())))
+      : Vec3(a + std::pow(random.uniform(), 3.0) * random.in_box(-Vec3::Ones(), Vec3::Ones()));
+    if (i % 4 == 0)
+    {
+      b[1] = a[1];
+      b[2] = a[2];
+    }
+    const Index without = random.below(mesh.triangles.rows());
+    const auto counts = [&](Index f) { return f != without; };
+    bool brute = false;
+    for (Index f = 0; f < mesh.triangles.rows() && !brute; ++f)
+    {
+      brute = counts(f) &&
+        segment_meets_triangle(a, b, mesh.points.row(mesh.triangles(f, 0)),
+          mesh.points.row(mesh.triangles(f, 1)), mesh.points.row(mesh.triangles(f, 2)));
+    }
+    EXPECT_EQ(tree.segment_meets(a, b, counts), brute) << i;
+    met += brute;
+  }
+  EXPECT_GT(met, 400);
+  EXPECT_LT(met, 1600);
+  // Touching counts, passing by an ulp does not, and nothing meets a triangle without area.
+  const Vec3 p(0, 0, 0), q(1, 0, 0), r(0, 1, 0);
+  EXPECT_TRUE(segment_meets_triangle(Vec3(0.25, 0.25, 1), Vec3(0.25, 0.25, 0), p, q, r));
+  EXPECT_TRUE(segment_meets_triangle(Vec3(0.5, 0.5, 1), Vec3(0.5, 0.5, -1), p, q, r));
+  EXPECT_FALSE(segment_meets_triangle(
+    Vec3(0.5, std::nextafter(0.5, 1.0), 1), Vec3(0.5, std::nextafter(0.5, 1.0), -1), p, q, r));
+  EXPECT_TRUE(segment_meets_triangle(Vec3(-1, 0.25, 0), Vec3(2, 0.25, 0), p, q, r))
+    << "in its plane";
+  EXPECT_FALSE(
+    segment_meets_triangle(Vec3(0.25, 0.0, 1), Vec3(0.25, 0.0, -1), p, q, Vec3(2, 0, 0)));
 }
 
 TEST(SurfaceRepair, BadInputIsNamed)

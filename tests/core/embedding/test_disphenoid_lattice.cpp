@@ -1,4 +1,4 @@
-#include "inside/disphenoid_lattice.h"
+#include "embedding/disphenoid_lattice.h"
 
 #include "inside/tet_quality.h"
 

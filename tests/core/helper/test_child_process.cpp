@@ -1,15 +1,14 @@
 // A program in a process of its own: how it ends, and that nothing of it is left.
-#include "inside/child_process.h"
+#include "helper/child_process.h"
 
+#include "support/cancel_later.h"
 #include "support/files.h"
 #include "support/processes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <filesystem>
-#include <thread>
 
 using namespace bindpose;
 using testing::ElementsAre;
@@ -115,14 +114,8 @@ TEST(ChildProcess, ItsGroupIsKilledWhateverTheEnd)
   {
     Shell shell(leaves_one + "wait");
     ExecutionContext context;
-    std::thread user(
-      [&]
-      {
-        std::this_thread::sleep_for(std::chrono::milliseconds(300));
-        context.request_cancel();
-      });
+    const test::CancelLater user(context, 300);
     EXPECT_EQ(shell.run(&context).code, StatusCode::cancelled);
-    user.join();
     ASSERT_EQ(shell.lines.size(), 1u);
     EXPECT_TRUE(dies_soon(shell.lines[0])) << "after a cancel";
     EXPECT_EQ(shell.run(&context).code, StatusCode::cancelled);

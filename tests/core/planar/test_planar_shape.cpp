@@ -1,6 +1,7 @@
 // Triangles of what curves enclose: areas known exactly, angles, edges, handles, bad input.
-#include "inside/planar_shape.h"
+#include "planar/planar_shape.h"
 
+#include "support/environment.h"
 #include "support/needs_mesher.h"
 
 #include <gmock/gmock.h>
@@ -536,13 +537,12 @@ TEST_F(PlanarShapeTest, Cancel)
 
 TEST(PlanarShape, WithoutHelperItIsUnavailable)
 {
-  ::setenv("BINDPOSE_MESHER", "/nowhere/bindpose-mesher", 1);
+  const test::Environment no_helper("BINDPOSE_MESHER", "/nowhere/bindpose-mesher");
   const Curves curves = Curves().add(square);
   ExecutionContext context;
   PlanarShape shape;
   const Status status = planar_shape(curves.points, curves.segments,
     { PlanePoints(0, 2), Segments(0, 2) }, PlanarShapeOptions(), shape, context);
-  ::unsetenv("BINDPOSE_MESHER");
   EXPECT_EQ(status.code, StatusCode::unavailable);
   EXPECT_THAT(status.message, HasSubstr("BINDPOSE_MESHER"));
 }

@@ -1,0 +1,210 @@
+// The factorisation in single precision against a dense one and against the double one, pivots that
+// fail, and the same bits on clones and threads.
+#include "base/float_cholesky.h"
+
+#include "support/meshes.h"
+
+#include <Eigen/Cholesky>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <thread>
+#include <vector>
+
+using namespace bindpose;
+
+namespace
+{
+/// Biharmonic matrix of a box of tets, shifted to be definite; its lower triangle.
+SparseMatrix definite_matrix(int n, double shift)
+{
+  const TetMesh box = test::tet_box(n, n, n);
+  const SparseMatrix k = stiffness_matrix(box.points, box.tets);
+  const Eigen::VectorXd m = lumped_mass(box.points, box.tets);
+  const SparseMatrix q = harmonic_energy(k, m / m.maxCoeff(), 2);
+  SparseMatrix lower = q.triangularView<Eigen::Lower>();
+  for (int i = 0; i < q.rows(); ++i)
+  {
+    lower.coeffRef(i, i) += shift;
+  }
+  lower.makeCompressed();
+  return lower;
+}
+
+class FloatCholeskyTest : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    if (!SparseSolver::has_cholmod())
+    {
+      GTEST_SKIP() << "this build has no CHOLMOD (package libsuitesparse-dev)";
+    }
+  }
+
+  /// Analysed, with the double factorisation at hand in solver.
+  FloatCholesky analysed(const SparseMatrix& matrix, SparseSolver& solver)
+  {
+    FloatCholesky single;
+    EXPECT_TRUE(solver.analyse(matrix).ok());
+    EXPECT_TRUE(single.analyse(solver, matrix).ok());
+    return single;
+  }
+
+  ExecutionContext context_;
+};
+} // namespace
+
+TEST_F(FloatCholeskyTest, SolvesAsADenseFactorisationDoes)
+{
+  test::Random random;
+  for (const int n : { 1, 2, 3, 5 })
+  {
+    for (const auto ordering : { SparseSolver::Ordering::amd, SparseSolver::Ordering::metis })
+    {
+      const SparseMatrix a = definite_matrix(n, 0.1);
+      const Eigen::MatrixXd rhs =
+        Eigen::MatrixXd::NullaryExpr(a.rows(), 3, [&] { return random.uniform(-1.0, 1.0); });
+      const Eigen::MatrixXd dense =
+        Eigen::MatrixXd(Eigen::MatrixXd(a).selfadjointView<Eigen::Lower>());
+      const Eigen::MatrixXd expected = dense.ldlt().solve(rhs);
+      SparseSolver solver({ SparseSolver::Backend::cholmod, ordering });
+      FloatCholesky single = analysed(a, solver);
+      ASSERT_TRUE(single.factor(a, 0.0, context_).ok());
+      Eigen::MatrixXd x;
+      single.solve(rhs, x);
+      EXPECT_LT((x - expected).norm(), 1e-4 * expected.norm());
+      Eigen::VectorXd one;
+      single.solve(Eigen::VectorXd(rhs.col(1)), one);
+      EXPECT_LT((one - expected.col(1)).norm(), 1e-4 * expected.col(1).norm());
+      // Shifted by its own diagonal.
+      ASSERT_TRUE(single.factor(a, 0.5, context_).ok());
+      single.solve(rhs, x);
+      Eigen::MatrixXd shifted = dense;
+      shifted.diagonal() *= 1.5;
+      const Eigen::MatrixXd expected_shifted = shifted.ldlt().solve(rhs);
+      EXPECT_LT((x - expected_shifted).norm(), 1e-5 * expected_shifted.norm());
+    }
+  }
+}
+
+TEST_F(FloatCholeskyTest, ResidualsAreThoseOfSinglePrecisionAtAnyScale)
+{
+  const SparseMatrix a = definite_matrix(11, 0.01);
+  SparseSolver solver;
+  FloatCholesky single = analysed(a, solver);
+  ASSERT_TRUE(solver.factor(a).ok());
+  test::Random random(4);
+  const Eigen::VectorXd rhs =
+    Eigen::VectorXd::NullaryExpr(a.rows(), [&] { return random.uniform(-1.0, 1.0); });
+  Eigen::VectorXd expected;
+  solver.solve(rhs, expected);
+  for (const double scale : { 1.0, 1e-60, 1e60 })
+  {
+    // Rows and columns of very different sizes, too: far outside of what a float can hold.
+    Eigen::VectorXd rows(a.rows());
+    for (Index i = 0; i < rows.size(); ++i)
+    {
+      rows[i] = std::sqrt(scale) * std::pow(10.0, static_cast<double>(i % 13) - 6.0);
+    }
+    const SparseMatrix scaled = rows.asDiagonal() * a * rows.asDiagonal();
+    ASSERT_TRUE(single.factor(scaled, 0.0, context_).ok());
+    Eigen::VectorXd x;
+    single.solve(Eigen::VectorXd(rows.cwiseProduct(rhs)), x);
+    const Eigen::VectorXd back = rows.cwiseProduct(x);
+    EXPECT_LT((back - expected).norm(), 1e-3 * expected.norm());
+    const Eigen::VectorXd product = a.selfadjointView<Eigen::Lower>() * back;
+    EXPECT_LT((rhs - product).norm(), 1e-3 * rhs.norm());
+  }
+  Eigen::VectorXd x;
+  single.solve(Eigen::VectorXd(Eigen::VectorXd::Zero(a.rows())), x);
+  EXPECT_EQ(x, Eigen::VectorXd::Zero(a.rows()));
+}
+
+TEST_F(FloatCholeskyTest, NamesThePivotThatIsNotPositive)
+{
+  SparseMatrix a = definite_matrix(4, 0.1);
+  SparseSolver solver;
+  FloatCholesky single = analysed(a, solver);
+  for (const double bad : { -1e6, 0.0, std::nan("") })
+  {
+    SparseMatrix b = a;
+    b.coeffRef(17, 17) = bad;
+    const Status status = single.factor(b, 0.0, context_);
+    EXPECT_EQ(status.code, StatusCode::invalid_input) << bad;
+    if (bad < 0.0)
+    {
+      EXPECT_NE(status.message.find("unknown 17 "), std::string::npos) << status.message;
+    }
+  }
+  EXPECT_TRUE(single.factor(a, 0.0, context_).ok()) << "still good for another matrix";
+  EXPECT_EQ(single.factorisations(), 4);
+}
+
+TEST_F(FloatCholeskyTest, ClonesAndThreadsGiveTheSameBits)
+{
+  constexpr int count = 4;
+  const SparseMatrix a = definite_matrix(9, 0.01);
+  SparseSolver solver;
+  FloatCholesky single = analysed(a, solver);
+  ASSERT_TRUE(single.factor(a, 0.0, context_).ok());
+  const Eigen::VectorXd rhs = Eigen::VectorXd::LinSpaced(a.rows(), -1.0, 1.0);
+  Eigen::VectorXd alone;
+  single.solve(rhs, alone);
+  std::vector<FloatCholesky> clones;
+  std::vector<Eigen::VectorXd> together(count);
+  std::vector<Eigen::VectorXd> shared(count);
+  std::vector<std::thread> threads;
+  for (int i = 0; i < count; ++i)
+  {
+    clones.push_back(single.clone());
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    threads.emplace_back(
+      [&, i]
+      {
+        ExecutionContext context;
+        for (int again = 0; again < 3; ++again)
+        {
+          clones[i].factor(a, 0.0, context);
+          clones[i].solve(rhs, together[i]);
+          single.solve(rhs, shared[i]);
+        }
+      });
+  }
+  for (std::thread& thread : threads)
+  {
+    thread.join();
+  }
+  for (int i = 0; i < count; ++i)
+  {
+    EXPECT_EQ(together[i], alone);
+    EXPECT_EQ(shared[i], alone);
+  }
+  EXPECT_EQ(solver.analyses(), 1);
+  EXPECT_EQ(single.factorisations(), 1 + 3 * count);
+}
+
+TEST_F(FloatCholeskyTest, CancelEndsItAndOtherPatternsAreRefused)
+{
+  const SparseMatrix a = definite_matrix(4, 0.1);
+  SparseSolver solver;
+  FloatCholesky single = analysed(a, solver);
+  int asked = 0;
+  const ExecutionContext stopped(nullptr, [&] { return ++asked > 3; });
+  EXPECT_EQ(single.factor(a, 0.0, stopped).code, StatusCode::cancelled);
+  EXPECT_FALSE(single.factor(definite_matrix(3, 0.1), 0.0, context_).ok());
+  EXPECT_FALSE(FloatCholesky().factor(a, 0.0, context_).ok());
+  EXPECT_FALSE(FloatCholesky().analyse(solver, definite_matrix(3, 0.1)).ok());
+}
+
+TEST(FloatCholesky, IsUnavailableWithoutSupernodes)
+{
+  const SparseMatrix a = definite_matrix(3, 0.1);
+  SparseSolver solver({ SparseSolver::Backend::eigen, SparseSolver::Ordering::automatic });
+  ASSERT_TRUE(solver.analyse(a).ok());
+  FloatCholesky single;
+  EXPECT_EQ(single.analyse(solver, a).code, StatusCode::unavailable);
+  EXPECT_FALSE(single.analysed());
+}

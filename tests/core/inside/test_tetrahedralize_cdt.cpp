@@ -1,0 +1,368 @@
+// Method cdt: closed surfaces are filled exactly, unclean ones hold what they enclose.
+#include "inside/tetrahedralize.h"
+
+#include "inside/tet_quality.h"
+#include "surface/triangle_tree.h"
+
+#include "core/inside/tet_outcome.h"
+#include "support/demo_meshes.h"
+#include "support/meshes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+
+using namespace bindpose;
+using test::Cdt;
+using test::expect_valid;
+using test::run;
+using Outcome = test::TetOutcome;
+using testing::HasSubstr;
+
+namespace
+{
+/// Vertices - edges + triangles; half of it is the characteristic of what a closed surface bounds.
+Index surface_characteristic(const TriangleMesh& mesh)
+{
+  return mesh.points.rows() - count_edges(mesh.triangles).edges + mesh.triangles.rows();
+}
+
+/// Largest distance of the tets' boundary (vertices and middles of facets) from the surface.
+double boundary_distance(const TetMesh& mesh, const TriangleMesh& surface)
+{
+  const TriangleTree tree(surface.points, surface.triangles);
+  const Triangles skin = boundary_triangles(mesh.tets);
+  double largest = 0.0;
+  for (Index t = 0; t < skin.rows(); ++t)
+  {
+    Vec3 middle = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3 p = mesh.points.row(skin(t, k));
+      largest = std::max(largest, tree.distance(p, 1e9));
+      middle += p / 3.0;
+    }
+    largest = std::max(largest, tree.distance(middle, 1e9));
+  }
+  return largest;
+}
+
+TriangleMesh with_inner_wall()
+{
+  TriangleMesh mesh = test::cube();
+  mesh.triangles.conservativeResize(14, 3);
+  mesh.triangles.row(12) << 0, 3, 7;
+  mesh.triangles.row(13) << 0, 7, 4;
+  return mesh;
+}
+
+TriangleMesh doubled(const TriangleMesh& mesh)
+{
+  TriangleMesh twice = mesh;
+  twice.triangles.resize(2 * mesh.triangles.rows(), 3);
+  twice.triangles << mesh.triangles, mesh.triangles;
+  return twice;
+}
+} // namespace
+
+// ---- Closed and clean --------------------------------------------------------------------------
+
+TEST_F(Cdt, ClosedSurfacesAreFilledExactly)
+{
+  struct Case
+  {
+    const char* name;
+    TriangleMesh mesh;
+    Index euler;
+  };
+  const TriangleMesh shell = test::join(test::sphere(3), test::flipped(test::sphere(2, 0.5)));
+  const TriangleMesh elephant = test::demo_mesh("elephant.off");
+  const TriangleMesh two =
+    test::join(test::sphere(2), test::translated(test::torus(20, 10, 1.0, 0.3), Vec3(4, 0, 0)));
+  for (const Case& c : { Case{ "cube", test::cube(), 1 }, Case{ "sphere", test::sphere(3), 1 },
+         Case{ "torus", test::torus(40, 20, 1.0, 0.4), 0 }, Case{ "shell", shell, 2 },
+         Case{ "two", two, 1 },
+         Case{ "far away", test::translated(test::sphere(2), Vec3(500, -300, 90)), 1 },
+         Case{ "elephant", elephant, surface_characteristic(elephant) / 2 } })
+  {
+    SCOPED_TRACE(c.name);
+    const Outcome outcome = run(c.mesh);
+    expect_valid(outcome, c.mesh);
+    const double volume = signed_volume(c.mesh.points, c.mesh.triangles);
+    EXPECT_EQ(outcome.method(), "cdt");
+    EXPECT_NEAR(outcome.volume(), volume, 1e-10 * volume);
+    EXPECT_NEAR(outcome.number("winding_volume"), volume, 0.1 * volume);
+    EXPECT_EQ(test::euler_characteristic(outcome.result.mesh), c.euler);
+    EXPECT_EQ(outcome.number("counts.kept_vertices"), c.mesh.points.rows()) << "all vertices stay";
+    EXPECT_NEAR(outcome.result.winding_numbers.minCoeff(), 1.0, 1e-9);
+    EXPECT_NEAR(outcome.result.winding_numbers.maxCoeff(), 1.0, 1e-9);
+    for (Index v = 0; v < c.mesh.points.rows(); ++v)
+    {
+      ASSERT_EQ(outcome.result.original_vertices[v], v);
+      ASSERT_EQ(outcome.result.mesh.points.row(v), c.mesh.points.row(v));
+    }
+    EXPECT_LT(boundary_distance(outcome.result.mesh, c.mesh), 1e-9);
+  }
+}
+
+TEST_F(Cdt, VerticesInsideAreAdded)
+{
+  const TriangleMesh sphere = test::sphere(3);
+  TetrahedralizeOptions none;
+  none.quality = 0.0;
+  none.interior_edge = 0.0;
+  const Outcome bare = run(sphere, none);
+  const Outcome full = run(sphere);
+  expect_valid(bare, sphere);
+  EXPECT_EQ(bare.result.mesh.points.rows(), sphere.points.rows());
+  EXPECT_GT(full.result.mesh.points.rows(), 2 * sphere.points.rows());
+  EXPECT_GT(full.number("min_dihedral_angle"), 4.0);
+  // No edge inside is much longer than asked for.
+  TetrahedralizeOptions fine;
+  fine.interior_edge = 0.02;
+  EXPECT_GT(run(sphere, fine).result.mesh.tets.rows(), 3 * full.result.mesh.tets.rows());
+}
+
+TEST_F(Cdt, FlatTetsAreSwappedAndTheSurfaceStays)
+{
+  const TriangleMesh elephant = test::demo_mesh("elephant.off");
+  const Outcome outcome = run(elephant, TetMethod::cdt);
+  expect_valid(outcome, elephant);
+  EXPECT_GE(outcome.number("min_dihedral_angle"), 8.0);
+  EXPECT_NEAR(
+    outcome.volume(), signed_volume(elephant.points, elephant.triangles), 1e-10 * outcome.volume());
+  EXPECT_EQ(boundary_triangles(outcome.result.mesh.tets).rows(), elephant.triangles.rows());
+}
+
+TEST_F(Cdt, SameBitsForAnyNumberOfThreads)
+{
+  const TriangleMesh mesh =
+    test::join(test::open_cube(), test::translated(test::sphere(2), Vec3(0.6, 0.5, 0.4)));
+  const Outcome one = run(mesh, {}, 1), many = run(mesh, {}, 4);
+  ASSERT_TRUE(one.status.ok()) << one.status.message;
+  EXPECT_EQ(one.result.mesh.points, many.result.mesh.points);
+  EXPECT_EQ(one.result.mesh.tets, many.result.mesh.tets);
+  EXPECT_EQ(one.result.winding_numbers, many.result.winding_numbers);
+}
+
+// ---- Unclean -----------------------------------------------------------------------------------
+
+TEST_F(Cdt, UncleanCubesHoldTheirVolume)
+{
+  TriangleMesh gap = test::cube(); // the top is loose, 1e-3 above
+  gap.points.conservativeResize(12, 3);
+  for (int v = 0; v < 4; ++v)
+  {
+    gap.points.row(8 + v) = gap.points.row(4 + v) + Vec3(0, 0, 1e-3).transpose();
+  }
+  gap.triangles.row(10) << 8, 9, 11;
+  gap.triangles.row(11) << 8, 11, 10;
+  TriangleMesh flipped_top = test::cube();
+  flipped_top.triangles.bottomRows(2).col(1).swap(flipped_top.triangles.bottomRows(2).col(2));
+  struct Case
+  {
+    const char* name;
+    TriangleMesh mesh;
+    double volume, tolerance;
+  };
+  for (const Case& c : { Case{ "open top", test::open_cube(), 8.0, 1e-9 },
+         Case{ "inner wall", with_inner_wall(), 8.0, 1e-9 },
+         Case{ "two cubes, overlapping by half",
+           test::join(test::cube(), test::translated(test::cube(), Vec3(1, 0, 0))), 12.0, 1e-9 },
+         Case{ "two cubes, in general position",
+           test::join(test::cube(), test::translated(test::cube(), Vec3(1.03, 0.9, 0.85))),
+           16.0 - 0.97 * 1.1 * 1.15, 1e-9 },
+         Case{ "doubled faces", doubled(test::cube()), 8.0, 1e-9 },
+         Case{ "a gap under the top", gap, 8.002, 0.003 },
+         Case{ "top turned over", flipped_top, 8.0, 1e-9 },
+         Case{ "inside out", test::flipped(test::cube()), 8.0, 1e-9 },
+         Case{ "loose triangles", test::unwelded(test::cube()), 8.0, 1e-9 },
+         Case{ "a fin outside",
+           test::join(test::cube(), test::translated(test::grid(1, 1, 2, 2), Vec3(0.5, -0.9, 0.3))),
+           8.0, 1e-6 } })
+  {
+    SCOPED_TRACE(c.name);
+    const Outcome outcome = run(c.mesh);
+    expect_valid(outcome, c.mesh);
+    EXPECT_EQ(outcome.method(), "cdt");
+    EXPECT_NEAR(outcome.volume(), c.volume, c.tolerance);
+  }
+  // The turned top is found and turned back: without that, w = 0 next to it and 2/3 at the centre.
+  const Outcome outcome = run(flipped_top);
+  EXPECT_EQ(outcome.number("counts.turned_triangles"), 2);
+  ASSERT_EQ(outcome.status.warnings.size(), 1u);
+  EXPECT_THAT(outcome.status.warnings[0], HasSubstr("2 triangles were turned"));
+  EXPECT_EQ(run(test::flipped(test::cube())).number("counts.turned_components"), 1);
+}
+
+TEST_F(Cdt, ManyPartsMostlyInsideOutOthersTouchOneIsOpen)
+{
+  // Every second cube of 4 x 4 x 4: they touch in edges and vertices. Below them 16 cubes apart
+  // from each other, most of them inside out, and beside them one without a top.
+  TriangleMesh mesh = test::translated(test::open_cube(), Vec3(8.0, 0.0, 0.0));
+  Index turned = 0;
+  for (int k = 0; k < 64; ++k)
+  {
+    const Vec3 at(k % 4, k / 4 % 4, k / 16);
+    if (static_cast<int>(at.sum()) % 2 == 0)
+    {
+      mesh = test::join(mesh, test::translated(test::cube(0.0, 1.0), at));
+    }
+    if (k < 16)
+    {
+      const TriangleMesh apart = test::translated(test::cube(0.0, 1.0), 1.5 * at + Vec3(0, 0, -3));
+      const bool inside_out = k % 5 != 0;
+      turned += inside_out ? 1 : 0;
+      mesh = test::join(mesh, inside_out ? test::flipped(apart) : apart);
+    }
+  }
+  const Outcome outcome = run(mesh);
+  expect_valid(outcome, mesh);
+  EXPECT_EQ(outcome.method(), "cdt");
+  EXPECT_NEAR(outcome.volume(), 32.0 + 16.0 + 8.0, 1e-9);
+  EXPECT_GT(outcome.number("counts.nonmanifold_edges"), 0.0);
+  EXPECT_EQ(outcome.number("counts.boundary_edges"), 4.0);
+  EXPECT_EQ(outcome.number("counts.turned_components"), turned);
+  EXPECT_FALSE(outcome.status.warnings.empty());
+}
+
+TEST_F(Cdt, CrossingSurfacesKeepTheirVerticesAndTriangles)
+{
+  const TriangleMesh spheres =
+    test::join(test::sphere(3), test::sphere(3, 1.0, Vec3(0.7, 0.31, 0.17)));
+  const Outcome outcome = run(spheres);
+  expect_valid(outcome, spheres);
+  EXPECT_EQ(outcome.method(), "cdt");
+  EXPECT_GT(outcome.number("counts.self_intersections"), 0);
+  EXPECT_LT(boundary_distance(outcome.result.mesh, spheres), 1e-9);
+  // Two balls of radius 1 at distance d: 8/3 pi - pi (4 + d) (2 - d)^2 / 12; the subdivided spheres
+  // are a little smaller.
+  const double d = Vec3(0.7, 0.31, 0.17).norm();
+  const double pi = 3.14159265358979;
+  const double balls = 8.0 / 3.0 * pi - pi * (4.0 + d) * (2.0 - d) * (2.0 - d) / 12.0;
+  const double shrink = signed_volume(spheres.points, spheres.triangles) / (8.0 / 3.0 * pi);
+  EXPECT_NEAR(outcome.volume(), balls * shrink, 0.003 * balls);
+  EXPECT_EQ(test::euler_characteristic(outcome.result.mesh), 1);
+  // Inside twice: w = 2 there, and with a threshold of 1.5 only the lens is kept.
+  EXPECT_NEAR(outcome.result.winding_numbers.maxCoeff(), 2.0, 1e-9);
+  TetrahedralizeOptions lens;
+  lens.winding_threshold = 1.5;
+  const Outcome inner = run(spheres, lens);
+  expect_valid(inner, spheres);
+  EXPECT_NEAR(
+    inner.volume() + outcome.volume(), signed_volume(spheres.points, spheres.triangles), 1e-9);
+}
+
+TEST_F(Cdt, NearlyCoincidentCopiesAreOneSolid)
+{
+  const TriangleMesh mesh =
+    test::join(test::sphere(3), test::translated(test::sphere(3), Vec3(1e-9, -2e-9, 1e-9)));
+  const Outcome outcome = run(mesh);
+  expect_valid(outcome, mesh);
+  const double volume = signed_volume(test::sphere(3).points, test::sphere(3).triangles);
+  EXPECT_NEAR(outcome.volume(), volume, 1e-3 * volume);
+}
+
+TEST_F(Cdt, TwentyPercentTurnedOrMissing)
+{
+  TriangleMesh turned = test::torus(32, 16, 1.0, 0.4);
+  const double volume = signed_volume(turned.points, turned.triangles);
+  test::Random random(19);
+  std::vector<Index> kept;
+  for (Index t = 0; t < turned.triangles.rows(); ++t)
+  {
+    if (random.uniform() < 0.2)
+    {
+      std::swap(turned.triangles(t, 0), turned.triangles(t, 1));
+    }
+    else
+    {
+      kept.push_back(t);
+    }
+  }
+  const Outcome repaired = run(turned);
+  expect_valid(repaired, turned);
+  EXPECT_NEAR(repaired.volume(), volume, 1e-10 * volume);
+  TriangleMesh holes = test::torus(32, 16, 1.0, 0.4);
+  Triangles rest(static_cast<Index>(kept.size()), 3);
+  for (Index t = 0; t < rest.rows(); ++t)
+  {
+    rest.row(t) = holes.triangles.row(kept[t]);
+  }
+  holes.triangles = rest;
+  const Outcome filled = run(holes);
+  expect_valid(filled, holes);
+  EXPECT_NEAR(filled.volume(), volume, 0.05 * volume);
+}
+
+TEST_F(Cdt, ElephantWithHoles)
+{
+  const TriangleMesh elephant = test::demo_mesh("elephant-with-holes.off");
+  ASSERT_GT(elephant.triangles.rows(), 0);
+  const Outcome outcome = run(elephant);
+  expect_valid(outcome, elephant);
+  EXPECT_EQ(outcome.method(), "cdt");
+  EXPECT_GT(outcome.number("counts.boundary_edges"), 0);
+  EXPECT_GT(outcome.result.mesh.tets.rows(), 5000);
+  EXPECT_LT(outcome.result.mesh.tets.rows(), 40000);
+  EXPECT_GT(outcome.number("min_dihedral_angle"), 2.0);
+  EXPECT_NEAR(outcome.volume() / outcome.number("winding_volume"), 1.0, 0.05);
+  EXPECT_GT(outcome.number("counts.kept_vertices"), 0.97 * elephant.points.rows());
+  EXPECT_GE(outcome.result.winding_numbers.minCoeff(), 0.3);
+  // The elephant it was made from.
+  const TriangleMesh whole = test::demo_mesh("elephant.off");
+  EXPECT_NEAR(
+    outcome.volume(), signed_volume(whole.points, whole.triangles), 0.02 * outcome.volume());
+}
+
+TEST_F(Cdt, RealSurfacesThatCross)
+{
+  for (const char* name : { "cow.off", "bones.off", "elk.off", "mpi.off" })
+  {
+    SCOPED_TRACE(name);
+    TriangleMesh mesh = test::demo_mesh(name);
+    mesh.points /= bounding_box(mesh.points).diagonal();
+    const Outcome outcome = run(mesh);
+    expect_valid(outcome, mesh);
+    EXPECT_GT(outcome.number("counts.self_intersections"), 0);
+    EXPECT_NEAR(outcome.volume() / outcome.number("winding_volume"), 1.0, 0.1);
+  }
+}
+
+TEST_F(Cdt, RandomSoupsGiveTetsOrASentence)
+{
+  // Whatever it is: a valid mesh that holds what the winding number encloses, or one sentence.
+  for (std::uint64_t seed = 1; seed <= 12; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    test::Random random(seed);
+    TriangleMesh mesh = seed % 2 ? test::sphere(2) : test::torus(14, 8, 1.0, 0.5);
+    if (seed % 3 == 0)
+    {
+      mesh = test::join(mesh, test::sphere(1, 0.8, random.in_box(Vec3::Zero(), Vec3::Ones())));
+    }
+    const double noise = 0.2 * random.uniform();
+    for (Index k = 0; k < mesh.points.size(); ++k)
+    {
+      mesh.points.data()[k] += noise * random.uniform(-1.0, 1.0);
+    }
+    for (Index t = 0; t < mesh.triangles.rows() / 10; ++t)
+    {
+      const Index a = random.below(mesh.triangles.rows());
+      mesh.triangles(a, random.below(3)) = random.below(mesh.points.rows());
+    }
+    const Outcome outcome = run(mesh);
+    if (outcome.status.ok())
+    {
+      EXPECT_TRUE(check_tets(outcome.result.mesh.points, outcome.result.mesh.tets).ok());
+      EXPECT_NEAR(outcome.volume() / outcome.number("winding_volume"), 1.0, 0.25);
+    }
+    else
+    {
+      EXPECT_EQ(outcome.status.code, StatusCode::invalid_input) << outcome.status.message;
+      EXPECT_FALSE(outcome.status.message.empty());
+    }
+  }
+}

@@ -1,0 +1,44 @@
+#ifndef bindpose_tests_core_inside_tet_outcome_h
+#define bindpose_tests_core_inside_tet_outcome_h
+
+// What the tests of tetrahedralize() have in common: a run of it, and what every result promises.
+
+#include "inside/tetrahedralize.h"
+
+#include "support/needs_mesher.h"
+
+#include <string>
+#include <vector>
+
+namespace bindpose::test
+{
+
+struct TetOutcome
+{
+  TetrahedralizeResult result;
+  Status status;
+  double number(const char* key) const { return this->status.report.number(key, -1.0); }
+  std::string method() const { return this->status.report.text("method"); }
+  double volume() const
+  {
+    return tet_volumes(this->result.mesh.points, this->result.mesh.tets).sum();
+  }
+};
+
+TetOutcome run(const TriangleMesh& mesh, TetrahedralizeOptions options = {}, int threads = 0);
+TetOutcome run(const TriangleMesh& mesh, TetMethod method);
+
+/// What every result promises, whatever the method.
+void expect_valid(const TetOutcome& outcome, const TriangleMesh& surface);
+
+/// Point handles.
+HandlePlaces places_of(const std::vector<Vec3>& points);
+
+/// Tests of method cdt.
+class Cdt : public NeedsMesher
+{
+};
+
+} // namespace bindpose::test
+
+#endif

@@ -1,0 +1,53 @@
+#ifndef bindpose_tests_support_cancel_later_h
+#define bindpose_tests_support_cancel_later_h
+
+#include "base/execution.h"
+
+#include <chrono>
+#include <thread>
+
+namespace bindpose::test
+{
+
+/// A person who asks a running work to stop, a while after it has begun.
+class CancelLater
+{
+public:
+  CancelLater(ExecutionContext& context, int milliseconds)
+    : user_(
+        [this, &context, milliseconds]
+        {
+          std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+          this->asked_ = Clock::now();
+          context.request_cancel();
+        })
+  {
+  }
+  ~CancelLater()
+  {
+    if (this->user_.joinable())
+    {
+      this->user_.join();
+    }
+  }
+  CancelLater(const CancelLater&) = delete;
+  CancelLater& operator=(const CancelLater&) = delete;
+
+  /// Seconds from the request until now, when the work is over; below 0: it was over before.
+  double waited()
+  {
+    const auto now = Clock::now();
+    this->user_.join();
+    return std::chrono::duration<double>(now - this->asked_).count();
+  }
+
+private:
+  using Clock = std::chrono::steady_clock;
+
+  Clock::time_point asked_; // before the thread, which writes it
+  std::thread user_;
+};
+
+} // namespace bindpose::test
+
+#endif

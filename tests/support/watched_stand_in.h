@@ -1,0 +1,47 @@
+#ifndef bindpose_tests_support_watched_stand_in_h
+#define bindpose_tests_support_watched_stand_in_h
+
+#include "support/environment.h"
+#include "support/files.h"
+#include "support/processes.h"
+#include "support/stand_in.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <string>
+
+#include <sys/types.h>
+
+namespace bindpose::test
+{
+
+/// A stand-in that at its end sees that nothing of those who ran it is left behind.
+class WatchedStandIn : public StandIn
+{
+public:
+  WatchedStandIn(const char* variable, const std::string& script)
+    : StandIn(variable, script), variable_("TMPDIR", this->temporary_.path()),
+      descriptors_(open_descriptors())
+  {
+  }
+  ~WatchedStandIn()
+  {
+    EXPECT_EQ(open_descriptors(), this->descriptors_) << "a file, pipe or socket was left open";
+    EXPECT_EQ(this->temporary_.number_of_files(), 0u) << "a temporary file was left";
+  }
+
+  /// The process id that the script wrote into the file "pid" beside it.
+  pid_t process() const { return std::atoi(this->folder().read("pid").c_str()); }
+  /// Where temporary files are made.
+  const Folder& temporary() const { return this->temporary_; }
+
+private:
+  Folder temporary_;
+  Environment variable_;
+  std::size_t descriptors_;
+};
+
+} // namespace bindpose::test
+
+#endif

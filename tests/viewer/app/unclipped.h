@@ -1,0 +1,52 @@
+#ifndef bindpose_tests_viewer_app_unclipped_h
+#define bindpose_tests_viewer_app_unclipped_h
+
+// No word is cut off: the widgets in another have the room that their texts need.
+
+#include <QComboBox>
+#include <QPushButton>
+#include <QStyle>
+#include <QStyleOptionComboBox>
+#include <QWidget>
+
+#include <gtest/gtest.h>
+
+namespace bindpose::test
+{
+
+/// The buttons that are seen.
+inline void expect_unclipped_buttons(const QWidget* in)
+{
+  for (const QPushButton* button : in->findChildren<QPushButton*>())
+  {
+    if (button->isVisible())
+    {
+      EXPECT_LE(button->sizeHint().width(), button->width()) << button->text().toStdString();
+      EXPECT_LE(button->sizeHint().height(), button->height()) << button->text().toStdString();
+    }
+  }
+}
+
+/// The items of the lists that drop down, when they are chosen.
+inline void expect_unclipped_items(const QWidget* in)
+{
+  for (const QComboBox* box : in->findChildren<QComboBox*>())
+  {
+    QStyleOptionComboBox option;
+    option.initFrom(box);
+    option.editable = false;
+    const int room =
+      box->style()
+        ->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, box)
+        .width();
+    for (int item = 0; item < box->count(); ++item)
+    {
+      EXPECT_LE(box->fontMetrics().horizontalAdvance(box->itemText(item)), room)
+        << box->itemText(item).toStdString();
+    }
+  }
+}
+
+} // namespace bindpose::test
+
+#endif

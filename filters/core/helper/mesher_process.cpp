@@ -170,6 +170,8 @@ Status run_mesher(const MesherRequest& request, const MesherData& input, MesherA
   ChildRequest child;
   child.path = path;
   child.arguments = request.arguments;
+  // Should we die before the helper has asked to be told of it, it sees that its parent is another.
+  child.arguments.insert(child.arguments.end(), { "--parent", std::to_string(::getpid()) });
   child.input = input_file.get();
   child.output = output_file.get();
   child.time_limit = request.time_limit;

@@ -37,10 +37,20 @@ namespace
   std::_Exit(1);
 }
 
+/// When Bindpose dies, so does this. It may have died before it could be asked for: then the parent
+/// is another.
+void die_with(pid_t parent)
+{
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (parent > 0 && ::getppid() != parent)
+  {
+    fail("the program that started this has ended");
+  }
+}
+
 void set_limits(double memory_mib)
 {
-  // When Bindpose dies, so does this; and a crash here is expected: no core files.
-  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  // A crash here is expected: no core files.
   const rlimit none{ 0, 0 };
   ::setrlimit(RLIMIT_CORE, &none);
   if (memory_mib > 0.0)
@@ -119,6 +129,7 @@ int main(int argc, char* argv[])
   {
     options[argv[i]] = argv[i + 1];
   }
+  die_with(static_cast<pid_t>(number(options, "--parent", 0.0)));
   set_limits(number(options, "--memory", 0.0));
   // Libraries print to standard output: keep it for the result alone.
   const int result = ::dup(1);

@@ -213,16 +213,20 @@ def test_cancel_kills_the_helper_at_once(folder, number):
 
 
 @needs_helper
-def test_no_helper_outlives_the_program(folder):
-    folder.off("s.off", shapes.sphere(200, 120))
+@pytest.mark.parametrize("age", [0.0, 0.001, 0.01, 0.3])
+def test_no_helper_outlives_the_program(folder, age):
+    """Killed when the helper has just been started, before its first line has run, and while it works."""
+    folder.off("s.off", shapes.sphere(400, 240))
     process = start(folder, "s.off", "-o", "s.vtu")
     helper = wait_for_helper(process)
+    time.sleep(age)
+    assert runs(helper)
     process.kill()
     process.communicate(timeout=60)
     asked = time.monotonic()
-    while runs(helper) and time.monotonic() - asked < 5:
+    while runs(helper):
+        assert time.monotonic() - asked < 5
         time.sleep(0.002)
-    assert not runs(helper)
 
 
 # ---- Sizes -----------------------------------------------------------------------------------------

@@ -127,8 +127,14 @@ const std::vector<Verb>& verbs()
           "bounded-biharmonic|monotone|harmonic|biharmonic|triharmonic|graph-biharmonic|"
           "linear-subspace|inverse-distance|smoothed-harmonic|bone-heat",
           "which weights; all but the first two are to compare with" },
-        { "--domain", "DOMAIN", Kind::choice, "auto", "auto|volume|surface",
-          "solve in the volume (through tets) or on the surface; auto is volume" },
+        { "--domain", "DOMAIN", Kind::choice, "auto", "auto|volume|embedding|surface",
+          "solve in tets of the inside, in a lattice that holds the surface, or on the surface; "
+          "auto: small surfaces in their volume, dense or unfillable ones in the lattice, flat "
+          "ones on themselves" },
+        { "--resolution", "CUBES", Kind::integer, "0", "",
+          "embedding: lattice cubes along the longest side; 0: about 30,000 tets" },
+        { "--stage", "STAGE", Kind::choice, "certified", "certified|preview",
+          "preview: something to look at in the time of a factorisation" },
         { "--order", "ORDER", Kind::choice, "2", "2|3",
           "of bounded-biharmonic and monotone: 2 least bending, 3 (triharmonic) smoother still" },
         { "--certificate", "HOW", Kind::choice, "default", "default|tight",

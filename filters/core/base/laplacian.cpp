@@ -100,9 +100,14 @@ SparseMatrix stiffness_matrix(PointsView points, TrianglesView triangles)
   return assemble(points.rows(), triangles, cotangent_weights(points, triangles), edges);
 }
 
-SparseMatrix stiffness_matrix(PointsView points, TetsView tets)
+SparseMatrix stiffness_matrix(PointsView points, TetsView tets, const Eigen::VectorXd& shares)
 {
-  return assemble(points.rows(), tets, cotangent_weights(points, tets), tet_edges);
+  auto c = cotangent_weights(points, tets);
+  if (shares.size() > 0)
+  {
+    c = shares.asDiagonal() * c;
+  }
+  return assemble(points.rows(), tets, c, tet_edges);
 }
 
 SparseMatrix boundary_flux(PointsView points, TrianglesView triangles)
@@ -204,10 +209,14 @@ Eigen::VectorXd lumped_mass(PointsView points, TrianglesView triangles)
   return mass;
 }
 
-Eigen::VectorXd lumped_mass(PointsView points, TetsView tets)
+Eigen::VectorXd lumped_mass(PointsView points, TetsView tets, const Eigen::VectorXd& shares)
 {
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(points.rows());
-  const Eigen::VectorXd volumes = tet_volumes(points, tets);
+  Eigen::VectorXd volumes = tet_volumes(points, tets);
+  if (shares.size() > 0)
+  {
+    volumes.array() *= shares.array();
+  }
   for (Index t = 0; t < tets.rows(); ++t)
   {
     for (int k = 0; k < 4; ++k)

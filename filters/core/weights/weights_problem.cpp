@@ -140,9 +140,9 @@ Status make_weights_problem(const Domain& domain, const std::vector<Index>& regi
   scaled.rowwise() -= box.center().transpose();
   problem.diagonal = box.diagonal();
   scaled /= problem.diagonal;
-  problem.stiffness = refined.is_volume() ? stiffness_matrix(scaled, refined.tets)
+  problem.stiffness = refined.is_volume() ? stiffness_matrix(scaled, refined.tets, refined.shares)
                                           : stiffness_matrix(scaled, refined.triangles);
-  problem.mass = refined.is_volume() ? lumped_mass(scaled, refined.tets)
+  problem.mass = refined.is_volume() ? lumped_mass(scaled, refined.tets, refined.shares)
                                      : lumped_mass(scaled, refined.triangles);
   problem.mass_unit = problem.mass.maxCoeff();
   problem.mass /= problem.mass_unit;
@@ -255,8 +255,9 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
         column.factorisations = solutions[j].factorisations;
         column.minimum = raw.minCoeff();
         column.maximum = raw.maxCoeff();
-        column.interior_extrema =
-          static_cast<Index>(interior_extrema(problem.graph, raw, exempt).size());
+        column.zeros = static_cast<double>((raw.array() == 0.0).count()) / static_cast<double>(n);
+        column.ones = static_cast<double>((raw.array() == 1.0).count()) / static_cast<double>(n);
+        column.extrema = interior_extrema(problem.graph, raw, exempt);
         column.normalised_interior_extrema =
           static_cast<Index>(interior_extrema(problem.graph, normalised, exempt).size());
       }
@@ -267,7 +268,7 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
   }
 
   Report& report = status.report;
-  std::vector<double> gaps, residuals, energies;
+  std::vector<double> gaps, residuals, energies, zeros, ones;
   std::vector<std::int64_t> iterations, factorisations, extrema, normalised_extrema;
   double bounds = 0.0;
   std::int64_t total = 0;
@@ -280,7 +281,9 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
     energies.push_back(column.certificate.energy);
     iterations.push_back(column.iterations);
     factorisations.push_back(column.factorisations);
-    extrema.push_back(column.interior_extrema);
+    extrema.push_back(static_cast<std::int64_t>(column.extrema.size()));
+    zeros.push_back(column.zeros);
+    ones.push_back(column.ones);
     normalised_extrema.push_back(column.normalised_interior_extrema);
     bounds = std::max({ bounds, -column.minimum, column.maximum - 1.0 });
     total += column.iterations;
@@ -306,6 +309,8 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
   report.set("handles[].factorisations", factorisations);
   report.set("handles[].interior_extrema", extrema);
   report.set("handles[].interior_extrema_normalised", normalised_extrema);
+  report.set("handles[].zeros", zeros);
+  report.set("handles[].ones", ones);
   if (!late.empty())
   {
     char numbers[96];

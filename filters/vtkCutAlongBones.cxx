@@ -15,6 +15,7 @@
 #include "vtkPolyData.h"
 
 #include <algorithm>
+#include <map>
 
 using namespace bindpose;
 
@@ -47,6 +48,29 @@ Status to_color_arrays(vtkPolyData* handles, ColorArrays& colors)
   {
     return Status::invalid_input(
       "the handles have one of LeftColor and RightColor, but a curve needs both");
+  }
+  return {};
+}
+
+/// The first bone of each bone's curve; every other handle is its own.
+Status to_curves(vtkPolyData* handle_data, const Handles& handles, const std::vector<Index>& cells,
+  std::vector<Index>& first)
+{
+  vtkDataArray* curves = handle_data->GetCellData()->GetArray("Curve");
+  if (curves && curves->GetNumberOfComponents() != 1)
+  {
+    return Status::invalid_input("the handles' array 'Curve' has " +
+      std::to_string(curves->GetNumberOfComponents()) + " components, but it takes one number");
+  }
+  std::map<double, Index> first_of;
+  for (std::size_t j = 0; j < handles.size(); ++j)
+  {
+    first.push_back(static_cast<Index>(j));
+    if (curves && handles[j].kind == HandleKind::bone)
+    {
+      first.back() =
+        first_of.emplace(curves->GetComponent(cells[j], 0), first.back()).first->second;
+    }
   }
   return {};
 }
@@ -116,12 +140,18 @@ Status vtkCutAlongBones::Execute(
   {
     status = to_color_arrays(handle_data, colors);
   }
+  std::vector<Index> curves;
+  if (status.ok())
+  {
+    status = to_curves(handle_data, handles, cells, curves);
+  }
   if (!status.ok())
   {
     return status;
   }
   BoneCut cut;
-  status = cut_along_bones(surface.points.view(), surface.triangles.view(), handles, context, cut);
+  status =
+    cut_along_bones(surface.points.view(), surface.triangles.view(), handles, curves, context, cut);
   if (!status.usable())
   {
     return status;
@@ -161,7 +191,6 @@ Status vtkCutAlongBones::Execute(
   {
     handle.parent = -1; // it may have been a bone
   }
-  status.warnings.clear();
   const Status checked = check_handles(sides.handles);
   if (!checked.ok())
   {

@@ -12,12 +12,15 @@
  *
  * **Input 0**: a flat surface (z = const, vtkPolyData) whose edges run along the bones.
  * **Input 1**: the handles. Bones are cut along, in their direction from head to tail, seen from
- * +z; all other handles are handed on. Cell arrays `LeftColor` and `RightColor` (of bones) and
+ * +z; all other handles are handed on, cage elements left out. Bones with the same number in the
+ * cell array `Curve` are one curve, which has the name and colours of its first bone; without the
+ * array each bone is one. Cell arrays `LeftColor` and `RightColor` (of bones) and
  * `Color` (of the others), 3 components each, become `Color` of the handles put out.
  * **Output 0**: the cut surface: input points with their numbers, then doubled ones; point arrays
- * of the input, `OriginalPointIds`, and the label `RegionId` of each side. A bone's end inside of
- * the shape is one point, on neither side. **Output 1**: the handles: instead of each bone the
- * regions `NAME left` and `NAME right` (without a side that has no point), with `Color`.
+ * of the input, `OriginalPointIds`, and the label `RegionId` of each side. A curve's end inside of
+ * the shape is one point, on neither side: colours that differ meet there, and unconstrained
+ * weights overshoot the more, the finer the mesh. **Output 1**: the handles: instead of each curve
+ * the regions `NAME left` and `NAME right` (without a side that has no point), with `Color`.
  *
  * Report: counts.{vertices, handles, doubled_vertices}, seconds.cut. Errors: a surface that is not
  * flat, no bone, a bone that is not a row of edges or is a single edge inside, LeftColor without

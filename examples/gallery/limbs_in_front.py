@@ -36,7 +36,8 @@ def pose_of(size):
 
 
 def seen(shape, is_arm, box, size):
-    """Which pixels show the arm: drawn in two colours, without lights, through the depth buffer."""
+    """Which pixels show the arm: drawn in two colours, without lights, through the depth buffer. Returns the window,
+    too: while one is open, a virtual display does not start anew."""
     flags = vtkPolyData()
     flags.ShallowCopy(shape)
     colours = np.where(is_arm[:, None], np.array([[255, 0, 0]]), np.array([[0, 0, 255]])).astype(np.uint8)
@@ -60,7 +61,7 @@ def seen(shape, is_arm, box, size):
     grab.ReadFrontBufferOff()
     grab.Update()
     drawn = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()).reshape(size, size, -1)
-    return drawn[..., 0] > 128
+    return drawn[..., 0] > 128, window
 
 
 def make(options):
@@ -79,7 +80,8 @@ def make(options):
     layers = {"in front": dict.fromkeys(LIMB, 1), "behind": dict.fromkeys(LIMB, -1), "equal": {}}
     ordered = {caption: bindpose.depth_order(posed, handles, layer) for caption, layer in layers.items()}
     box = (-0.06 * size, 1.06 * size, -0.05 * size, 1.07 * size)
-    owned = {caption: seen(mesh, is_arm, box, size) for caption, mesh in ordered.items()}
+    drawn = {caption: seen(mesh, is_arm, box, size) for caption, mesh in ordered.items()}
+    owned = {caption: pixels_of_arm for caption, (pixels_of_arm, _window) in drawn.items()}
 
     rest = bindpose.depth_order(weighted, handles, layers["in front"], displace=False)
     depth = vtk_to_numpy(rest.GetPointData().GetArray("Depth"))

@@ -89,7 +89,7 @@ def make(options):
                       [planar.bands(posed, np.clip(share, 0, 1), scale, 20),
                        *planar.edges(posed, shape, width=2.5), *planar.dots(moved, colours, radius)]))
     window = planar.show(tiles, (-0.04 * size, 0.84 * size, -0.07 * size, 1.0 * size), tile=(480, 580),
-                         title="How far the hand moves along, and its middle finger half-way up")
+                         title="How far the hand moves along with a fingertip; in numbers: its middle finger, half-way up")
     common.write_picture(window, options.picture)
 
     slit = slit_square(60)

@@ -158,7 +158,7 @@ def depth_order(mesh, handles, layers=None, *, weights=None, array_name="Weights
     return result if is_dataset(mesh) else Array(point_array(result, "Depth"), report)
 
 
-def cut_along_bones(shape, handles, left=None, right=None, *, progress=None):
+def cut_along_bones(shape, handles, left=None, right=None, *, curves=None, progress=None):
     """Open a planar mesh along bones and make a handle of each side: curves with two colours.
 
     Parameters
@@ -170,6 +170,9 @@ def cut_along_bones(shape, handles, left=None, right=None, *, progress=None):
     left, right : (#handles, 3) array or dict, optional
         Colours of the bones' sides, one a handle or ``{name: (r, g, b)}``, both or none. Default: the
         handles' cell arrays ``LeftColor`` and ``RightColor``.
+    curves : sequence of int or dict, optional
+        A number each: bones with the same one are one curve, with the colours of its first bone. Default: the
+        handles' cell array ``Curve``; without that each bone is a curve.
     progress
         See `winding_number`.
 
@@ -190,6 +193,8 @@ def cut_along_bones(shape, handles, left=None, right=None, *, progress=None):
     for array_name, values in (("LeftColor", left), ("RightColor", right)):
         if values is not None:
             handle_data = _with_cell_values(handle_data, array_name, values, 3)
+    if curves is not None:
+        handle_data = _with_cell_values(handle_data, "Curve", curves, 1)
     knife = filters.vtkCutAlongBones()
     knife.SetInputData(0, data)
     knife.SetInputData(1, handle_data)

@@ -341,21 +341,21 @@ TEST(CutAlongBones, SidesAreRegionsThatWeightsTake)
     marks->InsertNextValue(static_cast<float>(v));
   }
   square->GetPointData()->AddArray(marks);
-  Handles list{ bone("curve", Vec3(0.25, 0.5, 0), Vec3(0.75, 0.5, 0)), Handle() };
-  list[1].name = "dot";
-  list[1].head = list[1].tail = Vec3(0.5, 0.875, 0);
+  Handles list{ Handle(), bone("curve", Vec3(0.25, 0.5, 0), Vec3(0.75, 0.5, 0)) };
+  list[0].name = "dot";
+  list[0].head = list[0].tail = Vec3(0.5, 0.875, 0);
   const auto handles = to_polydata(list);
   vtkNew<vtkCutAlongBones> cut;
   cut->SetInputData(0, square);
   cut->SetInputData(1, handles);
   vtkNew<Listener> listener;
   listener->listen(cut);
-  set_cells(handles, "LeftColor", { 1, 0, 0, 0, 0, 0 });
-  set_cells(handles, "RightColor", { 0, 0, 1, 0, 0, 0 });
+  set_cells(handles, "LeftColor", { 0, 0, 0, 1, 0, 0 });
+  set_cells(handles, "RightColor", { 0, 0, 0, 0, 0, 1 });
   cut->Update();
   ASSERT_EQ(listener->errors.size(), 1u);
   EXPECT_THAT(listener->errors[0], HasSubstr("'dot'"));
-  set_cells(handles, "Color", { 0, 0, 0, 0, 1, 0 });
+  set_cells(handles, "Color", { 0, 1, 0, 0, 0, 0 });
   cut->Update();
   ASSERT_EQ(cut->GetStatus(), vtkBindposeAlgorithm::OK);
   const Report report = read_report(cut->GetOutput());
@@ -379,20 +379,55 @@ TEST(CutAlongBones, SidesAreRegionsThatWeightsTake)
   vtkPointData* painted = colors->GetOutput()->GetPointData();
   vtkDataArray* labels = painted->GetArray("RegionId");
   vtkDataArray* values = painted->GetArray("ColorValues");
-  int sides[3] = { 0, 0, 0 };
+  int sides[5] = { 0, 0, 0, 0, 0 };
   for (vtkIdType v = 0; v < labels->GetNumberOfTuples(); ++v)
   {
-    const int side = static_cast<int>(labels->GetComponent(v, 0));
-    ASSERT_LE(side, 2);
+    const int side = static_cast<int>(labels->GetComponent(v, 0)); // of the second handle: 3 and 4
+    ASSERT_TRUE(side == 0 || side == 3 || side == 4);
     sides[side] += 1;
     if (side > 0)
     {
-      EXPECT_NEAR(values->GetComponent(v, 0), side == 1 ? 1.0 : 0.0, 1e-12);
-      EXPECT_NEAR(values->GetComponent(v, 2), side == 1 ? 0.0 : 1.0, 1e-12);
+      EXPECT_NEAR(values->GetComponent(v, 0), side == 3 ? 1.0 : 0.0, 1e-12);
+      EXPECT_NEAR(values->GetComponent(v, 2), side == 3 ? 0.0 : 1.0, 1e-12);
     }
   }
-  EXPECT_EQ(sides[1], 7);
-  EXPECT_EQ(sides[2], 7);
+  EXPECT_EQ(sides[3], 7);
+  EXPECT_EQ(sides[4], 7);
+}
+
+TEST(CutAlongBones, BonesOfOneCurveAreOnePairOfSides)
+{
+  const TriangleMesh mesh = test::grid(8, 8);
+  const Vec3 corners[4] = { Vec3(0.25, 0.25, 0), Vec3(0.75, 0.25, 0), Vec3(0.75, 0.75, 0),
+    Vec3(0.25, 0.75, 0) };
+  Handles ring;
+  for (int k = 0; k < 4; ++k)
+  {
+    ring.push_back(bone("r" + std::to_string(k), corners[k], corners[(k + 1) % 4]));
+  }
+  const auto handles = to_polydata(ring);
+  vtkNew<vtkCutAlongBones> cut;
+  cut->SetInputData(0, to_polydata(mesh.points, mesh.triangles));
+  cut->SetInputData(1, handles);
+  cut->Update();
+  EXPECT_EQ(read_report(cut->GetOutput()).number("counts.handles", -1), 8);
+  set_cells(handles, "Curve", { 7, 7, 7, 7 });
+  cut->Update();
+  EXPECT_EQ(read_report(cut->GetOutput()).number("counts.handles", -1), 2);
+  vtkDataArray* labels = cut->GetOutput()->GetPointData()->GetArray("RegionId");
+  int sides[3] = { 0, 0, 0 };
+  for (vtkIdType v = 0; v < labels->GetNumberOfTuples(); ++v)
+  {
+    sides[static_cast<int>(labels->GetComponent(v, 0))] += 1;
+  }
+  EXPECT_EQ(sides[1], 16) << "joints, too";
+  EXPECT_EQ(sides[2], 16);
+  set_cells(handles, "Curve", { 7, 7, 7, 7, 7, 7, 7, 7 });
+  vtkNew<Listener> listener;
+  listener->listen(cut);
+  cut->Update();
+  ASSERT_EQ(listener->errors.size(), 1u);
+  EXPECT_THAT(listener->errors[0], HasSubstr("'Curve'"));
 }
 
 TEST(CutAlongBones, LabelsThatAreThereStay)

@@ -112,7 +112,8 @@ std::vector<std::vector<Index>> groups_around(
 
 /// The side (see BoneCut) of a vertex's group of triangles.
 Index side_of(Index vertex, const std::vector<Index>& group, PointsView points,
-  TrianglesView triangles, const Handles& handles, const BoneEdges& bones)
+  TrianglesView triangles, const Handles& handles, const std::vector<Index>& curves,
+  const BoneEdges& bones)
 {
   std::vector<Index> sides;
   for (const Index t : group)
@@ -126,7 +127,7 @@ Index side_of(Index vertex, const std::vector<Index>& group, PointsView points,
         const Index third = triangles.row(t).sum() - vertex - other;
         const bool left =
           left_of(handles[static_cast<std::size_t>(bone->second)], points.row(third)) > 0.0;
-        sides.push_back(2 * bone->second + (left ? 1 : 2));
+        sides.push_back(2 * curves[static_cast<std::size_t>(bone->second)] + (left ? 1 : 2));
       }
     }
   }
@@ -143,7 +144,7 @@ Index side_of(Index vertex, const std::vector<Index>& group, PointsView points,
 } // namespace
 
 Status cut_along_bones(PointsView points, TrianglesView triangles, const Handles& handles,
-  ExecutionContext& context, BoneCut& result)
+  const std::vector<Index>& curves, ExecutionContext& context, BoneCut& result)
 {
   Status status = check_mesh(points, triangles);
   if (!status.ok())
@@ -160,6 +161,11 @@ Status cut_along_bones(PointsView points, TrianglesView triangles, const Handles
   for (const Edge& edge : mesh_edges(triangles))
   {
     edges.emplace(key_of(edge.a, edge.b), -1);
+  }
+  std::vector<Index> curve_of = curves;
+  for (std::size_t b = curve_of.size(); b < handles.size(); ++b)
+  {
+    curve_of.push_back(static_cast<Index>(b));
   }
   Index bones = 0;
   BoneEdges cut;
@@ -216,12 +222,24 @@ Status cut_along_bones(PointsView points, TrianglesView triangles, const Handles
     result.original[static_cast<std::size_t>(v)] = v;
   }
   result.side.assign(static_cast<std::size_t>(points.rows()), 0);
+  std::vector<bool> opened(handles.size(), false);
   for (const auto& [vertex, triangles_around] : around)
   {
     const auto groups = groups_around(vertex, triangles_around, triangles, cut);
     for (std::size_t g = 0; g < groups.size(); ++g)
     {
-      const Index side = side_of(vertex, groups[g], points, triangles, handles, cut);
+      for (const Index t : groups.size() > 1 ? groups[g] : std::vector<Index>())
+      {
+        for (int k = 0; k < 3; ++k)
+        {
+          const auto bone = cut.find(key_of(vertex, triangles(t, k)));
+          if (bone != cut.end())
+          {
+            opened[static_cast<std::size_t>(bone->second)] = true;
+          }
+        }
+      }
+      const Index side = side_of(vertex, groups[g], points, triangles, handles, curve_of, cut);
       if (g == 0)
       {
         result.side[static_cast<std::size_t>(vertex)] = side;
@@ -244,14 +262,20 @@ Status cut_along_bones(PointsView points, TrianglesView triangles, const Handles
   }
   for (std::size_t b = 0; b < handles.size(); ++b)
   {
-    const Index left = 2 * static_cast<Index>(b) + 1;
+    const Index left = 2 * curve_of[b] + 1;
     const auto has = [&result](Index side)
     { return std::find(result.side.begin(), result.side.end(), side) != result.side.end(); };
-    if (handles[b].kind == HandleKind::bone && !has(left) && !has(left + 1))
+    if (handles[b].kind != HandleKind::bone || has(left) || has(left + 1))
+    {
+      continue;
+    }
+    if (!opened[b])
     {
       return Status::invalid_input("bone '" + handles[b].name +
         "' cannot open: it has no vertex between its ends; make the mesh finer");
     }
+    status.warnings.push_back("bone '" + handles[b].name +
+      "' has no vertex of its own between others: its sides are theirs; a finer mesh has some");
   }
   result.points.resize(static_cast<Index>(result.original.size()), 3);
   for (Index v = 0; v < result.points.rows(); ++v)

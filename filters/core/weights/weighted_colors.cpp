@@ -46,7 +46,7 @@ double to_linear_light(double encoded)
 double from_linear_light(double linear)
 {
   const double x = std::abs(linear);
-  const double y = x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055;
+  const double y = x <= 0.0031308 ? 12.92 * x : 1.0 + 1.055 * (std::pow(x, 1.0 / 2.4) - 1.0);
   return std::copysign(y, linear);
 }
 

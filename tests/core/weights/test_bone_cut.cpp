@@ -33,7 +33,7 @@ BoneCut cut(const TriangleMesh& mesh, const Handles& bones)
 {
   ExecutionContext context;
   BoneCut result;
-  const Status status = cut_along_bones(mesh.points, mesh.triangles, bones, context, result);
+  const Status status = cut_along_bones(mesh.points, mesh.triangles, bones, {}, context, result);
   EXPECT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(
     status.report.number("counts.doubled_vertices", -1), result.points.rows() - mesh.points.rows());
@@ -127,6 +127,32 @@ TEST(BoneCut, BonesThatMeetAndCross)
   }
 }
 
+TEST(BoneCut, BonesOfOneEdgeEachOpenTogether)
+{
+  const TriangleMesh mesh = test::grid(3, 3, 3.0, 3.0);
+  const Vec3 corners[4] = { Vec3(1, 1, 0), Vec3(2, 1, 0), Vec3(2, 2, 0), Vec3(1, 2, 0) };
+  Handles ring;
+  for (int k = 0; k < 4; ++k)
+  {
+    ring.push_back(test::bone_handle("r" + std::to_string(k), corners[k], corners[(k + 1) % 4]));
+  }
+  ExecutionContext context;
+  BoneCut result;
+  const Status status = cut_along_bones(mesh.points, mesh.triangles, ring, {}, context, result);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(result.points.rows() - mesh.points.rows(), 4);
+  EXPECT_EQ(connected_components(result.points.rows(), result.triangles).count, 2);
+  // Four vertices go to the first of their two bones: the last one has none left.
+  ASSERT_EQ(status.warnings.size(), 1u);
+  EXPECT_NE(status.warnings[0].find("'r3'"), std::string::npos);
+  // As one curve they have four on either side.
+  const Status whole =
+    cut_along_bones(mesh.points, mesh.triangles, ring, { 0, 0, 0, 0 }, context, result);
+  EXPECT_TRUE(whole.ok() && whole.warnings.empty());
+  EXPECT_EQ(count(result, 1), 4);
+  EXPECT_EQ(count(result, 2), 4);
+}
+
 TEST(BoneCut, ABoneOnTheBoundaryHasOneSide)
 {
   const TriangleMesh mesh = square();
@@ -155,7 +181,7 @@ TEST(BoneCut, WhatCannotBeCutIsOneSentence)
   const TriangleMesh mesh = square();
   const auto message = [&](const TriangleMesh& m, const Handles& handles)
   {
-    const Status status = cut_along_bones(m.points, m.triangles, handles, context, result);
+    const Status status = cut_along_bones(m.points, m.triangles, handles, {}, context, result);
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     return status.message;
   };
@@ -175,7 +201,7 @@ TEST(BoneCut, WhatCannotBeCutIsOneSentence)
     message(test::cube(), bone(Vec3(0, 0, 0), Vec3(1, 0, 0))).find("plane"), std::string::npos);
   context.request_cancel();
   EXPECT_EQ(cut_along_bones(
-              mesh.points, mesh.triangles, bone(Vec3(0, 0, 0), Vec3(1, 0, 0)), context, result)
+              mesh.points, mesh.triangles, bone(Vec3(0, 0, 0), Vec3(1, 0, 0)), {}, context, result)
               .code,
     StatusCode::cancelled);
 }

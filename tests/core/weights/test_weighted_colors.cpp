@@ -160,7 +160,8 @@ TEST(WeightedColors, LightAndNumbersAreInverseAndOdd)
     EXPECT_EQ(to_linear_light(-x), -to_linear_light(x));
   }
   EXPECT_EQ(to_linear_light(0.0), 0.0);
-  EXPECT_NEAR(to_linear_light(1.0), 1.0, 1e-15);
+  EXPECT_EQ(to_linear_light(1.0), 1.0);
+  EXPECT_EQ(from_linear_light(1.0), 1.0);
 }
 
 TEST(WeightedColors, EqualColoursAreThatColourEverywhere)

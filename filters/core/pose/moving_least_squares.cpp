@@ -154,7 +154,7 @@ Status MovingLeastSquares::bind(ExecutionContext& context, const MovingLeastSqua
   {
     return Status::invalid_input("the exponent of moving least squares must lie within 1 to 8");
   }
-  const Status status = check_handles(handles);
+  Status status = check_handles(handles);
   if (!status.ok())
   {
     return status;

@@ -104,6 +104,20 @@ def test_a_curve_has_two_colours():
     assert ((red > 0.5) == (centres[:, 1] > 0.5))[near].all()
 
 
+def test_bones_of_one_curve_share_their_sides():
+    corners = np.array([[0.25, 0.25, 0], [0.75, 0.25, 0], [0.75, 0.75, 0], [0.25, 0.75, 0]])
+    ring = bindpose.handles(bones=list(zip(corners, np.roll(corners, -1, axis=0))), parents=[-1] * 4)
+    inside, outside = [[1, 0.9, 0.2]] * 4, [[0.2, 0.3, 0.6]] * 4
+    mesh, sides = bindpose.cut_along_bones(square(), ring, inside, outside, curves=[0, 0, 0, 0])
+    assert sides.GetNumberOfCells() == 2 and mesh.GetNumberOfPoints() == 81 + 16
+    painted = bindpose.weighted_colors(bindpose.weights(mesh, sides, domain="surface"), sides)
+    # Closed curves fill what they enclose with their colour.
+    values, places = point_array(painted, "ColorValues"), points_of(painted)
+    enclosed = (np.abs(places[:, :2] - 0.5) < 0.25 - 1e-9).all(axis=1)
+    assert enclosed.sum() == 9
+    assert values[enclosed] == pytest.approx(np.array([inside[0]] * 9), abs=1e-9)
+
+
 @pytest.mark.parametrize("call, words", [
     (lambda h: bindpose.weighted_colors(BAR, h, [[0, 0, 0]], weights=LINEAR), "2 x 3"),
     (lambda h: bindpose.weighted_colors(BAR, h, {"b1": (0, 0, 0)}, weights=LINEAR), "'b2'"),

@@ -436,30 +436,37 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
     return Array(point_array(result, "Weights"), report, names)
 
 
-def _make_deformation(method):
+def _make_deformation(method, exponent):
     if method == "reduced-arap":
         return filters.vtkReducedARAP()
+    if method == "mls":
+        warp = filters.vtkMovingLeastSquaresWarp()
+        warp.SetExponent(exponent)
+        return warp
     skinning = filters.vtkSkinningDeformation()
     skinning.SetMethod(getattr(skinning, _SKINNING[method]))
     return skinning
 
 
-def deform(mesh, handles, pose, *, method="lbs", weights=None, threads=0, progress=None):
+def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, threads=0, progress=None):
     """Bend a mesh with weights to a pose, or to a sequence of poses.
 
     Parameters
     ----------
     mesh : vtkDataSet or (vertices, elements)
-        A dataset with the point array ``Weights``, or arrays beside `weights`.
+        A dataset with the point array ``Weights``, or arrays beside `weights`. ``mls`` needs none.
     handles : vtkPolyData, str or path-like
         The handles that the weights were made for.
     pose : dict, str or path-like
         ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}``
         or ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file.
-    method : {"lbs", "dqs", "reduced-arap"}
-        Linear blend skinning, dual quaternions, or reduced as-rigid-as-possible.
+    method : {"lbs", "dqs", "reduced-arap", "mls"}
+        Linear blend skinning, dual quaternions, reduced as-rigid-as-possible, or the rigid warp by moving
+        least squares, which needs no weights and knows nothing of the shape.
     weights : (#V, #handles) array, optional
         For a mesh of arrays.
+    exponent : float
+        Of mls: handles count by 1 / distance^(2 exponent), 1 to 8.
     threads, progress
         See `winding_number`.
 
@@ -474,7 +481,7 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, threads=0, progre
     InvalidInput
         Weights that do not fit, an unknown handle in the pose, a broken pose.
     """
-    _choice(method, ("lbs", "dqs", "reduced-arap"), "method")
+    _choice(method, ("lbs", "dqs", "reduced-arap", "mls"), "method")
     data = to_dataset(mesh)
     if weights is not None:
         data = shallow_copy(data)
@@ -488,7 +495,7 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, threads=0, progre
             poser.SetPoseJSON(json.dumps(pose))
         except TypeError as error:
             raise InvalidInput(f"the pose is no JSON object: {error}") from None
-    bender = _make_deformation(method)
+    bender = _make_deformation(method, exponent)
     bender.SetInputData(0, data)
     bender.SetInputConnection(1, poser.GetOutputPort())
     bender.SetNumberOfThreads(threads)

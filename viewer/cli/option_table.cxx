@@ -164,11 +164,18 @@ const std::vector<Verb>& verbs()
       { { "FILE", "", Kind::text, "", "", "surfaces, tets, volumes; one tile each", true, true },
         { "-o,--output", "OUT", Kind::text, "", "", ".png", true },
         { "--array", "NAME", Kind::text, "", "", "colour by this array" },
-        { "--color", "WHAT", Kind::choice, "array", "array|winding-number|label|quality|rung",
+        { "--color", "WHAT", Kind::choice, "array",
+          "array|winding-number|label|quality|rung|handle|row-sum",
           "colour by --array, or tets by their winding number, by what the segmentation decided, "
-          "by "
-          "their smallest dihedral angle, or by the method that made them" },
+          "by their smallest dihedral angle, or by the method that made them; meshes with weights "
+          "by the handle with the greatest weight, or by the sums of RawWeights (weights --raw)" },
         { "--component", "NAME", Kind::text, "", "", "component of the array, by name or number" },
+        { "--minus", "FILE", Kind::text, "", "",
+          "show the array minus that of this file, which has as many points; without --array: "
+          "Weights" },
+        { "--extrema", "", Kind::flag, "", "",
+          "balls at the local maxima and minima of the array away from handles; of those in tets, "
+          "the ones on the drawn sides; without --array: of Weights" },
         { "--handles", "HANDLES", Kind::text, "", "", "draw these handles, too" },
         { "--handle-names", "", Kind::flag, "", "", "write the name beside each handle" },
         { "--range", "LOWER,UPPER", Kind::text, "", "",

@@ -140,6 +140,8 @@ ColourBy colour_by(const std::string& word)
     : word == "label"             ? ColourBy::label
     : word == "quality"           ? ColourBy::quality
     : word == "rung"              ? ColourBy::rung
+    : word == "handle"            ? ColourBy::handle
+    : word == "row-sum"           ? ColourBy::row_sum
                                   : ColourBy::array;
 }
 
@@ -171,7 +173,9 @@ bool read_options(Session& session, PictureOptions& options)
     return session.invalid(
       "--color " + arguments.text("color") + " goes without --array and --component");
   }
-  if (options.array.empty() && !options.component.empty())
+  options.extrema = arguments.has("extrema");
+  const bool of_weights = !options.component.empty() || options.extrema || arguments.has("minus");
+  if (options.array.empty() && options.colour_by == ColourBy::array && of_weights)
   {
     options.array = "Weights"; // the array whose components have names
   }
@@ -293,6 +297,14 @@ void run_render(Session& session)
     for (Tile& tile : tiles)
     {
       tile.context.push_back(context);
+    }
+  }
+  if (arguments.has("minus"))
+  {
+    options.minus = session.read(arguments.text("minus"));
+    if (!options.minus)
+    {
+      return;
     }
   }
   if (arguments.has("defects") && !add_defects(session, tiles))

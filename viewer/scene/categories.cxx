@@ -4,6 +4,7 @@
 
 #include "base/number_text.h"
 #include "surface/surface_defects.h"
+#include "weights/weighted_colors.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -57,6 +58,31 @@ const std::vector<Category>& defect_categories()
     return categories;
   }();
   return table;
+}
+
+const std::vector<Category>& extremum_categories()
+{
+  static const std::vector<Category> table{
+    { -1, "minima", { 0.34, 0.71, 0.91 } },
+    { 1, "maxima", { 0.84, 0.37, 0.00 } },
+  };
+  return table;
+}
+
+std::vector<Category> handle_categories(const std::vector<std::string>& names)
+{
+  constexpr Index different = 24;
+  const Colors colours = categorical_colors(16);
+  std::vector<Category> categories;
+  for (std::size_t j = 0; j < names.size(); ++j)
+  {
+    const Index at = static_cast<Index>(j) % different;
+    const double shade = at < 16 ? 1.0 : 0.55;
+    const auto its = colours.row(at < 16 ? at : at - 16);
+    categories.push_back(
+      { static_cast<int>(j), names[j], { shade * its[0], shade * its[1], shade * its[2] } });
+  }
+  return categories;
 }
 
 namespace
@@ -146,6 +172,7 @@ ColourMap category_map(const std::vector<Category>& categories)
   map.table = vtkSmartPointer<vtkLookupTable>::New();
   map.table->SetNumberOfTableValues(std::max(1, count));
   map.table->SetTableRange(map.lower, map.upper);
+  map.table->SetNanColor(palette::missing[0], palette::missing[1], palette::missing[2], 1.0);
   for (int i = 0; i < count; ++i)
   {
     const Rgb& c = used[i].colour;
@@ -154,6 +181,31 @@ ColourMap category_map(const std::vector<Category>& categories)
     map.texts.push_back(used[i].name + ": " + grouped(used[i].count));
   }
   return map;
+}
+
+ColourMap shortened(const ColourMap& map, int most)
+{
+  const int count = static_cast<int>(map.texts.size());
+  if (count <= most || most < 2)
+  {
+    return map;
+  }
+  ColourMap result = map;
+  result.upper = most;
+  result.table = vtkSmartPointer<vtkLookupTable>::New();
+  result.table->SetNumberOfTableValues(most);
+  result.table->SetTableRange(0.0, most);
+  double rgba[4];
+  for (int i = 0; i + 1 < most; ++i)
+  {
+    map.table->GetTableValue(i, rgba);
+    result.table->SetTableValue(i, rgba);
+  }
+  result.table->SetTableValue(most - 1, palette::white[0], palette::white[1], palette::white[2], 1);
+  result.ticks.resize(static_cast<std::size_t>(most));
+  result.texts.resize(static_cast<std::size_t>(most));
+  result.texts.back() = "and " + grouped(count - most + 1) + " more";
+  return result;
 }
 
 std::vector<double> category_values(const std::vector<Category>& categories)

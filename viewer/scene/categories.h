@@ -32,6 +32,13 @@ const std::vector<Category>& rung_categories();
 /// The kinds of defects, in the order of vtkSurfaceDefects.
 const std::vector<Category>& defect_categories();
 
+/// Local extrema, minima before maxima: sky blue and vermilion, which every eye tells apart.
+const std::vector<Category>& extremum_categories();
+/// Handles by their names, in the order of their columns. Twenty-four colours: those that
+/// vtkWeightedColors gives to handles without one, their lighter ones, their darker ones; then
+/// again.
+std::vector<Category> handle_categories(const std::vector<std::string>& names);
+
 /// How many cells have each label. invalid_input when there is no such cell array or a value is
 /// none of the labels.
 Status count_labels(vtkDataSet* tets, std::vector<Category>& categories);
@@ -46,6 +53,8 @@ void count_defects(vtkPolyData* defects, std::vector<Category>& categories);
 /// A legend and table of the categories that occur, from below in their order: the i-th of them has
 /// the value i + 0.5. Texts are name and count.
 ColourMap category_map(const std::vector<Category>& categories);
+/// The same for a legend of at most `most` lines, the last of which says how many more there are.
+ColourMap shortened(const ColourMap& map, int most);
 /// The table's value for each category that occurs, -1 for others.
 std::vector<double> category_values(const std::vector<Category>& categories);
 

@@ -8,6 +8,7 @@
 #include "vtkCellData.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
+#include "vtkIdList.h"
 #include "vtkImageData.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
@@ -15,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bindpose
 {
@@ -78,14 +80,19 @@ std::vector<std::string> array_names(const std::vector<Tile>& tiles)
   return names;
 }
 
-// Number of the component that is asked for, -1 for the length of the tuple, -2 when there is no
-// such component.
+// Instead of the number of a component.
+constexpr int tuple_length = -1;
+constexpr int no_component = -2;
+constexpr int tuple_sum = -3;
+
+// Number of the component that is asked for, or one of these.
 int find_component(vtkDataArray* array, const std::string& component)
 {
   const int count = array->GetNumberOfComponents();
   if (component.empty())
   {
-    return count == 3 && std::string(array->GetName()) != "Weights" ? -1 : 0;
+    const std::string name = array->GetName();
+    return count == 3 && name != "Weights" && name != "RawWeights" ? tuple_length : 0;
   }
   for (int c = 0; c < count; ++c)
   {
@@ -98,9 +105,14 @@ int find_component(vtkDataArray* array, const std::string& component)
   if (component.size() <= 9 && component.find_first_not_of("0123456789") == std::string::npos)
   {
     const int c = std::stoi(component);
-    return c < count ? c : -2;
+    return c < count ? c : no_component;
   }
-  return -2;
+  return no_component;
+}
+
+int find_component(vtkDataArray* array, const Colouring& colouring)
+{
+  return colouring.by == ColourBy::row_sum ? tuple_sum : find_component(array, colouring.component);
 }
 
 double value_of(vtkDataArray* array, vtkIdType tuple, int component)
@@ -113,9 +125,9 @@ double value_of(vtkDataArray* array, vtkIdType tuple, int component)
   for (int c = 0; c < array->GetNumberOfComponents(); ++c)
   {
     const double value = array->GetComponent(tuple, c);
-    sum += value * value;
+    sum += component == tuple_sum ? value : value * value;
   }
-  return std::sqrt(sum);
+  return component == tuple_sum ? sum : std::sqrt(sum);
 }
 
 std::string component_words(vtkDataArray* array)
@@ -201,6 +213,154 @@ vtkSmartPointer<vtkDoubleArray> tet_values(vtkDataSet* data, const Colouring& co
   return values;
 }
 
+std::vector<std::string> handle_names(vtkDataArray* weights)
+{
+  std::vector<std::string> names;
+  for (int c = 0; c < weights->GetNumberOfComponents(); ++c)
+  {
+    const char* name = weights->GetComponentName(c);
+    names.emplace_back(name && *name ? name : "handle " + std::to_string(c));
+  }
+  return names;
+}
+
+// For each cell the column with the largest sum over the cell's points; -1 where no weight is above
+// 0. Null without weights.
+vtkSmartPointer<vtkDoubleArray> strongest_columns(vtkDataSet* data)
+{
+  const FoundArray found = find_array(data, "Weights");
+  if (!found.array || !found.on_points || vtkImageData::SafeDownCast(data))
+  {
+    return nullptr;
+  }
+  const auto weights = to_matrix(found.array);
+  auto strongest = vtkSmartPointer<vtkDoubleArray>::New();
+  strongest->SetName(colour_array_name);
+  strongest->SetNumberOfValues(data->GetNumberOfCells());
+  vtkNew<vtkIdList> ids;
+  Eigen::RowVectorXd sums(weights.view().cols());
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    data->GetCellPoints(cell, ids);
+    sums.setZero();
+    for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
+    {
+      sums += weights.view().row(ids->GetId(k));
+    }
+    Index column = -1;
+    const double largest = sums.size() > 0 ? sums.maxCoeff(&column) : 0.0;
+    strongest->SetValue(cell, largest > 0.0 ? static_cast<double>(column) : -1.0);
+  }
+  return strongest;
+}
+
+// The same as the table's values.
+vtkSmartPointer<vtkDoubleArray> handle_values(vtkDataSet* data, const Colouring& colouring)
+{
+  const auto columns = strongest_columns(data);
+  if (!columns)
+  {
+    return nullptr;
+  }
+  // Tiles may hold weights of other handles: names count, not columns.
+  const std::vector<std::string> names = handle_names(find_array(data, "Weights").array);
+  const std::vector<double> shown = category_values(colouring.categories);
+  std::vector<double> values;
+  for (const std::string& name : names)
+  {
+    const auto its = std::find_if(colouring.categories.begin(), colouring.categories.end(),
+      [&](const Category& category) { return category.name == name; });
+    values.push_back(shown[static_cast<std::size_t>(its - colouring.categories.begin())]);
+  }
+  for (vtkIdType cell = 0; cell < columns->GetNumberOfValues(); ++cell)
+  {
+    const double column = columns->GetValue(cell);
+    columns->SetValue(cell,
+      column < 0.0 ? std::numeric_limits<double>::quiet_NaN()
+                   : values[static_cast<std::size_t>(column)]);
+  }
+  return columns;
+}
+
+Status choose_handle_colouring(
+  const std::vector<Tile>& tiles, const PictureOptions& options, Colouring& colouring)
+{
+  if (options.range[0] <= options.range[1])
+  {
+    return Status::invalid_input("colours by handle have no range");
+  }
+  std::vector<std::string> names;
+  for (const Tile& tile : tiles)
+  {
+    const FoundArray found = find_array(tile.data, "Weights");
+    for (const std::string& name :
+      found.array ? handle_names(found.array) : std::vector<std::string>())
+    {
+      if (std::find(names.begin(), names.end(), name) == names.end())
+      {
+        names.push_back(name);
+      }
+    }
+  }
+  colouring.categories = handle_categories(names);
+  bool any = false;
+  for (const Tile& tile : tiles)
+  {
+    const auto columns = strongest_columns(tile.data);
+    if (!columns)
+    {
+      continue;
+    }
+    any = true;
+    const std::vector<std::string> its = handle_names(find_array(tile.data, "Weights").array);
+    for (vtkIdType cell = 0; cell < columns->GetNumberOfValues(); ++cell)
+    {
+      if (columns->GetValue(cell) >= 0.0)
+      {
+        const std::string& name = its[static_cast<std::size_t>(columns->GetValue(cell))];
+        ++std::find_if(colouring.categories.begin(), colouring.categories.end(),
+          [&](const Category& category) {
+            return category.name == name;
+          })->count;
+      }
+    }
+  }
+  if (!any)
+  {
+    return Status::invalid_input("colours by handle need a mesh with the point array 'Weights'; "
+                                 "bindpose weights writes it");
+  }
+  colouring.kind = Colouring::Kind::other;
+  colouring.map = category_map(colouring.categories);
+  colouring.map.downwards = true;
+  return {};
+}
+
+// What is subtracted fits a tile that has the array.
+Status check_minus(const FoundArray& found, const Colouring& colouring)
+{
+  const FoundArray other = find_array(colouring.minus, colouring.array);
+  if (!other.array || other.on_points != found.on_points)
+  {
+    return Status::invalid_input("what is to be subtracted has no " +
+      std::string(found.on_points ? "point" : "cell") + " array '" + colouring.array + "'");
+  }
+  if (other.array->GetNumberOfTuples() != found.array->GetNumberOfTuples())
+  {
+    const std::string things = found.on_points ? " points" : " cells";
+    return Status::invalid_input("what is to be subtracted has " +
+      std::to_string(other.array->GetNumberOfTuples()) + things + ", the dataset has " +
+      std::to_string(found.array->GetNumberOfTuples()) + ": a difference needs the same");
+  }
+  if (find_component(other.array, colouring) == no_component)
+  {
+    return Status::invalid_input("the array '" + colouring.array +
+      "' of what is to be subtracted has no component '" + colouring.component +
+      "'; there are: " + component_words(other.array));
+  }
+  return {};
+}
+
 // For what only tets have: the map, from all tiles that hold tets.
 Status choose_tet_colouring(
   const std::vector<Tile>& tiles, const PictureOptions& options, Colouring& colouring)
@@ -261,9 +421,17 @@ std::string Colouring::legend_name() const
       return "Min. angle (°)";
     case ColourBy::rung:
       return "Method";
+    case ColourBy::handle:
+      return "Handle";
+    case ColourBy::row_sum:
+      return "Row sum";
     case ColourBy::array:
     case ColourBy::winding_number:
       break;
+  }
+  if (this->minus)
+  {
+    return (this->component_name.empty() ? this->array : this->component_name) + ", difference";
   }
   return this->component_name.empty() ? this->array : this->array + " " + this->component_name;
 }
@@ -276,9 +444,14 @@ vtkSmartPointer<vtkDoubleArray> colour_values(
     on_points = false;
     return tet_values(data, colouring);
   }
+  if (colouring.by == ColourBy::handle)
+  {
+    on_points = false;
+    return handle_values(data, colouring);
+  }
   const FoundArray found = find_array(data, colouring.array);
-  const int component = found.array ? find_component(found.array, colouring.component) : -2;
-  if (colouring.kind == Colouring::Kind::none || component == -2)
+  const int component = found.array ? find_component(found.array, colouring) : no_component;
+  if (colouring.kind == Colouring::Kind::none || component == no_component)
   {
     return nullptr;
   }
@@ -290,6 +463,15 @@ vtkSmartPointer<vtkDoubleArray> colour_values(
   {
     values->SetValue(i, value_of(found.array, i, component));
   }
+  if (colouring.minus)
+  {
+    vtkDataArray* other = find_array(colouring.minus, colouring.array).array;
+    const int its = find_component(other, colouring);
+    for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
+    {
+      values->SetValue(i, values->GetValue(i) - value_of(other, i, its));
+    }
+  }
   return values;
 }
 
@@ -300,6 +482,12 @@ Status choose_colouring(
   colouring.by = options.colour_by;
   colouring.array = options.array;
   colouring.component = options.component;
+  colouring.minus = options.minus;
+  if (colouring.minus && colouring.by != ColourBy::array &&
+    colouring.by != ColourBy::winding_number)
+  {
+    return Status::invalid_input("only the numbers of an array have a difference");
+  }
   if (colouring.by != ColourBy::array)
   {
     if (!colouring.array.empty() || !colouring.component.empty())
@@ -311,7 +499,11 @@ Status choose_colouring(
     {
       return choose_tet_colouring(tiles, options, colouring);
     }
-    colouring.array = "WindingNumber";
+    if (colouring.by == ColourBy::handle)
+    {
+      return choose_handle_colouring(tiles, options, colouring);
+    }
+    colouring.array = colouring.by == ColourBy::row_sum ? "RawWeights" : "WindingNumber";
   }
   for (const Tile& tile : tiles)
   {
@@ -324,13 +516,17 @@ Status choose_colouring(
   }
   if (colouring.array.empty())
   {
-    return options.component.empty() ? Status()
-                                     : Status::invalid_input("a component is named, but no array");
+    return colouring.minus        ? Status::invalid_input("a difference needs the name of an array")
+      : options.component.empty() ? Status()
+                                  : Status::invalid_input("a component is named, but no array");
   }
   double lower = 1e300;
   double upper = -1e300;
   vtkDataArray* sample = nullptr;
   bool has_component = false;
+  double squares = 0.0;
+  Index count = 0;
+  colouring.kind = Colouring::Kind::other;
   for (const Tile& tile : tiles)
   {
     const FoundArray found = find_array(tile.data, colouring.array);
@@ -339,26 +535,40 @@ Status choose_colouring(
       continue;
     }
     sample = found.array;
-    const int component = find_component(found.array, colouring.component);
-    if (component == -2)
+    const int component = find_component(found.array, colouring);
+    if (component == no_component)
     {
       continue;
     }
     has_component = true;
+    const Status fits = colouring.minus ? check_minus(found, colouring) : Status();
+    if (!fits.ok())
+    {
+      return fits;
+    }
     if (found.array->GetNumberOfComponents() > 1 && component >= 0)
     {
       const char* name = found.array->GetComponentName(component);
       colouring.component_name = name && *name ? name : std::to_string(component);
     }
-    for (vtkIdType i = 0; i < found.array->GetNumberOfTuples(); ++i)
+    bool on_points = true;
+    const auto values = colour_values(tile.data, colouring, on_points);
+    for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
     {
-      const double value = value_of(found.array, i, component);
+      const double value = values->GetValue(i);
       if (std::isfinite(value))
       {
         lower = std::min(lower, value);
         upper = std::max(upper, value);
+        squares += value * value;
+        ++count;
       }
     }
+  }
+  if (!sample && colouring.by == ColourBy::row_sum)
+  {
+    return Status::invalid_input(
+      "there is no array 'RawWeights'; bindpose weights --raw writes it");
   }
   if (!sample)
   {
@@ -376,7 +586,30 @@ Status choose_colouring(
     return Status::invalid_input("the array '" + colouring.array + "' holds no finite number");
   }
   const bool given = options.range[0] <= options.range[1];
-  if (colouring.array == "WindingNumber" && !given)
+  if (colouring.minus || colouring.by == ColourBy::row_sum)
+  {
+    const double centre = colouring.minus ? 0.0 : 1.0;
+    const double reach = std::max(std::abs(lower - centre), std::abs(upper - centre));
+    if (given && !(options.range[0] <= centre && centre <= options.range[1]))
+    {
+      return Status::invalid_input(
+        colouring.minus ? "the range of a difference holds 0" : "the range of row sums holds 1");
+    }
+    colouring.map = diverging_map(
+      given ? options.range[0] : centre - reach, given ? options.range[1] : centre + reach, centre);
+    if (colouring.minus)
+    {
+      colouring.numbers.set("picture.difference.largest", reach);
+      colouring.numbers.set(
+        "picture.difference.rms", std::sqrt(squares / static_cast<double>(count)));
+    }
+    else
+    {
+      colouring.numbers.set("picture.row_sum.minimum", lower);
+      colouring.numbers.set("picture.row_sum.maximum", upper);
+    }
+  }
+  else if (colouring.array == "WindingNumber" && !given)
   {
     colouring.kind = Colouring::Kind::winding;
     colouring.map = winding_map();
@@ -400,7 +633,6 @@ Status choose_colouring(
   }
   else
   {
-    colouring.kind = Colouring::Kind::other;
     colouring.map =
       sequential_map(given ? options.range[0] : lower, given ? options.range[1] : upper, 0);
   }

@@ -33,7 +33,9 @@ struct Colouring
   std::string component; ///< as asked for
   std::string component_name; ///< as shown: name or number, empty for single numbers and lengths
   ColourMap map;
-  std::vector<Category> categories; ///< of labels and rungs
+  std::vector<Category> categories; ///< of labels, rungs and handles
+  vtkSmartPointer<vtkDataSet> minus; ///< whose numbers are subtracted; may be null
+  Report numbers; ///< of all tiles' values: of row sums and differences
 
   std::string legend_name() const;
 };

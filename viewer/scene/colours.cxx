@@ -108,6 +108,17 @@ Rgb winding_colour(double winding_number)
   return t < 0.5 ? mix(outside, middle, 2.0 * t) : mix(middle, inside, 2.0 * t - 1.0);
 }
 
+Rgb diverging_colour(double t)
+{
+  const Rgb white{ 0.97, 0.97, 0.96 };
+  const Rgb sides[2][3] = { { { 0.56, 0.75, 0.89 }, { 0.22, 0.48, 0.73 }, { 0.08, 0.18, 0.42 } },
+    { { 0.96, 0.72, 0.47 }, { 0.79, 0.38, 0.12 }, { 0.42, 0.12, 0.03 } } };
+  const Rgb* side = sides[t < 0.0 ? 0 : 1];
+  const double scaled = 3.0 * std::min(std::abs(t), 1.0);
+  const int first = std::min(static_cast<int>(scaled), 2);
+  return mix(first == 0 ? white : side[first - 1], side[first], scaled - first);
+}
+
 ColourMap sequential_map(double lower, double upper, int bands)
 {
   ColourMap map;
@@ -124,6 +135,27 @@ ColourMap sequential_map(double lower, double upper, int bands)
     map.table->SetTableValue(i, c[0], c[1], c[2], 1.0);
   }
   map.ticks = upper > lower ? round_ticks(map.lower, map.upper) : std::vector<double>{ lower };
+  map.decimals = -1;
+  return map;
+}
+
+ColourMap diverging_map(double lower, double upper, double centre)
+{
+  ColourMap map;
+  const double least = std::max(1e-12, 1e-9 * std::abs(centre)); // where all values are the centre
+  const bool constant = !(upper - lower > 2.0 * least);
+  map.lower = constant ? centre - least : lower;
+  map.upper = constant ? centre + least : upper;
+  constexpr int count = 257; // odd: the centre of an even range has an entry of its own
+  map.table = make_table(map.lower, map.upper, count);
+  const double reach = std::max(map.upper - centre, centre - map.lower);
+  for (int i = 0; i < count; ++i)
+  {
+    const double value = map.lower + (map.upper - map.lower) * (i + 0.5) / count;
+    const Rgb c = diverging_colour((value - centre) / reach);
+    map.table->SetTableValue(i, c[0], c[1], c[2], 1.0);
+  }
+  map.ticks = constant ? std::vector<double>{ centre } : round_ticks(map.lower, map.upper);
   map.decimals = -1;
   return map;
 }

@@ -41,6 +41,10 @@ Rgb sequential_colour(double t);
 /// open surfaces far away.
 Rgb winding_colour(double winding_number);
 
+/// The diverging map at t in [-1, 1] (clamped): white at 0, ever darker blue below, orange to brown
+/// above. Lightness falls evenly on both sides; colour-blind eyes tell blue from orange.
+Rgb diverging_colour(double t);
+
 /// How values become colours, and how the legend tells it.
 struct ColourMap
 {
@@ -50,12 +54,16 @@ struct ColourMap
   std::vector<double> ticks; ///< values that the legend names
   int decimals = 1; ///< of their texts; -1: shortest text with three digits
   std::vector<std::string> texts; ///< of the ticks, instead of their numbers; empty: the numbers
+  bool downwards = false; ///< the legend begins above, as a list does
 };
 
 /// Ten bands of equal colour over [0, 1].
 ColourMap weight_map();
 /// The same colours in ten bands over [lower, upper], or smooth with bands = 0.
 ColourMap sequential_map(double lower, double upper, int bands);
+/// diverging_colour over [lower, upper], white at the centre, which lies within; equal distances
+/// from it are equally dark.
+ColourMap diverging_map(double lower, double upper, double centre);
 /// winding_colour over [-1, 2]; what lies beyond looks like the ends.
 ColourMap winding_map();
 

@@ -157,12 +157,13 @@ void add_legend(vtkRenderer* renderer, const ColourMap& map, const std::string& 
     double rgba[4];
     map.table->GetTableValue(i, rgba);
     std::copy_n(rgba, 3, colour.begin());
-    shapes.add_box(left, bottom + (top - bottom) * i / count, right,
-      bottom + (top - bottom) * (i + 1) / count, colour);
+    const int place = map.downwards ? count - 1 - i : i;
+    shapes.add_box(left, bottom + (top - bottom) * place / count, right,
+      bottom + (top - bottom) * (place + 1) / count, colour);
   }
   for (std::size_t i = 0; i < map.ticks.size(); ++i)
   {
-    const double tick = map.ticks[i];
+    const double tick = map.downwards ? map.lower + map.upper - map.ticks[i] : map.ticks[i];
     const double y = bottom + (top - bottom) * (tick - map.lower) / (map.upper - map.lower);
     shapes.add_box(right, y - 0.5 * line, right + 0.3 * font_size, y + 0.5 * line, palette::line);
     add_text(renderer, tick_text(map, i), right + 0.6 * font_size, y, font_size, TextAlign::left);

@@ -8,6 +8,7 @@
 #include "io/atomic_file.h"
 #include "scene/categories.h"
 #include "scene/display.h"
+#include "scene/extrema.h"
 #include "scene/legend.h"
 #include "scene/tile_actors.h"
 #include "scene/volume.h"
@@ -186,6 +187,10 @@ std::vector<Category> all_defects(const std::vector<Tile>& tiles, bool& any)
 Status check_volumes(
   const std::vector<Tile>& tiles, const PictureOptions& options, const Colouring& colouring)
 {
+  if (colouring.minus && !options.isosurfaces.empty())
+  {
+    return Status::invalid_input("a difference is shown by a slice, not by isosurfaces");
+  }
   if (options.volume && colouring.kind != Colouring::Kind::winding)
   {
     return Status::invalid_input("volume rendering shows the array WindingNumber of a volume (a "
@@ -249,6 +254,9 @@ int choose_columns(int count, double width, double height, double shape_aspect)
   return best;
 }
 
+// Of the height, what lists of names may take.
+constexpr double list_share = 0.94;
+
 // What of it a legend shows: a bar, or a field for each of a few levels.
 ColourMap make_legend_map(const PictureOptions& options, const ColourMap& map)
 {
@@ -260,10 +268,19 @@ ColourMap make_legend_map(const PictureOptions& options, const ColourMap& map)
                         : level_map(map, options.isosurfaces);
 }
 
-// Boxes at the right border, each as high as it needs, together in the middle.
-int place_legends(const std::vector<Legend>& legends, int width, int top, Layout& layout)
+// Boxes at the right border, each as high as it needs, together in the middle. Lists that do not
+// fit are shortened.
+int place_legends(std::vector<Legend>& legends, int width, int top, Layout& layout)
 {
   const int margin = layout.font;
+  for (Legend& legend : legends)
+  {
+    if (legend.map.downwards)
+    {
+      legend.map = shortened(
+        legend.map, static_cast<int>(list_share * top / legends.size() / (1.25 * margin)) - 3);
+    }
+  }
   int right = width;
   int height = 0;
   for (const Legend& legend : legends)
@@ -272,8 +289,9 @@ int place_legends(const std::vector<Legend>& legends, int width, int top, Layout
     box.width = legend_width(legend.map, legend.name, layout.font);
     // A bar of fields is as long as their texts need.
     const double fields = legend.map.texts.empty() ? 17.5 : 1.7 * legend.map.texts.size();
-    box.height = static_cast<int>(
-      std::min(0.62 * top / std::min<double>(legends.size(), 1.5), (2.5 + fields) * layout.font));
+    const double share = legend.map.downwards ? list_share / legends.size()
+                                              : 0.62 / std::min<double>(legends.size(), 1.5);
+    box.height = static_cast<int>(std::min(share * top, (2.5 + fields) * layout.font));
     height += box.height + (height > 0 ? 2 * margin : 0);
     right = std::min(right, width - margin - box.width - margin / 2);
     layout.legends.push_back(box);
@@ -290,7 +308,7 @@ int place_legends(const std::vector<Legend>& legends, int width, int top, Layout
 }
 
 Layout make_layout(const std::vector<Tile>& tiles, const PictureOptions& options,
-  const std::vector<Legend>& legends, double shape_aspect)
+  std::vector<Legend>& legends, double shape_aspect)
 {
   const int scale = options.supersampling;
   const int width = options.width * scale;
@@ -458,6 +476,11 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
   {
     status = check_volumes(tiles, options, colouring);
   }
+  std::vector<std::vector<Extremum>> extrema(tiles.size());
+  if (status.ok() && options.extrema)
+  {
+    status = find_extrema(tiles, colouring, extrema);
+  }
   const Status useful = status.ok() ? check_tets(tiles, options) : Status();
   if (!useful.ok())
   {
@@ -500,6 +523,12 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     legends.push_back({ category_map(defects), "Defects" });
     legends.back().name = legends.back().map.texts.empty() ? "No defects" : "Defects";
   }
+  const std::vector<Category> extrema_counts = count_extrema(extrema);
+  if (options.legend && options.extrema)
+  {
+    legends.push_back({ category_map(extrema_counts), "Extrema" });
+    legends.back().name = legends.back().map.texts.empty() ? "No extrema" : "Extrema";
+  }
   const Layout layout = make_layout(tiles, options, legends, shape_aspect);
   const int scale = options.supersampling;
   const int width = options.width * scale;
@@ -527,7 +556,8 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     palette::gradient_top[0], palette::gradient_top[1], palette::gradient_top[2]);
   window->AddRenderer(paper);
 
-  Index tets_shown = 0;
+  Drawn shown;
+  std::vector<std::int64_t> extrema_drawn;
   vtkNew<vtkCamera> camera;
   const PixelBox& first = layout.tiles.front();
   fit_camera(camera, points, frame, options.view, static_cast<double>(first.width) / first.height);
@@ -542,11 +572,14 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     renderer->SetActiveCamera(camera);
     window->AddRenderer(renderer);
     add_lights(renderer);
-    const Status drawn = add_tile(renderer, tiles[i], options, colouring, frame, scale, tets_shown);
+    shown.extrema = 0;
+    const Status drawn =
+      add_tile(renderer, tiles[i], options, colouring, extrema[i], frame, scale, shown);
     if (!drawn.ok())
     {
       return drawn;
     }
+    extrema_drawn.push_back(shown.extrema);
     if (geometry)
     {
       PictureGeometry::TileView view;
@@ -589,9 +622,14 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
   status.report.set("picture.width", options.width);
   status.report.set("picture.height", options.height);
   status.report.set("picture.tiles", static_cast<int>(tiles.size()));
-  if (tets_shown > 0)
+  if (shown.tets > 0)
   {
-    status.report.set("picture.tets", tets_shown);
+    status.report.set("picture.tets", shown.tets);
+  }
+  status.report.merge(colouring.numbers);
+  if (options.extrema)
+  {
+    report_extrema(extrema, extrema_drawn, status.report);
   }
   report_categories(colouring.categories, "picture.colours[]", status.report);
   report_categories(defects, "picture.defects[]", status.report);

@@ -47,7 +47,9 @@ enum class ColourBy
   winding_number, ///< the array WindingNumber
   label, ///< tets: the decision in the cell array Label
   quality, ///< tets: the smallest dihedral angle, degrees
-  rung ///< tets: the method that made them, by the field data Method
+  rung, ///< tets: the method that made them, by the field data Method
+  handle, ///< cells of meshes: the handle whose Weights are the greatest there, by name
+  row_sum ///< the sum of each point's RawWeights
 };
 
 /// A plane in space.
@@ -72,10 +74,17 @@ struct PictureOptions
   /// WindingNumber or else its first array.
   std::string array;
   ColourBy colour_by = ColourBy::array; ///< others than array want `array` to be empty
+  /// Subtracted from the shown number, point by point (cell by cell): a dataset with the same array
+  /// and component and as many points. Null: nothing.
+  vtkSmartPointer<vtkDataSet> minus;
+  /// Local extrema of the shown number as balls; see find_extrema(). On tets, of all that there
+  /// are, those on the drawn sides are seen.
+  bool extrema = false;
   /// Name or number of the array's component. Empty: the first of Weights, the length of a
   /// 3-vector, the first of others.
   std::string component;
-  /// Values at the ends of the colours; lower > upper: from the data of all tiles (weights 0 to 1,
+  /// Values at the ends of the colours; lower > upper: from the data of all tiles (row sums and
+  /// differences as far to both sides of 1 and 0; weights 0 to 1,
   /// winding numbers -1 to 2, quality 0 to a regular tet's 70.5 whatever the data).
   std::array<double, 2> range = { 0.0, -1.0 };
   View view;
@@ -122,7 +131,8 @@ struct PictureGeometry
 /// unsigned char RGB, or RGBA for a transparent background (not premultiplied).
 /// invalid_input, one sentence, for: no tile or an empty one, an array or component that no tile
 /// has (naming those there are), options out of range, isosurfaces or a cloud of what
-/// check_volume() refuses, a section that leaves no tet, colours of tets where there are none.
+/// check_volume() refuses, a section that leaves no tet, colours of tets where there are none,
+/// differences of unequal datasets, extrema of what is no point array of a mesh.
 /// Warns of levels that are not reached. unavailable when there is no display.
 /// The same input gives the same picture on the same machine and driver.
 Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& options,
@@ -131,8 +141,10 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& opt
 /// The same into a PNG file, whole or not at all. invalid_input also when the file is there and
 /// may not be overwritten, or cannot be written. Report: picture.width, picture.height,
 /// picture.tiles, picture.array, picture.component, picture.range, picture.isosurfaces,
-/// picture.tets (drawn), picture.colours[].name and .count (labels, rungs), picture.defects[].name
-/// and .count where they apply.
+/// picture.tets (drawn), picture.colours[].name and .count (labels, rungs, cells of handles),
+/// picture.defects[].name and .count, picture.extrema[].maxima, .minima and .drawn (a tile each),
+/// picture.difference.largest (absolute) and .rms, picture.row_sum.minimum and .maximum where they
+/// apply.
 Status render_to_png(const std::vector<Tile>& tiles, const PictureOptions& options,
   const std::string& path, bool overwrite = false);
 

@@ -6,6 +6,7 @@
 #include "conversion.h"
 #include "scene/curves.h"
 #include "scene/defect_actors.h"
+#include "scene/extrema.h"
 #include "scene/shaded_surface.h"
 #include "scene/tet_cut.h"
 #include "scene/volume.h"
@@ -268,7 +269,7 @@ void add_shrunk(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
 
 Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& input,
   const PictureOptions& options, const Colouring& colouring, const Frame& frame, double scale,
-  Index& shown)
+  Index& shown, std::vector<char>& seen)
 {
   TetCut cut(input.points.view(), input.tets.view());
   if (options.cut)
@@ -284,8 +285,22 @@ Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
   shown += cut.kept_count();
   if (options.shrink < 1.0)
   {
+    for (Index t = 0; t < input.tets.view().rows(); ++t)
+    {
+      for (int k = 0; k < 4 && cut.kept()[t]; ++k)
+      {
+        seen[input.tets.view()(t, k)] = 1;
+      }
+    }
     add_shrunk(renderer, grid, input, cut.kept(), options.shrink, colouring, scale);
     return {};
+  }
+  for (const TetCut::Sides* sides : { &cut.outside(), &cut.laid_open() })
+  {
+    for (Index i = 0; i < sides->triangles.size(); ++i)
+    {
+      seen[sides->triangles.data()[i]] = 1;
+    }
   }
   const auto outside = face_polydata(grid, cut.outside().triangles, cut.outside().tets);
   add_surface(renderer, outside, options, colouring, scale);
@@ -578,8 +593,11 @@ void add_context(vtkRenderer* renderer, vtkDataSet* data, double radius, double 
 } // namespace
 
 Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& options,
-  const Colouring& colouring, const Frame& frame, double scale, Index& tets_shown)
+  const Colouring& colouring, const std::vector<Extremum>& extrema, const Frame& frame,
+  double scale, Drawn& shown)
 {
+  // Points whose extrema are drawn: all of a surface, of tets those on the drawn sides.
+  std::vector<char> seen;
   if (auto* image = vtkImageData::SafeDownCast(tile.data))
   {
     const auto values = with_colour_values(image, colouring);
@@ -626,8 +644,9 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
     auto* grid = vtkUnstructuredGrid::SafeDownCast(tile.data);
     if (grid && to_tets(grid, tets).ok())
     {
+      seen.assign(static_cast<std::size_t>(grid->GetNumberOfPoints()), 0);
       const Status status = add_tets(renderer, with_colour_values(grid, colouring), tets, options,
-        colouring, frame, scale, tets_shown);
+        colouring, frame, scale, shown.tets, seen);
       if (!status.ok())
       {
         return status;
@@ -655,6 +674,11 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
       add_surface(renderer, faces->GetOutput(), options, colouring, scale);
       add_lines_and_points(renderer, faces->GetOutput(), colouring, scale);
     }
+  }
+  if (!extrema.empty())
+  {
+    const double radius = 4.0 * tube_radius(tile, options, colouring);
+    shown.extrema += add_extrema(renderer, tile.data, extrema, seen, radius);
   }
   for (const auto& data : tile.context)
   {

@@ -192,3 +192,100 @@ def test_what_tets_do_not_have(tets, file, words, sentence):
 
 def test_an_unknown_colour_is_usage(tets):
     tets.run("render", "tets.vtu", "-o", "s.png", "--color", "mood").is_refused("mood", code=1)
+
+
+def square(name_values, points=4):
+    """A flat square as a .vtp text with point arrays: name, component names, values by point."""
+    arrays = "".join(
+        f'<DataArray type="Float64" Name="{name}" NumberOfComponents="{len(words)}" format="ascii" '
+        + " ".join(f'ComponentName{k}="{word}"' for k, word in enumerate(words)) + f">{values}</DataArray>"
+        for name, words, values in name_values)
+    places = "0 0 0 1 0 0 1 1 0 0 1 0 0.5 2 0"
+    coordinates = " ".join(places.split()[:3 * points])
+    return f'''<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian"><PolyData>
+<Piece NumberOfPoints="{points}" NumberOfPolys="2"><PointData>{arrays}</PointData>
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">{coordinates}</DataArray></Points>
+<Polys><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 0 2 3</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">3 6</DataArray></Polys></Piece></PolyData></VTKFile>'''
+
+
+@pytest.fixture
+def weighted(folder):
+    """Biharmonic weights without bounds on a sphere, with their raw columns; a handle is a vertex."""
+    folder.off("sphere.off", shapes.sphere())
+    folder.write("h.tgf", "1 0 0 1 top\n2 0 0 -1 bottom\n3 1 0 0 side\n#\n")
+    folder.run("weights", "sphere.off", "--handles", "h.tgf", "--domain", "surface", "--method", "biharmonic", "--raw",
+               "-o", "w.vtp").is_good()
+    return folder
+
+
+def test_cells_by_handle(weighted):
+    run = weighted.run("render", "w.vtp", "--color", "handle", "--size", "300x200", "-o", "c.png", "--report", "-").is_good()
+    colours = run.report["picture"]["colours"]
+    assert {c["name"] for c in colours} <= {"top", "bottom", "side"} and len(colours) == 3
+    assert sum(c["count"] for c in colours) == len(shapes.sphere()[1])
+    weighted.write("two.vtp", square([("Weights", ["left", "right"], "1 0 0 1 0 1 0.7 0.3")]))
+    run = weighted.run("render", "two.vtp", "--color", "handle", "-o", "t.png", "--report", "-").is_good()
+    # Sums over the corners: 1 and 2 on the first triangle, 1.7 and 1.3 on the second.
+    assert run.report["picture"]["colours"] == [{"name": "left", "count": 1}, {"name": "right", "count": 1}]
+
+
+def test_extrema_are_those_of_the_certificate(weighted):
+    handles = weighted.run("weights", "sphere.off", "--handles", "h.tgf", "--domain", "surface", "--method", "biharmonic",
+                           "-o", "again.vtp", "--report", "-").is_good().report["handles"]
+    for handle in handles:
+        run = weighted.run("render", "w.vtp", "--array", "RawWeights", "--component", handle["name"], "--extrema",
+                           "--size", "200x150", "-o", "e.png", "--overwrite", "--report", "-").is_good()
+        (extrema,) = run.report["picture"]["extrema"]
+        assert extrema["maxima"] + extrema["minima"] == extrema["drawn"] == handle["interior_extrema"]
+    # Weights is what is meant without --array; two tiles have numbers of their own.
+    run = weighted.run("render", "w.vtp", "w.vtp", "--extrema", "--size", "300x150", "-o", "f.png", "--report", "-").is_good()
+    assert run.report["picture"]["array"] == "Weights" and len(run.report["picture"]["extrema"]) == 2
+
+
+def test_row_sums(weighted):
+    run = weighted.run("render", "w.vtp", "--color", "row-sum", "--size", "200x150", "-o", "r.png", "--report", "-").is_good()
+    assert run.report["picture"]["row_sum"]["minimum"] == pytest.approx(1, abs=1e-9)  # without bounds they sum to one
+    weighted.write("raw.vtp", square([("RawWeights", ["a", "b"], "1 0 0 1.25 0.5 0.75 0.5 0.25")]))
+    run = weighted.run("render", "raw.vtp", "--color", "row-sum", "--size", "200x150", "-o", "s.png", "--report", "-").is_good()
+    assert run.report["picture"]["row_sum"] == {"minimum": 0.75, "maximum": 1.25}
+    assert run.report["picture"]["range"] == [0.75, 1.25]
+
+
+def test_differences(folder):
+    folder.write("a.vtp", square([("Weights", ["l", "r"], "1 0 0.5 0.5 0 1 0.25 0.75")]))
+    folder.write("b.vtp", square([("Weights", ["l", "r"], "1 0 0.25 0.75 0 1 0.5 0.5")]))
+    for words, array in ((["--component", "r"], "Weights"), (["--array", "Weights", "--component", "1"], "Weights")):
+        run = folder.run("render", "a.vtp", "--minus", "b.vtp", *words, "--size", "200x150", "-o", "d.png", "--overwrite",
+                         "--report", "-").is_good()
+        picture = run.report["picture"]
+        assert picture["array"] == array and picture["range"] == [-0.25, 0.25]
+        assert picture["difference"] == {"largest": 0.25, "rms": pytest.approx(0.25 / 2 ** 0.5)}
+    run = folder.run("render", "a.vtp", "b.vtp", "--minus", "b.vtp", "--size", "200x150", "-o", "e.png", "--report", "-")
+    assert run.is_good().report["picture"]["difference"] == {"largest": 0.25, "rms": pytest.approx(0.125)}
+
+
+@pytest.mark.parametrize("file, words, sentence", [
+    ("plain.vtp", ["--color", "handle"], "bindpose weights"),
+    ("w.vtp", ["--color", "handle", "--range", "0,1"], "no range"),
+    ("w.vtp", ["--color", "handle", "--array", "Weights"], "--color handle"),
+    ("w.vtp", ["--color", "handle", "--extrema"], "point array"),
+    ("plain.vtp", ["--extrema"], "Weights"),
+    ("nan.vtp", ["--extrema", "--array", "Heat"], "'Heat' holds one that is not"),
+    ("w.vtp", ["--color", "row-sum"], "weights --raw"),
+    ("raw.vtp", ["--color", "row-sum", "--range", "2,3"], "row sums holds 1"),
+    ("w.vtp", ["--minus", "none.vtp"], "none.vtp"),
+    ("w.vtp", ["--minus", "five.vtp"], "5 points, the dataset has 4"),
+    ("w.vtp", ["--minus", "plain.vtp"], "no point array 'Weights'"),
+    ("w.vtp", ["--minus", "nan.vtp", "--component", "b"], "no component 'b'"),
+    ("w.vtp", ["--minus", "w.vtp", "--range", "1,2"], "difference holds 0"),
+    ("w.vtp", ["--minus", "w.vtp", "--color", "handle"], "difference"),
+])
+def test_what_cannot_be_inspected(folder, file, words, sentence):
+    two = ("Weights", ["a", "b"], "1 0 0.5 0.5 0 1 0.25 0.75")
+    folder.write("w.vtp", square([two]))
+    folder.write("raw.vtp", square([("RawWeights", ["a", "b"], two[2])]))
+    folder.write("five.vtp", square([("Weights", ["a", "b"], two[2] + " 1 0")], points=5))
+    folder.write("plain.vtp", square([]))
+    folder.write("nan.vtp", square([("Weights", ["a"], "1 1 1 1"), ("Heat", ["h"], "0 1 nan 2")]))
+    folder.run("render", file, "-o", "s.png", *words).is_refused(sentence)

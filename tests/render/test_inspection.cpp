@@ -1,0 +1,315 @@
+// Inspection of weights, each picture with numbers that must hold in it whatever its baseline says.
+#include "render/drawing.h"
+#include "render/harness.h"
+#include "render/shapes.h"
+
+#include "conversion.h"
+#include "scene/categories.h"
+#include "scene/colours.h"
+#include "support/meshes.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+using namespace bindpose;
+using namespace bindpose::test;
+
+namespace
+{
+constexpr double pi = 3.14159265358979323846;
+
+double hue_distance(const Pixel& p, const Rgb& colour)
+{
+  const double its = std::max(1, p.r + p.g + p.b);
+  const double sum = colour[0] + colour[1] + colour[2];
+  return std::max({ std::abs(p.r / its - colour[0] / sum), std::abs(p.g / its - colour[1] / sum),
+    std::abs(p.b / its - colour[2] / sum) });
+}
+
+using Column = std::function<double(const Vec3&)>;
+
+void add_array(vtkDataSet* data, const char* name, const std::vector<Column>& columns)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(static_cast<int>(columns.size()));
+  for (vtkIdType v = 0; v < data->GetNumberOfPoints(); ++v)
+  {
+    for (const Column& column : columns)
+    {
+      array->InsertNextValue(column(Vec3(data->GetPoint(v))));
+    }
+  }
+  data->GetPointData()->AddArray(array);
+}
+
+/// The unit square of 24 x 24 cells in the plane z = 0.
+vtkSmartPointer<vtkPolyData> square()
+{
+  constexpr Index n = 24;
+  Points points((n + 1) * (n + 1), 3);
+  Triangles triangles(2 * n * n, 3);
+  for (Index y = 0; y <= n; ++y)
+  {
+    for (Index x = 0; x <= n; ++x)
+    {
+      points.row(y * (n + 1) + x) << x / double(n), y / double(n), 0.0;
+    }
+  }
+  for (Index y = 0; y < n; ++y)
+  {
+    for (Index x = 0; x < n; ++x)
+    {
+      const Index a = y * (n + 1) + x;
+      triangles.row(2 * (y * n + x)) << a, a + 1, a + n + 2;
+      triangles.row(2 * (y * n + x) + 1) << a, a + n + 2, a + n + 1;
+    }
+  }
+  return to_polydata(points, triangles);
+}
+
+/// Five maxima (corners and centre) and four minima (middles of the sides) on the square.
+double waves(const Vec3& p)
+{
+  return std::cos(2.0 * pi * p[0]) * std::cos(2.0 * pi * p[1]);
+}
+
+std::vector<Vec3> maxima(double z)
+{
+  return { { 0, 0, z }, { 1, 0, z }, { 0, 1, z }, { 1, 1, z }, { 0.5, 0.5, z } };
+}
+
+std::vector<Vec3> minima(double z)
+{
+  return { { 0.5, 0, z }, { 0, 0.5, z }, { 1, 0.5, z }, { 0.5, 1, z } };
+}
+
+/// Draws and hands on the report.
+Drawing draw(const Tile& tile, const PictureOptions& options, Report& report)
+{
+  Drawing drawing;
+  const Status status = render_to_image({ tile }, options, drawing.image, &drawing.geometry);
+  EXPECT_TRUE(status.ok()) << status.message;
+  report = status.report;
+  return drawing;
+}
+
+using Counts = std::vector<std::int64_t>;
+
+Counts counts(const Report& report, const std::string& key)
+{
+  const Report::Value* value = report.find("picture.extrema[]." + key);
+  return value ? std::get<Counts>(*value) : Counts();
+}
+} // namespace
+
+TEST(Render, handles_of_surface)
+{
+  PictureOptions options = small_picture();
+  options.colour_by = ColourBy::handle;
+  const Drawing drawing = draw({ { finger(), nullptr, "" } }, options);
+  // Left of the middle the one, right of it the other.
+  const std::vector<Category> handles = handle_categories({ "left", "right" });
+  for (const double x : { -1.7, -0.9, -0.2, 0.2, 0.9, 1.7 })
+  {
+    const double round = std::sqrt(1.0 - x * x / 4.0);
+    const Vec3 ridge(x, 0.2 * round + 0.5 * std::cos(0.8 * x), 0.7 * round * 0.968);
+    EXPECT_LT(hue_distance(drawing.at(ridge), handles[x < 0 ? 0 : 1].colour), 0.06) << x;
+    EXPECT_GT(hue_distance(drawing.at(ridge), handles[x < 0 ? 1 : 0].colour), 0.15) << x;
+  }
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, handles_of_tets)
+{
+  // Three handles along x, the middle one the strongest between 0.4 and 1.2.
+  const auto brick = tet_brick();
+  add_array(brick, "Weights",
+    { [](const Vec3& p) { return std::max(0.0, 1.0 - p[0] / 0.8); },
+      [](const Vec3& p) { return 1.0 - std::abs(p[0] / 0.8 - 1.0); },
+      [](const Vec3& p) { return std::max(0.0, p[0] / 0.8 - 1.0); } });
+  PictureOptions options = small_picture();
+  options.colour_by = ColourBy::handle;
+  Report report;
+  const Drawing drawing = draw({ brick, nullptr, "" }, options, report);
+  const std::vector<Category> handles = handle_categories({ "a", "b", "c" });
+  // On the laid-open side, which is the one that faces the camera.
+  const double places[] = { 0.2, 0.8, 1.4 };
+  for (int k = 0; k < 3; ++k)
+  {
+    // Edges are drawn: most of a neighbourhood has the colour.
+    int close = 0;
+    for (int dx = -3; dx <= 3; ++dx)
+    {
+      for (int dy = -3; dy <= 3; ++dy)
+      {
+        const Vec3 place(places[k] + 0.02 * dx, 0.5 + 0.02 * dy, 0.6);
+        close += hue_distance(drawing.at(place), handles[k].colour) < 0.06;
+      }
+    }
+    EXPECT_GT(close, 30) << k;
+  }
+  const Counts cells = std::get<Counts>(*report.find("picture.colours[].count"));
+  EXPECT_EQ(cells[0] + cells[1] + cells[2], brick->GetNumberOfCells());
+  EXPECT_EQ(cells[0], cells[2]) << "the brick and its weights are symmetric";
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, extrema)
+{
+  // The vertex in the middle is a handle: its maximum is wanted.
+  const auto surface = square();
+  add_array(surface, "Weights", { [](const Vec3& p) {
+    return (p - Vec3(0.5, 0.5, 0)).norm() < 1e-9 ? 1.0 : 0.5 + 0.49 * waves(p);
+  } });
+  add_array(surface, "Waves", { waves });
+  PictureOptions options = small_picture();
+  options.array = "Weights";
+  options.extrema = true;
+  options.view.zoom = 0.9;
+  Report report;
+  const Drawing drawing = draw({ surface, nullptr, "" }, options, report);
+  EXPECT_EQ(counts(report, "maxima"), Counts{ 4 });
+  EXPECT_EQ(counts(report, "minima"), Counts{ 4 });
+  EXPECT_EQ(counts(report, "drawn"), Counts{ 8 });
+  const std::vector<Category>& kinds = extremum_categories();
+  for (const Vec3& place : maxima(0.0))
+  {
+    const bool handle = place[0] == 0.5;
+    EXPECT_EQ(hue_distance(drawing.at(place), kinds[1].colour) < 0.08, !handle) << place;
+  }
+  for (const Vec3& place : minima(0.0))
+  {
+    EXPECT_LT(hue_distance(drawing.at(place), kinds[0].colour), 0.06) << place;
+  }
+  // Of a function with 1 at every maximum, Weights tell the handle.
+  options.array = "Waves";
+  draw({ surface, nullptr, "" }, options, report);
+  EXPECT_EQ(counts(report, "maxima"), Counts{ 4 });
+  surface->GetPointData()->RemoveArray("Weights");
+  draw({ surface, nullptr, "" }, options, report);
+  EXPECT_EQ(counts(report, "maxima"), Counts{ 5 });
+  EXPECT_EQ(counts(report, "minima"), Counts{ 4 });
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, extrema_of_tets)
+{
+  // The waves grow towards the camera: all extrema lie on the side that faces it.
+  const TetMesh mesh = tet_box(16, 16, 8, Vec3::Zero(), Vec3(1, 1, 0.5));
+  const auto grid = to_unstructured_grid(mesh.points, mesh.tets);
+  add_array(grid, "Waves", { [](const Vec3& p) { return waves(p) * (1.0 + p[2]); } });
+  PictureOptions options = small_picture();
+  options.array = "Waves";
+  options.extrema = true;
+  options.cut = false;
+  Report report;
+  const Drawing drawing = draw({ grid, nullptr, "" }, options, report);
+  EXPECT_EQ(counts(report, "maxima"), Counts{ 5 });
+  EXPECT_EQ(counts(report, "minima"), Counts{ 4 });
+  EXPECT_EQ(counts(report, "drawn"), Counts{ 9 });
+  for (const Vec3& place : maxima(0.5))
+  {
+    EXPECT_LT(hue_distance(drawing.at(place), extremum_categories()[1].colour), 0.08) << place;
+  }
+  // The cut takes that side away.
+  options.cut = true;
+  draw({ grid, nullptr, "" }, options, report);
+  EXPECT_EQ(counts(report, "maxima"), Counts{ 5 });
+  EXPECT_EQ(counts(report, "drawn"), Counts{ 0 });
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, row_sum)
+{
+  // From 0.8 on the left to 1.2 on the right.
+  const auto surface = finger();
+  add_array(surface, "RawWeights",
+    { [](const Vec3&) { return 0.5; }, [](const Vec3& p) { return 0.5 + 0.1 * p[0]; } });
+  PictureOptions options = small_picture();
+  options.colour_by = ColourBy::row_sum;
+  Report report;
+  const Drawing drawing = draw({ surface, nullptr, "" }, options, report);
+  EXPECT_NEAR(report.number("picture.row_sum.minimum", 0), 0.8, 1e-12);
+  EXPECT_NEAR(report.number("picture.row_sum.maximum", 0), 1.2, 1e-12);
+  for (const double x : { -1.6, 0.0, 1.6 })
+  {
+    const double round = std::sqrt(1.0 - x * x / 4.0);
+    const Vec3 ridge(x, 0.2 * round + 0.5 * std::cos(0.8 * x), 0.7 * round * 0.968);
+    EXPECT_LT(hue_distance(drawing.at(ridge), diverging_colour(x / 2.0)), 0.06) << x;
+  }
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, difference)
+{
+  // The right weight without the left one: 1 - (x + 2) / 2.
+  const auto other = vtkSmartPointer<vtkPolyData>::New();
+  const auto surface = finger();
+  other->DeepCopy(surface);
+  add_array(surface, "Shown", { [](const Vec3& p) { return 0.25 * p[0]; } });
+  add_array(other, "Shown", { [](const Vec3& p) { return 0.5 * p[0]; } });
+  PictureOptions options = small_picture();
+  options.array = "Shown";
+  options.minus = other;
+  Report report;
+  const Drawing drawing = draw({ surface, nullptr, "" }, options, report);
+  double squares = 0.0;
+  for (vtkIdType v = 0; v < surface->GetNumberOfPoints(); ++v)
+  {
+    squares += std::pow(0.25 * surface->GetPoint(v)[0], 2) / surface->GetNumberOfPoints();
+  }
+  EXPECT_NEAR(report.number("picture.difference.largest", 0), 0.5, 1e-12);
+  EXPECT_NEAR(report.number("picture.difference.rms", 0), std::sqrt(squares), 1e-12);
+  // Above 0 on the left, where less is subtracted from less.
+  for (const double x : { -1.6, 0.0, 1.6 })
+  {
+    const double round = std::sqrt(1.0 - x * x / 4.0);
+    const Vec3 ridge(x, 0.2 * round + 0.5 * std::cos(0.8 * x), 0.7 * round * 0.968);
+    EXPECT_LT(hue_distance(drawing.at(ridge), diverging_colour(-x / 2.0)), 0.06) << x;
+  }
+  // Of a thing and itself nothing is left.
+  options.minus = surface;
+  const Drawing nothing = draw({ surface, nullptr, "" }, options, report);
+  EXPECT_EQ(report.number("picture.difference.largest", -1), 0.0);
+  EXPECT_EQ(nothing.count([](const Pixel& p) { return std::abs(p.r - p.b) > 30; }), 0);
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, handle_names)
+{
+  // A legend of more handles than it has room for, in their order from above.
+  const auto surface = finger();
+  std::vector<Column> columns;
+  constexpr int many = 40;
+  for (int j = 0; j < many; ++j)
+  {
+    columns.emplace_back([j](const Vec3& p)
+      { return std::max(0.0, 1.0 - std::abs((p[0] + 2.0) / 4.0 * (many - 1) - j)); });
+  }
+  add_array(surface, "Weights", columns);
+  PictureOptions options = small_picture();
+  options.colour_by = ColourBy::handle;
+  options.legend = true;
+  const Drawing drawing = draw({ { surface, nullptr, "" } }, options);
+  const std::vector<Category> handles = handle_categories({ "a", "b", "c" });
+  double above = 300.0;
+  for (const Category& handle : handles)
+  {
+    const auto box =
+      drawing.extent([&](const Pixel& p) { return distance(p, handle.colour) <= 1.0; });
+    ASSERT_FALSE(box.isEmpty());
+    EXPECT_LT(box.max().y(), above + 0.5);
+    above = box.min().y();
+  }
+  expect_baseline(drawing.image);
+}

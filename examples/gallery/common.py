@@ -45,11 +45,13 @@ def program():
 
 
 def render(options, *words, picture=None):
-    """Draws `options.picture`, or another one, by `bindpose render`, from files in `options.scratch`."""
-    words = ["render", *map(str, words), "-o", str(picture or options.picture), "--overwrite", "--quiet"]
-    done = subprocess.run([program(), *words], cwd=options.scratch, stderr=subprocess.PIPE, text=True, check=False)
+    """Draws `options.picture`, or another one, by `bindpose render`, from files in `options.scratch`; what it reports
+    of the picture."""
+    words = ["render", *map(str, words), "-o", str(picture or options.picture), "--overwrite", "--quiet", "--report", "-"]
+    done = subprocess.run([program(), *words], cwd=options.scratch, capture_output=True, text=True, check=False)
     if done.returncode:
         raise Stop(done.stderr.strip() or f"bindpose render ended with exit code {done.returncode}")
+    return json.loads(done.stdout)["picture"]
 
 
 def write_picture(window, path):

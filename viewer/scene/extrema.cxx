@@ -1,11 +1,13 @@
 // The mesh becomes a graph of its points, the kernel counts on it. A ball's rim is a larger ball of
-// which only the far side is drawn: it stands out from any colour below.
+// which only the far side is drawn: it stands out from any colour below. Both lie before the
+// surface, on the line to the eye, or the surface would cover the rim.
 #include "scene/extrema.h"
 
 #include "conversion.h"
 #include "scene/colours.h"
 
 #include "vtkActor.h"
+#include "vtkCamera.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
@@ -25,6 +27,8 @@ namespace bindpose
 {
 namespace
 {
+constexpr double rim_size = 1.25;
+
 bool to_graph(vtkDataSet* data, VertexGraph& graph)
 {
   Domain domain;
@@ -70,7 +74,7 @@ void add_balls(vtkRenderer* renderer, vtkPolyData* places, double radius, const 
   for (const bool rim : { false, true })
   {
     vtkNew<vtkSphereSource> ball;
-    ball->SetRadius(rim ? 1.25 * radius : radius);
+    ball->SetRadius(rim ? rim_size * radius : radius);
     ball->SetThetaResolution(24);
     ball->SetPhiResolution(16);
     vtkNew<vtkGlyph3D> balls;
@@ -165,6 +169,7 @@ Index add_extrema(vtkRenderer* renderer, vtkDataSet* data, const std::vector<Ext
   const std::vector<char>& seen, double radius)
 {
   Index count = 0;
+  const Vec3 eye(renderer->GetActiveCamera()->GetPosition());
   for (const bool maximum : { false, true })
   {
     vtkNew<vtkPoints> places;
@@ -172,7 +177,9 @@ Index add_extrema(vtkRenderer* renderer, vtkDataSet* data, const std::vector<Ext
     {
       if (extremum.maximum == maximum && (seen.empty() || seen[extremum.vertex]))
       {
-        places->InsertNextPoint(data->GetPoint(extremum.vertex));
+        const Vec3 place(data->GetPoint(extremum.vertex));
+        places->InsertNextPoint(
+          Vec3(place + rim_size * radius * (eye - place).normalized()).data());
       }
     }
     if (places->GetNumberOfPoints() > 0)

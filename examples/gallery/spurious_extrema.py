@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""Bounds do not keep weights from having bumps away from their handle; monotone weights have none.
+
+Five points of a square; shown is the column of one of them, as it was solved for. Unconstrained weights have minima
+and maxima where no handle is, so a pose there moves what nobody touched. Bounds take those of the thin-plate energy
+away here, but not those of the next smoother one (triharmonic), which oscillates within them and whose extrema jump
+when a handle moves a little; monotone weights (Jacobson, Weinkauf, Sorkine 2012) have none of either.
+
+Numbers: extrema away from handles of all five columns, with a persistence above 1e-3 of the column's range, counted
+by the program's picture and by the filter's certificate; lowest and highest value; and after the handle has moved by a
+hundredth of the square, the farthest that an extremum of the shown column now is from the nearest that was there.
+"""
+
+import common
+import bindpose
+import numpy as np
+from bindpose.meshes import points_of, to_dataset
+from new_hues import POINTS, grid
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+SHOWN = 3  # the point above on the left
+
+
+def filters():
+    """Name, filter: three kinds of weights for two energies."""
+    made = {}
+    for order, energy in ((2, "biharmonic"), (3, "triharmonic")):
+        free = bindpose.vtkUnconstrainedWeights()
+        free.SetMethod(free.BIHARMONIC if order == 2 else free.TRIHARMONIC)
+        bounded, monotone = bindpose.vtkBoundedBiharmonicWeights(), bindpose.vtkMonotoneWeights()
+        bounded.SetOrder(order)
+        monotone.SetOrder(order)
+        made.update({f"unconstrained {energy}": free, f"bounded {energy}": bounded, f"monotone {energy}": monotone})
+    return made
+
+
+def solved(solver, square, places):
+    solver.SetInputData(0, square)
+    solver.SetInputData(1, bindpose.handles(points=places))
+    solver.SetKeepRaw(True)
+    solver.Update()
+    return solver.GetOutput()
+
+
+def extrema_of(solver):
+    """Places of the shown column's extrema."""
+    found = solver.GetOutput(1)
+    if not found.GetNumberOfPoints():
+        return np.zeros((0, 3))
+    return points_of(found)[vtk_to_numpy(found.GetPointData().GetArray("Handle")) == SHOWN]
+
+
+def make(options):
+    square = to_dataset(grid(*(2 * [40 if options.small else 80]), 1.0, 1.0))
+    places = np.array([[*place, 0] for place, _colour in POINTS])
+    moved = places + 0.01 * np.array([[0, 0, 0]] * SHOWN + [[1, 0, 0]] + [[0, 0, 0]] * (len(places) - SHOWN - 1))
+    bindpose.write(bindpose.handles(points=places), options.scratch / "handles.vtp")
+    numbers, files, labels = {}, [], []
+    for name, solver in filters().items():
+        mesh = solved(solver, square, places)
+        raw = vtk_to_numpy(mesh.GetPointData().GetArray("RawWeights"))
+        before = extrema_of(solver)
+        numbers[f"{name}: extrema by column"] = vtk_to_numpy(mesh.GetFieldData().GetArray("WeightsInteriorExtrema")).astype(int).tolist()
+        numbers[f"{name}: lowest and highest"] = [float(raw.min()), float(raw.max())]
+        files.append(f"{len(files)}.vtp")
+        bindpose.meshes.add_point_array(mesh, "Weights", raw.copy(), [f"p{j + 1}" for j in range(len(places))])  # drawn in bands
+        bindpose.write(mesh, options.scratch / files[-1])
+        after = (solved(solver, square, moved), extrema_of(solver))[1]
+        if len(before) and len(after):
+            distances = np.linalg.norm(after[:, None] - before[None], axis=2)
+            numbers[f"{name}: farthest jump of an extremum"] = float(distances.min(axis=1).max())
+        labels.append(f"{name.split()[0]}: {len(before) or 'no'} extrema")
+    shown = common.render(options, *files, "--component", SHOWN, "--extrema", "--columns", 3,
+                          "--labels", ",".join(labels), "--handles", "handles.vtp", "--size", "1500x1060", "--range", "-0.55,1.55",
+                          "--title", "One point's weights, extrema away from handles: biharmonic, below triharmonic")
+    for name, its in zip(filters(), shown["extrema"]):
+        numbers[f"{name}: maxima, minima in the picture"] = [its["maxima"], its["minima"]]
+    return numbers
+
+
+if __name__ == "__main__":
+    common.main(__file__, __doc__, make)

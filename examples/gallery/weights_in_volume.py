@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""Weights in a volume are as smooth inside as outside, and each handle has its own territory.
+
+A hand filled with tets, points spread over it as handles, bounded biharmonic weights of the whole volume. Left each
+tet in the colour of the handle that moves it most; right one column; both cut open. Territories hang together but for
+single tets where three of them meet.
+
+Numbers: tets, handles, seconds; lowest and highest weight, largest |sum - 1| of a row; extrema away from handles in all
+columns; part of the tets that do not hang together with their handle's territory.
+"""
+
+import time
+
+import common
+import bindpose
+import numpy as np
+from bindpose.meshes import point_array, tets_of
+
+
+def stray(tets, owner):
+    """Share of tets that do not hang together with the largest part of their territory, by common sides."""
+    sides = np.sort(np.concatenate([np.delete(tets, k, axis=1) for k in range(4)]), axis=1)
+    of_tet = np.tile(np.arange(len(tets)), 4)
+    order = np.lexsort(sides.T)
+    twin = (sides[order][1:] == sides[order][:-1]).all(axis=1)
+    a, b = of_tet[order][1:][twin], of_tet[order][:-1][twin]
+    same = owner[a] == owner[b]
+    label = np.arange(len(tets))
+    while True:  # the least number of a neighbour, until nothing changes
+        least = label.copy()
+        np.minimum.at(least, a[same], label[b[same]])
+        np.minimum.at(least, b[same], label[a[same]])
+        least = least[least]
+        if (least == label).all():
+            break
+        label = least
+    largest = sum(np.bincount(label[owner == handle]).max() for handle in np.unique(owner))
+    return 1 - largest / len(tets)
+
+
+def make(options):
+    surface = common.demo_mesh(options, "hand.off")
+    handles = bindpose.handle_sets.to_handles("auto:8", surface)
+    began = time.perf_counter()
+    if options.small:
+        tets = bindpose.tetrahedralize(surface, method="embed", resolution=14)
+    else:
+        tets = bindpose.tetrahedralize(surface, handles=handles)
+    filled = time.perf_counter()
+    solver = bindpose.vtkBoundedBiharmonicWeights()
+    solver.SetInputData(0, tets)
+    solver.SetInputData(1, handles)
+    solver.Update()
+    weighted = solver.GetOutput()
+    solved = time.perf_counter()
+    bindpose.write(weighted, options.scratch / "hand.vtu")
+    bindpose.write(handles, options.scratch / "handles.vtp")
+    weights, cells = point_array(weighted, "Weights"), tets_of(weighted)
+    owner = weights[cells].sum(axis=1).argmax(axis=1)
+    report = bindpose.report(weighted)
+    numbers = {"tets": len(cells), "handles": weights.shape[1], "seconds to fill": filled - began,
+               "seconds to solve": solved - filled, "lowest and highest weight": [float(weights.min()), float(weights.max())],
+               "largest |row sum - 1|": float(abs(weights.sum(axis=1) - 1).max()),
+               "extrema away from handles": sum(handle["interior_extrema"] for handle in report["handles"]),
+               "tets away from their territory, part": float(stray(cells, owner))}
+    look = ["--section", "0.5", "--handles", "handles.vtp", "--size", "760x800", *VIEW]
+    pictures = [options.scratch / "territories.png", options.scratch / "column.png"]
+    shown = common.render(options, "hand.vtu", "--color", "handle", *look, "--labels", "the handle that moves a tet most",
+                          picture=pictures[0])
+    column = common.render(options, "hand.vtu", "--component", report["handles"][COLUMN]["name"], "--extrema", *look,
+                           "--labels", "the weights of one handle", picture=pictures[1])
+    numbers["tets by handle in the picture"] = [its["count"] for its in shown["colours"]]
+    numbers["shown column: maxima, minima"] = [column["extrema"][0]["maxima"], column["extrema"][0]["minima"]]
+    common.side_by_side(options, pictures, 2)
+    return numbers
+
+
+COLUMN = 2
+VIEW = ["--up", "auto"]
+
+if __name__ == "__main__":
+    common.main(__file__, __doc__, make)

@@ -40,7 +40,7 @@ def make(options):
                   "preview,certified in the lattice,certified in conforming tets", picture=options.scratch / "ways.png")
     for (name, other), picture in zip(PAIRS, pictures):
         shown = common.render(options, f"{name}.vtp", "--minus", f"{other}.vtp", *look, "--size", "780x560", "--range",
-                              "-0.3,0.3", "--labels", f"{name} minus {other}", picture=picture)
+                              "-0.05,0.05", "--labels", f"{name} minus {other}", picture=picture)
         difference = found[name] - found[other]
         numbers[f"{name} minus {other}: shown, largest and rms"] = [shown["difference"]["largest"], shown["difference"]["rms"]]
         numbers[f"{name} minus {other}: all, largest and rms"] = [float(abs(difference).max()), float(np.sqrt((difference ** 2).mean()))]

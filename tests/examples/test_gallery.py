@@ -6,7 +6,8 @@ from running import EXAMPLES, is_refused, numbers_of, script
 GALLERY = EXAMPLES / "gallery"
 NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "colours_of_handles", "cost_of_a_point",
          "cut_out_cartoon", "defect_classes", "growth", "hull_segmentation", "image_rectangle", "jump_and_harmonic",
-         "limbs_in_front", "near_limbs", "new_hues", "open_crossing_flipped"]
+         "limbs_in_front", "mesh_independence", "near_limbs", "new_hues", "open_crossing_flipped", "preview_and_certified",
+         "small_features", "spurious_extrema", "weights_in_volume"]
 
 
 def test_open_crossing_flipped(tmp_path):
@@ -177,6 +178,60 @@ def test_new_hues(tmp_path):
         assert 0 <= numbers[f"{name}: black and white bar at two thirds"] <= 1
         assert numbers[f"{name}: black and white bar, out of the gamut"] <= 1e-9
         assert min(numbers[f"{name}: lowest and highest weight"]) >= 0
+
+
+def test_spurious_extrema(tmp_path):
+    numbers = numbers_of("gallery/spurious_extrema.py", tmp_path)
+    for energy in ("biharmonic", "triharmonic"):
+        assert sum(numbers[f"unconstrained {energy}: extrema by column"]) > 10
+        assert numbers[f"monotone {energy}: extrema by column"] == [0] * 5
+        assert min(numbers[f"unconstrained {energy}: lowest and highest"]) < -0.2
+        for kind in ("unconstrained", "bounded", "monotone"):  # the picture counts as the certificate does
+            shown = numbers[f"{kind} {energy}: maxima, minima in the picture"]
+            assert sum(shown) == numbers[f"{kind} {energy}: extrema by column"][3]
+            lowest, highest = numbers[f"{kind} {energy}: lowest and highest"]
+            assert kind == "unconstrained" or 0 <= lowest <= highest <= 1
+    assert numbers["bounded biharmonic: extrema by column"] == [0] * 5
+    assert min(numbers["bounded triharmonic: extrema by column"]) >= 4  # known from the literature's square: 4 to 13
+    assert max(numbers["bounded triharmonic: extrema by column"]) <= 13
+
+
+def test_small_features(tmp_path):
+    numbers = numbers_of("gallery/small_features.py", tmp_path)
+    ahead = [numbers[f"{name}: tip runs ahead, part of the pull"] for name in ("unconstrained", "bounded", "monotone")]
+    assert ahead[0] > ahead[1] > 0.1 > 0.03 > abs(ahead[2])
+    for name, share in zip(("unconstrained", "bounded", "monotone"), ahead):  # the pose moves the tip by its weight
+        foot, tip = numbers[f"{name}: middle point's weight at foot and tip"]
+        assert tip - foot == pytest.approx(share, abs=1e-9)
+    assert numbers["unconstrained: middle point's weight at foot and tip"][1] > 1.1
+    assert numbers["unconstrained: extrema away from handles"] > 0 and numbers["bounded: extrema away from handles"] > 0
+    assert numbers["monotone: extrema away from handles"] == 0
+
+
+def test_mesh_independence(tmp_path):
+    numbers = numbers_of("gallery/mesh_independence.py", tmp_path)
+    assert numbers["graph: largest difference"] > 0.1 and numbers["areas: largest difference"] < 0.02
+    assert numbers["graph: rms difference"] > 10 * numbers["areas: rms difference"]
+    for mesh in ("even", "finer on the right"):
+        assert numbers[f"areas: bar at a quarter, {mesh}"] == pytest.approx(0.15625, abs=1e-3)
+    assert abs(numbers["graph: bar at a quarter, finer on the right"] - 0.15625) > 0.02
+
+
+def test_weights_in_volume(tmp_path):
+    numbers = numbers_of("gallery/weights_in_volume.py", tmp_path)
+    assert numbers["lowest and highest weight"] == [0, pytest.approx(1)]
+    assert numbers["largest |row sum - 1|"] < 1e-9
+    assert sum(numbers["tets by handle in the picture"]) == numbers["tets"] > 1000
+    assert numbers["tets away from their territory, part"] < 0.01
+
+
+def test_preview_and_certified(tmp_path):
+    numbers = numbers_of("gallery/preview_and_certified.py", tmp_path)
+    for pair in ("preview minus lattice", "lattice minus conforming"):
+        largest, rms = numbers[f"{pair}: all, largest and rms"]
+        shown, shown_rms = numbers[f"{pair}: shown, largest and rms"]
+        assert 0 < shown_rms <= shown <= largest < 0.2 and rms < 0.05
+        assert numbers[f"{pair}: other strongest handle, part"] < 0.1
 
 
 def test_without_a_display_it_finds_one(tmp_path):

@@ -70,7 +70,8 @@ def make(options):
         largest = numbers[f"{method}: largest difference"]
         shown = common.render(options, f"{method}-a.vtp", "--minus", f"{method}-b.vtp", "--component", "p3", "--handles",
                               "handles.vtp", "--edges", "--size", f"600x{height}", "--range", "-0.3,0.3",
-                              "--labels", f"difference of {method}: rms {100 * numbers[f'{method}: rms difference']:.2g} %", picture=right)
+                              "--labels",
+                              f"difference of {method}: rms {100 * numbers[f'{method}: rms difference']:.2g} %", picture=right)
         assert shown["difference"]["largest"] <= largest + 1e-12
         pictures += [left, right]
     common.side_by_side(options, pictures, 2)

@@ -42,8 +42,10 @@ def make(options):
         shown = common.render(options, f"{name}.vtp", "--minus", f"{other}.vtp", *look, "--size", "780x560", "--range",
                               "-0.05,0.05", "--labels", f"{name} minus {other}", picture=picture)
         difference = found[name] - found[other]
-        numbers[f"{name} minus {other}: shown, largest and rms"] = [shown["difference"]["largest"], shown["difference"]["rms"]]
-        numbers[f"{name} minus {other}: all, largest and rms"] = [float(abs(difference).max()), float(np.sqrt((difference ** 2).mean()))]
+        numbers[f"{name} minus {other}: shown, largest and rms"] = [shown["difference"]["largest"],
+                                                                  shown["difference"]["rms"]]
+        numbers[f"{name} minus {other}: all, largest and rms"] = [float(abs(difference).max()),
+                                                               float(np.sqrt((difference ** 2).mean()))]
         numbers[f"{name} minus {other}: other strongest handle, part"] = float(
             (found[name].argmax(axis=1) != found[other].argmax(axis=1)).mean())
         if abs(difference[:, SHOWN]).max() - shown["difference"]["largest"] > 1e-12:

@@ -70,12 +70,14 @@ def make(options):
         stretch = np.linalg.norm(places[edges[:, 0]] - places[edges[:, 1]], axis=1) / lengths - 1
         its = bindpose.report(weighted)["handles"][1]["interior_extrema"]
         numbers[f"{caption}: middle point's weight at foot and tip"] = [float(column[foot]), float(column[tip])]
-        numbers[f"{caption}: tip runs ahead, part of the pull"] = float((places[tip] - places[foot] - points[tip] + points[foot])[1] / PULL[1])
+        ahead = places[tip] - places[foot] - points[tip] + points[foot]
+        numbers[f"{caption}: tip runs ahead, part of the pull"] = float(ahead[1] / PULL[1])
         numbers[f"{caption}: largest stretch of an antenna's edge"] = float(abs(stretch).max())
         numbers[f"{caption}: extrema away from handles"] = int(its)
         tiles.append((f"{caption}: tip {column[tip]:.2f}, {its} extrema",
                       [planar.bands(posed, np.clip(column, 0, 1), scale, 20), *planar.edges(posed, shape), *dots(moved)]))
-    window = planar.show(tiles, (-0.08, 3.08, -0.1, 2.62), tile=(460, 400), title="Small features and the weights of the middle point")
+    window = planar.show(tiles, (-0.08, 3.08, -0.1, 2.62), tile=(460, 400),
+                         title="Small features and the weights of the middle point")
     common.write_picture(window, options.picture)
     return numbers
 

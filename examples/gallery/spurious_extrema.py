@@ -68,7 +68,8 @@ def make(options):
         mesh = solved(solver, square, places)
         raw = vtk_to_numpy(mesh.GetPointData().GetArray("RawWeights"))
         before = extrema_of(solver)
-        numbers[f"{name}: extrema by column"] = vtk_to_numpy(mesh.GetFieldData().GetArray("WeightsInteriorExtrema")).astype(int).tolist()
+        counted = vtk_to_numpy(mesh.GetFieldData().GetArray("WeightsInteriorExtrema"))
+        numbers[f"{name}: extrema by column"] = counted.astype(int).tolist()
         numbers[f"{name}: relative gap"] = bindpose.report(mesh)["relative_gap"]
         numbers[f"{name}: lowest and highest"] = [float(raw.min()), float(raw.max())]
         files.append(f"{len(files)}.vtp")

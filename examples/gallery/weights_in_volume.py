@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Weights in a volume are as smooth inside as outside, and each handle has its own territory.
+"""Weights in a volume keep what they have in the plane: bounds, rows that sum to one, territories in one piece.
 
-An elephant filled with tets, points spread over it as handles, bounded biharmonic weights of the whole volume. Left each
-tet in the colour of the handle that moves it most; right one column; both cut open. Each
+An elephant filled with tets, points spread over it as handles, bounded biharmonic weights of the whole volume. Left
+each tet in the colour of the handle that moves it most; right one column, with its extrema; both cut open. Each
 territory is one piece: nothing of it is torn off by a pose.
 
-Numbers: tets, handles, seconds; lowest and highest weight, largest |sum - 1| of a row; extrema away from handles in all
-columns; part of the tets that do not hang together with their handle's territory.
+Numbers: tets, handles, seconds, the certificate's relative gap; lowest and highest weight, largest |sum - 1| of a row;
+extrema away from handles in all columns; part of the tets that do not hang together with their handle's territory.
 """
 
 import time
@@ -52,14 +52,17 @@ def make(options):
     solver.SetInputData(1, handles)
     solver.Update()
     weighted = solver.GetOutput()
+    report = bindpose.report(weighted)
+    if report["status"] != "ok":
+        raise common.Stop(report["message"])
     solved = time.perf_counter()
     bindpose.write(weighted, options.scratch / "elephant.vtu")
     bindpose.write(handles, options.scratch / "handles.vtp")
     weights, cells = point_array(weighted, "Weights"), tets_of(weighted)
     owner = weights[cells].sum(axis=1).argmax(axis=1)
-    report = bindpose.report(weighted)
     numbers = {"tets": len(cells), "handles": weights.shape[1], "seconds to fill": filled - began,
-               "seconds to solve": solved - filled, "lowest and highest weight": [float(weights.min()), float(weights.max())],
+               "seconds to solve": solved - filled, "relative gap": report["relative_gap"],
+               "lowest and highest weight": [float(weights.min()), float(weights.max())],
                "largest |row sum - 1|": float(abs(weights.sum(axis=1) - 1).max()),
                "extrema away from handles": sum(handle["interior_extrema"] for handle in report["handles"]),
                "tets away from their territory, part": float(stray(cells, owner))}

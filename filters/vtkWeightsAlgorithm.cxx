@@ -325,7 +325,7 @@ void vtkWeightsAlgorithm::SetKeepRaw(bool keep)
 
 void vtkWeightsAlgorithm::SetDomain(int domain)
 {
-  domain = std::clamp(domain, static_cast<int>(SURFACE), static_cast<int>(EMBEDDING));
+  domain = std::clamp(domain, static_cast<int>(SURFACE), static_cast<int>(CAGE));
   if (this->Domain != domain)
   {
     this->Domain = domain;

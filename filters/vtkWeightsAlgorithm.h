@@ -98,7 +98,8 @@ public:
     SURFACE = 0,
     AUTO = 1,
     VOLUME = 2,
-    EMBEDDING = 3
+    EMBEDDING = 3,
+    CAGE = 4
   };
 
   ///@{
@@ -106,9 +107,10 @@ public:
    * Where to solve for a surface: on its triangles (SURFACE, the default), in conforming tets of
    * its inside (VOLUME), in a lattice that holds it, in seconds whatever its size (EMBEDDING), or
    * AUTO: the volume of small surfaces, the embedding of dense ones and of those that cannot be
-   * filled, the shape itself where it is flat. The output then is the surface as it came, with
-   * Weights at its own points, and output 2 is what was solved on. Meshes of tets are solved on
-   * directly. Out of range: clamped.
+   * filled, the shape itself where it is flat; or in tets of the closed cage that the handles have
+   * around the surface (CAGE). The output then is the surface as it came, with Weights at its own
+   * points, and output 2 is what was solved on. Meshes of tets are solved on directly. Out of
+   * range: clamped.
    */
   void SetDomain(int domain);
   vtkGetMacro(Domain, int);
@@ -116,6 +118,7 @@ public:
   void SetDomainToAuto() { this->SetDomain(AUTO); }
   void SetDomainToVolume() { this->SetDomain(VOLUME); }
   void SetDomainToEmbedding() { this->SetDomain(EMBEDDING); }
+  void SetDomainToCage() { this->SetDomain(CAGE); }
   ///@}
 
   enum Stages

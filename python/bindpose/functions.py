@@ -354,8 +354,9 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
     method : {"bounded-biharmonic", "monotone", "harmonic", "biharmonic", "triharmonic", \
               "graph-biharmonic", "linear-subspace", "inverse-distance", "smoothed-harmonic", "bone-heat"}
         All but the first two are to compare with: see ``vtkUnconstrainedWeights``.
-    domain : {"auto", "volume", "embedding", "surface"}
-        Where to solve for a surface: in tets of its inside, in a lattice that holds it, on itself.
+    domain : {"auto", "volume", "embedding", "cage", "surface"}
+        Where to solve for a surface: in tets of its inside, in a lattice that holds it, in the closed
+        cage that the handles have around it, on itself.
         ``auto``: the volume of surfaces of up to 20,000 triangles, the embedding of dense ones and
         of those that cannot be filled, flat shapes on themselves. Tets are solved on directly.
     resolution : int
@@ -401,7 +402,7 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
     methods = ("bounded-biharmonic", "monotone", "harmonic", "biharmonic", "triharmonic", "graph-biharmonic",
                "linear-subspace", "inverse-distance", "smoothed-harmonic", "bone-heat")
     _choice(method, methods, "method")
-    _choice(domain, ("auto", "volume", "embedding", "surface"), "domain")
+    _choice(domain, ("auto", "volume", "embedding", "cage", "surface"), "domain")
     _choice(stage, ("certified", "preview"), "stage")
     data = to_dataset(mesh)
     handle_data = to_handles(handles, data)

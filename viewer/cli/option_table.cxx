@@ -127,8 +127,9 @@ const std::vector<Verb>& verbs()
           "bounded-biharmonic|monotone|harmonic|biharmonic|triharmonic|graph-biharmonic|"
           "linear-subspace|inverse-distance|smoothed-harmonic|bone-heat",
           "which weights; all but the first two are to compare with" },
-        { "--domain", "DOMAIN", Kind::choice, "auto", "auto|volume|embedding|surface",
-          "solve in tets of the inside, in a lattice that holds the surface, or on the surface; "
+        { "--domain", "DOMAIN", Kind::choice, "auto", "auto|volume|embedding|cage|surface",
+          "solve in tets of the inside, in a lattice that holds the surface, in the cage of the "
+          "handles around it, or on the surface; "
           "auto: small surfaces in their volume, dense or unfillable ones in the lattice, flat "
           "ones on themselves" },
         { "--resolution", "CUBES", Kind::integer, "0", "",

@@ -68,6 +68,7 @@ vtkSmartPointer<vtkWeightsAlgorithm> make_weights(const Arguments& arguments)
     { "auto", vtkWeightsAlgorithm::AUTO },
     { "volume", vtkWeightsAlgorithm::VOLUME },
     { "embedding", vtkWeightsAlgorithm::EMBEDDING },
+    { "cage", vtkWeightsAlgorithm::CAGE },
     { "surface", vtkWeightsAlgorithm::SURFACE },
   };
   weights->SetDomain(domains.at(arguments.text("domain")));

@@ -165,10 +165,12 @@ Status give_every_handle_a_vertex(const Handles& handles,
   }
   for (std::size_t j = 0; j < handles.size(); ++j)
   {
-    Index row = 0;
-    for (auto vertex = owners.begin(); vertex != owners.end() && own[j] == 0; ++vertex, ++row)
+    for (auto vertex = owners.begin(); vertex != owners.end() && own[j] == 0; ++vertex)
     {
       const auto& list = vertex->second;
+      const auto row =
+        std::lower_bound(result.vertices.begin(), result.vertices.end(), vertex->first) -
+        result.vertices.begin();
       const auto at = static_cast<Index>(j);
       if (std::find(list.begin(), list.end(), at) != list.end() &&
         std::all_of(list.begin(), list.end(), [&](Index i) { return i == at || own[i] > 0; }))
@@ -265,13 +267,55 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
   }
 
   const auto m = static_cast<Index>(handles.size());
-  result.values = Weights::Zero(static_cast<Index>(handles_of_vertex.size()), m);
+  for (const auto& entry : handles_of_vertex)
+  {
+    result.vertices.push_back(entry.first);
+  }
+  for (const CageVertex& on_cage : mesh.cage)
+  {
+    if (result.components.of_vertex[on_cage.vertex] >= 0)
+    {
+      result.vertices.push_back(on_cage.vertex);
+    }
+  }
+  std::sort(result.vertices.begin(), result.vertices.end());
+  result.vertices.erase(
+    std::unique(result.vertices.begin(), result.vertices.end()), result.vertices.end());
+  result.values = Weights::Zero(static_cast<Index>(result.vertices.size()), m);
+  const auto row_of = [&](Index v)
+  {
+    return std::lower_bound(result.vertices.begin(), result.vertices.end(), v) -
+      result.vertices.begin();
+  };
+  for (const CageVertex& on_cage : mesh.cage)
+  {
+    // Handles come before cages; where elements meet, they say the same.
+    if (result.components.of_vertex[on_cage.vertex] >= 0 &&
+      handles_of_vertex.count(on_cage.vertex) == 0)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        if (on_cage.element[k] >= 0)
+        {
+          result.values(row_of(on_cage.vertex), on_cage.element[k]) += on_cage.shares[k];
+        }
+      }
+    }
+  }
+  for (std::size_t i = 0; i < result.vertices.size(); ++i)
+  {
+    const auto row = static_cast<Index>(i);
+    result.roles[result.vertices[i]] = VertexRole::handle;
+    const double sum = result.values.row(row).sum();
+    if (sum > 0.0)
+    {
+      result.values.row(row) /= sum;
+    }
+  }
   std::map<std::pair<Index, Index>, Index> shared;
   for (const auto& [v, owners] : handles_of_vertex)
   {
-    const auto row = static_cast<Index>(result.vertices.size());
-    result.vertices.push_back(v);
-    result.roles[v] = VertexRole::handle;
+    const auto row = row_of(v);
     for (const Index owner : owners)
     {
       result.values(row, owner) = 1.0 / static_cast<double>(owners.size());

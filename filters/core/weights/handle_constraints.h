@@ -19,7 +19,7 @@ enum class VertexRole : unsigned char
 struct HandleConstraints
 {
   std::vector<VertexRole> roles; ///< #V
-  std::vector<Index> vertices; ///< b, ascending: the vertices on handles
+  std::vector<Index> vertices; ///< b, ascending: the vertices on handles and cages
   Weights values; ///< bc, #b x #handles: rows sum to one
   std::vector<Index> counts; ///< constrained vertices of every handle
   Components components; ///< by elements that have a measure; -1 for followers and unreferenced
@@ -29,6 +29,8 @@ struct HandleConstraints
 };
 
 /// Fixed vertices and their rows (the discrete boundary conditions) from where the handles lie.
+///
+/// A vertex on a cage's edge or face gets what is linear there.
 ///
 /// A vertex on several handles gets equal shares (a joint of two bones: 1/2, 1/2); where that
 /// happens although the handles do not touch, a warning names them. A handle that shares all of its

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
 namespace bindpose
@@ -40,6 +41,7 @@ private:
   Status on_mesh(SurfaceWeights& result);
   Status in_volume(SurfaceWeights& result, Index most_tets = -1);
   Status in_embedding(SurfaceWeights& result, bool& trusted);
+  Status in_cage(SurfaceWeights& result);
   Status embed(Index resolution, SurfaceWeights& result);
   Status fill(TetMethod method, Index resolution, TetrahedralizeResult& tets);
   /// Adds what a step said to what came before it. @return the step's status with all of it.
@@ -240,6 +242,64 @@ Status Solver::in_volume(SurfaceWeights& result, Index most_tets)
       result));
 }
 
+Status Solver::in_cage(SurfaceWeights& result)
+{
+  Points corners(static_cast<Index>(this->handles_.size()), 3);
+  std::vector<CageElement> faces;
+  for (std::size_t i = 0; i < this->handles_.size(); ++i)
+  {
+    corners.row(static_cast<Index>(i)) = this->handles_[i].head;
+    std::copy_if(this->handles_[i].cage.begin(), this->handles_[i].cage.end(),
+      std::back_inserter(faces), [](const CageElement& element) { return element[2] >= 0; });
+  }
+  if (faces.empty())
+  {
+    return Status::invalid_input("domain cage needs a cage with faces among the handles");
+  }
+  Triangles triangles(static_cast<Index>(faces.size()), 3);
+  for (Index f = 0; f < triangles.rows(); ++f)
+  {
+    triangles.row(f) << faces[f][0], faces[f][1], faces[f][2];
+  }
+  TetrahedralizeOptions options;
+  options.handles.points = this->options_.places.points;
+  if (this->points_.rows() <= few_triangles)
+  {
+    const Index count = options.handles.points.rows();
+    options.handles.points.conservativeResize(count + this->points_.rows(), 3);
+    options.handles.points.bottomRows(this->points_.rows()) = this->points_;
+  }
+  Status status;
+  {
+    const Phase phase(this->context_, "tetrahedralize", 0.0, 0.3);
+    status = tetrahedralize(corners, triangles, options, result.tets, this->context_);
+  }
+  if (!status.usable())
+  {
+    status.message = "the cage cannot be filled: " + status.message;
+    return status;
+  }
+  status.report.set("tetrahedralize.method", status.report.text("method"));
+  status.report.erase("method");
+  result.domain = WeightsDomain::cage;
+  return this->joined(status,
+    this->solve(
+      volume_of(result.tets.mesh), {}, this->weights_options_.insertion,
+      [&](const Weights& solved, Weights& at_points)
+      {
+        TransferCounts counts;
+        Status carried = transfer(
+          result.problem.mesh.domain, solved, this->points_, {}, this->context_, at_points, counts);
+        if (counts.nearest + counts.misses > 0)
+        {
+          carried.warnings = { std::to_string(counts.nearest + counts.misses) +
+            " points of the surface lie outside of the cage; they take the nearest weights" };
+        }
+        return carried;
+      },
+      result));
+}
+
 Status Solver::embed(Index resolution, SurfaceWeights& result)
 {
   Status status = this->fill(TetMethod::embed, resolution, result.tets);
@@ -399,6 +459,9 @@ Status Solver::run(SurfaceWeights& result)
     case WeightsDomain::volume:
       status = this->in_volume(result);
       break;
+    case WeightsDomain::cage:
+      status = this->in_cage(result);
+      break;
     case WeightsDomain::embedding:
       status = this->in_embedding(result, trusted);
       break;
@@ -413,7 +476,7 @@ Status Solver::run(SurfaceWeights& result)
 
 const char* to_string(WeightsDomain domain)
 {
-  constexpr const char* names[] = { "surface", "auto", "volume", "embedding" };
+  constexpr const char* names[] = { "surface", "auto", "volume", "embedding", "cage" };
   return names[static_cast<int>(domain)];
 }
 

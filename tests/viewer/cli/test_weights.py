@@ -236,3 +236,23 @@ def test_embedding_and_preview(bar):
     assert np.abs(preview - weights).max() <= 0.2
     bar.run("weights", "bar.off", "--handles", "bones.tgf", "--domain", "embedding", "--resolution", "3", "-o",
             "x.vtp").is_refused("between 6 and 1000")
+
+
+def test_cage_of_a_tgf_file(folder):
+    """A closed cage around a flat square: weights are linear along its edges, which are the outline."""
+    n = 8
+    vertices = [[i / n, j / n, 0] for j in range(n + 1) for i in range(n + 1)]
+    corners = [(j * (n + 1) + i, j * (n + 1) + i + 1, (j + 1) * (n + 1) + i + 1, (j + 1) * (n + 1) + i)
+               for j in range(n) for i in range(n)]
+    folder.off("m.off", (vertices, [list(t) for a, b, c, d in corners for t in ((a, b, c), (a, c, d))]))
+    folder.write("cage.tgf", "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n#\n" +
+                 "".join(f"{k} {k % 4 + 1} 0 0 1\n" for k in range(1, 5)))
+    run = folder.run("weights", "m.off", "--handles", "cage.tgf", "-o", "w.vtp", "--report", "-").is_good()
+    assert run.err == "" and [h["kind"] for h in run.report["handles"]] == ["cage_vertex"] * 4
+    weights = weights_of(folder / "w.vtp")
+    check(weights, vertices)
+    x, y = np.array(vertices)[:, 0], np.array(vertices)[:, 1]
+    below = y == 0
+    assert np.abs(weights[below, 0] - (1 - x[below])).max() <= 1e-9
+    assert np.abs(weights[below, 1] - x[below]).max() <= 1e-9 and (weights[below, 2:] <= 1e-9).all()
+    folder.run("weights", "m.off", "--handles", "cage.tgf", "--domain", "cage", "-o", "c.vtp").is_refused("faces")

@@ -40,6 +40,23 @@ SparseMatrix assemble(Index vertex_count, const Elements& elements, const Cotang
   }
   return from_entries(vertex_count, entries);
 }
+
+/// Mean of each element's corners.
+template <typename Elements>
+Eigen::VectorXd element_means(const Elements& elements, const Eigen::VectorXd& values)
+{
+  Eigen::VectorXd means = Eigen::VectorXd::Zero(elements.rows());
+  for (Index e = 0; e < elements.rows(); ++e)
+  {
+    for (Index k = 0; k < elements.cols(); ++k)
+    {
+      means[e] += values[elements(e, k)] / static_cast<double>(elements.cols());
+    }
+  }
+  return means;
+}
+
+constexpr int triangle_edges[3][2] = { { 1, 2 }, { 2, 0 }, { 0, 1 } };
 } // namespace
 
 Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> cotangent_weights(
@@ -96,8 +113,22 @@ Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> cotangent_weights(
 
 SparseMatrix stiffness_matrix(PointsView points, TrianglesView triangles)
 {
-  constexpr int edges[3][2] = { { 1, 2 }, { 2, 0 }, { 0, 1 } };
-  return assemble(points.rows(), triangles, cotangent_weights(points, triangles), edges);
+  return assemble(points.rows(), triangles, cotangent_weights(points, triangles), triangle_edges);
+}
+
+SparseMatrix stiffness_matrix(
+  PointsView points, TrianglesView triangles, const Eigen::VectorXd& factors)
+{
+  auto c = cotangent_weights(points, triangles);
+  c = element_means(triangles, factors).asDiagonal() * c;
+  return assemble(points.rows(), triangles, c, triangle_edges);
+}
+
+SparseMatrix stiffness_matrix(PointsView points, TetsView tets, const Eigen::VectorXd& factors)
+{
+  auto c = cotangent_weights(points, tets);
+  c = element_means(tets, factors).asDiagonal() * c;
+  return assemble(points.rows(), tets, c, tet_edges);
 }
 
 SparseMatrix stiffness_matrix(PointsView points, TetsView tets)

@@ -30,6 +30,12 @@ constexpr int tet_edges[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3
 SparseMatrix stiffness_matrix(PointsView points, TrianglesView triangles);
 SparseMatrix stiffness_matrix(PointsView points, TetsView tets);
 
+/// The same with every element's share times the mean of its corners' factors (#V): of
+/// int factor grad u . grad v.
+SparseMatrix stiffness_matrix(
+  PointsView points, TrianglesView triangles, const Eigen::VectorXd& factors);
+SparseMatrix stiffness_matrix(PointsView points, TetsView tets, const Eigen::VectorXd& factors);
+
 /// N (#V x #V): N_ij is the integral over the boundary of phi_i n . grad phi_j, what flows out.
 /// With it (K - N) u = 0 for every linear u, at the boundary as well. Zero for a closed surface; in
 /// a surface n lies in the triangle, normal to its open edge.

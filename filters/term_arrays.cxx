@@ -2,13 +2,8 @@
 
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
-#include "vtkDoubleArray.h"
-#include "vtkIdTypeArray.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkStaticPointLocator.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace bindpose
@@ -99,73 +94,6 @@ Status to_terms(
     : status;
   return status.ok() ? to_whole_numbers(find(mesh, names.mirror), names.mirror, terms.mirror)
                      : status;
-}
-
-Index carry_terms(vtkDataSet* surface, const TermArrayNames& names, vtkDataSet* tets)
-{
-  vtkDataArray* originals = tets->GetPointData()->GetArray("OriginalPointIds");
-  const vtkIdType count = tets->GetNumberOfPoints();
-  std::vector<vtkIdType> original(static_cast<std::size_t>(count), -1);
-  std::vector<vtkIdType> carried_to(static_cast<std::size_t>(surface->GetNumberOfPoints()), -1);
-  for (vtkIdType v = 0; v < count; ++v)
-  {
-    original[v] = originals ? static_cast<vtkIdType>(originals->GetComponent(v, 0)) : -1;
-    if (original[v] >= 0)
-    {
-      carried_to[original[v]] = v;
-    }
-  }
-  std::vector<char> lost(carried_to.size(), 0);
-  for (const std::string& name : names.all())
-  {
-    vtkDataArray* from = find(surface, name);
-    if (!from)
-    {
-      continue;
-    }
-    for (vtkIdType v = 0; v < surface->GetNumberOfPoints() && name != names.rigidity; ++v)
-    {
-      for (int c = 0; c < from->GetNumberOfComponents() && carried_to[v] < 0; ++c)
-      {
-        const double value = from->GetComponent(v, c);
-        const bool asked = name == names.rigid_sets ? value > 0.0
-          : name == names.mirror                    ? value >= 0.0
-                                                    : !std::isnan(value);
-        lost[v] = lost[v] || asked;
-      }
-    }
-    const bool whole = name == names.rigid_sets || name == names.mirror;
-    const double elsewhere = name == names.mirror ? -1.0 : whole ? 0.0 : std::nan("");
-    vtkSmartPointer<vtkDataArray> to;
-    to.TakeReference(whole ? static_cast<vtkDataArray*>(vtkIdTypeArray::New())
-                           : static_cast<vtkDataArray*>(vtkDoubleArray::New()));
-    to->SetName(name.c_str());
-    to->SetNumberOfComponents(from->GetNumberOfComponents());
-    to->SetNumberOfTuples(count);
-    vtkNew<vtkStaticPointLocator> nearest;
-    if (name == names.rigidity)
-    {
-      nearest->SetDataSet(surface);
-      nearest->BuildLocator();
-    }
-    for (vtkIdType v = 0; v < count; ++v)
-    {
-      const vtkIdType source = original[v] >= 0 || name != names.rigidity
-        ? original[v]
-        : nearest->FindClosestPoint(tets->GetPoint(v));
-      for (int c = 0; c < from->GetNumberOfComponents(); ++c)
-      {
-        double value = source >= 0 ? from->GetComponent(source, c) : elsewhere;
-        if (name == names.mirror && value >= 0 && value < static_cast<double>(carried_to.size()))
-        {
-          value = static_cast<double>(carried_to[static_cast<std::size_t>(value)]);
-        }
-        to->SetComponent(v, c, value);
-      }
-    }
-    tets->GetPointData()->AddArray(to);
-  }
-  return static_cast<Index>(std::count(lost.begin(), lost.end(), 1));
 }
 
 } // namespace bindpose

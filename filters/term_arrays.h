@@ -31,13 +31,6 @@ struct TermArrayNames
 Status to_terms(
   vtkDataSet* mesh, const TermArrayNames& names, Index handle_count, WeightTerms& terms);
 
-/// Gives tets that were made in a surface (with OriginalPointIds) the surface's arrays: rigidity
-/// inside is that of the nearest point of the surface, all else is asked of the surface's own
-/// points alone.
-/// @return points of the surface of which something is asked, but which are no vertices of the
-/// tets.
-Index carry_terms(vtkDataSet* surface, const TermArrayNames& names, vtkDataSet* tets);
-
 } // namespace bindpose
 
 #endif

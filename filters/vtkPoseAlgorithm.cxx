@@ -10,6 +10,7 @@
 #include "bind_key.h"
 #include "output_type.h"
 #include "pose_input.h"
+#include "weights_input.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -37,47 +38,6 @@ struct vtkPoseAlgorithm::Cache
 
 namespace
 {
-std::string names_of(vtkDataSet* data)
-{
-  std::string names;
-  for (int i = 0; i < data->GetPointData()->GetNumberOfArrays(); ++i)
-  {
-    const char* name = data->GetPointData()->GetArrayName(i);
-    names += std::string(i ? ", " : "") + (name ? name : "(unnamed)");
-  }
-  return names.empty() ? "none" : names;
-}
-
-/// Weights that were made for this mesh and these handles: as many rows and columns, and columns
-/// that have a name have the handle's.
-Status check_weights(vtkDataArray* weights, vtkIdType points, const Handles& handles)
-{
-  const std::string array = std::string("the array '") + weights->GetName() + "'";
-  if (weights->GetNumberOfTuples() != points)
-  {
-    return Status::invalid_input(array + " has " + std::to_string(weights->GetNumberOfTuples()) +
-      " tuples, but the mesh has " + std::to_string(points) +
-      " points: these are the weights of another mesh");
-  }
-  const int columns = weights->GetNumberOfComponents();
-  if (columns != static_cast<int>(handles.size()))
-  {
-    return Status::invalid_input(array + " has " + std::to_string(columns) +
-      " components, but there are " + std::to_string(handles.size()) + " handles");
-  }
-  for (int j = 0; j < columns; ++j)
-  {
-    const char* name = weights->HasAComponentName() ? weights->GetComponentName(j) : nullptr;
-    if (name && *name && handles[static_cast<std::size_t>(j)].name != name)
-    {
-      return Status::invalid_input(array + " has the weights of a handle '" + name +
-        "' in component " + std::to_string(j) + ", where the handles have '" +
-        handles[static_cast<std::size_t>(j)].name + "': these are the weights of other handles");
-    }
-  }
-  return {};
-}
-
 vtkSmartPointer<vtkDoubleArray> to_array(const std::vector<Affine>& transforms)
 {
   auto array = vtkSmartPointer<vtkDoubleArray>::New();
@@ -157,11 +117,11 @@ Status vtkPoseAlgorithm::Execute(
   {
     return Status::invalid_input("the mesh to pose is empty");
   }
-  vtkDataArray* weights = mesh->GetPointData()->GetArray(this->ArrayName.c_str());
-  if (!weights)
+  vtkDataArray* weights =
+    this->NeedsWeights() ? mesh->GetPointData()->GetArray(this->ArrayName.c_str()) : nullptr;
+  if (!weights && this->NeedsWeights())
   {
-    return Status::invalid_input("the mesh has no point array '" + this->ArrayName +
-      "' with weights (its point arrays: " + names_of(mesh) + ")");
+    return no_weights(mesh, this->ArrayName);
   }
   if (!handle_data)
   {
@@ -170,7 +130,8 @@ Status vtkPoseAlgorithm::Execute(
 
   BindKey key;
   key.add(this->BindTime.GetMTime());
-  for (vtkObject* object : bind_objects(mesh, { this->ArrayName }))
+  const std::vector<std::string> arrays(weights ? 1 : 0, this->ArrayName);
+  for (vtkObject* object : bind_objects(mesh, arrays))
   {
     key.add(object);
   }
@@ -188,13 +149,16 @@ Status vtkPoseAlgorithm::Execute(
     {
       return status;
     }
-    status = check_weights(weights, mesh->GetNumberOfPoints(), bound.handles);
-    if (!status.ok())
+    if (weights)
     {
-      return status;
+      status = check_weights(weights, mesh->GetNumberOfPoints(), bound.handles);
+      if (!status.ok())
+      {
+        return status;
+      }
+      bound.weights = to_matrix(weights);
     }
     bound.points = to_points(mesh);
-    bound.weights = to_matrix(weights);
     if (!bound.points.view().allFinite())
     {
       return Status::invalid_input("the mesh has a coordinate that is not a finite number");

@@ -52,6 +52,9 @@ protected:
   vtkPoseAlgorithm();
   ~vtkPoseAlgorithm() override;
 
+  /// Whether the mesh must have weights. Default: yes. Without, PoseInput's are empty.
+  virtual bool NeedsWeights() const { return true; }
+
   /// Mesh, weights, handles and pose as the kernels want them; valid during a call.
   struct PoseInput;
   /// A bindpose::Points, #V x 3, and the transforms that moved them.

@@ -107,6 +107,17 @@ Status vtkTransferWeights::Execute(
     {
       return status;
     }
+    // A mesh that is cut open has several vertices at one place: the one of the point's own number
+    // is meant, for the weights filters keep the numbers of the vertices that they are given.
+    const SharedMatrix<Points> points = to_points(target);
+    const SharedMatrix<Weights> rows = to_matrix(weights);
+    for (Index v = 0; v < std::min<Index>(values.rows(), domain.points.rows()); ++v)
+    {
+      if (points.view().row(v) == domain.points.row(v))
+      {
+        values.row(v) = rows.view().row(v);
+      }
+    }
     made.weights = vtkSmartPointer<vtkDoubleArray>::New();
     made.weights->SetName(this->ArrayName.c_str());
     made.weights->SetNumberOfComponents(static_cast<int>(values.cols()));

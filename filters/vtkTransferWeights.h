@@ -4,7 +4,8 @@
  *
  * Puts the weights of a tet mesh or surface onto any vtkPointSet: the surface that the tets were
  * made from, another one, a finer or FE mesh, a point cloud. A point that lies on a vertex (within
- * 1e-9 of the mesh's diagonal) takes that vertex's row as it is; a point in a tet (or on a
+ * 1e-9 of the mesh's diagonal) takes that vertex's row as it is (of several the one of its own
+ * number, as on a mesh that is cut open); a point in a tet (or on a
  * triangle) takes the barycentric mean of the corners; a point outside takes the weights of the
  * nearest place. Rows that sum to one still do.
  *

@@ -9,9 +9,12 @@
 #include "base/execution.h"
 #include "bind_key.h"
 #include "conversion.h"
+#include "handle_geometry.h"
 #include "output_type.h"
 #include "term_arrays.h"
-#include "weights/weights_problem.h"
+#include "tets_data.h"
+#include "weights/preview_weights.h"
+#include "weights/surface_weights.h"
 #include "weights_arrays.h"
 
 #include "vtkCellArray.h"
@@ -119,11 +122,11 @@ Status to_region_ids(vtkPointSet* mesh, const std::string& name, std::vector<Ind
 }
 } // namespace
 
-struct vtkWeightsAlgorithm::Cache
+namespace
 {
-  bool valid = false;
-  BindKey key;
-  Status status;
+/// Weights on a mesh, which may have got points for handles.
+struct SolvedMesh
+{
   vtkSmartPointer<vtkDoubleArray> weights;
   vtkSmartPointer<vtkDoubleArray> raw; // null: not asked for
   vtkSmartPointer<vtkUnsignedCharArray> mask; // null: all vertices have weights
@@ -135,72 +138,146 @@ struct vtkWeightsAlgorithm::Cache
   std::vector<InsertedVertex> inserted;
   std::vector<Index> parent_cell;
 
-  void add_arrays(vtkDataSet* output) const
-  {
-    output->GetPointData()->AddArray(this->weights);
-    output->GetPointData()->RemoveArray(raw_name);
-    if (this->raw)
-    {
-      output->GetPointData()->AddArray(this->raw);
-    }
-    output->GetPointData()->RemoveArray(mask_name);
-    if (this->mask)
-    {
-      output->GetPointData()->AddArray(this->mask);
-    }
-    for (const auto& array : this->certificates)
-    {
-      output->GetFieldData()->AddArray(array);
-    }
-  }
+  void take_weights(const Weights& normalised, const Weights* raw_weights, const Handles& handles,
+    const WeightsResult& result);
+  void take_mesh(const WeightsProblem& problem, const std::vector<Index>& cell_of_element);
+  void write(vtkPointSet* mesh, vtkPointSet* output) const;
 
-  /// The mesh with inserted points, its arrays carried on.
-  void refine(vtkPointSet* mesh, vtkPointSet* output) const
+private:
+  void refine(vtkPointSet* mesh, vtkPointSet* output) const;
+};
+
+void SolvedMesh::take_weights(const Weights& normalised, const Weights* raw_weights,
+  const Handles& handles, const WeightsResult& result)
+{
+  this->weights = to_weights_array(array_name, normalised, handles);
+  if (raw_weights)
   {
-    output->Initialize();
-    output->SetPoints(this->points);
-    if (auto* polydata = vtkPolyData::SafeDownCast(output))
+    this->raw = to_weights_array(raw_name, *raw_weights, handles);
+  }
+  this->certificates = to_certificate_arrays(array_name, result);
+}
+
+void SolvedMesh::take_mesh(const WeightsProblem& problem, const std::vector<Index>& cell_of_element)
+{
+  const std::vector<VertexRole>& roles = problem.constraints.roles;
+  if (std::count(roles.begin(), roles.end(), VertexRole::unreferenced) > 0)
+  {
+    this->mask = vtkSmartPointer<vtkUnsignedCharArray>::New();
+    this->mask->SetName(mask_name);
+    for (const VertexRole role : roles)
     {
-      polydata->SetPolys(this->cells);
-    }
-    else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(output))
-    {
-      grid->SetCells(this->types, this->cells);
-    }
-    output->GetFieldData()->PassData(mesh->GetFieldData());
-    vtkPointData* from = mesh->GetPointData();
-    vtkPointData* to = output->GetPointData();
-    for (int a = 0; a < from->GetNumberOfArrays(); ++a)
-    {
-      vtkAbstractArray* array = from->GetAbstractArray(a);
-      if (array->GetName() && std::string(array->GetName()) != array_name)
-      {
-        to->AddArray(extended(array, mesh->GetNumberOfPoints(), this->inserted));
-      }
-    }
-    for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
-    {
-      vtkAbstractArray* active = from->GetAbstractAttribute(type);
-      if (active && active->GetName())
-      {
-        to->SetActiveAttribute(active->GetName(), type);
-      }
-    }
-    vtkCellData* cells_from = mesh->GetCellData();
-    vtkCellData* cells_to = output->GetCellData();
-    const auto count = static_cast<vtkIdType>(this->parent_cell.size());
-    cells_to->CopyAllOn();
-    cells_to->CopyAllocate(cells_from, count);
-    for (vtkIdType cell = 0; cell < count; ++cell)
-    {
-      cells_to->CopyData(cells_from, this->parent_cell[cell], cell);
+      this->mask->InsertNextValue(role != VertexRole::unreferenced);
     }
   }
+  if (problem.mesh.inserted.empty())
+  {
+    return;
+  }
+  const Domain& refined = problem.mesh.domain;
+  this->points = to_vtk_points(refined.points);
+  this->cells = refined.is_volume() ? to_unstructured_grid(refined.points, refined.tets)->GetCells()
+                                    : to_polydata(refined.points, refined.triangles)->GetPolys();
+  this->types = vtkSmartPointer<vtkUnsignedCharArray>::New();
+  this->types->SetNumberOfValues(this->cells->GetNumberOfCells());
+  this->types->FillValue(refined.is_volume() ? VTK_TETRA : VTK_TRIANGLE);
+  this->inserted = problem.mesh.inserted;
+  this->parent_cell = problem.mesh.parent_element;
+  if (!cell_of_element.empty())
+  {
+    for (Index& cell : this->parent_cell)
+    {
+      cell = cell_of_element[cell];
+    }
+  }
+}
+
+/// The mesh with weights and, where there are some, inserted points.
+void SolvedMesh::write(vtkPointSet* mesh, vtkPointSet* output) const
+{
+  if (this->points)
+  {
+    this->refine(mesh, output);
+  }
+  else
+  {
+    output->ShallowCopy(mesh);
+  }
+  output->GetPointData()->AddArray(this->weights);
+  output->GetPointData()->RemoveArray(raw_name);
+  if (this->raw)
+  {
+    output->GetPointData()->AddArray(this->raw);
+  }
+  output->GetPointData()->RemoveArray(mask_name);
+  if (this->mask)
+  {
+    output->GetPointData()->AddArray(this->mask);
+  }
+  for (const auto& array : this->certificates)
+  {
+    output->GetFieldData()->AddArray(array);
+  }
+}
+
+/// The mesh with inserted points, its arrays carried on.
+void SolvedMesh::refine(vtkPointSet* mesh, vtkPointSet* output) const
+{
+  output->Initialize();
+  output->SetPoints(this->points);
+  if (auto* polydata = vtkPolyData::SafeDownCast(output))
+  {
+    polydata->SetPolys(this->cells);
+  }
+  else if (auto* grid = vtkUnstructuredGrid::SafeDownCast(output))
+  {
+    grid->SetCells(this->types, this->cells);
+  }
+  output->GetFieldData()->PassData(mesh->GetFieldData());
+  vtkPointData* from = mesh->GetPointData();
+  vtkPointData* to = output->GetPointData();
+  for (int a = 0; a < from->GetNumberOfArrays(); ++a)
+  {
+    vtkAbstractArray* array = from->GetAbstractArray(a);
+    if (array->GetName() && std::string(array->GetName()) != array_name)
+    {
+      to->AddArray(extended(array, mesh->GetNumberOfPoints(), this->inserted));
+    }
+  }
+  for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
+  {
+    vtkAbstractArray* active = from->GetAbstractAttribute(type);
+    if (active && active->GetName())
+    {
+      to->SetActiveAttribute(active->GetName(), type);
+    }
+  }
+  vtkCellData* cells_from = mesh->GetCellData();
+  vtkCellData* cells_to = output->GetCellData();
+  const auto count = static_cast<vtkIdType>(this->parent_cell.size());
+  cells_to->CopyAllOn();
+  cells_to->CopyAllocate(cells_from, count);
+  for (vtkIdType cell = 0; cell < count; ++cell)
+  {
+    cells_to->CopyData(cells_from, this->parent_cell[cell], cell);
+  }
+}
+} // namespace
+
+struct vtkWeightsAlgorithm::Cache
+{
+  bool valid = false;
+  BindKey key;
+  Status status;
+  SolvedMesh mesh;
+  vtkSmartPointer<vtkPolyData> extrema;
+  vtkSmartPointer<vtkUnstructuredGrid> volume; // null: solved on the mesh itself
 };
 
 vtkWeightsAlgorithm::vtkWeightsAlgorithm() : TermNames(new TermArrayNames), Bound(new Cache)
 {
   this->SetNumberOfInputPorts(2);
+  this->SetNumberOfOutputPorts(3);
 }
 
 vtkWeightsAlgorithm::~vtkWeightsAlgorithm() = default;
@@ -243,6 +320,35 @@ void vtkWeightsAlgorithm::SetKeepRaw(bool keep)
   if (this->KeepRaw != keep)
   {
     this->KeepRaw = keep;
+    this->BindModified();
+  }
+}
+
+void vtkWeightsAlgorithm::SetDomain(int domain)
+{
+  domain = std::clamp(domain, static_cast<int>(SURFACE), static_cast<int>(EMBEDDING));
+  if (this->Domain != domain)
+  {
+    this->Domain = domain;
+    this->BindModified();
+  }
+}
+
+void vtkWeightsAlgorithm::SetStage(int stage)
+{
+  stage = std::clamp(stage, static_cast<int>(CERTIFIED), static_cast<int>(PREVIEW));
+  if (this->Stage != stage)
+  {
+    this->Stage = stage;
+    this->BindModified();
+  }
+}
+
+void vtkWeightsAlgorithm::SetEmbeddingResolution(vtkIdType resolution)
+{
+  if (this->EmbeddingResolution != resolution)
+  {
+    this->EmbeddingResolution = resolution;
     this->BindModified();
   }
 }
@@ -391,20 +497,16 @@ void vtkWeightsAlgorithm::SetPartitionOfUnity(int mode)
   }
 }
 
-vtkIdType vtkWeightsAlgorithm::CarryTerms(vtkDataSet* surface, vtkDataSet* tets)
-{
-  return carry_terms(surface, *this->TermNames, tets);
-}
-
 int vtkWeightsAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkPolyData");
   return 1;
 }
 
-int vtkWeightsAlgorithm::FillOutputPortInformation(int, vtkInformation* info)
+int vtkWeightsAlgorithm::FillOutputPortInformation(int port, vtkInformation* info)
 {
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPointSet");
+  constexpr const char* types[] = { "vtkPointSet", "vtkPolyData", "vtkUnstructuredGrid" };
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
   return 1;
 }
 
@@ -419,7 +521,7 @@ Status vtkWeightsAlgorithm::Bind(
   vtkDataSet* mesh, vtkDataObject* handle_data, ExecutionContext& context, Cache& bound)
 {
   Handles handles;
-  Domain domain;
+  bindpose::Domain domain;
   std::vector<Index> cell_of_element;
   Status status = to_handles(vtkPolyData::SafeDownCast(handle_data), handles);
   if (status.ok())
@@ -438,7 +540,7 @@ Status vtkWeightsAlgorithm::Bind(
     return status;
   }
   WeightsOptions options;
-  if (this->TakesTerms())
+  if (this->TakesTerms() && this->Stage == CERTIFIED)
   {
     status = to_terms(mesh, *this->TermNames, static_cast<Index>(handles.size()), options.terms);
     if (!status.ok())
@@ -459,52 +561,79 @@ Status vtkWeightsAlgorithm::Bind(
   options.tolerance = this->Tolerance;
   options.maximum_iterations = this->MaximumIterations;
   options.insertion.keep_mesh = this->KeepMesh;
-  WeightsProblem problem;
-  WeightsResult result;
-  status = make_weights_problem(domain, region_ids, handles, options, context, problem);
-  if (status.ok())
+  const WeightsMethod method =
+    [&](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& result)
   {
-    status = this->Solve(problem, options, context, result);
+    return this->Stage == PREVIEW ? preview_weights(problem, options, of_method, result)
+                                  : this->Solve(problem, options, of_method, result);
+  };
+  const auto tell_preview = [&](const Weights& weights)
+  { this->InvokeEvent(PreviewEvent, to_weights_array(array_name, weights, handles)); };
+  // A set that joins parts without handles to others is what makes the energy of those definite.
+  const bool wants_preview =
+    this->Stage == CERTIFIED && this->HasObserver(PreviewEvent) && options.terms.rigid_sets.empty();
+  if (domain.is_volume() || this->Domain == SURFACE)
+  {
+    WeightsProblem problem;
+    WeightsResult result;
+    status = make_weights_problem(domain, region_ids, handles, options, context, problem);
+    if (status.ok() && wants_preview)
+    {
+      status = preview_weights(problem, options, context, result);
+      if (status.usable())
+      {
+        tell_preview(result.weights.topRows(domain.points.rows()));
+      }
+    }
+    if (status.usable())
+    {
+      status = method(problem, context, result);
+    }
+    if (status.usable())
+    {
+      if (!domain.is_volume())
+      {
+        status.report.set("domain", to_string(WeightsDomain::surface));
+      }
+      bound.mesh.take_weights(
+        result.weights, this->KeepRaw ? &result.raw : nullptr, handles, result);
+      bound.mesh.take_mesh(problem, cell_of_element);
+      bound.extrema = to_extrema(problem, result);
+    }
+    return status;
   }
-  if (!status.usable())
+  HandleGeometry geometry;
+  status = to_handle_geometry(vtkPolyData::SafeDownCast(handle_data), geometry);
+  if (!status.ok())
   {
     return status;
   }
-
-  bound.weights = to_weights_array(array_name, result.weights, handles);
-  if (this->KeepRaw)
+  SurfaceWeightsOptions surface;
+  surface.domain = static_cast<WeightsDomain>(this->Domain);
+  surface.resolution = this->EmbeddingResolution;
+  surface.guard = this->Stage == CERTIFIED;
+  surface.places = to_handle_places(geometry);
+  if (wants_preview)
   {
-    bound.raw = to_weights_array(raw_name, result.raw, handles);
+    surface.preview = tell_preview;
   }
-  bound.certificates = to_certificate_arrays(array_name, result);
-  const std::vector<VertexRole>& roles = problem.constraints.roles;
-  if (std::count(roles.begin(), roles.end(), VertexRole::unreferenced) > 0)
+  SurfaceWeights result;
+  status = surface_weights(domain.points, domain.triangles, region_ids, handles, surface, options,
+    method, context, result);
+  if (status.usable())
   {
-    bound.mask = vtkSmartPointer<vtkUnsignedCharArray>::New();
-    bound.mask->SetName(mask_name);
-    for (const VertexRole role : roles)
+    bound.mesh.take_weights(
+      result.weights, this->KeepRaw ? &result.raw : nullptr, handles, result.solved);
+    bound.extrema = to_extrema(result.problem, result.solved);
+    if (result.domain != WeightsDomain::surface)
     {
-      bound.mask->InsertNextValue(role != VertexRole::unreferenced);
-    }
-  }
-  if (!problem.mesh.inserted.empty())
-  {
-    const Domain& refined = problem.mesh.domain;
-    bound.points = to_vtk_points(refined.points);
-    bound.cells = refined.is_volume()
-      ? to_unstructured_grid(refined.points, refined.tets)->GetCells()
-      : to_polydata(refined.points, refined.triangles)->GetPolys();
-    bound.types = vtkSmartPointer<vtkUnsignedCharArray>::New();
-    bound.types->SetNumberOfValues(bound.cells->GetNumberOfCells());
-    bound.types->FillValue(refined.is_volume() ? VTK_TETRA : VTK_TRIANGLE);
-    bound.inserted = problem.mesh.inserted;
-    bound.parent_cell = problem.mesh.parent_element;
-    if (!cell_of_element.empty())
-    {
-      for (Index& cell : bound.parent_cell)
-      {
-        cell = cell_of_element[cell];
-      }
+      SolvedMesh solved;
+      solved.take_weights(result.solved.weights, this->KeepRaw ? &result.solved.raw : nullptr,
+        handles, result.solved);
+      solved.take_mesh(result.problem, {});
+      bound.volume = vtkSmartPointer<vtkUnstructuredGrid>::New();
+      solved.write(to_unstructured_grid(result.tets, status.report.text("tetrahedralize.method")),
+        bound.volume);
     }
   }
   return status;
@@ -557,15 +686,14 @@ Status vtkWeightsAlgorithm::Execute(
     *this->Bound = std::move(made);
     this->NumberOfBinds += 1;
   }
-  if (this->Bound->points)
+  this->Bound->mesh.write(mesh, result);
+  vtkDataObject::GetData(output, 1)->ShallowCopy(this->Bound->extrema);
+  vtkDataObject* volume = vtkDataObject::GetData(output, 2);
+  volume->Initialize();
+  if (this->Bound->volume)
   {
-    this->Bound->refine(mesh, result);
+    volume->ShallowCopy(this->Bound->volume);
   }
-  else
-  {
-    result->ShallowCopy(mesh);
-  }
-  this->Bound->add_arrays(result);
 
   Status status = this->Bound->status;
   status.report.set("binds", this->NumberOfBinds);
@@ -584,6 +712,9 @@ void vtkWeightsAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "RegionArrayName: " << this->RegionArrayName << "\n";
+  os << indent << "Domain: " << to_string(static_cast<WeightsDomain>(this->Domain)) << "\n";
+  os << indent << "Stage: " << (this->Stage == PREVIEW ? "preview" : "certified") << "\n";
+  os << indent << "EmbeddingResolution: " << this->EmbeddingResolution << "\n";
   os << indent << "KeepMesh: " << (this->KeepMesh ? "on" : "off") << "\n";
   os << indent << "KeepRaw: " << (this->KeepRaw ? "on" : "off") << "\n";
   os << indent << "RigidityArrayName: " << this->TermNames->rigidity << "\n";

@@ -16,6 +16,12 @@
  * triangles. KeepMesh leaves the mesh as it is and takes the corners of the cell that holds a
  * handle instead.
  *
+ * **Output 1**: local extrema of the columns as solved for, away from handles, with a persistence
+ * above 1e-3 (vtkPolyData, a vertex each): point arrays `Kind` (1 maximum, -1 minimum), `Handle`
+ * (column), `Value`, `Persistence` (share of the column's range).
+ * **Output 2**: the tets that a surface's weights were solved on, with `Weights` and what
+ * vtkTetrahedralizeSurface says of them; empty when the mesh itself was solved on (Domain).
+ *
  * KeepRaw adds the point array `RawWeights`: the columns as they were solved for, which the
  * certificate is about; their rows need not sum to one.
  *
@@ -36,6 +42,10 @@
  *   or SetMirrorNormal(). Points without a mirror, and handles whose mirror image is no handle, are
  *   left alone.
  *
+ * Where a surface's weights are solved in tets of its inside, rigidity is that of the nearest place
+ * of the surface, all else is asked of its own points alone; a lattice (EMBEDDING) has none of
+ * them, and AUTO takes the volume then. Previews take no terms.
+ *
  * **Certificate**, in field data, a value a column, of the columns as solved for (before rows are
  * divided by their sums): `WeightsRelativeGap` (how far the energy is above its minimum at most, as
  * a share), `WeightsKKTResidual`, `WeightsMinimum`, `WeightsMaximum`, `WeightsInteriorExtrema`
@@ -50,13 +60,14 @@
  * Stretch or Twist of the handles never solves again and hands on the same array objects.
  * GetNumberOfBinds() counts.
  *
- * Report: method, binds, counts.{vertices, tets | triangles, handles, components,
- * inserted_vertices}, handles[].{name, kind, constrained_vertices, distance_outside, relative_gap,
- * kkt_residual, energy, iterations, factorisations, interior_extrema}, relative_gap and
- * kkt_residual (the worst column's), bounds_violation, normalised_bounds_violation (with bounds),
- * counts.capped_vertices and influences.{largest_difference, rms_difference} (from the weights
- * without MaximumInfluences), partition.{of_unity, energy, largest_difference, rms_difference}
- * (COUPLED, from weights that were divided by their sums), row_sum_error, largest_snap (in edge
+ * Report: method, binds, stage (of previews), counts.{vertices, tets | triangles, handles,
+ * components, inserted_vertices}, handles[].{name, kind, constrained_vertices, distance_outside,
+ * relative_gap, kkt_residual, energy, iterations, factorisations, interior_extrema}, relative_gap
+ * and kkt_residual (the worst column's), bounds_violation, normalised_bounds_violation (with
+ * bounds), counts.capped_vertices and influences.{largest_difference, rms_difference} (from the
+ * weights without MaximumInfluences), partition.{of_unity, energy, largest_difference,
+ * rms_difference} (COUPLED, from weights that were divided by their sums), handles[].mirror (with
+ * mirrors), row_sum_error, largest_snap (in edge
  * lengths), iterations, seconds.{insert, analyse, weights} and, summed over handles, which are
  * solved at the same time, seconds.{factor, solve}.
  *
@@ -71,6 +82,7 @@
 
 #include "BindposeFiltersModule.h" // for export macro
 #include "vtkBindposeAlgorithm.h"
+#include "vtkCommand.h" // for vtkCommand::UserEvent
 #include <memory> // for std::unique_ptr
 
 namespace bindpose
@@ -106,6 +118,63 @@ public:
   /// Name of the mesh's point array of region labels (0: free). Default "RegionId".
   void SetRegionArrayName(const std::string& name);
   std::string GetRegionArrayName() { return this->RegionArrayName; }
+  ///@}
+
+  enum Domains
+  {
+    SURFACE = 0,
+    AUTO = 1,
+    VOLUME = 2,
+    EMBEDDING = 3
+  };
+
+  ///@{
+  /**
+   * Where to solve for a surface: on its triangles (SURFACE, the default), in conforming tets of
+   * its inside (VOLUME), in a lattice that holds it, in seconds whatever its size (EMBEDDING), or
+   * AUTO: the volume of small surfaces, the embedding of dense ones and of those that cannot be
+   * filled, the shape itself where it is flat. The output then is the surface as it came, with
+   * Weights at its own points, and output 2 is what was solved on. Meshes of tets are solved on
+   * directly. Out of range: clamped.
+   */
+  void SetDomain(int domain);
+  vtkGetMacro(Domain, int);
+  void SetDomainToSurface() { this->SetDomain(SURFACE); }
+  void SetDomainToAuto() { this->SetDomain(AUTO); }
+  void SetDomainToVolume() { this->SetDomain(VOLUME); }
+  void SetDomainToEmbedding() { this->SetDomain(EMBEDDING); }
+  ///@}
+
+  enum Stages
+  {
+    CERTIFIED = 0,
+    PREVIEW = 1
+  };
+
+  ///@{
+  /**
+   * PREVIEW: weights within the time of a factorisation or less, to begin with: biharmonic ones,
+   * clamped, whatever the method; the certificate says how far they are from bounded biharmonic
+   * ones. CERTIFIED (the default): the method's own. Out of range: clamped.
+   */
+  void SetStage(int stage);
+  vtkGetMacro(Stage, int);
+  void SetStageToCertified() { this->SetStage(CERTIFIED); }
+  void SetStageToPreview() { this->SetStage(PREVIEW); }
+  ///@}
+
+  /// Invoked once while CERTIFIED weights are made, if anybody observes it, on the thread that
+  /// updates: the call data is a vtkDoubleArray of the preview's weights at the input's points.
+  enum
+  {
+    PreviewEvent = vtkCommand::UserEvent + 4201
+  };
+
+  ///@{
+  /// Of EMBEDDING and AUTO: lattice cubes along the longest side, 6 to 1000. Default 0: as many as
+  /// give about 30,000 tets.
+  void SetEmbeddingResolution(vtkIdType resolution);
+  vtkGetMacro(EmbeddingResolution, vtkIdType);
   ///@}
 
   ///@{
@@ -188,13 +257,6 @@ public:
   vtkGetMacro(PartitionOfUnity, int);
   ///@}
 
-  /**
-   * Gives tets that were made in a surface (with OriginalPointIds) the surface's arrays of terms.
-   * Inside, rigidity is that of the nearest point of the surface. Returns how many points of the
-   * surface are no vertices of the tets though something is asked of their weights.
-   */
-  vtkIdType CarryTerms(vtkDataSet* surface, vtkDataSet* tets);
-
   /// How often weights were solved for.
   vtkGetMacro(NumberOfBinds, int);
 
@@ -235,6 +297,9 @@ private:
   double Tolerance = 1e-6;
   int MaximumIterations = 100;
   std::string RegionArrayName = "RegionId";
+  int Domain = SURFACE;
+  int Stage = CERTIFIED;
+  vtkIdType EmbeddingResolution = 0;
   bool KeepMesh = false;
   bool KeepRaw = false;
   double Bounds[2] = { 0.0, 1.0 };

@@ -3,10 +3,15 @@
 #include "conversion.h"
 
 #include "vtkCell.h"
+#include "vtkCellArray.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkIntArray.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -18,7 +23,7 @@ namespace bindpose
 namespace
 {
 constexpr const char* certificate_suffixes[] = { "RelativeGap", "KKTResidual", "Minimum", "Maximum",
-  "InteriorExtrema", "RowSumError" };
+  "InteriorExtrema", "Zeros", "Ones", "Iterations", "RowSumError" };
 
 bool has_volume_cell(vtkUnstructuredGrid* grid)
 {
@@ -93,10 +98,49 @@ std::vector<vtkSmartPointer<vtkDoubleArray>> to_certificate_arrays(
     arrays[1]->InsertNextValue(column.certificate.kkt_residual);
     arrays[2]->InsertNextValue(column.minimum);
     arrays[3]->InsertNextValue(column.maximum);
-    arrays[4]->InsertNextValue(static_cast<double>(column.interior_extrema));
+    arrays[4]->InsertNextValue(static_cast<double>(column.extrema.size()));
+    arrays[5]->InsertNextValue(column.zeros);
+    arrays[6]->InsertNextValue(column.ones);
+    arrays[7]->InsertNextValue(column.iterations);
   }
-  arrays[5]->InsertNextValue(result.row_sum_error);
+  arrays[8]->InsertNextValue(result.row_sum_error);
   return arrays;
+}
+
+vtkSmartPointer<vtkPolyData> to_extrema(const WeightsProblem& problem, const WeightsResult& result)
+{
+  auto extrema = vtkSmartPointer<vtkPolyData>::New();
+  vtkNew<vtkPoints> points;
+  points->SetDataTypeToDouble();
+  vtkNew<vtkCellArray> vertices;
+  vtkNew<vtkIntArray> kinds, handles;
+  vtkNew<vtkDoubleArray> values, persistences;
+  kinds->SetName("Kind");
+  handles->SetName("Handle");
+  values->SetName("Value");
+  persistences->SetName("Persistence");
+  for (std::size_t j = 0; j < result.columns.size(); ++j)
+  {
+    for (const Extremum& extremum : result.columns[j].extrema)
+    {
+      const Vec3 place = problem.mesh.domain.points.row(extremum.vertex);
+      const vtkIdType id = points->InsertNextPoint(place.data());
+      vertices->InsertNextCell(1, &id);
+      kinds->InsertNextValue(extremum.maximum ? 1 : -1);
+      handles->InsertNextValue(static_cast<int>(j));
+      values->InsertNextValue(extremum.value);
+      persistences->InsertNextValue(extremum.persistence);
+    }
+  }
+  extrema->SetPoints(points);
+  extrema->SetVerts(vertices);
+  for (vtkDataArray* array :
+    { static_cast<vtkDataArray*>(kinds), static_cast<vtkDataArray*>(handles),
+      static_cast<vtkDataArray*>(values), static_cast<vtkDataArray*>(persistences) })
+  {
+    extrema->GetPointData()->AddArray(array);
+  }
+  return extrema;
 }
 
 void pass_certificates(vtkFieldData* from, vtkFieldData* to, const std::string& name)

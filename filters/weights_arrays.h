@@ -12,6 +12,7 @@
 class vtkDataSet;
 class vtkDoubleArray;
 class vtkFieldData;
+class vtkPolyData;
 
 namespace bindpose
 {
@@ -26,9 +27,13 @@ vtkSmartPointer<vtkDoubleArray> to_weights_array(
   const std::string& name, const Weights& weights, const Handles& handles);
 
 /// The certificates of a weights array as arrays of a value a column: NAME followed by RelativeGap,
-/// KKTResidual, Minimum, Maximum, InteriorExtrema, and RowSumError (one value).
+/// KKTResidual, Minimum, Maximum, InteriorExtrema, Zeros, Ones, Iterations, and RowSumError (one
+/// value).
 std::vector<vtkSmartPointer<vtkDoubleArray>> to_certificate_arrays(
   const std::string& name, const WeightsResult& result);
+
+/// The extrema of all columns: see output 1 of vtkWeightsAlgorithm.
+vtkSmartPointer<vtkPolyData> to_extrema(const WeightsProblem& problem, const WeightsResult& result);
 
 /// Hands the certificates of a weights array on from one dataset's field data to another's; what
 /// the other had of that name goes.

@@ -5,9 +5,10 @@ import numpy as np
 import vtkmodules.vtkRenderingFreeType  # noqa: F401  texts
 import vtkmodules.vtkRenderingOpenGL2  # noqa: F401
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
-from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
+from vtkmodules.vtkCommonCore import vtkLookupTable
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkImageData, vtkPolyData
 from vtkmodules.vtkFiltersCore import vtkGlyph3D, vtkTubeFilter
-from vtkmodules.vtkFiltersSources import vtkSphereSource
+from vtkmodules.vtkFiltersSources import vtkRegularPolygonSource, vtkSphereSource
 from vtkmodules.vtkIOImage import vtkPNGWriter
 from vtkmodules.vtkRenderingCore import (
     vtkActor,
@@ -123,6 +124,56 @@ def flat_actor(data, colour=None, width=1.0):
         actor.GetProperty().SetColor(colour)
     actor.GetProperty().SetLineWidth(width)
     return actor
+
+
+def painted(data, name="Color"):
+    """Points in colours of their own: an array of three bytes."""
+    actor = flat_actor(data)
+    mapper = actor.GetMapper()
+    mapper.ScalarVisibilityOn()
+    mapper.SetScalarModeToUsePointFieldData()
+    mapper.SelectColorArray(name)
+    mapper.SetColorModeToDefault()
+    return actor
+
+
+def bands(data, values, colours, levels=10):
+    """Values from 0 to 1 at the points, as bands between colours ((value, (r, g, b)), …)."""
+    shown = vtkPolyData()
+    shown.ShallowCopy(data)
+    array = numpy_to_vtk(np.ascontiguousarray(values, dtype=float), deep=True)
+    array.SetName("Shown")
+    shown.GetPointData().AddArray(array)
+    table = vtkLookupTable()
+    table.SetNumberOfTableValues(levels)
+    at, rgb = [value for value, _ in colours], np.array([colour for _, colour in colours])
+    for level in range(levels):
+        middle = (level + 0.5) / levels
+        table.SetTableValue(level, *(np.interp(middle, at, rgb[:, k]) for k in range(3)), 1)
+    table.SetRange(0, 1)
+    actor = flat_actor(shown)
+    mapper = actor.GetMapper()
+    mapper.ScalarVisibilityOn()
+    mapper.SetScalarModeToUsePointFieldData()
+    mapper.SelectColorArray("Shown")
+    mapper.SetLookupTable(table)
+    mapper.SetScalarRange(0, 1)
+    mapper.InterpolateScalarsBeforeMappingOn()
+    return actor
+
+
+def dots(places, colours, radius, height=1.0):
+    """Discs with a dark rim at points, each in its colour (numbers 0 to 1)."""
+    actors = []
+    for place, colour in zip(places, colours):
+        for size, shade, up in ((1.0, (0.12, 0.12, 0.12), 0.0), (0.72, colour, 0.1)):
+            disc = vtkRegularPolygonSource()
+            disc.SetNumberOfSides(40)
+            disc.SetRadius(size * radius)
+            disc.SetCenter(place[0], place[1], height + up * radius)
+            disc.Update()
+            actors.append(flat_actor(disc.GetOutput(), tuple(shade)))
+    return actors
 
 
 def textured(data, texture):
@@ -268,3 +319,15 @@ def outline_of(triangles):
     key = edges.min(axis=1) * (triangles.max() + 1) + edges.max(axis=1)
     _unique, first, count = np.unique(key, return_index=True, return_counts=True)
     return edges[first[count == 1]]
+
+
+def edges(posed, shape, colour=(0.25, 0.15, 0.1), width=2.0):
+    """The outline of a shape where a pose has taken it, as an actor in a list."""
+    pairs = outline_of(triangles_of(shape))
+    lines = vtkCellArray()
+    for a, b in pairs:
+        lines.InsertNextCell(2, [int(a), int(b)])
+    data = vtkPolyData()
+    data.SetPoints(posed.GetPoints())
+    data.SetLines(lines)
+    return [flat_actor(data, colour, width)]

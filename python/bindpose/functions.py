@@ -340,36 +340,8 @@ def _make_weights(method):
     return result
 
 
-def _fill_or_embed(data, handles, threads, progress):
-    """Tets of the inside; where there is none, a lattice that holds the surface will do for weights."""
-    try:
-        return tetrahedralize(data, handles=handles, threads=threads, progress=progress)
-    except (InvalidInput, Unavailable) as first:
-        try:
-            tets = tetrahedralize(data, method="embed", threads=threads, progress=progress)
-        except (InvalidInput, Unavailable):
-            raise first from None
-        python_warnings.warn(
-            f"the surface could not be filled ({first}); the weights are solved on a lattice that holds it",
-            BindposeWarning, stacklevel=3)
-        return tets
-
-
-def _carry_labels(surface, tets, name):
-    """Labels of the surface on those of the tets' vertices that come from it."""
-    labels, originals = point_array(surface, name), point_array(tets, "OriginalPointIds")
-    if labels is None:
-        raise InvalidInput(f"the surface has no point array {name!r}")
-    carried = np.where(originals >= 0, labels[np.maximum(originals, 0)], 0).astype(np.int64)
-    if not (carried > 0).any():
-        raise InvalidInput("the tets share no labelled point with the surface; solve with domain='surface'")
-    copy = shallow_copy(tets)
-    add_point_array(copy, name, carried)
-    return copy
-
-
-def _set_terms(solver, data, solved_on, terms):
-    """What is asked of weights: names for the solver, arrays on what is returned to be solved on."""
+def _set_terms(solver, data, terms):
+    """What is asked of weights: names for the solver, arrays on a copy of the mesh."""
     named = shallow_copy(data)
     for term, values in terms.items():
         if term == "Mirror" and isinstance(values, str) and values in ("x", "y", "z"):
@@ -385,20 +357,13 @@ def _set_terms(solver, data, solved_on, terms):
             if len(values) != data.GetNumberOfPoints():
                 raise InvalidInput(f"there are {len(values)} rows of terms for {data.GetNumberOfPoints()} points")
             add_point_array(named, getattr(solver, f"Get{term}ArrayName")(), values)
-    if solved_on is data:
-        return named
-    tets = shallow_copy(solved_on)
-    lost = solver.CarryTerms(named, tets)
-    if lost:
-        python_warnings.warn(f"{lost} points of the surface are no vertices of the tets; their bounds, pins, rigid "
-                             "sets and mirror points are not kept", BindposeWarning, stacklevel=3)
-    return tets
+    return named
 
 
-def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", regions=None, tolerance=1e-6,
-            maximum_iterations=100, keep_mesh=False, rigidity=None, rigid_sets=None, lower=None, upper=None,
-            pins=None, bounds=(0, 1), mirror=None, influences=0, partition="normalise", threads=0,
-            progress=None):
+def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolution=0, stage="certified",
+            regions=None, tolerance=1e-6, maximum_iterations=100, keep_mesh=False, rigidity=None, rigid_sets=None,
+            lower=None, upper=None, pins=None, bounds=(0, 1), mirror=None, influences=0, partition="normalise",
+            threads=0, progress=None):
     """Smooth weights, one function a handle, at the mesh's own points.
 
     Parameters
@@ -411,9 +376,14 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", region
     method : {"bounded-biharmonic", "monotone", "harmonic", "biharmonic", "triharmonic", \
               "graph-biharmonic", "linear-subspace", "inverse-distance", "smoothed-harmonic", "bone-heat"}
         All but the first two are to compare with: see ``vtkUnconstrainedWeights``.
-    domain : {"auto", "volume", "surface"}
-        Where to solve for a surface: in its volume, through tets, or on itself. ``auto`` is
-        ``volume``. Tets are solved on directly.
+    domain : {"auto", "volume", "embedding", "surface"}
+        Where to solve for a surface: in tets of its inside, in a lattice that holds it, on itself.
+        ``auto``: the volume of surfaces of up to 20,000 triangles, the embedding of dense ones and
+        of those that cannot be filled, flat shapes on themselves. Tets are solved on directly.
+    resolution : int
+        Of the embedding: lattice cubes along the longest side; 0: about 30,000 tets.
+    stage : {"certified", "preview"}
+        ``preview``: biharmonic weights, clamped, in the time of a factorisation or less.
     regions : str, optional
         Point array of labels that the handle dataset's regions (``RegionId``) refer to.
         Default: ``RegionId``, on meshes that have it.
@@ -463,7 +433,8 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", region
     NotConvergedWarning
         A column's certificate is above the tolerance; the result is kept.
     BindposeWarning
-        A handle lies outside, or the surface could not be filled and a lattice held it instead.
+        A handle lies outside, the surface could not be filled and a lattice held it instead, or the
+        weights of two lattices differ.
 
     Notes
     -----
@@ -473,23 +444,19 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", region
     methods = ("bounded-biharmonic", "monotone", "harmonic", "biharmonic", "triharmonic", "graph-biharmonic",
                "linear-subspace", "inverse-distance", "smoothed-harmonic", "bone-heat")
     _choice(method, methods, "method")
-    _choice(domain, ("auto", "volume", "surface"), "domain")
+    _choice(domain, ("auto", "volume", "embedding", "surface"), "domain")
+    _choice(stage, ("certified", "preview"), "stage")
     _choice(partition, ("normalise", "coupled"), "partition")
     data = to_dataset(mesh)
     handle_data = to_handles(handles, data)
-    solved_on = data
-    label_name = regions or "RegionId"
-    if is_tets(data):
-        if domain == "surface":
-            raise InvalidInput("the mesh holds tets: domain 'surface' needs a surface")
-    elif domain != "surface":
-        solved_on = _fill_or_embed(data, handle_data, threads, progress)
-        if regions or data.GetPointData().GetArray(label_name):
-            solved_on = _carry_labels(data, solved_on, label_name)
+    if is_tets(data) and domain == "surface":
+        raise InvalidInput("the mesh holds tets: domain 'surface' needs a surface")
     solver = _make_weights(method)
-    solver.SetInputData(0, solved_on)
     solver.SetInputData(1, handle_data)
-    solver.SetRegionArrayName(label_name)
+    solver.SetDomain(getattr(solver, domain.upper()))
+    solver.SetEmbeddingResolution(int(resolution))
+    solver.SetStage(getattr(solver, stage.upper()))
+    solver.SetRegionArrayName(regions or "RegionId")
     solver.SetTolerance(tolerance)
     solver.SetMaximumIterations(int(maximum_iterations))
     solver.SetKeepMesh(bool(keep_mesh))
@@ -500,15 +467,18 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", region
     if method not in methods[:2] and (any(asked) or tuple(bounds) != (0, 1) or influences or partition != "normalise"):
         raise InvalidInput(f"{method} weights take no terms, bounds, influences or partition")
     terms = {"Rigidity": rigidity, "RigidSet": rigid_sets, "Lower": lower, "Upper": upper, "Pinned": pins, "Mirror": mirror}
-    solver.SetInputData(0, _set_terms(solver, data, solved_on, terms))
+    solver.SetInputData(0, _set_terms(solver, data, terms))
     solver.SetNumberOfThreads(threads)
     report = run(solver, progress)
-    transfer = filters.vtkTransferWeights()
-    transfer.SetInputData(0, data)
-    transfer.SetInputData(1, solver.GetOutput())
-    transfer.SetNumberOfThreads(threads)
-    report = {**run(transfer), **report}
-    result = shallow_copy(transfer.GetOutput())
+    result = solver.GetOutput()
+    if is_tets(data) or domain == "surface":  # it may have got points: back to the mesh's own
+        transfer = filters.vtkTransferWeights()
+        transfer.SetInputData(0, data)
+        transfer.SetInputData(1, result)
+        transfer.SetNumberOfThreads(threads)
+        report = {**run(transfer), **report}
+        result = transfer.GetOutput()
+    result = shallow_copy(result)
     copy_report(solver.GetOutput(), result)
     if is_dataset(mesh):
         return result
@@ -517,30 +487,37 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", region
     return Array(point_array(result, "Weights"), report, names)
 
 
-def _make_deformation(method):
+def _make_deformation(method, exponent):
     if method == "reduced-arap":
         return filters.vtkReducedARAP()
+    if method == "mls":
+        warp = filters.vtkMovingLeastSquaresWarp()
+        warp.SetExponent(exponent)
+        return warp
     skinning = filters.vtkSkinningDeformation()
     skinning.SetMethod(getattr(skinning, _SKINNING[method]))
     return skinning
 
 
-def deform(mesh, handles, pose, *, method="lbs", weights=None, threads=0, progress=None):
+def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, threads=0, progress=None):
     """Bend a mesh with weights to a pose, or to a sequence of poses.
 
     Parameters
     ----------
     mesh : vtkDataSet or (vertices, elements)
-        A dataset with the point array ``Weights``, or arrays beside `weights`.
+        A dataset with the point array ``Weights``, or arrays beside `weights`. ``mls`` needs none.
     handles : vtkPolyData, str or path-like
         The handles that the weights were made for.
     pose : dict, str or path-like
         ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}``
         or ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file.
-    method : {"lbs", "dqs", "reduced-arap"}
-        Linear blend skinning, dual quaternions, or reduced as-rigid-as-possible.
+    method : {"lbs", "dqs", "reduced-arap", "mls"}
+        Linear blend skinning, dual quaternions, reduced as-rigid-as-possible, or the rigid warp by moving
+        least squares, which needs no weights and knows nothing of the shape.
     weights : (#V, #handles) array, optional
         For a mesh of arrays.
+    exponent : float
+        Of mls: handles count by 1 / distance^(2 exponent), 1 to 8.
     threads, progress
         See `winding_number`.
 
@@ -555,7 +532,7 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, threads=0, progre
     InvalidInput
         Weights that do not fit, an unknown handle in the pose, a broken pose.
     """
-    _choice(method, ("lbs", "dqs", "reduced-arap"), "method")
+    _choice(method, ("lbs", "dqs", "reduced-arap", "mls"), "method")
     data = to_dataset(mesh)
     if weights is not None:
         data = shallow_copy(data)
@@ -569,7 +546,7 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, threads=0, progre
             poser.SetPoseJSON(json.dumps(pose))
         except TypeError as error:
             raise InvalidInput(f"the pose is no JSON object: {error}") from None
-    bender = _make_deformation(method)
+    bender = _make_deformation(method, exponent)
     bender.SetInputData(0, data)
     bender.SetInputConnection(1, poser.GetOutputPort())
     bender.SetNumberOfThreads(threads)

@@ -4,8 +4,9 @@ import pytest
 from running import EXAMPLES, is_refused, numbers_of, script
 
 GALLERY = EXAMPLES / "gallery"
-NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "cost_of_a_point", "cut_out_cartoon",
-         "defect_classes", "growth", "hull_segmentation", "image_rectangle", "jump_and_harmonic", "open_crossing_flipped",
+NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "colours_of_handles", "cost_of_a_point",
+         "cut_out_cartoon", "defect_classes", "growth", "hull_segmentation", "image_rectangle", "jump_and_harmonic",
+         "limbs_in_front", "near_limbs", "new_hues", "open_crossing_flipped",
          "original_and_faster", "rigidity_brush"]
 
 
@@ -148,6 +149,53 @@ def test_image_rectangle(tmp_path):
     assert numbers["points that are no vertices"] == 0
     assert numbers["unposed: largest difference from the picture, of 255"] <= 1
     assert numbers["triangles turned over"] == 0
+
+
+def test_near_limbs(tmp_path):
+    numbers = numbers_of("gallery/near_limbs.py", tmp_path)
+    through = numbers["bounded biharmonic: neighbour goes along"]
+    for name in ("moving least squares", "inverse distance"):
+        assert numbers[f"{name}: neighbour goes along"] > 0.2 > 2 * through
+    assert numbers["bounded biharmonic: triangles turned over"] == 0
+    # Known from the literature's square.
+    assert numbers["slit square, bounded-biharmonic: weight across the slit"] == pytest.approx(2.69e-3, abs=5e-6)
+    assert numbers["slit square, monotone: weight across the slit"] == pytest.approx(2.63e-3, abs=5e-6)
+    assert numbers["slit square, inverse-distance: weight across the slit"] == pytest.approx(0.1552, abs=5e-5)
+    # Shepard: 1/d^2 at (0.65, 0.9) of points at distances 0.35 and 0.15.
+    assert numbers["slit square, inverse-distance: weight across the slit"] == pytest.approx(0.15 ** 2 / (0.15 ** 2 + 0.35 ** 2))
+
+
+def test_limbs_in_front(tmp_path):
+    numbers = numbers_of("gallery/limbs_in_front.py", tmp_path)
+    assert numbers["pixels that change their owner"] > 300
+    assert numbers["of these, to the arm when it is in front"] == numbers["pixels that change their owner"]
+    seen, covered = numbers["pixels of the arm, in front"], numbers["pixels of the arm, behind"]
+    assert seen - covered == numbers["pixels that change their owner"]
+    assert numbers["equal layers: lowest and highest depth"] == [0, 0]
+    assert numbers["layer 1: lowest and highest depth"] == pytest.approx([0, 1], abs=1e-9)
+
+
+def test_colours_of_handles(tmp_path):
+    numbers = numbers_of("gallery/colours_of_handles.py", tmp_path)
+    assert numbers["points out of the gamut"] == [0, 0] and numbers["points beyond the handles' colours"] == [0, 0]
+    assert numbers["on handles: largest difference from their colour"] <= 1e-9
+    # Half of the light is 188 of 255.
+    assert numbers["red and green half-way, as light"] == pytest.approx([188 / 255, 188 / 255, 0], abs=1 / 510)
+    assert numbers["red and green half-way, as numbers"] == [0.5, 0.5, 0]
+    assert numbers["on curves: largest difference from their sides"] <= 1e-9
+    assert numbers["drawing: points out of the gamut"] == 0
+
+
+def test_new_hues(tmp_path):
+    numbers = numbers_of("gallery/new_hues.py", tmp_path)
+    assert numbers["unconstrained: lowest and highest weight"] == pytest.approx([-0.2674, 1.3321], abs=1e-3)
+    assert numbers["unconstrained: out of the gamut, part"] > 0.1
+    assert numbers["unconstrained: black and white bar at two thirds"] == pytest.approx(-1 / 9, abs=1e-4)
+    for name in ("bounded", "monotone"):
+        assert numbers[f"{name}: out of the gamut, part"] == 0 and numbers[f"{name}: beyond the points' colours, part"] == 0
+        assert 0 <= numbers[f"{name}: black and white bar at two thirds"] <= 1
+        assert numbers[f"{name}: black and white bar, out of the gamut"] <= 1e-9
+        assert min(numbers[f"{name}: lowest and highest weight"]) >= 0
 
 
 def test_without_a_display_it_finds_one(tmp_path):

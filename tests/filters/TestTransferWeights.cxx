@@ -91,6 +91,29 @@ TEST_F(TransferWeights, SharedVerticesAreExactAndCertificatesTravel)
   }
 }
 
+TEST_F(TransferWeights, OfVerticesAtOnePlaceEachKeepsItsOwn)
+{
+  // The square beside itself, as after a cut: two vertices at each place of the seam.
+  const TriangleMesh left = test::grid(2, 2);
+  const TriangleMesh both = test::join(left, test::translated(left, Vec3(1, 0, 0)));
+  const auto mesh = to_polydata(both.points, both.triangles);
+  vtkNew<vtkDoubleArray> numbers;
+  numbers->SetName("Weights");
+  for (Index v = 0; v < both.points.rows(); ++v)
+  {
+    numbers->InsertNextValue(static_cast<double>(v));
+  }
+  mesh->GetPointData()->AddArray(numbers);
+  this->transfer->SetInputData(0, to_polydata(both.points, both.triangles));
+  this->transfer->SetInputData(1, mesh);
+  this->transfer->Update();
+  vtkDataArray* to = this->transfer->GetOutput()->GetPointData()->GetArray("Weights");
+  for (vtkIdType v = 0; v < to->GetNumberOfTuples(); ++v)
+  {
+    EXPECT_EQ(to->GetComponent(v, 0), static_cast<double>(v));
+  }
+}
+
 TEST_F(TransferWeights, PointsInsideAndOutside)
 {
   Points points(3, 3);

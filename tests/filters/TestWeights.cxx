@@ -10,6 +10,7 @@
 #include "report_field_data.h"
 #include "support/meshes.h"
 
+#include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -508,6 +509,114 @@ TEST(WeightsFilters, PrintSelfTellsEveryParameter)
   EXPECT_THAT(text(unconstrained), HasSubstr("Method: 2"));
   bounded->SetOrder(7);
   EXPECT_EQ(bounded->GetOrder(), 3);
+}
+
+TEST(WeightsFilters, OfASurfaceInALatticeComeWithTheLattice)
+{
+  const TriangleMesh ball = test::sphere(3);
+  const auto surface = to_polydata(ball.points, ball.triangles);
+  Pipeline<vtkBoundedBiharmonicWeights> weights(
+    surface, to_polydata({ point("a", 0, 0, 0.9), point("b", 0.5, 0, -0.7) }));
+  weights.filter->SetDomainToEmbedding();
+  weights.filter->SetEmbeddingResolution(8);
+  weights.filter->SetKeepRaw(true);
+  weights.filter->Update();
+  ASSERT_EQ(weights.filter->GetStatus(), static_cast<int>(StatusCode::ok))
+    << weights.filter->GetStatusMessage();
+  EXPECT_EQ(weights.output()->GetNumberOfPoints(), surface->GetNumberOfPoints());
+  expect_rows_sum_to_one(weights.weights());
+  EXPECT_TRUE(weights.output()->GetPointData()->HasArray("RawWeights"));
+  EXPECT_EQ(weights.report().text("domain"), "embedding");
+  auto* lattice = vtkUnstructuredGrid::SafeDownCast(weights.filter->GetOutputDataObject(2));
+  ASSERT_TRUE(lattice);
+  EXPECT_GT(lattice->GetNumberOfCells(), 100);
+  EXPECT_EQ(lattice->GetCellType(0), VTK_TETRA);
+  auto* of_lattice = vtkDoubleArray::SafeDownCast(lattice->GetPointData()->GetArray("Weights"));
+  ASSERT_TRUE(of_lattice);
+  expect_rows_sum_to_one(of_lattice);
+  EXPECT_EQ(lattice->GetCellData()->GetArray("InsideFraction")->GetNumberOfTuples(),
+    lattice->GetNumberOfCells());
+
+  // Poses never bind again; another domain does.
+  weights.filter->Modified();
+  weights.filter->Update();
+  EXPECT_EQ(weights.filter->GetNumberOfBinds(), 1);
+  weights.filter->SetDomainToSurface();
+  weights.filter->Update();
+  EXPECT_EQ(weights.filter->GetNumberOfBinds(), 2);
+  EXPECT_EQ(weights.report().text("domain"), "surface");
+  EXPECT_EQ(
+    vtkDataSet::SafeDownCast(weights.filter->GetOutputDataObject(2))->GetNumberOfCells(), 0);
+}
+
+TEST(WeightsFilters, ExtremaComeAsPoints)
+{
+  // Known of the five points on a square: 5, 5, 4, 5, 4 extrema of biharmonic weights.
+  Pipeline<vtkUnconstrainedWeights> weights(square(40),
+    to_polydata({ point("c", 0.5, 0.5, 0), point("a", 0.2, 0.2, 0), point("b", 0.8, 0.2, 0),
+      point("d", 0.8, 0.8, 0), point("e", 0.2, 0.8, 0) }));
+  weights.filter->SetMethod(vtkUnconstrainedWeights::BIHARMONIC);
+  weights.filter->SetKeepRaw(true);
+  weights.filter->Update();
+  vtkDataArray* raw = weights.output()->GetPointData()->GetArray("RawWeights");
+  auto* extrema = vtkPolyData::SafeDownCast(weights.filter->GetOutputDataObject(1));
+  ASSERT_TRUE(extrema);
+  vtkDataArray* counted = weights.output()->GetFieldData()->GetArray("WeightsInteriorExtrema");
+  double sum = 0.0;
+  for (vtkIdType j = 0; j < counted->GetNumberOfTuples(); ++j)
+  {
+    sum += counted->GetComponent(j, 0);
+  }
+  EXPECT_GT(sum, 0.0);
+  ASSERT_EQ(static_cast<double>(extrema->GetNumberOfPoints()), sum);
+  EXPECT_EQ(extrema->GetNumberOfVerts(), extrema->GetNumberOfPoints());
+  vtkPointData* data = extrema->GetPointData();
+  for (vtkIdType i = 0; i < extrema->GetNumberOfPoints(); ++i)
+  {
+    const double kind = data->GetArray("Kind")->GetComponent(i, 0);
+    const auto handle = static_cast<int>(data->GetArray("Handle")->GetComponent(i, 0));
+    EXPECT_TRUE(kind == 1.0 || kind == -1.0);
+    EXPECT_GT(data->GetArray("Persistence")->GetComponent(i, 0), 1e-3);
+    const vtkIdType at = weights.output()->FindPoint(extrema->GetPoint(i));
+    EXPECT_EQ(data->GetArray("Value")->GetComponent(i, 0), raw->GetComponent(at, handle));
+  }
+}
+
+TEST(WeightsFilters, APreviewIsThereBeforeTheWeights)
+{
+  Pipeline<vtkBoundedBiharmonicWeights> weights(tet_box(8), three_handles());
+  struct Seen
+  {
+    int calls = 0;
+    vtkSmartPointer<vtkDoubleArray> array;
+  } seen;
+  vtkNew<vtkCallbackCommand> observer;
+  observer->SetClientData(&seen);
+  observer->SetCallback(
+    [](vtkObject*, unsigned long, void* client, void* call)
+    {
+      auto* to = static_cast<Seen*>(client);
+      to->calls += 1;
+      to->array = vtkDoubleArray::SafeDownCast(static_cast<vtkObject*>(call));
+    });
+  weights.filter->AddObserver(vtkWeightsAlgorithm::PreviewEvent, observer);
+  weights.filter->Update();
+  EXPECT_EQ(seen.calls, 1);
+  ASSERT_TRUE(seen.array);
+  EXPECT_EQ(seen.array->GetNumberOfTuples(), 9 * 9 * 9);
+  EXPECT_EQ(seen.array->GetNumberOfComponents(), 3);
+  EXPECT_STREQ(seen.array->GetComponentName(2), "middle");
+  expect_rows_sum_to_one(seen.array);
+  EXPECT_LE(weights.report().number("relative_gap", 1.0), 1e-6);
+
+  Pipeline<vtkBoundedBiharmonicWeights> only(tet_box(8), three_handles());
+  only.filter->SetStageToPreview();
+  only.filter->Update();
+  EXPECT_EQ(only.report().text("stage"), "preview");
+  for (vtkIdType v = 0; v < seen.array->GetNumberOfTuples(); ++v)
+  {
+    ASSERT_EQ(seen.array->GetComponent(v, 0), only.weights()->GetComponent(v, 0));
+  }
 }
 
 TEST(WeightsFilters, TermsComeFromArraysAndBelongToTheBind)

@@ -16,7 +16,8 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 FILTERS = (
     "WindingNumberField PlanarShape TetrahedralizeSurface FarthestPointHandles BoundedBiharmonicWeights MonotoneWeights "
-    "UnconstrainedWeights TransferWeights PoseHandles SkinningDeformation ReducedARAP"
+    "UnconstrainedWeights TransferWeights PoseHandles WeightedColors DepthOrder CutAlongBones SkinningDeformation "
+    "MovingLeastSquaresWarp ReducedARAP"
 ).split()
 SOURCES = "BindposeMeshReader BindposeHandleReader".split()
 WRITERS = "BindposeMeshWriter BindposeVDBWriter".split()
@@ -142,7 +143,7 @@ def deformation():
     assert np.array_equal(np.unique(sphere, axis=0), np.unique(points_of(fetch(surface)), axis=0))
     posed_handles = PoseHandles(Input=handles)
     posed = {name: globals()[name](Input=bound, Handles=posed_handles)
-             for name in ("SkinningDeformation", "ReducedARAP")}
+             for name in ("SkinningDeformation", "ReducedARAP", "MovingLeastSquaresWarp")}
     skinned = SkinningDeformation(Input=skin, Handles=posed_handles, Method="Dual Quaternion")
     for name, proxy in posed.items():
         assert np.abs(points_of(fetch(proxy)) - rest).max() < 1e-12, f"{name}: the rest pose moves"
@@ -154,6 +155,9 @@ def deformation():
             assert np.abs(points_of(fetch(proxy)) - rest - shift).max() < 1e-9, f"{name}: no translation ({mode})"
         assert np.abs(points_of(fetch(skinned)) - sphere - shift).max() < 1e-6
     posed_handles.PoseJSON = '{"handles": {"p1": {"translate": [0.1, 0, 0]}}}'
+    colours = fetch(WeightedColors(Input=bound, Handles=handles)).GetPointData()
+    assert vtk_to_numpy(colours.GetArray("Color")).shape == (len(rest), 3) and colours.GetArray("OutOfGamut").GetRange() == (0, 0)
+    assert fetch(DepthOrder(Input=bound, Handles=handles)).GetPointData().GetArray("Depth").GetRange() == (0, 0)
     moved = np.linalg.norm(points_of(fetch(posed["SkinningDeformation"])) - rest, axis=1)
     assert abs(moved.max() - 0.1) < 1e-12 and moved.min() < 0.05  # the handle itself, and a far one
     return numbers, bound, posed_handles

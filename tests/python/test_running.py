@@ -74,7 +74,8 @@ def test_warnings_are_warnings(tmp_path):
 def test_classes_are_at_package_level():
     for name in ("vtkWindingNumberField", "vtkTetrahedralizeSurface", "vtkBoundedBiharmonicWeights",
                  "vtkMonotoneWeights", "vtkUnconstrainedWeights", "vtkTransferWeights", "vtkPoseHandles",
-                 "vtkSkinningDeformation", "vtkReducedARAP", "vtkMeshFileReader", "vtkMeshFileWriter",
+                 "vtkSkinningDeformation", "vtkReducedARAP", "vtkMovingLeastSquaresWarp", "vtkWeightedColors",
+                 "vtkDepthOrder", "vtkCutAlongBones", "vtkMeshFileReader", "vtkMeshFileWriter",
                  "vtkHandleFileReader", "vtkFarthestPointHandles", "vtkHandleSetWidget"):
         assert hasattr(bindpose, name)
         assert name in str(getattr(bindpose, name)())

@@ -1,78 +1,34 @@
-// The kernels in a row, on copies, with one execution context.
+// The kernels, on copies, with one execution context.
 #include "bind_job.h"
 
 #include "base/execution.h"
-#include "inside/tetrahedralize.h"
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
-#include "weights/transfer.h"
+#include "weights/surface_weights.h"
 
+#include <functional>
 #include <memory>
 
 using namespace bindpose;
 
 namespace
 {
-/// Adds what a stage found to the whole; false when the bind cannot go on.
-bool take(const Status& stage, BindResult& result)
+void run_bind(const BindInput& input, const std::function<void(const Weights&)>& preview,
+  ExecutionContext& context, BindResult& result)
 {
-  result.status.warnings.insert(
-    result.status.warnings.end(), stage.warnings.begin(), stage.warnings.end());
-  result.status.report.merge(stage.report);
-  if (!stage.ok())
+  SurfaceWeightsOptions options;
+  options.places = input.handle_places;
+  options.preview = preview;
+  const WeightsMethod method =
+    [&](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
   {
-    result.status.code = stage.code;
-    result.status.message = stage.message;
-  }
-  return stage.usable();
-}
-
-void run_bind(const BindInput& input, ExecutionContext& context, BindResult& result)
-{
-  TetrahedralizeResult tets;
-  {
-    Phase phase(context, "tetrahedralize", 0.0, 0.3);
-    TetrahedralizeOptions options;
-    options.handles = input.handle_places;
-    if (!take(tetrahedralize(input.surface.points, input.surface.triangles, options, tets, context),
-          result))
-    {
-      return;
-    }
-  }
-  std::vector<Index> regions;
-  if (!input.region_of_vertex.empty())
-  {
-    for (const Index original : tets.original_vertices)
-    {
-      regions.push_back(original < 0 ? 0 : input.region_of_vertex[original]);
-    }
-  }
-  Domain domain;
-  domain.points = std::move(tets.mesh.points);
-  domain.tets = std::move(tets.mesh.tets);
-  WeightsProblem problem;
-  WeightsResult weights;
-  {
-    Phase phase(context, "weights", 0.3, 0.98);
-    BoundedWeightsOptions bounded;
-    MonotoneWeightsOptions monotone;
-    const WeightsOptions& options =
-      input.monotone ? static_cast<const WeightsOptions&>(monotone) : bounded;
-    if (!take(make_weights_problem(domain, regions, input.handles, options, context, problem),
-          result) ||
-      !take(input.monotone ? monotone_weights(problem, monotone, context, weights)
-                           : bounded_biharmonic_weights(problem, bounded, context, weights),
-        result))
-    {
-      return;
-    }
-  }
-  Phase phase(context, "transfer", 0.98, 1.0);
-  TransferCounts counts;
-  take(transfer(problem.mesh.domain, weights.weights, input.surface.points, {}, context,
-         result.weights, counts),
-    result);
+    return input.monotone ? monotone_weights(problem, {}, of_method, weights)
+                          : bounded_biharmonic_weights(problem, {}, of_method, weights);
+  };
+  SurfaceWeights weights;
+  result.status = surface_weights(input.surface.points, input.surface.triangles,
+    input.region_of_vertex, input.handles, options, {}, method, context, weights);
+  result.weights = std::move(weights.weights);
 }
 } // namespace
 
@@ -100,9 +56,17 @@ void BindJob::start(BindInput input)
       Q_EMIT this->finished();
     });
   this->job_.start(
-    [made, input = std::move(input)](ExecutionContext& context)
+    [this, made, input = std::move(input)](ExecutionContext& context)
     {
-      run_bind(input, context, *made);
+      run_bind(
+        input,
+        [this](const Weights& weights)
+        {
+          const auto copy = std::make_shared<const Weights>(weights);
+          QMetaObject::invokeMethod(
+            this, [this, copy] { Q_EMIT this->preview(*copy); }, Qt::QueuedConnection);
+        },
+        context, *made);
       return made->status;
     });
 }

@@ -26,8 +26,8 @@ struct BindResult
   bindpose::Weights weights; ///< #V x #handles
 };
 
-/// Surface to weights, by the kernels, on a thread of its own: tets, weights, transfer. One at a
-/// time; destroying the job cancels it and waits.
+/// Surface to weights, by the kernels, on a thread of its own (surface_weights). One at a time;
+/// destroying the job cancels it and waits.
 class BindJob : public QObject
 {
   Q_OBJECT
@@ -45,6 +45,8 @@ public:
 Q_SIGNALS:
   /// Fraction of the whole in [0, 1] and the name of the phase. On the thread of this object.
   void progress(double fraction, const QString& phase);
+  /// Weights to pose with until the certified ones are there; not where the bind was cancelled.
+  void preview(const bindpose::Weights& weights);
   void finished();
 
 private:

@@ -99,6 +99,7 @@ MainWindow::MainWindow(QWidget* parent)
       this->viewport_->refresh();
     });
   QObject::connect(this->job_, &BindJob::progress, this->panel_, &SidePanel::set_progress);
+  QObject::connect(this->job_, &BindJob::preview, this, &MainWindow::preview_arrived);
   QObject::connect(this->job_, &BindJob::finished, this, &MainWindow::bind_finished);
 
   vtkHandleSetWidget* widget = this->viewport_->handle_widget();
@@ -496,9 +497,62 @@ void MainWindow::cancel_bind()
   this->job_->cancel();
 }
 
+bool MainWindow::take_weights(const Weights& weights)
+{
+  if (!this->rest_ || weights.rows() != this->rest_->GetNumberOfPoints() ||
+    weights.cols() != static_cast<Index>(this->handles_.size()))
+  {
+    return false; // another mesh was opened while this one was being bound
+  }
+  vtkNew<vtkDoubleArray> array;
+  array->SetName("Weights");
+  array->SetNumberOfComponents(static_cast<int>(weights.cols()));
+  array->SetNumberOfTuples(weights.rows());
+  std::copy_n(weights.data(), weights.size(), array->GetPointer(0));
+  for (std::size_t k = 0; k < this->handles_.size(); ++k)
+  {
+    array->SetComponentName(static_cast<vtkIdType>(k), this->handles_[k].name.c_str());
+  }
+  auto bound = vtkSmartPointer<vtkPolyData>::New();
+  bound->ShallowCopy(this->rest_);
+  bound->GetPointData()->AddArray(array);
+  this->set_rest(bound);
+  return true;
+}
+
+void MainWindow::set_rest(vtkPolyData* rest)
+{
+  this->rest_ = rest;
+  this->viewport_->set_surface(rest);
+  if (!rest->GetPointData()->HasArray("Weights"))
+  {
+    this->deformation_.clear();
+  }
+  this->connect_weights();
+}
+
+void MainWindow::preview_arrived(const Weights& weights)
+{
+  const vtkSmartPointer<vtkPolyData> before = this->rest_;
+  if (this->is_binding() && this->take_weights(weights))
+  {
+    this->before_preview_ = before;
+    this->preview_ = this->rest_;
+    this->panel_->set_note(tr("A preview to pose with; exact weights follow …"));
+  }
+}
+
 void MainWindow::bind_finished()
 {
   const BindResult& result = this->job_->result();
+  const vtkSmartPointer<vtkPolyData> before =
+    this->preview_ == this->rest_ ? this->before_preview_ : nullptr;
+  this->preview_ = nullptr;
+  this->before_preview_ = nullptr;
+  if (before && !result.status.usable())
+  {
+    this->set_rest(before);
+  }
   this->update_panel();
   this->update_pose();
   if (result.status.code == StatusCode::cancelled)
@@ -512,26 +566,10 @@ void MainWindow::bind_finished()
     this->show_error(tr("Cannot bind: %1.").arg(QString::fromStdString(result.status.message)));
     return;
   }
-  if (result.weights.rows() != this->rest_->GetNumberOfPoints() ||
-    result.weights.cols() != static_cast<Index>(this->handles_.size()))
+  if (!this->take_weights(result.weights))
   {
-    return; // another mesh was opened while this one was being bound
+    return;
   }
-  vtkNew<vtkDoubleArray> weights;
-  weights->SetName("Weights");
-  weights->SetNumberOfComponents(static_cast<int>(result.weights.cols()));
-  weights->SetNumberOfTuples(result.weights.rows());
-  std::copy_n(result.weights.data(), result.weights.size(), weights->GetPointer(0));
-  for (std::size_t k = 0; k < this->handles_.size(); ++k)
-  {
-    weights->SetComponentName(static_cast<vtkIdType>(k), this->handles_[k].name.c_str());
-  }
-  auto bound = vtkSmartPointer<vtkPolyData>::New();
-  bound->ShallowCopy(this->rest_);
-  bound->GetPointData()->AddArray(weights);
-  this->rest_ = bound;
-  this->viewport_->set_surface(bound);
-  this->connect_weights();
   const Report& report = result.status.report;
   this->panel_->set_note(result.status.ok()
       ? tr("Bound in %1 s, certified to %2.")

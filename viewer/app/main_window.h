@@ -79,7 +79,11 @@ private:
   void connect_volume();
   void update_surface_look();
   void connect_weights();
+  void preview_arrived(const bindpose::Weights& weights);
   void bind_finished();
+  /// False when they are not of this mesh and these handles.
+  bool take_weights(const bindpose::Weights& weights);
+  void set_rest(vtkPolyData* rest);
   void update_pose();
   void update_panel();
   void show_column(int column);
@@ -112,6 +116,7 @@ private:
   BindJob* job_ = nullptr;
 
   vtkSmartPointer<vtkPolyData> rest_;
+  vtkSmartPointer<vtkPolyData> before_preview_, preview_; ///< while a preview's weights are used
   vtkSmartPointer<vtkPolyData> handle_data_;
   vtkSmartPointer<vtkPolyData> shown_;
   bool has_curves_ = false; // opened as such, not the lines of a mesh

@@ -5,6 +5,7 @@
 
 #include "file_kind.h"
 #include "io/atomic_file.h"
+#include "vtkMovingLeastSquaresWarp.h"
 #include "vtkPoseHandles.h"
 #include "vtkReducedARAP.h"
 #include "vtkSkinningDeformation.h"
@@ -20,8 +21,15 @@ namespace bindpose::cli
 
 namespace
 {
-vtkSmartPointer<vtkBindposeAlgorithm> make_deformation(const std::string& method)
+vtkSmartPointer<vtkBindposeAlgorithm> make_deformation(const Arguments& arguments)
 {
+  const std::string method = arguments.text("method");
+  if (method == "mls")
+  {
+    auto warp = vtkSmartPointer<vtkMovingLeastSquaresWarp>::New();
+    warp->SetExponent(arguments.number("exponent"));
+    return warp;
+  }
   if (method == "reduced-arap")
   {
     return vtkSmartPointer<vtkReducedARAP>::New();
@@ -108,7 +116,7 @@ void run_deform(Session& session)
   {
     return;
   }
-  const auto deformation = make_deformation(arguments.text("method"));
+  const auto deformation = make_deformation(arguments);
   deformation->SetInputData(0, mesh);
   deformation->SetInputConnection(1, pose->GetOutputPort());
   std::int64_t iterations = 0;

@@ -1,6 +1,5 @@
-// bindpose weights MESH --handles H: a surface goes through tets, the weights are solved on them
-// and carried back to the surface's own points; tets, and surfaces with --domain surface, are
-// solved on directly.
+// bindpose weights MESH --handles H: the filter knows where to solve for a surface; tets, and
+// surfaces with --domain surface, are solved on directly and carried back to their own points.
 #include "cli/session.h"
 #include "cli/verbs.h"
 
@@ -9,13 +8,11 @@
 #include "report_field_data.h"
 #include "vtkBoundedBiharmonicWeights.h"
 #include "vtkMonotoneWeights.h"
-#include "vtkTetrahedralizeSurface.h"
 #include "vtkTransferWeights.h"
 #include "vtkUnconstrainedWeights.h"
 
 #include "vtkCellType.h"
 #include "vtkDataArray.h"
-#include "vtkIdTypeArray.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -68,6 +65,16 @@ vtkSmartPointer<vtkWeightsAlgorithm> make_weights(const Arguments& arguments)
   weights->SetMaximumIterations(arguments.integer("iterations"));
   weights->SetKeepRaw(arguments.has("raw"));
   weights->SetKeepMesh(arguments.has("keep-mesh"));
+  static const std::map<std::string, int> domains = {
+    { "auto", vtkWeightsAlgorithm::AUTO },
+    { "volume", vtkWeightsAlgorithm::VOLUME },
+    { "embedding", vtkWeightsAlgorithm::EMBEDDING },
+    { "surface", vtkWeightsAlgorithm::SURFACE },
+  };
+  weights->SetDomain(domains.at(arguments.text("domain")));
+  weights->SetEmbeddingResolution(arguments.integer("resolution"));
+  weights->SetStage(arguments.text("stage") == "preview" ? vtkWeightsAlgorithm::PREVIEW
+                                                         : vtkWeightsAlgorithm::CERTIFIED);
   return weights;
 }
 
@@ -191,61 +198,6 @@ bool add_region_handles(Session& session, vtkDataSet* mesh, const std::string& a
   return true;
 }
 
-/// Labels of the surface on the tets' vertices that come from it.
-bool carry_labels(
-  Session& session, vtkDataSet* surface, vtkDataSet* tets, const std::string& array_name)
-{
-  vtkDataArray* labels = surface->GetPointData()->GetArray(array_name.c_str());
-  vtkDataArray* originals = tets->GetPointData()->GetArray("OriginalPointIds");
-  vtkNew<vtkIdTypeArray> carried;
-  carried->SetName(array_name.c_str());
-  carried->SetNumberOfValues(tets->GetNumberOfPoints());
-  bool any = false;
-  for (vtkIdType v = 0; v < tets->GetNumberOfPoints(); ++v)
-  {
-    const double original = originals ? originals->GetComponent(v, 0) : -1.0;
-    const double label =
-      original >= 0 ? labels->GetComponent(static_cast<vtkIdType>(original), 0) : 0.0;
-    carried->SetValue(v, static_cast<vtkIdType>(label));
-    any = any || label > 0;
-  }
-  if (!any)
-  {
-    return session.invalid("--regions: the tets share no labelled point with the surface; use "
-                           "--domain surface, or tets with that array");
-  }
-  tets->GetPointData()->AddArray(carried);
-  return true;
-}
-
-/// Fills the surface; where that is impossible, a lattice that holds it will do for weights.
-vtkSmartPointer<vtkDataSet> fill(Session& session, vtkDataSet* surface, vtkPolyData* handles)
-{
-  vtkNew<vtkTetrahedralizeSurface> tets;
-  tets->SetInputData(0, surface);
-  tets->SetInputData(1, handles);
-  const Status first = session.try_run(tets, "tetrahedralize", 0.0, 0.3, Merge::numbers);
-  if (first.usable())
-  {
-    return tets->GetOutput();
-  }
-  if (session.failed())
-  {
-    return nullptr;
-  }
-  tets->SetMethod(vtkTetrahedralizeSurface::EMBED);
-  if (!session.try_run(tets, "tetrahedralize", 0.0, 0.3, Merge::numbers).usable())
-  {
-    session.fail(first);
-    return nullptr;
-  }
-  session.warn("the surface could not be filled (" + first.message +
-    "); the weights are solved on a lattice that holds it");
-  session.report().set("tetrahedralize.fallback", "embed");
-  session.report().set("tetrahedralize.reason", first.message);
-  return tets->GetOutput();
-}
-
 /// A shallow copy of the mesh's own points and cells that may get arrays of its own.
 vtkSmartPointer<vtkDataSet> own_copy(vtkDataSet* data)
 {
@@ -289,53 +241,40 @@ void run_weights(Session& session)
   {
     return;
   }
-  vtkSmartPointer<vtkDataSet> solved_on = mesh;
-  const bool through_tets = !tets_given && !solve_on_surface;
-  if (through_tets)
-  {
-    solved_on = fill(session, mesh, handles);
-    if (!solved_on)
-    {
-      return;
-    }
-    solved_on = own_copy(solved_on);
-    session.report().set("tetrahedralize.method", session.report().text("method"));
-    if (!regions.empty() && !carry_labels(session, mesh, solved_on, regions))
-    {
-      return;
-    }
-  }
   const auto weights = make_weights(arguments);
   if (!set_terms(session, mesh, weights))
   {
     return;
   }
-  if (through_tets)
-  {
-    const vtkIdType lost = weights->CarryTerms(mesh, solved_on);
-    if (lost > 0)
-    {
-      session.warn(std::to_string(lost) +
-        " points of the surface are no vertices of the tets; "
-        "their bounds, pins, rigid sets and mirror points are not kept");
-    }
-  }
-  weights->SetInputData(0, solved_on);
+  weights->SetInputData(0, mesh);
   weights->SetInputData(1, handles);
   if (!regions.empty())
   {
     weights->SetRegionArrayName(regions.c_str());
   }
-  if (!session.run(weights, "weights", through_tets ? 0.3 : 0.0, 0.98, Merge::all))
+  const bool on_mesh = tets_given || solve_on_surface;
+  if (!session.run(weights, "weights", 0.0, 0.98, Merge::all))
   {
     return;
   }
-  session.report().set("domain", solve_on_surface ? "surface" : "volume");
-  if (ending == "vtu")
+  if (tets_given)
   {
-    session.write(weights->GetOutput(), output);
+    session.report().set("domain", "volume");
+  }
+  const bool tets_asked = ending == "vtu";
+  if (tets_asked || !on_mesh)
+  {
+    const int port = tets_asked && !on_mesh ? 2 : 0; // what was solved on, or the mesh itself
+    auto* data = vtkDataSet::SafeDownCast(weights->GetOutputDataObject(port));
+    if (data->GetNumberOfPoints() == 0)
+    {
+      session.invalid("a flat shape has no tets: write .vtp or .dmat, not .vtu");
+      return;
+    }
+    session.write(data, output);
     return;
   }
+  // Handles may have added points: back to the mesh's own.
   vtkNew<vtkTransferWeights> transfer;
   transfer->SetInputData(0, mesh);
   transfer->SetInputData(1, weights->GetOutput());

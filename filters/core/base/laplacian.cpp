@@ -41,21 +41,6 @@ SparseMatrix assemble(Index vertex_count, const Elements& elements, const Cotang
   return from_entries(vertex_count, entries);
 }
 
-/// Mean of each element's corners.
-template <typename Elements>
-Eigen::VectorXd element_means(const Elements& elements, const Eigen::VectorXd& values)
-{
-  Eigen::VectorXd means = Eigen::VectorXd::Zero(elements.rows());
-  for (Index e = 0; e < elements.rows(); ++e)
-  {
-    for (Index k = 0; k < elements.cols(); ++k)
-    {
-      means[e] += values[elements(e, k)] / static_cast<double>(elements.cols());
-    }
-  }
-  return means;
-}
-
 constexpr int triangle_edges[3][2] = { { 1, 2 }, { 2, 0 }, { 0, 1 } };
 } // namespace
 
@@ -111,29 +96,25 @@ Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> cotangent_weights(
   return c;
 }
 
-SparseMatrix stiffness_matrix(PointsView points, TrianglesView triangles)
-{
-  return assemble(points.rows(), triangles, cotangent_weights(points, triangles), triangle_edges);
-}
-
 SparseMatrix stiffness_matrix(
-  PointsView points, TrianglesView triangles, const Eigen::VectorXd& factors)
+  PointsView points, TrianglesView triangles, const Eigen::VectorXd& shares)
 {
   auto c = cotangent_weights(points, triangles);
-  c = element_means(triangles, factors).asDiagonal() * c;
+  if (shares.size() > 0)
+  {
+    c = shares.asDiagonal() * c;
+  }
   return assemble(points.rows(), triangles, c, triangle_edges);
 }
 
-SparseMatrix stiffness_matrix(PointsView points, TetsView tets, const Eigen::VectorXd& factors)
+SparseMatrix stiffness_matrix(PointsView points, TetsView tets, const Eigen::VectorXd& shares)
 {
   auto c = cotangent_weights(points, tets);
-  c = element_means(tets, factors).asDiagonal() * c;
+  if (shares.size() > 0)
+  {
+    c = shares.asDiagonal() * c;
+  }
   return assemble(points.rows(), tets, c, tet_edges);
-}
-
-SparseMatrix stiffness_matrix(PointsView points, TetsView tets)
-{
-  return assemble(points.rows(), tets, cotangent_weights(points, tets), tet_edges);
 }
 
 SparseMatrix boundary_flux(PointsView points, TrianglesView triangles)
@@ -235,10 +216,14 @@ Eigen::VectorXd lumped_mass(PointsView points, TrianglesView triangles)
   return mass;
 }
 
-Eigen::VectorXd lumped_mass(PointsView points, TetsView tets)
+Eigen::VectorXd lumped_mass(PointsView points, TetsView tets, const Eigen::VectorXd& shares)
 {
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(points.rows());
-  const Eigen::VectorXd volumes = tet_volumes(points, tets);
+  Eigen::VectorXd volumes = tet_volumes(points, tets);
+  if (shares.size() > 0)
+  {
+    volumes.array() *= shares.array();
+  }
   for (Index t = 0; t < tets.rows(); ++t)
   {
     for (int k = 0; k < 4; ++k)

@@ -27,14 +27,11 @@ constexpr int tet_edges[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3
 
 /// Positive semi-definite stiffness K (#V x #V): K_ij = -sum of cotangent weights of edge ij, rows
 /// sum to zero. This is minus the cotangent Laplacian.
-SparseMatrix stiffness_matrix(PointsView points, TrianglesView triangles);
-SparseMatrix stiffness_matrix(PointsView points, TetsView tets);
-
-/// The same with every element's share times the mean of its corners' factors (#V): of
-/// int factor grad u . grad v.
+/// @param shares a factor for each element (how much of it is material), or empty: all 1.
 SparseMatrix stiffness_matrix(
-  PointsView points, TrianglesView triangles, const Eigen::VectorXd& factors);
-SparseMatrix stiffness_matrix(PointsView points, TetsView tets, const Eigen::VectorXd& factors);
+  PointsView points, TrianglesView triangles, const Eigen::VectorXd& shares = Eigen::VectorXd());
+SparseMatrix stiffness_matrix(
+  PointsView points, TetsView tets, const Eigen::VectorXd& shares = Eigen::VectorXd());
 
 /// N (#V x #V): N_ij is the integral over the boundary of phi_i n . grad phi_j, what flows out.
 /// With it (K - N) u = 0 for every linear u, at the boundary as well. Zero for a closed surface; in
@@ -45,7 +42,8 @@ SparseMatrix boundary_flux(PointsView points, TetsView tets);
 /// Lumped mass, #V. Triangles: Voronoi areas, clamped in obtuse triangles (they sum to the area);
 /// tets: a quarter of each volume. A vertex that nothing uses gets 0.
 Eigen::VectorXd lumped_mass(PointsView points, TrianglesView triangles);
-Eigen::VectorXd lumped_mass(PointsView points, TetsView tets);
+Eigen::VectorXd lumped_mass(
+  PointsView points, TetsView tets, const Eigen::VectorXd& shares = Eigen::VectorXd());
 
 /// Q_k = K (M^-1 K)^(k-1), symmetric positive semi-definite: k = 1 Dirichlet, 2 biharmonic,
 /// 3 triharmonic energy is 1/2 w' Q_k w. Massless vertices are left out of M^-1 (their rows are 0).

@@ -1,11 +1,12 @@
 // A clean surface goes to TetGen as it is, which adds vertices inside in the same run. Any other is
-// first refined exactly until triangles meet only in shared vertices and edges; TetGen then fills the
-// convex hull (or a box around it) with tets that keep all these triangles, and tets with a winding
-// number below the threshold are thrown away. Where openings bound much of what is enclosed, small
-// tets in a box come first: they can end where the winding number does. TetGen 1.5 fails on some inputs with one set of switches and on others with another, so
-// several are tried; then the same with vertices rounded to a coarser grid (which welds nearly
-// coincident ones) and with vertices moved a little (which takes soups apart). Last comes a plain
-// Delaunay triangulation of the refined vertices, whose tets need not respect the triangles.
+// first refined exactly until triangles meet only in shared vertices and edges; TetGen then fills
+// the convex hull (or a box around it) with tets that keep all these triangles, and tets with a
+// winding number below the threshold are thrown away. Where openings bound much of what is
+// enclosed, small tets in a box come first: they can end where the winding number does. TetGen 1.5
+// fails on some inputs with one set of switches and on others with another, so several are tried;
+// then the same with vertices rounded to a coarser grid (which welds nearly coincident ones) and
+// with vertices moved a little (which takes soups apart). Last comes a plain Delaunay triangulation
+// of the refined vertices, whose tets need not respect the triangles.
 //
 // Kept tets that have none yet get vertices inside, by TetGen's refinement with the boundary left
 // alone: angles become better and weights have something to vary over.

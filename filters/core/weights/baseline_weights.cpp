@@ -232,16 +232,6 @@ struct Walls
   std::vector<std::array<Index, 3>> vertices; ///< of the domain, that a triangle belongs to
 };
 
-bool is_flat(const Domain& domain, double diagonal, Vec3& normal)
-{
-  const Vec3 centre = domain.points.colwise().mean();
-  const Points centred = domain.points.rowwise() - centre.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(centred.transpose() * centred);
-  normal = axes.eigenvectors().col(0);
-  constexpr double flat = 1e-9;
-  return (centred * normal).cwiseAbs().maxCoeff() <= flat * diagonal;
-}
-
 Walls walls_of(const WeightsProblem& problem)
 {
   const Domain& domain = problem.mesh.domain;

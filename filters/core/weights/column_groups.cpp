@@ -48,10 +48,10 @@ private:
 class GroupMaker
 {
 public:
-  GroupMaker(
-    const WeightsProblem& problem, const Exclusions& excluded, bool coupled, ColumnGroup& group)
-    : problem_(problem), terms_(problem.terms), excluded_(excluded), coupled_(coupled),
-      group_(group), n_(problem.vertex_count())
+  GroupMaker(const WeightsProblem& problem, const WeightTerms& terms, const Exclusions& excluded,
+    bool coupled, ColumnGroup& group)
+    : problem_(problem), terms_(terms), excluded_(excluded), coupled_(coupled), group_(group),
+      n_(problem.vertex_count())
   {
   }
 
@@ -456,7 +456,8 @@ Status make_column_groups(const WeightsProblem& problem, const Exclusions& exclu
     {
       groups.push_back(std::move(*group));
       const bool mirrored = group != &plain;
-      const Status status = GroupMaker(problem, excluded, coupled, groups.back()).make(mirrored);
+      const Status status =
+        GroupMaker(problem, problem.terms, excluded, coupled, groups.back()).make(mirrored);
       if (!status.ok())
       {
         return status;
@@ -464,6 +465,19 @@ Status make_column_groups(const WeightsProblem& problem, const Exclusions& exclu
     }
   }
   return {};
+}
+
+std::vector<BoxQpColumn> plain_columns(const WeightsProblem& problem)
+{
+  ColumnGroup group;
+  for (Index j = 0; j < problem.handle_count(); ++j)
+  {
+    group.handles.push_back({ j });
+  }
+  const WeightTerms none;
+  const Exclusions nothing;
+  GroupMaker(problem, none, nothing, false, group).make(false); // nothing can contradict
+  return std::move(group.columns);
 }
 
 SparseMatrix merge_form(const ColumnGroup& group, const SparseMatrix& form)

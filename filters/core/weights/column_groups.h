@@ -42,6 +42,9 @@ using Exclusions = std::vector<char>;
 Status make_column_groups(const WeightsProblem& problem, const Exclusions& excluded, bool coupled,
   std::vector<ColumnGroup>& groups);
 
+/// The columns without any terms, over vertices.
+std::vector<BoxQpColumn> plain_columns(const WeightsProblem& problem);
+
 /// A form over vertices as one over the group's unknowns.
 SparseMatrix merge_form(const ColumnGroup& group, const SparseMatrix& form);
 

@@ -1,5 +1,7 @@
 #include "weights/domain.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 
 namespace bindpose
@@ -58,6 +60,16 @@ double mean_edge_length(const Domain& domain, Index element)
     }
   }
   return sum / (corners * (corners - 1) / 2);
+}
+
+bool is_flat(const Domain& domain, double diagonal, Vec3& normal)
+{
+  const Vec3 centre = domain.points.colwise().mean();
+  const Points centred = domain.points.rowwise() - centre.transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(centred.transpose() * centred);
+  normal = axes.eigenvectors().col(0);
+  constexpr double flat = 1e-9;
+  return (centred * normal).cwiseAbs().maxCoeff() <= flat * diagonal;
 }
 
 VertexGraph vertex_graph(const Domain& domain)

@@ -14,6 +14,9 @@ struct Domain
   Points points;
   Tets tets;
   Triangles triangles; ///< used when there are no tets
+  /// #T: how much of each tet is material (of a lattice that holds a surface), > 0; empty: all 1.
+  /// Energies are those of the material.
+  Eigen::VectorXd shares;
 
   bool is_volume() const { return this->tets.rows() > 0; }
   int corners() const { return this->is_volume() ? 4 : 3; }
@@ -37,6 +40,9 @@ const char* element_name(const Domain& domain);
 
 /// Mean length of an element's edges, the local edge length.
 double mean_edge_length(const Domain& domain, Index element);
+
+/// True when all points lie in a plane, within 1e-9 of the diagonal, whose normal is then given.
+bool is_flat(const Domain& domain, double diagonal, Vec3& normal);
 
 /// Neighbours of every vertex along edges, ascending, without doubles.
 struct VertexGraph

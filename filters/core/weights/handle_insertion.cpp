@@ -64,6 +64,8 @@ private:
   void copy_mesh();
   void add_bone_samples(
     Index handle, std::vector<Sample>& on_vertices, std::vector<Sample>& between);
+  SimplexLocation root(const Vec3& p) const;
+  bool is_held(Index v) const;
   SimplexLocation locate(const Vec3& p, Vec3& place) const;
   void take_corners(Sample& sample);
   void insert(Sample& sample, const std::vector<Sample>& earlier);
@@ -112,10 +114,34 @@ SimplexLocation Inserter::nearest(const Element& element, const Vec3& p) const
                              : nearest_in_triangle(p, at(0), at(1), at(2));
 }
 
+/// The original element that holds p, or the nearest.
+SimplexLocation Inserter::root(const Vec3& p) const
+{
+  const Index known = this->options_.element_of ? this->options_.element_of(p) : -1;
+  if (known < 0)
+  {
+    return this->locator_->locate(p);
+  }
+  SimplexLocation at = this->nearest(this->elements_[known], p);
+  at.element = known;
+  return at;
+}
+
+/// Whether an original vertex is one of the element that holds its place.
+bool Inserter::is_held(Index v) const
+{
+  if (!this->options_.element_of)
+  {
+    return true;
+  }
+  const Index* ids = this->domain_.element(this->root(this->points_[v]).element);
+  return std::find(ids, ids + this->corners_, v) != ids + this->corners_;
+}
+
 /// The element of the mesh as it is now that holds p, or the nearest, and its point nearest to p.
 SimplexLocation Inserter::locate(const Vec3& p, Vec3& place) const
 {
-  SimplexLocation at = this->locator_->locate(p);
+  SimplexLocation at = this->root(p);
   const double outside = at.distance;
   place.setZero();
   for (int k = 0; k < this->corners_; ++k)
@@ -155,7 +181,7 @@ void Inserter::add_bone_samples(
     const Vec3 d = this->points_[v] - head;
     const double t = d.dot(axis) / (length * length);
     if (t < -on / length || t > 1.0 + on / length || (d - t * axis).norm() > on ||
-      this->incident_[v].empty())
+      this->incident_[v].empty() || !this->is_held(static_cast<Index>(v)))
     {
       continue;
     }
@@ -176,8 +202,9 @@ void Inserter::add_bone_samples(
     }
     const auto edge_at = [&](double t)
     {
-      const SimplexLocation here = this->locator_->locate(head + t * axis);
-      return std::max(mean_edge_length(this->domain_, here.element) / length, 1e-3);
+      const SimplexLocation here = this->root(head + t * axis);
+      const double edge = mean_edge_length(this->domain_, here.element);
+      return std::max(this->options_.spacing * edge / length, 1e-3);
     };
     const auto pieces = [&](double edges)
     { return std::max(bare ? 2 : 1, static_cast<int>(std::lround(edges))); };
@@ -331,6 +358,14 @@ void Inserter::finish()
   const auto count = static_cast<Index>(alive.size());
   domain.tets.resize(this->corners_ == 4 ? count : 0, 4);
   domain.triangles.resize(this->corners_ == 4 ? 0 : count, 3);
+  if (this->domain_.shares.size() > 0)
+  {
+    domain.shares.resize(count);
+    for (Index e = 0; e < count; ++e)
+    {
+      domain.shares[e] = this->domain_.shares[this->result_.parent_element[e]];
+    }
+  }
   Index* out = this->corners_ == 4 ? domain.tets.data() : domain.triangles.data();
   for (const Index e : alive)
   {
@@ -390,7 +425,7 @@ Status Inserter::run(ExecutionContext& context)
   std::stable_partition(samples.begin(), samples.end(),
     [&](const Sample& sample)
     {
-      const SimplexLocation at = this->locator_->locate(sample.place);
+      const SimplexLocation at = this->root(sample.place);
       return *std::max_element(at.barycentric.begin(), at.barycentric.end()) >= 1.0 - 1e-9;
     });
   for (std::size_t i = 0; i < samples.size(); ++i)
@@ -422,6 +457,10 @@ Status insert_handles(const Domain& domain, const Handles& handles,
   if (!(options.snap > 0.0 && options.snap < 0.25))
   {
     return Status::invalid_input("the snap fraction must lie between 0 and 0.25");
+  }
+  if (!(options.spacing > 0.0 && options.spacing <= 1.0))
+  {
+    return Status::invalid_input("the spacing of samples must lie above 0 and be at most 1");
   }
   Status status = check_domain(domain);
   if (status.ok())

@@ -6,6 +6,7 @@
 #include "weights/handles.h"
 
 #include <array>
+#include <functional>
 
 namespace bindpose
 {
@@ -18,6 +19,11 @@ struct HandleInsertionOptions
   double snap = 0.1;
   /// Leave the mesh as it is and take the corners of the simplex that holds a sample.
   bool keep_mesh = false;
+  /// Distance of a bone's samples in local edge lengths, range (0, 1].
+  double spacing = 1.0;
+  /// The element that holds a place, where elements overlap and the mesh alone cannot tell (the
+  /// copies of an embedding); empty: the one that is found first.
+  std::function<Index(const Vec3&)> element_of;
 };
 
 /// Where one handle ended up.

@@ -140,14 +140,8 @@ Status unconstrained_weights(const WeightsProblem& problem,
   {
     return status;
   }
-  std::vector<ColumnGroup> groups;
-  status = make_column_groups(problem, {}, false, groups);
-  if (!status.ok())
-  {
-    return status;
-  }
   const std::vector<BoxQpSolution> solutions =
-    solver.solve_unbounded(groups.front().columns, context);
+    solver.solve_unbounded(plain_columns(problem), context);
   if (context.cancelled())
   {
     return Status::cancelled();

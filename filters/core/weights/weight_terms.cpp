@@ -2,6 +2,8 @@
 // the columns are made (column_groups.cpp).
 #include "weights/weight_terms.h"
 
+#include "weights/transfer.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -319,6 +321,82 @@ WeightTerms extend_terms(const WeightTerms& terms, const HandleInsertion& mesh)
     result.mirror = mirror_of_plane(mesh.domain.points, terms.mirror_origin, terms.mirror_normal);
   }
   return result;
+}
+
+bool asks_of_vertices(const WeightTerms& terms)
+{
+  return !terms.rigid_sets.empty() || terms.lower.size() > 0 || terms.upper.size() > 0 ||
+    terms.pinned.size() > 0 || !terms.mirror.empty();
+}
+
+Status carry_terms(const WeightTerms& terms, const Domain& surface, const Points& points,
+  const std::vector<Index>& original, ExecutionContext& context, WeightTerms& carried, Index& lost)
+{
+  carried = terms;
+  if (terms.rigidity.size() > 0)
+  {
+    const Weights painted = terms.rigidity;
+    Weights there;
+    TransferCounts counts;
+    const Status status = transfer(surface, painted, points, {}, context, there, counts);
+    if (!status.ok())
+    {
+      return status;
+    }
+    carried.rigidity = there.col(0);
+  }
+  std::vector<Index> carried_to(static_cast<std::size_t>(surface.points.rows()), -1);
+  for (std::size_t v = 0; v < original.size(); ++v)
+  {
+    if (original[v] >= 0)
+    {
+      carried_to[original[v]] = static_cast<Index>(v);
+    }
+  }
+  const auto asked = [&](const Eigen::MatrixXd& values, Index v)
+  { return values.size() > 0 && !values.row(v).array().isNaN().all(); };
+  lost = 0;
+  for (Index v = 0; v < surface.points.rows(); ++v)
+  {
+    const bool set = !terms.rigid_sets.empty() && terms.rigid_sets[v] > 0;
+    const bool mirrored = !terms.mirror.empty() && terms.mirror[v] >= 0;
+    lost += carried_to[v] < 0 &&
+      (set || mirrored || asked(terms.lower, v) || asked(terms.upper, v) || asked(terms.pinned, v));
+  }
+  const Index count = points.rows();
+  for (Eigen::MatrixXd* values : { &carried.lower, &carried.upper, &carried.pinned })
+  {
+    if (values->size() > 0)
+    {
+      const Eigen::MatrixXd of_surface = *values;
+      values->setConstant(count, of_surface.cols(), std::nan(""));
+      for (Index v = 0; v < count; ++v)
+      {
+        if (original[v] >= 0)
+        {
+          values->row(v) = of_surface.row(original[v]);
+        }
+      }
+    }
+  }
+  if (!terms.rigid_sets.empty())
+  {
+    carried.rigid_sets.assign(static_cast<std::size_t>(count), 0);
+    for (Index v = 0; v < count; ++v)
+    {
+      carried.rigid_sets[v] = original[v] >= 0 ? terms.rigid_sets[original[v]] : 0;
+    }
+  }
+  if (!terms.mirror.empty())
+  {
+    carried.mirror.assign(static_cast<std::size_t>(count), -1);
+    for (Index v = 0; v < count; ++v)
+    {
+      const Index image = original[v] >= 0 ? terms.mirror[original[v]] : -1;
+      carried.mirror[v] = image >= 0 ? carried_to[image] : -1;
+    }
+  }
+  return {};
 }
 
 std::vector<Index> mirrored_handles(

@@ -56,6 +56,16 @@ WeightTerms extend_terms(const WeightTerms& terms, const HandleInsertion& mesh);
 /// Labels of vertices and, where all corners around them agree, of inserted ones.
 std::vector<Index> extend_labels(const HandleInsertion& mesh, const std::vector<Index>& labels);
 
+/// Whether something is asked of single vertices that only they can keep: all but rigidity.
+bool asks_of_vertices(const WeightTerms& terms);
+
+/// What is asked of a surface's vertices for a mesh that has some of them. Rigidity is that of the
+/// nearest place of the surface.
+/// @param original of every vertex of the mesh: the surface's, -1: none.
+/// @param lost vertices of the surface of which something is asked, but which the mesh has not.
+Status carry_terms(const WeightTerms& terms, const Domain& surface, const Points& points,
+  const std::vector<Index>& original, ExecutionContext& context, WeightTerms& carried, Index& lost);
+
 /// Of each handle the one that is its mirror image: the vertices that the mirror makes of its own
 /// are the other's. -1: there is none. A handle on the plane is its own image.
 std::vector<Index> mirrored_handles(

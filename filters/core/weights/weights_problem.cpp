@@ -44,6 +44,22 @@ void collect_fixed(WeightsProblem& problem)
   }
 }
 
+/// Of every element: the mean of what is painted on its corners, times its share of material.
+Eigen::VectorXd element_rigidity(const Domain& domain, const Eigen::VectorXd& painted)
+{
+  Eigen::VectorXd result(domain.element_count());
+  for (Index e = 0; e < result.size(); ++e)
+  {
+    double sum = 0.0;
+    for (int k = 0; k < domain.corners(); ++k)
+    {
+      sum += painted[domain.element(e)[k]];
+    }
+    result[e] = sum / domain.corners() * (domain.shares.size() > 0 ? domain.shares[e] : 1.0);
+  }
+  return result;
+}
+
 void report_problem(const WeightsProblem& problem, Status& status)
 {
   const Domain& domain = problem.mesh.domain;
@@ -162,15 +178,16 @@ Status make_weights_problem(const Domain& domain, const std::vector<Index>& regi
   scaled.rowwise() -= box.center().transpose();
   problem.diagonal = box.diagonal();
   scaled /= problem.diagonal;
-  problem.stiffness = refined.is_volume() ? stiffness_matrix(scaled, refined.tets)
+  problem.stiffness = refined.is_volume() ? stiffness_matrix(scaled, refined.tets, refined.shares)
                                           : stiffness_matrix(scaled, refined.triangles);
-  problem.mass = refined.is_volume() ? lumped_mass(scaled, refined.tets)
+  problem.mass = refined.is_volume() ? lumped_mass(scaled, refined.tets, refined.shares)
                                      : lumped_mass(scaled, refined.triangles);
   if (problem.terms.rigidity.size() > 0)
   {
+    const Eigen::VectorXd rigidity = element_rigidity(refined, problem.terms.rigidity);
     problem.rigid_stiffness = refined.is_volume()
-      ? stiffness_matrix(scaled, refined.tets, problem.terms.rigidity)
-      : stiffness_matrix(scaled, refined.triangles, problem.terms.rigidity);
+      ? stiffness_matrix(scaled, refined.tets, rigidity)
+      : stiffness_matrix(scaled, refined.triangles, rigidity);
   }
   problem.mass_unit = problem.mass.maxCoeff();
   problem.mass /= problem.mass_unit;
@@ -303,8 +320,9 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
         column.factorisations = solutions[j].factorisations;
         column.minimum = raw.minCoeff();
         column.maximum = raw.maxCoeff();
-        column.interior_extrema =
-          static_cast<Index>(interior_extrema(problem.graph, raw, exempt).size());
+        column.zeros = static_cast<double>((raw.array() == 0.0).count()) / static_cast<double>(n);
+        column.ones = static_cast<double>((raw.array() == 1.0).count()) / static_cast<double>(n);
+        column.extrema = interior_extrema(problem.graph, raw, exempt);
         column.normalised_interior_extrema =
           static_cast<Index>(interior_extrema(problem.graph, normalised, exempt).size());
       }
@@ -315,7 +333,7 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
   }
 
   Report& report = status.report;
-  std::vector<double> gaps, residuals, energies;
+  std::vector<double> gaps, residuals, energies, zeros, ones;
   std::vector<std::int64_t> iterations, factorisations, extrema, normalised_extrema;
   double bounds = 0.0;
   std::int64_t total = 0;
@@ -328,7 +346,9 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
     energies.push_back(column.certificate.energy);
     iterations.push_back(column.iterations);
     factorisations.push_back(column.factorisations);
-    extrema.push_back(column.interior_extrema);
+    extrema.push_back(static_cast<std::int64_t>(column.extrema.size()));
+    zeros.push_back(column.zeros);
+    ones.push_back(column.ones);
     normalised_extrema.push_back(column.normalised_interior_extrema);
     bounds = problem.terms.has_bounds()
       ? std::max(bounds, column.certificate.bounds_violation)
@@ -356,6 +376,8 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
   report.set("handles[].factorisations", factorisations);
   report.set("handles[].interior_extrema", extrema);
   report.set("handles[].interior_extrema_normalised", normalised_extrema);
+  report.set("handles[].zeros", zeros);
+  report.set("handles[].ones", ones);
   if (!late.empty())
   {
     char numbers[96];

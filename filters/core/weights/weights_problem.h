@@ -78,7 +78,9 @@ struct WeightsColumn
   double maximum = 0.0;
   int iterations = 0;
   int factorisations = 0;
-  Index interior_extrema = 0; ///< of the raw column, with a persistence above 1e-3
+  double zeros = 0.0; ///< share of the vertices where the raw column is exactly 0: its locality
+  double ones = 0.0; ///< where it is exactly 1
+  std::vector<Extremum> extrema; ///< interior ones of the raw column, persistence above 1e-3
   Index normalised_interior_extrema = 0; ///< of the column that is handed on
 };
 

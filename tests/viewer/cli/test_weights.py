@@ -190,17 +190,52 @@ def test_unclean_surfaces_have_weights(folder, name, mesh):
 
 
 @pytest.mark.parametrize("mesh", [shapes.flat(), shapes.one_triangle()])
-def test_sheets(folder, mesh):
-    """They enclose nothing; a lattice holds them, and the report says so. Or they are refused."""
+def test_flat_shapes_are_solved_on_themselves(folder, mesh):
     folder.off("m.off", mesh)
-    run = folder.run("weights", "m.off", "--handles", "auto:2", "-o", "w.vtp", "--report", "r.json")
-    if run.code == 0:
-        check(weights_of(folder / "w.vtp"), mesh[0])
-        assert "lattice" in run.err and '"fallback": "embed"' in (folder / "r.json").read_text()
-    else:
-        assert run.code == 2 and run.new_files == ["r.json"]
+    run = folder.run("weights", "m.off", "--handles", "auto:2", "-o", "w.vtp", "--report", "-").is_good()
+    assert run.report["domain"] == "surface" and "flat" in run.report["domain_reason"]
     folder.run("weights", "m.off", "--handles", "auto:2", "--domain", "surface", "-o", "s.vtp").is_good()
+    assert np.array_equal(weights_of(folder / "w.vtp"), weights_of(folder / "s.vtp"))
     check(weights_of(folder / "s.vtp"), mesh[0])
+    folder.run("weights", "m.off", "--handles", "auto:2", "-o", "w.vtu").is_refused("flat")
+
+
+def test_a_sheet_that_is_not_flat_is_solved_in_a_lattice(folder):
+    columns = range(17)
+    vertices = [[i / 4, j / 4, 0.01 * (i / 4) ** 2] for j in range(5) for i in columns]
+    corners = [(j * 17 + i, j * 17 + i + 1, (j + 1) * 17 + i + 1, (j + 1) * 17 + i) for j in range(4) for i in columns[:-1]]
+    mesh = vertices, [triangle for a, b, c, d in corners for triangle in ([a, b, c], [a, c, d])]
+    folder.off("m.off", mesh)
+    run = folder.run("weights", "m.off", "--handles", "auto:2", "-o", "w.vtp", "--report", "-").is_good()
+    assert run.report["domain"] == "embedding" and run.report["tetrahedralize"]["fallback"] == "embed"
+    assert "lattice" in run.err
+    check(weights_of(folder / "w.vtp"), mesh[0])
+    folder.run("weights", "m.off", "--handles", "auto:2", "--domain", "volume", "-o", "v.vtp").is_refused()
+
+
+def test_embedding_and_preview(bar):
+    volume = bar.run("weights", "bar.off", "--handles", "bones.tgf", "-o", "w.vtp", "--report", "-").is_good()
+    assert volume.report["domain"] == "volume" and volume.report["domain_reason"] == "the surface is small"
+    run = bar.run("weights", "bar.off", "--handles", "bones.tgf", "--domain", "embedding", "-o", "e.vtp", "--report",
+                  "-").is_good()
+    report = run.report
+    assert report["domain"] == "embedding" and report["embedding"]["resolution"] > report["guard"]["resolution"]
+    assert report["guard"]["rms_difference"] <= 0.02
+    weights = weights_of(bar / "w.vtp")
+    embedded = weights_of(bar / "e.vtp")
+    check(embedded, shapes.bar()[0])
+    assert np.sqrt(((weights - embedded) ** 2).mean()) <= 0.03  # the bar's own tets are coarse
+    bar.run("weights", "bar.off", "--handles", "bones.tgf", "--domain", "embedding", "--resolution", "12", "-o",
+            "e.vtu").is_good()
+    assert is_tets(bindpose.read(bar / "e.vtu"))
+    run = bar.run("weights", "bar.off", "--handles", "bones.tgf", "--stage", "preview", "-o", "p.vtp", "--report",
+                  "-").is_good()
+    assert run.report["stage"] == "preview" and "analyse" not in run.report["seconds"]
+    preview = weights_of(bar / "p.vtp")
+    check(preview, shapes.bar()[0])
+    assert np.abs(preview - weights).max() <= 0.2
+    bar.run("weights", "bar.off", "--handles", "bones.tgf", "--domain", "embedding", "--resolution", "3", "-o",
+            "x.vtp").is_refused("between 6 and 1000")
 
 
 def test_terms_by_arrays_of_the_surface(bar):
@@ -221,6 +256,7 @@ def test_terms_by_arrays_of_the_surface(bar):
     assert block.sum() > 1 and np.ptp(weights[block], axis=0).max() == 0  # by its usual name
     assert run.report["relative_gap"] <= 1e-6
     bar.run(*words, "--partition", "coupled", "--bounds=-0.5,1.5", "--mirror", "x").is_refused("mirrored")
+    bar.run(*words, "--domain", "embedding").is_refused("domain volume, not embedding")
     run = bar.run(*words, "--partition", "coupled").is_good()
     assert run.report["partition"]["of_unity"] == "coupled" and run.report["partition"]["largest_difference"] >= 0
     run = bar.run(*words, "--influences", "1", "--rigid-sets", "RigidSet").is_good()

@@ -1,0 +1,109 @@
+#!/usr/bin/env python3
+"""Weights say which limb is in front.
+
+A cat bends its arm over its face. In the plane nothing says what is nearer; a layer for each bone, spread by the
+same weights that carry the pose, does: smooth over the shape and different on limbs that cross. Left the depth at
+rest; then the arm with its layer in front, behind, and with equal layers, where the later bone wins.
+
+Numbers: pixels of the arm that are seen in front and behind; depths with equal layers, lowest and highest; pixels
+of the whole that change with the layer; weights and pose are the same throughout.
+"""
+
+import common
+import bindpose
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
+
+import planar
+
+LIMB = ("arm", "hand")
+DEGREES = {"arm": -38, "hand": -62}  # over the face
+
+
+def pose_of(size):
+    """The arm about its shoulder, the hand about its wrist and along with the arm."""
+    turned = {}
+    for name in LIMB:
+        turned[name] = {"rotate": {"axis": [0, 0, 1], "degrees": DEGREES[name]}}
+    shoulder, joint = (np.array(place) * size - 0.5 for place in planar.BONES["arm"])
+    angle = np.radians(DEGREES["arm"])
+    spin = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+    turned["hand"]["translate"] = [*(shoulder + spin @ (joint - shoulder) - joint), 0.0]
+    turned["hand"]["rotate"]["degrees"] += DEGREES["arm"]
+    return {"handles": turned}
+
+
+def seen(shape, is_arm, box, size):
+    """Which pixels show the arm: drawn in two colours, without lights, through the depth buffer. Returns the window,
+    too: while one is open, a virtual display does not start anew."""
+    flags = vtkPolyData()
+    flags.ShallowCopy(shape)
+    colours = np.where(is_arm[:, None], np.array([[255, 0, 0]]), np.array([[0, 0, 255]])).astype(np.uint8)
+    array = numpy_to_vtk(colours, deep=True)
+    array.SetName("Flag")
+    flags.GetCellData().SetScalars(array)
+    actor = planar.flat_actor(flags)
+    actor.GetMapper().ScalarVisibilityOn()
+    actor.GetMapper().SetScalarModeToUseCellData()
+    renderer = vtkRenderer()
+    renderer.AddActor(actor)
+    planar.look_at(renderer, box, (size, size))
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(True)
+    window.SetMultiSamples(0)
+    window.SetSize(size, size)
+    window.AddRenderer(renderer)
+    window.Render()
+    grab = vtkWindowToImageFilter()
+    grab.SetInput(window)
+    grab.ReadFrontBufferOff()
+    grab.Update()
+    drawn = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()).reshape(size, size, -1)
+    return drawn[..., 0] > 128, window
+
+
+def make(options):
+    size = 256 if options.small else 1024
+    pixels = planar.cat(size)
+    handles = planar.bones_of(size)
+    picture = planar.write_png(pixels, options.scratch / "cat.png")
+    shape = bindpose.planar_shape(picture, handles=handles)
+    weighted = bindpose.weights(shape, handles, domain="surface")
+    posed = bindpose.deform(weighted, handles, pose_of(size))
+
+    names = list(planar.BONES)
+    array = vtk_to_numpy(weighted.GetPointData().GetArray("Weights"))
+    triangles = planar.triangles_of(weighted)
+    is_arm = np.isin(array[triangles].mean(axis=1).argmax(axis=1), [names.index(name) for name in LIMB])
+    layers = {"in front": dict.fromkeys(LIMB, 1), "behind": dict.fromkeys(LIMB, -1), "equal": {}}
+    ordered = {caption: bindpose.depth_order(posed, handles, layer) for caption, layer in layers.items()}
+    box = (-0.06 * size, 1.06 * size, -0.05 * size, 1.07 * size)
+    drawn = {caption: seen(mesh, is_arm, box, size) for caption, mesh in ordered.items()}
+    owned = {caption: pixels_of_arm for caption, (pixels_of_arm, _window) in drawn.items()}
+
+    rest = bindpose.depth_order(weighted, handles, layers["in front"], displace=False)
+    depth = vtk_to_numpy(rest.GetPointData().GetArray("Depth"))
+    texture = planar.to_texture(pixels)
+    scale = ((0, (0.93, 0.95, 0.98)), (0.5, (0.45, 0.68, 0.85)), (1, (0.05, 0.25, 0.55)))
+    tiles = [("depth: arm and hand 1, all else 0", [planar.bands(weighted, np.clip(depth, 0, 1), scale, 10),
+                                                    *planar.handle_actors(handles, 0.010 * size)])]
+    tiles += [(f"the arm {caption}" if caption != "equal" else "equal layers: the later bone wins",
+               [planar.textured(mesh, texture), *planar.edges(mesh, shape, width=1.5)]) for caption, mesh in ordered.items()]
+    window = planar.show(tiles, box, tile=(480, 480), title="One pose, one set of weights, other layers")
+    common.write_picture(window, options.picture)
+    equal = vtk_to_numpy(ordered["equal"].GetPointData().GetArray("Depth"))
+    return {
+        "triangles": len(triangles),
+        "pixels of the arm, in front": int(owned["in front"].sum()),
+        "pixels of the arm, behind": int(owned["behind"].sum()),
+        "pixels that change their owner": int((owned["in front"] ^ owned["behind"]).sum()),
+        "of these, to the arm when it is in front": int((owned["in front"] & ~owned["behind"]).sum()),
+        "equal layers: lowest and highest depth": [float(equal.min()), float(equal.max())],
+        "layer 1: lowest and highest depth": [float(depth.min()), float(depth.max())],
+    }
+
+
+if __name__ == "__main__":
+    common.main(__file__, __doc__, make)

@@ -1,0 +1,100 @@
+#!/usr/bin/env python3
+"""Biharmonic colours without bounds bring hues that nobody asked for.
+
+Five points of a square have a colour each, and weights blend them. Unconstrained biharmonic weights (the thin-plate
+splines of Finch et al. 2011) go below 0 and above 1: their blend leaves what can be shown, and invents colours that
+no point has. Bounded biharmonic weights stay within the points' colours and are as smooth; monotone ones do not even
+have a bump between the points. Hatched: out of the gamut.
+
+Numbers: lowest and highest weight; part of the square that leaves the gamut, and how far it does; part with more or
+less of a primary than any point, how far; and the black and white bar of three handles, where the unconstrained blend
+must reach -1/9 at two thirds.
+"""
+
+import common
+import bindpose
+import numpy as np
+from bindpose.meshes import to_dataset, to_vtk_points
+from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.vtkFiltersCore import vtkProbeFilter
+
+import planar
+
+# The five points whose weights the tests of the kernels know, and their colours.
+POINTS = [((0.20, 0.20), (0.95, 0.75, 0.10)), ((0.80, 0.20), (0.10, 0.35, 0.75)), ((0.50, 0.50), (0.85, 0.15, 0.20)),
+          ((0.25, 0.80), (0.10, 0.55, 0.25)), ((0.80, 0.75), (0.95, 0.90, 0.80))]
+METHODS = {"unconstrained": "biharmonic", "bounded": "bounded-biharmonic", "monotone": "monotone"}
+
+
+def grid(columns, rows, width, height):
+    """Squares cut along the same diagonal."""
+    x, y = np.meshgrid(np.linspace(0, width, columns + 1), np.linspace(0, height, rows + 1))
+    first = (np.arange(rows)[:, None] * (columns + 1) + np.arange(columns)).ravel()
+    right, up = first + 1, first + columns + 1
+    triangles = np.concatenate([np.stack([first, right, up + 1], axis=1), np.stack([first, up + 1, up], axis=1)])
+    return np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1), triangles
+
+
+def hatched(mesh, lines=90, steps=700):
+    """Lines over what is out of the gamut, as an actor in a list."""
+    along = np.linspace(0.004, 0.996, steps)
+    places = np.concatenate([np.stack([along, along + offset, 0 * along], axis=1) for offset in np.linspace(-1, 1, lines)])
+    cloud = vtkPolyData()
+    cloud.SetPoints(to_vtk_points(places))
+    probe = vtkProbeFilter()
+    probe.SetInputData(cloud)
+    probe.SetSourceData(mesh)
+    probe.Update()
+    found = probe.GetOutput().GetPointData()
+    inside = vtk_to_numpy(found.GetArray("vtkValidPointMask")) > 0
+    outside = np.array(vtk_to_numpy(found.GetArray("Gamut"))) > 0.5
+    marked = (inside & outside).reshape(lines, steps)
+    cells = vtkCellArray()
+    for line, step in np.argwhere(marked[:, :-1] & marked[:, 1:]):
+        cells.InsertNextCell(2, [int(line * steps + step), int(line * steps + step + 1)])
+    stripes = vtkPolyData()
+    stripes.SetPoints(to_vtk_points(places + [0, 0, 0.002]))
+    stripes.SetLines(cells)
+    return [planar.flat_actor(stripes, (0.05, 0.05, 0.05), 1.5)] if cells.GetNumberOfCells() else []
+
+
+def make(options):
+    squares = 40 if options.small else 120
+    square = to_dataset(grid(squares, squares, 1.0, 1.0))
+    places = np.array([[*place, 0] for place, _colour in POINTS])
+    colours = [colour for _place, colour in POINTS]
+    handles = bindpose.handles(points=places)
+    strip = grid(96, 2, 1.0, 2 / 96)
+    across = bindpose.handles(bones=[[[at, 0, 0], [at, 2 / 96, 0]] for at in (0.0, 0.5, 1.0)], parents=[-1] * 3)
+
+    count = square.GetNumberOfPoints()
+    numbers = {"points of the mesh": count}
+    tiles = []
+    for caption, method in METHODS.items():
+        weighted = bindpose.weights(square, handles, method=method, domain="surface")
+        values = vtk_to_numpy(weighted.GetPointData().GetArray("Weights"))
+        coloured = bindpose.weighted_colors(weighted, handles, colours, linear_light=False)
+        report = bindpose.report(coloured)
+        outside = report["counts"]["out_of_gamut"] / count
+        numbers[f"{caption}: lowest and highest weight"] = [float(values.min()), float(values.max())]
+        numbers[f"{caption}: out of the gamut, part"] = outside
+        numbers[f"{caption}: out of the gamut, at most"] = report["largest_gamut_violation"]
+        numbers[f"{caption}: beyond the points' colours, part"] = report["counts"]["beyond_handles"] / count
+        numbers[f"{caption}: beyond the points' colours, at most"] = report["largest_overshoot"]
+        weights = bindpose.weights(strip, across, method=method, domain="surface")
+        grey = bindpose.weighted_colors(strip, across, [[1, 1, 1], [0, 0, 0], [0, 0, 0]], weights=weights, linear_light=False,
+                                        clamp=False)
+        numbers[f"{caption}: black and white bar at two thirds"] = float(grey[64, 0])
+        numbers[f"{caption}: black and white bar, out of the gamut"] = grey.report["largest_gamut_violation"]
+        bindpose.meshes.add_point_array(coloured, "Gamut", vtk_to_numpy(coloured.GetPointData().GetArray("OutOfGamut")).astype(float))
+        tiles.append((f"{caption}: {100 * outside:.0f} % out of the gamut",
+                      [planar.painted(coloured), *hatched(coloured), *planar.dots(places, colours, 0.016, 0.01)]))
+    window = planar.show(tiles, (-0.02, 1.02, -0.02, 1.02), tile=(560, 560),
+                         title="Five colours, blended with three kinds of biharmonic weights")
+    common.write_picture(window, options.picture)
+    return numbers
+
+
+if __name__ == "__main__":
+    common.main(__file__, __doc__, make)

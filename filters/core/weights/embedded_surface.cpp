@@ -1,0 +1,359 @@
+// Tets of a lattice that lie at one place have one centre: copies are found by it. Of the copies at
+// a place the right one is that which is connected with the nearest point of the surface, because
+// the line from a place inside to the nearest point of its surface crosses nothing: tets are gone
+// through from the one that holds that point, by common vertices, until a copy is met.
+//
+// On a tet (w_i, gradients g_i at its corners) values at p are sum l_i (w_i + g_i.(p - x_i) / 2):
+// continuous, and exact for quadratic functions where the gradients are.
+#include "weights/embedded_surface.h"
+
+#include "base/parallel.h"
+#include "base/sparse_solver.h"
+#include "embedding/lattice_cover.h"
+#include "weights/split_form.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr double least_share = 0.03;
+
+/// Gradients of the columns at the vertices, #V x 3 #columns (x of all columns, then y, then z):
+/// means over the tets around, by volume of material.
+Eigen::MatrixXd corner_gradients(const Domain& domain, WeightsView values)
+{
+  const Index n = domain.points.rows();
+  const Index m = values.cols();
+  Eigen::MatrixXd gradients = Eigen::MatrixXd::Zero(n, 3 * m);
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(n);
+  for (Index t = 0; t < domain.tets.rows(); ++t)
+  {
+    const auto corner = [&](int k) -> Vec3 { return domain.points.row(domain.tets(t, k)); };
+    const Vec3 a = corner(1) - corner(0), b = corner(2) - corner(0), c = corner(3) - corner(0);
+    const double six_volumes = a.cross(b).dot(c);
+    const double volume = six_volumes * (domain.shares.size() > 0 ? domain.shares[t] : 1.0);
+    const Vec3 of_hat[3] = { b.cross(c) / six_volumes, c.cross(a) / six_volumes,
+      a.cross(b) / six_volumes };
+    const auto row = [&](int k) { return values.row(domain.tets(t, k)); };
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      Eigen::RowVectorXd g = Eigen::RowVectorXd::Zero(m);
+      for (int k = 1; k < 4; ++k)
+      {
+        g += of_hat[k - 1][axis] * (row(k) - row(0));
+      }
+      for (int k = 0; k < 4; ++k)
+      {
+        gradients.row(domain.tets(t, k)).segment(axis * m, m) += volume * g;
+      }
+    }
+    for (int k = 0; k < 4; ++k)
+    {
+      sums[domain.tets(t, k)] += volume;
+    }
+  }
+  for (Index v = 0; v < n; ++v)
+  {
+    gradients.row(v) /= sums[v] > 0.0 ? sums[v] : 1.0;
+  }
+  return gradients;
+}
+} // namespace
+
+std::size_t EmbeddedSurface::PlaceHash::operator()(const Place& place) const
+{
+  std::size_t hash = 0;
+  for (const Index x : place)
+  {
+    hash = hash * 1000003 + static_cast<std::size_t>(x);
+  }
+  return hash;
+}
+
+EmbeddedSurface::EmbeddedSurface(
+  PointsView points, TrianglesView triangles, const TetMesh& lattice, const PointBinding& binding)
+  : points_(points), triangles_(triangles), lattice_(lattice), binding_(binding),
+    tets_(lattice.points, lattice.tets), surface_(points, triangles)
+{
+  const Index n = lattice.points.rows();
+  const Index count = lattice.tets.rows();
+  for (int k = 1; k < 4; ++k)
+  {
+    this->spacing_ = std::max(this->spacing_,
+      (lattice.points.row(lattice.tets(0, k)) - lattice.points.row(lattice.tets(0, k - 1))).norm());
+  }
+  this->spacing_ = std::max(this->spacing_,
+    (lattice.points.row(lattice.tets(0, 0)) - lattice.points.row(lattice.tets(0, 3))).norm());
+  for (Index t = 0; t < count; ++t)
+  {
+    this->copies_[this->centre_of(t)].push_back(t);
+  }
+  for (auto at = this->copies_.begin(); at != this->copies_.end();)
+  {
+    at = at->second.size() > 1 ? std::next(at) : this->copies_.erase(at);
+  }
+  this->first_tet_.assign(static_cast<std::size_t>(n) + 1, 0);
+  for (Index i = 0; i < lattice.tets.size(); ++i)
+  {
+    ++this->first_tet_[lattice.tets.data()[i] + 1];
+  }
+  for (Index v = 0; v < n; ++v)
+  {
+    this->first_tet_[v + 1] += this->first_tet_[v];
+  }
+  this->tets_at_.resize(static_cast<std::size_t>(lattice.tets.size()));
+  std::vector<Index> next(this->first_tet_.begin(), this->first_tet_.end() - 1);
+  for (Index i = 0; i < lattice.tets.size(); ++i)
+  {
+    this->tets_at_[next[lattice.tets.data()[i]]++] = i / 4;
+  }
+}
+
+EmbeddedSurface::Place EmbeddedSurface::centre_of(Index tet) const
+{
+  Vec3 sum = Vec3::Zero();
+  for (int k = 0; k < 4; ++k)
+  {
+    sum += (this->lattice_.points.row(this->lattice_.tets(tet, k)) - this->lattice_.points.row(0));
+  }
+  Place place;
+  for (int k = 0; k < 3; ++k)
+  {
+    // Nodes are at halves of cubes, so means of four are at eighths.
+    place[k] = static_cast<Index>(std::llround(2.0 * sum[k] / this->spacing_));
+  }
+  return place;
+}
+
+Domain EmbeddedSurface::domain(const TetMesh& lattice, const Eigen::VectorXd& inside_fractions)
+{
+  Domain result;
+  result.points = lattice.points;
+  result.tets = lattice.tets;
+  result.shares = inside_fractions.cwiseMax(least_share);
+  return result;
+}
+
+Index EmbeddedSurface::tet_of(const Vec3& place) const
+{
+  const Index found = this->tets_.locate(place).element;
+  const auto copies = found < 0 ? this->copies_.end() : this->copies_.find(this->centre_of(found));
+  if (copies == this->copies_.end())
+  {
+    return found;
+  }
+  const SimplexLocation near = this->surface_.locate(place);
+  if (near.element < 0)
+  {
+    return found;
+  }
+  const auto corner = std::max_element(near.barycentric.begin(), near.barycentric.begin() + 3);
+  const Index start =
+    this->binding_.tets[this->triangles_(near.element, corner - near.barycentric.begin())];
+  std::vector<Index> queue{ start };
+  std::unordered_map<Index, bool> seen{ { start, true } };
+  for (std::size_t i = 0; i < queue.size(); ++i)
+  {
+    if (std::find(copies->second.begin(), copies->second.end(), queue[i]) != copies->second.end())
+    {
+      return queue[i];
+    }
+    for (int k = 0; k < 4; ++k)
+    {
+      const Index v = this->lattice_.tets(queue[i], k);
+      for (Index at = this->first_tet_[v]; at < this->first_tet_[v + 1]; ++at)
+      {
+        if (seen.emplace(this->tets_at_[at], true).second)
+        {
+          queue.push_back(this->tets_at_[at]);
+        }
+      }
+    }
+  }
+  return found; // another component than the nearest one: there is only this
+}
+
+Status EmbeddedSurface::interpolate(
+  const HandleInsertion& mesh, WeightsView values, ExecutionContext& context, Weights& result) const
+{
+  const Domain& domain = mesh.domain;
+  const Index m = values.cols();
+  const Eigen::MatrixXd gradients = corner_gradients(domain, values);
+  // The parts of each tet of the lattice.
+  const Index count = this->lattice_.tets.rows();
+  std::vector<Index> first(static_cast<std::size_t>(count) + 1, 0);
+  std::vector<Index> parts(mesh.parent_element.size());
+  for (const Index parent : mesh.parent_element)
+  {
+    ++first[parent + 1];
+  }
+  for (Index t = 0; t < count; ++t)
+  {
+    first[t + 1] += first[t];
+  }
+  std::vector<Index> next(first.begin(), first.end() - 1);
+  for (std::size_t e = 0; e < parts.size(); ++e)
+  {
+    parts[next[mesh.parent_element[e]]++] = static_cast<Index>(e);
+  }
+
+  const Eigen::RowVectorXd lowest = values.colwise().minCoeff();
+  const Eigen::RowVectorXd highest = values.colwise().maxCoeff();
+  result.resize(this->points_.rows(), m);
+  const bool whole = parallel_for(context, this->points_.rows(), 512,
+    [&](Index begin, Index end)
+    {
+      for (Index i = begin; i < end; ++i)
+      {
+        const Vec3 p = this->points_.row(i);
+        Index tet = this->binding_.tets[i];
+        if (tet < 0)
+        {
+          tet = p.allFinite() ? this->tet_of(p) : -1;
+        }
+        if (tet < 0)
+        {
+          result.row(i).setZero();
+          continue;
+        }
+        SimplexLocation best;
+        best.distance = 1e300;
+        for (Index at = first[tet]; at < first[tet + 1]; ++at)
+        {
+          const auto corner = [&](int k) -> Vec3
+          { return domain.points.row(domain.tets(parts[at], k)); };
+          SimplexLocation here = nearest_in_tet(p, corner(0), corner(1), corner(2), corner(3));
+          if (here.distance < best.distance)
+          {
+            best = here;
+            best.element = parts[at];
+          }
+        }
+        Vec3 place = Vec3::Zero();
+        for (int k = 0; k < 4; ++k)
+        {
+          place +=
+            best.barycentric[k] * domain.points.row(domain.tets(best.element, k)).transpose();
+        }
+        result.row(i).setZero();
+        for (int k = 0; k < 4; ++k)
+        {
+          const Index v = domain.tets(best.element, k);
+          const Vec3 half = 0.5 * (place - domain.points.row(v).transpose());
+          result.row(i) += best.barycentric[k] *
+            (values.row(v) + half[0] * gradients.row(v).segment(0, m) +
+              half[1] * gradients.row(v).segment(m, m) +
+              half[2] * gradients.row(v).segment(2 * m, m));
+        }
+        result.row(i) = result.row(i).cwiseMax(lowest).cwiseMin(highest);
+      }
+    });
+  return whole ? Status() : Status::cancelled();
+}
+
+Status EmbeddedSurface::smooth(
+  const HandleInsertion& mesh, double length, ExecutionContext& context, Weights& result) const
+{
+  LatticeSurface welded;
+  if (!welded.build(this->points_, this->triangles_, context))
+  {
+    return Status::cancelled();
+  }
+  const auto n = static_cast<Index>(welded.points.size());
+  Points points(n, 3);
+  for (Index v = 0; v < n; ++v)
+  {
+    points.row(v) = (welded.points[v] - welded.points[0]) / length;
+  }
+  Triangles triangles(static_cast<Index>(welded.triangles.size()), 3);
+  for (Index f = 0; f < triangles.rows(); ++f)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      triangles(f, k) = welded.triangles[f][k];
+    }
+  }
+  std::vector<Index> fixed;
+  for (const HandlePlacement& handle : mesh.handles)
+  {
+    for (const Index v : handle.vertices)
+    {
+      const SimplexLocation at = this->surface_.locate(mesh.domain.points.row(v));
+      for (int k = 0; k < 3; ++k)
+      {
+        if (at.distance <= 1e-7 * length && at.barycentric[k] >= 1.0 - 1e-7)
+        {
+          fixed.push_back(welded.of_point[this->triangles_(at.element, k)]);
+        }
+      }
+    }
+  }
+  std::sort(fixed.begin(), fixed.end());
+  fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
+
+  // Slivers get a mass that keeps the system well away from singular.
+  Eigen::VectorXd mass = lumped_mass(points, triangles);
+  mass = mass.cwiseMax(1e-3 * mass.mean());
+  SparseMatrix energy = harmonic_energy(stiffness_matrix(points, triangles), mass, 2);
+  energy += SparseMatrix(mass.asDiagonal());
+  const SplitForm form(energy, fixed);
+  Weights given(n, result.cols());
+  for (Index i = 0; i < result.rows(); ++i)
+  {
+    if (welded.of_point[i] >= 0)
+    {
+      given.row(welded.of_point[i]) = result.row(i);
+    }
+  }
+  const auto free_count = static_cast<Index>(form.free_vertices.size());
+  Eigen::MatrixXd right(free_count, result.cols());
+  Eigen::MatrixXd at_fixed(static_cast<Index>(fixed.size()), result.cols());
+  for (Index i = 0; i < at_fixed.rows(); ++i)
+  {
+    at_fixed.row(i) = given.row(fixed[i]);
+  }
+  for (Index i = 0; i < free_count; ++i)
+  {
+    right.row(i) = mass[form.free_vertices[i]] * given.row(form.free_vertices[i]);
+  }
+  right -= form.to_fixed * at_fixed;
+  SparseSolver solver;
+  Status status = solver.analyse(form.lower);
+  if (status.ok())
+  {
+    status = context.cancelled() ? Status::cancelled() : solver.factor(form.lower);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  const Eigen::MatrixXd smooth = solver.solve(right);
+  const Eigen::RowVectorXd lowest = result.colwise().minCoeff();
+  const Eigen::RowVectorXd highest = result.colwise().maxCoeff();
+  for (Index i = 0; i < free_count; ++i)
+  {
+    given.row(form.free_vertices[i]) = smooth.row(i).cwiseMax(lowest).cwiseMin(highest);
+  }
+  for (Index i = 0; i < result.rows(); ++i)
+  {
+    if (welded.of_point[i] >= 0)
+    {
+      result.row(i) = given.row(welded.of_point[i]);
+    }
+  }
+  return {};
+}
+
+Status EmbeddedSurface::carry(
+  const HandleInsertion& mesh, WeightsView values, ExecutionContext& context, Weights& result) const
+{
+  constexpr double smoothing = 0.3;
+  Status status = this->interpolate(mesh, values, context, result);
+  return status.ok() ? this->smooth(mesh, smoothing * this->spacing_, context, result) : status;
+}
+
+} // namespace bindpose

@@ -1,0 +1,66 @@
+#ifndef bindpose_weights_embedded_surface_h
+#define bindpose_weights_embedded_surface_h
+
+#include "base/execution.h"
+#include "embedding/embedding_tets.h"
+#include "weights/handle_insertion.h"
+#include "weights/simplex_locator.h"
+
+#include <array>
+#include <unordered_map>
+#include <vector>
+
+namespace bindpose
+{
+
+/// A surface in the tets of its embedding: tells weights on the surface from weights on coarse
+/// tets, some of which lie at the same place (parts that are near but not connected).
+class EmbeddedSurface
+{
+public:
+  /// Keeps references: all must outlive it. `lattice` holds the points (embed_surface).
+  EmbeddedSurface(PointsView points, TrianglesView triangles, const TetMesh& lattice,
+    const PointBinding& binding);
+
+  /// The tets with their shares of material, none below 0.03: a tet that has almost none still ties
+  /// its corners together.
+  static Domain domain(const TetMesh& lattice, const Eigen::VectorXd& inside_fractions);
+
+  /// The tet that holds a place, or the nearest; of copies the one that is connected with the
+  /// surface's nearest point. Thread-safe.
+  Index tet_of(const Vec3& place) const;
+
+  /// Values at the surface's points (#V x #columns) from values at the vertices of the lattice with
+  /// handles. Linear interpolation would show every tet: corners add half of what their gradients
+  /// say, the sum is clamped to the column's range and smoothed along the surface (bi-Laplacian,
+  /// over 0.3 of the lattice's spacing), but at points that lie on handles. Cost: a factorisation
+  /// on the surface's triangles.
+  Status carry(const HandleInsertion& mesh, WeightsView values, ExecutionContext& context,
+    Weights& result) const;
+
+private:
+  using Place = std::array<Index, 3>;
+  struct PlaceHash
+  {
+    std::size_t operator()(const Place& place) const;
+  };
+  Place centre_of(Index tet) const;
+  Status interpolate(const HandleInsertion& mesh, WeightsView values, ExecutionContext& context,
+    Weights& result) const;
+  Status smooth(
+    const HandleInsertion& mesh, double length, ExecutionContext& context, Weights& result) const;
+
+  PointsView points_;
+  TrianglesView triangles_;
+  const TetMesh& lattice_;
+  const PointBinding& binding_;
+  SimplexLocator tets_;
+  SimplexLocator surface_;
+  double spacing_ = 0.0; ///< of the lattice: side of a cube, the longest edge of a tet
+  std::unordered_map<Place, std::vector<Index>, PlaceHash> copies_; ///< of tets that have some
+  std::vector<Index> first_tet_, tets_at_; ///< tets of each vertex
+};
+
+} // namespace bindpose
+
+#endif

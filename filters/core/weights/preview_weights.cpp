@@ -1,0 +1,269 @@
+// With f the free and b the fixed vertices, D = M^-1 and Q = K D K:
+//
+//   Q_ff = K_ff D_f K_ff + U D_b U',  U = K_fb        Q_fb = K_ff D_f U + U D_b K_bb
+//
+// so that with P = (K_ff D_f K_ff)^-1 = K_ff^-1 M_f K_ff^-1 and G = P U the minimiser -Q_ff^-1 Q_fb
+// e is y - G (M_b + U' G)^-1 U' y, where y = -(K_ff^-1 U e + G D_b K_bb e).
+#include "weights/preview_weights.h"
+
+#include "base/parallel.h"
+#include "weights/column_groups.h"
+#include "weights/split_form.h"
+
+#include <Eigen/Cholesky>
+
+#include <limits>
+
+namespace bindpose
+{
+
+namespace
+{
+class Preview
+{
+public:
+  Preview(const WeightsProblem& problem, const SparseSolver::Options& options)
+    : problem_(problem), form_(problem.stiffness, problem.fixed), solver_(options)
+  {
+  }
+
+  Status factor(ExecutionContext& context)
+  {
+    const auto count = static_cast<Index>(this->form_.free_vertices.size());
+    this->mass_.resize(count);
+    for (Index i = 0; i < count; ++i)
+    {
+      this->mass_[i] = this->problem_.mass[this->form_.free_vertices[i]];
+    }
+    if (count == 0)
+    {
+      return {};
+    }
+    Status status = this->solver_.analyse(this->form_.lower);
+    if (status.ok() && !context.cancelled())
+    {
+      status = this->solver_.factor(this->form_.lower);
+    }
+    return context.cancelled() ? Status::cancelled() : status;
+  }
+
+  /// #V x m, with the fixed rows: by K alone.
+  Eigen::MatrixXd harmonic() const
+  {
+    const Eigen::MatrixXd& given = this->problem_.fixed_values;
+    return this->whole(-this->solve(this->form_.to_fixed * given));
+  }
+
+  /// @return false when cancelled.
+  bool biharmonic(
+    const Eigen::MatrixXd& harmonic, ExecutionContext& context, Eigen::MatrixXd& w) const
+  {
+    // Fixed vertices with a free neighbour.
+    std::vector<int> active;
+    for (int b = 0; b < this->form_.to_fixed.outerSize(); ++b)
+    {
+      if (SparseMatrix::InnerIterator(this->form_.to_fixed, b))
+      {
+        active.push_back(b);
+      }
+    }
+    const auto rank = static_cast<Index>(active.size());
+    const Index m = harmonic.cols();
+    if (this->mass_.size() == 0)
+    {
+      w = harmonic;
+      return true;
+    }
+    // D_b K_bb e at these.
+    Eigen::MatrixXd flow(rank, m);
+    SparseMatrix u(this->form_.to_fixed.rows(), rank);
+    Eigen::VectorXd mass(rank);
+    {
+      Eigen::MatrixXd given = Eigen::MatrixXd::Zero(this->problem_.vertex_count(), m);
+      for (std::size_t i = 0; i < this->form_.fixed.size(); ++i)
+      {
+        given.row(this->form_.fixed[i]) = this->problem_.fixed_values.row(static_cast<Index>(i));
+      }
+      const Eigen::MatrixXd all = this->problem_.stiffness * given;
+      for (Index i = 0; i < rank; ++i)
+      {
+        const Index v = this->form_.fixed[active[i]];
+        mass[i] = this->problem_.mass[v];
+        flow.row(i) = all.row(v) / mass[i];
+        u.col(static_cast<int>(i)) = this->form_.to_fixed.col(active[i]);
+      }
+    }
+    constexpr Index solves_of_gradients = 16; // that conjugate gradients take a column, about
+    const Eigen::MatrixXd start = this->free_rows(harmonic);
+    Eigen::MatrixXd x;
+    const bool done = rank <= solves_of_gradients * m
+      ? this->by_rank(u, mass, flow, start, context, x)
+      : this->by_gradients(u, mass, flow, start, context, x);
+    w = done ? this->whole(x) : Eigen::MatrixXd();
+    return done;
+  }
+
+private:
+  Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const
+  {
+    return rhs.rows() == 0 ? rhs : this->solver_.solve(rhs);
+  }
+  /// P r
+  Eigen::MatrixXd product(const Eigen::MatrixXd& r) const
+  {
+    return this->solve(this->mass_.asDiagonal() * this->solve(r));
+  }
+  Eigen::MatrixXd free_rows(const Eigen::MatrixXd& all) const
+  {
+    Eigen::MatrixXd rows(this->mass_.size(), all.cols());
+    for (Index i = 0; i < rows.rows(); ++i)
+    {
+      rows.row(i) = all.row(this->form_.free_vertices[i]);
+    }
+    return rows;
+  }
+  Eigen::MatrixXd whole(const Eigen::MatrixXd& rows) const
+  {
+    Eigen::MatrixXd all(this->problem_.vertex_count(), rows.cols());
+    for (Index i = 0; i < rows.rows(); ++i)
+    {
+      all.row(this->form_.free_vertices[i]) = rows.row(i);
+    }
+    for (std::size_t i = 0; i < this->form_.fixed.size(); ++i)
+    {
+      all.row(this->form_.fixed[i]) = this->problem_.fixed_values.row(static_cast<Index>(i));
+    }
+    return all;
+  }
+
+  /// @param start K_ff^-1 U e, negative: the harmonic weights.
+  bool by_rank(const SparseMatrix& u, const Eigen::VectorXd& mass, const Eigen::MatrixXd& flow,
+    const Eigen::MatrixXd& start, ExecutionContext& context, Eigen::MatrixXd& x) const
+  {
+    const Index rank = u.cols();
+    Eigen::MatrixXd g(u.rows(), rank);
+    constexpr Index block = 32;
+    for (Index begin = 0; begin < rank; begin += block)
+    {
+      const Index width = std::min(block, rank - begin);
+      g.middleCols(begin, width) = this->product(Eigen::MatrixXd(u.middleCols(begin, width)));
+      context.progress(static_cast<double>(begin + width) / static_cast<double>(rank));
+      if (context.cancelled())
+      {
+        return false;
+      }
+    }
+    Eigen::MatrixXd s = u.transpose() * g;
+    s.diagonal() += mass;
+    const Eigen::MatrixXd y = start - g * flow;
+    x = y - g * s.ldlt().solve(Eigen::MatrixXd(u.transpose() * y));
+    return true;
+  }
+
+  bool by_gradients(const SparseMatrix& u, const Eigen::VectorXd& mass, const Eigen::MatrixXd& flow,
+    const Eigen::MatrixXd& start, ExecutionContext& context, Eigen::MatrixXd& x) const
+  {
+    const SparseMatrix& k = this->form_.a;
+    const Eigen::VectorXd inverse = this->mass_.cwiseInverse();
+    const auto times = [&](const Eigen::MatrixXd& p) -> Eigen::MatrixXd
+    {
+      return k * (inverse.asDiagonal() * (k * p)) +
+        u * (mass.cwiseInverse().asDiagonal() * (u.transpose() * p));
+    };
+    // -Q_fb e, where K_ff D_f U e = -K_ff D_f K_ff start.
+    x = start;
+    Eigen::MatrixXd r =
+      -(u * (mass.cwiseInverse().asDiagonal() * (u.transpose() * start))) - u * flow;
+    Eigen::MatrixXd z = this->product(r);
+    Eigen::MatrixXd p = z;
+    Eigen::VectorXd rz = r.cwiseProduct(z).colwise().sum().transpose();
+    constexpr int most = 60;
+    constexpr double small = 1e-3;
+    for (int i = 0; i < most; ++i)
+    {
+      const Eigen::MatrixXd q = times(p);
+      const Eigen::VectorXd pq = p.cwiseProduct(q).colwise().sum().transpose();
+      const Eigen::VectorXd length = (pq.array() > 0.0).select(rz.array() / pq.array(), 0.0);
+      const Eigen::MatrixXd step = p * length.asDiagonal();
+      x += step;
+      r -= q * length.asDiagonal();
+      context.progress(static_cast<double>(i) / most);
+      if (context.cancelled())
+      {
+        return false;
+      }
+      if (step.cwiseAbs().maxCoeff() < small && i > 2)
+      {
+        break;
+      }
+      z = this->product(r);
+      const Eigen::VectorXd next = r.cwiseProduct(z).colwise().sum().transpose();
+      const Eigen::VectorXd share = (rz.array() > 0.0).select(next.array() / rz.array(), 0.0);
+      p = z + p * share.asDiagonal();
+      rz = next;
+    }
+    return true;
+  }
+
+  const WeightsProblem& problem_;
+  SplitForm form_;
+  SparseSolver solver_;
+  Eigen::VectorXd mass_; ///< of the free vertices
+};
+} // namespace
+
+Status preview_weights(const WeightsProblem& problem, const WeightsOptions& options,
+  ExecutionContext& context, WeightsResult& result)
+{
+  result = {};
+  const Phase phase(context, "preview", 0.0, 1.0);
+  Preview preview(problem, options.solver);
+  Status status = preview.factor(context);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const Eigen::MatrixXd harmonic = preview.harmonic();
+  Eigen::MatrixXd w;
+  if (!preview.biharmonic(harmonic, context, w))
+  {
+    return Status::cancelled();
+  }
+  w = w.cwiseMax(0.0).cwiseMin(1.0);
+
+  const SparseMatrix q = harmonic_energy(problem.stiffness, problem.mass, 2);
+  const std::vector<BoxQpColumn> columns = plain_columns(problem);
+  std::vector<BoxQpSolution> solutions(columns.size());
+  std::vector<char> is_free(static_cast<std::size_t>(problem.vertex_count()), 1);
+  for (const Index v : problem.fixed)
+  {
+    is_free[v] = 0;
+  }
+  const bool whole = parallel_for(context, static_cast<Index>(columns.size()), 1,
+    [&](Index begin, Index end)
+    {
+      for (Index j = begin; j < end; ++j)
+      {
+        BoxQpSolution& solution = solutions[j];
+        solution.w = w.col(j);
+        std::vector<char> free_here = is_free;
+        for (std::size_t i = 0; i < columns[j].pinned.size(); ++i)
+        {
+          free_here[columns[j].pinned[i]] = 0;
+          solution.w[columns[j].pinned[i]] = columns[j].pinned_values[static_cast<Index>(i)];
+        }
+        solution.certificate = certify({ q, free_here }, solution.w);
+      }
+    });
+  if (!whole)
+  {
+    return Status::cancelled();
+  }
+  result.analyses = 1;
+  status = finish_weights(problem, "bounded-biharmonic", std::numeric_limits<double>::infinity(),
+    solutions, harmonic, context, result);
+  status.report.set("stage", "preview");
+  return status;
+}
+
+} // namespace bindpose

@@ -1,0 +1,136 @@
+// Glue around the kernel bindpose::depth_order(). Points move in doubles: ties are a millionth of
+// the shape.
+#include "vtkDepthOrder.h"
+
+#include "base/execution.h"
+#include "output_type.h"
+#include "weights/depth_order.h"
+#include "weights_input.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+
+#include <cmath>
+
+using namespace bindpose;
+
+vtkStandardNewMacro(vtkDepthOrder);
+
+vtkDepthOrder::vtkDepthOrder()
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+void vtkDepthOrder::SetArrayName(const std::string& name)
+{
+  if (this->ArrayName != name)
+  {
+    this->ArrayName = name;
+    this->Modified();
+  }
+}
+
+void vtkDepthOrder::SetLayerArrayName(const std::string& name)
+{
+  if (this->LayerArrayName != name)
+  {
+    this->LayerArrayName = name;
+    this->Modified();
+  }
+}
+
+int vtkDepthOrder::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkPolyData");
+  return 1;
+}
+
+int vtkDepthOrder::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPointSet");
+  return 1;
+}
+
+int vtkDepthOrder::RequestDataObject(
+  vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
+{
+  match_output_type(vtkDataObject::GetData(input[0], 0), output);
+  return 1;
+}
+
+Status vtkDepthOrder::Execute(
+  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+{
+  const Phase phase(context, "order");
+  vtkPointSet* mesh = vtkPointSet::GetData(input[0]);
+  vtkPolyData* handles = vtkPolyData::GetData(input[1]);
+  vtkPointSet* result = vtkPointSet::GetData(output);
+  WeightsInput weights;
+  Status status = to_weights_input(mesh, this->ArrayName, handles, weights);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const auto count = static_cast<Index>(weights.handles.size());
+  Eigen::VectorXd layers = Eigen::VectorXd::Zero(count);
+  if (vtkDataArray* given = handles->GetCellData()->GetArray(this->LayerArrayName.c_str()))
+  {
+    if (given->GetNumberOfComponents() != 1)
+    {
+      return Status::invalid_input("the handles' array '" + this->LayerArrayName + "' has " +
+        std::to_string(given->GetNumberOfComponents()) + " components, but a layer is one number");
+    }
+    for (Index j = 0; j < count; ++j)
+    {
+      const std::size_t handle = static_cast<std::size_t>(j);
+      layers[j] = given->GetComponent(weights.cells[handle], 0);
+      if (!std::isfinite(layers[j]))
+      {
+        return Status::invalid_input(
+          "the layer of handle '" + weights.handles[handle].name + "' is not a finite number");
+      }
+    }
+  }
+  DepthOrderOptions options;
+  options.tie = this->Tie;
+  DepthOrder order;
+  status = depth_order(weights.weights.view(), layers, options, context, order);
+  if (!status.usable())
+  {
+    return status;
+  }
+  auto depth = vtkSmartPointer<vtkDoubleArray>::New();
+  depth->SetName("Depth");
+  depth->SetNumberOfTuples(order.depth.size());
+  std::copy(order.depth.data(), order.depth.data() + order.depth.size(), depth->GetPointer(0));
+  result->ShallowCopy(mesh);
+  result->GetPointData()->AddArray(depth);
+  status.report.set("counts.vertices", Report::Value(std::int64_t(mesh->GetNumberOfPoints())));
+  status.report.set("counts.handles", count);
+  if (this->Displace)
+  {
+    Points points = to_points(mesh).view();
+    const double scale = this->Scale > 0.0 ? this->Scale : 1e-3 * bounding_box(points).diagonal();
+    points.col(2) += scale * order.front;
+    result->SetPoints(to_vtk_points(points));
+    status.report.set("scale", scale);
+  }
+  return status;
+}
+
+void vtkDepthOrder::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ArrayName: " << this->ArrayName << "\n";
+  os << indent << "LayerArrayName: " << this->LayerArrayName << "\n";
+  os << indent << "Displace: " << (this->Displace ? "on" : "off") << "\n";
+  os << indent << "Scale: " << this->Scale << "\n";
+  os << indent << "Tie: " << this->Tie << "\n";
+}

@@ -1,0 +1,52 @@
+// Glue around the kernel bindpose::MovingLeastSquares.
+#include "vtkMovingLeastSquaresWarp.h"
+
+#include "pose/moving_least_squares.h"
+#include "pose_input.h"
+
+#include "vtkObjectFactory.h"
+
+using namespace bindpose;
+
+vtkStandardNewMacro(vtkMovingLeastSquaresWarp);
+
+struct vtkMovingLeastSquaresWarp::Internals
+{
+  MovingLeastSquares warp;
+};
+
+vtkMovingLeastSquaresWarp::vtkMovingLeastSquaresWarp() : Internal(new Internals) {}
+
+vtkMovingLeastSquaresWarp::~vtkMovingLeastSquaresWarp() = default;
+
+void vtkMovingLeastSquaresWarp::SetExponent(double exponent)
+{
+  if (this->Exponent != exponent)
+  {
+    this->Exponent = exponent;
+    this->BindModified();
+  }
+}
+
+Status vtkMovingLeastSquaresWarp::Bind(const PoseInput& input, ExecutionContext& context)
+{
+  MovingLeastSquaresOptions options;
+  options.exponent = this->Exponent;
+  return this->Internal->warp.bind(context, options, input.points, input.handles);
+}
+
+Status vtkMovingLeastSquaresWarp::Deform(
+  const PoseInput& input, ExecutionContext& context, PosedPoints& posed)
+{
+  Phase phase(context, "warp", 0.8, 1.0);
+  Status status = this->Internal->warp.warp(context, input.handles, input.pose, posed.points);
+  status.report.set("method", "mls");
+  status.report.set("exponent", this->Exponent);
+  return status;
+}
+
+void vtkMovingLeastSquaresWarp::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Exponent: " << this->Exponent << "\n";
+}

@@ -1,0 +1,171 @@
+// Glue around the kernel bindpose::weighted_colors().
+#include "vtkWeightedColors.h"
+
+#include "base/execution.h"
+#include "output_type.h"
+#include "weights/weighted_colors.h"
+#include "weights_input.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <cmath>
+
+using namespace bindpose;
+
+vtkStandardNewMacro(vtkWeightedColors);
+
+namespace
+{
+/// The cells' colours, one row a handle; unsigned chars count 255 as 1.
+Status to_colors(vtkDataArray* array, const WeightsInput& input, Colors& colors)
+{
+  const std::string name = std::string("the handles' array '") + array->GetName() + "'";
+  if (array->GetNumberOfComponents() != 3)
+  {
+    return Status::invalid_input(name + " has " + std::to_string(array->GetNumberOfComponents()) +
+      " components, but a colour has 3");
+  }
+  const double unit = array->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
+  colors.resize(static_cast<Index>(input.handles.size()), 3);
+  for (Index j = 0; j < colors.rows(); ++j)
+  {
+    const std::size_t handle = static_cast<std::size_t>(j);
+    for (int k = 0; k < 3; ++k)
+    {
+      colors(j, k) = array->GetComponent(input.cells[handle], k) / unit;
+      if (!(colors(j, k) >= 0.0 && colors(j, k) <= 1.0))
+      {
+        return Status::invalid_input(name + " has a value outside 0 to 1 at handle '" +
+          input.handles[handle].name + "'; colours from 0 to 255 are unsigned chars");
+      }
+    }
+  }
+  return {};
+}
+
+template <typename Array>
+vtkSmartPointer<Array> make_array(const char* name, int components, Index tuples)
+{
+  auto array = vtkSmartPointer<Array>::New();
+  array->SetName(name);
+  array->SetNumberOfComponents(components);
+  array->SetNumberOfTuples(tuples);
+  return array;
+}
+} // namespace
+
+vtkWeightedColors::vtkWeightedColors()
+{
+  this->SetNumberOfInputPorts(2);
+}
+
+void vtkWeightedColors::SetArrayName(const std::string& name)
+{
+  if (this->ArrayName != name)
+  {
+    this->ArrayName = name;
+    this->Modified();
+  }
+}
+
+void vtkWeightedColors::SetColorArrayName(const std::string& name)
+{
+  if (this->ColorArrayName != name)
+  {
+    this->ColorArrayName = name;
+    this->Modified();
+  }
+}
+
+int vtkWeightedColors::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkPolyData");
+  return 1;
+}
+
+int vtkWeightedColors::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPointSet");
+  return 1;
+}
+
+int vtkWeightedColors::RequestDataObject(
+  vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
+{
+  match_output_type(vtkDataObject::GetData(input[0], 0), output);
+  return 1;
+}
+
+Status vtkWeightedColors::Execute(
+  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+{
+  const Phase phase(context, "blend");
+  vtkPointSet* mesh = vtkPointSet::GetData(input[0]);
+  vtkPolyData* handles = vtkPolyData::GetData(input[1]);
+  vtkPointSet* result = vtkPointSet::GetData(output);
+  WeightsInput weights;
+  Status status = to_weights_input(mesh, this->ArrayName, handles, weights);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const auto count = static_cast<Index>(weights.handles.size());
+  Colors handle_colors = categorical_colors(count);
+  vtkDataArray* given = handles->GetCellData()->GetArray(this->ColorArrayName.c_str());
+  if (given)
+  {
+    status = to_colors(given, weights, handle_colors);
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  WeightedColorsOptions options;
+  options.linear_light = this->LinearLight;
+  options.clamp = this->Clamp;
+  WeightedColors blend;
+  status = weighted_colors(weights.weights.view(), handle_colors, options, context, blend);
+  if (!status.usable())
+  {
+    return status;
+  }
+  const Index rows = blend.colors.rows();
+  const auto bytes = make_array<vtkUnsignedCharArray>("Color", 3, rows);
+  const auto values = make_array<vtkDoubleArray>("ColorValues", 3, rows);
+  const auto outside = make_array<vtkUnsignedCharArray>("OutOfGamut", 1, rows);
+  std::copy(blend.colors.data(), blend.colors.data() + blend.colors.size(), values->GetPointer(0));
+  std::copy(blend.out_of_gamut.begin(), blend.out_of_gamut.end(), outside->GetPointer(0));
+  for (Index i = 0; i < blend.colors.size(); ++i)
+  {
+    const double shown = std::min(1.0, std::max(0.0, blend.colors.data()[i]));
+    bytes->SetValue(i, static_cast<unsigned char>(std::lround(255.0 * shown)));
+  }
+  result->ShallowCopy(mesh);
+  for (vtkDataArray* array : { static_cast<vtkDataArray*>(values.Get()),
+         static_cast<vtkDataArray*>(outside.Get()), static_cast<vtkDataArray*>(bytes.Get()) })
+  {
+    result->GetPointData()->AddArray(array);
+  }
+  result->GetPointData()->SetActiveScalars("Color");
+  status.report.set("counts.vertices", rows);
+  status.report.set("counts.handles", count);
+  status.report.set("colors", given ? this->ColorArrayName : std::string("categorical"));
+  return status;
+}
+
+void vtkWeightedColors::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ArrayName: " << this->ArrayName << "\n";
+  os << indent << "ColorArrayName: " << this->ColorArrayName << "\n";
+  os << indent << "LinearLight: " << (this->LinearLight ? "on" : "off") << "\n";
+  os << indent << "Clamp: " << (this->Clamp ? "on" : "off") << "\n";
+}

@@ -1,0 +1,91 @@
+/**
+ * @class   vtkWeightedColors
+ * @brief   spreads a colour of each handle over a mesh by its weights
+ *
+ * The colour of a point is c = sum_j w_j c_j. With weights between 0 and 1 that sum to one
+ * (vtkBoundedBiharmonicWeights, vtkMonotoneWeights) every colour lies between those of the handles;
+ * unconstrained weights leave the gamut and bring hues that no handle has. The report counts both.
+ *
+ * **Input 0**: a mesh with weights (any vtkPointSet; see vtkWeightsAlgorithm), posed or not.
+ * **Input 1**: the handles, with a cell array `Color` of 3 components: numbers from 0 to 1, or
+ * unsigned chars. Without it each handle gets a colour that is easily told from the others.
+ * **Output**: input 0 with the point arrays
+ * - `Color`: 3 unsigned chars, the active scalars: what a renderer shows as it is;
+ * - `ColorValues`: 3 doubles, the same before rounding, not clamped when Clamp is off;
+ * - `OutOfGamut`: 1 where the blend left 0 to 1, before clamping.
+ *
+ * Report: counts.{vertices, handles, out_of_gamut, beyond_handles}, largest_gamut_violation,
+ * largest_overshoot (see bindpose::weighted_colors()), row_sum_error, colors ("Color" or
+ * "categorical"), seconds.blend. Errors: no weights of that name, weights of other handles or with
+ * a number that is not finite, a `Color` with other than 3 components or with values outside 0 to
+ * 1.
+ *
+ * @sa vtkDepthOrder vtkCutAlongBones
+ */
+
+#ifndef vtkWeightedColors_h
+#define vtkWeightedColors_h
+
+#include "BindposeFiltersModule.h" // for export macro
+#include "vtkBindposeAlgorithm.h"
+
+class BINDPOSEFILTERS_EXPORT vtkWeightedColors : public vtkBindposeAlgorithm
+{
+public:
+  static vtkWeightedColors* New();
+  vtkTypeMacro(vtkWeightedColors, vtkBindposeAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /// Name of the point array of weights; "RawWeights" is one, too. Default "Weights".
+  void SetArrayName(const std::string& name);
+  std::string GetArrayName() { return this->ArrayName; }
+  ///@}
+
+  ///@{
+  /// Name of the handles' cell array of colours. Default "Color".
+  void SetColorArrayName(const std::string& name);
+  std::string GetColorArrayName() { return this->ColorArrayName; }
+  ///@}
+
+  ///@{
+  /// Blend amounts of light instead of sRGB numbers: strong colours do not darken where they meet.
+  /// Default on.
+  vtkSetMacro(LinearLight, bool);
+  vtkGetMacro(LinearLight, bool);
+  vtkBooleanMacro(LinearLight, bool);
+  ///@}
+
+  ///@{
+  /// Cut ColorValues to 0 to 1. Default on. (The unsigned chars of Color always are.)
+  vtkSetMacro(Clamp, bool);
+  vtkGetMacro(Clamp, bool);
+  vtkBooleanMacro(Clamp, bool);
+  ///@}
+
+  /// Handles and their colours: SetInputData(1, handles).
+  void SetHandlesData(vtkDataObject* handles) { this->SetInputData(1, handles); }
+  void SetHandlesConnection(vtkAlgorithmOutput* handles) { this->SetInputConnection(1, handles); }
+
+protected:
+  vtkWeightedColors();
+  ~vtkWeightedColors() override = default;
+
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
+    bindpose::ExecutionContext& context) override;
+
+private:
+  vtkWeightedColors(const vtkWeightedColors&) = delete;
+  void operator=(const vtkWeightedColors&) = delete;
+
+  std::string ArrayName = "Weights";
+  std::string ColorArrayName = "Color";
+  bool LinearLight = true;
+  bool Clamp = true;
+};
+
+#endif

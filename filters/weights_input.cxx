@@ -1,0 +1,77 @@
+// What every filter that uses weights asks of them before it does.
+#include "weights_input.h"
+
+#include "vtkDataArray.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+
+namespace bindpose
+{
+
+Status check_weights(vtkDataArray* weights, vtkIdType points, const Handles& handles)
+{
+  const std::string array = std::string("the array '") + weights->GetName() + "'";
+  if (weights->GetNumberOfTuples() != points)
+  {
+    return Status::invalid_input(array + " has " + std::to_string(weights->GetNumberOfTuples()) +
+      " tuples, but the mesh has " + std::to_string(points) +
+      " points: these are the weights of another mesh");
+  }
+  const int columns = weights->GetNumberOfComponents();
+  if (columns != static_cast<int>(handles.size()))
+  {
+    return Status::invalid_input(array + " has " + std::to_string(columns) +
+      " components, but there are " + std::to_string(handles.size()) + " handles");
+  }
+  for (int j = 0; j < columns; ++j)
+  {
+    const char* name = weights->HasAComponentName() ? weights->GetComponentName(j) : nullptr;
+    if (name && *name && handles[static_cast<std::size_t>(j)].name != name)
+    {
+      return Status::invalid_input(array + " has the weights of a handle '" + name +
+        "' in component " + std::to_string(j) + ", where the handles have '" +
+        handles[static_cast<std::size_t>(j)].name + "': these are the weights of other handles");
+    }
+  }
+  return {};
+}
+
+Status no_weights(vtkPointSet* mesh, const std::string& array_name)
+{
+  std::string names;
+  for (int i = 0; i < mesh->GetPointData()->GetNumberOfArrays(); ++i)
+  {
+    const char* name = mesh->GetPointData()->GetArrayName(i);
+    names += std::string(i ? ", " : "") + (name ? name : "(unnamed)");
+  }
+  return Status::invalid_input("the mesh has no point array '" + array_name +
+    "' with weights (its point arrays: " + (names.empty() ? "none" : names) + ")");
+}
+
+Status to_weights_input(
+  vtkPointSet* mesh, const std::string& array_name, vtkPolyData* handles, WeightsInput& input)
+{
+  if (!mesh || mesh->GetNumberOfPoints() == 0)
+  {
+    return Status::invalid_input("the mesh with weights is empty");
+  }
+  vtkDataArray* weights = mesh->GetPointData()->GetArray(array_name.c_str());
+  if (!weights)
+  {
+    return no_weights(mesh, array_name);
+  }
+  if (!handles)
+  {
+    return Status::invalid_input("there is no handle");
+  }
+  Status status = to_handles(handles, input.handles, &input.cells);
+  if (status.ok())
+  {
+    status = check_weights(weights, mesh->GetNumberOfPoints(), input.handles);
+  }
+  input.weights = to_matrix(weights);
+  return status;
+}
+
+} // namespace bindpose

@@ -1,0 +1,202 @@
+"""What weights are good for beside poses: colours, depth, curves with two sides."""
+
+import numpy as np
+from vtkmodules.util import numpy_support
+
+from . import BindposeFilters as filters
+from .errors import InvalidInput
+from .handle_sets import to_handles
+from .meshes import Array, add_point_array, is_dataset, point_array, shallow_copy, to_dataset
+from .running import run
+
+
+def _names(handles):
+    """Names of the handles that have one."""
+    array = handles.GetCellData().GetAbstractArray("HandleName")
+    return [array.GetValue(i) for i in range(array.GetNumberOfValues())] if array else []
+
+
+def _with_cell_values(handles, array_name, values, components):
+    """A copy of the handle dataset with a value for each cell: a sequence, or {name: value} of all that have one."""
+    count = handles.GetNumberOfCells()
+    shape = (count, components) if components > 1 else (count,)
+    if isinstance(values, dict):
+        names = _names(handles)
+        unknown = [name for name in values if name not in names]
+        if unknown:
+            raise InvalidInput(f"there is no handle {unknown[0]!r}")
+        filled = np.zeros(shape)
+        for name, value in values.items():
+            try:
+                filled[names.index(name)] = value
+            except (TypeError, ValueError):
+                raise InvalidInput(f"{array_name} of handle {name!r} is {components} numbers, not {value!r}") from None
+        if components > 1 and len(values) < count:
+            missing = next(name for name in names if name not in values)
+            raise InvalidInput(f"handle {missing!r} has no {array_name}")
+        values = filled
+    values = np.asarray(values)
+    if values.shape != shape or values.dtype.kind not in "iufb":
+        raise InvalidInput(f"{array_name} is an array of numbers {' x '.join(map(str, shape))}, one a handle")
+    if values.dtype != np.uint8:
+        values = values.astype(float)
+    copy = shallow_copy(handles)
+    array = numpy_support.numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+    array.SetName(array_name)
+    copy.GetCellData().AddArray(array)
+    return copy
+
+
+def _inputs(mesh, handles, weights, array_name):
+    data = to_dataset(mesh)
+    if weights is not None:
+        data = shallow_copy(data)
+        add_point_array(data, array_name, np.asarray(weights, dtype=float), getattr(weights, "names", ()))
+    return data, to_handles(handles, data)
+
+
+def weighted_colors(mesh, handles, colors=None, *, weights=None, array_name="Weights", linear_light=True, clamp=True,
+                    threads=0, progress=None):
+    """Spread a colour of each handle over a mesh by its weights.
+
+    Parameters
+    ----------
+    mesh : vtkDataSet or (vertices, elements)
+        A dataset with weights, or arrays beside `weights`.
+    handles : vtkPolyData, str or path-like
+        The handles that the weights were made for.
+    colors : (#handles, 3) array or dict, optional
+        From 0 to 1 (or unsigned bytes), one a handle, or ``{name: (r, g, b)}``. Default: the handles' cell
+        array ``Color``; without that each handle gets a colour that is easily told from the others.
+    weights : (#V, #handles) array, optional
+        For a mesh of arrays.
+    array_name : str
+        Point array of weights; ``RawWeights`` is one, too.
+    linear_light : bool
+        Blend amounts of light instead of sRGB numbers: strong colours do not darken where they meet.
+    clamp : bool
+        Cut the result to 0 to 1.
+    threads, progress
+        See `winding_number`.
+
+    Returns
+    -------
+    Array or vtkDataSet
+        (#V, 3) colours from 0 to 1 for arrays; for a dataset a copy with the point arrays ``Color``
+        (bytes, ready to be shown), ``ColorValues`` and ``OutOfGamut``. The report counts the points that
+        left the gamut (``counts.out_of_gamut``) or the handles' colours (``counts.beyond_handles``).
+
+    Raises
+    ------
+    InvalidInput
+        Weights or colours that do not fit.
+    """
+    data, handle_data = _inputs(mesh, handles, weights, array_name)
+    if colors is not None:
+        handle_data = _with_cell_values(handle_data, "Color", colors, 3)
+    painter = filters.vtkWeightedColors()
+    painter.SetInputData(0, data)
+    painter.SetInputData(1, handle_data)
+    painter.SetArrayName(array_name)
+    painter.SetLinearLight(bool(linear_light))
+    painter.SetClamp(bool(clamp))
+    painter.SetNumberOfThreads(threads)
+    report = run(painter, progress)
+    result = painter.GetOutput()
+    return result if is_dataset(mesh) else Array(point_array(result, "ColorValues"), report)
+
+
+def depth_order(mesh, handles, layers=None, *, weights=None, array_name="Weights", displace=True, scale=0.0, tie=1e-3,
+                threads=0, progress=None):
+    """Depth of a planar shape by its handles' layers: what is in front where a pose makes it overlap.
+
+    Parameters
+    ----------
+    mesh : vtkDataSet or (vertices, elements)
+        A dataset with weights, usually posed; or arrays beside `weights`.
+    handles : vtkPolyData, str or path-like
+        The handles that the weights were made for.
+    layers : sequence or dict, optional
+        A number each, larger in front; of a dict, handles that are not named have 0. Default: the
+        handles' cell array ``Layer``, else all 0.
+    weights, array_name
+        See `weighted_colors`.
+    displace : bool
+        Of a dataset: move points along z by their depth, for a depth buffer.
+    scale : float
+        Length of one layer along z; 0 for a thousandth of the mesh's diagonal.
+    tie : float
+        How much of a layer the last handle is before the first where layers are equal (along z only).
+    threads, progress
+        See `winding_number`.
+
+    Returns
+    -------
+    Array or vtkDataSet
+        (#V,) depths for arrays; for a dataset a copy with the point array ``Depth``.
+
+    Raises
+    ------
+    InvalidInput
+        Weights or layers that do not fit.
+    """
+    data, handle_data = _inputs(mesh, handles, weights, array_name)
+    if layers is not None:
+        handle_data = _with_cell_values(handle_data, "Layer", layers, 1)
+    if not scale >= 0 or not tie >= 0:
+        raise InvalidInput(f"scale and tie are at least 0, not {scale} and {tie}")
+    order = filters.vtkDepthOrder()
+    order.SetInputData(0, data)
+    order.SetInputData(1, handle_data)
+    order.SetArrayName(array_name)
+    order.SetDisplace(bool(displace))
+    order.SetScale(scale)
+    order.SetTie(tie)
+    order.SetNumberOfThreads(threads)
+    report = run(order, progress)
+    result = order.GetOutput()
+    return result if is_dataset(mesh) else Array(point_array(result, "Depth"), report)
+
+
+def cut_along_bones(shape, handles, left=None, right=None, *, curves=None, progress=None):
+    """Open a planar mesh along bones and make a handle of each side: curves with two colours.
+
+    Parameters
+    ----------
+    shape : vtkPolyData or (vertices, triangles)
+        In a plane z = const, with edges along the bones: see `planar_shape` and its `handles`.
+    handles : vtkPolyData, str or path-like
+        Bones are cut along, seen from head to tail; all others are handed on.
+    left, right : (#handles, 3) array or dict, optional
+        Colours of the bones' sides, one a handle or ``{name: (r, g, b)}``, both or none. Default: the
+        handles' cell arrays ``LeftColor`` and ``RightColor``.
+    curves : sequence of int or dict, optional
+        A number each: bones with the same one are one curve, with the colours of its first bone. Default: the
+        handles' cell array ``Curve``; without that each bone is a curve.
+    progress
+        See `winding_number`.
+
+    Returns
+    -------
+    shape, handles : vtkPolyData
+        The cut mesh, with the label ``RegionId`` of each side, and regions ``NAME left`` and
+        ``NAME right`` with their ``Color``: what `weights` (``domain="surface"``) and
+        `weighted_colors` take.
+
+    Raises
+    ------
+    InvalidInput
+        A bone that is not a row of edges of the mesh; the text names it.
+    """
+    data = to_dataset(shape)
+    handle_data = to_handles(handles, data)
+    for array_name, values in (("LeftColor", left), ("RightColor", right)):
+        if values is not None:
+            handle_data = _with_cell_values(handle_data, array_name, values, 3)
+    if curves is not None:
+        handle_data = _with_cell_values(handle_data, "Curve", curves, 1)
+    knife = filters.vtkCutAlongBones()
+    knife.SetInputData(0, data)
+    knife.SetInputData(1, handle_data)
+    run(knife, progress)
+    return knife.GetOutput(0), knife.GetOutput(1)

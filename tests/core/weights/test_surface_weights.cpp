@@ -1,0 +1,333 @@
+// Weights of surfaces by their volume and by a lattice: against the stages by hand, against each
+// other, on parts that are near but not connected, and the choice between them.
+#include "weights/bounded_biharmonic_weights.h"
+#include "weights/embedded_surface.h"
+#include "weights/surface_weights.h"
+#include "weights/transfer.h"
+#include "weights/unconstrained_weights.h"
+
+#include "support/needs_mesher.h"
+#include "weights_shapes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace bindpose;
+using testing::HasSubstr;
+
+namespace
+{
+using SurfaceWeightsInTets = test::NeedsMesher;
+
+Status bounded(const WeightsProblem& problem, ExecutionContext& context, WeightsResult& result)
+{
+  return bounded_biharmonic_weights(problem, {}, context, result);
+}
+
+Status solve(const TriangleMesh& mesh, const Handles& handles, const SurfaceWeightsOptions& options,
+  SurfaceWeights& result, int threads = 0)
+{
+  ExecutionContext context;
+  context.set_threads(threads);
+  return surface_weights(
+    mesh.points, mesh.triangles, {}, handles, options, {}, bounded, context, result);
+}
+
+SurfaceWeightsOptions in(WeightsDomain domain, Index resolution = 0)
+{
+  SurfaceWeightsOptions options;
+  options.domain = domain;
+  options.resolution = resolution;
+  return options;
+}
+
+double rms(const Weights& a, const Weights& b)
+{
+  return std::sqrt((a - b).squaredNorm() / static_cast<double>(a.size()));
+}
+
+/// [0, 4] x [0, 1] x [0, 1], squares of 1/8.
+TriangleMesh long_box()
+{
+  return { test::tet_box(32, 8, 8, Vec3::Zero(), Vec3(4, 1, 1)).points,
+    boundary_triangles(test::tet_box(32, 8, 8, Vec3::Zero(), Vec3(4, 1, 1)).tets) };
+}
+
+Handles three_along()
+{
+  return { test::point_handle("left", { 0.3, 0.5, 0.5 }),
+    test::point_handle("right", { 3.7, 0.45, 0.55 }),
+    test::bone_handle("middle", { 1.5, 0.5, 0.5 }, { 2.5, 0.5, 0.5 }) };
+}
+
+void expect_weights(const Weights& weights, Index rows, Index columns)
+{
+  ASSERT_EQ(weights.rows(), rows);
+  ASSERT_EQ(weights.cols(), columns);
+  EXPECT_GE(weights.minCoeff(), 0.0);
+  EXPECT_LE(weights.maxCoeff(), 1.0);
+  EXPECT_LT((weights.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-12);
+}
+} // namespace
+
+TEST_F(SurfaceWeightsInTets, OfTheVolumeAreTheStagesByHand)
+{
+  const TriangleMesh mesh = long_box();
+  SurfaceWeights result;
+  Status status = solve(mesh, three_along(), in(WeightsDomain::volume), result);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(status.report.text("domain"), "volume");
+  EXPECT_EQ(status.report.text("tetrahedralize.method"), "cdt");
+  expect_weights(result.weights, mesh.points.rows(), 3);
+
+  ExecutionContext context;
+  TetrahedralizeResult tets;
+  ASSERT_TRUE(tetrahedralize(mesh.points, mesh.triangles, {}, tets, context).ok());
+  WeightsProblem problem;
+  ASSERT_TRUE(
+    make_weights_problem(test::to_domain(tets.mesh), {}, three_along(), {}, context, problem).ok());
+  WeightsResult solved;
+  ASSERT_TRUE(bounded(problem, context, solved).ok());
+  Weights carried;
+  TransferCounts counts;
+  ASSERT_TRUE(
+    transfer(problem.mesh.domain, solved.weights, mesh.points, {}, context, carried, counts).ok());
+  EXPECT_TRUE((carried.array() == result.weights.array()).all());
+}
+
+TEST(SurfaceWeights, OfTheEmbeddingAreNearThoseOfAFineVolume)
+{
+  const TriangleMesh mesh = long_box();
+  const TetMesh fine = test::tet_box(48, 12, 12, Vec3::Zero(), Vec3(4, 1, 1));
+  ExecutionContext context;
+  WeightsProblem problem;
+  ASSERT_TRUE(
+    make_weights_problem(test::to_domain(fine), {}, three_along(), {}, context, problem).ok());
+  WeightsResult solved;
+  ASSERT_TRUE(bounded(problem, context, solved).ok());
+  Weights truth;
+  TransferCounts counts;
+  ASSERT_TRUE(
+    transfer(problem.mesh.domain, solved.weights, mesh.points, {}, context, truth, counts).ok());
+
+  SurfaceWeights result;
+  const Status status = solve(mesh, three_along(), in(WeightsDomain::embedding), result);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(status.report.text("domain"), "embedding");
+  expect_weights(result.weights, mesh.points.rows(), 3);
+  EXPECT_LE(rms(result.weights, truth), 0.015);
+  EXPECT_LE(status.report.number("guard.rms_difference", 1.0), 0.02);
+  EXPECT_LT(status.report.number("guard.resolution", 0.0),
+    status.report.number("embedding.resolution", 0.0));
+  for (const WeightsColumn& column : result.solved.columns)
+  {
+    EXPECT_LE(column.certificate.relative_gap, 1e-6);
+  }
+}
+
+TEST(SurfaceWeights, ProngsThatAreNearButNotConnectedDoNotShareWeights)
+{
+  // Two prongs of a fork, 1/20 apart, on a lattice of cubes of 1/3: joined at their base only.
+  TriangleMesh fork =
+    test::join(TriangleMesh{ test::tet_box(32, 4, 4, Vec3::Zero(), Vec3(4, 0.5, 0.5)).points,
+                 boundary_triangles(test::tet_box(32, 4, 4).tets) },
+      TriangleMesh{ test::tet_box(32, 4, 4, Vec3(0, 0.55, 0), Vec3(4, 1.05, 0.5)).points,
+        boundary_triangles(test::tet_box(32, 4, 4).tets) });
+  fork = test::join(fork,
+    TriangleMesh{ test::tet_box(4, 8, 4, Vec3(-0.5, -0.01, -0.01), Vec3(0.1, 1.06, 0.51)).points,
+      boundary_triangles(test::tet_box(4, 8, 4).tets) });
+  const Handles handles{ test::point_handle("base", { -0.3, 0.5, 0.25 }),
+    test::point_handle("a", { 3.8, 0.25, 0.25 }), test::point_handle("b", { 3.8, 0.8, 0.25 }) };
+  SurfaceWeights result;
+  const Status status = solve(fork, handles, in(WeightsDomain::embedding, 13), result);
+  ASSERT_TRUE(status.usable()) << status.message;
+  for (Index v = 0; v < fork.points.rows(); ++v)
+  {
+    const Vec3 p = fork.points.row(v);
+    if (p[0] > 3.0)
+    {
+      const bool of_a = p[1] < 0.52;
+      EXPECT_GT(result.weights(v, of_a ? 1 : 2), 0.9) << p.transpose();
+      EXPECT_LT(result.weights(v, of_a ? 2 : 1), 0.05) << p.transpose();
+    }
+  }
+}
+
+TEST(SurfaceWeights, BonesInPartsThatShareTetsFindTheirOwn)
+{
+  // A bone in each of two slabs that lie in the same tets of the lattice.
+  const TriangleMesh below{ test::tet_box(16, 16, 1, Vec3::Zero(), Vec3(4, 4, 0.1)).points,
+    boundary_triangles(test::tet_box(16, 16, 1).tets) };
+  const TriangleMesh slabs = test::join(below, test::translated(below, Vec3(0, 0, 0.15)));
+  SurfaceWeights result;
+  const Status status = solve(slabs,
+    { test::bone_handle("low", { 0.5, 2, 0.05 }, { 3.5, 2, 0.05 }),
+      test::bone_handle("high", { 0.5, 2, 0.2 }, { 3.5, 2, 0.2 }) },
+    in(WeightsDomain::embedding, 8), result);
+  ASSERT_TRUE(status.usable()) << status.message;
+  const Index half = below.points.rows();
+  EXPECT_GT(result.weights.col(0).head(half).minCoeff(), 1.0 - 1e-6);
+  EXPECT_GT(result.weights.col(1).tail(half).minCoeff(), 1.0 - 1e-6);
+}
+
+TEST(SurfaceWeights, CarriesSmoothFunctionsBetterThanTetsDo)
+{
+  const TriangleMesh ball = test::sphere(4);
+  ExecutionContext context;
+  const WindingNumber winding(ball.points, ball.triangles);
+  EmbeddingTets lattice;
+  EmbeddingOptions options;
+  options.resolution = 8;
+  ASSERT_TRUE(embed_surface(ball.points, ball.triangles, winding, options, lattice, context).ok());
+  const EmbeddedSurface embedded(ball.points, ball.triangles, lattice.mesh, lattice.binding);
+  HandleInsertion mesh;
+  ASSERT_TRUE(insert_handles(EmbeddedSurface::domain(lattice.mesh, lattice.inside_fractions),
+    { test::point_handle("p", Vec3::Zero()) }, {}, context, mesh)
+                .ok());
+  const auto f = [](const Vec3& p) { return 0.5 + 0.4 * std::sin(2.0 * p[0] + p[1]); };
+  Weights values(mesh.domain.points.rows(), 2);
+  for (Index v = 0; v < values.rows(); ++v)
+  {
+    values.row(v) << f(mesh.domain.points.row(v)), 0.25;
+  }
+  Weights carried;
+  ASSERT_TRUE(embedded.carry(mesh, values, context, carried).ok());
+  double linear = 0.0, smooth = 0.0;
+  for (Index i = 0; i < ball.points.rows(); ++i)
+  {
+    const double exact = f(ball.points.row(i));
+    double by_tet = 0.0;
+    for (int k = 0; k < 4; ++k)
+    {
+      by_tet += lattice.binding.coordinates(i, k) *
+        f(lattice.mesh.points.row(lattice.mesh.tets(lattice.binding.tets[i], k)));
+    }
+    linear += (by_tet - exact) * (by_tet - exact);
+    smooth += (carried(i, 0) - exact) * (carried(i, 0) - exact);
+    EXPECT_NEAR(carried(i, 1), 0.25, 1e-9);
+  }
+  EXPECT_LT(smooth, 0.25 * linear) << "half the error of linear interpolation, at most";
+}
+
+TEST_F(SurfaceWeightsInTets, AutomaticallyChoosesTheDomain)
+{
+  const Handles handles = three_along();
+  SurfaceWeights result;
+  Status status = solve(long_box(), handles, {}, result);
+  EXPECT_EQ(result.domain, WeightsDomain::volume);
+  EXPECT_EQ(status.report.text("domain_reason"), "the surface is small");
+
+  const TriangleMesh flat = test::grid(16, 4, 4.0, 1.0);
+  status = solve(flat, { handles[0], handles[1] }, {}, result);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(result.domain, WeightsDomain::surface);
+  expect_weights(result.weights, flat.points.rows(), 2);
+
+  TriangleMesh sheet = flat;
+  sheet.points.col(2) = 1e-2 * sheet.points.col(0).array().square();
+  status = solve(sheet, { handles[0], handles[1] }, {}, result);
+  ASSERT_TRUE(status.usable()) << status.message;
+  EXPECT_EQ(result.domain, WeightsDomain::embedding);
+  EXPECT_EQ(status.report.text("tetrahedralize.fallback"), "embed");
+  ASSERT_FALSE(status.warnings.empty());
+  EXPECT_THAT(status.warnings.front(), HasSubstr("could not be filled"));
+  expect_weights(result.weights, sheet.points.rows(), 2);
+
+  status = solve(sheet, { handles[0], handles[1] }, in(WeightsDomain::volume), result);
+  EXPECT_FALSE(status.usable());
+
+  const TriangleMesh dense = test::sphere(5, 2.0, Vec3(2, 0, 0));
+  ASSERT_GT(dense.triangles.rows(), 20000);
+  status = solve(dense, handles, {}, result);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(result.domain, WeightsDomain::embedding);
+  EXPECT_EQ(status.report.text("domain_reason"), "the surface is dense");
+}
+
+TEST(SurfaceWeights, PreviewComesFirstAndItsDifferenceIsReported)
+{
+  const TriangleMesh mesh = long_box();
+  SurfaceWeightsOptions options = in(WeightsDomain::embedding, 24);
+  Weights preview;
+  int calls = 0;
+  bool solved_before = false;
+  bool solved = false;
+  options.preview = [&](const Weights& weights)
+  {
+    preview = weights;
+    ++calls;
+    solved_before = solved;
+  };
+  ExecutionContext context;
+  SurfaceWeights result;
+  const Status status = surface_weights(
+    mesh.points, mesh.triangles, {}, three_along(), options, {},
+    [&](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
+    {
+      solved = true;
+      return bounded(problem, of_method, weights);
+    },
+    context, result);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(calls, 1);
+  EXPECT_FALSE(solved_before);
+  expect_weights(preview, mesh.points.rows(), 3);
+  EXPECT_EQ(status.report.number("preview.max_difference", -1.0),
+    (preview - result.weights).cwiseAbs().maxCoeff());
+  EXPECT_LT(rms(preview, result.weights), 0.05);
+}
+
+TEST(SurfaceWeights, AreTheSameBitsOnAnyNumberOfThreads)
+{
+  SurfaceWeights one, many;
+  ASSERT_TRUE(solve(long_box(), three_along(), in(WeightsDomain::embedding, 16), one, 1).usable());
+  ASSERT_TRUE(solve(long_box(), three_along(), in(WeightsDomain::embedding, 16), many, 4).usable());
+  EXPECT_TRUE((one.weights.array() == many.weights.array()).all());
+}
+
+TEST(SurfaceWeights, UnboundedMethodsAreNotClamped)
+{
+  ExecutionContext context;
+  SurfaceWeights result;
+  const TriangleMesh mesh = long_box();
+  const Handles handles{ test::point_handle("left", { 0.1, 0.5, 0.5 }),
+    test::point_handle("middle", { 2.0, 0.5, 0.5 }),
+    test::point_handle("right", { 3.9, 0.5, 0.5 }) };
+  SurfaceWeightsOptions options = in(WeightsDomain::embedding, 24);
+  options.guard = false;
+  const Status status = surface_weights(
+    mesh.points, mesh.triangles, {}, handles, options, {},
+    [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
+    { return unconstrained_weights(problem, {}, of_method, weights); },
+    context, result);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_LT(result.weights.col(0).minCoeff(), -0.05) << "-1/9 on a thin bar";
+  EXPECT_EQ(status.report.find("guard.resolution"), nullptr);
+}
+
+TEST(SurfaceWeights, RefusesWhatItCannotUse)
+{
+  SurfaceWeights result;
+  const TriangleMesh mesh = test::sphere(2);
+  const Handles handles{ test::point_handle("p", { 0, 0, 0.5 }) };
+  EXPECT_THAT(solve(mesh, handles, in(WeightsDomain::embedding, 3), result).message,
+    HasSubstr("between 6 and 1000"));
+  EXPECT_EQ(solve(mesh, {}, {}, result).code, StatusCode::invalid_input);
+  ExecutionContext context;
+  const std::vector<Index> regions(static_cast<std::size_t>(mesh.points.rows()), 1);
+  Status status = surface_weights(mesh.points, mesh.triangles, regions,
+    { test::region_handle("r", 1) }, in(WeightsDomain::embedding), {}, bounded, context, result);
+  EXPECT_THAT(status.message, HasSubstr("regions need tets"));
+  status = surface_weights(
+    mesh.points, mesh.triangles, { 1, 2 }, handles, {}, {}, bounded, context, result);
+  EXPECT_THAT(status.message, HasSubstr("2 region labels"));
+  SurfaceWeightsOptions cancelled = in(WeightsDomain::embedding);
+  ExecutionContext stopped;
+  stopped.request_cancel();
+  EXPECT_EQ(surface_weights(
+              mesh.points, mesh.triangles, {}, handles, cancelled, {}, bounded, stopped, result)
+              .code,
+    StatusCode::cancelled);
+}

@@ -1,0 +1,150 @@
+"""Colours, depth and cuts on arrays and datasets: the formulas, and exceptions."""
+
+import bindpose
+import numpy as np
+import pytest
+import shapes
+from bindpose.meshes import add_point_array, point_array, points_of, to_dataset, triangles_of
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+BAR = shapes.bar()
+BONES = [[[0.5, 0.5, 0.5], [3, 0.5, 0.5]], [[3, 0.5, 0.5], [5.5, 0.5, 0.5]]]
+X = np.array(BAR[0])[:, 0] / 6
+LINEAR = np.stack([1 - X, X], axis=1)
+
+
+def bar_with_weights():
+    mesh = to_dataset(BAR)
+    add_point_array(mesh, "Weights", LINEAR, ["b1", "b2"])
+    return mesh
+
+
+def test_colours_are_the_weights_sum():
+    handles = bindpose.handles(bones=BONES)
+    ends = np.array([[0.9, 0.2, 0.0], [0.1, 0.4, 1.0]])
+    values = bindpose.weighted_colors(BAR, handles, ends, weights=LINEAR, linear_light=False)
+    assert values == pytest.approx(LINEAR @ ends, abs=1e-14)
+    report = bindpose.report(values)
+    assert report["counts"]["out_of_gamut"] == 0 and report["counts"]["beyond_handles"] == 0
+    named = bindpose.weighted_colors(BAR, handles, {"b2": ends[1], "b1": ends[0]}, weights=LINEAR, linear_light=False)
+    assert np.array_equal(named, values)
+
+    mesh = bar_with_weights()
+    painted = bindpose.weighted_colors(mesh, handles, ends, linear_light=False)
+    assert isinstance(painted, vtkPolyData)
+    assert np.array_equal(point_array(painted, "ColorValues"), values)
+    assert point_array(painted, "Color").dtype == np.uint8
+    assert np.abs(point_array(painted, "Color") - 255 * values).max() <= 0.5 + 1e-9
+    assert painted.GetPointData().GetScalars().GetName() == "Color"
+    assert point_array(mesh, "Color") is None  # the caller's stays as it is
+
+
+def test_colours_in_light_or_bytes_or_none():
+    handles = bindpose.handles(bones=BONES)
+    half = np.full((len(X), 2), 0.5)
+    grey = bindpose.weighted_colors(BAR, handles, np.array([[0] * 3, [255] * 3], dtype=np.uint8), weights=half)
+    assert np.array_equal(np.rint(255 * grey), np.full((len(X), 3), 188))  # half the light, by the standard
+    palette = bindpose.weighted_colors(BAR, handles, weights=LINEAR)
+    assert bindpose.report(palette)["colors"] == "categorical"
+
+
+def test_what_leaves_the_gamut_is_counted():
+    handles = bindpose.handles(bones=BONES)
+    beyond = np.stack([1.25 - 1.5 * X, 1.5 * X - 0.25], axis=1)
+    black_white = [[0, 0, 0], [1, 1, 1]]
+    cut = bindpose.weighted_colors(BAR, handles, black_white, weights=beyond)
+    kept = bindpose.weighted_colors(BAR, handles, black_white, weights=beyond, clamp=False)
+    assert cut.min() == 0 and cut.max() == 1 and kept.min() < 0 and kept.max() > 1
+    outside = int(((beyond < 0) | (beyond > 1)).any(axis=1).sum())
+    assert outside > 0
+    assert bindpose.report(kept)["counts"]["out_of_gamut"] == outside
+    assert bindpose.report(kept)["largest_gamut_violation"] == pytest.approx(0.25, abs=1e-12)
+
+
+def test_depth_is_the_weights_sum_and_moves_points():
+    handles = bindpose.handles(bones=BONES)
+    depth = bindpose.depth_order(BAR, handles, [0, 3], weights=LINEAR)
+    assert depth == pytest.approx(3 * X, abs=1e-14)
+    assert np.array_equal(bindpose.depth_order(BAR, handles, {"b2": 3}, weights=LINEAR), depth)
+    mesh = bar_with_weights()
+    moved = bindpose.depth_order(mesh, handles, [0, 3], scale=0.5, tie=0)
+    rest = np.array(BAR[0])
+    assert points_of(moved) == pytest.approx(rest + np.outer(1.5 * X, [0, 0, 1]), abs=1e-14)
+    still = bindpose.depth_order(mesh, handles, [0, 3], displace=False)
+    assert np.array_equal(points_of(still), rest) and np.array_equal(point_array(still, "Depth"), depth)
+    equal = bindpose.depth_order(mesh, handles, [2, 2], tie=0)
+    assert (point_array(equal, "Depth") == 2).all()
+
+
+def square(n=8):
+    """n x n squares on the unit square."""
+    at = np.linspace(0, 1, n + 1)
+    x, y = np.meshgrid(at, at)
+    first = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+    right, up = first + 1, first + n + 1
+    return (np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1),
+            np.concatenate([np.stack([first, right, up + 1], axis=1), np.stack([first, up + 1, up], axis=1)]))
+
+
+def test_a_curve_has_two_colours():
+    bone = bindpose.handles(bones=[[[0.25, 0.5, 0], [0.75, 0.5, 0]]], names=["curve"])
+    mesh, sides = bindpose.cut_along_bones(square(), bone, left=[[1, 0, 0]], right={"curve": (0, 0, 1)})
+    assert sides.GetNumberOfCells() == 2 and mesh.GetNumberOfPoints() == 81 + 3
+    weighted = bindpose.weights(mesh, sides, domain="surface")
+    painted = bindpose.weighted_colors(weighted, sides)
+    values, labels = point_array(painted, "ColorValues"), point_array(painted, "RegionId")
+    assert (labels == 1).sum() == 3 and (labels == 2).sum() == 3
+    assert values[labels == 1] == pytest.approx(np.array([[1, 0, 0]] * 3), abs=1e-12)
+    assert values[labels == 2] == pytest.approx(np.array([[0, 0, 1]] * 3), abs=1e-12)
+    # Above is nearer to the left side, below to the right one: no leak through the curve.
+    centres = points_of(painted)[triangles_of(painted)].mean(axis=1)
+    red = values[triangles_of(painted)][:, :, 0].mean(axis=1)
+    near = (np.abs(centres[:, 1] - 0.5) < 0.1) & (np.abs(centres[:, 0] - 0.5) < 0.15)
+    assert near.sum() > 4
+    assert ((red > 0.5) == (centres[:, 1] > 0.5))[near].all()
+
+
+def test_bones_of_one_curve_share_their_sides():
+    corners = np.array([[0.25, 0.25, 0], [0.75, 0.25, 0], [0.75, 0.75, 0], [0.25, 0.75, 0]])
+    ring = bindpose.handles(bones=list(zip(corners, np.roll(corners, -1, axis=0))), parents=[-1] * 4)
+    inside, outside = [[1, 0.9, 0.2]] * 4, [[0.2, 0.3, 0.6]] * 4
+    mesh, sides = bindpose.cut_along_bones(square(), ring, inside, outside, curves=[0, 0, 0, 0])
+    assert sides.GetNumberOfCells() == 2 and mesh.GetNumberOfPoints() == 81 + 16
+    painted = bindpose.weighted_colors(bindpose.weights(mesh, sides, domain="surface"), sides)
+    # Closed curves fill what they enclose with their colour.
+    values, places = point_array(painted, "ColorValues"), points_of(painted)
+    enclosed = (np.abs(places[:, :2] - 0.5) < 0.25 - 1e-9).all(axis=1)
+    assert enclosed.sum() == 9
+    assert values[enclosed] == pytest.approx(np.array([inside[0]] * 9), abs=1e-9)
+
+
+@pytest.mark.parametrize("call, words", [
+    (lambda h: bindpose.weighted_colors(BAR, h, [[0, 0, 0]], weights=LINEAR), "2 x 3"),
+    (lambda h: bindpose.weighted_colors(BAR, h, {"b1": (0, 0, 0)}, weights=LINEAR), "'b2'"),
+    (lambda h: bindpose.weighted_colors(BAR, h, {"b1": (0, 0, 0), "b3": (0, 0, 0)}, weights=LINEAR), "'b3'"),
+    (lambda h: bindpose.weighted_colors(BAR, h, {"b1": "red", "b2": (0, 0, 0)}, weights=LINEAR), "'red'"),
+    (lambda h: bindpose.weighted_colors(BAR, h, [[0, 0, 0], [0, 0, 255]], weights=LINEAR), "unsigned"),
+    (lambda h: bindpose.weighted_colors(BAR, h, weights=LINEAR[:, :1]), "1 components"),
+    (lambda h: bindpose.weighted_colors(BAR, h), "'Weights'"),
+    (lambda h: bindpose.depth_order(BAR, h, [1], weights=LINEAR), "Layer"),
+    (lambda h: bindpose.depth_order(BAR, h, [1, float("nan")], weights=LINEAR), "'b2'"),
+    (lambda h: bindpose.depth_order(BAR, h, scale=-1, weights=LINEAR), "scale"),
+    (lambda h: bindpose.cut_along_bones(BAR, h), "plane"),
+    (lambda h: bindpose.cut_along_bones(square(), h), "'b1'"),
+    (lambda h: bindpose.cut_along_bones(square(), h, left=[[0, 0, 0]] * 2), "both"),
+    (lambda h: bindpose.deform(BAR, h, {"handles": {}}, method="mls", exponent=0.5), "exponent"),
+])
+def test_what_is_wrong_is_one_sentence(call, words):
+    with pytest.raises(bindpose.InvalidInput, match=words):
+        call(bindpose.handles(bones=BONES))
+
+
+def test_moving_least_squares_needs_no_weights():
+    handles = bindpose.handles(points=[[0, 0, 0], [6, 0, 0], [3, 1, 1]])
+    turn = {"rotate": {"axis": [0, 0, 1], "degrees": 90}}
+    # Each about itself, so the others have to move where the first takes them.
+    pose = {"handles": {"p1": turn, "p2": {**turn, "translate": [-6, 6, 0]}, "p3": {**turn, "translate": [-4, 2, 0]}}}
+    posed = bindpose.deform(BAR, handles, pose, method="mls")
+    rest = np.array(BAR[0])
+    assert posed == pytest.approx(np.stack([-rest[:, 1], rest[:, 0], rest[:, 2]], axis=1), abs=1e-12)
+    assert posed.report["method"] == "mls"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace bindpose
 {
@@ -93,6 +94,44 @@ void find_components(const Domain& domain, HandleConstraints& result)
       }
     }
   }
+}
+
+/// Makes one part of all parts that hold vertices of the same label > 0.
+void join_components(const std::vector<Index>& labels, Components& components)
+{
+  std::vector<Index> part(static_cast<std::size_t>(components.count));
+  std::iota(part.begin(), part.end(), Index(0));
+  const auto find = [&](Index c)
+  {
+    while (part[c] != c)
+    {
+      c = part[c];
+    }
+    return c;
+  };
+  std::map<Index, Index> part_of_label;
+  for (std::size_t v = 0; v < labels.size(); ++v)
+  {
+    const Index c = components.of_vertex[v];
+    if (labels[v] > 0 && c >= 0)
+    {
+      const Index own = find(c);
+      const Index other = find(part_of_label.insert({ labels[v], own }).first->second);
+      part[std::max(own, other)] = std::min(own, other);
+    }
+  }
+  std::vector<Index> renumbered(part.size(), -1);
+  Index count = 0;
+  for (std::size_t c = 0; c < part.size(); ++c)
+  {
+    const Index root = find(static_cast<Index>(c));
+    renumbered[c] = root == static_cast<Index>(c) ? count++ : renumbered[root];
+  }
+  for (Index& c : components.of_vertex)
+  {
+    c = c < 0 ? c : renumbered[c];
+  }
+  components.count = count;
 }
 
 void tether_components(const Domain& domain, const Handles& handles,
@@ -192,12 +231,16 @@ Status give_every_handle_a_vertex(const Handles& handles,
 } // namespace
 
 Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
-  const std::vector<Index>& region_ids, HandleConstraints& result)
+  const std::vector<Index>& region_ids, HandleConstraints& result, const std::vector<Index>& joined)
 {
   result = {};
   const Domain& domain = mesh.domain;
   const auto original_count = domain.points.rows() - static_cast<Index>(mesh.inserted.size());
   find_components(domain, result);
+  if (!joined.empty())
+  {
+    join_components(joined, result.components);
+  }
 
   // Labels of inserted vertices: within a region when all corners around them are.
   const auto label = [&](Index v) -> Index

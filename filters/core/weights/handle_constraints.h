@@ -39,8 +39,10 @@ struct HandleConstraints
 /// a handle constrains no vertex (a region whose label no vertex has) or can have none of its own.
 ///
 /// @param region_ids label of every original vertex, or empty when there are no regions.
+/// @param joined label of every vertex, or empty: parts with a label > 0 in common count as one.
 Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
-  const std::vector<Index>& region_ids, HandleConstraints& result);
+  const std::vector<Index>& region_ids, HandleConstraints& result,
+  const std::vector<Index>& joined = {});
 
 } // namespace bindpose
 

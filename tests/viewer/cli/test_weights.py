@@ -256,3 +256,40 @@ def test_cage_of_a_tgf_file(folder):
     assert np.abs(weights[below, 0] - (1 - x[below])).max() <= 1e-9
     assert np.abs(weights[below, 1] - x[below]).max() <= 1e-9 and (weights[below, 2:] <= 1e-9).all()
     folder.run("weights", "m.off", "--handles", "cage.tgf", "--domain", "cage", "-o", "c.vtp").is_refused("faces")
+
+
+def test_terms_by_arrays_of_the_surface(bar):
+    surface = to_dataset(shapes.bar())
+    points = points_of(surface)
+    pins = np.full((len(points), 2), np.nan)
+    pins[10, 0] = 0.9
+    block = (points[:, 0] > 2) & (points[:, 0] < 4)
+    add_point_array(surface, "Given", pins)
+    add_point_array(surface, "RigidSet", block.astype(np.int64))
+    add_point_array(surface, "Paint", np.ones(len(points)))
+    bindpose.write(surface, bar / "painted.vtp")
+    words = ("weights", "painted.vtp", "--handles", "points.tgf", "-o", "w.vtp", "--overwrite", "--report", "-")
+    run = bar.run(*words, "--pins", "Given", "--rigidity", "Paint").is_good()
+    weights = weights_of(bar / "w.vtp")
+    check(weights, points)
+    assert weights[10, 0] == 0.9
+    assert block.sum() > 1 and np.ptp(weights[block], axis=0).max() == 0  # by its usual name
+    assert run.report["relative_gap"] <= 1e-6
+    bar.run(*words, "--partition", "coupled", "--bounds=-0.5,1.5", "--mirror", "x").is_refused("mirrored")
+    bar.run(*words, "--domain", "embedding").is_refused("domain volume, not embedding")
+    run = bar.run(*words, "--partition", "coupled").is_good()
+    assert run.report["partition"]["of_unity"] == "coupled" and run.report["partition"]["largest_difference"] >= 0
+    run = bar.run(*words, "--influences", "1", "--rigid-sets", "RigidSet").is_good()
+    assert run.report["counts"]["capped_vertices"] > 0
+
+
+def test_terms_that_cannot_be(bar):
+    words = ("weights", "bar.off", "--handles", "points.tgf", "-o", "w.vtp")
+    for more, text in (
+        (("--pins", "nothing"), "no point array 'nothing'"),
+        (("--bounds", "0"), "two numbers"),
+        (("--bounds", "0.1,1"), "bounds"),
+        (("--method", "harmonic", "--influences", "2"), "bounded-biharmonic and monotone"),
+        (("--method", "monotone", "--partition", "coupled"), "only bounded weights"),
+    ):
+        bar.run(*words, *more).is_refused(text)

@@ -24,6 +24,7 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <cmath>
+#include <map>
 
 namespace bindpose
 {
@@ -323,6 +324,69 @@ double cell_value(vtkPolyData* data, const char* name, vtkIdType cell, double fa
   vtkDataArray* array = data->GetCellData()->GetArray(name);
   return array && cell < array->GetNumberOfTuples() ? array->GetComponent(cell, 0) : fallback;
 }
+/// Cells that are edges and faces of cages, polygons as fans: their points are those of cage
+/// vertices, or at the same places.
+Status add_cages(vtkPolyData* data, const std::vector<Index>& handle_of_cell, Handles& handles)
+{
+  std::map<vtkIdType, Index> by_point;
+  std::map<std::array<double, 3>, Index> by_place;
+  vtkNew<vtkIdList> ids;
+  for (std::size_t cell = 0; cell < handle_of_cell.size(); ++cell)
+  {
+    const Index handle = handle_of_cell[cell];
+    if (handle >= 0 && handles[handle].kind == HandleKind::cage_vertex)
+    {
+      data->GetCellPoints(static_cast<vtkIdType>(cell), ids);
+      const Vec3& at = handles[handle].head;
+      by_point[ids->GetId(0)] = handle;
+      by_place[{ at[0], at[1], at[2] }] = handle;
+    }
+  }
+  for (std::size_t cell = 0; cell < handle_of_cell.size(); ++cell)
+  {
+    const auto id = static_cast<vtkIdType>(cell);
+    if (cell_value(data, "HandleKind", id, 0) != static_cast<int>(HandleKind::cage_element))
+    {
+      continue;
+    }
+    data->GetCellPoints(id, ids);
+    std::vector<Index> corners;
+    for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
+    {
+      const vtkIdType point = ids->GetId(k);
+      if (point < 0 || point >= data->GetNumberOfPoints())
+      {
+        return Status::invalid_input("cage element " + std::to_string(cell) + " has point " +
+          std::to_string(point) + ", but there are only " +
+          std::to_string(data->GetNumberOfPoints()));
+      }
+      std::array<double, 3> at;
+      data->GetPoint(point, at.data());
+      const auto own = by_point.find(point);
+      const auto same = by_place.find(at);
+      if (own == by_point.end() && same == by_place.end())
+      {
+        return Status::invalid_input("cage element " + std::to_string(cell) + ": its point " +
+          std::to_string(point) + " is no cage vertex");
+      }
+      corners.push_back(own != by_point.end() ? own->second : same->second);
+    }
+    if (corners.size() < 2)
+    {
+      return Status::invalid_input(
+        "cage element " + std::to_string(cell) + " has fewer than 2 points");
+    }
+    if (corners.size() == 2)
+    {
+      handles[corners[0]].cage.push_back({ corners[0], corners[1], -1 });
+    }
+    for (std::size_t k = 2; k < corners.size(); ++k)
+    {
+      handles[corners[0]].cage.push_back({ corners[0], corners[k - 1], corners[k] });
+    }
+  }
+  return {};
+}
 } // namespace
 
 Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells)
@@ -396,7 +460,8 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
     }
     handles[i].parent = cell < 0 ? -1 : handle_of_cell[cell];
   }
-  return check_handles(handles);
+  const Status status = add_cages(data, handle_of_cell, handles);
+  return status.ok() ? check_handles(handles) : status;
 }
 
 vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles)
@@ -428,6 +493,7 @@ vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles)
     }
   }
   std::vector<Index> cell_of(handles.size());
+  std::vector<vtkIdType> point_of(handles.size());
   for (std::size_t cell = 0; cell < order.size(); ++cell)
   {
     cell_of[order[cell]] = static_cast<Index>(cell);
@@ -436,6 +502,7 @@ vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles)
   {
     const Handle& handle = handles[i];
     const vtkIdType head = points->InsertNextPoint(handle.head.data());
+    point_of[i] = head;
     if (handle.kind == HandleKind::bone)
     {
       const vtkIdType ends[2] = { head, points->InsertNextPoint(handle.tail.data()) };
@@ -450,19 +517,37 @@ vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles)
     parents->InsertNextValue(handle.parent < 0 ? -1 : cell_of[handle.parent]);
     regions->InsertNextValue(handle.region_id);
   }
+  // Edges of cages come behind the bones, faces behind all lines.
+  vtkNew<vtkCellArray> faces;
+  for (const bool face : { false, true })
+  {
+    for (const Handle& handle : handles)
+    {
+      for (const CageElement& element : handle.cage)
+      {
+        if ((element[2] >= 0) != face)
+        {
+          continue;
+        }
+        const vtkIdType corners[3] = { point_of[element[0]], point_of[element[1]],
+          face ? point_of[element[2]] : -1 };
+        (face ? faces : lines)->InsertNextCell(face ? 3 : 2, corners);
+        names->InsertNextValue("");
+        kinds->InsertNextValue(static_cast<int>(HandleKind::cage_element));
+        parents->InsertNextValue(-1);
+        regions->InsertNextValue(0);
+      }
+    }
+  }
   result->SetPoints(points);
   result->SetVerts(verts);
   result->SetLines(lines);
+  result->SetPolys(faces);
   result->GetCellData()->AddArray(names);
   result->GetCellData()->AddArray(kinds);
   result->GetCellData()->AddArray(parents);
   result->GetCellData()->AddArray(regions);
-  std::vector<Index> cells(handles.size());
-  for (std::size_t i = 0; i < cells.size(); ++i)
-  {
-    cells[i] = static_cast<Index>(i);
-  }
-  set_pose(result, cells, Pose(handles.size()));
+  set_pose(result, {}, {});
   return result;
 }
 

@@ -40,6 +40,7 @@ protected:
   vtkBoundedBiharmonicWeights();
   ~vtkBoundedBiharmonicWeights() override;
 
+  bool TakesTerms() const override { return true; }
   bindpose::Status Solve(const bindpose::WeightsProblem& problem,
     const bindpose::WeightsOptions& options, bindpose::ExecutionContext& context,
     bindpose::WeightsResult& result) override;

@@ -31,28 +31,44 @@ using bindpose::Status;
 Handles to_handles(const bindpose::Tgf& graph)
 {
   std::vector<char> in_bone(graph.nodes.size(), 0);
+  std::vector<char> in_cage(graph.nodes.size(), 0);
   for (const auto& edge : graph.edges)
   {
     if (edge.bone)
     {
       in_bone[edge.from] = in_bone[edge.to] = 1;
     }
+    else if (edge.cage)
+    {
+      in_cage[edge.from] = in_cage[edge.to] = 1;
+    }
   }
+  std::vector<Index> handle_of_node(graph.nodes.size(), -1);
   Handles handles;
   for (std::size_t i = 0; i < graph.nodes.size(); ++i)
   {
-    if (in_bone[i])
+    if (in_bone[i] && !in_cage[i])
     {
       continue;
     }
     Handle point;
     point.head = point.tail = graph.nodes[i].position;
+    point.kind = in_cage[i] ? HandleKind::cage_vertex : HandleKind::point;
+    handle_of_node[i] = static_cast<Index>(handles.size());
     point.name = graph.nodes[i].text;
     if (point.name.empty())
     {
       point.name = "p" + std::to_string(handles.size() + 1);
     }
     handles.push_back(point);
+  }
+  for (const auto& edge : graph.edges)
+  {
+    if (!edge.bone && edge.cage)
+    {
+      const Index from = handle_of_node[edge.from];
+      handles[from].cage.push_back({ from, handle_of_node[edge.to], -1 });
+    }
   }
   const std::size_t points = handles.size();
   std::vector<const bindpose::Tgf::Edge*> bones;
@@ -101,12 +117,12 @@ Status read_tgf(const std::string& path, vtkPolyData* output)
   Index others = 0;
   for (const auto& edge : graph.edges)
   {
-    others += !edge.bone;
+    others += !edge.bone && !edge.cage;
   }
   if (others > 0)
   {
     status.warnings.push_back(path + ": " + std::to_string(others) +
-      " edges that are no bones (pseudo or cage edges) make no handle");
+      " edges that are neither bones nor of a cage (pseudo-edges) make no handle");
   }
   return status;
 }

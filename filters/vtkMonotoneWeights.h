@@ -38,6 +38,7 @@ protected:
   vtkMonotoneWeights();
   ~vtkMonotoneWeights() override;
 
+  bool TakesTerms() const override { return true; }
   bindpose::Status Solve(const bindpose::WeightsProblem& problem,
     const bindpose::WeightsOptions& options, bindpose::ExecutionContext& context,
     bindpose::WeightsResult& result) override;

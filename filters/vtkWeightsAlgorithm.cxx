@@ -11,6 +11,7 @@
 #include "conversion.h"
 #include "handle_geometry.h"
 #include "output_type.h"
+#include "term_arrays.h"
 #include "tets_data.h"
 #include "weights/preview_weights.h"
 #include "weights/surface_weights.h"
@@ -273,7 +274,7 @@ struct vtkWeightsAlgorithm::Cache
   vtkSmartPointer<vtkUnstructuredGrid> volume; // null: solved on the mesh itself
 };
 
-vtkWeightsAlgorithm::vtkWeightsAlgorithm() : Bound(new Cache)
+vtkWeightsAlgorithm::vtkWeightsAlgorithm() : TermNames(new TermArrayNames), Bound(new Cache)
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(3);
@@ -325,7 +326,7 @@ void vtkWeightsAlgorithm::SetKeepRaw(bool keep)
 
 void vtkWeightsAlgorithm::SetDomain(int domain)
 {
-  domain = std::clamp(domain, static_cast<int>(SURFACE), static_cast<int>(EMBEDDING));
+  domain = std::clamp(domain, static_cast<int>(SURFACE), static_cast<int>(CAGE));
   if (this->Domain != domain)
   {
     this->Domain = domain;
@@ -357,6 +358,141 @@ void vtkWeightsAlgorithm::SetKeepMesh(bool keep)
   if (this->KeepMesh != keep)
   {
     this->KeepMesh = keep;
+    this->BindModified();
+  }
+}
+
+void vtkWeightsAlgorithm::SetRigidityArrayName(const std::string& name)
+{
+  if (this->TermNames->rigidity != name)
+  {
+    this->TermNames->rigidity = name;
+    this->BindModified();
+  }
+}
+
+std::string vtkWeightsAlgorithm::GetRigidityArrayName()
+{
+  return this->TermNames->rigidity;
+}
+
+void vtkWeightsAlgorithm::SetRigidSetArrayName(const std::string& name)
+{
+  if (this->TermNames->rigid_sets != name)
+  {
+    this->TermNames->rigid_sets = name;
+    this->BindModified();
+  }
+}
+
+std::string vtkWeightsAlgorithm::GetRigidSetArrayName()
+{
+  return this->TermNames->rigid_sets;
+}
+
+void vtkWeightsAlgorithm::SetLowerArrayName(const std::string& name)
+{
+  if (this->TermNames->lower != name)
+  {
+    this->TermNames->lower = name;
+    this->BindModified();
+  }
+}
+
+std::string vtkWeightsAlgorithm::GetLowerArrayName()
+{
+  return this->TermNames->lower;
+}
+
+void vtkWeightsAlgorithm::SetUpperArrayName(const std::string& name)
+{
+  if (this->TermNames->upper != name)
+  {
+    this->TermNames->upper = name;
+    this->BindModified();
+  }
+}
+
+std::string vtkWeightsAlgorithm::GetUpperArrayName()
+{
+  return this->TermNames->upper;
+}
+
+void vtkWeightsAlgorithm::SetPinnedArrayName(const std::string& name)
+{
+  if (this->TermNames->pinned != name)
+  {
+    this->TermNames->pinned = name;
+    this->BindModified();
+  }
+}
+
+std::string vtkWeightsAlgorithm::GetPinnedArrayName()
+{
+  return this->TermNames->pinned;
+}
+
+void vtkWeightsAlgorithm::SetMirrorArrayName(const std::string& name)
+{
+  if (this->TermNames->mirror != name)
+  {
+    this->TermNames->mirror = name;
+    this->BindModified();
+  }
+}
+
+std::string vtkWeightsAlgorithm::GetMirrorArrayName()
+{
+  return this->TermNames->mirror;
+}
+
+void vtkWeightsAlgorithm::SetBounds(double least, double largest)
+{
+  if (this->Bounds[0] != least || this->Bounds[1] != largest)
+  {
+    this->Bounds[0] = least;
+    this->Bounds[1] = largest;
+    this->BindModified();
+  }
+}
+
+void vtkWeightsAlgorithm::SetMirrorNormal(double x, double y, double z)
+{
+  if (this->MirrorNormal[0] != x || this->MirrorNormal[1] != y || this->MirrorNormal[2] != z)
+  {
+    this->MirrorNormal[0] = x;
+    this->MirrorNormal[1] = y;
+    this->MirrorNormal[2] = z;
+    this->BindModified();
+  }
+}
+
+void vtkWeightsAlgorithm::SetMirrorOrigin(double x, double y, double z)
+{
+  if (this->MirrorOrigin[0] != x || this->MirrorOrigin[1] != y || this->MirrorOrigin[2] != z)
+  {
+    this->MirrorOrigin[0] = x;
+    this->MirrorOrigin[1] = y;
+    this->MirrorOrigin[2] = z;
+    this->BindModified();
+  }
+}
+
+void vtkWeightsAlgorithm::SetMaximumInfluences(int influences)
+{
+  if (this->MaximumInfluences != influences)
+  {
+    this->MaximumInfluences = influences;
+    this->BindModified();
+  }
+}
+
+void vtkWeightsAlgorithm::SetPartitionOfUnity(int mode)
+{
+  mode = std::clamp(mode, int(NORMALISE), int(COUPLED));
+  if (this->PartitionOfUnity != mode)
+  {
+    this->PartitionOfUnity = mode;
     this->BindModified();
   }
 }
@@ -404,6 +540,24 @@ Status vtkWeightsAlgorithm::Bind(
     return status;
   }
   WeightsOptions options;
+  if (this->TakesTerms() && this->Stage == CERTIFIED)
+  {
+    status = to_terms(mesh, *this->TermNames, static_cast<Index>(handles.size()), options.terms);
+    if (!status.ok())
+    {
+      return status;
+    }
+    if (this->Bounds[0] != 0.0 || this->Bounds[1] != 1.0)
+    {
+      options.terms.handle_bounds.resize(static_cast<Index>(handles.size()), 2);
+      options.terms.handle_bounds.col(0).setConstant(this->Bounds[0]);
+      options.terms.handle_bounds.col(1).setConstant(this->Bounds[1]);
+    }
+    options.terms.mirror_normal = Vec3(this->MirrorNormal);
+    options.terms.mirror_origin = Vec3(this->MirrorOrigin);
+    options.maximum_influences = this->MaximumInfluences;
+    options.partition = static_cast<bindpose::PartitionOfUnity>(this->PartitionOfUnity);
+  }
   options.tolerance = this->Tolerance;
   options.maximum_iterations = this->MaximumIterations;
   options.insertion.keep_mesh = this->KeepMesh;
@@ -415,7 +569,9 @@ Status vtkWeightsAlgorithm::Bind(
   };
   const auto tell_preview = [&](const Weights& weights)
   { this->InvokeEvent(PreviewEvent, to_weights_array(array_name, weights, handles)); };
-  const bool wants_preview = this->Stage == CERTIFIED && this->HasObserver(PreviewEvent);
+  // A set that joins parts without handles to others is what makes the energy of those definite.
+  const bool wants_preview =
+    this->Stage == CERTIFIED && this->HasObserver(PreviewEvent) && options.terms.rigid_sets.empty();
   if (domain.is_volume() || this->Domain == SURFACE)
   {
     WeightsProblem problem;
@@ -499,7 +655,13 @@ Status vtkWeightsAlgorithm::Execute(
   }
   BindKey key;
   key.add(this->BindTime.GetMTime());
-  for (vtkObject* object : bind_objects(mesh, { this->RegionArrayName }))
+  std::vector<std::string> names = { this->RegionArrayName };
+  if (this->TakesTerms())
+  {
+    const std::vector<std::string> terms = this->TermNames->all();
+    names.insert(names.end(), terms.begin(), terms.end());
+  }
+  for (vtkObject* object : bind_objects(mesh, names))
   {
     key.add(object);
   }
@@ -555,5 +717,20 @@ void vtkWeightsAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "EmbeddingResolution: " << this->EmbeddingResolution << "\n";
   os << indent << "KeepMesh: " << (this->KeepMesh ? "on" : "off") << "\n";
   os << indent << "KeepRaw: " << (this->KeepRaw ? "on" : "off") << "\n";
+  os << indent << "RigidityArrayName: " << this->TermNames->rigidity << "\n";
+  os << indent << "RigidSetArrayName: " << this->TermNames->rigid_sets << "\n";
+  os << indent << "LowerArrayName: " << this->TermNames->lower << "\n";
+  os << indent << "UpperArrayName: " << this->TermNames->upper << "\n";
+  os << indent << "PinnedArrayName: " << this->TermNames->pinned << "\n";
+  os << indent << "MirrorArrayName: " << this->TermNames->mirror << "\n";
+  os << indent << "Bounds: " << this->Bounds[0] << ", " << this->Bounds[1] << "\n";
+  os << indent << "MirrorNormal: " << this->MirrorNormal[0] << ", " << this->MirrorNormal[1] << ", "
+     << this->MirrorNormal[2] << "\n";
+  os << indent << "MirrorOrigin: " << this->MirrorOrigin[0] << ", " << this->MirrorOrigin[1] << ", "
+     << this->MirrorOrigin[2] << "\n";
+  os << indent << "MaximumInfluences: " << this->MaximumInfluences << "\n";
+  os << indent
+     << "PartitionOfUnity: " << (this->PartitionOfUnity == COUPLED ? "coupled" : "normalise")
+     << "\n";
   os << indent << "NumberOfBinds: " << this->NumberOfBinds << "\n";
 }

@@ -25,6 +25,27 @@
  * KeepRaw adds the point array `RawWeights`: the columns as they were solved for, which the
  * certificate is about; their rows need not sum to one.
  *
+ * **Terms** of bounded and monotone weights (vtkUnconstrainedWeights takes none), by point arrays
+ * of the mesh where it has them, under the names below (an empty name: not looked for):
+ * - `Rigidity`, >= 0: weights are nearly constant where it is large. 1 stiffens everything longer
+ *   than a hundredth of the mesh's diagonal, whatever its unit or resolution; gradients fall with 1
+ *   / rigidity. Adds 1/2 int rho |grad w|^2 to the energy, rho = 1e4 / diagonal^2 times the array.
+ * - `RigidSet`, whole numbers: every weight is constant, exactly, on the points of one label > 0. A
+ *   set with a point of a handle has that point's weights.
+ * - `WeightsLower`, `WeightsUpper`, a component a handle: least and largest weight at each point;
+ *   NaN: that of SetBounds(). They and Bounds hold for RawWeights; dividing rows by their sums can
+ *   leave them (report: normalised_bounds_violation), PartitionOfUnity COUPLED does not.
+ * - `PinnedWeights`, a component a handle: weights that are given; NaN: free. They stay when rows
+ *   are divided by their sums: the row's others make up what is left.
+ * - `SymmetricPoint`, the id of each point's mirror point or -1: handles that are each other's
+ *   mirror image get mirrored weights w_a(v) = w_b(mirror of v), exactly, of least energy together;
+ *   or SetMirrorNormal(). Points without a mirror, and handles whose mirror image is no handle, are
+ *   left alone.
+ *
+ * Where a surface's weights are solved in tets of its inside, rigidity is that of the nearest place
+ * of the surface, all else is asked of its own points alone; a lattice (EMBEDDING) has none of
+ * them, and AUTO takes the volume then. Previews take no terms.
+ *
  * **Certificate**, in field data, a value a column, of the columns as solved for (before rows are
  * divided by their sums): `WeightsRelativeGap` (how far the energy is above its minimum at most, as
  * a share), `WeightsKKTResidual`, `WeightsMinimum`, `WeightsMaximum`, `WeightsInteriorExtrema`
@@ -42,13 +63,18 @@
  * Report: method, binds, stage (of previews), counts.{vertices, tets | triangles, handles,
  * components, inserted_vertices}, handles[].{name, kind, constrained_vertices, distance_outside,
  * relative_gap, kkt_residual, energy, iterations, factorisations, interior_extrema}, relative_gap
- * and kkt_residual (the worst column's), bounds_violation, row_sum_error, largest_snap (in edge
+ * and kkt_residual (the worst column's), bounds_violation, normalised_bounds_violation (with
+ * bounds), counts.capped_vertices and influences.{largest_difference, rms_difference} (from the
+ * weights without MaximumInfluences), partition.{of_unity, energy, largest_difference,
+ * rms_difference} (COUPLED, from weights that were divided by their sums), handles[].mirror (with
+ * mirrors), row_sum_error, largest_snap (in edge
  * lengths), iterations, seconds.{insert, analyse, weights} and, summed over handles, which are
  * solved at the same time, seconds.{factor, solve}.
  *
  * Status not_converged (with the result) when a column misses Tolerance within MaximumIterations.
  * Errors: empty or invalid mesh, tets without volume, no handles, two at the same place, a region
- * whose label no vertex has.
+ * whose label no vertex has, terms that contradict a handle or each other (handle and point are
+ * named).
  */
 
 #ifndef vtkWeightsAlgorithm_h
@@ -61,6 +87,7 @@
 
 namespace bindpose
 {
+struct TermArrayNames;
 struct WeightsOptions;
 struct WeightsProblem;
 struct WeightsResult;
@@ -98,7 +125,8 @@ public:
     SURFACE = 0,
     AUTO = 1,
     VOLUME = 2,
-    EMBEDDING = 3
+    EMBEDDING = 3,
+    CAGE = 4
   };
 
   ///@{
@@ -106,9 +134,10 @@ public:
    * Where to solve for a surface: on its triangles (SURFACE, the default), in conforming tets of
    * its inside (VOLUME), in a lattice that holds it, in seconds whatever its size (EMBEDDING), or
    * AUTO: the volume of small surfaces, the embedding of dense ones and of those that cannot be
-   * filled, the shape itself where it is flat. The output then is the surface as it came, with
-   * Weights at its own points, and output 2 is what was solved on. Meshes of tets are solved on
-   * directly. Out of range: clamped.
+   * filled, the shape itself where it is flat; or in tets of the closed cage that the handles have
+   * around the surface (CAGE). The output then is the surface as it came, with Weights at its own
+   * points, and output 2 is what was solved on. Meshes of tets are solved on directly. Out of
+   * range: clamped.
    */
   void SetDomain(int domain);
   vtkGetMacro(Domain, int);
@@ -116,6 +145,7 @@ public:
   void SetDomainToAuto() { this->SetDomain(AUTO); }
   void SetDomainToVolume() { this->SetDomain(VOLUME); }
   void SetDomainToEmbedding() { this->SetDomain(EMBEDDING); }
+  void SetDomainToCage() { this->SetDomain(CAGE); }
   ///@}
 
   enum Stages
@@ -165,6 +195,71 @@ public:
   vtkBooleanMacro(KeepRaw, bool);
   ///@}
 
+  ///@{
+  /**
+   * Names of the mesh's point arrays of terms; see above. Defaults: Rigidity, RigidSet,
+   * WeightsLower, WeightsUpper, PinnedWeights, SymmetricPoint.
+   */
+  void SetRigidityArrayName(const std::string& name);
+  std::string GetRigidityArrayName();
+  void SetRigidSetArrayName(const std::string& name);
+  std::string GetRigidSetArrayName();
+  void SetLowerArrayName(const std::string& name);
+  std::string GetLowerArrayName();
+  void SetUpperArrayName(const std::string& name);
+  std::string GetUpperArrayName();
+  void SetPinnedArrayName(const std::string& name);
+  std::string GetPinnedArrayName();
+  void SetMirrorArrayName(const std::string& name);
+  std::string GetMirrorArrayName();
+  ///@}
+
+  ///@{
+  /**
+   * Least and largest weight of every handle where no array says otherwise. Default 0, 1. Handles
+   * themselves have weights 0 and 1: only a wider range can be kept.
+   */
+  void SetBounds(double least, double largest);
+  vtkGetVector2Macro(Bounds, double);
+  ///@}
+
+  ///@{
+  /**
+   * Normal of a mirror plane through MirrorOrigin, which stands for the array SymmetricPoint.
+   * Default 0 0 0: none.
+   */
+  void SetMirrorNormal(double x, double y, double z);
+  vtkGetVector3Macro(MirrorNormal, double);
+  void SetMirrorOrigin(double x, double y, double z);
+  vtkGetVector3Macro(MirrorOrigin, double);
+  ///@}
+
+  ///@{
+  /**
+   * Handles with a weight at a point, at most. The largest weights are kept and all weights solved
+   * for again within what is left. Default 0: any number.
+   */
+  void SetMaximumInfluences(int influences);
+  vtkGetMacro(MaximumInfluences, int);
+  ///@}
+
+  enum PartitionOfUnityMode
+  {
+    NORMALISE = 0,
+    COUPLED = 1
+  };
+
+  ///@{
+  /**
+   * How rows come to sum to one. NORMALISE (default): every column is solved for alone, rows are
+   * divided by their sums. COUPLED (bounded weights alone): all columns are solved for together
+   * with the sums as constraints: the original definition, several times as slow and many times the
+   * memory.
+   */
+  void SetPartitionOfUnity(int mode);
+  vtkGetMacro(PartitionOfUnity, int);
+  ///@}
+
   /// How often weights were solved for.
   vtkGetMacro(NumberOfBinds, int);
 
@@ -180,6 +275,9 @@ protected:
   virtual bindpose::Status Solve(const bindpose::WeightsProblem& problem,
     const bindpose::WeightsOptions& options, bindpose::ExecutionContext& context,
     bindpose::WeightsResult& result) = 0;
+
+  /// Whether the weights can have terms.
+  virtual bool TakesTerms() const { return false; }
 
   /// Setters call this: all parameters of these filters belong to the bind.
   void BindModified();
@@ -207,6 +305,12 @@ private:
   vtkIdType EmbeddingResolution = 0;
   bool KeepMesh = false;
   bool KeepRaw = false;
+  double Bounds[2] = { 0.0, 1.0 };
+  double MirrorNormal[3] = { 0.0, 0.0, 0.0 };
+  double MirrorOrigin[3] = { 0.0, 0.0, 0.0 };
+  int MaximumInfluences = 0;
+  int PartitionOfUnity = NORMALISE;
+  std::unique_ptr<bindpose::TermArrayNames> TermNames;
   int NumberOfBinds = 0;
   vtkTimeStamp BindTime;
   std::unique_ptr<Cache> Bound;

@@ -3,6 +3,7 @@
 // machines.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
+#include "weights/preview_weights.h"
 #include "weights/transfer.h"
 
 #include <benchmark/benchmark.h>
@@ -142,6 +143,33 @@ void monotone(benchmark::State& state)
   run<MonotoneWeightsOptions>(state, monotone_weights);
 }
 
+/// All of a preview in F, which is what counts for a first look, and how far it is from clamped.
+void preview(benchmark::State& state)
+{
+  const WeightsProblem problem = problem_of(state.range(0), static_cast<int>(state.range(1)));
+  WeightsResult result;
+  double seconds = 0.0;
+  for (auto _ : state)
+  {
+    ExecutionContext context;
+    context.set_threads(1);
+    const Status status = preview_weights(problem, {}, context, result);
+    if (!status.ok())
+    {
+      state.SkipWithError(status.message.c_str());
+      return;
+    }
+    seconds = context.seconds().number("seconds.preview", 0.0);
+  }
+  BoxQp one(harmonic_energy(problem.stiffness, problem.mass, 2), problem.fixed, {});
+  ExecutionContext context;
+  one.prepare(context);
+  state.counters["vertices"] = static_cast<double>(problem.vertex_count());
+  state.counters["tets"] = static_cast<double>(problem.mesh.domain.tets.rows());
+  state.counters["F_s"] = one.first_factor_seconds();
+  state.counters["F_in_all"] = seconds / one.first_factor_seconds();
+}
+
 void transfer_weights(benchmark::State& state)
 {
   const Domain coarse = tet_box(state.range(0));
@@ -170,6 +198,15 @@ BENCHMARK(monotone)
   ->Name("weights/monotone")
   ->ArgNames({ "cells", "handles" })
   ->Args({ 16, 10 })
+  ->Iterations(1)
+  ->Unit(benchmark::kSecond);
+BENCHMARK(preview)
+  ->Name("weights/preview")
+  ->ArgNames({ "cells", "handles" })
+  ->Args({ 16, 10 })
+  ->Args({ 22, 10 })
+  ->Args({ 22, 24 })
+  ->Args({ 40, 4 })
   ->Iterations(1)
   ->Unit(benchmark::kSecond);
 BENCHMARK(transfer_weights)->Name("weights/transfer")->Arg(16)->Unit(benchmark::kMillisecond);

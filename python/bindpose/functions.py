@@ -340,8 +340,30 @@ def _make_weights(method):
     return result
 
 
+def _set_terms(solver, data, terms):
+    """What is asked of weights: names for the solver, arrays on a copy of the mesh."""
+    named = shallow_copy(data)
+    for term, values in terms.items():
+        if term == "Mirror" and isinstance(values, str) and values in ("x", "y", "z"):
+            low, high = np.reshape(data.GetBounds(), (3, 2)).T
+            solver.SetMirrorNormal(*(float(values == axis) for axis in "xyz"))
+            solver.SetMirrorOrigin(*(0.5 * (low + high)))
+        elif isinstance(values, str):
+            if data.GetPointData().GetArray(values) is None:
+                raise InvalidInput(f"the mesh has no point array {values!r}")
+            getattr(solver, f"Set{term}ArrayName")(values)
+        elif values is not None:
+            values = np.asarray(values, dtype=np.int64 if term in ("RigidSet", "Mirror") else float)
+            if len(values) != data.GetNumberOfPoints():
+                raise InvalidInput(f"there are {len(values)} rows of terms for {data.GetNumberOfPoints()} points")
+            add_point_array(named, getattr(solver, f"Get{term}ArrayName")(), values)
+    return named
+
+
 def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolution=0, stage="certified",
-            regions=None, tolerance=1e-6, maximum_iterations=100, keep_mesh=False, threads=0, progress=None):
+            regions=None, tolerance=1e-6, maximum_iterations=100, keep_mesh=False, rigidity=None, rigid_sets=None,
+            lower=None, upper=None, pins=None, bounds=(0, 1), mirror=None, influences=0, partition="normalise",
+            threads=0, progress=None):
     """Smooth weights, one function a handle, at the mesh's own points.
 
     Parameters
@@ -354,8 +376,9 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
     method : {"bounded-biharmonic", "monotone", "harmonic", "biharmonic", "triharmonic", \
               "graph-biharmonic", "linear-subspace", "inverse-distance", "smoothed-harmonic", "bone-heat"}
         All but the first two are to compare with: see ``vtkUnconstrainedWeights``.
-    domain : {"auto", "volume", "embedding", "surface"}
-        Where to solve for a surface: in tets of its inside, in a lattice that holds it, on itself.
+    domain : {"auto", "volume", "embedding", "cage", "surface"}
+        Where to solve for a surface: in tets of its inside, in a lattice that holds it, in the closed
+        cage that the handles have around it, on itself.
         ``auto``: the volume of surfaces of up to 20,000 triangles, the embedding of dense ones and
         of those that cannot be filled, flat shapes on themselves. Tets are solved on directly.
     resolution : int
@@ -371,6 +394,27 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
         At most for a handle.
     keep_mesh : bool
         Split no cell: the corners around a handle stand for it.
+    rigidity : str or array_like (#V,), optional
+        Painted rigidity, 0 and more: weights hardly vary where it is 1 or more. This and what follows
+        are for bounded and monotone weights, arrays or names of the mesh's point arrays; without them
+        its arrays ``Rigidity``, ``RigidSet``, ``WeightsLower``, ``WeightsUpper``, ``PinnedWeights`` and
+        ``SymmetricPoint`` count, where it has them.
+    rigid_sets : str or array_like (#V,) of int, optional
+        Labels: weights are constant on each one above 0.
+    lower, upper : str or array_like (#V, #handles), optional
+        Least and largest weights, NaN: those of ``bounds``.
+    pins : str or array_like (#V, #handles), optional
+        Weights that are given, NaN: free.
+    bounds : (float, float)
+        Least and largest weight; only a wider range than 0 to 1 can be kept.
+    mirror : {"x", "y", "z"}, str or array_like (#V,) of int, optional
+        Handles that are mirror images get mirrored weights: in the plane across the middle of that axis,
+        or by ids of mirror points, -1 for none.
+    influences : int
+        Handles with a weight at a point, at most: the largest, solved for again. 0: any number.
+    partition : {"normalise", "coupled"}
+        Divide rows by their sums, or solve for all columns together with the sums as constraints
+        (bounded weights only, slow).
     threads, progress
         See `winding_number`.
 
@@ -401,14 +445,14 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
     methods = ("bounded-biharmonic", "monotone", "harmonic", "biharmonic", "triharmonic", "graph-biharmonic",
                "linear-subspace", "inverse-distance", "smoothed-harmonic", "bone-heat")
     _choice(method, methods, "method")
-    _choice(domain, ("auto", "volume", "embedding", "surface"), "domain")
+    _choice(domain, ("auto", "volume", "embedding", "cage", "surface"), "domain")
     _choice(stage, ("certified", "preview"), "stage")
+    _choice(partition, ("normalise", "coupled"), "partition")
     data = to_dataset(mesh)
     handle_data = to_handles(handles, data)
     if is_tets(data) and domain == "surface":
         raise InvalidInput("the mesh holds tets: domain 'surface' needs a surface")
     solver = _make_weights(method)
-    solver.SetInputData(0, data)
     solver.SetInputData(1, handle_data)
     solver.SetDomain(getattr(solver, domain.upper()))
     solver.SetEmbeddingResolution(int(resolution))
@@ -417,6 +461,14 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
     solver.SetTolerance(tolerance)
     solver.SetMaximumIterations(int(maximum_iterations))
     solver.SetKeepMesh(bool(keep_mesh))
+    solver.SetBounds(*map(float, bounds))
+    solver.SetMaximumInfluences(int(influences))
+    solver.SetPartitionOfUnity(("normalise", "coupled").index(partition))
+    asked = [value is not None for value in (rigidity, rigid_sets, lower, upper, pins, mirror)]
+    if method not in methods[:2] and (any(asked) or tuple(bounds) != (0, 1) or influences or partition != "normalise"):
+        raise InvalidInput(f"{method} weights take no terms, bounds, influences or partition")
+    terms = {"Rigidity": rigidity, "RigidSet": rigid_sets, "Lower": lower, "Upper": upper, "Pinned": pins, "Mirror": mirror}
+    solver.SetInputData(0, _set_terms(solver, data, terms))
     solver.SetNumberOfThreads(threads)
     report = run(solver, progress)
     result = solver.GetOutput()

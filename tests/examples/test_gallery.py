@@ -6,8 +6,8 @@ from running import EXAMPLES, is_refused, numbers_of, script
 GALLERY = EXAMPLES / "gallery"
 NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "colours_of_handles", "cost_of_a_point",
          "cut_out_cartoon", "defect_classes", "growth", "hull_segmentation", "image_rectangle", "jump_and_harmonic",
-         "limbs_in_front", "mesh_independence", "near_limbs", "new_hues", "open_crossing_flipped", "preview_and_certified",
-         "small_features", "spurious_extrema", "weights_in_volume"]
+         "limbs_in_front", "mesh_independence", "near_limbs", "new_hues", "open_crossing_flipped", "original_and_faster",
+         "preview_and_certified", "rigidity_brush", "small_features", "spurious_extrema", "weights_in_volume"]
 
 
 def test_open_crossing_flipped(tmp_path):
@@ -44,6 +44,24 @@ def test_closing_holes(tmp_path):
     assert missing == sorted(missing, reverse=True) and missing[-1] == 0
     assert all(a > b for a, b in zip(distances, distances[1:]))
     assert distances[0] > 0.01 and distances[-1] <= 1e-12
+
+
+def test_rigidity_brush(tmp_path):
+    numbers = numbers_of("gallery/rigidity_brush.py", tmp_path)
+    painted, stretches = numbers["painted"], numbers["largest stretch where painted"]
+    assert painted == [0, 0.1, 1, 10, 100]
+    assert stretches[2] < 0.3 * stretches[0]  # 1 is rigid enough to see
+    assert stretches[3] / stretches[4] == pytest.approx(10, rel=0.1)  # 1 / what is painted
+    assert numbers["the same, rigid sets"] <= 1e-12
+    assert numbers["largest relative gap"] <= 1e-6
+
+
+def test_original_and_faster(tmp_path):
+    numbers = numbers_of("gallery/original_and_faster.py", tmp_path)
+    assert numbers["original: farthest row sum from 1"] <= 1e-12
+    assert numbers["faster: farthest row sum from 1"] > 0.01
+    assert 0.001 < numbers["rms difference"] < numbers["largest difference"] < 0.3
+    assert max(numbers["relative gaps"]) <= 1e-6
 
 
 def test_boundary_and_parts(tmp_path):

@@ -618,3 +618,102 @@ TEST(WeightsFilters, APreviewIsThereBeforeTheWeights)
     ASSERT_EQ(seen.array->GetComponent(v, 0), only.weights()->GetComponent(v, 0));
   }
 }
+
+TEST(WeightsFilters, TermsComeFromArraysAndBelongToTheBind)
+{
+  const auto mesh = square(12);
+  const auto handles = to_polydata({ point("left", 0.25, 0.25, 0), point("right", 0.75, 0.75, 0) });
+  const vtkIdType count = mesh->GetNumberOfPoints();
+  vtkNew<vtkDoubleArray> pins;
+  pins->SetName("PinnedWeights");
+  pins->SetNumberOfComponents(2);
+  pins->SetNumberOfTuples(count);
+  pins->Fill(std::nan(""));
+  const vtkIdType pinned = vertex_at(mesh, 0.5, 0.25, 0, 1e-9);
+  pins->SetComponent(pinned, 0, 0.9);
+  vtkNew<vtkIntArray> sets;
+  sets->SetName("Blocks");
+  sets->SetNumberOfTuples(count);
+  sets->Fill(0);
+  const vtkIdType block[] = { vertex_at(mesh, 0.75, 0.25, 0, 1e-9),
+    vertex_at(mesh, 1.0, 0.25, 0, 1e-9) };
+  sets->SetValue(block[0], 4);
+  sets->SetValue(block[1], 4);
+  mesh->GetPointData()->AddArray(pins);
+  mesh->GetPointData()->AddArray(sets);
+
+  Pipeline<vtkBoundedBiharmonicWeights> pipeline(mesh, handles);
+  pipeline.filter->Update();
+  ASSERT_TRUE(pipeline.listener->errors.empty());
+  EXPECT_EQ(pipeline.weights()->GetComponent(pinned, 0), 0.9);
+  EXPECT_NEAR(pipeline.weights()->GetComponent(pinned, 1), 0.1, 1e-12);
+  EXPECT_NE(
+    pipeline.weights()->GetComponent(block[0], 0), pipeline.weights()->GetComponent(block[1], 0));
+  pipeline.filter->SetRigidSetArrayName("Blocks");
+  pipeline.filter->SetPartitionOfUnity(vtkWeightsAlgorithm::COUPLED);
+  pipeline.filter->Update();
+  EXPECT_EQ(pipeline.filter->GetNumberOfBinds(), 2);
+  EXPECT_EQ(
+    pipeline.weights()->GetComponent(block[0], 0), pipeline.weights()->GetComponent(block[1], 0));
+  EXPECT_EQ(pipeline.report().text("partition.of_unity"), "coupled");
+  pipeline.filter->Update();
+  EXPECT_EQ(pipeline.filter->GetNumberOfBinds(), 2);
+  pins->SetComponent(pinned, 0, 0.8);
+  pins->Modified();
+  mesh->Modified();
+  pipeline.filter->Update();
+  EXPECT_EQ(pipeline.filter->GetNumberOfBinds(), 3) << "a brush stroke binds again";
+  EXPECT_EQ(pipeline.weights()->GetComponent(pinned, 0), 0.8);
+
+  // Not looked for, it counts for nothing; the methods without bounds take no terms.
+  pipeline.filter->SetPinnedArrayName("");
+  pipeline.filter->SetMaximumInfluences(1);
+  pipeline.filter->Update();
+  EXPECT_NE(pipeline.weights()->GetComponent(pinned, 0), 0.8);
+  EXPECT_GT(pipeline.report().number("counts.capped_vertices", 0), 0);
+  Pipeline<vtkUnconstrainedWeights> plain(mesh, handles);
+  plain.filter->Update();
+  EXPECT_TRUE(plain.listener->errors.empty());
+  EXPECT_NE(plain.weights()->GetComponent(pinned, 0), 0.8);
+}
+
+TEST(WeightsFilters, MirroredHandlesByAPlane)
+{
+  const auto mesh = square(12);
+  const auto handles = to_polydata(
+    { point("left", 0.25, 0.25, 0), point("right", 0.75, 0.25, 0), point("top", 0.25, 1, 0) });
+  Pipeline<vtkMonotoneWeights> pipeline(mesh, handles);
+  pipeline.filter->SetKeepRaw(true);
+  pipeline.filter->SetMirrorNormal(1, 0, 0);
+  pipeline.filter->SetMirrorOrigin(0.5, 0, 0);
+  pipeline.filter->Update();
+  ASSERT_TRUE(pipeline.listener->errors.empty());
+  vtkDataArray* raw = pipeline.output()->GetPointData()->GetArray("RawWeights");
+  const vtkIdType a = vertex_at(mesh, 0.25, 0.5, 0, 1e-9);
+  const vtkIdType b = vertex_at(mesh, 0.75, 0.5, 0, 1e-9);
+  EXPECT_EQ(raw->GetComponent(a, 0), raw->GetComponent(b, 1));
+  EXPECT_GT(raw->GetComponent(a, 0), 0.01);
+}
+
+TEST(WeightsFilters, TermsThatContradictAreErrors)
+{
+  const auto mesh = square(12);
+  const auto handles = to_polydata({ point("left", 0.25, 0.25, 0), point("right", 0.75, 0.75, 0) });
+  vtkNew<vtkDoubleArray> upper;
+  upper->SetName("WeightsUpper");
+  upper->SetNumberOfComponents(3);
+  upper->SetNumberOfTuples(mesh->GetNumberOfPoints());
+  upper->Fill(0.5);
+  mesh->GetPointData()->AddArray(upper);
+  Pipeline<vtkBoundedBiharmonicWeights> pipeline(mesh, handles);
+  pipeline.filter->Update();
+  EXPECT_THAT(pipeline.report().text("message"), HasSubstr("2 components"));
+  vtkNew<vtkDoubleArray> two;
+  two->SetName("WeightsUpper");
+  two->SetNumberOfComponents(2);
+  two->SetNumberOfTuples(mesh->GetNumberOfPoints());
+  two->Fill(0.5);
+  mesh->GetPointData()->AddArray(two);
+  pipeline.filter->Update();
+  EXPECT_THAT(pipeline.report().text("message"), HasSubstr("'left'"));
+}

@@ -164,6 +164,27 @@ def test_weights_on_given_tets(method):
     assert w.sum(axis=1) == pytest.approx(np.ones(len(w)), abs=1e-8)
 
 
+def test_weights_with_terms():
+    points = np.array(BAR[0], dtype=float)
+    handles = bindpose.handles(points=points[[0, -1]])
+    free = bindpose.weights(BAR, handles, domain="surface")
+    pins = np.full((len(points), 2), np.nan)
+    pinned = len(points) // 2
+    pins[pinned] = [0.9, np.nan]
+    sets = (np.arange(len(points)) == 3) | (np.arange(len(points)) == 4)
+    w = bindpose.weights(BAR, handles, domain="surface", pins=pins, rigid_sets=sets, rigidity=np.ones(len(points)))
+    assert w[pinned, 0] == 0.9 and np.array_equal(w[3], w[4])
+    assert np.abs(np.asarray(w) - np.asarray(free)).max() > 1e-3
+    coupled = bindpose.weights(BAR, handles, domain="surface", partition="coupled", bounds=(-1, 2))
+    assert np.allclose(np.sum(coupled, axis=1), 1, atol=1e-12)
+    one = bindpose.weights(BAR, handles, influences=1)
+    assert ((np.asarray(one) > 0).sum(axis=1) == 1).mean() > 0.9
+    with pytest.raises(bindpose.InvalidInput, match="no point array 'paint'"):
+        bindpose.weights(BAR, handles, rigidity="paint")
+    with pytest.raises(bindpose.InvalidInput, match="harmonic"):
+        bindpose.weights(BAR, handles, method="harmonic", influences=2)
+
+
 def test_weights_on_the_surface():
     w = bindpose.weights(BAR, "auto:3", domain="surface")
     assert w.shape == (len(BAR[0]), 3) and (w.max(axis=0) == 1).all()

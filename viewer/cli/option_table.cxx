@@ -127,8 +127,9 @@ const std::vector<Verb>& verbs()
           "bounded-biharmonic|monotone|harmonic|biharmonic|triharmonic|graph-biharmonic|"
           "linear-subspace|inverse-distance|smoothed-harmonic|bone-heat",
           "which weights; all but the first two are to compare with" },
-        { "--domain", "DOMAIN", Kind::choice, "auto", "auto|volume|embedding|surface",
-          "solve in tets of the inside, in a lattice that holds the surface, or on the surface; "
+        { "--domain", "DOMAIN", Kind::choice, "auto", "auto|volume|embedding|cage|surface",
+          "solve in tets of the inside, in a lattice that holds the surface, in the cage of the "
+          "handles around it, or on the surface; "
           "auto: small surfaces in their volume, dense or unfillable ones in the lattice, flat "
           "ones on themselves" },
         { "--resolution", "CUBES", Kind::integer, "0", "",
@@ -141,6 +142,26 @@ const std::vector<Verb>& verbs()
           "what proves a column: relative gap and residual at most 1e-6, or 1e-9" },
         { "--iterations", "N", Kind::integer, "100", "",
           "at most for a handle; exit code 3 when they do not suffice" },
+        { "--rigidity", "ARRAY", Kind::text, "", "",
+          "point array of painted rigidity, 0 and more: weights hardly vary where it is 1 or more; "
+          "of bounded-biharmonic and monotone, as all down to --partition; default: Rigidity" },
+        { "--rigid-sets", "ARRAY", Kind::text, "", "",
+          "point array of labels: weights are constant on each above 0; default: RigidSet" },
+        { "--pins", "ARRAY", Kind::text, "", "",
+          "point array of given weights, a component a handle, NaN where free; default: "
+          "PinnedWeights" },
+        { "--bounds", "LEAST,LARGEST", Kind::text, "0,1", "",
+          "of all weights; only a wider range than 0,1 can be kept. A component a handle and a "
+          "point: arrays WeightsLower and WeightsUpper" },
+        { "--mirror", "AXIS", Kind::choice, "none", "none|x|y|z",
+          "handles that are mirror images in the plane across the middle get mirrored weights; "
+          "with none the point array SymmetricPoint says so" },
+        { "--influences", "K", Kind::integer, "0", "",
+          "handles with a weight at a point, at most: the largest, solved for again; 0: any "
+          "number" },
+        { "--partition", "HOW", Kind::choice, "normalise", "normalise|coupled",
+          "divide rows by their sums, or solve for all columns together with the sums as "
+          "constraints: of bounded-biharmonic, slow" },
         { "--raw", "", Kind::flag, "", "",
           "add RawWeights: the columns that the certificate is about, before rows are divided by "
           "their sums" },

@@ -17,6 +17,7 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
+#include <cstdio>
 #include <map>
 
 namespace bindpose::cli
@@ -68,6 +69,7 @@ vtkSmartPointer<vtkWeightsAlgorithm> make_weights(const Arguments& arguments)
     { "auto", vtkWeightsAlgorithm::AUTO },
     { "volume", vtkWeightsAlgorithm::VOLUME },
     { "embedding", vtkWeightsAlgorithm::EMBEDDING },
+    { "cage", vtkWeightsAlgorithm::CAGE },
     { "surface", vtkWeightsAlgorithm::SURFACE },
   };
   weights->SetDomain(domains.at(arguments.text("domain")));
@@ -75,6 +77,64 @@ vtkSmartPointer<vtkWeightsAlgorithm> make_weights(const Arguments& arguments)
   weights->SetStage(arguments.text("stage") == "preview" ? vtkWeightsAlgorithm::PREVIEW
                                                          : vtkWeightsAlgorithm::CERTIFIED);
   return weights;
+}
+
+/// What is asked of weights besides smoothness; `mesh` is what was given, before tets.
+bool set_terms(Session& session, vtkDataSet* mesh, vtkWeightsAlgorithm* weights)
+{
+  const Arguments& arguments = session.arguments();
+  using Setter = void (vtkWeightsAlgorithm::*)(const std::string&);
+  const std::pair<const char*, Setter> arrays[] = {
+    { "rigidity", &vtkWeightsAlgorithm::SetRigidityArrayName },
+    { "rigid-sets", &vtkWeightsAlgorithm::SetRigidSetArrayName },
+    { "pins", &vtkWeightsAlgorithm::SetPinnedArrayName },
+  };
+  for (const auto& [option, set] : arrays)
+  {
+    const std::string name = arguments.text(option);
+    if (name.empty())
+    {
+      continue;
+    }
+    if (!mesh->GetPointData()->GetArray(name.c_str()))
+    {
+      return session.invalid(
+        "--" + std::string(option) + ": the mesh has no point array '" + name + "'");
+    }
+    (weights->*set)(name);
+  }
+  const std::string bounds = arguments.text("bounds");
+  const std::string method = arguments.text("method");
+  if (method != "bounded-biharmonic" && method != "monotone" &&
+    (!arguments.text("rigidity").empty() || !arguments.text("rigid-sets").empty() ||
+      !arguments.text("pins").empty() || bounds != "0,1" || arguments.text("mirror") != "none" ||
+      arguments.integer("influences") != 0 || arguments.text("partition") != "normalise"))
+  {
+    return session.invalid("--rigidity, --rigid-sets, --pins, --bounds, --mirror, --influences and "
+                           "--partition are of bounded-biharmonic and monotone weights");
+  }
+  double least = 0.0;
+  double largest = 0.0;
+  char rest = 0;
+  if (std::sscanf(bounds.c_str(), "%lf,%lf%c", &least, &largest, &rest) != 2)
+  {
+    return session.invalid("--bounds takes two numbers, as 0,1, not " + bounds);
+  }
+  weights->SetBounds(least, largest);
+  const std::string axis = arguments.text("mirror");
+  if (axis != "none")
+  {
+    double box[6];
+    mesh->GetBounds(box);
+    weights->SetMirrorNormal(axis == "x", axis == "y", axis == "z");
+    weights->SetMirrorOrigin(
+      0.5 * (box[0] + box[1]), 0.5 * (box[2] + box[3]), 0.5 * (box[4] + box[5]));
+  }
+  weights->SetMaximumInfluences(arguments.integer("influences"));
+  weights->SetPartitionOfUnity(arguments.text("partition") == "coupled"
+      ? vtkWeightsAlgorithm::COUPLED
+      : vtkWeightsAlgorithm::NORMALISE);
+  return true;
 }
 
 bool is_tets(vtkDataSet* data)
@@ -183,6 +243,10 @@ void run_weights(Session& session)
     return;
   }
   const auto weights = make_weights(arguments);
+  if (!set_terms(session, mesh, weights))
+  {
+    return;
+  }
   weights->SetInputData(0, mesh);
   weights->SetInputData(1, handles);
   if (!regions.empty())

@@ -40,6 +40,8 @@ SparseMatrix assemble(Index vertex_count, const Elements& elements, const Cotang
   }
   return from_entries(vertex_count, entries);
 }
+
+constexpr int triangle_edges[3][2] = { { 1, 2 }, { 2, 0 }, { 0, 1 } };
 } // namespace
 
 Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> cotangent_weights(
@@ -94,10 +96,15 @@ Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> cotangent_weights(
   return c;
 }
 
-SparseMatrix stiffness_matrix(PointsView points, TrianglesView triangles)
+SparseMatrix stiffness_matrix(
+  PointsView points, TrianglesView triangles, const Eigen::VectorXd& shares)
 {
-  constexpr int edges[3][2] = { { 1, 2 }, { 2, 0 }, { 0, 1 } };
-  return assemble(points.rows(), triangles, cotangent_weights(points, triangles), edges);
+  auto c = cotangent_weights(points, triangles);
+  if (shares.size() > 0)
+  {
+    c = shares.asDiagonal() * c;
+  }
+  return assemble(points.rows(), triangles, c, triangle_edges);
 }
 
 SparseMatrix stiffness_matrix(PointsView points, TetsView tets, const Eigen::VectorXd& shares)

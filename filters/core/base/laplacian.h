@@ -27,8 +27,9 @@ constexpr int tet_edges[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3
 
 /// Positive semi-definite stiffness K (#V x #V): K_ij = -sum of cotangent weights of edge ij, rows
 /// sum to zero. This is minus the cotangent Laplacian.
-SparseMatrix stiffness_matrix(PointsView points, TrianglesView triangles);
-/// @param shares #T factors of the elements (how much of each is material), or empty: all 1.
+/// @param shares a factor for each element (how much of it is material), or empty: all 1.
+SparseMatrix stiffness_matrix(
+  PointsView points, TrianglesView triangles, const Eigen::VectorXd& shares = Eigen::VectorXd());
 SparseMatrix stiffness_matrix(
   PointsView points, TetsView tets, const Eigen::VectorXd& shares = Eigen::VectorXd());
 

@@ -167,7 +167,8 @@ std::vector<CentralStart> barrier_start(const SplitForm& matrices,
           static_cast<double>(2 * n);
         for (Index i = 0; i < n; ++i)
         {
-          z(i, k) = std::clamp(free_of_bounds[matrices.free_vertices[i]], 0.0, 1.0);
+          const Index v = matrices.free_vertices[i];
+          z(i, k) = std::clamp(free_of_bounds[v], column.bounds.low(v), column.bounds.high(v));
         }
         for (std::size_t i = 0; i < column.pinned.size(); ++i)
         {
@@ -185,11 +186,16 @@ std::vector<CentralStart> barrier_start(const SplitForm& matrices,
         for (Index k = 0; k < width; ++k)
         {
           const char* given = pinned.data() + k * n;
+          const Bounds& bounds = columns[static_cast<std::size_t>(first + k)].bounds;
           for (Index i = 0; i < n; ++i)
           {
             if (!given[i])
             {
-              y(i, k) = barrier_step(z(i, k), mu[k] / p[i]);
+              const Index v = matrices.free_vertices[i];
+              const double l = bounds.low(v);
+              const double range = bounds.high(v) - l; // the equation is scaled to [0, 1]
+              y(i, k) =
+                l + range * barrier_step((z(i, k) - l) / range, mu[k] / p[i] / (range * range));
             }
           }
         }

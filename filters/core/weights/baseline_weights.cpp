@@ -384,6 +384,11 @@ Status baseline_weights(const WeightsProblem& problem, const BaselineWeightsOpti
   ExecutionContext& context, WeightsResult& result)
 {
   result = {};
+  if (problem.terms.any())
+  {
+    return Status::invalid_input(
+      "rigidity, rigid sets, bounds, pins and mirrors are for bounded and monotone weights");
+  }
   Status status = check_options(options);
   if (!status.ok())
   {

@@ -24,10 +24,12 @@ struct BoxQpOptions
 /// One column to solve for; all columns share Q and the fixed vertices.
 struct BoxQpColumn
 {
-  Eigen::VectorXd fixed_values; ///< values at the fixed vertices, in their order, within [0, 1]
+  Eigen::VectorXd fixed_values; ///< values at the fixed vertices, in their order
   /// Vertices that this column alone fixes besides, and their values.
   std::vector<Index> pinned;
   Eigen::VectorXd pinned_values;
+  /// Of all other vertices: [0, 1] unless given. Finite, lower < upper (equal: pin the vertex).
+  Bounds bounds;
   /// Pairs that must stay ordered; without a cycle, both ends of every pair joined by an entry of
   /// Q. Pairs between vertices that are not free are ignored.
   std::vector<OrderedPair> pairs;
@@ -37,7 +39,7 @@ struct BoxQpColumn
 struct BoxQpSolution
 {
   Status status; ///< ok, not_converged or cancelled; internal_error when a factorisation fails
-  Eigen::VectorXd w; ///< #V, within [0, 1] exactly and with all pairs ordered exactly
+  Eigen::VectorXd w; ///< #V, within the bounds exactly and with all pairs ordered exactly
   Certificate certificate;
   Eigen::VectorXd multipliers; ///< of column.pairs, >= 0
   int iterations = 0;
@@ -46,9 +48,9 @@ struct BoxQpSolution
   double solve_seconds = 0.0; ///< everything but factorisations
 };
 
-/// min 1/2 w' Q w subject to 0 <= w <= 1 and given values at the fixed vertices, for many columns,
-/// by a primal-dual interior-point method from starts found for all columns at once; one symbolic
-/// analysis serves all columns and iterations.
+/// min 1/2 w' Q w subject to l <= w <= u (0 and 1 by default) and given values at the fixed
+/// vertices, for many columns, by a primal-dual interior-point method from starts found for all
+/// columns at once; one symbolic analysis serves all columns and iterations.
 ///
 /// Stops on the certificate only (see Certificate), never on iterations: not reaching it within the
 /// budget is not_converged, with the best iterate and its numbers. Cost a column with

@@ -10,8 +10,6 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
   const std::vector<OrderedPair>& pairs, const Eigen::VectorXd& multipliers,
   const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& inverse)
 {
-  const double l = problem.lower;
-  const double u = problem.upper;
   // Q is symmetric: a product with its transpose runs along the columns as stored.
   Eigen::VectorXd g = problem.q.transpose() * w;
   Certificate certificate;
@@ -39,6 +37,8 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
     {
       continue;
     }
+    const double l = problem.bounds.low(v);
+    const double u = problem.bounds.high(v);
     const double diagonal = problem.q.coeff(v, v);
     diagonal_sum += diagonal;
     ++free_count;

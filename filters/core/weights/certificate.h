@@ -38,13 +38,22 @@ struct Certificate
   double bounds_violation = 0.0; ///< how far w lies outside of [l, u] at most
 };
 
+/// l <= w <= u, a value a vertex.
+struct Bounds
+{
+  Eigen::VectorXd lower; ///< #V; empty: 0 everywhere
+  Eigen::VectorXd upper; ///< #V; empty: 1 everywhere
+
+  double low(Index v) const { return this->lower.size() ? this->lower[v] : 0.0; }
+  double high(Index v) const { return this->upper.size() ? this->upper[v] : 1.0; }
+};
+
 /// The quadratic program min 1/2 w' Q w, l <= w <= u, w given at the vertices that are not free.
 struct BoundedEnergy
 {
   const SparseMatrix& q; ///< symmetric, #V x #V
   const std::vector<char>& free; ///< #V: 1 where w is found
-  double lower = 0.0;
-  double upper = 1.0;
+  Bounds bounds = {};
 };
 
 /// Computes the certificate of w (#V) from nothing but the problem's data.

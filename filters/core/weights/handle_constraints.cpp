@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace bindpose
 {
@@ -95,6 +96,44 @@ void find_components(const Domain& domain, HandleConstraints& result)
   }
 }
 
+/// Makes one part of all parts that hold vertices of the same label > 0.
+void join_components(const std::vector<Index>& labels, Components& components)
+{
+  std::vector<Index> part(static_cast<std::size_t>(components.count));
+  std::iota(part.begin(), part.end(), Index(0));
+  const auto find = [&](Index c)
+  {
+    while (part[c] != c)
+    {
+      c = part[c];
+    }
+    return c;
+  };
+  std::map<Index, Index> part_of_label;
+  for (std::size_t v = 0; v < labels.size(); ++v)
+  {
+    const Index c = components.of_vertex[v];
+    if (labels[v] > 0 && c >= 0)
+    {
+      const Index own = find(c);
+      const Index other = find(part_of_label.insert({ labels[v], own }).first->second);
+      part[std::max(own, other)] = std::min(own, other);
+    }
+  }
+  std::vector<Index> renumbered(part.size(), -1);
+  Index count = 0;
+  for (std::size_t c = 0; c < part.size(); ++c)
+  {
+    const Index root = find(static_cast<Index>(c));
+    renumbered[c] = root == static_cast<Index>(c) ? count++ : renumbered[root];
+  }
+  for (Index& c : components.of_vertex)
+  {
+    c = c < 0 ? c : renumbered[c];
+  }
+  components.count = count;
+}
+
 void tether_components(const Domain& domain, const Handles& handles,
   const std::vector<std::vector<Index>>& of_handle, HandleConstraints& result)
 {
@@ -165,10 +204,12 @@ Status give_every_handle_a_vertex(const Handles& handles,
   }
   for (std::size_t j = 0; j < handles.size(); ++j)
   {
-    Index row = 0;
-    for (auto vertex = owners.begin(); vertex != owners.end() && own[j] == 0; ++vertex, ++row)
+    for (auto vertex = owners.begin(); vertex != owners.end() && own[j] == 0; ++vertex)
     {
       const auto& list = vertex->second;
+      const auto row =
+        std::lower_bound(result.vertices.begin(), result.vertices.end(), vertex->first) -
+        result.vertices.begin();
       const auto at = static_cast<Index>(j);
       if (std::find(list.begin(), list.end(), at) != list.end() &&
         std::all_of(list.begin(), list.end(), [&](Index i) { return i == at || own[i] > 0; }))
@@ -190,12 +231,16 @@ Status give_every_handle_a_vertex(const Handles& handles,
 } // namespace
 
 Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
-  const std::vector<Index>& region_ids, HandleConstraints& result)
+  const std::vector<Index>& region_ids, HandleConstraints& result, const std::vector<Index>& joined)
 {
   result = {};
   const Domain& domain = mesh.domain;
   const auto original_count = domain.points.rows() - static_cast<Index>(mesh.inserted.size());
   find_components(domain, result);
+  if (!joined.empty())
+  {
+    join_components(joined, result.components);
+  }
 
   // Labels of inserted vertices: within a region when all corners around them are.
   const auto label = [&](Index v) -> Index
@@ -265,13 +310,55 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
   }
 
   const auto m = static_cast<Index>(handles.size());
-  result.values = Weights::Zero(static_cast<Index>(handles_of_vertex.size()), m);
+  for (const auto& entry : handles_of_vertex)
+  {
+    result.vertices.push_back(entry.first);
+  }
+  for (const CageVertex& on_cage : mesh.cage)
+  {
+    if (result.components.of_vertex[on_cage.vertex] >= 0)
+    {
+      result.vertices.push_back(on_cage.vertex);
+    }
+  }
+  std::sort(result.vertices.begin(), result.vertices.end());
+  result.vertices.erase(
+    std::unique(result.vertices.begin(), result.vertices.end()), result.vertices.end());
+  result.values = Weights::Zero(static_cast<Index>(result.vertices.size()), m);
+  const auto row_of = [&](Index v)
+  {
+    return std::lower_bound(result.vertices.begin(), result.vertices.end(), v) -
+      result.vertices.begin();
+  };
+  for (const CageVertex& on_cage : mesh.cage)
+  {
+    // Handles come before cages; where elements meet, they say the same.
+    if (result.components.of_vertex[on_cage.vertex] >= 0 &&
+      handles_of_vertex.count(on_cage.vertex) == 0)
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        if (on_cage.element[k] >= 0)
+        {
+          result.values(row_of(on_cage.vertex), on_cage.element[k]) += on_cage.shares[k];
+        }
+      }
+    }
+  }
+  for (std::size_t i = 0; i < result.vertices.size(); ++i)
+  {
+    const auto row = static_cast<Index>(i);
+    result.roles[result.vertices[i]] = VertexRole::handle;
+    const double sum = result.values.row(row).sum();
+    if (sum > 0.0)
+    {
+      result.values.row(row) /= sum;
+    }
+  }
   std::map<std::pair<Index, Index>, Index> shared;
   for (const auto& [v, owners] : handles_of_vertex)
   {
-    const auto row = static_cast<Index>(result.vertices.size());
-    result.vertices.push_back(v);
-    result.roles[v] = VertexRole::handle;
+    const auto row = row_of(v);
     for (const Index owner : owners)
     {
       result.values(row, owner) = 1.0 / static_cast<double>(owners.size());

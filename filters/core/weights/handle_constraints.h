@@ -19,7 +19,7 @@ enum class VertexRole : unsigned char
 struct HandleConstraints
 {
   std::vector<VertexRole> roles; ///< #V
-  std::vector<Index> vertices; ///< b, ascending: the vertices on handles
+  std::vector<Index> vertices; ///< b, ascending: the vertices on handles and cages
   Weights values; ///< bc, #b x #handles: rows sum to one
   std::vector<Index> counts; ///< constrained vertices of every handle
   Components components; ///< by elements that have a measure; -1 for followers and unreferenced
@@ -30,6 +30,8 @@ struct HandleConstraints
 
 /// Fixed vertices and their rows (the discrete boundary conditions) from where the handles lie.
 ///
+/// A vertex on a cage's edge or face gets what is linear there.
+///
 /// A vertex on several handles gets equal shares (a joint of two bones: 1/2, 1/2); where that
 /// happens although the handles do not touch, a warning names them. A handle that shares all of its
 /// vertices gets one for itself, so that every column has a one. A connected part without any
@@ -37,8 +39,10 @@ struct HandleConstraints
 /// a handle constrains no vertex (a region whose label no vertex has) or can have none of its own.
 ///
 /// @param region_ids label of every original vertex, or empty when there are no regions.
+/// @param joined label of every vertex, or empty: parts with a label > 0 in common count as one.
 Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
-  const std::vector<Index>& region_ids, HandleConstraints& result);
+  const std::vector<Index>& region_ids, HandleConstraints& result,
+  const std::vector<Index>& joined = {});
 
 } // namespace bindpose
 

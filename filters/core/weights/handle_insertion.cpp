@@ -8,6 +8,7 @@
 #include "weights/handle_insertion.h"
 
 #include "base/line_pieces.h"
+#include "inside/handle_places.h"
 #include "weights/simplex_locator.h"
 
 #include <algorithm>
@@ -27,12 +28,24 @@ struct Element
   std::vector<Index> children; // empty: part of the mesh
 };
 
-/// A point of a handle that is to be a vertex.
+/// A point of a handle that is to be a vertex. Elements of cages are numbered -1, -2, …
 struct Sample
 {
   Vec3 place = Vec3::Zero();
   Index handle = 0;
   Index vertex = -1;
+};
+
+/// A handle's edge or face with the places of its corners; an edge's second corner is its third.
+struct PlacedElement
+{
+  CageElement element;
+  Vec3 corners[3];
+
+  SimplexLocation nearest(const Vec3& p) const
+  {
+    return nearest_in_triangle(p, this->corners[0], this->corners[1], this->corners[2]);
+  }
 };
 
 class Inserter
@@ -64,6 +77,12 @@ private:
   void copy_mesh();
   void add_bone_samples(
     Index handle, std::vector<Sample>& on_vertices, std::vector<Sample>& between);
+  void add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sample>& between);
+  void add_cage_vertex(Index number, Index vertex);
+  HandlePlacement& placement_of(Index handle)
+  {
+    return handle < 0 ? this->on_cage_ : this->result_.handles[handle];
+  }
   SimplexLocation root(const Vec3& p) const;
   bool is_held(Index v) const;
   SimplexLocation locate(const Vec3& p, Vec3& place) const;
@@ -84,6 +103,9 @@ private:
   std::vector<Vec3> points_;
   std::vector<Element> elements_;
   std::vector<std::vector<Index>> incident_; // elements of every vertex, dead ones among them
+  std::vector<PlacedElement> cage_;
+  HandlePlacement on_cage_; // of all samples on its elements
+  Index cage_samples_outside_ = 0;
 };
 
 void Inserter::copy_mesh()
@@ -215,12 +237,94 @@ void Inserter::add_bone_samples(
   }
 }
 
+void Inserter::add_cage_vertex(Index number, Index vertex)
+{
+  const PlacedElement& placed = this->cage_[-1 - number];
+  const SimplexLocation at = placed.nearest(this->points_[vertex]);
+  CageVertex on_cage{ vertex, placed.element,
+    { at.barycentric[0], at.barycentric[1], at.barycentric[2] } };
+  if (placed.element[2] < 0)
+  {
+    on_cage.shares[1] += on_cage.shares[2];
+    on_cage.shares[2] = 0.0;
+  }
+  this->result_.cage.push_back(on_cage);
+}
+
+void Inserter::add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sample>& between)
+{
+  const double on = 1e-7 * this->diagonal_;
+  for (const Handle& handle : this->handles_)
+  {
+    for (const CageElement& element : handle.cage)
+    {
+      const auto corner = [&](int k) { return this->handles_[element[k]].head; };
+      const bool face = element[2] >= 0;
+      this->cage_.push_back({ element, { corner(0), corner(1), corner(face ? 2 : 1) } });
+    }
+  }
+  for (std::size_t i = 0; i < this->cage_.size(); ++i)
+  {
+    const PlacedElement& placed = this->cage_[i];
+    const Index number = -1 - static_cast<Index>(i);
+    const bool face = placed.element[2] >= 0;
+    HandlePlaces places;
+    places.points.resize(face ? 3 : 2, 3);
+    for (Index k = 0; k < places.points.rows(); ++k)
+    {
+      places.points.row(k) = placed.corners[k];
+    }
+    places.segments.resize(face ? 3 : 1, 2);
+    places.segments.row(0) << 0, 1;
+    if (face)
+    {
+      places.segments.bottomRows(2) << 1, 2, 2, 0;
+      places.triangles.resize(1, 3);
+      places.triangles << 0, 1, 2;
+    }
+    const auto length = [&](const Vec3& p)
+    {
+      const double edge = mean_edge_length(this->domain_, this->root(p).element);
+      return std::max(this->options_.spacing * edge, 1e-3 * this->diagonal_);
+    };
+    const std::size_t first = on_vertices.size();
+    for (std::size_t v = 0; v < this->points_.size(); ++v)
+    {
+      if (!this->incident_[v].empty() && placed.nearest(this->points_[v]).distance <= on &&
+        this->is_held(static_cast<Index>(v)))
+      {
+        on_vertices.push_back({ this->points_[v], number, static_cast<Index>(v) });
+        this->add_cage_vertex(number, static_cast<Index>(v));
+      }
+    }
+    const HandleSamples samples = sample_places(places, length);
+    for (Index k = samples.chosen; k < samples.points.rows(); ++k)
+    {
+      const Vec3 place = samples.points.row(k);
+      const double near = 0.75 * length(place); // a vertex on the element will do
+      if (std::any_of(on_vertices.begin() + static_cast<std::ptrdiff_t>(first), on_vertices.end(),
+            [&](const Sample& other) { return (other.place - place).norm() <= near; }))
+      {
+        continue;
+      }
+      if (this->root(place).distance <= 1e-6 * this->diagonal_)
+      {
+        between.push_back({ place, number, -1 });
+      }
+      else
+      {
+        ++this->cage_samples_outside_;
+      }
+    }
+  }
+}
+
 /// keep_mesh: the corners with a share in the sample.
 void Inserter::take_corners(Sample& sample)
 {
   Vec3 place;
   const SimplexLocation at = this->locate(sample.place, place);
-  HandlePlacement& placement = this->result_.handles[sample.handle];
+  HandlePlacement& placement = this->placement_of(sample.handle);
   placement.outside = std::max(placement.outside, at.distance);
   for (int k = 0; k < this->corners_; ++k)
   {
@@ -228,6 +332,10 @@ void Inserter::take_corners(Sample& sample)
     {
       const Index v = this->elements_[at.element].ids[k];
       placement.vertices.push_back(v);
+      if (sample.handle < 0)
+      {
+        this->add_cage_vertex(sample.handle, v);
+      }
       placement.snap = std::max(placement.snap, (this->points_[v] - place).norm());
     }
   }
@@ -235,7 +343,7 @@ void Inserter::take_corners(Sample& sample)
 
 void Inserter::insert(Sample& sample, const std::vector<Sample>& earlier)
 {
-  HandlePlacement& placement = this->result_.handles[sample.handle];
+  HandlePlacement& placement = this->placement_of(sample.handle);
   Vec3 place;
   const SimplexLocation at = this->locate(sample.place, place);
   placement.outside = std::max(placement.outside, at.distance);
@@ -385,6 +493,12 @@ void Inserter::finish()
       outside += (outside.empty() ? "'" : ", '") + this->handles_[i].name + "' by " + distance;
     }
   }
+  if (this->cage_samples_outside_ > 0)
+  {
+    this->result_.warnings.push_back("the cage lies outside of the mesh in " +
+      std::to_string(this->cage_samples_outside_) +
+      " of its samples, which were left out; a cage around a shape needs domain cage");
+  }
   if (!outside.empty())
   {
     this->result_.warnings.push_back(std::string("handles that lie outside of the ") +
@@ -419,6 +533,7 @@ Status Inserter::run(ExecutionContext& context)
       return Status::cancelled();
     }
   }
+  this->add_cage_samples(earlier, between);
   samples.insert(samples.end(), ends.begin(), ends.end());
   samples.insert(samples.end(), between.begin(), between.end());
   // A handle right on a vertex gets it, before another near it can snap there.
@@ -438,6 +553,10 @@ Status Inserter::run(ExecutionContext& context)
     {
       this->insert(samples[i], earlier);
       earlier.push_back(samples[i]);
+      if (samples[i].handle < 0)
+      {
+        this->add_cage_vertex(samples[i].handle, samples[i].vertex);
+      }
     }
     context.progress(static_cast<double>(i) / static_cast<double>(samples.size()));
     if (context.cancelled())

@@ -41,12 +41,21 @@ struct InsertedVertex
   std::array<double, 4> barycentric{ 0.0, 0.0, 0.0, 0.0 };
 };
 
+/// A vertex on a cage's edge or face, between cage vertices.
+struct CageVertex
+{
+  Index vertex = -1;
+  CageElement element{ -1, -1, -1 };
+  std::array<double, 3> shares{ 0.0, 0.0, 0.0 }; ///< of the element's corners, sum 1
+};
+
 struct HandleInsertion
 {
   /// Original vertices first, with their ids; then the inserted ones. Elements that were not split
   /// come first, in their order.
   Domain domain;
   std::vector<HandlePlacement> handles; ///< one a handle
+  std::vector<CageVertex> cage; ///< where the cage lies in the mesh
   std::vector<InsertedVertex> inserted;
   std::vector<Index> parent_element; ///< of every element: the original that it is part of
   double largest_snap = 0.0; ///< in local edge lengths
@@ -61,6 +70,8 @@ struct HandleInsertion
 /// element, with a warning that names handles and distances. Each then splits the elements around
 /// it: the union of the mesh, its volume or area and all orientations stay. Two different handles
 /// never share a vertex unless they share the place, even if that makes small elements.
+///
+/// Edges and faces of cages are sampled as bones are, but what of them lies outside is left out.
 /// Cost: O(#elements log #elements), no more than building a search tree.
 Status insert_handles(const Domain& domain, const Handles& handles,
   const HandleInsertionOptions& options, ExecutionContext& context, HandleInsertion& result);

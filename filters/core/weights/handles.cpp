@@ -46,6 +46,27 @@ Status check_parents(const Handles& handles)
   }
   return {};
 }
+
+Status check_cages(const Handles& handles)
+{
+  const auto count = static_cast<Index>(handles.size());
+  for (const Handle& handle : handles)
+  {
+    for (const CageElement& element : handle.cage)
+    {
+      const auto [a, b, c] = element;
+      const auto is_corner = [&](Index i)
+      { return i >= 0 && i < count && handles[i].kind == HandleKind::cage_vertex; };
+      if (!is_corner(a) || !is_corner(b) || (c != -1 && !is_corner(c)) || a == b || a == c ||
+        b == c || &handles[a] != &handle)
+      {
+        return Status::invalid_input("an edge or face of the cage at '" + handle.name +
+          "' does not have two or three different cage vertices");
+      }
+    }
+  }
+  return {};
+}
 } // namespace
 
 Status check_handles(const Handles& handles)
@@ -100,7 +121,8 @@ Status check_handles(const Handles& handles)
       }
     }
   }
-  return check_parents(handles);
+  const Status parents = check_parents(handles);
+  return parents.ok() ? check_cages(handles) : parents;
 }
 
 } // namespace bindpose

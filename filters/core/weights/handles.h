@@ -3,6 +3,7 @@
 
 #include "base/mesh.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ enum class HandleKind : int
   region = 3
 };
 
+/// A cage's edge (the third is -1) or face: the handles at its corners.
+using CageElement = std::array<Index, 3>;
+
 /// One handle: one cell of the handle dataset and, unless it is a cage element, one column of the
 /// weights, in the order of the cells.
 struct Handle
@@ -33,6 +37,8 @@ struct Handle
   Index parent = -1;
   /// Region: the label in the mesh's point array RegionId (> 0; 0 means free).
   Index region_id = 0;
+  /// Cage vertex: the cage's elements that begin at it. Weights are linear along them.
+  std::vector<CageElement> cage;
 };
 
 using Handles = std::vector<Handle>;
@@ -42,7 +48,8 @@ const char* to_string(HandleKind kind);
 
 /// invalid_input, naming the handle, for: no handle at all, an empty or doubled name, a coordinate
 /// that is not finite, a bone of length zero, two handles at the same place (closer than 1e-9 of
-/// the handles' extent or exactly equal when they have none), a parent out of range or in a cycle.
+/// the handles' extent or exactly equal when they have none), a parent out of range or in a cycle,
+/// a cage element whose corners are not two or three different cage vertices.
 Status check_handles(const Handles& handles);
 
 } // namespace bindpose

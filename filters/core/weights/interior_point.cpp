@@ -1,7 +1,7 @@
 // Primal-dual interior point with a slack for every inequality.
 //
 // Over the free vertices x:  min 1/2 x'Ax + c'x  subject to  Bx + h = s >= 0, where the rows of B
-// are x >= 0, x <= 1 and the ordered pairs. With multipliers z >= 0 the optimality conditions are
+// are x >= l, x <= u and the ordered pairs. With multipliers z >= 0 the optimality conditions are
 //   Ax + c - B'z = 0,   Bx + h - s = 0,   s z = 0.
 // Newton's step for s z = target eliminates s and z and leaves one factorisation of
 //   A + B' diag(z/s) B,
@@ -57,7 +57,7 @@ struct PairRow
   Index pair = 0; // in the column's list
 };
 
-/// One column's solve. Vectors over constraints hold x >= 0 for all bounded unknowns, then x <= 1,
+/// One column's solve. Vectors over constraints hold x >= l for all bounded unknowns, then x <= u,
 /// then the pairs.
 class InteriorPoint
 {
@@ -108,6 +108,7 @@ private:
   std::vector<Index> topological_; // vertices of the pairs, every low before its high
   std::vector<char> free_here_; // #V
   VectorXd given_; // #V: fixed and pinned values, 0 elsewhere
+  VectorXd lower_, upper_; // bounds by free index
   VectorXd c_; // linear term
   VectorXd h_; // offsets of the constraints
   VectorXd x_, s_, z_;
@@ -145,8 +146,12 @@ Status InteriorPoint::set_up()
       this->given_[v] = this->column_.pinned_values[static_cast<Index>(i)];
     }
   }
+  this->lower_.resize(free_count);
+  this->upper_.resize(free_count);
   for (Index i = 0; i < free_count; ++i)
   {
+    this->lower_[i] = this->column_.bounds.low(matrices.free_vertices[i]);
+    this->upper_[i] = this->column_.bounds.high(matrices.free_vertices[i]);
     if (!this->pinned_[i])
     {
       this->bounded_.push_back(i);
@@ -177,8 +182,11 @@ Status InteriorPoint::set_up()
   }
   const auto nb = static_cast<Index>(this->bounded_.size());
   this->h_.resize(2 * nb + static_cast<Index>(this->rows_.size()));
-  this->h_.head(nb).setZero();
-  this->h_.segment(nb, nb).setOnes();
+  for (Index i = 0; i < nb; ++i)
+  {
+    this->h_[i] = -this->lower_[this->bounded_[i]];
+    this->h_[nb + i] = this->upper_[this->bounded_[i]];
+  }
   for (std::size_t r = 0; r < this->rows_.size(); ++r)
   {
     this->h_[2 * nb + static_cast<Index>(r)] = this->rows_[r].offset;
@@ -533,13 +541,30 @@ void InteriorPoint::set_start()
   for (Index i = 0; i < n; ++i)
   {
     const Index v = matrices.free_vertices[i];
-    this->x_[i] = this->pinned_[i] ? this->given_[v] : std::clamp(guess[v], 0.0, 1.0);
+    this->x_[i] =
+      this->pinned_[i] ? this->given_[v] : std::clamp(guess[v], this->lower_[i], this->upper_[i]);
   }
-  const double energy =
-    0.5 * this->unconstrained_.dot(matrices.q.transpose() * this->unconstrained_);
+  double energy = 0.5 * this->unconstrained_.dot(matrices.q.transpose() * this->unconstrained_);
+  VectorXd within = this->given_;
+  for (Index i = 0; i < n; ++i)
+  {
+    within[matrices.free_vertices[i]] = this->x_[i];
+  }
+  const double energy_within = 0.5 * within.dot(matrices.q.transpose() * within);
+  if (!(energy > 1e-9 * energy_within))
+  {
+    energy = energy_within; // a column that only its own bounds or pins keep from being constant
+  }
   // Both constants measured on boxes and on real shapes: half of the iterations of mu = E / n.
   constexpr double least = 1e-2;
-  this->s_ = (this->apply(this->x_) + this->h_).cwiseMax(least);
+  VectorXd floor = VectorXd::Constant(this->h_.size(), least);
+  const auto nb = static_cast<Index>(this->bounded_.size());
+  for (Index i = 0; i < nb; ++i)
+  {
+    const Index at = this->bounded_[i];
+    floor[i] = floor[nb + i] = least * std::min(1.0, this->upper_[at] - this->lower_[at]);
+  }
+  this->s_ = (this->apply(this->x_) + this->h_).cwiseMax(floor);
   const double mu = 10.0 * energy / static_cast<double>(this->s_.size());
   this->z_ = mu * this->s_.cwiseInverse();
 }
@@ -557,7 +582,11 @@ void InteriorPoint::order_pairs(VectorXd& w) const
     above[pair.low].push_back(pair.high);
   }
   // The least value given to anything above: nothing below it may exceed that.
-  VectorXd cap = VectorXd::Ones(w.size());
+  VectorXd cap(w.size());
+  for (Index v = 0; v < w.size(); ++v)
+  {
+    cap[v] = this->column_.bounds.high(v);
+  }
   for (auto v = this->topological_.rbegin(); v != this->topological_.rend(); ++v)
   {
     if (!this->free_here_[*v])
@@ -592,7 +621,8 @@ void InteriorPoint::certify_iterate(bool second_bound)
   this->result_.w = this->given_;
   for (const Index i : this->bounded_)
   {
-    this->result_.w[matrices.free_vertices[i]] = std::clamp(this->x_[i], 0.0, 1.0);
+    this->result_.w[matrices.free_vertices[i]] =
+      std::clamp(this->x_[i], this->lower_[i], this->upper_[i]);
   }
   this->order_pairs(this->result_.w);
   const auto nb = static_cast<Index>(this->bounded_.size());
@@ -601,7 +631,7 @@ void InteriorPoint::certify_iterate(bool second_bound)
   {
     this->result_.multipliers[this->rows_[r].pair] = this->z_[2 * nb + static_cast<Index>(r)];
   }
-  const BoundedEnergy problem{ matrices.q, this->free_here_ };
+  const BoundedEnergy problem{ matrices.q, this->free_here_, this->column_.bounds };
   Certificate& certificate = this->result_.certificate;
   certificate = certify(problem, this->result_.w, this->column_.pairs, this->result_.multipliers,
     second_bound ? this->inverse_ : Inverse());
@@ -623,9 +653,13 @@ void InteriorPoint::certify_iterate(bool second_bound)
 bool InteriorPoint::finish(double enough)
 {
   constexpr int rounds = 6;
-  VectorXd x = this->x_.cwiseMax(0.0).cwiseMin(1.0);
+  VectorXd x = this->x_;
+  for (const Index i : this->bounded_)
+  {
+    x[i] = std::clamp(x[i], this->lower_[i], this->upper_[i]);
+  }
   const double moved = projected_newton(
-    this->matrices_, this->c_, this->pinned_,
+    this->matrices_, this->c_, this->pinned_, this->lower_, this->upper_,
     [this](const VectorXd& r, VectorXd& z)
     {
       if (this->in_single_)

@@ -10,7 +10,13 @@
 // and by 1 - u where that is small; ties go to the index, so the pairs cannot run in a circle.
 //
 // A prescribed extremum has the value 0 or 1, so that all edges at it are ordered by the bounds.
+//
+// Where a column pins vertices of its own, its guide takes their values, too: it is then a function
+// that keeps pins and order, so that there is one. Vertices of one unknown (rigid sets, mirrors)
+// are one vertex to the guide.
 #include "weights/monotone_weights.h"
+
+#include "weights/weight_solve.h"
 
 #include <algorithm>
 #include <cmath>
@@ -53,36 +59,164 @@ SparseMatrix positive_stiffness(const WeightsProblem& problem)
   laplacian.setFromTriplets(entries.begin(), entries.end());
   return laplacian;
 }
-} // namespace
 
-Status monotone_guide(const WeightsProblem& problem, const SparseSolver::Options& solver_options,
-  ExecutionContext& context, MonotoneGuide& result, std::vector<BoxQpColumn>& columns)
+/// The guide of a column with pins of its own, and 1 minus it, each from positive numbers alone.
+Status pinned_guide(const SparseMatrix& laplacian, const std::vector<Index>& fixed,
+  const BoxQpColumn& column, const SparseSolver::Options& options, ExecutionContext& context,
+  Eigen::VectorXd& u, Eigen::VectorXd& rest)
+{
+  std::vector<Index> given = fixed;
+  given.insert(given.end(), column.pinned.begin(), column.pinned.end());
+  Eigen::MatrixXd values(static_cast<Index>(given.size()), 2);
+  values.col(0) << column.fixed_values, column.pinned_values;
+  values.col(1) = 1.0 - values.col(0).array();
+  BoxQp solver(laplacian, given, { 1e-6, 1, options });
+  const Status status = solver.prepare(context);
+  if (status.ok())
+  {
+    const Eigen::MatrixXd both = solver.unconstrained(values, false);
+    u = both.col(0);
+    rest = both.col(1);
+  }
+  return status;
+}
+
+/// Whether bounds and given values leave room for the pairs' order: the least that each unknown
+/// can be rises along the guide.
+/// @return an unknown without room, or -1.
+Index without_room(const BoxQpColumn& column, const std::vector<Index>& fixed, Index count)
+{
+  std::vector<double> least(static_cast<std::size_t>(count));
+  std::vector<double> most(static_cast<std::size_t>(count));
+  for (Index u = 0; u < count; ++u)
+  {
+    least[u] = column.bounds.low(u);
+    most[u] = column.bounds.high(u);
+  }
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+  {
+    least[fixed[i]] = most[fixed[i]] = column.fixed_values[static_cast<Index>(i)];
+  }
+  for (std::size_t i = 0; i < column.pinned.size(); ++i)
+  {
+    least[column.pinned[i]] = most[column.pinned[i]] = column.pinned_values[static_cast<Index>(i)];
+  }
+  std::vector<std::vector<Index>> above(static_cast<std::size_t>(count));
+  std::vector<Index> open(static_cast<std::size_t>(count), 0);
+  for (const OrderedPair& pair : column.pairs)
+  {
+    above[pair.low].push_back(pair.high);
+    open[pair.high] += 1;
+  }
+  std::vector<Index> ordered;
+  for (Index u = 0; u < count; ++u)
+  {
+    if (open[u] == 0)
+    {
+      ordered.push_back(u);
+    }
+  }
+  constexpr double round_off = 1e-12;
+  for (std::size_t i = 0; i < ordered.size(); ++i)
+  {
+    const Index u = ordered[i];
+    if (least[u] > most[u] + round_off)
+    {
+      return u;
+    }
+    for (const Index v : above[u])
+    {
+      least[v] = std::max(least[v], least[u]);
+      if (--open[v] == 0)
+      {
+        ordered.push_back(v);
+      }
+    }
+  }
+  return -1;
+}
+
+/// A vertex of an unknown, and the handle whose weight it is there.
+std::string place_of(const WeightsProblem& problem, const ColumnGroup& group, Index c, Index u)
 {
   const Index n = problem.vertex_count();
-  const Index m = problem.handle_count();
-  const VertexGraph& graph = problem.graph;
-  const auto& roles = problem.constraints.roles;
-  const SparseMatrix laplacian = positive_stiffness(problem);
-  BoxQp solver(laplacian, problem.fixed, { 1e-6, 1, solver_options });
-  const Status status = solver.prepare(context);
+  Index member = u;
+  for (Index i = 0; i < group.copies * n && !group.unknowns.empty(); ++i)
+  {
+    if (group.unknowns[i] == u)
+    {
+      member = i;
+      break;
+    }
+  }
+  return "'" + problem.handles[group.handles[c][member / n]].name + "' at vertex " +
+    std::to_string(member % n);
+}
+} // namespace
+
+Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
+  const SparseSolver::Options& solver_options, ExecutionContext& context, MonotoneGuide& result)
+{
+  const Index n = group.count;
+  const auto m = static_cast<Index>(group.columns.size());
+  const bool merged = !group.unknowns.empty();
+  VertexGraph own_graph;
+  if (merged)
+  {
+    own_graph = merge_graph(group, problem.graph, problem.constraints.roles);
+  }
+  const VertexGraph& graph = merged ? own_graph : problem.graph;
+  std::vector<char> is_fixed(static_cast<std::size_t>(n), 0);
+  for (const Index u : group.fixed)
+  {
+    is_fixed[u] = 1;
+  }
+  const SparseMatrix laplacian = merge_form(group, positive_stiffness(problem));
+  BoxQp solver(laplacian, group.fixed, { 1e-6, 1, solver_options });
+  Status status = solver.prepare(context);
   if (!status.ok())
   {
     return status;
   }
-  result.guide = solver.unconstrained(problem.fixed_values, false);
-  // Sums of the guides behind column j; those before it are summed up on the way.
+  Eigen::MatrixXd fixed_values(static_cast<Index>(group.fixed.size()), m);
+  for (Index j = 0; j < m; ++j)
+  {
+    fixed_values.col(j) = group.columns[j].fixed_values;
+  }
+  result.guide = solver.unconstrained(fixed_values, false);
+  // Sums of the guides behind column j; those before it are summed up on the way. Only all columns
+  // together sum to one.
+  const bool whole = m == problem.handle_count();
   Eigen::MatrixXd behind = Eigen::MatrixXd::Zero(n, m);
-  for (Index j = m - 1; j-- > 0;)
+  for (Index j = m - 1; j-- > 0 && whole;)
   {
     behind.col(j) = behind.col(j + 1) + result.guide.col(j + 1);
+  }
+  if (!whole)
+  {
+    behind = solver.unconstrained((1.0 - fixed_values.array()).matrix(), false);
   }
   Eigen::VectorXd before = Eigen::VectorXd::Zero(n);
   result.pairs.assign(static_cast<std::size_t>(m), {});
   for (Index j = 0; j < m; ++j)
   {
-    const Eigen::VectorXd u = result.guide.col(j);
-    const Eigen::VectorXd rest = before + behind.col(j);
-    before += u;
+    BoxQpColumn& column = group.columns[static_cast<std::size_t>(j)];
+    Eigen::VectorXd u = result.guide.col(j);
+    Eigen::VectorXd rest = before + behind.col(j);
+    if (whole)
+    {
+      before += u;
+    }
+    const bool own_pins = group.own_pins[static_cast<std::size_t>(j)];
+    if (own_pins)
+    {
+      status = pinned_guide(laplacian, group.fixed, column, solver_options, context, u, rest);
+      if (!status.ok())
+      {
+        return status;
+      }
+      result.guide.col(j) = u;
+    }
     const auto below = [&](Index a, Index b)
     {
       if (u[a] > 0.5 && u[b] > 0.5 && rest[a] != rest[b])
@@ -91,7 +225,6 @@ Status monotone_guide(const WeightsProblem& problem, const SparseSolver::Options
       }
       return u[a] != u[b] ? u[a] < u[b] : a < b;
     };
-    BoxQpColumn& column = columns[static_cast<std::size_t>(j)];
     std::vector<char> pinned(static_cast<std::size_t>(n), 0);
     for (const Index v : column.pinned)
     {
@@ -101,18 +234,25 @@ Status monotone_guide(const WeightsProblem& problem, const SparseSolver::Options
       column.pinned_values.data(), column.pinned_values.data() + column.pinned_values.size());
     for (Index v = 0; v < n; ++v)
     {
-      if (roles[v] == VertexRole::solved && !pinned[v] && (u[v] == 0.0 || rest[v] == 0.0))
+      if (!is_fixed[v] && !pinned[v] && (u[v] == 0.0 || rest[v] == 0.0))
       {
+        const double value = u[v] == 0.0 ? 0.0 : 1.0;
+        if (value < column.bounds.low(v) || value > column.bounds.high(v))
+        {
+          return Status::invalid_input("the weight of " + place_of(problem, group, j, v) +
+            " can only be " + std::to_string(static_cast<int>(value)) +
+            " if it is monotone, outside of its bounds");
+        }
         pinned[v] = 1;
         column.pinned.push_back(v);
-        values.push_back(u[v] == 0.0 ? 0.0 : 1.0);
+        values.push_back(value);
       }
     }
     column.pinned_values =
       Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
 
     // Pairs that an end with the value 0 or 1 orders anyway are left out.
-    const auto given = [&](Index v) { return roles[v] != VertexRole::solved || pinned[v]; };
+    const auto given = [&](Index v) { return is_fixed[v] || pinned[v]; };
     std::vector<OrderedPair>& pairs = result.pairs[static_cast<std::size_t>(j)];
     for (Index v = 0; v < n; ++v)
     {
@@ -125,18 +265,20 @@ Status monotone_guide(const WeightsProblem& problem, const SparseSolver::Options
       for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
       {
         const Index other = graph.neighbours[k];
-        if (roles[other] == VertexRole::follower)
+        if (!merged && problem.constraints.roles[other] == VertexRole::follower)
         {
           continue;
         }
         lowest = below(other, lowest) ? other : lowest;
         highest = below(highest, other) ? other : highest;
       }
-      if (lowest != v && !(given(lowest) && u[lowest] <= 0.0))
+      const bool above_zero = column.bounds.low(v) >= 0.0;
+      const bool below_one = column.bounds.high(v) <= 1.0;
+      if (lowest != v && !(above_zero && given(lowest) && u[lowest] <= 0.0))
       {
         pairs.push_back({ lowest, v });
       }
-      if (highest != v && !(given(highest) && u[highest] >= 1.0))
+      if (highest != v && !(below_one && given(highest) && u[highest] >= 1.0))
       {
         pairs.push_back({ v, highest });
       }
@@ -149,6 +291,13 @@ Status monotone_guide(const WeightsProblem& problem, const SparseSolver::Options
                   { return x.low == y.low && x.high == y.high; }),
       pairs.end());
     column.pairs = pairs;
+    const Index tight =
+      own_pins || column.bounds.lower.size() > 0 ? without_room(column, group.fixed, n) : Index(-1);
+    if (tight >= 0)
+    {
+      return Status::invalid_input("the bounds and pins of " + place_of(problem, group, j, tight) +
+        " leave no monotone weight there");
+    }
     if (context.cancelled())
     {
       return Status::cancelled();
@@ -165,40 +314,17 @@ Status monotone_weights(const WeightsProblem& problem, const MonotoneWeightsOpti
   {
     return Status::invalid_input("the order of monotone weights is 2 or 3");
   }
-  std::vector<BoxQpColumn> columns = problem.columns();
-  MonotoneGuide guide;
-  Status status;
+  if (options.partition == PartitionOfUnity::coupled)
   {
-    const Phase phase(context, "guide", 0.04, 0.06);
-    status = monotone_guide(problem, options.solver, context, guide, columns);
+    return Status::invalid_input("only bounded weights can be coupled to sum to one");
   }
-  if (!status.ok())
+  const auto guide = [&](ColumnGroup& group)
   {
-    return status;
-  }
-  const SparseMatrix q = harmonic_energy(problem.stiffness, problem.mass, options.order);
-  BoxQp solver(q, problem.fixed, { options.tolerance, options.maximum_iterations, options.solver });
-  {
-    const ProgressRange range(context, 0.06, 0.1);
-    status = solver.prepare(context);
-  }
-  if (!status.ok())
-  {
-    return status;
-  }
-  std::vector<BoxQpSolution> solutions;
-  {
-    const Phase phase(context, "weights", 0.1, 0.95);
-    solutions = solver.solve_all(columns, context);
-  }
-  status = worst_of(solutions);
-  if (!status.usable())
-  {
-    return status;
-  }
-  result.analyses = solver.analyses();
-  return finish_weights(problem, options.order == 2 ? "monotone" : "monotone-triharmonic",
-    options.tolerance, solutions, solver.unconstrained(problem.fixed_values), context, result);
+    MonotoneGuide made;
+    return monotone_guide(problem, group, options.solver, context, made);
+  };
+  return solve_weights(problem, options.order,
+    options.order == 2 ? "monotone" : "monotone-triharmonic", options, guide, context, result);
 }
 
 } // namespace bindpose

@@ -1,7 +1,7 @@
 #ifndef bindpose_weights_monotone_weights_h
 #define bindpose_weights_monotone_weights_h
 
-#include "weights/weights_problem.h"
+#include "weights/column_groups.h"
 
 namespace bindpose
 {
@@ -12,16 +12,17 @@ struct MonotoneWeightsOptions : WeightsOptions
   int order = 2;
 };
 
-/// The guides of monotone weights and their ordered pairs, a list for each handle. A guide has its
-/// extrema on the handles only; vertices where it is exactly 0 or 1 (parts that one handle closes
-/// off) are pinned in the columns.
+/// The guides of monotone weights and their ordered pairs, a list for each column of the group. A
+/// guide has its extrema on the handles and on pinned vertices only; vertices where it is exactly 0
+/// or 1 (parts that one handle closes off) are pinned in the columns, which get the pairs.
+/// invalid_input, naming handle and vertex, when bounds cannot be kept in that order.
 struct MonotoneGuide
 {
-  Eigen::MatrixXd guide; ///< #V x #handles, harmonic for positive weights of the edges
+  Eigen::MatrixXd guide; ///< #unknowns x #columns, harmonic for positive weights of the edges
   std::vector<std::vector<OrderedPair>> pairs;
 };
-Status monotone_guide(const WeightsProblem& problem, const SparseSolver::Options& solver,
-  ExecutionContext& context, MonotoneGuide& result, std::vector<BoxQpColumn>& columns);
+Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
+  const SparseSolver::Options& solver, ExecutionContext& context, MonotoneGuide& result);
 
 /// Monotone weights: bounded k-harmonic weights whose only extrema are the handles. Each vertex
 /// gets one neighbour above and one below it by a guide, so no vertex between can be one.

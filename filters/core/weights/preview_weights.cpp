@@ -7,6 +7,7 @@
 #include "weights/preview_weights.h"
 
 #include "base/parallel.h"
+#include "weights/column_groups.h"
 #include "weights/split_form.h"
 
 #include <Eigen/Cholesky>
@@ -231,7 +232,7 @@ Status preview_weights(const WeightsProblem& problem, const WeightsOptions& opti
   w = w.cwiseMax(0.0).cwiseMin(1.0);
 
   const SparseMatrix q = harmonic_energy(problem.stiffness, problem.mass, 2);
-  const std::vector<BoxQpColumn> columns = problem.columns();
+  const std::vector<BoxQpColumn> columns = plain_columns(problem);
   std::vector<BoxQpSolution> solutions(columns.size());
   std::vector<char> is_free(static_cast<std::size_t>(problem.vertex_count()), 1);
   for (const Index v : problem.fixed)

@@ -12,8 +12,9 @@ namespace bindpose
 using Eigen::VectorXd;
 
 double projected_newton(const SplitForm& matrices, const VectorXd& c,
-  const std::vector<char>& pinned, const Preconditioner& preconditioner, int rounds, double enough,
-  const ExecutionContext& context, VectorXd& x)
+  const std::vector<char>& pinned, const VectorXd& lower, const VectorXd& upper,
+  const Preconditioner& preconditioner, int rounds, double enough, const ExecutionContext& context,
+  VectorXd& x)
 {
   constexpr int steps = 5; // of conjugate gradients a round
   constexpr double reduction = 0.05; // of the error's energy norm that ends them
@@ -40,8 +41,10 @@ double projected_newton(const SplitForm& matrices, const VectorXd& c,
     for (Eigen::Index i = 0; i < n; ++i)
     {
       const double newton = x[i] - g[i] / matrices.lower.valuePtr()[matrices.diagonal[i]];
-      held[i] = pinned[i] || newton <= 0.0 || newton >= 1.0;
-      start[i] = pinned[i] ? x[i] : newton <= 0.0 ? 0.0 : newton >= 1.0 ? 1.0 : x[i];
+      const bool low = newton <= lower[i];
+      const bool high = newton >= upper[i];
+      held[i] = pinned[i] || low || high;
+      start[i] = pinned[i] ? x[i] : low ? lower[i] : high ? upper[i] : x[i];
     }
     r = -(g + a.transpose() * (start - x));
     release(r);
@@ -70,7 +73,10 @@ double projected_newton(const SplitForm& matrices, const VectorXd& c,
       next += (now / curvature) * p;
       r -= (now / curvature) * ap;
     }
-    next = next.cwiseMax(0.0).cwiseMin(1.0);
+    for (Eigen::Index i = 0; i < n; ++i)
+    {
+      next[i] = pinned[i] ? x[i] : std::clamp(next[i], lower[i], upper[i]);
+    }
     moved = (next - x).cwiseAbs().maxCoeff();
     g += a.transpose() * (next - x);
     x = next;

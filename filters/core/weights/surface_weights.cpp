@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <utility>
 
 namespace bindpose
@@ -40,14 +41,18 @@ private:
   Status on_mesh(SurfaceWeights& result);
   Status in_volume(SurfaceWeights& result, Index most_tets = -1);
   Status in_embedding(SurfaceWeights& result, bool& trusted);
+  Status in_cage(SurfaceWeights& result);
   Status embed(Index resolution, SurfaceWeights& result);
   Status fill(TetMethod method, Index resolution, TetrahedralizeResult& tets);
   /// Adds what a step said to what came before it. @return the step's status with all of it.
   Status joined(Status before, Status step) const;
   /// From weights at the tets' vertices to weights at the surface's points.
   using Carry = std::function<Status(const Weights& solved, Weights& at_points)>;
-  Status solve(const Domain& domain, const std::vector<Index>& region_ids,
+  Status solve(const Domain& domain, const std::vector<Index>& region_ids, const WeightTerms& terms,
     const HandleInsertionOptions& insertion, const Carry& carry, SurfaceWeights& result);
+  /// What is asked of the surface's vertices for a mesh of its inside.
+  Status carry_terms_to(const Points& points, const std::vector<Index>& original,
+    WeightTerms& terms, Status& status) const;
 
   PointsView points_;
   TrianglesView triangles_;
@@ -129,14 +134,45 @@ Status Solver::fill(TetMethod method, Index resolution, TetrahedralizeResult& te
   return status;
 }
 
+Status Solver::carry_terms_to(const Points& points, const std::vector<Index>& original,
+  WeightTerms& terms, Status& status) const
+{
+  terms = this->weights_options_.terms;
+  if (terms.rigidity.size() == 0 && !asks_of_vertices(terms))
+  {
+    return {};
+  }
+  Domain surface;
+  surface.points = this->points_;
+  surface.triangles = this->triangles_;
+  const Status fits = check_terms(terms, surface.points.rows(), this->handles_);
+  if (!fits.ok())
+  {
+    return fits;
+  }
+  Index lost = 0;
+  const Status carried = carry_terms(
+    this->weights_options_.terms, surface, points, original, this->context_, terms, lost);
+  if (lost > 0)
+  {
+    status.warnings.push_back(std::to_string(lost) +
+      (lost == 1 ? " point of the surface is no vertex"
+                 : " points of the surface are no vertices") +
+      " of the tets; bounds, pins, rigid sets and mirror points there are not kept");
+  }
+  return carried;
+}
+
 Status Solver::solve(const Domain& domain, const std::vector<Index>& region_ids,
-  const HandleInsertionOptions& insertion, const Carry& carry, SurfaceWeights& result)
+  const WeightTerms& terms, const HandleInsertionOptions& insertion, const Carry& carry,
+  SurfaceWeights& result)
 {
   Status status;
   {
     const ProgressRange range(this->context_, 0.3, 0.95);
     WeightsOptions options = this->weights_options_;
     options.insertion = insertion;
+    options.terms = terms;
     status = make_weights_problem(
       domain, region_ids, this->handles_, options, this->context_, result.problem);
     if (status.usable() && this->options_.preview && this->preview_.size() == 0)
@@ -191,7 +227,7 @@ Status Solver::on_mesh(SurfaceWeights& result)
   domain.triangles = this->triangles_;
   result.domain = WeightsDomain::surface;
   return this->solve(
-    domain, this->region_ids_, this->weights_options_.insertion,
+    domain, this->region_ids_, this->weights_options_.terms, this->weights_options_.insertion,
     [&](const Weights& solved, Weights& at_points)
     {
       at_points = solved.topRows(this->points_.rows()); // the surface's own points come first
@@ -228,14 +264,91 @@ Status Solver::in_volume(SurfaceWeights& result, Index most_tets)
     }
   }
   result.domain = WeightsDomain::volume;
+  WeightTerms terms;
+  const Status carried =
+    this->carry_terms_to(result.tets.mesh.points, result.tets.original_vertices, terms, status);
+  if (!carried.ok())
+  {
+    return carried;
+  }
   return this->joined(status,
     this->solve(
-      volume_of(result.tets.mesh), labels, this->weights_options_.insertion,
+      volume_of(result.tets.mesh), labels, terms, this->weights_options_.insertion,
       [&](const Weights& solved, Weights& at_points)
       {
         TransferCounts counts;
         return transfer(
           result.problem.mesh.domain, solved, this->points_, {}, this->context_, at_points, counts);
+      },
+      result));
+}
+
+Status Solver::in_cage(SurfaceWeights& result)
+{
+  Points corners(static_cast<Index>(this->handles_.size()), 3);
+  std::vector<CageElement> faces;
+  for (std::size_t i = 0; i < this->handles_.size(); ++i)
+  {
+    corners.row(static_cast<Index>(i)) = this->handles_[i].head;
+    std::copy_if(this->handles_[i].cage.begin(), this->handles_[i].cage.end(),
+      std::back_inserter(faces), [](const CageElement& element) { return element[2] >= 0; });
+  }
+  if (faces.empty())
+  {
+    return Status::invalid_input("domain cage needs a cage with faces among the handles");
+  }
+  Triangles triangles(static_cast<Index>(faces.size()), 3);
+  for (Index f = 0; f < triangles.rows(); ++f)
+  {
+    triangles.row(f) << faces[f][0], faces[f][1], faces[f][2];
+  }
+  if (asks_of_vertices(this->weights_options_.terms))
+  {
+    return Status::invalid_input("rigid sets, bounds, pins and mirrors of points need tets that "
+                                 "keep the surface's points: domain volume, not cage");
+  }
+  TetrahedralizeOptions options;
+  options.handles.points = this->options_.places.points;
+  if (this->points_.rows() <= few_triangles)
+  {
+    const Index count = options.handles.points.rows();
+    options.handles.points.conservativeResize(count + this->points_.rows(), 3);
+    options.handles.points.bottomRows(this->points_.rows()) = this->points_;
+  }
+  Status status;
+  {
+    const Phase phase(this->context_, "tetrahedralize", 0.0, 0.3);
+    status = tetrahedralize(corners, triangles, options, result.tets, this->context_);
+  }
+  if (!status.usable())
+  {
+    status.message = "the cage cannot be filled: " + status.message;
+    return status;
+  }
+  status.report.set("tetrahedralize.method", status.report.text("method"));
+  status.report.erase("method");
+  result.domain = WeightsDomain::cage;
+  WeightTerms terms;
+  const std::vector<Index> none(static_cast<std::size_t>(result.tets.mesh.points.rows()), -1);
+  const Status carried_terms = this->carry_terms_to(result.tets.mesh.points, none, terms, status);
+  if (!carried_terms.ok())
+  {
+    return carried_terms;
+  }
+  return this->joined(status,
+    this->solve(
+      volume_of(result.tets.mesh), {}, terms, this->weights_options_.insertion,
+      [&](const Weights& solved, Weights& at_points)
+      {
+        TransferCounts counts;
+        Status carried = transfer(
+          result.problem.mesh.domain, solved, this->points_, {}, this->context_, at_points, counts);
+        if (counts.nearest + counts.misses > 0)
+        {
+          carried.warnings = { std::to_string(counts.nearest + counts.misses) +
+            " points of the surface lie outside of the cage; they take the nearest weights" };
+        }
+        return carried;
       },
       result));
 }
@@ -255,9 +368,17 @@ Status Solver::embed(Index resolution, SurfaceWeights& result)
   insertion.spacing = 0.5;
   insertion.element_of = [&](const Vec3& place) { return embedded.tet_of(place); };
   result.domain = WeightsDomain::embedding;
+  WeightTerms terms;
+  const Domain lattice = EmbeddedSurface::domain(result.tets.mesh, result.tets.inside_fractions);
+  const std::vector<Index> none(static_cast<std::size_t>(lattice.points.rows()), -1);
+  const Status carried = this->carry_terms_to(lattice.points, none, terms, status);
+  if (!carried.ok())
+  {
+    return carried;
+  }
   status = this->joined(status,
     this->solve(
-      EmbeddedSurface::domain(result.tets.mesh, result.tets.inside_fractions), {}, insertion,
+      lattice, {}, terms, insertion,
       [&](const Weights& solved, Weights& at_points)
       { return embedded.carry(result.problem.mesh, solved, this->context_, at_points); },
       result));
@@ -271,6 +392,11 @@ Status Solver::in_embedding(SurfaceWeights& result, bool& trusted)
   {
     return Status::invalid_input(
       "regions need tets that keep the surface's points: domain volume, not embedding");
+  }
+  if (asks_of_vertices(this->weights_options_.terms))
+  {
+    return Status::invalid_input("rigid sets, bounds, pins and mirrors of points need tets that "
+                                 "keep the surface's points: domain volume, not embedding");
   }
   const bool guard = this->options_.guard;
   Status status;
@@ -339,14 +465,18 @@ Status Solver::automatic(SurfaceWeights& result)
   }
   bool trusted = true;
   const bool small = this->triangles_.rows() <= few_triangles;
-  if (small || !this->region_ids_.empty())
+  const bool asked = asks_of_vertices(this->weights_options_.terms);
+  if (small || !this->region_ids_.empty() || asked)
   {
-    const bool choice = this->region_ids_.empty();
+    const bool choice = this->region_ids_.empty() && !asked;
     Status status = this->in_volume(result, choice ? many_tets : -1);
     if (status.usable() || status.code == StatusCode::cancelled || !choice ||
       !(status.code == StatusCode::unavailable || result.tets.mesh.tets.rows() == 0))
     {
-      return with_reason(status, choice ? "the surface is small" : "there are regions");
+      return with_reason(status,
+        choice    ? "the surface is small"
+          : asked ? "something is asked of single points"
+                  : "there are regions");
     }
     const std::string reason = status.message;
     const Status first = std::move(status);
@@ -399,6 +529,9 @@ Status Solver::run(SurfaceWeights& result)
     case WeightsDomain::volume:
       status = this->in_volume(result);
       break;
+    case WeightsDomain::cage:
+      status = this->in_cage(result);
+      break;
     case WeightsDomain::embedding:
       status = this->in_embedding(result, trusted);
       break;
@@ -413,7 +546,7 @@ Status Solver::run(SurfaceWeights& result)
 
 const char* to_string(WeightsDomain domain)
 {
-  constexpr const char* names[] = { "surface", "auto", "volume", "embedding" };
+  constexpr const char* names[] = { "surface", "auto", "volume", "embedding", "cage" };
   return names[static_cast<int>(domain)];
 }
 

@@ -17,10 +17,11 @@ enum class WeightsDomain : int
   /// has more than 120,000 tets or none; else in the embedding, unless the guard is not content.
   automatic = 1,
   volume = 2, ///< in tets of the inside that keep the surface (tetrahedralize, auto)
-  embedding = 3 ///< in a lattice that holds the surface (tetrahedralize, embed)
+  embedding = 3, ///< in a lattice that holds the surface (tetrahedralize, embed)
+  cage = 4 ///< in tets of a closed cage of faces that is around the surface
 };
 
-/// "surface", "auto", "volume", "embedding"
+/// "surface", "auto", "volume", "embedding", "cage"
 const char* to_string(WeightsDomain domain);
 
 /// A method: bounded_biharmonic_weights, monotone_weights, … with its options bound.
@@ -64,7 +65,11 @@ struct SurfaceWeightsOptions
 /// 0.3 anywhere, the resolution is made 4/3 as fine and compared again; if they still do, `auto`
 /// takes the volume, and `embedding` warns.
 ///
-/// Report besides the method's keys: domain ("surface", "volume", "embedding"), domain_reason (of
+/// **cage**: the handles' own cage is filled, the surface's points (of up to 20,000 of them) become
+/// vertices of its tets; a surface that reaches out of it gets the nearest weights, with a warning.
+///
+/// Report besides the method's keys: domain ("surface", "volume", "embedding",
+/// "cage"), domain_reason (of
 /// auto), tetrahedralize.method, embedding.resolution, guard.resolution, guard.rms_difference,
 /// guard.max_difference, with a preview preview.rms_difference and
 /// preview.max_difference (of it and the result), and what tetrahedralize() and transfer() report.

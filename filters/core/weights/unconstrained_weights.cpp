@@ -1,5 +1,7 @@
 #include "weights/unconstrained_weights.h"
 
+#include "weights/column_groups.h"
+
 #include <Eigen/Eigenvalues>
 
 #include <algorithm>
@@ -101,6 +103,11 @@ Status unconstrained_weights(const WeightsProblem& problem,
   const UnconstrainedWeightsOptions& options, ExecutionContext& context, WeightsResult& result)
 {
   result = {};
+  if (problem.terms.any())
+  {
+    return Status::invalid_input(
+      "rigidity, rigid sets, bounds, pins and mirrors are for bounded and monotone weights");
+  }
   std::vector<std::string> warnings;
   SparseMatrix q;
   switch (options.method)
@@ -133,7 +140,8 @@ Status unconstrained_weights(const WeightsProblem& problem,
   {
     return status;
   }
-  const std::vector<BoxQpSolution> solutions = solver.solve_unbounded(problem.columns(), context);
+  const std::vector<BoxQpSolution> solutions =
+    solver.solve_unbounded(plain_columns(problem), context);
   if (context.cancelled())
   {
     return Status::cancelled();

@@ -44,6 +44,22 @@ void collect_fixed(WeightsProblem& problem)
   }
 }
 
+/// Of every element: the mean of what is painted on its corners, times its share of material.
+Eigen::VectorXd element_rigidity(const Domain& domain, const Eigen::VectorXd& painted)
+{
+  Eigen::VectorXd result(domain.element_count());
+  for (Index e = 0; e < result.size(); ++e)
+  {
+    double sum = 0.0;
+    for (int k = 0; k < domain.corners(); ++k)
+    {
+      sum += painted[domain.element(e)[k]];
+    }
+    result[e] = sum / domain.corners() * (domain.shares.size() > 0 ? domain.shares[e] : 1.0);
+  }
+  return result;
+}
+
 void report_problem(const WeightsProblem& problem, Status& status)
 {
   const Domain& domain = problem.mesh.domain;
@@ -107,17 +123,39 @@ Status make_weights_problem(const Domain& domain, const std::vector<Index>& regi
     return Status::invalid_input("there are " + std::to_string(region_ids.size()) +
       " region labels for " + std::to_string(domain.points.rows()) + " vertices");
   }
+  if (options.maximum_influences < 0)
+  {
+    return Status::invalid_input("the number of influences must be 0 or more");
+  }
   problem.handles = handles;
   Status status = insert_handles(domain, handles, options.insertion, context, problem.mesh);
   if (status.ok())
   {
-    status = constrain_handles(problem.mesh, handles, region_ids, problem.constraints);
+    status = check_terms(options.terms, domain.points.rows(), handles);
+  }
+  if (status.ok())
+  {
+    problem.terms = extend_terms(options.terms, problem.mesh);
+    status = constrain_handles(
+      problem.mesh, handles, region_ids, problem.constraints, problem.terms.rigid_sets);
   }
   if (!status.ok())
   {
     return status;
   }
   status.warnings = problem.mesh.warnings;
+  Index lost_pins = 0;
+  for (Index v = 0; v < problem.terms.pinned.rows(); ++v)
+  {
+    const bool pinned = !problem.terms.pinned.row(v).array().isNaN().all();
+    lost_pins += pinned && problem.constraints.components.of_vertex[v] < 0;
+  }
+  if (lost_pins > 0)
+  {
+    status.warnings.push_back(std::to_string(lost_pins) +
+      (lost_pins == 1 ? " pinned vertex is" : " pinned vertices are") +
+      " in no element that has a size; nothing is pinned there");
+  }
   const std::string slow_blas = SparseSolver::blas_warning();
   if (!slow_blas.empty())
   {
@@ -144,6 +182,13 @@ Status make_weights_problem(const Domain& domain, const std::vector<Index>& regi
                                           : stiffness_matrix(scaled, refined.triangles);
   problem.mass = refined.is_volume() ? lumped_mass(scaled, refined.tets, refined.shares)
                                      : lumped_mass(scaled, refined.triangles);
+  if (problem.terms.rigidity.size() > 0)
+  {
+    const Eigen::VectorXd rigidity = element_rigidity(refined, problem.terms.rigidity);
+    problem.rigid_stiffness = refined.is_volume()
+      ? stiffness_matrix(scaled, refined.tets, rigidity)
+      : stiffness_matrix(scaled, refined.triangles, rigidity);
+  }
   problem.mass_unit = problem.mass.maxCoeff();
   problem.mass /= problem.mass_unit;
   problem.graph = vertex_graph(refined);
@@ -153,44 +198,73 @@ Status make_weights_problem(const Domain& domain, const std::vector<Index>& regi
   return context.cancelled() ? Status::cancelled() : status;
 }
 
-std::vector<BoxQpColumn> WeightsProblem::columns() const
+SparseMatrix WeightsProblem::energy(int order) const
 {
-  const Components& components = this->constraints.components;
-  const Index m = this->handle_count();
-  std::vector<BoxQpColumn> result(static_cast<std::size_t>(m));
-  for (Index j = 0; j < m; ++j)
+  SparseMatrix q = harmonic_energy(this->stiffness, this->mass, order);
+  if (this->rigid_stiffness.size() > 0)
   {
-    result[j].fixed_values = this->fixed_values.col(j);
-    // NaN: several values in this part.
-    std::vector<double> constant(static_cast<std::size_t>(components.count), -1.0);
-    for (std::size_t i = 0; i < this->fixed.size(); ++i)
-    {
-      const Index c = components.of_vertex[this->fixed[i]];
-      if (c >= 0)
-      {
-        const double value = this->fixed_values(static_cast<Index>(i), j);
-        constant[c] = constant[c] == -1.0 || constant[c] == value ? value : std::nan("");
-      }
-    }
-    std::vector<double> values;
-    for (Index v = 0; v < this->vertex_count(); ++v)
-    {
-      if (this->constraints.roles[v] == VertexRole::solved &&
-        !std::isnan(constant[components.of_vertex[v]]))
-      {
-        result[j].pinned.push_back(v);
-        values.push_back(constant[components.of_vertex[v]]);
-      }
-    }
-    result[j].pinned_values =
-      Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
+    // Q is the energy of the scaled mesh times mass_unit^(order - 1).
+    q += rigidity_unit(order) * std::pow(this->mass_unit, order - 1) * this->rigid_stiffness;
   }
-  return result;
+  return q;
+}
+
+Index normalise_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallback,
+  const std::vector<char>& excluded, Weights& weights)
+{
+  const Eigen::MatrixXd& pinned = problem.terms.pinned;
+  const Index m = weights.cols();
+  Index thin_rows = 0;
+  for (Index v = 0; v < weights.rows(); ++v)
+  {
+    const VertexRole role = problem.constraints.roles[v];
+    if (role == VertexRole::follower || role == VertexRole::unreferenced)
+    {
+      continue;
+    }
+    double wanted = 1.0;
+    double sum = weights.row(v).sum();
+    Eigen::RowVectorXd scaled = Eigen::RowVectorXd::Ones(m); // 0: stays
+    for (Index j = 0; j < m && pinned.size() > 0 && role == VertexRole::solved; ++j)
+    {
+      if (!std::isnan(pinned(v, j)))
+      {
+        scaled[j] = 0.0;
+        wanted -= weights(v, j);
+        sum -= weights(v, j);
+      }
+    }
+    if (std::abs(sum) >= 1e-3)
+    {
+      for (Index j = 0; j < m; ++j)
+      {
+        const double part = wanted == 1.0 ? weights(v, j) / sum : weights(v, j) * (wanted / sum);
+        weights(v, j) = scaled[j] == 0.0 ? weights(v, j) : part;
+      }
+      continue;
+    }
+    if (scaled.isZero())
+    {
+      continue;
+    }
+    for (Index j = 0; j < m; ++j)
+    {
+      scaled[j] = !excluded.empty() && excluded[v * m + j] ? 0.0 : scaled[j];
+    }
+    Eigen::RowVectorXd row = fallback.row(v).cwiseMax(0.0).cwiseProduct(scaled);
+    row = row.sum() > 0.0 ? row : scaled;
+    for (Index j = 0; j < m && row.sum() > 0.0; ++j)
+    {
+      weights(v, j) = scaled[j] != 0.0 ? wanted * row[j] / row.sum() : weights(v, j);
+    }
+    thin_rows += std::abs(wanted) > 1e-12;
+  }
+  return thin_rows;
 }
 
 Status finish_weights(const WeightsProblem& problem, const std::string& method, double tolerance,
   const std::vector<BoxQpSolution>& solutions, const Eigen::MatrixXd& fallback,
-  ExecutionContext& context, WeightsResult& result)
+  ExecutionContext& context, WeightsResult& result, const std::vector<char>& excluded)
 {
   const Index n = problem.vertex_count();
   const Index m = problem.handle_count();
@@ -203,7 +277,6 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
   }
   result.weights = result.raw;
   result.row_sum_error = 0.0;
-  Index thin_rows = 0;
   for (Index v = 0; v < n; ++v)
   {
     const VertexRole role = constraints.roles[v];
@@ -211,17 +284,9 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
     {
       continue;
     }
-    const double sum = result.raw.row(v).sum();
-    result.row_sum_error = std::max(result.row_sum_error, std::abs(1.0 - sum));
-    if (std::abs(sum) >= 1e-3)
-    {
-      result.weights.row(v) /= sum;
-      continue;
-    }
-    const Eigen::RowVectorXd row = fallback.row(v).cwiseMax(0.0);
-    result.weights.row(v) = row / row.sum();
-    ++thin_rows;
+    result.row_sum_error = std::max(result.row_sum_error, std::abs(1.0 - result.raw.row(v).sum()));
   }
+  const Index thin_rows = normalise_rows(problem, fallback, excluded, result.weights);
   for (Index v = 0; v < n; ++v)
   {
     if (constraints.roles[v] == VertexRole::follower)
@@ -285,7 +350,9 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
     zeros.push_back(column.zeros);
     ones.push_back(column.ones);
     normalised_extrema.push_back(column.normalised_interior_extrema);
-    bounds = std::max({ bounds, -column.minimum, column.maximum - 1.0 });
+    bounds = problem.terms.has_bounds()
+      ? std::max(bounds, column.certificate.bounds_violation)
+      : std::max({ bounds, -column.minimum, column.maximum - 1.0 });
     total += column.iterations;
     context.add_seconds("factor", solutions[j].factor_seconds);
     context.add_seconds("solve", solutions[j].solve_seconds);

@@ -5,10 +5,17 @@
 #include "base/sparse_solver.h"
 #include "weights/box_qp.h"
 #include "weights/extrema.h"
-#include "weights/handle_constraints.h"
+#include "weights/weight_terms.h"
 
 namespace bindpose
 {
+
+/// How rows of bounded weights come to sum to one.
+enum class PartitionOfUnity
+{
+  normalise, ///< each column is solved for alone, rows are divided by their sums
+  coupled ///< all columns are solved for together, with that as a constraint (see CoupledQp)
+};
 
 /// What all weights take. Lengths have no unit: a mesh in metres or millimetres gives the same.
 struct WeightsOptions
@@ -18,6 +25,13 @@ struct WeightsOptions
   double tolerance = 1e-6;
   /// Interior-point iterations a column, > 0.
   int maximum_iterations = 100;
+  /// Bounded weights alone.
+  PartitionOfUnity partition = PartitionOfUnity::normalise;
+  /// Handles with a weight above 0 at a vertex, at most; 0: any number. The handles of the largest
+  /// weights are kept, then all columns are solved for again within what is left to them, of
+  /// bounded and monotone weights. Vertices on handles stay as they are.
+  int maximum_influences = 0;
+  WeightTerms terms; ///< of bounded and monotone weights; read when the problem is made
   HandleInsertionOptions insertion;
   SparseSolver::Options solver;
 };
@@ -34,6 +48,9 @@ struct WeightsProblem
   Eigen::VectorXd mass;
   double diagonal = 1.0; ///< of the mesh, what was scaled to 1
   double mass_unit = 1.0; ///< the largest mass of the scaled mesh
+  WeightTerms terms; ///< with values for inserted vertices and, of a plane, with its mirror
+  /// Stiffness with each element's painted rigidity as a factor; empty without any.
+  SparseMatrix rigid_stiffness;
   VertexGraph graph;
   /// All vertices whose rows are known beforehand (handles, tethered, followers, unreferenced) and
   /// those rows, #fixed x #handles.
@@ -43,9 +60,8 @@ struct WeightsProblem
 
   Index vertex_count() const { return this->mesh.domain.points.rows(); }
   Index handle_count() const { return static_cast<Index>(this->handles.size()); }
-  /// The columns of the quadratic programs. Where all fixed values of a connected part are equal, a
-  /// column is that constant there, exactly: these vertices are pinned.
-  std::vector<BoxQpColumn> columns() const;
+  /// The form Q of the k-harmonic energy 1/2 w' Q w, with the painted rigidity.
+  SparseMatrix energy(int order) const;
 };
 
 /// Inserts the handles, finds constraints, assembles stiffness and mass. Phase "insert".
@@ -79,12 +95,19 @@ struct WeightsResult
   Index analyses = 0; ///< symbolic analyses made
 };
 
+/// Divides rows by their sums. Pinned weights stay; the others of the row are what is scaled.
+/// @param fallback rows used where there is less than 1e-3 to scale (#V x #handles).
+/// @param excluded #V * #handles, row by row: weights that must stay 0; empty: none.
+/// @return how often the fallback was used.
+Index normalise_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallback,
+  const std::vector<char>& excluded, Weights& weights);
+
 /// Turns solved columns into weights: rows of followers, normalisation, extrema, report. The status
 /// is the problem's, not_converged when a column is not certified.
-/// @param fallback rows used where a raw row sums to less than 1e-3 (#V x #handles).
+/// @param fallback, excluded see normalise_rows.
 Status finish_weights(const WeightsProblem& problem, const std::string& method, double tolerance,
   const std::vector<BoxQpSolution>& solutions, const Eigen::MatrixXd& fallback,
-  ExecutionContext& context, WeightsResult& result);
+  ExecutionContext& context, WeightsResult& result, const std::vector<char>& excluded = {});
 
 } // namespace bindpose
 

@@ -216,12 +216,15 @@ TEST(Weights, EnergiesOnTheFineSquareAreTheKnownOnes)
   ExecutionContext context;
   BoxQp solver(harmonic_energy(problem.stiffness, problem.mass, 2), problem.fixed, {});
   ASSERT_TRUE(solver.prepare(context).ok());
-  std::vector<BoxQpColumn> columns = problem.columns();
-  const double free = solver.solve_unbounded({ columns[2] }, context).at(0).certificate.energy;
-  const BoxQpSolution box = solver.solve(columns[2], context);
+  std::vector<ColumnGroup> groups;
+  ASSERT_TRUE(make_column_groups(problem, {}, false, groups).ok());
+  ColumnGroup& group = groups.front();
+  const double free =
+    solver.solve_unbounded({ group.columns[2] }, context).at(0).certificate.energy;
+  const BoxQpSolution box = solver.solve(group.columns[2], context);
   MonotoneGuide guide;
-  ASSERT_TRUE(monotone_guide(problem, {}, context, guide, columns).ok());
-  const BoxQpSolution mono = solver.solve(columns[2], context);
+  ASSERT_TRUE(monotone_guide(problem, group, {}, context, guide).ok());
+  const BoxQpSolution mono = solver.solve(group.columns[2], context);
   ASSERT_TRUE(box.status.ok() && mono.status.ok());
   // The same numbers hold for the other handles, but for the monotone one of the last: the guide's
   // smallest weight of 1e-3 on the grid's diagonals makes it 1.8634, with a cotangent of 0 there it

@@ -236,3 +236,60 @@ def test_embedding_and_preview(bar):
     assert np.abs(preview - weights).max() <= 0.2
     bar.run("weights", "bar.off", "--handles", "bones.tgf", "--domain", "embedding", "--resolution", "3", "-o",
             "x.vtp").is_refused("between 6 and 1000")
+
+
+def test_cage_of_a_tgf_file(folder):
+    """A closed cage around a flat square: weights are linear along its edges, which are the outline."""
+    n = 8
+    vertices = [[i / n, j / n, 0] for j in range(n + 1) for i in range(n + 1)]
+    corners = [(j * (n + 1) + i, j * (n + 1) + i + 1, (j + 1) * (n + 1) + i + 1, (j + 1) * (n + 1) + i)
+               for j in range(n) for i in range(n)]
+    folder.off("m.off", (vertices, [list(t) for a, b, c, d in corners for t in ((a, b, c), (a, c, d))]))
+    folder.write("cage.tgf", "1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n#\n" +
+                 "".join(f"{k} {k % 4 + 1} 0 0 1\n" for k in range(1, 5)))
+    run = folder.run("weights", "m.off", "--handles", "cage.tgf", "-o", "w.vtp", "--report", "-").is_good()
+    assert run.err == "" and [h["kind"] for h in run.report["handles"]] == ["cage_vertex"] * 4
+    weights = weights_of(folder / "w.vtp")
+    check(weights, vertices)
+    x, y = np.array(vertices)[:, 0], np.array(vertices)[:, 1]
+    below = y == 0
+    assert np.abs(weights[below, 0] - (1 - x[below])).max() <= 1e-9
+    assert np.abs(weights[below, 1] - x[below]).max() <= 1e-9 and (weights[below, 2:] <= 1e-9).all()
+    folder.run("weights", "m.off", "--handles", "cage.tgf", "--domain", "cage", "-o", "c.vtp").is_refused("faces")
+
+
+def test_terms_by_arrays_of_the_surface(bar):
+    surface = to_dataset(shapes.bar())
+    points = points_of(surface)
+    pins = np.full((len(points), 2), np.nan)
+    pins[10, 0] = 0.9
+    block = (points[:, 0] > 2) & (points[:, 0] < 4)
+    add_point_array(surface, "Given", pins)
+    add_point_array(surface, "RigidSet", block.astype(np.int64))
+    add_point_array(surface, "Paint", np.ones(len(points)))
+    bindpose.write(surface, bar / "painted.vtp")
+    words = ("weights", "painted.vtp", "--handles", "points.tgf", "-o", "w.vtp", "--overwrite", "--report", "-")
+    run = bar.run(*words, "--pins", "Given", "--rigidity", "Paint").is_good()
+    weights = weights_of(bar / "w.vtp")
+    check(weights, points)
+    assert weights[10, 0] == 0.9
+    assert block.sum() > 1 and np.ptp(weights[block], axis=0).max() == 0  # by its usual name
+    assert run.report["relative_gap"] <= 1e-6
+    bar.run(*words, "--partition", "coupled", "--bounds=-0.5,1.5", "--mirror", "x").is_refused("mirrored")
+    bar.run(*words, "--domain", "embedding").is_refused("domain volume, not embedding")
+    run = bar.run(*words, "--partition", "coupled").is_good()
+    assert run.report["partition"]["of_unity"] == "coupled" and run.report["partition"]["largest_difference"] >= 0
+    run = bar.run(*words, "--influences", "1", "--rigid-sets", "RigidSet").is_good()
+    assert run.report["counts"]["capped_vertices"] > 0
+
+
+def test_terms_that_cannot_be(bar):
+    words = ("weights", "bar.off", "--handles", "points.tgf", "-o", "w.vtp")
+    for more, text in (
+        (("--pins", "nothing"), "no point array 'nothing'"),
+        (("--bounds", "0"), "two numbers"),
+        (("--bounds", "0.1,1"), "bounds"),
+        (("--method", "harmonic", "--influences", "2"), "bounded-biharmonic and monotone"),
+        (("--method", "monotone", "--partition", "coupled"), "only bounded weights"),
+    ):
+        bar.run(*words, *more).is_refused(text)

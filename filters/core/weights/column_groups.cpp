@@ -1,0 +1,540 @@
+// Unknowns are the classes of a union-find over (copy, vertex). For each column what is asked of a
+// class is what is asked of its members together: their bounds are intersected, and two members
+// that are given different values contradict each other.
+#include "weights/column_groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <map>
+#include <numeric>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr double same_value = 1e-12;
+
+/// Classes of numbers; the smallest member stands for its class.
+class Classes
+{
+public:
+  explicit Classes(Index count) : parent_(static_cast<std::size_t>(count))
+  {
+    std::iota(this->parent_.begin(), this->parent_.end(), Index(0));
+  }
+  Index find(Index i)
+  {
+    while (this->parent_[i] != i)
+    {
+      i = this->parent_[i] = this->parent_[this->parent_[i]];
+    }
+    return i;
+  }
+  void join(Index i, Index j)
+  {
+    i = this->find(i);
+    j = this->find(j);
+    this->parent_[std::max(i, j)] = std::min(i, j);
+  }
+
+private:
+  std::vector<Index> parent_;
+};
+
+/// Makes one group's unknowns and columns.
+class GroupMaker
+{
+public:
+  GroupMaker(const WeightsProblem& problem, const WeightTerms& terms, const Exclusions& excluded,
+    bool coupled, ColumnGroup& group)
+    : problem_(problem), terms_(terms), excluded_(excluded), coupled_(coupled), group_(group),
+      n_(problem.vertex_count())
+  {
+  }
+
+  Status make(bool mirrored)
+  {
+    this->find_unknowns(mirrored);
+    this->find_fixed();
+    this->group_.columns.resize(this->group_.handles.size());
+    this->group_.own_pins.assign(this->group_.handles.size(), 0);
+    for (std::size_t c = 0; c < this->group_.columns.size(); ++c)
+    {
+      const Status status = this->make_column(static_cast<Index>(c));
+      if (!status.ok())
+      {
+        return status;
+      }
+    }
+    if (this->coupled_)
+    {
+      this->keep_common_constants();
+    }
+    this->collect_pins();
+    return {};
+  }
+
+private:
+  void find_unknowns(bool mirrored)
+  {
+    const auto& of_vertex = this->problem_.constraints.components.of_vertex;
+    const Index copies = this->group_.copies;
+    Classes classes(copies * this->n_);
+    bool merged = false;
+    std::map<Index, Index> first_of_set;
+    for (Index v = 0; v < this->n_; ++v)
+    {
+      const Index set = this->terms_.rigid_sets.empty() ? 0 : this->terms_.rigid_sets[v];
+      if (set > 0 && of_vertex[v] >= 0)
+      {
+        const Index first = first_of_set.insert({ set, v }).first->second;
+        for (Index k = 0; k < copies; ++k)
+        {
+          classes.join(k * this->n_ + first, k * this->n_ + v);
+        }
+        merged = merged || first != v;
+      }
+      const Index other = mirrored ? this->terms_.mirror[v] : -1;
+      if (other >= 0 && of_vertex[v] >= 0 && of_vertex[other] >= 0)
+      {
+        classes.join(v, (copies - 1) * this->n_ + other);
+        merged = merged || copies > 1 || other != v;
+      }
+    }
+    this->group_.count = copies * this->n_;
+    this->members_.clear();
+    if (merged || copies > 1)
+    {
+      std::vector<Index>& unknowns = this->group_.unknowns;
+      unknowns.assign(static_cast<std::size_t>(copies * this->n_), -1);
+      this->group_.count = 0;
+      for (Index i = 0; i < copies * this->n_; ++i)
+      {
+        const Index first = classes.find(i);
+        unknowns[i] = first == i ? this->group_.count++ : unknowns[first];
+      }
+    }
+    this->members_.assign(static_cast<std::size_t>(this->group_.count), {});
+    for (Index k = 0; k < copies; ++k)
+    {
+      for (Index v = 0; v < this->n_; ++v)
+      {
+        this->members_[this->unknown(v, k)].push_back(k * this->n_ + v);
+      }
+    }
+    // Connected parts of unknowns.
+    const Index parts = this->problem_.constraints.components.count;
+    Classes joined(std::max<Index>(1, copies * parts));
+    this->part_.assign(static_cast<std::size_t>(this->group_.count), -1);
+    for (Index u = 0; u < this->group_.count; ++u)
+    {
+      for (const Index member : this->members_[u])
+      {
+        const Index part = of_vertex[member % this->n_];
+        if (part >= 0)
+        {
+          const Index at = (member / this->n_) * parts + part;
+          this->part_[u] = this->part_[u] < 0 ? at : this->part_[u];
+          joined.join(this->part_[u], at);
+        }
+      }
+    }
+    for (Index& part : this->part_)
+    {
+      part = part < 0 ? -1 : joined.find(part);
+    }
+    this->part_count_ = copies * parts;
+  }
+
+  Index unknown(Index vertex, Index copy) const
+  {
+    return this->group_.unknown(vertex, copy, this->n_);
+  }
+
+  void find_fixed()
+  {
+    this->row_of_.assign(static_cast<std::size_t>(this->n_), -1);
+    for (std::size_t i = 0; i < this->problem_.fixed.size(); ++i)
+    {
+      this->row_of_[this->problem_.fixed[i]] = static_cast<Index>(i);
+    }
+    this->is_fixed_.assign(static_cast<std::size_t>(this->group_.count), 0);
+    for (Index u = 0; u < this->group_.count; ++u)
+    {
+      for (const Index member : this->members_[u])
+      {
+        this->is_fixed_[u] = this->is_fixed_[u] || this->row_of_[member % this->n_] >= 0;
+      }
+      if (this->is_fixed_[u])
+      {
+        this->group_.fixed.push_back(u);
+      }
+    }
+  }
+
+  const std::string& handle_name(Index handle) const { return this->problem_.handles[handle].name; }
+
+  /// The handle that a vertex with a given row is on, or the nearest to its part.
+  Index owner(Index vertex) const
+  {
+    Index best = 0;
+    this->problem_.fixed_values.row(this->row_of_[vertex]).maxCoeff(&best);
+    return best;
+  }
+
+  Status make_column(Index c)
+  {
+    BoxQpColumn& column = this->group_.columns[c];
+    const std::vector<Index>& handles = this->group_.handles[c];
+    const Index count = this->group_.count;
+    column.fixed_values.resize(static_cast<Index>(this->group_.fixed.size()));
+    const bool bounded = this->terms_.has_bounds();
+    if (bounded)
+    {
+      column.bounds.lower = Eigen::VectorXd::Constant(count, -1e300);
+      column.bounds.upper = Eigen::VectorXd::Constant(count, 1e300);
+    }
+    std::vector<double>& given = this->given_.emplace_back(count, std::nan(""));
+    Index fixed_count = 0;
+    for (Index u = 0; u < count; ++u)
+    {
+      Index from = -1; // the member that gave the value
+      for (const Index member : this->members_[u])
+      {
+        const Index v = member % this->n_;
+        const Index handle = handles[member / this->n_];
+        const Index row = this->row_of_[v];
+        double value = row >= 0 ? this->problem_.fixed_values(row, handle) : std::nan("");
+        const double pin =
+          this->terms_.pinned.size() > 0 && this->part_[u] >= 0 && !(this->inserted(v) && row >= 0)
+          ? this->terms_.pinned(v, handle)
+          : std::nan("");
+        if (!std::isnan(pin))
+        {
+          if (row >= 0 && std::abs(pin - value) > same_value)
+          {
+            return Status::invalid_input("the weight of '" + this->handle_name(handle) +
+              "' is pinned to " + text(pin) + " at vertex " + std::to_string(v) +
+              ", but the handle '" + this->handle_name(this->owner(v)) + "' makes it " +
+              text(value) + " there");
+          }
+          value = row >= 0 ? value : pin;
+        }
+        if (bounded && this->part_[u] >= 0)
+        {
+          const Status status = this->intersect_bounds(v, handle, value, u, column.bounds);
+          if (!status.ok())
+          {
+            return status;
+          }
+        }
+        if (std::isnan(value))
+        {
+          continue;
+        }
+        if (from >= 0 && std::abs(given[u] - value) > same_value)
+        {
+          return this->contradiction(from, member, handles, given[u], value);
+        }
+        given[u] = value;
+        from = member;
+      }
+      // What is left out gives way to what the terms ask for.
+      for (const Index member : this->members_[u])
+      {
+        const Index at =
+          (member % this->n_) * this->problem_.handle_count() + handles[member / this->n_];
+        if (!this->excluded_.empty() && this->excluded_[at] && std::isnan(given[u]))
+        {
+          given[u] = 0.0;
+        }
+      }
+      if (this->is_fixed_[u])
+      {
+        column.fixed_values[fixed_count++] = given[u];
+      }
+      else if (bounded && this->part_[u] >= 0 && std::isnan(given[u]) &&
+        column.bounds.lower[u] == column.bounds.upper[u])
+      {
+        given[u] = column.bounds.lower[u];
+      }
+      if (bounded && (this->part_[u] < 0 || !std::isnan(given[u])))
+      {
+        // Not asked for: numbers that nothing stumbles over.
+        column.bounds.lower[u] = std::isnan(given[u]) ? 0.0 : std::min(0.0, given[u]);
+        column.bounds.upper[u] = std::isnan(given[u]) ? 1.0 : std::max(1.0, given[u]);
+      }
+    }
+    this->find_constants(column);
+    return {};
+  }
+
+  bool inserted(Index v) const
+  {
+    return v >= this->n_ - static_cast<Index>(this->problem_.mesh.inserted.size());
+  }
+
+  static std::string text(double value)
+  {
+    char buffer[32];
+    std::snprintf(buffer, sizeof(buffer), "%.6g", value);
+    return buffer;
+  }
+
+  Status intersect_bounds(Index v, Index handle, double value, Index u, Bounds& bounds) const
+  {
+    const auto& limits = this->terms_.handle_bounds;
+    double low = limits.size() > 0 ? limits(handle, 0) : 0.0;
+    double high = limits.size() > 0 ? limits(handle, 1) : 1.0;
+    const bool on_inserted_handle = this->inserted(v) && this->row_of_[v] >= 0;
+    if (!on_inserted_handle)
+    {
+      const double own_low =
+        this->terms_.lower.size() > 0 ? this->terms_.lower(v, handle) : std::nan("");
+      const double own_high =
+        this->terms_.upper.size() > 0 ? this->terms_.upper(v, handle) : std::nan("");
+      low = std::isnan(own_low) ? low : own_low;
+      high = std::isnan(own_high) ? high : own_high;
+    }
+    const std::string what = "'" + this->handle_name(handle) + "' at vertex " + std::to_string(v);
+    if (low > high)
+    {
+      return Status::invalid_input(
+        "the least weight of " + what + " is " + text(low) + ", above the largest, " + text(high));
+    }
+    if (!std::isnan(value) && (value < low - same_value || value > high + same_value))
+    {
+      return Status::invalid_input("the weight of " + what + " is " +
+        (this->row_of_[v] >= 0 ? "given by the handle '" + this->handle_name(this->owner(v)) + "'"
+                               : std::string("pinned")) +
+        " as " + text(value) + ", outside of its bounds " + text(low) + " and " + text(high));
+    }
+    bounds.lower[u] = std::max(bounds.lower[u], low);
+    bounds.upper[u] = std::min(bounds.upper[u], high);
+    if (bounds.lower[u] > bounds.upper[u])
+    {
+      return Status::invalid_input("the bounds of " + what +
+        " and of what is tied to it leave no weight: at least " + text(bounds.lower[u]) +
+        ", at most " + text(bounds.upper[u]));
+    }
+    return {};
+  }
+
+  Status contradiction(
+    Index a, Index b, const std::vector<Index>& handles, double first, double second) const
+  {
+    const Index v = a % this->n_;
+    const Index w = b % this->n_;
+    const bool on_handles = this->row_of_[v] >= 0 && this->row_of_[w] >= 0;
+    const Index set = this->terms_.rigid_sets.empty() ? 0 : this->terms_.rigid_sets[v];
+    if (on_handles && set > 0 && set == this->terms_.rigid_sets[w])
+    {
+      return Status::invalid_input("the rigid set " + std::to_string(set) +
+        " holds vertices of the handles '" + this->handle_name(this->owner(v)) + "' and '" +
+        this->handle_name(this->owner(w)) + "', whose weights differ");
+    }
+    return Status::invalid_input("the weight of '" + this->handle_name(handles[a / this->n_]) +
+      "' is " + text(first) + " at vertex " + std::to_string(v) + ", that of '" +
+      this->handle_name(handles[b / this->n_]) + "' is " + text(second) + " at vertex " +
+      std::to_string(w) + ", and a rigid set or the mirror makes them equal");
+  }
+
+  /// Where everything that is given in a connected part is equal and within all bounds, the column
+  /// is that constant there.
+  void find_constants(const BoxQpColumn& column)
+  {
+    const std::vector<double>& given = this->given_.back();
+    std::vector<double>& constant =
+      this->constant_.emplace_back(this->part_count_, std::numeric_limits<double>::infinity());
+    for (Index u = 0; u < this->group_.count; ++u)
+    {
+      const Index part = this->part_[u];
+      if (part >= 0 && !std::isnan(given[u]))
+      {
+        constant[part] = std::isinf(constant[part]) || constant[part] == given[u]
+          ? given[u]
+          : std::nan(""); // several values
+      }
+    }
+    for (Index u = 0; u < this->group_.count; ++u)
+    {
+      const Index part = this->part_[u];
+      if (part >= 0 && std::isnan(given[u]) &&
+        !(constant[part] >= column.bounds.low(u) && constant[part] <= column.bounds.high(u)))
+      {
+        constant[part] = std::nan("");
+      }
+    }
+  }
+
+  void keep_common_constants()
+  {
+    for (Index part = 0; part < this->part_count_; ++part)
+    {
+      const bool common = std::none_of(this->constant_.begin(), this->constant_.end(),
+        [&](const std::vector<double>& constant) { return std::isnan(constant[part]); });
+      for (std::vector<double>& constant : this->constant_)
+      {
+        constant[part] = common ? constant[part] : std::nan("");
+      }
+    }
+  }
+
+  void collect_pins()
+  {
+    for (std::size_t c = 0; c < this->group_.columns.size(); ++c)
+    {
+      BoxQpColumn& column = this->group_.columns[c];
+      std::vector<double> values;
+      for (Index u = 0; u < this->group_.count; ++u)
+      {
+        if (this->is_fixed_[u] || this->part_[u] < 0)
+        {
+          continue;
+        }
+        const double given = this->given_[c][u];
+        const double constant = this->constant_[c][this->part_[u]];
+        if (!std::isnan(given) || !std::isnan(constant))
+        {
+          column.pinned.push_back(u);
+          values.push_back(std::isnan(given) ? constant : given);
+          this->group_.own_pins[c] = this->group_.own_pins[c] || std::isnan(constant);
+        }
+      }
+      column.pinned_values =
+        Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
+    }
+  }
+
+  const WeightsProblem& problem_;
+  const WeightTerms& terms_;
+  const Exclusions& excluded_;
+  const bool coupled_;
+  ColumnGroup& group_;
+  const Index n_;
+  std::vector<std::vector<Index>> members_; // of every unknown, copy * #V + vertex
+  std::vector<Index> part_; // connected part of every unknown, -1: none
+  Index part_count_ = 0;
+  std::vector<Index> row_of_; // of every vertex in the problem's fixed rows, -1: not fixed
+  std::vector<char> is_fixed_; // every unknown
+  // Of every column:
+  std::vector<std::vector<double>> given_; // values of unknowns, NaN: solved for
+  std::vector<std::vector<double>> constant_; // of every part, NaN: none
+};
+} // namespace
+
+Status make_column_groups(const WeightsProblem& problem, const Exclusions& excluded, bool coupled,
+  std::vector<ColumnGroup>& groups)
+{
+  const Index m = problem.handle_count();
+  const std::vector<Index> partner =
+    mirrored_handles(problem.terms, problem.constraints, problem.handle_count());
+  ColumnGroup plain, own_image, pairs;
+  pairs.copies = 2;
+  for (Index j = 0; j < m; ++j)
+  {
+    if (partner[j] < 0)
+    {
+      plain.handles.push_back({ j });
+    }
+    else if (partner[j] == j)
+    {
+      own_image.handles.push_back({ j });
+    }
+    else if (partner[j] > j)
+    {
+      pairs.handles.push_back({ j, partner[j] });
+    }
+  }
+  groups.clear();
+  for (ColumnGroup* group : { &plain, &own_image, &pairs })
+  {
+    if (!group->handles.empty())
+    {
+      groups.push_back(std::move(*group));
+      const bool mirrored = group != &plain;
+      const Status status =
+        GroupMaker(problem, problem.terms, excluded, coupled, groups.back()).make(mirrored);
+      if (!status.ok())
+      {
+        return status;
+      }
+    }
+  }
+  return {};
+}
+
+std::vector<BoxQpColumn> plain_columns(const WeightsProblem& problem)
+{
+  ColumnGroup group;
+  for (Index j = 0; j < problem.handle_count(); ++j)
+  {
+    group.handles.push_back({ j });
+  }
+  const WeightTerms none;
+  const Exclusions nothing;
+  GroupMaker(problem, none, nothing, false, group).make(false); // nothing can contradict
+  return std::move(group.columns);
+}
+
+SparseMatrix merge_form(const ColumnGroup& group, const SparseMatrix& form)
+{
+  if (group.unknowns.empty())
+  {
+    return form;
+  }
+  std::vector<Eigen::Triplet<double, int>> entries;
+  entries.reserve(static_cast<std::size_t>(group.copies * form.nonZeros()));
+  for (Index k = 0; k < group.copies; ++k)
+  {
+    for (Index v = 0; v < form.cols(); ++v)
+    {
+      for (SparseMatrix::InnerIterator entry(form, static_cast<int>(v)); entry; ++entry)
+      {
+        entries.emplace_back(static_cast<int>(group.unknown(entry.row(), k, form.cols())),
+          static_cast<int>(group.unknown(v, k, form.cols())), entry.value());
+      }
+    }
+  }
+  SparseMatrix merged(static_cast<int>(group.count), static_cast<int>(group.count));
+  merged.setFromTriplets(entries.begin(), entries.end());
+  return merged;
+}
+
+VertexGraph merge_graph(
+  const ColumnGroup& group, const VertexGraph& graph, const std::vector<VertexRole>& roles)
+{
+  const auto n = static_cast<Index>(roles.size());
+  std::vector<std::vector<Index>> neighbours(static_cast<std::size_t>(group.count));
+  for (Index k = 0; k < group.copies; ++k)
+  {
+    for (Index v = 0; v < n; ++v)
+    {
+      const Index u = group.unknown(v, k, n);
+      for (Index i = graph.begin[v]; i < graph.begin[v + 1]; ++i)
+      {
+        const Index other = graph.neighbours[i];
+        const Index there = group.unknown(other, k, n);
+        if (there != u && roles[v] != VertexRole::follower && roles[other] != VertexRole::follower)
+        {
+          neighbours[u].push_back(there);
+        }
+      }
+    }
+  }
+  VertexGraph merged;
+  for (std::vector<Index>& list : neighbours)
+  {
+    merged.begin.push_back(static_cast<Index>(merged.neighbours.size()));
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    merged.neighbours.insert(merged.neighbours.end(), list.begin(), list.end());
+  }
+  merged.begin.push_back(static_cast<Index>(merged.neighbours.size()));
+  return merged;
+}
+
+} // namespace bindpose

@@ -1,0 +1,395 @@
+// Columns are solved for group by group (column_groups.h); without mirrors there is one group.
+//
+// A limit on influences: the k largest of each normalised row are kept, the others become 0 and all
+// columns are solved for again, so that what is left is a minimiser among weights of that support.
+// The choice is greedy; a smaller k keeps a part of what a larger one keeps, so energies fall
+// with k.
+#include "weights/weight_solve.h"
+
+#include "weights/coupled_qp.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace bindpose
+{
+
+namespace
+{
+/// One group's form and its solver, which several rounds use.
+struct GroupSolver
+{
+  SparseMatrix q; // kept where columns are coupled
+  std::unique_ptr<BoxQp> solver;
+};
+
+/// One round's columns.
+struct Round
+{
+  std::vector<BoxQpSolution> solutions; // one a handle, over vertices
+  Eigen::MatrixXd fallback; // minimisers without bounds
+  double coupled_energy = 0.0;
+};
+
+class WeightSolver
+{
+public:
+  WeightSolver(const WeightsProblem& problem, int order, const WeightsOptions& options,
+    const std::function<Status(ColumnGroup&)>& guide, ExecutionContext& context)
+    : problem_(problem), order_(order), options_(options), guide_(guide), context_(context)
+  {
+  }
+
+  /// Makes groups, with guides, and the solvers unless they are there.
+  Status prepare(const Exclusions& excluded)
+  {
+    const bool coupled = this->options_.partition == PartitionOfUnity::coupled;
+    Status status = make_column_groups(this->problem_, excluded, coupled, this->groups_);
+    if (status.ok() && coupled && this->groups_.size() + this->groups_.front().copies > 2)
+    {
+      status =
+        Status::invalid_input("weights that are mirrored cannot be coupled to sum to one as well");
+    }
+    if (status.ok() && this->guide_)
+    {
+      const Phase phase(this->context_, "guide", 0.04, 0.06);
+      for (ColumnGroup& group : this->groups_)
+      {
+        status = status.ok() ? this->guide_(group) : status;
+      }
+    }
+    if (!status.ok() || !this->solvers_.empty())
+    {
+      return status;
+    }
+    const SparseMatrix q = this->problem_.energy(this->order_);
+    const ProgressRange range(this->context_, 0.06, 0.1);
+    for (const ColumnGroup& group : this->groups_)
+    {
+      GroupSolver made;
+      made.q = merge_form(group, q);
+      made.solver = std::make_unique<BoxQp>(made.q, group.fixed,
+        BoxQpOptions{
+          this->options_.tolerance, this->options_.maximum_iterations, this->options_.solver });
+      status = made.solver->prepare(this->context_);
+      if (!status.ok())
+      {
+        return status;
+      }
+      if (!coupled)
+      {
+        made.q.resize(0, 0);
+      }
+      this->solvers_.push_back(std::move(made));
+    }
+    return {};
+  }
+
+  /// Solves for all columns, each alone.
+  Status solve_alone(double begin, double end, Round& round)
+  {
+    const Phase phase(this->context_, "weights", begin, end);
+    const Index m = this->problem_.handle_count();
+    round.solutions.assign(static_cast<std::size_t>(m), {});
+    round.fallback.resize(this->problem_.vertex_count(), m);
+    const double count = static_cast<double>(this->groups_.size());
+    for (std::size_t g = 0; g < this->groups_.size(); ++g)
+    {
+      const ColumnGroup& group = this->groups_[g];
+      const BoxQp& solver = *this->solvers_[g].solver;
+      const ProgressRange range(this->context_, g / count, (g + 1) / count);
+      std::vector<BoxQpSolution> solved = solver.solve_all(group.columns, this->context_);
+      const Status status = worst_of(solved);
+      if (!status.usable())
+      {
+        return status;
+      }
+      Eigen::MatrixXd fixed_values(
+        static_cast<Index>(group.fixed.size()), static_cast<Index>(group.columns.size()));
+      for (std::size_t c = 0; c < group.columns.size(); ++c)
+      {
+        fixed_values.col(static_cast<Index>(c)) = group.columns[c].fixed_values;
+      }
+      const Eigen::MatrixXd unconstrained = solver.unconstrained(fixed_values);
+      this->spread(group, solved, &unconstrained, round);
+    }
+    return {};
+  }
+
+  /// Solves for all columns together, from what each is alone.
+  Status solve_coupled(
+    const Weights& normalised, double begin, double end, Round& round, Status& outcome)
+  {
+    const Phase phase(this->context_, "coupled", begin, end);
+    const ColumnGroup& group = this->groups_.front();
+    Eigen::MatrixXd start(group.count, normalised.cols());
+    for (Index v = 0; v < normalised.rows(); ++v)
+    {
+      start.row(group.unknown(v, 0, normalised.rows())) = normalised.row(v);
+    }
+    CoupledSolution solved = solve_coupled_qp(this->solvers_.front().q, group.fixed, group.columns,
+      start, this->solvers_.front().solver->solver(),
+      { this->options_.tolerance, this->options_.maximum_iterations, this->options_.solver },
+      this->context_);
+    outcome = solved.status;
+    if (outcome.code == StatusCode::invalid_input && solved.vertex >= 0)
+    {
+      Index v = 0;
+      while (group.unknown(v, 0, normalised.rows()) != solved.vertex)
+      {
+        ++v;
+      }
+      outcome.message += " at vertex " + std::to_string(v);
+    }
+    if (!outcome.usable())
+    {
+      return outcome;
+    }
+    this->spread(group, solved.columns, nullptr, round);
+    round.coupled_energy = solved.certificate.energy;
+    return {};
+  }
+
+  Index analyses() const
+  {
+    Index count = 0;
+    for (const GroupSolver& solver : this->solvers_)
+    {
+      count += solver.solver->analyses();
+    }
+    return count;
+  }
+
+private:
+  /// From unknowns to vertices and handles.
+  void spread(const ColumnGroup& group, const std::vector<BoxQpSolution>& solved,
+    const Eigen::MatrixXd* fallback, Round& round) const
+  {
+    const Index n = this->problem_.vertex_count();
+    for (std::size_t c = 0; c < group.columns.size(); ++c)
+    {
+      for (Index k = 0; k < group.copies; ++k)
+      {
+        const Index handle = group.handles[c][k];
+        BoxQpSolution& solution = round.solutions[handle];
+        solution = solved[c];
+        solution.w.resize(n);
+        for (Index v = 0; v < n; ++v)
+        {
+          const Index u = group.unknown(v, k, n);
+          solution.w[v] = solved[c].w[u];
+          if (fallback)
+          {
+            round.fallback(v, handle) = (*fallback)(u, static_cast<Index>(c));
+          }
+        }
+      }
+    }
+  }
+
+  const WeightsProblem& problem_;
+  const int order_;
+  const WeightsOptions& options_;
+  const std::function<Status(ColumnGroup&)>& guide_;
+  ExecutionContext& context_;
+  std::vector<ColumnGroup> groups_;
+  std::vector<GroupSolver> solvers_;
+};
+
+Weights normalised(const WeightsProblem& problem, const Round& round, const Exclusions& excluded)
+{
+  Weights weights(problem.vertex_count(), problem.handle_count());
+  for (Index j = 0; j < weights.cols(); ++j)
+  {
+    weights.col(j) = round.solutions[j].w;
+  }
+  normalise_rows(problem, round.fallback, excluded, weights);
+  return weights;
+}
+
+/// What to leave out so that each vertex has at most so many influences: the smallest weights.
+/// What a pin or a bound keeps above 0 comes first.
+Status exclude_smallest(const WeightsProblem& problem, const Weights& weights, int most,
+  Exclusions& excluded, Index& capped)
+{
+  const Index m = weights.cols();
+  const WeightTerms& terms = problem.terms;
+  excluded.assign(static_cast<std::size_t>(weights.size()), 0);
+  capped = 0;
+  std::vector<Index> order(static_cast<std::size_t>(m));
+  for (Index v = 0; v < weights.rows(); ++v)
+  {
+    if (problem.constraints.roles[v] != VertexRole::solved)
+    {
+      continue;
+    }
+    const auto needed = [&](Index j)
+    {
+      if (terms.pinned.size() > 0 && !std::isnan(terms.pinned(v, j)))
+      {
+        return terms.pinned(v, j) != 0.0;
+      }
+      return terms.lower.size() > 0 && terms.lower(v, j) > 0.0;
+    };
+    const auto pinned_to_zero = [&](Index j)
+    { return terms.pinned.size() > 0 && terms.pinned(v, j) == 0.0; };
+    std::iota(order.begin(), order.end(), Index(0));
+    std::sort(order.begin(), order.end(),
+      [&](Index a, Index b)
+      {
+        const int rank_a = needed(a) ? 0 : pinned_to_zero(a) ? 2 : 1;
+        const int rank_b = needed(b) ? 0 : pinned_to_zero(b) ? 2 : 1;
+        if (rank_a != rank_b)
+        {
+          return rank_a < rank_b;
+        }
+        return weights(v, a) != weights(v, b) ? weights(v, a) > weights(v, b) : a < b;
+      });
+    bool any = false;
+    for (Index i = most; i < m; ++i)
+    {
+      if (needed(order[i]))
+      {
+        return Status::invalid_input("more than " + std::to_string(most) +
+          " influences are pinned or bounded above 0 at vertex " + std::to_string(v) +
+          ", that of '" + problem.handles[order[i]].name + "' among them");
+      }
+      excluded[v * m + order[i]] = 1;
+      any = any || weights(v, order[i]) > 0.0;
+    }
+    capped += any;
+  }
+  return {};
+}
+
+/// How far normalised weights lie outside of their bounds at most, at vertices solved for.
+double normalised_violation(const WeightsProblem& problem, const Weights& weights)
+{
+  const WeightTerms& terms = problem.terms;
+  double worst = 0.0;
+  for (Index v = 0; v < weights.rows(); ++v)
+  {
+    for (Index j = 0; j < weights.cols(); ++j)
+    {
+      if (problem.constraints.roles[v] != VertexRole::solved)
+      {
+        continue;
+      }
+      double low = terms.handle_bounds.size() > 0 ? terms.handle_bounds(j, 0) : 0.0;
+      double high = terms.handle_bounds.size() > 0 ? terms.handle_bounds(j, 1) : 1.0;
+      low = terms.lower.size() > 0 && !std::isnan(terms.lower(v, j)) ? terms.lower(v, j) : low;
+      high = terms.upper.size() > 0 && !std::isnan(terms.upper(v, j)) ? terms.upper(v, j) : high;
+      worst = std::max({ worst, low - weights(v, j), weights(v, j) - high });
+    }
+  }
+  return worst;
+}
+
+/// Who mirrors whom, by name.
+void report_mirror(const WeightsProblem& problem, Status& status)
+{
+  const std::vector<Index> partner =
+    mirrored_handles(problem.terms, problem.constraints, problem.handle_count());
+  std::vector<std::string> names;
+  for (const Index other : partner)
+  {
+    names.push_back(other >= 0 ? problem.handles[other].name : "");
+  }
+  status.report.set("handles[].mirror", names);
+  if (std::all_of(partner.begin(), partner.end(), [](Index other) { return other < 0; }))
+  {
+    status.warnings.emplace_back(
+      "no handle is the mirror image of a handle; the mirror changes nothing");
+  }
+}
+
+/// Largest and root mean square difference over vertices that have weights.
+void report_difference(const WeightsProblem& problem, const Weights& a, const Weights& b,
+  const std::string& key, Report& report)
+{
+  double largest = 0.0;
+  double sum = 0.0;
+  double count = 0.0;
+  for (Index v = 0; v < a.rows(); ++v)
+  {
+    if (problem.constraints.roles[v] != VertexRole::unreferenced)
+    {
+      largest = std::max(largest, (a.row(v) - b.row(v)).cwiseAbs().maxCoeff());
+      sum += (a.row(v) - b.row(v)).squaredNorm();
+      count += static_cast<double>(a.cols());
+    }
+  }
+  report.set(key + ".largest_difference", largest);
+  report.set(key + ".rms_difference", count > 0.0 ? std::sqrt(sum / count) : 0.0);
+}
+} // namespace
+
+Status solve_weights(const WeightsProblem& problem, int order, const std::string& method,
+  const WeightsOptions& options, const std::function<Status(ColumnGroup&)>& guide,
+  ExecutionContext& context, WeightsResult& result)
+{
+  result = {};
+  const bool coupled = options.partition == PartitionOfUnity::coupled;
+  const bool limited =
+    options.maximum_influences > 0 && options.maximum_influences < problem.handle_count();
+  WeightSolver solver(problem, order, options, guide, context);
+  Exclusions excluded;
+  Round round;
+  Status outcome; // of the coupled program
+  Weights alone;
+  Weights unlimited;
+  Index capped = 0;
+  for (int pass = 0; pass < (limited ? 2 : 1); ++pass)
+  {
+    // Passes share the phases' part of the progress evenly, the coupled program takes most of one.
+    const double length = 0.85 / (limited ? 2 : 1);
+    const double begin = 0.1 + pass * length;
+    const double middle = begin + (coupled ? 0.3 : 1.0) * length;
+    Status status = solver.prepare(excluded);
+    status = status.ok() ? solver.solve_alone(begin, middle, round) : status;
+    if (status.ok() && coupled)
+    {
+      alone = normalised(problem, round, excluded);
+      status = solver.solve_coupled(alone, middle, begin + length, round, outcome);
+    }
+    if (status.ok() && limited && pass == 0)
+    {
+      unlimited = normalised(problem, round, excluded);
+      status = exclude_smallest(problem, unlimited, options.maximum_influences, excluded, capped);
+    }
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  result.analyses = solver.analyses();
+  Status status = finish_weights(
+    problem, method, options.tolerance, round.solutions, round.fallback, context, result, excluded);
+  if (!status.usable())
+  {
+    return status;
+  }
+  if (problem.terms.has_bounds())
+  {
+    status.report.set("normalised_bounds_violation", normalised_violation(problem, result.weights));
+  }
+  if (problem.terms.has_mirror())
+  {
+    report_mirror(problem, status);
+  }
+  if (limited)
+  {
+    status.report.set("counts.capped_vertices", capped);
+    report_difference(problem, result.weights, unlimited, "influences", status.report);
+  }
+  if (coupled)
+  {
+    status.report.set("partition.of_unity", "coupled");
+    status.report.set("partition.energy", round.coupled_energy);
+    report_difference(problem, result.weights, alone, "partition", status.report);
+  }
+  return status;
+}
+
+} // namespace bindpose

@@ -1,0 +1,238 @@
+// Cages: weights are linear along their edges and faces, whatever the energy does between them.
+#include "weights/bounded_biharmonic_weights.h"
+#include "weights/monotone_weights.h"
+#include "weights/preview_weights.h"
+#include "weights/simplex_locator.h"
+#include "weights/surface_weights.h"
+
+#include "support/needs_mesher.h"
+#include "weights_shapes.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+using testing::HasSubstr;
+
+namespace
+{
+using CagesInTets = test::NeedsMesher;
+
+Handle cage_vertex(const std::string& name, const Vec3& at)
+{
+  Handle handle = test::point_handle(name, at);
+  handle.kind = HandleKind::cage_vertex;
+  return handle;
+}
+
+/// A polyline of cage edges, closed or not.
+Handles polyline(const std::vector<Vec3>& corners, bool closed)
+{
+  Handles handles;
+  const auto count = static_cast<Index>(corners.size());
+  for (Index i = 0; i < count; ++i)
+  {
+    handles.push_back(cage_vertex("c" + std::to_string(i), corners[i]));
+    if (closed || i + 1 < count)
+    {
+      handles.back().cage.push_back({ i, (i + 1) % count, -1 });
+    }
+  }
+  return handles;
+}
+
+/// The faces of a cube around the origin.
+Handles cube_cage(double half)
+{
+  const TriangleMesh cube = test::cube(-half, half);
+  Handles handles;
+  for (Index v = 0; v < cube.points.rows(); ++v)
+  {
+    handles.push_back(cage_vertex("c" + std::to_string(v), cube.points.row(v)));
+  }
+  for (Index f = 0; f < cube.triangles.rows(); ++f)
+  {
+    const auto face = cube.triangles.row(f);
+    handles[face[0]].cage.push_back({ face[0], face[1], face[2] });
+  }
+  return handles;
+}
+
+WeightsProblem problem_of(const Domain& domain, const Handles& handles)
+{
+  ExecutionContext context;
+  WeightsProblem problem;
+  const Status status = make_weights_problem(domain, {}, handles, {}, context, problem);
+  EXPECT_TRUE(status.ok()) << status.message;
+  return problem;
+}
+
+WeightsResult bounded(const WeightsProblem& problem)
+{
+  ExecutionContext context;
+  WeightsResult result;
+  const Status status = bounded_biharmonic_weights(problem, {}, context, result);
+  EXPECT_TRUE(status.ok()) << status.message;
+  return result;
+}
+
+/// Along the element from corner a to corner b (and c) weights are the barycentric coordinates.
+Index expect_linear_along(
+  const WeightsProblem& problem, const Weights& weights, const CageElement& element)
+{
+  const bool face = element[2] >= 0;
+  const auto corner = [&](int k) { return problem.handles[element[k]].head; };
+  Index on_it = 0;
+  for (Index v = 0; v < weights.rows(); ++v)
+  {
+    const SimplexLocation at = nearest_in_triangle(
+      problem.mesh.domain.points.row(v), corner(0), corner(1), corner(face ? 2 : 1));
+    if (at.distance > 1e-9)
+    {
+      continue;
+    }
+    ++on_it;
+    for (Index j = 0; j < weights.cols(); ++j)
+    {
+      double expected = 0.0;
+      for (int k = 0; k < 3; ++k)
+      {
+        expected += element[face ? k : std::min(k, 1)] == j ? at.barycentric[k] : 0.0;
+      }
+      EXPECT_NEAR(weights(v, j), expected, 1e-9) << "vertex " << v << ", column " << j;
+    }
+  }
+  return on_it;
+}
+} // namespace
+
+TEST(Cages, AreLinearAlongEdgesInThePlane)
+{
+  // A closed triangle inside a square, its corners and edges on no vertex in particular.
+  const Handles handles =
+    polyline({ { 0.21, 0.18, 0 }, { 0.83, 0.31, 0 }, { 0.44, 0.87, 0 } }, true);
+  const WeightsProblem problem = problem_of(test::to_domain(test::grid(20, 20)), handles);
+  EXPECT_GT(problem.mesh.inserted.size(), 10u);
+  for (const Weights& weights : { bounded(problem).weights,
+         [&]
+         {
+           ExecutionContext context;
+           WeightsResult result;
+           EXPECT_TRUE(monotone_weights(problem, {}, context, result).ok());
+           return result.weights;
+         }(),
+         [&]
+         {
+           ExecutionContext context;
+           WeightsResult result;
+           EXPECT_TRUE(preview_weights(problem, {}, context, result).ok());
+           return result.weights;
+         }() })
+  {
+    for (const Handle& handle : handles)
+    {
+      for (const CageElement& element : handle.cage)
+      {
+        EXPECT_GE(expect_linear_along(problem, weights, element), 5);
+      }
+    }
+  }
+}
+
+TEST(Cages, MayBeOpen)
+{
+  const Handles handles = polyline({ { 0.1, 0.5, 0 }, { 0.5, 0.6, 0 }, { 0.9, 0.5, 0 } }, false);
+  const WeightsProblem problem = problem_of(test::to_domain(test::grid(16, 16)), handles);
+  const WeightsResult result = bounded(problem);
+  EXPECT_GE(expect_linear_along(problem, result.raw, { 0, 1, -1 }), 4);
+  EXPECT_GE(expect_linear_along(problem, result.raw, { 1, 2, -1 }), 4);
+  for (const WeightsColumn& column : result.columns)
+  {
+    EXPECT_LE(column.certificate.relative_gap, 1e-6);
+    EXPECT_LE(column.certificate.kkt_residual, 1e-6);
+  }
+}
+
+TEST(Cages, AreLinearOnFacesInSpace)
+{
+  const TetMesh box = test::tet_box(7, 7, 7, Vec3::Constant(-1.0), Vec3::Constant(1.0));
+  const Handles handles = cube_cage(0.6);
+  const WeightsProblem problem = problem_of(test::to_domain(box), handles);
+  const WeightsResult result = bounded(problem);
+  for (const Handle& handle : handles)
+  {
+    for (const CageElement& element : handle.cage)
+    {
+      EXPECT_GE(expect_linear_along(problem, result.raw, element), 8);
+    }
+  }
+}
+
+TEST(Cages, ThatAreTheWholeBoundaryAddNothing)
+{
+  // Every vertex of the boundary lies on the cage already.
+  const TetMesh box = test::tet_box(4, 4, 4, Vec3::Constant(-1.0), Vec3::Constant(1.0));
+  const WeightsProblem problem = problem_of(test::to_domain(box), cube_cage(1.0));
+  EXPECT_TRUE(problem.mesh.inserted.empty());
+  EXPECT_EQ(problem.fixed.size(), 98u) << "125 vertices, 27 inside";
+  const WeightsResult result = bounded(problem);
+  EXPECT_LT((result.raw.rowwise().sum().array() - 1.0).abs().maxCoeff(), 0.2);
+}
+
+TEST_F(CagesInTets, AroundASurfaceAreItsDomain)
+{
+  const TriangleMesh ball = test::sphere(2, 0.5);
+  ExecutionContext context;
+  SurfaceWeightsOptions options;
+  options.domain = WeightsDomain::cage;
+  SurfaceWeights result;
+  const auto method =
+    [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
+  { return bounded_biharmonic_weights(problem, {}, of_method, weights); };
+  Status status = surface_weights(
+    ball.points, ball.triangles, {}, cube_cage(1.0), options, {}, method, context, result);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(status.report.text("domain"), "cage");
+  EXPECT_EQ(status.report.text("transfer"), "exact") << "the points are vertices of the tets";
+  EXPECT_TRUE(status.warnings.empty()) << status.warnings.front();
+  EXPECT_LT((result.weights.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-12);
+  // Linear on the faces, they nearly are coordinates inside: corners carry the ball along.
+  const Handles cage = cube_cage(1.0);
+  double farthest = 0.0;
+  for (Index v = 0; v < ball.points.rows(); ++v)
+  {
+    Vec3 carried = Vec3::Zero();
+    for (Index j = 0; j < 8; ++j)
+    {
+      carried += result.weights(v, j) * cage[j].head;
+    }
+    farthest = std::max(farthest, (carried - Vec3(ball.points.row(v))).norm());
+  }
+  EXPECT_LT(farthest, 0.15) << "nothing is said of slopes at the cage";
+
+  status = surface_weights(
+    ball.points, ball.triangles, {}, cube_cage(0.4), options, {}, method, context, result);
+  ASSERT_TRUE(status.usable()) << status.message;
+  ASSERT_FALSE(status.warnings.empty());
+  EXPECT_THAT(status.warnings.back(), HasSubstr("outside of the cage"));
+
+  status = surface_weights(ball.points, ball.triangles, {},
+    { test::point_handle("p", { 0, 0, 0 }) }, options, {}, method, context, result);
+  EXPECT_THAT(status.message, HasSubstr("needs a cage with faces"));
+}
+
+TEST(Cages, ThatAreWrongAreRefused)
+{
+  Handles handles = polyline({ { 0, 0, 0 }, { 1, 0, 0 } }, false);
+  EXPECT_TRUE(check_handles(handles).ok());
+  for (const CageElement& wrong :
+    { CageElement{ 0, 0, -1 }, CageElement{ 0, 2, -1 }, CageElement{ 1, 0, -1 },
+      CageElement{ 0, -1, -1 }, CageElement{ 0, 1, 1 }, CageElement{ 0, 1, 7 } })
+  {
+    handles[0].cage = { wrong };
+    EXPECT_THAT(check_handles(handles).message, HasSubstr("cage at 'c0'"));
+  }
+  handles[0].cage = { { 0, 1, -1 } };
+  handles[1].kind = HandleKind::point;
+  EXPECT_THAT(check_handles(handles).message, HasSubstr("cage at 'c0'"));
+}

@@ -1,0 +1,729 @@
+// Terms of bounded and monotone weights: against dense twins that know nothing of interior points,
+// rates, exact equalities, and certificates computed again from the form and the weights alone.
+#include "weights/bounded_biharmonic_weights.h"
+#include "weights/monotone_weights.h"
+#include "weights/unconstrained_weights.h"
+
+#include "weights_shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <random>
+
+using namespace bindpose;
+
+namespace
+{
+struct Solved
+{
+  WeightsProblem problem;
+  WeightsResult result;
+  Status status;
+  double energy() const
+  {
+    double sum = 0.0;
+    const SparseMatrix q = this->problem.energy(2);
+    for (Index j = 0; j < this->result.raw.cols(); ++j)
+    {
+      const Eigen::VectorXd w = this->result.raw.col(j);
+      sum += 0.5 * w.dot(q * w);
+    }
+    return sum;
+  }
+};
+
+template <typename Options = BoundedWeightsOptions>
+Solved solve(const Domain& domain, const Handles& handles, const Options& options,
+  const std::vector<Index>& regions = {})
+{
+  Solved solved;
+  ExecutionContext context;
+  solved.status = make_weights_problem(domain, regions, handles, options, context, solved.problem);
+  if (solved.status.ok())
+  {
+    if constexpr (std::is_same_v<Options, BoundedWeightsOptions>)
+    {
+      solved.status = bounded_biharmonic_weights(solved.problem, options, context, solved.result);
+    }
+    else
+    {
+      solved.status = monotone_weights(solved.problem, options, context, solved.result);
+    }
+  }
+  return solved;
+}
+
+Handles three_points()
+{
+  return test::point_handles(
+    { Vec3(0.25, 0.25, 0.0), Vec3(0.75, 0.25, 0.0), Vec3(0.5, 0.75, 0.0) });
+}
+
+Eigen::MatrixXd no_values(const Domain& domain, const Handles& handles)
+{
+  return Eigen::MatrixXd::Constant(
+    domain.points.rows(), static_cast<Index>(handles.size()), std::nan(""));
+}
+
+/// min 1/2 w'Qw in a box by coordinate descent, which converges to the minimiser; lower = upper
+/// where a value is given.
+Eigen::VectorXd coordinate_descent(const Eigen::MatrixXd& q, const Eigen::VectorXd& lower,
+  const Eigen::VectorXd& upper, Eigen::VectorXd w)
+{
+  w = w.cwiseMax(lower).cwiseMin(upper);
+  Eigen::VectorXd g = q * w;
+  for (int sweep = 0; sweep < 200000; ++sweep)
+  {
+    double moved = 0.0;
+    for (Index i = 0; i < w.size(); ++i)
+    {
+      const double next = std::clamp(w[i] - g[i] / q(i, i), lower[i], upper[i]);
+      if (next != w[i])
+      {
+        g += (next - w[i]) * q.col(i);
+        moved = std::max(moved, std::abs(next - w[i]));
+        w[i] = next;
+      }
+    }
+    if (moved < 1e-14)
+    {
+      break;
+    }
+  }
+  return w;
+}
+
+/// The relative gap of one column from its gradient, values and bounds; lower = upper: given.
+double relative_gap(const SparseMatrix& q, const Eigen::VectorXd& w, const Eigen::VectorXd& lower,
+  const Eigen::VectorXd& upper)
+{
+  const Eigen::VectorXd g = q * w;
+  double gap = 0.0;
+  for (Index v = 0; v < w.size(); ++v)
+  {
+    gap +=
+      lower[v] < upper[v] ? std::max(g[v] * (w[v] - lower[v]), -g[v] * (upper[v] - w[v])) : 0.0;
+  }
+  return gap / (0.5 * w.dot(g));
+}
+
+void fix_handles(
+  const WeightsProblem& problem, Index j, Eigen::VectorXd& lower, Eigen::VectorXd& upper)
+{
+  for (std::size_t i = 0; i < problem.fixed.size(); ++i)
+  {
+    lower[problem.fixed[i]] = upper[problem.fixed[i]] =
+      problem.fixed_values(static_cast<Index>(i), j);
+  }
+}
+
+void expect_error(const Status& status, const std::vector<std::string>& words)
+{
+  EXPECT_EQ(status.code, StatusCode::invalid_input);
+  for (const std::string& word : words)
+  {
+    EXPECT_NE(status.message.find(word), std::string::npos) << status.message;
+  }
+}
+
+/// Vertices of a square grid mirrored left to right. Its diagonals are not.
+std::vector<Index> mirrored(int n)
+{
+  std::vector<Index> mirror;
+  for (int j = 0; j <= n; ++j)
+  {
+    for (int i = 0; i <= n; ++i)
+    {
+      mirror.push_back(j * (n + 1) + n - i);
+    }
+  }
+  return mirror;
+}
+} // namespace
+
+TEST(WeightTerms, BoundsAndPinsAreTheDenseMinimiser)
+{
+  const int n = 8;
+  const Domain domain = test::to_domain(test::grid(n, n));
+  const Handles handles = three_points();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  BoundedWeightsOptions options;
+  options.tolerance = 1e-9;
+  options.terms.lower = no_values(domain, handles);
+  options.terms.upper = no_values(domain, handles);
+  options.terms.pinned = no_values(domain, handles);
+  const WeightsProblem plain = solve(domain, handles, BoundedWeightsOptions()).problem;
+  for (Index v = 0; v < domain.points.rows(); ++v)
+  {
+    if (plain.constraints.roles[v] != VertexRole::solved)
+    {
+      continue;
+    }
+    for (Index j = 0; j < 3; ++j)
+    {
+      const double kind = uniform(random);
+      options.terms.lower(v, j) = kind < 0.2 ? -0.1 : kind < 0.3 ? 0.1 : std::nan("");
+      options.terms.upper(v, j) = kind > 0.6 ? 0.2 + 0.5 * uniform(random) : std::nan("");
+      options.terms.pinned(v, j) =
+        kind > 0.55 && kind < 0.6 ? 0.25 * uniform(random) : std::nan("");
+    }
+  }
+  const Solved solved = solve(domain, handles, options);
+  ASSERT_TRUE(solved.status.ok()) << solved.status.message;
+  const Eigen::MatrixXd q = Eigen::MatrixXd(solved.problem.energy(2));
+  for (Index j = 0; j < 3; ++j)
+  {
+    Eigen::VectorXd lower = Eigen::VectorXd::Zero(domain.points.rows());
+    Eigen::VectorXd upper = Eigen::VectorXd::Ones(domain.points.rows());
+    for (Index v = 0; v < domain.points.rows(); ++v)
+    {
+      const WeightTerms& terms = options.terms;
+      lower[v] = std::isnan(terms.lower(v, j)) ? 0.0 : terms.lower(v, j);
+      upper[v] = std::isnan(terms.upper(v, j)) ? 1.0 : terms.upper(v, j);
+      if (!std::isnan(terms.pinned(v, j)))
+      {
+        lower[v] = upper[v] = terms.pinned(v, j);
+        EXPECT_EQ(solved.result.raw(v, j), terms.pinned(v, j));
+        EXPECT_EQ(solved.result.weights(v, j), terms.pinned(v, j)) << "scaling keeps pins";
+      }
+    }
+    fix_handles(solved.problem, j, lower, upper);
+    const Eigen::VectorXd w = solved.result.raw.col(j);
+    EXPECT_LE((lower - w).maxCoeff(), 0.0);
+    EXPECT_LE((w - upper).maxCoeff(), 0.0);
+    const Eigen::VectorXd twin =
+      coordinate_descent(q, lower, upper, Eigen::VectorXd::Constant(w.size(), 0.3));
+    EXPECT_LE((w - twin).cwiseAbs().maxCoeff(), 1e-5);
+    EXPECT_NEAR(0.5 * w.dot(q * w), 0.5 * twin.dot(q * twin), 1e-8 * twin.dot(q * twin));
+    EXPECT_LE(relative_gap(solved.problem.energy(2), w, lower, upper), 2e-9);
+    EXPECT_LE(solved.result.columns[j].certificate.relative_gap, 1e-9);
+    EXPECT_LE(solved.result.columns[j].certificate.kkt_residual, 1e-9);
+    EXPECT_LE(solved.result.columns[j].iterations, 40);
+  }
+  for (Index v = 0; v < domain.points.rows(); ++v)
+  {
+    EXPECT_NEAR(solved.result.weights.row(v).sum(), 1.0, 1e-12);
+  }
+}
+
+TEST(WeightTerms, BoundsOfHandlesWidenTheBox)
+{
+  // Bounds so wide that they do not matter give the weights without bounds.
+  const Domain domain = test::to_domain(test::grid(20, 20));
+  const Handles handles = test::five_points();
+  BoundedWeightsOptions options;
+  options.tolerance = 1e-9;
+  options.terms.handle_bounds.resize(5, 2);
+  options.terms.handle_bounds.col(0).setConstant(-3.0);
+  options.terms.handle_bounds.col(1).setConstant(4.0);
+  const Solved wide = solve(domain, handles, options);
+  ASSERT_TRUE(wide.status.ok()) << wide.status.message;
+  ExecutionContext context;
+  WeightsResult free;
+  WeightsProblem plain = wide.problem;
+  plain.terms = {};
+  ASSERT_TRUE(unconstrained_weights(plain, UnconstrainedWeightsOptions(), context, free).ok());
+  EXPECT_LT(free.raw.minCoeff(), -0.01);
+  EXPECT_LE((wide.result.raw - free.raw).cwiseAbs().maxCoeff(), 1e-6);
+  // A single handle is 1 everywhere unless a bound or a pin keeps it from that.
+  const Handles one(handles.begin(), handles.begin() + 1);
+  BoundedWeightsOptions pinned;
+  pinned.terms.pinned = no_values(domain, one);
+  pinned.terms.pinned(400, 0) = 1.0;
+  EXPECT_EQ(solve(domain, one, pinned).result.raw.minCoeff(), 1.0);
+}
+
+TEST(WeightTerms, WhatContradictsIsNamed)
+{
+  const Domain domain = test::to_domain(test::grid(8, 8));
+  const Handles handles = three_points(); // vertices 20, 24 and 58
+  const auto with = [&](const auto& change)
+  {
+    BoundedWeightsOptions options;
+    options.terms.lower = options.terms.upper = options.terms.pinned = no_values(domain, handles);
+    change(options.terms);
+    return solve(domain, handles, options).status;
+  };
+  expect_error(with(
+                 [](WeightTerms& terms)
+                 {
+                   terms.lower(31, 1) = 0.6;
+                   terms.upper(31, 1) = 0.4;
+                 }),
+    { "'p2'", "vertex 31" });
+  expect_error(with([](WeightTerms& terms) { terms.upper(20, 0) = 0.4; }), { "'p1'", "vertex 20" });
+  expect_error(
+    with([](WeightTerms& terms) { terms.pinned(24, 0) = 0.5; }), { "'p1'", "vertex 24", "'p2'" });
+  expect_error(with(
+                 [](WeightTerms& terms)
+                 {
+                   terms.pinned(31, 1) = 0.6;
+                   terms.upper(31, 1) = 0.4;
+                 }),
+    { "'p2'", "vertex 31" });
+  expect_error(with([](WeightTerms& terms) { terms.pinned.row(31) << 0.6, 0.6, std::nan(""); }),
+    { "vertex 31", "more than 1" });
+  expect_error(
+    with([](WeightTerms& terms) { terms.pinned.row(31) << 0.2, 0.3, 0.4; }), { "vertex 31" });
+  expect_error(
+    with([](WeightTerms& terms) { terms.pinned(31, 0) = 1.0 / 0.0; }), { "'p1'", "vertex 31" });
+  expect_error(with([](WeightTerms& terms) { terms.rigidity = Eigen::VectorXd::Constant(81, -1); }),
+    { "rigidity", "vertex 0" });
+  expect_error(with([](WeightTerms& terms) { terms.rigid_sets.assign(80, 1); }), { "80", "81" });
+  expect_error(with(
+                 [](WeightTerms& terms)
+                 {
+                   terms.rigid_sets.assign(81, 0);
+                   terms.rigid_sets[20] = terms.rigid_sets[58] = 7;
+                 }),
+    { "rigid set 7", "'p1'", "'p3'" });
+  expect_error(with(
+                 [](WeightTerms& terms)
+                 {
+                   terms.mirror.assign(81, -1);
+                   terms.mirror[3] = 5;
+                 }),
+    { "vertex 3", "vertex 5" });
+  ExecutionContext context;
+  WeightsResult result;
+  BoundedWeightsOptions painted;
+  painted.terms.rigidity = Eigen::VectorXd::Ones(81);
+  const WeightsProblem problem = solve(domain, handles, painted).problem;
+  expect_error(unconstrained_weights(problem, {}, context, result), { "bounded and monotone" });
+}
+
+TEST(WeightTerms, GradientsFallWithRigidity)
+{
+  const int n = 60;
+  const test::Bar bar = test::bar(n, { 0.0, 1.0 });
+  std::vector<double> steepest;
+  std::vector<double> painted = { 0.0, 0.1, 10.0, 100.0, 1000.0 };
+  for (const double paint : painted)
+  {
+    BoundedWeightsOptions options;
+    options.terms.rigidity = Eigen::VectorXd::Zero(bar.domain.points.rows());
+    for (Index v = 0; v < bar.domain.points.rows(); ++v)
+    {
+      const double x = bar.domain.points(v, 0);
+      options.terms.rigidity[v] = x > 0.45 && x < 0.75 ? paint : 0.0;
+    }
+    options.tolerance = 1e-9;
+    const Solved solved = solve(bar.domain, bar.handles, options, bar.region_ids);
+    ASSERT_TRUE(solved.status.ok()) << solved.status.message;
+    steepest.push_back(0.0);
+    for (int i = 0; i < n; ++i)
+    {
+      if (i / double(n) > 0.5 && (i + 1) / double(n) < 0.7)
+      {
+        steepest.back() = std::max(
+          steepest.back(), n * std::abs(solved.result.raw(i + 1, 0) - solved.result.raw(i, 0)));
+      }
+    }
+  }
+  EXPECT_NEAR(steepest[0], 1.5, 0.01) << "smoothstep";
+  EXPECT_LT(steepest[1], 0.3) << "a tenth is felt";
+  EXPECT_NEAR(steepest[2] / steepest[3], 10.0, 1.0);
+  EXPECT_NEAR(steepest[3] / steepest[4], 10.0, 0.2);
+}
+
+TEST(WeightTerms, RigidityHasNoUnitAndHardlyDependsOnTheMesh)
+{
+  const auto weight_at_centre = [](int n, double scale)
+  {
+    TriangleMesh mesh = test::grid(n, n);
+    mesh.points *= scale;
+    Handles handles = three_points();
+    for (Handle& handle : handles)
+    {
+      handle.head *= scale;
+      handle.tail *= scale;
+    }
+    BoundedWeightsOptions options;
+    options.terms.rigidity.resize(mesh.points.rows());
+    for (Index v = 0; v < mesh.points.rows(); ++v)
+    {
+      options.terms.rigidity[v] = (mesh.points.row(v) / scale).norm() > 0.7;
+    }
+    return solve(test::to_domain(mesh), handles, options).result.raw((n / 2) * (n + 1) + n / 2, 0);
+  };
+  EXPECT_NEAR(weight_at_centre(20, 1.0), weight_at_centre(20, 1000.0), 1e-7);
+  EXPECT_NEAR(weight_at_centre(20, 1.0), weight_at_centre(40, 1.0), 0.03);
+}
+
+TEST(WeightTerms, RigidSetsAreOneUnknown)
+{
+  const int n = 20;
+  const Domain domain = test::to_domain(test::grid(n, n));
+  const Handles handles = test::five_points();
+  BoundedWeightsOptions options;
+  options.tolerance = 1e-9;
+  const Solved free = solve(domain, handles, options);
+  options.terms.rigid_sets.assign(static_cast<std::size_t>(domain.points.rows()), 0);
+  const Vec3 p4 = handles[3].head;
+  for (Index v = 0; v < domain.points.rows(); ++v)
+  {
+    const Vec3 p = domain.points.row(v);
+    options.terms.rigid_sets[v] = (p - Vec3(0.5, 0.2, 0)).norm() < 0.12 ? 3
+      : (p - p4).norm() < 0.12                                          ? 8
+                                                                        : 0;
+  }
+  const Solved solved = solve(domain, handles, options);
+  ASSERT_TRUE(solved.status.ok()) << solved.status.message;
+  EXPECT_EQ(solved.result.analyses, 1);
+  EXPECT_GT(solved.energy(), 1.01 * free.energy());
+  const SparseMatrix q = solved.problem.energy(2);
+  const std::vector<Index>& sets = solved.problem.terms.rigid_sets;
+  for (Index j = 0; j < 5; ++j)
+  {
+    const Eigen::VectorXd w = solved.result.raw.col(j);
+    const Eigen::VectorXd g = q * w;
+    double total = 0.0; // the gradient of the set's unknown
+    double value = -1.0;
+    double gap = 0.0;
+    for (Index v = 0; v < w.size(); ++v)
+    {
+      if (sets[v] == 8)
+      {
+        EXPECT_EQ(w[v], j == 3 ? 1.0 : 0.0) << "the handle's own row";
+      }
+      else if (sets[v] == 3)
+      {
+        value = value < 0.0 ? w[v] : value;
+        EXPECT_EQ(w[v], value);
+        total += g[v];
+      }
+      else if (solved.problem.constraints.roles[v] == VertexRole::solved)
+      {
+        gap += std::max(g[v] * w[v], -g[v] * (1.0 - w[v]));
+      }
+    }
+    gap += std::max(total * value, -total * (1.0 - value));
+    EXPECT_LE(gap / (0.5 * w.dot(g)), 2e-9);
+  }
+  // A set that joins a part without a handle to one that has some connects the two.
+  TriangleMesh two = test::grid(4, 4);
+  const Index count = two.points.rows();
+  Points points(2 * count, 3);
+  points << two.points, two.points.rowwise() + Eigen::RowVector3d(0, 0, 1);
+  Triangles triangles(2 * two.triangles.rows(), 3);
+  triangles << two.triangles, two.triangles.array() + count;
+  Domain parts;
+  parts.points = points;
+  parts.triangles = triangles;
+  BoundedWeightsOptions joined;
+  joined.terms.rigid_sets.assign(static_cast<std::size_t>(2 * count), 0);
+  joined.terms.rigid_sets[12] = joined.terms.rigid_sets[12 + count] = 1;
+  const Solved both =
+    solve(parts, test::point_handles({ Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(1, 0, 0) }), joined);
+  ASSERT_TRUE(both.status.ok()) << both.status.message;
+  EXPECT_TRUE(both.status.warnings.empty());
+  for (Index v = count; v < 2 * count; ++v)
+  {
+    EXPECT_LE(
+      (both.result.weights.row(v) - both.result.weights.row(12)).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+TEST(WeightTerms, MonotoneWeightsTakeThem)
+{
+  const Domain domain = test::to_domain(test::grid(20, 20));
+  const Handles handles = test::five_points();
+  MonotoneWeightsOptions options;
+  options.terms.rigid_sets.assign(static_cast<std::size_t>(domain.points.rows()), 0);
+  options.terms.pinned = no_values(domain, handles);
+  options.terms.upper = no_values(domain, handles);
+  options.terms.rigidity = Eigen::VectorXd::Zero(domain.points.rows());
+  for (Index v = 0; v < domain.points.rows(); ++v)
+  {
+    const Vec3 p = domain.points.row(v);
+    options.terms.rigid_sets[v] = (p - Vec3(0.5, 0.2, 0)).norm() < 0.12;
+    options.terms.rigidity[v] = p.y() > 0.8 ? 1.0 : 0.0;
+  }
+  const Index pin = 10 * 21 + 5;
+  options.terms.pinned(pin, 0) = 0.3;
+  options.terms.upper(3 * 21 + 9, 0) = 0.45;
+  const Solved solved = solve(domain, handles, options);
+  ASSERT_TRUE(solved.status.ok()) << solved.status.message;
+  EXPECT_EQ(solved.result.raw(pin, 0), 0.3);
+  EXPECT_LE(solved.result.raw(3 * 21 + 9, 0), 0.45);
+  for (Index j = 0; j < 5; ++j)
+  {
+    EXPECT_LE(solved.result.columns[j].certificate.relative_gap, 1e-6);
+    EXPECT_LE(solved.result.columns[j].extrema.size(), j == 0 ? 1U : 0U) << "a pin can be one";
+  }
+  options.terms.upper(3 * 21 + 9, 0) = std::nan("");
+  options.terms.lower = no_values(domain, handles);
+  options.terms.lower(0, 0) = 0.999; // above what is nearer to the handle may be
+  options.terms.upper.col(0).setConstant(0.99);
+  options.terms.upper(0, 0) = std::nan("");
+  for (const Index v : solved.problem.fixed)
+  {
+    options.terms.upper(v, 0) = std::nan("");
+  }
+  expect_error(solve(domain, handles, options).status, { "'p1'", "vertex", "monotone" });
+}
+
+TEST(WeightTerms, MirroredHandlesHaveMirroredWeights)
+{
+  const int n = 16;
+  const Domain domain = test::to_domain(test::grid(n, n));
+  Handles handles = test::point_handles(
+    { Vec3(0.25, 0.25, 0), Vec3(0.75, 0.25, 0), Vec3(0.5, 0.75, 0), Vec3(0.125, 0.875, 0) });
+  BoundedWeightsOptions options;
+  options.tolerance = 1e-9;
+  const Solved free = solve(domain, handles, options);
+  options.terms.mirror = mirrored(n);
+  const Solved solved = solve(domain, handles, options);
+  ASSERT_TRUE(solved.status.ok()) << solved.status.message;
+  double free_difference = 0.0;
+  for (Index v = 0; v < domain.points.rows(); ++v)
+  {
+    const Index other = options.terms.mirror[v];
+    EXPECT_EQ(solved.result.raw(v, 0), solved.result.raw(other, 1));
+    EXPECT_EQ(solved.result.raw(v, 2), solved.result.raw(other, 2));
+    free_difference =
+      std::max(free_difference, std::abs(free.result.raw(v, 0) - free.result.raw(other, 1)));
+    // The fourth handle has no image; its weights are what they were.
+    EXPECT_NEAR(solved.result.raw(v, 3), free.result.raw(v, 3), 1e-5);
+  }
+  EXPECT_GT(free_difference, 1e-3) << "the fourth handle and the diagonals are not symmetric";
+  // Not better than without, and not worse than the mean of both, which the constraint allows.
+  const SparseMatrix q = solved.problem.energy(2);
+  const auto energy = [&](const Eigen::VectorXd& a) { return 0.5 * a.dot(q * a); };
+  const double pair = energy(solved.result.raw.col(0)) + energy(solved.result.raw.col(1));
+  EXPECT_GE(pair, energy(free.result.raw.col(0)) + energy(free.result.raw.col(1)) - 1e-12);
+  EXPECT_LE(solved.result.columns[0].certificate.relative_gap, 1e-9);
+  EXPECT_NEAR(solved.result.columns[0].certificate.energy, pair, 1e-9 * pair);
+
+  // Of a plane: the same.
+  BoundedWeightsOptions plane;
+  plane.tolerance = 1e-9;
+  plane.terms.mirror_origin = Vec3(0.5, 0, 0);
+  plane.terms.mirror_normal = Vec3(2, 0, 0);
+  const Solved by_plane = solve(domain, handles, plane);
+  EXPECT_EQ(by_plane.problem.terms.mirror, options.terms.mirror);
+  EXPECT_EQ((by_plane.result.raw - solved.result.raw).cwiseAbs().maxCoeff(), 0.0);
+}
+
+TEST(WeightTerms, FewInfluences)
+{
+  const Domain domain = test::to_domain(test::grid(20, 20));
+  const Handles handles = test::five_points();
+  double last = 0.0;
+  for (const int most : { 5, 4, 3, 2, 1 })
+  {
+    BoundedWeightsOptions options;
+    options.maximum_influences = most;
+    const Solved solved = solve(domain, handles, options);
+    ASSERT_TRUE(solved.status.ok()) << solved.status.message;
+    for (Index v = 0; v < domain.points.rows(); ++v)
+    {
+      EXPECT_LE((solved.result.weights.row(v).array() > 0.0).count(), most);
+      EXPECT_NEAR(solved.result.weights.row(v).sum(), 1.0, 1e-12);
+    }
+    EXPECT_GE(solved.energy(), (1.0 - 2e-6) * last) << "a smaller choice is a part of a larger one";
+    last = solved.energy();
+    EXPECT_EQ(solved.result.analyses, 1) << "the same analysis serves both rounds";
+    const double capped = solved.status.report.number("counts.capped_vertices", 0.0);
+    EXPECT_EQ(capped > 0.0, most < 5);
+    EXPECT_EQ(solved.status.report.number("influences.largest_difference", 0.0) > 0.0, most < 5);
+  }
+}
+
+TEST(WeightTerms, CoupledColumnsAreTheDenseMinimiser)
+{
+  const int n = 6;
+  const Domain domain = test::to_domain(test::grid(n, n));
+  const Handles handles =
+    test::point_handles({ Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0.5, 1, 0), Vec3(0.5, 0.5, 0) });
+  BoundedWeightsOptions options;
+  options.tolerance = 1e-8;
+  options.partition = PartitionOfUnity::coupled;
+  const Solved solved = solve(domain, handles, options);
+  ASSERT_TRUE(solved.status.ok()) << solved.status.message;
+  // The twin moves two columns of a vertex against each other, best pair after best pair.
+  const Eigen::MatrixXd q = Eigen::MatrixXd(solved.problem.energy(2));
+  const Index count = domain.points.rows();
+  Eigen::MatrixXd w = Eigen::MatrixXd::Constant(count, 4, 0.25);
+  for (std::size_t i = 0; i < solved.problem.fixed.size(); ++i)
+  {
+    w.row(solved.problem.fixed[i]) = solved.problem.fixed_values.row(static_cast<Index>(i));
+  }
+  Eigen::MatrixXd g = q * w;
+  for (int sweep = 0; sweep < 40000; ++sweep)
+  {
+    double moved = 0.0;
+    for (Index v = 0; v < count; ++v)
+    {
+      if (solved.problem.constraints.roles[v] != VertexRole::solved)
+      {
+        continue;
+      }
+      for (Index a = 0; a < 4; ++a)
+      {
+        for (Index b = a + 1; b < 4; ++b)
+        {
+          const double step = std::clamp(-(g(v, a) - g(v, b)) / (2.0 * q(v, v)), -w(v, a), w(v, b));
+          if (step != 0.0)
+          {
+            w(v, a) += step;
+            w(v, b) -= step;
+            g.col(a) += step * q.col(v);
+            g.col(b) -= step * q.col(v);
+            moved = std::max(moved, std::abs(step));
+          }
+        }
+      }
+    }
+    if (moved < 1e-14)
+    {
+      break;
+    }
+  }
+  const double energy = 0.5 * w.cwiseProduct(q * w).sum();
+  EXPECT_NEAR(solved.energy(), energy, 1e-7 * energy);
+  EXPECT_LE((solved.result.raw - w).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+TEST(WeightTerms, CoupledColumnsSumToOne)
+{
+  const Domain domain = test::to_domain(test::grid(30, 30));
+  const Handles handles = test::five_points();
+  BoundedWeightsOptions options;
+  const Solved alone = solve(domain, handles, options);
+  options.partition = PartitionOfUnity::coupled;
+  const Solved solved = solve(domain, handles, options);
+  ASSERT_TRUE(solved.status.ok()) << solved.status.message;
+  const SparseMatrix q = solved.problem.energy(2);
+  const Weights& w = solved.result.raw;
+  EXPECT_GE(w.minCoeff(), 0.0);
+  EXPECT_LE(solved.result.row_sum_error, 1e-12);
+  EXPECT_GT(alone.result.row_sum_error, 0.01);
+  EXPECT_LE((w - solved.result.weights).cwiseAbs().maxCoeff(), 1e-12);
+  // The second bound of the certificate, from the gradients alone, with any multipliers, here the
+  // rows' mean gradients: 1/2 r' A^-1 r where a weight is inside, the linear bound elsewhere.
+  const Eigen::MatrixXd g = q * w;
+  std::vector<Index> free;
+  for (Index v = 0; v < w.rows(); ++v)
+  {
+    if (solved.problem.constraints.roles[v] == VertexRole::solved)
+    {
+      free.push_back(v);
+    }
+  }
+  const auto count = static_cast<Index>(free.size());
+  Eigen::MatrixXd a(count, count);
+  Eigen::MatrixXd r = Eigen::MatrixXd::Zero(count, w.cols());
+  double gap = 0.0;
+  for (Index i = 0; i < count; ++i)
+  {
+    const double multiplier = -g.row(free[i]).dot(w.row(free[i]));
+    for (Index k = 0; k < count; ++k)
+    {
+      a(i, k) = q.coeff(free[i], free[k]);
+    }
+    for (Index j = 0; j < w.cols(); ++j)
+    {
+      const double value = w(free[i], j);
+      const double own = g(free[i], j) + multiplier;
+      const double newton = value - own / a(i, i);
+      r(i, j) = newton > 0.0 && newton < 1.0 ? own : 0.0;
+      gap += r(i, j) != 0.0 ? 0.0 : std::max(own * value, -own * (1.0 - value));
+    }
+  }
+  gap += 0.5 * r.cwiseProduct(a.llt().solve(r)).sum();
+  const double normalised = 0.5 * alone.result.weights.cwiseProduct(q * alone.result.weights).sum();
+  EXPECT_LE(gap, 2e-6 * solved.energy());
+  EXPECT_LE(solved.energy(), (1.0 + 1e-6) * normalised);
+  EXPECT_GE(solved.energy(), (1.0 - 1e-6) * alone.energy()) << "one constraint more";
+  const double largest = (solved.result.weights - alone.result.weights).cwiseAbs().maxCoeff();
+  EXPECT_NEAR(solved.status.report.number("partition.largest_difference", 0.0), largest, 1e-12);
+  EXPECT_GT(largest, 1e-3);
+}
+
+TEST(WeightTerms, CoupledIsTheSameForOneAndTwoHandles)
+{
+  const Domain domain = test::to_domain(test::grid(16, 16));
+  for (const std::size_t count : { 1, 2 })
+  {
+    Handles handles = three_points();
+    handles.resize(count);
+    BoundedWeightsOptions options;
+    options.tolerance = 1e-9;
+    const Solved alone = solve(domain, handles, options);
+    options.partition = PartitionOfUnity::coupled;
+    const Solved coupled = solve(domain, handles, options);
+    ASSERT_TRUE(coupled.status.ok()) << coupled.status.message;
+    EXPECT_LE((coupled.result.weights - alone.result.weights).cwiseAbs().maxCoeff(), 1e-6);
+  }
+}
+
+TEST(WeightTerms, CoupledKeepsPinsBoundsSetsAndInfluences)
+{
+  const Domain domain = test::to_domain(test::grid(16, 16));
+  const Handles handles = test::five_points();
+  BoundedWeightsOptions options;
+  options.partition = PartitionOfUnity::coupled;
+  options.maximum_influences = 3;
+  options.terms.pinned = options.terms.upper = no_values(domain, handles);
+  options.terms.rigid_sets.assign(static_cast<std::size_t>(domain.points.rows()), 0);
+  options.terms.pinned(100, 1) = 0.4;
+  options.terms.upper(8 * 17 + 4, 0) = 0.2;
+  options.terms.rigid_sets[5] = options.terms.rigid_sets[6] = options.terms.rigid_sets[7] = 1;
+  const Solved solved = solve(domain, handles, options);
+  ASSERT_TRUE(solved.status.ok()) << solved.status.message;
+  EXPECT_EQ(solved.result.weights(100, 1), 0.4);
+  EXPECT_LE(solved.result.weights(8 * 17 + 4, 0), 0.2 + 1e-15);
+  EXPECT_LE(solved.result.row_sum_error, 1e-12);
+  EXPECT_EQ((solved.result.raw.row(5) - solved.result.raw.row(7)).cwiseAbs().maxCoeff(), 0.0);
+  for (Index v = 0; v < domain.points.rows(); ++v)
+  {
+    EXPECT_LE((solved.result.weights.row(v).array() > 0.0).count(), 3);
+  }
+  options.terms.upper.row(100).setConstant(0.1);
+  options.terms.pinned(100, 1) = std::nan("");
+  options.maximum_influences = 0;
+  expect_error(solve(domain, handles, options).status, { "vertex 100", "sums to one" });
+  MonotoneWeightsOptions monotone;
+  monotone.partition = PartitionOfUnity::coupled;
+  expect_error(solve(domain, handles, monotone).status, { "coupled" });
+}
+
+TEST(WeightTerms, CoupledIsTheSameForAnyThreadsAndStopsWhenTold)
+{
+  const Domain domain = test::to_domain(test::grid(16, 16));
+  const Handles handles = test::five_points();
+  BoundedWeightsOptions options;
+  options.partition = PartitionOfUnity::coupled;
+  const WeightsProblem problem = solve(domain, handles, options).problem;
+  Weights first;
+  for (const int threads : { 1, 2, 3 })
+  {
+    ExecutionContext context;
+    context.set_threads(threads);
+    WeightsResult result;
+    ASSERT_TRUE(bounded_biharmonic_weights(problem, options, context, result).ok());
+    first = threads == 1 ? result.weights : first;
+    EXPECT_EQ((result.weights - first).cwiseAbs().maxCoeff(), 0.0);
+  }
+  // Too few iterations: the best rows so far, which sum to one, and numbers that say so.
+  options.maximum_iterations = 3;
+  ExecutionContext context;
+  WeightsResult result;
+  const Status late = bounded_biharmonic_weights(problem, options, context, result);
+  EXPECT_EQ(late.code, StatusCode::not_converged);
+  EXPECT_NE(late.message.find("not certified"), std::string::npos) << late.message;
+  EXPECT_LE(result.row_sum_error, 1e-12);
+  EXPECT_GT(late.report.number("relative_gap", 0.0), 1e-6);
+  // Cancelled in the coupled part.
+  options.maximum_iterations = 100;
+  std::atomic<bool> stop{ false };
+  ExecutionContext cancelled([&](double, const std::string& phase)
+    { stop = stop || phase == "coupled"; },
+    [&] { return stop.load(); });
+  EXPECT_EQ(
+    bounded_biharmonic_weights(problem, options, cancelled, result).code, StatusCode::cancelled);
+}

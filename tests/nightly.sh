@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # What is too long for tests/run.sh: sanitizers, the build without GPL and AGPL parts and OpenVDB, naming on all
-# files, the quickstart, every surface of libcgal-demo and every made horror through the mesher, a thousand random
-# unclean surfaces, a million triangles, the plugin in ParaView. Ends with a summary.
-# usage: tests/nightly.sh [asan|permissive|tidy|quickstart|surfaces|fuzz|million|paraview …]   (default: all)
+# files, the quickstart, every surface of libcgal-demo and every made horror through the mesher, weights of twenty
+# surfaces with their certificates, a thousand random unclean surfaces, a million triangles, the plugin in ParaView.
+# Ends with a summary.
+# usage: tests/nightly.sh [asan|permissive|tidy|quickstart|surfaces|weights|fuzz|million|paraview …]   (default: all)
 set -uo pipefail
 program=nightly.sh
 install=yes
@@ -58,6 +59,11 @@ surfaces()
   /usr/bin/python3 "$root/tests/support/all_surfaces.py" --build "$build_dir" --method auto --method remesh --method embed
 }
 
+weights()
+{
+  /usr/bin/python3 "$root/tests/support/all_weights.py" --build "$build_dir"
+}
+
 fuzz()
 ( # without sanitizers: 1,020 abused and 272 hostile surfaces, 1,360 on lattices
   export BINDPOSE_FUZZ_FACTOR=${BINDPOSE_FUZZ_FACTOR:-34}
@@ -75,7 +81,7 @@ paraview()
 }
 
 parts=("$@")
-[ $# -gt 0 ] || parts=(asan permissive tidy quickstart surfaces fuzz million paraview)
+[ $# -gt 0 ] || parts=(asan permissive tidy quickstart surfaces weights fuzz million paraview)
 for name in "${parts[@]}"; do
   part "$name" "$name"
 done

@@ -74,7 +74,7 @@ public:
 
 private:
   Status set_up();
-  void set_start();
+  void set_start(bool central);
   VectorXd apply(const VectorXd& x) const; // B x
   VectorXd apply_transposed(const VectorXd& y) const; // B' y
   Status factor(const VectorXd& d);
@@ -525,11 +525,12 @@ InteriorPoint::Direction InteriorPoint::find_direction()
   return d;
 }
 
-void InteriorPoint::set_start()
+/// @param central by what was found for all columns, where that is given.
+void InteriorPoint::set_start(bool central)
 {
   const auto& matrices = this->matrices_;
   const auto n = static_cast<Index>(matrices.free_vertices.size());
-  if (this->start_.mu > 0.0)
+  if (central && this->start_.mu > 0.0)
   {
     this->x_ = this->start_.x;
     this->s_ = (this->apply(this->x_) + this->h_).cwiseMax(1e-12);
@@ -690,7 +691,7 @@ BoxQpSolution InteriorPoint::run()
   Status status = this->set_up();
   if (status.ok())
   {
-    this->set_start();
+    this->set_start(true);
     this->certify_iterate();
     this->best_ = this->result_;
   }
@@ -705,6 +706,11 @@ BoxQpSolution InteriorPoint::run()
   // certified iterate is worth one try at any rate.
   double near = 4e-5;
   int tries = 0;
+  // 5 to 15 iterations are usual. Where the form is very ill-conditioned (triharmonic energies of
+  // fine meshes) the common start can lie where no step leads away: begin anew without it then,
+  // and in double precision if that does not help.
+  constexpr int begin_anew_after = 25;
+  constexpr int double_after = 60;
   double moved = this->bounded_.empty() ? 0.0 : 1.0;
   const auto done = [&]
   {
@@ -718,6 +724,12 @@ BoxQpSolution InteriorPoint::run()
       status = Status::cancelled();
       break;
     }
+    if (this->result_.iterations == begin_anew_after && this->start_.mu > 0.0 &&
+      worst(this->best_.certificate) > tolerance)
+    {
+      this->set_start(false);
+    }
+    this->single_is_enough_ = this->single_is_enough_ && this->result_.iterations < double_after;
     this->rp_ = this->apply(this->x_) + this->h_ - this->s_;
     this->rd_ =
       this->matrices_.a.transpose() * this->x_ + this->c_ - this->apply_transposed(this->z_);

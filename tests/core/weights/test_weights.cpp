@@ -167,6 +167,20 @@ TEST(Weights, TheTriharmonicBarIsAQuintic)
   }
 }
 
+TEST(Weights, TriharmonicOnesAreCertifiedOnAFineSquare)
+{
+  // The form's condition grows with the sixth power of 1 / h.
+  const WeightsProblem problem =
+    problem_of(test::to_domain(test::grid(60, 60)), test::five_points());
+  const WeightsResult result = bounded(problem, 3);
+  expect_certified(problem, result);
+  for (const WeightsColumn& column : result.columns)
+  {
+    EXPECT_GE(column.extrema.size(), 3u) << "bounds are not enough";
+    EXPECT_LE(column.extrema.size(), 13u);
+  }
+}
+
 TEST(Weights, FivePointsOnASquareHaveTheKnownExtrema)
 {
   const WeightsProblem problem =

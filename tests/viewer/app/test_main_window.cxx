@@ -295,6 +295,29 @@ TEST_F(Window, ACancelledBindLeavesEverythingAsItWas)
   EXPECT_EQ(this->window.error(), QString());
 }
 
+TEST_F(Window, APreviewIsThereToPoseWithBeforeTheBindEnds)
+{
+  TriangleMesh mesh = test::sphere(5);
+  ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
+  ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
+  this->window.bind();
+  ASSERT_TRUE(wait_for([this] { return this->window.is_bound(); }));
+  EXPECT_TRUE(this->window.is_binding());
+  ASSERT_TRUE(wait_for([this] { return !this->window.is_binding(); }));
+  EXPECT_TRUE(this->window.is_bound());
+
+  // Cancelled after its preview, a bind leaves what was there before: here, nothing.
+  ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
+  EXPECT_FALSE(this->window.is_bound());
+  this->window.bind();
+  ASSERT_TRUE(wait_for([this] { return this->window.is_bound(); }));
+  ASSERT_TRUE(this->window.is_binding());
+  this->window.cancel_bind();
+  ASSERT_TRUE(wait_for([this] { return !this->window.is_binding(); }));
+  EXPECT_FALSE(this->window.is_bound());
+  EXPECT_EQ(this->window.error(), QString());
+}
+
 TEST_F(Window, WhatCannotBeOpenedIsSaidAndTheWorkStays)
 {
   this->open_bound();

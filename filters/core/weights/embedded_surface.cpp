@@ -255,8 +255,22 @@ Status EmbeddedSurface::interpolate(
   return whole ? Status() : Status::cancelled();
 }
 
-Status EmbeddedSurface::smooth(
-  const HandleInsertion& mesh, double length, ExecutionContext& context, Weights& result) const
+/// The surface's point at a place, -1: there is none.
+Index EmbeddedSurface::point_at(const Vec3& place) const
+{
+  const SimplexLocation at = this->surface_.locate(place);
+  for (int k = 0; k < 3 && at.element >= 0; ++k)
+  {
+    if (at.distance <= 1e-7 * this->spacing_ && at.barycentric[k] >= 1.0 - 1e-7)
+    {
+      return this->triangles_(at.element, k);
+    }
+  }
+  return -1;
+}
+
+Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double length,
+  ExecutionContext& context, Weights& result) const
 {
   LatticeSurface welded;
   if (!welded.build(this->points_, this->triangles_, context))
@@ -278,19 +292,9 @@ Status EmbeddedSurface::smooth(
     }
   }
   std::vector<Index> fixed;
-  for (const HandlePlacement& handle : mesh.handles)
+  for (const Index point : fixed_points)
   {
-    for (const Index v : handle.vertices)
-    {
-      const SimplexLocation at = this->surface_.locate(mesh.domain.points.row(v));
-      for (int k = 0; k < 3; ++k)
-      {
-        if (at.distance <= 1e-7 * length && at.barycentric[k] >= 1.0 - 1e-7)
-        {
-          fixed.push_back(welded.of_point[this->triangles_(at.element, k)]);
-        }
-      }
-    }
+    fixed.push_back(welded.of_point[point]);
   }
   std::sort(fixed.begin(), fixed.end());
   fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
@@ -348,12 +352,36 @@ Status EmbeddedSurface::smooth(
   return {};
 }
 
-Status EmbeddedSurface::carry(
-  const HandleInsertion& mesh, WeightsView values, ExecutionContext& context, Weights& result) const
+Status EmbeddedSurface::carry(const HandleInsertion& mesh, const Handles& handles,
+  WeightsView values, ExecutionContext& context, Weights& result) const
 {
   constexpr double smoothing = 0.3;
-  Status status = this->interpolate(mesh, values, context, result);
-  return status.ok() ? this->smooth(mesh, smoothing * this->spacing_, context, result) : status;
+  const Status status = this->interpolate(mesh, values, context, result);
+  if (!status.ok())
+  {
+    return status;
+  }
+  // Points on handles have the values of those, which may be at a vertex nearby.
+  std::vector<Index> fixed;
+  for (std::size_t j = 0; j < mesh.handles.size(); ++j)
+  {
+    const std::vector<Index>& vertices = mesh.handles[j].vertices;
+    for (const Index v : vertices)
+    {
+      fixed.push_back(this->point_at(mesh.domain.points.row(v)));
+    }
+    if (handles[j].kind != HandleKind::bone && vertices.size() == 1)
+    {
+      const Index point = this->point_at(handles[j].head);
+      if (point >= 0)
+      {
+        result.row(point) = values.row(vertices[0]);
+        fixed.push_back(point);
+      }
+    }
+  }
+  fixed.erase(std::remove(fixed.begin(), fixed.end(), -1), fixed.end());
+  return this->smooth(fixed, smoothing * this->spacing_, context, result);
 }
 
 } // namespace bindpose

@@ -35,8 +35,8 @@ public:
   /// say, the sum is clamped to the column's range and smoothed along the surface (bi-Laplacian,
   /// over 0.3 of the lattice's spacing), but at points that lie on handles. Cost: a factorisation
   /// on the surface's triangles.
-  Status carry(const HandleInsertion& mesh, WeightsView values, ExecutionContext& context,
-    Weights& result) const;
+  Status carry(const HandleInsertion& mesh, const Handles& handles, WeightsView values,
+    ExecutionContext& context, Weights& result) const;
 
 private:
   using Place = std::array<Index, 3>;
@@ -47,8 +47,10 @@ private:
   Place centre_of(Index tet) const;
   Status interpolate(const HandleInsertion& mesh, WeightsView values, ExecutionContext& context,
     Weights& result) const;
-  Status smooth(
-    const HandleInsertion& mesh, double length, ExecutionContext& context, Weights& result) const;
+  /// @param fixed_points ids of points whose values stay.
+  Status smooth(const std::vector<Index>& fixed_points, double length, ExecutionContext& context,
+    Weights& result) const;
+  Index point_at(const Vec3& place) const;
 
   PointsView points_;
   TrianglesView triangles_;

@@ -379,8 +379,10 @@ Status Solver::embed(Index resolution, SurfaceWeights& result)
   status = this->joined(status,
     this->solve(
       lattice, {}, terms, insertion,
-      [&](const Weights& solved, Weights& at_points)
-      { return embedded.carry(result.problem.mesh, solved, this->context_, at_points); },
+      [&](const Weights& solved, Weights& at_points) {
+        return embedded.carry(
+          result.problem.mesh, this->handles_, solved, this->context_, at_points);
+      },
       result));
   return status;
 }

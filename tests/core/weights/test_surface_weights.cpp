@@ -193,7 +193,8 @@ TEST(SurfaceWeights, CarriesSmoothFunctionsBetterThanTetsDo)
     values.row(v) << f(mesh.domain.points.row(v)), 0.25;
   }
   Weights carried;
-  ASSERT_TRUE(embedded.carry(mesh, values, context, carried).ok());
+  ASSERT_TRUE(
+    embedded.carry(mesh, { test::point_handle("p", Vec3::Zero()) }, values, context, carried).ok());
   double linear = 0.0, smooth = 0.0;
   for (Index i = 0; i < ball.points.rows(); ++i)
   {
@@ -285,6 +286,24 @@ TEST(SurfaceWeights, AreTheSameBitsOnAnyNumberOfThreads)
   ASSERT_TRUE(solve(long_box(), three_along(), in(WeightsDomain::embedding, 16), one, 1).usable());
   ASSERT_TRUE(solve(long_box(), three_along(), in(WeightsDomain::embedding, 16), many, 4).usable());
   EXPECT_TRUE((one.weights.array() == many.weights.array()).all());
+}
+
+TEST(SurfaceWeights, PointsOfTheSurfaceThatAreHandlesHaveTheirRows)
+{
+  const TriangleMesh mesh = test::sphere(3);
+  Handles handles;
+  for (const Index v : { 0, 77, 201, 333, 512, 640 })
+  {
+    handles.push_back(test::point_handle("h" + std::to_string(v), mesh.points.row(v)));
+  }
+  SurfaceWeights result;
+  ASSERT_TRUE(solve(mesh, handles, in(WeightsDomain::embedding, 14), result).usable());
+  Index j = 0;
+  for (const Index v : { 0, 77, 201, 333, 512, 640 })
+  {
+    EXPECT_NEAR(result.weights(v, j++), 1.0, 1e-12);
+    EXPECT_NEAR(result.weights.row(v).sum(), 1.0, 1e-12);
+  }
 }
 
 TEST(SurfaceWeights, UnboundedMethodsAreNotClamped)

@@ -237,7 +237,7 @@ Walls walls_of(const WeightsProblem& problem)
   const Domain& domain = problem.mesh.domain;
   Walls walls;
   Vec3 normal;
-  if (domain.is_volume() || !is_flat(domain, problem.diagonal, normal))
+  if (domain.is_volume() || !is_flat(domain.points, problem.diagonal, normal))
   {
     walls.points = domain.points;
     walls.triangles = domain.is_volume() ? boundary_triangles(domain.tets) : domain.triangles;

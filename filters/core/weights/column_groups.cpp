@@ -3,12 +3,14 @@
 // that are given different values contradict each other.
 #include "weights/column_groups.h"
 
+#include "base/disjoint_sets.h"
+#include "base/sort_unique.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 #include <map>
-#include <numeric>
 
 namespace bindpose
 {
@@ -16,33 +18,6 @@ namespace bindpose
 namespace
 {
 constexpr double same_value = 1e-12;
-
-/// Classes of numbers; the smallest member stands for its class.
-class Classes
-{
-public:
-  explicit Classes(Index count) : parent_(static_cast<std::size_t>(count))
-  {
-    std::iota(this->parent_.begin(), this->parent_.end(), Index(0));
-  }
-  Index find(Index i)
-  {
-    while (this->parent_[i] != i)
-    {
-      i = this->parent_[i] = this->parent_[this->parent_[i]];
-    }
-    return i;
-  }
-  void join(Index i, Index j)
-  {
-    i = this->find(i);
-    j = this->find(j);
-    this->parent_[std::max(i, j)] = std::min(i, j);
-  }
-
-private:
-  std::vector<Index> parent_;
-};
 
 /// Makes one group's unknowns and columns.
 class GroupMaker
@@ -82,7 +57,7 @@ private:
   {
     const auto& of_vertex = this->problem_.constraints.components.of_vertex;
     const Index copies = this->group_.copies;
-    Classes classes(copies * this->n_);
+    DisjointSets<Index> classes(static_cast<std::size_t>(copies * this->n_));
     bool merged = false;
     std::map<Index, Index> first_of_set;
     for (Index v = 0; v < this->n_; ++v)
@@ -93,14 +68,14 @@ private:
         const Index first = first_of_set.insert({ set, v }).first->second;
         for (Index k = 0; k < copies; ++k)
         {
-          classes.join(k * this->n_ + first, k * this->n_ + v);
+          classes.unite(k * this->n_ + first, k * this->n_ + v);
         }
         merged = merged || first != v;
       }
       const Index other = mirrored ? this->terms_.mirror[v] : -1;
       if (other >= 0 && of_vertex[v] >= 0 && of_vertex[other] >= 0)
       {
-        classes.join(v, (copies - 1) * this->n_ + other);
+        classes.unite(v, (copies - 1) * this->n_ + other);
         merged = merged || copies > 1 || other != v;
       }
     }
@@ -127,7 +102,7 @@ private:
     }
     // Connected parts of unknowns.
     const Index parts = this->problem_.constraints.components.count;
-    Classes joined(std::max<Index>(1, copies * parts));
+    DisjointSets<Index> joined(static_cast<std::size_t>(copies * parts));
     this->part_.assign(static_cast<std::size_t>(this->group_.count), -1);
     for (Index u = 0; u < this->group_.count; ++u)
     {
@@ -138,7 +113,7 @@ private:
         {
           const Index at = (member / this->n_) * parts + part;
           this->part_[u] = this->part_[u] < 0 ? at : this->part_[u];
-          joined.join(this->part_[u], at);
+          joined.unite(this->part_[u], at);
         }
       }
     }
@@ -286,19 +261,9 @@ private:
 
   Status intersect_bounds(Index v, Index handle, double value, Index u, Bounds& bounds) const
   {
-    const auto& limits = this->terms_.handle_bounds;
-    double low = limits.size() > 0 ? limits(handle, 0) : 0.0;
-    double high = limits.size() > 0 ? limits(handle, 1) : 1.0;
     const bool on_inserted_handle = this->inserted(v) && this->row_of_[v] >= 0;
-    if (!on_inserted_handle)
-    {
-      const double own_low =
-        this->terms_.lower.size() > 0 ? this->terms_.lower(v, handle) : std::nan("");
-      const double own_high =
-        this->terms_.upper.size() > 0 ? this->terms_.upper(v, handle) : std::nan("");
-      low = std::isnan(own_low) ? low : own_low;
-      high = std::isnan(own_high) ? high : own_high;
-    }
+    const auto [low, high] =
+      on_inserted_handle ? this->terms_.bounds_of(handle) : this->terms_.bounds_of(handle, v);
     const std::string what = "'" + this->handle_name(handle) + "' at vertex " + std::to_string(v);
     if (low > high)
     {
@@ -529,8 +494,7 @@ VertexGraph merge_graph(
   for (std::vector<Index>& list : neighbours)
   {
     merged.begin.push_back(static_cast<Index>(merged.neighbours.size()));
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
+    sort_unique(list);
     merged.neighbours.insert(merged.neighbours.end(), list.begin(), list.end());
   }
   merged.begin.push_back(static_cast<Index>(merged.neighbours.size()));

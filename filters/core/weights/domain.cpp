@@ -62,10 +62,10 @@ double mean_edge_length(const Domain& domain, Index element)
   return sum / (corners * (corners - 1) / 2);
 }
 
-bool is_flat(const Domain& domain, double diagonal, Vec3& normal)
+bool is_flat(PointsView points, double diagonal, Vec3& normal)
 {
-  const Vec3 centre = domain.points.colwise().mean();
-  const Points centred = domain.points.rowwise() - centre.transpose();
+  const Vec3 centre = points.colwise().mean();
+  const Points centred = points.rowwise() - centre.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(centred.transpose() * centred);
   normal = axes.eigenvectors().col(0);
   constexpr double flat = 1e-9;

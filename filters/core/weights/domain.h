@@ -42,7 +42,7 @@ const char* element_name(const Domain& domain);
 double mean_edge_length(const Domain& domain, Index element);
 
 /// True when all points lie in a plane, within 1e-9 of the diagonal, whose normal is then given.
-bool is_flat(const Domain& domain, double diagonal, Vec3& normal);
+bool is_flat(PointsView points, double diagonal, Vec3& normal);
 
 /// Neighbours of every vertex along edges, ascending, without doubles.
 struct VertexGraph

@@ -8,12 +8,15 @@
 #include "weights/embedded_surface.h"
 
 #include "base/parallel.h"
+#include "base/sort_unique.h"
 #include "base/sparse_solver.h"
 #include "embedding/lattice_cover.h"
 #include "weights/split_form.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <unordered_set>
 
 namespace bindpose
 {
@@ -62,6 +65,25 @@ Eigen::MatrixXd corner_gradients(const Domain& domain, WeightsView values)
   }
   return gradients;
 }
+
+/// Numbers of items by their keys 0 … count - 1: those of key k from first[k] to first[k + 1].
+template <typename KeyOf>
+void group_by_key(Index count, Index items, const KeyOf& key_of, std::vector<Index>& first,
+  std::vector<Index>& grouped)
+{
+  first.assign(static_cast<std::size_t>(count) + 1, 0);
+  for (Index i = 0; i < items; ++i)
+  {
+    ++first[key_of(i) + 1];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  grouped.resize(static_cast<std::size_t>(items));
+  std::vector<Index> next(first.begin(), first.end() - 1);
+  for (Index i = 0; i < items; ++i)
+  {
+    grouped[next[key_of(i)]++] = i;
+  }
+}
 } // namespace
 
 std::size_t EmbeddedSurface::PlaceHash::operator()(const Place& place) const
@@ -79,8 +101,6 @@ EmbeddedSurface::EmbeddedSurface(
   : points_(points), triangles_(triangles), lattice_(lattice), binding_(binding),
     tets_(lattice.points, lattice.tets), surface_(points, triangles)
 {
-  const Index n = lattice.points.rows();
-  const Index count = lattice.tets.rows();
   for (int k = 1; k < 4; ++k)
   {
     this->spacing_ = std::max(this->spacing_,
@@ -88,7 +108,7 @@ EmbeddedSurface::EmbeddedSurface(
   }
   this->spacing_ = std::max(this->spacing_,
     (lattice.points.row(lattice.tets(0, 0)) - lattice.points.row(lattice.tets(0, 3))).norm());
-  for (Index t = 0; t < count; ++t)
+  for (Index t = 0; t < lattice.tets.rows(); ++t)
   {
     this->copies_[this->centre_of(t)].push_back(t);
   }
@@ -96,21 +116,9 @@ EmbeddedSurface::EmbeddedSurface(
   {
     at = at->second.size() > 1 ? std::next(at) : this->copies_.erase(at);
   }
-  this->first_tet_.assign(static_cast<std::size_t>(n) + 1, 0);
-  for (Index i = 0; i < lattice.tets.size(); ++i)
-  {
-    ++this->first_tet_[lattice.tets.data()[i] + 1];
-  }
-  for (Index v = 0; v < n; ++v)
-  {
-    this->first_tet_[v + 1] += this->first_tet_[v];
-  }
-  this->tets_at_.resize(static_cast<std::size_t>(lattice.tets.size()));
-  std::vector<Index> next(this->first_tet_.begin(), this->first_tet_.end() - 1);
-  for (Index i = 0; i < lattice.tets.size(); ++i)
-  {
-    this->tets_at_[next[lattice.tets.data()[i]]++] = i / 4;
-  }
+  group_by_key(
+    lattice.points.rows(), lattice.tets.size(), [&](Index i) { return lattice.tets.data()[i]; },
+    this->first_corner_, this->corners_at_);
 }
 
 EmbeddedSurface::Place EmbeddedSurface::centre_of(Index tet) const
@@ -155,7 +163,7 @@ Index EmbeddedSurface::tet_of(const Vec3& place) const
   const Index start =
     this->binding_.tets[this->triangles_(near.element, corner - near.barycentric.begin())];
   std::vector<Index> queue{ start };
-  std::unordered_map<Index, bool> seen{ { start, true } };
+  std::unordered_set<Index> seen{ start };
   for (std::size_t i = 0; i < queue.size(); ++i)
   {
     if (std::find(copies->second.begin(), copies->second.end(), queue[i]) != copies->second.end())
@@ -165,11 +173,12 @@ Index EmbeddedSurface::tet_of(const Vec3& place) const
     for (int k = 0; k < 4; ++k)
     {
       const Index v = this->lattice_.tets(queue[i], k);
-      for (Index at = this->first_tet_[v]; at < this->first_tet_[v + 1]; ++at)
+      for (Index at = this->first_corner_[v]; at < this->first_corner_[v + 1]; ++at)
       {
-        if (seen.emplace(this->tets_at_[at], true).second)
+        const Index tet = this->corners_at_[at] / 4;
+        if (seen.insert(tet).second)
         {
-          queue.push_back(this->tets_at_[at]);
+          queue.push_back(tet);
         }
       }
     }
@@ -184,22 +193,10 @@ Status EmbeddedSurface::interpolate(
   const Index m = values.cols();
   const Eigen::MatrixXd gradients = corner_gradients(domain, values);
   // The parts of each tet of the lattice.
-  const Index count = this->lattice_.tets.rows();
-  std::vector<Index> first(static_cast<std::size_t>(count) + 1, 0);
-  std::vector<Index> parts(mesh.parent_element.size());
-  for (const Index parent : mesh.parent_element)
-  {
-    ++first[parent + 1];
-  }
-  for (Index t = 0; t < count; ++t)
-  {
-    first[t + 1] += first[t];
-  }
-  std::vector<Index> next(first.begin(), first.end() - 1);
-  for (std::size_t e = 0; e < parts.size(); ++e)
-  {
-    parts[next[mesh.parent_element[e]]++] = static_cast<Index>(e);
-  }
+  std::vector<Index> first, parts;
+  group_by_key(
+    this->lattice_.tets.rows(), domain.tets.rows(), [&](Index e) { return mesh.parent_element[e]; },
+    first, parts);
 
   const Eigen::RowVectorXd lowest = values.colwise().minCoeff();
   const Eigen::RowVectorXd highest = values.colwise().maxCoeff();
@@ -296,8 +293,7 @@ Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double le
   {
     fixed.push_back(welded.of_point[point]);
   }
-  std::sort(fixed.begin(), fixed.end());
-  fixed.erase(std::unique(fixed.begin(), fixed.end()), fixed.end());
+  sort_unique(fixed);
 
   // Slivers get a mass that keeps the system well away from singular.
   Eigen::VectorXd mass = lumped_mass(points, triangles);

@@ -60,7 +60,7 @@ private:
   SimplexLocator surface_;
   double spacing_ = 0.0; ///< of the lattice: side of a cube, the longest edge of a tet
   std::unordered_map<Place, std::vector<Index>, PlaceHash> copies_; ///< of tets that have some
-  std::vector<Index> first_tet_, tets_at_; ///< tets of each vertex
+  std::vector<Index> first_corner_, corners_at_; ///< of each vertex: 4 * tet + corner
 };
 
 } // namespace bindpose

@@ -1,11 +1,12 @@
 #include "weights/handle_constraints.h"
 
+#include "base/disjoint_sets.h"
 #include "base/laplacian.h"
+#include "base/sort_unique.h"
 #include "weights/simplex_locator.h"
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace bindpose
 {
@@ -99,33 +100,22 @@ void find_components(const Domain& domain, HandleConstraints& result)
 /// Makes one part of all parts that hold vertices of the same label > 0.
 void join_components(const std::vector<Index>& labels, Components& components)
 {
-  std::vector<Index> part(static_cast<std::size_t>(components.count));
-  std::iota(part.begin(), part.end(), Index(0));
-  const auto find = [&](Index c)
-  {
-    while (part[c] != c)
-    {
-      c = part[c];
-    }
-    return c;
-  };
+  DisjointSets<Index> parts(static_cast<std::size_t>(components.count));
   std::map<Index, Index> part_of_label;
   for (std::size_t v = 0; v < labels.size(); ++v)
   {
     const Index c = components.of_vertex[v];
     if (labels[v] > 0 && c >= 0)
     {
-      const Index own = find(c);
-      const Index other = find(part_of_label.insert({ labels[v], own }).first->second);
-      part[std::max(own, other)] = std::min(own, other);
+      parts.unite(c, part_of_label.insert({ labels[v], c }).first->second);
     }
   }
-  std::vector<Index> renumbered(part.size(), -1);
+  std::vector<Index> renumbered(static_cast<std::size_t>(components.count), -1);
   Index count = 0;
-  for (std::size_t c = 0; c < part.size(); ++c)
+  for (Index c = 0; c < components.count; ++c)
   {
-    const Index root = find(static_cast<Index>(c));
-    renumbered[c] = root == static_cast<Index>(c) ? count++ : renumbered[root];
+    const Index root = parts.find(c);
+    renumbered[c] = root == c ? count++ : renumbered[root];
   }
   for (Index& c : components.of_vertex)
   {
@@ -235,33 +225,13 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
 {
   result = {};
   const Domain& domain = mesh.domain;
-  const auto original_count = domain.points.rows() - static_cast<Index>(mesh.inserted.size());
   find_components(domain, result);
   if (!joined.empty())
   {
     join_components(joined, result.components);
   }
 
-  // Labels of inserted vertices: within a region when all corners around them are.
-  const auto label = [&](Index v) -> Index
-  {
-    if (v < original_count)
-    {
-      return region_ids[v];
-    }
-    const InsertedVertex& vertex = mesh.inserted[v - original_count];
-    Index common = -1;
-    for (int k = 0; k < domain.corners(); ++k)
-    {
-      if (vertex.barycentric[k] > 1e-12)
-      {
-        const Index here = region_ids[vertex.parents[k]];
-        common = common == -1 || common == here ? here : 0;
-      }
-    }
-    return common;
-  };
-
+  const std::vector<Index> labels = extend_labels(mesh, region_ids);
   std::vector<std::vector<Index>> of_handle(handles.size());
   result.counts.assign(handles.size(), 0);
   std::map<Index, std::vector<Index>> handles_of_vertex;
@@ -286,7 +256,7 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
     {
       for (Index v = 0; v < domain.points.rows(); ++v)
       {
-        if (label(v) == handle.region_id)
+        if (labels[v] == handle.region_id)
         {
           of_handle[i].push_back(v);
         }
@@ -321,9 +291,7 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
       result.vertices.push_back(on_cage.vertex);
     }
   }
-  std::sort(result.vertices.begin(), result.vertices.end());
-  result.vertices.erase(
-    std::unique(result.vertices.begin(), result.vertices.end()), result.vertices.end());
+  sort_unique(result.vertices);
   result.values = Weights::Zero(static_cast<Index>(result.vertices.size()), m);
   const auto row_of = [&](Index v)
   {

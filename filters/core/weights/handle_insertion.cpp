@@ -8,6 +8,7 @@
 #include "weights/handle_insertion.h"
 
 #include "base/line_pieces.h"
+#include "base/sort_unique.h"
 #include "inside/handle_places.h"
 #include "weights/simplex_locator.h"
 
@@ -483,9 +484,7 @@ void Inserter::finish()
   for (std::size_t i = 0; i < this->handles_.size(); ++i)
   {
     HandlePlacement& placement = this->result_.handles[i];
-    std::sort(placement.vertices.begin(), placement.vertices.end());
-    placement.vertices.erase(
-      std::unique(placement.vertices.begin(), placement.vertices.end()), placement.vertices.end());
+    sort_unique(placement.vertices);
     if (placement.outside > 1e-6 * this->diagonal_)
     {
       char distance[32];
@@ -568,6 +567,29 @@ Status Inserter::run(ExecutionContext& context)
   return {};
 }
 } // namespace
+
+std::vector<Index> extend_labels(const HandleInsertion& mesh, const std::vector<Index>& labels)
+{
+  if (labels.empty())
+  {
+    return {};
+  }
+  std::vector<Index> result = labels;
+  for (const InsertedVertex& vertex : mesh.inserted)
+  {
+    Index common = -1;
+    for (int k = 0; k < mesh.domain.corners(); ++k)
+    {
+      if (vertex.barycentric[k] > 1e-12)
+      {
+        const Index here = labels[vertex.parents[k]];
+        common = common == -1 || common == here ? here : 0;
+      }
+    }
+    result.push_back(common);
+  }
+  return result;
+}
 
 Status insert_handles(const Domain& domain, const Handles& handles,
   const HandleInsertionOptions& options, ExecutionContext& context, HandleInsertion& result)

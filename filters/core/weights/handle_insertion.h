@@ -62,6 +62,9 @@ struct HandleInsertion
   std::vector<std::string> warnings;
 };
 
+/// Labels of vertices and, where all corners around them agree, of inserted ones, else 0.
+std::vector<Index> extend_labels(const HandleInsertion& mesh, const std::vector<Index>& labels);
+
 /// Makes handles vertices of the mesh: a weight of one at a point inside a simplex would force all
 /// its corners to one.
 ///

@@ -47,6 +47,9 @@ public:
     return context.cancelled() ? Status::cancelled() : status;
   }
 
+  /// #V
+  const std::vector<char>& is_free() const { return this->form_.is_free; }
+
   /// #V x m, with the fixed rows: by K alone.
   Eigen::MatrixXd harmonic() const
   {
@@ -234,11 +237,6 @@ Status preview_weights(const WeightsProblem& problem, const WeightsOptions& opti
   const SparseMatrix q = harmonic_energy(problem.stiffness, problem.mass, 2);
   const std::vector<BoxQpColumn> columns = plain_columns(problem);
   std::vector<BoxQpSolution> solutions(columns.size());
-  std::vector<char> is_free(static_cast<std::size_t>(problem.vertex_count()), 1);
-  for (const Index v : problem.fixed)
-  {
-    is_free[v] = 0;
-  }
   const bool whole = parallel_for(context, static_cast<Index>(columns.size()), 1,
     [&](Index begin, Index end)
     {
@@ -246,7 +244,7 @@ Status preview_weights(const WeightsProblem& problem, const WeightsOptions& opti
       {
         BoxQpSolution& solution = solutions[j];
         solution.w = w.col(j);
-        std::vector<char> free_here = is_free;
+        std::vector<char> free_here = preview.is_free();
         for (std::size_t i = 0; i < columns[j].pinned.size(); ++i)
         {
           free_here[columns[j].pinned[i]] = 0;

@@ -43,7 +43,10 @@ private:
   Status in_embedding(SurfaceWeights& result, bool& trusted);
   Status in_cage(SurfaceWeights& result);
   Status embed(Index resolution, SurfaceWeights& result);
-  Status fill(TetMethod method, Index resolution, TetrahedralizeResult& tets);
+  Status fill(PointsView points, TrianglesView triangles, const TetrahedralizeOptions& options,
+    TetrahedralizeResult& tets);
+  TetrahedralizeOptions fill_options() const;
+  Status refuse_single_points(const char* domain) const;
   /// Adds what a step said to what came before it. @return the step's status with all of it.
   Status joined(Status before, Status step) const;
   /// From weights at the tets' vertices to weights at the surface's points.
@@ -64,16 +67,6 @@ private:
   ExecutionContext& context_;
   Weights preview_; ///< once it is made
 };
-
-bool is_flat_surface(PointsView points, TrianglesView triangles)
-{
-  Domain surface;
-  surface.points = points;
-  surface.triangles = triangles;
-  Vec3 normal;
-  const double diagonal = bounding_box(points, triangles).diagonal();
-  return triangles.rows() > 0 && diagonal > 0.0 && is_flat(surface, diagonal, normal);
-}
 
 /// Rows divided by their sums; rows of nothing stay.
 void normalise(Weights& weights)
@@ -117,21 +110,31 @@ Status Solver::joined(Status before, Status step) const
   return step;
 }
 
-Status Solver::fill(TetMethod method, Index resolution, TetrahedralizeResult& tets)
+Status Solver::fill(PointsView points, TrianglesView triangles,
+  const TetrahedralizeOptions& options, TetrahedralizeResult& tets)
 {
   const Phase phase(this->context_, "tetrahedralize", 0.0, 0.3);
-  TetrahedralizeOptions options;
-  options.method = method;
-  options.winding_threshold = this->options_.winding_threshold;
-  options.resolution = resolution;
-  if (method != TetMethod::embed)
-  {
-    options.handles = this->options_.places;
-  }
-  Status status = tetrahedralize(this->points_, this->triangles_, options, tets, this->context_);
+  Status status = tetrahedralize(points, triangles, options, tets, this->context_);
   status.report.set("tetrahedralize.method", status.report.text("method"));
   status.report.erase("method");
   return status;
+}
+
+TetrahedralizeOptions Solver::fill_options() const
+{
+  TetrahedralizeOptions options;
+  options.winding_threshold = this->options_.winding_threshold;
+  return options;
+}
+
+/// What is asked of single points can only be kept where they are vertices.
+Status Solver::refuse_single_points(const char* domain) const
+{
+  return asks_of_vertices(this->weights_options_.terms)
+    ? Status::invalid_input("rigid sets, bounds, pins and mirrors of points need tets that keep "
+                            "the surface's points: domain volume, not " +
+        std::string(domain))
+    : Status();
 }
 
 Status Solver::carry_terms_to(const Points& points, const std::vector<Index>& original,
@@ -238,7 +241,9 @@ Status Solver::on_mesh(SurfaceWeights& result)
 
 Status Solver::in_volume(SurfaceWeights& result, Index most_tets)
 {
-  Status status = this->fill(TetMethod::automatic, 0, result.tets);
+  TetrahedralizeOptions options = this->fill_options();
+  options.handles = this->options_.places;
+  Status status = this->fill(this->points_, this->triangles_, options, result.tets);
   if (!status.usable())
   {
     return status;
@@ -302,10 +307,10 @@ Status Solver::in_cage(SurfaceWeights& result)
   {
     triangles.row(f) << faces[f][0], faces[f][1], faces[f][2];
   }
-  if (asks_of_vertices(this->weights_options_.terms))
+  Status status = this->refuse_single_points("cage");
+  if (!status.ok())
   {
-    return Status::invalid_input("rigid sets, bounds, pins and mirrors of points need tets that "
-                                 "keep the surface's points: domain volume, not cage");
+    return status;
   }
   TetrahedralizeOptions options;
   options.handles.points = this->options_.places.points;
@@ -315,18 +320,12 @@ Status Solver::in_cage(SurfaceWeights& result)
     options.handles.points.conservativeResize(count + this->points_.rows(), 3);
     options.handles.points.bottomRows(this->points_.rows()) = this->points_;
   }
-  Status status;
-  {
-    const Phase phase(this->context_, "tetrahedralize", 0.0, 0.3);
-    status = tetrahedralize(corners, triangles, options, result.tets, this->context_);
-  }
+  status = this->fill(corners, triangles, options, result.tets);
   if (!status.usable())
   {
     status.message = "the cage cannot be filled: " + status.message;
     return status;
   }
-  status.report.set("tetrahedralize.method", status.report.text("method"));
-  status.report.erase("method");
   result.domain = WeightsDomain::cage;
   WeightTerms terms;
   const std::vector<Index> none(static_cast<std::size_t>(result.tets.mesh.points.rows()), -1);
@@ -355,7 +354,10 @@ Status Solver::in_cage(SurfaceWeights& result)
 
 Status Solver::embed(Index resolution, SurfaceWeights& result)
 {
-  Status status = this->fill(TetMethod::embed, resolution, result.tets);
+  TetrahedralizeOptions options = this->fill_options();
+  options.method = TetMethod::embed;
+  options.resolution = resolution;
+  Status status = this->fill(this->points_, this->triangles_, options, result.tets);
   if (!status.usable())
   {
     return status;
@@ -395,13 +397,12 @@ Status Solver::in_embedding(SurfaceWeights& result, bool& trusted)
     return Status::invalid_input(
       "regions need tets that keep the surface's points: domain volume, not embedding");
   }
-  if (asks_of_vertices(this->weights_options_.terms))
+  Status status = this->refuse_single_points("embedding");
+  if (!status.ok())
   {
-    return Status::invalid_input("rigid sets, bounds, pins and mirrors of points need tets that "
-                                 "keep the surface's points: domain volume, not embedding");
+    return status;
   }
   const bool guard = this->options_.guard;
-  Status status;
   {
     const ProgressRange range(this->context_, 0.0, guard ? 0.7 : 1.0);
     status = this->embed(this->options_.resolution, result);
@@ -461,7 +462,9 @@ Status Solver::automatic(SurfaceWeights& result)
     status.report.set("domain_reason", Report::Value(reason));
     return status;
   };
-  if (is_flat_surface(this->points_, this->triangles_))
+  Vec3 normal;
+  const double diagonal = bounding_box(this->points_, this->triangles_).diagonal();
+  if (diagonal > 0.0 && is_flat(this->points_, diagonal, normal))
   {
     return with_reason(this->on_mesh(result), "the shape is flat");
   }

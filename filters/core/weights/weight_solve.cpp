@@ -276,10 +276,7 @@ double normalised_violation(const WeightsProblem& problem, const Weights& weight
       {
         continue;
       }
-      double low = terms.handle_bounds.size() > 0 ? terms.handle_bounds(j, 0) : 0.0;
-      double high = terms.handle_bounds.size() > 0 ? terms.handle_bounds(j, 1) : 1.0;
-      low = terms.lower.size() > 0 && !std::isnan(terms.lower(v, j)) ? terms.lower(v, j) : low;
-      high = terms.upper.size() > 0 && !std::isnan(terms.upper(v, j)) ? terms.upper(v, j) : high;
+      const auto [low, high] = terms.bounds_of(j, v);
       worst = std::max({ worst, low - weights(v, j), weights(v, j) - high });
     }
   }

@@ -214,6 +214,24 @@ Eigen::MatrixXd extend_matrix(const HandleInsertion& mesh, const Eigen::MatrixXd
 }
 } // namespace
 
+std::pair<double, double> WeightTerms::bounds_of(Index handle) const
+{
+  return this->handle_bounds.size() > 0
+    ? std::make_pair(this->handle_bounds(handle, 0), this->handle_bounds(handle, 1))
+    : std::make_pair(0.0, 1.0);
+}
+
+std::pair<double, double> WeightTerms::bounds_of(Index handle, Index vertex) const
+{
+  const auto own = [&](const Eigen::MatrixXd& values, double otherwise)
+  {
+    return values.size() > 0 && !std::isnan(values(vertex, handle)) ? values(vertex, handle)
+                                                                    : otherwise;
+  };
+  const auto [low, high] = this->bounds_of(handle);
+  return { own(this->lower, low), own(this->upper, high) };
+}
+
 bool WeightTerms::has_bounds() const
 {
   return this->lower.size() > 0 || this->upper.size() > 0 || this->handle_bounds.size() > 0;
@@ -280,28 +298,6 @@ Status check_terms(const WeightTerms& terms, Index vertex_count, const Handles& 
     status = Status::invalid_input("the mirror plane is not finite");
   }
   return status.ok() ? check_mirror(terms.mirror, vertex_count) : status;
-}
-
-std::vector<Index> extend_labels(const HandleInsertion& mesh, const std::vector<Index>& labels)
-{
-  std::vector<Index> result = labels;
-  for (const InsertedVertex& vertex : mesh.inserted)
-  {
-    Index common = -1;
-    for (int k = 0; k < mesh.domain.corners() && !labels.empty(); ++k)
-    {
-      if (vertex.barycentric[k] > 1e-12)
-      {
-        const Index here = labels[vertex.parents[k]];
-        common = common == -1 || common == here ? here : 0;
-      }
-    }
-    if (!labels.empty())
-    {
-      result.push_back(common);
-    }
-  }
-  return result;
 }
 
 WeightTerms extend_terms(const WeightTerms& terms, const HandleInsertion& mesh)

@@ -3,6 +3,8 @@
 
 #include "weights/handle_constraints.h"
 
+#include <utility>
+
 namespace bindpose
 {
 
@@ -37,6 +39,9 @@ struct WeightTerms
   Vec3 mirror_origin = Vec3::Zero();
 
   bool has_bounds() const;
+  /// Least and largest weight of a handle, and at a vertex.
+  std::pair<double, double> bounds_of(Index handle) const;
+  std::pair<double, double> bounds_of(Index handle, Index vertex) const;
   bool has_mirror() const { return !this->mirror.empty() || !this->mirror_normal.isZero(); }
   /// Whether anything is on.
   bool any() const;
@@ -52,9 +57,6 @@ Status check_terms(const WeightTerms& terms, Index vertex_count, const Handles& 
 
 /// The terms with values for inserted vertices and, where a plane is given, with its mirror.
 WeightTerms extend_terms(const WeightTerms& terms, const HandleInsertion& mesh);
-
-/// Labels of vertices and, where all corners around them agree, of inserted ones.
-std::vector<Index> extend_labels(const HandleInsertion& mesh, const std::vector<Index>& labels);
 
 /// Whether something is asked of single vertices that only they can keep: all but rigidity.
 bool asks_of_vertices(const WeightTerms& terms);

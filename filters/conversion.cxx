@@ -243,6 +243,51 @@ Status to_tets(vtkDataSet* data, TetInput& tets)
   return check_mesh(tets.points.view(), tets.tets.view());
 }
 
+namespace
+{
+bool has_volume_cell(vtkUnstructuredGrid* grid)
+{
+  vtkUnsignedCharArray* types = grid->GetCellTypesArray();
+  for (vtkIdType i = 0; types && i < types->GetNumberOfValues(); ++i)
+  {
+    // Linear cells of three dimensions are numbered from VTK_TETRA on.
+    const int type = types->GetValue(i);
+    if (type >= VTK_TETRA && type <= VTK_HEXAGONAL_PRISM)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+} // namespace
+
+Status to_domain(vtkDataSet* data, Domain& domain, std::vector<Index>& cell_of_element)
+{
+  domain = Domain();
+  cell_of_element.clear();
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
+  if (grid && has_volume_cell(grid))
+  {
+    TetInput tets;
+    Status status = to_tets(grid, tets);
+    if (status.ok())
+    {
+      domain.points = tets.points.view();
+      domain.tets = tets.tets.view();
+    }
+    return status;
+  }
+  SurfaceInput surface;
+  Status status = to_surface(data, surface);
+  if (status.ok())
+  {
+    domain.points = surface.points.view();
+    domain.triangles = surface.triangles.view();
+    cell_of_element = std::move(surface.cell_of_triangle);
+  }
+  return status;
+}
+
 SharedMatrix<Weights> to_matrix(vtkDataArray* array)
 {
   SharedMatrix<Weights> matrix;

@@ -4,6 +4,7 @@
 #include "BindposeFiltersModule.h" // for export macro
 #include "base/mesh.h"
 #include "pose/pose.h"
+#include "weights/domain.h"
 #include "weights/handles.h"
 
 #include "vtkSmartPointer.h"
@@ -104,6 +105,12 @@ BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkPolyData> to_polydata(
   PointsView points, TrianglesView triangles);
 BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(
   PointsView points, TetsView tets);
+
+/// What weights live on: the tets of an unstructured grid that has a volume cell, else the 2D cells
+/// of a polydata or grid as triangles. Coordinates and ids are checked.
+/// @param cell_of_element the cell that each element comes from, when that is not its own number.
+BINDPOSEFILTERS_EXPORT Status to_domain(
+  vtkDataSet* data, Domain& domain, std::vector<Index>& cell_of_element);
 
 /// Handles of a handle dataset, cell by cell: vertices are points, 2-point lines are bones, unless
 /// the cell array HandleKind says otherwise. Missing arrays get defaults: names p1…, b1…, no

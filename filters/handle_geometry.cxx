@@ -75,13 +75,7 @@ Status to_handle_geometry(vtkPolyData* data, HandleGeometry& geometry)
     std::vector<Index> element;
     for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
     {
-      const vtkIdType v = ids->GetId(k);
-      if (v < 0 || v >= data->GetNumberOfPoints())
-      {
-        return Status::invalid_input("cage element " + std::to_string(cell) + " has point " +
-          std::to_string(v) + ", but there are only " + std::to_string(data->GetNumberOfPoints()));
-      }
-      element.push_back(add(Vec3(data->GetPoint(v))));
+      element.push_back(add(Vec3(data->GetPoint(ids->GetId(k))))); // checked by to_handles
     }
     geometry.cage_elements.push_back(std::move(element));
   }

@@ -18,11 +18,7 @@ vtkBoundedBiharmonicWeights::~vtkBoundedBiharmonicWeights() = default;
 void vtkBoundedBiharmonicWeights::SetOrder(int value)
 {
   value = std::clamp(value, 2, 3);
-  if (this->Order != value)
-  {
-    this->Order = value;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->Order, value);
 }
 
 Status vtkBoundedBiharmonicWeights::Solve(const WeightsProblem& problem,

@@ -3,7 +3,6 @@
 #include "vtkDepthOrder.h"
 
 #include "base/execution.h"
-#include "output_type.h"
 #include "weights/depth_order.h"
 #include "weights_input.h"
 
@@ -23,11 +22,6 @@ using namespace bindpose;
 
 vtkStandardNewMacro(vtkDepthOrder);
 
-vtkDepthOrder::vtkDepthOrder()
-{
-  this->SetNumberOfInputPorts(2);
-}
-
 void vtkDepthOrder::SetArrayName(const std::string& name)
 {
   if (this->ArrayName != name)
@@ -44,25 +38,6 @@ void vtkDepthOrder::SetLayerArrayName(const std::string& name)
     this->LayerArrayName = name;
     this->Modified();
   }
-}
-
-int vtkDepthOrder::FillInputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkPolyData");
-  return 1;
-}
-
-int vtkDepthOrder::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPointSet");
-  return 1;
-}
-
-int vtkDepthOrder::RequestDataObject(
-  vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
-{
-  match_output_type(vtkDataObject::GetData(input[0], 0), output);
-  return 1;
 }
 
 Status vtkDepthOrder::Execute(

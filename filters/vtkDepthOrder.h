@@ -24,13 +24,13 @@
 #define vtkDepthOrder_h
 
 #include "BindposeFiltersModule.h" // for export macro
-#include "vtkBindposeAlgorithm.h"
+#include "vtkMeshAndHandlesAlgorithm.h"
 
-class BINDPOSEFILTERS_EXPORT vtkDepthOrder : public vtkBindposeAlgorithm
+class BINDPOSEFILTERS_EXPORT vtkDepthOrder : public vtkMeshAndHandlesAlgorithm
 {
 public:
   static vtkDepthOrder* New();
-  vtkTypeMacro(vtkDepthOrder, vtkBindposeAlgorithm);
+  vtkTypeMacro(vtkDepthOrder, vtkMeshAndHandlesAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
@@ -65,18 +65,10 @@ public:
   vtkGetMacro(Tie, double);
   ///@}
 
-  /// Handles and their layers: SetInputData(1, handles).
-  void SetHandlesData(vtkDataObject* handles) { this->SetInputData(1, handles); }
-  void SetHandlesConnection(vtkAlgorithmOutput* handles) { this->SetInputConnection(1, handles); }
-
 protected:
-  vtkDepthOrder();
+  vtkDepthOrder() = default;
   ~vtkDepthOrder() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(
-    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
     bindpose::ExecutionContext& context) override;
 

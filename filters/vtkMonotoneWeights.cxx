@@ -18,11 +18,7 @@ vtkMonotoneWeights::~vtkMonotoneWeights() = default;
 void vtkMonotoneWeights::SetOrder(int value)
 {
   value = std::clamp(value, 2, 3);
-  if (this->Order != value)
-  {
-    this->Order = value;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->Order, value);
 }
 
 Status vtkMonotoneWeights::Solve(const WeightsProblem& problem, const WeightsOptions& options,

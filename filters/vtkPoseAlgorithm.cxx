@@ -8,7 +8,6 @@
 
 #include "base/execution.h"
 #include "bind_key.h"
-#include "output_type.h"
 #include "pose_input.h"
 #include "weights_input.h"
 
@@ -67,7 +66,6 @@ vtkSmartPointer<vtkDataArray> to_normals(const Points& normals, vtkDataArray* li
 
 vtkPoseAlgorithm::vtkPoseAlgorithm() : Bound(new Cache)
 {
-  this->SetNumberOfInputPorts(2);
   this->BindTime.Modified();
 }
 
@@ -86,25 +84,6 @@ void vtkPoseAlgorithm::BindModified()
 {
   this->BindTime.Modified();
   this->Modified();
-}
-
-int vtkPoseAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkPolyData");
-  return 1;
-}
-
-int vtkPoseAlgorithm::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPointSet");
-  return 1;
-}
-
-int vtkPoseAlgorithm::RequestDataObject(
-  vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
-{
-  match_output_type(vtkDataObject::GetData(input[0], 0), output);
-  return 1;
 }
 
 Status vtkPoseAlgorithm::Execute(

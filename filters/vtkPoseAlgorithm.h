@@ -24,15 +24,15 @@
 #define vtkPoseAlgorithm_h
 
 #include "BindposeFiltersModule.h" // for export macro
-#include "vtkBindposeAlgorithm.h"
+#include "vtkMeshAndHandlesAlgorithm.h"
 #include <memory> // for std::unique_ptr
 
 class vtkPointSet;
 
-class BINDPOSEFILTERS_EXPORT vtkPoseAlgorithm : public vtkBindposeAlgorithm
+class BINDPOSEFILTERS_EXPORT vtkPoseAlgorithm : public vtkMeshAndHandlesAlgorithm
 {
 public:
-  vtkAbstractTypeMacro(vtkPoseAlgorithm, vtkBindposeAlgorithm);
+  vtkAbstractTypeMacro(vtkPoseAlgorithm, vtkMeshAndHandlesAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
@@ -43,10 +43,6 @@ public:
 
   /// How often Bind() has run.
   vtkGetMacro(NumberOfBinds, int);
-
-  /// Handles and their pose: SetInputData(1, handles).
-  void SetHandlesData(vtkDataObject* handles) { this->SetInputData(1, handles); }
-  void SetHandlesConnection(vtkAlgorithmOutput* handles) { this->SetInputConnection(1, handles); }
 
 protected:
   vtkPoseAlgorithm();
@@ -78,10 +74,6 @@ protected:
   /// Setters of bind parameters call this instead of Modified().
   void BindModified();
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(
-    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
     bindpose::ExecutionContext& context) override;
 

@@ -19,38 +19,22 @@ vtkUnconstrainedWeights::~vtkUnconstrainedWeights() = default;
 void vtkUnconstrainedWeights::SetMethod(int value)
 {
   value = std::clamp<int>(value, HARMONIC, BONE_HEAT);
-  if (this->Method != value)
-  {
-    this->Method = value;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->Method, value);
 }
 
 void vtkUnconstrainedWeights::SetPower(double value)
 {
-  if (this->Power != value)
-  {
-    this->Power = value;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->Power, value);
 }
 
 void vtkUnconstrainedWeights::SetSmoothing(double value)
 {
-  if (this->Smoothing != value)
-  {
-    this->Smoothing = value;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->Smoothing, value);
 }
 
 void vtkUnconstrainedWeights::SetHeat(double value)
 {
-  if (this->Heat != value)
-  {
-    this->Heat = value;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->Heat, value);
 }
 
 Status vtkUnconstrainedWeights::Solve(const WeightsProblem& problem, const WeightsOptions& options,

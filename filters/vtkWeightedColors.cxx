@@ -2,7 +2,6 @@
 #include "vtkWeightedColors.h"
 
 #include "base/execution.h"
-#include "output_type.h"
 #include "weights/weighted_colors.h"
 #include "weights_input.h"
 
@@ -62,11 +61,6 @@ vtkSmartPointer<Array> make_array(const char* name, int components, Index tuples
 }
 } // namespace
 
-vtkWeightedColors::vtkWeightedColors()
-{
-  this->SetNumberOfInputPorts(2);
-}
-
 void vtkWeightedColors::SetArrayName(const std::string& name)
 {
   if (this->ArrayName != name)
@@ -83,25 +77,6 @@ void vtkWeightedColors::SetColorArrayName(const std::string& name)
     this->ColorArrayName = name;
     this->Modified();
   }
-}
-
-int vtkWeightedColors::FillInputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkPolyData");
-  return 1;
-}
-
-int vtkWeightedColors::FillOutputPortInformation(int, vtkInformation* info)
-{
-  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPointSet");
-  return 1;
-}
-
-int vtkWeightedColors::RequestDataObject(
-  vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
-{
-  match_output_type(vtkDataObject::GetData(input[0], 0), output);
-  return 1;
 }
 
 Status vtkWeightedColors::Execute(

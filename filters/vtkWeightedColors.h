@@ -27,13 +27,13 @@
 #define vtkWeightedColors_h
 
 #include "BindposeFiltersModule.h" // for export macro
-#include "vtkBindposeAlgorithm.h"
+#include "vtkMeshAndHandlesAlgorithm.h"
 
-class BINDPOSEFILTERS_EXPORT vtkWeightedColors : public vtkBindposeAlgorithm
+class BINDPOSEFILTERS_EXPORT vtkWeightedColors : public vtkMeshAndHandlesAlgorithm
 {
 public:
   static vtkWeightedColors* New();
-  vtkTypeMacro(vtkWeightedColors, vtkBindposeAlgorithm);
+  vtkTypeMacro(vtkWeightedColors, vtkMeshAndHandlesAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
@@ -63,18 +63,10 @@ public:
   vtkBooleanMacro(Clamp, bool);
   ///@}
 
-  /// Handles and their colours: SetInputData(1, handles).
-  void SetHandlesData(vtkDataObject* handles) { this->SetInputData(1, handles); }
-  void SetHandlesConnection(vtkAlgorithmOutput* handles) { this->SetInputConnection(1, handles); }
-
 protected:
-  vtkWeightedColors();
+  vtkWeightedColors() = default;
   ~vtkWeightedColors() override = default;
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
-  int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(
-    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
     bindpose::ExecutionContext& context) override;
 

@@ -10,7 +10,6 @@
 #include "bind_key.h"
 #include "conversion.h"
 #include "handle_geometry.h"
-#include "output_type.h"
 #include "term_arrays.h"
 #include "tets_data.h"
 #include "weights/preview_weights.h"
@@ -120,10 +119,6 @@ Status to_region_ids(vtkPointSet* mesh, const std::string& name, std::vector<Ind
   }
   return {};
 }
-} // namespace
-
-namespace
-{
 /// Weights on a mesh, which may have got points for handles.
 struct SolvedMesh
 {
@@ -276,7 +271,6 @@ struct vtkWeightsAlgorithm::Cache
 
 vtkWeightsAlgorithm::vtkWeightsAlgorithm() : TermNames(new TermArrayNames), Bound(new Cache)
 {
-  this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(3);
 }
 
@@ -290,85 +284,49 @@ void vtkWeightsAlgorithm::BindModified()
 
 void vtkWeightsAlgorithm::SetTolerance(double tolerance)
 {
-  if (this->Tolerance != tolerance)
-  {
-    this->Tolerance = tolerance;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->Tolerance, tolerance);
 }
 
 void vtkWeightsAlgorithm::SetMaximumIterations(int iterations)
 {
-  if (this->MaximumIterations != iterations)
-  {
-    this->MaximumIterations = iterations;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->MaximumIterations, iterations);
 }
 
 void vtkWeightsAlgorithm::SetRegionArrayName(const std::string& name)
 {
-  if (this->RegionArrayName != name)
-  {
-    this->RegionArrayName = name;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->RegionArrayName, name);
 }
 
 void vtkWeightsAlgorithm::SetKeepRaw(bool keep)
 {
-  if (this->KeepRaw != keep)
-  {
-    this->KeepRaw = keep;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->KeepRaw, keep);
 }
 
 void vtkWeightsAlgorithm::SetDomain(int domain)
 {
   domain = std::clamp(domain, static_cast<int>(SURFACE), static_cast<int>(CAGE));
-  if (this->Domain != domain)
-  {
-    this->Domain = domain;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->Domain, domain);
 }
 
 void vtkWeightsAlgorithm::SetStage(int stage)
 {
   stage = std::clamp(stage, static_cast<int>(CERTIFIED), static_cast<int>(PREVIEW));
-  if (this->Stage != stage)
-  {
-    this->Stage = stage;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->Stage, stage);
 }
 
 void vtkWeightsAlgorithm::SetEmbeddingResolution(vtkIdType resolution)
 {
-  if (this->EmbeddingResolution != resolution)
-  {
-    this->EmbeddingResolution = resolution;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->EmbeddingResolution, resolution);
 }
 
 void vtkWeightsAlgorithm::SetKeepMesh(bool keep)
 {
-  if (this->KeepMesh != keep)
-  {
-    this->KeepMesh = keep;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->KeepMesh, keep);
 }
 
 void vtkWeightsAlgorithm::SetRigidityArrayName(const std::string& name)
 {
-  if (this->TermNames->rigidity != name)
-  {
-    this->TermNames->rigidity = name;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->TermNames->rigidity, name);
 }
 
 std::string vtkWeightsAlgorithm::GetRigidityArrayName()
@@ -378,11 +336,7 @@ std::string vtkWeightsAlgorithm::GetRigidityArrayName()
 
 void vtkWeightsAlgorithm::SetRigidSetArrayName(const std::string& name)
 {
-  if (this->TermNames->rigid_sets != name)
-  {
-    this->TermNames->rigid_sets = name;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->TermNames->rigid_sets, name);
 }
 
 std::string vtkWeightsAlgorithm::GetRigidSetArrayName()
@@ -392,11 +346,7 @@ std::string vtkWeightsAlgorithm::GetRigidSetArrayName()
 
 void vtkWeightsAlgorithm::SetLowerArrayName(const std::string& name)
 {
-  if (this->TermNames->lower != name)
-  {
-    this->TermNames->lower = name;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->TermNames->lower, name);
 }
 
 std::string vtkWeightsAlgorithm::GetLowerArrayName()
@@ -406,11 +356,7 @@ std::string vtkWeightsAlgorithm::GetLowerArrayName()
 
 void vtkWeightsAlgorithm::SetUpperArrayName(const std::string& name)
 {
-  if (this->TermNames->upper != name)
-  {
-    this->TermNames->upper = name;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->TermNames->upper, name);
 }
 
 std::string vtkWeightsAlgorithm::GetUpperArrayName()
@@ -420,11 +366,7 @@ std::string vtkWeightsAlgorithm::GetUpperArrayName()
 
 void vtkWeightsAlgorithm::SetPinnedArrayName(const std::string& name)
 {
-  if (this->TermNames->pinned != name)
-  {
-    this->TermNames->pinned = name;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->TermNames->pinned, name);
 }
 
 std::string vtkWeightsAlgorithm::GetPinnedArrayName()
@@ -434,11 +376,7 @@ std::string vtkWeightsAlgorithm::GetPinnedArrayName()
 
 void vtkWeightsAlgorithm::SetMirrorArrayName(const std::string& name)
 {
-  if (this->TermNames->mirror != name)
-  {
-    this->TermNames->mirror = name;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->TermNames->mirror, name);
 }
 
 std::string vtkWeightsAlgorithm::GetMirrorArrayName()
@@ -480,40 +418,19 @@ void vtkWeightsAlgorithm::SetMirrorOrigin(double x, double y, double z)
 
 void vtkWeightsAlgorithm::SetMaximumInfluences(int influences)
 {
-  if (this->MaximumInfluences != influences)
-  {
-    this->MaximumInfluences = influences;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->MaximumInfluences, influences);
 }
 
 void vtkWeightsAlgorithm::SetPartitionOfUnity(int mode)
 {
   mode = std::clamp(mode, int(NORMALISE), int(COUPLED));
-  if (this->PartitionOfUnity != mode)
-  {
-    this->PartitionOfUnity = mode;
-    this->BindModified();
-  }
-}
-
-int vtkWeightsAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
-{
-  info->Set(INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkPolyData");
-  return 1;
+  this->SetBindParameter(this->PartitionOfUnity, mode);
 }
 
 int vtkWeightsAlgorithm::FillOutputPortInformation(int port, vtkInformation* info)
 {
   constexpr const char* types[] = { "vtkPointSet", "vtkPolyData", "vtkUnstructuredGrid" };
   info->Set(vtkDataObject::DATA_TYPE_NAME(), types[port]);
-  return 1;
-}
-
-int vtkWeightsAlgorithm::RequestDataObject(
-  vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
-{
-  match_output_type(vtkDataObject::GetData(input[0], 0), output);
   return 1;
 }
 

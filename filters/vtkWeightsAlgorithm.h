@@ -81,7 +81,7 @@
 #define vtkWeightsAlgorithm_h
 
 #include "BindposeFiltersModule.h" // for export macro
-#include "vtkBindposeAlgorithm.h"
+#include "vtkMeshAndHandlesAlgorithm.h"
 #include "vtkCommand.h" // for vtkCommand::UserEvent
 #include <memory> // for std::unique_ptr
 
@@ -93,10 +93,10 @@ struct WeightsProblem;
 struct WeightsResult;
 } // namespace bindpose
 
-class BINDPOSEFILTERS_EXPORT vtkWeightsAlgorithm : public vtkBindposeAlgorithm
+class BINDPOSEFILTERS_EXPORT vtkWeightsAlgorithm : public vtkMeshAndHandlesAlgorithm
 {
 public:
-  vtkAbstractTypeMacro(vtkWeightsAlgorithm, vtkBindposeAlgorithm);
+  vtkAbstractTypeMacro(vtkWeightsAlgorithm, vtkMeshAndHandlesAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
@@ -263,10 +263,6 @@ public:
   /// How often weights were solved for.
   vtkGetMacro(NumberOfBinds, int);
 
-  /// The handles: SetInputData(1, handles).
-  void SetHandlesData(vtkDataObject* handles) { this->SetInputData(1, handles); }
-  void SetHandlesConnection(vtkAlgorithmOutput* handles) { this->SetInputConnection(1, handles); }
-
 protected:
   vtkWeightsAlgorithm();
   ~vtkWeightsAlgorithm() override;
@@ -281,11 +277,18 @@ protected:
 
   /// Setters call this: all parameters of these filters belong to the bind.
   void BindModified();
+  /// What most setters are.
+  template <typename Value>
+  void SetBindParameter(Value& parameter, const Value& value)
+  {
+    if (parameter != value)
+    {
+      parameter = value;
+      this->BindModified();
+    }
+  }
 
-  int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  int RequestDataObject(
-    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
     bindpose::ExecutionContext& context) override;
 

@@ -17,11 +17,6 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// What weights live on: the tets of an unstructured grid that has a volume cell, else the 2D cells
-/// of a polydata or grid as triangles. Coordinates and ids are checked.
-/// @param cell_of_element the cell that each element comes from, when that is not its own number.
-Status to_domain(vtkDataSet* data, Domain& domain, std::vector<Index>& cell_of_element);
-
 /// The array of weights: a component a handle, named after it.
 vtkSmartPointer<vtkDoubleArray> to_weights_array(
   const std::string& name, const Weights& weights, const Handles& handles);

@@ -14,7 +14,7 @@ import bindpose
 import numpy as np
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkPolyData
-from vtkmodules.vtkRenderingCore import vtkRenderer, vtkRenderWindow, vtkWindowToImageFilter
+from vtkmodules.vtkRenderingCore import vtkRenderer
 
 import planar
 
@@ -50,17 +50,7 @@ def seen(shape, is_arm, box, size):
     renderer = vtkRenderer()
     renderer.AddActor(actor)
     planar.look_at(renderer, box, (size, size))
-    window = vtkRenderWindow()
-    window.SetOffScreenRendering(True)
-    window.SetMultiSamples(0)
-    window.SetSize(size, size)
-    window.AddRenderer(renderer)
-    window.Render()
-    grab = vtkWindowToImageFilter()
-    grab.SetInput(window)
-    grab.ReadFrontBufferOff()
-    grab.Update()
-    drawn = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()).reshape(size, size, -1)
+    drawn, window = planar.snapshot(renderer, size)
     return drawn[..., 0] > 128, window
 
 

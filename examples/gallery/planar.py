@@ -280,12 +280,8 @@ def look_at(renderer, box, tile):
     camera.SetClippingRange(0.1 * high, 2 * high)
 
 
-def difference(shape, pixels, inside):
-    """Largest difference of the shape drawn with its texture, pixel on pixel, from the picture, of 255."""
-    size = pixels.shape[0]
-    renderer = vtkRenderer()
-    renderer.AddActor(textured(shape, to_texture(pixels)))
-    look_at(renderer, (-0.5, size - 0.5, -0.5, size - 0.5), (size, size))
+def snapshot(renderer, size):
+    """What a renderer draws without antialiasing, as an array of rows from below up, and the window that it is in."""
     window = vtkRenderWindow()
     window.SetOffScreenRendering(True)
     window.SetMultiSamples(0)
@@ -296,7 +292,16 @@ def difference(shape, pixels, inside):
     grab.SetInput(window)
     grab.ReadFrontBufferOff()
     grab.Update()
-    drawn = vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()).reshape(size, size, -1)[::-1, :, :3]
+    return vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()).reshape(size, size, -1), window
+
+
+def difference(shape, pixels, inside):
+    """Largest difference of the shape drawn with its texture, pixel on pixel, from the picture, of 255."""
+    size = pixels.shape[0]
+    renderer = vtkRenderer()
+    renderer.AddActor(textured(shape, to_texture(pixels)))
+    look_at(renderer, (-0.5, size - 0.5, -0.5, size - 0.5), (size, size))
+    drawn = snapshot(renderer, size)[0][::-1, :, :3]
     return int(np.abs(drawn.astype(int) - pixels[..., :3])[inside].max())
 
 

@@ -14,17 +14,12 @@ import sys
 import tempfile
 
 from all_surfaces import real_surfaces
+from all_weights import rows_of
 
 SURFACES = [("hand.off", 20), ("elephant.off", 8), ("elephant.off", 24), ("armadillo.off", 10), ("refined_elephant.off", 10)]
 LARGEST = 100_000_000  # bytes of a file
 WAYS = {"volume": ["--domain", "volume"], "embedding": ["--domain", "embedding"],
         "preview": ["--domain", "embedding", "--stage", "preview"]}
-
-
-def weights_of(path):
-    """The columns of a .dmat file, which is "columns rows" and then column after column."""
-    words = path.read_text(encoding="ascii").split()
-    return [float(word) for word in words[2:]]
 
 
 def run(options, surface, handles, words, out):
@@ -49,7 +44,7 @@ def measure(options, surface, handles, scratch):
         for way, words in WAYS.items():
             reports[way] = run(options, surface, handles, words, scratch / f"{way}.dmat")
             seconds[way].append(reports[way]["seconds"]["total"])
-    weights = {way: weights_of(scratch / f"{way}.dmat") for way in WAYS}
+    weights = {way: [w for row in rows_of(scratch / f"{way}.dmat") for w in row] for way in WAYS}
     guard = reports["embedding"].get("guard", {})
     return [str(reports["volume"]["counts"]["triangles"]), str(handles), str(reports["volume"]["counts"]["tets"]),
             *(spread(seconds[way]) for way in WAYS), *differences(weights["volume"], weights["embedding"]),

@@ -29,29 +29,6 @@ namespace
 {
 constexpr double rim_size = 1.25;
 
-bool to_graph(vtkDataSet* data, VertexGraph& graph)
-{
-  Domain domain;
-  TetInput tets;
-  SurfaceInput surface;
-  if (to_tets(data, tets).ok())
-  {
-    domain.points = tets.points.view();
-    domain.tets = tets.tets.view();
-  }
-  else if (to_surface(data, surface).ok())
-  {
-    domain.points = surface.points.view();
-    domain.triangles = surface.triangles.view();
-  }
-  else
-  {
-    return false;
-  }
-  graph = vertex_graph(domain);
-  return true;
-}
-
 std::vector<char> points_of_handles(vtkDataSet* data)
 {
   std::vector<char> exempt(static_cast<std::size_t>(data->GetNumberOfPoints()), 0);
@@ -114,10 +91,11 @@ Status find_extrema(const std::vector<Tile>& tiles, const Colouring& colouring,
   {
     vtkDataSet* data = tiles[i].data;
     bool on_points = true;
-    VertexGraph graph;
+    Domain domain;
+    std::vector<Index> cells;
     const bool by_number = colouring.kind != Colouring::Kind::none && colouring.categories.empty();
     const auto shown = by_number ? colour_values(data, colouring, on_points) : nullptr;
-    if (!shown || !on_points || !to_graph(data, graph))
+    if (!shown || !on_points || !to_domain(data, domain, cells).ok())
     {
       continue;
     }
@@ -129,7 +107,7 @@ Status find_extrema(const std::vector<Tile>& tiles, const Colouring& colouring,
       return Status::invalid_input(
         "extrema need finite numbers, and '" + colouring.array + "' holds one that is not");
     }
-    extrema[i] = interior_extrema(graph, values, points_of_handles(data));
+    extrema[i] = interior_extrema(vertex_graph(domain), values, points_of_handles(data));
   }
   return any ? Status()
              : Status::invalid_input(

@@ -11,20 +11,11 @@
 #include <cmath>
 
 using namespace bindpose;
+using test::problem_of;
 using ::testing::HasSubstr;
 
 namespace
 {
-WeightsProblem problem_of(
-  const Domain& domain, const Handles& handles, const std::vector<Index>& regions = {})
-{
-  ExecutionContext context;
-  WeightsProblem problem;
-  const Status status = make_weights_problem(domain, regions, handles, {}, context, problem);
-  EXPECT_TRUE(status.ok()) << status.message;
-  return problem;
-}
-
 WeightsResult unconstrained(
   const WeightsProblem& problem, UnconstrainedMethod method, Status* status = nullptr)
 {

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 using namespace bindpose;
+using test::problem_of;
 using testing::HasSubstr;
 
 namespace
@@ -56,15 +57,6 @@ Handles cube_cage(double half)
     handles[face[0]].cage.push_back({ face[0], face[1], face[2] });
   }
   return handles;
-}
-
-WeightsProblem problem_of(const Domain& domain, const Handles& handles)
-{
-  ExecutionContext context;
-  WeightsProblem problem;
-  const Status status = make_weights_problem(domain, {}, handles, {}, context, problem);
-  EXPECT_TRUE(status.ok()) << status.message;
-  return problem;
 }
 
 WeightsResult bounded(const WeightsProblem& problem)

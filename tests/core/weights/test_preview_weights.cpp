@@ -9,19 +9,10 @@
 #include <gtest/gtest.h>
 
 using namespace bindpose;
+using test::problem_of;
 
 namespace
 {
-WeightsProblem problem_of(
-  const Domain& domain, const Handles& handles, const std::vector<Index>& regions = {})
-{
-  ExecutionContext context;
-  WeightsProblem problem;
-  const Status status = make_weights_problem(domain, regions, handles, {}, context, problem);
-  EXPECT_TRUE(status.ok()) << status.message;
-  return problem;
-}
-
 WeightsResult preview(const WeightsProblem& problem)
 {
   ExecutionContext context;

@@ -14,19 +14,10 @@
 #include <map>
 
 using namespace bindpose;
+using test::problem_of;
 
 namespace
 {
-WeightsProblem problem_of(const Domain& domain, const Handles& handles,
-  const std::vector<Index>& regions = {}, const WeightsOptions& options = {})
-{
-  ExecutionContext context;
-  WeightsProblem problem;
-  const Status status = make_weights_problem(domain, regions, handles, options, context, problem);
-  EXPECT_TRUE(status.ok()) << status.message;
-  return problem;
-}
-
 WeightsResult bounded(
   const WeightsProblem& problem, int order = 2, double tolerance = 1e-6, int threads = 0)
 {

@@ -3,10 +3,11 @@
 
 // Domains and handles that the tests of weights share.
 
-#include "weights/domain.h"
-#include "weights/handles.h"
+#include "weights/weights_problem.h"
 
 #include "support/meshes.h"
+
+#include <gtest/gtest.h>
 
 #include <array>
 #include <string>
@@ -29,6 +30,17 @@ inline Domain to_domain(const TetMesh& mesh)
   domain.points = mesh.points;
   domain.tets = mesh.tets;
   return domain;
+}
+
+/// A problem without fault.
+inline WeightsProblem problem_of(const Domain& domain, const Handles& handles,
+  const std::vector<Index>& regions = {}, const WeightsOptions& options = {})
+{
+  ExecutionContext context;
+  WeightsProblem problem;
+  const Status status = make_weights_problem(domain, regions, handles, options, context, problem);
+  EXPECT_TRUE(status.ok()) << status.message;
+  return problem;
 }
 
 inline Handle point_handle(const std::string& name, const Vec3& at)

@@ -16,9 +16,10 @@
 // entries are small.
 #include "base/float_cholesky.h"
 
-#include "base/supernodes.h"
+#include "base/supernode_solve.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <cstring>
@@ -33,13 +34,6 @@ extern "C"
     const int* n, const float* alpha, const float* a, const int* lda, float* b, const int* ldb);
   void ssyrk_(const char* uplo, const char* trans, const int* n, const int* k, const float* alpha,
     const float* a, const int* lda, const float* beta, float* c, const int* ldc);
-  void sgemm_(const char* trans_a, const char* trans_b, const int* m, const int* n, const int* k,
-    const float* alpha, const float* a, const int* lda, const float* b, const int* ldb,
-    const float* beta, float* c, const int* ldc);
-  void sgemv_(const char* trans, const int* m, const int* n, const float* alpha, const float* a,
-    const int* lda, const float* x, const int* incx, const float* beta, float* y, const int* incy);
-  void strsv_(const char* uplo, const char* trans, const char* diag, const int* n, const float* a,
-    const int* lda, float* x, const int* incx);
 }
 #endif
 
@@ -96,7 +90,6 @@ struct FloatCholesky::Impl
   void scatter(const SparseMatrix& matrix, double shift);
   int eliminate(int s);
   void find_runs(int child, int columns);
-  void solve_columns(std::vector<float>& x, int columns) const;
   void solve(const double* rhs, int columns, double* x) const;
 };
 
@@ -400,96 +393,6 @@ Status FloatCholesky::factor(
   }
   return {};
 }
-
-/// Forward and backward substitution of x, #unknowns x columns in order of elimination.
-void FloatCholesky::Impl::solve_columns(std::vector<float>& x, int columns) const
-{
-  const SerialBlas serial;
-  const Supernodes& nodes = *this->plan->nodes;
-  const int n = this->plan->size();
-  const float one = 1.0F;
-  const float minus_one = -1.0F;
-  const float zero = 0.0F;
-  const int step = 1;
-  std::vector<float> below(static_cast<std::size_t>(this->plan->largest_front) * columns);
-  float* temporary = below.data();
-  for (int s = 0; s < this->plan->count(); ++s)
-  {
-    const int width = this->plan->columns(s);
-    const int rows = this->plan->rows(s);
-    const int below_count = rows - width;
-    const int* row = nodes.rows.data() + nodes.first_row[s] + width;
-    const float* block = this->values.data() + nodes.first_value[s];
-    float* own = x.data() + nodes.first_column[s];
-    if (columns == 1)
-    {
-      strsv_("L", "N", "N", &width, block, &rows, own, &step);
-    }
-    else
-    {
-      strsm_("L", "L", "N", "N", &width, &columns, &one, block, &rows, own, &n);
-    }
-    if (below_count == 0)
-    {
-      continue;
-    }
-    if (columns == 1)
-    {
-      sgemv_(
-        "N", &below_count, &width, &one, block + width, &rows, own, &step, &zero, temporary, &step);
-    }
-    else
-    {
-      sgemm_("N", "N", &below_count, &columns, &width, &one, block + width, &rows, own, &n, &zero,
-        temporary, &below_count);
-    }
-    for (int c = 0; c < columns; ++c)
-    {
-      float* x_column = x.data() + static_cast<std::size_t>(c) * n;
-      const float* from = temporary + static_cast<std::size_t>(c) * below_count;
-      for (int i = 0; i < below_count; ++i)
-      {
-        x_column[row[i]] -= from[i];
-      }
-    }
-  }
-  for (int s = this->plan->count(); s-- > 0;)
-  {
-    const int width = this->plan->columns(s);
-    const int rows = this->plan->rows(s);
-    const int below_count = rows - width;
-    const int* row = nodes.rows.data() + nodes.first_row[s] + width;
-    const float* block = this->values.data() + nodes.first_value[s];
-    float* own = x.data() + nodes.first_column[s];
-    for (int c = 0; c < columns; ++c)
-    {
-      const float* x_column = x.data() + static_cast<std::size_t>(c) * n;
-      float* into = temporary + static_cast<std::size_t>(c) * below_count;
-      for (int i = 0; i < below_count; ++i)
-      {
-        into[i] = x_column[row[i]];
-      }
-    }
-    if (columns == 1)
-    {
-      if (below_count > 0)
-      {
-        sgemv_("T", &below_count, &width, &minus_one, block + width, &rows, temporary, &step, &one,
-          own, &step);
-      }
-      strsv_("L", "T", "N", &width, block, &rows, own, &step);
-    }
-    else
-    {
-      if (below_count > 0)
-      {
-        sgemm_("T", "N", &width, &columns, &below_count, &minus_one, block + width, &rows,
-          temporary, &below_count, &one, own, &n);
-      }
-      strsm_("L", "L", "T", "N", &width, &columns, &one, block, &rows, own, &n);
-    }
-  }
-}
 #else
 void FloatCholesky::Impl::scatter(const SparseMatrix&, double) {}
 int FloatCholesky::Impl::eliminate(int)
@@ -501,7 +404,6 @@ Status FloatCholesky::factor(const SparseMatrix&, double, const ExecutionContext
 {
   return Status::failure(StatusCode::unavailable, "this build has no BLAS");
 }
-void FloatCholesky::Impl::solve_columns(std::vector<float>&, int) const {}
 #endif
 
 /// #unknowns x columns, column by column.
@@ -509,36 +411,45 @@ void FloatCholesky::Impl::solve(const double* rhs, int columns, double* x) const
 {
   const std::vector<int>& order = this->plan->nodes->order;
   const std::size_t n = order.size();
-  std::vector<float> scaled(n * static_cast<std::size_t>(columns));
-  std::vector<double> factor(static_cast<std::size_t>(columns));
-  for (int c = 0; c < columns; ++c)
+  std::vector<float> scaled;
+  std::array<double, most_solve_columns> factor{};
+  for (int done = 0; done < columns;)
   {
-    const double* from = rhs + c * n;
-    double size = 0.0;
-    bool finite = true;
-    for (std::size_t i = 0; i < n; ++i)
+    const int left = columns - done;
+    const int width = left == 1 ? 1 : left <= 4 ? 4 : most_solve_columns;
+    const int wanted = std::min(left, width);
+    const auto stride = static_cast<std::size_t>(width);
+    scaled.assign(n * stride, 0.0F);
+    for (int c = 0; c < wanted; ++c)
     {
-      const double value = std::abs(from[i] * this->scale[static_cast<Eigen::Index>(i)]);
-      size = std::max(size, value);
-      finite = finite && std::isfinite(value);
+      const double* from = rhs + static_cast<std::size_t>(done + c) * n;
+      double size = 0.0;
+      bool finite = true;
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        const double value = std::abs(from[i] * this->scale[static_cast<Eigen::Index>(i)]);
+        size = std::max(size, value);
+        finite = finite && std::isfinite(value);
+      }
+      // Right-hand sides may be as small or large as they like.
+      factor[c] = size > 0.0 && finite ? size : 1.0;
+      float* into = scaled.data() + c;
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        into[i * stride] = static_cast<float>(from[order[i]] * this->scale[order[i]] / factor[c]);
+      }
     }
-    // Right-hand sides may be as small or large as they like.
-    factor[c] = size > 0.0 && finite ? size : 1.0;
-    float* into = scaled.data() + c * n;
-    for (std::size_t i = 0; i < n; ++i)
+    solve_with_supernodes(*this->plan->nodes, this->values.data(), scaled.data(), width);
+    for (int c = 0; c < wanted; ++c)
     {
-      into[i] = static_cast<float>(from[order[i]] * this->scale[order[i]] / factor[c]);
+      const float* from = scaled.data() + c;
+      double* into = x + static_cast<std::size_t>(done + c) * n;
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        into[order[i]] = factor[c] * static_cast<double>(from[i * stride]) * this->scale[order[i]];
+      }
     }
-  }
-  this->solve_columns(scaled, columns);
-  for (int c = 0; c < columns; ++c)
-  {
-    const float* from = scaled.data() + c * n;
-    double* into = x + c * n;
-    for (std::size_t i = 0; i < n; ++i)
-    {
-      into[order[i]] = factor[c] * static_cast<double>(from[i]) * this->scale[order[i]];
-    }
+    done += wanted;
   }
 }
 

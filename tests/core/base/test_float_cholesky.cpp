@@ -88,6 +88,29 @@ TEST_F(FloatCholeskyTest, SolvesAsADenseFactorisationDoes)
   }
 }
 
+TEST_F(FloatCholeskyTest, SolvesAnyNumberOfColumnsAsItSolvesOne)
+{
+  test::Random random(2);
+  const SparseMatrix a = definite_matrix(9, 0.1);
+  SparseSolver solver;
+  FloatCholesky single = analysed(a, solver);
+  ASSERT_TRUE(single.factor(a, 0.0, context_).ok());
+  for (const int columns : { 1, 2, 4, 5, 8, 9, 10, 13, 16 })
+  {
+    Eigen::MatrixXd rhs =
+      Eigen::MatrixXd::NullaryExpr(a.rows(), columns, [&] { return random.uniform(-1.0, 1.0); });
+    rhs.col(columns / 2) *= 1e40; // each column has its own scale
+    Eigen::MatrixXd x;
+    single.solve(rhs, x);
+    for (int c = 0; c < columns; ++c)
+    {
+      Eigen::VectorXd one;
+      single.solve(Eigen::VectorXd(rhs.col(c)), one);
+      EXPECT_LT((x.col(c) - one).norm(), 1e-5 * one.norm()) << c << " of " << columns;
+    }
+  }
+}
+
 TEST_F(FloatCholeskyTest, ResidualsAreThoseOfSinglePrecisionAtAnyScale)
 {
   const SparseMatrix a = definite_matrix(11, 0.01);

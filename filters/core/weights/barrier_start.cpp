@@ -27,8 +27,8 @@ using Eigen::MatrixXf;
 using Eigen::VectorXd;
 using Eigen::VectorXf;
 
-constexpr double relative_mu = 1e-3; // the gap aimed at
-constexpr double metric = 3e-3; // of A's diagonal
+constexpr double relative_mu = 1e-4; // the gap aimed at
+constexpr double metric = 1e-2; // of A's diagonal
 constexpr double relaxation = 1.7;
 constexpr int steps = 80;
 constexpr int memory = 8; // steps that Anderson acceleration looks back

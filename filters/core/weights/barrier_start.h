@@ -9,7 +9,7 @@ namespace bindpose
 
 /// For every column nearly the minimiser of
 ///   1/2 x'Ax + c'x - mu sum (log(x - l) + log(u - x))
-/// with a mu that leaves a relative gap of about 1e-3, by Douglas-Rachford splitting with Anderson
+/// with a mu that leaves a relative gap of about 1e-4, by Douglas-Rachford splitting with Anderson
 /// acceleration: one factorisation in single precision for all columns and steps, and as many
 /// solves for all columns at once as there are steps. Cost: 0.5 to 1 factorisation in double
 /// precision a column when there are eight, about 2 for a single one. The same bits for any number

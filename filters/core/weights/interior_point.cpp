@@ -86,7 +86,7 @@ private:
   VectorXd multiply(const VectorXd& x) const;
   bool solve_refined(const VectorXd& rhs, double accuracy, VectorXd& x);
   Direction solve(const VectorXd& target, double accuracy);
-  bool finish(double enough);
+  double finish(double enough);
   static double longest_step(const VectorXd& at, const VectorXd& direction);
   void step_lengths(const Direction& d, double& primal, double& dual) const;
   Direction find_direction();
@@ -650,8 +650,9 @@ void InteriorPoint::certify_iterate(bool second_bound)
 
 /// Lets a projected Newton method go on from the iterate; the iterate itself stays as it is.
 /// @param enough largest move that counts as settled.
-/// @return true when it settled: result_ then holds what it came to and the certificate of that.
-bool InteriorPoint::finish(double enough)
+/// @return how far its last round moved: where that is enough, result_ holds what it came to and
+/// the certificate of that.
+double InteriorPoint::finish(double enough)
 {
   constexpr int rounds = 6;
   VectorXd x = this->x_;
@@ -673,14 +674,13 @@ bool InteriorPoint::finish(double enough)
       }
     },
     rounds, enough, this->context_, x);
-  if (!(moved <= enough))
+  if (moved <= enough)
   {
-    return false;
+    std::swap(x, this->x_);
+    this->certify_iterate(true);
+    std::swap(x, this->x_);
   }
-  std::swap(x, this->x_);
-  this->certify_iterate(true);
-  std::swap(x, this->x_);
-  return true;
+  return moved;
 }
 
 BoxQpSolution InteriorPoint::run()
@@ -699,7 +699,7 @@ BoxQpSolution InteriorPoint::run()
   // away from the minimiser. A few more iterations let the weights settle as well; whether they do
   // decides nothing about the status.
   constexpr int most_settling = 6;
-  const double settled = std::max(tolerance, std::min(5.0 * tolerance, 2e-6));
+  const double settled = std::max(tolerance, std::min(5.0 * tolerance, 1.5e-6));
   int settling = 0;
   // A projected Newton method takes over as soon as it works: it converges many times faster than
   // the path, by solves with the factor at hand. Measured: further away it fails too often; a
@@ -768,13 +768,16 @@ BoxQpSolution InteriorPoint::run()
       (moved <= near || (tries == 0 && worst(this->best_.certificate) <= tolerance)))
     {
       const BoxQpSolution iterate = this->result_;
-      if (this->finish(0.1 * settled) && worst(this->result_.certificate) <= tolerance)
+      const double enough = 0.1 * settled;
+      const double left = this->finish(enough);
+      if (left <= enough && worst(this->result_.certificate) <= tolerance)
       {
         this->best_ = this->result_;
         moved = 0.0;
       }
       this->result_ = iterate;
-      near = 0.3 * moved; // what failed is not worth another try before that
+      // The nearer it came to be enough, the sooner another try is worth its solves.
+      near = moved * std::clamp(enough / left, 0.2, 0.8);
       ++tries;
     }
   }

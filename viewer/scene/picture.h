@@ -136,10 +136,9 @@ struct PictureGeometry
 /// invalid_input, one sentence, for: no tile or an empty one, an array or component that no tile
 /// has (naming those there are), options out of range, isosurfaces or a cloud of what
 /// check_volume() refuses, a section that leaves no tet, colours of tets where there are none,
-/// differences of unequal datasets, extrema of what is no point array of a mesh, a slice of tets that
-/// are shrunk or have no section.
-/// Warns of levels that are not reached. unavailable when there is no display.
-/// The same input gives the same picture on the same machine and driver.
+/// differences of unequal datasets, extrema of what is no point array of a mesh, a slice of tets
+/// that are shrunk or have no section. Warns of levels that are not reached. unavailable when there
+/// is no display. The same input gives the same picture on the same machine and driver.
 Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& options,
   vtkSmartPointer<vtkImageData>& image, PictureGeometry* geometry = nullptr);
 

@@ -316,8 +316,8 @@ Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
     const Vec3 normal = towards ? plane.normal : Vec3(-plane.normal);
     if (options.slice)
     {
-      return add_tet_slice(renderer, grid, input, { plane.origin, normal }, options, colouring,
-        scale, shown, seen);
+      return add_tet_slice(
+        renderer, grid, input, { plane.origin, normal }, options, colouring, scale, shown, seen);
     }
     cut.keep_behind(plane.origin, normal);
   }

@@ -1,6 +1,7 @@
 #ifndef weights_arrays_h
 #define weights_arrays_h
 
+#include "BindposeFiltersModule.h" // for export macro
 #include "weights/domain.h"
 #include "weights/weights_problem.h"
 
@@ -18,13 +19,13 @@ namespace bindpose
 {
 
 /// The array of weights: a component a handle, named after it.
-vtkSmartPointer<vtkDoubleArray> to_weights_array(
+BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkDoubleArray> to_weights_array(
   const std::string& name, const Weights& weights, const Handles& handles);
 
 /// The certificates of a weights array as arrays of a value a column: NAME followed by RelativeGap,
 /// KKTResidual, Minimum, Maximum, InteriorExtrema, Zeros, Ones, Iterations, and RowSumError (one
 /// value).
-std::vector<vtkSmartPointer<vtkDoubleArray>> to_certificate_arrays(
+BINDPOSEFILTERS_EXPORT std::vector<vtkSmartPointer<vtkDoubleArray>> to_certificate_arrays(
   const std::string& name, const WeightsResult& result);
 
 /// The extrema of all columns: see output 1 of vtkWeightsAlgorithm.

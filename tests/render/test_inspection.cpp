@@ -164,6 +164,97 @@ TEST(Render, handles_of_tets)
   expect_baseline(drawing.image);
 }
 
+TEST(Render, tets_slice)
+{
+  // Linear along x, a wave along y: known at every point that the plane shows.
+  const TetMesh mesh = tet_box(20, 12, 12, Vec3::Zero(), Vec3(2, 1, 1));
+  const auto box = to_unstructured_grid(mesh.points, mesh.tets);
+  const Column left = [](const Vec3& p) { return 1.0 - 0.5 * p[0]; };
+  add_array(box, "Weights", { left, [&](const Vec3& p) { return 1.0 - left(p); } });
+  PictureOptions options = small_picture();
+  options.array = "Weights";
+  options.component = "0";
+  options.slice = true;
+  // Oblique: it goes through tets, along none of their sides.
+  const Plane plane{ Vec3(1.0, 0.5, 0.52), Vec3(0.13, 0.31, 1.0) };
+  options.section_plane = plane;
+  options.view.azimuth = 25.0;
+  options.view.elevation = 25.0;
+  Report report;
+  const Drawing drawing = draw({ box, nullptr, "" }, options, report);
+  const ColourMap map = weight_map();
+  const auto on_plane = [&](double x, double y)
+  {
+    const Vec3& n = plane.normal;
+    const double z =
+      plane.origin[2] - ((x - plane.origin[0]) * n[0] + (y - plane.origin[1]) * n[1]) / n[2];
+    return Vec3(x, y, z);
+  };
+  const auto lightness_at = [&](double x, double y)
+  { return lightness(drawing.at(on_plane(x, y))); };
+  for (const double y : { 0.15, 0.5, 0.85 })
+  {
+    for (int band = 0; band < 10; ++band)
+    {
+      // The colours of the legend, whatever the light, one of them from border to border.
+      for (const double within : { 0.2, 0.5, 0.8 })
+      {
+        const double x = 0.2 * (band + within);
+        EXPECT_LE(distance(drawing.at(on_plane(x, y)), colour_of(map, left(Vec3(x, y, 0)))), 2.0)
+          << x << " " << y;
+      }
+      // A dark line between two bands; the first ones are as dark as lines.
+      const double x = 0.2 * band;
+      if (band > 2)
+      {
+        const double line = lightness_at(x, y);
+        EXPECT_LT(line, lightness_at(x - 0.05, y) - 10) << x << " " << y;
+        EXPECT_LT(line, lightness_at(x + 0.05, y) - 10) << x << " " << y;
+      }
+    }
+  }
+  // What lies before the plane is gone: its lower edge shows paper, that of the plane does not.
+  EXPECT_TRUE(is_paper(drawing.at(Vec3(1.0, 0.02, 0.98))));
+  EXPECT_FALSE(is_paper(drawing.at(on_plane(1.0, 0.02))));
+  // As many tets as have corners on both sides.
+  Index met = 0;
+  for (Index t = 0; t < mesh.tets.rows(); ++t)
+  {
+    int before = 0;
+    for (int k = 0; k < 4; ++k)
+    {
+      const Vec3 corner = mesh.points.row(mesh.tets(t, k));
+      before += (corner - plane.origin).dot(plane.normal) >= 0.0;
+    }
+    met += before > 0 && before < 4;
+  }
+  EXPECT_EQ(report.number("picture.tets", 0), met);
+  // Without isolines no band has a dark border.
+  options.isolines = false;
+  const Drawing plain = draw({ { box, nullptr, "" } }, options);
+  EXPECT_LE(distance(plain.at(on_plane(0.21, 0.5)), colour_of(map, left(Vec3(0.21, 0.5, 0)))), 2.0);
+  EXPECT_GT(lightness(plain.at(on_plane(0.8, 0.5))), lightness_at(0.8, 0.5) + 10);
+  expect_baseline(drawing.image);
+}
+
+TEST(Render, tets_slice_by_handle)
+{
+  // A number of each tet: every tet's part of the plane in the colour of its strongest handle.
+  const auto brick = tet_brick();
+  PictureOptions options = small_picture();
+  options.colour_by = ColourBy::handle;
+  options.slice = true;
+  options.section_plane = Plane{ Vec3(0, 0, 0.71), Vec3::UnitZ() };
+  const Drawing drawing = draw({ { brick, nullptr, "" } }, options);
+  const std::vector<Category> handles = handle_categories({ "left", "right" });
+  for (const double y : { 0.2, 0.5, 0.8 })
+  {
+    EXPECT_LE(distance(drawing.at(Vec3(0.4, y, 0.71)), handles[0].colour), 2.0) << y;
+    EXPECT_LE(distance(drawing.at(Vec3(1.2, y, 0.71)), handles[1].colour), 2.0) << y;
+  }
+  expect_baseline(drawing.image);
+}
+
 TEST(Render, extrema)
 {
   // The vertex in the middle is a handle: its maximum is wanted.

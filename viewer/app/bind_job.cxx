@@ -2,9 +2,10 @@
 #include "bind_job.h"
 
 #include "base/execution.h"
+#include "weights/baseline_weights.h"
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
-#include "weights/surface_weights.h"
+#include "weights/unconstrained_weights.h"
 
 #include <functional>
 #include <memory>
@@ -13,22 +14,53 @@ using namespace bindpose;
 
 namespace
 {
+Status solve(BindMethod method, const WeightsProblem& problem, ExecutionContext& context,
+  WeightsResult& weights)
+{
+  switch (method)
+  {
+    case BindMethod::bounded:
+      return bounded_biharmonic_weights(problem, {}, context, weights);
+    case BindMethod::monotone:
+      return monotone_weights(problem, {}, context, weights);
+    case BindMethod::inverse_distance:
+    case BindMethod::smoothed_harmonic:
+    case BindMethod::bone_heat:
+    {
+      BaselineWeightsOptions options;
+      options.method = static_cast<BaselineMethod>(method);
+      return baseline_weights(problem, options, context, weights);
+    }
+    default:
+    {
+      UnconstrainedWeightsOptions options;
+      options.method = static_cast<UnconstrainedMethod>(method);
+      return unconstrained_weights(problem, options, context, weights);
+    }
+  }
+}
+
 void run_bind(const BindInput& input, const std::function<void(const Weights&)>& preview,
   ExecutionContext& context, BindResult& result)
 {
   SurfaceWeightsOptions options;
   options.places = input.handle_places;
-  options.preview = preview;
+  options.domain = input.domain;
+  if (input.preview)
+  {
+    options.preview = preview;
+  }
   const WeightsMethod method =
     [&](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
-  {
-    return input.monotone ? monotone_weights(problem, {}, of_method, weights)
-                          : bounded_biharmonic_weights(problem, {}, of_method, weights);
-  };
+  { return solve(input.method, problem, of_method, weights); };
   SurfaceWeights weights;
   result.status = surface_weights(input.surface.points, input.surface.triangles,
     input.region_of_vertex, input.handles, options, {}, method, context, weights);
   result.weights = std::move(weights.weights);
+  result.raw = std::move(weights.raw);
+  result.domain = weights.domain;
+  result.mesh = std::move(weights.problem.mesh.domain);
+  result.solved = std::move(weights.solved);
 }
 } // namespace
 
@@ -48,11 +80,12 @@ void BindJob::start(BindInput input)
   QObject::connect(&this->job_, &KernelJob::finished, this,
     [this, made]
     {
-      this->result_ = { this->job_.status(), {} };
-      if (this->result_.status.code != StatusCode::cancelled)
+      this->result_ = BindResult();
+      if (this->job_.status().code != StatusCode::cancelled)
       {
-        this->result_.weights = std::move(made->weights);
+        this->result_ = std::move(*made);
       }
+      this->result_.status = this->job_.status();
       Q_EMIT this->finished();
     });
   this->job_.start(

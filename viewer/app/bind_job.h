@@ -6,8 +6,25 @@
 #include "inside/handle_places.h"
 #include "kernel_job.h"
 #include "weights/handles.h"
+#include "weights/surface_weights.h"
 
 #include <QObject>
+
+/// The methods, bounded and monotone weights first, those to compare with after them. Others are
+/// numbered as UnconstrainedMethod and BaselineMethod are.
+enum class BindMethod
+{
+  bounded = -1,
+  monotone = 0,
+  harmonic = 1,
+  biharmonic = 2,
+  triharmonic = 3,
+  graph_biharmonic = 4,
+  linear_subspace = 5,
+  inverse_distance = 6,
+  smoothed_harmonic = 7,
+  bone_heat = 8
+};
 
 /// What a bind needs: copies, so that nothing is shared with the window while it runs.
 struct BindInput
@@ -16,14 +33,20 @@ struct BindInput
   bindpose::Handles handles;
   bindpose::HandlePlaces handle_places; ///< of these: what becomes part of the tets
   std::vector<bindpose::Index> region_of_vertex; ///< #V labels, empty without regions
-  bool monotone = false; ///< monotone weights instead of bounded ones
+  BindMethod method = BindMethod::bounded;
+  bindpose::WeightsDomain domain = bindpose::WeightsDomain::automatic;
+  bool preview = true; ///< weights to pose with meanwhile are wanted
 };
 
-/// What comes of it: weights at the surface's own vertices.
+/// What comes of it: weights at the surface's own vertices, and at those of what was solved on.
 struct BindResult
 {
   bindpose::Status status;
   bindpose::Weights weights; ///< #V x #handles
+  bindpose::Weights raw; ///< the same before rows are divided by their sums
+  bindpose::WeightsDomain domain = bindpose::WeightsDomain::surface;
+  bindpose::Domain mesh; ///< with tets, unless it is the surface itself
+  bindpose::WeightsResult solved; ///< at the mesh's vertices, with a certificate a column
 };
 
 /// Surface to weights, by the kernels, on a thread of its own (surface_weights). One at a time;

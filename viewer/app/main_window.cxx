@@ -9,6 +9,7 @@
 #include "viewport.h"
 #include "volume_panel.h"
 #include "volume_view.h"
+#include "weight_inspection.h"
 #include "window_files.h"
 
 #include "conversion.h"
@@ -20,7 +21,7 @@
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkDataSetSurfaceFilter.h"
-#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
 #include "vtkHandleSetRepresentation.h"
 #include "vtkHandleSetWidget.h"
 #include "vtkImageData.h"
@@ -144,8 +145,21 @@ void MainWindow::make_layout()
   QObject::connect(
     this->inspection_, &Inspection::surface_look_changed, this, &MainWindow::update_surface_look);
   QObject::connect(this->inspection_, &Inspection::failed, this, &MainWindow::show_error);
+  this->weights_ = new WeightInspection(this->viewport_, this->panels_->weight(),
+    [this](BindInput& input) { return this->is_bound() && this->make_bind_input(input); });
+  QObject::connect(this->weights_, &WeightInspection::surface_look_changed, this,
+    [this]
+    {
+      this->update_surface_look();
+      this->update_pose(); // a slice lies in the shape at rest
+    });
+  QObject::connect(this->weights_, &WeightInspection::failed, this, &MainWindow::show_error);
   QObject::connect(this->panels_, &PanelColumn::panel_shown, this->inspection_,
-    [this](int panel) { this->inspection_->set_active(panel == PanelColumn::tets); });
+    [this](int panel)
+    {
+      this->inspection_->set_active(panel == PanelColumn::tets);
+      this->weights_->set_active(panel == PanelColumn::weights);
+    });
   rows->addWidget(this->viewport_, 1);
   columns->addLayout(rows, 1);
   columns->addWidget(this->panels_);
@@ -275,7 +289,8 @@ bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name)
   this->viewport_->set_surface(skin);
   TetInput tets;
   auto* grid = vtkUnstructuredGrid::SafeDownCast(mesh);
-  this->inspection_->set_surface(skin, grid && to_tets(grid, tets).ok() ? grid : nullptr);
+  this->weighted_tets_ = grid && to_tets(grid, tets).ok() ? grid : nullptr;
+  this->inspection_->set_surface(skin, this->weighted_tets_);
   if (!this->has_curves_)
   {
     this->viewport_->set_curves(skin->GetNumberOfLines() > 0 ? skin.Get() : nullptr);
@@ -433,6 +448,7 @@ void MainWindow::connect_weights()
           .arg(this->handles_.size()));
     }
   }
+  this->weights_->set_data(this->rest_, this->weighted_tets_, this->is_bound());
   this->update_panel();
   this->update_pose();
 }
@@ -462,6 +478,20 @@ void MainWindow::bind()
     return;
   }
   this->error_bar_->hide();
+  BindInput input;
+  if (!this->make_bind_input(input))
+  {
+    return;
+  }
+  input.method = this->panel_->monotone() ? BindMethod::monotone : BindMethod::bounded;
+  this->job_->start(std::move(input));
+  this->update_panel();
+  this->update_pose();
+}
+
+/// What the kernels need of surface and handles; false, with a sentence, when they cannot be used.
+bool MainWindow::make_bind_input(BindInput& input)
+{
   SurfaceInput surface;
   HandleGeometry geometry;
   Status status = to_surface(this->rest_, surface);
@@ -472,14 +502,12 @@ void MainWindow::bind()
   if (!status.ok())
   {
     this->show_error(tr("Cannot bind: %1.").arg(QString::fromStdString(status.message)));
-    return;
+    return false;
   }
-  BindInput input;
   input.surface.points = surface.points.view();
   input.surface.triangles = surface.triangles.view();
   input.handles = this->handles_;
   input.handle_places = to_handle_places(geometry);
-  input.monotone = this->panel_->monotone();
   if (vtkDataArray* regions = this->rest_->GetPointData()->GetArray("RegionId"))
   {
     for (vtkIdType v = 0; v < regions->GetNumberOfTuples(); ++v)
@@ -487,9 +515,7 @@ void MainWindow::bind()
       input.region_of_vertex.push_back(static_cast<Index>(regions->GetComponent(v, 0)));
     }
   }
-  this->job_->start(std::move(input));
-  this->update_panel();
-  this->update_pose();
+  return true;
 }
 
 void MainWindow::cancel_bind()
@@ -497,32 +523,27 @@ void MainWindow::cancel_bind()
   this->job_->cancel();
 }
 
-bool MainWindow::take_weights(const Weights& weights)
+bool MainWindow::take_weights(const BindResult& result)
 {
-  if (!this->rest_ || weights.rows() != this->rest_->GetNumberOfPoints() ||
-    weights.cols() != static_cast<Index>(this->handles_.size()))
+  if (!this->rest_ || result.weights.rows() != this->rest_->GetNumberOfPoints() ||
+    result.weights.cols() != static_cast<Index>(this->handles_.size()))
   {
     return false; // another mesh was opened while this one was being bound
   }
-  vtkNew<vtkDoubleArray> array;
-  array->SetName("Weights");
-  array->SetNumberOfComponents(static_cast<int>(weights.cols()));
-  array->SetNumberOfTuples(weights.rows());
-  std::copy_n(weights.data(), weights.size(), array->GetPointer(0));
-  for (std::size_t k = 0; k < this->handles_.size(); ++k)
-  {
-    array->SetComponentName(static_cast<vtkIdType>(k), this->handles_[k].name.c_str());
-  }
   auto bound = vtkSmartPointer<vtkPolyData>::New();
   bound->ShallowCopy(this->rest_);
-  bound->GetPointData()->AddArray(array);
-  this->set_rest(bound);
+  vtkNew<vtkFieldData> own; // the copy shares what it was made from
+  own->ShallowCopy(this->rest_->GetFieldData());
+  bound->SetFieldData(own);
+  add_weights(result, this->handles_, bound);
+  this->set_rest(bound, make_weighted_tets(result, this->handles_));
   return true;
 }
 
-void MainWindow::set_rest(vtkPolyData* rest)
+void MainWindow::set_rest(vtkPolyData* rest, vtkUnstructuredGrid* weighted_tets)
 {
   this->rest_ = rest;
+  this->weighted_tets_ = weighted_tets;
   this->viewport_->set_surface(rest);
   if (!rest->GetPointData()->HasArray("Weights"))
   {
@@ -534,9 +555,13 @@ void MainWindow::set_rest(vtkPolyData* rest)
 void MainWindow::preview_arrived(const Weights& weights)
 {
   const vtkSmartPointer<vtkPolyData> before = this->rest_;
-  if (this->is_binding() && this->take_weights(weights))
+  const vtkSmartPointer<vtkUnstructuredGrid> tets_before = this->weighted_tets_;
+  BindResult preview;
+  preview.weights = weights;
+  if (this->is_binding() && this->take_weights(preview))
   {
     this->before_preview_ = before;
+    this->tets_before_preview_ = tets_before;
     this->preview_ = this->rest_;
     this->panel_->set_note(tr("A preview to pose with; exact weights follow …"));
   }
@@ -551,8 +576,9 @@ void MainWindow::bind_finished()
   this->before_preview_ = nullptr;
   if (before && !result.status.usable())
   {
-    this->set_rest(before);
+    this->set_rest(before, this->tets_before_preview_);
   }
+  this->tets_before_preview_ = nullptr;
   this->update_panel();
   this->update_pose();
   if (result.status.code == StatusCode::cancelled)
@@ -566,7 +592,7 @@ void MainWindow::bind_finished()
     this->show_error(tr("Cannot bind: %1.").arg(QString::fromStdString(result.status.message)));
     return;
   }
-  if (!this->take_weights(result.weights))
+  if (!this->take_weights(result))
   {
     return;
   }
@@ -631,8 +657,13 @@ void MainWindow::remember(const QString& name, const Pose& before)
 
 void MainWindow::selection_changed()
 {
-  this->panel_->select_handle(this->handle_of_cell(
-    this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetSelectedHandle()));
+  const int handle = this->handle_of_cell(
+    this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetSelectedHandle());
+  this->panel_->select_handle(handle);
+  if (this->is_bound())
+  {
+    this->weights_->choose_column(handle);
+  }
 }
 
 void MainWindow::drag_began()
@@ -700,7 +731,6 @@ void MainWindow::update_pose()
     if (vtkPolyData* posed = this->deformation_.posed())
     {
       this->shown_ = posed;
-      this->viewport_->move_surface(posed);
       reading = tr("%L1 vertices  ·  %2 ms a pose")
                   .arg(static_cast<qlonglong>(posed->GetNumberOfPoints()))
                   .arg(this->deformation_.milliseconds(), 0, 'f', 2);
@@ -719,7 +749,12 @@ void MainWindow::update_pose()
   else if (this->rest_)
   {
     this->shown_ = this->rest_;
-    this->viewport_->move_surface(this->rest_);
+  }
+  if (this->rest_)
+  {
+    vtkPolyData* drawn = this->weights_->wants_rest() ? this->rest_ : this->shown_;
+    this->viewport_->move_surface(drawn);
+    this->weights_->move_surface(drawn);
   }
   this->hint_->setText(reading);
   this->viewport_->refresh();
@@ -758,7 +793,8 @@ void MainWindow::update_panel()
 /// Tets take the surface's place, and defects shine through it; else a volume decides.
 void MainWindow::update_surface_look()
 {
-  const int look = this->inspection_->surface_look();
+  int look = this->inspection_->surface_look();
+  look = look == Viewport::solid ? this->weights_->surface_look() : look;
   this->viewport_->set_surface_look(look == Viewport::solid && this->volume_view_->volume()
       ? this->panels_->volume()->surface_look()
       : look);

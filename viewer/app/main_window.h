@@ -8,6 +8,7 @@
 
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <QMainWindow>
 
@@ -21,12 +22,13 @@ class PanelColumn;
 class SidePanel;
 class Viewport;
 class VolumeView;
+class WeightInspection;
 class vtkDataSet;
 class vtkImageData;
 
 /// The window of `bindpose view`: open a surface and handles, bind, drag; or open a volume of
 /// winding numbers, alone or along with a surface and its boundary curves, and inspect it. Of a
-/// surface the tets and defects can be looked at, of tets the inside.
+/// surface the weights, tets and defects can be looked at, of tets the inside.
 ///
 /// Three things are kept: the surface at rest (with or without weights), the handles (edited in
 /// place by the drag widget: pose arrays only), and the history of the pose. All else is derived.
@@ -63,6 +65,7 @@ public:
   PanelColumn* panels() const { return this->panels_; }
   VolumeView* volume_view() const { return this->volume_view_; }
   Inspection* inspection() const { return this->inspection_; }
+  WeightInspection* weights() const { return this->weights_; }
   /// What is under the mouse on the slice, as the status bar shows it.
   QString reading() const;
   /// The sentence in the error bar; empty when it is hidden.
@@ -79,11 +82,12 @@ private:
   void connect_volume();
   void update_surface_look();
   void connect_weights();
+  bool make_bind_input(BindInput& input);
   void preview_arrived(const bindpose::Weights& weights);
   void bind_finished();
   /// False when they are not of this mesh and these handles.
-  bool take_weights(const bindpose::Weights& weights);
-  void set_rest(vtkPolyData* rest);
+  bool take_weights(const BindResult& result);
+  void set_rest(vtkPolyData* rest, vtkUnstructuredGrid* weighted_tets);
   void update_pose();
   void update_panel();
   void show_column(int column);
@@ -100,6 +104,7 @@ private:
   Viewport* viewport_ = nullptr;
   VolumeView* volume_view_ = nullptr;
   Inspection* inspection_ = nullptr;
+  WeightInspection* weights_ = nullptr;
   PanelColumn* panels_ = nullptr;
   SidePanel* panel_ = nullptr; // one of them
   ErrorBar* error_bar_ = nullptr;
@@ -116,7 +121,10 @@ private:
   BindJob* job_ = nullptr;
 
   vtkSmartPointer<vtkPolyData> rest_;
-  vtkSmartPointer<vtkPolyData> before_preview_, preview_; ///< while a preview's weights are used
+  vtkSmartPointer<vtkUnstructuredGrid> weighted_tets_; ///< what was solved on; null: not known
+  /// While a preview's weights are used.
+  vtkSmartPointer<vtkPolyData> before_preview_, preview_;
+  vtkSmartPointer<vtkUnstructuredGrid> tets_before_preview_;
   vtkSmartPointer<vtkPolyData> handle_data_;
   vtkSmartPointer<vtkPolyData> shown_;
   bool has_curves_ = false; // opened as such, not the lines of a mesh

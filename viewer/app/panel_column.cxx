@@ -4,6 +4,7 @@
 #include "side_panel.h"
 #include "tet_panel.h"
 #include "volume_panel.h"
+#include "weight_panel.h"
 
 #include <QButtonGroup>
 #include <QFrame>
@@ -13,9 +14,15 @@
 #include <QVBoxLayout>
 #include <QVariant>
 
+namespace
+{
+constexpr int panel_count = 4;
+} // namespace
+
 PanelColumn::PanelColumn(QWidget* parent)
   : QWidget(parent), choice_(new QFrame(this)), buttons_(new QButtonGroup(this)),
-    side_(new SidePanel(this)), tet_(new TetPanel(this)), volume_(new VolumePanel(this))
+    side_(new SidePanel(this)), weight_(new WeightPanel(this)), tet_(new TetPanel(this)),
+    volume_(new VolumePanel(this))
 {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -24,19 +31,24 @@ PanelColumn::PanelColumn(QWidget* parent)
   auto* row = new QHBoxLayout(this->choice_);
   row->setContentsMargins(16, 14, 16, 0);
   row->setSpacing(0);
-  const char* const names[] = { QT_TR_NOOP("Bind and pose"), QT_TR_NOOP("Tets"),
+  const char* const names[] = { QT_TR_NOOP("Pose"), QT_TR_NOOP("Weights"), QT_TR_NOOP("Tets"),
     QT_TR_NOOP("Volume") };
-  for (int k = 0; k < 3; ++k)
+  const char* const tips[] = { QT_TR_NOOP("Bind handles, and drag them"),
+    QT_TR_NOOP("Look at the weights of each handle"),
+    QT_TR_NOOP("Fill the surface with tets; see where it is unclean"),
+    QT_TR_NOOP("Slices and isosurfaces of winding numbers") };
+  for (int k = 0; k < panel_count; ++k)
   {
     QPushButton* segment = button(tr(names[k]), this->choice_);
     segment->setObjectName("segment");
     segment->setCheckable(true);
+    segment->setToolTip(tr(tips[k]));
     this->buttons_->addButton(segment, k);
-    row->addWidget(segment, 1);
+    row->addWidget(segment, segment->sizeHint().width()); // four words leave no room to share
   }
   column->addWidget(this->choice_);
-  for (QFrame* panel : { static_cast<QFrame*>(this->side_), static_cast<QFrame*>(this->tet_),
-         static_cast<QFrame*>(this->volume_) })
+  for (QFrame* panel : { static_cast<QFrame*>(this->side_), static_cast<QFrame*>(this->weight_),
+         static_cast<QFrame*>(this->tet_), static_cast<QFrame*>(this->volume_) })
   {
     column->addWidget(panel, 1);
     // Equally wide, so that the picture does not jump.
@@ -51,11 +63,11 @@ PanelColumn::PanelColumn(QWidget* parent)
 
 void PanelColumn::set_open(bool volume, bool shape, bool surface)
 {
-  const bool open[] = { shape, surface, volume };
+  const bool open[] = { shape, surface, surface, volume };
   this->choice_->setVisible(shape + surface + volume > 1);
   const auto buttons = this->buttons_->buttons();
   int last = -1;
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < panel_count; ++k)
   {
     buttons[k]->setVisible(open[k]);
     buttons[k]->setProperty("place", last < 0 ? "first" : "middle");
@@ -81,6 +93,7 @@ void PanelColumn::show_panel(int panel)
 {
   this->buttons_->button(panel)->setChecked(true);
   this->side_->setVisible(panel == bind_and_pose);
+  this->weight_->setVisible(panel == weights);
   this->tet_->setVisible(panel == tets);
   this->volume_->setVisible(panel == volume_slice);
   Q_EMIT this->panel_shown(panel);

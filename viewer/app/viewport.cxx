@@ -1,6 +1,7 @@
 #include "viewport.h"
 
 #include "scene/camera.h"
+#include "scene/colouring.h"
 #include "scene/colours.h"
 #include "scene/curves.h"
 #include "scene/legend.h"
@@ -11,12 +12,15 @@
 
 #include "vtkActor.h"
 #include "vtkCamera.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
 #include "vtkGenericOpenGLRenderWindow.h"
 #include "vtkHandleSetRepresentation.h"
 #include "vtkHandleSetWidget.h"
 #include "vtkInteractorStyleTrackballCamera.h"
 #include "vtkObjectFactory.h"
 #include "vtkPNGWriter.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
@@ -87,6 +91,7 @@ void Viewport::set_surface(vtkPolyData* surface)
 {
   this->shaded_ = surface ? std::make_unique<bindpose::ShadedSurface>(surface) : nullptr;
   this->mapper_->SetInputData(surface ? this->shaded_->polydata() : nullptr);
+  this->show_values(nullptr, true);
   this->set_surface_look(this->look_);
 }
 
@@ -161,18 +166,78 @@ void Viewport::move_surface(vtkPolyData* posed)
 
 void Viewport::show_column(int column, const QString& name)
 {
+  this->column_ = column;
   this->column_name_ = column < 0 ? QString() : name;
-  this->mapper_->SetScalarVisibility(column >= 0);
-  if (column >= 0)
+  if (!this->has_values_)
   {
-    this->mapper_->SelectColorArray("Weights");
-    this->mapper_->SetArrayComponent(column);
-    // The mapper's component counts only when it maps through the table's component mode.
-    this->mapper_->GetLookupTable()->SetVectorModeToComponent();
-    this->mapper_->GetLookupTable()->SetVectorComponent(column);
+    this->use_column();
   }
   this->draw_legend();
   this->refresh();
+}
+
+void Viewport::use_column()
+{
+  this->mapper_->SetScalarVisibility(this->column_ >= 0);
+  if (this->column_ >= 0)
+  {
+    this->mapper_->SetScalarModeToUsePointFieldData();
+    this->mapper_->InterpolateScalarsBeforeMappingOn();
+    this->mapper_->SetLookupTable(bindpose::weight_map().table);
+    this->mapper_->SelectColorArray("Weights");
+    this->mapper_->SetArrayComponent(this->column_);
+    // The mapper's component counts only when it maps through the table's component mode.
+    this->mapper_->GetLookupTable()->SetVectorModeToComponent();
+    this->mapper_->GetLookupTable()->SetVectorComponent(this->column_);
+  }
+}
+
+vtkPolyData* Viewport::drawn() const
+{
+  return this->shaded_ ? this->shaded_->polydata() : nullptr;
+}
+
+const std::vector<bindpose::Index>& Viewport::drawn_points() const
+{
+  static const std::vector<bindpose::Index> none;
+  return this->shaded_ ? this->shaded_->input_points() : none;
+}
+
+void Viewport::show_values(
+  vtkDoubleArray* values, bool on_points, const QString& name, const bindpose::ColourMap& map)
+{
+  this->has_values_ = this->shaded_ && !name.isEmpty();
+  if (this->has_values_ && !values)
+  {
+    this->mapper_->ScalarVisibilityOff();
+  }
+  else if (this->has_values_)
+  {
+    vtkPolyData* drawn = this->drawn();
+    drawn->GetPointData()->RemoveArray(bindpose::colour_array_name);
+    drawn->GetCellData()->RemoveArray(bindpose::colour_array_name);
+    values->SetName(bindpose::colour_array_name);
+    if (on_points)
+    {
+      drawn->GetPointData()->AddArray(values);
+      this->mapper_->SetScalarModeToUsePointFieldData();
+    }
+    else
+    {
+      drawn->GetCellData()->AddArray(values);
+      this->mapper_->SetScalarModeToUseCellFieldData();
+    }
+    this->mapper_->SetInterpolateScalarsBeforeMapping(on_points);
+    this->mapper_->SetLookupTable(map.table);
+    this->mapper_->SelectColorArray(bindpose::colour_array_name);
+    this->mapper_->SetArrayComponent(0);
+    this->mapper_->ScalarVisibilityOn();
+  }
+  else
+  {
+    this->use_column();
+  }
+  this->show_legend(weight_legend, this->has_values_ ? name : QString(), map);
 }
 
 void Viewport::draw_legend()
@@ -193,7 +258,7 @@ void Viewport::draw_legend()
     bindpose::add_legend(this->legend_, map, name.toStdString(), box, font);
     box.x += box.width + 2 * font;
   };
-  if (!this->column_name_.isEmpty())
+  if (!this->column_name_.isEmpty() && !this->has_values_)
   {
     add(bindpose::weight_map(), this->column_name_);
   }

@@ -19,6 +19,7 @@ namespace bindpose
 class ShadedSurface;
 }
 class vtkActor;
+class vtkDoubleArray;
 class vtkGenericOpenGLRenderWindow;
 class vtkHandleSetWidget;
 class vtkPolyData;
@@ -50,12 +51,23 @@ public:
   void set_handles(vtkPolyData* handles);
   /// Column of the array Weights, named on the scalar bar; -1: plain shading.
   void show_column(int column, const QString& name);
+  /// Numbers of the points or cells of drawn() as colours instead of the column's, named on the
+  /// scalar bar; null: none but the scalar bar, or without a name the column again. Another surface
+  /// has none.
+  void show_values(vtkDoubleArray* values, bool on_points, const QString& name = QString(),
+    const bindpose::ColourMap& map = {});
+  /// The surface as drawn, with the arrays that it came with; null without one.
+  vtkPolyData* drawn() const;
+  /// For each point of drawn() that of the surface.
+  const std::vector<bindpose::Index>& drawn_points() const;
   void set_surface_look(int look);
   /// Lines, drawn as tubes; null: none.
   void set_curves(vtkPolyData* curves);
   /// Legends beside the column's, each in its place; with an empty name none.
   enum LegendPlace
   {
+    weight_legend,
+    extremum_legend,
     volume_legend,
     tet_legend,
     defect_legend
@@ -82,6 +94,7 @@ protected:
 
 private:
   void draw_legend();
+  void use_column();
 
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<vtkRenderer> renderer_;
@@ -93,7 +106,9 @@ private:
   std::vector<vtkSmartPointer<vtkActor>> curves_;
   vtkSmartPointer<vtkPolyData> curve_data_;
   bindpose::Box also_shown_;
+  int column_ = -1;
   QString column_name_;
+  bool has_values_ = false; // shown instead of the column
   std::map<LegendPlace, std::pair<QString, bindpose::ColourMap>> legends_;
   int look_ = solid;
   bool refresh_pending_ = false;

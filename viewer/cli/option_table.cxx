@@ -212,6 +212,9 @@ const std::vector<Verb>& verbs()
         { "--section", "PLANE", Kind::text, "0.5", "",
           "where tets are cut and volumes are sliced: from 0 (back) to 1 (front), x=0.2, or "
           "NX,NY,NZ@X,Y,Z for a normal and a point; none: tets whole" },
+        { "--slice", "", Kind::flag, "", "",
+          "cut tets through by the section's plane, instead of keeping whole ones: weights inside, "
+          "with isolines" },
         { "--shrink", "SIZE", Kind::number, "1", "",
           "draw each tet this large, of its own size, above 0 to 1, apart from the others" },
         { "--defects", "", Kind::flag, "", "",

@@ -196,6 +196,7 @@ bool read_options(Session& session, PictureOptions& options)
   options.title = arguments.text("title");
   options.edges = arguments.has("edges");
   options.handle_names = arguments.has("handle-names");
+  options.slice = arguments.has("slice");
   options.shrink = arguments.number("shrink");
   options.view.up = arguments.text("up");
   options.view.azimuth = arguments.number("azimuth");

@@ -80,6 +80,11 @@ std::vector<std::string> array_names(const std::vector<Tile>& tiles)
   return names;
 }
 
+bool is_weights_array(const std::string& name)
+{
+  return name == "Weights" || name == "RawWeights";
+}
+
 // Instead of the number of a component.
 constexpr int tuple_length = -1;
 constexpr int no_component = -2;
@@ -92,7 +97,7 @@ int find_component(vtkDataArray* array, const std::string& component)
   if (component.empty())
   {
     const std::string name = array->GetName();
-    return count == 3 && name != "Weights" && name != "RawWeights" ? tuple_length : 0;
+    return count == 3 && !is_weights_array(name) ? tuple_length : 0;
   }
   for (int c = 0; c < count; ++c)
   {
@@ -334,6 +339,34 @@ Status choose_handle_colouring(
   colouring.map = category_map(colouring.categories);
   colouring.map.downwards = true;
   return {};
+}
+
+// Bands of a tenth, or the same range without bands, and the isolines between.
+void choose_weight_map(
+  const PictureOptions& options, double lower, double upper, Colouring& colouring)
+{
+  double from = 0.0;
+  double to = 1.0;
+  double bands = 10.0;
+  if (options.range[0] <= options.range[1])
+  {
+    from = options.range[0];
+    to = options.range[1];
+  }
+  else if (lower < -1e-6 || upper > 1.0 + 1e-6)
+  {
+    // Unconstrained weights leave [0, 1]; the bands stay tenths while they can be told apart.
+    from = std::floor(10.0 * lower) / 10.0;
+    to = std::ceil(10.0 * upper) / 10.0;
+    bands = std::min(std::round(10.0 * (to - from)), 40.0);
+  }
+  colouring.map = !options.bands ? sequential_map(from, to, 0)
+    : from == 0.0 && to == 1.0   ? weight_map()
+                                 : sequential_map(from, to, static_cast<int>(bands));
+  for (int i = 1; i < static_cast<int>(bands); ++i) // the ends of the scale are no level
+  {
+    colouring.isolines.push_back(from + (to - from) * i / bands);
+  }
 }
 
 // What is subtracted fits a tile that has the array.
@@ -614,22 +647,10 @@ Status choose_colouring(
     colouring.kind = Colouring::Kind::winding;
     colouring.map = winding_map();
   }
-  else if (colouring.array == "Weights")
+  else if (is_weights_array(colouring.array))
   {
     colouring.kind = Colouring::Kind::weights;
-    colouring.map = weight_map();
-    if (given)
-    {
-      colouring.map = sequential_map(options.range[0], options.range[1], 10);
-    }
-    else if (lower < -1e-6 || upper > 1.0 + 1e-6)
-    {
-      // Unconstrained weights leave [0, 1]; the bands stay tenths while they can be told apart.
-      const double from = std::floor(10.0 * lower) / 10.0;
-      const double to = std::ceil(10.0 * upper) / 10.0;
-      const double bands = std::min(std::round(10.0 * (to - from)), 40.0);
-      colouring.map = sequential_map(from, to, static_cast<int>(bands));
-    }
+    choose_weight_map(options, lower, upper, colouring);
   }
   else
   {

@@ -34,6 +34,7 @@ struct Colouring
   std::string component_name; ///< as shown: name or number, empty for single numbers and lengths
   ColourMap map;
   std::vector<Category> categories; ///< of labels, rungs and handles
+  std::vector<double> isolines; ///< of weights: the borders of the bands, tenths
   vtkSmartPointer<vtkDataSet> minus; ///< whose numbers are subtracted; may be null
   Report numbers; ///< of all tiles' values: of row sums and differences
 

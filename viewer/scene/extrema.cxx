@@ -46,40 +46,6 @@ std::vector<char> points_of_handles(vtkDataSet* data)
   return exempt;
 }
 
-void add_balls(vtkRenderer* renderer, vtkPolyData* places, double radius, const Rgb& colour)
-{
-  for (const bool rim : { false, true })
-  {
-    vtkNew<vtkSphereSource> ball;
-    ball->SetRadius(rim ? rim_size * radius : radius);
-    ball->SetThetaResolution(24);
-    ball->SetPhiResolution(16);
-    vtkNew<vtkGlyph3D> balls;
-    balls->SetInputData(places);
-    balls->SetSourceConnection(ball->GetOutputPort());
-    balls->ScalingOff();
-    balls->Update();
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(balls->GetOutput());
-    mapper->ScalarVisibilityOff();
-    vtkNew<vtkActor> actor;
-    actor->SetMapper(mapper);
-    vtkProperty* look = actor->GetProperty();
-    if (rim)
-    {
-      look->SetColor(palette::line[0], palette::line[1], palette::line[2]);
-      look->LightingOff();
-      look->FrontfaceCullingOn();
-    }
-    else
-    {
-      look->SetColor(colour[0], colour[1], colour[2]);
-      look->SetAmbient(0.45);
-      look->SetDiffuse(0.65);
-    }
-    renderer->AddActor(actor);
-  }
-}
 } // namespace
 
 Status find_extrema(const std::vector<Tile>& tiles, const Colouring& colouring,
@@ -143,32 +109,95 @@ void report_extrema(const std::vector<std::vector<Extremum>>& extrema,
   report.set("picture.extrema[].drawn", drawn);
 }
 
+ExtremumBalls::ExtremumBalls()
+{
+  for (const int rim : { 0, 1 })
+  {
+    this->spheres_[rim]->SetThetaResolution(24);
+    this->spheres_[rim]->SetPhiResolution(16);
+    for (const int maximum : { 0, 1 })
+    {
+      vtkNew<vtkGlyph3D> balls;
+      balls->SetInputData(this->clouds_[maximum]);
+      balls->SetSourceConnection(this->spheres_[rim]->GetOutputPort());
+      balls->ScalingOff();
+      vtkNew<vtkPolyDataMapper> mapper;
+      mapper->SetInputConnection(balls->GetOutputPort());
+      mapper->ScalarVisibilityOff();
+      const auto actor = vtkSmartPointer<vtkActor>::New();
+      actor->SetMapper(mapper);
+      actor->PickableOff();
+      vtkProperty* look = actor->GetProperty();
+      if (rim)
+      {
+        look->SetColor(palette::line[0], palette::line[1], palette::line[2]);
+        look->LightingOff();
+        look->FrontfaceCullingOn();
+      }
+      else
+      {
+        const Rgb& colour = extremum_categories()[maximum].colour;
+        look->SetColor(colour[0], colour[1], colour[2]);
+        look->SetAmbient(0.45);
+        look->SetDiffuse(0.65);
+      }
+      this->actors_.push_back(actor);
+    }
+  }
+}
+
+void ExtremumBalls::set(const std::vector<Place>& places, double radius)
+{
+  this->places_ = places;
+  this->radius_ = radius;
+  this->spheres_[0]->SetRadius(radius);
+  this->spheres_[1]->SetRadius(rim_size * radius);
+}
+
+void ExtremumBalls::face(const Vec3& eye)
+{
+  for (const int maximum : { 0, 1 })
+  {
+    vtkNew<vtkPoints> points;
+    for (const Place& place : this->places_)
+    {
+      if (place.maximum == (maximum == 1))
+      {
+        const Vec3 towards = (eye - place.at).normalized();
+        points->InsertNextPoint(Vec3(place.at + rim_size * this->radius_ * towards).data());
+      }
+    }
+    this->clouds_[maximum]->SetPoints(points);
+    this->clouds_[maximum]->Modified();
+  }
+  for (std::size_t i = 0; i < this->actors_.size(); ++i)
+  {
+    this->actors_[i]->SetVisibility(this->clouds_[i % 2]->GetNumberOfPoints() > 0);
+  }
+}
+
 Index add_extrema(vtkRenderer* renderer, vtkDataSet* data, const std::vector<Extremum>& extrema,
   const std::vector<char>& seen, double radius)
 {
-  Index count = 0;
-  const Vec3 eye(renderer->GetActiveCamera()->GetPosition());
-  for (const bool maximum : { false, true })
+  std::vector<ExtremumBalls::Place> places;
+  for (const Extremum& extremum : extrema)
   {
-    vtkNew<vtkPoints> places;
-    for (const Extremum& extremum : extrema)
+    if (seen.empty() || seen[extremum.vertex])
     {
-      if (extremum.maximum == maximum && (seen.empty() || seen[extremum.vertex]))
-      {
-        const Vec3 place(data->GetPoint(extremum.vertex));
-        places->InsertNextPoint(
-          Vec3(place + rim_size * radius * (eye - place).normalized()).data());
-      }
+      places.push_back({ Vec3(data->GetPoint(extremum.vertex)), extremum.maximum });
     }
-    if (places->GetNumberOfPoints() > 0)
-    {
-      vtkNew<vtkPolyData> cloud;
-      cloud->SetPoints(places);
-      add_balls(renderer, cloud, radius, extremum_categories()[maximum ? 1 : 0].colour);
-    }
-    count += places->GetNumberOfPoints();
   }
-  return count;
+  ExtremumBalls balls;
+  balls.set(places, radius);
+  balls.face(Vec3(renderer->GetActiveCamera()->GetPosition()));
+  for (const auto& actor : balls.actors())
+  {
+    if (actor->GetVisibility())
+    {
+      renderer->AddActor(actor);
+    }
+  }
+  return static_cast<Index>(places.size());
 }
 
 } // namespace bindpose

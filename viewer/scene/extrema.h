@@ -6,6 +6,13 @@
 #include "scene/picture.h"
 #include "weights/extrema.h"
 
+#include "vtkActor.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkSphereSource.h"
+
+#include <array>
 #include <vector>
 
 class vtkDataSet;
@@ -33,6 +40,31 @@ std::vector<Category> count_extrema(const std::vector<std::vector<Extremum>>& ex
 /// picture.extrema[].maxima, .minima and .drawn: a tile each.
 void report_extrema(const std::vector<std::vector<Extremum>>& extrema,
   const std::vector<std::int64_t>& drawn, Report& report);
+
+/// Balls with dark rims, maxima and minima in their colours.
+class ExtremumBalls
+{
+public:
+  ExtremumBalls();
+
+  struct Place
+  {
+    Vec3 at = Vec3::Zero();
+    bool maximum = false;
+  };
+  void set(const std::vector<Place>& places, double radius);
+  /// Balls lie before their places, on the line to the eye, or a surface would cover the rims. To
+  /// be called when the eye has moved.
+  void face(const Vec3& eye);
+  const std::vector<vtkSmartPointer<vtkActor>>& actors() const { return this->actors_; }
+
+private:
+  std::vector<Place> places_;
+  double radius_ = 1.0;
+  std::array<vtkNew<vtkPolyData>, 2> clouds_; // minima, maxima
+  std::array<vtkNew<vtkSphereSource>, 2> spheres_; // ball, rim
+  std::vector<vtkSmartPointer<vtkActor>> actors_;
+};
 
 /// A ball with a dark rim at each extremum.
 /// @param seen  #V: 1 for points whose extrema are drawn; empty: all

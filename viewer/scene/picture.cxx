@@ -146,6 +146,12 @@ Status check_tets(const std::vector<Tile>& tiles, const PictureOptions& options)
   {
     return Status::invalid_input("only tets shrink, and there are none");
   }
+  if (options.slice && (!tets || !options.cut || options.shrink < 1.0))
+  {
+    return Status::invalid_input(!tets ? "only tets are cut through, and there are none"
+        : options.cut                  ? "tets are cut through or shrunk, not both"
+                                       : "tets that are cut through need a section");
+  }
   const bool volumes = std::any_of(tiles.begin(), tiles.end(),
     [](const Tile& tile) { return vtkImageData::SafeDownCast(tile.data) != nullptr; });
   if (options.section_plane && !tets && !volumes)

@@ -22,7 +22,8 @@ namespace bindpose
 /// One dataset of a picture. How it is drawn follows from what it is:
 /// - surface: smooth shaded, sharp edges kept; arrays as colours; weights in bands with isolines;
 /// - tets: cut open along the middle, whole tets kept ("crinkle cut"), the laid-open sides in
-///   another colour with edges, or all tets shrunk; arrays as colours on all sides;
+///   another colour with edges, or cut through by the plane, or all tets shrunk; arrays as colours
+///   on all sides;
 /// - defects (what vtkSurfaceDefects gives): each kind in its colour, with a legend;
 /// - image volume: one slice through the middle; a winding number also shows where it is 0.5; or,
 ///   asked for, isosurfaces or the volume as a cloud instead of the slice;
@@ -92,10 +93,13 @@ struct PictureOptions
   int columns = 0; ///< of tiles; 0: as square as the picture allows
   std::string title;
   bool legend = true;
+  bool bands = true; ///< of weights, a tenth each; else their colours change smoothly
   bool isolines = true; ///< of weights, at the borders of the bands (steps of 0.1)
   bool edges = false; ///< triangle edges of surfaces
   bool handle_names = false; ///< beside each handle
   bool cut = true; ///< tets: lay the inside open; else only the outside is seen
+  /// Tets are cut through by the plane, instead of staying whole where their centre lies behind it.
+  bool slice = false;
   /// Where cuts and slices lie along the view's depth axis: 0 at its lower end, 1 at its upper.
   /// What lies towards the camera is taken away.
   double section = 0.5;
@@ -132,9 +136,9 @@ struct PictureGeometry
 /// invalid_input, one sentence, for: no tile or an empty one, an array or component that no tile
 /// has (naming those there are), options out of range, isosurfaces or a cloud of what
 /// check_volume() refuses, a section that leaves no tet, colours of tets where there are none,
-/// differences of unequal datasets, extrema of what is no point array of a mesh.
-/// Warns of levels that are not reached. unavailable when there is no display.
-/// The same input gives the same picture on the same machine and driver.
+/// differences of unequal datasets, extrema of what is no point array of a mesh, a slice of tets
+/// that are shrunk or have no section. Warns of levels that are not reached. unavailable when there
+/// is no display. The same input gives the same picture on the same machine and driver.
 Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& options,
   vtkSmartPointer<vtkImageData>& image, PictureGeometry* geometry = nullptr);
 

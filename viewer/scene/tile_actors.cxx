@@ -9,6 +9,7 @@
 #include "scene/extrema.h"
 #include "scene/shaded_surface.h"
 #include "scene/tet_cut.h"
+#include "scene/tet_slice.h"
 #include "scene/volume.h"
 #include "scene/volume_rendering.h"
 #include "vtkHandleSetRepresentation.h"
@@ -43,6 +44,8 @@ namespace bindpose
 {
 namespace
 {
+constexpr double isoline_width = 1.2; // pixels
+
 // A shallow copy that carries the shown number only.
 template <typename Data>
 vtkSmartPointer<Data> with_colour_values(Data* data, const Colouring& colouring)
@@ -136,7 +139,7 @@ void add_lines(vtkRenderer* renderer, vtkPolyData* data, const Rgb& colour, doub
 void add_contours(vtkRenderer* renderer, vtkPolyData* data, const std::vector<double>& values,
   double width, const Rgb& colour)
 {
-  if (!data->GetPointData()->HasArray(colour_array_name))
+  if (values.empty() || !data->GetPointData()->HasArray(colour_array_name))
   {
     return;
   }
@@ -182,17 +185,10 @@ vtkSmartPointer<vtkActor> add_surface(vtkRenderer* renderer, vtkPolyData* surfac
   {
     use_edges(actor, palette::edges, 0.6 * scale);
   }
-  if (colouring.kind == Colouring::Kind::weights && options.isolines)
+  if (options.isolines)
   {
-    // The borders of the bands; the ends of the scale are no level of their own.
-    std::vector<double> levels;
-    const int bands = static_cast<int>(colouring.map.table->GetNumberOfTableValues());
-    for (int i = 1; i < bands; ++i)
-    {
-      levels.push_back(
-        colouring.map.lower + (colouring.map.upper - colouring.map.lower) * i / bands);
-    }
-    add_contours(renderer, shaded.polydata(), levels, 1.2 * scale, palette::line);
+    add_contours(
+      renderer, shaded.polydata(), colouring.isolines, isoline_width * scale, palette::line);
   }
   return actor;
 }
@@ -267,6 +263,47 @@ void add_shrunk(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
   add_flat(renderer, data, colouring, scale);
 }
 
+// The plane's cut with its numbers unlit, to be read, and the outside behind the plane.
+Status add_tet_slice(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& input,
+  const Plane& plane, const PictureOptions& options, const Colouring& colouring, double scale,
+  Index& shown, std::vector<char>& seen)
+{
+  const std::vector<Index> met = tets_at_plane(input, plane.origin, plane.normal);
+  const auto cut = slice_tets(grid, plane.origin, plane.normal);
+  if (cut->GetNumberOfPolys() == 0)
+  {
+    return Status::invalid_input("the section goes through no tet");
+  }
+  shown += static_cast<Index>(met.size());
+  const auto actor = add_actor(renderer, cut, colouring);
+  actor->GetProperty()->SetColor(palette::cut[0], palette::cut[1], palette::cut[2]);
+  switch_off_light(actor);
+  push_back(actor);
+  if (options.isolines)
+  {
+    add_contours(renderer, cut, colouring.isolines, isoline_width * scale, palette::line);
+  }
+  const TetCut whole(input.points.view(), input.tets.view());
+  const auto outside = face_polydata(grid, whole.outside().triangles, whole.outside().tets);
+  add_surface(
+    renderer, part_behind(outside, plane.origin, plane.normal), options, colouring, scale);
+  const auto is_behind = [&](Index v)
+  { return (input.points.view().row(v).transpose() - plane.origin).dot(plane.normal) <= 0.0; };
+  for (Index i = 0; i < whole.outside().triangles.size(); ++i)
+  {
+    const Index v = whole.outside().triangles.data()[i];
+    seen[v] = is_behind(v);
+  }
+  for (const Index t : met)
+  {
+    for (int k = 0; k < 4; ++k)
+    {
+      seen[input.tets.view()(t, k)] = 1;
+    }
+  }
+  return {};
+}
+
 Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& input,
   const PictureOptions& options, const Colouring& colouring, const Frame& frame, double scale,
   Index& shown, std::vector<char>& seen)
@@ -276,7 +313,13 @@ Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
   {
     const Plane plane = section_of(bounding_box(input.points.view()), options, frame);
     const bool towards = view_direction(frame, options.view).dot(plane.normal) >= 0.0;
-    cut.keep_behind(plane.origin, towards ? plane.normal : Vec3(-plane.normal));
+    const Vec3 normal = towards ? plane.normal : Vec3(-plane.normal);
+    if (options.slice)
+    {
+      return add_tet_slice(
+        renderer, grid, input, { plane.origin, normal }, options, colouring, scale, shown, seen);
+    }
+    cut.keep_behind(plane.origin, normal);
   }
   if (cut.kept_count() == 0)
   {

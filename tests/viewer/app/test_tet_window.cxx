@@ -295,7 +295,7 @@ TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
   this->wait();
   ASSERT_NE(this->inspection()->defect_view().defects(), nullptr);
   EXPECT_EQ(this->inspection()->defect_view().defects()->GetNumberOfCells(), 0);
-  this->find<QPushButton>("Bind and pose")->click();
+  this->find<QPushButton>("Pose")->click();
   EXPECT_EQ(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
 }
 
@@ -336,7 +336,7 @@ TEST_F(TetWindow, ThePanelDecidesWhatIsSeen)
 {
   this->open(tets_of(box_of(3)));
   EXPECT_FALSE(this->window.viewport()->surface_actor()->GetVisibility());
-  this->find<QPushButton>("Bind and pose")->click();
+  this->find<QPushButton>("Pose")->click();
   EXPECT_TRUE(this->window.panel()->isVisible());
   EXPECT_TRUE(this->window.viewport()->surface_actor()->GetVisibility());
   EXPECT_EQ(this->view()->shown_count(), 0);

@@ -269,7 +269,7 @@ TEST_F(VolumeWindow, ASurfaceAlongWithAVolumeIsSeeThrough)
   look->setCurrentIndex(Viewport::edges_only);
   EXPECT_TRUE(this->window.viewport()->surface_actor()->GetVisibility());
   // Both panels can be had, and closing the volume leaves the surface as it was.
-  this->find<QPushButton>("Bind and pose")->click();
+  this->find<QPushButton>("Pose")->click();
   EXPECT_TRUE(this->window.panel()->isVisible());
   this->find<QPushButton>("Close the volume")->click();
   EXPECT_FALSE(this->panel()->isVisible());

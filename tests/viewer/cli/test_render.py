@@ -185,9 +185,28 @@ def test_defects_are_counted(tets):
     ("sphere.off", ["--color", "quality"], "only tets"),
     ("sphere.off", ["--shrink", "0.5"], "only tets"),
     ("sphere.off", ["--section", "x=0"], "only tets and volumes"),
+    ("sphere.off", ["--slice"], "only tets are cut through"),
+    ("tets.vtu", ["--slice", "--section", "z=9"], "goes through no tet"),
+    ("tets.vtu", ["--slice", "--section", "none"], "need a section"),
+    ("tets.vtu", ["--slice", "--shrink", "0.5"], "not both"),
 ])
 def test_what_tets_do_not_have(tets, file, words, sentence):
     tets.run("render", file, "-o", "s.png", *words).is_refused(sentence)
+
+
+def test_a_slice_through_the_weights_of_a_volume(folder):
+    """What `weights -o OUT.vtu` writes, cut through by a plane."""
+    folder.off("sphere.off", shapes.sphere())
+    folder.write("h.tgf", "1 0 0 0.5 top\n2 0 0 -0.5 bottom\n#\n")
+    folder.run("weights", "sphere.off", "--handles", "h.tgf", "--domain", "embedding", "--resolution", "8", "--raw",
+               "-o", "w.vtu").is_good()
+    small = ["--slice", "--section", "x=0.01", "--size", "200x150", "--report", "-", "-o"]
+    picture = folder.run("render", "w.vtu", "--component", "top", *small, "t.png").is_good().report["picture"]
+    whole = folder.run("info", "w.vtu", "--report", "-").is_good().report["counts"]["tets"]
+    assert picture["component"] == "top" and picture["range"] == [0, 1] and 0 < picture["tets"] < whole / 3
+    folder.run("render", "w.vtu", "--array", "RawWeights", "--component", "top", *small, "r.png").is_good()
+    folder.run("render", "w.vtu", "--color", "handle", *small, "h.png").is_good()
+    folder.run("render", "w.vtu", "--component", "top", "--extrema", *small, "e.png").is_good()
 
 
 def test_an_unknown_colour_is_usage(tets):

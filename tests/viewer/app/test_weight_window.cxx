@@ -1,0 +1,584 @@
+// Weights in the window, as a person inspects them: numbers that are known at every point, counts,
+// places in the picture, and what the kernels say of another method.
+#include "unclipped.h"
+#include "window_test.h"
+
+#include "value_row.h"
+#include "weight_inspection.h"
+#include "weight_panel.h"
+#include "window_files.h"
+
+#include "conversion.h"
+#include "scene/categories.h"
+#include "scene/colours.h"
+#include "weights/unconstrained_weights.h"
+
+#include "support/meshes.h"
+
+#include "vtkActor.h"
+#include "vtkCamera.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkHandleSetWidget.h"
+#include "vtkLookupTable.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <QButtonGroup>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QPushButton>
+#include <QThread>
+
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+using namespace bindpose;
+
+namespace
+{
+using Column = std::function<double(const Vec3&)>;
+
+double top_weight(const Vec3& p)
+{
+  return 0.5 * (1.0 + p.z());
+}
+
+double bottom_weight(const Vec3& p)
+{
+  return 1.0 - top_weight(p);
+}
+
+void add_array(vtkDataSet* data, const char* name, const std::vector<Column>& columns)
+{
+  vtkNew<vtkDoubleArray> array;
+  array->SetName(name);
+  array->SetNumberOfComponents(static_cast<int>(columns.size()));
+  for (std::size_t c = 0; c < columns.size(); ++c)
+  {
+    array->SetComponentName(static_cast<vtkIdType>(c), c == 0 ? "bottom" : "top");
+  }
+  for (vtkIdType v = 0; v < data->GetNumberOfPoints(); ++v)
+  {
+    for (const Column& column : columns)
+    {
+      array->InsertNextValue(column(Vec3(data->GetPoint(v))));
+    }
+  }
+  data->GetPointData()->AddArray(array);
+}
+
+vtkSmartPointer<vtkPolyData> ball()
+{
+  const TriangleMesh mesh = test::sphere(4);
+  auto data = to_polydata(mesh.points, mesh.triangles);
+  add_array(data, "Weights", { bottom_weight, top_weight });
+  return data;
+}
+
+/// A box around 0 of tets, with weights linear along z.
+vtkSmartPointer<vtkUnstructuredGrid> box()
+{
+  const TetMesh mesh = test::tet_box(8, 8, 8, Vec3(-1, -1, -1), Vec3(1, 1, 1));
+  auto grid = to_unstructured_grid(mesh.points, mesh.tets);
+  add_array(grid, "Weights", { bottom_weight, top_weight });
+  return grid;
+}
+
+vtkSmartPointer<vtkPolyData> two_points()
+{
+  Handles handles(2);
+  handles[0].name = "bottom";
+  handles[0].head = handles[0].tail = Vec3(0, 0, -0.9);
+  handles[1].name = "top";
+  handles[1].head = handles[1].tail = Vec3(0, 0, 0.9);
+  return to_polydata(handles);
+}
+
+double hue_distance(const QColor& c, const Rgb& colour)
+{
+  const double its = std::max(1, c.red() + c.green() + c.blue());
+  const double sum = colour[0] + colour[1] + colour[2];
+  return std::max({ std::abs(c.red() / its - colour[0] / sum),
+    std::abs(c.green() / its - colour[1] / sum), std::abs(c.blue() / its - colour[2] / sum) });
+}
+
+class WeightWindow : public test::WindowTest
+{
+protected:
+  WeightInspection* weights() { return this->window.weights(); }
+  WeightView* view() { return this->weights()->view(); }
+  WeightPanel* panel() { return this->window.panels()->weight(); }
+  ValueRow* row() { return this->panel()->findChild<ValueRow*>(); }
+  vtkActor* surface() { return this->window.viewport()->surface_actor(); }
+  QComboBox* list(const QString& item)
+  {
+    for (QComboBox* candidate : this->panel()->findChildren<QComboBox*>())
+    {
+      if (candidate->findText(item) >= 0)
+      {
+        return candidate;
+      }
+    }
+    ADD_FAILURE() << "no list has " << item.toStdString();
+    return nullptr;
+  }
+  void choose(const QString& item) { this->list(item)->setCurrentText(item); }
+  QPushButton* button(const QString& text)
+  {
+    for (QPushButton* candidate : this->panel()->findChildren<QPushButton*>())
+    {
+      if (candidate->text() == text)
+      {
+        return candidate;
+      }
+    }
+    ADD_FAILURE() << "there is no " << text.toStdString();
+    return nullptr;
+  }
+  bool says(const QString& words)
+  {
+    for (QLabel* label : this->panel()->findChildren<QLabel*>())
+    {
+      if (label->text().contains(words))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  void open(vtkDataSet* mesh)
+  {
+    ASSERT_TRUE(this->window.set_mesh(mesh, "mesh")) << this->window.error().toStdString();
+    this->window.panels()->show_panel(PanelColumn::weights);
+    this->render();
+  }
+  template <typename Condition>
+  void wait_while(const Condition& condition)
+  {
+    QElapsedTimer clock;
+    clock.start();
+    do
+    {
+      QThread::msleep(5);
+      QApplication::processEvents();
+    } while (condition() && clock.elapsed() < 60000);
+    QApplication::processEvents();
+  }
+  QColor colour_at(const Vec3& place) { return this->picture().pixelColor(this->pixel(place)); }
+};
+} // namespace
+
+TEST_F(WeightWindow, AColumnHasBandsAndIsolinesAtEveryTenth)
+{
+  this->open(ball());
+  this->choose("top");
+  // Linear on every triangle: each line lies at its height, 0.1, …, 0.9 of the way up.
+  vtkPolyData* lines = this->view()->isolines();
+  std::set<long> levels;
+  for (vtkIdType v = 0; v < lines->GetNumberOfPoints(); ++v)
+  {
+    const double tenths = 10.0 * top_weight(Vec3(lines->GetPoint(v)));
+    EXPECT_NEAR(tenths, std::round(tenths), 1e-4);
+    levels.insert(std::lround(tenths));
+  }
+  EXPECT_EQ(levels, (std::set<long>{ 1, 2, 3, 4, 5, 6, 7, 8, 9 }));
+  const auto colours = [this]
+  {
+    return vtkLookupTable::SafeDownCast(this->surface()->GetMapper()->GetLookupTable())
+      ->GetNumberOfTableValues();
+  };
+  EXPECT_EQ(colours(), 10);
+  this->find<QCheckBox>("Bands")->setChecked(false);
+  EXPECT_GT(colours(), 100);
+  EXPECT_GT(lines->GetNumberOfPoints(), 0);
+  this->find<QCheckBox>("Isolines")->setChecked(false);
+  EXPECT_EQ(lines->GetNumberOfPoints(), 0);
+  // Without the panel the surface is shaded, as the other panel wants it.
+  this->find<QPushButton>("Pose")->click();
+  EXPECT_FALSE(this->surface()->GetMapper()->GetScalarVisibility());
+}
+
+TEST_F(WeightWindow, AllShowsTheStrongestHandle)
+{
+  this->open(ball());
+  this->choose("All: strongest handle");
+  const std::vector<Category> handles = handle_categories({ "bottom", "top" });
+  // Along an axis across: one half each.
+  this->window.viewport()->renderer()->GetActiveCamera()->Azimuth(90.0);
+  const QImage image = this->picture();
+  int of_bottom = 0;
+  int of_top = 0;
+  for (int y = 0; y < image.height(); y += 2)
+  {
+    for (int x = image.width() / 3; x < 2 * image.width() / 3; x += 2)
+    {
+      const QColor c = image.pixelColor(x, y);
+      of_bottom += hue_distance(c, handles[0].colour) < 0.06;
+      of_top += hue_distance(c, handles[1].colour) < 0.06;
+    }
+  }
+  EXPECT_GT(of_bottom, 2000);
+  EXPECT_GT(of_top, 2000);
+  EXPECT_FALSE(this->find<QCheckBox>("Bands")->isEnabled());
+  EXPECT_FALSE(this->find<QCheckBox>("Bands")->toolTip().isEmpty());
+}
+
+TEST_F(WeightWindow, RowSumsNeedRawColumns)
+{
+  this->open(ball());
+  EXPECT_FALSE(this->button("Row sums")->isEnabled());
+  EXPECT_TRUE(this->button("Row sums")->toolTip().contains("--raw"));
+  EXPECT_FALSE(this->button("Raw")->isEnabled());
+  const auto raw = ball();
+  add_array(raw, "RawWeights",
+    { bottom_weight, [](const Vec3& p) { return top_weight(p) + 0.25 * p.z(); } });
+  this->open(raw);
+  this->button("Row sums")->click();
+  EXPECT_NEAR(this->view()->numbers().number("picture.row_sum.minimum", 0.0), 0.75, 1e-12);
+  EXPECT_NEAR(this->view()->numbers().number("picture.row_sum.maximum", 0.0), 1.25, 1e-12);
+  EXPECT_FALSE(this->list("top")->isEnabled());
+  EXPECT_FALSE(this->button("Normalised")->isEnabled());
+  // Weights of a mesh without raw columns are weights again.
+  this->open(ball());
+  EXPECT_TRUE(this->button("Weights")->isChecked());
+  EXPECT_TRUE(this->view()->is_shown());
+}
+
+TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
+{
+  // Of the raw column alone there is a bump, in the middle of the side that is seen.
+  const Vec3 place = Vec3(0.3, -0.5, 0.1).normalized();
+  Vec3 bump = place;
+  const auto mesh = ball();
+  double nearest = 1e300;
+  for (vtkIdType v = 0; v < mesh->GetNumberOfPoints(); ++v)
+  {
+    const Vec3 p(mesh->GetPoint(v));
+    if ((p - place).norm() < nearest)
+    {
+      nearest = (p - place).norm();
+      bump = p;
+    }
+  }
+  add_array(mesh, "RawWeights", { bottom_weight, [bump](const Vec3& p) {
+                                   return top_weight(p) +
+                                     0.3 * std::exp(-40.0 * (p - bump).squaredNorm());
+                                 } });
+  this->open(mesh);
+  this->choose("top");
+  this->find<QCheckBox>("Extrema away from handles")->setChecked(true);
+  // At the poles the one is exactly 1, a handle; the other is 0 there, the least value.
+  EXPECT_TRUE(this->says("Maxima: 0, minima: "));
+  this->button("Raw")->click();
+  EXPECT_TRUE(this->says("Maxima: 1, minima: "));
+  bool found = false;
+  for (const Extremum& extremum : this->view()->extrema())
+  {
+    found =
+      found || (extremum.maximum && (Vec3(mesh->GetPoint(extremum.vertex)) - bump).norm() < 0.1);
+  }
+  EXPECT_TRUE(found);
+  // The ball is seen where it is, and leaves with its box.
+  const Rgb red = extremum_categories()[1].colour;
+  const auto reds = [&]
+  {
+    const QImage image = this->picture();
+    const QPoint middle = this->pixel(bump);
+    int seen = 0;
+    for (int dy = -12; dy <= 12; ++dy)
+    {
+      for (int dx = -12; dx <= 12; ++dx)
+      {
+        seen += hue_distance(image.pixelColor(middle + QPoint(dx, dy)), red) < 0.1;
+      }
+    }
+    return seen;
+  };
+  const Vec3 eye(this->window.viewport()->renderer()->GetActiveCamera()->GetPosition());
+  if (eye.dot(bump) < 0.0)
+  {
+    this->window.viewport()->renderer()->GetActiveCamera()->Azimuth(180.0);
+  }
+  EXPECT_GT(reds(), 20);
+  this->find<QCheckBox>("Extrema away from handles")->setChecked(false);
+  EXPECT_EQ(reds(), 0);
+}
+
+TEST_F(WeightWindow, ASliceThroughTheVolumeFollowsTheMouse)
+{
+  this->open(box());
+  this->choose("top");
+  EXPECT_EQ(this->surface()->GetProperty()->GetOpacity(), 1.0);
+  this->find<QCheckBox>("Slice through the volume")->setChecked(true);
+  EXPECT_LT(this->surface()->GetProperty()->GetOpacity(), 0.5);
+  this->button("X")->click();
+  this->row()->field()->setValue(0.1);
+  this->render();
+  const auto check = [this](int axis, double at)
+  {
+    vtkPolyData* slice = this->view()->slice();
+    vtkDataArray* values = slice->GetPointData()->GetArray("bindpose.Colour");
+    ASSERT_NE(values, nullptr);
+    EXPECT_GT(slice->GetNumberOfCells(), 100);
+    for (vtkIdType v = 0; v < slice->GetNumberOfPoints(); ++v)
+    {
+      const Vec3 p(slice->GetPoint(v));
+      EXPECT_NEAR(p[axis], at, 1e-6);
+      EXPECT_NEAR(values->GetComponent(v, 0), top_weight(p), 1e-6);
+    }
+  };
+  check(0, 0.1);
+  this->button("Z")->click();
+  this->row()->field()->setValue(-0.2);
+  this->render();
+  check(2, -0.2);
+  this->drag(this->pixel(Vec3(0.4, 0.3, -0.2)), this->pixel(Vec3(0.4, 0.3, 0.4)));
+  EXPECT_NEAR(this->view()->plane()->position(), 0.4, 0.1);
+  EXPECT_NEAR(this->row()->value(), this->view()->plane()->position(), 0.01);
+  check(2, this->view()->plane()->position());
+  // One band of the legend, unlit, seen through the faint surface.
+  const ColourMap map = weight_map();
+  const double z = this->view()->plane()->position();
+  EXPECT_LT(
+    hue_distance(this->colour_at(Vec3(0.1, 0.2, z)), colour_of(map, top_weight({ 0, 0, z }))),
+    0.08);
+  // At both ends of its way it is harmless; of all handles it shows the strongest.
+  for (const double end : { -1.0, 1.0 })
+  {
+    this->row()->field()->setValue(end);
+    this->render();
+  }
+  this->button("X")->click();
+  this->choose("All: strongest handle");
+  EXPECT_GT(this->view()->slice()->GetNumberOfCells(), 100);
+  // In the other panel there is neither slice nor plane.
+  this->find<QPushButton>("Pose")->click();
+  EXPECT_FALSE(this->view()->is_shown());
+  EXPECT_EQ(this->surface()->GetProperty()->GetOpacity(), 1.0);
+}
+
+TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
+{
+  this->open(ball());
+  EXPECT_FALSE(this->button("Compare")->isEnabled());
+  EXPECT_TRUE(this->button("Compare")->toolTip().contains("handles"));
+  ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
+  ASSERT_TRUE(this->window.is_bound());
+  EXPECT_FALSE(this->button("Difference")->isEnabled());
+  EXPECT_TRUE(this->button("Compare")->isEnabled());
+  this->choose("top");
+  this->choose("Harmonic");
+  this->button("Compare")->click();
+  EXPECT_TRUE(this->weights()->is_busy());
+  EXPECT_FALSE(this->button("Compare")->isEnabled());
+  this->wait_while([this] { return this->weights()->is_busy(); });
+  EXPECT_EQ(this->window.error(), QString());
+  EXPECT_TRUE(this->button("Difference")->isChecked());
+  // The same by the kernels.
+  const TriangleMesh mesh = test::sphere(4);
+  Handles handles;
+  ASSERT_TRUE(to_handles(two_points(), handles).ok());
+  SurfaceWeights other;
+  ExecutionContext context;
+  SurfaceWeightsOptions options;
+  HandlePlaces places;
+  places.points.resize(2, 3);
+  places.points << 0, 0, -0.9, 0, 0, 0.9;
+  options.places = places;
+  ASSERT_TRUE(surface_weights(
+    mesh.points, mesh.triangles, {}, handles, options, {},
+    [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
+    {
+      UnconstrainedWeightsOptions own;
+      own.method = UnconstrainedMethod::harmonic;
+      return unconstrained_weights(problem, own, of_method, weights);
+    },
+    context, other)
+                .usable());
+  double largest = 0.0;
+  double squares = 0.0;
+  for (Index v = 0; v < mesh.points.rows(); ++v)
+  {
+    const double difference = top_weight(mesh.points.row(v)) - other.weights(v, 1);
+    largest = std::max(largest, std::abs(difference));
+    squares += difference * difference / static_cast<double>(mesh.points.rows());
+  }
+  EXPECT_GT(largest, 0.05) << "harmonic weights are not linear";
+  const Report& numbers = this->view()->numbers();
+  EXPECT_NEAR(numbers.number("picture.difference.largest", 0.0), largest, 1e-6);
+  EXPECT_NEAR(numbers.number("picture.difference.rms", 0.0), std::sqrt(squares), 1e-6);
+  EXPECT_TRUE(this->says(QString("largest %1").arg(largest, 0, 'g', 2)));
+  // Another column has another one; the slice says why it is not there.
+  this->choose("bottom");
+  EXPECT_TRUE(this->view()->is_shown());
+  EXPECT_FALSE(this->find<QCheckBox>("Slice through the volume")->isEnabled());
+  this->button("Weights")->click();
+  EXPECT_EQ(this->view()->numbers().find("picture.difference.rms"), nullptr);
+  // Cancelled, the last one stays.
+  this->choose("Monotone");
+  this->button("Compare again")->click();
+  this->button("Cancel")->click();
+  this->wait_while([this] { return this->weights()->is_busy(); });
+  EXPECT_TRUE(this->says("the last comparison stays"));
+  EXPECT_TRUE(this->button("Difference")->isEnabled());
+  // Another mesh ends it.
+  this->button("Compare again")->click();
+  ASSERT_TRUE(this->window.set_mesh(box(), "box"));
+  this->wait_while([this] { return this->weights()->is_busy(); });
+  EXPECT_FALSE(this->button("Difference")->isEnabled());
+}
+
+TEST_F(WeightWindow, ABindGivesVolumeRawColumnsAndCertificates)
+{
+  const TriangleMesh mesh = test::sphere(3);
+  this->open(to_polydata(mesh.points, mesh.triangles));
+  EXPECT_TRUE(this->says("There are no weights yet."));
+  ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
+  this->window.bind();
+  this->wait_while([this] { return this->window.is_binding(); });
+  ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
+  this->choose("top");
+  vtkFieldData* proof = this->window.shown()->GetFieldData();
+  ASSERT_NE(proof->GetArray("WeightsRelativeGap"), nullptr);
+  const double gap = proof->GetArray("WeightsRelativeGap")->GetComponent(1, 0);
+  EXPECT_LE(gap, 1e-6);
+  EXPECT_TRUE(this->says(QString("Gap %1, residual").arg(gap, 0, 'g', 2)));
+  EXPECT_TRUE(this->says(" s")) << "how long it took";
+  EXPECT_TRUE(this->button("Row sums")->isEnabled());
+  this->find<QCheckBox>("Slice through the volume")->setChecked(true);
+  EXPECT_TRUE(this->view()->is_sliced());
+  EXPECT_GT(this->view()->slice()->GetNumberOfCells(), 20);
+  // Inside and outside hang together: a weight of the slice is one of the column's.
+  vtkDataArray* values = this->view()->slice()->GetPointData()->GetArray("bindpose.Colour");
+  for (vtkIdType v = 0; v < values->GetNumberOfTuples(); ++v)
+  {
+    EXPECT_GE(values->GetComponent(v, 0), -1e-9);
+    EXPECT_LE(values->GetComponent(v, 0), 1.0 + 1e-9);
+  }
+  // Bound again, what was chosen stays.
+  this->window.bind();
+  this->wait_while([this] { return this->window.is_binding(); });
+  EXPECT_TRUE(this->view()->is_sliced());
+  EXPECT_EQ(this->list("top")->currentText(), QString("top"));
+  // Saved and opened, all is there but the tets.
+  const std::string path = testing::TempDir() + "bindpose_weights.vtp";
+  ASSERT_TRUE(write_shape(this->window.shown(), path).ok());
+  EXPECT_TRUE(this->window.open(QString::fromStdString(path)));
+  std::remove(path.c_str());
+  EXPECT_TRUE(this->says(QString("Gap %1, residual").arg(gap, 0, 'g', 2)));
+  EXPECT_TRUE(this->button("Row sums")->isEnabled());
+  EXPECT_TRUE(this->view()->is_shown());
+  EXPECT_FALSE(this->view()->is_sliced());
+  EXPECT_FALSE(this->find<QCheckBox>("Slice through the volume")->isEnabled());
+}
+
+TEST_F(WeightWindow, IsolinesAndSlicesKnowThePose)
+{
+  this->open(box());
+  ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
+  ASSERT_TRUE(this->window.is_bound());
+  this->choose("top");
+  const auto reach = [](vtkPolyData* data)
+  {
+    double bounds[6];
+    data->GetBounds(bounds);
+    return bounds[5];
+  };
+  EXPECT_NEAR(reach(this->view()->isolines()), 0.8, 1e-5);
+  // The whole shape moves up by one.
+  vtkDataArray* transforms =
+    this->window.viewport()->handle_widget()->GetHandles()->GetCellData()->GetArray("Transform");
+  for (int handle : { 0, 1 })
+  {
+    transforms->SetComponent(handle, 11, 1.0);
+  }
+  transforms->Modified();
+  this->window.set_method(0);
+  EXPECT_NEAR(reach(this->view()->isolines()), 1.8, 1e-5);
+  EXPECT_NEAR(reach(this->window.viewport()->drawn()), 2.0, 1e-5);
+  // Around a slice it is at rest.
+  this->find<QCheckBox>("Slice through the volume")->setChecked(true);
+  EXPECT_NEAR(reach(this->window.viewport()->drawn()), 1.0, 1e-5);
+  this->find<QCheckBox>("Slice through the volume")->setChecked(false);
+  EXPECT_NEAR(reach(this->window.viewport()->drawn()), 2.0, 1e-5);
+}
+
+TEST_F(WeightWindow, WhatCannotBeChosenSaysWhy)
+{
+  const TriangleMesh mesh = test::sphere(2);
+  const auto check = [this]
+  {
+    int disabled = 0;
+    for (QWidget* widget : this->panel()->findChildren<QWidget*>())
+    {
+      const bool control = qobject_cast<QAbstractButton*>(widget) ||
+        qobject_cast<QComboBox*>(widget) || qobject_cast<ValueRow*>(widget);
+      if (control)
+      {
+        EXPECT_FALSE(widget->toolTip().isEmpty()) << widget->metaObject()->className();
+        disabled += !widget->isEnabled();
+        if (!widget->isEnabled())
+        {
+          EXPECT_NE(widget->toolTip(), widget->property("tip").toString());
+        }
+      }
+    }
+    return disabled;
+  };
+  this->open(to_polydata(mesh.points, mesh.triangles));
+  EXPECT_GT(check(), 12);
+  EXPECT_TRUE(this->find<QCheckBox>("Isolines")->toolTip().contains("no weights"));
+  EXPECT_FALSE(this->view()->is_shown());
+  this->open(ball());
+  EXPECT_GT(check(), 5);
+  EXPECT_TRUE(this->says("These weights have no certificate."));
+  const QCheckBox* slice = this->find<QCheckBox>("Slice through the volume");
+  EXPECT_TRUE(slice->toolTip().contains(".vtu"));
+  this->open(box());
+  check();
+  EXPECT_TRUE(slice->isEnabled());
+}
+
+TEST_F(WeightWindow, NoTextOfTheWeightPanelIsClipped)
+{
+  auto grid = box();
+  add_array(grid, "RawWeights", { bottom_weight, top_weight });
+  grid->GetPointData()->GetArray("Weights")->SetComponentName(
+    0, "a handle whose name somebody has made much too long for any list");
+  this->open(grid);
+  this->find<QCheckBox>("Extrema away from handles")->setChecked(true);
+  this->panel()->set_comparison("Linear subspace (12.3 s): largest 0.00012, rms 1.2e-05");
+  this->panel()->set_certificate("Worst gap 1.2e-07, residual 1.2e-07\n123 iterations, all handles "
+                                 "12.34 s");
+  for (const QSize& size : { QSize(900, 680), QSize(1280, 800), QSize(1920, 1080) })
+  {
+    this->resize(size);
+    test::expect_unclipped_buttons(this->window.panels());
+    for (QCheckBox* check : this->panel()->findChildren<QCheckBox*>())
+    {
+      EXPECT_LE(check->sizeHint().width(), check->width()) << check->text().toStdString();
+      EXPECT_LE(check->sizeHint().height(), check->height()) << check->text().toStdString();
+    }
+    test::expect_unclipped_items(this->panel());
+    for (QLabel* label : this->panel()->findChildren<QLabel*>())
+    {
+      EXPECT_LE(label->heightForWidth(label->width()), label->height())
+        << label->text().toStdString();
+      if (!label->wordWrap())
+      {
+        EXPECT_LE(label->sizeHint().width(), label->width()) << label->text().toStdString();
+        EXPECT_LE(label->sizeHint().height(), label->height()) << label->text().toStdString();
+      }
+    }
+  }
+}

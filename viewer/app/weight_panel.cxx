@@ -1,0 +1,356 @@
+#include "weight_panel.h"
+
+#include "panel_parts.h"
+#include "value_row.h"
+
+#include <QButtonGroup>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSignalBlocker>
+#include <QVBoxLayout>
+
+namespace
+{
+/// What a control does, or why it can do nothing now: empty reason, it can.
+void enable_or_say(QWidget* widget, const QString& reason)
+{
+  if (widget->property("tip").isNull())
+  {
+    widget->setProperty("tip", widget->toolTip());
+  }
+  widget->setEnabled(reason.isEmpty());
+  widget->setToolTip(reason.isEmpty() ? widget->property("tip").toString() : reason);
+}
+} // namespace
+
+WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
+{
+  this->setObjectName("panel");
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(16, 14, 16, 14);
+  column->setSpacing(7);
+  const auto note = [this](int lines)
+  {
+    auto* line = new QLabel(this);
+    line->setObjectName("note");
+    line->setWordWrap(lines > 1);
+    line->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+    line->setFixedHeight(lines * line->fontMetrics().lineSpacing() + 2);
+    return line;
+  };
+  const auto box = [this](const QString& text, const QString& tip, bool checked = false)
+  {
+    auto* result = new QCheckBox(text, this);
+    result->setToolTip(tip);
+    result->setChecked(checked);
+    QObject::connect(result, &QCheckBox::toggled, this,
+      [this]
+      {
+        this->enable();
+        Q_EMIT this->look_changed();
+      });
+    return result;
+  };
+
+  column->addWidget(heading(tr("Look at"), this));
+  this->column_ = new QComboBox(this);
+  this->column_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  this->column_->setMinimumContentsLength(8);
+  this->column_->setToolTip(
+    tr("One handle's weights, or every triangle in the colour of the handle that is strongest "
+       "there"));
+  column->addWidget(this->column_);
+  this->what_ = this->add_segments({ tr("Weights"), tr("Row sums"), tr("Difference") },
+    { tr("What the handles weigh"),
+      tr("What a point's raw weights add up to: 1 where dividing by the sum changes nothing"),
+      tr("How far these weights are from those of the other method below") });
+  this->raw_ = this->add_segments({ tr("Normalised"), tr("Raw") },
+    { tr("Rows divided by their sums: what bends the shape"),
+      tr("As solved for, before that: what the certificate is about") });
+  this->certificate_ = note(2);
+  this->certificate_->setToolTip(
+    tr("How well the column is solved for. Gap: its energy is at most this share above the least "
+       "possible. Residual: how far it is from meeting the conditions of the least."));
+  column->addWidget(this->certificate_);
+  auto* lines = new QHBoxLayout;
+  this->bands_ =
+    box(tr("Bands"), tr("One colour for each tenth; else colours change smoothly"), true);
+  this->isolines_ = box(tr("Isolines"), tr("A line where a weight is 0.1, 0.2, … 0.9"), true);
+  lines->addWidget(this->bands_, 1);
+  lines->addWidget(this->isolines_, 1);
+  column->addLayout(lines);
+  this->extrema_ = box(tr("Extrema away from handles"),
+    tr("Balls where the numbers have a local maximum (red) or minimum (blue) besides the handles, "
+       "by more than a thousandth of their range"));
+  column->addWidget(this->extrema_);
+  this->extrema_note_ = note(1);
+  column->addWidget(this->extrema_note_);
+
+  column->addSpacing(10);
+  column->addWidget(heading(tr("Other method"), this));
+  this->method_ = new QComboBox(this);
+  // In the order of BindMethod.
+  for (const QString& name : { tr("Bounded biharmonic"), tr("Monotone"), tr("Harmonic"),
+         tr("Biharmonic"), tr("Triharmonic"), tr("Graph biharmonic"), tr("Linear subspace"),
+         tr("Inverse distance"), tr("Smoothed harmonic"), tr("Bone heat") })
+  {
+    this->method_->addItem(name);
+  }
+  this->method_->setCurrentIndex(1);
+  this->method_->setToolTip(tr("Weights to compare with; the shape keeps its own"));
+  column->addWidget(this->method_);
+  auto* buttons = new QHBoxLayout;
+  this->compare_ = button(tr("Compare"), this);
+  this->compare_->setToolTip(
+    tr("Solves by the other method and shows the difference; the window can be used meanwhile"));
+  this->cancel_ = button(tr("Cancel"), this);
+  this->cancel_->setToolTip(tr("Stops; what was shown stays"));
+  buttons->addWidget(this->compare_, 1);
+  buttons->addWidget(this->cancel_);
+  column->addLayout(buttons);
+  this->bar_ = new QProgressBar(this);
+  this->bar_->setRange(0, 1000);
+  this->bar_->setTextVisible(false);
+  // What comes and goes keeps its place, so that nothing below it jumps.
+  QSizePolicy keeps_place = this->bar_->sizePolicy();
+  keeps_place.setRetainSizeWhenHidden(true);
+  this->bar_->setSizePolicy(keeps_place);
+  column->addWidget(this->bar_);
+  this->comparison_ = note(2);
+  column->addWidget(this->comparison_);
+
+  column->addSpacing(10);
+  column->addWidget(heading(tr("Inside"), this));
+  this->slice_ = box(tr("Slice through the volume"),
+    tr("Shows the weights on a plane inside, in the shape at rest; the mouse drags the plane"));
+  column->addWidget(this->slice_);
+  this->orientations_ = add_orientations(column, this);
+  this->position_ = new ValueRow(this);
+  this->position_->setToolTip(tr("Where the slice lies along its normal; the mouse drags it, too"));
+  column->addWidget(this->position_);
+  column->addStretch(1);
+
+  QObject::connect(this->column_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+    [this]
+    {
+      this->enable();
+      Q_EMIT this->look_changed();
+    });
+  QObject::connect(this->compare_, &QPushButton::clicked, this,
+    [this] { Q_EMIT this->comparison_wanted(this->method_->currentIndex()); });
+  QObject::connect(this->cancel_, &QPushButton::clicked, this,
+    [this]
+    {
+      this->set_comparison(tr("Stopping …"));
+      Q_EMIT this->cancel_wanted();
+    });
+  QObject::connect(
+    this->orientations_, &QButtonGroup::idClicked, this, &WeightPanel::orientation_chosen);
+  QObject::connect(this->position_, &ValueRow::value_chosen, this, &WeightPanel::position_chosen);
+  this->set_columns({});
+  this->set_facts({});
+}
+
+QButtonGroup* WeightPanel::add_segments(const QStringList& names, const QStringList& tips)
+{
+  auto* group = new QButtonGroup(this);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(0);
+  for (int k = 0; k < names.size(); ++k)
+  {
+    QPushButton* segment = button(names[k], this);
+    segment->setObjectName("segment");
+    segment->setProperty("place", k == 0 ? "first" : k + 1 == names.size() ? "last" : "middle");
+    segment->setCheckable(true);
+    segment->setToolTip(tips[k]);
+    group->addButton(segment, k);
+    row->addWidget(segment, 1);
+  }
+  group->button(0)->setChecked(true);
+  static_cast<QBoxLayout*>(this->layout())->addLayout(row);
+  QObject::connect(group, &QButtonGroup::idClicked, this,
+    [this]
+    {
+      this->enable();
+      Q_EMIT this->look_changed();
+    });
+  return group;
+}
+
+void WeightPanel::set_columns(const QStringList& names)
+{
+  const QSignalBlocker quiet(this->column_);
+  const QString before = this->column_->currentData(Qt::ToolTipRole).toString();
+  this->column_->clear();
+  this->column_->addItem(tr("All: strongest handle"));
+  for (const QString& name : names)
+  {
+    this->column_->addItem(
+      this->fontMetrics().elidedText(name, Qt::ElideMiddle, this->column_->sizeHint().width()));
+    this->column_->setItemData(this->column_->count() - 1, name, Qt::ToolTipRole);
+  }
+  const int same = names.indexOf(before);
+  this->column_->setCurrentIndex(same >= 0 ? same + 1 : names.isEmpty() ? 0 : 1);
+  this->enable();
+}
+
+void WeightPanel::set_facts(const Facts& facts)
+{
+  this->facts_ = facts;
+  // What is no more cannot be looked at.
+  if ((this->what() == row_sums && !facts.has_raw) ||
+    (this->what() == difference && !facts.compared))
+  {
+    this->what_->button(weights)->setChecked(true);
+  }
+  if (this->raw() && !facts.has_raw)
+  {
+    this->raw_->button(0)->setChecked(true);
+  }
+  this->compare_->setText(facts.compared ? tr("Compare again") : tr("Compare"));
+  this->cancel_->setVisible(facts.comparing);
+  this->bar_->setVisible(facts.comparing);
+  if (!facts.comparing)
+  {
+    this->bar_->setValue(0);
+  }
+  this->enable();
+}
+
+/// What can be chosen follows from what is there and shown; what cannot says why.
+void WeightPanel::enable()
+{
+  const QString none = this->facts_.has_weights
+    ? QString()
+    : tr("There are no weights: bind, or open a mesh with some");
+  const auto first = [&none](const QString& reason) { return none.isEmpty() ? reason : none; };
+  const QString no_raw = this->facts_.has_raw
+    ? QString()
+    : tr("The raw columns are not there: bind here, or let bindpose weights --raw write them");
+  const bool all = this->column() < 0;
+  const bool sums = this->what() == row_sums;
+  const bool differs = this->what() == difference;
+  enable_or_say(
+    this->column_, first(sums ? tr("Row sums are of all handles together") : QString()));
+  enable_or_say(this->what_->button(weights), none);
+  enable_or_say(this->what_->button(row_sums), first(no_raw));
+  enable_or_say(this->what_->button(difference),
+    first(this->facts_.compared ? QString() : tr("Compare with another method first, below")));
+  const QString of_all =
+    all && !sums ? tr("The strongest handle is the same either way") : QString();
+  enable_or_say(
+    this->raw_->button(0), first(sums ? tr("Row sums are those of raw weights") : of_all));
+  enable_or_say(this->raw_->button(1), first(no_raw.isEmpty() ? of_all : no_raw));
+  const QString not_a_column = sums ? tr("Row sums have colours of their own: white is 1")
+    : differs                       ? tr("Differences have colours of their own: white is 0")
+    : all                           ? tr("Choose one handle: this shows its numbers")
+                                    : QString();
+  enable_or_say(this->bands_, first(not_a_column));
+  enable_or_say(this->isolines_, first(not_a_column));
+  enable_or_say(this->extrema_,
+    first(all && !sums ? tr("Choose one handle: extrema are those of its numbers") : QString()));
+  this->extrema_note_->setEnabled(this->extrema_->isEnabled());
+  const QString no_comparison = this->facts_.comparing ? tr("A comparison is being made")
+    : this->facts_.has_handles
+    ? QString()
+    : tr("Open the handles that these weights belong to: another method needs them");
+  enable_or_say(this->method_, first(no_comparison));
+  enable_or_say(this->compare_, first(no_comparison));
+  const QString no_slice = differs
+    ? tr("The other method was solved in tets of its own; only on the surface is there a "
+         "difference")
+    : this->facts_.has_volume
+    ? QString()
+    : tr("There is no volume: bind here, or open the tets (.vtu) that bindpose weights writes");
+  enable_or_say(this->slice_, first(no_slice));
+  const QString no_plane = this->slice_->isEnabled() && this->slice_->isChecked()
+    ? QString()
+    : tr("There is no slice to be moved: choose it above");
+  enable_or_say(this->position_, no_plane);
+  for (QAbstractButton* orientation : this->orientations_->buttons())
+  {
+    enable_or_say(orientation, no_plane);
+  }
+}
+
+void WeightPanel::set_certificate(const QString& text)
+{
+  this->certificate_->setText(text);
+}
+
+void WeightPanel::set_extrema(const QString& text)
+{
+  this->extrema_note_->setText(text);
+}
+
+void WeightPanel::set_progress(double fraction, const QString& phase)
+{
+  this->bar_->setValue(static_cast<int>(1000.0 * fraction));
+  if (this->comparison_->text() != tr("Stopping …"))
+  {
+    this->set_comparison(
+      tr("%1, %2 %").arg(sentence_of(phase)).arg(static_cast<int>(100.0 * fraction)));
+  }
+}
+
+void WeightPanel::set_comparison(const QString& text)
+{
+  this->comparison_->setText(text);
+}
+
+void WeightPanel::set_position(double position, double lowest, double highest)
+{
+  this->position_->set_range(lowest, highest);
+  this->position_->set_value(position);
+}
+
+int WeightPanel::what() const
+{
+  return this->what_->checkedId();
+}
+
+void WeightPanel::show_what(int what)
+{
+  this->what_->button(what)->setChecked(true);
+  this->enable();
+  Q_EMIT this->look_changed();
+}
+
+int WeightPanel::column() const
+{
+  return this->column_->currentIndex() - 1;
+}
+
+void WeightPanel::choose_column(int column)
+{
+  this->column_->setCurrentIndex(column + 1);
+}
+
+bool WeightPanel::raw() const
+{
+  return this->raw_->checkedId() == 1;
+}
+
+bool WeightPanel::bands() const
+{
+  return this->bands_->isChecked();
+}
+
+bool WeightPanel::isolines() const
+{
+  return this->isolines_->isChecked();
+}
+
+bool WeightPanel::extrema() const
+{
+  return this->extrema_->isEnabled() && this->extrema_->isChecked();
+}
+
+bool WeightPanel::slice() const
+{
+  return this->slice_->isEnabled() && this->slice_->isChecked();
+}

@@ -1,0 +1,96 @@
+#ifndef weight_panel_h
+#define weight_panel_h
+
+#include <QFrame>
+#include <QStringList>
+
+class QButtonGroup;
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+class ValueRow;
+
+/// The panel right of the picture to inspect weights: which, how, what another method does
+/// otherwise, and a slice through their volume. Like SidePanel it only tells what the user wants.
+class WeightPanel : public QFrame
+{
+  Q_OBJECT
+
+public:
+  /// What is looked at, in the order of its buttons.
+  enum What
+  {
+    weights,
+    row_sums,
+    difference
+  };
+
+  explicit WeightPanel(QWidget* parent = nullptr);
+
+  /// Other weights: a name a column. The column of the same name stays chosen.
+  void set_columns(const QStringList& names);
+  /// What is there decides what can be chosen.
+  struct Facts
+  {
+    bool has_weights = false;
+    bool has_raw = false;
+    bool has_handles = false; ///< those of the columns, to solve with another method
+    bool has_volume = false;
+    bool comparing = false;
+    bool compared = false;
+  };
+  void set_facts(const Facts& facts);
+  /// Two lines: the column's proof.
+  void set_certificate(const QString& text);
+  void set_extrema(const QString& text);
+  void set_progress(double fraction, const QString& phase);
+  /// Two lines: how far the other method is.
+  void set_comparison(const QString& text);
+  void set_position(double position, double lowest, double highest);
+
+  int what() const;
+  void show_what(int what);
+  /// Column, or -1: all.
+  int column() const;
+  void choose_column(int column);
+  bool raw() const;
+  bool bands() const;
+  bool isolines() const;
+  bool extrema() const;
+  bool slice() const;
+
+Q_SIGNALS:
+  /// Any of what the getters tell.
+  void look_changed();
+  /// A method, by its place in compared_methods().
+  void comparison_wanted(int method);
+  void cancel_wanted();
+  void orientation_chosen(int orientation); ///< of PlaneHandle
+  void position_chosen(double position);
+
+private:
+  QButtonGroup* add_segments(const QStringList& names, const QStringList& tips);
+  void enable();
+
+  QComboBox* column_;
+  QButtonGroup* what_;
+  QButtonGroup* raw_;
+  QLabel* certificate_;
+  QCheckBox* bands_;
+  QCheckBox* isolines_;
+  QCheckBox* extrema_;
+  QLabel* extrema_note_;
+  QComboBox* method_;
+  QPushButton* compare_;
+  QPushButton* cancel_;
+  QProgressBar* bar_;
+  QLabel* comparison_;
+  QCheckBox* slice_;
+  QButtonGroup* orientations_;
+  ValueRow* position_;
+  Facts facts_;
+};
+
+#endif

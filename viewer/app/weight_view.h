@@ -1,0 +1,90 @@
+#ifndef weight_view_h
+#define weight_view_h
+
+#include "base/status.h"
+#include "plane_handle.h"
+#include "scene/colouring.h"
+#include "scene/extrema.h"
+#include "scene/picture.h"
+
+#include "vtkActor.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <QObject>
+
+#include <array>
+
+class Viewport;
+
+/// Weights in the picture: on the surface, posed or not, in bands with isolines, with balls at
+/// their extrema, and inside on a plane that the mouse drags. What is shown is said as for
+/// `bindpose render`: by PictureOptions.
+class WeightView : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit WeightView(Viewport* viewport);
+
+  /// What is looked at: the surface at rest as the viewport has it, and the tets that were solved
+  /// on, both with weights; null: none.
+  void set_data(vtkPolyData* surface, vtkUnstructuredGrid* volume);
+  /// The same surface with its points elsewhere: a pose.
+  void move_surface(vtkPolyData* shape);
+
+  /// Of the options array, component, colour_by, minus, bands, isolines, extrema and slice count.
+  /// Fails, showing the plain surface, when the data has no such numbers.
+  bindpose::Status show(const bindpose::PictureOptions& options);
+  void hide();
+  bool is_shown() const { return this->shown_; }
+  bool is_sliced() const { return this->shown_ && this->options_.slice; }
+
+  PlaneHandle* plane() const { return this->plane_; }
+  void set_orientation(int orientation); ///< of PlaneHandle
+  void set_position(double position);
+
+  /// Numbers of what is shown; see render_to_png().
+  const bindpose::Report& numbers() const { return this->colouring_.numbers; }
+  /// Of the surface, or of all tets while they are sliced: then the surface is plain.
+  const std::vector<bindpose::Extremum>& extrema() const { return this->extrema_; }
+  vtkPolyData* slice() const { return this->slice_; }
+  /// On the surface.
+  vtkPolyData* isolines() const { return this->isolines_[0]; }
+
+Q_SIGNALS:
+  /// The mouse has moved or turned the plane.
+  void plane_moved();
+
+private:
+  void show_surface();
+  void draw_isolines(int part, vtkPolyData* data);
+  void update_slice();
+  void place_extrema();
+  void before_drawing();
+
+  Viewport* viewport_;
+  PlaneHandle* plane_;
+  vtkSmartPointer<vtkPolyData> surface_; // at rest
+  vtkSmartPointer<vtkPolyData> shape_; // as posed
+  vtkSmartPointer<vtkUnstructuredGrid> volume_;
+  vtkSmartPointer<vtkUnstructuredGrid> volume_values_; // with the shown number only
+  bindpose::PictureOptions options_;
+  bindpose::Colouring colouring_;
+  bool shown_ = false;
+
+  std::vector<bindpose::Extremum> extrema_;
+  bindpose::ExtremumBalls balls_;
+  vtkSmartPointer<vtkPolyData> slice_;
+  vtkNew<vtkPolyDataMapper> slice_mapper_;
+  vtkNew<vtkActor> slice_actor_;
+  // Of the surface and of the slice.
+  std::array<vtkNew<vtkPolyData>, 2> isolines_;
+  std::array<vtkNew<vtkPolyDataMapper>, 2> isoline_mappers_;
+  std::array<vtkNew<vtkActor>, 2> isoline_actors_;
+};
+
+#endif

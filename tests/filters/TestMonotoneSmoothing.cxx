@@ -136,7 +136,7 @@ TEST_F(MonotoneSmoothing, ActiveScalarsAreSmoothedAndExtremaTold)
 
 TEST_F(MonotoneSmoothing, TakesTheListOfTheMeshAndItsOwn)
 {
-  this->add_list(40, 200);
+  this->add_list(200, 40); // the data are higher there
   this->smoothing->KeepValuesOn();
   this->smoothing->Update();
   ASSERT_EQ(this->smoothing->GetStatus(), vtkBindposeAlgorithm::OK)
@@ -146,8 +146,8 @@ TEST_F(MonotoneSmoothing, TakesTheListOfTheMeshAndItsOwn)
   EXPECT_EQ(this->smoothing->GetOutput(1)->GetNumberOfPoints(), 2);
   double range[2];
   smoothed->GetRange(range);
-  EXPECT_EQ(range[0], std::min(data->GetTuple1(40), data->GetTuple1(200)));
-  EXPECT_EQ(range[1], std::max(data->GetTuple1(40), data->GetTuple1(200)));
+  EXPECT_EQ(range[0], data->GetTuple1(40));
+  EXPECT_EQ(range[1], data->GetTuple1(200));
   EXPECT_EQ(read_report(this->smoothing->GetOutput()).text("extrema_from"), "list");
   // What it used can be given back, under its name.
   vtkNew<vtkMonotoneSmoothing> again;

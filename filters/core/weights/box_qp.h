@@ -35,6 +35,7 @@ struct BoxQpColumn
   /// Q. Pairs between vertices that are not free are ignored.
   std::vector<OrderedPair> pairs;
   Eigen::VectorXd start; ///< #V, a guess; empty: the minimiser without bounds
+  double energy = 0.0; ///< the minimum, roughly; 0: that without bounds
 };
 
 struct BoxQpSolution

@@ -169,8 +169,7 @@ Status InteriorPoint::set_up()
     row.pair = static_cast<Index>(k);
     row.low = this->free_here_[pair.low] ? matrices.free_of_vertex[pair.low] : -1;
     row.high = this->free_here_[pair.high] ? matrices.free_of_vertex[pair.high] : -1;
-    row.offset =
-      (row.high < 0 ? this->given_[pair.high] : 0.0) -
+    row.offset = (row.high < 0 ? this->given_[pair.high] : 0.0) -
       (row.low < 0 ? this->given_[pair.low] : 0.0) - pair.least;
     if (row.low < 0 && row.high < 0)
     {
@@ -551,7 +550,9 @@ void InteriorPoint::set_start(bool central)
     this->x_[i] =
       this->pinned_[i] ? this->given_[v] : std::clamp(guess[v], this->lower_[i], this->upper_[i]);
   }
-  double energy = 0.5 * this->unconstrained_.dot(matrices.q.transpose() * this->unconstrained_);
+  double energy = this->column_.energy > 0.0
+    ? this->column_.energy
+    : 0.5 * this->unconstrained_.dot(matrices.q.transpose() * this->unconstrained_);
   VectorXd within = this->given_;
   for (Index i = 0; i < n; ++i)
   {

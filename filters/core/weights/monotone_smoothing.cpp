@@ -54,6 +54,7 @@ private:
   Status check_list();
   void scale_to_size();
   void assemble();
+  double expected_energy(const BoxQpColumn& column, const BoxQpSolution& unconstrained) const;
   Status guide_values(const VectorXd& unconstrained, VectorXd& values);
   Status solve();
   void rebuild(BoxQpColumn& column, BoxQpSolution& best);
@@ -76,6 +77,7 @@ private:
   ScaledMesh scaled_; // to size 1
   std::vector<Index> fixed_; // and the one more unknown, #V, at the end
   VectorXd fixed_values_;
+  VectorXd pull_; // the data term's diagonal of the form
   bool keep_values_ = false;
   Index constant_parts_ = 0;
   std::unique_ptr<BoxQp> solver_;
@@ -326,7 +328,7 @@ void Smoothing::assemble()
   const int k = this->options_.order;
   this->scale_to_size();
   // The form is that of the scaled mesh times mass_unit^(k - 1).
-  const VectorXd pull =
+  this->pull_ =
     this->options_.data_weight * std::pow(this->scaled_.mass_unit, k) * this->scaled_.mass;
   const SparseMatrix q = harmonic_energy(this->scaled_.stiffness, this->scaled_.mass, k);
   std::vector<Eigen::Triplet<double, int>> entries;
@@ -341,11 +343,11 @@ void Smoothing::assemble()
   const int one = static_cast<int>(n);
   for (int v = 0; v < one; ++v)
   {
-    entries.emplace_back(v, v, pull[v]);
-    entries.emplace_back(v, one, -pull[v] * this->f_[v]);
-    entries.emplace_back(one, v, -pull[v] * this->f_[v]);
+    entries.emplace_back(v, v, this->pull_[v]);
+    entries.emplace_back(v, one, -this->pull_[v] * this->f_[v]);
+    entries.emplace_back(one, v, -this->pull_[v] * this->f_[v]);
   }
-  entries.emplace_back(one, one, pull.dot(this->f_.cwiseAbs2()));
+  entries.emplace_back(one, one, this->pull_.dot(this->f_.cwiseAbs2()));
   SparseMatrix form(n + 1, n + 1);
   form.setFromTriplets(entries.begin(), entries.end());
 
@@ -380,6 +382,24 @@ void Smoothing::assemble()
   this->solver_ = std::make_unique<BoxQp>(form, this->fixed_,
     BoxQpOptions{
       this->options_.tolerance, this->options_.maximum_iterations, this->options_.solver });
+}
+
+/// Roughly the minimum: that without any order, and how far the data term alone is from keeping it.
+/// (A faithful minimiser without order costs next to nothing, however much the order costs.)
+double Smoothing::expected_energy(
+  const BoxQpColumn& column, const BoxQpSolution& unconstrained) const
+{
+  std::vector<OrderedPair> upwards = column.pairs;
+  std::sort(upwards.begin(), upwards.end(),
+    [this](const OrderedPair& a, const OrderedPair& b)
+    { return this->rank_[a.low] < this->rank_[b.low]; });
+  VectorXd ordered = unconstrained.w;
+  for (const OrderedPair& pair : upwards)
+  {
+    ordered[pair.high] = std::max(ordered[pair.high], ordered[pair.low] + pair.least);
+  }
+  const VectorXd moved = (ordered - unconstrained.w).head(this->pull_.size());
+  return unconstrained.certificate.energy + 0.5 * this->pull_.dot(moved.cwiseAbs2());
 }
 
 /// Values whose order is to be kept as far as the list allows.
@@ -434,6 +454,7 @@ void Smoothing::rebuild(BoxQpColumn& column, BoxQpSolution& best)
     }
     column.pairs = std::move(pairs);
     column.start = best.w;
+    column.energy = best.certificate.energy;
     const BoxQpSolution next = this->solver_->solve(column, this->context_);
     this->result_.iterations += next.iterations;
     this->context_.add_seconds("factor", next.factor_seconds);
@@ -507,6 +528,7 @@ Status Smoothing::solve()
   if (!ordered)
   {
     const ProgressRange range(this->context_, 0.1, this->options_.rebuilds > 0 ? 0.4 : 1.0);
+    column.energy = this->expected_energy(column, best);
     best = this->solver_->solve(column, this->context_);
     this->result_.iterations = best.iterations;
     this->context_.add_seconds("factor", best.factor_seconds);
@@ -561,7 +583,7 @@ void Smoothing::finish(Status& status)
   for (Index v = 0; v < n; ++v)
   {
     exempt[v] = result.list[v] != 0 || !this->taking_part_[v];
-    strict[v] += this->rank_[v] >= 0 ? 1e-12 * static_cast<double>(this->rank_[v]) / n : 0.0;
+    strict[v] += this->rank_[v] >= 0 ? 1e-12 * double(this->rank_[v]) / double(n) : 0.0;
   }
   result.spurious = interior_extrema(this->graph_, w, exempt);
   std::vector<double> persistence(static_cast<std::size_t>(n), 0.0);

@@ -9,7 +9,6 @@
 #include "weights/ordered_pairs.h"
 
 #include <algorithm>
-#include <numeric>
 #include <queue>
 
 namespace bindpose

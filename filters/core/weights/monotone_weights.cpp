@@ -87,7 +87,8 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
   {
     pulls[v] = problem.constraints.roles[v] != VertexRole::follower;
   }
-  const SparseMatrix laplacian = merge_form(group, positive_stiffness(problem.stiffness, problem.graph, pulls));
+  const SparseMatrix laplacian =
+    merge_form(group, positive_stiffness(problem.stiffness, problem.graph, pulls));
   BoxQp solver(laplacian, group.fixed, { 1e-6, 1, solver_options });
   Status status = solver.prepare(context);
   if (!status.ok())

@@ -413,16 +413,17 @@ Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
   std::vector<double> given_values;
   for (std::size_t v = 0; v < this->used_.size(); ++v)
   {
-    const int kind = this->result_.list[v];
-    if (kind != 0 || !this->taking_part_[v])
+    const bool maximum = this->result_.list[v] > 0;
+    if (this->result_.list[v] != 0 || !this->taking_part_[v])
     {
       given.push_back(static_cast<Index>(v));
-      given_values.push_back(this->keep_values_ ? this->f_[static_cast<Index>(v)] : kind > 0);
+      given_values.push_back(
+        this->keep_values_ ? this->f_[static_cast<Index>(v)] : double(maximum));
     }
   }
   BoxQp harmonic(positive_stiffness(this->scaled_.stiffness, this->graph_, this->taking_part_),
     given, { 1e-6, 1, this->options_.solver });
-  const Status status = harmonic.prepare(this->context_);
+  Status status = harmonic.prepare(this->context_);
   if (status.ok())
   {
     const Eigen::MatrixXd boundary =
@@ -676,7 +677,7 @@ Status Smoothing::run()
     status.report.set("counts.data_extrema",
       static_cast<std::int64_t>(
         interior_extrema(this->graph_, this->f_, std::vector<char>(this->used_.size(), 0)).size()));
-    const Status listed = this->find_list();
+    Status listed = this->find_list();
     if (!listed.ok())
     {
       return listed;

@@ -6,13 +6,15 @@
  * extrema on the handles only: no far-away bumps, no small features that swell. Costs about twice
  * the time of bounded weights.
  *
+ * Maxima and minima of one's own choice instead of handles: vtkMonotoneSmoothing.
+ *
  * Ports, arrays, certificate, bind cache, report and errors: vtkWeightsAlgorithm.
  *
  * @par Thanks:
  * Jacobson, Weinkauf, Sorkine, "Smooth Shape-Aware Functions with Controlled Extrema", Computer
  * Graphics Forum 31(5), 2012.
  *
- * @sa vtkBoundedBiharmonicWeights vtkUnconstrainedWeights
+ * @sa vtkBoundedBiharmonicWeights vtkMonotoneSmoothing vtkUnconstrainedWeights
  */
 
 #ifndef vtkMonotoneWeights_h

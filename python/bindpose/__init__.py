@@ -39,4 +39,5 @@ from .functions import contains, deform, planar_shape, tetrahedralize, weights, 
 from .handle_sets import farthest_point_handles, handles
 from .meshes import Array, PlanarShape, Tets
 from .running import report, run
+from .smoothing import monotone_smoothing
 from .weight_uses import cut_along_bones, depth_order, weighted_colors

@@ -7,7 +7,7 @@ GALLERY = EXAMPLES / "gallery"
 NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "colours_of_handles", "cost_of_a_point",
          "cut_out_cartoon", "defect_classes", "growth", "hull_segmentation", "image_rectangle", "jump_and_harmonic",
          "limbs_in_front", "mesh_independence", "near_limbs", "new_hues", "open_crossing_flipped", "original_and_faster",
-         "preview_and_certified", "rigidity_brush", "small_features", "spurious_extrema", "weights_in_volume"]
+         "preview_and_certified", "rigidity_brush", "small_features", "spurious_extrema", "topological_simplification", "weights_in_volume"]
 
 
 def test_open_crossing_flipped(tmp_path):
@@ -213,6 +213,17 @@ def test_spurious_extrema(tmp_path):
     assert min(numbers["bounded triharmonic: extrema by column"]) > 2
     assert numbers["bounded triharmonic: farthest jump of an extremum"] > 0.1  # four squares, for one of the handle
     assert max(value for name, value in numbers.items() if name.endswith("relative gap")) <= 1e-6
+
+
+def test_topological_simplification(tmp_path):
+    numbers = numbers_of("gallery/topological_simplification.py", tmp_path)
+    assert min(numbers["noisy data: maxima, minima in the picture"]) > 30
+    for name, count in (("four most persistent", 2), ("one of each kind", 1)):
+        assert numbers[f"{name}: maxima, minima in the picture"] == [count, count]
+        assert numbers[f"{name}: relative gap"] <= 1e-6
+        assert numbers[f"{name}: listed ones are extrema"]
+    near = numbers["four most persistent: rms distance to what had no noise"]
+    assert near < 0.6 * numbers["noise: rms"] < numbers["one of each kind: rms distance to what had no noise"]
 
 
 def test_small_features(tmp_path):

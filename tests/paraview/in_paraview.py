@@ -16,7 +16,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 FILTERS = (
     "WindingNumberField PlanarShape TetrahedralizeSurface FarthestPointHandles BoundedBiharmonicWeights MonotoneWeights "
-    "UnconstrainedWeights TransferWeights PoseHandles WeightedColors DepthOrder CutAlongBones SkinningDeformation "
+    "MonotoneSmoothing UnconstrainedWeights TransferWeights PoseHandles WeightedColors DepthOrder CutAlongBones SkinningDeformation "
     "MovingLeastSquaresWarp ReducedARAP"
 ).split()
 SOURCES = "BindposeMeshReader BindposeHandleReader".split()
@@ -136,6 +136,10 @@ def deformation():
             assert weights.min() >= 0 and weights.max() <= 1, name
         numbers[name] = len(weights)
     bound = smooth["BoundedBiharmonicWeights"]
+    height = Calculator(Input=tets, ResultArrayName="Height", Function="coordsX + 0.3 * sin(20 * coordsY)")
+    smoothing = MonotoneSmoothing(Input=height, SelectInputScalars=["POINTS", "Height"], NumberOfExtrema=2)
+    assert fetch(smoothing).GetPointData().GetArray("Smoothed").GetNumberOfTuples() == len(weights)
+    assert fetch(smoothing, 1).GetNumberOfPoints() == 2
 
     rest = points_of(fetch(bound))
     skin = TransferWeights(Input=surface, Mesh=bound)

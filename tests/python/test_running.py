@@ -75,7 +75,7 @@ def test_classes_are_at_package_level():
     for name in ("vtkWindingNumberField", "vtkTetrahedralizeSurface", "vtkBoundedBiharmonicWeights",
                  "vtkMonotoneWeights", "vtkUnconstrainedWeights", "vtkTransferWeights", "vtkPoseHandles",
                  "vtkSkinningDeformation", "vtkReducedARAP", "vtkMovingLeastSquaresWarp", "vtkWeightedColors",
-                 "vtkDepthOrder", "vtkCutAlongBones", "vtkMeshFileReader", "vtkMeshFileWriter",
+                 "vtkDepthOrder", "vtkCutAlongBones", "vtkMonotoneSmoothing", "vtkMeshFileReader", "vtkMeshFileWriter",
                  "vtkHandleFileReader", "vtkFarthestPointHandles", "vtkHandleSetWidget"):
         assert hasattr(bindpose, name)
         assert name in str(getattr(bindpose, name)())

@@ -12,6 +12,7 @@ void run_winding(Session& session);
 void run_tetrahedralize(Session& session);
 void run_outline(Session& session);
 void run_weights(Session& session);
+void run_smooth(Session& session);
 void run_deform(Session& session);
 void run_render(Session& session);
 void run_view(Session& session);

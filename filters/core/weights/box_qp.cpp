@@ -72,7 +72,8 @@ struct BoxQp::Impl : SplitForm
     }
     return result;
   }
-  /// Starts for all columns. Those with a start of their own or with ordered pairs get none.
+  /// Starts for all columns. Those with a start of their own, with ordered pairs or without bounds
+  /// get none.
   std::vector<CentralStart> find_starts(const std::vector<BoxQpColumn>& columns,
     const Eigen::MatrixXd& unconstrained, ExecutionContext& context) const
   {
@@ -82,7 +83,9 @@ struct BoxQp::Impl : SplitForm
     Eigen::MatrixXd free_of_bounds(unconstrained.rows(), unconstrained.cols());
     for (std::size_t j = 0; j < columns.size() && this->single.analysed(); ++j)
     {
-      if (columns[j].pairs.empty() && columns[j].start.size() == 0)
+      const Bounds& bounds = columns[j].bounds;
+      if (columns[j].pairs.empty() && columns[j].start.size() == 0 && bounds.lower.allFinite() &&
+        bounds.upper.allFinite())
       {
         free_of_bounds.col(static_cast<Index>(wanted.size())) =
           unconstrained.col(static_cast<Index>(j));

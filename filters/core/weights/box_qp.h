@@ -28,12 +28,14 @@ struct BoxQpColumn
   /// Vertices that this column alone fixes besides, and their values.
   std::vector<Index> pinned;
   Eigen::VectorXd pinned_values;
-  /// Of all other vertices: [0, 1] unless given. Finite, lower < upper (equal: pin the vertex).
+  /// Of all other vertices: [0, 1] unless given. lower < upper (equal: pin the vertex), either both
+  /// finite or both infinite.
   Bounds bounds;
-  /// Pairs that must stay ordered; without a cycle, both ends of every pair joined by an entry of
-  /// Q. Pairs between vertices that are not free are ignored.
+  /// Pairs that must stay ordered, by some distance if need be; without a cycle, both ends of every
+  /// pair joined by an entry of Q. Pairs between vertices that are not free are ignored.
   std::vector<OrderedPair> pairs;
   Eigen::VectorXd start; ///< #V, a guess; empty: the minimiser without bounds
+  double energy = 0.0; ///< the minimum, roughly; 0: that without bounds
 };
 
 struct BoxQpSolution

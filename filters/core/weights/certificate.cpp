@@ -20,7 +20,7 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
   double gap = 0.0;
   for (std::size_t k = 0; k < pairs.size(); ++k)
   {
-    const double slack = w[pairs[k].high] - w[pairs[k].low];
+    const double slack = w[pairs[k].high] - w[pairs[k].low] - pairs[k].least;
     const double lambda = multipliers[static_cast<Index>(k)];
     gap += lambda * slack;
     g[pairs[k].high] -= lambda;
@@ -42,7 +42,7 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
     const double diagonal = problem.q.coeff(v, v);
     diagonal_sum += diagonal;
     ++free_count;
-    const double share = std::max(g[v] * (w[v] - l), -g[v] * (u - w[v]));
+    const double share = g[v] == 0.0 ? 0.0 : std::max(g[v] * (w[v] - l), -g[v] * (u - w[v]));
     gap += share;
     // Where a Newton step of this vertex alone stays within the bounds, its gradient is residual.
     if (inverse && w[v] - g[v] / diagonal > l && w[v] - g[v] / diagonal < u)

@@ -9,36 +9,38 @@
 namespace bindpose
 {
 
-/// w[low] <= w[high]
+/// w[low] + least <= w[high]
 struct OrderedPair
 {
   Index low = 0;
   Index high = 0;
+  double least = 0.0;
 };
 
 /// What proves that a column is the minimiser, and how far from it it can be at most.
 ///
-/// With g = Q w (and g' = Q w - G' lambda for ordered pairs G w >= 0, lambda >= 0) the dual of the
+/// With g = Q w (and g' = Q w - G' lambda for ordered pairs G w >= h, lambda >= 0) the dual of the
 /// quadratic program bounds the minimum from below, so that
-///   gap = lambda' G w + sum over free vertices of max(g' (w - l), -g' (u - w))
+///   gap = lambda' (G w - h) + sum over free vertices of max(g' (w - l), -g' (u - w))
 /// is a rigorous bound on E(w) - min E, whoever computed w and lambda.
 ///
 /// On needles, and for triharmonic energies, the round-off of Q w alone, 1e-16 of Q's entries,
 /// makes that sum large however good w is. A second bound, as rigorous, sees round-off squared: for
 /// any set of vertices, with r = g' there and 0 elsewhere,
-///   gap = lambda' G w + (the sum above over all others) + 1/2 r' A^-1 r
-/// where A is Q's free block. The smaller of both is taken where A^-1 is given.
+///   gap = lambda' (G w - h) + (the sum above over all others) + 1/2 r' A^-1 r
+/// where A is Q's free block. The smaller of both is taken where A^-1 is given. Without bounds only
+/// the second one is finite.
 struct Certificate
 {
   double relative_gap = 0.0; ///< gap / E
   /// Natural residual: max over free vertices of |w - clip(w - g' / diag Q, l, u)|.
   double kkt_residual = 0.0;
   double energy = 0.0; ///< E = 1/2 w' Q w
-  double order_violation = 0.0; ///< largest w[low] - w[high] over the ordered pairs, or 0
+  double order_violation = 0.0; ///< largest w[low] + least - w[high] over the pairs, or 0
   double bounds_violation = 0.0; ///< how far w lies outside of [l, u] at most
 };
 
-/// l <= w <= u, a value a vertex.
+/// l <= w <= u, a value a vertex. Both may be infinite: no bounds there.
 struct Bounds
 {
   Eigen::VectorXd lower; ///< #V; empty: 0 everywhere

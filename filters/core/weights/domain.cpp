@@ -47,6 +47,22 @@ const char* element_name(const Domain& domain)
   return domain.is_volume() ? "tet" : "triangle";
 }
 
+std::vector<char> measurable_elements(const Domain& domain)
+{
+  std::vector<char> result(static_cast<std::size_t>(domain.element_count()), 1);
+  if (!domain.is_volume())
+  {
+    for (Index t = 0; t < domain.triangles.rows(); ++t)
+    {
+      const Vec3 a = domain.points.row(domain.triangles(t, 0));
+      const Vec3 b = domain.points.row(domain.triangles(t, 1));
+      const Vec3 c = domain.points.row(domain.triangles(t, 2));
+      result[t] = (b - a).cross(c - a).norm() > 0.0;
+    }
+  }
+  return result;
+}
+
 double mean_edge_length(const Domain& domain, Index element)
 {
   const int corners = domain.corners();

@@ -38,6 +38,9 @@ Status check_domain(const Domain& domain);
 /// "tet" or "triangle".
 const char* element_name(const Domain& domain);
 
+/// #elements: 1 for those that have an area or a volume.
+std::vector<char> measurable_elements(const Domain& domain);
+
 /// Mean length of an element's edges, the local edge length.
 double mean_edge_length(const Domain& domain, Index element);
 

@@ -25,26 +25,9 @@ bool touch(const Handle& a, const Handle& b, double tolerance)
     handle_distance(b, a.head) <= tolerance || handle_distance(b, a.tail) <= tolerance;
 }
 
-/// Elements that have an area or a volume.
-std::vector<char> measurable(const Domain& domain)
-{
-  std::vector<char> result(static_cast<std::size_t>(domain.element_count()), 1);
-  if (!domain.is_volume())
-  {
-    for (Index t = 0; t < domain.triangles.rows(); ++t)
-    {
-      const Vec3 a = domain.points.row(domain.triangles(t, 0));
-      const Vec3 b = domain.points.row(domain.triangles(t, 1));
-      const Vec3 c = domain.points.row(domain.triangles(t, 2));
-      result[t] = (b - a).cross(c - a).norm() > 0.0;
-    }
-  }
-  return result;
-}
-
 void find_components(const Domain& domain, HandleConstraints& result)
 {
-  const std::vector<char> has_measure = measurable(domain);
+  const std::vector<char> has_measure = measurable_elements(domain);
   const Index vertex_count = domain.points.rows();
   result.roles.assign(static_cast<std::size_t>(vertex_count), VertexRole::unreferenced);
   if (domain.is_volume())

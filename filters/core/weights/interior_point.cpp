@@ -103,7 +103,8 @@ private:
   ExecutionContext& context_;
 
   std::vector<char> pinned_; // by free index
-  std::vector<Index> bounded_; // free indices that are not pinned
+  std::vector<Index> unpinned_; // free indices
+  std::vector<Index> bounded_; // those of them that have bounds
   std::vector<PairRow> rows_;
   std::vector<Index> topological_; // vertices of the pairs, every low before its high
   std::vector<char> free_here_; // #V
@@ -154,6 +155,10 @@ Status InteriorPoint::set_up()
     this->upper_[i] = this->column_.bounds.high(matrices.free_vertices[i]);
     if (!this->pinned_[i])
     {
+      this->unpinned_.push_back(i);
+    }
+    if (!this->pinned_[i] && std::isfinite(this->lower_[i]) && std::isfinite(this->upper_[i]))
+    {
       this->bounded_.push_back(i);
     }
   }
@@ -164,8 +169,8 @@ Status InteriorPoint::set_up()
     row.pair = static_cast<Index>(k);
     row.low = this->free_here_[pair.low] ? matrices.free_of_vertex[pair.low] : -1;
     row.high = this->free_here_[pair.high] ? matrices.free_of_vertex[pair.high] : -1;
-    row.offset =
-      (row.high < 0 ? this->given_[pair.high] : 0.0) - (row.low < 0 ? this->given_[pair.low] : 0.0);
+    row.offset = (row.high < 0 ? this->given_[pair.high] : 0.0) -
+      (row.low < 0 ? this->given_[pair.low] : 0.0) - pair.least;
     if (row.low < 0 && row.high < 0)
     {
       continue;
@@ -299,7 +304,7 @@ Status InteriorPoint::factor(const VectorXd& d)
       values[row.position] -= value;
     }
   }
-  if (nb < matrix.cols())
+  if (static_cast<Index>(this->unpinned_.size()) < matrix.cols())
   {
     for (Index j = 0; j < matrix.cols(); ++j)
     {
@@ -545,7 +550,9 @@ void InteriorPoint::set_start(bool central)
     this->x_[i] =
       this->pinned_[i] ? this->given_[v] : std::clamp(guess[v], this->lower_[i], this->upper_[i]);
   }
-  double energy = 0.5 * this->unconstrained_.dot(matrices.q.transpose() * this->unconstrained_);
+  double energy = this->column_.energy > 0.0
+    ? this->column_.energy
+    : 0.5 * this->unconstrained_.dot(matrices.q.transpose() * this->unconstrained_);
   VectorXd within = this->given_;
   for (Index i = 0; i < n; ++i)
   {
@@ -577,10 +584,10 @@ void InteriorPoint::order_pairs(VectorXd& w) const
   {
     return;
   }
-  std::vector<std::vector<Index>> above(static_cast<std::size_t>(w.size()));
+  std::vector<std::vector<const OrderedPair*>> above(static_cast<std::size_t>(w.size()));
   for (const OrderedPair& pair : this->column_.pairs)
   {
-    above[pair.low].push_back(pair.high);
+    above[pair.low].push_back(&pair);
   }
   // The least value given to anything above: nothing below it may exceed that.
   VectorXd cap(w.size());
@@ -594,9 +601,9 @@ void InteriorPoint::order_pairs(VectorXd& w) const
     {
       cap[*v] = w[*v];
     }
-    for (const Index high : above[*v])
+    for (const OrderedPair* pair : above[*v])
     {
-      cap[*v] = std::min(cap[*v], cap[high]);
+      cap[*v] = std::min(cap[*v], cap[pair->high] - pair->least);
     }
     if (this->free_here_[*v])
     {
@@ -605,11 +612,11 @@ void InteriorPoint::order_pairs(VectorXd& w) const
   }
   for (const Index v : this->topological_)
   {
-    for (const Index high : above[v])
+    for (const OrderedPair* pair : above[v])
     {
-      if (this->free_here_[high])
+      if (this->free_here_[pair->high])
       {
-        w[high] = std::max(w[high], w[v]);
+        w[pair->high] = std::max(w[pair->high], w[v] + pair->least);
       }
     }
   }
@@ -620,7 +627,7 @@ void InteriorPoint::certify_iterate(bool second_bound)
 {
   const auto& matrices = this->matrices_;
   this->result_.w = this->given_;
-  for (const Index i : this->bounded_)
+  for (const Index i : this->unpinned_)
   {
     this->result_.w[matrices.free_vertices[i]] =
       std::clamp(this->x_[i], this->lower_[i], this->upper_[i]);
@@ -634,12 +641,13 @@ void InteriorPoint::certify_iterate(bool second_bound)
   }
   const BoundedEnergy problem{ matrices.q, this->free_here_, this->column_.bounds };
   Certificate& certificate = this->result_.certificate;
+  const bool bounds_everywhere = this->bounded_.size() == this->unpinned_.size();
   certificate = certify(problem, this->result_.w, this->column_.pairs, this->result_.multipliers,
-    second_bound ? this->inverse_ : Inverse());
+    second_bound || !bounds_everywhere ? this->inverse_ : Inverse());
   // When the iterate itself is near enough and only the first bound says otherwise, that is
   // round-off: the second bound decides.
   const double tolerance = this->options_.tolerance;
-  if (!second_bound && certificate.relative_gap > tolerance &&
+  if (!second_bound && bounds_everywhere && certificate.relative_gap > tolerance &&
     certificate.kkt_residual <= tolerance &&
     this->s_.dot(this->z_) <= tolerance * certificate.energy)
   {
@@ -656,7 +664,7 @@ double InteriorPoint::finish(double enough)
 {
   constexpr int rounds = 6;
   VectorXd x = this->x_;
-  for (const Index i : this->bounded_)
+  for (const Index i : this->unpinned_)
   {
     x[i] = std::clamp(x[i], this->lower_[i], this->upper_[i]);
   }
@@ -711,7 +719,7 @@ BoxQpSolution InteriorPoint::run()
   // and in double precision if that does not help.
   constexpr int begin_anew_after = 25;
   constexpr int double_after = 60;
-  double moved = this->bounded_.empty() ? 0.0 : 1.0;
+  double moved = this->h_.size() == 0 ? 0.0 : 1.0;
   const auto done = [&]
   {
     return worst(this->best_.certificate) <= tolerance &&

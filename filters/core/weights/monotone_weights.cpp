@@ -16,50 +16,16 @@
 // are one vertex to the guide.
 #include "weights/monotone_weights.h"
 
+#include "weights/ordered_pairs.h"
 #include "weights/weight_solve.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace bindpose
 {
 
 namespace
 {
-/// Cotangent stiffness with every edge's weight raised to a small positive one. Followers have no
-/// weights of their own: their edges must not pull.
-SparseMatrix positive_stiffness(const WeightsProblem& problem)
-{
-  // As a share of the diagonals: small enough not to turn the guide, large enough to keep the
-  // solution's rounding errors small.
-  constexpr double least_weight = 1e-3;
-  const VertexGraph& graph = problem.graph;
-  const auto& roles = problem.constraints.roles;
-  const Eigen::VectorXd diagonal = problem.stiffness.diagonal();
-  const auto n = static_cast<int>(problem.vertex_count());
-  std::vector<Eigen::Triplet<double, int>> entries;
-  entries.reserve(graph.neighbours.size() + static_cast<std::size_t>(n));
-  for (int v = 0; v < n; ++v)
-  {
-    double degree = 0;
-    for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
-    {
-      const Index other = graph.neighbours[k];
-      if (roles[v] != VertexRole::follower && roles[other] != VertexRole::follower)
-      {
-        const double least = least_weight * std::sqrt(diagonal[v] * diagonal[other]);
-        const double w = std::max(-problem.stiffness.coeff(v, other), least);
-        entries.emplace_back(v, static_cast<int>(other), -w);
-        degree += w;
-      }
-    }
-    entries.emplace_back(v, v, degree);
-  }
-  SparseMatrix laplacian(n, n);
-  laplacian.setFromTriplets(entries.begin(), entries.end());
-  return laplacian;
-}
-
 /// The guide of a column with pins of its own, and 1 minus it, each from positive numbers alone.
 Status pinned_guide(const SparseMatrix& laplacian, const std::vector<Index>& fixed,
   const BoxQpColumn& column, const SparseSolver::Options& options, ExecutionContext& context,
@@ -79,61 +45,6 @@ Status pinned_guide(const SparseMatrix& laplacian, const std::vector<Index>& fix
     rest = both.col(1);
   }
   return status;
-}
-
-/// Whether bounds and given values leave room for the pairs' order: the least that each unknown
-/// can be rises along the guide.
-/// @return an unknown without room, or -1.
-Index without_room(const BoxQpColumn& column, const std::vector<Index>& fixed, Index count)
-{
-  std::vector<double> least(static_cast<std::size_t>(count));
-  std::vector<double> most(static_cast<std::size_t>(count));
-  for (Index u = 0; u < count; ++u)
-  {
-    least[u] = column.bounds.low(u);
-    most[u] = column.bounds.high(u);
-  }
-  for (std::size_t i = 0; i < fixed.size(); ++i)
-  {
-    least[fixed[i]] = most[fixed[i]] = column.fixed_values[static_cast<Index>(i)];
-  }
-  for (std::size_t i = 0; i < column.pinned.size(); ++i)
-  {
-    least[column.pinned[i]] = most[column.pinned[i]] = column.pinned_values[static_cast<Index>(i)];
-  }
-  std::vector<std::vector<Index>> above(static_cast<std::size_t>(count));
-  std::vector<Index> open(static_cast<std::size_t>(count), 0);
-  for (const OrderedPair& pair : column.pairs)
-  {
-    above[pair.low].push_back(pair.high);
-    open[pair.high] += 1;
-  }
-  std::vector<Index> ordered;
-  for (Index u = 0; u < count; ++u)
-  {
-    if (open[u] == 0)
-    {
-      ordered.push_back(u);
-    }
-  }
-  constexpr double round_off = 1e-12;
-  for (std::size_t i = 0; i < ordered.size(); ++i)
-  {
-    const Index u = ordered[i];
-    if (least[u] > most[u] + round_off)
-    {
-      return u;
-    }
-    for (const Index v : above[u])
-    {
-      least[v] = std::max(least[v], least[u]);
-      if (--open[v] == 0)
-      {
-        ordered.push_back(v);
-      }
-    }
-  }
-  return -1;
 }
 
 /// A vertex of an unknown, and the handle whose weight it is there.
@@ -171,7 +82,13 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
   {
     is_fixed[u] = 1;
   }
-  const SparseMatrix laplacian = merge_form(group, positive_stiffness(problem));
+  std::vector<char> pulls(static_cast<std::size_t>(problem.vertex_count()));
+  for (Index v = 0; v < problem.vertex_count(); ++v)
+  {
+    pulls[v] = problem.constraints.roles[v] != VertexRole::follower;
+  }
+  const SparseMatrix laplacian =
+    merge_form(group, positive_stiffness(problem.stiffness, problem.graph, pulls));
   BoxQp solver(laplacian, group.fixed, { 1e-6, 1, solver_options });
   Status status = solver.prepare(context);
   if (!status.ok())
@@ -283,13 +200,7 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
         pairs.push_back({ v, highest });
       }
     }
-    std::sort(pairs.begin(), pairs.end(),
-      [](const OrderedPair& x, const OrderedPair& y)
-      { return x.low != y.low ? x.low < y.low : x.high < y.high; });
-    pairs.erase(std::unique(pairs.begin(), pairs.end(),
-                  [](const OrderedPair& x, const OrderedPair& y)
-                  { return x.low == y.low && x.high == y.high; }),
-      pairs.end());
+    sort_pairs(pairs);
     column.pairs = pairs;
     const Index tight =
       own_pins || column.bounds.lower.size() > 0 ? without_room(column, group.fixed, n) : Index(-1);

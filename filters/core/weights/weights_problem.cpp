@@ -1,6 +1,7 @@
 #include "weights/weights_problem.h"
 
 #include "base/parallel.h"
+#include "weights/scaled_mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -164,33 +165,24 @@ Status make_weights_problem(const Domain& domain, const std::vector<Index>& regi
   status.warnings.insert(status.warnings.end(), problem.constraints.warnings.begin(),
     problem.constraints.warnings.end());
 
-  // Scaled to diagonal 1 about its centre: units and place must not show in the weights.
   const Domain& refined = problem.mesh.domain;
-  Box box;
+  std::vector<char> used(static_cast<std::size_t>(problem.vertex_count()));
   for (Index v = 0; v < problem.vertex_count(); ++v)
   {
-    if (problem.constraints.roles[v] != VertexRole::unreferenced)
-    {
-      box.add(refined.points.row(v));
-    }
+    used[v] = problem.constraints.roles[v] != VertexRole::unreferenced;
   }
-  Points scaled = refined.points;
-  scaled.rowwise() -= box.center().transpose();
-  problem.diagonal = box.diagonal();
-  scaled /= problem.diagonal;
-  problem.stiffness = refined.is_volume() ? stiffness_matrix(scaled, refined.tets, refined.shares)
-                                          : stiffness_matrix(scaled, refined.triangles);
-  problem.mass = refined.is_volume() ? lumped_mass(scaled, refined.tets, refined.shares)
-                                     : lumped_mass(scaled, refined.triangles);
+  ScaledMesh scaled = scale_mesh(refined, used);
+  problem.diagonal = scaled.diagonal;
+  problem.stiffness = std::move(scaled.stiffness);
+  problem.mass = std::move(scaled.mass);
+  problem.mass_unit = scaled.mass_unit;
   if (problem.terms.rigidity.size() > 0)
   {
     const Eigen::VectorXd rigidity = element_rigidity(refined, problem.terms.rigidity);
     problem.rigid_stiffness = refined.is_volume()
-      ? stiffness_matrix(scaled, refined.tets, rigidity)
-      : stiffness_matrix(scaled, refined.triangles, rigidity);
+      ? stiffness_matrix(scaled.points, refined.tets, rigidity)
+      : stiffness_matrix(scaled.points, refined.triangles, rigidity);
   }
-  problem.mass_unit = problem.mass.maxCoeff();
-  problem.mass /= problem.mass_unit;
   problem.graph = vertex_graph(refined);
   collect_fixed(problem);
   report_problem(problem, status);

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 using namespace bindpose;
 
 namespace
@@ -136,6 +138,60 @@ TEST(BoxQp, OrderedPairsHoldAndTheirMultipliersProveIt)
   const BoxQpSolution bounded = qp.solve(column, context);
   EXPECT_GT(ordered.certificate.energy, bounded.certificate.energy * (1.0 + 1e-6));
   EXPECT_EQ(qp.analyses(), 1);
+}
+
+TEST(BoxQp, NeedsNoBoundsAndKeepsDistances)
+{
+  const int n = 24;
+  const TriangleMesh mesh = test::grid(n, 1, 1.0, 1.0 / n);
+  const SparseMatrix q = energy(mesh, 2);
+  BoxQpColumn column = column_of({ 0, 0, 0.5, 0.5, 0.55, 0.55 });
+  BoxQp qp(q, { 0, n + 1, 4, n + 5, n, 2 * n + 1 }, { 1e-9, 100, {} });
+  ExecutionContext context;
+  ASSERT_TRUE(qp.prepare(context).ok());
+  BoxQpColumn unbounded = column;
+  unbounded.bounds.lower = Eigen::VectorXd::Constant(q.rows(), -HUGE_VAL);
+  unbounded.bounds.upper = Eigen::VectorXd::Constant(q.rows(), HUGE_VAL);
+  // With nothing to keep: the minimiser without bounds, which overshoots.
+  const BoxQpSolution free = qp.solve(unbounded, context);
+  ASSERT_TRUE(free.status.ok());
+  EXPECT_EQ(free.iterations, 0);
+  const Eigen::VectorXd minimiser = qp.unconstrained(column.fixed_values);
+  EXPECT_GT(minimiser.maxCoeff(), 0.8);
+  EXPECT_LT((free.w - minimiser).cwiseAbs().maxCoeff(), 1e-9);
+  // Some bounds, and none elsewhere.
+  BoxQpColumn some = unbounded;
+  some.bounds.lower.head(n).setZero();
+  some.bounds.upper.head(n).setConstant(0.8);
+  const BoxQpSolution half = qp.solve(some, context);
+  ASSERT_TRUE(half.status.ok());
+  EXPECT_LE(half.w.head(n).maxCoeff(), 0.8);
+  EXPECT_GT(half.w.maxCoeff(), 0.8);
+  // Between given values the order is as good as the bounds.
+  for (Index row = 0; row < 2; ++row)
+  {
+    for (Index i = 0; i < n; ++i)
+    {
+      column.pairs.push_back({ row * (n + 1) + i, row * (n + 1) + i + 1 });
+    }
+  }
+  unbounded.pairs = column.pairs;
+  const BoxQpSolution bounded = qp.solve(column, context);
+  const BoxQpSolution ordered = qp.solve(unbounded, context);
+  ASSERT_TRUE(bounded.status.ok());
+  ASSERT_TRUE(ordered.status.ok());
+  EXPECT_LT((ordered.w - bounded.w).cwiseAbs().maxCoeff(), 1e-5);
+  for (OrderedPair& pair : unbounded.pairs)
+  {
+    pair.least = 1e-3;
+  }
+  const BoxQpSolution apart = qp.solve(unbounded, context);
+  ASSERT_TRUE(apart.status.ok());
+  for (const OrderedPair& pair : unbounded.pairs)
+  {
+    EXPECT_GE(apart.w[pair.high] - apart.w[pair.low], 1e-3 - 1e-15);
+  }
+  EXPECT_GT(apart.certificate.energy, ordered.certificate.energy);
 }
 
 TEST(BoxQp, EveryStartEndsAtTheSameWeights)

@@ -1,0 +1,225 @@
+// Flooding upwards: begin with the listed minima, then always take the lowest vertex that is a
+// neighbour of one taken. So each vertex but those minima comes after a neighbour, and where the
+// values had another minimum its basin is taken all at once when its pass is reached. Flooding
+// downwards from the maxima does the same for maxima, and may make new minima on the slopes of what
+// it cuts off; so both take turns until neither changes anything. Every turn only moves vertices
+// within the plateaus that the turn before it made, which shrink.
+#include "weights/extrema_order.h"
+
+#include "weights/ordered_pairs.h"
+
+#include <algorithm>
+#include <queue>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Whether every vertex that is not listed has a neighbour on that side.
+bool has_neighbours(const VertexGraph& graph, const ExtremaList& list,
+  const std::vector<Index>& rank, const std::vector<Index>& order, bool above)
+{
+  return std::all_of(order.begin(), order.end(),
+    [&](Index v)
+    {
+      const auto begin = graph.neighbours.begin() + graph.begin[v];
+      const auto end = graph.neighbours.begin() + graph.begin[v + 1];
+      return list[v] != 0 ||
+        std::any_of(
+          begin, end, [&](Index u) { return above ? rank[u] > rank[v] : rank[u] < rank[v]; });
+    });
+}
+
+/// The order in which a flood from one kind of extrema takes the vertices; those of the other kind
+/// come last.
+void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vector<Index>& rank,
+  std::vector<Index>& order)
+{
+  const auto count = static_cast<Index>(order.size());
+  if (from > 0)
+  {
+    std::reverse(order.begin(), order.end());
+  }
+  // Places in `order` stand for vertices, the lowest is taken first.
+  std::vector<Index> place(rank.size(), -1);
+  std::priority_queue<Index, std::vector<Index>, std::greater<>> open;
+  std::vector<Index> last;
+  for (Index i = 0; i < count; ++i)
+  {
+    const Index v = order[i];
+    if (list[v] * from > 0)
+    {
+      open.push(i);
+    }
+    else if (list[v] != 0)
+    {
+      last.push_back(v);
+    }
+    else
+    {
+      place[v] = i;
+    }
+  }
+  std::vector<Index> taken;
+  taken.reserve(order.size());
+  // All listed ones first: neighbours of one must not come before it.
+  for (std::size_t listed = open.size(); listed > 0; --listed)
+  {
+    taken.push_back(order[open.top()]);
+    open.pop();
+  }
+  const auto reach = [&](Index v)
+  {
+    for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
+    {
+      const Index u = graph.neighbours[k];
+      if (place[u] >= 0)
+      {
+        open.push(place[u]);
+        place[u] = -1;
+      }
+    }
+  };
+  const std::size_t seeds = taken.size();
+  for (std::size_t i = 0; i < seeds; ++i)
+  {
+    reach(taken[i]);
+  }
+  while (!open.empty())
+  {
+    taken.push_back(order[open.top()]);
+    open.pop();
+    reach(taken.back());
+  }
+  taken.insert(taken.end(), last.begin(), last.end());
+  order = std::move(taken);
+  if (from > 0)
+  {
+    std::reverse(order.begin(), order.end());
+  }
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    rank[order[i]] = static_cast<Index>(i);
+  }
+}
+} // namespace
+
+std::vector<std::vector<Index>> parts_without(
+  const VertexGraph& graph, const std::vector<char>& taking_part, const ExtremaList& list, int kind)
+{
+  std::vector<std::vector<Index>> parts;
+  std::vector<char> seen(taking_part.size(), 0);
+  for (std::size_t first = 0; first < seen.size(); ++first)
+  {
+    if (seen[first] || !taking_part[first] || list[first] * kind < 0)
+    {
+      continue;
+    }
+    std::vector<Index> part{ static_cast<Index>(first) };
+    seen[first] = 1;
+    bool found = false;
+    for (std::size_t i = 0; i < part.size(); ++i)
+    {
+      const Index v = part[i];
+      found = found || list[v] * kind > 0;
+      for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
+      {
+        const Index u = graph.neighbours[k];
+        if (!seen[u] && taking_part[u] && list[u] * kind >= 0)
+        {
+          seen[u] = 1;
+          part.push_back(u);
+        }
+      }
+    }
+    if (!found)
+    {
+      parts.push_back(std::move(part));
+    }
+  }
+  return parts;
+}
+
+int order_with_extrema(const VertexGraph& graph, const std::vector<char>& taking_part,
+  const ExtremaList& list, const Eigen::VectorXd& values, const ExecutionContext& context,
+  std::vector<Index>& rank)
+{
+  constexpr int most_floods = 1000;
+  const Index n = values.size();
+  rank.assign(static_cast<std::size_t>(n), -1);
+  std::vector<Index> order;
+  for (Index v = 0; v < n; ++v)
+  {
+    if (taking_part[v])
+    {
+      order.push_back(v);
+    }
+  }
+  std::sort(order.begin(), order.end(),
+    [&](Index a, Index b) { return values[a] != values[b] ? values[a] < values[b] : a < b; });
+  for (int floods = 1; floods <= most_floods && !context.cancelled(); ++floods)
+  {
+    const bool upwards = floods % 2 == 1;
+    flood(graph, list, upwards ? -1 : 1, rank, order);
+    if (has_neighbours(graph, list, rank, order, upwards))
+    {
+      return floods;
+    }
+  }
+  return 0;
+}
+
+void order_again(const Eigen::VectorXd& values, std::vector<Index>& rank)
+{
+  std::vector<Index> order;
+  for (std::size_t v = 0; v < rank.size(); ++v)
+  {
+    if (rank[v] >= 0)
+    {
+      order.push_back(static_cast<Index>(v));
+    }
+  }
+  std::sort(order.begin(), order.end(),
+    [&](Index a, Index b)
+    { return values[a] != values[b] ? values[a] < values[b] : rank[a] < rank[b]; });
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    rank[order[i]] = static_cast<Index>(i);
+  }
+}
+
+std::vector<OrderedPair> pairs_of_order(
+  const VertexGraph& graph, const ExtremaList& list, const std::vector<Index>& rank, double least)
+{
+  std::vector<OrderedPair> pairs;
+  for (std::size_t i = 0; i < rank.size(); ++i)
+  {
+    const auto v = static_cast<Index>(i);
+    if (rank[v] < 0)
+    {
+      continue;
+    }
+    Index lowest = v;
+    Index highest = v;
+    for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
+    {
+      const Index u = graph.neighbours[k];
+      lowest = rank[u] < rank[lowest] ? u : lowest;
+      highest = rank[u] > rank[highest] ? u : highest;
+      if (list[v] != 0 && list[u] * list[v] <= 0)
+      {
+        pairs.push_back(list[v] > 0 ? OrderedPair{ u, v, least } : OrderedPair{ v, u, least });
+      }
+    }
+    if (list[v] == 0)
+    {
+      pairs.push_back({ lowest, v, least });
+      pairs.push_back({ v, highest, least });
+    }
+  }
+  sort_pairs(pairs);
+  return pairs;
+}
+
+} // namespace bindpose

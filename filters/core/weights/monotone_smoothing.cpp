@@ -1,0 +1,736 @@
+// The data term's linear part is a row of the form: Q gets one more unknown whose value is 1, so
+// that 1/2 (w, 1)' Q (w, 1) is the whole energy, smoothness and distance to the data, and solver
+// and certificate are those of weights. There are no bounds: the data term or the kept values hold
+// the function.
+//
+// The pairs that keep extrema away come from an order of the vertices that has the listed extrema
+// and no other (extrema_order.cpp), as near as possible to that of the minimiser without any order.
+// So data whose minimiser already has these extrema give just that minimiser, and the more faithful
+// the data term, the nearer the order to the data's own. The harmonic function with the listed
+// extrema as boundary values is the other choice; it knows nothing of the data between them.
+//
+// A result is feasible for the order that it defines itself, ties as before, so that solving again
+// for that order can only lower the energy.
+#include "weights/monotone_smoothing.h"
+
+#include "weights/ordered_pairs.h"
+#include "weights/scaled_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace bindpose
+{
+
+namespace
+{
+using Eigen::VectorXd;
+
+std::string places(std::size_t count, const char* of)
+{
+  return std::to_string(count) + (count == 1 ? " vertex " : " vertices ") + of;
+}
+
+class Smoothing
+{
+public:
+  Smoothing(const Domain& domain, const VectorXd& data, const MonotoneSmoothingOptions& options,
+    ExecutionContext& context, MonotoneSmoothingResult& result)
+    : domain_(domain), data_(data), options_(options), context_(context), result_(result)
+  {
+  }
+
+  Status run();
+
+private:
+  Status check() const;
+  void take_measurable();
+  bool scale_data();
+  Status find_list();
+  void choose_list();
+  Status check_list();
+  void scale_to_size();
+  void assemble();
+  double expected_energy(const BoxQpColumn& column, const BoxQpSolution& unconstrained) const;
+  Status guide_values(const VectorXd& unconstrained, VectorXd& values);
+  Status solve();
+  void rebuild(BoxQpColumn& column, BoxQpSolution& best);
+  void take(const BoxQpSolution& solution);
+  void finish(Status& status);
+
+  const Domain& domain_;
+  const VectorXd& data_;
+  const MonotoneSmoothingOptions& options_;
+  ExecutionContext& context_;
+  MonotoneSmoothingResult& result_;
+
+  Domain kept_; // without triangles that have no area
+  Components components_;
+  std::vector<char> used_; // #V
+  std::vector<char> taking_part_; // #V: used, and not constant
+  VertexGraph graph_;
+  double middle_ = 0.0, range_ = 0.0; // of the data
+  VectorXd f_; // the data from -1/2 to 1/2, 0 where not used
+  ScaledMesh scaled_; // to size 1
+  std::vector<Index> fixed_; // and the one more unknown, #V, at the end
+  VectorXd fixed_values_;
+  VectorXd pull_; // the data term's diagonal of the form
+  bool keep_values_ = false;
+  Index constant_parts_ = 0;
+  std::unique_ptr<BoxQp> solver_;
+  std::vector<Index> rank_;
+  int floods_ = 0;
+  BoxQpSolution solution_;
+  std::vector<std::string> warnings_;
+};
+
+Status Smoothing::check() const
+{
+  const MonotoneSmoothingOptions& o = this->options_;
+  const Index n = this->domain_.points.rows();
+  if (o.order != 2 && o.order != 3)
+  {
+    return Status::invalid_input("the order of monotone smoothing is 2 or 3");
+  }
+  if (!(o.tolerance > 0.0 && o.tolerance < 1.0) || o.maximum_iterations < 1)
+  {
+    return Status::invalid_input(
+      "the tolerance must lie between 0 and 1, and the iterations must be at least 1");
+  }
+  if (!(o.data_weight >= 0.0 && std::isfinite(o.data_weight)))
+  {
+    return Status::invalid_input("the data weight must be 0 or more");
+  }
+  if (!(o.persistence >= 0.0 && o.persistence < 1.0) || o.extrema_count < 0)
+  {
+    return Status::invalid_input("the persistence must be 0 or more and below 1, and the number "
+                                 "of extrema 0 or more");
+  }
+  if (!(o.epsilon >= 0.0 && o.epsilon <= 1.0) || o.rebuilds < 0)
+  {
+    return Status::invalid_input(
+      "epsilon must lie between 0 and 1, and the rebuilds must be 0 or more");
+  }
+  Status status = check_domain(this->domain_);
+  if (status.ok() && this->data_.size() != n)
+  {
+    return Status::invalid_input("there are " + std::to_string(this->data_.size()) +
+      " data values for " + std::to_string(n) + " vertices");
+  }
+  if (status.ok() && !o.extrema.empty() && static_cast<Index>(o.extrema.size()) != n)
+  {
+    return Status::invalid_input("the list of extrema has " + std::to_string(o.extrema.size()) +
+      " entries for " + std::to_string(n) + " vertices");
+  }
+  return status;
+}
+
+void Smoothing::take_measurable()
+{
+  this->kept_ = this->domain_;
+  if (!this->domain_.is_volume())
+  {
+    const std::vector<char> has_area = measurable_elements(this->domain_);
+    Index count = 0;
+    for (Index t = 0; t < this->domain_.triangles.rows(); ++t)
+    {
+      if (has_area[t])
+      {
+        this->kept_.triangles.row(count++) = this->domain_.triangles.row(t);
+      }
+    }
+    this->kept_.triangles.conservativeResize(count, 3);
+  }
+  const Index n = this->domain_.points.rows();
+  this->components_ = this->kept_.is_volume() ? connected_components(n, this->kept_.tets)
+                                              : connected_components(n, this->kept_.triangles);
+  this->used_.resize(static_cast<std::size_t>(n));
+  for (Index v = 0; v < n; ++v)
+  {
+    this->used_[v] = this->components_.of_vertex[v] >= 0;
+  }
+  const auto unused = std::count(this->used_.begin(), this->used_.end(), 0);
+  if (unused > 0)
+  {
+    this->warnings_.push_back(places(static_cast<std::size_t>(unused), unused == 1 ? "is" : "are") +
+      " in no element that has a size; nothing changes there");
+  }
+  this->taking_part_ = this->used_;
+  this->graph_ = vertex_graph(this->kept_);
+}
+
+/// @return false for data that are constant.
+bool Smoothing::scale_data()
+{
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+  for (Index v = 0; v < this->data_.size(); ++v)
+  {
+    if (this->used_[v])
+    {
+      low = std::min(low, this->data_[v]);
+      high = std::max(high, this->data_[v]);
+    }
+  }
+  this->middle_ = 0.5 * low + 0.5 * high;
+  this->range_ = high - low;
+  this->f_ = VectorXd::Zero(this->data_.size());
+  for (Index v = 0; v < this->data_.size() && this->range_ > 0.0; ++v)
+  {
+    this->f_[v] = this->used_[v] ? (this->data_[v] - this->middle_) / this->range_ : 0.0;
+  }
+  return this->range_ > 0.0;
+}
+
+/// The data's most persistent extrema. Where maxima close off a part (at a vertex that alone joins
+/// two parts of the mesh) that part needs a minimum, too: its lowest place.
+void Smoothing::choose_list()
+{
+  ExtremaList& list = this->result_.list;
+  list.assign(this->used_.size(), 0);
+  const std::vector<char> none(this->used_.size(), 0);
+  const Index count = this->options_.extrema_count;
+  const std::vector<Extremum> found =
+    interior_extrema(this->graph_, this->f_, none, count > 0 ? 0.0 : this->options_.persistence);
+  for (std::size_t i = 0; i < found.size(); ++i)
+  {
+    const bool eldest = found[i].persistence >= 1.0;
+    if (this->taking_part_[found[i].vertex] &&
+      (eldest || count == 0 || static_cast<Index>(i) < count))
+    {
+      list[found[i].vertex] = found[i].maximum ? 1 : -1;
+    }
+  }
+  for (bool again = true; again;)
+  {
+    again = false;
+    for (const int kind : { -1, 1 })
+    {
+      for (const auto& part : parts_without(this->graph_, this->taking_part_, list, kind))
+      {
+        const Index most = *std::max_element(part.begin(), part.end(),
+          [&](Index a, Index b) { return kind * this->f_[a] < kind * this->f_[b]; });
+        list[most] = static_cast<signed char>(kind);
+        again = true;
+      }
+    }
+  }
+}
+
+/// Every part of the mesh must have both kinds wherever it is not constant.
+Status Smoothing::check_list()
+{
+  const ExtremaList& list = this->result_.list;
+  for (const int kind : { -1, 1 })
+  {
+    for (const auto& part : parts_without(this->graph_, this->taking_part_, list, kind))
+    {
+      const char* wanted = kind > 0 ? "maximum" : "minimum";
+      const char* other = kind > 0 ? "minima" : "maxima";
+      const Index c = this->components_.of_vertex[part.front()];
+      bool whole = true;
+      for (std::size_t v = 0; v < list.size() && whole; ++v)
+      {
+        whole = this->components_.of_vertex[v] != c || list[v] * kind <= 0;
+      }
+      return Status::invalid_input(whole ? "the list of extrema has no " + std::string(wanted) +
+            " in the connected part of vertex " + std::to_string(part.front()) + ", only " + other
+                                         : "the list of extrema has no " + std::string(wanted) +
+            " among " + places(part.size(), "that ") + other + " close off, vertex " +
+            std::to_string(part.front()) + " among them");
+    }
+  }
+  return {};
+}
+
+Status Smoothing::find_list()
+{
+  ExtremaList& list = this->result_.list;
+  const auto n = static_cast<Index>(this->used_.size());
+  std::vector<double> low(static_cast<std::size_t>(this->components_.count), 1.0);
+  std::vector<double> high(low.size(), -1.0);
+  std::vector<char> listed(low.size(), 0);
+  list = this->options_.extrema;
+  for (Index v = 0; v < n; ++v)
+  {
+    const Index c = this->components_.of_vertex[v];
+    if (c < 0 && !list.empty() && list[v] != 0)
+    {
+      return Status::invalid_input("the list of extrema names vertex " + std::to_string(v) +
+        ", which is in no element that has a size");
+    }
+    if (c >= 0)
+    {
+      low[c] = std::min(low[c], this->f_[v]);
+      high[c] = std::max(high[c], this->f_[v]);
+      listed[c] = listed[c] || (!list.empty() && list[v] != 0);
+    }
+  }
+  const bool given = !list.empty();
+  if (given && std::count(listed.begin(), listed.end(), 1) == 0)
+  {
+    return Status::invalid_input("the list of extrema is empty");
+  }
+  for (Index v = 0; v < n; ++v)
+  {
+    const Index c = this->components_.of_vertex[v];
+    this->taking_part_[v] = c >= 0 && (given ? listed[c] != 0 : low[c] < high[c]);
+  }
+  for (std::size_t c = 0; c < low.size(); ++c)
+  {
+    this->constant_parts_ += given ? !listed[c] : !(low[c] < high[c]);
+  }
+  if (given && this->constant_parts_ > 0)
+  {
+    this->warnings_.push_back(std::to_string(this->constant_parts_) +
+      (this->constant_parts_ == 1 ? " connected part has" : " connected parts have") +
+      " no extremum in the list; the result is constant there");
+  }
+  if (!given)
+  {
+    this->choose_list();
+  }
+  return this->check_list();
+}
+
+/// Unlike the diagonal of the box about it, the size of a mesh does not change when it is turned,
+/// and unlike a weight's, a data term's place in the energy depends on it.
+void Smoothing::scale_to_size()
+{
+  this->scaled_ = scale_mesh(this->kept_, this->used_);
+  const VectorXd& mass = this->scaled_.mass;
+  Vec3 centroid = Vec3::Zero();
+  for (Index v = 0; v < mass.size(); ++v)
+  {
+    centroid += this->used_[v] ? Vec3(mass[v] * this->scaled_.points.row(v)) : Vec3::Zero();
+  }
+  centroid /= mass.sum();
+  double sum = 0.0;
+  for (Index v = 0; v < mass.size(); ++v)
+  {
+    const Vec3 from = Vec3(this->scaled_.points.row(v)) - centroid;
+    sum += this->used_[v] ? mass[v] * from.squaredNorm() : 0.0;
+  }
+  const double size = std::sqrt(12.0 * sum / mass.sum());
+  const int dimension = this->kept_.is_volume() ? 3 : 2;
+  this->scaled_.diagonal *= size;
+  this->scaled_.stiffness *= std::pow(size, 2 - dimension);
+  this->scaled_.mass_unit *= std::pow(size, -dimension);
+}
+
+/// The form with one more unknown, and the values that are given.
+void Smoothing::assemble()
+{
+  const Index n = this->data_.size();
+  const int k = this->options_.order;
+  this->scale_to_size();
+  // The form is that of the scaled mesh times mass_unit^(k - 1).
+  this->pull_ =
+    this->options_.data_weight * std::pow(this->scaled_.mass_unit, k) * this->scaled_.mass;
+  const SparseMatrix q = harmonic_energy(this->scaled_.stiffness, this->scaled_.mass, k);
+  std::vector<Eigen::Triplet<double, int>> entries;
+  entries.reserve(static_cast<std::size_t>(q.nonZeros() + 3 * n + 1));
+  for (int j = 0; j < q.outerSize(); ++j)
+  {
+    for (SparseMatrix::InnerIterator it(q, j); it; ++it)
+    {
+      entries.emplace_back(static_cast<int>(it.row()), j, it.value());
+    }
+  }
+  const int one = static_cast<int>(n);
+  for (int v = 0; v < one; ++v)
+  {
+    entries.emplace_back(v, v, this->pull_[v]);
+    entries.emplace_back(v, one, -this->pull_[v] * this->f_[v]);
+    entries.emplace_back(one, v, -this->pull_[v] * this->f_[v]);
+  }
+  entries.emplace_back(one, one, this->pull_.dot(this->f_.cwiseAbs2()));
+  SparseMatrix form(n + 1, n + 1);
+  form.setFromTriplets(entries.begin(), entries.end());
+
+  VectorXd sums = VectorXd::Zero(this->components_.count);
+  VectorXd masses = VectorXd::Zero(this->components_.count);
+  for (Index v = 0; v < n; ++v)
+  {
+    if (this->used_[v])
+    {
+      sums[this->components_.of_vertex[v]] += this->scaled_.mass[v] * this->f_[v];
+      masses[this->components_.of_vertex[v]] += this->scaled_.mass[v];
+    }
+  }
+  std::vector<double> values;
+  for (Index v = 0; v < n; ++v)
+  {
+    if (!this->taking_part_[v])
+    {
+      const Index c = this->components_.of_vertex[v];
+      this->fixed_.push_back(v);
+      values.push_back(c < 0 ? 0.0 : sums[c] / masses[c]);
+    }
+    else if (this->keep_values_ && this->result_.list[v] != 0)
+    {
+      this->fixed_.push_back(v);
+      values.push_back(this->f_[v]);
+    }
+  }
+  this->fixed_.push_back(n);
+  values.push_back(1.0);
+  this->fixed_values_ = Eigen::Map<VectorXd>(values.data(), static_cast<Index>(values.size()));
+  this->solver_ = std::make_unique<BoxQp>(form, this->fixed_,
+    BoxQpOptions{
+      this->options_.tolerance, this->options_.maximum_iterations, this->options_.solver });
+}
+
+/// Roughly the minimum: that without any order, and how far the data term alone is from keeping it.
+/// (A faithful minimiser without order costs next to nothing, however much the order costs.)
+double Smoothing::expected_energy(
+  const BoxQpColumn& column, const BoxQpSolution& unconstrained) const
+{
+  std::vector<OrderedPair> upwards = column.pairs;
+  std::sort(upwards.begin(), upwards.end(),
+    [this](const OrderedPair& a, const OrderedPair& b)
+    { return this->rank_[a.low] < this->rank_[b.low]; });
+  VectorXd ordered = unconstrained.w;
+  for (const OrderedPair& pair : upwards)
+  {
+    ordered[pair.high] = std::max(ordered[pair.high], ordered[pair.low] + pair.least);
+  }
+  const VectorXd moved = (ordered - unconstrained.w).head(this->pull_.size());
+  return unconstrained.certificate.energy + 0.5 * this->pull_.dot(moved.cwiseAbs2());
+}
+
+/// Values whose order is to be kept as far as the list allows.
+Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
+{
+  values = unconstrained.head(this->data_.size());
+  if (this->options_.guide == SmoothingGuide::unconstrained)
+  {
+    return {};
+  }
+  std::vector<Index> given;
+  std::vector<double> given_values;
+  for (std::size_t v = 0; v < this->used_.size(); ++v)
+  {
+    const bool maximum = this->result_.list[v] > 0;
+    if (this->result_.list[v] != 0 || !this->taking_part_[v])
+    {
+      given.push_back(static_cast<Index>(v));
+      given_values.push_back(
+        this->keep_values_ ? this->f_[static_cast<Index>(v)] : double(maximum));
+    }
+  }
+  BoxQp harmonic(positive_stiffness(this->scaled_.stiffness, this->graph_, this->taking_part_),
+    given, { 1e-6, 1, this->options_.solver });
+  Status status = harmonic.prepare(this->context_);
+  if (status.ok())
+  {
+    const Eigen::MatrixXd boundary =
+      Eigen::Map<VectorXd>(given_values.data(), static_cast<Index>(given_values.size()));
+    values = harmonic.unconstrained(boundary, false).col(0);
+  }
+  return status;
+}
+
+/// Solves again for the order of what was found, as long as that gains something.
+void Smoothing::rebuild(BoxQpColumn& column, BoxQpSolution& best)
+{
+  for (int round = 0; round < this->options_.rebuilds && best.status.ok(); ++round)
+  {
+    const ProgressRange range(this->context_, 0.4 + 0.6 * round / this->options_.rebuilds,
+      0.4 + 0.6 * (round + 1) / this->options_.rebuilds);
+    std::vector<Index> rank = this->rank_;
+    order_again(best.w, rank);
+    std::vector<OrderedPair> pairs =
+      pairs_of_order(this->graph_, this->result_.list, rank, this->options_.epsilon);
+    const bool same =
+      std::equal(pairs.begin(), pairs.end(), column.pairs.begin(), column.pairs.end(),
+        [](const OrderedPair& a, const OrderedPair& b)
+        { return a.low == b.low && a.high == b.high; });
+    if (same)
+    {
+      return;
+    }
+    column.pairs = std::move(pairs);
+    column.start = best.w;
+    column.energy = best.certificate.energy;
+    const BoxQpSolution next = this->solver_->solve(column, this->context_);
+    this->result_.iterations += next.iterations;
+    this->context_.add_seconds("factor", next.factor_seconds);
+    this->context_.add_seconds("solve", next.solve_seconds);
+    if (!next.status.ok() || !(next.certificate.energy <= best.certificate.energy))
+    {
+      return;
+    }
+    const double gain = best.certificate.energy - next.certificate.energy;
+    best = next;
+    this->rank_ = std::move(rank);
+    this->take(best);
+    constexpr double least_gain = 1e-4;
+    if (gain < least_gain * best.certificate.energy)
+    {
+      return;
+    }
+  }
+}
+
+/// Notes an energy: that of the integrals, not of the form.
+void Smoothing::take(const BoxQpSolution& solution)
+{
+  this->result_.energies.push_back(2.0 * solution.certificate.energy /
+    std::pow(this->scaled_.mass_unit, this->options_.order - 1));
+}
+
+Status Smoothing::solve()
+{
+  const Index n = this->data_.size();
+  BoxQpColumn column;
+  column.fixed_values = this->fixed_values_;
+  const double infinity = std::numeric_limits<double>::infinity();
+  column.bounds.lower = VectorXd::Constant(n + 1, -infinity);
+  column.bounds.upper = VectorXd::Constant(n + 1, infinity);
+  std::vector<BoxQpSolution> unconstrained =
+    this->solver_->solve_unbounded({ column }, this->context_);
+  if (this->context_.cancelled())
+  {
+    return Status::cancelled();
+  }
+  BoxQpSolution& best = unconstrained.front();
+  VectorXd values;
+  Status status = this->guide_values(best.w, values);
+  if (!status.ok())
+  {
+    return status;
+  }
+  this->floods_ = order_with_extrema(
+    this->graph_, this->taking_part_, this->result_.list, values, this->context_, this->rank_);
+  if (this->context_.cancelled())
+  {
+    return Status::cancelled();
+  }
+  if (this->floods_ == 0)
+  {
+    return Status::failure(
+      StatusCode::internal_error, "no order of the vertices was found for the list of extrema");
+  }
+  column.pairs =
+    pairs_of_order(this->graph_, this->result_.list, this->rank_, this->options_.epsilon);
+  const Index tight = without_room(column, this->fixed_, n + 1);
+  if (tight >= 0)
+  {
+    return Status::invalid_input(
+      "no function keeps the values at the extrema and has no others: it fails at vertex " +
+      std::to_string(tight) + "; let their values be found, or list others");
+  }
+  const bool ordered = std::all_of(column.pairs.begin(), column.pairs.end(),
+    [&](const OrderedPair& pair) { return best.w[pair.low] + pair.least <= best.w[pair.high]; });
+  if (!ordered)
+  {
+    const ProgressRange range(this->context_, 0.1, this->options_.rebuilds > 0 ? 0.4 : 1.0);
+    column.energy = this->expected_energy(column, best);
+    best = this->solver_->solve(column, this->context_);
+    this->result_.iterations = best.iterations;
+    this->context_.add_seconds("factor", best.factor_seconds);
+    this->context_.add_seconds("solve", best.solve_seconds);
+    if (!best.status.usable())
+    {
+      return best.status;
+    }
+    this->take(best);
+    this->rebuild(column, best);
+  }
+  else
+  {
+    this->take(best);
+  }
+  this->solution_ = std::move(best);
+  return this->context_.cancelled() ? Status::cancelled() : Status();
+}
+
+/// Back to the data's unit; extrema and report.
+void Smoothing::finish(Status& status)
+{
+  const Index n = this->data_.size();
+  MonotoneSmoothingResult& result = this->result_;
+  const VectorXd w = this->solution_.w.head(n);
+  result.certificate = this->solution_.certificate;
+  result.analyses = this->solver_->analyses();
+  result.values = this->data_;
+  double largest = 0.0;
+  double squares = 0.0;
+  double mass = 0.0;
+  for (Index v = 0; v < n; ++v)
+  {
+    const bool kept = this->keep_values_ && result.list[v] != 0;
+    if (this->used_[v] && !kept)
+    {
+      result.values[v] = this->middle_ + this->range_ * w[v];
+    }
+    if (this->used_[v])
+    {
+      largest = std::max(largest, std::abs(w[v] - this->f_[v]));
+      squares += this->scaled_.mass[v] * (w[v] - this->f_[v]) * (w[v] - this->f_[v]);
+      mass += this->scaled_.mass[v];
+    }
+  }
+  // Vertices that take no part have no place among extrema.
+  std::vector<char> exempt(static_cast<std::size_t>(n));
+  VectorXd strict = w; // ties broken as the order does: a listed vertex stands for its plateau
+  std::vector<std::int64_t> vertices;
+  std::vector<std::string> kinds;
+  std::vector<double> values, data, persistences;
+  for (Index v = 0; v < n; ++v)
+  {
+    exempt[v] = result.list[v] != 0 || !this->taking_part_[v];
+    strict[v] += this->rank_[v] >= 0 ? 1e-12 * double(this->rank_[v]) / double(n) : 0.0;
+  }
+  result.spurious = interior_extrema(this->graph_, w, exempt);
+  std::vector<double> persistence(static_cast<std::size_t>(n), 0.0);
+  for (const Extremum& e :
+    interior_extrema(this->graph_, strict, std::vector<char>(exempt.size(), 0), 0.0))
+  {
+    persistence[e.vertex] = std::max(persistence[e.vertex], e.persistence);
+  }
+  for (Index v = 0; v < n; ++v)
+  {
+    if (result.list[v] != 0)
+    {
+      result.extrema.push_back({ v, result.list[v] > 0, result.values[v], persistence[v] });
+      vertices.push_back(v);
+      kinds.emplace_back(result.list[v] > 0 ? "maximum" : "minimum");
+      values.push_back(result.values[v]);
+      data.push_back(this->data_[v]);
+      persistences.push_back(persistence[v]);
+    }
+  }
+  const double unit = std::pow(this->scaled_.mass_unit, this->options_.order - 1);
+  const double distance = this->options_.data_weight * squares * this->scaled_.mass_unit;
+  Report& report = status.report;
+  report.set("counts.floods", this->floods_);
+  report.set("kkt_residual", result.certificate.kkt_residual);
+  report.set("relative_gap", result.certificate.relative_gap);
+  report.set("order_violation", result.certificate.order_violation);
+  report.set("iterations", result.iterations);
+  report.set("energy.total", 2.0 * result.certificate.energy / unit);
+  report.set("energy.data", distance);
+  report.set("energy.smoothness", 2.0 * result.certificate.energy / unit - distance);
+  report.set("rounds[].energy", result.energies);
+  report.set("largest_difference", this->range_ * largest);
+  report.set("rms_difference", this->range_ * std::sqrt(squares / mass));
+  report.set("interior_extrema", static_cast<std::int64_t>(result.spurious.size()));
+  report.set("extrema[].vertex", vertices);
+  report.set("extrema[].kind", kinds);
+  report.set("extrema[].value", values);
+  report.set("extrema[].data", data);
+  report.set("extrema[].persistence", persistences);
+  const double tolerance = this->options_.tolerance;
+  if (!(std::max(result.certificate.relative_gap, result.certificate.kkt_residual) <= tolerance))
+  {
+    char numbers[96];
+    std::snprintf(numbers, sizeof(numbers), "relative gap %.2g, residual %.2g, asked for %.2g",
+      result.certificate.relative_gap, result.certificate.kkt_residual, tolerance);
+    status.code = StatusCode::not_converged;
+    status.message = "the smoothed data are not certified (" + std::string(numbers) + ")";
+  }
+}
+
+Status Smoothing::run()
+{
+  this->result_ = {};
+  Status status = this->check();
+  if (!status.ok())
+  {
+    return status;
+  }
+  this->keep_values_ = this->options_.keep_values || this->options_.data_weight == 0.0;
+  this->take_measurable();
+  for (Index v = 0; v < this->data_.size(); ++v)
+  {
+    if (this->used_[v] && !std::isfinite(this->data_[v]))
+    {
+      return Status::invalid_input(
+        "the data value of vertex " + std::to_string(v) + " is not a finite number");
+    }
+  }
+  const bool varies = this->scale_data();
+  if (varies && !std::isfinite(this->range_))
+  {
+    return Status::invalid_input("the range of the data is too large for a number");
+  }
+  status.report.set(
+    "method", this->options_.order == 2 ? "monotone-smoothing" : "monotone-smoothing-triharmonic");
+  status.report.set("counts.vertices", this->data_.size());
+  status.report.set(
+    this->kept_.is_volume() ? "counts.tets" : "counts.triangles", this->kept_.element_count());
+  status.report.set("counts.components", this->components_.count);
+  if (!varies)
+  {
+    this->result_.values = this->data_;
+    this->result_.list.assign(this->used_.size(), 0);
+    this->warnings_.emplace_back("the data are constant: there is nothing to smooth");
+    status.warnings = this->warnings_;
+    return status;
+  }
+  {
+    const Phase phase(this->context_, "extrema", 0.0, 0.05);
+    status.report.set("counts.data_extrema",
+      static_cast<std::int64_t>(
+        interior_extrema(this->graph_, this->f_, std::vector<char>(this->used_.size(), 0)).size()));
+    Status listed = this->find_list();
+    if (!listed.ok())
+    {
+      return listed;
+    }
+  }
+  const ExtremaList& list = this->result_.list;
+  status.report.set("extrema_from",
+    !this->options_.extrema.empty()      ? "list"
+      : this->options_.extrema_count > 0 ? "count"
+                                         : "persistence");
+  status.report.set(
+    "counts.maxima", static_cast<std::int64_t>(std::count(list.begin(), list.end(), 1)));
+  status.report.set(
+    "counts.minima", static_cast<std::int64_t>(std::count(list.begin(), list.end(), -1)));
+  if (this->constant_parts_ > 0)
+  {
+    status.report.set("counts.constant_components", this->constant_parts_);
+  }
+  this->assemble();
+  status.report.set("data_length",
+    this->options_.data_weight > 0.0
+      ? this->scaled_.diagonal * std::pow(this->options_.data_weight, -0.5 / this->options_.order)
+      : 0.0);
+  Status solved;
+  {
+    const ProgressRange range(this->context_, 0.05, 0.15);
+    solved = this->solver_->prepare(this->context_);
+  }
+  if (solved.ok())
+  {
+    const Phase phase(this->context_, "smoothing", 0.15, 0.98);
+    solved = this->solve();
+  }
+  if (!solved.usable())
+  {
+    return solved;
+  }
+  this->finish(status);
+  const std::string slow_blas = SparseSolver::blas_warning();
+  if (!slow_blas.empty())
+  {
+    this->warnings_.push_back(slow_blas);
+  }
+  status.warnings = this->warnings_;
+  return status;
+}
+} // namespace
+
+Status monotone_smoothing(const Domain& domain, const VectorXd& data,
+  const MonotoneSmoothingOptions& options, ExecutionContext& context,
+  MonotoneSmoothingResult& result)
+{
+  return Smoothing(domain, data, options, context, result).run();
+}
+
+} // namespace bindpose

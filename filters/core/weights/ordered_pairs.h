@@ -1,0 +1,27 @@
+#ifndef bindpose_weights_ordered_pairs_h
+#define bindpose_weights_ordered_pairs_h
+
+#include "weights/box_qp.h"
+#include "weights/domain.h"
+
+namespace bindpose
+{
+
+/// Cotangent stiffness with every edge's weight raised to a small positive one: what is harmonic
+/// for it has no extremum but where it is given, which the cotangent Laplacian of most tet meshes
+/// does not promise.
+/// @param pulls #V: 0 for vertices whose edges are left out.
+SparseMatrix positive_stiffness(
+  const SparseMatrix& stiffness, const VertexGraph& graph, const std::vector<char>& pulls);
+
+/// Sorted, each pair once.
+void sort_pairs(std::vector<OrderedPair>& pairs);
+
+/// Whether bounds and given values leave room for the column's pairs: the least that each unknown
+/// can be rises along them.
+/// @return an unknown without room, or -1.
+Index without_room(const BoxQpColumn& column, const std::vector<Index>& fixed, Index count);
+
+} // namespace bindpose
+
+#endif

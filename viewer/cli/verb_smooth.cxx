@@ -1,0 +1,91 @@
+// bindpose smooth MESH --array NAME: data on a mesh without the extrema that nobody asked for.
+#include "cli/session.h"
+#include "cli/verbs.h"
+
+#include "file_kind.h"
+#include "vtkMonotoneSmoothing.h"
+
+#include "vtkDataArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+
+namespace bindpose::cli
+{
+
+void run_smooth(Session& session)
+{
+  const Arguments& arguments = session.arguments();
+  const std::string output = arguments.text("output");
+  const std::string extrema = arguments.text("extrema-output");
+  if (!session.check_output(output, "vtp vtu vtk") ||
+    (!extrema.empty() && !session.check_output(extrema, "vtp")))
+  {
+    return;
+  }
+  const auto mesh = session.read(arguments.text("MESH"));
+  if (!mesh)
+  {
+    return;
+  }
+  if (!mesh->IsA("vtkPointSet"))
+  {
+    session.invalid(arguments.text("MESH") + " holds neither a surface nor tets");
+    return;
+  }
+  const std::string ending = file_extension(output);
+  if (ending != "vtk" && (ending == "vtp") != bool(mesh->IsA("vtkPolyData")))
+  {
+    session.invalid(arguments.text("MESH") + " holds " +
+      (ending == "vtp" ? "no polygon dataset: write .vtu" : "a polygon dataset: write .vtp") +
+      " or .vtk");
+    return;
+  }
+  vtkNew<vtkMonotoneSmoothing> smoothing;
+  smoothing->SetInputData(0, mesh);
+  const std::string array = arguments.text("array");
+  if (!array.empty())
+  {
+    smoothing->SetInputArrayToProcess(
+      0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, array.c_str());
+  }
+  const std::string list = arguments.text("extrema");
+  if (!list.empty())
+  {
+    if (!mesh->GetPointData()->GetArray(list.c_str()))
+    {
+      session.invalid("--extrema: the mesh has no point array '" + list + "'");
+      return;
+    }
+    smoothing->SetExtremaArrayName(list);
+  }
+  else if (arguments.integer("count") > 0 || arguments.has("persistence"))
+  {
+    smoothing->SetExtremaArrayName("");
+  }
+  if (arguments.has("persistence"))
+  {
+    smoothing->SetPersistence(arguments.number("persistence"));
+  }
+  smoothing->SetNumberOfExtrema(arguments.integer("count"));
+  smoothing->SetDataWeight(arguments.number("data-weight"));
+  smoothing->SetOrder(arguments.integer("order"));
+  smoothing->SetKeepValues(arguments.has("keep-values"));
+  smoothing->SetGuide(arguments.text("guide") == "harmonic" ? vtkMonotoneSmoothing::HARMONIC
+                                                            : vtkMonotoneSmoothing::UNCONSTRAINED);
+  smoothing->SetRebuilds(arguments.integer("rebuilds"));
+  smoothing->SetEpsilon(arguments.number("epsilon"));
+  constexpr double tight = 1e-9;
+  if (arguments.text("certificate") == "tight")
+  {
+    smoothing->SetTolerance(tight);
+  }
+  smoothing->SetMaximumIterations(arguments.integer("iterations"));
+  if (session.run(smoothing, "smooth", 0.0, 1.0, Merge::all) &&
+    session.write(smoothing->GetOutput(), output) && !extrema.empty())
+  {
+    session.write(smoothing->GetOutput(1), extrema);
+  }
+}
+
+} // namespace bindpose::cli

@@ -445,13 +445,14 @@ TEST(WeightsFilters, CancelledOnceTheNextUpdateSolves)
 TEST(WeightsFilters, NotConvergedIsAResultThatSaysSo)
 {
   Pipeline<vtkBoundedBiharmonicWeights> run(tet_box(5), three_handles());
-  run.filter->SetMaximumIterations(2);
+  run.filter->SetMaximumIterations(1);
+  run.filter->SetTolerance(1e-9);
   run.filter->Update();
   EXPECT_EQ(run.filter->GetStatus(), vtkBindposeAlgorithm::NOT_CONVERGED);
   ASSERT_TRUE(run.weights());
   expect_rows_sum_to_one(run.weights());
   EXPECT_EQ(run.report().text("status"), "not_converged");
-  EXPECT_GT(run.report().number("relative_gap", 0), 1e-6);
+  EXPECT_GT(run.report().number("relative_gap", 0), 1e-9);
   EXPECT_THAT(run.filter->GetStatusMessage(), HasSubstr("not certified"));
 }
 

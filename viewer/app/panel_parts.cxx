@@ -22,39 +22,40 @@ QPushButton* button(const QString& text, QWidget* parent)
   return result;
 }
 
-QButtonGroup* add_orientations(QBoxLayout* column, QWidget* parent)
+QButtonGroup* add_segments(
+  QBoxLayout* column, QWidget* parent, const QStringList& names, const QStringList& tips)
 {
-  static const struct
-  {
-    const char* name;
-    const char* tip;
-    const char* place;
-  } segments[] = {
-    { QT_TRANSLATE_NOOP("Panel", "X"), QT_TRANSLATE_NOOP("Panel", "Perpendicular to the x axis"),
-      "first" },
-    { QT_TRANSLATE_NOOP("Panel", "Y"), QT_TRANSLATE_NOOP("Panel", "Perpendicular to the y axis"),
-      "second" },
-    { QT_TRANSLATE_NOOP("Panel", "Z"), QT_TRANSLATE_NOOP("Panel", "Perpendicular to the z axis"),
-      "middle" },
-    { QT_TRANSLATE_NOOP("Panel", "Free"), QT_TRANSLATE_NOOP("Panel", "Turned by its arrow"),
-      "last" },
-  };
   auto* group = new QButtonGroup(parent);
   auto* row = new QHBoxLayout;
   row->setSpacing(0);
-  int id = 0;
-  for (const auto& segment : segments)
+  for (int k = 0; k < names.size(); ++k)
   {
-    QPushButton* its = button(QCoreApplication::translate("Panel", segment.name), parent);
-    its->setObjectName("segment");
-    its->setProperty("place", segment.place);
-    its->setCheckable(true);
-    its->setToolTip(QCoreApplication::translate("Panel", segment.tip));
-    group->addButton(its, id++);
-    row->addWidget(its, 1);
+    QPushButton* segment = button(names[k], parent);
+    segment->setObjectName("segment");
+    segment->setProperty("place", k == 0 ? "first" : k + 1 == names.size() ? "last" : "middle");
+    segment->setCheckable(true);
+    segment->setToolTip(tips[k]);
+    group->addButton(segment, k);
+    row->addWidget(segment, 1);
   }
-  group->button(2)->setChecked(true);
+  group->button(0)->setChecked(true);
   column->addLayout(row);
+  return group;
+}
+
+QButtonGroup* add_orientations(QBoxLayout* column, QWidget* parent)
+{
+  const auto translated = [](const char* text)
+  { return QCoreApplication::translate("Panel", text); };
+  QButtonGroup* group = add_segments(column, parent,
+    { translated(QT_TRANSLATE_NOOP("Panel", "X")), translated(QT_TRANSLATE_NOOP("Panel", "Y")),
+      translated(QT_TRANSLATE_NOOP("Panel", "Z")), translated(QT_TRANSLATE_NOOP("Panel", "Free")) },
+    { translated(QT_TRANSLATE_NOOP("Panel", "Perpendicular to the x axis")),
+      translated(QT_TRANSLATE_NOOP("Panel", "Perpendicular to the y axis")),
+      translated(QT_TRANSLATE_NOOP("Panel", "Perpendicular to the z axis")),
+      translated(QT_TRANSLATE_NOOP("Panel", "Turned by its arrow")) });
+  group->button(1)->setProperty("place", "second"); // of four
+  group->button(2)->setChecked(true);
   return group;
 }
 

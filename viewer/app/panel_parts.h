@@ -2,6 +2,7 @@
 #define panel_parts_h
 
 #include <QString>
+#include <QStringList>
 
 class QBoxLayout;
 class QButtonGroup;
@@ -14,6 +15,9 @@ class QWidget;
 QLabel* heading(const QString& text, QWidget* parent);
 /// A button that the mouse presses without taking the keyboard to it.
 QPushButton* button(const QString& text, QWidget* parent);
+/// A row of buttons of which one is pressed, the first to begin with; ids count from 0.
+QButtonGroup* add_segments(
+  QBoxLayout* column, QWidget* parent, const QStringList& names, const QStringList& tips);
 /// A row of buttons X, Y, Z and Free, whose ids are PlaneHandle's orientations; Z is pressed.
 QButtonGroup* add_orientations(QBoxLayout* column, QWidget* parent);
 /// What a phase of the kernels does, in words.

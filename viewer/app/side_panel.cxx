@@ -77,27 +77,9 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
 
   column->addSpacing(10);
   column->addWidget(heading(tr("Pose"), this));
-  auto* row = new QHBoxLayout;
-  row->setSpacing(0);
-  this->methods_ = new QButtonGroup(this);
-  const char* const names[] = { QT_TR_NOOP("Linear"), QT_TR_NOOP("Dual quat."),
-    QT_TR_NOOP("ARAP") };
-  const char* const tips[] = { QT_TR_NOOP("Linear blend skinning (1)"),
-    QT_TR_NOOP("Dual quaternion skinning (2): twists keep their volume"),
-    QT_TR_NOOP("Reduced as-rigid-as-possible (3): finds what handles leave open") };
-  const char* const places[] = { "first", "middle", "last" };
-  for (int k = 0; k < 3; ++k)
-  {
-    QPushButton* segment = button(tr(names[k]), this);
-    segment->setObjectName("segment");
-    segment->setProperty("place", places[k]);
-    segment->setCheckable(true);
-    segment->setToolTip(tr(tips[k]));
-    this->methods_->addButton(segment, k);
-    row->addWidget(segment, 1);
-  }
-  this->methods_->button(0)->setChecked(true);
-  column->addLayout(row);
+  this->methods_ = add_segments(column, this, { tr("Linear"), tr("Dual quat."), tr("ARAP") },
+    { tr("Linear blend skinning (1)"), tr("Dual quaternion skinning (2): twists keep their volume"),
+      tr("Reduced as-rigid-as-possible (3): finds what handles leave open") });
   this->rest_ = button(tr("Back to rest"), this);
   this->rest_->setToolTip(tr("All handles back to where they were bound (Ctrl+R)"));
   column->addWidget(this->rest_);

@@ -13,6 +13,8 @@
 #include "vtkFieldData.h"
 #include "vtkPointData.h"
 
+#include <QCoreApplication>
+
 #include <algorithm>
 
 using namespace bindpose;
@@ -32,6 +34,11 @@ QString counts_of(const std::vector<Extremum>& extrema)
   return WeightInspection::tr("Maxima: %1, minima: %2")
     .arg(maxima)
     .arg(static_cast<qlonglong>(extrema.size()) - maxima);
+}
+
+bool has_numbers(vtkDataSet* data, const char* name)
+{
+  return data && data->GetPointData()->HasArray(name) != 0;
 }
 
 QStringList names_of(vtkDataArray* weights)
@@ -97,9 +104,7 @@ void WeightInspection::set_data(vtkPolyData* surface, vtkUnstructuredGrid* volum
 {
   this->cancel();
   this->surface_ = surface;
-  const auto has = [](vtkDataSet* data, const char* name)
-  { return data && data->GetPointData()->HasArray(name) != 0; };
-  this->volume_ = has(volume, "Weights") ? volume : nullptr;
+  this->volume_ = has_numbers(volume, "Weights") ? volume : nullptr;
   this->has_handles_ = has_handles;
   this->compared_ = nullptr;
   this->panel_->set_comparison(QString());
@@ -138,11 +143,9 @@ void WeightInspection::show_position()
 
 void WeightInspection::update_facts()
 {
-  const auto has = [](vtkDataSet* data, const char* name)
-  { return data && data->GetPointData()->HasArray(name) != 0; };
   WeightPanel::Facts facts;
-  facts.has_weights = has(this->surface_, "Weights");
-  facts.has_raw = has(this->surface_, "RawWeights");
+  facts.has_weights = has_numbers(this->surface_, "Weights");
+  facts.has_raw = has_numbers(this->surface_, "RawWeights");
   facts.has_handles = this->has_handles_;
   facts.has_volume = this->volume_ != nullptr;
   facts.comparing = this->job_.is_running();
@@ -153,8 +156,7 @@ void WeightInspection::update_facts()
 /// Shows what the panel says.
 void WeightInspection::update()
 {
-  const bool shown =
-    this->active_ && this->surface_ && this->surface_->GetPointData()->HasArray("Weights");
+  const bool shown = this->active_ && has_numbers(this->surface_, "Weights");
   const int column = this->panel_->column();
   const int what = this->panel_->what();
   if (shown)
@@ -230,9 +232,8 @@ QString WeightInspection::certificate(int column) const
   const double residual = value("WeightsKKTResidual");
   if (gap < 0.0 || residual < 0.0)
   {
-    return this->surface_ && this->surface_->GetPointData()->HasArray("Weights")
-      ? tr("These weights have no certificate.")
-      : tr("There are no weights yet.");
+    return has_numbers(this->surface_, "Weights") ? tr("These weights have no certificate.")
+                                                  : tr("There are no weights yet.");
   }
   QString text = (column < 0 ? tr("Worst gap %1, residual %2\n") : tr("Gap %1, residual %2\n"))
                    .arg(number(gap), number(residual));
@@ -258,12 +259,9 @@ void WeightInspection::compare(int method)
   {
     return;
   }
-  static const char* const names[] = { QT_TR_NOOP("Bounded"), QT_TR_NOOP("Monotone"),
-    QT_TR_NOOP("Harmonic"), QT_TR_NOOP("Biharmonic"), QT_TR_NOOP("Triharmonic"),
-    QT_TR_NOOP("Graph"), QT_TR_NOOP("Linear subspace"), QT_TR_NOOP("Distance"),
-    QT_TR_NOOP("Smoothed"), QT_TR_NOOP("Bone heat") };
-  this->method_ = tr(names[method]);
-  input.method = static_cast<BindMethod>(method - 1);
+  const ComparedMethod& other = compared_methods()[method];
+  this->method_ = QCoreApplication::translate("WeightPanel", other.brief);
+  input.method = other.method;
   input.preview = false;
   // The same mesh, as far as it is known.
   const std::string domain = read_report(this->surface_).text("domain");

@@ -27,6 +27,33 @@ void enable_or_say(QWidget* widget, const QString& reason)
 }
 } // namespace
 
+const std::vector<ComparedMethod>& compared_methods()
+{
+  static const std::vector<ComparedMethod> methods = {
+    { BindMethod::bounded, QT_TRANSLATE_NOOP("WeightPanel", "Bounded biharmonic"),
+      QT_TRANSLATE_NOOP("WeightPanel", "Bounded") },
+    { BindMethod::monotone, QT_TRANSLATE_NOOP("WeightPanel", "Monotone"),
+      QT_TRANSLATE_NOOP("WeightPanel", "Monotone") },
+    { BindMethod::harmonic, QT_TRANSLATE_NOOP("WeightPanel", "Harmonic"),
+      QT_TRANSLATE_NOOP("WeightPanel", "Harmonic") },
+    { BindMethod::biharmonic, QT_TRANSLATE_NOOP("WeightPanel", "Biharmonic"),
+      QT_TRANSLATE_NOOP("WeightPanel", "Biharmonic") },
+    { BindMethod::triharmonic, QT_TRANSLATE_NOOP("WeightPanel", "Triharmonic"),
+      QT_TRANSLATE_NOOP("WeightPanel", "Triharmonic") },
+    { BindMethod::graph_biharmonic, QT_TRANSLATE_NOOP("WeightPanel", "Graph biharmonic"),
+      QT_TRANSLATE_NOOP("WeightPanel", "Graph") },
+    { BindMethod::linear_subspace, QT_TRANSLATE_NOOP("WeightPanel", "Linear subspace"),
+      QT_TRANSLATE_NOOP("WeightPanel", "Linear subspace") },
+    { BindMethod::inverse_distance, QT_TRANSLATE_NOOP("WeightPanel", "Inverse distance"),
+      QT_TRANSLATE_NOOP("WeightPanel", "Distance") },
+    { BindMethod::smoothed_harmonic, QT_TRANSLATE_NOOP("WeightPanel", "Smoothed harmonic"),
+      QT_TRANSLATE_NOOP("WeightPanel", "Smoothed") },
+    { BindMethod::bone_heat, QT_TRANSLATE_NOOP("WeightPanel", "Bone heat"),
+      QT_TRANSLATE_NOOP("WeightPanel", "Bone heat") },
+  };
+  return methods;
+}
+
 WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
 {
   this->setObjectName("panel");
@@ -64,11 +91,11 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
     tr("One handle's weights, or every triangle in the colour of the handle that is strongest "
        "there"));
   column->addWidget(this->column_);
-  this->what_ = this->add_segments({ tr("Weights"), tr("Row sums"), tr("Difference") },
+  this->what_ = this->add_choice({ tr("Weights"), tr("Row sums"), tr("Difference") },
     { tr("What the handles weigh"),
       tr("What a point's raw weights add up to: 1 where dividing by the sum changes nothing"),
       tr("How far these weights are from those of the other method below") });
-  this->raw_ = this->add_segments({ tr("Normalised"), tr("Raw") },
+  this->raw_ = this->add_choice({ tr("Normalised"), tr("Raw") },
     { tr("Rows divided by their sums: what bends the shape"),
       tr("As solved for, before that: what the certificate is about") });
   this->certificate_ = note(2);
@@ -93,12 +120,9 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   column->addSpacing(10);
   column->addWidget(heading(tr("Other method"), this));
   this->method_ = new QComboBox(this);
-  // In the order of BindMethod.
-  for (const QString& name : { tr("Bounded biharmonic"), tr("Monotone"), tr("Harmonic"),
-         tr("Biharmonic"), tr("Triharmonic"), tr("Graph biharmonic"), tr("Linear subspace"),
-         tr("Inverse distance"), tr("Smoothed harmonic"), tr("Bone heat") })
+  for (const ComparedMethod& method : compared_methods())
   {
-    this->method_->addItem(name);
+    this->method_->addItem(tr(method.name));
   }
   this->method_->setCurrentIndex(1);
   this->method_->setToolTip(tr("Weights to compare with; the shape keeps its own"));
@@ -155,23 +179,9 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   this->set_facts({});
 }
 
-QButtonGroup* WeightPanel::add_segments(const QStringList& names, const QStringList& tips)
+QButtonGroup* WeightPanel::add_choice(const QStringList& names, const QStringList& tips)
 {
-  auto* group = new QButtonGroup(this);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(0);
-  for (int k = 0; k < names.size(); ++k)
-  {
-    QPushButton* segment = button(names[k], this);
-    segment->setObjectName("segment");
-    segment->setProperty("place", k == 0 ? "first" : k + 1 == names.size() ? "last" : "middle");
-    segment->setCheckable(true);
-    segment->setToolTip(tips[k]);
-    group->addButton(segment, k);
-    row->addWidget(segment, 1);
-  }
-  group->button(0)->setChecked(true);
-  static_cast<QBoxLayout*>(this->layout())->addLayout(row);
+  QButtonGroup* group = add_segments(static_cast<QBoxLayout*>(this->layout()), this, names, tips);
   QObject::connect(group, &QButtonGroup::idClicked, this,
     [this]
     {

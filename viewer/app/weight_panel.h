@@ -1,8 +1,12 @@
 #ifndef weight_panel_h
 #define weight_panel_h
 
+#include "bind_job.h"
+
 #include <QFrame>
 #include <QStringList>
+
+#include <vector>
 
 class QButtonGroup;
 class QCheckBox;
@@ -11,6 +15,15 @@ class QLabel;
 class QProgressBar;
 class QPushButton;
 class ValueRow;
+
+/// A method that weights can be compared with. Names are in English, of the context WeightPanel.
+struct ComparedMethod
+{
+  BindMethod method;
+  const char* name;
+  const char* brief; ///< for a narrow line
+};
+const std::vector<ComparedMethod>& compared_methods();
 
 /// The panel right of the picture to inspect weights: which, how, what another method does
 /// otherwise, and a slice through their volume. Like SidePanel it only tells what the user wants.
@@ -71,7 +84,7 @@ Q_SIGNALS:
   void position_chosen(double position);
 
 private:
-  QButtonGroup* add_segments(const QStringList& names, const QStringList& tips);
+  QButtonGroup* add_choice(const QStringList& names, const QStringList& tips);
   void enable();
 
   QComboBox* column_;

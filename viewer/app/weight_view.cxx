@@ -12,7 +12,6 @@
 #include "vtkCamera.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
-#include "vtkContourFilter.h"
 #include "vtkDoubleArray.h"
 #include "vtkPointData.h"
 #include "vtkProperty.h"
@@ -178,27 +177,13 @@ void WeightView::show_surface()
 
 void WeightView::draw_isolines(int part, vtkPolyData* data)
 {
-  const bool wanted = this->shown_ && data && this->options_.isolines &&
-    part == this->is_sliced() && !this->colouring_.isolines.empty() &&
-    data->GetPointData()->HasArray(colour_array_name);
-  this->isoline_actors_[part]->SetVisibility(wanted);
-  this->isolines_[part]->Initialize();
-  if (wanted)
-  {
-    vtkNew<vtkContourFilter> contours;
-    contours->SetInputData(data);
-    contours->SetInputArrayToProcess(
-      0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, colour_array_name);
-    contours->ComputeScalarsOff();
-    for (std::size_t i = 0; i < this->colouring_.isolines.size(); ++i)
-    {
-      contours->SetValue(static_cast<int>(i), this->colouring_.isolines[i]);
-    }
-    contours->Update();
-    this->isolines_[part]->ShallowCopy(contours->GetOutput());
-    this->isoline_actors_[part]->GetProperty()->SetLineWidth(
-      static_cast<float>(1.2 * this->viewport_->devicePixelRatioF()));
-  }
+  const bool wanted = this->shown_ && data && this->options_.isolines && part == this->is_sliced();
+  const auto lines =
+    wanted ? contour_lines(data, this->colouring_.isolines) : vtkSmartPointer<vtkPolyData>::New();
+  this->isolines_[part]->ShallowCopy(lines);
+  this->isoline_actors_[part]->SetVisibility(lines->GetNumberOfLines() > 0);
+  this->isoline_actors_[part]->GetProperty()->SetLineWidth(
+    static_cast<float>(isoline_width * this->viewport_->devicePixelRatioF()));
   this->viewport_->refresh();
 }
 

@@ -6,10 +6,12 @@
 #include "inside/tet_quality.h"
 
 #include "vtkCellData.h"
+#include "vtkContourFilter.h"
 #include "vtkDataSet.h"
 #include "vtkDoubleArray.h"
 #include "vtkIdList.h"
 #include "vtkImageData.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
@@ -658,6 +660,25 @@ Status choose_colouring(
       sequential_map(given ? options.range[0] : lower, given ? options.range[1] : upper, 0);
   }
   return Status();
+}
+
+vtkSmartPointer<vtkPolyData> contour_lines(vtkPolyData* data, const std::vector<double>& values)
+{
+  if (values.empty() || !data->GetPointData()->HasArray(colour_array_name))
+  {
+    return vtkSmartPointer<vtkPolyData>::New();
+  }
+  vtkNew<vtkContourFilter> contours;
+  contours->SetInputData(data);
+  contours->SetInputArrayToProcess(
+    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, colour_array_name);
+  contours->ComputeScalarsOff();
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    contours->SetValue(static_cast<int>(i), values[i]);
+  }
+  contours->Update();
+  return contours->GetOutput();
 }
 
 } // namespace bindpose

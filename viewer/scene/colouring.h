@@ -53,6 +53,11 @@ vtkSmartPointer<vtkDoubleArray> colour_values(
 /// Its name.
 constexpr const char* colour_array_name = "bindpose.Colour";
 
+/// Lines where a point array of that name has these values; none without it.
+vtkSmartPointer<vtkPolyData> contour_lines(vtkPolyData* data, const std::vector<double>& values);
+
+constexpr double isoline_width = 1.2; ///< of weights, pixels
+
 } // namespace bindpose
 
 #endif

@@ -17,7 +17,6 @@
 #include "vtkActor.h"
 #include "vtkCellData.h"
 #include "vtkCellTypes.h"
-#include "vtkContourFilter.h"
 #include "vtkDataSetSurfaceFilter.h"
 #include "vtkDoubleArray.h"
 #include "vtkExtractVOI.h"
@@ -44,8 +43,6 @@ namespace bindpose
 {
 namespace
 {
-constexpr double isoline_width = 1.2; // pixels
-
 // A shallow copy that carries the shown number only.
 template <typename Data>
 vtkSmartPointer<Data> with_colour_values(Data* data, const Colouring& colouring)
@@ -136,26 +133,6 @@ void add_lines(vtkRenderer* renderer, vtkPolyData* data, const Rgb& colour, doub
   renderer->AddActor(actor);
 }
 
-void add_contours(vtkRenderer* renderer, vtkPolyData* data, const std::vector<double>& values,
-  double width, const Rgb& colour)
-{
-  if (values.empty() || !data->GetPointData()->HasArray(colour_array_name))
-  {
-    return;
-  }
-  vtkNew<vtkContourFilter> contours;
-  contours->SetInputData(data);
-  contours->SetInputArrayToProcess(
-    0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, colour_array_name);
-  contours->ComputeScalarsOff();
-  for (std::size_t i = 0; i < values.size(); ++i)
-  {
-    contours->SetValue(static_cast<int>(i), values[i]);
-  }
-  contours->Update();
-  add_lines(renderer, contours->GetOutput(), colour, width);
-}
-
 // The map's colours as they are.
 void switch_off_light(vtkActor* actor)
 {
@@ -187,8 +164,8 @@ vtkSmartPointer<vtkActor> add_surface(vtkRenderer* renderer, vtkPolyData* surfac
   }
   if (options.isolines)
   {
-    add_contours(
-      renderer, shaded.polydata(), colouring.isolines, isoline_width * scale, palette::line);
+    add_lines(renderer, contour_lines(shaded.polydata(), colouring.isolines), palette::line,
+      isoline_width * scale);
   }
   return actor;
 }
@@ -281,7 +258,8 @@ Status add_tet_slice(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const Tet
   push_back(actor);
   if (options.isolines)
   {
-    add_contours(renderer, cut, colouring.isolines, isoline_width * scale, palette::line);
+    add_lines(
+      renderer, contour_lines(cut, colouring.isolines), palette::line, isoline_width * scale);
   }
   const TetCut whole(input.points.view(), input.tets.view());
   const auto outside = face_polydata(grid, whole.outside().triangles, whole.outside().tets);
@@ -390,7 +368,7 @@ void add_slice(vtkRenderer* renderer, vtkImageData* image, const PictureOptions&
   {
     return;
   }
-  add_contours(renderer, faces, { 0.5 }, 1.6 * scale, palette::line);
+  add_lines(renderer, contour_lines(faces, { 0.5 }), palette::line, 1.6 * scale);
   if (shell_wanted && image->GetDataDimension() == 3 &&
     image->GetPointData()->HasArray(colour_array_name))
   {

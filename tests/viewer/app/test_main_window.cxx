@@ -1,6 +1,7 @@
 // The window as a person uses it: open, bind, drag, undo, cancel. Drags are synthetic events on the
 // interactor; what is asserted is where vertices are.
 #include "unclipped.h"
+#include "window_test.h"
 
 #include "main_window.h"
 #include "side_panel.h"
@@ -39,6 +40,7 @@
 #include <fstream>
 
 using namespace bindpose;
+using test::two_points;
 
 namespace
 {
@@ -49,16 +51,6 @@ TriangleMesh column()
   mesh.points.col(0) *= 0.4;
   mesh.points.col(1) *= 0.4;
   return mesh;
-}
-
-vtkSmartPointer<vtkPolyData> two_points()
-{
-  Handles handles(2);
-  handles[0].name = "bottom";
-  handles[0].head = handles[0].tail = Vec3(0, 0, -0.9);
-  handles[1].name = "top";
-  handles[1].head = handles[1].tail = Vec3(0, 0, 0.9);
-  return to_polydata(handles);
 }
 
 vtkSmartPointer<vtkPolyData> with_weights(const TriangleMesh& mesh)

@@ -42,6 +42,7 @@
 #include <set>
 
 using namespace bindpose;
+using test::two_points;
 
 namespace
 {
@@ -91,16 +92,6 @@ vtkSmartPointer<vtkUnstructuredGrid> box()
   auto grid = to_unstructured_grid(mesh.points, mesh.tets);
   add_array(grid, "Weights", { bottom_weight, top_weight });
   return grid;
-}
-
-vtkSmartPointer<vtkPolyData> two_points()
-{
-  Handles handles(2);
-  handles[0].name = "bottom";
-  handles[0].head = handles[0].tail = Vec3(0, 0, -0.9);
-  handles[1].name = "top";
-  handles[1].head = handles[1].tail = Vec3(0, 0, 0.9);
-  return to_polydata(handles);
 }
 
 double hue_distance(const QColor& c, const Rgb& colour)

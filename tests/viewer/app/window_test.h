@@ -7,6 +7,9 @@
 #include "panel_column.h"
 #include "viewport.h"
 
+#include "conversion.h"
+
+#include "vtkPolyData.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
 
@@ -20,6 +23,17 @@
 
 namespace bindpose::test
 {
+
+/// Handles at both ends of a shape along z from -1 to 1.
+inline vtkSmartPointer<vtkPolyData> two_points()
+{
+  Handles handles(2);
+  handles[0].name = "bottom";
+  handles[0].head = handles[0].tail = Vec3(0, 0, -0.9);
+  handles[1].name = "top";
+  handles[1].head = handles[1].tail = Vec3(0, 0, 0.9);
+  return to_polydata(handles);
+}
 
 class WindowTest : public testing::Test
 {

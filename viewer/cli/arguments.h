@@ -23,6 +23,11 @@ public:
   const std::vector<std::string>& list(const std::string& key) const;
   int integer(const std::string& key) const { return std::stoi(this->text(key)); }
   double number(const std::string& key) const { return std::stod(this->text(key)); }
+  /// What --certificate asks of relative gap and residual.
+  double certificate_tolerance() const
+  {
+    return this->text("certificate") == "tight" ? 1e-9 : 1e-6;
+  }
 };
 
 /// Parses the command line by the option table.

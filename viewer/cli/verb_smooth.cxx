@@ -75,11 +75,7 @@ void run_smooth(Session& session)
                                                             : vtkMonotoneSmoothing::UNCONSTRAINED);
   smoothing->SetRebuilds(arguments.integer("rebuilds"));
   smoothing->SetEpsilon(arguments.number("epsilon"));
-  constexpr double tight = 1e-9;
-  if (arguments.text("certificate") == "tight")
-  {
-    smoothing->SetTolerance(tight);
-  }
+  smoothing->SetTolerance(arguments.certificate_tolerance());
   smoothing->SetMaximumIterations(arguments.integer("iterations"));
   if (session.run(smoothing, "smooth", 0.0, 1.0, Merge::all) &&
     session.write(smoothing->GetOutput(), output) && !extrema.empty())

@@ -57,11 +57,7 @@ vtkSmartPointer<vtkWeightsAlgorithm> make_method(const std::string& method, int 
 vtkSmartPointer<vtkWeightsAlgorithm> make_weights(const Arguments& arguments)
 {
   const auto weights = make_method(arguments.text("method"), arguments.integer("order"));
-  constexpr double tight = 1e-9;
-  if (arguments.text("certificate") == "tight")
-  {
-    weights->SetTolerance(tight);
-  }
+  weights->SetTolerance(arguments.certificate_tolerance());
   weights->SetMaximumIterations(arguments.integer("iterations"));
   weights->SetKeepRaw(arguments.has("raw"));
   weights->SetKeepMesh(arguments.has("keep-mesh"));

@@ -32,7 +32,7 @@ def _to_list(maxima, minima, count):
 
 def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, extrema=None, persistence=0.05, count=0,
                        data_weight=1e6, keep_values=False, order=2, guide="unconstrained", rebuilds=1, epsilon=0.0,
-                       tolerance=1e-6, iterations=100, threads=0, progress=None):
+                       tolerance=1e-6, maximum_iterations=100, threads=0, progress=None):
     """Smooth data on a mesh and leave the extrema that are asked for, no other (topological simplification).
 
     The result is the smooth function nearest to the data among all whose only local extrema are those listed;
@@ -68,7 +68,7 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, extrema=Non
         Share of the data's range that each vertex is at least above a lower and below a higher neighbour.
     tolerance : float
         Largest relative gap and residual of the certificate.
-    iterations : int
+    maximum_iterations : int
         At most for a solve.
     threads, progress
         See `winding_number`.
@@ -128,7 +128,7 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, extrema=Non
     smoother.SetRebuilds(int(rebuilds))
     smoother.SetEpsilon(float(epsilon))
     smoother.SetTolerance(float(tolerance))
-    smoother.SetMaximumIterations(int(iterations))
+    smoother.SetMaximumIterations(int(maximum_iterations))
     smoother.SetNumberOfThreads(threads)
     report = run(smoother, progress)
     result = smoother.GetOutput()

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 namespace bindpose
 {
@@ -64,6 +65,14 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
   const double floor = free_count ? 0.5e-12 * diagonal_sum / static_cast<double>(free_count) : 1.0;
   certificate.relative_gap = std::abs(gap) / std::max(certificate.energy, floor);
   return certificate;
+}
+
+std::string not_certified(double relative_gap, double kkt_residual, double tolerance)
+{
+  char numbers[96];
+  std::snprintf(numbers, sizeof(numbers), "relative gap %.2g, residual %.2g, asked for %.2g",
+    relative_gap, kkt_residual, tolerance);
+  return "are not certified (" + std::string(numbers) + ")";
 }
 
 } // namespace bindpose

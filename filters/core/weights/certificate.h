@@ -4,6 +4,7 @@
 #include "base/laplacian.h"
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace bindpose
@@ -67,6 +68,9 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
   const std::vector<OrderedPair>& pairs = {},
   const Eigen::VectorXd& multipliers = Eigen::VectorXd(),
   const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& inverse = {});
+
+/// "are not certified (relative gap …, residual …, asked for …)", for messages.
+std::string not_certified(double relative_gap, double kkt_residual, double tolerance);
 
 } // namespace bindpose
 

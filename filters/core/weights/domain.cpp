@@ -47,20 +47,47 @@ const char* element_name(const Domain& domain)
   return domain.is_volume() ? "tet" : "triangle";
 }
 
+namespace
+{
+bool has_area(const Domain& domain, Index triangle)
+{
+  const Vec3 a = domain.points.row(domain.triangles(triangle, 0));
+  const Vec3 b = domain.points.row(domain.triangles(triangle, 1));
+  const Vec3 c = domain.points.row(domain.triangles(triangle, 2));
+  return (b - a).cross(c - a).norm() > 0.0;
+}
+} // namespace
+
 std::vector<char> measurable_elements(const Domain& domain)
 {
   std::vector<char> result(static_cast<std::size_t>(domain.element_count()), 1);
-  if (!domain.is_volume())
+  for (Index t = 0; t < domain.element_count() && !domain.is_volume(); ++t)
   {
-    for (Index t = 0; t < domain.triangles.rows(); ++t)
-    {
-      const Vec3 a = domain.points.row(domain.triangles(t, 0));
-      const Vec3 b = domain.points.row(domain.triangles(t, 1));
-      const Vec3 c = domain.points.row(domain.triangles(t, 2));
-      result[t] = (b - a).cross(c - a).norm() > 0.0;
-    }
+    result[t] = has_area(domain, t);
   }
   return result;
+}
+
+Triangles measurable_triangles(const Domain& domain)
+{
+  Triangles result(domain.triangles.rows(), 3);
+  Index count = 0;
+  for (Index t = 0; t < domain.triangles.rows(); ++t)
+  {
+    if (has_area(domain, t))
+    {
+      result.row(count++) = domain.triangles.row(t);
+    }
+  }
+  result.conservativeResize(count, 3);
+  return result;
+}
+
+Components connected_components(const Domain& domain)
+{
+  const Index n = domain.points.rows();
+  return domain.is_volume() ? connected_components(n, domain.tets)
+                            : connected_components(n, measurable_triangles(domain));
 }
 
 double mean_edge_length(const Domain& domain, Index element)

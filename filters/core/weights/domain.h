@@ -41,6 +41,12 @@ const char* element_name(const Domain& domain);
 /// #elements: 1 for those that have an area or a volume.
 std::vector<char> measurable_elements(const Domain& domain);
 
+/// The domain's triangles that have an area.
+Triangles measurable_triangles(const Domain& domain);
+
+/// Of the elements that have an area or a volume.
+Components connected_components(const Domain& domain);
+
 /// Mean length of an element's edges, the local edge length.
 double mean_edge_length(const Domain& domain, Index element);
 

@@ -30,24 +30,7 @@ void find_components(const Domain& domain, HandleConstraints& result)
   const std::vector<char> has_measure = measurable_elements(domain);
   const Index vertex_count = domain.points.rows();
   result.roles.assign(static_cast<std::size_t>(vertex_count), VertexRole::unreferenced);
-  if (domain.is_volume())
-  {
-    result.components = connected_components(vertex_count, domain.tets);
-  }
-  else
-  {
-    Triangles kept(domain.triangles.rows(), 3);
-    Index count = 0;
-    for (Index t = 0; t < domain.triangles.rows(); ++t)
-    {
-      if (has_measure[t])
-      {
-        kept.row(count++) = domain.triangles.row(t);
-      }
-    }
-    kept.conservativeResize(count, 3);
-    result.components = connected_components(vertex_count, kept);
-  }
+  result.components = connected_components(domain);
   for (Index v = 0; v < vertex_count; ++v)
   {
     if (result.components.of_vertex[v] >= 0)

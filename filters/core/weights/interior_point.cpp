@@ -27,6 +27,7 @@
 // of the pairs), and what is tested is the certificate of that projection.
 #include "weights/interior_point.h"
 
+#include "weights/ordered_pairs.h"
 #include "weights/projected_newton.h"
 
 #include <algorithm>
@@ -106,7 +107,7 @@ private:
   std::vector<Index> unpinned_; // free indices
   std::vector<Index> bounded_; // those of them that have bounds
   std::vector<PairRow> rows_;
-  std::vector<Index> topological_; // vertices of the pairs, every low before its high
+  std::vector<OrderedPair> upwards_; // the column's, those of low vertices first
   std::vector<char> free_here_; // #V
   VectorXd given_; // #V: fixed and pinned values, 0 elsewhere
   VectorXd lower_, upper_; // bounds by free index
@@ -197,37 +198,14 @@ Status InteriorPoint::set_up()
     this->h_[2 * nb + static_cast<Index>(r)] = this->rows_[r].offset;
   }
 
-  // Topological order of the pairs' vertices by counting open predecessors.
   if (!this->rows_.empty())
   {
-    std::vector<std::vector<Index>> above(static_cast<std::size_t>(matrices.q.rows()));
-    std::vector<Index> open(static_cast<std::size_t>(matrices.q.rows()), 0);
-    for (const OrderedPair& pair : this->column_.pairs)
-    {
-      above[pair.low].push_back(pair.high);
-      open[pair.high] += 1;
-    }
-    for (Index v = 0; v < matrices.q.rows(); ++v)
-    {
-      if (open[v] == 0)
-      {
-        this->topological_.push_back(v);
-      }
-    }
-    for (std::size_t i = 0; i < this->topological_.size(); ++i)
-    {
-      for (const Index v : above[this->topological_[i]])
-      {
-        if (--open[v] == 0)
-        {
-          this->topological_.push_back(v);
-        }
-      }
-    }
-    if (static_cast<Index>(this->topological_.size()) != matrices.q.rows())
+    const std::vector<Index> order = upward_order(this->column_.pairs, matrices.q.rows());
+    if (static_cast<Index>(order.size()) != matrices.q.rows())
     {
       return Status::failure(StatusCode::internal_error, "the ordered pairs run in a circle");
     }
+    this->upwards_ = upward_pairs(this->column_.pairs, order);
   }
   return {};
 }
@@ -580,44 +558,29 @@ void InteriorPoint::set_start(bool central)
 /// Raises and lowers the least needed so that every pair is ordered, given values included.
 void InteriorPoint::order_pairs(VectorXd& w) const
 {
-  if (this->rows_.empty())
+  if (this->upwards_.empty())
   {
     return;
-  }
-  std::vector<std::vector<const OrderedPair*>> above(static_cast<std::size_t>(w.size()));
-  for (const OrderedPair& pair : this->column_.pairs)
-  {
-    above[pair.low].push_back(&pair);
   }
   // The least value given to anything above: nothing below it may exceed that.
   VectorXd cap(w.size());
   for (Index v = 0; v < w.size(); ++v)
   {
-    cap[v] = this->column_.bounds.high(v);
+    cap[v] = this->free_here_[v] ? this->column_.bounds.high(v) : w[v];
   }
-  for (auto v = this->topological_.rbegin(); v != this->topological_.rend(); ++v)
+  for (auto pair = this->upwards_.rbegin(); pair != this->upwards_.rend(); ++pair)
   {
-    if (!this->free_here_[*v])
-    {
-      cap[*v] = w[*v];
-    }
-    for (const OrderedPair* pair : above[*v])
-    {
-      cap[*v] = std::min(cap[*v], cap[pair->high] - pair->least);
-    }
-    if (this->free_here_[*v])
-    {
-      w[*v] = std::min(w[*v], cap[*v]);
-    }
+    cap[pair->low] = std::min(cap[pair->low], cap[pair->high] - pair->least);
   }
-  for (const Index v : this->topological_)
+  for (Index v = 0; v < w.size(); ++v)
   {
-    for (const OrderedPair* pair : above[v])
+    w[v] = this->free_here_[v] ? std::min(w[v], cap[v]) : w[v];
+  }
+  for (const OrderedPair& pair : this->upwards_)
+  {
+    if (this->free_here_[pair.high])
     {
-      if (this->free_here_[pair->high])
-      {
-        w[pair->high] = std::max(w[pair->high], w[v] + pair->least);
-      }
+      w[pair.high] = std::max(w[pair.high], w[pair.low] + pair.least);
     }
   }
 }

@@ -18,7 +18,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 namespace bindpose
@@ -130,22 +129,9 @@ Status Smoothing::check() const
 void Smoothing::take_measurable()
 {
   this->kept_ = this->domain_;
-  if (!this->domain_.is_volume())
-  {
-    const std::vector<char> has_area = measurable_elements(this->domain_);
-    Index count = 0;
-    for (Index t = 0; t < this->domain_.triangles.rows(); ++t)
-    {
-      if (has_area[t])
-      {
-        this->kept_.triangles.row(count++) = this->domain_.triangles.row(t);
-      }
-    }
-    this->kept_.triangles.conservativeResize(count, 3);
-  }
+  this->kept_.triangles = measurable_triangles(this->domain_);
   const Index n = this->domain_.points.rows();
-  this->components_ = this->kept_.is_volume() ? connected_components(n, this->kept_.tets)
-                                              : connected_components(n, this->kept_.triangles);
+  this->components_ = connected_components(this->kept_);
   this->used_.resize(static_cast<std::size_t>(n));
   for (Index v = 0; v < n; ++v)
   {
@@ -388,12 +374,9 @@ void Smoothing::assemble()
 double Smoothing::expected_energy(
   const BoxQpColumn& column, const BoxQpSolution& unconstrained) const
 {
-  std::vector<OrderedPair> upwards = column.pairs;
-  std::sort(upwards.begin(), upwards.end(),
-    [this](const OrderedPair& a, const OrderedPair& b)
-    { return this->rank_[a.low] < this->rank_[b.low]; });
   VectorXd ordered = unconstrained.w;
-  for (const OrderedPair& pair : upwards)
+  for (const OrderedPair& pair :
+    upward_pairs(column.pairs, upward_order(column.pairs, ordered.size())))
   {
     ordered[pair.high] = std::max(ordered[pair.high], ordered[pair.low] + pair.least);
   }
@@ -627,11 +610,9 @@ void Smoothing::finish(Status& status)
   const double tolerance = this->options_.tolerance;
   if (!(std::max(result.certificate.relative_gap, result.certificate.kkt_residual) <= tolerance))
   {
-    char numbers[96];
-    std::snprintf(numbers, sizeof(numbers), "relative gap %.2g, residual %.2g, asked for %.2g",
-      result.certificate.relative_gap, result.certificate.kkt_residual, tolerance);
     status.code = StatusCode::not_converged;
-    status.message = "the smoothed data are not certified (" + std::string(numbers) + ")";
+    status.message = "the smoothed data " +
+      not_certified(result.certificate.relative_gap, result.certificate.kkt_residual, tolerance);
   }
 }
 

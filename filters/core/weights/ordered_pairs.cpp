@@ -48,6 +48,51 @@ void sort_pairs(std::vector<OrderedPair>& pairs)
     pairs.end());
 }
 
+std::vector<Index> upward_order(const std::vector<OrderedPair>& pairs, Index count)
+{
+  std::vector<std::vector<Index>> above(static_cast<std::size_t>(count));
+  std::vector<Index> open(static_cast<std::size_t>(count), 0); // predecessors still to come
+  for (const OrderedPair& pair : pairs)
+  {
+    above[pair.low].push_back(pair.high);
+    open[pair.high] += 1;
+  }
+  std::vector<Index> order;
+  order.reserve(above.size());
+  for (Index v = 0; v < count; ++v)
+  {
+    if (open[v] == 0)
+    {
+      order.push_back(v);
+    }
+  }
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    for (const Index v : above[order[i]])
+    {
+      if (--open[v] == 0)
+      {
+        order.push_back(v);
+      }
+    }
+  }
+  return order;
+}
+
+std::vector<OrderedPair> upward_pairs(
+  const std::vector<OrderedPair>& pairs, const std::vector<Index>& order)
+{
+  std::vector<Index> rank(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    rank[order[i]] = static_cast<Index>(i);
+  }
+  std::vector<OrderedPair> upwards = pairs;
+  std::stable_sort(upwards.begin(), upwards.end(),
+    [&](const OrderedPair& a, const OrderedPair& b) { return rank[a.low] < rank[b.low]; });
+  return upwards;
+}
+
 Index without_room(const BoxQpColumn& column, const std::vector<Index>& fixed, Index count)
 {
   std::vector<double> least(static_cast<std::size_t>(count));
@@ -65,39 +110,15 @@ Index without_room(const BoxQpColumn& column, const std::vector<Index>& fixed, I
   {
     least[column.pinned[i]] = most[column.pinned[i]] = column.pinned_values[static_cast<Index>(i)];
   }
-  std::vector<std::vector<const OrderedPair*>> above(static_cast<std::size_t>(count));
-  std::vector<Index> open(static_cast<std::size_t>(count), 0);
-  for (const OrderedPair& pair : column.pairs)
+  const std::vector<Index> order = upward_order(column.pairs, count);
+  for (const OrderedPair& pair : upward_pairs(column.pairs, order))
   {
-    above[pair.low].push_back(&pair);
-    open[pair.high] += 1;
-  }
-  std::vector<Index> ordered;
-  for (Index u = 0; u < count; ++u)
-  {
-    if (open[u] == 0)
-    {
-      ordered.push_back(u);
-    }
+    least[pair.high] = std::max(least[pair.high], least[pair.low] + pair.least);
   }
   constexpr double round_off = 1e-12;
-  for (std::size_t i = 0; i < ordered.size(); ++i)
-  {
-    const Index u = ordered[i];
-    if (least[u] > most[u] + round_off)
-    {
-      return u;
-    }
-    for (const OrderedPair* pair : above[u])
-    {
-      least[pair->high] = std::max(least[pair->high], least[u] + pair->least);
-      if (--open[pair->high] == 0)
-      {
-        ordered.push_back(pair->high);
-      }
-    }
-  }
-  return -1;
+  const auto tight = std::find_if(
+    order.begin(), order.end(), [&](Index u) { return least[u] > most[u] + round_off; });
+  return tight == order.end() ? Index(-1) : *tight;
 }
 
 } // namespace bindpose

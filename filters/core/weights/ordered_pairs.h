@@ -17,6 +17,15 @@ SparseMatrix positive_stiffness(
 /// Sorted, each pair once.
 void sort_pairs(std::vector<OrderedPair>& pairs);
 
+/// The vertices 0 … count - 1 so that the low end of every pair comes before its high end. Fewer
+/// when pairs run in a circle.
+std::vector<Index> upward_order(const std::vector<OrderedPair>& pairs, Index count);
+
+/// The pairs in the order of their low ends: what happens along them one after another is settled
+/// at a vertex before it goes on from there.
+std::vector<OrderedPair> upward_pairs(
+  const std::vector<OrderedPair>& pairs, const std::vector<Index>& order);
+
 /// Whether bounds and given values leave room for the column's pairs: the least that each unknown
 /// can be rises along them.
 /// @return an unknown without room, or -1.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace bindpose
 {
@@ -372,11 +371,9 @@ Status finish_weights(const WeightsProblem& problem, const std::string& method, 
   report.set("handles[].ones", ones);
   if (!late.empty())
   {
-    char numbers[96];
-    std::snprintf(numbers, sizeof(numbers), "relative gap %.2g, residual %.2g, asked for %.2g",
-      worst_gap, worst_residual, tolerance);
     status.code = StatusCode::not_converged;
-    status.message = "the weights of " + late + " are not certified (" + numbers + ")";
+    status.message =
+      "the weights of " + late + " " + not_certified(worst_gap, worst_residual, tolerance);
   }
   return status;
 }

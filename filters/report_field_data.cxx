@@ -1,6 +1,7 @@
 #include "report_field_data.h"
 
 #include "base/execution.h"
+#include "base/memory.h"
 
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
@@ -9,8 +10,6 @@
 #include "vtkNew.h"
 #include "vtkSmartPointer.h"
 #include "vtkStringArray.h"
-
-#include <sys/resource.h>
 
 namespace bindpose
 {
@@ -167,9 +166,7 @@ void complete_report(Status& status, const ExecutionContext& context)
   report.merge(status.report);
   report.merge(context.seconds());
   report.set("seconds.total", context.elapsed_seconds());
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  report.set("peak_memory_bytes", Report::Value(std::int64_t(usage.ru_maxrss) * 1024));
+  report.set("peak_memory_bytes", static_cast<std::int64_t>(peak_memory()));
   status.report = std::move(report);
 }
 

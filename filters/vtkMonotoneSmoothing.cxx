@@ -224,6 +224,7 @@ Status vtkMonotoneSmoothing::Execute(
   options.epsilon = this->Epsilon;
   options.tolerance = this->Tolerance;
   options.maximum_iterations = this->MaximumIterations;
+  options.solver.memory_limit = this->MemoryLimit;
   MonotoneSmoothingResult smoothed;
   status = monotone_smoothing(domain, data, options, context, smoothed);
   if (!status.usable())
@@ -271,5 +272,6 @@ void vtkMonotoneSmoothing::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Epsilon: " << this->Epsilon << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "ResultArrayName: " << this->ResultArrayName << "\n";
 }

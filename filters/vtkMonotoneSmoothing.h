@@ -151,6 +151,13 @@ public:
   ///@}
 
   ///@{
+  /// MiB that the whole process may hold; 0 (default): as much as the machine has available. What
+  /// would take more is refused before it is factored.
+  vtkSetClampMacro(MemoryLimit, int, 0, VTK_INT_MAX);
+  vtkGetMacro(MemoryLimit, int);
+  ///@}
+
+  ///@{
   /// Name of the array that is made. Default "Smoothed".
   void SetResultArrayName(const std::string& name);
   std::string GetResultArrayName() { return this->ResultArrayName; }
@@ -182,6 +189,7 @@ private:
   double Epsilon = 0.0;
   double Tolerance = 1e-6;
   int MaximumIterations = 100;
+  int MemoryLimit = 0;
   std::string ResultArrayName = "Smoothed";
 };
 

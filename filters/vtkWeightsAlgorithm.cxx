@@ -477,6 +477,7 @@ Status vtkWeightsAlgorithm::Bind(
   }
   options.tolerance = this->Tolerance;
   options.maximum_iterations = this->MaximumIterations;
+  options.solver.memory_limit = this->MemoryLimit;
   options.insertion.keep_mesh = this->KeepMesh;
   const WeightsMethod method =
     [&](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& result)
@@ -628,6 +629,7 @@ void vtkWeightsAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
+  os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "RegionArrayName: " << this->RegionArrayName << "\n";
   os << indent << "Domain: " << to_string(static_cast<WeightsDomain>(this->Domain)) << "\n";
   os << indent << "Stage: " << (this->Stage == PREVIEW ? "preview" : "certified") << "\n";

@@ -68,13 +68,14 @@
  * weights without MaximumInfluences), partition.{of_unity, energy, largest_difference,
  * rms_difference} (COUPLED, from weights that were divided by their sums), handles[].mirror (with
  * mirrors), row_sum_error, largest_snap (in edge
- * lengths), iterations, seconds.{insert, analyse, weights} and, summed over handles, which are
- * solved at the same time, seconds.{factor, solve}.
+ * lengths), iterations, memory_estimate_bytes (what the process would hold at most, by an estimate
+ * made before the factorisations; of bounded and monotone weights), seconds.{insert, analyse,
+ * weights} and, summed over handles, which are solved at the same time, seconds.{factor, solve}.
  *
  * Status not_converged (with the result) when a column misses Tolerance within MaximumIterations.
  * Errors: empty or invalid mesh, tets without volume, no handles, two at the same place, a region
- * whose label no vertex has, terms that contradict a handle or each other (handle and point are
- * named).
+ * whose label no vertex has, not enough memory, terms that contradict a handle or each other
+ * (handle and point are named).
  */
 
 #ifndef vtkWeightsAlgorithm_h
@@ -112,6 +113,16 @@ public:
   /// Iterations a column, each a factorisation, at least 1. Default 100; 10 to 30 are usual.
   void SetMaximumIterations(int iterations);
   vtkGetMacro(MaximumIterations, int);
+  ///@}
+
+  ///@{
+  /**
+   * MiB that the whole process may hold; 0 (default): as much as the machine has available. What
+   * would take more is refused, with both numbers, before it is factored; where memory will not do
+   * for a factor a thread, fewer threads are taken. Weights that are there stay.
+   */
+  vtkSetClampMacro(MemoryLimit, int, 0, VTK_INT_MAX);
+  vtkGetMacro(MemoryLimit, int);
   ///@}
 
   ///@{
@@ -302,6 +313,7 @@ private:
 
   double Tolerance = 1e-6;
   int MaximumIterations = 100;
+  int MemoryLimit = 0;
   std::string RegionArrayName = "RegionId";
   int Domain = SURFACE;
   int Stage = CERTIFIED;

@@ -363,7 +363,7 @@ def _set_terms(solver, data, terms):
 def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolution=0, stage="certified",
             regions=None, tolerance=1e-6, maximum_iterations=100, keep_mesh=False, rigidity=None, rigid_sets=None,
             lower=None, upper=None, pins=None, bounds=(0, 1), mirror=None, influences=0, partition="normalise",
-            threads=0, progress=None):
+            memory_limit=0, threads=0, progress=None):
     """Smooth weights, one function a handle, at the mesh's own points.
 
     Parameters
@@ -415,6 +415,9 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
     partition : {"normalise", "coupled"}
         Divide rows by their sums, or solve for all columns together with the sums as constraints
         (bounded weights only, slow).
+    memory_limit : int
+        MiB that the whole process may hold; 0: as much as the machine has available. What would take more
+        is refused before it is begun.
     threads, progress
         See `winding_number`.
 
@@ -428,6 +431,8 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
     ------
     InvalidInput
         A mesh or handles that cannot be used; the text names the first offender.
+    BindposeError
+        Not enough memory; the text has the numbers.
 
     Warns
     -----
@@ -460,6 +465,7 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
     solver.SetRegionArrayName(regions or "RegionId")
     solver.SetTolerance(tolerance)
     solver.SetMaximumIterations(int(maximum_iterations))
+    solver.SetMemoryLimit(int(memory_limit))
     solver.SetKeepMesh(bool(keep_mesh))
     solver.SetBounds(*map(float, bounds))
     solver.SetMaximumInfluences(int(influences))

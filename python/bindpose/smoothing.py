@@ -32,7 +32,7 @@ def _to_list(maxima, minima, count):
 
 def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, extrema=None, persistence=0.05, count=0,
                        data_weight=1e6, keep_values=False, order=2, guide="unconstrained", rebuilds=1, epsilon=0.0,
-                       tolerance=1e-6, maximum_iterations=100, threads=0, progress=None):
+                       tolerance=1e-6, maximum_iterations=100, memory_limit=0, threads=0, progress=None):
     """Smooth data on a mesh and leave the extrema that are asked for, no other (topological simplification).
 
     The result is the smooth function nearest to the data among all whose only local extrema are those listed;
@@ -70,6 +70,9 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, extrema=Non
         Largest relative gap and residual of the certificate.
     maximum_iterations : int
         At most for a solve.
+    memory_limit : int
+        MiB that the whole process may hold; 0: as much as the machine has available. What would take more
+        is refused before it is begun.
     threads, progress
         See `winding_number`.
 
@@ -129,6 +132,7 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, extrema=Non
     smoother.SetEpsilon(float(epsilon))
     smoother.SetTolerance(float(tolerance))
     smoother.SetMaximumIterations(int(maximum_iterations))
+    smoother.SetMemoryLimit(int(memory_limit))
     smoother.SetNumberOfThreads(threads)
     report = run(smoother, progress)
     result = smoother.GetOutput()

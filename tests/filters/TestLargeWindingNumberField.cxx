@@ -1,6 +1,7 @@
 // Grids larger than anybody's memory, and stopping in the middle of much work.
 #include "TestFilter.h"
 
+#include "base/memory.h"
 #include "conversion.h"
 #include "report_field_data.h"
 #include "support/meshes.h"
@@ -20,21 +21,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include <sys/resource.h>
-
 using namespace bindpose;
 using bindpose::test::Listener;
-
-namespace
-{
-/// Bytes that the process held at most so far.
-double peak_bytes()
-{
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return 1024.0 * static_cast<double>(usage.ru_maxrss);
-}
-} // namespace
 
 TEST(LargeWindingNumberField, ABillionSamplesInTheMemoryOfOneBlock)
 {
@@ -49,7 +37,7 @@ TEST(LargeWindingNumberField, ABillionSamplesInTheMemoryOfOneBlock)
   const int* whole =
     field->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT());
   ASSERT_EQ(whole[5], samples - 1);
-  const double before = peak_bytes();
+  const double before = peak_memory();
   double inside = 0.0;
   double other = 0.0;
   double spacing = 0.0;
@@ -80,7 +68,7 @@ TEST(LargeWindingNumberField, ABillionSamplesInTheMemoryOfOneBlock)
   EXPECT_EQ(other, 0.0);
 #if !defined(__SANITIZE_ADDRESS__) // which keeps what was freed for a while
   const double block = (8.0 + 1.0) * samples * samples * layers; // with the flags OnSurface
-  EXPECT_LT(peak_bytes() - before, block + 8e6);
+  EXPECT_LT(peak_memory() - before, block + 8e6);
 #endif
 }
 

@@ -142,6 +142,10 @@ const std::vector<Verb>& verbs()
           "what proves a column: relative gap and residual at most 1e-6, or 1e-9" },
         { "--iterations", "N", Kind::integer, "100", "",
           "at most for a handle; exit code 3 when they do not suffice" },
+        { "--memory-limit", "MIB", Kind::integer, "0", "",
+          "of the whole process; what would take more is refused before it is begun; 0: as much as "
+          "is available",
+          false, false, 0 },
         { "--rigidity", "ARRAY", Kind::text, "", "",
           "point array of painted rigidity, 0 and more: weights hardly vary where it is 1 or more; "
           "of bounded-biharmonic and monotone, as all down to --partition; default: Rigidity" },
@@ -201,6 +205,10 @@ const std::vector<Verb>& verbs()
           "what proves the result: relative gap and residual at most 1e-6, or 1e-9" },
         { "--iterations", "N", Kind::integer, "100", "",
           "at most for a solve; exit code 3 when they do not suffice" },
+        { "--memory-limit", "MIB", Kind::integer, "0", "",
+          "of the whole process; what would take more is refused before it is begun; 0: as much as "
+          "is available",
+          false, false, 0 },
         { "--extrema-output", "FILE", Kind::text, "", "",
           "also write the extrema as points with values and persistence (.vtp)" },
         { "-o,--output", "OUT", Kind::text, "", "",

@@ -1,5 +1,6 @@
 #include "cli/session.h"
 
+#include "base/memory.h"
 #include "cli/interrupt.h"
 #include "file_kind.h"
 #include "io/report_json.h"
@@ -17,8 +18,6 @@
 #include "vtkPolyData.h"
 
 #include <iostream>
-
-#include <sys/resource.h>
 
 namespace bindpose::cli
 {
@@ -329,9 +328,7 @@ void Session::write_report()
   report.merge(this->report_);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - this->start_;
   report.set("seconds.total", elapsed.count());
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  report.set("peak_memory_bytes", std::int64_t(usage.ru_maxrss) * 1024);
+  report.set("peak_memory_bytes", static_cast<std::int64_t>(peak_memory()));
   const std::string text = to_json(report) + "\n";
   if (path == "-")
   {

@@ -77,6 +77,7 @@ void run_smooth(Session& session)
   smoothing->SetEpsilon(arguments.number("epsilon"));
   smoothing->SetTolerance(arguments.certificate_tolerance());
   smoothing->SetMaximumIterations(arguments.integer("iterations"));
+  smoothing->SetMemoryLimit(arguments.integer("memory-limit"));
   if (session.run(smoothing, "smooth", 0.0, 1.0, Merge::all) &&
     session.write(smoothing->GetOutput(), output) && !extrema.empty())
   {

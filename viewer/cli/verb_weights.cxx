@@ -59,6 +59,7 @@ vtkSmartPointer<vtkWeightsAlgorithm> make_weights(const Arguments& arguments)
   const auto weights = make_method(arguments.text("method"), arguments.integer("order"));
   weights->SetTolerance(arguments.certificate_tolerance());
   weights->SetMaximumIterations(arguments.integer("iterations"));
+  weights->SetMemoryLimit(arguments.integer("memory-limit"));
   weights->SetKeepRaw(arguments.has("raw"));
   weights->SetKeepMesh(arguments.has("keep-mesh"));
   static const std::map<std::string, int> domains = {

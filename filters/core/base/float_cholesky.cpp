@@ -48,7 +48,7 @@ struct Plan
   std::shared_ptr<const Supernodes> nodes;
   std::vector<int> parent; // supernode, -1: none
   std::vector<int> position; // of each stored entry of the matrix among the factor's values
-  std::vector<char> depth; // of each supernode below its root, modulo 2: its stack
+  std::vector<unsigned char> depth; // of each supernode below its root, modulo 2: its stack
   std::size_t stack_size[2] = { 0, 0 }; // floats
   int largest_front = 0; // rows
   std::atomic<Index> factorisations{ 0 };
@@ -108,6 +108,18 @@ FloatCholesky FloatCholesky::clone() const
   FloatCholesky copy;
   copy.impl_->plan = this->impl_->plan;
   return copy;
+}
+
+double FloatCholesky::factor_bytes() const
+{
+  if (!this->impl_->plan)
+  {
+    return 0.0;
+  }
+  const Plan& plan = *this->impl_->plan;
+  return sizeof(float) *
+    (static_cast<double>(plan.nodes->first_value.back()) + static_cast<double>(plan.stack_size[0]) +
+      static_cast<double>(plan.stack_size[1]));
 }
 
 Index FloatCholesky::factorisations() const

@@ -44,6 +44,9 @@ public:
   /// The same for many columns: several times faster a column.
   void solve(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& x) const;
 
+  /// Bytes that this object's factor and its workspace will take; once they are there they are
+  /// taken.
+  double factor_bytes() const;
   /// How often this object and all its clones factored.
   Index factorisations() const;
 

@@ -13,6 +13,13 @@
 namespace bindpose
 {
 
+int thread_count(int asked)
+{
+  // TBB would print a warning for more.
+  const int cores = tbb::info::default_concurrency();
+  return asked > 0 ? std::min(asked, cores) : cores;
+}
+
 bool parallel_for(ExecutionContext& context, Index count, Index block_size,
   const std::function<void(Index, Index)>& body)
 {
@@ -44,9 +51,7 @@ bool parallel_for(ExecutionContext& context, Index count, Index block_size,
   }
   else
   {
-    // More threads than cores gain nothing, and TBB would print a warning.
-    const int cores = tbb::info::default_concurrency();
-    tbb::task_arena arena(context.threads() > 0 ? std::min(context.threads(), cores) : cores);
+    tbb::task_arena arena(thread_count(context.threads()));
     arena.execute(
       [&] { tbb::parallel_for(Index(0), blocks, Index(1), run, tbb::simple_partitioner()); });
   }

@@ -9,6 +9,10 @@
 namespace bindpose
 {
 
+/// How many threads run at once where that many are asked for (0: all cores): more threads than
+/// cores gain nothing.
+int thread_count(int asked);
+
 /// Calls body(begin, end) for consecutive blocks of at most block_size items that cover [0, count),
 /// on the context's threads. The blocks are the same for any number of threads, so a body that
 /// writes only its own items gives the same bits on 1 or N threads. Reports progress as the share

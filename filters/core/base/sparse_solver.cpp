@@ -1,7 +1,8 @@
 // One interface, two backends.
 //
-// CHOLMOD: cholmod_analyze gives a symbolic factor; a clone copies it and has a workspace
-// (cholmod_common) of its own, so that clones factor at the same time. The factor is always
+// CHOLMOD: cholmod_analyze gives a symbolic factor, which clones share. Each one copies it when it
+// first factors, and has a workspace (cholmod_common) of its own, so that clones factor at the same
+// time. The factor is always
 // supernodal LL': a simplicial LDL' would accept negative pivots silently.
 //
 // Serial inside: handles are solved in parallel one level up, and a threaded BLAS would make
@@ -11,6 +12,7 @@
 // without threads cannot be called by two threads at once (see SerialBlas).
 #include "base/sparse_solver.h"
 
+#include "base/memory.h"
 #include "base/supernodes.h"
 
 #include <Eigen/SparseCholesky>
@@ -48,6 +50,8 @@ public:
   virtual void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) = 0;
   virtual std::unique_ptr<Factorisation> clone() const = 0;
   virtual std::shared_ptr<const Supernodes> supernodes() const { return nullptr; }
+  virtual bool has_factor() const = 0;
+  virtual double bytes() const = 0;
   virtual double nonzeros() const = 0;
   virtual double operations() const = 0;
 };
@@ -104,6 +108,12 @@ public:
     return copy;
   }
 
+  // Taken by the analysis.
+  bool has_factor() const override { return true; }
+  double bytes() const override
+  {
+    return this->nonzeros() * static_cast<double>(sizeof(double) + sizeof(int));
+  }
   double nonzeros() const override
   {
     return static_cast<double>(this->solver_.matrixL().nestedExpression().nonZeros());
@@ -157,12 +167,14 @@ public:
     this->common_.method[0].ordering = metis ? CHOLMOD_METIS : CHOLMOD_AMD;
     this->common_.postorder = 1;
     cholmod_free_factor(&this->factor_, &this->common_);
+    this->pattern_.reset();
     cholmod_sparse a = view(matrix);
-    this->factor_ = cholmod_analyze(&a, &this->common_);
-    if (!this->factor_)
+    cholmod_factor* pattern = cholmod_analyze(&a, &this->common_);
+    if (!pattern)
     {
       return this->failure("analysed");
     }
+    this->pattern_.reset(pattern, free_factor);
     this->copy_supernodes();
     this->nonzeros_ = this->common_.lnz;
     this->operations_ = this->common_.fl;
@@ -172,6 +184,14 @@ public:
   Status factor(const SparseMatrix& matrix) override
   {
     const SerialBlas serial;
+    if (!this->factor_ && this->pattern_)
+    {
+      this->factor_ = cholmod_copy_factor(this->pattern_.get(), &this->common_);
+    }
+    if (!this->factor_)
+    {
+      return this->failure("factored");
+    }
     cholmod_sparse a = view(matrix);
     cholmod_factorize(&a, this->factor_, &this->common_);
     if (this->common_.status == CHOLMOD_NOT_POSDEF)
@@ -213,29 +233,38 @@ public:
   std::unique_ptr<Factorisation> clone() const override
   {
     auto copy = std::make_unique<CholmodFactorisation>(this->ordering_);
-    if (this->factor_)
-    {
-      // A numeric factor is copied without its numbers.
-      copy->factor_ = cholmod_copy_factor(this->factor_, &copy->common_);
-      cholmod_change_factor(CHOLMOD_PATTERN, 1, 1, 1, 1, copy->factor_, &copy->common_);
-      copy->supernodes_ = this->supernodes_;
-      copy->nonzeros_ = this->nonzeros_;
-      copy->operations_ = this->operations_;
-    }
+    copy->pattern_ = this->pattern_;
+    copy->supernodes_ = this->supernodes_;
+    copy->nonzeros_ = this->nonzeros_;
+    copy->operations_ = this->operations_;
     return copy;
   }
 
   std::shared_ptr<const Supernodes> supernodes() const override { return this->supernodes_; }
+  bool has_factor() const override { return this->factor_ != nullptr; }
+  double bytes() const override
+  {
+    return this->pattern_ ? static_cast<double>(this->pattern_->xsize) * sizeof(double) +
+        static_cast<double>(this->pattern_->ssize) * sizeof(int)
+                          : 0.0;
+  }
   double nonzeros() const override { return this->nonzeros_; }
   double operations() const override { return this->operations_; }
 
 private:
+  static void free_factor(cholmod_factor* factor)
+  {
+    cholmod_common common{};
+    cholmod_start(&common);
+    cholmod_free_factor(&factor, &common);
+    cholmod_finish(&common);
+  }
   void copy_supernodes()
   {
     const auto copy = [](const void* from, size_t count) {
       return std::vector<int>(static_cast<const int*>(from), static_cast<const int*>(from) + count);
     };
-    const cholmod_factor& factor = *this->factor_;
+    const cholmod_factor& factor = *this->pattern_;
     auto nodes = std::make_shared<Supernodes>();
     nodes->order = copy(factor.Perm, factor.n);
     nodes->first_column = copy(factor.super, factor.nsuper + 1);
@@ -294,7 +323,8 @@ private:
 
   SparseSolver::Ordering ordering_;
   mutable cholmod_common common_{};
-  cholmod_factor* factor_ = nullptr;
+  std::shared_ptr<cholmod_factor> pattern_; // what clones share
+  cholmod_factor* factor_ = nullptr; // not before the first factorisation
   cholmod_dense* x_ = nullptr; // kept between solves
   cholmod_dense* y_ = nullptr;
   cholmod_dense* e_ = nullptr;
@@ -397,6 +427,15 @@ Status SparseSolver::factor(const SparseMatrix& matrix)
     return Status::failure(
       StatusCode::internal_error, "the matrix to be factored has not the analysed pattern");
   }
+  if (!this->impl_->factorisation->has_factor())
+  {
+    Status status = check_memory("the factor of " + std::to_string(this->impl_->size) + " unknowns",
+      this->factor_bytes(), this->impl_->options.memory_limit);
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
   this->impl_->counters->factorisations += 1;
   return this->impl_->factorisation->factor(matrix);
 }
@@ -432,6 +471,11 @@ SparseSolver SparseSolver::clone() const
 std::shared_ptr<const Supernodes> SparseSolver::supernodes() const
 {
   return this->impl_->factorisation ? this->impl_->factorisation->supernodes() : nullptr;
+}
+
+double SparseSolver::factor_bytes() const
+{
+  return this->impl_->factorisation ? this->impl_->factorisation->bytes() : 0.0;
 }
 
 Index SparseSolver::size() const

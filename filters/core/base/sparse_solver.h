@@ -43,6 +43,9 @@ public:
   {
     Backend backend = Backend::automatic;
     Ordering ordering = Ordering::automatic;
+    /// MiB that the whole process may hold; 0: as much as is available. What would take more is
+    /// refused before it is begun.
+    Index memory_limit = 0;
   };
 
   SparseSolver();
@@ -64,7 +67,8 @@ public:
   /// is not built in; invalid_input when the matrix is not square or the factor would be too large.
   Status analyse(const SparseMatrix& matrix);
   /// Factors a matrix of the analysed pattern. invalid_input when it is not positive definite: the
-  /// message names the unknown at whose pivot that showed.
+  /// message names the unknown at whose pivot that showed. internal_error when the factor has no
+  /// room in memory.
   Status factor(const SparseMatrix& matrix);
   /// Solves for the columns of rhs with the last factorisation.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
@@ -78,6 +82,8 @@ public:
   /// factorisations of another kind (see FloatCholesky).
   std::shared_ptr<const Supernodes> supernodes() const;
 
+  /// Bytes that this object's factor will take; once it is there they are taken.
+  double factor_bytes() const;
   /// Unknowns analysed, nonzeros of the factor, floating point operations of one factorisation.
   Index size() const;
   double factor_nonzeros() const;

@@ -3,10 +3,12 @@
 // method of interior_point.cpp, in a workspace that the next column uses again.
 #include "weights/box_qp.h"
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "weights/barrier_start.h"
 #include "weights/interior_point.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <mutex>
@@ -23,6 +25,26 @@ double seconds_since(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
+
+/// Scope in which a context has at most so many threads, 0: as many as it had.
+class FewerThreads
+{
+public:
+  FewerThreads(ExecutionContext& context, int most) : context_(context), asked_(context.threads())
+  {
+    if (most > 0)
+    {
+      context.set_threads(std::min(thread_count(this->asked_), most));
+    }
+  }
+  ~FewerThreads() { this->context_.set_threads(this->asked_); }
+  FewerThreads(const FewerThreads&) = delete;
+  FewerThreads& operator=(const FewerThreads&) = delete;
+
+private:
+  ExecutionContext& context_;
+  const int asked_;
+};
 } // namespace
 
 struct BoxQp::Impl : SplitForm
@@ -33,10 +55,38 @@ struct BoxQp::Impl : SplitForm
   SparseSolver solver; // of A itself
   FloatCholesky single; // for the columns; not analysed where it is unavailable
   double first_factor_seconds = 0.0;
+  double memory_estimate = 0.0;
+  int most_threads = 0; // that memory will do for, 0: any number
   mutable std::mutex inverse_mutex;
   mutable std::mutex pool_mutex;
   mutable std::vector<std::unique_ptr<BoxQpWorkspace>> pool;
 
+  /// What the factors will take. A workspace a thread, one at least.
+  Status plan_memory(const std::vector<BoxQpColumn>& columns, int threads)
+  {
+    const bool ordered = std::any_of(columns.begin(), columns.end(),
+      [](const BoxQpColumn& column) { return !column.pairs.empty(); });
+    const auto count = static_cast<double>(columns.size());
+    const auto vertices = static_cast<double>(this->q.rows());
+    // Of a column: what is given, its minimiser without bounds, its start, its solution.
+    const double once =
+      this->solver.factor_bytes() + 5.0 * sizeof(double) * vertices * std::max(count, 1.0);
+    // In a column's work: about as many vectors as there are lines that keep one.
+    const double each = columns.empty()
+      ? 0.0
+      : static_cast<double>(this->lower.nonZeros()) * (sizeof(double) + sizeof(int)) +
+        40.0 * sizeof(double) * vertices + this->single.factor_bytes() +
+        (ordered || !this->single.analysed() ? this->solver.factor_bytes() : 0.0);
+    const double left = memory_left(this->options.solver.memory_limit);
+    const double wanted = std::min(count, static_cast<double>(thread_count(threads)));
+    const double fitting = each > 0.0 ? std::floor((left - once) / each) : wanted;
+    const double workspaces = std::clamp(fitting, std::min(1.0, count), std::max(wanted, 1.0));
+    this->most_threads = static_cast<int>(workspaces);
+    this->memory_estimate = resident_memory() + once + workspaces * each;
+    return check_memory("solving for " + std::to_string(columns.size()) + " columns on " +
+        std::to_string(this->q.rows()) + " vertices",
+      once + workspaces * each, this->options.solver.memory_limit);
+  }
   std::unique_ptr<BoxQpWorkspace> take_workspace() const
   {
     const std::lock_guard<std::mutex> lock(this->pool_mutex);
@@ -121,7 +171,7 @@ BoxQp::BoxQp(const SparseMatrix& q, std::vector<Index> fixed, const BoxQpOptions
 
 BoxQp::~BoxQp() = default;
 
-Status BoxQp::prepare(ExecutionContext& context)
+Status BoxQp::prepare(ExecutionContext& context, const std::vector<BoxQpColumn>& columns)
 {
   Impl& impl = *this->impl_;
   if (impl.free_vertices.empty())
@@ -134,10 +184,13 @@ Status BoxQp::prepare(ExecutionContext& context)
     status = impl.solver.analyse(impl.lower);
     if (status.ok())
     {
-      impl.single = FloatCholesky();
       const Status single = impl.single.analyse(impl.solver, impl.lower);
       status = single.code == StatusCode::unavailable ? status : single;
     }
+  }
+  if (status.ok())
+  {
+    status = impl.plan_memory(columns, context.threads());
   }
   if (status.ok() && !context.cancelled())
   {
@@ -252,6 +305,7 @@ std::vector<BoxQpSolution> BoxQp::solve_all(
   }
   const double start_seconds = seconds_since(start) / std::max<double>(1.0, double(columns.size()));
   const ProgressRange range(context, 0.1, 1.0);
+  const FewerThreads fewer(context, impl.most_threads);
   parallel_for(context, static_cast<Index>(columns.size()), 1,
     [&](Index begin, Index end)
     {
@@ -282,6 +336,11 @@ Index BoxQp::analyses() const
 Index BoxQp::factorisations() const
 {
   return this->impl_->solver.factorisations() + this->impl_->single.factorisations();
+}
+
+double BoxQp::memory_estimate() const
+{
+  return this->impl_->memory_estimate;
 }
 
 double BoxQp::first_factor_seconds() const

@@ -73,7 +73,10 @@ public:
   BoxQp& operator=(const BoxQp&) = delete;
 
   /// Analyses and factors Q once. Must succeed before anything else is called. Phase "analyse".
-  Status prepare(ExecutionContext& context);
+  /// internal_error before anything is factored when memory will not do for these columns.
+  /// @param columns that solve_all() will be asked for. Where memory will not do for a factor a
+  /// thread, solve_all() takes fewer threads.
+  Status prepare(ExecutionContext& context, const std::vector<BoxQpColumn>& columns = {});
 
   /// #V x m: the minimisers without bounds for m columns of fixed values (#fixed x m).
   /// @param refine one step of iterative refinement. Without, the minimisers of an energy whose
@@ -96,6 +99,8 @@ public:
   Index free_count() const;
   Index analyses() const;
   Index factorisations() const;
+  /// Bytes that the process will hold at most, as estimated by prepare() after the analysis.
+  double memory_estimate() const;
   /// Seconds of the one factorisation that prepare() made.
   double first_factor_seconds() const;
   const SparseSolver& solver() const;

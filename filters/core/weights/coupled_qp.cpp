@@ -20,6 +20,7 @@
 // is that of the projection: max |w - project(w - q / diag Q)|.
 #include "weights/coupled_qp.h"
 
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "weights/split_form.h"
 
@@ -254,7 +255,11 @@ Status CoupledQp::set_up()
     this->c_.col(j) = this->matrices_.to_fixed * this->columns_[j].fixed_values;
     this->solvers_.push_back(this->analysed_.clone());
   }
-  return {};
+  const auto columns = static_cast<double>(this->m_);
+  const auto numbers = static_cast<double>(this->n_) * columns;
+  return check_memory("the factors of " + std::to_string(this->m_) + " coupled columns",
+    columns * this->analysed_.factor_bytes() + 30.0 * sizeof(double) * numbers,
+    this->options_.solver.memory_limit);
 }
 
 void CoupledQp::row_of(Index i, const MatrixXd& w, const MatrixXd* gradient, Row& row) const

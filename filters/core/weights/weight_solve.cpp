@@ -72,7 +72,7 @@ public:
       made.solver = std::make_unique<BoxQp>(made.q, group.fixed,
         BoxQpOptions{
           this->options_.tolerance, this->options_.maximum_iterations, this->options_.solver });
-      status = made.solver->prepare(this->context_);
+      status = made.solver->prepare(this->context_, group.columns);
       if (!status.ok())
       {
         return status;
@@ -149,6 +149,17 @@ public:
     this->spread(group, solved.columns, nullptr, round);
     round.coupled_energy = solved.certificate.energy;
     return {};
+  }
+
+  /// Bytes of the whole process, of all groups.
+  double memory_estimate() const
+  {
+    double most = 0.0;
+    for (const GroupSolver& solver : this->solvers_)
+    {
+      most = std::max(most, solver.solver->memory_estimate());
+    }
+    return most;
   }
 
   Index analyses() const
@@ -367,6 +378,7 @@ Status solve_weights(const WeightsProblem& problem, int order, const std::string
   {
     return status;
   }
+  status.report.set("memory_estimate_bytes", static_cast<std::int64_t>(solver.memory_estimate()));
   if (problem.terms.has_bounds())
   {
     status.report.set("normalised_bounds_violation", normalised_violation(problem, result.weights));

@@ -5,6 +5,7 @@
 #include "support/meshes.h"
 
 #include <Eigen/Cholesky>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -53,6 +54,26 @@ protected:
   }
 };
 } // namespace
+
+TEST_P(SparseSolverTest, WhatHasNoRoomIsRefusedBeforeItIsFactored)
+{
+  const SparseMatrix a = definite_matrix(8, 0.1);
+  SparseSolver::Options options;
+  options.backend = GetParam();
+  options.memory_limit = 1;
+  SparseSolver solver(options);
+  ASSERT_TRUE(solver.analyse(a).ok());
+  EXPECT_GE(solver.factor_bytes(), 8.0 * solver.factor_nonzeros());
+  EXPECT_LT(solver.factor_bytes(), 16.0 * solver.factor_nonzeros() + 1e5);
+  if (GetParam() == SparseSolver::Backend::cholmod)
+  {
+    const Status status = solver.factor(a);
+    EXPECT_EQ(status.code, StatusCode::internal_error);
+    EXPECT_THAT(status.message, testing::StartsWith("the factor of 729 unknowns would bring"));
+    EXPECT_EQ(solver.clone().factor(a).code, StatusCode::internal_error);
+    EXPECT_EQ(solver.factorisations(), 0);
+  }
+}
 
 TEST_P(SparseSolverTest, SolvesAsADenseFactorisationDoes)
 {

@@ -3,11 +3,20 @@
 // threads.
 #include "weights/box_qp.h"
 
+#include "base/memory.h"
+
+#include "support/sanitized.h"
 #include "weights_shapes.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+
+#ifdef __linux__
+#include <malloc.h>
+#endif
 
 using namespace bindpose;
 
@@ -371,6 +380,95 @@ TEST(BoxQp, ThreadsDoNotChangeABit)
     }
   }
 }
+
+#ifdef __linux__
+TEST(BoxQp, TheEstimateOfItsMemoryIsThePeak)
+{
+  if (test::sanitized)
+  {
+    return; // the sanitizer's own memory is a multiple of ours
+  }
+  const TetMesh box = test::tet_box(20, 20, 20);
+  const Eigen::VectorXd mass = lumped_mass(box.points, box.tets);
+  const SparseMatrix q =
+    harmonic_energy(stiffness_matrix(box.points, box.tets), mass / mass.maxCoeff(), 2);
+  const std::vector<Index> fixed{ 0, 20, 4630, 9260 };
+  std::vector<BoxQpColumn> columns;
+  for (Index j = 0; j < 4; ++j)
+  {
+    columns.emplace_back();
+    columns.back().fixed_values = Eigen::VectorXd::Unit(4, j);
+  }
+  for (const int threads : { 1, 2 })
+  {
+    ::malloc_trim(0);
+    std::ofstream("/proc/self/clear_refs") << "5"; // the peak begins anew
+    const double before = resident_memory();
+    BoxQp qp(q, fixed, {});
+    ExecutionContext context;
+    context.set_threads(threads);
+    ASSERT_TRUE(qp.prepare(context, columns).ok());
+    ASSERT_TRUE(worst_of(qp.solve_all(columns, context)).ok());
+    const double peak = peak_memory();
+    ASSERT_GT(peak, before + 50 * mebibyte);
+    EXPECT_GT(qp.memory_estimate() - before, 0.8 * (peak - before)) << threads;
+    EXPECT_LT(qp.memory_estimate() - before, 1.3 * (peak - before)) << threads;
+  }
+}
+
+TEST(BoxQp, TakesFewerThreadsOrRefusesWhereMemoryEnds)
+{
+  const TetMesh box = test::tet_box(16, 16, 16);
+  const Eigen::VectorXd mass = lumped_mass(box.points, box.tets);
+  const SparseMatrix q =
+    harmonic_energy(stiffness_matrix(box.points, box.tets), mass / mass.maxCoeff(), 2);
+  const std::vector<Index> fixed{ 0, 16, 4912 };
+  std::vector<BoxQpColumn> columns;
+  for (Index j = 0; j < 3; ++j)
+  {
+    columns.emplace_back();
+    columns.back().fixed_values = Eigen::VectorXd::Unit(3, j);
+  }
+  ExecutionContext context;
+  BoxQpOptions options;
+  options.solver.memory_limit = 1; // less than what the process holds already
+  BoxQp none(q, fixed, options);
+  const Status refused = none.prepare(context, columns);
+  EXPECT_EQ(refused.code, StatusCode::internal_error);
+  EXPECT_THAT(
+    refused.message, testing::StartsWith("solving for 3 columns on 4913 vertices would bring"));
+  EXPECT_EQ(none.factorisations(), 0);
+  EXPECT_GT(none.memory_estimate(), resident_memory());
+
+  std::vector<BoxQpSolution> reference;
+  double needed[2]; // by one thread and by two
+  for (const int threads : { 2, 1 })
+  {
+    ExecutionContext some;
+    some.set_threads(threads);
+    ::malloc_trim(0);
+    const double before = resident_memory();
+    BoxQp qp(q, fixed, {});
+    ASSERT_TRUE(qp.prepare(some, columns).ok());
+    needed[threads - 1] = qp.memory_estimate() - before;
+    reference = qp.solve_all(columns, some);
+  }
+  // Too little for two threads.
+  ASSERT_GT(needed[1], needed[0] + 8 * mebibyte);
+  ::malloc_trim(0);
+  options.solver.memory_limit = static_cast<Index>((resident_memory() + needed[0]) / mebibyte) + 4;
+  BoxQp narrow(q, fixed, options);
+  context.set_threads(2);
+  ASSERT_TRUE(narrow.prepare(context, columns).ok());
+  EXPECT_LE(narrow.memory_estimate(), options.solver.memory_limit * mebibyte);
+  const std::vector<BoxQpSolution> solutions = narrow.solve_all(columns, context);
+  for (std::size_t j = 0; j < columns.size(); ++j)
+  {
+    ASSERT_TRUE(solutions[j].status.ok());
+    EXPECT_EQ(solutions[j].w, reference[j].w);
+  }
+}
+#endif
 
 TEST(BoxQp, TooFewIterationsAreSaidAndCancelEndsIt)
 {

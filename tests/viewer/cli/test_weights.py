@@ -122,6 +122,18 @@ def test_too_few_iterations_are_exit_three(bar):
     bar.run("weights", "bar.off", "--handles", "points.tgf", "--iterations", "0", "-o", "w2.vtp").is_refused("iterations")
 
 
+def test_what_memory_has_no_room_for_is_refused_before_it_is_begun(bar):
+    bar.run("tetrahedralize", "bar.off", "--interior-edge", "0.02", "-o", "tets.vtu").is_good()
+    tets = ("weights", "tets.vtu", "--handles", "bones.tgf", "--threads", "1")
+    report = bar.run(*tets, "-o", "w.dmat", "--report", "-").is_good().report
+    assert report["memory_estimate_bytes"] == pytest.approx(report["peak_memory_bytes"], rel=0.15)
+    bar.run(*tets, "-o", "no.dmat", "--memory-limit", "40").is_refused("2 columns on", "40 MiB are its limit", code=5)
+    limit = str(report["memory_estimate_bytes"] // 2**20 + 20)
+    bar.run(*tets, "-o", "same.dmat", "--memory-limit", limit).is_good()
+    assert (bar / "same.dmat").read_bytes() == (bar / "w.dmat").read_bytes()
+    bar.run(*tets, "-o", "no.dmat", "--memory-limit", "-1").is_refused("--memory-limit")
+
+
 def test_the_mesh_can_be_kept(bar):
     bar.run("tetrahedralize", "bar.off", "-o", "tets.vtu").is_good()
     kept = bar.run("weights", "tets.vtu", "--handles", "points.tgf", "--keep-mesh", "-o", "w.vtu",

@@ -1,0 +1,152 @@
+// Numbers of Linux: /proc/self/statm and status for the process, MemAvailable of /proc/meminfo for
+// the machine (free pages and caches that can be dropped), memory.max and memory.current of the
+// process's control group and of all groups around it.
+#include "base/memory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#ifdef __linux__
+#include <sys/resource.h>
+#include <unistd.h>
+#endif
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+#ifdef __linux__
+/// Pages of /proc/self/statm: address space, then resident.
+struct Pages
+{
+  double address_space = 0.0;
+  double resident = 0.0;
+};
+
+Pages own_pages()
+{
+  Pages pages;
+  std::ifstream("/proc/self/statm") >> pages.address_space >> pages.resident;
+  const auto size = static_cast<double>(::sysconf(_SC_PAGESIZE));
+  pages.address_space *= size;
+  pages.resident *= size;
+  return pages;
+}
+
+/// Bytes of a line "KEY: NUMBER kB".
+double read_kibibytes(const char* path, const std::string& key, double otherwise)
+{
+  std::ifstream file(path);
+  for (std::string word; file >> word; std::getline(file, word))
+  {
+    double kibibytes = 0.0;
+    if (word == key && file >> kibibytes)
+    {
+      return kibibytes * 1024.0;
+    }
+  }
+  return otherwise;
+}
+
+double address_space_leaves()
+{
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+  {
+    return unknown;
+  }
+  return static_cast<double>(limit.rlim_cur) - own_pages().address_space;
+}
+
+double group_leaves()
+{
+  // Of the unified hierarchy: "0::/path".
+  std::string group;
+  std::ifstream file("/proc/self/cgroup");
+  for (std::string line; std::getline(file, line);)
+  {
+    if (line.compare(0, 3, "0::") == 0)
+    {
+      group = line.substr(3);
+    }
+  }
+  double least = unknown;
+  while (!group.empty())
+  {
+    const std::string folder = "/sys/fs/cgroup" + (group == "/" ? std::string() : group);
+    double most = 0.0;
+    double current = 0.0;
+    // "max" is no number: no limit.
+    if (std::ifstream(folder + "/memory.max") >> most &&
+      std::ifstream(folder + "/memory.current") >> current)
+    {
+      least = std::min(least, most - current);
+    }
+    group.resize(group == "/" ? 0 : std::max<std::size_t>(group.rfind('/'), 1));
+  }
+  return least;
+}
+#endif
+} // namespace
+
+double resident_memory()
+{
+#ifdef __linux__
+  return own_pages().resident;
+#else
+  return 0.0;
+#endif
+}
+
+double peak_memory()
+{
+#ifdef __linux__
+  return read_kibibytes("/proc/self/status", "VmHWM:", 0.0);
+#else
+  return 0.0;
+#endif
+}
+
+double available_memory()
+{
+#ifdef __linux__
+  return std::max(0.0,
+    std::min({ read_kibibytes("/proc/meminfo", "MemAvailable:", unknown), address_space_leaves(),
+      group_leaves() }));
+#else
+  return unknown;
+#endif
+}
+
+double memory_left(Index limit)
+{
+  const double available = available_memory();
+  return limit > 0
+    ? std::max(0.0, std::min(available, static_cast<double>(limit) * mebibyte - resident_memory()))
+    : available;
+}
+
+Status check_memory(const std::string& what, double bytes, Index limit)
+{
+  const double left = memory_left(limit);
+  if (bytes <= left)
+  {
+    return {};
+  }
+  const double held = resident_memory();
+  const double allowed = static_cast<double>(limit) * mebibyte;
+  const bool limited = limit > 0 && allowed - held <= available_memory();
+  const auto words = [](double size)
+  { return std::to_string(static_cast<long long>(std::ceil(size / mebibyte))) + " MiB"; };
+  return Status::failure(StatusCode::internal_error,
+    what + " would bring this process to about " + words(held + bytes) + " of memory, " +
+      (limited ? words(allowed) + " are its limit: take a coarser mesh or a higher limit"
+               : words(held + left) + " are there: take a coarser mesh"));
+}
+
+} // namespace bindpose

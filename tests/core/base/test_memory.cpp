@@ -1,0 +1,71 @@
+// What is available against what Linux tells otherwise, and sentences with numbers.
+#include "base/memory.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#ifdef __linux__
+#include <sys/resource.h>
+#include <sys/sysinfo.h>
+#endif
+
+using namespace bindpose;
+
+#ifdef __linux__
+TEST(Memory, LiesWithinTheMachines)
+{
+  struct sysinfo machine = {};
+  ASSERT_EQ(::sysinfo(&machine), 0);
+  const double all = static_cast<double>(machine.totalram) * machine.mem_unit;
+  EXPECT_GT(resident_memory(), mebibyte);
+  EXPECT_LT(resident_memory(), all);
+  EXPECT_GT(available_memory(), 0.0);
+  EXPECT_LT(available_memory(), all);
+}
+
+TEST(Memory, WhatIsTakenIsHeld)
+{
+  const double before = resident_memory();
+  {
+    const std::vector<char> taken(64 << 20, 1);
+    EXPECT_NEAR(resident_memory() - before, 64 * mebibyte, 8 * mebibyte);
+    EXPECT_EQ(taken.back(), 1);
+  }
+  EXPECT_NEAR(resident_memory() - before, 0.0, 8 * mebibyte);
+  EXPECT_GE(peak_memory() - before, 56 * mebibyte);
+}
+
+TEST(Memory, TheLimitOnAddressSpaceCounts)
+{
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_AS, &before), 0);
+  // Less than what is there: nothing is left.
+  rlimit limit = before;
+  limit.rlim_cur = 1 << 20;
+  ASSERT_EQ(::setrlimit(RLIMIT_AS, &limit), 0);
+  const double left = available_memory();
+  ::setrlimit(RLIMIT_AS, &before);
+  EXPECT_EQ(left, 0.0);
+}
+#endif
+
+TEST(Memory, RefusesWithBothNumbers)
+{
+  EXPECT_TRUE(check_memory("a little", 1024.0, 0).ok());
+  const Status far = check_memory("all of it", 1e18, 0);
+  EXPECT_EQ(far.code, StatusCode::internal_error);
+  EXPECT_THAT(far.message, testing::StartsWith("all of it would bring this process to about 95"));
+  EXPECT_THAT(far.message, testing::HasSubstr(" are there: take a coarser mesh"));
+
+  const auto held = static_cast<Index>(resident_memory() / mebibyte);
+  EXPECT_TRUE(check_memory("a little", 16 * mebibyte, held + 128).ok());
+  const Status over = check_memory("too much", 256 * mebibyte, held + 128);
+  EXPECT_EQ(over.code, StatusCode::internal_error);
+  EXPECT_THAT(over.message,
+    testing::HasSubstr(std::to_string(held + 128) + " MiB are its limit: take a coarser mesh or "));
+  EXPECT_LE(memory_left(held + 128), 129 * mebibyte);
+  EXPECT_EQ(memory_left(1), 0.0);
+}

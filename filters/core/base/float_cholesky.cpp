@@ -27,6 +27,7 @@
 #ifdef BINDPOSE_HAS_CHOLMOD
 #include "base/serial_blas.h"
 
+// NOLINTBEGIN(readability-identifier-naming): LAPACK's and BLAS's names
 extern "C"
 {
   void spotrf_(const char* uplo, const int* n, float* a, const int* lda, int* info);
@@ -35,6 +36,7 @@ extern "C"
   void ssyrk_(const char* uplo, const char* trans, const int* n, const int* k, const float* alpha,
     const float* a, const int* lda, const float* beta, float* c, const int* ldc);
 }
+// NOLINTEND(readability-identifier-naming)
 #endif
 
 namespace bindpose

@@ -131,7 +131,7 @@ def test_what_memory_has_no_room_for_is_refused_before_it_is_begun(bar):
     limit = str(report["memory_estimate_bytes"] // 2**20 + 20)
     bar.run(*tets, "-o", "same.dmat", "--memory-limit", limit).is_good()
     assert (bar / "same.dmat").read_bytes() == (bar / "w.dmat").read_bytes()
-    bar.run(*tets, "-o", "no.dmat", "--memory-limit", "-1").is_refused("--memory-limit")
+    bar.run(*tets, "-o", "no.dmat", "--memory-limit", "-1").is_refused("--memory-limit", code=1)
 
 
 def test_the_mesh_can_be_kept(bar):

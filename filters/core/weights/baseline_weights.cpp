@@ -11,8 +11,8 @@
 #include "base/parallel.h"
 #include "surface/triangle_predicates.h"
 #include "surface/triangle_tree.h"
+#include "weights/free_system.h"
 #include "weights/simplex_locator.h"
-#include "weights/split_form.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -133,55 +133,6 @@ Status inverse_distances(
   return whole ? Status() : Status::cancelled();
 }
 
-/// A symmetric matrix whose block of the vertices that are solved for is factored.
-class FreeSystem
-{
-public:
-  FreeSystem(const WeightsProblem& problem, const SparseMatrix& matrix)
-    : form_(matrix, problem.fixed), values_(problem.fixed_values)
-  {
-  }
-
-  Status factor(const SparseSolver::Options& options, ExecutionContext& context)
-  {
-    if (this->form_.free_vertices.empty())
-    {
-      return {};
-    }
-    this->solver_ = SparseSolver(options);
-    Status status = this->solver_.analyse(this->form_.lower);
-    status = status.ok() && !context.cancelled() ? this->solver_.factor(this->form_.lower) : status;
-    return context.cancelled() ? Status::cancelled() : status;
-  }
-
-  /// The solved rows of w from the right-hand side (#V x m).
-  /// @return of each column the largest residual, as the change of one vertex that would mend it.
-  VectorXd solve(const MatrixXd& rhs, MatrixXd& w) const
-  {
-    const std::vector<Index>& free = this->form_.free_vertices;
-    MatrixXd right(static_cast<Index>(free.size()), rhs.cols());
-    for (Index i = 0; i < right.rows(); ++i)
-    {
-      right.row(i) = rhs.row(free[i]);
-    }
-    right -= this->form_.to_fixed * this->values_;
-    const MatrixXd x = this->solver_.solve(right);
-    MatrixXd residuals = right - this->form_.a * x;
-    for (Index i = 0; i < right.rows(); ++i)
-    {
-      w.row(free[i]) = x.row(i);
-      residuals.row(i) /= this->form_.lower.valuePtr()[this->form_.diagonal[i]];
-    }
-    return free.empty() ? VectorXd::Zero(rhs.cols())
-                        : VectorXd(residuals.cwiseAbs().colwise().maxCoeff().transpose());
-  }
-
-private:
-  SplitForm form_;
-  const MatrixXd& values_; ///< #fixed x m
-  SparseSolver solver_;
-};
-
 SparseMatrix with_diagonal(const SparseMatrix& matrix, double factor, const VectorXd& diagonal)
 {
   SparseMatrix sum = factor * matrix;
@@ -198,7 +149,7 @@ Status smoothed_harmonic(const WeightsProblem& problem, const BaselineWeightsOpt
   ExecutionContext& context, MatrixXd& w, VectorXd& residuals)
 {
   const MatrixXd zero = MatrixXd::Zero(w.rows(), w.cols());
-  FreeSystem harmonic(problem, problem.stiffness);
+  FreeSystem harmonic(problem.stiffness, problem.fixed);
   Status status = harmonic.factor(options.solver, context);
   if (!status.ok())
   {
@@ -212,7 +163,7 @@ Status smoothed_harmonic(const WeightsProblem& problem, const BaselineWeightsOpt
   const VectorXd mass = problem.mass_unit * problem.mass;
   const SparseMatrix matrix = with_diagonal(
     harmonic_energy(problem.stiffness, mass, 2), std::pow(options.smoothing, 4.0), mass);
-  FreeSystem system(problem, matrix);
+  FreeSystem system(matrix, problem.fixed);
   status = system.factor(options.solver, context);
   if (!status.ok())
   {
@@ -343,7 +294,7 @@ Status bone_heat(const WeightsProblem& problem, const BaselineWeightsOptions& op
   const VectorXd sources = (problem.mass_unit * problem.mass).cwiseProduct(h);
   const SparseMatrix matrix = with_diagonal(problem.stiffness, 1.0, sources);
   const MatrixXd rhs = sources.asDiagonal() * p;
-  FreeSystem system(problem, matrix);
+  FreeSystem system(matrix, problem.fixed);
   status = system.factor(options.solver, context);
   if (!status.ok())
   {

@@ -195,12 +195,7 @@ Status BoxQp::prepare(ExecutionContext& context, const std::vector<BoxQpColumn>&
   if (status.ok() && !context.cancelled())
   {
     const auto start = Clock::now();
-    status = impl.solver.factor(impl.lower);
-    if (status.code == StatusCode::invalid_input)
-    {
-      status.message = "the energy of the mesh has no unique minimum in double precision (" +
-        status.message + "); elements that are almost flat do that";
-    }
+    status = without_minimum(impl.solver.factor(impl.lower));
     impl.first_factor_seconds = seconds_since(start);
     context.add_seconds("factor", impl.first_factor_seconds);
   }

@@ -9,9 +9,8 @@
 
 #include "base/parallel.h"
 #include "base/sort_unique.h"
-#include "base/sparse_solver.h"
 #include "embedding/lattice_cover.h"
-#include "weights/split_form.h"
+#include "weights/free_system.h"
 
 #include <algorithm>
 #include <cmath>
@@ -300,7 +299,6 @@ Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double le
   mass = mass.cwiseMax(1e-3 * mass.mean());
   SparseMatrix energy = harmonic_energy(stiffness_matrix(points, triangles), mass, 2);
   energy += SparseMatrix(mass.asDiagonal());
-  const SplitForm form(energy, fixed);
   Weights given(n, result.cols());
   for (Index i = 0; i < result.rows(); ++i)
   {
@@ -309,40 +307,22 @@ Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double le
       given.row(welded.of_point[i]) = result.row(i);
     }
   }
-  const auto free_count = static_cast<Index>(form.free_vertices.size());
-  Eigen::MatrixXd right(free_count, result.cols());
-  Eigen::MatrixXd at_fixed(static_cast<Index>(fixed.size()), result.cols());
-  for (Index i = 0; i < at_fixed.rows(); ++i)
-  {
-    at_fixed.row(i) = given.row(fixed[i]);
-  }
-  for (Index i = 0; i < free_count; ++i)
-  {
-    right.row(i) = mass[form.free_vertices[i]] * given.row(form.free_vertices[i]);
-  }
-  right -= form.to_fixed * at_fixed;
-  SparseSolver solver;
-  Status status = solver.analyse(form.lower);
-  if (status.ok())
-  {
-    status = context.cancelled() ? Status::cancelled() : solver.factor(form.lower);
-  }
+  FreeSystem system(energy, fixed);
+  const Status status = system.factor({}, context);
   if (!status.ok())
   {
     return status;
   }
-  const Eigen::MatrixXd smooth = solver.solve(right);
+  Eigen::MatrixXd smooth = given;
+  system.solve(mass.asDiagonal() * given, smooth);
   const Eigen::RowVectorXd lowest = result.colwise().minCoeff();
   const Eigen::RowVectorXd highest = result.colwise().maxCoeff();
-  for (Index i = 0; i < free_count; ++i)
-  {
-    given.row(form.free_vertices[i]) = smooth.row(i).cwiseMax(lowest).cwiseMin(highest);
-  }
   for (Index i = 0; i < result.rows(); ++i)
   {
     if (welded.of_point[i] >= 0)
     {
-      result.row(i) = given.row(welded.of_point[i]);
+      const Index v = welded.of_point[i];
+      result.row(i) = smooth.row(v).cwiseMax(lowest).cwiseMin(highest);
     }
   }
   return {};

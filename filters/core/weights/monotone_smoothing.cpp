@@ -13,6 +13,7 @@
 // for that order can only lower the energy.
 #include "weights/monotone_smoothing.h"
 
+#include "weights/free_system.h"
 #include "weights/ordered_pairs.h"
 #include "weights/scaled_mesh.h"
 
@@ -404,14 +405,14 @@ Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
         this->keep_values_ ? this->f_[static_cast<Index>(v)] : double(maximum));
     }
   }
-  BoxQp harmonic(positive_stiffness(this->scaled_.stiffness, this->graph_, this->taking_part_),
-    given, { 1e-6, 1, this->options_.solver });
-  Status status = harmonic.prepare(this->context_);
+  FreeSystem harmonic(
+    positive_stiffness(this->scaled_.stiffness, this->graph_, this->taking_part_), given);
+  Status status = harmonic.factor(this->options_.solver, this->context_);
   if (status.ok())
   {
     const Eigen::MatrixXd boundary =
       Eigen::Map<VectorXd>(given_values.data(), static_cast<Index>(given_values.size()));
-    values = harmonic.unconstrained(boundary, false).col(0);
+    values = harmonic.minimisers(boundary).col(0);
   }
   return status;
 }

@@ -16,6 +16,7 @@
 // are one vertex to the guide.
 #include "weights/monotone_weights.h"
 
+#include "weights/free_system.h"
 #include "weights/ordered_pairs.h"
 #include "weights/weight_solve.h"
 
@@ -36,11 +37,11 @@ Status pinned_guide(const SparseMatrix& laplacian, const std::vector<Index>& fix
   Eigen::MatrixXd values(static_cast<Index>(given.size()), 2);
   values.col(0) << column.fixed_values, column.pinned_values;
   values.col(1) = 1.0 - values.col(0).array();
-  BoxQp solver(laplacian, given, { 1e-6, 1, options });
-  const Status status = solver.prepare(context);
+  FreeSystem solver(laplacian, given);
+  const Status status = solver.factor(options, context);
   if (status.ok())
   {
-    const Eigen::MatrixXd both = solver.unconstrained(values, false);
+    const Eigen::MatrixXd both = solver.minimisers(values);
     u = both.col(0);
     rest = both.col(1);
   }
@@ -89,8 +90,8 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
   }
   const SparseMatrix laplacian =
     merge_form(group, positive_stiffness(problem.stiffness, problem.graph, pulls));
-  BoxQp solver(laplacian, group.fixed, { 1e-6, 1, solver_options });
-  Status status = solver.prepare(context);
+  FreeSystem solver(laplacian, group.fixed);
+  Status status = solver.factor(solver_options, context);
   if (!status.ok())
   {
     return status;
@@ -100,7 +101,7 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
   {
     fixed_values.col(j) = group.columns[j].fixed_values;
   }
-  result.guide = solver.unconstrained(fixed_values, false);
+  result.guide = solver.minimisers(fixed_values);
   // Sums of the guides behind column j; those before it are summed up on the way. Only all columns
   // together sum to one.
   const bool whole = m == problem.handle_count();
@@ -111,7 +112,7 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
   }
   if (!whole)
   {
-    behind = solver.unconstrained((1.0 - fixed_values.array()).matrix(), false);
+    behind = solver.minimisers((1.0 - fixed_values.array()).matrix());
   }
   Eigen::VectorXd before = Eigen::VectorXd::Zero(n);
   result.pairs.assign(static_cast<std::size_t>(m), {});

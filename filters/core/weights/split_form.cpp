@@ -68,4 +68,14 @@ int SplitForm::position(Index i, Index j) const
   return at != end && *at == i ? static_cast<int>(at - this->lower.innerIndexPtr()) : -1;
 }
 
+Status without_minimum(Status of_factor)
+{
+  if (of_factor.code == StatusCode::invalid_input)
+  {
+    of_factor.message = "the energy of the mesh has no unique minimum in double precision (" +
+      of_factor.message + "); elements that are almost flat do that";
+  }
+  return of_factor;
+}
+
 } // namespace bindpose

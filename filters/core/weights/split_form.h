@@ -2,6 +2,7 @@
 #define bindpose_weights_split_form_h
 
 #include "base/laplacian.h"
+#include "base/status.h"
 
 #include <vector>
 
@@ -29,6 +30,10 @@ struct SplitForm
   /// Position of entry (i, j), i > j, in lower's values; -1 when there is none.
   int position(Index i, Index j) const;
 };
+
+/// What it means for a form that its block of free vertices is not positive definite: a
+/// factorisation's invalid_input said so; any other status stays as it is.
+Status without_minimum(Status of_factor);
 
 } // namespace bindpose
 

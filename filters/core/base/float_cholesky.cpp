@@ -112,16 +112,25 @@ FloatCholesky FloatCholesky::clone() const
   return copy;
 }
 
+void FloatCholesky::release_workspace()
+{
+  for (std::vector<float>& stack : this->impl_->stack)
+  {
+    std::vector<float>().swap(stack);
+  }
+}
+
 double FloatCholesky::factor_bytes() const
 {
-  if (!this->impl_->plan)
-  {
-    return 0.0;
-  }
-  const Plan& plan = *this->impl_->plan;
-  return sizeof(float) *
-    (static_cast<double>(plan.nodes->first_value.back()) + static_cast<double>(plan.stack_size[0]) +
-      static_cast<double>(plan.stack_size[1]));
+  const Plan* plan = this->impl_->plan.get();
+  return plan ? sizeof(float) * static_cast<double>(plan->nodes->first_value.back()) : 0.0;
+}
+
+double FloatCholesky::workspace_bytes() const
+{
+  const Plan* plan = this->impl_->plan.get();
+  return plan ? sizeof(float) * static_cast<double>(plan->stack_size[0] + plan->stack_size[1])
+              : 0.0;
 }
 
 Index FloatCholesky::factorisations() const

@@ -44,9 +44,11 @@ public:
   /// The same for many columns: several times faster a column.
   void solve(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& x) const;
 
-  /// Bytes that this object's factor and its workspace will take; once they are there they are
-  /// taken.
+  /// Gives back what only factoring needs; the factor stays.
+  void release_workspace();
+  /// Bytes that this object's factor will take, and what factoring takes besides.
   double factor_bytes() const;
+  double workspace_bytes() const;
   /// How often this object and all its clones factored.
   Index factorisations() const;
 

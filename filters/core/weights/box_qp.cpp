@@ -1,10 +1,13 @@
-// One analysis and one factorisation of Q's free block in double precision. Then all columns get
-// their starts together (barrier_start.cpp), and each one is solved for by the interior-point
-// method of interior_point.cpp, in a workspace that the next column uses again.
+// One analysis and one factorisation of Q's free block, in single precision where conjugate
+// gradients reach the limit of double precision with it (biharmonic energies of meshes as a rule,
+// triharmonic ones seldom), in double precision otherwise. Then all columns get their starts
+// together (barrier_start.cpp), and each one is solved for by the interior-point method of
+// interior_point.cpp, in a workspace that the next column uses again.
 #include "weights/box_qp.h"
 
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "base/refined_solve.h"
 #include "weights/barrier_start.h"
 #include "weights/interior_point.h"
 
@@ -25,6 +28,10 @@ double seconds_since(Clock::time_point start)
 {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
+
+/// Relative residuals of systems in A: what refinement aims at, and what it may end with.
+constexpr double wanted_accuracy = 1e-14;
+constexpr double good_accuracy = 1e-12;
 
 /// Scope in which a context has at most so many threads, 0: as many as it had.
 class FewerThreads
@@ -52,31 +59,37 @@ struct BoxQp::Impl : SplitForm
   using SplitForm::SplitForm;
 
   BoxQpOptions options;
-  SparseSolver solver; // of A itself
-  FloatCholesky single; // for the columns; not analysed where it is unavailable
-  double first_factor_seconds = 0.0;
+  mutable SparseSolver solver; // in double precision: its analysis serves all
+  FloatCholesky single; // the same analysis; not analysed where it is unavailable
+  FloatCholesky single_of_a; // A's factor, where that is enough
+  bool in_single = false;
+  mutable bool in_double = false; // solver has A's factor
+  VectorXd inverse_diagonal; // of A
   double memory_estimate = 0.0;
   int most_threads = 0; // that memory will do for, 0: any number
-  mutable std::mutex inverse_mutex;
+  mutable std::mutex solver_mutex;
   mutable std::mutex pool_mutex;
   mutable std::vector<std::unique_ptr<BoxQpWorkspace>> pool;
 
   /// What the factors will take. A workspace a thread, one at least.
-  Status plan_memory(const std::vector<BoxQpColumn>& columns, int threads)
+  /// @param in_single_precision how A is factored.
+  Status plan_memory(const std::vector<BoxQpColumn>& columns, int threads, bool in_single_precision)
   {
     const bool ordered = std::any_of(columns.begin(), columns.end(),
       [](const BoxQpColumn& column) { return !column.pairs.empty(); });
     const auto count = static_cast<double>(columns.size());
     const auto vertices = static_cast<double>(this->q.rows());
+    const double in_double_precision = this->solver.factor_bytes();
     // Of a column: what is given, its minimiser without bounds, its start, its solution.
-    const double once =
-      this->solver.factor_bytes() + 5.0 * sizeof(double) * vertices * std::max(count, 1.0);
+    const double once = (in_single_precision ? this->single.factor_bytes() : in_double_precision) +
+      5.0 * sizeof(double) * vertices * std::max(count, 1.0);
     // In a column's work: about as many vectors as there are lines that keep one.
     const double each = columns.empty()
       ? 0.0
       : static_cast<double>(this->lower.nonZeros()) * (sizeof(double) + sizeof(int)) +
         40.0 * sizeof(double) * vertices + this->single.factor_bytes() +
-        (ordered || !this->single.analysed() ? this->solver.factor_bytes() : 0.0);
+        this->single.workspace_bytes() +
+        (ordered || !this->single.analysed() ? in_double_precision : 0.0);
     const double left = memory_left(this->options.solver.memory_limit);
     const double wanted = std::min(count, static_cast<double>(thread_count(threads)));
     const double fitting = each > 0.0 ? std::floor((left - once) / each) : wanted;
@@ -102,25 +115,90 @@ struct BoxQp::Impl : SplitForm
     workspace->matrix = this->lower;
     return workspace;
   }
-  /// r -> A^-1 r over all vertices. The one factor of A serves one column at a time.
+  /// A^-1 b for all columns of b, to the limit of double precision. A result depends on nothing
+  /// but its right-hand sides, not on what was solved before.
+  Eigen::MatrixXd solve_a(const Eigen::MatrixXd& rhs, const ExecutionContext* context) const
+  {
+    Eigen::MatrixXd x = Eigen::MatrixXd::Zero(rhs.rows(), rhs.cols());
+    if (rhs.size() == 0 || (this->in_single && this->refined(rhs, context, x) <= good_accuracy))
+    {
+      return x;
+    }
+    const std::lock_guard<std::mutex> lock(this->solver_mutex);
+    if (!this->in_double && !(context && context->cancelled()))
+    {
+      this->in_double = this->solver.factor(this->lower).ok();
+    }
+    if (this->in_double)
+    {
+      x = this->solver.solve(rhs);
+      x += this->solver.solve(rhs - this->a * x);
+    }
+    return x;
+  }
+  /// By the factor in single precision.
+  /// @return the relative residual that was reached.
+  double refined(
+    const Eigen::MatrixXd& rhs, const ExecutionContext* context, Eigen::MatrixXd& x) const
+  {
+    constexpr int most_steps = 40;
+    return refined_solve(
+      this->single_of_a,
+      [this](const Eigen::MatrixXd& p) { return Eigen::MatrixXd(this->a.transpose() * p); },
+      this->inverse_diagonal, rhs, { wanted_accuracy, most_steps, context }, x);
+  }
+  /// A's factor in single precision, when it will do for a typical right-hand side.
+  Status factor_single(const ExecutionContext& context)
+  {
+    this->inverse_diagonal.resize(this->lower.rows());
+    for (Index i = 0; i < this->inverse_diagonal.size(); ++i)
+    {
+      this->inverse_diagonal[i] = 1.0 / this->lower.valuePtr()[this->diagonal[i]];
+    }
+    this->single_of_a = this->single.clone();
+    const Status status = this->single_of_a.factor(this->lower, 0.0, context);
+    this->single_of_a.release_workspace();
+    Eigen::MatrixXd x;
+    const VectorXd ones = VectorXd::Ones(this->to_fixed.cols());
+    this->in_single =
+      status.ok() && this->refined(this->to_fixed * ones, &context, x) <= good_accuracy;
+    if (!this->in_single)
+    {
+      this->single_of_a = FloatCholesky();
+    }
+    return status.code == StatusCode::cancelled ? status : Status();
+  }
+  /// r -> A^-1 r over all vertices.
   VectorXd inverse(const VectorXd& r) const
   {
-    VectorXd rhs(static_cast<Index>(this->free_vertices.size()));
+    Eigen::MatrixXd rhs(static_cast<Index>(this->free_vertices.size()), 1);
     for (std::size_t i = 0; i < this->free_vertices.size(); ++i)
     {
-      rhs[static_cast<Index>(i)] = r[this->free_vertices[i]];
+      rhs(static_cast<Index>(i), 0) = r[this->free_vertices[i]];
     }
-    VectorXd x;
-    {
-      const std::lock_guard<std::mutex> lock(this->inverse_mutex);
-      this->solver.solve(rhs, x);
-    }
+    const Eigen::MatrixXd x = this->solve_a(rhs, nullptr);
     VectorXd result = VectorXd::Zero(r.size());
     for (std::size_t i = 0; i < this->free_vertices.size(); ++i)
     {
-      result[this->free_vertices[i]] = x[static_cast<Index>(i)];
+      result[this->free_vertices[i]] = x(static_cast<Index>(i), 0);
     }
     return result;
+  }
+  /// #V x m: without bounds.
+  Eigen::MatrixXd minimisers(
+    const Eigen::MatrixXd& fixed_values, const ExecutionContext* context) const
+  {
+    Eigen::MatrixXd w = Eigen::MatrixXd::Zero(this->q.rows(), fixed_values.cols());
+    for (std::size_t i = 0; i < this->fixed.size(); ++i)
+    {
+      w.row(this->fixed[i]) = fixed_values.row(static_cast<Index>(i));
+    }
+    const Eigen::MatrixXd x = this->solve_a(-(this->to_fixed * fixed_values), context);
+    for (std::size_t i = 0; i < this->free_vertices.size(); ++i)
+    {
+      w.row(this->free_vertices[i]) = x.row(static_cast<Index>(i));
+    }
+    return w;
   }
   /// Starts for all columns. Those with a start of their own, with ordered pairs or without bounds
   /// get none.
@@ -188,42 +266,33 @@ Status BoxQp::prepare(ExecutionContext& context, const std::vector<BoxQpColumn>&
       status = single.code == StatusCode::unavailable ? status : single;
     }
   }
+  const auto start = Clock::now();
   if (status.ok())
   {
-    status = impl.plan_memory(columns, context.threads());
+    status = impl.plan_memory(columns, context.threads(), impl.single.analysed());
   }
-  if (status.ok() && !context.cancelled())
+  if (status.ok() && !context.cancelled() && impl.single.analysed())
   {
-    const auto start = Clock::now();
-    status = without_minimum(impl.solver.factor(impl.lower));
-    impl.first_factor_seconds = seconds_since(start);
-    context.add_seconds("factor", impl.first_factor_seconds);
+    status = impl.factor_single(context);
   }
+  if (status.ok() && !context.cancelled() && !impl.in_single)
+  {
+    status = impl.plan_memory(columns, context.threads(), false);
+    status = status.ok() ? without_minimum(impl.solver.factor(impl.lower)) : status;
+    impl.in_double = status.ok();
+  }
+  context.add_seconds("factor", seconds_since(start));
   return status.ok() && context.cancelled() ? Status::cancelled() : status;
 }
 
-Eigen::MatrixXd BoxQp::unconstrained(const Eigen::MatrixXd& fixed_values, bool refine) const
+Eigen::MatrixXd BoxQp::unconstrained(const Eigen::MatrixXd& fixed_values) const
 {
-  const Impl& impl = *this->impl_;
-  Eigen::MatrixXd w = Eigen::MatrixXd::Zero(impl.q.rows(), fixed_values.cols());
-  for (std::size_t i = 0; i < impl.fixed.size(); ++i)
-  {
-    w.row(impl.fixed[i]) = fixed_values.row(static_cast<Index>(i));
-  }
-  if (!impl.free_vertices.empty())
-  {
-    const Eigen::MatrixXd rhs = -(impl.to_fixed * fixed_values);
-    Eigen::MatrixXd x = impl.solver.solve(rhs);
-    if (refine)
-    {
-      x += impl.solver.solve(rhs - impl.a * x);
-    }
-    for (std::size_t i = 0; i < impl.free_vertices.size(); ++i)
-    {
-      w.row(impl.free_vertices[i]) = x.row(static_cast<Index>(i));
-    }
-  }
-  return w;
+  return this->impl_->minimisers(fixed_values, nullptr);
+}
+
+Eigen::MatrixXd BoxQp::inverse(const Eigen::MatrixXd& rhs) const
+{
+  return this->impl_->solve_a(rhs, nullptr);
 }
 
 std::vector<BoxQpSolution> BoxQp::solve_unbounded(
@@ -238,7 +307,7 @@ std::vector<BoxQpSolution> BoxQp::solve_unbounded(
     fixed_values.col(static_cast<Index>(j)) = columns[j].fixed_values;
   }
   const auto start = Clock::now();
-  const Eigen::MatrixXd w = this->unconstrained(fixed_values);
+  const Eigen::MatrixXd w = impl.minimisers(fixed_values, &context);
   const double seconds = seconds_since(start) / std::max<double>(1.0, double(columns.size()));
   for (std::size_t j = 0; j < columns.size() && !context.cancelled(); ++j)
   {
@@ -291,7 +360,11 @@ std::vector<BoxQpSolution> BoxQp::solve_all(
     solutions[j].status = Status::cancelled();
     solutions[j].w = VectorXd::Zero(impl.q.rows());
   }
-  const Eigen::MatrixXd free_of_bounds = this->unconstrained(fixed_values);
+  const Eigen::MatrixXd free_of_bounds = impl.minimisers(fixed_values, &context);
+  if (context.cancelled())
+  {
+    return solutions;
+  }
   std::vector<CentralStart> starts;
   const auto start = Clock::now();
   {
@@ -336,11 +409,6 @@ Index BoxQp::factorisations() const
 double BoxQp::memory_estimate() const
 {
   return this->impl_->memory_estimate;
-}
-
-double BoxQp::first_factor_seconds() const
-{
-  return this->impl_->first_factor_seconds;
 }
 
 const SparseSolver& BoxQp::solver() const

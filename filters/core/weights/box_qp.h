@@ -79,9 +79,9 @@ public:
   Status prepare(ExecutionContext& context, const std::vector<BoxQpColumn>& columns = {});
 
   /// #V x m: the minimisers without bounds for m columns of fixed values (#fixed x m).
-  /// @param refine one step of iterative refinement. Without, the minimisers of an energy whose
-  /// off-diagonal entries are all <= 0 have small relative errors, even where they are tiny.
-  Eigen::MatrixXd unconstrained(const Eigen::MatrixXd& fixed_values, bool refine = true) const;
+  Eigen::MatrixXd unconstrained(const Eigen::MatrixXd& fixed_values) const;
+  /// #free x m: the inverse of Q's free block times m columns.
+  Eigen::MatrixXd inverse(const Eigen::MatrixXd& rhs) const;
 
   /// The same for columns with pinned vertices, with the certificate of a problem without bounds:
   /// gap = 1/2 g' A^-1 g, which is E(w) - min E exactly, and residual = max |g / diag Q|.
@@ -101,8 +101,7 @@ public:
   Index factorisations() const;
   /// Bytes that the process will hold at most, as estimated by prepare() after the analysis.
   double memory_estimate() const;
-  /// Seconds of the one factorisation that prepare() made.
-  double first_factor_seconds() const;
+  /// Has analysed the pattern of Q's free block.
   const SparseSolver& solver() const;
 
 private:

@@ -130,9 +130,9 @@ class CoupledQp
 {
 public:
   CoupledQp(const SparseMatrix& q, const std::vector<Index>& fixed,
-    const std::vector<BoxQpColumn>& columns, const SparseSolver& analysed,
-    const BoxQpOptions& options, ExecutionContext& context)
-    : matrices_(q, fixed), columns_(columns), analysed_(analysed), options_(options),
+    const std::vector<BoxQpColumn>& columns, const BoxQp& prepared, const BoxQpOptions& options,
+    ExecutionContext& context)
+    : matrices_(q, fixed), columns_(columns), prepared_(prepared), options_(options),
       context_(context), n_(static_cast<Index>(this->matrices_.free_vertices.size())),
       m_(static_cast<Index>(columns.size()))
   {
@@ -160,7 +160,7 @@ private:
 
   const SplitForm matrices_;
   const std::vector<BoxQpColumn>& columns_;
-  const SparseSolver& analysed_;
+  const BoxQp& prepared_;
   const BoxQpOptions& options_;
   ExecutionContext& context_;
   const Index n_; // free vertices
@@ -253,12 +253,12 @@ Status CoupledQp::set_up()
   for (Index j = 0; j < this->m_; ++j)
   {
     this->c_.col(j) = this->matrices_.to_fixed * this->columns_[j].fixed_values;
-    this->solvers_.push_back(this->analysed_.clone());
+    this->solvers_.push_back(this->prepared_.solver().clone());
   }
   const auto columns = static_cast<double>(this->m_);
   const auto numbers = static_cast<double>(this->n_) * columns;
   return check_memory("the factors of " + std::to_string(this->m_) + " coupled columns",
-    columns * this->analysed_.factor_bytes() + 30.0 * sizeof(double) * numbers,
+    columns * this->prepared_.solver().factor_bytes() + 30.0 * sizeof(double) * numbers,
     this->options_.solver.memory_limit);
 }
 
@@ -615,7 +615,7 @@ void CoupledQp::certify_iterate()
   const double scale = std::max(certificate.energy, floor);
   if (gap > this->options_.tolerance * scale)
   {
-    const MatrixXd inverse = this->analysed_.solve(residual);
+    const MatrixXd inverse = this->prepared_.inverse(residual);
     gap = std::min(gap, second_gap + 0.5 * std::abs(residual.cwiseProduct(inverse).sum()));
   }
   certificate.relative_gap = std::abs(gap) / scale;
@@ -732,10 +732,10 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
 } // namespace
 
 CoupledSolution solve_coupled_qp(const SparseMatrix& q, const std::vector<Index>& fixed,
-  const std::vector<BoxQpColumn>& columns, const MatrixXd& start, const SparseSolver& analysed,
+  const std::vector<BoxQpColumn>& columns, const MatrixXd& start, const BoxQp& prepared,
   const BoxQpOptions& options, ExecutionContext& context)
 {
-  return CoupledQp(q, fixed, columns, analysed, options, context).run(start);
+  return CoupledQp(q, fixed, columns, prepared, options, context).run(start);
 }
 
 } // namespace bindpose

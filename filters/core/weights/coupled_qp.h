@@ -29,10 +29,10 @@ struct CoupledSolution
 /// time, in double precision. Cost and size: filters/README.md.
 /// @param q, fixed, columns see BoxQp; ordered pairs and starts are not used.
 /// @param start #V x #columns.
-/// @param analysed a solver that has analysed and factored q's free block, as BoxQp's.
+/// @param prepared a solver of the same q and fixed vertices.
 CoupledSolution solve_coupled_qp(const SparseMatrix& q, const std::vector<Index>& fixed,
-  const std::vector<BoxQpColumn>& columns, const Eigen::MatrixXd& start,
-  const SparseSolver& analysed, const BoxQpOptions& options, ExecutionContext& context);
+  const std::vector<BoxQpColumn>& columns, const Eigen::MatrixXd& start, const BoxQp& prepared,
+  const BoxQpOptions& options, ExecutionContext& context);
 
 } // namespace bindpose
 

@@ -27,6 +27,7 @@
 // of the pairs), and what is tested is the certificate of that projection.
 #include "weights/interior_point.h"
 
+#include "base/refined_solve.h"
 #include "weights/ordered_pairs.h"
 #include "weights/projected_newton.h"
 
@@ -39,6 +40,7 @@ namespace bindpose
 
 namespace
 {
+using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Clock = std::chrono::steady_clock;
 using Inverse = std::function<VectorXd(const VectorXd&)>;
@@ -84,7 +86,7 @@ private:
     VectorXd x, s, z;
   };
   Status factor_double();
-  VectorXd multiply(const VectorXd& x) const;
+  MatrixXd multiply(const MatrixXd& x) const;
   bool solve_refined(const VectorXd& rhs, double accuracy, VectorXd& x);
   Direction solve(const VectorXd& target, double accuracy);
   double finish(double enough);
@@ -356,50 +358,29 @@ Status InteriorPoint::factor_double()
 }
 
 /// The matrix that was factored, times x.
-VectorXd InteriorPoint::multiply(const VectorXd& x) const
+MatrixXd InteriorPoint::multiply(const MatrixXd& x) const
 {
-  VectorXd y = this->matrices_.a.transpose() * x + this->extra_.cwiseProduct(x);
+  MatrixXd y = this->matrices_.a.transpose() * x + this->extra_.asDiagonal() * x;
   for (std::size_t i = 0; i < this->pinned_.size(); ++i)
   {
     if (this->pinned_[i])
     {
-      y[static_cast<Index>(i)] = 0.0;
+      y.row(static_cast<Index>(i)).setZero();
     }
   }
   return y;
 }
 
-/// Conjugate gradients in double precision, preconditioned by the factor in single precision: one
-/// or two steps are usual.
-/// @param accuracy wanted, |residual| / |rhs| in the norm of the inverse diagonal.
-/// @return false when that was not reached.
+/// By the factor in single precision: one or two steps of refinement are usual.
+/// @return false when the accuracy was not reached.
 bool InteriorPoint::solve_refined(const VectorXd& rhs, double accuracy, VectorXd& x)
 {
-  constexpr int most_steps = 20;
-  const auto squared_norm = [this](const VectorXd& v)
-  { return v.cwiseAbs2().dot(this->inverse_diagonal_); };
-  const double wanted = accuracy * accuracy * squared_norm(rhs);
-  VectorXd r = rhs;
-  VectorXd z;
-  VectorXd p;
-  double last = 0.0;
-  x = VectorXd::Zero(rhs.size());
-  for (int k = 0; k < most_steps && squared_norm(r) > wanted; ++k)
-  {
-    this->workspace_.single.solve(r, z);
-    const double now = r.dot(z);
-    p = k == 0 ? z : VectorXd(z + (now / last) * p);
-    last = now;
-    const VectorXd product = this->multiply(p);
-    const double curvature = p.dot(product);
-    if (!(curvature > 0.0))
-    {
-      break;
-    }
-    x += (now / curvature) * p;
-    r -= (now / curvature) * product;
-  }
-  return squared_norm(r) <= wanted;
+  MatrixXd result;
+  const double reached = refined_solve(
+    this->workspace_.single, [this](const MatrixXd& p) { return this->multiply(p); },
+    this->inverse_diagonal_, rhs, { accuracy, 20, nullptr }, result);
+  x = result;
+  return reached <= accuracy;
 }
 
 /// The step that linearises s z = s z + target: target is what each product is to change by.

@@ -129,7 +129,7 @@ public:
       start.row(group.unknown(v, 0, normalised.rows())) = normalised.row(v);
     }
     CoupledSolution solved = solve_coupled_qp(this->solvers_.front().q, group.fixed, group.columns,
-      start, this->solvers_.front().solver->solver(),
+      start, *this->solvers_.front().solver,
       { this->options_.tolerance, this->options_.maximum_iterations, this->options_.solver },
       this->context_);
     outcome = solved.status;

@@ -6,11 +6,13 @@
 #include "base/memory.h"
 
 #include "support/sanitized.h"
+#include "weights/split_form.h"
 #include "weights_shapes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -84,6 +86,41 @@ TEST(BoxQp, AgreesWithProjectedGaussSeidel)
     least = std::min(least, qp.unconstrained(values.fixed_values).minCoeff());
   }
   EXPECT_LT(least, -1e-3) << "bounds matter here";
+}
+
+TEST(BoxQp, MinimisersWithoutBoundsHaveNoGradient)
+{
+  const TetMesh box = test::tet_box(14, 14, 14);
+  const Eigen::VectorXd mass = lumped_mass(box.points, box.tets);
+  const SparseMatrix k = stiffness_matrix(box.points, box.tets);
+  const std::vector<Index> fixed{ 0, 14, 3374 };
+  for (const int order : { 1, 2, 3 })
+  {
+    const SparseMatrix q = harmonic_energy(k, mass / mass.maxCoeff(), order);
+    BoxQp qp(q, fixed, {});
+    ExecutionContext context;
+    ASSERT_TRUE(qp.prepare(context).ok());
+    const Index factorisations = qp.factorisations();
+    const Eigen::MatrixXd w = qp.unconstrained(Eigen::MatrixXd::Identity(3, 3));
+    EXPECT_EQ(qp.factorisations(), factorisations);
+    EXPECT_LE(factorisations, 2) << "double precision where single precision will not do";
+    const double size = Eigen::MatrixXd(q.cwiseAbs() * w.cwiseAbs()).maxCoeff();
+    const Eigen::MatrixXd gradient = q * w;
+    for (Index v = 0; v < q.rows(); ++v)
+    {
+      if (std::find(fixed.begin(), fixed.end(), v) == fixed.end())
+      {
+        ASSERT_LE(gradient.row(v).cwiseAbs().maxCoeff(), 1e-12 * size) << order;
+      }
+    }
+    EXPECT_LE((w.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-7);
+    // The inverse of the block times the block is the identity.
+    SplitForm form(q, fixed);
+    Eigen::MatrixXd some = Eigen::MatrixXd::Zero(form.a.rows(), 2);
+    some(5, 0) = some(100, 1) = 1.0;
+    const Eigen::MatrixXd there_and_back = qp.inverse(form.a * some);
+    EXPECT_LE((there_and_back - some).cwiseAbs().maxCoeff(), order < 3 ? 1e-8 : 1e-4);
+  }
 }
 
 TEST(BoxQp, CertificateBoundsTheTrueGap)
@@ -484,11 +521,13 @@ TEST(BoxQp, TooFewIterationsAreSaidAndCancelEndsIt)
   EXPECT_GE(early.w.minCoeff(), 0.0);
 
   int asked = 0;
-  ExecutionContext stopped(nullptr, [&] { return ++asked > 4; });
+  bool prepared = false;
+  ExecutionContext stopped(nullptr, [&] { return prepared && ++asked > 4; });
   stopped.set_threads(1);
   BoxQp other(q, { 88, 220, 352 }, {});
   const Status status = other.prepare(stopped);
   ASSERT_TRUE(status.ok());
+  prepared = true;
   const BoxQpSolution solution = other.solve(column_of({ 1, 0, 0 }), stopped);
   EXPECT_EQ(solution.status.code, StatusCode::cancelled);
   EXPECT_LT(solution.iterations, 4);

@@ -65,11 +65,13 @@ struct PairRow
 class InteriorPoint
 {
 public:
+  /// @param in_single whether factors in single precision may be taken.
   InteriorPoint(const SplitForm& matrices, const BoxQpOptions& options, const BoxQpColumn& column,
     const VectorXd& unconstrained, const CentralStart& start, const Inverse& inverse,
-    BoxQpWorkspace& workspace, ExecutionContext& context)
+    BoxQpWorkspace& workspace, ExecutionContext& context, bool in_single)
     : matrices_(matrices), options_(options), column_(column), unconstrained_(unconstrained),
-      start_(start), inverse_(inverse), workspace_(workspace), context_(context)
+      start_(start), inverse_(inverse), workspace_(workspace), context_(context),
+      single_is_enough_(in_single)
   {
   }
 
@@ -118,10 +120,11 @@ private:
   VectorXd x_, s_, z_;
   VectorXd rd_, rp_; // residuals of the first two conditions
   VectorXd quotient_; // z / s
-  VectorXd extra_, inverse_diagonal_; // what is added to A, and 1 / the sum's diagonal
+  VectorXd extra_, of_pairs_; // what bounds add to A's diagonal, and pairs' factors
+  VectorXd inverse_diagonal_; // 1 / the diagonal of A with both
   double shift_ = 0.0; // that single precision needed so far
   bool in_single_ = false; // the last factorisation is in single precision
-  bool single_is_enough_ = true;
+  bool single_is_enough_;
   Status failure_; // of a factorisation within solve()
   double mu_ = 0.0;
   BoxQpSolution best_;
@@ -300,13 +303,14 @@ Status InteriorPoint::factor(const VectorXd& d)
   }
   Status status;
   this->in_single_ = false;
-  if (this->workspace_.single.analysed() && this->single_is_enough_ && this->rows_.empty())
+  if (this->workspace_.single.analysed() && this->single_is_enough_)
   {
     this->extra_ = VectorXd::Zero(this->c_.size());
     for (Index i = 0; i < nb; ++i)
     {
       this->extra_[this->bounded_[i]] = d[i] + d[nb + i];
     }
+    this->of_pairs_ = d.tail(static_cast<Index>(this->rows_.size()));
     this->inverse_diagonal_.resize(this->c_.size());
     for (Index i = 0; i < this->c_.size(); ++i)
     {
@@ -361,6 +365,23 @@ Status InteriorPoint::factor_double()
 MatrixXd InteriorPoint::multiply(const MatrixXd& x) const
 {
   MatrixXd y = this->matrices_.a.transpose() * x + this->extra_.asDiagonal() * x;
+  for (std::size_t r = 0; r < this->rows_.size(); ++r)
+  {
+    const PairRow& row = this->rows_[r];
+    for (Index j = 0; j < x.cols(); ++j)
+    {
+      const double pull = this->of_pairs_[static_cast<Index>(r)] *
+        ((row.high >= 0 ? x(row.high, j) : 0.0) - (row.low >= 0 ? x(row.low, j) : 0.0));
+      if (row.high >= 0)
+      {
+        y(row.high, j) += pull;
+      }
+      if (row.low >= 0)
+      {
+        y(row.low, j) -= pull;
+      }
+    }
+  }
   for (std::size_t i = 0; i < this->pinned_.size(); ++i)
   {
     if (this->pinned_[i])
@@ -445,7 +466,7 @@ InteriorPoint::Direction InteriorPoint::find_direction()
   const VectorXd products = this->s_.cwiseProduct(this->z_);
   // Measured: tighter saves no iteration.
   constexpr double predictor_accuracy = 1e-2;
-  constexpr double step_accuracy = 1e-3;
+  const double step_accuracy = this->rows_.empty() ? 1e-3 : 1e-5;
   Direction d = this->solve(-products, predictor_accuracy);
   double primal;
   double dual;
@@ -663,6 +684,9 @@ BoxQpSolution InteriorPoint::run()
   // and in double precision if that does not help.
   constexpr int begin_anew_after = 25;
   constexpr int double_after = 60;
+  // Steps that are not exact enough for ordered pairs lead nowhere near the end.
+  constexpr int most_stalled = 3;
+  int stalled = 0;
   double moved = this->h_.size() == 0 ? 0.0 : 1.0;
   const auto done = [&]
   {
@@ -715,6 +739,11 @@ BoxQpSolution InteriorPoint::run()
     if (!(worst(this->result_.certificate) >= worst(this->best_.certificate)))
     {
       this->best_ = this->result_;
+      stalled = 0;
+    }
+    else if (++stalled >= most_stalled && !this->rows_.empty())
+    {
+      this->single_is_enough_ = false;
     }
     if (!done() && this->rows_.empty() &&
       (moved <= near || (tries == 0 && worst(this->best_.certificate) <= tolerance)))
@@ -750,8 +779,24 @@ BoxQpSolution interior_point(const SplitForm& matrices, const BoxQpOptions& opti
   const BoxQpColumn& column, const VectorXd& unconstrained, const CentralStart& start,
   const Inverse& inverse, BoxQpWorkspace& workspace, ExecutionContext& context)
 {
-  return InteriorPoint(matrices, options, column, unconstrained, start, inverse, workspace, context)
-    .run();
+  const auto run = [&](bool in_single)
+  {
+    return InteriorPoint(
+      matrices, options, column, unconstrained, start, inverse, workspace, context, in_single)
+      .run();
+  };
+  BoxQpSolution solution = run(true);
+  // What fails for the inexact steps of single precision begins anew without it.
+  if (!column.pairs.empty() && workspace.single.analysed() && !solution.status.ok() &&
+    solution.status.code != StatusCode::cancelled)
+  {
+    BoxQpSolution exact = run(false);
+    exact.factorisations += solution.factorisations;
+    exact.factor_seconds += solution.factor_seconds;
+    exact.solve_seconds += solution.solve_seconds;
+    return exact;
+  }
+  return solution;
 }
 
 } // namespace bindpose

@@ -56,10 +56,13 @@ struct BoxQpSolution
 ///
 /// Stops on the certificate only (see Certificate), never on iterations: not reaching it within the
 /// budget is not_converged, with the best iterate and its numbers. Cost a column with
-/// CHOLMOD, in F, the time of one factorisation of Q in double precision: 4 to 5 F on regular boxes
-/// of 5k and 12k vertices, 7 to 11 F on tets of real shapes with 5k to 22k (5 to 10 factorisations
+/// CHOLMOD, in F, the time of one factorisation of Q in double precision: 3 to 4 F on regular boxes
+/// of 5k and 12k vertices, 4 to 9 F on tets of real shapes with 10k to 12k (3 to 10 factorisations
 /// in single precision at 1/2 F, the rest solves), 21 F where the boundary was much finer than the
-/// inside; with ordered pairs and with Eigen's backend 10 to 25 F.
+/// inside; with ordered pairs 12 to 13 F on a box of 5k; with Eigen's backend 10 to 25 F. Memory: a
+/// factor in single precision of Q and one a thread, with a third more for its work (63k vertices:
+/// 1.4 GB in all with one thread); with ordered pairs or where single precision fails, a factor in
+/// double precision a thread as well.
 ///
 /// Mehrotra 1992; Gondzio 1996; Jacobson et al. 2011 and 2012 for the problems.
 class BoxQp

@@ -557,34 +557,19 @@ void InteriorPoint::set_start(bool central)
   this->z_ = mu * this->s_.cwiseInverse();
 }
 
-/// Raises and lowers the least needed so that every pair is ordered, given values included.
+/// Moves what is not ordered, given values stay.
 void InteriorPoint::order_pairs(VectorXd& w) const
 {
   if (this->upwards_.empty())
   {
     return;
   }
-  // The least value given to anything above: nothing below it may exceed that.
-  VectorXd cap(w.size());
+  VectorXd highest(w.size());
   for (Index v = 0; v < w.size(); ++v)
   {
-    cap[v] = this->free_here_[v] ? this->column_.bounds.high(v) : w[v];
+    highest[v] = this->column_.bounds.high(v);
   }
-  for (auto pair = this->upwards_.rbegin(); pair != this->upwards_.rend(); ++pair)
-  {
-    cap[pair->low] = std::min(cap[pair->low], cap[pair->high] - pair->least);
-  }
-  for (Index v = 0; v < w.size(); ++v)
-  {
-    w[v] = this->free_here_[v] ? std::min(w[v], cap[v]) : w[v];
-  }
-  for (const OrderedPair& pair : this->upwards_)
-  {
-    if (this->free_here_[pair.high])
-    {
-      w[pair.high] = std::max(w[pair.high], w[pair.low] + pair.least);
-    }
-  }
+  order_values(this->upwards_, this->free_here_, highest, w);
 }
 
 /// @param second_bound ask for the second bound at once (see Certificate).

@@ -558,6 +558,19 @@ void Smoothing::finish(Status& status)
       mass += this->scaled_.mass[v];
     }
   }
+  // Kept values are not rounded, all others are: what lies level with an extremum must not pass it.
+  if (this->keep_values_)
+  {
+    std::vector<char> is_free(static_cast<std::size_t>(n));
+    for (Index v = 0; v < n; ++v)
+    {
+      is_free[v] = this->taking_part_[v] && result.list[v] == 0;
+    }
+    const std::vector<OrderedPair> pairs =
+      pairs_of_order(this->graph_, result.list, this->rank_, 0.0);
+    order_values(upward_pairs(pairs, upward_order(pairs, n)), is_free,
+      VectorXd::Constant(n, std::numeric_limits<double>::infinity()), result.values);
+  }
   // Vertices that take no part have no place among extrema.
   std::vector<char> exempt(static_cast<std::size_t>(n));
   VectorXd strict = w; // ties broken as the order does: a listed vertex stands for its plateau

@@ -93,6 +93,32 @@ std::vector<OrderedPair> upward_pairs(
   return upwards;
 }
 
+void order_values(const std::vector<OrderedPair>& upwards, const std::vector<char>& is_free,
+  const Eigen::VectorXd& highest, Eigen::VectorXd& values)
+{
+  // The least value given to anything above: nothing below it may exceed that.
+  Eigen::VectorXd cap = highest;
+  for (Index v = 0; v < values.size(); ++v)
+  {
+    cap[v] = is_free[v] ? highest[v] : values[v];
+  }
+  for (auto pair = upwards.rbegin(); pair != upwards.rend(); ++pair)
+  {
+    cap[pair->low] = std::min(cap[pair->low], cap[pair->high] - pair->least);
+  }
+  for (Index v = 0; v < values.size(); ++v)
+  {
+    values[v] = is_free[v] ? std::min(values[v], cap[v]) : values[v];
+  }
+  for (const OrderedPair& pair : upwards)
+  {
+    if (is_free[pair.high])
+    {
+      values[pair.high] = std::max(values[pair.high], values[pair.low] + pair.least);
+    }
+  }
+}
+
 Index without_room(const BoxQpColumn& column, const std::vector<Index>& fixed, Index count)
 {
   std::vector<double> least(static_cast<std::size_t>(count));

@@ -31,6 +31,13 @@ std::vector<OrderedPair> upward_pairs(
 /// @return an unknown without room, or -1.
 Index without_room(const BoxQpColumn& column, const std::vector<Index>& fixed, Index count);
 
+/// Lowers and raises values the least needed so that every pair is ordered, given ones included.
+/// @param upwards see upward_pairs.
+/// @param is_free #V, 0 where a value is given.
+/// @param highest #V, that a free one may have.
+void order_values(const std::vector<OrderedPair>& upwards, const std::vector<char>& is_free,
+  const Eigen::VectorXd& highest, Eigen::VectorXd& values);
+
 } // namespace bindpose
 
 #endif

@@ -336,7 +336,7 @@ TEST(Weights, UnitsAndRotationDoNotMatter)
   const Weights rest = solve(Eigen::Matrix3d::Identity(), Vec3::Zero());
   const Eigen::Matrix3d turn =
     Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()).toRotationMatrix();
-  for (const double scale : { 1000.0, 1e-6, 1.0 })
+  for (const double scale : { 1000.0, 1e-6, 1e6, 1.0 })
   {
     const Weights moved = solve(scale * turn, scale * Vec3(3, -2, 5));
     ASSERT_EQ(moved.rows(), rest.rows());
@@ -355,6 +355,67 @@ TEST(Weights, NeedlesAreStillCertified)
   for (const WeightsColumn& column : mono.columns)
   {
     EXPECT_EQ(column.extrema.size(), 0u);
+  }
+}
+
+TEST(Weights, SliversOfAThousandthOfADegree)
+{
+  TetMesh box = test::tet_box(6, 6, 6);
+  for (Index v = 0; v < box.points.rows(); ++v)
+  {
+    // The middle layer comes within 1e-5 of a cell's height of the one below.
+    box.points(v, 2) -= std::abs(box.points(v, 2) - 0.5) < 1e-9 ? (1.0 - 1e-5) / 6.0 : 0.0;
+  }
+  TriangleMesh square = test::grid(12, 12);
+  for (Index v = 0; v < square.points.rows(); ++v)
+  {
+    square.points(v, 0) -= std::abs(square.points(v, 0) - 0.5) < 1e-9 ? (1.0 - 1e-5) / 12.0 : 0.0;
+  }
+  const std::vector<Vec3> places{ Vec3(0.1, 0.2, 0), Vec3(0.7, 0.8, 0), Vec3(0.9, 0.1, 0) };
+  for (const Domain& domain : { test::to_domain(box), test::to_domain(square) })
+  {
+    const WeightsProblem problem = problem_of(domain, test::point_handles(places));
+    expect_certified(problem, bounded(problem));
+    expect_certified(problem, monotone(problem));
+  }
+}
+
+TEST(Weights, TwoHundredHandles)
+{
+  test::Random random;
+  std::vector<Vec3> places;
+  for (int i = 0; i < 200; ++i)
+  {
+    places.emplace_back(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
+  }
+  const WeightsProblem problem =
+    problem_of(test::to_domain(test::tet_box(8, 8, 8)), test::point_handles(places));
+  EXPECT_EQ(problem.fixed.size(), 200u);
+  const WeightsResult result = bounded(problem);
+  EXPECT_EQ(result.weights.cols(), 200);
+  EXPECT_EQ(result.analyses, 1);
+  expect_certified(problem, result);
+}
+
+TEST(Weights, HandlesAtEveryVertexAreTheIdentity)
+{
+  const TetMesh box = test::tet_box(2, 2, 2);
+  std::vector<Vec3> places;
+  for (Index v = 0; v < box.points.rows(); ++v)
+  {
+    places.emplace_back(box.points.row(v));
+  }
+  const WeightsProblem problem = problem_of(test::to_domain(box), test::point_handles(places));
+  ASSERT_EQ(problem.vertex_count(), box.points.rows()) << "none is inserted";
+  for (const WeightsResult& result :
+    { bounded(problem), monotone(problem), unconstrained(problem, 2) })
+  {
+    EXPECT_EQ(result.weights, Weights::Identity(27, 27));
+    for (const WeightsColumn& column : result.columns)
+    {
+      EXPECT_LE(column.certificate.relative_gap, 1e-12);
+      EXPECT_EQ(column.iterations, 0);
+    }
   }
 }
 

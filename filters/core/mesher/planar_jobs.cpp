@@ -175,7 +175,7 @@ public:
   {
   }
 
-  class Is_bad : public Base::Is_bad
+  class Is_bad : public Base::Is_bad // NOLINT(readability-identifier-naming): as CGAL calls it
   {
   public:
     using BaseIsBad = Base::Is_bad;

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <mutex>
 
 namespace bindpose
@@ -117,12 +118,15 @@ struct BoxQp::Impl : SplitForm
   }
   /// A^-1 b for all columns of b, to the limit of double precision. A result depends on nothing
   /// but its right-hand sides, not on what was solved before.
-  Eigen::MatrixXd solve_a(const Eigen::MatrixXd& rhs, const ExecutionContext* context) const
+  /// @return false when x is not that good, because there is no room for a factor in double
+  /// precision or because the context is cancelled.
+  bool solve_a(
+    const Eigen::MatrixXd& rhs, const ExecutionContext* context, Eigen::MatrixXd& x) const
   {
-    Eigen::MatrixXd x = Eigen::MatrixXd::Zero(rhs.rows(), rhs.cols());
+    x = Eigen::MatrixXd::Zero(rhs.rows(), rhs.cols());
     if (rhs.size() == 0 || (this->in_single && this->refined(rhs, context, x) <= good_accuracy))
     {
-      return x;
+      return true;
     }
     const std::lock_guard<std::mutex> lock(this->solver_mutex);
     if (!this->in_double && !(context && context->cancelled()))
@@ -133,6 +137,16 @@ struct BoxQp::Impl : SplitForm
     {
       x = this->solver.solve(rhs);
       x += this->solver.solve(rhs - this->a * x);
+    }
+    return this->in_double;
+  }
+  /// The same for certificates: without a number where it is not that good.
+  Eigen::MatrixXd inverse_of_a(const Eigen::MatrixXd& rhs) const
+  {
+    Eigen::MatrixXd x;
+    if (!this->solve_a(rhs, nullptr, x))
+    {
+      x.setConstant(std::numeric_limits<double>::quiet_NaN());
     }
     return x;
   }
@@ -176,7 +190,7 @@ struct BoxQp::Impl : SplitForm
     {
       rhs(static_cast<Index>(i), 0) = r[this->free_vertices[i]];
     }
-    const Eigen::MatrixXd x = this->solve_a(rhs, nullptr);
+    const Eigen::MatrixXd x = this->inverse_of_a(rhs);
     VectorXd result = VectorXd::Zero(r.size());
     for (std::size_t i = 0; i < this->free_vertices.size(); ++i)
     {
@@ -184,7 +198,7 @@ struct BoxQp::Impl : SplitForm
     }
     return result;
   }
-  /// #V x m: without bounds.
+  /// #V x m: without bounds. As good as can be had: what is made of them has its certificates.
   Eigen::MatrixXd minimisers(
     const Eigen::MatrixXd& fixed_values, const ExecutionContext* context) const
   {
@@ -193,7 +207,8 @@ struct BoxQp::Impl : SplitForm
     {
       w.row(this->fixed[i]) = fixed_values.row(static_cast<Index>(i));
     }
-    const Eigen::MatrixXd x = this->solve_a(-(this->to_fixed * fixed_values), context);
+    Eigen::MatrixXd x;
+    this->solve_a(-(this->to_fixed * fixed_values), context, x);
     for (std::size_t i = 0; i < this->free_vertices.size(); ++i)
     {
       w.row(this->free_vertices[i]) = x.row(static_cast<Index>(i));
@@ -292,7 +307,7 @@ Eigen::MatrixXd BoxQp::unconstrained(const Eigen::MatrixXd& fixed_values) const
 
 Eigen::MatrixXd BoxQp::inverse(const Eigen::MatrixXd& rhs) const
 {
-  return this->impl_->solve_a(rhs, nullptr);
+  return this->impl_->inverse_of_a(rhs);
 }
 
 std::vector<BoxQpSolution> BoxQp::solve_unbounded(

@@ -83,7 +83,7 @@ public:
 
   /// #V x m: the minimisers without bounds for m columns of fixed values (#fixed x m).
   Eigen::MatrixXd unconstrained(const Eigen::MatrixXd& fixed_values) const;
-  /// #free x m: the inverse of Q's free block times m columns.
+  /// #free x m: the inverse of Q's free block times m columns; NaN where memory will not do for it.
   Eigen::MatrixXd inverse(const Eigen::MatrixXd& rhs) const;
 
   /// The same for columns with pinned vertices, with the certificate of a problem without bounds:

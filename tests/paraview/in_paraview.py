@@ -137,7 +137,7 @@ def deformation():
         numbers[name] = len(weights)
     bound = smooth["BoundedBiharmonicWeights"]
     height = Calculator(Input=tets, ResultArrayName="Height", Function="coordsX + 0.3 * sin(20 * coordsY)")
-    smoothing = MonotoneSmoothing(Input=height, SelectInputScalars=["POINTS", "Height"], NumberOfExtrema=2)
+    smoothing = MonotoneSmoothing(Input=height, Scalars=["POINTS", "Height"], NumberOfExtrema=2)
     assert fetch(smoothing).GetPointData().GetArray("Smoothed").GetNumberOfTuples() == len(weights)
     assert fetch(smoothing, 1).GetNumberOfPoints() == 2
 

@@ -52,7 +52,6 @@ struct Plan
   std::vector<int> position; // of each stored entry of the matrix among the factor's values
   std::vector<unsigned char> depth; // of each supernode below its root, modulo 2: its stack
   std::size_t stack_size[2] = { 0, 0 }; // floats
-  int largest_front = 0; // rows
   std::atomic<Index> factorisations{ 0 };
 
   int count() const { return static_cast<int>(this->parent.size()); }
@@ -167,7 +166,6 @@ Status FloatCholesky::analyse(const SparseSolver& solver, const SparseMatrix& ma
   plan->parent.assign(static_cast<std::size_t>(count), -1);
   for (int s = 0; s < count; ++s)
   {
-    plan->largest_front = std::max(plan->largest_front, plan->rows(s));
     if (plan->rows(s) > plan->columns(s))
     {
       plan->parent[s] = node_of_column[nodes.rows[nodes.first_row[s] + plan->columns(s)]];

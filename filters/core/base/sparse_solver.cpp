@@ -2,8 +2,8 @@
 //
 // CHOLMOD: cholmod_analyze gives a symbolic factor, which clones share. Each one copies it when it
 // first factors, and has a workspace (cholmod_common) of its own, so that clones factor at the same
-// time. The factor is always
-// supernodal LL': a simplicial LDL' would accept negative pivots silently.
+// time. The factor is always supernodal LL': a simplicial LDL' would accept negative pivots
+// silently.
 //
 // Serial inside: handles are solved in parallel one level up, and a threaded BLAS would make
 // results depend on the number of threads. CHOLMOD also assembles supernodes in OpenMP regions of

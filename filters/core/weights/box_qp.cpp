@@ -185,35 +185,16 @@ struct BoxQp::Impl : SplitForm
   /// r -> A^-1 r over all vertices.
   VectorXd inverse(const VectorXd& r) const
   {
-    Eigen::MatrixXd rhs(static_cast<Index>(this->free_vertices.size()), 1);
-    for (std::size_t i = 0; i < this->free_vertices.size(); ++i)
-    {
-      rhs(static_cast<Index>(i), 0) = r[this->free_vertices[i]];
-    }
-    const Eigen::MatrixXd x = this->inverse_of_a(rhs);
-    VectorXd result = VectorXd::Zero(r.size());
-    for (std::size_t i = 0; i < this->free_vertices.size(); ++i)
-    {
-      result[this->free_vertices[i]] = x(static_cast<Index>(i), 0);
-    }
-    return result;
+    return this->whole(this->inverse_of_a(this->free_rows(r)),
+      Eigen::MatrixXd::Zero(static_cast<Index>(this->fixed.size()), 1));
   }
   /// #V x m: without bounds. As good as can be had: what is made of them has its certificates.
   Eigen::MatrixXd minimisers(
     const Eigen::MatrixXd& fixed_values, const ExecutionContext* context) const
   {
-    Eigen::MatrixXd w = Eigen::MatrixXd::Zero(this->q.rows(), fixed_values.cols());
-    for (std::size_t i = 0; i < this->fixed.size(); ++i)
-    {
-      w.row(this->fixed[i]) = fixed_values.row(static_cast<Index>(i));
-    }
     Eigen::MatrixXd x;
     this->solve_a(-(this->to_fixed * fixed_values), context, x);
-    for (std::size_t i = 0; i < this->free_vertices.size(); ++i)
-    {
-      w.row(this->free_vertices[i]) = x.row(static_cast<Index>(i));
-    }
-    return w;
+    return this->whole(x, fixed_values);
   }
   /// Starts for all columns. Those with a start of their own, with ordered pairs or without bounds
   /// get none.

@@ -54,7 +54,7 @@ public:
   Eigen::MatrixXd harmonic() const
   {
     const Eigen::MatrixXd& given = this->problem_.fixed_values;
-    return this->whole(-this->solve(this->form_.to_fixed * given));
+    return this->form_.whole(-this->solve(this->form_.to_fixed * given), given);
   }
 
   /// @return false when cancelled.
@@ -82,12 +82,9 @@ public:
     SparseMatrix u(this->form_.to_fixed.rows(), rank);
     Eigen::VectorXd mass(rank);
     {
-      Eigen::MatrixXd given = Eigen::MatrixXd::Zero(this->problem_.vertex_count(), m);
-      for (std::size_t i = 0; i < this->form_.fixed.size(); ++i)
-      {
-        given.row(this->form_.fixed[i]) = this->problem_.fixed_values.row(static_cast<Index>(i));
-      }
-      const Eigen::MatrixXd all = this->problem_.stiffness * given;
+      const Eigen::MatrixXd all = this->problem_.stiffness *
+        this->form_.whole(
+          Eigen::MatrixXd::Zero(this->mass_.size(), m), this->problem_.fixed_values);
       for (Index i = 0; i < rank; ++i)
       {
         const Index v = this->form_.fixed[active[i]];
@@ -97,12 +94,12 @@ public:
       }
     }
     constexpr Index solves_of_gradients = 16; // that conjugate gradients take a column, about
-    const Eigen::MatrixXd start = this->free_rows(harmonic);
+    const Eigen::MatrixXd start = this->form_.free_rows(harmonic);
     Eigen::MatrixXd x;
     const bool done = rank <= solves_of_gradients * m
       ? this->by_rank(u, mass, flow, start, context, x)
       : this->by_gradients(u, mass, flow, start, context, x);
-    w = done ? this->whole(x) : Eigen::MatrixXd();
+    w = done ? this->form_.whole(x, this->problem_.fixed_values) : Eigen::MatrixXd();
     return done;
   }
 
@@ -115,28 +112,6 @@ private:
   Eigen::MatrixXd product(const Eigen::MatrixXd& r) const
   {
     return this->solve(this->mass_.asDiagonal() * this->solve(r));
-  }
-  Eigen::MatrixXd free_rows(const Eigen::MatrixXd& all) const
-  {
-    Eigen::MatrixXd rows(this->mass_.size(), all.cols());
-    for (Index i = 0; i < rows.rows(); ++i)
-    {
-      rows.row(i) = all.row(this->form_.free_vertices[i]);
-    }
-    return rows;
-  }
-  Eigen::MatrixXd whole(const Eigen::MatrixXd& rows) const
-  {
-    Eigen::MatrixXd all(this->problem_.vertex_count(), rows.cols());
-    for (Index i = 0; i < rows.rows(); ++i)
-    {
-      all.row(this->form_.free_vertices[i]) = rows.row(i);
-    }
-    for (std::size_t i = 0; i < this->form_.fixed.size(); ++i)
-    {
-      all.row(this->form_.fixed[i]) = this->problem_.fixed_values.row(static_cast<Index>(i));
-    }
-    return all;
   }
 
   /// @param start K_ff^-1 U e, negative: the harmonic weights.

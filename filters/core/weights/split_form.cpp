@@ -60,6 +60,20 @@ SplitForm::SplitForm(const SparseMatrix& form, std::vector<Index> given)
   }
 }
 
+Eigen::MatrixXd SplitForm::free_rows(const Eigen::MatrixXd& all) const
+{
+  return all(this->free_vertices, Eigen::all);
+}
+
+Eigen::MatrixXd SplitForm::whole(
+  const Eigen::MatrixXd& free_rows, const Eigen::MatrixXd& fixed_values) const
+{
+  Eigen::MatrixXd all(this->q.rows(), fixed_values.cols());
+  all(this->free_vertices, Eigen::all) = free_rows;
+  all(this->fixed, Eigen::all) = fixed_values;
+  return all;
+}
+
 int SplitForm::position(Index i, Index j) const
 {
   const int* begin = this->lower.innerIndexPtr() + this->lower.outerIndexPtr()[j];

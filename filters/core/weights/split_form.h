@@ -27,6 +27,14 @@ struct SplitForm
   SparseMatrix to_fixed; ///< free x fixed
   std::vector<int> diagonal; ///< where in lower's values the diagonal is
 
+  /// @param all #V x m.
+  /// @return free x m.
+  Eigen::MatrixXd free_rows(const Eigen::MatrixXd& all) const;
+  /// @param free_rows free x m.
+  /// @param fixed_values fixed x m.
+  /// @return #V x m.
+  Eigen::MatrixXd whole(
+    const Eigen::MatrixXd& free_rows, const Eigen::MatrixXd& fixed_values) const;
   /// Position of entry (i, j), i > j, in lower's values; -1 when there is none.
   int position(Index i, Index j) const;
 };

@@ -31,6 +31,23 @@ SparseMatrix energy(const TriangleMesh& mesh, int order)
     stiffness_matrix(mesh.points, mesh.triangles), mass / mass.maxCoeff(), order);
 }
 
+SparseMatrix energy(const TetMesh& mesh, int order)
+{
+  const Eigen::VectorXd mass = lumped_mass(mesh.points, mesh.tets);
+  return harmonic_energy(stiffness_matrix(mesh.points, mesh.tets), mass / mass.maxCoeff(), order);
+}
+
+/// One for each fixed vertex: 1 there, 0 at the others.
+std::vector<BoxQpColumn> unit_columns(Index count)
+{
+  std::vector<BoxQpColumn> columns(static_cast<std::size_t>(count));
+  for (Index j = 0; j < count; ++j)
+  {
+    columns[static_cast<std::size_t>(j)].fixed_values = Eigen::VectorXd::Unit(count, j);
+  }
+  return columns;
+}
+
 BoxQpColumn column_of(std::initializer_list<double> values)
 {
   BoxQpColumn column;
@@ -91,12 +108,10 @@ TEST(BoxQp, AgreesWithProjectedGaussSeidel)
 TEST(BoxQp, MinimisersWithoutBoundsHaveNoGradient)
 {
   const TetMesh box = test::tet_box(14, 14, 14);
-  const Eigen::VectorXd mass = lumped_mass(box.points, box.tets);
-  const SparseMatrix k = stiffness_matrix(box.points, box.tets);
   const std::vector<Index> fixed{ 0, 14, 3374 };
   for (const int order : { 1, 2, 3 })
   {
-    const SparseMatrix q = harmonic_energy(k, mass / mass.maxCoeff(), order);
+    const SparseMatrix q = energy(box, order);
     BoxQp qp(q, fixed, {});
     ExecutionContext context;
     ASSERT_TRUE(qp.prepare(context).ok());
@@ -304,25 +319,18 @@ class BoxQpStarts : public testing::TestWithParam<bool>
 TEST_P(BoxQpStarts, FoundTogetherEndWhereOthersEnd)
 {
   const TetMesh mesh = two_boxes(GetParam());
-  const Eigen::VectorXd mass = lumped_mass(mesh.points, mesh.tets);
-  const SparseMatrix q =
-    harmonic_energy(stiffness_matrix(mesh.points, mesh.tets), mass / mass.maxCoeff(), 2);
+  const SparseMatrix q = energy(mesh, 2);
   // More columns than are solved for together; the last handles are on the second box.
   std::vector<Index> fixed;
   for (Index j = 0; j < 11; ++j)
   {
     fixed.push_back(j < 9 ? 5 + 37 * j : q.rows() - 100 + 40 * (j - 9));
   }
-  std::vector<BoxQpColumn> columns;
-  for (Index j = 0; j < 11; ++j)
+  std::vector<BoxQpColumn> columns = unit_columns(11);
+  for (Index j = 0; j < 11; j += 3)
   {
-    columns.emplace_back();
-    columns.back().fixed_values = Eigen::VectorXd::Unit(11, j);
-    if (j % 3 == 0)
-    {
-      columns.back().pinned = { 50 + j, 120 + j };
-      columns.back().pinned_values = Eigen::Vector2d(0.25, 1.0);
-    }
+    columns[j].pinned = { 50 + j, 120 + j };
+    columns[j].pinned_values = Eigen::Vector2d(0.25, 1.0);
   }
   std::vector<char> free(static_cast<std::size_t>(q.rows()), 1);
   for (const Index v : fixed)
@@ -380,16 +388,9 @@ INSTANTIATE_TEST_SUITE_P(Meshes, BoxQpStarts, testing::Bool());
 TEST(BoxQp, ThreadsDoNotChangeABit)
 {
   const TetMesh box = test::tet_box(6, 6, 6);
-  const Eigen::VectorXd mass = lumped_mass(box.points, box.tets);
-  const SparseMatrix q =
-    harmonic_energy(stiffness_matrix(box.points, box.tets), mass / mass.maxCoeff(), 2);
+  const SparseMatrix q = energy(box, 2);
   const std::vector<Index> fixed{ 0, 6, 48, 171, 342 };
-  std::vector<BoxQpColumn> columns;
-  for (Index j = 0; j < 5; ++j)
-  {
-    columns.emplace_back();
-    columns.back().fixed_values = Eigen::VectorXd::Unit(5, j);
-  }
+  const std::vector<BoxQpColumn> columns = unit_columns(5);
   std::vector<BoxQpSolution> reference;
   for (const int threads : { 1, 2, 4 })
   {
@@ -426,16 +427,9 @@ TEST(BoxQp, TheEstimateOfItsMemoryIsThePeak)
     return; // the sanitizer's own memory is a multiple of ours
   }
   const TetMesh box = test::tet_box(20, 20, 20);
-  const Eigen::VectorXd mass = lumped_mass(box.points, box.tets);
-  const SparseMatrix q =
-    harmonic_energy(stiffness_matrix(box.points, box.tets), mass / mass.maxCoeff(), 2);
+  const SparseMatrix q = energy(box, 2);
   const std::vector<Index> fixed{ 0, 20, 4630, 9260 };
-  std::vector<BoxQpColumn> columns;
-  for (Index j = 0; j < 4; ++j)
-  {
-    columns.emplace_back();
-    columns.back().fixed_values = Eigen::VectorXd::Unit(4, j);
-  }
+  const std::vector<BoxQpColumn> columns = unit_columns(4);
   for (const int threads : { 1, 2 })
   {
     ::malloc_trim(0);
@@ -456,16 +450,9 @@ TEST(BoxQp, TheEstimateOfItsMemoryIsThePeak)
 TEST(BoxQp, TakesFewerThreadsOrRefusesWhereMemoryEnds)
 {
   const TetMesh box = test::tet_box(16, 16, 16);
-  const Eigen::VectorXd mass = lumped_mass(box.points, box.tets);
-  const SparseMatrix q =
-    harmonic_energy(stiffness_matrix(box.points, box.tets), mass / mass.maxCoeff(), 2);
+  const SparseMatrix q = energy(box, 2);
   const std::vector<Index> fixed{ 0, 16, 4912 };
-  std::vector<BoxQpColumn> columns;
-  for (Index j = 0; j < 3; ++j)
-  {
-    columns.emplace_back();
-    columns.back().fixed_values = Eigen::VectorXd::Unit(3, j);
-  }
+  const std::vector<BoxQpColumn> columns = unit_columns(3);
   ExecutionContext context;
   BoxQpOptions options;
   options.solver.memory_limit = 1; // less than what the process holds already

@@ -360,6 +360,15 @@ vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(PointsView points, Tet
   return result;
 }
 
+vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(
+  PointsView points, TrianglesView triangles)
+{
+  auto result = vtkSmartPointer<vtkUnstructuredGrid>::New();
+  result->SetPoints(to_vtk_points(points));
+  result->SetCells(VTK_TRIANGLE, to_cell_array(triangles));
+  return result;
+}
+
 // ---- Handles -----------------------------------------------------------------------------------
 
 namespace

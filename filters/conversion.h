@@ -105,6 +105,8 @@ BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkPolyData> to_polydata(
   PointsView points, TrianglesView triangles);
 BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(
   PointsView points, TetsView tets);
+BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(
+  PointsView points, TrianglesView triangles);
 
 /// What weights live on: the tets of an unstructured grid that has a volume cell, else the 2D cells
 /// of a polydata or grid as triangles. Coordinates and ids are checked.

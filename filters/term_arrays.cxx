@@ -1,10 +1,13 @@
 #include "term_arrays.h"
 
+#include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDataSet.h"
 #include "vtkPointData.h"
+#include "vtkPolyData.h"
 
 #include <cmath>
+#include <limits>
 
 namespace bindpose
 {
@@ -94,6 +97,33 @@ Status to_terms(
     : status;
   return status.ok() ? to_whole_numbers(find(mesh, names.mirror), names.mirror, terms.mirror)
                      : status;
+}
+
+Status to_handle_bounds(vtkPolyData* handles, const std::vector<Index>& cells,
+  const double (&everywhere)[2], WeightTerms& terms)
+{
+  vtkDataArray* given = handles->GetCellData()->GetArray(handle_bounds_name);
+  if (given && given->GetNumberOfComponents() != 2)
+  {
+    return Status::invalid_input(std::string("the handles' array '") + handle_bounds_name +
+      "' has " + std::to_string(given->GetNumberOfComponents()) +
+      " components, but a handle has a least and a largest weight");
+  }
+  if (!given && everywhere[0] == 0.0 && everywhere[1] == 1.0)
+  {
+    return {};
+  }
+  terms.handle_bounds.resize(static_cast<Index>(cells.size()), 2);
+  for (Index j = 0; j < terms.handle_bounds.rows(); ++j)
+  {
+    for (int k = 0; k < 2; ++k)
+    {
+      const double own = given ? given->GetComponent(cells[static_cast<std::size_t>(j)], k)
+                               : std::numeric_limits<double>::quiet_NaN();
+      terms.handle_bounds(j, k) = std::isnan(own) ? everywhere[k] : own;
+    }
+  }
+  return {};
 }
 
 } // namespace bindpose

@@ -8,6 +8,7 @@
 #include <vector>
 
 class vtkDataSet;
+class vtkPolyData;
 
 namespace bindpose
 {
@@ -30,6 +31,15 @@ struct TermArrayNames
 /// wrong number of components, or a label or id is no whole number.
 Status to_terms(
   vtkDataSet* mesh, const TermArrayNames& names, Index handle_count, WeightTerms& terms);
+
+/// The cell array of a handle dataset with two components: least and largest weight of a handle.
+constexpr const char* handle_bounds_name = "WeightBounds";
+
+/// Its values, `everywhere` where they are NaN; nothing where there is no array and `everywhere` is
+/// 0, 1.
+/// @param cells of the dataset, one a handle.
+Status to_handle_bounds(vtkPolyData* handles, const std::vector<Index>& cells,
+  const double (&everywhere)[2], WeightTerms& terms);
 
 } // namespace bindpose
 

@@ -440,7 +440,8 @@ Status vtkWeightsAlgorithm::Bind(
   Handles handles;
   bindpose::Domain domain;
   std::vector<Index> cell_of_element;
-  Status status = to_handles(vtkPolyData::SafeDownCast(handle_data), handles);
+  std::vector<Index> handle_cells;
+  Status status = to_handles(vtkPolyData::SafeDownCast(handle_data), handles, &handle_cells);
   if (status.ok())
   {
     status = to_domain(mesh, domain, cell_of_element);
@@ -464,11 +465,11 @@ Status vtkWeightsAlgorithm::Bind(
     {
       return status;
     }
-    if (this->Bounds[0] != 0.0 || this->Bounds[1] != 1.0)
+    status = to_handle_bounds(
+      vtkPolyData::SafeDownCast(handle_data), handle_cells, this->Bounds, options.terms);
+    if (!status.ok())
     {
-      options.terms.handle_bounds.resize(static_cast<Index>(handles.size()), 2);
-      options.terms.handle_bounds.col(0).setConstant(this->Bounds[0]);
-      options.terms.handle_bounds.col(1).setConstant(this->Bounds[1]);
+      return status;
     }
     options.terms.mirror_normal = Vec3(this->MirrorNormal);
     options.terms.mirror_origin = Vec3(this->MirrorOrigin);
@@ -550,7 +551,9 @@ Status vtkWeightsAlgorithm::Bind(
         handles, result.solved);
       solved.take_mesh(result.problem, {});
       bound.volume = vtkSmartPointer<vtkUnstructuredGrid>::New();
-      solved.write(to_unstructured_grid(result.tets, status.report.text("tetrahedralize.method")),
+      solved.write(result.plane_cage.triangles.rows() > 0
+          ? to_unstructured_grid(result.plane_cage.points, result.plane_cage.triangles)
+          : to_unstructured_grid(result.tets, status.report.text("tetrahedralize.method")),
         bound.volume);
     }
   }
@@ -587,6 +590,7 @@ Status vtkWeightsAlgorithm::Execute(
   {
     key.add(object);
   }
+  key.add(this->TakesTerms() ? handles->GetCellData()->GetArray(handle_bounds_name) : nullptr);
   const bool bind = !this->Bound->valid || this->Bound->key != key;
   if (bind)
   {

@@ -33,8 +33,10 @@
  * - `RigidSet`, whole numbers: every weight is constant, exactly, on the points of one label > 0. A
  *   set with a point of a handle has that point's weights.
  * - `WeightsLower`, `WeightsUpper`, a component a handle: least and largest weight at each point;
- *   NaN: that of SetBounds(). They and Bounds hold for RawWeights; dividing rows by their sums can
- *   leave them (report: normalised_bounds_violation), PartitionOfUnity COUPLED does not.
+ *   NaN: that of the handle, which is the cell array `WeightBounds` of the handles (two
+ * components), or without one (or NaN) that of SetBounds(). All of them hold for RawWeights;
+ * dividing rows by their sums can leave them (report: normalised_bounds_violation),
+ * PartitionOfUnity COUPLED does not.
  * - `PinnedWeights`, a component a handle: weights that are given; NaN: free. They stay when rows
  *   are divided by their sums: the row's others make up what is left.
  * - `SymmetricPoint`, the id of each point's mirror point or -1: handles that are each other's
@@ -146,9 +148,9 @@ public:
    * its inside (VOLUME), in a lattice that holds it, in seconds whatever its size (EMBEDDING), or
    * AUTO: the volume of small surfaces, the embedding of dense ones and of those that cannot be
    * filled, the shape itself where it is flat; or in tets of the closed cage that the handles have
-   * around the surface (CAGE). The output then is the surface as it came, with Weights at its own
-   * points, and output 2 is what was solved on. Meshes of tets are solved on directly. Out of
-   * range: clamped.
+   * around the surface, or triangles of a cage of edges around a flat shape (CAGE). The output then
+   * is the surface as it came, with Weights at its own points, and output 2 is what was solved on.
+   * Meshes of tets are solved on directly. Out of range: clamped.
    */
   void SetDomain(int domain);
   vtkGetMacro(Domain, int);

@@ -10,7 +10,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from . import BindposeFilters as filters
 from .errors import BindposeWarning, InvalidInput, Unavailable
 from .files import read
-from .handle_sets import to_handles
+from .handle_sets import to_handles, with_cell_values
 from .images import is_image_file, read_image, to_image
 from .meshes import (
     Array,
@@ -378,7 +378,7 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
         All but the first two are to compare with: see ``vtkUnconstrainedWeights``.
     domain : {"auto", "volume", "embedding", "cage", "surface"}
         Where to solve for a surface: in tets of its inside, in a lattice that holds it, in the closed
-        cage that the handles have around it, on itself.
+        cage that the handles have around it (of edges, around a flat shape), on itself.
         ``auto``: the volume of surfaces of up to 20,000 triangles, the embedding of dense ones and
         of those that cannot be filled, flat shapes on themselves. Tets are solved on directly.
     resolution : int
@@ -405,8 +405,9 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
         Least and largest weights, NaN: those of ``bounds``.
     pins : str or array_like (#V, #handles), optional
         Weights that are given, NaN: free.
-    bounds : (float, float)
-        Least and largest weight; only a wider range than 0 to 1 can be kept.
+    bounds : (float, float) or dict of handle name to (float, float)
+        Least and largest weight, of all or of single handles; only a wider range than 0 to 1 can be kept.
+        Without a dict the handles' cell array ``WeightBounds`` counts, where they have it.
     mirror : {"x", "y", "z"}, str or array_like (#V,) of int, optional
         Handles that are mirror images get mirrored weights: in the plane across the middle of that axis,
         or by ids of mirror points, -1 for none.
@@ -467,11 +468,15 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
     solver.SetMaximumIterations(int(maximum_iterations))
     solver.SetMemoryLimit(int(memory_limit))
     solver.SetKeepMesh(bool(keep_mesh))
-    solver.SetBounds(*map(float, bounds))
+    if isinstance(bounds, dict):
+        handle_data = with_cell_values(handle_data, "WeightBounds", bounds, 2, missing=(np.nan, np.nan))
+        solver.SetInputData(1, handle_data)
+    else:
+        solver.SetBounds(*map(float, bounds))
     solver.SetMaximumInfluences(int(influences))
     solver.SetPartitionOfUnity(("normalise", "coupled").index(partition))
     asked = [value is not None for value in (rigidity, rigid_sets, lower, upper, pins, mirror)]
-    if method not in methods[:2] and (any(asked) or tuple(bounds) != (0, 1) or influences or partition != "normalise"):
+    if method not in methods[:2] and (any(asked) or isinstance(bounds, dict) or tuple(bounds) != (0, 1) or influences or partition != "normalise"):
         raise InvalidInput(f"{method} weights take no terms, bounds, influences or partition")
     terms = {"Rigidity": rigidity, "RigidSet": rigid_sets, "Lower": lower, "Upper": upper, "Pinned": pins, "Mirror": mirror}
     solver.SetInputData(0, _set_terms(solver, data, terms))

@@ -5,11 +5,12 @@ import os
 import numpy as np
 from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkIntArray, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
+from vtkmodules.util import numpy_support
 
 from .BindposeFilters import vtkFarthestPointHandles
 from .errors import InvalidInput
 from .files import read_handles
-from .meshes import is_dataset, to_dataset, to_vtk_points
+from .meshes import is_dataset, shallow_copy, to_dataset, to_vtk_points
 from .running import run
 
 
@@ -116,3 +117,45 @@ def to_handles(value, surface):
     if isinstance(value, (str, os.PathLike)):
         return read_handles(value)
     raise InvalidInput("handles are a handle dataset (see bindpose.handles), a file or 'auto:N'")
+
+
+def _names(handles):
+    """Names of the handles that have one."""
+    array = handles.GetCellData().GetAbstractArray("HandleName")
+    return [array.GetValue(i) for i in range(array.GetNumberOfValues())] if array else []
+
+
+def with_cell_values(handles, array_name, values, components, missing=None):
+    """A copy of the handle dataset with a value for each cell: a sequence, or {name: value}.
+
+    ``missing`` is that of handles that are not named; None: a number is 0 there, several must be named.
+    """
+    count = handles.GetNumberOfCells()
+    shape = (count, components) if components > 1 else (count,)
+    if isinstance(values, dict):
+        names = _names(handles)
+        unknown = [name for name in values if name not in names]
+        if unknown:
+            raise InvalidInput(f"there is no handle {unknown[0]!r}")
+        filled = np.zeros(shape)
+        if missing is not None:
+            filled[:] = missing
+        for name, value in values.items():
+            try:
+                filled[names.index(name)] = value
+            except (TypeError, ValueError):
+                raise InvalidInput(f"{array_name} of handle {name!r} is {components} numbers, not {value!r}") from None
+        if missing is None and components > 1 and len(values) < count:
+            missing = next(name for name in names if name not in values)
+            raise InvalidInput(f"handle {missing!r} has no {array_name}")
+        values = filled
+    values = np.asarray(values)
+    if values.shape != shape or values.dtype.kind not in "iufb":
+        raise InvalidInput(f"{array_name} is an array of numbers {' x '.join(map(str, shape))}, one a handle")
+    if values.dtype != np.uint8:
+        values = values.astype(float)
+    copy = shallow_copy(handles)
+    array = numpy_support.numpy_to_vtk(np.ascontiguousarray(values), deep=True)
+    array.SetName(array_name)
+    copy.GetCellData().AddArray(array)
+    return copy

@@ -1,50 +1,12 @@
 """What weights are good for beside poses: colours, depth, curves with two sides."""
 
 import numpy as np
-from vtkmodules.util import numpy_support
 
 from . import BindposeFilters as filters
 from .errors import InvalidInput
-from .handle_sets import to_handles
+from .handle_sets import to_handles, with_cell_values
 from .meshes import Array, add_point_array, is_dataset, point_array, shallow_copy, to_dataset
 from .running import run
-
-
-def _names(handles):
-    """Names of the handles that have one."""
-    array = handles.GetCellData().GetAbstractArray("HandleName")
-    return [array.GetValue(i) for i in range(array.GetNumberOfValues())] if array else []
-
-
-def _with_cell_values(handles, array_name, values, components):
-    """A copy of the handle dataset with a value for each cell: a sequence, or {name: value} of all that have one."""
-    count = handles.GetNumberOfCells()
-    shape = (count, components) if components > 1 else (count,)
-    if isinstance(values, dict):
-        names = _names(handles)
-        unknown = [name for name in values if name not in names]
-        if unknown:
-            raise InvalidInput(f"there is no handle {unknown[0]!r}")
-        filled = np.zeros(shape)
-        for name, value in values.items():
-            try:
-                filled[names.index(name)] = value
-            except (TypeError, ValueError):
-                raise InvalidInput(f"{array_name} of handle {name!r} is {components} numbers, not {value!r}") from None
-        if components > 1 and len(values) < count:
-            missing = next(name for name in names if name not in values)
-            raise InvalidInput(f"handle {missing!r} has no {array_name}")
-        values = filled
-    values = np.asarray(values)
-    if values.shape != shape or values.dtype.kind not in "iufb":
-        raise InvalidInput(f"{array_name} is an array of numbers {' x '.join(map(str, shape))}, one a handle")
-    if values.dtype != np.uint8:
-        values = values.astype(float)
-    copy = shallow_copy(handles)
-    array = numpy_support.numpy_to_vtk(np.ascontiguousarray(values), deep=True)
-    array.SetName(array_name)
-    copy.GetCellData().AddArray(array)
-    return copy
 
 
 def _inputs(mesh, handles, weights, array_name):
@@ -93,7 +55,7 @@ def weighted_colors(mesh, handles, colors=None, *, weights=None, array_name="Wei
     """
     data, handle_data = _inputs(mesh, handles, weights, array_name)
     if colors is not None:
-        handle_data = _with_cell_values(handle_data, "Color", colors, 3)
+        handle_data = with_cell_values(handle_data, "Color", colors, 3)
     painter = filters.vtkWeightedColors()
     painter.SetInputData(0, data)
     painter.SetInputData(1, handle_data)
@@ -142,7 +104,7 @@ def depth_order(mesh, handles, layers=None, *, weights=None, array_name="Weights
     """
     data, handle_data = _inputs(mesh, handles, weights, array_name)
     if layers is not None:
-        handle_data = _with_cell_values(handle_data, "Layer", layers, 1)
+        handle_data = with_cell_values(handle_data, "Layer", layers, 1)
     if not scale >= 0 or not tie >= 0:
         raise InvalidInput(f"scale and tie are at least 0, not {scale} and {tie}")
     order = filters.vtkDepthOrder()
@@ -192,9 +154,9 @@ def cut_along_bones(shape, handles, left=None, right=None, *, curves=None, progr
     handle_data = to_handles(handles, data)
     for array_name, values in (("LeftColor", left), ("RightColor", right)):
         if values is not None:
-            handle_data = _with_cell_values(handle_data, array_name, values, 3)
+            handle_data = with_cell_values(handle_data, array_name, values, 3)
     if curves is not None:
-        handle_data = _with_cell_values(handle_data, "Curve", curves, 1)
+        handle_data = with_cell_values(handle_data, "Curve", curves, 1)
     knife = filters.vtkCutAlongBones()
     knife.SetInputData(0, data)
     knife.SetInputData(1, handle_data)

@@ -678,6 +678,56 @@ TEST(WeightsFilters, TermsComeFromArraysAndBelongToTheBind)
   EXPECT_NE(plain.weights()->GetComponent(pinned, 0), 0.8);
 }
 
+TEST(WeightsFilters, HandlesHaveBoundsOfTheirOwn)
+{
+  const auto mesh = square(12);
+  const auto handles = to_polydata({ point("left", 0.25, 0.25, 0), point("right", 0.75, 0.75, 0),
+    point("low", 0.75, 0.25, 0), point("middle", 0.5, 0.5, 0) });
+  Pipeline<vtkUnconstrainedWeights> free(mesh, handles);
+  free.filter->SetMethod(vtkUnconstrainedWeights::BIHARMONIC);
+  free.filter->SetKeepRaw(true);
+  free.filter->Update();
+  vtkNew<vtkDoubleArray> bounds;
+  bounds->SetName("WeightBounds");
+  bounds->SetNumberOfComponents(2);
+  bounds->SetNumberOfTuples(4);
+  bounds->Fill(std::nan(""));
+  bounds->SetTuple2(1, -10, 10); // never reached
+  handles->GetCellData()->AddArray(bounds);
+  Pipeline<vtkBoundedBiharmonicWeights> pipeline(mesh, handles);
+  pipeline.filter->SetTolerance(1e-9);
+  pipeline.filter->SetKeepRaw(true);
+  pipeline.filter->Update();
+  ASSERT_TRUE(pipeline.listener->errors.empty());
+  const auto raw = [](auto& of)
+  { return vtkDoubleArray::SafeDownCast(of.output()->GetPointData()->GetArray("RawWeights")); };
+  double range[2];
+  raw(pipeline)->GetRange(range, 0);
+  EXPECT_GE(range[0], 0.0);
+  raw(pipeline)->GetRange(range, 1);
+  EXPECT_LT(range[0], -1e-3);
+  ASSERT_EQ(raw(free)->GetNumberOfTuples(), raw(pipeline)->GetNumberOfTuples());
+  for (vtkIdType v = 0; v < mesh->GetNumberOfPoints(); ++v)
+  {
+    EXPECT_NEAR(raw(pipeline)->GetComponent(v, 1), raw(free)->GetComponent(v, 1), 1e-6);
+  }
+  // They belong to the bind.
+  bounds->SetTuple2(1, 0, 1);
+  bounds->Modified();
+  handles->Modified();
+  pipeline.filter->Update();
+  EXPECT_EQ(pipeline.filter->GetNumberOfBinds(), 2);
+  raw(pipeline)->GetRange(range, 1);
+  EXPECT_GE(range[0], 0.0);
+  bounds->SetNumberOfComponents(1);
+  bounds->SetNumberOfTuples(4);
+  bounds->Fill(0.5);
+  bounds->Modified();
+  handles->Modified();
+  pipeline.filter->Update();
+  EXPECT_THAT(pipeline.report().text("message"), HasSubstr("a least and a largest weight"));
+}
+
 TEST(WeightsFilters, MirroredHandlesByAPlane)
 {
   const auto mesh = square(12);

@@ -177,6 +177,13 @@ def test_weights_with_terms():
     assert np.abs(np.asarray(w) - np.asarray(free)).max() > 1e-3
     coupled = bindpose.weights(BAR, handles, domain="surface", partition="coupled", bounds=(-1, 2))
     assert np.allclose(np.sum(coupled, axis=1), 1, atol=1e-12)
+    assert w.names == ["p1", "p2"]
+    alike = bindpose.weights(BAR, handles, domain="surface", bounds={"p2": (0, 1)})
+    assert np.array_equal(alike, free)
+    with pytest.raises(bindpose.InvalidInput, match="no handle 'p3'"):
+        bindpose.weights(BAR, handles, bounds={"p3": (0, 1)})
+    with pytest.raises(bindpose.InvalidInput, match="bounds of handle 'p1'"):
+        bindpose.weights(BAR, handles, domain="surface", bounds={"p1": (1, 0)})
     one = bindpose.weights(BAR, handles, influences=1)
     assert ((np.asarray(one) > 0).sum(axis=1) == 1).mean() > 0.9
     with pytest.raises(bindpose.InvalidInput, match="no point array 'paint'"):

@@ -24,7 +24,7 @@ CORE_ARROWS = {
     "embedding": {"base", "winding", "embedding"},
     # inside talks to fTetWild through files.
     "inside": {"base", "io", "winding", "surface", "helper", "embedding", "inside"},
-    "weights": {"base", "winding", "surface", "embedding", "inside", "weights"},
+    "weights": {"base", "winding", "surface", "planar", "embedding", "inside", "weights"},
     "pose": {"base", "winding", "inside", "weights", "pose"},
     "mesher": {"base", "winding", "surface", "helper", "planar", "inside", "mesher"},
 }

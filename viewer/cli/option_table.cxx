@@ -155,8 +155,10 @@ const std::vector<Verb>& verbs()
           "point array of given weights, a component a handle, NaN where free; default: "
           "PinnedWeights" },
         { "--bounds", "LEAST,LARGEST", Kind::text, "0,1", "",
-          "of all weights; only a wider range than 0,1 can be kept. A component a handle and a "
-          "point: arrays WeightsLower and WeightsUpper" },
+          "of all weights; only a wider range than 0,1 can be kept. Of single handles: cell array "
+          "WeightBounds of .vtp handles; of points: arrays WeightsLower and WeightsUpper, a "
+          "component "
+          "a handle" },
         { "--mirror", "AXIS", Kind::choice, "none", "none|x|y|z",
           "handles that are mirror images in the plane across the middle get mirrored weights; "
           "with none the point array SymmetricPoint says so" },

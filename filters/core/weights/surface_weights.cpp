@@ -3,6 +3,7 @@
 // another one is thrown away; what it told is kept as the reason.
 #include "weights/surface_weights.h"
 
+#include "planar/planar_shape.h"
 #include "weights/embedded_surface.h"
 #include "weights/preview_weights.h"
 #include "weights/transfer.h"
@@ -42,6 +43,9 @@ private:
   Status in_volume(SurfaceWeights& result, Index most_tets = -1);
   Status in_embedding(SurfaceWeights& result, bool& trusted);
   Status in_cage(SurfaceWeights& result);
+  Status fill_cage(const std::vector<CageElement>& faces, SurfaceWeights& result, Domain& domain);
+  Status fill_plane_cage(
+    const std::vector<CageElement>& edges, SurfaceWeights& result, Domain& domain);
   Status embed(Index resolution, SurfaceWeights& result);
   Status fill(PointsView points, TrianglesView triangles, const TetrahedralizeOptions& options,
     TetrahedralizeResult& tets);
@@ -92,6 +96,49 @@ std::pair<double, double> report_difference(
   report.set(name + ".rms_difference", rms);
   report.set(name + ".max_difference", largest);
   return { rms, largest };
+}
+
+/// Edges of cages have no direction of their own: turned so that each begins where the one before
+/// it ends, as far as two meet, and so that all of them enclose a positive area.
+void run_around(PlanePointsView points, Segments& edges)
+{
+  std::vector<std::vector<Index>> at(static_cast<std::size_t>(points.rows()));
+  for (Index e = 0; e < edges.rows(); ++e)
+  {
+    at[static_cast<std::size_t>(edges(e, 0))].push_back(e);
+    at[static_cast<std::size_t>(edges(e, 1))].push_back(e);
+  }
+  std::vector<char> done(static_cast<std::size_t>(edges.rows()), 0);
+  for (Index first = 0; first < edges.rows(); ++first)
+  {
+    Index e = first;
+    while (e >= 0 && !done[static_cast<std::size_t>(e)])
+    {
+      done[static_cast<std::size_t>(e)] = 1;
+      const Index end = edges(e, 1);
+      Index next = -1;
+      for (const Index other : at[static_cast<std::size_t>(end)])
+      {
+        next = next < 0 && !done[static_cast<std::size_t>(other)] ? other : next;
+      }
+      if (next >= 0 && edges(next, 0) != end)
+      {
+        std::swap(edges(next, 0), edges(next, 1));
+      }
+      e = next;
+    }
+  }
+  double area = 0.0;
+  for (Index e = 0; e < edges.rows(); ++e)
+  {
+    const auto a = points.row(edges(e, 0));
+    const auto b = points.row(edges(e, 1));
+    area += a[0] * b[1] - a[1] * b[0];
+  }
+  if (area < 0.0)
+  {
+    edges.col(0).swap(edges.col(1));
+  }
 }
 
 Domain volume_of(const TetMesh& mesh)
@@ -290,53 +337,38 @@ Status Solver::in_volume(SurfaceWeights& result, Index most_tets)
 
 Status Solver::in_cage(SurfaceWeights& result)
 {
-  Points corners(static_cast<Index>(this->handles_.size()), 3);
   std::vector<CageElement> faces;
-  for (std::size_t i = 0; i < this->handles_.size(); ++i)
+  std::vector<CageElement> edges;
+  for (const Handle& handle : this->handles_)
   {
-    corners.row(static_cast<Index>(i)) = this->handles_[i].head;
-    std::copy_if(this->handles_[i].cage.begin(), this->handles_[i].cage.end(),
-      std::back_inserter(faces), [](const CageElement& element) { return element[2] >= 0; });
-  }
-  if (faces.empty())
-  {
-    return Status::invalid_input("domain cage needs a cage with faces among the handles");
-  }
-  Triangles triangles(static_cast<Index>(faces.size()), 3);
-  for (Index f = 0; f < triangles.rows(); ++f)
-  {
-    triangles.row(f) << faces[f][0], faces[f][1], faces[f][2];
+    for (const CageElement& element : handle.cage)
+    {
+      (element[2] >= 0 ? faces : edges).push_back(element);
+    }
   }
   Status status = this->refuse_single_points("cage");
   if (!status.ok())
   {
     return status;
   }
-  TetrahedralizeOptions options;
-  options.handles.points = this->options_.places.points;
-  if (this->points_.rows() <= few_triangles)
-  {
-    const Index count = options.handles.points.rows();
-    options.handles.points.conservativeResize(count + this->points_.rows(), 3);
-    options.handles.points.bottomRows(this->points_.rows()) = this->points_;
-  }
-  status = this->fill(corners, triangles, options, result.tets);
+  Domain domain;
+  status = faces.empty() ? this->fill_plane_cage(edges, result, domain)
+                         : this->fill_cage(faces, result, domain);
   if (!status.usable())
   {
-    status.message = "the cage cannot be filled: " + status.message;
     return status;
   }
   result.domain = WeightsDomain::cage;
   WeightTerms terms;
-  const std::vector<Index> none(static_cast<std::size_t>(result.tets.mesh.points.rows()), -1);
-  const Status carried_terms = this->carry_terms_to(result.tets.mesh.points, none, terms, status);
+  const std::vector<Index> none(static_cast<std::size_t>(domain.points.rows()), -1);
+  const Status carried_terms = this->carry_terms_to(domain.points, none, terms, status);
   if (!carried_terms.ok())
   {
     return carried_terms;
   }
   return this->joined(status,
     this->solve(
-      volume_of(result.tets.mesh), {}, terms, this->weights_options_.insertion,
+      domain, {}, terms, this->weights_options_.insertion,
       [&](const Weights& solved, Weights& at_points)
       {
         TransferCounts counts;
@@ -350,6 +382,128 @@ Status Solver::in_cage(SurfaceWeights& result)
         return carried;
       },
       result));
+}
+
+/// Tets of what the cage's faces enclose.
+Status Solver::fill_cage(
+  const std::vector<CageElement>& faces, SurfaceWeights& result, Domain& domain)
+{
+  Points corners(static_cast<Index>(this->handles_.size()), 3);
+  for (Index i = 0; i < corners.rows(); ++i)
+  {
+    corners.row(i) = this->handles_[static_cast<std::size_t>(i)].head;
+  }
+  Triangles triangles(static_cast<Index>(faces.size()), 3);
+  for (Index f = 0; f < triangles.rows(); ++f)
+  {
+    triangles.row(f) << faces[f][0], faces[f][1], faces[f][2];
+  }
+  TetrahedralizeOptions options;
+  options.handles.points = this->options_.places.points;
+  if (this->points_.rows() <= few_triangles)
+  {
+    const Index count = options.handles.points.rows();
+    options.handles.points.conservativeResize(count + this->points_.rows(), 3);
+    options.handles.points.bottomRows(this->points_.rows()) = this->points_;
+  }
+  Status status = this->fill(corners, triangles, options, result.tets);
+  if (!status.usable())
+  {
+    status.message = "the cage cannot be filled: " + status.message;
+    return status;
+  }
+  domain = volume_of(result.tets.mesh);
+  return status;
+}
+
+/// Triangles of what the cage's edges enclose in the plane of a flat shape.
+Status Solver::fill_plane_cage(
+  const std::vector<CageElement>& edges, SurfaceWeights& result, Domain& domain)
+{
+  const char* needs = "domain cage needs a closed cage among the handles: of faces, or of edges in "
+                      "the plane of a flat shape";
+  if (edges.empty())
+  {
+    return Status::invalid_input(needs);
+  }
+  // All handles, tails of bones, and the shape's points, in this order.
+  const auto handle_count = static_cast<Index>(this->handles_.size());
+  const Index shape_points = this->points_.rows() <= few_triangles ? this->points_.rows() : 0;
+  Points places(2 * handle_count + this->points_.rows(), 3);
+  PlanarHandles inside;
+  inside.bones.resize(handle_count, 2);
+  Index bones = 0;
+  for (Index j = 0; j < handle_count; ++j)
+  {
+    const Handle& handle = this->handles_[static_cast<std::size_t>(j)];
+    const bool bone = handle.kind == HandleKind::bone;
+    places.row(j) = handle.head;
+    places.row(handle_count + j) = bone ? handle.tail : handle.head;
+    if (bone)
+    {
+      inside.bones.row(bones++) << j, handle_count + j;
+    }
+  }
+  inside.bones.conservativeResize(bones, 2);
+  places.bottomRows(this->points_.rows()) = this->points_;
+  Vec3 normal;
+  if (!is_flat(places, bounding_box(places).diagonal(), normal))
+  {
+    return Status::invalid_input(std::string(needs) + "; these handles and the shape are not flat");
+  }
+  // Counter-clockwise seen from where the shape is.
+  Vec3 area = Vec3::Zero();
+  for (Index f = 0; f < this->triangles_.rows(); ++f)
+  {
+    const auto corner = [&](int k) { return Vec3(this->points_.row(this->triangles_(f, k))); };
+    area += (corner(1) - corner(0)).cross(corner(2) - corner(0));
+  }
+  normal = area.dot(normal) < 0.0 ? Vec3(-normal) : normal;
+  const Vec3 origin = places.colwise().mean();
+  Eigen::Matrix<double, 3, 2> axes;
+  axes.col(0) = normal.unitOrthogonal();
+  axes.col(1) = normal.cross(axes.col(0));
+  const PlanePoints flat = (places.rowwise() - origin.transpose()) * axes;
+  inside.points = flat.topRows(2 * handle_count + shape_points);
+  const PlanePoints corners = flat.topRows(handle_count);
+  Segments outline(static_cast<Index>(edges.size()), 2);
+  for (Index e = 0; e < outline.rows(); ++e)
+  {
+    outline.row(e) << edges[static_cast<std::size_t>(e)][0], edges[static_cast<std::size_t>(e)][1];
+  }
+  run_around(corners, outline);
+  PlanarShapeOptions options;
+  options.winding_threshold = this->options_.winding_threshold;
+  PlanarShape shape;
+  const Phase phase(this->context_, "triangulate", 0.0, 0.3);
+  Status status = planar_shape(corners, outline, inside, options, shape, this->context_);
+  if (!status.usable())
+  {
+    status.message = "the cage cannot be filled: " + status.message;
+    return status;
+  }
+  if (status.report.number("counts.outside_handles", 0.0) > 0.0)
+  {
+    // Its last warning. Of the shape the transfer will say so, of a handle the problem.
+    status.warnings.pop_back();
+  }
+  // Only this of its report: vertices and triangles are counted once more, of the weights' mesh.
+  Report told;
+  told.set("cage.min_angle", status.report.number("min_angle", 0.0));
+  told.set("cage.area", status.report.number("area", 0.0));
+  status.report = std::move(told);
+  domain.points = (shape.points * axes.transpose()).rowwise() + origin.transpose();
+  domain.triangles = shape.triangles;
+  // Where a place was given, its own coordinates: what is on it is found there exactly.
+  for (Index i = 0; i < static_cast<Index>(shape.handle_vertices.size()); ++i)
+  {
+    if (shape.handle_vertices[static_cast<std::size_t>(i)] >= 0)
+    {
+      domain.points.row(shape.handle_vertices[static_cast<std::size_t>(i)]) = places.row(i);
+    }
+  }
+  result.plane_cage = { domain.points, domain.triangles };
+  return status;
 }
 
 Status Solver::embed(Index resolution, SurfaceWeights& result)

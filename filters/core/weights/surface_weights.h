@@ -18,7 +18,9 @@ enum class WeightsDomain : int
   automatic = 1,
   volume = 2, ///< in tets of the inside that keep the surface (tetrahedralize, auto)
   embedding = 3, ///< in a lattice that holds the surface (tetrahedralize, embed)
-  cage = 4 ///< in tets of a closed cage of faces that is around the surface
+  /// In tets of a closed cage of faces around the surface; of a flat shape, in triangles of a
+  /// closed cage of edges around it.
+  cage = 4
 };
 
 /// "surface", "auto", "volume", "embedding", "cage"
@@ -33,7 +35,9 @@ struct SurfaceWeights
   Weights weights; ///< #V x #handles at the surface's points, rows sum to one
   Weights raw; ///< the same before rows are divided by their sums
   WeightsDomain domain = WeightsDomain::surface; ///< which it was
-  TetrahedralizeResult tets; ///< of volume and embedding; its mesh is what `problem` began with
+  /// What `problem` began with: of volume, embedding and a cage of faces.
+  TetrahedralizeResult tets;
+  TriangleMesh plane_cage; ///< the same of a cage of edges
   WeightsProblem problem;
   WeightsResult solved; ///< at the vertices of problem.mesh
 };
@@ -65,14 +69,17 @@ struct SurfaceWeightsOptions
 /// 0.3 anywhere, the resolution is made 4/3 as fine and compared again; if they still do, `auto`
 /// takes the volume, and `embedding` warns.
 ///
-/// **cage**: the handles' own cage is filled, the surface's points (of up to 20,000 of them) become
-/// vertices of its tets; a surface that reaches out of it gets the nearest weights, with a warning.
+/// **cage**: the handles' own cage is filled, with tets (tetrahedralize) or, where it is of edges
+/// in the plane of a flat shape, with triangles (planar_shape). The surface's points (of up to
+/// 20,000 of them) become vertices; a surface that reaches out of it gets the nearest weights, with
+/// a warning.
 ///
 /// Report besides the method's keys: domain ("surface", "volume", "embedding",
 /// "cage"), domain_reason (of
 /// auto), tetrahedralize.method, embedding.resolution, guard.resolution, guard.rms_difference,
 /// guard.max_difference, with a preview preview.rms_difference and
-/// preview.max_difference (of it and the result), and what tetrahedralize() and transfer() report.
+/// preview.max_difference (of it and the result), cage.area and cage.min_angle (degrees, of the
+/// triangles of a cage of edges), and what tetrahedralize() and transfer() report.
 /// The certificate is that of the columns in the tets. Errors: those of the parts. Regions and
 /// domain embedding: invalid_input.
 /// @param region_ids label of every vertex, or empty.

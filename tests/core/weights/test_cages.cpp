@@ -210,7 +210,72 @@ TEST_F(CagesInTets, AroundASurfaceAreItsDomain)
 
   status = surface_weights(ball.points, ball.triangles, {},
     { test::point_handle("p", { 0, 0, 0 }) }, options, {}, method, context, result);
-  EXPECT_THAT(status.message, HasSubstr("needs a cage with faces"));
+  EXPECT_THAT(status.message, HasSubstr("needs a closed cage"));
+}
+
+TEST_F(CagesInTets, OfEdgesAroundAFlatShapeAreItsDomain)
+{
+  ExecutionContext context;
+  SurfaceWeightsOptions options;
+  options.domain = WeightsDomain::cage;
+  const auto method =
+    [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
+  { return bounded_biharmonic_weights(problem, {}, of_method, weights); };
+  TriangleMesh shape = test::grid(10, 10, 0.8, 0.8);
+  shape.points.leftCols(2).array() += 0.1; // in a cage of one
+  Handles cage = polyline({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, true);
+  // Edges may run either way.
+  cage[1].cage.clear();
+  cage[2].cage = { { 2, 1, -1 }, { 2, 3, -1 } };
+  const Eigen::Matrix3d turn =
+    Eigen::AngleAxisd(1.1, Vec3(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
+  for (const Eigen::Matrix3d& placed : { Eigen::Matrix3d(Eigen::Matrix3d::Identity()), turn })
+  {
+    const Points points = shape.points * placed.transpose();
+    Handles handles = cage;
+    for (Handle& handle : handles)
+    {
+      handle.head = handle.tail = placed * handle.head;
+    }
+    SurfaceWeights result;
+    const Status status =
+      surface_weights(points, shape.triangles, {}, handles, options, {}, method, context, result);
+    ASSERT_TRUE(status.ok()) << status.message;
+    EXPECT_TRUE(status.warnings.empty()) << status.warnings.front();
+    EXPECT_EQ(status.report.text("domain"), "cage");
+    EXPECT_EQ(status.report.text("transfer"), "exact");
+    EXPECT_NEAR(status.report.number("cage.area", 0.0), 1.0, 1e-12);
+    EXPECT_LT((result.weights.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-12);
+    EXPECT_GE(result.weights.minCoeff(), 0.0);
+    // The middle belongs to all corners alike.
+    const Index middle = 60;
+    ASSERT_LT((Vec3(shape.points.row(middle)) - Vec3(0.5, 0.5, 0.0)).norm(), 1e-12);
+    EXPECT_LT((result.weights.row(middle).array() - 0.25).abs().maxCoeff(), 5e-3);
+    for (const Handle& handle : result.problem.handles)
+    {
+      for (const CageElement& edge : handle.cage)
+      {
+        EXPECT_GE(expect_linear_along(result.problem, result.solved.weights, edge), 30);
+      }
+    }
+    EXPECT_EQ(result.plane_cage.points.rows(), result.problem.mesh.domain.points.rows())
+      << "the cage's mesh has all handles as vertices";
+  }
+
+  SurfaceWeights result;
+  Points shifted = shape.points;
+  shifted.col(0).array() += 0.5;
+  Status status =
+    surface_weights(shifted, shape.triangles, {}, cage, options, {}, method, context, result);
+  ASSERT_TRUE(status.usable()) << status.message;
+  ASSERT_EQ(status.warnings.size(), 1u);
+  EXPECT_THAT(
+    status.warnings.front(), HasSubstr("55 points of the surface lie outside of the cage"));
+
+  shifted(0, 2) = 0.1;
+  status =
+    surface_weights(shifted, shape.triangles, {}, cage, options, {}, method, context, result);
+  EXPECT_THAT(status.message, HasSubstr("are not flat"));
 }
 
 TEST(Cages, ThatAreWrongAreRefused)

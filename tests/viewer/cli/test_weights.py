@@ -268,7 +268,10 @@ def test_cage_of_a_tgf_file(folder):
     below = y == 0
     assert np.abs(weights[below, 0] - (1 - x[below])).max() <= 1e-9
     assert np.abs(weights[below, 1] - x[below]).max() <= 1e-9 and (weights[below, 2:] <= 1e-9).all()
-    folder.run("weights", "m.off", "--handles", "cage.tgf", "--domain", "cage", "-o", "c.vtp").is_refused("faces")
+    run = folder.run("weights", "m.off", "--handles", "cage.tgf", "--domain", "cage", "-o", "c.vtp", "--report", "-").is_good()
+    assert run.report["domain"] == "cage" and run.report["counts"]["triangles"] > 2 * n * n
+    check(weights_of(folder / "c.vtp"), vertices)
+    folder.run("weights", "m.off", "--handles", "auto:3", "--domain", "cage", "-o", "d.vtp").is_refused("closed cage")
 
 
 def test_terms_by_arrays_of_the_surface(bar):

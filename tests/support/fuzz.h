@@ -50,7 +50,7 @@ void fuzz(const char* what, Index base, const Body& body)
   const Index first = only > 0 ? only : 1;
   const Index last = only > 0 ? only : fuzz_rounds(base);
   const bool trace = std::getenv("BINDPOSE_FUZZ_TRACE") != nullptr;
-  constexpr double longest = sanitized ? 400.0 : 60.0;
+  constexpr double longest = sanitized ? 400.0 : 120.0;
   Index seed = first;
   for (; seed <= last && !testing::Test::HasFailure(); ++seed)
   {

@@ -304,15 +304,22 @@ void expect_repeatable(const TriangleMesh& surface, const TetrahedralizeOptions&
   {
     return; // takes long enough once
   }
-  for (const auto& [name, outcome] : rungs(status))
+  const auto clock_decided = [](const Status& run)
   {
-    if (outcome.find("time") != std::string::npos)
-    {
-      return;
-    }
+    const auto of_run = rungs(run);
+    return std::any_of(of_run.begin(), of_run.end(),
+      [](const auto& rung) { return rung.second.find("time") != std::string::npos; });
+  };
+  if (clock_decided(status))
+  {
+    return;
   }
   TetrahedralizeResult again;
   const Status second = fill(surface, options, again, 3);
+  if (clock_decided(second))
+  {
+    return;
+  }
   EXPECT_EQ(second.code, status.code);
   EXPECT_EQ(second.message, status.message);
   EXPECT_EQ(second.warnings, status.warnings);

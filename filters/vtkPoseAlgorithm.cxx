@@ -109,7 +109,11 @@ Status vtkPoseAlgorithm::Execute(
 
   BindKey key;
   key.add(this->BindTime.GetMTime());
-  const std::vector<std::string> arrays(weights ? 1 : 0, this->ArrayName);
+  std::vector<std::string> arrays = this->GetBindArrayNames();
+  if (weights)
+  {
+    arrays.push_back(this->ArrayName);
+  }
   for (vtkObject* object : bind_objects(mesh, arrays))
   {
     key.add(object);

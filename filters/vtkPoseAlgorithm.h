@@ -26,6 +26,8 @@
 #include "BindposeFiltersModule.h" // for export macro
 #include "vtkMeshAndHandlesAlgorithm.h"
 #include <memory> // for std::unique_ptr
+#include <string> // for std::string
+#include <vector> // for std::vector
 
 class vtkPointSet;
 
@@ -50,6 +52,9 @@ protected:
 
   /// Whether the mesh must have weights. Default: yes. Without, PoseInput's are empty.
   virtual bool NeedsWeights() const { return true; }
+
+  /// Names of further point arrays that the bind depends on. Default: none.
+  virtual std::vector<std::string> GetBindArrayNames() const { return {}; }
 
   /// Mesh, weights, handles and pose as the kernels want them; valid during a call.
   struct PoseInput;

@@ -7,12 +7,18 @@
  *   affine handles; twists by large angles lose volume.
  * - **dual quaternion** (Kavan et al. 2008): blends rigid motions; scale and shear are blended
  *   linearly before. Twists keep their radius.
+ * - **stretchable bones** (Jacobson and Sorkine 2011): linear blend in which bones also do their
+ *   `Stretch` and `Twist` along themselves: what is beyond the tail is moved along, not scaled, and
+ *   a twist keeps the radius. How far along a bone a point is, is its endpoint weight, 0 at the
+ *   head to 1 at the tail: the component of that handle in the point array `EndpointWeights`
+ *   (vtkBoneEndpointWeights, or painted), where it is missing or NaN the projection to the bone.
+ *   Other handles are blended linearly.
  *
  * Ports, arrays, bind cache and errors: vtkPoseAlgorithm. Handles whose mode is position count as a
  * translation, free ones as identity (with a warning): skinning finds nothing by itself, see
  * vtkReducedARAP. Works on any vtkPointSet, FE meshes included.
  *
- * Report: seconds.bind, seconds.skin, counts, row_sum_error.
+ * Report: method, seconds.bind, seconds.skin, counts, row_sum_error.
  */
 
 #ifndef vtkSkinningDeformation_h
@@ -31,22 +37,34 @@ public:
   enum MethodType
   {
     LINEAR_BLEND = 0,
-    DUAL_QUATERNION = 1
+    DUAL_QUATERNION = 1,
+    STRETCHABLE_BONES = 2
   };
 
   ///@{
   /// How transforms are blended. Default LINEAR_BLEND. A pose parameter: changing it keeps the
   /// bind.
-  vtkSetClampMacro(Method, int, LINEAR_BLEND, DUAL_QUATERNION);
+  vtkSetClampMacro(Method, int, LINEAR_BLEND, STRETCHABLE_BONES);
   vtkGetMacro(Method, int);
   void SetMethodToLinearBlend() { this->SetMethod(LINEAR_BLEND); }
   void SetMethodToDualQuaternion() { this->SetMethod(DUAL_QUATERNION); }
+  void SetMethodToStretchableBones() { this->SetMethod(STRETCHABLE_BONES); }
+  ///@}
+
+  ///@{
+  /**
+   * Name of the mesh's point array of endpoint weights, a component a handle, 0 to 1 or NaN.
+   * Default EndpointWeights; an empty name: not looked for. A bind parameter.
+   */
+  void SetEndpointArrayName(const std::string& name);
+  std::string GetEndpointArrayName() { return this->EndpointArrayName; }
   ///@}
 
 protected:
   vtkSkinningDeformation();
   ~vtkSkinningDeformation() override;
 
+  std::vector<std::string> GetBindArrayNames() const override;
   bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) override;
   bindpose::Status Deform(
     const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) override;
@@ -58,6 +76,7 @@ private:
   void operator=(const vtkSkinningDeformation&) = delete;
 
   int Method = LINEAR_BLEND;
+  std::string EndpointArrayName = "EndpointWeights";
   struct Internals;
   std::unique_ptr<Internals> Internal;
 };

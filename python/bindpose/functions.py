@@ -36,7 +36,7 @@ _WINDING = {"auto": "AUTO", "exact": "EXACT", "fast": "FAST"}
 _TETRAHEDRALIZE = {"auto": "AUTO", "cdt": "CDT", "remesh": "REMESH", "embed": "EMBED", "wrap": "WRAP",
                    "ftetwild": "FTETWILD"}
 _SEGMENTATION = {"graph-cut": "GRAPH_CUT", "threshold": "THRESHOLD"}
-_SKINNING = {"lbs": "LINEAR_BLEND", "dqs": "DUAL_QUATERNION"}
+_SKINNING = {"lbs": "LINEAR_BLEND", "dqs": "DUAL_QUATERNION", "stbs": "STRETCHABLE_BONES"}
 
 
 def _choice(value, choices, what):
@@ -523,8 +523,9 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, thr
     pose : dict, str or path-like
         ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}``
         or ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file.
-    method : {"lbs", "dqs", "reduced-arap", "mls"}
-        Linear blend skinning, dual quaternions, reduced as-rigid-as-possible, or the rigid warp by moving
+    method : {"lbs", "dqs", "stbs", "reduced-arap", "mls"}
+        Linear blend skinning, dual quaternions, stretchable and twistable bones (with the point array
+        ``EndpointWeights`` where there is one), reduced as-rigid-as-possible, or the rigid warp by moving
         least squares, which needs no weights and knows nothing of the shape.
     weights : (#V, #handles) array, optional
         For a mesh of arrays.
@@ -544,7 +545,7 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, thr
     InvalidInput
         Weights that do not fit, an unknown handle in the pose, a broken pose.
     """
-    _choice(method, ("lbs", "dqs", "reduced-arap", "mls"), "method")
+    _choice(method, ("lbs", "dqs", "stbs", "reduced-arap", "mls"), "method")
     data = to_dataset(mesh)
     if weights is not None:
         data = shallow_copy(data)

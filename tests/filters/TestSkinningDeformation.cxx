@@ -279,3 +279,51 @@ TEST_F(SkinningDeformation, AFreeHandleIsNamedInAWarning)
   EXPECT_NE(this->error.find("upper"), std::string::npos) << this->error;
   EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::OK);
 }
+
+TEST_F(SkinningDeformation, BonesStretchAlongTheirEndpointWeights)
+{
+  this->pose->SetPoseJSON(R"({"handles": {"upper": {"tail": [0, 0, 3]}}})"); // three times as long
+  this->filter->SetMethodToStretchableBones();
+  this->filter->Update();
+  ASSERT_EQ(this->error, "");
+  const auto top = [&]
+  {
+    double bounds[6];
+    this->filter->GetOutput()->GetBounds(bounds);
+    return bounds[5];
+  };
+  EXPECT_NEAR(top(), 3.0, 1e-12);
+  EXPECT_NEAR(this->ring_radius(), 1.0, 1e-12);
+  this->filter->SetMethodToLinearBlend();
+  this->filter->Update();
+  EXPECT_NEAR(top(), 1.0, 1e-12) << "without endpoints bones are rigid";
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
+
+  vtkNew<vtkDoubleArray> endpoints;
+  endpoints->SetName("EndpointWeights");
+  endpoints->SetNumberOfComponents(2);
+  endpoints->SetNumberOfTuples(this->mesh->GetNumberOfPoints());
+  endpoints->Fill(0.5);
+  this->mesh->GetPointData()->AddArray(endpoints);
+  this->filter->SetMethodToStretchableBones();
+  this->filter->Update();
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 2);
+  EXPECT_NEAR(top(), 2.0, 1e-12) << "half of what the tail moves";
+  this->filter->SetEndpointArrayName("");
+  this->filter->Update();
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 3);
+  EXPECT_NEAR(top(), 3.0, 1e-12);
+
+  this->filter->SetEndpointArrayName("EndpointWeights");
+  endpoints->SetComponent(5, 1, 1.5);
+  endpoints->Modified();
+  this->filter->Update();
+  EXPECT_NE(this->error.find("for handle 'upper' at point 5"), std::string::npos) << this->error;
+  endpoints->SetNumberOfComponents(1);
+  endpoints->SetNumberOfTuples(3);
+  endpoints->Modified();
+  this->error.clear();
+  this->filter->Modified();
+  this->filter->Update();
+  EXPECT_NE(this->error.find("'EndpointWeights' has 3 tuples"), std::string::npos) << this->error;
+}

@@ -220,8 +220,9 @@ const std::vector<Verb>& verbs()
           "what the verb weights wrote; for mls any mesh", true },
         { "--handles", "HANDLES", Kind::text, "", "", "handles: .tgf or .vtp", true },
         { "--pose", "POSE", Kind::text, "", "", "pose or sequence as .json", true },
-        { "--method", "METHOD", Kind::choice, "lbs", "lbs|dqs|reduced-arap|mls",
-          "linear blend, dual quaternions, reduced as-rigid-as-possible, or moving least squares, "
+        { "--method", "METHOD", Kind::choice, "lbs", "lbs|dqs|stbs|reduced-arap|mls",
+          "linear blend, dual quaternions, stretchable and twistable bones (along the point array "
+          "EndpointWeights), reduced as-rigid-as-possible, or moving least squares, "
           "which needs no weights and knows nothing of the shape" },
         { "--exponent", "NUMBER", Kind::number, "1", "",
           "of mls: handles count by 1 / distance^(2 NUMBER), 1 to 8" },

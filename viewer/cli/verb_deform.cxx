@@ -36,6 +36,7 @@ vtkSmartPointer<vtkBindposeAlgorithm> make_deformation(const Arguments& argument
   }
   auto skinning = vtkSmartPointer<vtkSkinningDeformation>::New();
   skinning->SetMethod(method == "dqs" ? vtkSkinningDeformation::DUAL_QUATERNION
+      : method == "stbs"              ? vtkSkinningDeformation::STRETCHABLE_BONES
                                       : vtkSkinningDeformation::LINEAR_BLEND);
   return skinning;
 }

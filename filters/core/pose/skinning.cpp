@@ -7,7 +7,9 @@
 #include "base/parallel.h"
 #include "pose/rotation_fit.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bindpose
 {
@@ -67,6 +69,16 @@ Vec3 turned_normal(const Eigen::Matrix3d& linear, const Vec3& n)
   }
   const Eigen::Matrix3d scaled = linear * std::ldexp(1.0, -std::ilogb(largest));
   return unit_or(cofactors(scaled) * n, n);
+}
+
+/// By how much a bone's stretch and twist move a point at rest, at the endpoint weight e.
+Vec3 change_at(const BoneChange& bone, const Vec3& p, double e)
+{
+  const double angle = ((1.0 - e) * bone.twist[0] + e * bone.twist[1]) * EIGEN_PI / 180.0;
+  const Vec3 axis = bone.vector.stableNormalized();
+  const Vec3 arm = axis.cross(p - bone.head);
+  return std::sin(angle) * arm + (1.0 - std::cos(angle)) * axis.cross(arm) +
+    e * (bone.stretch - 1.0) * bone.vector;
 }
 
 /// A rigid motion as a dual quaternion: real part, dual part, each (x, y, z, w).
@@ -249,6 +261,57 @@ Status Skinning::linear_blend_normals(ExecutionContext& context, PointsView rest
   return done ? status : Status::cancelled();
 }
 
+Status Skinning::stretchable_bones(ExecutionContext& context, PointsView rest,
+  const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
+  WeightsView endpoints, Points& posed) const
+{
+  Status status = this->check(rest, transforms);
+  if (status.ok() && bones.size() != transforms.size())
+  {
+    status = Status::invalid_input("there are " + std::to_string(bones.size()) +
+      " bones, but the weights have " + std::to_string(this->handles_) + " columns");
+  }
+  if (status.ok() && endpoints.size() > 0 &&
+    (endpoints.rows() != rest.rows() || endpoints.cols() != this->handles_))
+  {
+    status = Status::invalid_input("there are " + std::to_string(endpoints.rows()) + " x " +
+      std::to_string(endpoints.cols()) + " endpoint weights for " + std::to_string(rest.rows()) +
+      " vertices and " + std::to_string(this->handles_) + " handles");
+  }
+  status = status.ok() ? this->linear_blend(context, rest, transforms, posed) : status;
+  const bool any =
+    std::any_of(bones.begin(), bones.end(), [](const BoneChange& bone) { return bone.any(); });
+  if (!status.ok() || !any)
+  {
+    return status;
+  }
+  const bool done = parallel_for(context, rest.rows(), block_size,
+    [&](Index begin, Index end)
+    {
+      for (Index v = begin; v < end; ++v)
+      {
+        const Vec3 p = rest.row(v);
+        for (Index k = this->row_start_[static_cast<std::size_t>(v)];
+             k < this->row_start_[static_cast<std::size_t>(v) + 1]; ++k)
+        {
+          const std::int32_t j = this->columns_[static_cast<std::size_t>(k)];
+          const BoneChange& bone = bones[static_cast<std::size_t>(j)];
+          if (bone.any())
+          {
+            const double given =
+              endpoints.size() > 0 ? endpoints(v, j) : std::numeric_limits<double>::quiet_NaN();
+            const double e =
+              std::isnan(given) ? projected_endpoint(p, bone.head, bone.vector) : given;
+            posed.row(v) += this->weights_[static_cast<std::size_t>(k)] *
+              (transforms[static_cast<std::size_t>(j)].leftCols<3>() * change_at(bone, p, e))
+                .transpose();
+          }
+        }
+      }
+    });
+  return done ? status : Status::cancelled();
+}
+
 Status Skinning::dual_quaternion_any(ExecutionContext& context, PointsView rest,
   const std::vector<Affine>& transforms, PointsView pivots, bool normals, Points& posed) const
 {
@@ -372,6 +435,26 @@ Status skinning_transforms(
       "skinning cannot find the transform of a free handle; at rest stay: " + free_names);
   }
   return status;
+}
+
+std::vector<BoneChange> bone_changes(const Handles& handles, const Pose& pose)
+{
+  std::vector<BoneChange> changes(handles.size());
+  for (std::size_t h = 0; h < handles.size(); ++h)
+  {
+    if (handles[h].kind == HandleKind::bone && pose[h].mode == HandleMode::full)
+    {
+      changes[h] = { handles[h].head, handles[h].tail - handles[h].head, pose[h].stretch,
+        pose[h].twist };
+    }
+  }
+  return changes;
+}
+
+double projected_endpoint(const Vec3& point, const Vec3& head, const Vec3& vector)
+{
+  const double length = vector.stableNorm();
+  return length > 0.0 ? std::clamp((point - head).dot(vector / length) / length, 0.0, 1.0) : 0.0;
 }
 
 Points handle_pivots(const Handles& handles)

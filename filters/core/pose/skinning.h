@@ -8,6 +8,17 @@
 namespace bindpose
 {
 
+/// What a bone does along itself, at rest: the transform comes afterwards.
+struct BoneChange
+{
+  Vec3 head = Vec3::Zero();
+  Vec3 vector = Vec3::Zero(); ///< from head to tail
+  double stretch = 1.0; ///< posed length / rest length
+  Eigen::Vector2d twist = Eigen::Vector2d::Zero(); ///< degrees at head and tail, right-handed
+  /// Whether anything changes.
+  bool any() const { return this->stretch != 1.0 || this->twist != Eigen::Vector2d::Zero(); }
+};
+
 /// Linear blend and dual quaternion skinning: binds weights once, moves points many times.
 ///
 /// Both take the share that a row of weights lacks from one (or has above it) to be at rest:
@@ -49,6 +60,19 @@ public:
   Status dual_quaternion_normals(ExecutionContext& context, PointsView rest_normals,
     const std::vector<Affine>& transforms, PointsView pivots, Points& posed_normals) const;
 
+  /// Stretchable, twistable bones (Jacobson and Sorkine 2011): a bone first moves a point by
+  /// K (p - a) + e (stretch - 1) (b - a) from its head a on, where K turns about the bone by the
+  /// angle between both ends' twists at the endpoint weight e (0 at the head, 1 at the tail); then
+  /// the transforms blend as in linear_blend, which this is, bit for bit, where nothing changes. So
+  /// a stretch moves what is beyond the tail along, instead of scaling it, and a twist keeps the
+  /// radius.
+  /// @param bones one a handle; handles without a change are like those of linear_blend.
+  /// @param endpoints #V x #handles, 0 to 1, of the bones' columns; NaN, and a matrix of size 0:
+  /// where the point is along the bone (projected_endpoint).
+  Status stretchable_bones(ExecutionContext& context, PointsView rest,
+    const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
+    WeightsView endpoints, Points& posed) const;
+
   Index vertex_count() const { return static_cast<Index>(this->row_start_.size()) - 1; }
   Index handle_count() const { return this->handles_; }
   /// Non-zero weights.
@@ -69,6 +93,13 @@ private:
 /// the translation of its pivot; identity for a free handle, with a warning that names them.
 Status skinning_transforms(
   const Handles& handles, const Pose& pose, std::vector<Affine>& transforms);
+
+/// What bones in mode full do along themselves; nothing for all other handles.
+std::vector<BoneChange> bone_changes(const Handles& handles, const Pose& pose);
+
+/// Where a point is along a bone: 0 up to the head, 1 from the tail on, between them its
+/// projection. 0 for a bone without length.
+double projected_endpoint(const Vec3& point, const Vec3& head, const Vec3& vector);
 
 /// #handles x 3 pivots: the handles' heads.
 Points handle_pivots(const Handles& handles);

@@ -8,6 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <limits>
+
 using namespace bindpose;
 using testing::HasSubstr;
 
@@ -319,4 +321,124 @@ TEST(Skinning, ModesReadAsTranslationsAndIdentity)
   EXPECT_EQ(transforms[2], identity_affine());
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("'c'"));
+}
+
+namespace
+{
+Points stretched(const Points& points, const Weights& weights,
+  const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
+  const Weights& endpoints = Weights(), int threads = 0)
+{
+  ExecutionContext context;
+  context.set_threads(threads);
+  Skinning skinning;
+  EXPECT_TRUE(skinning.bind(context, weights).ok());
+  Points posed;
+  const Status status =
+    skinning.stretchable_bones(context, points, transforms, bones, endpoints, posed);
+  EXPECT_TRUE(status.ok()) << status.message;
+  return posed;
+}
+
+const BoneChange unit_bone{ Vec3::Zero(), Vec3::UnitX() };
+} // namespace
+
+// SPEC C28
+TEST(StretchableBones, WhatIsBeyondTheTailIsMovedNotScaled)
+{
+  Points points(4, 3);
+  points << 1.3, 0, 0, 0.5, 0.2, 0, -0.4, 0, 0.1, 1.0, 0, 0;
+  BoneChange bone = unit_bone;
+  bone.stretch = 2.0;
+  const Points posed = stretched(points, Weights::Ones(4, 1), { identity_affine() }, { bone });
+  Points expected(4, 3);
+  expected << 2.3, 0, 0, 1.0, 0.2, 0, -0.4, 0, 0.1, 2.0, 0, 0;
+  EXPECT_LT((posed - expected).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+TEST(StretchableBones, ATwistTurnsByTheEndpointWeightAndKeepsTheRadius)
+{
+  Points points = ring();
+  points.col(0).setConstant(0.5);
+  BoneChange bone = unit_bone;
+  bone.twist = { 0.0, 180.0 };
+  const Weights ones = Weights::Ones(16, 1);
+  Points quarter = moved(points, turn(90.0, Vec3::UnitX()));
+  Points posed = stretched(points, ones, { identity_affine() }, { bone });
+  EXPECT_LT((posed - quarter).cwiseAbs().maxCoeff(), 1e-15);
+  // Painted, it turns by what is painted; NaN is where nothing is.
+  Weights painted = Weights::Constant(16, 1, 0.25);
+  painted(3, 0) = std::numeric_limits<double>::quiet_NaN();
+  posed = stretched(points, ones, { identity_affine() }, { bone }, painted);
+  EXPECT_LT((posed.row(3) - quarter.row(3)).norm(), 1e-15);
+  quarter = moved(points, turn(45.0, Vec3::UnitX()));
+  EXPECT_LT((posed.row(4) - quarter.row(4)).norm(), 1e-15);
+}
+
+// SPEC C28
+TEST(StretchableBones, WithoutAChangeAreLinearBlendBitForBit)
+{
+  const test::Rig rig = test::box();
+  std::vector<Affine> transforms;
+  for (int h = 0; h < 5; ++h)
+  {
+    transforms.push_back(turn(20.0 * h, Vec3(1, 2, h), Vec3(1, 0, 0), Vec3(0, h, -1)));
+  }
+  const Points linear =
+    pose_with(rig.mesh.points, rig.weights, transforms, handle_pivots(rig.handles)).linear;
+  std::vector<BoneChange> bones(5, unit_bone);
+  EXPECT_EQ(stretched(rig.mesh.points, rig.weights, transforms, bones), linear);
+  bones[1].stretch = 1.5;
+  bones[3].twist = { 10.0, -70.0 };
+  const Points posed = stretched(rig.mesh.points, rig.weights, transforms, bones, Weights(), 1);
+  EXPECT_NE(posed, linear);
+  EXPECT_EQ(stretched(rig.mesh.points, rig.weights, transforms, bones, Weights(), 3), posed);
+  // A rigid motion of all handles comes afterwards.
+  const Affine rigid = turn(75.0, Vec3(-1, 1, 3), Vec3(2, 0, 1), Vec3(5, 6, 7));
+  const Points here =
+    stretched(rig.mesh.points, rig.weights, std::vector<Affine>(5, identity_affine()), bones);
+  const Points there =
+    stretched(rig.mesh.points, rig.weights, std::vector<Affine>(5, rigid), bones);
+  EXPECT_LT((there - moved(here, rigid)).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(StretchableBones, TakeTheirTailsWhereThePoseFilePutsThem)
+{
+  Handles handles(1);
+  handles[0].name = "arm";
+  handles[0].kind = HandleKind::bone;
+  handles[0].head = Vec3(1, 2, 3);
+  handles[0].tail = Vec3(2, 2, 3.5);
+  PoseSequence sequence;
+  ASSERT_TRUE(parse_pose_file(
+    R"({"handles": {"arm": {"head": [0, 1, 0], "tail": [3, 4, 5], "twist": [20, 50]}}})", handles,
+    sequence)
+                .ok());
+  const Pose pose = apply_edits(sequence.frames[0], handles, Pose(1));
+  Points points(3, 3);
+  points.row(0) = handles[0].head;
+  points.row(1) = handles[0].tail;
+  points.row(2) = 0.5 * (handles[0].head + handles[0].tail);
+  std::vector<Affine> transforms;
+  ASSERT_TRUE(skinning_transforms(handles, pose, transforms).ok());
+  const Points posed =
+    stretched(points, Weights::Ones(3, 1), transforms, bone_changes(handles, pose));
+  Points expected(3, 3);
+  expected << 0, 1, 0, 3, 4, 5, 1.5, 2.5, 2.5;
+  EXPECT_LT((posed - expected).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+TEST(StretchableBones, SizesThatDoNotFitAreNamed)
+{
+  ExecutionContext context;
+  Skinning skinning;
+  ASSERT_TRUE(skinning.bind(context, Weights(Weights::Ones(2, 1))).ok());
+  const Points points = Points::Zero(2, 3);
+  Points posed;
+  Status status =
+    skinning.stretchable_bones(context, points, { identity_affine() }, {}, Weights(), posed);
+  EXPECT_THAT(status.message, HasSubstr("0 bones"));
+  status = skinning.stretchable_bones(
+    context, points, { identity_affine() }, { unit_bone }, Weights(Weights::Zero(3, 1)), posed);
+  EXPECT_THAT(status.message, HasSubstr("3 x 1 endpoint weights for 2 vertices"));
 }

@@ -8,7 +8,7 @@ import pytest
 import shapes
 from bindpose.meshes import add_point_array, points_of, to_dataset
 
-METHODS = ["lbs", "dqs", "reduced-arap", "mls"]
+METHODS = ["lbs", "dqs", "stbs", "reduced-arap", "mls"]
 
 
 @pytest.fixture

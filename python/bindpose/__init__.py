@@ -40,4 +40,4 @@ from .handle_sets import farthest_point_handles, handles
 from .meshes import Array, PlanarShape, Tets
 from .running import report, run
 from .smoothing import monotone_smoothing
-from .weight_uses import cut_along_bones, depth_order, weighted_colors
+from .weight_uses import cut_along_bones, depth_order, endpoint_weights, weighted_colors

@@ -68,6 +68,55 @@ def weighted_colors(mesh, handles, colors=None, *, weights=None, array_name="Wei
     return result if is_dataset(mesh) else Array(point_array(result, "ColorValues"), report)
 
 
+def endpoint_weights(mesh, handles, *, method="joints", domain="auto", threads=0, progress=None):
+    """How far along each bone every point is, 0 at its head to 1 at its tail: for bones that stretch and twist.
+
+    Parameters
+    ----------
+    mesh : vtkDataSet or (vertices, elements)
+        A surface or tets.
+    handles : vtkPolyData, str or path-like
+        Handles with bones among them.
+    method : {"projection", "joints", "bounded"}
+        Projected to the bone; the ratio of bounded weights of its ends, which follows the shape; or a
+        bounded problem for each bone in which the weight is linear along it.
+    domain : {"auto", "volume", "embedding", "surface"}
+        See `weights`.
+    threads, progress
+        See `winding_number`.
+
+    Returns
+    -------
+    Array or vtkDataSet
+        (#V, #handles), NaN for handles that are no bones; for a dataset a copy with the point array
+        ``EndpointWeights``, which ``deform(…, method="stbs")`` takes.
+
+    Raises
+    ------
+    InvalidInput
+        No bone; what `weights` refuses.
+    """
+    if method not in ("projection", "joints", "bounded"):
+        raise InvalidInput(f"method is one of 'projection', 'joints', 'bounded', not {method!r}")
+    if domain not in ("auto", "volume", "embedding", "surface"):
+        raise InvalidInput(f"domain is one of 'auto', 'volume', 'embedding', 'surface', not {domain!r}")
+    data = to_dataset(mesh)
+    handle_data = to_handles(handles, data)
+    solver = filters.vtkBoneEndpointWeights()
+    solver.SetInputData(0, data)
+    solver.SetInputData(1, handle_data)
+    solver.SetMethod(getattr(solver, method.upper()))
+    solver.SetDomain(getattr(filters.vtkWeightsAlgorithm, domain.upper()))
+    solver.SetNumberOfThreads(threads)
+    report = run(solver, progress)
+    result = solver.GetOutput()
+    if is_dataset(mesh):
+        return result
+    array = result.GetPointData().GetArray("EndpointWeights")
+    names = [array.GetComponentName(j) for j in range(array.GetNumberOfComponents())]
+    return Array(point_array(result, "EndpointWeights"), report, names)
+
+
 def depth_order(mesh, handles, layers=None, *, weights=None, array_name="Weights", displace=True, scale=0.0, tie=1e-3,
                 threads=0, progress=None):
     """Depth of a planar shape by its handles' layers: what is in front where a pose makes it overlap.

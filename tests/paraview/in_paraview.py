@@ -16,7 +16,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 
 FILTERS = (
     "WindingNumberField PlanarShape TetrahedralizeSurface FarthestPointHandles BoundedBiharmonicWeights MonotoneWeights "
-    "MonotoneSmoothing UnconstrainedWeights TransferWeights PoseHandles WeightedColors DepthOrder CutAlongBones SkinningDeformation "
+    "MonotoneSmoothing UnconstrainedWeights TransferWeights BoneEndpointWeights PoseHandles WeightedColors DepthOrder CutAlongBones SkinningDeformation "
     "MovingLeastSquaresWarp ReducedARAP"
 ).split()
 SOURCES = "BindposeMeshReader BindposeHandleReader".split()

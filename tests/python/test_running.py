@@ -76,6 +76,6 @@ def test_classes_are_at_package_level():
                  "vtkMonotoneWeights", "vtkUnconstrainedWeights", "vtkTransferWeights", "vtkPoseHandles",
                  "vtkSkinningDeformation", "vtkReducedARAP", "vtkMovingLeastSquaresWarp", "vtkWeightedColors",
                  "vtkDepthOrder", "vtkCutAlongBones", "vtkMonotoneSmoothing", "vtkMeshFileReader", "vtkMeshFileWriter",
-                 "vtkHandleFileReader", "vtkFarthestPointHandles", "vtkHandleSetWidget"):
+                 "vtkHandleFileReader", "vtkFarthestPointHandles", "vtkHandleSetWidget", "vtkBoneEndpointWeights"):
         assert hasattr(bindpose, name)
         assert name in str(getattr(bindpose, name)())

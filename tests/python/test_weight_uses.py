@@ -148,3 +148,25 @@ def test_moving_least_squares_needs_no_weights():
     rest = np.array(BAR[0])
     assert posed == pytest.approx(np.stack([-rest[:, 1], rest[:, 0], rest[:, 2]], axis=1), abs=1e-12)
     assert posed.report["method"] == "mls"
+
+
+@pytest.mark.parametrize("method", ["projection", "joints", "bounded"])
+def test_endpoint_weights(method):
+    n = 8
+    points = np.array([[i / n, j / n, 0] for j in range(n + 1) for i in range(n + 1)])
+    corners = [(j * (n + 1) + i, j * (n + 1) + i + 1, (j + 1) * (n + 1) + i + 1, (j + 1) * (n + 1) + i)
+               for j in range(n) for i in range(n)]
+    square = points, np.array([t for a, b, c, d in corners for t in ((a, b, c), (a, c, d))])
+    arm = bindpose.handles(points=[[0.25, 0, 0]], bones=[[[0, 0.5, 0], [1, 0.5, 0]]], names=["p", "arm"])
+    e = bindpose.endpoint_weights(square, arm, method=method)
+    assert e.shape == (len(points), 2) and e.names == ["p", "arm"] and np.isnan(e[:, 0]).all()
+    assert (e[:, 1] >= 0).all() and (e[:, 1] <= 1).all()
+    middle = points[:, 1] == 0.5
+    ends = e[middle, 1][[0, -1]]
+    assert np.allclose(ends, [0, 1], atol=1e-12)
+    assert np.allclose(e[:, 1] + e[:, 1].reshape(n + 1, n + 1)[:, ::-1].ravel(), 1, atol=0.05), "heads and tails are alike"
+    posed = bindpose.deform(square, arm, {"handles": {"arm": {"tail": [2, 0.5, 0]}}}, method="stbs",
+                            weights=np.tile([0.0, 1.0], (len(points), 1)))
+    assert np.allclose(posed[:, 0], 2 * points[:, 0])
+    with pytest.raises(bindpose.InvalidInput, match="no bone"):
+        bindpose.endpoint_weights(square, bindpose.handles(points=[[0, 0, 0]]), method=method)

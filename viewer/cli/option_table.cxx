@@ -136,6 +136,10 @@ const std::vector<Verb>& verbs()
           "embedding: lattice cubes along the longest side; 0: about 30,000 tets" },
         { "--stage", "STAGE", Kind::choice, "certified", "certified|preview",
           "preview: something to look at in the time of a factorisation" },
+        { "--endpoints", "HOW", Kind::choice, "none", "none|projection|joints|bounded",
+          "also the array EndpointWeights, how far along each bone a point is (for deform --method "
+          "stbs): projected to it, by bounded weights of all bones' ends, or bounded and linear "
+          "along each bone" },
         { "--order", "ORDER", Kind::choice, "2", "2|3",
           "of bounded-biharmonic and monotone: 2 least bending, 3 (triharmonic) smoother still" },
         { "--certificate", "HOW", Kind::choice, "default", "default|tight",

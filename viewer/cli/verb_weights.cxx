@@ -6,6 +6,7 @@
 #include "conversion.h"
 #include "file_kind.h"
 #include "report_field_data.h"
+#include "vtkBoneEndpointWeights.h"
 #include "vtkBoundedBiharmonicWeights.h"
 #include "vtkMonotoneWeights.h"
 #include "vtkTransferWeights.h"
@@ -54,6 +55,18 @@ vtkSmartPointer<vtkWeightsAlgorithm> make_method(const std::string& method, int 
   return weights;
 }
 
+int domain_of(const Arguments& arguments)
+{
+  static const std::map<std::string, int> domains = {
+    { "auto", vtkWeightsAlgorithm::AUTO },
+    { "volume", vtkWeightsAlgorithm::VOLUME },
+    { "embedding", vtkWeightsAlgorithm::EMBEDDING },
+    { "cage", vtkWeightsAlgorithm::CAGE },
+    { "surface", vtkWeightsAlgorithm::SURFACE },
+  };
+  return domains.at(arguments.text("domain"));
+}
+
 vtkSmartPointer<vtkWeightsAlgorithm> make_weights(const Arguments& arguments)
 {
   const auto weights = make_method(arguments.text("method"), arguments.integer("order"));
@@ -62,14 +75,7 @@ vtkSmartPointer<vtkWeightsAlgorithm> make_weights(const Arguments& arguments)
   weights->SetMemoryLimit(arguments.integer("memory-limit"));
   weights->SetKeepRaw(arguments.has("raw"));
   weights->SetKeepMesh(arguments.has("keep-mesh"));
-  static const std::map<std::string, int> domains = {
-    { "auto", vtkWeightsAlgorithm::AUTO },
-    { "volume", vtkWeightsAlgorithm::VOLUME },
-    { "embedding", vtkWeightsAlgorithm::EMBEDDING },
-    { "cage", vtkWeightsAlgorithm::CAGE },
-    { "surface", vtkWeightsAlgorithm::SURFACE },
-  };
-  weights->SetDomain(domains.at(arguments.text("domain")));
+  weights->SetDomain(domain_of(arguments));
   weights->SetEmbeddingResolution(arguments.integer("resolution"));
   weights->SetStage(arguments.text("stage") == "preview" ? vtkWeightsAlgorithm::PREVIEW
                                                          : vtkWeightsAlgorithm::CERTIFIED);
@@ -203,6 +209,38 @@ vtkSmartPointer<vtkDataSet> own_copy(vtkDataSet* data)
   copy->ShallowCopy(data);
   return copy;
 }
+
+/// Writes the mesh, with the array EndpointWeights where it was asked for.
+void write_with_endpoints(
+  Session& session, vtkDataSet* mesh, vtkPolyData* handles, const std::string& output)
+{
+  const Arguments& arguments = session.arguments();
+  static const std::map<std::string, int> methods = {
+    { "projection", vtkBoneEndpointWeights::PROJECTION },
+    { "joints", vtkBoneEndpointWeights::JOINTS },
+    { "bounded", vtkBoneEndpointWeights::BOUNDED },
+  };
+  const auto method = methods.find(arguments.text("endpoints"));
+  if (method == methods.end())
+  {
+    session.write(mesh, output);
+    return;
+  }
+  vtkNew<vtkBoneEndpointWeights> endpoints;
+  endpoints->SetInputData(0, mesh);
+  endpoints->SetInputData(1, handles);
+  endpoints->SetMethod(method->second);
+  const int domain = domain_of(arguments);
+  endpoints->SetDomain(domain == vtkWeightsAlgorithm::CAGE ? vtkWeightsAlgorithm::AUTO : domain);
+  if (session.run(endpoints, "endpoints", 0.98, 1.0, Merge::nothing))
+  {
+    session.report().set("endpoints.method", method->first);
+    auto result = own_copy(endpoints->GetOutput());
+    attach_report(result, read_report(mesh));
+    session.write(result, output);
+  }
+}
+
 } // namespace
 
 void run_weights(Session& session)
@@ -269,7 +307,7 @@ void run_weights(Session& session)
       session.invalid("a flat shape has no tets: write .vtp or .dmat, not .vtu");
       return;
     }
-    session.write(data, output);
+    write_with_endpoints(session, data, handles, output);
     return;
   }
   // Handles may have added points: back to the mesh's own.
@@ -298,7 +336,7 @@ void run_weights(Session& session)
   Report in_file = read_report(transfer->GetOutput());
   in_file.merge(read_report(weights->GetOutput()));
   attach_report(result, in_file);
-  session.write(result, output);
+  write_with_endpoints(session, result, handles, output);
 }
 
 } // namespace bindpose::cli

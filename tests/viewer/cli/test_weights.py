@@ -309,3 +309,16 @@ def test_terms_that_cannot_be(bar):
         (("--method", "monotone", "--partition", "coupled"), "only bounded weights"),
     ):
         bar.run(*words, *more).is_refused(text)
+
+
+def test_endpoints_are_taken_by_stretchable_bones(bar):
+    folder = bar
+    folder.write("bones.tgf", "1 0 0.5 0.5\n2 3 0.5 0.5\n3 6 0.5 0.5\n#\n1 2 1\n2 3 1\n")
+    run = folder.run("weights", "bar.off", "--handles", "bones.tgf", "--endpoints", "joints", "-o", "w.vtp", "--report", "-")
+    assert run.is_good().report["endpoints"]["method"] == "joints" and run.report["relative_gap"] <= 1e-6
+    folder.write("long.json", '{"handles": {"b2": {"tail": [12, 0.5, 0.5]}}}')
+    for method, end in (("stbs", 12), ("lbs", 6)):
+        folder.run("deform", "w.vtp", "--handles", "bones.tgf", "--pose", "long.json", "--method", method, "-o",
+                   f"{method}.vtp").is_good()
+        assert abs(points_of(bindpose.read(folder / f"{method}.vtp"))[:, 0].max() - end) < 0.3
+    folder.run("weights", "bar.off", "--handles", "auto:3", "--endpoints", "bounded", "-o", "n.vtp").is_refused("no bone")

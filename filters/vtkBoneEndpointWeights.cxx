@@ -1,0 +1,177 @@
+// Glue around the kernel bindpose::endpoint_weights(), which asks for bounded biharmonic weights of
+// handles of its own: on tets as they are, for a surface where the weights filters solve, too.
+#include "vtkBoneEndpointWeights.h"
+
+#include "bind_key.h"
+#include "conversion.h"
+#include "pose/endpoint_weights.h"
+#include "weights/bounded_biharmonic_weights.h"
+#include "weights/surface_weights.h"
+#include "weights_arrays.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+
+using namespace bindpose;
+
+vtkStandardNewMacro(vtkBoneEndpointWeights);
+
+static_assert(vtkBoneEndpointWeights::JOINTS == static_cast<int>(EndpointMethod::joints));
+static_assert(vtkBoneEndpointWeights::BOUNDED == static_cast<int>(EndpointMethod::bounded));
+
+namespace
+{
+constexpr const char* array_name = "EndpointWeights";
+
+HandlePlaces places_of(const Handles& handles)
+{
+  HandlePlaces places;
+  places.points.resize(static_cast<Index>(handles.size()), 3);
+  for (Index j = 0; j < places.points.rows(); ++j)
+  {
+    places.points.row(j) = handles[static_cast<std::size_t>(j)].head;
+  }
+  std::vector<CageElement> edges;
+  for (const Handle& handle : handles)
+  {
+    edges.insert(edges.end(), handle.cage.begin(), handle.cage.end());
+  }
+  places.segments.resize(static_cast<Index>(edges.size()), 2);
+  for (Index e = 0; e < places.segments.rows(); ++e)
+  {
+    places.segments.row(e) << edges[static_cast<std::size_t>(e)][0],
+      edges[static_cast<std::size_t>(e)][1];
+  }
+  return places;
+}
+
+/// Bounded biharmonic weights at the domain's own points.
+Status solve_bounded(const bindpose::Domain& domain, WeightsDomain where, const Handles& handles,
+  ExecutionContext& context, Weights& weights)
+{
+  const WeightsMethod method =
+    [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& result)
+  { return bounded_biharmonic_weights(problem, {}, of_method, result); };
+  if (!domain.is_volume())
+  {
+    SurfaceWeightsOptions options;
+    options.domain = where;
+    options.places = places_of(handles);
+    SurfaceWeights result;
+    Status status = surface_weights(
+      domain.points, domain.triangles, {}, handles, options, {}, method, context, result);
+    weights = std::move(result.weights);
+    return status;
+  }
+  WeightsProblem problem;
+  WeightsResult result;
+  Status status = make_weights_problem(domain, {}, handles, {}, context, problem);
+  if (status.usable())
+  {
+    status = method(problem, context, result);
+  }
+  if (status.usable())
+  {
+    weights = result.weights.topRows(domain.points.rows()); // the mesh's own points come first
+  }
+  return status;
+}
+} // namespace
+
+struct vtkBoneEndpointWeights::Cache
+{
+  bool valid = false;
+  BindKey key;
+  Status status;
+  vtkSmartPointer<vtkDoubleArray> weights;
+};
+
+vtkBoneEndpointWeights::vtkBoneEndpointWeights() : Bound(new Cache) {}
+
+vtkBoneEndpointWeights::~vtkBoneEndpointWeights() = default;
+
+Status vtkBoneEndpointWeights::Execute(
+  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+{
+  vtkPointSet* mesh = vtkPointSet::GetData(input[0]);
+  vtkPolyData* handle_data = vtkPolyData::GetData(input[1]);
+  vtkPointSet* result = vtkPointSet::GetData(output);
+  if (!mesh || !result || mesh->GetNumberOfPoints() == 0)
+  {
+    return Status::invalid_input("there is no mesh");
+  }
+  if (!handle_data)
+  {
+    return Status::invalid_input("there is no handle");
+  }
+  BindKey key;
+  key.add(static_cast<vtkMTimeType>(this->Method));
+  key.add(static_cast<vtkMTimeType>(this->Domain));
+  for (vtkObject* object : bind_objects(mesh, {}))
+  {
+    key.add(object);
+  }
+  for (vtkObject* object : bind_objects(handle_data))
+  {
+    key.add(object);
+  }
+  const bool bind = !this->Bound->valid || this->Bound->key != key;
+  if (bind)
+  {
+    const Phase phase(context, "endpoints");
+    Handles handles;
+    bindpose::Domain domain;
+    std::vector<Index> cells;
+    Status status = to_handles(handle_data, handles);
+    status = status.ok() ? to_domain(mesh, domain, cells) : status;
+    if (!status.ok())
+    {
+      return status;
+    }
+    const BoundedSolve solve = [&](
+                                 const Handles& ends, ExecutionContext& of_solve, Weights& weights)
+    {
+      return solve_bounded(
+        domain, static_cast<WeightsDomain>(this->Domain), ends, of_solve, weights);
+    };
+    Weights endpoints;
+    status = endpoint_weights(
+      domain.points, handles, static_cast<EndpointMethod>(this->Method), solve, context, endpoints);
+    if (!status.usable())
+    {
+      return status;
+    }
+    Cache made;
+    made.weights = to_weights_array(array_name, endpoints, handles);
+    status.report.set("counts.handles", static_cast<Index>(handles.size()));
+    made.status = status;
+    made.key = key;
+    made.valid = true;
+    *this->Bound = std::move(made);
+    this->NumberOfBinds += 1;
+  }
+  result->ShallowCopy(mesh);
+  result->GetPointData()->AddArray(this->Bound->weights);
+  Status status = this->Bound->status;
+  status.report.set("counts.vertices", Report::Value(std::int64_t(mesh->GetNumberOfPoints())));
+  status.report.set("binds", this->NumberOfBinds);
+  if (!bind && !status.warnings.empty())
+  {
+    // A warning is told once.
+    status.report.set("warnings[]", status.warnings);
+    status.warnings.clear();
+  }
+  return status;
+}
+
+void vtkBoneEndpointWeights::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Method: " << to_string(static_cast<EndpointMethod>(this->Method)) << "\n";
+  os << indent << "Domain: " << to_string(static_cast<WeightsDomain>(this->Domain)) << "\n";
+  os << indent << "NumberOfBinds: " << this->NumberOfBinds << "\n";
+}

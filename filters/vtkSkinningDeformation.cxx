@@ -48,6 +48,33 @@ vtkSkinningDeformation::vtkSkinningDeformation() : Internal(new Internals) {}
 
 vtkSkinningDeformation::~vtkSkinningDeformation() = default;
 
+void vtkSkinningDeformation::SetSinglePrecision(bool single)
+{
+  if (this->SinglePrecision != single)
+  {
+    this->SinglePrecision = single;
+    this->BindModified();
+  }
+}
+
+void vtkSkinningDeformation::SetSmallestWeight(double smallest)
+{
+  if (this->SmallestWeight != smallest)
+  {
+    this->SmallestWeight = smallest;
+    this->BindModified();
+  }
+}
+
+void vtkSkinningDeformation::SetMaximumInfluences(int influences)
+{
+  if (this->MaximumInfluences != influences)
+  {
+    this->MaximumInfluences = influences;
+    this->BindModified();
+  }
+}
+
 void vtkSkinningDeformation::SetEndpointArrayName(const std::string& name)
 {
   if (this->EndpointArrayName != name)
@@ -82,7 +109,11 @@ Status vtkSkinningDeformation::Bind(const PoseInput& input, ExecutionContext& co
       return status;
     }
   }
-  return internal.skinning.bind(context, input.weights);
+  SkinningOptions options;
+  options.single_precision = this->SinglePrecision;
+  options.smallest_weight = this->SmallestWeight;
+  options.influences = this->MaximumInfluences;
+  return internal.skinning.bind(context, input.weights, options);
 }
 
 Status vtkSkinningDeformation::Deform(
@@ -138,5 +169,8 @@ void vtkSkinningDeformation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Method: " << method_names[this->Method] << "\n";
+  os << indent << "SinglePrecision: " << this->SinglePrecision << "\n";
+  os << indent << "SmallestWeight: " << this->SmallestWeight << "\n";
+  os << indent << "MaximumInfluences: " << this->MaximumInfluences << "\n";
   os << indent << "EndpointArrayName: " << this->EndpointArrayName << "\n";
 }

@@ -127,14 +127,18 @@ BENCHMARK(reduced_arap_change_of_modes)
   ->Arg(50)
   ->Unit(benchmark::kMillisecond);
 
-/// Arguments: handles, 0 linear blend or 1 dual quaternions. 100k vertices, no weight is zero.
+/// Arguments: handles, 0 linear blend or 1 dual quaternions, 1 for single precision. 100k vertices,
+/// no weight is zero; in single precision those up to 1e-6 are dropped.
 void skinning(benchmark::State& state)
 {
   const Rig rig = make_rig(200000, state.range(0));
   ExecutionContext context;
   context.set_threads(1);
   Skinning skin;
-  skin.bind(context, rig.weights);
+  SkinningOptions options;
+  options.single_precision = state.range(2) != 0;
+  options.smallest_weight = options.single_precision ? 1e-6 : 0.0;
+  skin.bind(context, rig.weights, options);
   std::vector<Affine> transforms;
   for (Index h = 0; h < state.range(0); ++h)
   {
@@ -157,10 +161,11 @@ void skinning(benchmark::State& state)
     benchmark::DoNotOptimize(posed.data());
   }
   state.counters["vertices"] = static_cast<double>(rig.mesh.points.rows());
+  state.counters["weights"] = static_cast<double>(skin.weight_count());
 }
 BENCHMARK(skinning)
-  ->ArgNames({ "handles", "dual" })
-  ->ArgsProduct({ { 5, 20, 50 }, { 0, 1 } })
+  ->ArgNames({ "handles", "dual", "single" })
+  ->ArgsProduct({ { 5, 20, 50 }, { 0, 1 }, { 0, 1 } })
   ->Unit(benchmark::kMillisecond);
 
 /// 1024 random 3x3 matrices; time per matrix is the time divided by 1024.

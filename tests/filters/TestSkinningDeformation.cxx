@@ -3,6 +3,7 @@
 #include "vtkSkinningDeformation.h"
 
 #include "conversion.h"
+#include "report_field_data.h"
 #include "vtkPoseHandles.h"
 
 #include "support/meshes.h"
@@ -326,4 +327,35 @@ TEST_F(SkinningDeformation, BonesStretchAlongTheirEndpointWeights)
   this->filter->Modified();
   this->filter->Update();
   EXPECT_NE(this->error.find("'EndpointWeights' has 3 tuples"), std::string::npos) << this->error;
+}
+
+TEST_F(SkinningDeformation, InSinglePrecisionWithFewInfluencesSaysWhatItDropped)
+{
+  this->pose->SetPoseJSON(turn_upper(70, "[1, 0, 0]").c_str());
+  this->filter->Update();
+  vtkNew<vtkPolyData> exact;
+  exact->DeepCopy(this->filter->GetOutput());
+  this->filter->SinglePrecisionOn();
+  this->filter->Update();
+  ASSERT_EQ(this->error, "");
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 2);
+  double farthest = 0.0;
+  for (vtkIdType v = 0; v < exact->GetNumberOfPoints(); ++v)
+  {
+    double p[3];
+    double q[3];
+    exact->GetPoint(v, p);
+    this->filter->GetOutput()->GetPoint(v, q);
+    farthest = std::max(farthest, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]));
+  }
+  EXPECT_GT(farthest, 0.0);
+  EXPECT_LT(farthest, 1e-6);
+  this->filter->SetMaximumInfluences(1);
+  this->filter->Update();
+  const Report report = read_report(this->filter->GetOutput());
+  EXPECT_GT(report.number("counts.dropped_weights", 0), 0);
+  EXPECT_NEAR(report.number("dropped_share", 0), 0.5, 1e-12) << "of the ring in the middle";
+  this->filter->SetSmallestWeight(2.0);
+  this->filter->Update();
+  EXPECT_NE(this->error.find("smallest weight"), std::string::npos) << this->error;
 }

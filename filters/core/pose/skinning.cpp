@@ -1,5 +1,6 @@
-// Weights are kept row by row without their zeros. A vertex blends the handles' 3x4 matrices (or
-// dual quaternions) first and moves once, so the cost a weight is 12 (or 8) multiply-adds.
+// Weights are kept by tiles of vertices, without columns that are zero all over a tile. A vertex
+// blends the handles' 3x4 matrices (or dual quaternions) first and moves once, so the cost a weight
+// is 12 (or 8) multiply-adds, of as many vertices at once as a register holds.
 //
 // Linear blending works on T - identity: what does not move adds exactly nothing.
 #include "pose/skinning.h"
@@ -10,36 +11,71 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace bindpose
 {
 
 namespace
 {
-constexpr Index block_size = 2048;
+constexpr Index block_size = 2048; // whole tiles
 /// Row sums further from one than this are worth a warning.
 constexpr double row_sum_tolerance = 1e-6;
 
-/// The transforms less the identity, as rows that a blend can stream through.
-std::vector<Affine> displacements(const std::vector<Affine>& transforms)
+/// The transforms less the identity, of points less the centre, for a blend.
+template <typename Scalar>
+BlendValues<Scalar, 12> displacements(const std::vector<Affine>& transforms, const Vec3& centre)
 {
-  std::vector<Affine> result(transforms);
-  for (Affine& t : result)
+  BlendValues<Scalar, 12> moves;
+  moves.values.reserve(12 * transforms.size());
+  for (const Affine& transform : transforms)
   {
+    Affine t = transform;
     t.leftCols<3>() -= Eigen::Matrix3d::Identity();
+    t.col(3) += t.leftCols<3>() * centre;
+    for (int e = 0; e < 12; ++e)
+    {
+      moves.values.push_back(static_cast<Scalar>(t.data()[e]));
+    }
   }
-  return result;
+  return moves;
 }
 
-Affine blend(const std::vector<Affine>& matrices, const std::int32_t* columns,
-  const double* weights, Index count)
+/// About the middle of the points, where floats are dense: the mean of a few.
+Vec3 centre_of(PointsView points)
 {
-  Affine sum = Affine::Zero();
-  for (Index k = 0; k < count; ++k)
+  const Index few = std::min<Index>(points.rows(), 64);
+  Vec3 sum = Vec3::Zero();
+  for (Index i = 0; i < few; ++i)
   {
-    sum += weights[k] * matrices[static_cast<std::size_t>(columns[k])];
+    sum += points.row(i * points.rows() / few).transpose();
   }
-  return sum;
+  return few > 0 ? Vec3(sum / static_cast<double>(few)) : sum;
+}
+
+/// to += what
+template <typename Scalar>
+void add(const TilePoints<Scalar>& what, TilePoints<Scalar>& to)
+{
+  for (int c = 0; c < 3; ++c)
+  {
+    for (Index i = 0; i < WeightTiles<Scalar>::lanes; ++i)
+    {
+      to.at[c][i] += what.at[c][i];
+    }
+  }
+}
+
+/// 3 x 4 of a vertex out of its tile's.
+template <typename Scalar>
+Affine affine_of(const BlendedTile<Scalar, 12>& blended, Index lane)
+{
+  Affine a;
+  for (int e = 0; e < 12; ++e)
+  {
+    a.data()[e] = static_cast<double>(blended.sums[e][lane]);
+  }
+  return a;
 }
 
 /// adj(A)^T: takes normals (areas) along when A takes points.
@@ -110,85 +146,243 @@ DualQuaternion dual_quaternion_of(const Eigen::Matrix3d& rotation, const Vec3& t
 }
 } // namespace
 
-Status Skinning::bind(ExecutionContext& context, WeightsView weights)
+namespace
+{
+/// What is kept of a row, and what it is multiplied by.
+class KeptRow
+{
+public:
+  explicit KeptRow(const SkinningOptions& options) : options_(options) {}
+
+  void take(WeightsView weights, Index v)
+  {
+    this->columns_.clear();
+    double all = 0.0, kept = 0.0;
+    Index nonzero = 0;
+    for (Index j = 0; j < weights.cols(); ++j)
+    {
+      const double w = weights(v, j);
+      all += w;
+      nonzero += w != 0.0 ? 1 : 0;
+      if (std::abs(w) > this->options_.smallest_weight)
+      {
+        this->columns_.push_back(j);
+      }
+    }
+    const auto most = static_cast<std::size_t>(this->options_.influences);
+    if (most > 0 && this->columns_.size() > most)
+    {
+      std::stable_sort(this->columns_.begin(), this->columns_.end(),
+        [&](Index a, Index b) { return std::abs(weights(v, a)) > std::abs(weights(v, b)); });
+      this->columns_.resize(most);
+      std::sort(this->columns_.begin(), this->columns_.end());
+    }
+    double size = 0.0;
+    for (const Index j : this->columns_)
+    {
+      kept += weights(v, j);
+      size += std::abs(weights(v, j));
+    }
+    this->row_sum_ = all;
+    this->dropped_ = nonzero - static_cast<Index>(this->columns_.size());
+    this->share_ = this->dropped_ > 0 ? weights.row(v).cwiseAbs().sum() - size : 0.0;
+    this->factor_ = this->dropped_ > 0 && kept > 0.0 && all > 0.0 ? all / kept : 1.0;
+  }
+
+  const std::vector<Index>& columns() const { return this->columns_; }
+  double factor() const { return this->factor_; }
+  double row_sum() const { return this->row_sum_; }
+  Index dropped() const { return this->dropped_; }
+  double dropped_share() const { return this->share_; }
+
+private:
+  const SkinningOptions& options_;
+  std::vector<Index> columns_;
+  double factor_ = 1.0, row_sum_ = 0.0, share_ = 0.0;
+  Index dropped_ = 0;
+};
+} // namespace
+
+template <>
+const WeightTiles<float>& Skinning::tiles() const
+{
+  return this->floats_;
+}
+template <>
+const WeightTiles<double>& Skinning::tiles() const
+{
+  return this->doubles_;
+}
+
+/// Copies what is kept into tiles. Two passes: how many columns each has, then the weights.
+template <typename Scalar>
+bool Skinning::pack(ExecutionContext& context, WeightsView weights, const SkinningOptions& options)
+{
+  using Tiles = WeightTiles<Scalar>;
+  auto& tiles = const_cast<Tiles&>(this->tiles<Scalar>());
+  const Index rows = weights.rows();
+  const Index count = (rows + Tiles::lanes - 1) / Tiles::lanes;
+  tiles.start.assign(static_cast<std::size_t>(count) + 1, 0);
+  this->references_.assign(static_cast<std::size_t>(count * Tiles::lanes), 0);
+  const auto each_tile = [&](const auto& body)
+  {
+    return parallel_for(context, count, block_size / Tiles::lanes,
+      [&](Index begin, Index end)
+      {
+        KeptRow row(options);
+        std::vector<char> has(static_cast<std::size_t>(this->handles_));
+        for (Index tile = begin; tile < end; ++tile)
+        {
+          body(tile, row, has);
+        }
+      });
+  };
+  const auto rows_of = [&](Index tile)
+  { return std::min(Tiles::lanes, rows - tile * Tiles::lanes); };
+  bool done = each_tile(
+    [&](Index tile, KeptRow& row, std::vector<char>& has)
+    {
+      std::fill(has.begin(), has.end(), 0);
+      for (Index i = 0; i < rows_of(tile); ++i)
+      {
+        row.take(weights, tile * Tiles::lanes + i);
+        for (const Index j : row.columns())
+        {
+          has[static_cast<std::size_t>(j)] = 1;
+        }
+      }
+      tiles.start[static_cast<std::size_t>(tile) + 1] =
+        static_cast<Index>(std::count(has.begin(), has.end(), 1));
+    });
+  if (!done)
+  {
+    return false;
+  }
+  std::partial_sum(tiles.start.begin(), tiles.start.end(), tiles.start.begin());
+  tiles.columns.assign(static_cast<std::size_t>(tiles.start.back()), -1);
+  tiles.weights.assign(static_cast<std::size_t>(tiles.start.back() * Tiles::lanes), Scalar(0));
+  done = each_tile(
+    [&](Index tile, KeptRow& row, std::vector<char>& has)
+    {
+      const Index begin = tiles.start[static_cast<std::size_t>(tile)];
+      const Index end = tiles.start[static_cast<std::size_t>(tile) + 1];
+      std::fill(has.begin(), has.end(), 0);
+      for (Index i = 0; i < rows_of(tile); ++i)
+      {
+        row.take(weights, tile * Tiles::lanes + i);
+        for (const Index j : row.columns())
+        {
+          has[static_cast<std::size_t>(j)] = 1;
+        }
+      }
+      std::vector<Index> place(has.size(), -1);
+      for (std::size_t j = 0, k = 0; j < has.size(); ++j)
+      {
+        if (has[j])
+        {
+          place[j] = begin + static_cast<Index>(k);
+          tiles.columns[static_cast<std::size_t>(begin) + k++] = static_cast<std::int32_t>(j);
+        }
+      }
+      for (Index i = 0; i < rows_of(tile) && begin < end; ++i)
+      {
+        const Index v = tile * Tiles::lanes + i;
+        row.take(weights, v);
+        Index largest = -1;
+        for (const Index j : row.columns())
+        {
+          tiles.weights[static_cast<std::size_t>(tiles.weight_of(place[static_cast<std::size_t>(j)],
+            i))] = static_cast<Scalar>(row.factor() * weights(v, j));
+          largest = largest < 0 || weights(v, j) > weights(v, largest) ? j : largest;
+        }
+        this->references_[static_cast<std::size_t>(v)] =
+          static_cast<std::int32_t>(std::max<Index>(largest, 0));
+      }
+    });
+  return done;
+}
+
+Status Skinning::bind(
+  ExecutionContext& context, WeightsView weights, const SkinningOptions& options)
 {
   *this = Skinning();
   const Index rows = weights.rows(), cols = weights.cols();
-  std::vector<Index> count(static_cast<std::size_t>(rows), 0);
-  std::vector<double> row_error(static_cast<std::size_t>(rows), 0.0);
-  std::vector<Index> bad(static_cast<std::size_t>((rows + block_size - 1) / block_size), -1);
+  if (!(options.smallest_weight >= 0.0 && options.smallest_weight < 1.0) || options.influences < 0)
+  {
+    return Status::invalid_input("the smallest weight must be at least 0 and less than 1, and the "
+                                 "influences at least 0");
+  }
+  struct Block
+  {
+    Index bad = -1;
+    Index worst = 0, off = 0, count = 0, dropped = 0;
+    double error = 0.0, share = 0.0;
+  };
+  std::vector<Block> blocks(static_cast<std::size_t>((rows + block_size - 1) / block_size));
   bool done = parallel_for(context, rows, block_size,
     [&](Index begin, Index end)
     {
+      Block& block = blocks[static_cast<std::size_t>(begin / block_size)];
+      KeptRow row(options);
       for (Index v = begin; v < end; ++v)
       {
-        double sum = 0.0;
-        for (Index j = 0; j < cols; ++j)
+        for (Index j = 0; j < cols && block.bad < 0; ++j)
         {
-          const double w = weights(v, j);
-          if (!std::isfinite(w) && bad[static_cast<std::size_t>(begin / block_size)] < 0)
-          {
-            bad[static_cast<std::size_t>(begin / block_size)] = v * cols + j;
-          }
-          count[static_cast<std::size_t>(v)] += w != 0.0 ? 1 : 0;
-          sum += w;
+          block.bad = std::isfinite(weights(v, j)) ? -1 : v * cols + j;
         }
-        row_error[static_cast<std::size_t>(v)] = std::abs(sum - 1.0);
+        row.take(weights, v);
+        const double error = std::abs(row.row_sum() - 1.0);
+        block.worst = v == begin || error > block.error ? v : block.worst;
+        block.error = v == begin ? error : std::max(block.error, error);
+        block.off += error > row_sum_tolerance ? 1 : 0;
+        block.count += static_cast<Index>(row.columns().size());
+        block.dropped += row.dropped();
+        block.share = std::max(block.share, row.dropped_share());
       }
     });
   if (!done)
   {
     return Status::cancelled();
   }
-  for (const Index at : bad)
+  Block all;
+  for (const Block& block : blocks)
   {
-    if (at >= 0)
+    if (block.bad >= 0)
     {
-      return Status::invalid_input("the weight of vertex " + std::to_string(at / cols) +
-        " in column " + std::to_string(at % cols) + " is not a finite number");
+      return Status::invalid_input("the weight of vertex " + std::to_string(block.bad / cols) +
+        " in column " + std::to_string(block.bad % cols) + " is not a finite number");
     }
+    all.worst = block.error > all.error ? block.worst : all.worst;
+    all.error = std::max(all.error, block.error);
+    all.off += block.off;
+    all.count += block.count;
+    all.dropped += block.dropped;
+    all.share = std::max(all.share, block.share);
   }
+  this->vertices_ = rows;
   this->handles_ = cols;
-  this->row_start_.assign(static_cast<std::size_t>(rows) + 1, 0);
-  Index worst = 0, off = 0;
-  for (Index v = 0; v < rows; ++v)
-  {
-    const auto i = static_cast<std::size_t>(v);
-    this->row_start_[i + 1] = this->row_start_[i] + count[i];
-    worst = row_error[i] > row_error[static_cast<std::size_t>(worst)] ? v : worst;
-    off += row_error[i] > row_sum_tolerance ? 1 : 0;
-  }
-  this->columns_.resize(static_cast<std::size_t>(this->row_start_.back()));
-  this->weights_.resize(static_cast<std::size_t>(this->row_start_.back()));
-  done = parallel_for(context, rows, block_size,
-    [&](Index begin, Index end)
-    {
-      for (Index v = begin; v < end; ++v)
-      {
-        auto at = static_cast<std::size_t>(this->row_start_[static_cast<std::size_t>(v)]);
-        for (Index j = 0; j < cols; ++j)
-        {
-          if (weights(v, j) != 0.0)
-          {
-            this->columns_[at] = static_cast<std::int32_t>(j);
-            this->weights_[at] = weights(v, j);
-            ++at;
-          }
-        }
-      }
-    });
+  this->weight_count_ = all.count;
+  this->single_ = options.single_precision;
+  done = this->single_ ? this->pack<float>(context, weights, options)
+                       : this->pack<double>(context, weights, options);
   if (!done)
   {
+    *this = Skinning();
     return Status::cancelled();
   }
   Status status;
-  const double largest = rows > 0 ? row_error[static_cast<std::size_t>(worst)] : 0.0;
-  status.report.set("row_sum_error", Report::Value(largest));
-  if (off > 0)
+  status.report.set("row_sum_error", Report::Value(all.error));
+  if (options.smallest_weight > 0.0 || options.influences > 0)
   {
-    status.warnings.push_back("the weights of " + std::to_string(off) + " of " +
-      std::to_string(rows) + " vertices do not sum to one (worst: vertex " + std::to_string(worst) +
-      ", off by " + std::to_string(largest) + "); the missing share stays at rest");
+    status.report.set("counts.dropped_weights", Report::Value(all.dropped));
+    status.report.set("dropped_share", Report::Value(all.share));
+  }
+  if (all.off > 0)
+  {
+    status.warnings.push_back("the weights of " + std::to_string(all.off) + " of " +
+      std::to_string(rows) + " vertices do not sum to one (worst: vertex " +
+      std::to_string(all.worst) + ", off by " + std::to_string(all.error) +
+      "); the missing share stays at rest");
   }
   return status;
 }
@@ -208,57 +402,111 @@ Status Skinning::check(PointsView rest, const std::vector<Affine>& transforms) c
   return {};
 }
 
+Status Skinning::check_pivots(PointsView pivots) const
+{
+  return pivots.rows() == this->handles_
+    ? Status()
+    : Status::invalid_input("there are " + std::to_string(pivots.rows()) +
+        " pivots, but the weights have " + std::to_string(this->handles_) + " columns");
+}
+
+template <typename Scalar>
+bool Skinning::blend_affine(ExecutionContext& context, PointsView rest,
+  const std::vector<Affine>& transforms, bool normals, Points& posed) const
+{
+  const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
+  constexpr Index lanes = WeightTiles<Scalar>::lanes;
+  const Vec3 centre = normals ? Vec3::Zero() : centre_of(rest);
+  const auto moves = displacements<Scalar>(transforms, centre);
+  posed.resize(rest.rows(), 3);
+  return parallel_for(context, rest.rows(), block_size,
+    [&](Index begin, Index end)
+    {
+      BlendedTile<Scalar, 12> blended;
+      TilePoints<Scalar> points, moved;
+      for (Index v = begin; v < end; v += lanes)
+      {
+        const Index count = std::min(lanes, end - v);
+        blend_tile(tiles, v / lanes, moves, nullptr, blended);
+        if (!normals)
+        {
+          load_points(rest.data() + 3 * v, count, centre, points);
+          affine_moves(blended, points, moved);
+          store_moved(rest.data() + 3 * v, count, moved, posed.data() + 3 * v);
+          continue;
+        }
+        for (Index i = 0; i < count; ++i)
+        {
+          const Eigen::Matrix3d linear =
+            Eigen::Matrix3d::Identity() + affine_of(blended, i).template leftCols<3>();
+          const Vec3 n = rest.row(v + i);
+          posed.row(v + i) = turned_normal(linear, n).transpose();
+        }
+      }
+    });
+}
+
 Status Skinning::linear_blend(ExecutionContext& context, PointsView rest,
   const std::vector<Affine>& transforms, Points& posed) const
 {
-  Status status = this->check(rest, transforms);
+  const Status status = this->check(rest, transforms);
   if (!status.ok())
   {
     return status;
   }
-  const std::vector<Affine> moves = displacements(transforms);
-  posed.resize(rest.rows(), 3);
-  const bool done = parallel_for(context, rest.rows(), block_size,
-    [&](Index begin, Index end)
-    {
-      for (Index v = begin; v < end; ++v)
-      {
-        const Index from = this->row_start_[static_cast<std::size_t>(v)];
-        const Index to = this->row_start_[static_cast<std::size_t>(v) + 1];
-        const Affine a =
-          blend(moves, this->columns_.data() + from, this->weights_.data() + from, to - from);
-        const Vec3 p = rest.row(v);
-        posed.row(v) = (p + (a.leftCols<3>() * p + a.col(3))).transpose();
-      }
-    });
+  const bool done = this->single_
+    ? this->blend_affine<float>(context, rest, transforms, false, posed)
+    : this->blend_affine<double>(context, rest, transforms, false, posed);
   return done ? status : Status::cancelled();
 }
 
 Status Skinning::linear_blend_normals(ExecutionContext& context, PointsView rest_normals,
   const std::vector<Affine>& transforms, Points& posed_normals) const
 {
-  Status status = this->check(rest_normals, transforms);
+  const Status status = this->check(rest_normals, transforms);
   if (!status.ok())
   {
     return status;
   }
-  const std::vector<Affine> moves = displacements(transforms);
-  posed_normals.resize(rest_normals.rows(), 3);
-  const bool done = parallel_for(context, rest_normals.rows(), block_size,
+  const bool done = this->single_
+    ? this->blend_affine<float>(context, rest_normals, transforms, true, posed_normals)
+    : this->blend_affine<double>(context, rest_normals, transforms, true, posed_normals);
+  return done ? status : Status::cancelled();
+}
+
+/// What bones do along themselves, on top of posed.
+template <typename Scalar>
+bool Skinning::add_changes(ExecutionContext& context, PointsView rest,
+  const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
+  WeightsView endpoints, Points& posed) const
+{
+  const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
+  return parallel_for(context, rest.rows(), block_size,
     [&](Index begin, Index end)
     {
       for (Index v = begin; v < end; ++v)
       {
-        const Index from = this->row_start_[static_cast<std::size_t>(v)];
-        const Index to = this->row_start_[static_cast<std::size_t>(v) + 1];
-        const Affine a =
-          blend(moves, this->columns_.data() + from, this->weights_.data() + from, to - from);
-        const Eigen::Matrix3d linear = Eigen::Matrix3d::Identity() + a.leftCols<3>();
-        const Vec3 n = rest_normals.row(v);
-        posed_normals.row(v) = turned_normal(linear, n).transpose();
+        const Vec3 p = rest.row(v);
+        const auto tile = static_cast<std::size_t>(tiles.tile_of(v));
+        for (Index k = tiles.start[tile]; k < tiles.start[tile + 1]; ++k)
+        {
+          const std::int32_t j = tiles.columns[static_cast<std::size_t>(k)];
+          const BoneChange& bone = bones[static_cast<std::size_t>(j)];
+          const auto w = static_cast<double>(
+            tiles.weights[static_cast<std::size_t>(tiles.weight_of(k, tiles.lane_of(v)))]);
+          if (w != 0.0 && bone.any())
+          {
+            const double given =
+              endpoints.size() > 0 ? endpoints(v, j) : std::numeric_limits<double>::quiet_NaN();
+            const double e =
+              std::isnan(given) ? projected_endpoint(p, bone.head, bone.vector) : given;
+            posed.row(v) += w *
+              (transforms[static_cast<std::size_t>(j)].leftCols<3>() * change_at(bone, p, e))
+                .transpose();
+          }
+        }
       }
     });
-  return done ? status : Status::cancelled();
 }
 
 Status Skinning::stretchable_bones(ExecutionContext& context, PointsView rest,
@@ -285,49 +533,23 @@ Status Skinning::stretchable_bones(ExecutionContext& context, PointsView rest,
   {
     return status;
   }
-  const bool done = parallel_for(context, rest.rows(), block_size,
-    [&](Index begin, Index end)
-    {
-      for (Index v = begin; v < end; ++v)
-      {
-        const Vec3 p = rest.row(v);
-        for (Index k = this->row_start_[static_cast<std::size_t>(v)];
-             k < this->row_start_[static_cast<std::size_t>(v) + 1]; ++k)
-        {
-          const std::int32_t j = this->columns_[static_cast<std::size_t>(k)];
-          const BoneChange& bone = bones[static_cast<std::size_t>(j)];
-          if (bone.any())
-          {
-            const double given =
-              endpoints.size() > 0 ? endpoints(v, j) : std::numeric_limits<double>::quiet_NaN();
-            const double e =
-              std::isnan(given) ? projected_endpoint(p, bone.head, bone.vector) : given;
-            posed.row(v) += this->weights_[static_cast<std::size_t>(k)] *
-              (transforms[static_cast<std::size_t>(j)].leftCols<3>() * change_at(bone, p, e))
-                .transpose();
-          }
-        }
-      }
-    });
+  const bool done = this->single_
+    ? this->add_changes<float>(context, rest, transforms, bones, endpoints, posed)
+    : this->add_changes<double>(context, rest, transforms, bones, endpoints, posed);
   return done ? status : Status::cancelled();
 }
 
-Status Skinning::dual_quaternion_any(ExecutionContext& context, PointsView rest,
+template <typename Scalar>
+bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
   const std::vector<Affine>& transforms, PointsView pivots, bool normals, Points& posed) const
 {
-  Status status = this->check(rest, transforms);
-  if (status.ok() && pivots.rows() != this->handles_)
-  {
-    status = Status::invalid_input("there are " + std::to_string(pivots.rows()) +
-      " pivots, but the weights have " + std::to_string(this->handles_) + " columns");
-  }
-  if (!status.ok())
-  {
-    return status;
-  }
+  const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
+  constexpr Index lanes = WeightTiles<Scalar>::lanes;
+  const Vec3 centre = normals ? Vec3::Zero() : centre_of(rest);
   // x -> L x + t is the scale and shear x -> c + P (x - c), then the rigid y -> R y + u.
   std::vector<Affine> shears(transforms.size());
   std::vector<DualQuaternion> motions(transforms.size());
+  BlendValues<Scalar, 8> quaternions;
   bool any_shear = false;
   for (std::size_t j = 0; j < transforms.size(); ++j)
   {
@@ -342,70 +564,111 @@ Status Skinning::dual_quaternion_any(ExecutionContext& context, PointsView rest,
       rotation = linear; // rigid already; the fit would only round it
     }
     any_shear = any_shear || !shear.isZero(0.0);
-    shears[j].leftCols<3>() = shear;
+    shears[j].leftCols<3>() = Eigen::Matrix3d::Identity() + shear;
     shears[j].col(3) = -shear * c;
-    motions[j] = dual_quaternion_of(rotation, transforms[j].col(3) + rotation * (shear * c));
+    const Vec3 translation = transforms[j].col(3) + rotation * (shear * c);
+    motions[j] =
+      dual_quaternion_of(rotation, translation + (rotation - Eigen::Matrix3d::Identity()) * centre);
+    for (int e = 0; e < 8; ++e)
+    {
+      quaternions.values.push_back(
+        static_cast<Scalar>(e < 4 ? motions[j].real[e] : motions[j].dual[e - 4]));
+    }
   }
+  bool any_flip = false;
+  for (const DualQuaternion& of_column : motions)
+  {
+    for (const DualQuaternion& of_reference : motions)
+    {
+      const bool flip = of_column.real.dot(of_reference.real) < 0.0;
+      any_flip = any_flip || flip;
+      quaternions.signs.push_back(flip ? quaternions.sign_bit : 0);
+    }
+  }
+  if (!any_flip)
+  {
+    quaternions.signs.clear();
+  }
+  const auto shear_moves = displacements<Scalar>(shears, centre);
   posed.resize(rest.rows(), 3);
-  const bool done = parallel_for(context, rest.rows(), block_size,
+  return parallel_for(context, rest.rows(), block_size,
     [&](Index begin, Index end)
     {
-      for (Index v = begin; v < end; ++v)
+      BlendedTile<Scalar, 12> sheared;
+      BlendedTile<Scalar, 8> blended;
+      TilePoints<Scalar> points, moved, first;
+      Points turned; // normals under the shears
+      for (Index v = begin; v < end; v += lanes)
       {
-        const Index from = this->row_start_[static_cast<std::size_t>(v)];
-        const Index count = this->row_start_[static_cast<std::size_t>(v) + 1] - from;
-        const std::int32_t* columns = this->columns_.data() + from;
-        const double* weights = this->weights_.data() + from;
-        Vec3 p = rest.row(v);
+        const Index count = std::min(lanes, end - v);
+        const double* from = rest.data() + 3 * v;
+        double* to = posed.data() + 3 * v;
+        blend_tile(tiles, v / lanes, quaternions, this->references_.data() + v, blended);
         if (any_shear)
         {
-          const Affine a = blend(shears, columns, weights, count);
-          const Eigen::Matrix3d linear = Eigen::Matrix3d::Identity() + a.leftCols<3>();
-          p = normals ? turned_normal(linear, p) : Vec3(linear * p + a.col(3));
+          blend_tile(tiles, v / lanes, shear_moves, nullptr, sheared);
         }
-        Index largest = 0;
-        for (Index k = 1; k < count; ++k)
+        if (normals && any_shear)
         {
-          largest = weights[k] > weights[largest] ? k : largest;
-        }
-        DualQuaternion sum{ Eigen::Vector4d::Zero(), Eigen::Vector4d::Zero() };
-        for (Index k = 0; k < count; ++k)
-        {
-          const DualQuaternion& d = motions[static_cast<std::size_t>(columns[k])];
-          const bool flip =
-            d.real.dot(motions[static_cast<std::size_t>(columns[largest])].real) < 0.0;
-          const double w = flip ? -weights[k] : weights[k];
-          sum.real += w * d.real;
-          sum.dual += w * d.dual;
-        }
-        const double length = sum.real.norm();
-        if (length > 1e-300)
-        {
-          sum.real /= length;
-          sum.dual /= length;
-          const Vec3 d0 = sum.real.head<3>(), de = sum.dual.head<3>();
-          p += 2.0 * d0.cross(d0.cross(p) + sum.real[3] * p);
-          if (!normals)
+          turned.resize(count, 3);
+          for (Index i = 0; i < count; ++i)
           {
-            p += 2.0 * (sum.real[3] * de - sum.dual[3] * d0 + d0.cross(de));
+            const Eigen::Matrix3d linear =
+              Eigen::Matrix3d::Identity() + affine_of(sheared, i).template leftCols<3>();
+            turned.row(i) = turned_normal(linear, Vec3(rest.row(v + i))).transpose();
           }
+          from = turned.data();
         }
-        posed.row(v) = p.transpose();
+        if (normals)
+        {
+          // Directions do not translate.
+          std::fill(&blended.sums[4][0], &blended.sums[4][0] + 4 * lanes, Scalar(0));
+        }
+        load_points(from, count, centre, points);
+        if (any_shear && !normals)
+        {
+          affine_moves(sheared, points, first);
+          add(first, points);
+          dual_quaternion_moves(blended, points, moved);
+          add(first, moved);
+        }
+        else
+        {
+          dual_quaternion_moves(blended, points, moved);
+        }
+        store_moved(from, count, moved, to);
       }
     });
-  return done ? status : Status::cancelled();
 }
 
 Status Skinning::dual_quaternion(ExecutionContext& context, PointsView rest,
   const std::vector<Affine>& transforms, PointsView pivots, Points& posed) const
 {
-  return this->dual_quaternion_any(context, rest, transforms, pivots, false, posed);
+  Status status = this->check(rest, transforms);
+  status = status.ok() ? this->check_pivots(pivots) : status;
+  if (!status.ok())
+  {
+    return status;
+  }
+  const bool done = this->single_
+    ? this->blend_dual<float>(context, rest, transforms, pivots, false, posed)
+    : this->blend_dual<double>(context, rest, transforms, pivots, false, posed);
+  return done ? status : Status::cancelled();
 }
 
 Status Skinning::dual_quaternion_normals(ExecutionContext& context, PointsView rest_normals,
   const std::vector<Affine>& transforms, PointsView pivots, Points& posed_normals) const
 {
-  return this->dual_quaternion_any(context, rest_normals, transforms, pivots, true, posed_normals);
+  Status status = this->check(rest_normals, transforms);
+  status = status.ok() ? this->check_pivots(pivots) : status;
+  if (!status.ok())
+  {
+    return status;
+  }
+  const bool done = this->single_
+    ? this->blend_dual<float>(context, rest_normals, transforms, pivots, true, posed_normals)
+    : this->blend_dual<double>(context, rest_normals, transforms, pivots, true, posed_normals);
+  return done ? status : Status::cancelled();
 }
 
 Status skinning_transforms(

@@ -3,6 +3,7 @@
 
 #include "base/execution.h"
 #include "pose/pose.h"
+#include "pose/weight_tiles.h"
 #include "weights/handles.h"
 
 namespace bindpose
@@ -19,6 +20,17 @@ struct BoneChange
   bool any() const { return this->stretch != 1.0 || this->twist != Eigen::Vector2d::Zero(); }
 };
 
+struct SkinningOptions
+{
+  /// Weights and transforms as floats: half the memory, twice the speed, and points that are right
+  /// to about 1e-7 of what they move by. At rest no bit moves all the same.
+  bool single_precision = false;
+  /// Weights of at most this size count as zero; 0: none but zeros.
+  double smallest_weight = 0.0;
+  /// The largest weights of a row that are kept, of equals those of the first columns; 0: all.
+  Index influences = 0;
+};
+
 /// Linear blend and dual quaternion skinning: binds weights once, moves points many times.
 ///
 /// Both take the share that a row of weights lacks from one (or has above it) to be at rest:
@@ -29,15 +41,19 @@ struct BoneChange
 ///     skinning.bind(context, weights);
 ///     skinning.linear_blend(context, rest, transforms, posed);
 ///
-/// Memory: 12 bytes for each weight that is not exactly zero. Cost: one blend of 3x4 matrices a
-/// vertex. The same bits for any number of threads.
+/// Memory: 8 bytes (4 in single precision) for each weight that is not zero, and for zeros beside
+/// them in tiles of 8 (16) consecutive vertices. Cost: one blend of 3x4 matrices a vertex, tiles at
+/// once. The same bits for any number of threads and on any machine.
 class Skinning
 {
 public:
-  /// Copies the non-zero weights, #V x #handles. invalid_input, naming vertex and handle column,
-  /// for a weight that is not finite. Report: row_sum_error, the largest |row sum - 1|; above 1e-6
-  /// there is a warning with the number.
-  Status bind(ExecutionContext& context, WeightsView weights);
+  /// Copies the non-zero weights, #V x #handles. What the options drop is shared out among what is
+  /// left of the row, in proportion. invalid_input, naming vertex and handle column, for a weight
+  /// that is not finite, and for options out of range. Report: row_sum_error, the largest |row sum
+  /// - 1|; above 1e-6 there is a warning with the number; counts.dropped_weights and dropped_share,
+  /// the largest sum of |weights| that a row lost: with weights of at least 0 no point is off by
+  /// more than that share of the distance between the places where two handles would take it.
+  Status bind(ExecutionContext& context, WeightsView weights, const SkinningOptions& options = {});
 
   /// v' = sum_j w_j T_j v (Magnenat-Thalmann et al. 1988). transforms: one a handle.
   /// rest and posed: #V x 3; posed may not be rest. Only cancelled or invalid_input (sizes).
@@ -73,20 +89,36 @@ public:
     const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
     WeightsView endpoints, Points& posed) const;
 
-  Index vertex_count() const { return static_cast<Index>(this->row_start_.size()) - 1; }
+  Index vertex_count() const { return this->vertices_; }
   Index handle_count() const { return this->handles_; }
   /// Non-zero weights.
-  Index weight_count() const { return static_cast<Index>(this->weights_.size()); }
+  Index weight_count() const { return this->weight_count_; }
 
 private:
   Status check(PointsView rest, const std::vector<Affine>& transforms) const;
-  Status dual_quaternion_any(ExecutionContext& context, PointsView rest,
-    const std::vector<Affine>& transforms, PointsView pivots, bool normals, Points& posed) const;
+  Status check_pivots(PointsView pivots) const;
+  template <typename Scalar>
+  bool pack(ExecutionContext& context, WeightsView weights, const SkinningOptions& options);
+  template <typename Scalar>
+  const WeightTiles<Scalar>& tiles() const;
+  template <typename Scalar>
+  bool blend_affine(ExecutionContext& context, PointsView rest,
+    const std::vector<Affine>& transforms, bool normals, Points& posed) const;
+  template <typename Scalar>
+  bool blend_dual(ExecutionContext& context, PointsView rest, const std::vector<Affine>& transforms,
+    PointsView pivots, bool normals, Points& posed) const;
+  template <typename Scalar>
+  bool add_changes(ExecutionContext& context, PointsView rest,
+    const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
+    WeightsView endpoints, Points& posed) const;
 
+  Index vertices_ = 0;
   Index handles_ = 0;
-  std::vector<Index> row_start_{ 0 };
-  std::vector<std::int32_t> columns_;
-  std::vector<double> weights_;
+  Index weight_count_ = 0;
+  bool single_ = false;
+  WeightTiles<float> floats_; ///< in single precision
+  WeightTiles<double> doubles_; ///< else
+  std::vector<std::int32_t> references_; ///< handle of the largest weight, for whole tiles
 };
 
 /// The transforms that skinning uses: those of handles in mode full; of a handle in mode position

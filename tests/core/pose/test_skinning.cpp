@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 using namespace bindpose;
@@ -441,4 +442,188 @@ TEST(StretchableBones, SizesThatDoNotFitAreNamed)
   status = skinning.stretchable_bones(
     context, points, { identity_affine() }, { unit_bone }, Weights(Weights::Zero(3, 1)), posed);
   EXPECT_THAT(status.message, HasSubstr("3 x 1 endpoint weights for 2 vertices"));
+}
+
+namespace
+{
+/// Random poses of the box's five handles, of any angle: quaternions flip.
+std::vector<Affine> wild_transforms(test::Random& random, bool shears)
+{
+  std::vector<Affine> transforms;
+  for (int h = 0; h < 5; ++h)
+  {
+    Affine t = turn(random.uniform(-180, 180), random.in_box(Vec3(-1, -1, -1), Vec3(1, 1, 1)),
+      Vec3(h, 0, 1), random.in_box(Vec3(-1, -1, -1), Vec3(1, 1, 1)));
+    if (shears)
+    {
+      t.leftCols<3>() *= Vec3(random.uniform(0.5, 2), 1.0, random.uniform(0.5, 2)).asDiagonal();
+    }
+    transforms.push_back(t);
+  }
+  return transforms;
+}
+
+struct Blends
+{
+  Points linear, dual, linear_normals, dual_normals;
+};
+
+Blends blends_of(const Points& points, const Weights& weights,
+  const std::vector<Affine>& transforms, const Points& pivots, const SkinningOptions& options,
+  Status* bound = nullptr, int threads = 0)
+{
+  ExecutionContext context;
+  context.set_threads(threads);
+  Skinning skinning;
+  const Status status = skinning.bind(context, weights, options);
+  EXPECT_TRUE(status.ok()) << status.message;
+  if (bound)
+  {
+    *bound = status;
+  }
+  Blends blends;
+  const Vec3 centre = points.colwise().mean().transpose();
+  Points normals = points.rowwise() - (centre + Vec3(0.01, 0.02, 0.03)).transpose();
+  normals.rowwise().normalize();
+  EXPECT_TRUE(skinning.linear_blend(context, points, transforms, blends.linear).ok());
+  EXPECT_TRUE(skinning.dual_quaternion(context, points, transforms, pivots, blends.dual).ok());
+  EXPECT_TRUE(
+    skinning.linear_blend_normals(context, normals, transforms, blends.linear_normals).ok());
+  EXPECT_TRUE(
+    skinning.dual_quaternion_normals(context, normals, transforms, pivots, blends.dual_normals)
+      .ok());
+  return blends;
+}
+
+double difference(const Points& a, const Points& b)
+{
+  return (a - b).rowwise().norm().maxCoeff();
+}
+} // namespace
+
+TEST(Skinning, SinglePrecisionIsRightToAMillionthOfTheDiagonal)
+{
+  const test::Rig rig = test::box();
+  const Points pivots = handle_pivots(rig.handles);
+  const double diagonal = bounding_box(rig.mesh.points).diagonal();
+  SkinningOptions single;
+  single.single_precision = true;
+  test::Random random(11);
+  for (const Vec3& place : { Vec3(0, 0, 0), Vec3(4e3, -2e3, 1e3) })
+  {
+    const Points points = rig.mesh.points.rowwise() + place.transpose();
+    const Points centres = pivots.rowwise() + place.transpose();
+    for (const bool shears : { false, true })
+    {
+      std::vector<Affine> transforms = wild_transforms(random, shears);
+      for (Affine& t : transforms)
+      {
+        t.col(3) += place - t.leftCols<3>() * place; // the same motion, there
+      }
+      const Blends exact = blends_of(points, rig.weights, transforms, centres, {});
+      const Blends fast = blends_of(points, rig.weights, transforms, centres, single);
+      EXPECT_LT(difference(fast.linear, exact.linear), 1e-6 * diagonal);
+      EXPECT_LT(difference(fast.dual, exact.dual), 1e-6 * diagonal);
+      EXPECT_LT(difference(fast.linear_normals, exact.linear_normals), 1e-4);
+      EXPECT_LT(difference(fast.dual_normals, exact.dual_normals), 1e-4);
+      const Blends again = blends_of(points, rig.weights, transforms, centres, single, nullptr, 1);
+      EXPECT_EQ(again.linear, fast.linear);
+      EXPECT_EQ(again.dual, fast.dual);
+    }
+  }
+  const Blends rest = blends_of(
+    rig.mesh.points, rig.weights, std::vector<Affine>(5, identity_affine()), pivots, single);
+  EXPECT_EQ(rest.linear, rig.mesh.points);
+  EXPECT_EQ(rest.dual, rig.mesh.points);
+}
+
+TEST(Skinning, DroppedWeightsAreCountedAndTheirErrorIsBounded)
+{
+  const test::Rig rig = test::box();
+  const Points pivots = handle_pivots(rig.handles);
+  Weights weights = rig.weights.cwiseAbs();
+  weights.array().colwise() /= weights.rowwise().sum().array();
+  test::Random random(12);
+  const std::vector<Affine> transforms = wild_transforms(random, false);
+  const Blends exact = blends_of(rig.mesh.points, weights, transforms, pivots, {});
+  for (const auto& [smallest, influences] : { std::pair{ 0.05, 0 }, std::pair{ 0.0, 2 } })
+  {
+    SkinningOptions options;
+    options.smallest_weight = smallest;
+    options.influences = influences;
+    Index dropped = 0;
+    double share = 0.0;
+    Points twin(rig.mesh.points.rows(), 3);
+    double reach = 0.0; // how far apart two handles take a point
+    for (Index v = 0; v < twin.rows(); ++v)
+    {
+      std::vector<std::pair<double, Index>> row;
+      for (Index j = 0; j < 5; ++j)
+      {
+        row.emplace_back(-weights(v, j), j);
+      }
+      std::sort(row.begin(), row.end());
+      double kept = 0.0, lost = 0.0;
+      Vec3 sum = Vec3::Zero();
+      std::vector<Vec3> places;
+      for (std::size_t i = 0; i < row.size(); ++i)
+      {
+        const double w = -row[i].first;
+        const Vec3 place = transforms[static_cast<std::size_t>(row[i].second)] *
+          Vec3(rig.mesh.points.row(v)).homogeneous();
+        places.push_back(place);
+        const bool keep = w > smallest && (influences == 0 || i < 2);
+        dropped += !keep && w != 0.0 ? 1 : 0;
+        (keep ? kept : lost) += w;
+        sum += keep ? Vec3(w * place) : Vec3::Zero();
+      }
+      share = std::max(share, lost);
+      twin.row(v) = (sum / kept).transpose();
+      for (const Vec3& a : places)
+      {
+        for (const Vec3& b : places)
+        {
+          reach = std::max(reach, (a - b).norm());
+        }
+      }
+    }
+    ASSERT_GT(dropped, 100);
+    Status bound;
+    const Blends fewer = blends_of(rig.mesh.points, weights, transforms, pivots, options, &bound);
+    EXPECT_EQ(bound.report.number("counts.dropped_weights", -1), static_cast<double>(dropped));
+    EXPECT_NEAR(bound.report.number("dropped_share", -1), share, 1e-12);
+    EXPECT_LT(difference(fewer.linear, twin), 1e-12);
+    EXPECT_LE(difference(fewer.linear, exact.linear), share * reach + 1e-12);
+  }
+  ExecutionContext context;
+  Skinning skinning;
+  SkinningOptions wrong;
+  wrong.smallest_weight = -1.0;
+  EXPECT_EQ(skinning.bind(context, weights, wrong).code, StatusCode::invalid_input);
+}
+
+TEST(Skinning, SignsOfQuaternionsAreEachVertexsOwn)
+{
+  // Vertices of a tile have different references; each alone must give the same.
+  const test::Rig rig = test::box();
+  const Points pivots = handle_pivots(rig.handles);
+  test::Random random(13);
+  for (int round = 0; round < 5; ++round)
+  {
+    const std::vector<Affine> transforms = wild_transforms(random, false);
+    for (const bool single : { false, true })
+    {
+      SkinningOptions options;
+      options.single_precision = single;
+      const Points together =
+        blends_of(rig.mesh.points, rig.weights, transforms, pivots, options).dual;
+      for (Index v = 0; v < together.rows(); v += 7)
+      {
+        const Points alone = blends_of(
+          Points(rig.mesh.points.row(v)), Weights(rig.weights.row(v)), transforms, pivots, options)
+                               .dual;
+        EXPECT_LT((alone.row(0) - together.row(v)).norm(), single ? 1e-5 : 1e-12) << v;
+      }
+    }
+  }
 }

@@ -1,11 +1,12 @@
 """Each script of the gallery proves its claim, on less data."""
 
+import numpy as np
 import pytest
 from running import EXAMPLES, is_refused, numbers_of, script
 
 GALLERY = EXAMPLES / "gallery"
 NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "colours_of_handles", "cost_of_a_point",
-         "cut_out_cartoon", "defect_classes", "growth", "hull_segmentation", "image_rectangle", "jump_and_harmonic",
+         "cost_of_weights", "cut_out_cartoon", "defect_classes", "growth", "hull_segmentation", "image_rectangle", "jump_and_harmonic",
          "limbs_in_front", "mesh_independence", "near_limbs", "new_hues", "open_crossing_flipped", "original_and_faster",
          "preview_and_certified", "rigidity_brush", "small_features", "spurious_extrema", "topological_simplification", "weights_in_volume"]
 
@@ -285,3 +286,14 @@ def test_the_readme_has_them_all():
         assert table.count("\n") > 3, f"run examples/gallery/refresh.py: {name} has no numbers"
         picture = EXAMPLES / "pictures" / f"{name}.png"
         assert 10_000 < picture.stat().st_size < 200_000
+
+
+def test_cost_of_weights(tmp_path):
+    """Loosely: machines are busy. The certificates are kept, the memory is what was estimated."""
+    numbers = numbers_of("gallery/cost_of_weights.py", tmp_path)
+    assert max(numbers["worst relative gap"], numbers["worst natural residual"]) <= 1e-6
+    assert 0 < numbers["4 handles, whole: exponent"] < 4
+    for part in ("analyse", "factor", "iterate"):
+        assert all(np.less(numbers[f"4 handles, {part}: seconds a handle"], numbers["4 handles, whole: seconds a handle"]))
+    for peak, estimate in zip(numbers["MiB at the peak"], numbers["MiB estimated"]):
+        assert 0.8 < estimate / peak < 1.4

@@ -26,6 +26,7 @@
 #include "BindposeFiltersModule.h" // for export macro
 #include "vtkMeshAndHandlesAlgorithm.h"
 #include <memory> // for std::unique_ptr
+#include <vector>
 
 class vtkPointSet;
 
@@ -50,6 +51,9 @@ protected:
 
   /// Whether the mesh must have weights. Default: yes. Without, PoseInput's are empty.
   virtual bool NeedsWeights() const { return true; }
+
+  /// The mesh's point arrays that a bind reads. Default: the weights, if it needs them.
+  virtual std::vector<std::string> BindArrays();
 
   /// Mesh, weights, handles and pose as the kernels want them; valid during a call.
   struct PoseInput;

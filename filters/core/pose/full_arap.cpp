@@ -216,7 +216,7 @@ Status FullArap::prepare(const Pose& pose)
   }
   this->given_count_ = static_cast<Index>(vertices.size());
   this->held_count_ = static_cast<Index>(held.size());
-  const Status status = this->system_.prepare(this->stiffness_, this->parts_.of_vertex,
+  Status status = this->system_.prepare(this->stiffness_, this->parts_.of_vertex,
     this->parts_.count, std::move(vertices), std::move(held));
   if (!status.ok())
   {

@@ -362,7 +362,7 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
   }
   {
     Phase phase(context, "grips", 0.3, 0.6);
-    const Status gripped = this->find_grips(view, options.region_ids, status);
+    Status gripped = this->find_grips(view, options.region_ids, status);
     if (!gripped.ok())
     {
       return gripped;

@@ -80,6 +80,11 @@ void vtkPoseAlgorithm::SetArrayName(const std::string& name)
   }
 }
 
+std::vector<std::string> vtkPoseAlgorithm::BindArrays()
+{
+  return std::vector<std::string>(this->NeedsWeights() ? 1 : 0, this->ArrayName);
+}
+
 void vtkPoseAlgorithm::BindModified()
 {
   this->BindTime.Modified();
@@ -109,12 +114,7 @@ Status vtkPoseAlgorithm::Execute(
 
   BindKey key;
   key.add(this->BindTime.GetMTime());
-  std::vector<std::string> arrays = this->GetBindArrayNames();
-  if (weights)
-  {
-    arrays.push_back(this->ArrayName);
-  }
-  for (vtkObject* object : bind_objects(mesh, arrays))
+  for (vtkObject* object : bind_objects(mesh, this->BindArrays()))
   {
     key.add(object);
   }

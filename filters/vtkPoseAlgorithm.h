@@ -53,8 +53,8 @@ protected:
   /// Whether the mesh must have weights. Default: yes. Without, PoseInput's are empty.
   virtual bool NeedsWeights() const { return true; }
 
-  /// Names of further point arrays that the bind depends on. Default: none.
-  virtual std::vector<std::string> GetBindArrayNames() const { return {}; }
+  /// The mesh's point arrays that a bind reads. Default: the weights, if it needs them.
+  virtual std::vector<std::string> BindArrays();
 
   /// Mesh, weights, handles and pose as the kernels want them; valid during a call.
   struct PoseInput;

@@ -2,6 +2,7 @@
 // it for transforms and blends them.
 #include "vtkReducedARAP.h"
 
+#include "arap_input.h"
 #include "pose/reduced_arap.h"
 #include "pose_input.h"
 
@@ -9,7 +10,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
 
@@ -22,44 +22,13 @@ struct vtkReducedARAP::Internals
   ReducedArap arap;
 };
 
-namespace
-{
-bool has_volume_cells(vtkDataSet* mesh)
-{
-  auto* grid = vtkUnstructuredGrid::SafeDownCast(mesh);
-  for (vtkIdType c = 0; grid && c < grid->GetNumberOfCells(); ++c)
-  {
-    if (grid->GetCell(c)->GetCellDimension() == 3)
-    {
-      return true;
-    }
-  }
-  return false;
-}
-
-const char* energy_name(int energy)
-{
-  switch (energy)
-  {
-    case vtkReducedARAP::SPOKES_AND_RIMS:
-      return "spokes and rims";
-    case vtkReducedARAP::TETRAHEDRA:
-      return "tetrahedra";
-    case vtkReducedARAP::TRIANGLES:
-      return "triangles";
-    default:
-      return "auto";
-  }
-}
-} // namespace
-
 vtkReducedARAP::vtkReducedARAP() : Internal(new Internals) {}
 
 vtkReducedARAP::~vtkReducedARAP() = default;
 
 void vtkReducedARAP::SetEnergy(int energy)
 {
-  energy = std::clamp<int>(energy, AUTO, TRIANGLES);
+  energy = std::clamp<int>(energy, AUTO, SPOKES);
   if (this->Energy != energy)
   {
     this->Energy = energy;
@@ -90,38 +59,19 @@ void vtkReducedARAP::SetNumberOfExtraWeights(int extra)
 Status vtkReducedARAP::Bind(const PoseInput& input, ExecutionContext& context)
 {
   ReducedArapOptions options;
-  options.energy = this->Energy == SPOKES_AND_RIMS ? ArapEnergy::spokes_and_rims
-    : this->Energy == AUTO                         ? ArapEnergy::automatic
-                                                   : ArapEnergy::elements;
   options.clusters = this->NumberOfClusters;
   options.extra_weights = this->NumberOfExtraWeights;
-  if (has_volume_cells(input.mesh))
-  {
-    TetInput tets;
-    const Status status = to_tets(input.mesh, tets);
-    if (!status.ok())
-    {
-      return status;
-    }
-    if (this->Energy == TRIANGLES)
-    {
-      return Status::invalid_input("the triangles energy needs a surface, but the mesh is tets");
-    }
-    return this->Internal->arap.bind(
-      context, input.points, tets.tets.view(), input.weights, input.handles, options);
-  }
-  SurfaceInput surface;
-  const Status status = to_surface(input.mesh, surface);
+  ArapElements elements;
+  const Status status = to_arap(input.mesh, this->Energy, elements, options.energy);
   if (!status.ok())
   {
     return status;
   }
-  if (this->Energy == TETRAHEDRA)
-  {
-    return Status::invalid_input("the tetrahedra energy needs tets, but the mesh is a surface");
-  }
-  return this->Internal->arap.bind(
-    context, input.points, surface.triangles.view(), input.weights, input.handles, options);
+  return elements.volume
+    ? this->Internal->arap.bind(
+        context, input.points, elements.tets.tets.view(), input.weights, input.handles, options)
+    : this->Internal->arap.bind(context, input.points, elements.surface.triangles.view(),
+        input.weights, input.handles, options);
 }
 
 Status vtkReducedARAP::Deform(const PoseInput& input, ExecutionContext& context, PosedPoints& posed)
@@ -158,7 +108,7 @@ Status vtkReducedARAP::DeformNormals(
 void vtkReducedARAP::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Energy: " << energy_name(this->Energy) << "\n";
+  os << indent << "Energy: " << arap_energy_name(this->Energy) << "\n";
   os << indent << "NumberOfClusters: " << this->NumberOfClusters << "\n";
   os << indent << "NumberOfExtraWeights: " << this->NumberOfExtraWeights << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";

@@ -47,14 +47,16 @@ public:
     AUTO = 0,
     SPOKES_AND_RIMS = 1,
     TETRAHEDRA = 2,
-    TRIANGLES = 3
+    TRIANGLES = 3,
+    SPOKES = 4
   };
 
   ///@{
   /**
-   * Which edges share a rotation: those around a vertex (spokes and rims), of a tet or of a
-   * triangle. Default AUTO: TETRAHEDRA on tets, SPOKES_AND_RIMS on surfaces. TETRAHEDRA on a
-   * surface and TRIANGLES on tets are errors. A bind parameter.
+   * Which edges share a rotation: those of the elements around a vertex (spokes and rims), those
+   * that end at it (spokes, without edges of negative cotangent weight), of a tet or of a triangle.
+   * Default AUTO: TETRAHEDRA on tets, SPOKES_AND_RIMS on surfaces. TETRAHEDRA on a surface and
+   * TRIANGLES on tets are errors. A bind parameter.
    */
   void SetEnergy(int energy);
   vtkGetMacro(Energy, int);

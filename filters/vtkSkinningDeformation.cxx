@@ -84,9 +84,11 @@ void vtkSkinningDeformation::SetEndpointArrayName(const std::string& name)
   }
 }
 
-std::vector<std::string> vtkSkinningDeformation::GetBindArrayNames() const
+std::vector<std::string> vtkSkinningDeformation::BindArrays()
 {
-  return { this->EndpointArrayName };
+  std::vector<std::string> names = this->Superclass::BindArrays();
+  names.push_back(this->EndpointArrayName);
+  return names;
 }
 
 Status vtkSkinningDeformation::Bind(const PoseInput& input, ExecutionContext& context)

@@ -87,7 +87,7 @@ protected:
   vtkSkinningDeformation();
   ~vtkSkinningDeformation() override;
 
-  std::vector<std::string> GetBindArrayNames() const override;
+  std::vector<std::string> BindArrays() override;
   bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) override;
   bindpose::Status Deform(
     const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) override;

@@ -15,6 +15,7 @@
 #include "weights/preview_weights.h"
 #include "weights/surface_weights.h"
 #include "weights_arrays.h"
+#include "weights_input.h"
 
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
@@ -93,32 +94,6 @@ vtkSmartPointer<vtkAbstractArray> extended(
   return result;
 }
 
-Status to_region_ids(vtkPointSet* mesh, const std::string& name, std::vector<Index>& region_ids)
-{
-  region_ids.clear();
-  vtkAbstractArray* found = mesh->GetPointData()->GetAbstractArray(name.c_str());
-  auto* array = vtkDataArray::SafeDownCast(found);
-  if (!found)
-  {
-    return {};
-  }
-  if (!array || array->GetNumberOfComponents() != 1)
-  {
-    return Status::invalid_input(
-      "the point array '" + name + "' of region labels must have one number a point");
-  }
-  for (vtkIdType v = 0; v < array->GetNumberOfTuples(); ++v)
-  {
-    const double label = array->GetComponent(v, 0);
-    if (!(std::abs(label) < 1e15) || label != std::floor(label))
-    {
-      return Status::invalid_input(
-        "the region label of point " + std::to_string(v) + " is not a whole number");
-    }
-    region_ids.push_back(static_cast<Index>(label));
-  }
-  return {};
-}
 /// Weights on a mesh, which may have got points for handles.
 struct SolvedMesh
 {

@@ -6,6 +6,8 @@
 #include "vtkPointSet.h"
 #include "vtkPolyData.h"
 
+#include <cmath>
+
 namespace bindpose
 {
 
@@ -72,6 +74,33 @@ Status to_weights_input(
   }
   input.weights = to_matrix(weights);
   return status;
+}
+
+Status to_region_ids(vtkPointSet* mesh, const std::string& name, std::vector<Index>& region_ids)
+{
+  region_ids.clear();
+  vtkAbstractArray* found = mesh->GetPointData()->GetAbstractArray(name.c_str());
+  auto* array = vtkDataArray::SafeDownCast(found);
+  if (!found)
+  {
+    return {};
+  }
+  if (!array || array->GetNumberOfComponents() != 1)
+  {
+    return Status::invalid_input(
+      "the point array '" + name + "' of region labels must have one number a point");
+  }
+  for (vtkIdType v = 0; v < array->GetNumberOfTuples(); ++v)
+  {
+    const double label = array->GetComponent(v, 0);
+    if (!(std::abs(label) < 1e15) || label != std::floor(label))
+    {
+      return Status::invalid_input(
+        "the region label of point " + std::to_string(v) + " is not a whole number");
+    }
+    region_ids.push_back(static_cast<Index>(label));
+  }
+  return {};
 }
 
 } // namespace bindpose

@@ -30,6 +30,10 @@ struct WeightsInput
 Status to_weights_input(
   vtkPointSet* mesh, const std::string& array_name, vtkPolyData* handles, WeightsInput& input);
 
+/// The labels of regions, a number a point; empty when the mesh has no such array. invalid_input
+/// for numbers that are not whole.
+Status to_region_ids(vtkPointSet* mesh, const std::string& name, std::vector<Index>& region_ids);
+
 /// "the mesh has no point array 'W' with weights (its point arrays: A, B)".
 Status no_weights(vtkPointSet* mesh, const std::string& array_name);
 

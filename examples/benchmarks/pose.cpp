@@ -1,8 +1,10 @@
 // Pose time, one thread: microseconds per iteration of reduced ARAP by handles and clusters (the
-// mesh does not matter: two sizes show it), bind and re-factor, skinning of 100k vertices with
-// dense weights. Weights are made up (inverse distances), so that no solver is waited for.
+// mesh does not matter: two sizes show it) and of full ARAP (by the mesh alone), bind and
+// re-factor, skinning of 100k vertices with dense weights. Weights are made up (inverse distances),
+// so that no solver is waited for.
 #include "surfaces.h"
 
+#include "pose/full_arap.h"
 #include "pose/reduced_arap.h"
 #include "pose/rotation_fit.h"
 #include "pose/skinning.h"
@@ -125,6 +127,36 @@ BENCHMARK(reduced_arap_change_of_modes)
   ->ArgName("handles")
   ->Arg(20)
   ->Arg(50)
+  ->Unit(benchmark::kMillisecond);
+
+/// Arguments: triangles, iterates that acceleration looks back on.
+void full_arap_iteration(benchmark::State& state)
+{
+  const Rig rig = make_rig(state.range(0), 20);
+  ExecutionContext context;
+  context.set_threads(1);
+  FullArap arap;
+  arap.bind(context, rig.mesh.points, rig.mesh.triangles, rig.handles);
+  const Pose pose = dragged(rig.handles, 0.3);
+  FullArap::SolveOptions options;
+  options.tolerance = 0.0;
+  options.max_iterations = 20;
+  options.start = FullArap::Start::rest;
+  options.anderson_window = state.range(1);
+  double microseconds = 0.0, solves = 0.0;
+  for (auto _ : state)
+  {
+    const Status status = arap.solve(context, pose, options);
+    microseconds += status.report.number("microseconds_per_iteration", 0.0);
+    solves += 1.0;
+  }
+  state.counters["us_per_iteration"] = microseconds / solves;
+}
+BENCHMARK(full_arap_iteration)
+  ->ArgNames({ "triangles", "window" })
+  ->Args({ 20000, 5 })
+  ->Args({ 86000, 5 })
+  ->Args({ 86000, 0 })
   ->Unit(benchmark::kMillisecond);
 
 /// Arguments: handles, 0 linear blend or 1 dual quaternions, 1 for single precision. 100k vertices,

@@ -26,7 +26,8 @@ SCRIPTS = ("../01_inside_outside.py", "open_crossing_flipped.py", "boundary_and_
            "near_limbs.py", "limbs_in_front.py", "colours_of_handles.py", "new_hues.py",
            "rigidity_brush.py", "original_and_faster.py", "spurious_extrema.py", "topological_simplification.py",
            "small_features.py", "mesh_independence.py",
-           "weights_in_volume.py", "preview_and_certified.py", "cost_of_weights.py")
+           "weights_in_volume.py", "preview_and_certified.py", "cost_of_weights.py",
+           "full_and_reduced.py")
 
 
 def shrink(source, target):

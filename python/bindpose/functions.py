@@ -499,9 +499,17 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
     return Array(point_array(result, "Weights"), report, names)
 
 
-def _make_deformation(method, exponent):
-    if method == "reduced-arap":
-        return filters.vtkReducedARAP()
+_ENERGIES = ("auto", "spokes-and-rims", "spokes", "tetrahedra", "triangles")
+
+
+def _make_deformation(method, exponent, energy, iterations, tolerance):
+    if method in ("reduced-arap", "full-arap"):
+        arap = filters.vtkReducedARAP() if method == "reduced-arap" else filters.vtkFullARAP()
+        arap.SetEnergy(getattr(arap, energy.upper().replace("-", "_")))
+        arap.SetTolerance(tolerance)
+        if iterations:
+            arap.SetMaximumIterations(int(iterations))
+        return arap
     if method == "mls":
         warp = filters.vtkMovingLeastSquaresWarp()
         warp.SetExponent(exponent)
@@ -511,26 +519,36 @@ def _make_deformation(method, exponent):
     return skinning
 
 
-def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, threads=0, progress=None):
+def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, energy="auto", iterations=0,
+           tolerance=1e-6, threads=0, progress=None):
     """Bend a mesh with weights to a pose, or to a sequence of poses.
 
     Parameters
     ----------
     mesh : vtkDataSet or (vertices, elements)
-        A dataset with the point array ``Weights``, or arrays beside `weights`. ``mls`` needs none.
+        A dataset with the point array ``Weights``, or arrays beside `weights`. ``full-arap`` and ``mls`` need
+        none.
     handles : vtkPolyData, str or path-like
         The handles that the weights were made for.
     pose : dict, str or path-like
         ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}``
         or ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file.
-    method : {"lbs", "dqs", "stbs", "reduced-arap", "mls"}
+    method : {"lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls"}
         Linear blend skinning, dual quaternions, stretchable and twistable bones (with the point array
-        ``EndpointWeights`` where there is one), reduced as-rigid-as-possible, or the rigid warp by moving
-        least squares, which needs no weights and knows nothing of the shape.
+        ``EndpointWeights`` where there is one), reduced as-rigid-as-possible; without weights: full
+        as-rigid-as-possible, or the rigid warp by moving least squares, which knows nothing of the shape.
     weights : (#V, #handles) array, optional
         For a mesh of arrays.
     exponent : float
         Of mls: handles count by 1 / distance^(2 exponent), 1 to 8.
+    energy : {"auto", "spokes-and-rims", "spokes", "tetrahedra", "triangles"}
+        Of reduced-arap and full-arap: which edges share a rotation. Auto: tetrahedra on tets, spokes and rims
+        on surfaces.
+    iterations : int
+        Of reduced-arap and full-arap: at most; 0: 100 and 500.
+    tolerance : float
+        Of reduced-arap and full-arap: an iteration that lowers the energy by less than this share of it is
+        the last.
     threads, progress
         See `winding_number`.
 
@@ -545,7 +563,8 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, thr
     InvalidInput
         Weights that do not fit, an unknown handle in the pose, a broken pose.
     """
-    _choice(method, ("lbs", "dqs", "stbs", "reduced-arap", "mls"), "method")
+    _choice(method, ("lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls"), "method")
+    _choice(energy, _ENERGIES, "energy")
     data = to_dataset(mesh)
     if weights is not None:
         data = shallow_copy(data)
@@ -559,7 +578,7 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, thr
             poser.SetPoseJSON(json.dumps(pose))
         except TypeError as error:
             raise InvalidInput(f"the pose is no JSON object: {error}") from None
-    bender = _make_deformation(method, exponent)
+    bender = _make_deformation(method, exponent, energy, iterations, tolerance)
     bender.SetInputData(0, data)
     bender.SetInputConnection(1, poser.GetOutputPort())
     bender.SetNumberOfThreads(threads)

@@ -6,7 +6,7 @@ from running import EXAMPLES, is_refused, numbers_of, script
 
 GALLERY = EXAMPLES / "gallery"
 NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "colours_of_handles", "cost_of_a_point",
-         "cost_of_weights", "cut_out_cartoon", "defect_classes", "growth", "hull_segmentation", "image_rectangle", "jump_and_harmonic",
+         "cost_of_weights", "cut_out_cartoon", "defect_classes", "full_and_reduced", "growth", "hull_segmentation", "image_rectangle", "jump_and_harmonic",
          "limbs_in_front", "mesh_independence", "near_limbs", "new_hues", "open_crossing_flipped", "original_and_faster",
          "preview_and_certified", "rigidity_brush", "small_features", "spurious_extrema", "topological_simplification", "weights_in_volume"]
 
@@ -45,6 +45,15 @@ def test_closing_holes(tmp_path):
     assert missing == sorted(missing, reverse=True) and missing[-1] == 0
     assert all(a > b for a, b in zip(distances, distances[1:]))
     assert distances[0] > 0.01 and distances[-1] <= 1e-12
+
+
+def test_full_and_reduced(tmp_path):
+    numbers = numbers_of("gallery/full_and_reduced.py", tmp_path)
+    for name in ("bump", "bend", "twist"):
+        assert 0 < numbers[f"{name}, full, energy"] < numbers[f"{name}, reduced, energy"]
+        assert 1e-4 < numbers[f"{name}, apart"] < 0.5
+        assert numbers[f"{name}, reduced, microseconds"] < numbers[f"{name}, full, microseconds"]
+    assert max(numbers[f"bump, {method}, sharpest fold"] for method in ("reduced", "full")) < 90
 
 
 def test_rigidity_brush(tmp_path):

@@ -17,7 +17,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 FILTERS = (
     "WindingNumberField PlanarShape TetrahedralizeSurface FarthestPointHandles BoundedBiharmonicWeights MonotoneWeights "
     "MonotoneSmoothing UnconstrainedWeights TransferWeights BoneEndpointWeights PoseHandles WeightedColors DepthOrder CutAlongBones SkinningDeformation "
-    "MovingLeastSquaresWarp ReducedARAP"
+    "MovingLeastSquaresWarp ReducedARAP FullARAP"
 ).split()
 SOURCES = "BindposeMeshReader BindposeHandleReader".split()
 WRITERS = "BindposeMeshWriter BindposeVDBWriter".split()
@@ -147,7 +147,7 @@ def deformation():
     assert np.array_equal(np.unique(sphere, axis=0), np.unique(points_of(fetch(surface)), axis=0))
     posed_handles = PoseHandles(Input=handles)
     posed = {name: globals()[name](Input=bound, Handles=posed_handles)
-             for name in ("SkinningDeformation", "ReducedARAP", "MovingLeastSquaresWarp")}
+             for name in ("SkinningDeformation", "ReducedARAP", "FullARAP", "MovingLeastSquaresWarp")}
     skinned = SkinningDeformation(Input=skin, Handles=posed_handles, Method="Dual Quaternion")
     for name, proxy in posed.items():
         assert np.abs(points_of(fetch(proxy)) - rest).max() < 1e-12, f"{name}: the rest pose moves"

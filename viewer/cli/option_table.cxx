@@ -221,13 +221,22 @@ const std::vector<Verb>& verbs()
           ".vtp, .vtu or .vtk: the mesh with the array Smoothed", true } } },
     { "deform", "bend a mesh with weights to a pose or a sequence of poses",
       { { "MESH_WITH_WEIGHTS", "", Kind::text, "", "",
-          "what the verb weights wrote; for mls any mesh", true },
+          "what the verb weights wrote; for full-arap and mls any mesh", true },
         { "--handles", "HANDLES", Kind::text, "", "", "handles: .tgf or .vtp", true },
         { "--pose", "POSE", Kind::text, "", "", "pose or sequence as .json", true },
-        { "--method", "METHOD", Kind::choice, "lbs", "lbs|dqs|stbs|reduced-arap|mls",
+        { "--method", "METHOD", Kind::choice, "lbs", "lbs|dqs|stbs|reduced-arap|full-arap|mls",
           "linear blend, dual quaternions, stretchable and twistable bones (along the point array "
-          "EndpointWeights), reduced as-rigid-as-possible, or moving least squares, "
-          "which needs no weights and knows nothing of the shape" },
+          "EndpointWeights), reduced as-rigid-as-possible; without weights: full "
+          "as-rigid-as-possible, or moving least squares, which knows nothing of the shape" },
+        { "--energy", "ENERGY", Kind::choice, "auto",
+          "auto|spokes-and-rims|spokes|tetrahedra|triangles",
+          "of reduced-arap and full-arap: which edges share a rotation; auto: tetrahedra on tets, "
+          "spokes-and-rims on surfaces" },
+        { "--iterations", "N", Kind::integer, "0", "",
+          "of reduced-arap and full-arap: at most; 0: 100 and 500" },
+        { "--tolerance", "NUMBER", Kind::number, "1e-6", "",
+          "of reduced-arap and full-arap: an iteration that lowers the energy by less than this "
+          "share of it is the last" },
         { "--exponent", "NUMBER", Kind::number, "1", "",
           "of mls: handles count by 1 / distance^(2 NUMBER), 1 to 8" },
         { "-o,--output", "OUT", Kind::text, "", "",

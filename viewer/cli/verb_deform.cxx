@@ -5,6 +5,7 @@
 
 #include "file_kind.h"
 #include "io/atomic_file.h"
+#include "vtkFullARAP.h"
 #include "vtkMovingLeastSquaresWarp.h"
 #include "vtkPoseHandles.h"
 #include "vtkReducedARAP.h"
@@ -21,6 +22,29 @@ namespace bindpose::cli
 
 namespace
 {
+int energy_of(const std::string& word)
+{
+  return word == "spokes-and-rims" ? vtkReducedARAP::SPOKES_AND_RIMS
+    : word == "spokes"             ? vtkReducedARAP::SPOKES
+    : word == "tetrahedra"         ? vtkReducedARAP::TETRAHEDRA
+    : word == "triangles"          ? vtkReducedARAP::TRIANGLES
+                                   : vtkReducedARAP::AUTO;
+}
+
+/// What full and reduced as-rigid-as-possible have in common.
+template <typename Filter>
+vtkSmartPointer<vtkBindposeAlgorithm> make_arap(const Arguments& arguments)
+{
+  auto arap = vtkSmartPointer<Filter>::New();
+  arap->SetEnergy(energy_of(arguments.text("energy")));
+  arap->SetTolerance(arguments.number("tolerance"));
+  if (arguments.integer("iterations") > 0)
+  {
+    arap->SetMaximumIterations(arguments.integer("iterations"));
+  }
+  return arap;
+}
+
 vtkSmartPointer<vtkBindposeAlgorithm> make_deformation(const Arguments& arguments)
 {
   const std::string method = arguments.text("method");
@@ -32,7 +56,11 @@ vtkSmartPointer<vtkBindposeAlgorithm> make_deformation(const Arguments& argument
   }
   if (method == "reduced-arap")
   {
-    return vtkSmartPointer<vtkReducedARAP>::New();
+    return make_arap<vtkReducedARAP>(arguments);
+  }
+  if (method == "full-arap")
+  {
+    return make_arap<vtkFullARAP>(arguments);
   }
   auto skinning = vtkSmartPointer<vtkSkinningDeformation>::New();
   skinning->SetMethod(method == "dqs" ? vtkSkinningDeformation::DUAL_QUATERNION

@@ -1,6 +1,8 @@
 // Every energy here is a sum over elements, a group's share of the element, and the element's edges
 // with their cotangent weights. Elements: one group has the whole share. Spokes and rims: each
 // vertex' group has one third (triangle) or one quarter (tet); equal groups are added up first.
+// Spokes know no elements: they are a sum over the mesh's edges with the weights that the stiffness
+// matrix has for them, half for the group of either end.
 #include "pose/arap_energy.h"
 
 #include <algorithm>
@@ -106,10 +108,127 @@ RotationGroups make_groups(
   return groups;
 }
 
+/// An edge of the mesh and the sum of its elements' cotangent weights, which is positive.
+struct Spoke
+{
+  Index i, j;
+  double weight;
+};
+
+/// Below this share of its vertices' own entries a weight is round-off, whatever its sign.
+constexpr double no_weight = 1e-12;
+
+std::vector<Spoke> spokes_of(const SparseMatrix& stiffness, Index* left_out)
+{
+  std::vector<Spoke> spokes;
+  const Eigen::VectorXd diagonal = stiffness.diagonal();
+  Index negative = 0;
+  for (Index j = 0; j < stiffness.cols(); ++j)
+  {
+    for (SparseMatrix::InnerIterator it(stiffness, j); it && it.row() < j; ++it)
+    {
+      const double weight = -it.value();
+      const double least = no_weight * std::min(diagonal[it.row()], diagonal[j]);
+      if (weight > least)
+      {
+        spokes.push_back({ it.row(), j, weight });
+      }
+      negative += weight < -least;
+    }
+  }
+  if (left_out)
+  {
+    *left_out = negative;
+  }
+  return spokes;
+}
+
+template <typename Elements>
+SparseMatrix make_stiffness(
+  PointsView rest, const Elements& elements, ArapEnergy energy, Index* left_out)
+{
+  SparseMatrix stiffness = stiffness_matrix(rest, elements);
+  if (left_out)
+  {
+    *left_out = 0;
+  }
+  if (energy != ArapEnergy::spokes)
+  {
+    return stiffness;
+  }
+  std::vector<Eigen::Triplet<double, int>> entries;
+  for (const Spoke& spoke : spokes_of(stiffness, left_out))
+  {
+    const int i = static_cast<int>(spoke.i), j = static_cast<int>(spoke.j);
+    entries.emplace_back(i, j, -spoke.weight);
+    entries.emplace_back(j, i, -spoke.weight);
+    entries.emplace_back(i, i, spoke.weight);
+    entries.emplace_back(j, j, spoke.weight);
+  }
+  SparseMatrix positive(stiffness.rows(), stiffness.cols());
+  positive.setFromTriplets(entries.begin(), entries.end());
+  return positive;
+}
+
+/// The groups at an edge's ends, each with its share of the edge.
+Shares<2> shares_of(const Spoke& spoke, const RotationGroups& groups)
+{
+  Shares<2> shares;
+  shares.add(groups.of_vertex[static_cast<std::size_t>(spoke.i)], 0.5);
+  shares.add(groups.of_vertex[static_cast<std::size_t>(spoke.j)], 0.5);
+  return shares;
+}
+
+SparseMatrix spokes_covariance(
+  PointsView rest, const std::vector<Spoke>& spokes, const RotationGroups& groups)
+{
+  std::vector<Eigen::Triplet<double, int>> entries;
+  entries.reserve(spokes.size() * 12);
+  for (const Spoke& spoke : spokes)
+  {
+    const Vec3 edge = spoke.weight * (rest.row(spoke.i) - rest.row(spoke.j)).transpose();
+    const Shares<2> shares = shares_of(spoke, groups);
+    for (int s = 0; s < shares.count; ++s)
+    {
+      for (int i = 0; i < 3; ++i)
+      {
+        const auto row = static_cast<int>(i * groups.count + shares.group[s]);
+        entries.emplace_back(row, static_cast<int>(spoke.i), shares.share[s] * edge[i]);
+        entries.emplace_back(row, static_cast<int>(spoke.j), -shares.share[s] * edge[i]);
+      }
+    }
+  }
+  SparseMatrix matrix(3 * groups.count, rest.rows());
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  return matrix;
+}
+
+double spokes_energy(PointsView rest, const std::vector<Spoke>& spokes,
+  const RotationGroups& groups, PointsView posed, const std::vector<Eigen::Matrix3d>& rotations)
+{
+  double sum = 0.0;
+  for (const Spoke& spoke : spokes)
+  {
+    const Vec3 edge = (rest.row(spoke.i) - rest.row(spoke.j)).transpose();
+    const Vec3 moved = (posed.row(spoke.i) - posed.row(spoke.j)).transpose();
+    const Shares<2> shares = shares_of(spoke, groups);
+    for (int s = 0; s < shares.count; ++s)
+    {
+      const Eigen::Matrix3d& rotation = rotations[static_cast<std::size_t>(shares.group[s])];
+      sum += 0.5 * shares.share[s] * spoke.weight * (moved - rotation * edge).squaredNorm();
+    }
+  }
+  return sum;
+}
+
 template <typename Elements, int Corners>
 SparseMatrix make_covariance(
   PointsView rest, const Elements& elements, const RotationGroups& groups)
 {
+  if (groups.energy == ArapEnergy::spokes)
+  {
+    return spokes_covariance(rest, spokes_of(stiffness_matrix(rest, elements), nullptr), groups);
+  }
   const auto& edges = edges_of(elements);
   const auto c = cotangent_weights(rest, elements);
   std::vector<Eigen::Triplet<double, int>> entries;
@@ -148,6 +267,11 @@ template <typename Elements, int Corners>
 double sum_energy(PointsView rest, const Elements& elements, const RotationGroups& groups,
   PointsView posed, const std::vector<Eigen::Matrix3d>& rotations)
 {
+  if (groups.energy == ArapEnergy::spokes)
+  {
+    return spokes_energy(
+      rest, spokes_of(stiffness_matrix(rest, elements), nullptr), groups, posed, rotations);
+  }
   const auto& edges = edges_of(elements);
   const auto c = cotangent_weights(rest, elements);
   double sum = 0.0;
@@ -172,11 +296,47 @@ double sum_energy(PointsView rest, const Elements& elements, const RotationGroup
 
 const char* to_string(ArapEnergy energy, bool tets)
 {
-  if (energy == ArapEnergy::spokes_and_rims || (energy == ArapEnergy::automatic && !tets))
+  switch (resolved(energy, tets))
   {
-    return "spokes_and_rims";
+    case ArapEnergy::spokes_and_rims:
+      return "spokes_and_rims";
+    case ArapEnergy::spokes:
+      return "spokes";
+    default:
+      return tets ? "tetrahedra" : "triangles";
   }
-  return tets ? "tetrahedra" : "triangles";
+}
+
+ArapEnergy resolved(ArapEnergy energy, bool tets)
+{
+  if (energy != ArapEnergy::automatic)
+  {
+    return energy;
+  }
+  return tets ? ArapEnergy::elements : ArapEnergy::spokes_and_rims;
+}
+
+SparseMatrix arap_stiffness(
+  PointsView rest, TrianglesView triangles, ArapEnergy energy, Index* left_out)
+{
+  return make_stiffness(rest, triangles, energy, left_out);
+}
+
+SparseMatrix arap_stiffness(PointsView rest, TetsView tets, ArapEnergy energy, Index* left_out)
+{
+  return make_stiffness(rest, tets, energy, left_out);
+}
+
+std::string left_out_warning(Index left_out)
+{
+  if (left_out == 0)
+  {
+    return {};
+  }
+  return std::to_string(left_out) +
+    (left_out == 1 ? " edge has a negative cotangent weight (obtuse angles opposite to it)"
+                   : " edges have negative cotangent weights (obtuse angles opposite to them)") +
+    ", which the spokes energy leaves out; spokes and rims would not";
 }
 
 RotationGroups rotation_groups(

@@ -18,6 +18,7 @@
 #include "pose/reduced_arap.h"
 
 #include "base/simd.h"
+#include "pose/pivot_rotation.h"
 #include "pose/rotation_fit.h"
 
 #include <Eigen/Cholesky>
@@ -256,31 +257,8 @@ void ReducedArap::factor(const Pose& pose)
 /// other handles takes the rotation that fits all pivots, and the full handles' frames, best.
 void ReducedArap::start_rotations(const Pose& pose)
 {
-  Vec3 rest_mean = Vec3::Zero(), posed_mean = Vec3::Zero();
-  std::vector<std::pair<Vec3, Vec3>> pivots;
-  Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
   const double reach = 0.3 * this->radius_; // the size of a full handle's frame
-  for (std::size_t h = 0; h < pose.size(); ++h)
-  {
-    if (pose[h].mode != HandleMode::free)
-    {
-      const Vec3 pivot = this->handles_[h].head;
-      pivots.emplace_back(pivot, pose[h].transform * pivot.homogeneous());
-      rest_mean += pivots.back().first;
-      posed_mean += pivots.back().second;
-    }
-    if (pose[h].mode == HandleMode::full)
-    {
-      s += reach * reach * pose[h].transform.leftCols<3>().transpose();
-    }
-  }
-  const double count = std::max<double>(1.0, static_cast<double>(pivots.size()));
-  for (const auto& [rest, posed] : pivots)
-  {
-    s += (rest - rest_mean / count) * (posed - posed_mean / count).transpose();
-  }
-  Eigen::Matrix3d common = Eigen::Matrix3d::Identity();
-  fit_rotation(s, common);
+  const Eigen::Matrix3d common = pivot_rotation(this->handles_, pose, reach);
   for (Index k = 0; k < this->groups_.count; ++k)
   {
     Eigen::Matrix3d blend = 1e-9 * common;

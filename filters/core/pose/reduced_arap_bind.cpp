@@ -334,9 +334,7 @@ Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const
       return Status::cancelled();
     }
     const bool tets = Elements::ColsAtCompileTime == 4;
-    const ArapEnergy energy = options.energy != ArapEnergy::automatic ? options.energy
-      : tets                                                          ? ArapEnergy::elements
-                                                                      : ArapEnergy::spokes_and_rims;
+    const ArapEnergy energy = resolved(options.energy, tets);
     this->groups_ = rotation_groups(energy, elements, clusters.count, std::move(clusters.of_row));
     if (wanted >= points.rows() && energy == ArapEnergy::elements)
     {
@@ -362,7 +360,13 @@ Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const
       spread > 1e-9 * this->diagonal_ ? spread : std::max(this->diagonal_, 1e-300));
   }
   {
-    const SparseMatrix stiffness = stiffness_matrix(points, elements);
+    Index left_out = 0;
+    const SparseMatrix stiffness =
+      arap_stiffness(points, elements, this->groups_.energy, &left_out);
+    if (left_out > 0)
+    {
+      status.warnings.push_back(left_out_warning(left_out));
+    }
     if (!this->project_stiffness(context, points, stiffness, all))
     {
       return Status::cancelled();

@@ -78,6 +78,60 @@ TEST(ArapEnergy, AffineMapsCostHalfTheIntegralOfTheDifferenceToTheirRotation)
   }
 }
 
+TEST(ArapEnergy, SpokesCostTheSameForACommonRotationAndForSimilarities)
+{
+  const TriangleMesh ball = test::sphere(2), square = test::grid(5, 4);
+  const TetMesh cube = test::tet_box(3, 2, 2);
+  const Eigen::Matrix3d turn =
+    Eigen::AngleAxisd(2.0, Vec3(1, -2, 3).normalized()).toRotationMatrix();
+  const double area = surface_area(ball.points, ball.triangles);
+  Index left_out = -1;
+  arap_stiffness(ball.points, ball.triangles, ArapEnergy::spokes, &left_out);
+  EXPECT_EQ(left_out, 0);
+  for (const double scale : { 0.0, 0.5, 2.0 })
+  {
+    const double cost = (scale - 1.0) * (scale - 1.0);
+    EXPECT_NEAR(energy_of(ball, ArapEnergy::spokes, turn * scale), area * cost, 1e-12 * area);
+    EXPECT_NEAR(energy_of(square, ArapEnergy::spokes, turn * scale), cost, 1e-12);
+    EXPECT_NEAR(energy_of(cube, ArapEnergy::spokes, turn * scale), 1.5 * cost, 1e-12);
+  }
+  const Eigen::Matrix3d stretch = turn * Vec3(1.5, 1, 1).asDiagonal();
+  EXPECT_NEAR(energy_of(square, ArapEnergy::spokes, stretch), 0.125, 1e-12);
+  EXPECT_NEAR(energy_of(cube, ArapEnergy::spokes, stretch), 0.125, 1e-12);
+  // Any map with one rotation for all; own rotations can only be better.
+  Eigen::Matrix3d map;
+  map << 1.5, 0.2, 0.1, -0.3, 0.8, 0.4, 0.2, 0.1, 1.1;
+  const RotationGroups groups =
+    rotation_groups(ArapEnergy::spokes, cube.tets, cube.points.rows(), own_labels(cube));
+  const Points posed = cube.points * map.transpose();
+  const std::vector<Eigen::Matrix3d> common(static_cast<std::size_t>(cube.points.rows()), turn);
+  EXPECT_NEAR(arap_energy(cube.points, cube.tets, groups, posed, common),
+    0.5 * (map - turn).squaredNorm(), 1e-12);
+  EXPECT_LE(
+    energy_of(cube, ArapEnergy::spokes, map), energy_of(cube, ArapEnergy::elements, map) + 1e-12);
+}
+
+TEST(ArapEnergy, SpokesLeaveOutEdgesOfNegativeWeight)
+{
+  // Two flat triangles on one edge: both angles opposite to it are obtuse.
+  TriangleMesh kite;
+  kite.points.resize(4, 3);
+  kite.points << -1, 0, 0, 1, 0, 0, 0, 0.2, 0, 0, -0.2, 0;
+  kite.triangles.resize(2, 3);
+  kite.triangles << 0, 1, 2, 1, 0, 3;
+  Index left_out = -1;
+  const SparseMatrix l = arap_stiffness(kite.points, kite.triangles, ArapEnergy::spokes, &left_out);
+  EXPECT_EQ(left_out, 1);
+  EXPECT_EQ(l.coeff(0, 1), 0.0);
+  EXPECT_LT((l * Eigen::VectorXd::Ones(4)).norm(), 1e-15);
+  EXPECT_FALSE(left_out_warning(left_out).empty());
+  EXPECT_TRUE(left_out_warning(0).empty());
+  arap_stiffness(kite.points, kite.triangles, ArapEnergy::spokes_and_rims, &left_out);
+  EXPECT_EQ(left_out, 0);
+  // Rest is the cheapest that its rotations can make it.
+  EXPECT_LT(std::abs(energy_of(kite, ArapEnergy::spokes, Eigen::Matrix3d::Identity())), 1e-28);
+}
+
 TEST(ArapEnergy, CovariancesAreTheSumOverEdges)
 {
   const TetMesh mesh = test::tet_box(2, 1, 1);
@@ -93,7 +147,8 @@ TEST(ArapEnergy, CovariancesAreTheSumOverEdges)
     posed.row(v) += random.in_box(-Vec3::Ones(), Vec3::Ones()).transpose();
   }
   const auto c = cotangent_weights(mesh.points, mesh.tets);
-  for (const ArapEnergy energy : { ArapEnergy::spokes_and_rims, ArapEnergy::elements })
+  for (const ArapEnergy energy :
+    { ArapEnergy::spokes_and_rims, ArapEnergy::elements, ArapEnergy::spokes })
   {
     const RotationGroups groups = rotation_groups(energy, mesh.tets, 3, labels);
     std::vector<Eigen::Matrix3d> sums(3, Eigen::Matrix3d::Zero());
@@ -110,6 +165,11 @@ TEST(ArapEnergy, CovariancesAreTheSumOverEdges)
           {
             sums[static_cast<std::size_t>(mesh.tets(e, corner) % 3)] += 0.25 * one;
           }
+        }
+        if (energy == ArapEnergy::spokes)
+        {
+          sums[static_cast<std::size_t>(i % 3)] += 0.5 * one;
+          sums[static_cast<std::size_t>(j % 3)] += 0.5 * one;
         }
         if (energy == ArapEnergy::elements)
         {
@@ -143,4 +203,7 @@ TEST(ArapEnergy, ElementsTakeTheLabelOfMostVertices)
   EXPECT_STREQ(to_string(ArapEnergy::elements, true), "tetrahedra");
   EXPECT_STREQ(to_string(ArapEnergy::elements, false), "triangles");
   EXPECT_STREQ(to_string(ArapEnergy::spokes_and_rims, true), "spokes_and_rims");
+  EXPECT_STREQ(to_string(ArapEnergy::spokes, false), "spokes");
+  EXPECT_STREQ(to_string(ArapEnergy::automatic, true), "tetrahedra");
+  EXPECT_STREQ(to_string(ArapEnergy::automatic, false), "spokes_and_rims");
 }

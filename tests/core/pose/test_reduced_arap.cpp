@@ -169,7 +169,8 @@ TEST(ReducedArap, EveryIterateIsThatOfTheDenseTwin)
 {
   const test::Rig rig = test::bar();
   ExecutionContext context;
-  for (const ArapEnergy energy : { ArapEnergy::elements, ArapEnergy::spokes_and_rims })
+  for (const ArapEnergy energy :
+    { ArapEnergy::elements, ArapEnergy::spokes_and_rims, ArapEnergy::spokes })
   {
     ReducedArap arap;
     ASSERT_TRUE(
@@ -230,7 +231,8 @@ TEST(ReducedArap, NoHalfStepRaisesTheEnergyAndTheLastIsTheEdgeSum)
 {
   const test::Rig rig = test::bar();
   ExecutionContext context;
-  for (const ArapEnergy energy : { ArapEnergy::elements, ArapEnergy::spokes_and_rims })
+  for (const ArapEnergy energy :
+    { ArapEnergy::elements, ArapEnergy::spokes_and_rims, ArapEnergy::spokes })
   {
     for (const Index extra : { 0, 4 })
     {

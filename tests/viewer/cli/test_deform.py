@@ -8,7 +8,7 @@ import pytest
 import shapes
 from bindpose.meshes import add_point_array, points_of, to_dataset
 
-METHODS = ["lbs", "dqs", "stbs", "reduced-arap", "mls"]
+METHODS = ["lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls"]
 
 
 @pytest.fixture
@@ -67,10 +67,10 @@ def test_sequences(bar, method):
     collection = (bar / "out.pvd").read_text()
     assert 'timestep="0.25" file="out_0001.vtp"' in collection
     assert json.loads((bar / "r.json").read_text())["counts"]["frames"] == 3
-    # The same as each pose alone.
+    # The same as each pose alone; solves that begin elsewhere stop at their tolerance.
     deform(bar, frames[2], method=method, output="single.vtp").is_good()
     assert points_of(bindpose.read(bar / "single.vtp")) == pytest.approx(
-        points_of(bindpose.read(bar / "out_0002.vtp")), abs=1e-4 if method == "reduced-arap" else 1e-12)
+        points_of(bindpose.read(bar / "out_0002.vtp")), abs={"reduced-arap": 1e-4, "full-arap": 1e-3}.get(method, 1e-12))
 
 
 def test_a_sequence_is_there_whole_or_not_at_all(bar):

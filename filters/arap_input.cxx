@@ -1,0 +1,69 @@
+// What the filters of as-rigid-as-possible deformation share.
+#include "arap_input.h"
+
+#include "vtkReducedARAP.h"
+
+#include "vtkCell.h"
+#include "vtkUnstructuredGrid.h"
+
+namespace bindpose
+{
+
+namespace
+{
+bool has_volume_cells(vtkDataSet* mesh)
+{
+  auto* grid = vtkUnstructuredGrid::SafeDownCast(mesh);
+  for (vtkIdType c = 0; grid && c < grid->GetNumberOfCells(); ++c)
+  {
+    if (grid->GetCell(c)->GetCellDimension() == 3)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+} // namespace
+
+Status to_arap(vtkPointSet* mesh, int energy, ArapElements& elements, ArapEnergy& result)
+{
+  elements.volume = has_volume_cells(mesh);
+  const Status status =
+    elements.volume ? to_tets(mesh, elements.tets) : to_surface(mesh, elements.surface);
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (elements.volume && energy == vtkReducedARAP::TRIANGLES)
+  {
+    return Status::invalid_input("the triangles energy needs a surface, but the mesh is tets");
+  }
+  if (!elements.volume && energy == vtkReducedARAP::TETRAHEDRA)
+  {
+    return Status::invalid_input("the tetrahedra energy needs tets, but the mesh is a surface");
+  }
+  result = energy == vtkReducedARAP::AUTO       ? ArapEnergy::automatic
+    : energy == vtkReducedARAP::SPOKES_AND_RIMS ? ArapEnergy::spokes_and_rims
+    : energy == vtkReducedARAP::SPOKES          ? ArapEnergy::spokes
+                                                : ArapEnergy::elements;
+  return {};
+}
+
+const char* arap_energy_name(int energy)
+{
+  switch (energy)
+  {
+    case vtkReducedARAP::SPOKES_AND_RIMS:
+      return "spokes and rims";
+    case vtkReducedARAP::TETRAHEDRA:
+      return "tetrahedra";
+    case vtkReducedARAP::TRIANGLES:
+      return "triangles";
+    case vtkReducedARAP::SPOKES:
+      return "spokes";
+    default:
+      return "auto";
+  }
+}
+
+} // namespace bindpose

@@ -1,0 +1,609 @@
+// Pose time of full as-rigid-as-possible.
+//
+// With displacements D from rest and Q = R - I for the rotations, the energy is
+//     E(D, Q) = 1/2 <D, L D> - <Q, S0 + K D>,
+// because rest with R = I is a minimum: all constant and linear terms cancel. S0 + K D are the
+// covariances, K^T Q the force on the vertices. The local step fits R to the covariances, the
+// global step solves L D = K^T Q under the handles' constraints.
+//
+// Anderson acceleration looks at the global step as a function g of D whose fixed point is sought:
+// the next D is g(D) less a combination of the last changes of g, namely the one that makes the
+// same combination of the last changes of g(D) - D cancel g(D) - D best. All iterates meet the
+// constraints, so all combinations whose shares sum to one do. It is taken if its energy, with the
+// rotations that fit it, is no higher than that of the plain g(D).
+#include "pose/full_arap.h"
+
+#include "base/parallel.h"
+#include "pose/pivot_rotation.h"
+#include "pose/rotation_fit.h"
+
+#include <Eigen/QR>
+
+#include <chrono>
+#include <cmath>
+#include <map>
+
+namespace bindpose
+{
+
+namespace
+{
+/// What handles hold and is missed by more than this share of the diagonal contradicts.
+constexpr double contradiction = 1e-9;
+/// Below this share of the rest energy an energy counts as zero for the tolerance.
+constexpr double nothing_bends = 1e-6;
+/// Items of a block; their number fixes the bits, not the threads.
+constexpr Index groups_at_once = 512;
+constexpr Index vertices_at_once = 1024;
+constexpr Index numbers_at_once = 16384;
+
+double dot(ExecutionContext& context, const Weights& a, const Weights& b)
+{
+  return parallel_sum(context, a.size(), numbers_at_once,
+    [&](Index begin, Index end)
+    {
+      double sum = 0.0;
+      for (Index i = begin; i < end; ++i)
+      {
+        sum += a.data()[i] * b.data()[i];
+      }
+      return sum;
+    });
+}
+
+/// The last changes of g and of f = g(D) - D, and their inner products.
+class Anderson
+{
+public:
+  Anderson(Index window, Index rows)
+    : changes_g_(static_cast<std::size_t>(window), Weights(rows, 3)),
+      changes_f_(static_cast<std::size_t>(window), Weights(rows, 3)),
+      products_(Eigen::MatrixXd::Zero(window, window))
+  {
+  }
+
+  void forget() { this->count_ = 0; }
+
+  /// d becomes the extrapolated iterate; false when there is nothing to extrapolate from yet.
+  bool next(ExecutionContext& context, const Weights& g, Weights& d)
+  {
+    const auto window = static_cast<Index>(this->changes_g_.size());
+    if (window == 0)
+    {
+      return false;
+    }
+    Weights f = g - d;
+    if (this->count_ > 0)
+    {
+      const Index at = (this->count_ - 1) % window;
+      this->changes_g_[at] = g - this->last_g_;
+      this->changes_f_[at] = f - this->last_f_;
+      const Index filled = std::min(this->count_, window);
+      for (Index i = 0; i < filled; ++i)
+      {
+        this->products_(at, i) = this->products_(i, at) =
+          dot(context, this->changes_f_[at], this->changes_f_[i]);
+      }
+      Eigen::VectorXd right(filled), scale(filled);
+      for (Index i = 0; i < filled; ++i)
+      {
+        const double square = this->products_(i, i);
+        scale[i] = square > 0.0 ? 1.0 / std::sqrt(square) : 0.0;
+        right[i] = scale[i] * dot(context, this->changes_f_[i], f);
+      }
+      const Eigen::MatrixXd matrix =
+        scale.asDiagonal() * this->products_.topLeftCorner(filled, filled) * scale.asDiagonal();
+      const Eigen::VectorXd shares = scale.asDiagonal() *
+        Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(matrix).solve(right);
+      d = g;
+      for (Index i = 0; i < filled; ++i)
+      {
+        d -= shares[i] * this->changes_g_[i];
+      }
+    }
+    this->last_g_ = g;
+    this->last_f_.swap(f);
+    return this->count_++ > 0 && d.allFinite();
+  }
+
+private:
+  Index count_ = 0;
+  std::vector<Weights> changes_g_, changes_f_;
+  Weights last_g_, last_f_;
+  Eigen::MatrixXd products_;
+};
+
+std::string quoted(const Handles& handles, const std::vector<Index>& list)
+{
+  std::string names;
+  for (const Index h : list)
+  {
+    names += (names.empty() ? "'" : ", '") + handles[static_cast<std::size_t>(h)].name + "'";
+  }
+  return names;
+}
+} // namespace
+
+Vec3 FullArap::at_rest(const MeshPoint& point) const
+{
+  Vec3 sum = Vec3::Zero();
+  for (const auto& [v, share] : point)
+  {
+    sum += share * this->rest_.row(v).transpose();
+  }
+  return sum;
+}
+
+/// The displacement that a handle wants of a point that it holds. Those of a full handle turn with
+/// it; what stands for a pivot beside the mesh only moves as the pivot does.
+Vec3 FullArap::wanted(const Hold& hold, const HandlePose& pose) const
+{
+  const Eigen::Matrix3d linear = pose.transform.leftCols<3>() - Eigen::Matrix3d::Identity();
+  const Handle& handle = this->handles_[hold.handle];
+  const bool by_pivot = pose.mode == HandleMode::position && handle.kind != HandleKind::region;
+  return linear * (by_pivot ? handle.head : this->at_rest(hold.point)) + pose.transform.col(3);
+}
+
+Status FullArap::prepare(const Pose& pose)
+{
+  this->modes_.clear();
+  this->holds_.clear();
+  this->redundant_.clear();
+  for (const HandleMode mode : { HandleMode::full, HandleMode::position })
+  {
+    for (std::size_t h = 0; h < pose.size(); ++h)
+    {
+      const auto handle = static_cast<Index>(h);
+      if (pose[h].mode != mode)
+      {
+        continue;
+      }
+      if (mode == HandleMode::position)
+      {
+        this->holds_.push_back({ handle, this->grips_[h].pivot });
+      }
+      else
+      {
+        for (const MeshPoint& point : this->grips_[h].points)
+        {
+          this->holds_.push_back({ handle, point });
+        }
+      }
+    }
+  }
+  // A vertex is given by full handles if there are any on it, then a position there is redundant.
+  // Of positions at one vertex all but the first are, though they count in the mean.
+  std::map<Index, bool> given; // vertex -> by a full handle
+  for (const Hold& hold : this->holds_)
+  {
+    if (hold.point.size() == 1)
+    {
+      given.insert({ hold.point[0].first, pose[hold.handle].mode == HandleMode::full });
+    }
+  }
+  std::vector<Index> vertices;
+  std::map<Index, Index> place;
+  for (const auto& entry : given)
+  {
+    place[entry.first] = static_cast<Index>(vertices.size());
+    vertices.push_back(entry.first);
+  }
+  std::vector<MeshPoint> held;
+  std::vector<Index> holder;
+  std::vector<char> taken(vertices.size(), 0);
+  for (Hold& hold : this->holds_)
+  {
+    const bool full = pose[hold.handle].mode == HandleMode::full;
+    if (hold.point.size() > 1)
+    {
+      hold.held = static_cast<Index>(held.size());
+      held.push_back(hold.point);
+      holder.push_back(hold.handle);
+    }
+    else
+    {
+      const Index v = hold.point[0].first;
+      if (full || !given[v])
+      {
+        hold.given = place[v];
+      }
+      if (!full && taken[place[v]])
+      {
+        this->redundant_.push_back(hold.handle);
+      }
+      taken[place[v]] = 1;
+    }
+  }
+  this->given_count_ = static_cast<Index>(vertices.size());
+  this->held_count_ = static_cast<Index>(held.size());
+  Status status = this->system_.prepare(this->stiffness_, this->parts_.of_vertex,
+    this->parts_.count, std::move(vertices), std::move(held));
+  if (!status.ok())
+  {
+    return status;
+  }
+  this->factorisations_ += 1;
+  for (const Index point : this->system_.redundant())
+  {
+    const Index handle = holder[point];
+    if (pose[handle].mode == HandleMode::position)
+    {
+      this->redundant_.push_back(handle);
+    }
+  }
+  for (const HandlePose& handle : pose)
+  {
+    this->modes_.push_back(handle.mode);
+  }
+  return status;
+}
+
+/// A first guess without history: the linear parts of full handles' transforms, and for positions
+/// the rotation that fits all pivots, spread over the mesh by Laplace's equation, then made
+/// rotations.
+void FullArap::start_rotations(const Pose& pose)
+{
+  const Eigen::Matrix3d common = pivot_rotation(this->handles_, pose, 0.3 * this->radius_);
+  Rows given = Rows::Zero(this->given_count_, 9), held = Rows::Zero(this->held_count_, 9), field;
+  Eigen::VectorXd owners = Eigen::VectorXd::Zero(this->given_count_);
+  for (const Hold& hold : this->holds_)
+  {
+    const HandlePose& handle = pose[hold.handle];
+    const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> turn =
+      (handle.mode == HandleMode::full ? Eigen::Matrix3d(handle.transform.leftCols<3>()) : common) -
+      Eigen::Matrix3d::Identity();
+    const Eigen::Map<const Eigen::Matrix<double, 1, 9>> row(turn.data());
+    if (hold.given >= 0)
+    {
+      given.row(hold.given) += row;
+      owners[hold.given] += 1.0;
+    }
+    else if (hold.held >= 0)
+    {
+      held.row(hold.held) = row;
+    }
+  }
+  given.array().colwise() /= owners.array();
+  this->system_.solve(Rows::Zero(this->rest_.rows(), 9), given, held, field);
+  for (Index k = 0; k < this->groups_.count; ++k)
+  {
+    Eigen::Matrix3d blend = Eigen::Matrix3d::Zero();
+    double count = 0.0;
+    for (const int v : this->group_vertices_[k])
+    {
+      if (v >= 0)
+      {
+        const Vec3 x = field.row(v).segment<3>(0), y = field.row(v).segment<3>(3),
+                   z = field.row(v).segment<3>(6);
+        blend.row(0) += x.transpose();
+        blend.row(1) += y.transpose();
+        blend.row(2) += z.transpose();
+        count += 1.0;
+      }
+    }
+    blend = (blend / count + Eigen::Matrix3d::Identity()).eval();
+    Eigen::Matrix3d rotation = common;
+    fit_rotation(blend.transpose(), rotation);
+    for (Index e = 0; e < 9; ++e)
+    {
+      this->rotations_[e * this->stride_ + k] = rotation(e / 3, e % 3);
+    }
+  }
+}
+
+/// Covariances of D, the rotations that fit them best, and what that makes of the energy.
+bool FullArap::local_step(ExecutionContext& context, const Rows& d)
+{
+  const Index count = this->groups_.count, stride = this->stride_;
+  const Index blocks = (count + groups_at_once - 1) / groups_at_once;
+  std::vector<double> turned(blocks, 0.0);
+  const bool done = parallel_for(context, count, groups_at_once,
+    [&](Index begin, Index end)
+    {
+      for (Index k = begin; k < end; ++k)
+      {
+        Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
+        for (Index t = this->of_group_.begin[k]; t < this->of_group_.begin[k + 1]; ++t)
+        {
+          const double* b = this->of_group_.b.data() + 3 * t;
+          const double* moved = d.data() + 3 * Index(this->of_group_.item[t]);
+          s += Eigen::Map<const Vec3>(b) * Eigen::Map<const Vec3>(moved).transpose();
+        }
+        for (Index e = 0; e < 9; ++e)
+        {
+          this->covariance_[e * stride + k] =
+            this->rest_covariance_[e * stride + k] + s(e / 3, e % 3);
+        }
+      }
+      fit_rotations(
+        end - begin, stride, this->covariance_.data() + begin, this->rotations_.data() + begin);
+      double sum = 0.0;
+      for (Index k = begin; k < end; ++k)
+      {
+        for (Index e = 0; e < 9; ++e)
+        {
+          const double turn = this->rotations_[e * stride + k] - (e % 4 == 0 ? 1.0 : 0.0);
+          sum += turn * this->covariance_[(3 * (e % 3) + e / 3) * stride + k];
+        }
+      }
+      turned[begin / groups_at_once] = sum;
+    });
+  this->turned_ = 0.0;
+  for (const double sum : turned)
+  {
+    this->turned_ += sum;
+  }
+  return done;
+}
+
+/// The best D for the rotations.
+bool FullArap::global_step(ExecutionContext& context, Rows& d)
+{
+  const Index count = this->groups_.count, stride = this->stride_;
+  const Index blocks = (count + groups_at_once - 1) / groups_at_once;
+  std::vector<double> turned(blocks, 0.0);
+  bool done = parallel_for(context, count, groups_at_once,
+    [&](Index begin, Index end)
+    {
+      double sum = 0.0;
+      for (Index k = begin; k < end; ++k)
+      {
+        for (Index e = 0; e < 9; ++e)
+        {
+          const double turn = this->rotations_[e * stride + k] - (e % 4 == 0 ? 1.0 : 0.0);
+          this->turn_[9 * k + e] = turn;
+          sum += turn * this->rest_covariance_[(3 * (e % 3) + e / 3) * stride + k];
+        }
+      }
+      turned[begin / groups_at_once] = sum;
+    });
+  this->rest_turned_ = 0.0;
+  for (const double sum : turned)
+  {
+    this->rest_turned_ += sum;
+  }
+  const Index n = this->rest_.rows();
+  this->force_.resize(n, 3);
+  done = done &&
+    parallel_for(context, n, vertices_at_once,
+      [&](Index begin, Index end)
+      {
+        for (Index v = begin; v < end; ++v)
+        {
+          Vec3 sum = Vec3::Zero();
+          for (Index t = this->of_vertex_.begin[v]; t < this->of_vertex_.begin[v + 1]; ++t)
+          {
+            const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> turn(
+              this->turn_.data() + 9 * Index(this->of_vertex_.item[t]));
+            sum += turn * Eigen::Map<const Vec3>(this->of_vertex_.b.data() + 3 * t);
+          }
+          this->force_.row(v) = sum.transpose();
+        }
+      });
+  if (done)
+  {
+    this->system_.solve(this->force_, this->given_, this->held_, d);
+  }
+  return done && !context.cancelled();
+}
+
+/// 1/2 <D, L D>
+double FullArap::quadratic(ExecutionContext& context, const Rows& d) const
+{
+  return 0.5 *
+    parallel_sum(context, d.rows(), vertices_at_once,
+      [&](Index begin, Index end)
+      {
+        double sum = 0.0;
+        for (Index v = begin; v < end; ++v)
+        {
+          Vec3 force = Vec3::Zero();
+          for (SparseMatrix::InnerIterator it(this->stiffness_, v); it; ++it)
+          {
+            force += it.value() * Eigen::Map<const Vec3>(d.data() + 3 * it.row());
+          }
+          sum += force.dot(Eigen::Map<const Vec3>(d.data() + 3 * v));
+        }
+        return sum;
+      });
+}
+
+Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveOptions& options)
+{
+  if (pose.size() != this->handles_.size() || pose.empty())
+  {
+    return Status::invalid_input("the pose has " + std::to_string(pose.size()) +
+      " handles, but there are " + std::to_string(this->handles_.size()));
+  }
+  for (std::size_t h = 0; h < pose.size(); ++h)
+  {
+    if (!pose[h].transform.allFinite())
+    {
+      return Status::invalid_input(
+        "the transform of handle '" + this->handles_[h].name + "' has a number that is not finite");
+    }
+  }
+  bool same_modes = this->modes_.size() == pose.size();
+  for (std::size_t h = 0; h < pose.size() && same_modes; ++h)
+  {
+    same_modes = this->modes_[h] == pose[h].mode;
+  }
+  Status status;
+  if (!same_modes)
+  {
+    Phase phase(context, "factor", 0.0, 0.2);
+    status = this->prepare(pose);
+    if (!status.ok())
+    {
+      this->modes_.clear();
+      return status;
+    }
+  }
+  if (context.cancelled())
+  {
+    return Status::cancelled();
+  }
+  if (!this->redundant_.empty())
+  {
+    status.warnings.push_back("these positions are redundant (others determine them): " +
+      quoted(this->handles_, this->redundant_));
+  }
+
+  Eigen::VectorXd owners = Eigen::VectorXd::Zero(this->given_count_);
+  this->given_ = Rows::Zero(this->given_count_, 3);
+  this->held_ = Rows::Zero(this->held_count_, 3);
+  for (const Hold& hold : this->holds_)
+  {
+    const Vec3 move = this->wanted(hold, pose[hold.handle]);
+    if (hold.given >= 0)
+    {
+      // A running mean: what all owners agree on is met to the bit.
+      owners[hold.given] += 1.0;
+      this->given_.row(hold.given) +=
+        (move.transpose() - this->given_.row(hold.given)) / owners[hold.given];
+    }
+    else if (hold.held >= 0)
+    {
+      this->held_.row(hold.held) = move.transpose();
+    }
+  }
+
+  const Index n = this->rest_.rows();
+  ProgressRange iterating(context, 0.2, 1.0);
+  if (options.start == Start::rest)
+  {
+    for (Index e = 0; e < 9; ++e)
+    {
+      std::fill_n(
+        this->rotations_.begin() + e * this->stride_, this->groups_.count, e % 4 == 0 ? 1.0 : 0.0);
+    }
+  }
+  else if (options.start == Start::guess || !this->warm_)
+  {
+    this->start_rotations(pose);
+  }
+  this->warm_ = false; // until this solve is through
+  const auto energy_after_global = [&](const Rows& g)
+  {
+    double work = 0.0;
+    if (n > 0)
+    {
+      work = dot(context, this->force_, g);
+    }
+    return this->quadratic(context, g) - work - this->rest_turned_;
+  };
+  Rows g, d; // the plain iterate and the one that is tried
+  if (!this->global_step(context, g))
+  {
+    return Status::cancelled();
+  }
+  d = g;
+  this->energies_.assign(1, energy_after_global(g));
+  const double floor = nothing_bends * this->rest_energy_;
+  Anderson anderson(std::clamp<Index>(options.anderson_window, 0, 50), n);
+  Index iterations = 0;
+  bool converged = false, accelerated = false;
+  double change = 0.0;
+  const auto start = std::chrono::steady_clock::now();
+  while (iterations < options.max_iterations && !converged)
+  {
+    const double total = static_cast<double>(options.max_iterations);
+    ProgressRange range(context, static_cast<double>(iterations) / total,
+      static_cast<double>(iterations + 1) / total);
+    const double energy_before = this->energies_.back();
+    bool done = this->local_step(context, d);
+    double energy = this->quadratic(context, d) - this->turned_;
+    if (accelerated && done && !(energy <= energy_before))
+    {
+      d = g;
+      anderson.forget();
+      done = this->local_step(context, d);
+      energy = this->quadratic(context, d) - this->turned_;
+    }
+    this->energies_.push_back(energy);
+    if (!done || !this->global_step(context, g))
+    {
+      return Status::cancelled();
+    }
+    this->energies_.push_back(energy_after_global(g));
+    ++iterations;
+    change = energy_before - this->energies_.back();
+    converged = options.tolerance > 0.0 &&
+      change <= options.tolerance * std::max(this->energies_.back(), floor);
+    accelerated = !converged && iterations < options.max_iterations && anderson.next(context, g, d);
+    if (!accelerated)
+    {
+      d = g;
+    }
+  }
+  const double microseconds =
+    std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+  if (context.cancelled())
+  {
+    return Status::cancelled();
+  }
+  this->warm_ = true;
+
+  double residual = 0.0;
+  std::vector<Index> contradicting;
+  for (const Hold& hold : this->holds_)
+  {
+    Vec3 miss = this->wanted(hold, pose[hold.handle]);
+    for (const auto& [v, share] : hold.point)
+    {
+      miss -= share * g.row(v).transpose();
+    }
+    const double length = miss.norm() / std::max(this->diagonal_, 1e-300);
+    residual = std::max(residual, length);
+    if (length > contradiction && (contradicting.empty() || contradicting.back() != hold.handle))
+    {
+      contradicting.push_back(hold.handle);
+    }
+  }
+  if (!contradicting.empty())
+  {
+    status.warnings.push_back("these handles contradict each other, the worst is missed by " +
+      std::to_string(residual * this->diagonal_) + ": " + quoted(this->handles_, contradicting));
+  }
+  for (Index v = 0; v < n; ++v)
+  {
+    if (this->leader_[v] >= 0)
+    {
+      g.row(v) = g.row(this->leader_[v]);
+    }
+  }
+  this->posed_ = this->rest_ + g;
+
+  status.report.set("energy", std::max(this->energies_.back(), 0.0));
+  status.report.set("iterations", iterations);
+  status.report.set("microseconds_per_iteration",
+    iterations > 0 ? microseconds / static_cast<double>(iterations) : 0.0);
+  status.report.set("counts.constrained", this->given_count_ + this->held_count_);
+  if (!this->holds_.empty())
+  {
+    status.report.set("constraint_residual", residual);
+  }
+  if (options.tolerance > 0.0 && !converged && options.max_iterations > 0)
+  {
+    status.code = StatusCode::not_converged;
+    status.message = "the energy still fell by " + std::to_string(change) + " of " +
+      std::to_string(this->energies_.back()) + " in the last of " + std::to_string(iterations) +
+      " iterations";
+  }
+  return status;
+}
+
+std::vector<Eigen::Matrix3d> FullArap::rotations() const
+{
+  std::vector<Eigen::Matrix3d> result(static_cast<std::size_t>(this->groups_.count));
+  for (Index k = 0; k < this->groups_.count; ++k)
+  {
+    for (Index e = 0; e < 9; ++e)
+    {
+      result[k](e / 3, e % 3) = this->rotations_[e * this->stride_ + k];
+    }
+  }
+  return result;
+}
+
+} // namespace bindpose

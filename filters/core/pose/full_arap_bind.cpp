@@ -1,0 +1,428 @@
+// Bind time of full as-rigid-as-possible: which elements count, the sums that make covariances out
+// of displacements and forces out of rotations, and what of the mesh each handle holds.
+#include "pose/full_arap.h"
+
+#include "weights/simplex_locator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Handles this close to a vertex, in diagonals, hold the vertex.
+constexpr double same_place = 1e-9;
+/// Handles this close to the mesh, in diagonals, lie on it.
+constexpr double on_mesh = 1e-6;
+/// A point with this share of a vertex is the vertex.
+constexpr double whole = 1.0 - 1e-9;
+/// An element whose cotangents exceed this is flat: its energy would be round-off.
+constexpr double steepest = 1e7;
+/// Places along a bone that has no vertices, at most.
+constexpr double most_places = 16.0;
+
+/// What a cotangent weight of the element is compared with: those of tets are lengths.
+double weight_unit(PointsView, const TrianglesView&, Index)
+{
+  return 1.0;
+}
+double weight_unit(PointsView points, const TetsView& tets, Index e)
+{
+  double square = 0.0;
+  for (const auto& edge : tet_edges)
+  {
+    square =
+      std::max(square, (points.row(tets(e, edge[0])) - points.row(tets(e, edge[1]))).squaredNorm());
+  }
+  return std::sqrt(square);
+}
+
+Triangles owned(const TrianglesView& triangles)
+{
+  return triangles;
+}
+Tets owned(const TetsView& tets)
+{
+  return tets;
+}
+
+const char* element_word(const TetsView&)
+{
+  return "tet";
+}
+const char* element_word(const TrianglesView&)
+{
+  return "triangle";
+}
+
+MeshPoint vertex_point(Index v)
+{
+  return { { v, 1.0 } };
+}
+
+/// Vertices in elements that do not count follow a neighbour that does.
+template <typename Elements>
+std::vector<Index> leaders(const Elements& elements, const std::vector<Index>& part_of_vertex)
+{
+  std::vector<Index> leader(part_of_vertex.size(), -1);
+  for (bool again = true; again;)
+  {
+    again = false;
+    for (Index e = 0; e < elements.rows(); ++e)
+    {
+      Index guide = -1;
+      for (Index k = 0; k < elements.cols() && guide < 0; ++k)
+      {
+        const Index v = elements(e, k);
+        guide = part_of_vertex[v] >= 0 ? v : leader[v];
+      }
+      for (Index k = 0; k < elements.cols() && guide >= 0; ++k)
+      {
+        const Index v = elements(e, k);
+        if (part_of_vertex[v] < 0 && leader[v] < 0)
+        {
+          leader[v] = guide;
+          again = true;
+        }
+      }
+    }
+  }
+  return leader;
+}
+} // namespace
+
+void FullArap::take_covariance(const SparseMatrix& covariance)
+{
+  const Index groups = this->groups_.count, n = this->rest_.rows();
+  this->of_vertex_ = this->of_group_ = Terms();
+  this->of_vertex_.begin.assign(static_cast<std::size_t>(n) + 1, 0);
+  this->of_group_.begin.assign(static_cast<std::size_t>(groups) + 1, 0);
+  const auto terms = static_cast<std::size_t>(covariance.nonZeros() / 3);
+  for (Terms* t : { &this->of_vertex_, &this->of_group_ })
+  {
+    t->item.resize(terms);
+    t->b.resize(3 * terms);
+  }
+  // A column has the first coordinates of its groups, then the second, then the third.
+  Index at = 0;
+  for (Index v = 0; v < n; ++v)
+  {
+    const Index first = covariance.outerIndexPtr()[v];
+    const Index count = (covariance.outerIndexPtr()[v + 1] - first) / 3;
+    for (Index t = 0; t < count; ++t, ++at)
+    {
+      this->of_vertex_.item[at] = covariance.innerIndexPtr()[first + t];
+      for (Index i = 0; i < 3; ++i)
+      {
+        this->of_vertex_.b[3 * at + i] = covariance.valuePtr()[first + i * count + t];
+      }
+      this->of_group_.begin[this->of_vertex_.item[at] + 1] += 1;
+    }
+    this->of_vertex_.begin[v + 1] = at;
+  }
+  std::vector<Index>& begin = this->of_group_.begin;
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Index> next(begin.begin(), begin.end() - 1);
+  this->stride_ = (groups + 7) / 8 * 8;
+  this->rest_covariance_.assign(static_cast<std::size_t>(9 * this->stride_), 0.0);
+  const Vec3 middle = bounding_box(this->rest_).center();
+  for (Index v = 0; v < n; ++v)
+  {
+    const Vec3 p = this->rest_.row(v).transpose() - middle;
+    for (Index t = this->of_vertex_.begin[v]; t < this->of_vertex_.begin[v + 1]; ++t)
+    {
+      const Index k = this->of_vertex_.item[t];
+      const Index to = next[k]++;
+      this->of_group_.item[to] = static_cast<int>(v);
+      for (Index i = 0; i < 3; ++i)
+      {
+        const double b = this->of_vertex_.b[3 * t + i];
+        this->of_group_.b[3 * to + i] = b;
+        for (Index j = 0; j < 3; ++j)
+        {
+          this->rest_covariance_[(3 * i + j) * this->stride_ + k] += b * p[j];
+        }
+      }
+    }
+  }
+}
+
+template <typename Elements>
+Status FullArap::find_grips(
+  const Elements& elements, const std::vector<Index>& region_ids, Status& status)
+{
+  const SimplexLocator locator(this->rest_, elements);
+  double edge = 0.0;
+  for (Index e = 0; e < elements.rows(); ++e)
+  {
+    edge += (this->rest_.row(elements(e, 0)) - this->rest_.row(elements(e, 1))).norm();
+  }
+  edge /= static_cast<double>(elements.rows());
+
+  double farthest = 0.0;
+  std::string beside;
+  const auto point_at = [&](const Vec3& p, double& distance) -> MeshPoint
+  {
+    Index nearest = -1;
+    double least = same_place * this->diagonal_;
+    for (Index v = 0; v < this->rest_.rows(); ++v)
+    {
+      const double length = (this->rest_.row(v) - p.transpose()).norm();
+      if (length <= least && this->parts_.of_vertex[v] >= 0)
+      {
+        least = length;
+        nearest = v;
+      }
+    }
+    if (nearest >= 0)
+    {
+      return vertex_point(nearest);
+    }
+    const SimplexLocation found = locator.locate(p);
+    distance = std::max(distance, found.distance);
+    MeshPoint point;
+    double sum = 0.0;
+    for (Index k = 0; k < elements.cols(); ++k)
+    {
+      const double share = found.barycentric[k];
+      if (share >= whole)
+      {
+        return vertex_point(elements(found.element, k));
+      }
+      if (share > 1.0 - whole)
+      {
+        point.emplace_back(elements(found.element, k), share);
+        sum += share;
+      }
+    }
+    for (auto& term : point)
+    {
+      term.second /= sum;
+    }
+    return point;
+  };
+
+  for (const Handle& handle : this->handles_)
+  {
+    Grip grip;
+    double distance = 0.0;
+    if (handle.kind == HandleKind::region)
+    {
+      if (handle.region_id <= 0)
+      {
+        return Status::invalid_input(
+          "region '" + handle.name + "' has no label (its RegionId must be positive)");
+      }
+      if (region_ids.empty())
+      {
+        return Status::invalid_input("region '" + handle.name +
+          "' needs a point array of labels on the mesh, but there is none");
+      }
+      for (Index v = 0; v < this->rest_.rows(); ++v)
+      {
+        if (region_ids[v] == handle.region_id && this->parts_.of_vertex[v] >= 0)
+        {
+          grip.points.push_back(vertex_point(v));
+        }
+      }
+      if (grip.points.empty())
+      {
+        return Status::invalid_input("region '" + handle.name +
+          "': no vertex of the mesh has the label " + std::to_string(handle.region_id));
+      }
+      for (const MeshPoint& point : grip.points)
+      {
+        grip.pivot.emplace_back(point[0].first, 1.0 / static_cast<double>(grip.points.size()));
+      }
+    }
+    else
+    {
+      grip.pivot = point_at(handle.head, distance);
+      if (handle.kind == HandleKind::bone)
+      {
+        for (Index v = 0; v < this->rest_.rows(); ++v)
+        {
+          if (this->parts_.of_vertex[v] >= 0 &&
+            nearest_in_triangle(this->rest_.row(v), handle.head, handle.tail, handle.tail)
+                .distance <= same_place * this->diagonal_)
+          {
+            grip.points.push_back(vertex_point(v));
+          }
+        }
+        const double length = (handle.tail - handle.head).norm();
+        const double places = std::clamp(std::ceil(length / edge), 1.0, most_places);
+        const bool along = grip.points.size() < 2;
+        for (double k = 0.0; along && k <= places; k += 1.0)
+        {
+          grip.points.push_back(
+            point_at(handle.head + k / places * (handle.tail - handle.head), distance));
+        }
+      }
+      else
+      {
+        grip.points.push_back(grip.pivot);
+      }
+    }
+    if (distance > on_mesh * this->diagonal_)
+    {
+      farthest = std::max(farthest, distance);
+      beside += (beside.empty() ? "'" : ", '") + handle.name + "'";
+    }
+    this->grips_.push_back(std::move(grip));
+  }
+  if (!beside.empty())
+  {
+    status.warnings.push_back("these handles lie beside the mesh, by up to " +
+      std::to_string(farthest) + "; they hold the mesh's nearest points: " + beside);
+  }
+  return {};
+}
+
+template <typename Elements>
+Status FullArap::bind_any(ExecutionContext& context, PointsView points, const Elements& elements,
+  const Handles& handles, const FullArapOptions& options)
+{
+  *this = FullArap();
+  Status status = check_mesh(points, elements);
+  if (status.ok() && !points.allFinite())
+  {
+    status = Status::invalid_input("the mesh has an unused point that is not finite");
+  }
+  if (status.ok() && elements.rows() == 0)
+  {
+    status = Status::invalid_input("there is nothing to bend: the mesh has no elements");
+  }
+  if (status.ok())
+  {
+    status = check_handles(handles);
+  }
+  if (status.ok() && !options.region_ids.empty() &&
+    static_cast<Index>(options.region_ids.size()) != points.rows())
+  {
+    status = Status::invalid_input("there are " + std::to_string(options.region_ids.size()) +
+      " region labels, but " + std::to_string(points.rows()) + " vertices");
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  constexpr bool tets = Elements::ColsAtCompileTime == 4;
+  this->handles_ = handles;
+  this->rest_ = points;
+
+  // Elements that count, in their order.
+  auto kept = owned(elements);
+  Index count = 0;
+  {
+    Phase phase(context, "elements", 0.0, 0.3);
+    const auto c = cotangent_weights(points, elements);
+    for (Index e = 0; e < elements.rows(); ++e)
+    {
+      const double largest = c.row(e).cwiseAbs().maxCoeff();
+      if (largest > 0.0 && largest <= steepest * weight_unit(points, elements, e))
+      {
+        kept.row(count++) = elements.row(e);
+      }
+    }
+    if (count == 0)
+    {
+      return Status::invalid_input(std::string("there is nothing to bend: no ") +
+        element_word(elements) + (tets ? " has a volume" : " has an area"));
+    }
+    if (count < elements.rows())
+    {
+      const Index flat = elements.rows() - count;
+      status.warnings.push_back(std::to_string(flat) + " of " + std::to_string(elements.rows()) +
+        " " + element_word(elements) + "s are too flat to have an energy");
+      kept.conservativeResize(count, Eigen::NoChange);
+    }
+    this->parts_ = connected_components(points.rows(), kept);
+    this->leader_ = count < elements.rows()
+      ? leaders(elements, this->parts_.of_vertex)
+      : std::vector<Index>(static_cast<std::size_t>(points.rows()), -1);
+  }
+  const Elements view = kept;
+  Box box;
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    if (this->parts_.of_vertex[v] >= 0)
+    {
+      box.add(points.row(v).transpose());
+    }
+  }
+  this->diagonal_ = box.diagonal();
+  const Eigen::RowVector3d middle = points.colwise().mean();
+  this->radius_ = std::sqrt((points.rowwise() - middle).rowwise().squaredNorm().mean());
+  if (context.cancelled())
+  {
+    return Status::cancelled();
+  }
+  {
+    Phase phase(context, "grips", 0.3, 0.6);
+    Status gripped = this->find_grips(view, options.region_ids, status);
+    if (!gripped.ok())
+    {
+      return gripped;
+    }
+  }
+  Phase phase(context, "energy", 0.6, 1.0);
+  const ArapEnergy energy = resolved(options.energy, tets);
+  this->groups_.energy = energy;
+  this->groups_.count = energy == ArapEnergy::elements ? count : points.rows();
+  std::vector<Index>& label =
+    energy == ArapEnergy::elements ? this->groups_.of_element : this->groups_.of_vertex;
+  label.resize(static_cast<std::size_t>(this->groups_.count));
+  std::iota(label.begin(), label.end(), Index(0));
+  this->group_vertices_.assign(static_cast<std::size_t>(this->groups_.count), { -1, -1, -1, -1 });
+  for (Index k = 0; k < this->groups_.count; ++k)
+  {
+    this->group_vertices_[k][0] = static_cast<int>(k);
+    for (Index corner = 0; energy == ArapEnergy::elements && corner < view.cols(); ++corner)
+    {
+      this->group_vertices_[k][corner] = static_cast<int>(view(k, corner));
+    }
+  }
+  Index left_out = 0;
+  this->stiffness_ = arap_stiffness(points, view, energy, &left_out);
+  if (left_out > 0)
+  {
+    status.warnings.push_back(left_out_warning(left_out));
+  }
+  if (context.cancelled())
+  {
+    return Status::cancelled();
+  }
+  this->take_covariance(covariance_matrix(points, view, this->groups_));
+  const Points centered = points.rowwise() - bounding_box(points).center().transpose();
+  this->rest_energy_ = 0.5 * (centered.array() * (this->stiffness_ * centered).array()).sum();
+  this->covariance_ = this->rotations_ = this->rest_covariance_;
+  this->turn_.assign(static_cast<std::size_t>(9 * this->groups_.count), 0.0);
+  this->posed_ = points;
+  if (context.cancelled())
+  {
+    return Status::cancelled();
+  }
+  status.report.set("counts.vertices", points.rows());
+  status.report.set(tets ? "counts.tets" : "counts.triangles", elements.rows());
+  status.report.set("counts.handles", handles.size());
+  status.report.set("counts.rotations", this->groups_.count);
+  status.report.set("method", to_string(energy, tets));
+  return status;
+}
+
+Status FullArap::bind(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const Handles& handles, const FullArapOptions& options)
+{
+  return this->bind_any(context, points, triangles, handles, options);
+}
+
+Status FullArap::bind(ExecutionContext& context, PointsView points, TetsView tets,
+  const Handles& handles, const FullArapOptions& options)
+{
+  return this->bind_any(context, points, tets, handles, options);
+}
+
+} // namespace bindpose

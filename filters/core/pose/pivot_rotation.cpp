@@ -1,0 +1,39 @@
+#include "pose/pivot_rotation.h"
+
+#include "pose/rotation_fit.h"
+
+#include <algorithm>
+
+namespace bindpose
+{
+
+Eigen::Matrix3d pivot_rotation(const Handles& handles, const Pose& pose, double reach)
+{
+  Vec3 rest_mean = Vec3::Zero(), posed_mean = Vec3::Zero();
+  std::vector<std::pair<Vec3, Vec3>> pivots;
+  Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
+  for (std::size_t h = 0; h < pose.size(); ++h)
+  {
+    if (pose[h].mode != HandleMode::free)
+    {
+      const Vec3 pivot = handles[h].head;
+      pivots.emplace_back(pivot, pose[h].transform * pivot.homogeneous());
+      rest_mean += pivots.back().first;
+      posed_mean += pivots.back().second;
+    }
+    if (pose[h].mode == HandleMode::full)
+    {
+      s += reach * reach * pose[h].transform.leftCols<3>().transpose();
+    }
+  }
+  const double count = std::max<double>(1.0, static_cast<double>(pivots.size()));
+  for (const auto& [rest, posed] : pivots)
+  {
+    s += (rest - rest_mean / count) * (posed - posed_mean / count).transpose();
+  }
+  Eigen::Matrix3d common = Eigen::Matrix3d::Identity();
+  fit_rotation(s, common);
+  return common;
+}
+
+} // namespace bindpose

@@ -1,0 +1,95 @@
+// Glue around the kernel bindpose::FullArap: the bind keeps what does not depend on the pose, the
+// kernel itself keeps the factorisation for as long as no mode changes.
+#include "vtkFullARAP.h"
+
+#include "arap_input.h"
+#include "pose/full_arap.h"
+#include "pose_input.h"
+#include "weights_input.h"
+
+#include "vtkObjectFactory.h"
+#include "vtkPointSet.h"
+
+#include <algorithm>
+
+using namespace bindpose;
+
+vtkStandardNewMacro(vtkFullARAP);
+
+struct vtkFullARAP::Internals
+{
+  FullArap arap;
+};
+
+vtkFullARAP::vtkFullARAP() : Internal(new Internals) {}
+
+vtkFullARAP::~vtkFullARAP() = default;
+
+void vtkFullARAP::SetEnergy(int energy)
+{
+  energy = std::clamp<int>(energy, AUTO, SPOKES);
+  if (this->Energy != energy)
+  {
+    this->Energy = energy;
+    this->BindModified();
+  }
+}
+
+void vtkFullARAP::SetRegionArrayName(const std::string& name)
+{
+  if (this->RegionArrayName != name)
+  {
+    this->RegionArrayName = name;
+    this->BindModified();
+  }
+}
+
+std::vector<std::string> vtkFullARAP::BindArrays()
+{
+  return { this->RegionArrayName };
+}
+
+Status vtkFullARAP::Bind(const PoseInput& input, ExecutionContext& context)
+{
+  FullArapOptions options;
+  ArapElements elements;
+  Status status = to_arap(input.mesh, this->Energy, elements, options.energy);
+  const bool regions = std::any_of(input.handles.begin(), input.handles.end(),
+    [](const Handle& handle) { return handle.kind == HandleKind::region; });
+  if (status.ok() && regions)
+  {
+    status = to_region_ids(input.mesh, this->RegionArrayName, options.region_ids);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  FullArap& arap = this->Internal->arap;
+  return elements.volume
+    ? arap.bind(context, input.points, elements.tets.tets.view(), input.handles, options)
+    : arap.bind(context, input.points, elements.surface.triangles.view(), input.handles, options);
+}
+
+Status vtkFullARAP::Deform(const PoseInput& input, ExecutionContext& context, PosedPoints& posed)
+{
+  Phase phase(context, "solve", 0.8, 1.0);
+  FullArap::SolveOptions options;
+  options.tolerance = this->Tolerance;
+  options.max_iterations = this->MaximumIterations;
+  options.start = this->WarmStart ? FullArap::Start::last : FullArap::Start::guess;
+  options.anderson_window = this->AndersonWindow;
+  const Status status = this->Internal->arap.solve(context, input.pose, options);
+  posed.points = this->Internal->arap.posed();
+  return status;
+}
+
+void vtkFullARAP::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Energy: " << arap_energy_name(this->Energy) << "\n";
+  os << indent << "RegionArrayName: " << this->RegionArrayName << "\n";
+  os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "AndersonWindow: " << this->AndersonWindow << "\n";
+  os << indent << "WarmStart: " << (this->WarmStart ? "on" : "off") << "\n";
+}

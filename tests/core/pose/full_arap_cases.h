@@ -1,0 +1,69 @@
+#ifndef bindpose_tests_core_pose_full_arap_cases_h
+#define bindpose_tests_core_pose_full_arap_cases_h
+
+// Meshes and handles that the tests of full ARAP share.
+
+#include "pose/full_arap.h"
+#include "support/meshes.h"
+
+namespace bindpose::test
+{
+
+constexpr ArapEnergy every_energy[] = { ArapEnergy::elements, ArapEnergy::spokes_and_rims,
+  ArapEnergy::spokes };
+
+inline Handle point(const std::string& name, const Vec3& at)
+{
+  Handle handle;
+  handle.name = name;
+  handle.head = handle.tail = at;
+  return handle;
+}
+
+inline Handle region(const std::string& name, Index label, const Vec3& middle)
+{
+  Handle handle = point(name, middle);
+  handle.kind = HandleKind::region;
+  handle.region_id = label;
+  return handle;
+}
+
+struct Held
+{
+  TetMesh mesh;
+  Handles handles;
+  std::vector<Index> labels; ///< #V
+};
+
+/// [0, 4] x [0, 1] x [0, 1]; regions 1, 2, 3 are the whole cross sections at x = 0, 2 and 4.
+inline Held held_bar(int cells)
+{
+  Held bar;
+  const int across = std::max(2, cells / 4);
+  bar.mesh = tet_box(cells, across, across, Vec3::Zero(), Vec3(4, 1, 1));
+  const char* const names[] = { "left", "middle", "right" };
+  bar.labels.assign(static_cast<std::size_t>(bar.mesh.points.rows()), 0);
+  for (Index r = 0; r < 3; ++r)
+  {
+    const double x = 2.0 * static_cast<double>(r);
+    bar.handles.push_back(region(names[r], r + 1, Vec3(x, 0.5, 0.5)));
+    for (Index v = 0; v < bar.mesh.points.rows(); ++v)
+    {
+      if (std::abs(bar.mesh.points(v, 0) - x) < 1e-9)
+      {
+        bar.labels[static_cast<std::size_t>(v)] = r + 1;
+      }
+    }
+  }
+  return bar;
+}
+
+/// So many iterations without acceleration.
+constexpr FullArap::SolveOptions plain(Index count, FullArap::Start start)
+{
+  return { 0.0, count, start, 0 };
+}
+
+} // namespace bindpose::test
+
+#endif

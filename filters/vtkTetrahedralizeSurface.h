@@ -69,8 +69,9 @@
  * Errors: invalid_input for a surface without 2D cells, with ids out of range or coordinates that
  * are not finite, for a flat one and one that encloses nothing (but of EMBED and WRAP), and for one
  * that neither CDT nor REMESH can fill (the text names EMBED, which takes any); unavailable for CDT
- * and WRAP without the helper and for FTETWILD without fTetWild; internal_error when the method
- * asked for gave no valid mesh. Cost: 5k triangles 0.3 s, 90k triangles 4 s when clean.
+ * and WRAP without the helper, for FTETWILD without fTetWild, and for REMESH where all that is
+ * enclosed is too thin for its tets; internal_error when the method asked for gave no valid mesh.
+ * Cost: 5k triangles 0.3 s, 90k triangles 4 s when clean.
  *
  * @par Thanks:
  * Jacobson, Kavan, Sorkine-Hornung, "Robust Inside-Outside Segmentation using Generalized Winding

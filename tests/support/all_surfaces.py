@@ -4,7 +4,8 @@
 Prints a table and summary lines for each method asked for, as markdown too when wanted, and fails where
 a promise is broken: the program crashes or hangs, takes more than 120 s for up to 100,000 triangles, writes
 tets that are flat, turned over, there twice or not closed, misses the volume without the warning that says so,
-refuses a surface that encloses something, or does not hold a point of the surface (embed).
+refuses a surface that encloses something, or does not hold a point of the surface (embed). remesh alone may say that
+what is enclosed is too thin for its tets.
 
 The tets are read back and checked here, by code of its own; that a refused surface encloses nothing is
 asked of `bindpose winding` at four million points.
@@ -64,6 +65,11 @@ class Row:
     @property
     def answered(self):
         return self.code == 0
+
+    @property
+    def too_thin(self):
+        """A refusal of one method that says that another can."""
+        return self.code == 2 and "too thin" in self.sentence
 
     @property
     def rung(self):
@@ -288,7 +294,7 @@ def broken_refusal(program, row, method, folder):
         broken.append(f"exit {row.code}: {row.sentence}")
     elif method == "embed":
         broken.append("no embedding")
-    elif method == "auto" or row.code == 2:
+    elif method == "auto" or (row.code == 2 and not (method == "remesh" and row.too_thin)):
         share = enclosed_share(program, row.surface.path, folder)
         if share > SPECK:
             broken.append(f"refused, but {share:.2g} of its box is enclosed: {row.sentence}")
@@ -305,7 +311,8 @@ def share_text(count, total, goal=None):
 
 def summary(method, rows, surfaces):
     answered = [row for row in rows if row.answered]
-    refused = [row for row in rows if row.code == 2]
+    thin = [row for row in rows if method == "remesh" and row.too_thin]
+    refused = [row for row in rows if row.code == 2 and row not in thin]
     worth = [row for row in rows if row not in refused]  # others are known to enclose something
     slowest = max(rows, key=lambda row: row.seconds)
     angles = [row.report["min_dihedral_angle"] for row in answered]
@@ -322,6 +329,8 @@ def summary(method, rows, surfaces):
     else:
         total = rows if method == "embed" else worth
         lines.append(f"answered: {share_text(len(answered), len(total), '100 %' if method == 'embed' else None)}")
+    if method == "remesh":
+        lines.append(f"refused as too thin: {len(thin)}" + "".join(f", {row.surface.name}" for row in thin))
     if method != "embed":
         lines.append("refused because nothing is enclosed: " + (", ".join(row.surface.name for row in refused) or "none"))
         warned = [row.surface.name for row in answered if not abs(row.volume_error) <= 10]

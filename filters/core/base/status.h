@@ -18,7 +18,7 @@ enum class StatusCode
   not_converged, ///< a result is there, its residuals are in the report and above the tolerance
   invalid_input, ///< the caller's data cannot be used; the message names the first offender
   cancelled,
-  unavailable, ///< an optional part is missing; the message names what to install
+  unavailable, ///< a part is missing, or the method cannot; the message names what to do
   internal_error
 };
 

@@ -133,6 +133,16 @@ Status EnclosedRegion::encloses_nothing() const
     short_number(this->threshold_));
 }
 
+Status EnclosedRegion::no_tets() const
+{
+  const double share = this->volume_ / this->box_.size().prod();
+  constexpr double speck = 1e-6;
+  return share > speck ? Status::failure(StatusCode::unavailable,
+                           "the surface encloses about " + short_number(100.0 * share, 3) +
+                             " % of its box, but that is too thin for tets of this size")
+                       : this->encloses_nothing();
+}
+
 bool EnclosedRegion::fits(double volume) const
 {
   const double slack = this->volume_error_;

@@ -34,6 +34,9 @@ public:
   bool labels_are_exact() const { return this->closed_; }
   /// The error of a surface that winds nowhere often enough, with the largest number met so far.
   Status encloses_nothing() const;
+  /// The same of a method whose tets of some size found nothing inside; unavailable where the
+  /// surface does enclose something, too thin for them.
+  Status no_tets() const;
 
   /// Winding number of each tet: of its region's largest tet when the surface is closed, else at
   /// its centre or, for large tets near the threshold, the mean of four points; 0 for a tet whose

@@ -180,9 +180,10 @@ Status remesh_tets(PointsView points, TrianglesView triangles, const WindingNumb
   }
   if (answer.data.tets.rows() == 0)
   {
-    return Status::invalid_input("the surface encloses nothing: its winding number is below the "
-                                 "threshold of " +
-      short_number(options.winding_threshold) + " on both sides of every triangle, or above it");
+    return Status::invalid_input(
+      "the surface encloses nothing: a millionth of its diagonal away from every triangle, its "
+      "winding number is below the threshold of " +
+      short_number(options.winding_threshold) + " on both sides, or above it");
   }
   const Ids ids = ids_of(points, triangles);
   if (!improve(ids, region, answer, context))

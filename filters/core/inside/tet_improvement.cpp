@@ -4,8 +4,10 @@
 //    triangulation of the ring of their other vertices, the best one by dynamic programming. An
 //    edge of the boundary that is nearly flat can go as well; with a single tet that removes it.
 // 2. removing one of its facets: two tets become three around a new edge;
-// 3. moving one of its vertices: a search in a few directions with shrinking steps.
-// In the last passes held vertices of tets that are still too flat may move.
+// 3. moving one of its vertices: a search in a few directions with shrinking steps;
+// 4. contracting one of its edges into one of its ends, when no vertex could be moved.
+// In the last passes held vertices of tets that are still too flat may move. What is left of them
+// goes when it is a tet by itself.
 #include "inside/tet_improvement.h"
 
 #include "base/tet_facets.h"
@@ -14,6 +16,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace bindpose
 {
@@ -86,6 +89,10 @@ public:
         release = true;
       }
       release = release || pass + 4 >= this->options_.passes;
+    }
+    if (whole && !this->options_.keep_boundary)
+    {
+      this->drop_lone_tets();
     }
     this->finish();
     return whole;
@@ -259,6 +266,10 @@ private:
     {
       any = this->move(v) || any;
     }
+    for (int k = 0; k < 16 && !any; ++k)
+    {
+      any = k / 4 != k % 4 && this->contract(t, tet[k / 4], tet[k % 4]);
+    }
     return any;
   }
 
@@ -344,8 +355,7 @@ private:
     const Vec3 other = (this->point(last) - p).cross(q - p);
     const Vec3 new_one = (p - this->point(first)).cross(this->point(last) - this->point(first));
     const Vec3 new_other = (this->point(last) - this->point(first)).cross(q - this->point(first));
-    const auto flat = [](const Vec3& x, const Vec3& y)
-    { return x.dot(y) > flat_cosine * x.norm() * y.norm(); };
+    const auto flat = [](const Vec3& x, const Vec3& y) { return turned_less(x, y, flat_cosine); };
     if (!flat(one, other) || !flat(new_one, new_other) || !flat(one, new_one))
     {
       return false;
@@ -358,16 +368,22 @@ private:
     return this->tets_with(first, last).empty();
   }
 
-  bool remove_facet(Index t, Index a, Index b, Index c)
+  /// The tet on the other side of a facet, -1 on the boundary.
+  Index beyond(Index t, Index a, Index b, Index c) const
   {
-    Index other = -1;
     for (const Index s : this->at_[a])
     {
       if (s != t && has(this->tets_[s], b) && has(this->tets_[s], c))
       {
-        other = s;
+        return s;
       }
     }
+    return -1;
+  }
+
+  bool remove_facet(Index t, Index a, Index b, Index c)
+  {
+    const Index other = this->beyond(t, a, b, c);
     if (other < 0)
     {
       return false;
@@ -461,7 +477,7 @@ private:
     }
     patch.normal.normalize();
     patch.smooth = std::all_of(normals.begin(), normals.end(),
-      [&](const Vec3& n) { return n.dot(patch.normal) > crease_cosine * n.norm(); });
+      [&](const Vec3& n) { return turned_less(n, patch.normal, crease_cosine); });
     return patch;
   }
 
@@ -554,6 +570,182 @@ private:
       }
     }
     return least;
+  }
+
+  // ---- Contraction -----------------------------------------------------------------------------
+
+  /// Vertex a becomes b; the tets at both, t among them, are gone. The others at a become better
+  /// than t, or no worse than they were.
+  bool contract(Index t, Index a, Index b)
+  {
+    if (this->held_[a] || (this->boundary_[a] && this->options_.keep_boundary))
+    {
+      return false;
+    }
+    const std::vector<Index> old = this->at_[a];
+    std::vector<Tet> fresh;
+    for (const Index other : old)
+    {
+      if (has(this->tets_[other], b))
+      {
+        continue;
+      }
+      fresh.push_back(this->tets_[other]);
+      std::replace(fresh.back().begin(), fresh.back().end(), a, b);
+      const double value = this->quality(fresh.back());
+      if (!(value > 0.0) || value < std::min(this->quality_[other], this->quality_[t] + better))
+      {
+        return false;
+      }
+    }
+    const std::vector<std::array<Index, 3>> skin =
+      this->boundary_[a] ? this->skin_at(a) : std::vector<std::array<Index, 3>>();
+    if (fresh.empty() || !this->keeps_shape(skin, a, b) || !this->keeps_topology(skin, a, b))
+    {
+      return false;
+    }
+    for (const Index other : old)
+    {
+      this->remove(other);
+    }
+    for (const Tet& tet : fresh)
+    {
+      this->add(tet);
+    }
+    ++this->done_.collapsed_edges;
+    return true;
+  }
+
+  /// No boundary triangle at a turns by more than what is flat when a becomes b; a vertex of a
+  /// crease goes along the crease, and where creases meet or end none goes. skin: the boundary
+  /// triangles at a.
+  bool keeps_shape(const std::vector<std::array<Index, 3>>& skin, Index a, Index b) const
+  {
+    std::vector<std::pair<Index, Vec3>> sides; // (other end of an edge at a, normal beside it)
+    for (const auto& f : skin)
+    {
+      std::array<Vec3, 3> p{ this->point(f[0]), this->point(f[1]), this->point(f[2]) };
+      const Vec3 n = (p[1] - p[0]).cross(p[2] - p[0]);
+      for (const Index v : f)
+      {
+        if (v != a)
+        {
+          sides.emplace_back(v, n);
+        }
+      }
+      if (std::find(f.begin(), f.end(), b) == f.end())
+      {
+        p[std::find(f.begin(), f.end(), a) - f.begin()] = this->point(b);
+        if (!turned_less(n, (p[1] - p[0]).cross(p[2] - p[0]), flat_cosine))
+        {
+          return false;
+        }
+      }
+    }
+    int creases = 0;
+    bool along = false;
+    for (std::size_t i = 0; i < sides.size(); ++i)
+    {
+      for (std::size_t j = 0; j < i; ++j)
+      {
+        if (sides[i].first == sides[j].first &&
+          !turned_less(sides[i].second, sides[j].second, crease_cosine))
+        {
+          ++creases;
+          along = along || sides[i].first == b;
+        }
+      }
+    }
+    return creases == 0 || (creases == 2 && along);
+  }
+
+  static bool turned_less(const Vec3& one, const Vec3& other, double cosine)
+  {
+    return one.dot(other) > cosine * one.norm() * other.norm();
+  }
+
+  /// The link condition: what is around a and around b is around the edge a-b, too. The outside
+  /// counts as one more vertex that the boundary's triangles make tets with.
+  bool keeps_topology(const std::vector<std::array<Index, 3>>& skin, Index a, Index b) const
+  {
+    const Link link_a = this->link_of(a, skin);
+    const Link link_b =
+      this->link_of(b, this->boundary_[b] ? this->skin_at(b) : std::vector<std::array<Index, 3>>());
+    // Around the edge is a cycle (or more than one, where the boundary touches itself).
+    const auto cycle = static_cast<std::ptrdiff_t>(this->tets_with(a, b).size()) +
+      std::count_if(skin.begin(), skin.end(),
+        [&](const auto& f) { return std::find(f.begin(), f.end(), b) != f.end(); });
+    return shared(link_a.vertices, link_b.vertices) == cycle &&
+      shared(link_a.edges, link_b.edges) == cycle &&
+      shared(link_a.triangles, link_b.triangles) == 0;
+  }
+
+  /// Sorted, and so are the vertices of each.
+  struct Link
+  {
+    std::vector<Index> vertices;
+    std::vector<std::array<Index, 2>> edges;
+    std::vector<std::array<Index, 3>> triangles;
+  };
+
+  Link link_of(Index v, const std::vector<std::array<Index, 3>>& skin) const
+  {
+    constexpr Index outside = -1;
+    Link link;
+    for (const Index t : this->at_[v])
+    {
+      Tet tet = this->tets_[t];
+      std::swap(*std::find(tet.begin(), tet.end(), v), tet[3]);
+      link.triangles.push_back({ tet[0], tet[1], tet[2] });
+    }
+    for (auto f : skin)
+    {
+      *std::find(f.begin(), f.end(), v) = outside;
+      link.triangles.push_back(f);
+    }
+    for (auto& f : link.triangles)
+    {
+      std::sort(f.begin(), f.end());
+      link.edges.insert(link.edges.end(), { { f[0], f[1] }, { f[0], f[2] }, { f[1], f[2] } });
+      link.vertices.insert(link.vertices.end(), f.begin(), f.end());
+    }
+    make_set(link.vertices);
+    make_set(link.edges);
+    make_set(link.triangles);
+    return link;
+  }
+
+  template <typename T>
+  static void make_set(std::vector<T>& list)
+  {
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+  }
+
+  template <typename T>
+  static std::ptrdiff_t shared(const std::vector<T>& one, const std::vector<T>& other)
+  {
+    return std::count_if(one.begin(), one.end(),
+      [&](const T& x) { return std::binary_search(other.begin(), other.end(), x); });
+  }
+
+  /// Removes tets that share no facet with another and stayed too flat.
+  void drop_lone_tets()
+  {
+    const std::vector<Index> flat = this->flat_tets(this->options_.least_angle);
+    for (const Index t : flat)
+    {
+      const Tet& tet = this->tets_[t];
+      const bool held =
+        std::any_of(tet.begin(), tet.end(), [&](Index v) { return this->held_[v]; });
+      const bool alone = std::all_of(std::begin(facet_corners), std::end(facet_corners),
+        [&](const auto& f) { return this->beyond(t, tet[f[0]], tet[f[1]], tet[f[2]]) < 0; });
+      if (!held && alone)
+      {
+        this->remove(t);
+        ++this->done_.removed_tets;
+      }
+    }
   }
 
   static constexpr int directions_count = 14;

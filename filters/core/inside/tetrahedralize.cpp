@@ -156,7 +156,13 @@ private:
     }
     if (this->options_.method == TetMethod::remesh)
     {
-      const Status status = this->remesh(false);
+      Status status = this->remesh(false);
+      if (status.code == StatusCode::unavailable)
+      {
+        status.message +=
+          "; method cdt (--method cdt) needs no thickness, and a resolution above " +
+          std::to_string(this->remesh_resolution()) + " (--resolution) makes smaller tets";
+      }
       return status.ok() ? status : this->take_lattice(status);
     }
     const bool automatic = this->options_.method == TetMethod::automatic;
@@ -289,7 +295,7 @@ private:
       const double volume = tet_volumes(mesh.points, mesh.tets).sum();
       if (mesh.tets.rows() == 0)
       {
-        status = this->inside_.encloses_nothing();
+        status = this->inside_.no_tets();
       }
       else if (status = check_tets(mesh.points, mesh.tets); !status.ok())
       {
@@ -341,9 +347,10 @@ private:
     options.smallest_edge = shortest * cube;
     options.largest_edge = longest * cube;
     options.memory_limit = this->options_.memory_limit;
-    // What method cdt has left of the helper's time.
+    // What method cdt has left of the time, and some of it for the lattice.
     constexpr double least_share = 0.25;
-    options.time_limit = std::max(this->options_.time_limit - (start - this->climb_start_),
+    constexpr double lattice_share = 0.1;
+    options.time_limit = std::max(this->time_left() - lattice_share * this->options_.time_limit,
       least_share * this->options_.time_limit);
     RemeshResult result;
     Status status = remesh_tets(this->surface_.points, this->surface_.triangles,
@@ -505,7 +512,7 @@ private:
     const TetMesh& mesh = this->result_.mesh;
     if (mesh.tets.rows() == 0)
     {
-      return this->inside_.encloses_nothing();
+      return this->inside_.no_tets();
     }
     const double volume = tet_volumes(mesh.points, mesh.tets).sum();
     if (this->inside_.fits(volume))

@@ -136,7 +136,8 @@ struct TetrahedralizeResult
 /// keep_outside with another method than cdt; or, of
 /// method automatic, neither cdt nor remesh gives a valid mesh: the message tells the last reason
 /// and names method embed. unavailable: method cdt or wrap without helper, ftetwild without
-/// fTetWild. internal_error: the method asked for gave no valid mesh.
+/// fTetWild; method remesh (or another) found no tet in what is enclosed, too thin for its tets.
+/// internal_error: the method asked for gave no valid mesh.
 /// Cost: about 10 us a triangle and 5 us a tet for clean surfaces, 50 us a triangle for others.
 Status tetrahedralize(PointsView points, TrianglesView triangles,
   const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context);

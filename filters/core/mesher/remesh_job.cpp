@@ -11,6 +11,7 @@
 //    where creases are too sharp for angles, and in parts thinner than the shortest edge.
 // Slivers stay: tet_improvement.h is better at them than exudation and perturbation are (measured:
 // 2 and 7 degrees after exudation, 12 after improvement), and always ends.
+#include "mesher/circumcenter_traits.h"
 #include "mesher/jobs.h"
 #include "mesher/stopwatch.h"
 
@@ -35,7 +36,7 @@ namespace
 {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Domain = CGAL::Labeled_mesh_domain_3<Kernel>;
-using Triangulation = CGAL::Mesh_triangulation_3<Domain>::type;
+using Triangulation = CGAL::Mesh_triangulation_3<Domain, CircumcenterKernel>::type;
 using Complex = CGAL::Mesh_complex_3_in_triangulation_3<Triangulation>;
 using FacetCriteria = CGAL::Mesh_facet_criteria_3<Triangulation>;
 using CellCriteria = CGAL::Mesh_cell_criteria_3<Triangulation>;

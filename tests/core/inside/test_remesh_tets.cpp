@@ -236,6 +236,36 @@ TEST_F(Remesh, ASoupThatCrosses)
   EXPECT_NEAR(outcome.volume(), 4.0 / 3.0 * pi, 0.04 * 4.0 / 3.0 * pi);
 }
 
+TEST_F(Remesh, SquaresOfFourPointsOnACircleLeaveNoClusters)
+{
+  // Flat cells have circumcentres that rounding moves anywhere: refinement went on around them.
+  const TriangleMesh torus = test::torus(48, 24, 1.0, 0.4);
+  const TriangleMesh loose = test::unwelded(torus);
+  TriangleMesh turned = torus;
+  for (Index t = 0; t < turned.triangles.rows(); t += 5)
+  {
+    turned.triangles.row(t).tail<2>().reverseInPlace();
+  }
+  for (const TriangleMesh& mesh : { torus, loose })
+  {
+    const Outcome outcome = run(mesh);
+    expect_valid(outcome, mesh, 11.0);
+    EXPECT_EQ(outcome.kept(), torus.points.rows());
+  }
+  for (const TriangleMesh& mesh : { turned, loose, test::flipped(torus) })
+  {
+    ExecutionContext context;
+    TetrahedralizeOptions options;
+    options.method = TetMethod::remesh;
+    TetrahedralizeResult result;
+    const Status status = tetrahedralize(mesh.points, mesh.triangles, options, result, context);
+    ASSERT_TRUE(status.ok()) << status.message;
+    EXPECT_GE(status.report.number("min_dihedral_angle", 0.0), 8.0);
+    const double volume = signed_volume(torus.points, torus.triangles);
+    EXPECT_NEAR(status.report.number("volume", 0.0), volume, 0.004 * volume);
+  }
+}
+
 TEST_F(Remesh, TetsAreSmallWhereTheSurfaceIsFine)
 {
   const TriangleMesh mesh =

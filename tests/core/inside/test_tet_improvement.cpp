@@ -37,6 +37,66 @@ double angle(const TetMesh& mesh)
   return measure_tets(mesh.points, mesh.tets).min_dihedral_angle;
 }
 
+/// Puts a vertex on an edge: every tet at it becomes two. @return the new vertex.
+Index split_edge(TetMesh& mesh, Index a, Index b, double where)
+{
+  const Index fresh = mesh.points.rows();
+  mesh.points.conservativeResize(fresh + 1, 3);
+  mesh.points.row(fresh) = (1.0 - where) * mesh.points.row(a) + where * mesh.points.row(b);
+  const Index tets = mesh.tets.rows();
+  for (Index t = 0; t < tets; ++t)
+  {
+    const auto has = [&](Index v) { return (mesh.tets.row(t).array() == v).any(); };
+    if (has(a) && has(b))
+    {
+      mesh.tets.conservativeResize(mesh.tets.rows() + 1, 4);
+      mesh.tets.bottomRows(1) = mesh.tets.row(t);
+      for (int k = 0; k < 4; ++k)
+      {
+        Index& here = mesh.tets(t, k);
+        Index& there = mesh.tets(mesh.tets.rows() - 1, k);
+        here = here == a ? fresh : here;
+        there = there == b ? fresh : there;
+      }
+    }
+  }
+  return fresh;
+}
+
+std::vector<std::array<Index, 4>> tet_set(const Tets& tets)
+{
+  std::vector<std::array<Index, 4>> set;
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    set.push_back({ tets(t, 0), tets(t, 1), tets(t, 2), tets(t, 3) });
+    std::sort(set.back().begin(), set.back().end());
+  }
+  std::sort(set.begin(), set.end());
+  return set;
+}
+
+Index vertex_at(const TetMesh& mesh, const Vec3& p)
+{
+  Index best = 0;
+  (mesh.points.rowwise() - p.transpose()).rowwise().squaredNorm().minCoeff(&best);
+  return best;
+}
+
+bool uses(const TetMesh& mesh, Index v)
+{
+  return (mesh.tets.array() == v).any();
+}
+
+Index unused_vertices(const TetMesh& mesh)
+{
+  Index count = 0;
+  for (Index v = 0; v < mesh.points.rows(); ++v)
+  {
+    count += !uses(mesh, v);
+  }
+  return count;
+}
+
 bool improve(TetMesh& mesh, const std::vector<char>& held, Improvement& done)
 {
   ExecutionContext context;
@@ -158,4 +218,155 @@ TEST(TetImprovement, KeepsTheBoundaryWhenAsked)
     }
   }
   EXPECT_EQ(done.removed_tets, 0);
+}
+
+TEST(TetImprovement, VerticesTooNearToOthersGo)
+{
+  const TetMesh box = test::tet_box(4, 4, 4);
+  struct Case
+  {
+    const char* name;
+    Vec3 from, to;
+  };
+  for (const Case& c : { Case{ "inside", Vec3(0.5, 0.5, 0.5), Vec3(0.5, 0.5, 0.75) },
+         Case{ "beside a side", Vec3(0.5, 0.5, 0.0), Vec3(0.5, 0.5, 0.25) },
+         Case{ "in a side", Vec3(0.5, 0.5, 0.0), Vec3(0.75, 0.5, 0.0) },
+         Case{ "on an edge", Vec3(0.5, 0.0, 0.0), Vec3(0.75, 0.0, 0.0) },
+         Case{ "in a side next to its edge", Vec3(0.5, 0.0, 0.0), Vec3(0.5, 0.25, 0.0) },
+         Case{ "at a corner", Vec3(0, 0, 0), Vec3(0.25, 0, 0) } })
+  {
+    SCOPED_TRACE(c.name);
+    TetMesh mesh = box;
+    const Index fresh = split_edge(mesh, vertex_at(mesh, c.from), vertex_at(mesh, c.to), 1e-6);
+    ASSERT_TRUE(check_tets(mesh.points, mesh.tets).ok());
+    ASSERT_LT(angle(mesh), 1e-3);
+    std::vector<char> held(mesh.points.rows(), 1);
+    held[fresh] = 0;
+    Improvement done;
+    ASSERT_TRUE(improve(mesh, held, done));
+    EXPECT_EQ(done.collapsed_edges, 1);
+    EXPECT_FALSE(uses(mesh, fresh));
+    EXPECT_EQ(tet_set(mesh.tets), tet_set(box.tets));
+    EXPECT_EQ(mesh.points.topRows(fresh), box.points);
+  }
+}
+
+TEST(TetImprovement, HeldVerticesNeverGo)
+{
+  TetMesh mesh = test::tet_box(4, 4, 4);
+  const Index inside = vertex_at(mesh, Vec3(0.5, 0.5, 0.5));
+  const Index fresh = split_edge(mesh, inside, vertex_at(mesh, Vec3(0.5, 0.5, 0.75)), 1e-6);
+  ImproveOptions options;
+  options.least_angle = 0.0; // held vertices do not move
+  ExecutionContext context;
+  Improvement done;
+  for (const bool both : { true, false })
+  {
+    TetMesh better = mesh;
+    std::vector<char> held(mesh.points.rows(), 1);
+    held[inside] = both;
+    ASSERT_TRUE(improve_tets(better, held, {}, options, done, context));
+    EXPECT_TRUE(uses(better, fresh));
+    EXPECT_EQ(uses(better, inside), both);
+    EXPECT_EQ(better.points, mesh.points);
+    EXPECT_TRUE(check_tets(better.points, better.tets).ok());
+    EXPECT_NEAR(tet_volumes(better.points, better.tets).sum(), 1.0, 1e-12);
+    EXPECT_EQ(angle(better) > 12.0, !both);
+  }
+}
+
+TEST(TetImprovement, BoundaryVerticesStayWhenTheBoundaryIsKept)
+{
+  TetMesh mesh = test::tet_box(4, 4, 4);
+  const Index side = vertex_at(mesh, Vec3(0.5, 0.5, 0.0));
+  const Index on_side = split_edge(mesh, side, vertex_at(mesh, Vec3(0.75, 0.5, 0.0)), 1e-6);
+  const Index middle = vertex_at(mesh, Vec3(0.5, 0.5, 0.5));
+  const Index inside = split_edge(mesh, middle, vertex_at(mesh, Vec3(0.5, 0.5, 0.75)), 1e-6);
+  ImproveOptions options;
+  options.keep_boundary = true;
+  ExecutionContext context;
+  Improvement done;
+  const Points points = mesh.points;
+  ASSERT_TRUE(improve_tets(mesh, std::vector<char>(points.rows(), 0), {}, options, done, context));
+  EXPECT_TRUE(uses(mesh, side));
+  EXPECT_TRUE(uses(mesh, on_side));
+  EXPECT_EQ(mesh.points.row(on_side), points.row(on_side));
+  EXPECT_FALSE(uses(mesh, inside) && uses(mesh, middle));
+  EXPECT_TRUE(check_tets(mesh.points, mesh.tets).ok());
+  EXPECT_NEAR(tet_volumes(mesh.points, mesh.tets).sum(), 1.0, 1e-12);
+}
+
+TEST(TetImprovement, ContractionClosesNoHole)
+{
+  // A ring around a hole one cell wide, with vertices anywhere on its edges.
+  const TetMesh box = test::tet_box(3, 3, 1, Vec3::Zero(), Vec3(3, 3, 1));
+  int good = 0;
+  for (int seed = 1; seed <= 20; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    TetMesh mesh = box;
+    Index count = 0;
+    for (Index t = 0; t < box.tets.rows(); ++t)
+    {
+      Vec3 center = Vec3::Zero();
+      for (int k = 0; k < 4; ++k)
+      {
+        center += 0.25 * box.points.row(box.tets(t, k)).transpose();
+      }
+      if (center.head<2>().minCoeff() < 1.0 || center.head<2>().maxCoeff() > 2.0)
+      {
+        mesh.tets.row(count++) = box.tets.row(t);
+      }
+    }
+    mesh.tets.conservativeResize(count, 4);
+    ASSERT_EQ(test::euler_characteristic(mesh) - unused_vertices(mesh), 0);
+    test::Random random(static_cast<std::uint64_t>(seed));
+    for (int i = 0; i < 40; ++i)
+    {
+      const Index t = random.below(mesh.tets.rows());
+      const Index k = random.below(4);
+      const Index a = mesh.tets(t, k);
+      const Index b = mesh.tets(t, (k + 1 + random.below(3)) % 4);
+      if (std::max(a, b) < box.points.rows())
+      {
+        split_edge(mesh, a, b, std::pow(10.0, random.uniform(-6.0, -0.5)));
+      }
+    }
+    const double before = angle(mesh);
+    Improvement done;
+    ASSERT_TRUE(improve(mesh, std::vector<char>(mesh.points.rows(), 0), done));
+    EXPECT_GT(done.collapsed_edges, 5);
+    EXPECT_GT(angle(mesh), before);
+    good += angle(mesh) > 8.0;
+    EXPECT_TRUE(check_tets(mesh.points, mesh.tets).ok());
+    EXPECT_EQ(test::euler_characteristic(mesh) - unused_vertices(mesh), 0);
+    EXPECT_TRUE(count_edges(boundary_triangles(mesh.tets)).closed);
+    EXPECT_NEAR(tet_volumes(mesh.points, mesh.tets).sum(), 8.0, 1e-9) << "sides and edges stay";
+    EXPECT_NEAR(surface_area(mesh.points, boundary_triangles(mesh.tets)), 32.0, 1e-9);
+  }
+  EXPECT_GE(good, 15) << "but not where vertices crowd at one";
+}
+
+TEST(TetImprovement, AFlatTetByItselfGoes)
+{
+  TetMesh mesh = test::tet_box(2, 2, 2);
+  const Index first = mesh.points.rows();
+  mesh.points.conservativeResize(first + 4, 3);
+  mesh.points.bottomRows(4) << 2, 0, 0, 3, 1, 0.05, 3, 0, 0, 2, 1, 0;
+  mesh.tets.conservativeResize(mesh.tets.rows() + 1, 4);
+  mesh.tets.bottomRows(1) << first, first + 1, first + 2, first + 3;
+  if (tet_volumes(mesh.points, mesh.tets).tail<1>()[0] < 0.0)
+  {
+    mesh.tets.bottomRows(1).rightCols<2>().reverseInPlace();
+  }
+  ASSERT_TRUE(check_tets(mesh.points, mesh.tets).ok());
+  ASSERT_LT(angle(mesh), 8.0);
+  for (const bool held : { false, true })
+  {
+    TetMesh better = mesh;
+    Improvement done;
+    ASSERT_TRUE(improve(better, std::vector<char>(mesh.points.rows(), held), done));
+    EXPECT_EQ(done.removed_tets, held ? 0 : 1);
+    EXPECT_EQ(better.tets.rows(), mesh.tets.rows() - (held ? 0 : 1));
+  }
 }

@@ -1,6 +1,8 @@
 // The ladder: lattices where there is no helper, broken and slow helpers, cancel, bad input.
 #include "inside/tetrahedralize.h"
 
+#include "base/number_text.h"
+
 #include "helper/mesher_process.h"
 #include "inside/tet_quality.h"
 #include "io/medit.h"
@@ -257,6 +259,27 @@ TEST(Tetrahedralize, AThresholdNothingReachesIsSaidAtOnce)
   const Outcome overlap = run(two, options);
   EXPECT_TRUE(overlap.status.usable()) << overlap.status.message;
   EXPECT_NEAR(overlap.volume(), 1.0, 1e-12);
+}
+
+TEST(Tetrahedralize, WhatIsTooThinForRemeshIsSaid)
+{
+  TriangleMesh needle = test::sphere(2);
+  needle.points.col(2) *= 1e4; // its volume is 52 % of its box's
+  TetrahedralizeOptions options;
+  options.method = TetMethod::remesh;
+  const Outcome outcome = run(needle, options);
+  EXPECT_EQ(outcome.status.code, StatusCode::unavailable);
+  const double share = 100.0 * signed_volume(needle.points, needle.triangles) /
+    bounding_box(needle.points).size().prod();
+  EXPECT_THAT(outcome.status.message,
+    HasSubstr("encloses about " + short_number(share, 3) + " % of its box, but that is too thin"));
+  EXPECT_THAT(outcome.status.message, HasSubstr("--method cdt"));
+  EXPECT_THAT(outcome.status.message, HasSubstr("above 40 (--resolution)"));
+  if (!find_mesher().empty())
+  {
+    options.method = TetMethod::automatic;
+    EXPECT_TRUE(run(needle, options).status.ok());
+  }
 }
 
 TEST(Tetrahedralize, WhereNothingFitsEmbedIsNamed)

@@ -1,0 +1,82 @@
+#ifndef bindpose_mesher_circumcenter_traits_h
+#define bindpose_mesher_circumcenter_traits_h
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Mesh_triangulation_3.h>
+#include <CGAL/Robust_weighted_circumcenter_filtered_traits_3.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bindpose
+{
+
+using RobustTraits = CGAL::Robust_weighted_circumcenter_filtered_traits_3<
+  CGAL::Exact_predicates_inexact_constructions_kernel>;
+using RobustCircumcenter = RobustTraits::Construct_weighted_circumcenter_3;
+
+/// Circumcentres that are as far from one corner as from the others. Mesh_3 takes any point within
+/// the circumsphere for the centre, and for a flat cell (four points on a circle, as every square
+/// of a grid has them) rounding leaves no more than that: the segments between centres then cross
+/// the surface at a wrong place, which refinement splits again and again, down to 1e-7 of the
+/// diagonal.
+class Circumcenter : public RobustCircumcenter
+{
+public:
+  using Point = RobustTraits::Point_3;
+  using WeightedPoint = RobustTraits::Weighted_point_3;
+
+  explicit Circumcenter(const RobustCircumcenter& robust) : RobustCircumcenter(robust) {}
+  using RobustCircumcenter::operator();
+  Point operator()(const WeightedPoint& p, const WeightedPoint& q, const WeightedPoint& r,
+    const WeightedPoint& s, bool exact = false) const
+  {
+    const Point center = RobustCircumcenter::operator()(p, q, r, s, exact);
+    return exact || good(center, p, q, r, s) ? center
+                                             : RobustCircumcenter::operator()(p, q, r, s, true);
+  }
+
+private:
+  /// Near the cell, a segment that ends at the centre is off by less than a millionth of an edge.
+  static bool good(const Point& center, const WeightedPoint& p, const WeightedPoint& q,
+    const WeightedPoint& r, const WeightedPoint& s)
+  {
+    constexpr double tolerance = 2e-6;
+    const double radius = CGAL::squared_distance(center, p.point());
+    double difference = 0.0;
+    double edge = std::numeric_limits<double>::max();
+    for (const auto* other : { &q, &r, &s })
+    {
+      difference =
+        std::max(difference, std::abs(CGAL::squared_distance(center, other->point()) - radius));
+      edge = std::min(edge, CGAL::squared_distance(p.point(), other->point()));
+    }
+    return difference * difference <= tolerance * tolerance * radius * edge;
+  }
+};
+
+struct CircumcenterTraits : RobustTraits
+{
+  using Construct_weighted_circumcenter_3 = Circumcenter; // CGAL's name
+  Circumcenter construct_weighted_circumcenter_3_object() const
+  {
+    return Circumcenter(RobustTraits::construct_weighted_circumcenter_3_object());
+  }
+};
+
+/// Stands for the traits where Mesh_triangulation_3 asks for a kernel.
+struct CircumcenterKernel
+{
+};
+
+} // namespace bindpose
+
+template <>
+struct CGAL::details::Mesh_geom_traits_generator<bindpose::CircumcenterKernel>
+{
+  using type = bindpose::CircumcenterTraits;
+  using Type = type;
+};
+
+#endif

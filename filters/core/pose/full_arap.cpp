@@ -112,16 +112,6 @@ private:
   Weights last_g_, last_f_;
   Eigen::MatrixXd products_;
 };
-
-std::string quoted(const Handles& handles, const std::vector<Index>& list)
-{
-  std::string names;
-  for (const Index h : list)
-  {
-    names += (names.empty() ? "'" : ", '") + handles[static_cast<std::size_t>(h)].name + "'";
-  }
-  return names;
-}
 } // namespace
 
 Vec3 FullArap::at_rest(const MeshPoint& point) const
@@ -446,7 +436,7 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   if (!this->redundant_.empty())
   {
     status.warnings.push_back("these positions are redundant (others determine them): " +
-      quoted(this->handles_, this->redundant_));
+      quoted_names(this->handles_, this->redundant_));
   }
 
   Eigen::VectorXd owners = Eigen::VectorXd::Zero(this->given_count_);
@@ -563,7 +553,8 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   if (!contradicting.empty())
   {
     status.warnings.push_back("these handles contradict each other, the worst is missed by " +
-      std::to_string(residual * this->diagonal_) + ": " + quoted(this->handles_, contradicting));
+      std::to_string(residual * this->diagonal_) + ": " +
+      quoted_names(this->handles_, contradicting));
   }
   for (Index v = 0; v < n; ++v)
   {

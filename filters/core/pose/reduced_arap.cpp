@@ -97,16 +97,6 @@ Index padded(Index count)
 {
   return (count + tile - 1) / tile * tile;
 }
-
-std::string quoted(const Handles& handles, const std::vector<Index>& list)
-{
-  std::string names;
-  for (const Index h : list)
-  {
-    names += (names.empty() ? "'" : ", '") + handles[static_cast<std::size_t>(h)].name + "'";
-  }
-  return names;
-}
 } // namespace
 
 void ReducedArap::Tall::assign(const Eigen::MatrixXd& matrix)
@@ -345,7 +335,7 @@ Status ReducedArap::solve(ExecutionContext& context, const Pose& pose, const Sol
   {
     status.warnings.push_back(
       "these positions are redundant (others determine them, or no weight is there): " +
-      quoted(this->handles_, this->redundant_));
+      quoted_names(this->handles_, this->redundant_));
   }
 
   // What this pose gives: blocks of full handles, targets of positions.
@@ -520,7 +510,8 @@ Status ReducedArap::solve(ExecutionContext& context, const Pose& pose, const Sol
   {
     status.warnings.push_back("these positions contradict each other or cannot be reached, the "
                               "worst is missed by " +
-      std::to_string(residual * this->diagonal_) + ": " + quoted(this->handles_, contradicting));
+      std::to_string(residual * this->diagonal_) + ": " +
+      quoted_names(this->handles_, contradicting));
   }
   status.report.set("energy", Report::Value(std::max(this->energies_.back(), 0.0)));
   status.report.set("iterations", Report::Value(std::int64_t(iterations)));

@@ -676,7 +676,7 @@ Status skinning_transforms(
 {
   Status status;
   transforms.assign(handles.size(), identity_affine());
-  std::string free_names;
+  std::vector<Index> free;
   for (std::size_t h = 0; h < handles.size(); ++h)
   {
     if (pose[h].mode == HandleMode::full)
@@ -689,13 +689,14 @@ Status skinning_transforms(
     }
     else
     {
-      free_names += (free_names.empty() ? "'" : ", '") + handles[h].name + "'";
+      free.push_back(static_cast<Index>(h));
     }
   }
-  if (!free_names.empty())
+  if (!free.empty())
   {
     status.warnings.push_back(
-      "skinning cannot find the transform of a free handle; at rest stay: " + free_names);
+      "skinning cannot find the transform of a free handle; at rest stay: " +
+      quoted_names(handles, free));
   }
   return status;
 }

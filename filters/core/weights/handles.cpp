@@ -69,6 +69,16 @@ Status check_cages(const Handles& handles)
 }
 } // namespace
 
+std::string quoted_names(const Handles& handles, const std::vector<Index>& list)
+{
+  std::string names;
+  for (const Index h : list)
+  {
+    names += (names.empty() ? "'" : ", '") + handles[static_cast<std::size_t>(h)].name + "'";
+  }
+  return names;
+}
+
 Status check_handles(const Handles& handles)
 {
   if (handles.empty())

@@ -46,6 +46,9 @@ using Handles = std::vector<Handle>;
 /// "point", "bone", "cage_vertex", "region", "cage_element".
 const char* to_string(HandleKind kind);
 
+/// 'a', 'b': the names of some, for a sentence.
+std::string quoted_names(const Handles& handles, const std::vector<Index>& list);
+
 /// invalid_input, naming the handle, for: no handle at all, an empty or doubled name, a coordinate
 /// that is not finite, a bone of length zero, two handles at the same place (closer than 1e-9 of
 /// the handles' extent or exactly equal when they have none), a parent out of range or in a cycle,

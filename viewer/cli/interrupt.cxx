@@ -1,5 +1,6 @@
-// The signal handler may do almost nothing, so it only writes a byte to a pipe; a thread reads the
-// pipe and does the rest. Child processes get the default handlers back when they are executed.
+// All threads block the signals, so that one of ours can wait for them and do whatever is needed. A
+// handler would not do: METIS puts its own one in its place for SIGTERM while it orders a matrix,
+// which ends the ordering and loses the signal. Child processes get an empty mask.
 #include "cli/interrupt.h"
 
 #include "io/atomic_file.h"
@@ -7,12 +8,11 @@
 #include "vtkAlgorithm.h"
 
 #include <atomic>
-#include <cerrno>
 #include <csignal>
 #include <mutex>
 #include <thread>
 
-#include <fcntl.h>
+#include <pthread.h>
 #include <unistd.h>
 
 namespace bindpose::cli
@@ -22,32 +22,47 @@ namespace
 {
 constexpr int exit_cancelled = 4;
 
-int pipe_ends[2] = { -1, -1 };
 std::atomic<bool> signal_came{ false };
+std::atomic<bool> released{ false };
 std::mutex running_mutex;
 vtkAlgorithm* running = nullptr;
 
-void handle_signal(int)
+sigset_t signals()
 {
-  const int saved = errno;
-  const char byte = 1;
-  const ssize_t written = write(pipe_ends[1], &byte, 1);
-  static_cast<void>(written); // a full pipe: enough signals are on their way
-  errno = saved;
+  sigset_t set;
+  sigemptyset(&set);
+  sigaddset(&set, SIGINT);
+  sigaddset(&set, SIGTERM);
+  return set;
 }
+
+void block(int, char**, char**)
+{
+  const sigset_t set = signals();
+  pthread_sigmask(SIG_BLOCK, &set, nullptr);
+}
+
+/// Runs before the constructors of libraries, some of which start threads: these block, too.
+__attribute__((section(".preinit_array"), used)) void (*const block_first)(
+  int, char**, char**) = block;
 
 void watch()
 {
+  pthread_setname_np(pthread_self(), "signals");
   for (;;)
   {
-    char byte = 0;
-    const ssize_t count = read(pipe_ends[0], &byte, 1);
-    if (count < 0 && errno == EINTR)
+    const sigset_t set = signals();
+    int number = 0;
+    if (sigwait(&set, &number) != 0)
     {
-      continue;
+      return;
     }
-    if (count <= 0)
+    if (released)
     {
+      // What it does by default.
+      std::signal(number, SIG_DFL);
+      pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
+      kill(getpid(), number);
       return;
     }
     if (signal_came.exchange(true))
@@ -66,23 +81,12 @@ void watch()
 
 void catch_interrupts()
 {
-  if (pipe2(pipe_ends, O_CLOEXEC) != 0)
-  {
-    return; // signals then kill, as they do by default
-  }
   std::thread(watch).detach();
-  struct sigaction action = {};
-  action.sa_handler = handle_signal;
-  action.sa_flags = SA_RESTART;
-  sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
 }
 
 void release_interrupts()
 {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  released = true;
 }
 
 bool interrupted()

@@ -9,7 +9,8 @@ namespace bindpose::cli
 /// From now on SIGINT (Ctrl-C) and SIGTERM cancel instead of killing: the algorithm that runs is
 /// aborted and later ones do not start. A second signal removes temporary files and ends the
 /// program at once with exit code 4, for the one case that cannot be cancelled in between (a
-/// factorisation). Call once, before other threads start.
+/// factorisation). They are blocked in all threads from the start of the program; until this is
+/// called they wait. Call once.
 void catch_interrupts();
 
 /// Signals kill again, as they do by default: for a window, which nobody waits for.

@@ -163,7 +163,7 @@ Status FullArap::find_grips(
   edge /= static_cast<double>(elements.rows());
 
   double farthest = 0.0;
-  std::string beside;
+  std::vector<Index> beside;
   const auto point_at = [&](const Vec3& p, double& distance) -> MeshPoint
   {
     Index nearest = -1;
@@ -269,14 +269,15 @@ Status FullArap::find_grips(
     if (distance > on_mesh * this->diagonal_)
     {
       farthest = std::max(farthest, distance);
-      beside += (beside.empty() ? "'" : ", '") + handle.name + "'";
+      beside.push_back(static_cast<Index>(this->grips_.size()));
     }
     this->grips_.push_back(std::move(grip));
   }
   if (!beside.empty())
   {
     status.warnings.push_back("these handles lie beside the mesh, by up to " +
-      std::to_string(farthest) + "; they hold the mesh's nearest points: " + beside);
+      std::to_string(farthest) +
+      "; they hold the mesh's nearest points: " + quoted_names(this->handles_, beside));
   }
   return {};
 }

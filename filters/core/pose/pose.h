@@ -1,7 +1,7 @@
 #ifndef bindpose_pose_pose_h
 #define bindpose_pose_pose_h
 
-#include "base/mesh.h"
+#include "weights/handles.h"
 
 #include <vector>
 
@@ -39,6 +39,13 @@ struct HandlePose
 
 /// One HandlePose for each handle, in the order of the columns.
 using Pose = std::vector<HandlePose>;
+
+/// invalid_input for another number of entries than of handles, for none, and, naming the handle,
+/// for a transform that is not finite.
+Status check_pose(const Handles& handles, const Pose& pose);
+
+/// Whether these are the modes of the pose.
+bool same_modes(const std::vector<HandleMode>& modes, const Pose& pose);
 
 } // namespace bindpose
 

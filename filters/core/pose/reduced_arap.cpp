@@ -308,26 +308,12 @@ double ReducedArap::paired(const std::vector<double>& q, const std::vector<doubl
 
 Status ReducedArap::solve(ExecutionContext& context, const Pose& pose, const SolveOptions& options)
 {
-  if (pose.size() != this->handles_.size())
+  Status status = check_pose(this->handles_, pose);
+  if (!status.ok())
   {
-    return Status::invalid_input("the pose has " + std::to_string(pose.size()) +
-      " handles, but there are " + std::to_string(this->handles_.size()));
+    return status;
   }
-  for (std::size_t h = 0; h < pose.size(); ++h)
-  {
-    if (!pose[h].transform.allFinite())
-    {
-      return Status::invalid_input(
-        "the transform of handle '" + this->handles_[h].name + "' has a number that is not finite");
-    }
-  }
-  Status status;
-  bool same_modes = this->modes_.size() == pose.size();
-  for (std::size_t h = 0; h < pose.size() && same_modes; ++h)
-  {
-    same_modes = this->modes_[h] == pose[h].mode;
-  }
-  if (!same_modes)
+  if (!same_modes(this->modes_, pose))
   {
     this->factor(pose);
   }

@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 namespace bindpose
 {
@@ -144,10 +143,7 @@ DualQuaternion dual_quaternion_of(const Eigen::Matrix3d& rotation, const Vec3& t
   d.dual[3] = -0.5 * translation.dot(v);
   return d;
 }
-} // namespace
 
-namespace
-{
 /// What is kept of a row, and what it is multiplied by.
 class KeptRow
 {
@@ -214,92 +210,75 @@ const WeightTiles<double>& Skinning::tiles() const
   return this->doubles_;
 }
 
-/// Copies what is kept into tiles. Two passes: how many columns each has, then the weights.
+/// Copies what is kept into tiles: which columns each has, then the weights.
 template <typename Scalar>
-bool Skinning::pack(ExecutionContext& context, WeightsView weights, const SkinningOptions& options)
+bool Skinning::pack(ExecutionContext& context, WeightsView weights, const SkinningOptions& options,
+  WeightTiles<Scalar>& tiles)
 {
-  using Tiles = WeightTiles<Scalar>;
-  auto& tiles = const_cast<Tiles&>(this->tiles<Scalar>());
+  constexpr Index lanes = WeightTiles<Scalar>::lanes;
   const Index rows = weights.rows();
-  const Index count = (rows + Tiles::lanes - 1) / Tiles::lanes;
-  tiles.start.assign(static_cast<std::size_t>(count) + 1, 0);
-  this->references_.assign(static_cast<std::size_t>(count * Tiles::lanes), 0);
-  const auto each_tile = [&](const auto& body)
-  {
-    return parallel_for(context, count, block_size / Tiles::lanes,
-      [&](Index begin, Index end)
-      {
-        KeptRow row(options);
-        std::vector<char> has(static_cast<std::size_t>(this->handles_));
-        for (Index tile = begin; tile < end; ++tile)
-        {
-          body(tile, row, has);
-        }
-      });
-  };
-  const auto rows_of = [&](Index tile)
-  { return std::min(Tiles::lanes, rows - tile * Tiles::lanes); };
-  bool done = each_tile(
-    [&](Index tile, KeptRow& row, std::vector<char>& has)
+  const Index count = (rows + lanes - 1) / lanes;
+  std::vector<std::vector<std::int32_t>> columns(static_cast<std::size_t>(count));
+  bool done = parallel_for(context, count, block_size / lanes,
+    [&](Index begin, Index end)
     {
-      std::fill(has.begin(), has.end(), 0);
-      for (Index i = 0; i < rows_of(tile); ++i)
+      KeptRow row(options);
+      std::vector<char> has(static_cast<std::size_t>(this->handles_));
+      for (Index tile = begin; tile < end; ++tile)
       {
-        row.take(weights, tile * Tiles::lanes + i);
-        for (const Index j : row.columns())
+        std::fill(has.begin(), has.end(), 0);
+        for (Index v = tile * lanes; v < std::min((tile + 1) * lanes, rows); ++v)
         {
-          has[static_cast<std::size_t>(j)] = 1;
+          row.take(weights, v);
+          for (const Index j : row.columns())
+          {
+            has[static_cast<std::size_t>(j)] = 1;
+          }
+        }
+        for (std::size_t j = 0; j < has.size(); ++j)
+        {
+          if (has[j])
+          {
+            columns[static_cast<std::size_t>(tile)].push_back(static_cast<std::int32_t>(j));
+          }
         }
       }
-      tiles.start[static_cast<std::size_t>(tile) + 1] =
-        static_cast<Index>(std::count(has.begin(), has.end(), 1));
     });
   if (!done)
   {
     return false;
   }
-  std::partial_sum(tiles.start.begin(), tiles.start.end(), tiles.start.begin());
-  tiles.columns.assign(static_cast<std::size_t>(tiles.start.back()), -1);
-  tiles.weights.assign(static_cast<std::size_t>(tiles.start.back() * Tiles::lanes), Scalar(0));
-  done = each_tile(
-    [&](Index tile, KeptRow& row, std::vector<char>& has)
+  tiles = WeightTiles<Scalar>();
+  for (const std::vector<std::int32_t>& of_tile : columns)
+  {
+    tiles.columns.insert(tiles.columns.end(), of_tile.begin(), of_tile.end());
+    tiles.start.push_back(static_cast<Index>(tiles.columns.size()));
+  }
+  tiles.weights.assign(tiles.columns.size() * static_cast<std::size_t>(lanes), Scalar(0));
+  this->references_.assign(static_cast<std::size_t>(count * lanes), 0);
+  return parallel_for(context, rows, block_size,
+    [&](Index begin, Index end)
     {
-      const Index begin = tiles.start[static_cast<std::size_t>(tile)];
-      const Index end = tiles.start[static_cast<std::size_t>(tile) + 1];
-      std::fill(has.begin(), has.end(), 0);
-      for (Index i = 0; i < rows_of(tile); ++i)
+      KeptRow row(options);
+      for (Index v = begin; v < end; ++v)
       {
-        row.take(weights, tile * Tiles::lanes + i);
-        for (const Index j : row.columns())
-        {
-          has[static_cast<std::size_t>(j)] = 1;
-        }
-      }
-      std::vector<Index> place(has.size(), -1);
-      for (std::size_t j = 0, k = 0; j < has.size(); ++j)
-      {
-        if (has[j])
-        {
-          place[j] = begin + static_cast<Index>(k);
-          tiles.columns[static_cast<std::size_t>(begin) + k++] = static_cast<std::int32_t>(j);
-        }
-      }
-      for (Index i = 0; i < rows_of(tile) && begin < end; ++i)
-      {
-        const Index v = tile * Tiles::lanes + i;
         row.take(weights, v);
+        Index k = tiles.start[static_cast<std::size_t>(tiles.tile_of(v))];
         Index largest = -1;
         for (const Index j : row.columns())
         {
-          tiles.weights[static_cast<std::size_t>(tiles.weight_of(place[static_cast<std::size_t>(j)],
-            i))] = static_cast<Scalar>(row.factor() * weights(v, j));
+          while (tiles.columns[static_cast<std::size_t>(k)] != j)
+          {
+            ++k;
+          }
+          tiles.weights[static_cast<std::size_t>(tiles.weight_of(k, tiles.lane_of(v)))] =
+            static_cast<Scalar>(row.factor() * weights(v, j));
           largest = largest < 0 || weights(v, j) > weights(v, largest) ? j : largest;
         }
         this->references_[static_cast<std::size_t>(v)] =
           static_cast<std::int32_t>(std::max<Index>(largest, 0));
       }
     });
-  return done;
 }
 
 Status Skinning::bind(
@@ -363,8 +342,8 @@ Status Skinning::bind(
   this->handles_ = cols;
   this->weight_count_ = all.count;
   this->single_ = options.single_precision;
-  done = this->single_ ? this->pack<float>(context, weights, options)
-                       : this->pack<double>(context, weights, options);
+  done = this->single_ ? this->pack(context, weights, options, this->floats_)
+                       : this->pack(context, weights, options, this->doubles_);
   if (!done)
   {
     *this = Skinning();

@@ -98,7 +98,8 @@ private:
   Status check(PointsView rest, const std::vector<Affine>& transforms) const;
   Status check_pivots(PointsView pivots) const;
   template <typename Scalar>
-  bool pack(ExecutionContext& context, WeightsView weights, const SkinningOptions& options);
+  bool pack(ExecutionContext& context, WeightsView weights, const SkinningOptions& options,
+    WeightTiles<Scalar>& tiles);
   template <typename Scalar>
   const WeightTiles<Scalar>& tiles() const;
   template <typename Scalar>

@@ -4,6 +4,7 @@
 
 #include "bind_key.h"
 #include "conversion.h"
+#include "handle_geometry.h"
 #include "pose/endpoint_weights.h"
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/surface_weights.h"
@@ -27,28 +28,6 @@ namespace
 {
 constexpr const char* array_name = "EndpointWeights";
 
-HandlePlaces places_of(const Handles& handles)
-{
-  HandlePlaces places;
-  places.points.resize(static_cast<Index>(handles.size()), 3);
-  for (Index j = 0; j < places.points.rows(); ++j)
-  {
-    places.points.row(j) = handles[static_cast<std::size_t>(j)].head;
-  }
-  std::vector<CageElement> edges;
-  for (const Handle& handle : handles)
-  {
-    edges.insert(edges.end(), handle.cage.begin(), handle.cage.end());
-  }
-  places.segments.resize(static_cast<Index>(edges.size()), 2);
-  for (Index e = 0; e < places.segments.rows(); ++e)
-  {
-    places.segments.row(e) << edges[static_cast<std::size_t>(e)][0],
-      edges[static_cast<std::size_t>(e)][1];
-  }
-  return places;
-}
-
 /// Bounded biharmonic weights at the domain's own points.
 Status solve_bounded(const bindpose::Domain& domain, WeightsDomain where, const Handles& handles,
   ExecutionContext& context, Weights& weights)
@@ -58,11 +37,17 @@ Status solve_bounded(const bindpose::Domain& domain, WeightsDomain where, const 
   { return bounded_biharmonic_weights(problem, {}, of_method, result); };
   if (!domain.is_volume())
   {
+    HandleGeometry geometry;
+    Status status = to_handle_geometry(to_polydata(handles), geometry);
+    if (!status.ok())
+    {
+      return status;
+    }
     SurfaceWeightsOptions options;
     options.domain = where;
-    options.places = places_of(handles);
+    options.places = to_handle_places(geometry);
     SurfaceWeights result;
-    Status status = surface_weights(
+    status = surface_weights(
       domain.points, domain.triangles, {}, handles, options, {}, method, context, result);
     weights = std::move(result.weights);
     return status;

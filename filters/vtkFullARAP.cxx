@@ -28,20 +28,12 @@ vtkFullARAP::~vtkFullARAP() = default;
 void vtkFullARAP::SetEnergy(int energy)
 {
   energy = std::clamp<int>(energy, AUTO, SPOKES);
-  if (this->Energy != energy)
-  {
-    this->Energy = energy;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->Energy, energy);
 }
 
 void vtkFullARAP::SetRegionArrayName(const std::string& name)
 {
-  if (this->RegionArrayName != name)
-  {
-    this->RegionArrayName = name;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->RegionArrayName, name);
 }
 
 std::vector<std::string> vtkFullARAP::BindArrays()

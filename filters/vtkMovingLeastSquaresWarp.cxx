@@ -21,11 +21,7 @@ vtkMovingLeastSquaresWarp::~vtkMovingLeastSquaresWarp() = default;
 
 void vtkMovingLeastSquaresWarp::SetExponent(double exponent)
 {
-  if (this->Exponent != exponent)
-  {
-    this->Exponent = exponent;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->Exponent, exponent);
 }
 
 Status vtkMovingLeastSquaresWarp::Bind(const PoseInput& input, ExecutionContext& context)

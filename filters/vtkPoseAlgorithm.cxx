@@ -73,11 +73,7 @@ vtkPoseAlgorithm::~vtkPoseAlgorithm() = default;
 
 void vtkPoseAlgorithm::SetArrayName(const std::string& name)
 {
-  if (this->ArrayName != name)
-  {
-    this->ArrayName = name;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->ArrayName, name);
 }
 
 std::vector<std::string> vtkPoseAlgorithm::BindArrays()

@@ -78,6 +78,16 @@ protected:
 
   /// Setters of bind parameters call this instead of Modified().
   void BindModified();
+  /// What most of them are.
+  template <typename Value>
+  void SetBindParameter(Value& parameter, const Value& value)
+  {
+    if (parameter != value)
+    {
+      parameter = value;
+      this->BindModified();
+    }
+  }
 
   bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
     bindpose::ExecutionContext& context) override;

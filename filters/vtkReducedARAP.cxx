@@ -29,31 +29,19 @@ vtkReducedARAP::~vtkReducedARAP() = default;
 void vtkReducedARAP::SetEnergy(int energy)
 {
   energy = std::clamp<int>(energy, AUTO, SPOKES);
-  if (this->Energy != energy)
-  {
-    this->Energy = energy;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->Energy, energy);
 }
 
 void vtkReducedARAP::SetNumberOfClusters(int clusters)
 {
   clusters = std::max(clusters, 0);
-  if (this->NumberOfClusters != clusters)
-  {
-    this->NumberOfClusters = clusters;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->NumberOfClusters, clusters);
 }
 
 void vtkReducedARAP::SetNumberOfExtraWeights(int extra)
 {
   extra = std::max(extra, 0);
-  if (this->NumberOfExtraWeights != extra)
-  {
-    this->NumberOfExtraWeights = extra;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->NumberOfExtraWeights, extra);
 }
 
 Status vtkReducedARAP::Bind(const PoseInput& input, ExecutionContext& context)

@@ -50,38 +50,22 @@ vtkSkinningDeformation::~vtkSkinningDeformation() = default;
 
 void vtkSkinningDeformation::SetSinglePrecision(bool single)
 {
-  if (this->SinglePrecision != single)
-  {
-    this->SinglePrecision = single;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->SinglePrecision, single);
 }
 
 void vtkSkinningDeformation::SetSmallestWeight(double smallest)
 {
-  if (this->SmallestWeight != smallest)
-  {
-    this->SmallestWeight = smallest;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->SmallestWeight, smallest);
 }
 
 void vtkSkinningDeformation::SetMaximumInfluences(int influences)
 {
-  if (this->MaximumInfluences != influences)
-  {
-    this->MaximumInfluences = influences;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->MaximumInfluences, influences);
 }
 
 void vtkSkinningDeformation::SetEndpointArrayName(const std::string& name)
 {
-  if (this->EndpointArrayName != name)
-  {
-    this->EndpointArrayName = name;
-    this->BindModified();
-  }
+  this->SetBindParameter(this->EndpointArrayName, name);
 }
 
 std::vector<std::string> vtkSkinningDeformation::BindArrays()

@@ -211,16 +211,6 @@ Status FullArap::find_grips(
     double distance = 0.0;
     if (handle.kind == HandleKind::region)
     {
-      if (handle.region_id <= 0)
-      {
-        return Status::invalid_input(
-          "region '" + handle.name + "' has no label (its RegionId must be positive)");
-      }
-      if (region_ids.empty())
-      {
-        return Status::invalid_input("region '" + handle.name +
-          "' needs a point array of labels on the mesh, but there is none");
-      }
       for (Index v = 0; v < this->rest_.rows(); ++v)
       {
         if (region_ids[v] == handle.region_id && this->parts_.of_vertex[v] >= 0)
@@ -230,8 +220,8 @@ Status FullArap::find_grips(
       }
       if (grip.points.empty())
       {
-        return Status::invalid_input("region '" + handle.name +
-          "': no vertex of the mesh has the label " + std::to_string(handle.region_id));
+        return Status::invalid_input(
+          "region '" + handle.name + "' holds no vertex: those of its label are in no element");
       }
       for (const MeshPoint& point : grip.points)
       {
@@ -300,11 +290,9 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
   {
     status = check_handles(handles);
   }
-  if (status.ok() && !options.region_ids.empty() &&
-    static_cast<Index>(options.region_ids.size()) != points.rows())
+  if (status.ok())
   {
-    status = Status::invalid_input("there are " + std::to_string(options.region_ids.size()) +
-      " region labels, but " + std::to_string(points.rows()) + " vertices");
+    status = check_regions(handles, options.region_ids, points.rows());
   }
   if (!status.ok())
   {

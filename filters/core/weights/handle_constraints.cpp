@@ -208,16 +208,6 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
     {
       of_handle[i] = mesh.handles[i].vertices;
     }
-    else if (handle.region_id <= 0)
-    {
-      return Status::invalid_input(
-        "region '" + handle.name + "' has no label (its RegionId must be positive)");
-    }
-    else if (region_ids.empty())
-    {
-      return Status::invalid_input("region '" + handle.name +
-        "' needs a point array of labels on the mesh, but there is none");
-    }
     else
     {
       for (Index v = 0; v < domain.points.rows(); ++v)
@@ -238,10 +228,8 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
     }
     if (result.counts[i] == 0)
     {
-      return Status::invalid_input(handle.kind == HandleKind::region
-          ? "region '" + handle.name + "': no vertex of the mesh has the label " +
-            std::to_string(handle.region_id)
-          : "handle '" + handle.name + "' constrains no vertex: it lies on elements without area");
+      return Status::invalid_input(
+        "handle '" + handle.name + "' constrains no vertex: it lies on elements without area");
     }
   }
 

@@ -1,5 +1,6 @@
 #include "weights/handles.h"
 
+#include <algorithm>
 #include <set>
 
 namespace bindpose
@@ -133,6 +134,38 @@ Status check_handles(const Handles& handles)
   }
   const Status parents = check_parents(handles);
   return parents.ok() ? check_cages(handles) : parents;
+}
+
+Status check_regions(const Handles& handles, const std::vector<Index>& region_ids, Index vertices)
+{
+  if (!region_ids.empty() && static_cast<Index>(region_ids.size()) != vertices)
+  {
+    return Status::invalid_input("there are " + std::to_string(region_ids.size()) +
+      " region labels for " + std::to_string(vertices) + " vertices");
+  }
+  for (const Handle& handle : handles)
+  {
+    if (handle.kind != HandleKind::region)
+    {
+      continue;
+    }
+    if (handle.region_id <= 0)
+    {
+      return Status::invalid_input(
+        "region '" + handle.name + "' has no label (its RegionId must be positive)");
+    }
+    if (region_ids.empty())
+    {
+      return Status::invalid_input("region '" + handle.name +
+        "' needs a point array of labels on the mesh, but there is none");
+    }
+    if (std::find(region_ids.begin(), region_ids.end(), handle.region_id) == region_ids.end())
+    {
+      return Status::invalid_input("region '" + handle.name +
+        "': no vertex of the mesh has the label " + std::to_string(handle.region_id));
+    }
+  }
+  return {};
 }
 
 } // namespace bindpose

@@ -55,6 +55,11 @@ std::string quoted_names(const Handles& handles, const std::vector<Index>& list)
 /// a cage element whose corners are not two or three different cage vertices.
 Status check_handles(const Handles& handles);
 
+/// invalid_input for another number of labels (and not none) than of vertices, and, naming the
+/// region, for one without a label, without labels to find it by, or with one that no vertex has.
+/// @param region_ids label of every vertex, or empty.
+Status check_regions(const Handles& handles, const std::vector<Index>& region_ids, Index vertices);
+
 } // namespace bindpose
 
 #endif

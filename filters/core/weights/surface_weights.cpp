@@ -723,13 +723,12 @@ Status surface_weights(PointsView points, TrianglesView triangles,
   {
     return Status::invalid_input("the embedding's resolution must lie between 6 and 1000");
   }
-  if (!region_ids.empty() && static_cast<Index>(region_ids.size()) != points.rows())
-  {
-    return Status::invalid_input("there are " + std::to_string(region_ids.size()) +
-      " region labels for " + std::to_string(points.rows()) + " vertices");
-  }
   // Handles first: what is wrong with them costs no tets.
-  const Status valid = check_handles(handles);
+  Status valid = check_handles(handles);
+  if (valid.ok())
+  {
+    valid = check_regions(handles, region_ids, points.rows());
+  }
   return valid.ok()
     ? Solver(points, triangles, region_ids, handles, options, weights_options, method, context)
         .run(result)

@@ -118,17 +118,16 @@ Status make_weights_problem(const Domain& domain, const std::vector<Index>& regi
     return Status::invalid_input(
       "the tolerance must lie between 0 and 1, and the iterations must be at least 1");
   }
-  if (!region_ids.empty() && static_cast<Index>(region_ids.size()) != domain.points.rows())
-  {
-    return Status::invalid_input("there are " + std::to_string(region_ids.size()) +
-      " region labels for " + std::to_string(domain.points.rows()) + " vertices");
-  }
   if (options.maximum_influences < 0)
   {
     return Status::invalid_input("the number of influences must be 0 or more");
   }
   problem.handles = handles;
   Status status = insert_handles(domain, handles, options.insertion, context, problem.mesh);
+  if (status.ok())
+  {
+    status = check_regions(handles, region_ids, domain.points.rows());
+  }
   if (status.ok())
   {
     status = check_terms(options.terms, domain.points.rows(), handles);

@@ -1,6 +1,7 @@
 #include "support/bars.h"
 
 #include "base/laplacian.h"
+#include "support/handles.h"
 #include "support/meshes.h"
 
 #include <Eigen/SparseCholesky>
@@ -9,17 +10,6 @@
 
 namespace bindpose::test
 {
-
-namespace
-{
-Handle point_handle(const std::string& name, const Vec3& at)
-{
-  Handle handle;
-  handle.name = name;
-  handle.head = handle.tail = at;
-  return handle;
-}
-} // namespace
 
 Weights biharmonic(
   const TetMesh& mesh, const std::vector<Index>& vertices, const std::vector<Index>& handles)

@@ -1,12 +1,14 @@
 // Sequences of poses that no animator would draw: collapsed, mirrored, enormous, with weights that
 // are doubled, empty or of both signs. Finite in is finite out, rest is rest, and nothing depends
 // on luck.
+#include "pose/full_arap.h"
 #include "pose/reduced_arap.h"
 #include "pose/skinning.h"
 
 #include "core/pose/arap_cases.h"
 #include "support/bars.h"
 #include "support/fuzz.h"
+#include "support/handles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -246,7 +248,7 @@ ReducedArap::SolveOptions solve_options(Random& random)
 TEST(FuzzPoses, ReducedArap)
 {
   Index solves = 0;
-  fuzz("sequences of poses through reduced ARAP", 2000,
+  fuzz("sequences of poses through reduced ARAP", 12000,
     [&](Random& random)
     {
       const Case shape(random);
@@ -318,6 +320,137 @@ TEST(FuzzPoses, ReducedArap)
         ASSERT_TRUE(arap.deform(one, rest, result).ok());
         ASSERT_LT((result - rest).cwiseAbs().maxCoeff(), 1e-8 * diagonal)
           << (start == ReducedArap::Start::guess ? "guess" : "rest");
+      }
+    });
+  std::cout << "[ fuzz ] " << solves << " poses\n";
+}
+
+namespace
+{
+/// Full ARAP of one of the shapes, held by points anywhere in and around it and by regions.
+struct FullCase
+{
+  const TetMesh& mesh;
+  Triangles surface; ///< when it is bound as a surface
+  Handles handles;
+  FullArapOptions options;
+
+  explicit FullCase(Random& random) : mesh(rig(random.below(2)).mesh)
+  {
+    this->options.energy = static_cast<ArapEnergy>(random.below(3));
+    this->options.region_ids.assign(static_cast<std::size_t>(this->mesh.points.rows()), 0);
+    if (chance(random, 0.4))
+    {
+      this->surface = boundary_triangles(this->mesh.tets);
+    }
+    const Box box = bounding_box(this->mesh.points);
+    const Index count = 1 + random.below(5);
+    for (Index h = 0; h < count; ++h)
+    {
+      const std::string name = "h" + std::to_string(h);
+      const Index v = random.below(this->mesh.points.rows());
+      const Vec3 at = chance(random, 0.5) ? Vec3(this->mesh.points.row(v))
+                                          : random.in_box(1.1 * box.lower, 1.1 * box.upper);
+      switch (random.below(4))
+      {
+        case 0:
+          this->handles.push_back(region_handle(name, h + 1, at));
+          this->options.region_ids[static_cast<std::size_t>(v)] = h + 1;
+          for (Index u = 0; u < this->mesh.points.rows(); ++u)
+          {
+            if (chance(random, 0.1))
+            {
+              this->options.region_ids[static_cast<std::size_t>(u)] = h + 1;
+            }
+          }
+          break;
+        case 1:
+          this->handles.push_back(bone_handle(name, at, at + random.in_box(box.lower, box.upper)));
+          break;
+        default:
+          this->handles.push_back(point_handle(name, at));
+          break;
+      }
+    }
+  }
+
+  Status bind(ExecutionContext& context, FullArap& arap) const
+  {
+    return this->surface.rows() > 0
+      ? arap.bind(context, this->mesh.points, this->surface, this->handles, this->options)
+      : arap.bind(context, this->mesh.points, this->mesh.tets, this->handles, this->options);
+  }
+};
+} // namespace
+
+TEST(FuzzPoses, FullArap)
+{
+  Index solves = 0;
+  fuzz("sequences of poses through full ARAP", 6000,
+    [&](Random& random)
+    {
+      const FullCase shape(random);
+      ExecutionContext one, many;
+      one.set_threads(1);
+      many.set_threads(4);
+      FullArap arap, twin;
+      const Status bound = shape.bind(one, arap);
+      expect_spoken(bound);
+      ASSERT_EQ(shape.bind(many, twin).code, bound.code);
+      if (!bound.usable())
+      {
+        // Two handles at one place, a region whose vertices another one took, …
+        ASSERT_EQ(bound.code, StatusCode::invalid_input);
+        return;
+      }
+      const double exponent = chance(random, 0.2) ? 30.0 : 4.0;
+      Pose pose(shape.handles.size());
+      const Index length = 1 + random.below(5);
+      for (Index step = 0; step < length; ++step)
+      {
+        for (HandlePose& handle : pose)
+        {
+          if (chance(random, 0.5))
+          {
+            handle.mode = static_cast<HandleMode>(random.below(3));
+            handle.transform = transform(random, exponent);
+          }
+        }
+        const FullArap::SolveOptions options{ chance(random, 0.5) ? 0.0 : 1e-6, random.below(25),
+          static_cast<FullArap::Start>(random.below(3)), random.below(6) };
+        const Status status = arap.solve(one, pose, options);
+        ++solves;
+        expect_spoken(status);
+        ASSERT_TRUE(status.usable()) << status.message;
+        ASSERT_TRUE(arap.posed().allFinite());
+        for (const Eigen::Matrix3d& r : arap.rotations())
+        {
+          ASSERT_LT((r.transpose() * r - Eigen::Matrix3d::Identity()).norm(), 1e-9);
+          ASSERT_GT(r.determinant(), 0.0);
+        }
+        const double size = size_of(pose);
+        const double unit = 1e-12 * arap.rest_energy() * size * size;
+        for (std::size_t i = 1; i < arap.energies().size(); ++i)
+        {
+          ASSERT_LE(arap.energies()[i],
+            arap.energies()[i - 1] + unit + 1e-12 * std::abs(arap.energies()[i - 1]))
+            << i << " size " << size;
+        }
+        ASSERT_TRUE(twin.solve(many, pose, options).usable());
+        ASSERT_EQ(arap.posed(), twin.posed());
+        ASSERT_EQ(arap.energies(), twin.energies());
+      }
+      // Home again, whatever the modes are.
+      for (HandlePose& handle : pose)
+      {
+        handle.transform = identity_affine();
+      }
+      const double diagonal = bounding_box(shape.mesh.points).diagonal();
+      for (const auto start : { FullArap::Start::guess, FullArap::Start::rest })
+      {
+        ASSERT_TRUE(arap.solve(one, pose, { 1e-6, 100, start, 5 }).usable());
+        ASSERT_LT((arap.posed() - shape.mesh.points).cwiseAbs().maxCoeff(), 1e-8 * diagonal)
+          << (start == FullArap::Start::guess ? "guess" : "rest");
       }
     });
   std::cout << "[ fuzz ] " << solves << " poses\n";

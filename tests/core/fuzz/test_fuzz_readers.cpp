@@ -10,6 +10,7 @@
 #include "pose/pose_file.h"
 #include "support/files.h"
 #include "support/fuzz.h"
+#include "support/handles.h"
 
 #include <cstring>
 #include <map>
@@ -406,17 +407,10 @@ namespace
 {
 Handles named_handles()
 {
-  Handles handles(3);
-  handles[0].name = "p";
-  handles[0].head = handles[0].tail = Vec3(1, 2, 3);
-  handles[1].name = "fore";
-  handles[1].kind = HandleKind::bone;
-  handles[1].head = Vec3(1, 0, 0);
-  handles[1].tail = Vec3(2, 0, 0);
+  Handles handles{ test::point_handle("p", Vec3(1, 2, 3)),
+    test::bone_handle("fore", Vec3(1, 0, 0), Vec3(2, 0, 0)),
+    test::bone_handle("upper", Vec3(0, 0, 0), Vec3(1, 0, 0)) };
   handles[1].parent = 2;
-  handles[2].name = "upper";
-  handles[2].kind = HandleKind::bone;
-  handles[2].tail = Vec3(1, 0, 0);
   return handles;
 }
 

@@ -4,6 +4,7 @@
 // Meshes and handles that the tests of full ARAP share.
 
 #include "pose/full_arap.h"
+#include "support/handles.h"
 #include "support/meshes.h"
 
 namespace bindpose::test
@@ -11,22 +12,6 @@ namespace bindpose::test
 
 constexpr ArapEnergy every_energy[] = { ArapEnergy::elements, ArapEnergy::spokes_and_rims,
   ArapEnergy::spokes };
-
-inline Handle point(const std::string& name, const Vec3& at)
-{
-  Handle handle;
-  handle.name = name;
-  handle.head = handle.tail = at;
-  return handle;
-}
-
-inline Handle region(const std::string& name, Index label, const Vec3& middle)
-{
-  Handle handle = point(name, middle);
-  handle.kind = HandleKind::region;
-  handle.region_id = label;
-  return handle;
-}
 
 struct Held
 {
@@ -46,7 +31,7 @@ inline Held held_bar(int cells)
   for (Index r = 0; r < 3; ++r)
   {
     const double x = 2.0 * static_cast<double>(r);
-    bar.handles.push_back(region(names[r], r + 1, Vec3(x, 0.5, 0.5)));
+    bar.handles.push_back(region_handle(names[r], r + 1, Vec3(x, 0.5, 0.5)));
     for (Index v = 0; v < bar.mesh.points.rows(); ++v)
     {
       if (std::abs(bar.mesh.points(v, 0) - x) < 1e-9)
@@ -56,6 +41,13 @@ inline Held held_bar(int cells)
     }
   }
   return bar;
+}
+
+inline Status bind(FullArap& arap, const Held& held, ArapEnergy energy)
+{
+  ExecutionContext context;
+  return arap.bind(
+    context, held.mesh.points, held.mesh.tets, held.handles, { energy, held.labels });
 }
 
 /// So many iterations without acceleration.

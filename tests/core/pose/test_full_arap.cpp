@@ -41,7 +41,7 @@ TEST(FullArap, IsTheReducedMethodInTheWholeSpaceIterateByIterate)
   for (Index v = 0; v < mesh.points.rows(); ++v)
   {
     mesh.points.row(v) += random.in_box(Vec3::Constant(-0.1), Vec3::Constant(0.1)).transpose();
-    handles.push_back(point("v" + std::to_string(v), mesh.points.row(v)));
+    handles.push_back(point_handle("v" + std::to_string(v), mesh.points.row(v)));
   }
   const Index n = mesh.points.rows();
   const Triangles skin = boundary_triangles(mesh.tets);
@@ -97,15 +97,13 @@ TEST(FullArap, RigidHandlesMoveTheMeshRigidly)
   Handles poles;
   for (const Index v : { 0, 1, 2, 3 }) // vertices of the icosahedron
   {
-    poles.push_back(point("p" + std::to_string(v), ball.points.row(v)));
+    poles.push_back(point_handle("p" + std::to_string(v), ball.points.row(v)));
   }
   ExecutionContext context;
   for (const ArapEnergy energy : every_energy)
   {
     FullArap arap, skin;
-    ASSERT_TRUE(
-      arap.bind(context, bar.mesh.points, bar.mesh.tets, bar.handles, { energy, bar.labels })
-        .usable());
+    ASSERT_TRUE(bind(arap, bar, energy).usable());
     ASSERT_TRUE(skin.bind(context, ball.points, ball.triangles, poles, { energy, {} }).ok());
     for (const double degrees : { 0.0, 10.0, 90.0, 180.0 })
     {
@@ -135,9 +133,7 @@ TEST(FullArap, NoHalfStepRaisesTheEnergyAndTheLastIsTheEdgeSum)
   for (const ArapEnergy energy : every_energy)
   {
     FullArap arap;
-    ASSERT_TRUE(
-      arap.bind(context, bar.mesh.points, bar.mesh.tets, bar.handles, { energy, bar.labels })
-        .usable());
+    ASSERT_TRUE(bind(arap, bar, energy).usable());
     for (const HandleMode middle : { HandleMode::position, HandleMode::free, HandleMode::full })
     {
       for (const Index window : { 0, 5 })
@@ -166,9 +162,7 @@ TEST(FullArap, AtTheEndNoFreeVertexIsPulled)
   for (const ArapEnergy energy : every_energy)
   {
     FullArap arap;
-    ASSERT_TRUE(
-      arap.bind(context, bar.mesh.points, bar.mesh.tets, bar.handles, { energy, bar.labels })
-        .usable());
+    ASSERT_TRUE(bind(arap, bar, energy).usable());
     FullArap::SolveOptions options;
     options.tolerance = 0.0;
     options.max_iterations = 600;
@@ -197,9 +191,7 @@ TEST(FullArap, AccelerationReachesTheSameEnergyInFewerIterations)
   for (const ArapEnergy energy : every_energy)
   {
     FullArap arap;
-    ASSERT_TRUE(
-      arap.bind(context, bar.mesh.points, bar.mesh.tets, bar.handles, { energy, bar.labels })
-        .usable());
+    ASSERT_TRUE(bind(arap, bar, energy).usable());
     const auto run = [&](Index window, Index count)
     {
       FullArap::SolveOptions options = plain(count, FullArap::Start::rest);

@@ -20,8 +20,8 @@ namespace
 struct Cloth
 {
   TriangleMesh mesh = test::grid(6, 6);
-  Handles handles{ point("a", Vec3(0, 0, 0)), point("b", Vec3(1, 0, 0)), point("c", Vec3(0, 1, 0)),
-    point("d", Vec3(1, 1, 0)) };
+  Handles handles{ point_handle("a", Vec3(0, 0, 0)), point_handle("b", Vec3(1, 0, 0)),
+    point_handle("c", Vec3(0, 1, 0)), point_handle("d", Vec3(1, 1, 0)) };
 };
 } // namespace
 
@@ -35,15 +35,13 @@ TEST(FullArapRobustness, APivotInsideAnElementIsThatPointOfTheMesh)
     return 0.4 * points.row(bar.mesh.tets(t, 0)) + 0.3 * points.row(bar.mesh.tets(t, 1)) +
       0.2 * points.row(bar.mesh.tets(t, 2)) + 0.1 * points.row(bar.mesh.tets(t, 3));
   };
-  bar.handles[1] = point("middle", inside(bar.mesh.points, tet));
-  bar.handles.push_back(point("other", inside(bar.mesh.points, other)));
+  bar.handles[1] = point_handle("middle", inside(bar.mesh.points, tet));
+  bar.handles.push_back(point_handle("other", inside(bar.mesh.points, other)));
   ExecutionContext context;
   for (const ArapEnergy energy : every_energy)
   {
     FullArap arap;
-    ASSERT_TRUE(
-      arap.bind(context, bar.mesh.points, bar.mesh.tets, bar.handles, { energy, bar.labels })
-        .usable());
+    ASSERT_TRUE(bind(arap, bar, energy).usable());
     // With a part held, and with nothing else held: the points alone say where the bar is.
     for (const HandleMode ends : { HandleMode::full, HandleMode::position, HandleMode::free })
     {
@@ -75,8 +73,8 @@ TEST(FullArapRobustness, APivotInsideAnElementIsThatPointOfTheMesh)
 TEST(FullArapRobustness, ThreePointsInsideElementsMoveTheMeshRigidly)
 {
   Cloth cloth;
-  cloth.handles = { point("a", Vec3(0.31, 0.12, 0)), point("b", Vec3(0.83, 0.27, 0)),
-    point("c", Vec3(0.44, 0.77, 0)) };
+  cloth.handles = { point_handle("a", Vec3(0.31, 0.12, 0)), point_handle("b", Vec3(0.83, 0.27, 0)),
+    point_handle("c", Vec3(0.44, 0.77, 0)) };
   ExecutionContext context;
   for (const ArapEnergy energy : every_energy)
   {
@@ -122,13 +120,8 @@ TEST(FullArapRobustness, TheMiddleOfARegionGoesWhereItsPositionIs)
 TEST(FullArapRobustness, ABoneTakesTheVerticesAlongIt)
 {
   TetMesh mesh = tet_box(8, 2, 2, Vec3::Zero(), Vec3(4, 1, 1));
-  Handles handles(2);
-  handles[0].name = "first";
-  handles[1].name = "second";
-  handles[0].kind = handles[1].kind = HandleKind::bone;
-  handles[0].head = Vec3(0, 0.5, 0.5);
-  handles[0].tail = handles[1].head = Vec3(2, 0.5, 0.5);
-  handles[1].tail = Vec3(4, 0.5, 0.5);
+  Handles handles{ bone_handle("first", Vec3(0, 0.5, 0.5), Vec3(2, 0.5, 0.5)),
+    bone_handle("second", Vec3(2, 0.5, 0.5), Vec3(4, 0.5, 0.5)) };
   ExecutionContext context;
   FullArap arap;
   ASSERT_TRUE(arap.bind(context, mesh.points, mesh.tets, handles).ok());
@@ -165,9 +158,9 @@ TEST(FullArapRobustness, RedundantAndContradictingHandlesAreNamed)
   Cloth cloth;
   // Both in the triangle of (0, 0), (1/6, 0) and a corner across: three more points there than its
   // plane can tell apart.
-  cloth.handles.push_back(point("e", Vec3(0.06, 0.01, 0)));
-  cloth.handles.push_back(point("f", Vec3(0.10, 0.02, 0)));
-  cloth.handles.push_back(point("g", Vec3(0.12, 0.01, 0)));
+  cloth.handles.push_back(point_handle("e", Vec3(0.06, 0.01, 0)));
+  cloth.handles.push_back(point_handle("f", Vec3(0.10, 0.02, 0)));
+  cloth.handles.push_back(point_handle("g", Vec3(0.12, 0.01, 0)));
   ExecutionContext context;
   FullArap arap;
   ASSERT_TRUE(arap.bind(context, cloth.mesh.points, cloth.mesh.triangles, cloth.handles).ok());
@@ -187,7 +180,7 @@ TEST(FullArapRobustness, RedundantAndContradictingHandlesAreNamed)
   EXPECT_TRUE(arap.posed().allFinite());
   // Two full regions on one vertex: half way between the two wishes.
   Held bar = held_bar(4);
-  Handle corner = point("corner", Vec3(0, 0, 0));
+  Handle corner = point_handle("corner", Vec3(0, 0, 0));
   bar.handles.push_back(corner);
   ASSERT_TRUE(arap
                 .bind(context, bar.mesh.points, bar.mesh.tets, bar.handles,
@@ -215,7 +208,7 @@ TEST(FullArapRobustness, WhatNothingHoldsStays)
   for (const ArapEnergy energy : every_energy)
   {
     FullArap arap;
-    const Handles handles{ point("a", Vec3(0, 0, 0)), point("b", Vec3(1, 0, 0)) };
+    const Handles handles{ point_handle("a", Vec3(0, 0, 0)), point_handle("b", Vec3(1, 0, 0)) };
     ASSERT_TRUE(arap.bind(context, two.points, two.triangles, handles, { energy, {} }).ok());
     // Nothing at all.
     ASSERT_TRUE(arap.solve(context, posed(handles, HandleMode::free)).ok());
@@ -379,7 +372,7 @@ TEST(FullArapRobustness, BadInputIsNamed)
   EXPECT_THAT(message(Points::Zero(49, 3), cloth.mesh.triangles, cloth.handles),
     HasSubstr("no triangle has an area"));
   EXPECT_FALSE(message(cloth.mesh.points, cloth.mesh.triangles, {}).empty());
-  Handles regions{ region("r", 3, Vec3::Zero()) };
+  Handles regions{ region_handle("r", 3, Vec3::Zero()) };
   EXPECT_THAT(message(cloth.mesh.points, cloth.mesh.triangles, regions),
     HasSubstr("region 'r' needs a point array of labels"));
   EXPECT_THAT(message(cloth.mesh.points, cloth.mesh.triangles, regions, std::vector<Index>(49, 1)),
@@ -389,7 +382,7 @@ TEST(FullArapRobustness, BadInputIsNamed)
   regions[0].region_id = 0;
   EXPECT_THAT(message(cloth.mesh.points, cloth.mesh.triangles, regions, std::vector<Index>(49, 1)),
     HasSubstr("region 'r' has no label"));
-  Handles far{ point("far", Vec3(0, 0, 3)), point("b", Vec3(1, 0, 0)) };
+  Handles far{ point_handle("far", Vec3(0, 0, 3)), point_handle("b", Vec3(1, 0, 0)) };
   const Status beside = arap.bind(context, cloth.mesh.points, cloth.mesh.triangles, far);
   ASSERT_TRUE(beside.ok());
   ASSERT_EQ(beside.warnings.size(), 1u);

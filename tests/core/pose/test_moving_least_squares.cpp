@@ -2,6 +2,7 @@
 // formulas written out plainly, and integrals that are known.
 #include "pose/moving_least_squares.h"
 
+#include "support/handles.h"
 #include "support/meshes.h"
 
 #include <Eigen/SVD>
@@ -16,19 +17,12 @@ namespace
 {
 Handle point(const Vec3& at, Index number)
 {
-  Handle handle;
-  handle.name = "p" + std::to_string(number);
-  handle.head = handle.tail = at;
-  return handle;
+  return test::point_handle("p" + std::to_string(number), at);
 }
 
 Handle bone(const Vec3& head, const Vec3& tail, Index number)
 {
-  Handle handle = point(head, number);
-  handle.name = "b" + std::to_string(number);
-  handle.kind = HandleKind::bone;
-  handle.tail = tail;
-  return handle;
+  return test::bone_handle("b" + std::to_string(number), head, tail);
 }
 
 Eigen::Matrix3d rotation(double degrees, const Vec3& axis)

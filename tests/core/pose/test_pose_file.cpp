@@ -1,6 +1,7 @@
 // Pose files: what they mean, what is refused, and that what is written is read back.
 #include "pose/pose_file.h"
 
+#include "support/handles.h"
 #include "support/meshes.h"
 
 #include <gmock/gmock.h>
@@ -16,17 +17,10 @@ namespace
 /// A point, and a chain of two bones along x; the second's parent is the first, which comes later.
 Handles rig()
 {
-  Handles handles(3);
-  handles[0].name = "p";
-  handles[0].head = handles[0].tail = Vec3(1, 2, 3);
-  handles[1].name = "fore";
-  handles[1].kind = HandleKind::bone;
-  handles[1].head = Vec3(1, 0, 0);
-  handles[1].tail = Vec3(2, 0, 0);
+  Handles handles{ test::point_handle("p", Vec3(1, 2, 3)),
+    test::bone_handle("fore", Vec3(1, 0, 0), Vec3(2, 0, 0)),
+    test::bone_handle("upper", Vec3(0, 0, 0), Vec3(1, 0, 0)) };
   handles[1].parent = 2;
-  handles[2].name = "upper";
-  handles[2].kind = HandleKind::bone;
-  handles[2].tail = Vec3(1, 0, 0);
   return handles;
 }
 

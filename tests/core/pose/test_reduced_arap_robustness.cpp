@@ -3,6 +3,7 @@
 #include "pose/reduced_arap.h"
 
 #include "core/pose/arap_cases.h"
+#include "support/handles.h"
 
 #include <Eigen/LU>
 #include <gmock/gmock.h>
@@ -74,12 +75,8 @@ TEST(ReducedArapRobustness, APivotInsideATetIsThatPointOfTheMesh)
 TEST(ReducedArapRobustness, RedundantAndContradictingPositionsAreNamed)
 {
   test::Rig rig = test::bar();
-  Handle bone; // begins where the point handle "right" is
-  bone.name = "tail bone";
-  bone.kind = HandleKind::bone;
-  bone.head = rig.handles[2].head;
-  bone.tail = Vec3(5, 0.5, 0.5);
-  rig.handles.push_back(bone);
+  // Begins where the point handle "right" is.
+  rig.handles.push_back(test::bone_handle("tail bone", rig.handles[2].head, Vec3(5, 0.5, 0.5)));
   Weights weights(rig.weights.rows(), 4);
   weights << rig.weights, 0.5 * rig.weights.col(2);
   weights.col(2) *= 0.5;

@@ -3,6 +3,7 @@
 
 #include "pose/pose_file.h"
 #include "support/bars.h"
+#include "support/handles.h"
 #include "support/meshes.h"
 
 #include <gmock/gmock.h>
@@ -405,11 +406,7 @@ TEST(StretchableBones, WithoutAChangeAreLinearBlendBitForBit)
 
 TEST(StretchableBones, TakeTheirTailsWhereThePoseFilePutsThem)
 {
-  Handles handles(1);
-  handles[0].name = "arm";
-  handles[0].kind = HandleKind::bone;
-  handles[0].head = Vec3(1, 2, 3);
-  handles[0].tail = Vec3(2, 2, 3.5);
+  const Handles handles{ test::bone_handle("arm", Vec3(1, 2, 3), Vec3(2, 2, 3.5)) };
   PoseSequence sequence;
   ASSERT_TRUE(parse_pose_file(
     R"({"handles": {"arm": {"head": [0, 1, 0], "tail": [3, 4, 5], "twist": [20, 50]}}})", handles,

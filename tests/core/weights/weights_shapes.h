@@ -5,6 +5,7 @@
 
 #include "weights/weights_problem.h"
 
+#include "support/handles.h"
 #include "support/meshes.h"
 
 #include <gtest/gtest.h>
@@ -41,33 +42,6 @@ inline WeightsProblem problem_of(const Domain& domain, const Handles& handles,
   const Status status = make_weights_problem(domain, regions, handles, options, context, problem);
   EXPECT_TRUE(status.ok()) << status.message;
   return problem;
-}
-
-inline Handle point_handle(const std::string& name, const Vec3& at)
-{
-  Handle handle;
-  handle.name = name;
-  handle.head = handle.tail = at;
-  return handle;
-}
-
-inline Handle bone_handle(const std::string& name, const Vec3& head, const Vec3& tail)
-{
-  Handle handle;
-  handle.name = name;
-  handle.kind = HandleKind::bone;
-  handle.head = head;
-  handle.tail = tail;
-  return handle;
-}
-
-inline Handle region_handle(const std::string& name, Index label)
-{
-  Handle handle;
-  handle.name = name;
-  handle.kind = HandleKind::region;
-  handle.region_id = label;
-  return handle;
 }
 
 /// Points p1, p2, …

@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # What is too long for tests/run.sh: sanitizers, the build without GPL and AGPL parts and OpenVDB, naming on all
 # files, the quickstart, every surface of libcgal-demo and every made horror through the mesher, weights of twenty
-# surfaces with their certificates, a thousand random unclean surfaces, a million triangles, the plugin in ParaView.
+# surfaces with their certificates, a thousand random unclean surfaces, two million poses, a million triangles, the
+# plugin in ParaView.
 # Ends with a summary.
-# usage: tests/nightly.sh [asan|permissive|tidy|quickstart|surfaces|weights|fuzz|million|paraview …]   (default: all)
+# usage: tests/nightly.sh [asan|permissive|tidy|quickstart|surfaces|weights|fuzz|drags|million|paraview …]   (default: all)
 set -uo pipefail
 program=nightly.sh
 install=yes
@@ -70,6 +71,12 @@ fuzz()
   ctest --test-dir "$build_dir" --no-tests=error --output-on-failure -j "$(nproc)" -R '^core\.Fuzz(Tetrahedralize|Wrap)\.'
 )
 
+drags()
+( # without sanitizers: over two million poses through reduced ARAP, 700,000 through full ARAP
+  export BINDPOSE_FUZZ_FACTOR=${BINDPOSE_FUZZ_FACTOR:-40}
+  ctest --test-dir "$build_dir" --no-tests=error --output-on-failure -j "$(nproc)" -R '^core\.FuzzPoses\.'
+)
+
 million()
 {
   /usr/bin/python3 "$root/tests/support/measure_tets.py" --build "$build_dir" --table million
@@ -81,7 +88,7 @@ paraview()
 }
 
 parts=("$@")
-[ $# -gt 0 ] || parts=(asan permissive tidy quickstart surfaces weights fuzz million paraview)
+[ $# -gt 0 ] || parts=(asan permissive tidy quickstart surfaces weights fuzz drags million paraview)
 for name in "${parts[@]}"; do
   part "$name" "$name"
 done

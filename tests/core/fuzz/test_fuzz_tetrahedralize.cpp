@@ -426,8 +426,11 @@ TEST(FuzzTetrahedralize, LatticesOfAbusedSurfaces)
       SCOPED_TRACE(std::string(to_string(options.method)) + ": " + status.message);
       if (!status.usable())
       {
-        EXPECT_TRUE(
-          status.code == StatusCode::invalid_input || status.code == StatusCode::internal_error);
+        const bool too_thin = status.code == StatusCode::unavailable &&
+          options.method == TetMethod::remesh &&
+          status.message.find("too thin for tets of this size") != std::string::npos;
+        EXPECT_TRUE(too_thin || status.code == StatusCode::invalid_input ||
+          status.code == StatusCode::internal_error);
         return;
       }
       ++filled;

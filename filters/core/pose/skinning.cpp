@@ -439,6 +439,54 @@ Status Skinning::linear_blend(ExecutionContext& context, PointsView rest,
   return done ? status : Status::cancelled();
 }
 
+Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
+  const std::vector<std::vector<Affine>>& transforms, std::vector<FloatPoints>& posed) const
+{
+  if (!this->single_)
+  {
+    return Status::invalid_input("many instances are posed with weights in single precision");
+  }
+  constexpr Index lanes = WeightTiles<float>::lanes;
+  const Vec3 centre = centre_of(rest);
+  std::vector<BlendValues<float, 12>> moves;
+  for (const std::vector<Affine>& of_instance : transforms)
+  {
+    const Status status = this->check(rest, of_instance);
+    if (!status.ok())
+    {
+      return status;
+    }
+    moves.push_back(displacements<float>(of_instance, centre));
+  }
+  posed.resize(transforms.size());
+  for (FloatPoints& points : posed)
+  {
+    points.resize(rest.rows(), 3);
+  }
+  const bool done = parallel_for(context, rest.rows(), block_size,
+    [&](Index begin, Index end)
+    {
+      std::vector<TilePoints<float>> points(block_size / lanes), at(points.size());
+      for (Index v = begin; v < end; v += lanes)
+      {
+        const auto tile = static_cast<std::size_t>((v - begin) / lanes);
+        const Index count = std::min(lanes, end - v);
+        load_points(rest.data() + 3 * v, count, centre, points[tile]);
+        load_points(rest.data() + 3 * v, count, Vec3::Zero(), at[tile]);
+      }
+      for (std::size_t i = 0; i < moves.size(); ++i)
+      {
+        for (Index v = begin; v < end; v += lanes)
+        {
+          const auto tile = static_cast<std::size_t>((v - begin) / lanes);
+          pose_tile(this->floats_, v / lanes, moves[i], points[tile], at[tile],
+            std::min(lanes, end - v), posed[i].data() + 3 * v);
+        }
+      }
+    });
+  return done ? Status() : Status::cancelled();
+}
+
 Status Skinning::linear_blend_normals(ExecutionContext& context, PointsView rest_normals,
   const std::vector<Affine>& transforms, Points& posed_normals) const
 {

@@ -9,6 +9,9 @@
 namespace bindpose
 {
 
+/// #V x 3 coordinates in single precision, for drawing.
+using FloatPoints = Eigen::Matrix<float, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
 /// What a bone does along itself, at rest: the transform comes afterwards.
 struct BoneChange
 {
@@ -59,6 +62,12 @@ public:
   /// rest and posed: #V x 3; posed may not be rest. Only cancelled or invalid_input (sizes).
   Status linear_blend(ExecutionContext& context, PointsView rest,
     const std::vector<Affine>& transforms, Points& posed) const;
+
+  /// The same for many instances of the shape at once, each with transforms of its own: weights and
+  /// points are read once for all. Of weights bound in single precision; invalid_input for others.
+  /// posed: #V x 3 for each instance.
+  Status linear_blend_many(ExecutionContext& context, PointsView rest,
+    const std::vector<std::vector<Affine>>& transforms, std::vector<FloatPoints>& posed) const;
 
   /// Normals under the same blend: the cofactor matrix of the blended linear part, unit length.
   /// A normal that collapses to zero keeps its rest direction.

@@ -246,6 +246,38 @@ BINDPOSE_OF_SCALAR(float)
 BINDPOSE_OF_SCALAR(double)
 #undef BINDPOSE_OF_SCALAR
 
+BINDPOSE_SIMD_CLONES void pose_floats(const std::int32_t* columns, const float* weights,
+  Index count, const float* values, const float* points, const float* rest, Index vertices,
+  float* posed)
+{
+  constexpr Index lanes = WeightTiles<float>::lanes;
+  alignas(64) float blended[12 * lanes], moves[3 * lanes];
+  blend_any<12, float>(columns, weights, count, values, nullptr, 0, nullptr, blended);
+  affine_any<float>(blended, points, moves);
+  for (Index c = 0; c < 3; ++c)
+  {
+    pack(moves + c * lanes) += pack(rest + c * lanes);
+  }
+  if (vertices == lanes)
+  {
+#pragma GCC unroll 16
+    for (Index i = 0; i < lanes; ++i)
+    {
+      posed[3 * i] = moves[i];
+      posed[3 * i + 1] = moves[lanes + i];
+      posed[3 * i + 2] = moves[2 * lanes + i];
+    }
+    return;
+  }
+  for (Index i = 0; i < vertices; ++i)
+  {
+    for (Index c = 0; c < 3; ++c)
+    {
+      posed[3 * i + c] = moves[c * lanes + i];
+    }
+  }
+}
+
 /// A sum of quaternions that is no longer than this has no direction.
 constexpr float no_length(float)
 {
@@ -306,6 +338,16 @@ template <typename Scalar>
 void store_moved(const double* rest, Index count, const TilePoints<Scalar>& moves, double* posed)
 {
   store(rest, count, &moves.at[0][0], posed);
+}
+
+void pose_tile(const WeightTiles<float>& weights, Index tile, const BlendValues<float, 12>& values,
+  const TilePoints<float>& points, const TilePoints<float>& rest, Index count, float* posed)
+{
+  const Index begin = weights.start[static_cast<std::size_t>(tile)];
+  const Index columns = weights.start[static_cast<std::size_t>(tile) + 1] - begin;
+  pose_floats(weights.columns.data() + begin,
+    weights.weights.data() + begin * WeightTiles<float>::lanes, columns, values.values.data(),
+    &points.at[0][0], &rest.at[0][0], count, posed);
 }
 
 #define BINDPOSE_INSTANTIATE(Scalar)                                                          \

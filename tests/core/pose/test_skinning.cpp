@@ -534,6 +534,49 @@ TEST(Skinning, SinglePrecisionIsRightToAMillionthOfTheDiagonal)
   EXPECT_EQ(rest.dual, rig.mesh.points);
 }
 
+TEST(Skinning, ManyInstancesAreEachLikeOne)
+{
+  const test::Rig rig = test::box(5); // no whole number of tiles
+  const Points& rest = rig.mesh.points;
+  const double diagonal = bounding_box(rest).diagonal();
+  SkinningOptions single;
+  single.single_precision = true;
+  Skinning skinning;
+  ExecutionContext one, many;
+  one.set_threads(1);
+  many.set_threads(4);
+  ASSERT_TRUE(skinning.bind(one, rig.weights, single).ok());
+  test::Random random(12);
+  std::vector<std::vector<Affine>> transforms(7);
+  for (std::vector<Affine>& of_instance : transforms)
+  {
+    of_instance = wild_transforms(random, true);
+  }
+  transforms.emplace_back(5, identity_affine());
+  std::vector<FloatPoints> posed, again;
+  ASSERT_TRUE(skinning.linear_blend_many(one, rest, transforms, posed).ok());
+  ASSERT_TRUE(skinning.linear_blend_many(many, rest, transforms, again).ok());
+  EXPECT_EQ(posed, again);
+  ASSERT_EQ(posed.size(), 8u);
+  for (std::size_t i = 0; i < 8; ++i)
+  {
+    Points alone;
+    ASSERT_TRUE(skinning.linear_blend(one, rest, transforms[i], alone).ok());
+    EXPECT_LT(difference(posed[i].cast<double>(), alone), 1e-6 * diagonal) << i;
+  }
+  EXPECT_EQ(posed[7], rest.cast<float>());
+
+  transforms[3].pop_back();
+  EXPECT_EQ(
+    skinning.linear_blend_many(one, rest, transforms, posed).code, StatusCode::invalid_input);
+  transforms.clear();
+  EXPECT_TRUE(skinning.linear_blend_many(one, rest, transforms, posed).ok());
+  EXPECT_TRUE(posed.empty());
+  ASSERT_TRUE(skinning.bind(one, rig.weights).ok());
+  EXPECT_EQ(
+    skinning.linear_blend_many(one, rest, transforms, posed).code, StatusCode::invalid_input);
+}
+
 TEST(Skinning, DroppedWeightsAreCountedAndTheirErrorIsBounded)
 {
   const test::Rig rig = test::box();

@@ -103,7 +103,7 @@ Status vtkPoseAlgorithm::Execute(
   {
     return no_weights(mesh, this->ArrayName);
   }
-  if (!handle_data)
+  if (!handle_data && this->NeedsHandles())
   {
     return Status::invalid_input("there is no handle");
   }
@@ -114,16 +114,23 @@ Status vtkPoseAlgorithm::Execute(
   {
     key.add(object);
   }
-  for (vtkObject* object : bind_objects(handle_data))
+  if (handle_data)
   {
-    key.add(object);
+    for (vtkObject* object : bind_objects(handle_data))
+    {
+      key.add(object);
+    }
   }
   Cache& bound = *this->Bound;
   const bool bind = !bound.valid || bound.key != key;
   if (bind)
   {
     bound = Cache();
-    Status status = to_handles(handle_data, bound.handles, &bound.cells);
+    Status status;
+    if (handle_data)
+    {
+      status = to_handles(handle_data, bound.handles, &bound.cells);
+    }
     if (!status.ok())
     {
       return status;
@@ -144,7 +151,11 @@ Status vtkPoseAlgorithm::Execute(
     }
   }
   Pose pose;
-  Status status = to_pose(handle_data, bound.handles, bound.cells, pose);
+  Status status;
+  if (handle_data)
+  {
+    status = to_pose(handle_data, bound.handles, bound.cells, pose);
+  }
   if (!status.ok())
   {
     return status;

@@ -52,6 +52,8 @@ protected:
 
   /// Whether the mesh must have weights. Default: yes. Without, PoseInput's are empty.
   virtual bool NeedsWeights() const { return true; }
+  /// Whether there must be handles. Default: yes. Without, PoseInput's are empty.
+  virtual bool NeedsHandles() const { return true; }
 
   /// The mesh's point arrays that a bind reads. Default: the weights, if it needs them.
   virtual std::vector<std::string> BindArrays();

@@ -34,6 +34,7 @@ from .errors import (
     NotConvergedWarning,
     Unavailable,
 )
+from .fairing import fair
 from .files import read, read_handles, write
 from .functions import contains, deform, planar_shape, tetrahedralize, weights, winding_number
 from .handle_sets import farthest_point_handles, handles

@@ -9,6 +9,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from . import BindposeFilters as filters
 from .errors import BindposeWarning, InvalidInput, Unavailable
+from .fairing import make_variational
 from .files import read
 from .handle_sets import to_handles, with_cell_values
 from .images import is_image_file, read_image, to_image
@@ -29,7 +30,9 @@ from .meshes import (
     to_vtk_points,
     triangles_of,
 )
+from .fairing import make_variational
 from .running import report as report_of
+from .fairing import make_variational
 from .running import run
 
 _WINDING = {"auto": "AUTO", "exact": "EXACT", "fast": "FAST"}
@@ -502,7 +505,9 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
 _ENERGIES = ("auto", "spokes-and-rims", "spokes", "tetrahedra", "triangles")
 
 
-def _make_deformation(method, exponent, energy, iterations, tolerance):
+def _make_deformation(method, exponent, energy, iterations, tolerance, variational):
+    if method == "variational":
+        return make_variational(*variational)
     if method in ("reduced-arap", "full-arap"):
         arap = filters.vtkReducedARAP() if method == "reduced-arap" else filters.vtkFullARAP()
         arap.SetEnergy(getattr(arap, energy.upper().replace("-", "_")))
@@ -520,23 +525,24 @@ def _make_deformation(method, exponent, energy, iterations, tolerance):
 
 
 def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, energy="auto", iterations=0,
-           tolerance=1e-6, threads=0, progress=None):
+           tolerance=1e-6, order=2, boundary="region", tangents="surroundings", threads=0, progress=None):
     """Bend a mesh with weights to a pose, or to a sequence of poses.
 
     Parameters
     ----------
     mesh : vtkDataSet or (vertices, elements)
-        A dataset with the point array ``Weights``, or arrays beside `weights`. ``full-arap`` and ``mls`` need
-        none.
+        A dataset with the point array ``Weights``, or arrays beside `weights`. ``full-arap``, ``mls`` and
+        ``variational`` need none.
     handles : vtkPolyData, str or path-like
         The handles that the weights were made for.
     pose : dict, str or path-like
         ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}``
         or ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file.
-    method : {"lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls"}
+    method : {"lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls", "variational"}
         Linear blend skinning, dual quaternions, stretchable and twistable bones (with the point array
         ``EndpointWeights`` where there is one), reduced as-rigid-as-possible; without weights: full
-        as-rigid-as-possible, or the rigid warp by moving least squares, which knows nothing of the shape.
+        as-rigid-as-possible, the rigid warp by moving least squares, which knows nothing of the shape, or the
+        smooth displacement between what handles and the point array ``Fixed`` hold (see `fair`).
     weights : (#V, #handles) array, optional
         For a mesh of arrays.
     exponent : float
@@ -549,6 +555,8 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
     tolerance : float
         Of reduced-arap and full-arap: an iteration that lowers the energy by less than this share of it is
         the last.
+    order, boundary, tangents
+        Of variational: see `fair`.
     threads, progress
         See `winding_number`.
 
@@ -563,7 +571,7 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
     InvalidInput
         Weights that do not fit, an unknown handle in the pose, a broken pose.
     """
-    _choice(method, ("lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls"), "method")
+    _choice(method, ("lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls", "variational"), "method")
     _choice(energy, _ENERGIES, "energy")
     data = to_dataset(mesh)
     if weights is not None:
@@ -578,7 +586,7 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
             poser.SetPoseJSON(json.dumps(pose))
         except TypeError as error:
             raise InvalidInput(f"the pose is no JSON object: {error}") from None
-    bender = _make_deformation(method, exponent, energy, iterations, tolerance)
+    bender = _make_deformation(method, exponent, energy, iterations, tolerance, (order, boundary, tangents))
     bender.SetInputData(0, data)
     bender.SetInputConnection(1, poser.GetOutputPort())
     bender.SetNumberOfThreads(threads)

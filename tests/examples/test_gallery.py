@@ -8,7 +8,9 @@ GALLERY = EXAMPLES / "gallery"
 NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "colours_of_handles", "cost_of_a_point",
          "cost_of_weights", "cut_out_cartoon", "defect_classes", "full_and_reduced", "growth", "hull_segmentation", "image_rectangle", "jump_and_harmonic",
          "limbs_in_front", "mesh_independence", "near_limbs", "new_hues", "open_crossing_flipped", "original_and_faster",
-         "preview_and_certified", "rigidity_brush", "small_features", "spurious_extrema", "topological_simplification", "weights_in_volume"]
+         "preview_and_certified", "rigidity_brush", "small_features", "spurious_extrema", "topological_simplification", "weights_in_volume",
+         "handle_modes", "drag_only", "disjoint_skeleton", "four_energies", "rotation_clusters", "surface_and_volume", "tether",
+         "orders_and_boundaries", "torus_and_tubes"]
 
 
 def test_open_crossing_flipped(tmp_path):
@@ -54,6 +56,83 @@ def test_full_and_reduced(tmp_path):
         assert 1e-4 < numbers[f"{name}, apart"] < 0.5
         assert numbers[f"{name}, reduced, microseconds"] < numbers[f"{name}, full, microseconds"]
     assert max(numbers[f"bump, {method}, sharpest fold"] for method in ("reduced", "full")) < 90
+
+
+def test_handle_modes(tmp_path):
+    numbers = numbers_of("gallery/handle_modes.py", tmp_path)
+    assert numbers["all full, largest distance from linear blend skinning"] <= 1e-12
+    energies, given = numbers["energies"], numbers["numbers given"]
+    assert given == [60, 33, 24, 6] and all(a > b > 0 for a, b in zip(energies, energies[1:]))
+    assert numbers["largest miss of what is given, diagonals"] <= 1e-9
+
+
+def test_drag_only(tmp_path):
+    numbers = numbers_of("gallery/drag_only.py", tmp_path)
+    for how in ("mean stretch", "exceeded by a hundredth"):
+        assert numbers[f"found: {how}"] < 0.7 * numbers[f"skinned: {how}"]
+    assert abs(numbers["paw: turn found, degrees"]) > 10
+    assert numbers["largest miss of a place, diagonals"] <= 1e-9
+
+
+def test_disjoint_skeleton(tmp_path):
+    numbers = numbers_of("gallery/disjoint_skeleton.py", tmp_path)
+    assert numbers["free bones"] == 5
+    # The hand's own way, for skinning leaves the arm where it is.
+    assert numbers["skinned: arm to hand"] == pytest.approx(np.hypot(0.02, 0.24), abs=1e-9)
+    assert numbers["found: arm to hand"] < 0.02 and numbers["found: triangles turned over"] == 0
+    assert abs(numbers["arm's turn, degrees"]) > 20
+    assert 0.9 < min(numbers["bones' lengths"]) <= max(numbers["bones' lengths"]) < 1.1
+
+
+def test_four_energies(tmp_path):
+    numbers = numbers_of("gallery/four_energies.py", tmp_path)
+    assert numbers["doubled cube, largest error"] <= 1e-12
+    assert numbers["tetrahedra: apart from the first"] == 0
+    for name in ("spokes-and-rims", "spokes", "triangles"):
+        assert 1e-5 < numbers[f"{name}: apart from the first"] < 0.02 and numbers[f"{name}: energy"] > 0
+
+
+def test_rotation_clusters(tmp_path):
+    numbers = numbers_of("gallery/rotation_clusters.py", tmp_path)
+    apart = numbers["distance from all rotations"]
+    assert all(a > b for a, b in zip(apart, apart[1:])) and apart[0] > 0.05 > 0.01 > apart[2] and apart[-1] == 0
+    assert numbers["clusters"][0] == 1
+    assert 10 * numbers["microseconds an iteration"][2] < numbers["microseconds an iteration"][-1]
+
+
+def test_surface_and_volume(tmp_path):
+    numbers = numbers_of("gallery/surface_and_volume.py", tmp_path)
+    for move in ("bent", "twisted"):
+        for what in ("cross-section at the middle", "smallest cross-section", "volume"):
+            assert numbers[f"{move}, surface: {what}"] + 0.03 < numbers[f"{move}, volume: {what}"] < 1.01
+        assert numbers[f"{move}: apart"] > 1e-3
+
+
+def test_tether(tmp_path):
+    numbers = numbers_of("gallery/tether.py", tmp_path)
+    together, apart = numbers["reduced: distances of neighbours"], numbers["full: distances of neighbours"]
+    assert 0.9 < together[0] <= together[1] < 1.1 < 1.2 < apart[1]
+    assert numbers["copies at one place, apart"] == 0
+
+
+def test_orders_and_boundaries(tmp_path):
+    numbers = numbers_of("gallery/orders_and_boundaries.py", tmp_path)
+    region = np.abs(numbers["region: slope at the rim"])
+    assert region[0] > 2 * region[1] > 4 * region[2]
+    assert numbers["curve: largest difference from the membrane"] <= 1e-12
+    assert numbers["tangents: slope at the rim"][1:] == pytest.approx([-1, -1], abs=0.03)
+    assert numbers["tangents: slope at the rim"][0] == pytest.approx(numbers["region: slope at the rim"][0], abs=1e-9)
+
+
+def test_torus_and_tubes(tmp_path):
+    numbers = numbers_of("gallery/torus_and_tubes.py", tmp_path)
+    for name in ("torus rings", "straight tubes", "half the domain"):
+        apart, narrowest = numbers[f"{name}: farthest from the torus"], numbers[f"{name}: narrowest"]
+        assert apart[0] > apart[1] > apart[2] and narrowest[0] < narrowest[1] < narrowest[2]
+        assert numbers[f"{name}: kink at the end, degrees"][0] == pytest.approx(45, abs=1)  # straight across
+        assert max(numbers[f"{name}: kink at the end, degrees"][1:]) < 10
+    assert numbers["torus rings: farthest from the torus"][2] < 0.5 * numbers["straight tubes: farthest from the torus"][2]
+    assert numbers["half the domain: narrowest"][0] > 2 * numbers["straight tubes: narrowest"][0]
 
 
 def test_rigidity_brush(tmp_path):
@@ -287,7 +366,7 @@ def test_what_is_wrong_is_one_sentence(tmp_path):
 
 def test_the_readme_has_them_all():
     text = (GALLERY / "README.md").read_text()
-    scripts = {path.stem for path in GALLERY.glob("*.py")} - {"charts", "common", "meshes", "planar", "refresh"}
+    scripts = {path.stem for path in GALLERY.glob("*.py")} - {"charts", "common", "meshes", "planar", "posing", "refresh"}
     assert scripts == set(NAMES)
     for name in [*NAMES, "inside_outside"]:
         assert f"](../pictures/{name}.png)" in text

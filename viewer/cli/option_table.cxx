@@ -221,13 +221,15 @@ const std::vector<Verb>& verbs()
           ".vtp, .vtu or .vtk: the mesh with the array Smoothed", true } } },
     { "deform", "bend a mesh with weights to a pose or a sequence of poses",
       { { "MESH_WITH_WEIGHTS", "", Kind::text, "", "",
-          "what the verb weights wrote; for full-arap and mls any mesh", true },
+          "what the verb weights wrote; for full-arap, mls and variational any mesh", true },
         { "--handles", "HANDLES", Kind::text, "", "", "handles: .tgf or .vtp", true },
         { "--pose", "POSE", Kind::text, "", "", "pose or sequence as .json", true },
-        { "--method", "METHOD", Kind::choice, "lbs", "lbs|dqs|stbs|reduced-arap|full-arap|mls",
+        { "--method", "METHOD", Kind::choice, "lbs",
+          "lbs|dqs|stbs|reduced-arap|full-arap|mls|variational",
           "linear blend, dual quaternions, stretchable and twistable bones (along the point array "
           "EndpointWeights), reduced as-rigid-as-possible; without weights: full "
-          "as-rigid-as-possible, or moving least squares, which knows nothing of the shape" },
+          "as-rigid-as-possible, moving least squares, which knows nothing of the shape, or the "
+          "smooth surface between what handles and the point array Fixed hold" },
         { "--energy", "ENERGY", Kind::choice, "auto",
           "auto|spokes-and-rims|spokes|tetrahedra|triangles",
           "of reduced-arap and full-arap: which edges share a rotation; auto: tetrahedra on tets, "
@@ -239,6 +241,18 @@ const std::vector<Verb>& verbs()
           "share of it is the last" },
         { "--exponent", "NUMBER", Kind::number, "1", "",
           "of mls: handles count by 1 / distance^(2 NUMBER), 1 to 8" },
+        { "--order", "ORDER", Kind::choice, "2", "1|2|3",
+          "of variational: 1 a membrane, 2 a thin plate, 3 smoother still; the operator is that of "
+          "the mesh at rest or of its point array Parameterization" },
+        { "--boundary", "BOUNDARY", Kind::choice, "region", "region|curve|tangent",
+          "of variational: what is fixed is a band that the surface continues smoothly, or its "
+          "edge "
+          "alone, or the edge with --tangents" },
+        { "--tangents", "SOURCE", Kind::choice, "surroundings", "surroundings|given|clamped",
+          "of --boundary tangent: as beyond the edge, of the point array Tangents, or as at rest" },
+        { "--fair", "", Kind::flag, "", "",
+          "of variational: the free points are made anew from what is around them, for holes and "
+          "blends; else they are moved" },
         { "-o,--output", "OUT", Kind::text, "", "",
           "mesh file; a sequence gives OUT_0000, OUT_0001, … and OUT.pvd", true } } },
     { "render", "picture of one or more datasets",

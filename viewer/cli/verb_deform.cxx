@@ -10,6 +10,7 @@
 #include "vtkPoseHandles.h"
 #include "vtkReducedARAP.h"
 #include "vtkSkinningDeformation.h"
+#include "vtkVariationalSurface.h"
 
 #include "vtkDataSet.h"
 #include "vtkNew.h"
@@ -45,6 +46,21 @@ vtkSmartPointer<vtkBindposeAlgorithm> make_arap(const Arguments& arguments)
   return arap;
 }
 
+vtkSmartPointer<vtkBindposeAlgorithm> make_variational(const Arguments& arguments)
+{
+  auto surface = vtkSmartPointer<vtkVariationalSurface>::New();
+  const std::string boundary = arguments.text("boundary"), tangents = arguments.text("tangents");
+  surface->SetOrder(arguments.integer("order"));
+  surface->SetBoundary(boundary == "tangent" ? vtkVariationalSurface::TANGENT
+      : boundary == "curve"                  ? vtkVariationalSurface::CURVE
+                                             : vtkVariationalSurface::REGION);
+  surface->SetTangentSource(tangents == "given" ? vtkVariationalSurface::GIVEN
+      : tangents == "clamped"                   ? vtkVariationalSurface::CLAMPED
+                                                : vtkVariationalSurface::SURROUNDINGS);
+  surface->SetFair(arguments.has("fair"));
+  return surface;
+}
+
 vtkSmartPointer<vtkBindposeAlgorithm> make_deformation(const Arguments& arguments)
 {
   const std::string method = arguments.text("method");
@@ -61,6 +77,10 @@ vtkSmartPointer<vtkBindposeAlgorithm> make_deformation(const Arguments& argument
   if (method == "full-arap")
   {
     return make_arap<vtkFullARAP>(arguments);
+  }
+  if (method == "variational")
+  {
+    return make_variational(arguments);
   }
   auto skinning = vtkSmartPointer<vtkSkinningDeformation>::New();
   skinning->SetMethod(method == "dqs" ? vtkSkinningDeformation::DUAL_QUATERNION

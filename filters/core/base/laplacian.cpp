@@ -1,7 +1,7 @@
 #include "base/laplacian.h"
 
+#include "base/side_flux.h"
 #include "base/tet_facets.h"
-#include "base/triangle_sides.h"
 
 #include <cmath>
 #include <vector>
@@ -119,35 +119,17 @@ SparseMatrix stiffness_matrix(PointsView points, TetsView tets, const Eigen::Vec
 
 SparseMatrix boundary_flux(PointsView points, TrianglesView triangles)
 {
-  std::vector<Eigen::Triplet<double, int>> entries;
+  std::vector<TriangleSide> border;
   const std::vector<TriangleSide> sides = sides_by_edge(triangles);
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
   {
     j = end_of_edge(sides, i);
-    const Index t = sides[i].triangle;
-    const int k = (sides[i].corner + 2) % 3; // opposite to the edge
-    const Vec3 p[3] = { points.row(triangles(t, 0)), points.row(triangles(t, 1)),
-      points.row(triangles(t, 2)) };
-    const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]); // of twice the area
-    const double squared = normal.squaredNorm();
-    if (j > i + 1 || !(squared > 0.0))
+    if (j == i + 1)
     {
-      continue;
-    }
-    const Vec3 unit = normal / std::sqrt(squared);
-    const Vec3 outwards = (p[(k + 2) % 3] - p[(k + 1) % 3]).cross(unit); // as long as the edge
-    for (Index c = 0; c < 3; ++c)
-    {
-      const Vec3 gradient = normal.cross(p[(c + 2) % 3] - p[(c + 1) % 3]) / squared;
-      const double half = 0.5 * outwards.dot(gradient);
-      for (const int end : { (k + 1) % 3, (k + 2) % 3 })
-      {
-        entries.emplace_back(
-          static_cast<int>(triangles(t, end)), static_cast<int>(triangles(t, c)), half);
-      }
+      border.push_back(sides[i]);
     }
   }
-  return from_entries(points.rows(), entries);
+  return side_flux(points, triangles, border);
 }
 
 SparseMatrix boundary_flux(PointsView points, TetsView tets)

@@ -28,8 +28,6 @@ namespace bindpose
 
 namespace
 {
-/// What handles hold and is missed by more than this share of the diagonal contradicts.
-constexpr double contradiction = 1e-9;
 /// Below this share of the rest energy an energy counts as zero for the tolerance.
 constexpr double nothing_bends = 1e-6;
 /// Items of a block; their number fixes the bits, not the threads.
@@ -114,113 +112,17 @@ private:
 };
 } // namespace
 
-Vec3 FullArap::at_rest(const MeshPoint& point) const
-{
-  Vec3 sum = Vec3::Zero();
-  for (const auto& [v, share] : point)
-  {
-    sum += share * this->rest_.row(v).transpose();
-  }
-  return sum;
-}
-
-/// The displacement that a handle wants of a point that it holds. Those of a full handle turn with
-/// it; what stands for a pivot beside the mesh only moves as the pivot does.
-Vec3 FullArap::wanted(const Hold& hold, const HandlePose& pose) const
-{
-  const Eigen::Matrix3d linear = pose.transform.leftCols<3>() - Eigen::Matrix3d::Identity();
-  const Handle& handle = this->handles_[hold.handle];
-  const bool by_pivot = pose.mode == HandleMode::position && handle.kind != HandleKind::region;
-  return linear * (by_pivot ? handle.head : this->at_rest(hold.point)) + pose.transform.col(3);
-}
-
 Status FullArap::prepare(const Pose& pose)
 {
   this->modes_.clear();
-  this->holds_.clear();
-  this->redundant_.clear();
-  for (const HandleMode mode : { HandleMode::full, HandleMode::position })
-  {
-    for (std::size_t h = 0; h < pose.size(); ++h)
-    {
-      const auto handle = static_cast<Index>(h);
-      if (pose[h].mode != mode)
-      {
-        continue;
-      }
-      if (mode == HandleMode::position)
-      {
-        this->holds_.push_back({ handle, this->grips_[h].pivot });
-      }
-      else
-      {
-        for (const MeshPoint& point : this->grips_[h].points)
-        {
-          this->holds_.push_back({ handle, point });
-        }
-      }
-    }
-  }
-  // A vertex is given by full handles if there are any on it, then a position there is redundant.
-  // Of positions at one vertex all but the first are, though they count in the mean.
-  std::map<Index, bool> given; // vertex -> by a full handle
-  for (const Hold& hold : this->holds_)
-  {
-    if (hold.point.size() == 1)
-    {
-      given.insert({ hold.point[0].first, pose[hold.handle].mode == HandleMode::full });
-    }
-  }
-  std::vector<Index> vertices;
-  std::map<Index, Index> place;
-  for (const auto& entry : given)
-  {
-    place[entry.first] = static_cast<Index>(vertices.size());
-    vertices.push_back(entry.first);
-  }
-  std::vector<MeshPoint> held;
-  std::vector<Index> holder;
-  std::vector<char> taken(vertices.size(), 0);
-  for (Hold& hold : this->holds_)
-  {
-    const bool full = pose[hold.handle].mode == HandleMode::full;
-    if (hold.point.size() > 1)
-    {
-      hold.held = static_cast<Index>(held.size());
-      held.push_back(hold.point);
-      holder.push_back(hold.handle);
-    }
-    else
-    {
-      const Index v = hold.point[0].first;
-      if (full || !given[v])
-      {
-        hold.given = place[v];
-      }
-      if (!full && taken[place[v]])
-      {
-        this->redundant_.push_back(hold.handle);
-      }
-      taken[place[v]] = 1;
-    }
-  }
-  this->given_count_ = static_cast<Index>(vertices.size());
-  this->held_count_ = static_cast<Index>(held.size());
-  Status status = this->system_.prepare(this->stiffness_, this->parts_.of_vertex,
-    this->parts_.count, std::move(vertices), std::move(held));
+  this->grips_.choose(pose);
+  const Status status = this->system_.prepare(this->stiffness_, this->parts_.of_vertex,
+    this->parts_.count, this->grips_.given(), this->grips_.held());
   if (!status.ok())
   {
     return status;
   }
   this->factorisations_ += 1;
-  for (const Index point : this->system_.redundant())
-  {
-    const Index handle = holder[point];
-    if (pose[handle].mode == HandleMode::position)
-    {
-      this->redundant_.push_back(handle);
-    }
-  }
   for (const HandlePose& handle : pose)
   {
     this->modes_.push_back(handle.mode);
@@ -234,9 +136,10 @@ Status FullArap::prepare(const Pose& pose)
 void FullArap::start_rotations(const Pose& pose)
 {
   const Eigen::Matrix3d common = pivot_rotation(this->handles_, pose, 0.3 * this->radius_);
-  Rows given = Rows::Zero(this->given_count_, 9), held = Rows::Zero(this->held_count_, 9), field;
-  Eigen::VectorXd owners = Eigen::VectorXd::Zero(this->given_count_);
-  for (const Hold& hold : this->holds_)
+  Rows given = Rows::Zero(static_cast<Index>(this->grips_.given().size()), 9), field;
+  Rows held = Rows::Zero(static_cast<Index>(this->grips_.held().size()), 9);
+  Eigen::VectorXd owners = Eigen::VectorXd::Zero(given.rows());
+  for (const MeshGrips::Hold& hold : this->grips_.holds())
   {
     const HandlePose& handle = pose[hold.handle];
     const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> turn =
@@ -419,30 +322,8 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   {
     return Status::cancelled();
   }
-  if (!this->redundant_.empty())
-  {
-    status.warnings.push_back("these positions are redundant (others determine them): " +
-      quoted_names(this->handles_, this->redundant_));
-  }
-
-  Eigen::VectorXd owners = Eigen::VectorXd::Zero(this->given_count_);
-  this->given_ = Rows::Zero(this->given_count_, 3);
-  this->held_ = Rows::Zero(this->held_count_, 3);
-  for (const Hold& hold : this->holds_)
-  {
-    const Vec3 move = this->wanted(hold, pose[hold.handle]);
-    if (hold.given >= 0)
-    {
-      // A running mean: what all owners agree on is met to the bit.
-      owners[hold.given] += 1.0;
-      this->given_.row(hold.given) +=
-        (move.transpose() - this->given_.row(hold.given)) / owners[hold.given];
-    }
-    else if (hold.held >= 0)
-    {
-      this->held_.row(hold.held) = move.transpose();
-    }
-  }
+  status.warnings = this->grips_.redundancy(pose, this->system_.redundant());
+  this->grips_.targets(pose, this->given_, this->held_);
 
   const Index n = this->rest_.rows();
   ProgressRange iterating(context, 0.2, 1.0);
@@ -520,28 +401,7 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   }
   this->warm_ = true;
 
-  double residual = 0.0;
-  std::vector<Index> contradicting;
-  for (const Hold& hold : this->holds_)
-  {
-    Vec3 miss = this->wanted(hold, pose[hold.handle]);
-    for (const auto& [v, share] : hold.point)
-    {
-      miss -= share * g.row(v).transpose();
-    }
-    const double length = miss.norm() / std::max(this->diagonal_, 1e-300);
-    residual = std::max(residual, length);
-    if (length > contradiction && (contradicting.empty() || contradicting.back() != hold.handle))
-    {
-      contradicting.push_back(hold.handle);
-    }
-  }
-  if (!contradicting.empty())
-  {
-    status.warnings.push_back("these handles contradict each other, the worst is missed by " +
-      std::to_string(residual * this->diagonal_) + ": " +
-      quoted_names(this->handles_, contradicting));
-  }
+  const double residual = this->grips_.residual(pose, g, status.warnings);
   for (Index v = 0; v < n; ++v)
   {
     if (this->leader_[v] >= 0)
@@ -555,8 +415,8 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   status.report.set("iterations", iterations);
   status.report.set("microseconds_per_iteration",
     iterations > 0 ? microseconds / static_cast<double>(iterations) : 0.0);
-  status.report.set("counts.constrained", this->given_count_ + this->held_count_);
-  if (!this->holds_.empty())
+  status.report.set("counts.constrained", this->grips_.given().size() + this->grips_.held().size());
+  if (!this->grips_.holds().empty())
   {
     status.report.set("constraint_residual", residual);
   }

@@ -4,8 +4,7 @@
 #include "base/execution.h"
 #include "pose/arap_energy.h"
 #include "pose/constrained_stiffness.h"
-#include "pose/pose.h"
-#include "weights/handles.h"
+#include "pose/mesh_grips.h"
 
 namespace bindpose
 {
@@ -113,30 +112,12 @@ private:
     std::vector<int> item;
     std::vector<double> b; ///< three a term
   };
-  /// What of the mesh a handle holds.
-  struct Grip
-  {
-    std::vector<MeshPoint> points; ///< in mode full
-    MeshPoint pivot; ///< in mode position
-  };
-  /// One point that a handle holds in the current modes.
-  struct Hold
-  {
-    Index handle;
-    MeshPoint point;
-    Index given = -1; ///< place among the given vertices, else
-    Index held = -1; ///< among the held points
-  };
 
   template <typename Elements>
   Status bind_any(ExecutionContext& context, PointsView points, const Elements& elements,
     const Handles& handles, const FullArapOptions& options);
   void take_covariance(const SparseMatrix& covariance);
-  template <typename Elements>
-  Status find_grips(const Elements& elements, const std::vector<Index>& region_ids, Status& status);
   Status prepare(const Pose& pose);
-  Vec3 wanted(const Hold& hold, const HandlePose& pose) const;
-  Vec3 at_rest(const MeshPoint& point) const;
   void start_rotations(const Pose& pose);
   bool local_step(ExecutionContext& context, const Rows& d);
   bool global_step(ExecutionContext& context, Rows& d);
@@ -151,16 +132,12 @@ private:
   Terms of_group_, of_vertex_;
   Components parts_; ///< by elements that count
   std::vector<Index> leader_; ///< #V: whom a vertex of flat elements follows, or -1
-  std::vector<Grip> grips_;
-  double diagonal_ = 0.0;
+  MeshGrips grips_;
   double radius_ = 0.0; ///< root mean square distance of the vertices from their middle
   double rest_energy_ = 0.0;
 
   // ---- per choice of modes
   std::vector<HandleMode> modes_;
-  std::vector<Hold> holds_;
-  Index given_count_ = 0, held_count_ = 0;
-  std::vector<Index> redundant_; ///< handles
   ConstrainedStiffness system_;
   Index factorisations_ = 0;
 

@@ -1,8 +1,6 @@
-// Bind time of full as-rigid-as-possible: which elements count, the sums that make covariances out
-// of displacements and forces out of rotations, and what of the mesh each handle holds.
+// Bind time of full as-rigid-as-possible: which elements count, and the sums that make covariances
+// out of displacements and forces out of rotations.
 #include "pose/full_arap.h"
-
-#include "weights/simplex_locator.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,16 +11,8 @@ namespace bindpose
 
 namespace
 {
-/// Handles this close to a vertex, in diagonals, hold the vertex.
-constexpr double same_place = 1e-9;
-/// Handles this close to the mesh, in diagonals, lie on it.
-constexpr double on_mesh = 1e-6;
-/// A point with this share of a vertex is the vertex.
-constexpr double whole = 1.0 - 1e-9;
 /// An element whose cotangents exceed this is flat: its energy would be round-off.
 constexpr double steepest = 1e7;
-/// Places along a bone that has no vertices, at most.
-constexpr double most_places = 16.0;
 
 /// What a cotangent weight of the element is compared with: those of tets are lengths.
 double weight_unit(PointsView, const TrianglesView&, Index)
@@ -56,11 +46,6 @@ const char* element_word(const TetsView&)
 const char* element_word(const TrianglesView&)
 {
   return "triangle";
-}
-
-MeshPoint vertex_point(Index v)
-{
-  return { { v, 1.0 } };
 }
 
 /// Vertices in elements that do not count follow a neighbour that does.
@@ -151,128 +136,6 @@ void FullArap::take_covariance(const SparseMatrix& covariance)
 }
 
 template <typename Elements>
-Status FullArap::find_grips(
-  const Elements& elements, const std::vector<Index>& region_ids, Status& status)
-{
-  const SimplexLocator locator(this->rest_, elements);
-  double edge = 0.0;
-  for (Index e = 0; e < elements.rows(); ++e)
-  {
-    edge += (this->rest_.row(elements(e, 0)) - this->rest_.row(elements(e, 1))).norm();
-  }
-  edge /= static_cast<double>(elements.rows());
-
-  double farthest = 0.0;
-  std::vector<Index> beside;
-  const auto point_at = [&](const Vec3& p, double& distance) -> MeshPoint
-  {
-    Index nearest = -1;
-    double least = same_place * this->diagonal_;
-    for (Index v = 0; v < this->rest_.rows(); ++v)
-    {
-      const double length = (this->rest_.row(v) - p.transpose()).norm();
-      if (length <= least && this->parts_.of_vertex[v] >= 0)
-      {
-        least = length;
-        nearest = v;
-      }
-    }
-    if (nearest >= 0)
-    {
-      return vertex_point(nearest);
-    }
-    const SimplexLocation found = locator.locate(p);
-    distance = std::max(distance, found.distance);
-    MeshPoint point;
-    double sum = 0.0;
-    for (Index k = 0; k < elements.cols(); ++k)
-    {
-      const double share = found.barycentric[k];
-      if (share >= whole)
-      {
-        return vertex_point(elements(found.element, k));
-      }
-      if (share > 1.0 - whole)
-      {
-        point.emplace_back(elements(found.element, k), share);
-        sum += share;
-      }
-    }
-    for (auto& term : point)
-    {
-      term.second /= sum;
-    }
-    return point;
-  };
-
-  for (const Handle& handle : this->handles_)
-  {
-    Grip grip;
-    double distance = 0.0;
-    if (handle.kind == HandleKind::region)
-    {
-      for (Index v = 0; v < this->rest_.rows(); ++v)
-      {
-        if (region_ids[v] == handle.region_id && this->parts_.of_vertex[v] >= 0)
-        {
-          grip.points.push_back(vertex_point(v));
-        }
-      }
-      if (grip.points.empty())
-      {
-        return Status::invalid_input(
-          "region '" + handle.name + "' holds no vertex: those of its label are in no element");
-      }
-      for (const MeshPoint& point : grip.points)
-      {
-        grip.pivot.emplace_back(point[0].first, 1.0 / static_cast<double>(grip.points.size()));
-      }
-    }
-    else
-    {
-      grip.pivot = point_at(handle.head, distance);
-      if (handle.kind == HandleKind::bone)
-      {
-        for (Index v = 0; v < this->rest_.rows(); ++v)
-        {
-          if (this->parts_.of_vertex[v] >= 0 &&
-            nearest_in_triangle(this->rest_.row(v), handle.head, handle.tail, handle.tail)
-                .distance <= same_place * this->diagonal_)
-          {
-            grip.points.push_back(vertex_point(v));
-          }
-        }
-        const double length = (handle.tail - handle.head).norm();
-        const double places = std::clamp(std::ceil(length / edge), 1.0, most_places);
-        const bool along = grip.points.size() < 2;
-        for (double k = 0.0; along && k <= places; k += 1.0)
-        {
-          grip.points.push_back(
-            point_at(handle.head + k / places * (handle.tail - handle.head), distance));
-        }
-      }
-      else
-      {
-        grip.points.push_back(grip.pivot);
-      }
-    }
-    if (distance > on_mesh * this->diagonal_)
-    {
-      farthest = std::max(farthest, distance);
-      beside.push_back(static_cast<Index>(this->grips_.size()));
-    }
-    this->grips_.push_back(std::move(grip));
-  }
-  if (!beside.empty())
-  {
-    status.warnings.push_back("these handles lie beside the mesh, by up to " +
-      std::to_string(farthest) +
-      "; they hold the mesh's nearest points: " + quoted_names(this->handles_, beside));
-  }
-  return {};
-}
-
-template <typename Elements>
 Status FullArap::bind_any(ExecutionContext& context, PointsView points, const Elements& elements,
   const Handles& handles, const FullArapOptions& options)
 {
@@ -289,10 +152,6 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
   if (status.ok())
   {
     status = check_handles(handles);
-  }
-  if (status.ok())
-  {
-    status = check_regions(handles, options.region_ids, points.rows());
   }
   if (!status.ok())
   {
@@ -334,15 +193,6 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
       : std::vector<Index>(static_cast<std::size_t>(points.rows()), -1);
   }
   const Elements view = kept;
-  Box box;
-  for (Index v = 0; v < points.rows(); ++v)
-  {
-    if (this->parts_.of_vertex[v] >= 0)
-    {
-      box.add(points.row(v).transpose());
-    }
-  }
-  this->diagonal_ = box.diagonal();
   const Eigen::RowVector3d middle = points.colwise().mean();
   this->radius_ = std::sqrt((points.rowwise() - middle).rowwise().squaredNorm().mean());
   if (context.cancelled())
@@ -351,11 +201,12 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
   }
   {
     Phase phase(context, "grips", 0.3, 0.6);
-    Status gripped = this->find_grips(view, options.region_ids, status);
+    Status gripped = this->grips_.find(points, view, this->parts_, handles, options.region_ids);
     if (!gripped.ok())
     {
       return gripped;
     }
+    status.warnings.insert(status.warnings.end(), gripped.warnings.begin(), gripped.warnings.end());
   }
   Phase phase(context, "energy", 0.6, 1.0);
   const ArapEnergy energy = resolved(options.energy, tets);

@@ -73,6 +73,30 @@ def test_sequences(bar, method):
         points_of(bindpose.read(bar / "out_0002.vtp")), abs={"reduced-arap": 1e-4, "full-arap": 1e-3}.get(method, 1e-12))
 
 
+def test_a_variational_surface_needs_no_weights(folder):
+    n = 8
+    x, y = np.meshgrid(np.arange(n + 1) / n, np.arange(n + 1) / n)
+    points = np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1)
+    corner = (np.arange(n)[:, None] * (n + 1) + np.arange(n)).ravel()
+    triangles = np.concatenate([np.stack([corner, corner + 1, corner + n + 2], axis=1),
+                                np.stack([corner, corner + n + 2, corner + n + 1], axis=1)])
+    depth = np.rint(np.minimum(points, 1 - points)[:, :2].min(axis=1) * n)
+    mesh = to_dataset((points, triangles))
+    add_point_array(mesh, "Fixed", 1.0 * (depth < 2))
+    bindpose.write(mesh, folder / "bar.vtp")
+    folder.write("h.tgf", "1 0.5 0.5 0\n#\n#\n1\n")
+    middle = len(points) // 2
+    pose = {"handles": {"p1": {"translate": [0, 0, 1]}}}
+    heights = {}
+    for words in (["--order", "1"], ["--order", "3"], ["--boundary", "tangent", "--tangents", "clamped"], ["--fair"]):
+        deform(folder, pose, *words, "--overwrite", method="variational").is_good()
+        posed = points_of(bindpose.read(folder / "out.vtp"))
+        assert posed[middle] == pytest.approx([0.5, 0.5, 1]) and np.array_equal(posed[depth < 2], points[depth < 2])
+        heights[words[1] if len(words) > 1 else ""] = posed[middle + 1, 2]
+    assert heights["1"] < heights["tangent"] and heights["1"] < heights["3"]  # a membrane hangs
+    deform(folder, pose, "--order", "4", method="variational").is_refused("4", code=1)
+
+
 def test_a_sequence_is_there_whole_or_not_at_all(bar):
     frames = [{"handles": {}}, {"handles": {}}]
     bar.write("out_0001.vtp", "precious")

@@ -1,0 +1,77 @@
+#!/usr/bin/env python3
+"""Bones without a hierarchy: a few are given, the others find themselves.
+
+The cat's nine bones are not connected and have no parents. The feet stay, the hand and the tip of the tail are put
+somewhere; body, head, both arms and the tail are free. With linear blend skinning what is free stays where it was, and
+the arm stretches like rubber; reduced as-rigid-as-possible finds transforms for the free bones by which the shape
+stays itself, with 15 extra weights for bends where no bone is.
+
+Numbers: free bones; how far the arm's end is from the hand's beginning, where they meet at rest, in parts of the
+picture's size, skinned and found; triangles turned over; the turn that the arm found, in degrees; the length of the
+found bones, of that at rest, smallest and largest; iterations of the solve, and microseconds of one.
+"""
+
+import warnings
+
+import common
+import bindpose
+import numpy as np
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+import planar
+import posing
+
+FREE = ("body", "head", "arm", "other arm", "tail")
+HAND, TIP = np.array([-0.02, -0.24]), np.array([0.05, -0.05])  # how far they go, of the picture
+
+
+def make(options):
+    size = 256 if options.small else 1024
+    pixels = planar.cat(size)
+    handles = planar.bones_of(size)
+    picture = planar.write_png(pixels, options.scratch / "cat.png")
+    shape = bindpose.planar_shape(picture, handles=handles)
+    weighted = bindpose.weights(shape, handles, domain="surface")
+    names = list(planar.BONES)
+    ends = np.array([[planar.BONES[name][k] for k in (0, 1)] for name in names]) * size - 0.5  # bone, end, x y
+    pose = {name: {"mode": "free"} for name in FREE}
+    pose["hand"] = {"translate": [*(HAND * size), 0], "rotate": {"axis": [0, 0, 1], "degrees": 60}}
+    pose["tip"] = {"translate": [*(TIP * size), 0], "rotate": {"axis": [0, 0, 1], "degrees": -45}}
+
+    results, numbers = {}, {"free bones": len(FREE)}
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", bindpose.BindposeWarning)  # skinning says that free counts as identity
+        results["skinned"] = bindpose.deform(weighted, handles, {"handles": pose})
+    found = posing.posed(bindpose.vtkReducedARAP(), weighted, handles, pose, NumberOfExtraWeights=15,
+                         MaximumIterations=5000, Tolerance=1e-8)
+    results["found"] = found
+    report = bindpose.report(found)
+    transforms = vtk_to_numpy(found.GetFieldData().GetArray("HandleTransforms")).reshape(-1, 3, 4)
+    plain = np.tile(np.eye(3, 4), (len(names), 1, 1))
+    for name in ("hand", "tip"):
+        plain[names.index(name)] = transforms[names.index(name)]
+    tiles = [("at rest: bones that nothing connects", [planar.textured(shape, planar.to_texture(pixels)),
+                                                       *planar.handle_actors(handles, 0.011 * size)])]
+    lengths = []
+    for key, used, caption in (("skinned", plain, "skinned: what is free stays"), ("found", transforms, "free bones find themselves")):
+        moved = np.einsum("bij,bej->bei", used[:, :2, :2], ends) + used[:, None, :2, 3]
+        numbers[f"{key}: arm to hand"] = float(np.linalg.norm(moved[names.index("arm"), 1] - moved[names.index("hand"), 0]) / size)
+        lengths = np.linalg.norm(moved[:, 1] - moved[:, 0], axis=1) / np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
+        at = np.zeros((2 * len(names), 3))
+        at[:, :2] = moved.reshape(-1, 2)
+        areas = planar.signed_areas(planar.points_of(results[key]), planar.triangles_of(shape))
+        numbers[f"{key}: triangles turned over"] = int((areas <= 0).sum())
+        tiles.append((caption, [planar.textured(results[key], planar.to_texture(pixels)),
+                                *planar.handle_actors(planar.posed_points(handles, at), 0.011 * size)]))
+    arm = transforms[names.index("arm")]
+    numbers["arm's turn, degrees"] = float(np.degrees(np.arctan2(arm[1, 0] - arm[0, 1], arm[0, 0] + arm[1, 1])))
+    numbers["bones' lengths"] = [float(lengths.min()), float(lengths.max())]
+    numbers["iterations"] = report["iterations"]
+    numbers["microseconds an iteration"] = report["microseconds_per_iteration"]
+    box = (-0.06 * size, 1.06 * size, -0.03 * size, 1.03 * size)
+    common.write_picture(planar.show(tiles, box, title="A skeleton without joints"), options.picture)
+    return numbers
+
+
+if __name__ == "__main__":
+    common.main(__file__, __doc__, make)

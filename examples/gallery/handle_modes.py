@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+"""From handles that say everything to handles that say little: full, position, free.
+
+A bar held by five points along its middle line. On the left each has its whole transform: reduced as-rigid-as-possible
+has nothing to decide and is linear blend skinning. To the right the three in the middle keep their places only and find
+their turns, then let go altogether; at last the ends give up their turns, too. What is not said, is found so that the
+bar bends least: the energy falls with every freedom.
+
+Numbers: how many numbers of the transforms are given; the energy; the largest distance of the first from linear blend
+skinning, of the diagonal; how far given places are missed.
+"""
+
+import common
+import bindpose
+import numpy as np
+from bindpose.meshes import points_of, to_dataset
+
+import posing
+
+PLACES = (0.0, 1.5, 3.0, 4.5, 6.0)
+
+
+def bent(mode_inside, mode_ends):
+    """Handles lifted along an arch; ends turned up by 60 degrees."""
+    pose = {}
+    for k, x in enumerate(PLACES):
+        end = k in (0, len(PLACES) - 1)
+        lift = 0.0 if end else 0.9 * np.sin(np.pi * x / 6)
+        pose[f"p{k + 1}"] = {"mode": mode_ends if end else mode_inside, "translate": [0.45 - 0.15 * x, 0, lift],
+                             "rotate": {"axis": [0, 1, 0], "degrees": {0: -50, len(PLACES) - 1: 50}.get(k, 0)}}
+    return pose
+
+
+def make(options):
+    mesh = posing.bar(18 if options.small else 42, 3 if options.small else 7)
+    handles = bindpose.handles(points=[(x, 0.5, 0.5) for x in PLACES])
+    weighted = bindpose.weights(to_dataset(mesh), handles)
+    diagonal = np.linalg.norm(np.ptp(mesh[0], axis=0))
+    cases = {"all full": ("full", "full"), "middle by place": ("position", "full"),
+             "middle free": ("free", "full"), "ends by place": ("free", "position")}
+    numbers, files, energies, given = {}, [], [], []
+    misses = []
+    for name, modes in cases.items():
+        pose = bent(*modes)
+        posed = posing.posed(bindpose.vtkReducedARAP(), weighted, handles, pose, MaximumIterations=5000, Tolerance=1e-9)
+        report = bindpose.report(posed)
+        energies.append(report["energy"])
+        misses.append(report.get("constraint_residual", 0.0))
+        given.append(sum({"full": 12, "position": 3, "free": 0}[entry["mode"]] for entry in pose.values()))
+        if name == "all full":
+            skinned = bindpose.deform(weighted, handles, {"handles": pose})
+            numbers["all full, largest distance from linear blend skinning"] = float(
+                np.abs(points_of(posed) - points_of(skinned)).max() / diagonal)
+        files.append(f"{name.replace(' ', '-')}.vtu")
+        bindpose.write(posed, options.scratch / files[-1])
+    numbers["numbers given"] = given
+    numbers["energies"] = energies
+    numbers["largest miss of what is given, diagonals"] = float(max(misses))
+    labels = [f"{name}: {count} numbers: energy {energy:.3g}" for name, count, energy in zip(cases, given, energies)]
+    common.render(options, *files, "--columns", 2, "--size", "1300x850", "--edges", "--up", "z", "--azimuth", -35,
+                  "--elevation", 15, "--section", "none", "--labels", ",".join(labels),
+                  "--title", "What handles do not say is found")
+    return numbers
+
+
+if __name__ == "__main__":
+    common.main(__file__, __doc__, make)

@@ -1,0 +1,348 @@
+// Which points of the mesh handles hold: found once, chosen anew when modes change.
+#include "pose/mesh_grips.h"
+
+#include "weights/simplex_locator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Handles this close to a vertex, in diagonals, hold the vertex.
+constexpr double same_place = 1e-9;
+/// Handles this close to the mesh, in diagonals, lie on it.
+constexpr double on_mesh = 1e-6;
+/// A point with this share of a vertex is the vertex.
+constexpr double whole = 1.0 - 1e-9;
+/// Places along a bone that has no vertices, at most.
+constexpr double most_places = 16.0;
+/// What handles hold and is missed by more than this share of the diagonal contradicts.
+constexpr double contradiction = 1e-9;
+
+MeshPoint vertex_point(Index v)
+{
+  return { { v, 1.0 } };
+}
+
+} // namespace
+
+template <typename Elements>
+Status MeshGrips::find_any(PointsView points, const Elements& elements, const Components& parts,
+  const Handles& handles, const std::vector<Index>& region_ids)
+{
+  *this = MeshGrips();
+  Status status = check_regions(handles, region_ids, points.rows());
+  if (!status.ok())
+  {
+    return status;
+  }
+  this->handles_ = handles;
+  this->rest_ = points;
+  Box box;
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    if (parts.of_vertex[v] >= 0)
+    {
+      box.add(points.row(v).transpose());
+    }
+  }
+  this->diagonal_ = box.diagonal();
+  const SimplexLocator locator(this->rest_, elements);
+  double edge = 0.0;
+  for (Index e = 0; e < elements.rows(); ++e)
+  {
+    edge += (this->rest_.row(elements(e, 0)) - this->rest_.row(elements(e, 1))).norm();
+  }
+  edge /= static_cast<double>(elements.rows());
+
+  double farthest = 0.0;
+  std::vector<Index> beside;
+  const auto point_at = [&](const Vec3& p, double& distance) -> MeshPoint
+  {
+    Index nearest = -1;
+    double least = same_place * this->diagonal_;
+    for (Index v = 0; v < this->rest_.rows(); ++v)
+    {
+      const double length = (this->rest_.row(v) - p.transpose()).norm();
+      if (length <= least && parts.of_vertex[v] >= 0)
+      {
+        least = length;
+        nearest = v;
+      }
+    }
+    if (nearest >= 0)
+    {
+      return vertex_point(nearest);
+    }
+    const SimplexLocation found = locator.locate(p);
+    distance = std::max(distance, found.distance);
+    MeshPoint point;
+    double sum = 0.0;
+    for (Index k = 0; k < elements.cols(); ++k)
+    {
+      const double share = found.barycentric[k];
+      if (share >= whole)
+      {
+        return vertex_point(elements(found.element, k));
+      }
+      if (share > 1.0 - whole)
+      {
+        point.emplace_back(elements(found.element, k), share);
+        sum += share;
+      }
+    }
+    for (auto& term : point)
+    {
+      term.second /= sum;
+    }
+    return point;
+  };
+
+  for (const Handle& handle : this->handles_)
+  {
+    Grip grip;
+    double distance = 0.0;
+    if (handle.kind == HandleKind::region)
+    {
+      for (Index v = 0; v < this->rest_.rows(); ++v)
+      {
+        if (region_ids[v] == handle.region_id && parts.of_vertex[v] >= 0)
+        {
+          grip.points.push_back(vertex_point(v));
+        }
+      }
+      if (grip.points.empty())
+      {
+        return Status::invalid_input(
+          "region '" + handle.name + "' holds no vertex: those of its label are in no element");
+      }
+      for (const MeshPoint& point : grip.points)
+      {
+        grip.pivot.emplace_back(point[0].first, 1.0 / static_cast<double>(grip.points.size()));
+      }
+    }
+    else
+    {
+      grip.pivot = point_at(handle.head, distance);
+      if (handle.kind == HandleKind::bone)
+      {
+        for (Index v = 0; v < this->rest_.rows(); ++v)
+        {
+          if (parts.of_vertex[v] >= 0 &&
+            nearest_in_triangle(this->rest_.row(v), handle.head, handle.tail, handle.tail)
+                .distance <= same_place * this->diagonal_)
+          {
+            grip.points.push_back(vertex_point(v));
+          }
+        }
+        const double length = (handle.tail - handle.head).norm();
+        const double places = std::clamp(std::ceil(length / edge), 1.0, most_places);
+        const bool along = grip.points.size() < 2;
+        for (double k = 0.0; along && k <= places; k += 1.0)
+        {
+          grip.points.push_back(
+            point_at(handle.head + k / places * (handle.tail - handle.head), distance));
+        }
+      }
+      else
+      {
+        grip.points.push_back(grip.pivot);
+      }
+    }
+    if (distance > on_mesh * this->diagonal_)
+    {
+      farthest = std::max(farthest, distance);
+      beside.push_back(static_cast<Index>(this->grips_.size()));
+    }
+    this->grips_.push_back(std::move(grip));
+  }
+  if (!beside.empty())
+  {
+    status.warnings.push_back("these handles lie beside the mesh, by up to " +
+      std::to_string(farthest) +
+      "; they hold the mesh's nearest points: " + quoted_names(this->handles_, beside));
+  }
+  return status;
+}
+
+Status MeshGrips::find(PointsView points, TrianglesView elements, const Components& parts,
+  const Handles& handles, const std::vector<Index>& region_ids)
+{
+  return this->find_any(points, elements, parts, handles, region_ids);
+}
+
+Status MeshGrips::find(PointsView points, TetsView elements, const Components& parts,
+  const Handles& handles, const std::vector<Index>& region_ids)
+{
+  return this->find_any(points, elements, parts, handles, region_ids);
+}
+
+Vec3 MeshGrips::at_rest(const MeshPoint& point) const
+{
+  Vec3 sum = Vec3::Zero();
+  for (const auto& [v, share] : point)
+  {
+    sum += share * this->rest_.row(v).transpose();
+  }
+  return sum;
+}
+
+/// The displacement that a handle wants of a point that it holds. Those of a full handle turn with
+/// it; what stands for a pivot beside the mesh only moves as the pivot does.
+Vec3 MeshGrips::wanted(const Hold& hold, const HandlePose& pose) const
+{
+  const Eigen::Matrix3d linear = pose.transform.leftCols<3>() - Eigen::Matrix3d::Identity();
+  const Handle& handle = this->handles_[hold.handle];
+  const bool by_pivot = pose.mode == HandleMode::position && handle.kind != HandleKind::region;
+  return linear * (by_pivot ? handle.head : this->at_rest(hold.point)) + pose.transform.col(3);
+}
+
+void MeshGrips::choose(const Pose& pose, const std::vector<Index>& staying)
+{
+  this->holds_.clear();
+  this->doubled_.clear();
+  this->given_.clear();
+  this->held_.clear();
+  this->holder_.clear();
+  for (const HandleMode mode : { HandleMode::full, HandleMode::position })
+  {
+    for (std::size_t h = 0; h < pose.size(); ++h)
+    {
+      const auto handle = static_cast<Index>(h);
+      if (pose[h].mode != mode)
+      {
+        continue;
+      }
+      if (mode == HandleMode::position)
+      {
+        this->holds_.push_back({ handle, this->grips_[h].pivot });
+      }
+      else
+      {
+        for (const MeshPoint& point : this->grips_[h].points)
+        {
+          this->holds_.push_back({ handle, point });
+        }
+      }
+    }
+  }
+  // A vertex is given by full handles if there are any on it, then a position there is redundant.
+  // Of positions at one vertex all but the first are, though they count in the mean.
+  std::map<Index, bool> given; // vertex -> by a full handle
+  for (const Hold& hold : this->holds_)
+  {
+    if (hold.point.size() == 1)
+    {
+      given.insert({ hold.point[0].first, pose[hold.handle].mode == HandleMode::full });
+    }
+  }
+  for (const Index v : staying)
+  {
+    given.insert({ v, false });
+  }
+  std::map<Index, Index> place;
+  for (const auto& entry : given)
+  {
+    place[entry.first] = static_cast<Index>(this->given_.size());
+    this->given_.push_back(entry.first);
+  }
+  std::vector<char> taken(this->given_.size(), 0);
+  for (Hold& hold : this->holds_)
+  {
+    const bool full = pose[hold.handle].mode == HandleMode::full;
+    if (hold.point.size() > 1)
+    {
+      hold.held = static_cast<Index>(this->held_.size());
+      this->held_.push_back(hold.point);
+      this->holder_.push_back(hold.handle);
+    }
+    else
+    {
+      const Index v = hold.point[0].first;
+      if (full || !given[v])
+      {
+        hold.given = place[v];
+      }
+      if (!full && taken[place[v]])
+      {
+        this->doubled_.push_back(hold.handle);
+      }
+      taken[place[v]] = 1;
+    }
+  }
+}
+
+void MeshGrips::targets(const Pose& pose, Rows& given, Rows& held) const
+{
+  given = Rows::Zero(static_cast<Index>(this->given_.size()), 3);
+  held = Rows::Zero(static_cast<Index>(this->held_.size()), 3);
+  Eigen::VectorXd owners = Eigen::VectorXd::Zero(given.rows());
+  for (const Hold& hold : this->holds_)
+  {
+    const Vec3 move = this->wanted(hold, pose[hold.handle]);
+    if (hold.given >= 0)
+    {
+      // A running mean: what all owners agree on is met to the bit.
+      owners[hold.given] += 1.0;
+      given.row(hold.given) += (move.transpose() - given.row(hold.given)) / owners[hold.given];
+    }
+    else if (hold.held >= 0)
+    {
+      held.row(hold.held) = move.transpose();
+    }
+  }
+}
+
+std::vector<std::string> MeshGrips::redundancy(
+  const Pose& pose, const std::vector<Index>& points) const
+{
+  std::vector<Index> redundant = this->doubled_;
+  for (const Index point : points)
+  {
+    const Index handle = this->holder_[point];
+    if (pose[handle].mode == HandleMode::position)
+    {
+      redundant.push_back(handle);
+    }
+  }
+  if (redundant.empty())
+  {
+    return {};
+  }
+  return { "these positions are redundant (others determine them): " +
+    quoted_names(this->handles_, redundant) };
+}
+
+double MeshGrips::residual(
+  const Pose& pose, const Rows& displacements, std::vector<std::string>& warnings) const
+{
+  double residual = 0.0;
+  std::vector<Index> contradicting;
+  for (const Hold& hold : this->holds_)
+  {
+    Vec3 miss = this->wanted(hold, pose[hold.handle]);
+    for (const auto& [v, share] : hold.point)
+    {
+      miss -= share * displacements.row(v).transpose();
+    }
+    const double length = miss.norm() / std::max(this->diagonal_, 1e-300);
+    residual = std::max(residual, length);
+    if (length > contradiction && (contradicting.empty() || contradicting.back() != hold.handle))
+    {
+      contradicting.push_back(hold.handle);
+    }
+  }
+  if (!contradicting.empty())
+  {
+    warnings.push_back("these handles contradict each other, the worst is missed by " +
+      std::to_string(residual * this->diagonal_) + ": " +
+      quoted_names(this->handles_, contradicting));
+  }
+  return residual;
+}
+
+} // namespace bindpose

@@ -1,0 +1,197 @@
+// Glue around the kernel bindpose::VariationalSurface: arrays of the mesh become its options.
+#include "vtkVariationalSurface.h"
+
+#include "pose/variational_surface.h"
+#include "pose_input.h"
+#include "weights_input.h"
+
+#include "vtkDataArray.h"
+#include "vtkInformation.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+
+#include <algorithm>
+
+using namespace bindpose;
+
+vtkStandardNewMacro(vtkVariationalSurface);
+
+struct vtkVariationalSurface::Internals
+{
+  VariationalSurface surface;
+};
+
+namespace
+{
+/// Rows of a point array with so many components, filled up with zeros to three. Without an array
+/// of that name none.
+Status to_rows(vtkPointSet* mesh, const std::string& name, int fewest, Points& rows)
+{
+  vtkAbstractArray* found = mesh->GetPointData()->GetAbstractArray(name.c_str());
+  if (!found)
+  {
+    return {};
+  }
+  auto* array = vtkDataArray::SafeDownCast(found);
+  if (!array || array->GetNumberOfComponents() < fewest || array->GetNumberOfComponents() > 3)
+  {
+    return Status::invalid_input("the point array '" + name + "' must have " +
+      (fewest == 2 ? "2 or " : "") + "3 numbers a point");
+  }
+  const SharedMatrix<Weights> values = to_matrix(array);
+  rows = Points::Zero(values.view().rows(), 3);
+  rows.leftCols(values.view().cols()) = values.view();
+  return {};
+}
+
+Status to_flags(vtkPointSet* mesh, const std::string& name, std::vector<char>& flags)
+{
+  vtkAbstractArray* found = mesh->GetPointData()->GetAbstractArray(name.c_str());
+  if (!found)
+  {
+    return {};
+  }
+  auto* array = vtkDataArray::SafeDownCast(found);
+  if (!array || array->GetNumberOfComponents() != 1)
+  {
+    return Status::invalid_input(
+      "the point array '" + name + "' of fixed points must have one number a point");
+  }
+  for (vtkIdType v = 0; v < array->GetNumberOfTuples(); ++v)
+  {
+    flags.push_back(array->GetComponent(v, 0) != 0.0);
+  }
+  return {};
+}
+} // namespace
+
+vtkVariationalSurface::vtkVariationalSurface() : Internal(new Internals) {}
+
+vtkVariationalSurface::~vtkVariationalSurface() = default;
+
+void vtkVariationalSurface::SetOrder(int order)
+{
+  this->SetBindParameter(this->Order, std::clamp(order, 1, 3));
+}
+
+void vtkVariationalSurface::SetBoundary(int boundary)
+{
+  this->SetBindParameter(this->Boundary, std::clamp<int>(boundary, REGION, TANGENT));
+}
+
+void vtkVariationalSurface::SetTangentSource(int source)
+{
+  this->SetBindParameter(this->TangentSource, std::clamp<int>(source, SURROUNDINGS, CLAMPED));
+}
+
+void vtkVariationalSurface::SetFair(bool fair)
+{
+  this->SetBindParameter(this->Fair, fair);
+}
+
+void vtkVariationalSurface::SetRegionArrayName(const std::string& name)
+{
+  this->SetBindParameter(this->RegionArrayName, name);
+}
+
+void vtkVariationalSurface::SetFixedArrayName(const std::string& name)
+{
+  this->SetBindParameter(this->FixedArrayName, name);
+}
+
+void vtkVariationalSurface::SetParameterArrayName(const std::string& name)
+{
+  this->SetBindParameter(this->ParameterArrayName, name);
+}
+
+void vtkVariationalSurface::SetTangentArrayName(const std::string& name)
+{
+  this->SetBindParameter(this->TangentArrayName, name);
+}
+
+void vtkVariationalSurface::SetLoadArrayName(const std::string& name)
+{
+  this->SetBindParameter(this->LoadArrayName, name);
+}
+
+int vtkVariationalSurface::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port == 1)
+  {
+    info->Set(vtkAlgorithm::INPUT_IS_OPTIONAL(), 1);
+  }
+  return this->Superclass::FillInputPortInformation(port, info);
+}
+
+std::vector<std::string> vtkVariationalSurface::BindArrays()
+{
+  return { this->RegionArrayName, this->FixedArrayName, this->ParameterArrayName,
+    this->TangentArrayName, this->LoadArrayName };
+}
+
+Status vtkVariationalSurface::Bind(const PoseInput& input, ExecutionContext& context)
+{
+  VariationalSurfaceOptions options;
+  options.order = this->Order;
+  options.boundary = static_cast<PatchBoundary>(this->Boundary);
+  options.tangent_source = static_cast<PatchTangents>(this->TangentSource);
+  options.fair = this->Fair;
+  SurfaceInput surface;
+  Status status = to_surface(input.mesh, surface);
+  const bool regions = std::any_of(input.handles.begin(), input.handles.end(),
+    [](const Handle& handle) { return handle.kind == HandleKind::region; });
+  if (status.ok() && regions)
+  {
+    status = to_region_ids(input.mesh, this->RegionArrayName, options.region_ids);
+  }
+  if (status.ok())
+  {
+    status = to_flags(input.mesh, this->FixedArrayName, options.fixed);
+  }
+  if (status.ok())
+  {
+    status = to_rows(input.mesh, this->ParameterArrayName, 2, options.parameters);
+  }
+  if (status.ok() && options.boundary == PatchBoundary::tangent &&
+    options.tangent_source == PatchTangents::given)
+  {
+    status = to_rows(input.mesh, this->TangentArrayName, 3, options.tangents);
+    if (status.ok() && options.tangents.rows() == 0)
+    {
+      status = Status::invalid_input(
+        "the mesh has no point array '" + this->TangentArrayName + "' of tangents");
+    }
+  }
+  if (status.ok())
+  {
+    status = to_rows(input.mesh, this->LoadArrayName, 3, options.load);
+  }
+  return status.ok() ? this->Internal->surface.bind(
+                         context, input.points, surface.triangles.view(), input.handles, options)
+                     : status;
+}
+
+Status vtkVariationalSurface::Deform(
+  const PoseInput& input, ExecutionContext& context, PosedPoints& posed)
+{
+  const Status status = this->Internal->surface.solve(context, input.pose);
+  posed.points = this->Internal->surface.posed();
+  return status;
+}
+
+void vtkVariationalSurface::PrintSelf(ostream& os, vtkIndent indent)
+{
+  const char* const boundaries[] = { "region", "curve", "tangent" };
+  const char* const sources[] = { "surroundings", "given", "clamped" };
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Order: " << this->Order << "\n";
+  os << indent << "Boundary: " << boundaries[this->Boundary] << "\n";
+  os << indent << "TangentSource: " << sources[this->TangentSource] << "\n";
+  os << indent << "Fair: " << (this->Fair ? "on" : "off") << "\n";
+  os << indent << "RegionArrayName: " << this->RegionArrayName << "\n";
+  os << indent << "FixedArrayName: " << this->FixedArrayName << "\n";
+  os << indent << "ParameterArrayName: " << this->ParameterArrayName << "\n";
+  os << indent << "TangentArrayName: " << this->TangentArrayName << "\n";
+  os << indent << "LoadArrayName: " << this->LoadArrayName << "\n";
+}

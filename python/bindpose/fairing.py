@@ -1,0 +1,104 @@
+"""Smooth surfaces between what is fixed."""
+
+import numpy as np
+
+from . import BindposeFilters as filters
+from .errors import InvalidInput
+from .meshes import Array, add_point_array, is_dataset, points_of, shallow_copy, to_dataset
+from .running import run
+
+_BOUNDARIES = ("region", "curve", "tangent")
+_SOURCES = ("surroundings", "given", "clamped")
+
+
+def make_variational(order, boundary, tangents):
+    """The filter with its parameters checked."""
+    if order not in (1, 2, 3):
+        raise InvalidInput(f"order is 1, 2 or 3, not {order!r}")
+    for value, words, name in ((boundary, _BOUNDARIES, "boundary"), (tangents, _SOURCES, "tangents")):
+        if value not in words:
+            raise InvalidInput(f"{name} is one of {', '.join(words)}, not {value!r}")
+    surface = filters.vtkVariationalSurface()
+    surface.SetOrder(order)
+    surface.SetBoundary(_BOUNDARIES.index(boundary))
+    surface.SetTangentSource(_SOURCES.index(tangents))
+    return surface
+
+
+def fair(mesh, fixed=None, *, order=2, boundary="region", tangents="surroundings", parameters=None, load=None,
+         threads=0, progress=None):
+    """Make the free points of a surface anew, smoothly between the fixed ones: for holes and blends.
+
+    Each coordinate solves Laplace's equation of an order (mixed finite elements, Jacobson et al. 2010).
+
+    Parameters
+    ----------
+    mesh : vtkDataSet or (vertices, triangles)
+        A surface. The free points need places to begin with only when there are no `parameters`: cotangents and
+        areas are taken from them.
+    fixed : (#V,) array of bool or ids, optional
+        The vertices that stay; default: the dataset's point array ``Fixed``.
+    order : {1, 2, 3}
+        1 a membrane, 2 a thin plate, 3 smoother still.
+    boundary : {"region", "curve", "tangent"}
+        What holds at the edge: a band of `order` layers of fixed vertices, continued smoothly; the edge's place
+        alone; or place and tangents.
+    tangents : {"surroundings", "given", "clamped"} or (#V, 3) array
+        Of boundary "tangent": those of the triangles beyond the edge; the point array ``Tangents``, or this one:
+        derivatives of the place outwards, per unit of the parameter domain; or zero.
+    parameters : (#V, 2) or (#V, 3) array, optional
+        Places in the parameter domain; default: the point array ``Parameterization``, or the mesh itself.
+    load : (#V, 3) array, optional
+        What (-Laplacian)^order is to be instead of zero.
+    threads, progress
+        See `winding_number`.
+
+    Returns
+    -------
+    Array or vtkDataSet
+        Coordinates (#V, 3) for arrays, a copy for a dataset.
+
+    Raises
+    ------
+    InvalidInput
+        Nothing fixed in a connected part, triangles of the patch without area, edges of three triangles or more.
+    Unavailable
+        The system is too ill-conditioned for double precision.
+    """
+    data = shallow_copy(to_dataset(mesh))
+    vertices = data.GetNumberOfPoints()
+    added = []
+
+    def add(name, values, columns):
+        values = np.asarray(values, dtype=float)
+        if values.shape not in [(vertices, *c) for c in columns]:
+            raise InvalidInput(f"{name} of shape {values.shape} do not fit {vertices} vertices")
+        add_point_array(data, name, values)
+        added.append(name)
+
+    if fixed is not None:
+        fixed = np.asarray(fixed)
+        if fixed.dtype.kind in "iu":
+            outside = fixed[(fixed < 0) | (fixed >= vertices)]
+            if outside.size:
+                raise InvalidInput(f"fixed vertex {outside.flat[0]} is no vertex: there are {vertices}")
+            fixed = np.isin(np.arange(vertices), fixed)
+        add("Fixed", fixed, [()])
+    if parameters is not None:
+        add("Parameterization", parameters, [(2,), (3,)])
+    if load is not None:
+        add("Load", load, [(3,)])
+    if not isinstance(tangents, str):
+        add("Tangents", tangents, [(3,)])
+        tangents = "given"
+    surface = make_variational(order, boundary, tangents)
+    surface.FairOn()
+    surface.SetInputData(data)
+    surface.SetNumberOfThreads(threads)
+    report = run(surface, progress)
+    result = surface.GetOutput()
+    if not is_dataset(mesh):
+        return Array(points_of(result), report)
+    for name in added:
+        result.GetPointData().RemoveArray(name)
+    return result

@@ -1,0 +1,68 @@
+"""Smooth patches between what is fixed, on arrays and datasets, and exceptions."""
+
+import bindpose
+import numpy as np
+import pytest
+from bindpose.meshes import add_point_array, points_of, to_dataset
+
+SQUARES = 12
+X, Y = np.meshgrid(np.arange(SQUARES + 1) / SQUARES, np.arange(SQUARES + 1) / SQUARES)
+FLAT = np.stack([X.ravel(), Y.ravel(), 0 * X.ravel()], axis=1)
+CORNER = (np.arange(SQUARES)[:, None] * (SQUARES + 1) + np.arange(SQUARES)).ravel()
+TRIANGLES = np.concatenate([np.stack([CORNER, CORNER + 1, CORNER + SQUARES + 2], axis=1),
+                            np.stack([CORNER, CORNER + SQUARES + 2, CORNER + SQUARES + 1], axis=1)])
+DEPTH = np.rint(np.minimum(FLAT, 1 - FLAT)[:, :2].min(axis=1) * SQUARES)
+FIXED = DEPTH < 3
+
+
+@pytest.mark.parametrize("order", [1, 2, 3])
+def test_polynomials_that_solve_it_are_made_anew(order):
+    x, y = FLAT[:, 0] - 0.5, FLAT[:, 1] - 0.5
+    z = [x ** 3 - 3 * x * y ** 2, (x ** 2 + y ** 2) * x, (x ** 2 + y ** 2) ** 2 * x][order - 1]
+    surface = FLAT + np.outer(z, [0, 0, 1])
+    dented = np.where(FIXED[:, None], surface, 0.3)
+    made = bindpose.fair((dented, TRIANGLES), FIXED, order=order, parameters=FLAT[:, :2])
+    assert np.asarray(made) == pytest.approx(surface, abs=1e-12)
+    assert bindpose.report(made)["order"] == order and bindpose.report(made)["condition"] > 1
+    by_ids = bindpose.fair((dented, TRIANGLES), np.flatnonzero(FIXED), order=order, parameters=FLAT)
+    assert np.array_equal(by_ids, made)
+
+
+def test_datasets_keep_their_arrays_and_get_none():
+    mesh = to_dataset((FLAT, TRIANGLES))
+    add_point_array(mesh, "Fixed", 1.0 * FIXED)
+    made = bindpose.fair(mesh)
+    assert points_of(made) == pytest.approx(FLAT, abs=1e-13)
+    other = bindpose.fair(mesh, DEPTH < 4, boundary="curve", load=np.full((len(FLAT), 3), [0, 0, 10.0]), order=1)
+    assert [other.GetPointData().GetArrayName(i) for i in range(other.GetPointData().GetNumberOfArrays())] == []
+    assert points_of(other)[:, 2].max() > 0.01
+    assert mesh.GetPointData().GetArray("Fixed") is not None
+
+
+def test_tangents_of_an_array_tilt_the_edge():
+    up = np.where((DEPTH == 2)[:, None], [0, 0, 1.0], 0)
+    made = np.asarray(bindpose.fair((FLAT, TRIANGLES), FIXED, boundary="tangent", tangents=up))
+    free = ~FIXED
+    assert made[free, 2].max() < 0  # up outwards is down inwards
+    assert np.array_equal(made[FIXED], FLAT[FIXED])
+
+
+@pytest.mark.parametrize("words, sentence", [
+    ({"order": 4}, "order"), ({"boundary": "edge"}, "boundary"), ({"tangents": "steep"}, "tangents"),
+    ({"fixed": [10 ** 6]}, "1000000"), ({"fixed": FIXED[1:]}, "Fixed"), ({"parameters": FLAT[1:]}, "Parameterization"),
+    ({"fixed": np.zeros(len(FLAT), dtype=bool)}, "nothing is fixed"),
+])
+def test_what_cannot_be_is_refused(words, sentence):
+    with pytest.raises(bindpose.InvalidInput, match=sentence):
+        bindpose.fair((FLAT, TRIANGLES), **{"fixed": FIXED, **words})
+
+
+def test_as_a_way_to_deform():
+    middle = len(FLAT) // 2
+    handles = bindpose.handles(points=[FLAT[middle]])
+    mesh = to_dataset((FLAT, TRIANGLES))
+    add_point_array(mesh, "Fixed", 1.0 * FIXED)
+    for order in (1, 2, 3):
+        posed = points_of(bindpose.deform(mesh, handles, {"handles": {"p1": {"translate": [0, 0, 1]}}},
+                                          method="variational", order=order))
+        assert posed[middle, 2] == pytest.approx(1) and np.array_equal(posed[FIXED], FLAT[FIXED])

@@ -41,7 +41,7 @@ struct Bump
 {
   TriangleMesh mesh = grid(squares, squares);
   VariationalSurfaceOptions options;
-  Handles handles{ region("middle", 1, Vec3(0.5, 0.5, 0.0)) };
+  Handles handles{ region_handle("middle", 1, Vec3(0.5, 0.5, 0.0)) };
   Pose pose{ HandlePose() };
   VariationalSurface surface;
   ExecutionContext context;
@@ -217,7 +217,7 @@ TEST(VariationalSurface, MovingAHandleDoesNotFactorAgain)
 TEST(VariationalSurface, APointInsideATriangleIsHeld)
 {
   Bump bump;
-  bump.handles = { point("p", Vec3(0.51, 0.47, 0.0)) };
+  bump.handles = { point_handle("p", Vec3(0.51, 0.47, 0.0)) };
   for (const HandleMode mode : { HandleMode::full, HandleMode::position })
   {
     bump.pose[0].mode = mode;
@@ -269,7 +269,7 @@ TEST(VariationalSurface, TangentsGivenAreThoseThatTheSurroundingsHave)
   EXPECT_GT(difference(bump.surface.posed(), around), 1e-3); // a cusp
   // Displacements: clamped is as at rest.
   bump.options.fair = false;
-  bump.handles = { point("p", Vec3(0.5, 0.5, 0.0)) };
+  bump.handles = { point_handle("p", Vec3(0.5, 0.5, 0.0)) };
   bump.pose = { HandlePose() };
   bump.pose[0].transform(2, 3) = 0.3;
   ASSERT_TRUE(bump.solve().ok());

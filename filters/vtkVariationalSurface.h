@@ -33,10 +33,11 @@
  * accuracy of the larger indefinite system at a fraction of its cost.
  *
  * Report: method, order, boundary, counts (vertices, triangles, handles, free, constrained),
- * condition (of the matrix that was factored, estimated from below; up to about 1e14 the refinement
- * makes up for it), refinement (the last correction, as a share of the largest coordinate),
- * constraint_residual (in diagonals), seconds.bind, seconds.factor. Warnings: few digits,
- * conditions that are less than they seem, handles beside the mesh, redundant or contradicting.
+ * condition (of the matrix that was factored, with ones on its diagonal, estimated from below; up
+ * to about 1e14 the refinement makes up for it), refinement (the last correction, as a share of the
+ * largest coordinate), constraint_residual (in diagonals), seconds.bind, seconds.factor. Warnings:
+ * few digits, conditions that are less than they seem, handles beside the mesh, redundant or
+ * contradicting.
  *
  * Errors: besides vtkPoseAlgorithm's: cells that are no triangles, arrays of the wrong size or with
  * numbers that are not finite, a triangle of the patch without area, an edge of it with three

@@ -1,5 +1,7 @@
 """Smooth patches between what is fixed, on arrays and datasets, and exceptions."""
 
+import warnings
+
 import bindpose
 import numpy as np
 import pytest
@@ -66,3 +68,33 @@ def test_as_a_way_to_deform():
         posed = points_of(bindpose.deform(mesh, handles, {"handles": {"p1": {"translate": [0, 0, 1]}}},
                                           method="variational", order=order))
         assert posed[middle, 2] == pytest.approx(1) and np.array_equal(posed[FIXED], FLAT[FIXED])
+
+
+def test_whatever_is_asked_of_any_mesh_is_finite_or_refused():
+    """Random meshes, what is fixed, conditions: a result that holds what is fixed, or a sentence."""
+    random = np.random.default_rng(3)
+    good = 0
+    for _ in range(120):
+        points = FLAT + random.normal(size=FLAT.shape) * 10 ** random.uniform(-6, -1)
+        triangles = TRIANGLES[random.random(len(TRIANGLES)) < random.choice([1, 0.8])]
+        if random.random() < 0.2:
+            triangles = np.vstack([triangles, random.integers(0, len(points), (2, 3))])
+        if random.random() < 0.1:
+            points[random.integers(len(points))] = points[random.integers(len(points))]
+        points *= 10 ** random.uniform(-8, 8)
+        fixed = random.random(len(points)) < random.random()
+        words = {"order": int(random.integers(1, 4)), "boundary": str(random.choice(["region", "curve", "tangent"]))}
+        if random.random() < 0.3:
+            words["tangents"] = random.normal(size=points.shape)
+        if random.random() < 0.3:
+            words["load"] = random.normal(size=points.shape)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", bindpose.BindposeWarning)
+            try:
+                made = np.asarray(bindpose.fair((points, triangles), fixed, **words))
+            except bindpose.BindposeError as error:
+                assert str(error).count("\n") == 0
+                continue
+        assert np.isfinite(made).all() and np.array_equal(made[fixed], points[fixed])
+        good += 1
+    assert good > 60

@@ -28,9 +28,10 @@ namespace
 {
 /// A triangle whose cotangents exceed this is flat.
 constexpr double steepest = 1e7;
-/// Refinement ends when a step no longer changes anything, or does not get smaller.
+/// Refinement ends when a step, whose size is about how much a step leaves of the error, leaves
+/// nothing, or does not get smaller.
 constexpr int most_refinements = 8;
-constexpr double nothing = 1e-16;
+constexpr double enough = 1e-9;
 /// Steps of the power iterations for the condition.
 constexpr int power_steps = 12;
 
@@ -254,11 +255,15 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
   return context.cancelled() ? Status::cancelled() : status;
 }
 
-/// Largest and smallest eigenvalue of the system that was factored, by power iterations.
+/// Largest and smallest eigenvalue of the system, with ones on its diagonal, by power iterations:
+/// of D^-1 A, D the diagonal of A, which is symmetric in D's inner product.
 void Polyharmonic::estimate_condition(Report& report) const
 {
   const Index n = this->parameters_.rows();
   const Rows none = Rows::Zero(this->given_count_, 1), points = Rows::Zero(this->held_count_, 1);
+  const Eigen::VectorXd diagonal = this->matrix_.diagonal();
+  const auto length = [&](const Rows& x)
+  { return std::sqrt((diagonal.array() * x.col(0).array().square()).sum()); };
   Rows high = Rows::Zero(n, 1), low = Rows::Zero(n, 1);
   std::uint32_t noise = 1;
   for (Index v = 0; v < n; ++v)
@@ -273,21 +278,21 @@ void Polyharmonic::estimate_condition(Report& report) const
   double largest = 0.0, inverse = 0.0;
   for (int step = 0; step < power_steps; ++step)
   {
-    if (!(high.norm() > 0.0) || !(low.norm() > 0.0))
+    if (!(length(high) > 0.0) || !(length(low) > 0.0))
     {
       return;
     }
-    high /= high.norm();
-    low /= low.norm();
+    high /= length(high);
+    low /= length(low);
     Rows next = this->matrix_ * high;
     for (Index v = 0; v < n; ++v)
     {
-      next(v, 0) = this->is_free_[v] ? next(v, 0) : 0.0;
+      next(v, 0) = this->is_free_[v] && diagonal[v] > 0.0 ? next(v, 0) / diagonal[v] : 0.0;
     }
-    largest = next.norm();
+    largest = length(next);
     high.swap(next);
-    this->system_.solve(low, none, points, next);
-    inverse = next.norm();
+    this->system_.solve(diagonal.asDiagonal() * low, none, points, next);
+    inverse = length(next);
     low.swap(next);
   }
   report.set("condition", largest * inverse);
@@ -331,7 +336,7 @@ double Polyharmonic::solve(
     }
     x += step;
     last = size;
-    if (size <= nothing * norm(x))
+    if (size <= enough * norm(x))
     {
       break;
     }

@@ -42,8 +42,8 @@ public:
   /// @param given vertices, ascending; held: points of the mesh whose values are given as well.
   /// invalid_input, naming the first offender: a triangle at a free vertex (of the region, also one
   /// that the band needs) without area, an edge there of three triangles or more. unavailable: the
-  /// system has no factor in double precision. Report: counts.free, condition (largest / smallest
-  /// eigenvalue, estimated from below).
+  /// system has no factor in double precision. Report: counts.free, condition (of the matrix with
+  /// ones on its diagonal, estimated from below).
   Status prepare(ExecutionContext& context, const Components& parts,
     const std::vector<Index>& given, const std::vector<MeshPoint>& held);
 

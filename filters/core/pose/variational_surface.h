@@ -65,11 +65,11 @@ public:
     const Handles& handles, const VariationalSurfaceOptions& options = {});
 
   /// Finds the vertices of a pose, one entry a handle. Report: counts.free, counts.constrained
-  /// (vertices and points held), condition (of the factored matrix, estimated from below),
-  /// refinement (the last correction, as a share of the largest coordinate), constraint_residual
-  /// (in diagonals). Errors: see Polyharmonic::prepare; positions with nothing fixed. Warnings name
-  /// handles that contradict each other or are redundant, a refinement that leaves few digits, and
-  /// boundary conditions that are less than they seem.
+  /// (vertices and points held), condition (of the factored matrix with ones on its diagonal,
+  /// estimated from below), refinement (the last correction, as a share of the largest coordinate),
+  /// constraint_residual (in diagonals). Errors: see Polyharmonic::prepare; positions with nothing
+  /// fixed. Warnings name handles that contradict each other or are redundant, a refinement that
+  /// leaves few digits, and boundary conditions that are less than they seem.
   Status solve(ExecutionContext& context, const Pose& pose);
 
   /// The vertices in the last solved pose.

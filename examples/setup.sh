@@ -14,6 +14,7 @@ libvtk9-qt-dev:the_viewer
 qtbase5-dev:the_viewer
 libqt5opengl5-dev:the_viewer
 libeigen3-dev:matrices
+libspectra-dev:eigenvalues_of_sparse_matrices
 libtbb-dev:threads
 libopenblas-pthread-dev:fast_dense_kernels_under_CHOLMOD
 libsuitesparse-dev:CHOLMOD,_the_sparse_solver

@@ -1,5 +1,5 @@
 # What the kernels are built with: their options and what the system has. Required: Eigen, TBB,
-# nlohmann-json, the headers of Boost. Everything heavy is optional; the feature that misses it says which package would
+# nlohmann-json, Spectra, the headers of Boost. Everything heavy is optional; the feature that misses it says which package would
 # give it.
 option(BINDPOSE_PERMISSIVE "Leave out GPL and AGPL parts (bindpose-mesher, CHOLMOD)" OFF)
 option(BINDPOSE_WITH_CHOLMOD "Factor with CHOLMOD's supernodal solver when found" ON)
@@ -10,6 +10,7 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(TBB REQUIRED)
 find_package(nlohmann_json 3.10 REQUIRED)
 find_package(Boost 1.71 REQUIRED) # headers: Boost.Graph
+find_package(Spectra 1.0 REQUIRED) # headers: eigenvalues
 
 # ---- CHOLMOD (its supernodal module is GPL) ----
 set(bindpose_has_cholmod OFF)

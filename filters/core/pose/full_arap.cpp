@@ -6,18 +6,15 @@
 // covariances, K^T Q the force on the vertices. The local step fits R to the covariances, the
 // global step solves L D = K^T Q under the handles' constraints.
 //
-// Anderson acceleration looks at the global step as a function g of D whose fixed point is sought:
-// the next D is g(D) less a combination of the last changes of g, namely the one that makes the
-// same combination of the last changes of g(D) - D cancel g(D) - D best. All iterates meet the
-// constraints, so all combinations whose shares sum to one do. It is taken if its energy, with the
+// Anderson acceleration looks at both steps as a function g of D whose fixed point is sought. All
+// iterates meet the constraints, so the extrapolated ones do. One is taken if its energy, with the
 // rotations that fit it, is no higher than that of the plain g(D).
 #include "pose/full_arap.h"
 
 #include "base/parallel.h"
+#include "pose/anderson.h"
 #include "pose/pivot_rotation.h"
 #include "pose/rotation_fit.h"
-
-#include <Eigen/QR>
 
 #include <chrono>
 #include <cmath>
@@ -35,81 +32,11 @@ constexpr Index groups_at_once = 512;
 constexpr Index vertices_at_once = 1024;
 constexpr Index numbers_at_once = 16384;
 
-double dot(ExecutionContext& context, const Weights& a, const Weights& b)
+double dot(ExecutionContext& context, Index count, const double* a, const double* b)
 {
-  return parallel_sum(context, a.size(), numbers_at_once,
-    [&](Index begin, Index end)
-    {
-      double sum = 0.0;
-      for (Index i = begin; i < end; ++i)
-      {
-        sum += a.data()[i] * b.data()[i];
-      }
-      return sum;
-    });
+  return parallel_sum(context, count, numbers_at_once,
+    [&](Index begin, Index end) { return packed_dot(end - begin, a + begin, b + begin); });
 }
-
-/// The last changes of g and of f = g(D) - D, and their inner products.
-class Anderson
-{
-public:
-  Anderson(Index window, Index rows)
-    : changes_g_(static_cast<std::size_t>(window), Weights(rows, 3)),
-      changes_f_(static_cast<std::size_t>(window), Weights(rows, 3)),
-      products_(Eigen::MatrixXd::Zero(window, window))
-  {
-  }
-
-  void forget() { this->count_ = 0; }
-
-  /// d becomes the extrapolated iterate; false when there is nothing to extrapolate from yet.
-  bool next(ExecutionContext& context, const Weights& g, Weights& d)
-  {
-    const auto window = static_cast<Index>(this->changes_g_.size());
-    if (window == 0)
-    {
-      return false;
-    }
-    Weights f = g - d;
-    if (this->count_ > 0)
-    {
-      const Index at = (this->count_ - 1) % window;
-      this->changes_g_[at] = g - this->last_g_;
-      this->changes_f_[at] = f - this->last_f_;
-      const Index filled = std::min(this->count_, window);
-      for (Index i = 0; i < filled; ++i)
-      {
-        this->products_(at, i) = this->products_(i, at) =
-          dot(context, this->changes_f_[at], this->changes_f_[i]);
-      }
-      Eigen::VectorXd right(filled), scale(filled);
-      for (Index i = 0; i < filled; ++i)
-      {
-        const double square = this->products_(i, i);
-        scale[i] = square > 0.0 ? 1.0 / std::sqrt(square) : 0.0;
-        right[i] = scale[i] * dot(context, this->changes_f_[i], f);
-      }
-      const Eigen::MatrixXd matrix =
-        scale.asDiagonal() * this->products_.topLeftCorner(filled, filled) * scale.asDiagonal();
-      const Eigen::VectorXd shares = scale.asDiagonal() *
-        Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>(matrix).solve(right);
-      d = g;
-      for (Index i = 0; i < filled; ++i)
-      {
-        d -= shares[i] * this->changes_g_[i];
-      }
-    }
-    this->last_g_ = g;
-    this->last_f_.swap(f);
-    return this->count_++ > 0 && d.allFinite();
-  }
-
-private:
-  Index count_ = 0;
-  std::vector<Weights> changes_g_, changes_f_;
-  Weights last_g_, last_f_;
-  Eigen::MatrixXd products_;
-};
 } // namespace
 
 Status FullArap::prepare(const Pose& pose)
@@ -345,7 +272,7 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
     double work = 0.0;
     if (n > 0)
     {
-      work = dot(context, this->force_, g);
+      work = dot(context, 3 * n, this->force_.data(), g.data());
     }
     return this->quadratic(context, g) - work - this->rest_turned_;
   };
@@ -357,7 +284,8 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   d = g;
   this->energies_.assign(1, energy_after_global(g));
   const double floor = nothing_bends * this->rest_energy_;
-  Anderson anderson(std::clamp<Index>(options.anderson_window, 0, 50), n);
+  Anderson anderson(options.anderson_window, 3 * n, 0,
+    [&](const double* a, const double* b) { return dot(context, 3 * n, a, b); });
   Index iterations = 0;
   bool converged = false, accelerated = false;
   double change = 0.0;
@@ -387,7 +315,8 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
     change = energy_before - this->energies_.back();
     converged = options.tolerance > 0.0 &&
       change <= options.tolerance * std::max(this->energies_.back(), floor);
-    accelerated = !converged && iterations < options.max_iterations && anderson.next(context, g, d);
+    accelerated =
+      !converged && iterations < options.max_iterations && anderson.next(g.data(), d.data());
     if (!accelerated)
     {
       d = g;

@@ -241,7 +241,7 @@ struct Case
 ReducedArap::SolveOptions solve_options(Random& random)
 {
   return { chance(random, 0.5) ? 0.0 : 1e-6, random.below(25),
-    static_cast<ReducedArap::Start>(random.below(3)) };
+    static_cast<ReducedArap::Start>(random.below(3)), random.below(8) };
 }
 } // namespace
 

@@ -41,9 +41,10 @@ inline Pose posed(const Handles& handles, HandleMode mode, const Affine& t = ide
   return pose;
 }
 
+/// Plain iterations: nothing extrapolates.
 constexpr ReducedArap::SolveOptions iterations_from_rest(Index count)
 {
-  return { 0.0, count, ReducedArap::Start::rest };
+  return { 0.0, count, ReducedArap::Start::rest, 0 };
 }
 
 constexpr ReducedArap::SolveOptions iterations(Index count)

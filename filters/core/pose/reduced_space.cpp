@@ -2,9 +2,10 @@
 // projected on the skinning space V' = V + M D, once. Column block j of M is w_j ((x - c_j) / s_j,
 // 1), in a frame of the column's own, because a handle of small reach sees its coordinates as
 // nearly constant and would spoil the conditioning in a common frame.
-#include "pose/reduced_arap.h"
+#include "pose/reduced_space.h"
 
 #include "base/parallel.h"
+#include "pose/skinning_eigenmodes.h"
 #include "pose/weight_clusters.h"
 
 #include <Eigen/LU>
@@ -71,34 +72,34 @@ const char* element_key(const TrianglesView&)
 }
 } // namespace
 
-void ReducedArap::basis_row(const double* weights, const Vec3& point, double* row) const
+void ReducedSpace::basis_row(const double* weights, const Vec3& point, double* row) const
 {
-  for (Index j = 0; j < this->columns_; ++j)
+  for (Index j = 0; j < this->columns; ++j)
   {
     const double w = weights[j];
     const auto i = static_cast<std::size_t>(j);
-    const double f = w / this->sizes_[i];
-    row[4 * j] = f * (point[0] - this->centers_[i][0]);
-    row[4 * j + 1] = f * (point[1] - this->centers_[i][1]);
-    row[4 * j + 2] = f * (point[2] - this->centers_[i][2]);
+    const double f = w / this->sizes[i];
+    row[4 * j] = f * (point[0] - this->centers[i][0]);
+    row[4 * j + 1] = f * (point[1] - this->centers[i][1]);
+    row[4 * j + 2] = f * (point[2] - this->centers[i][2]);
     row[4 * j + 3] = w;
   }
 }
 
 template <typename Elements>
-void ReducedArap::find_pivots(PointsView points, const Elements& elements, WeightsView weights)
+void ReducedSpace::find_pivots(PointsView points, const Elements& elements, WeightsView weights)
 {
-  const auto count = static_cast<Index>(this->handles_.size());
-  this->pivot_rows_ = Eigen::MatrixXd::Zero(count, 4 * this->columns_);
-  Eigen::RowVectorXd row(4 * this->columns_);
+  const auto count = static_cast<Index>(this->handles.size());
+  this->pivot_rows = Eigen::MatrixXd::Zero(count, 4 * this->columns);
+  Eigen::RowVectorXd row(4 * this->columns);
   std::vector<Index> open;
   for (Index h = 0; h < count; ++h)
   {
-    const Handle& handle = this->handles_[static_cast<std::size_t>(h)];
+    const Handle& handle = this->handles[static_cast<std::size_t>(h)];
     // What holds when the mesh does not hold the pivot: the handle's own transform.
-    Eigen::VectorXd unit = Eigen::VectorXd::Unit(this->columns_, h);
+    Eigen::VectorXd unit = Eigen::VectorXd::Unit(this->columns, h);
     this->basis_row(unit.data(), handle.head, row.data());
-    this->pivot_rows_.row(h) = row;
+    this->pivot_rows.row(h) = row;
     if (handle.kind == HandleKind::region)
     {
       continue; // its vertices move as one, wherever their middle lies
@@ -106,11 +107,11 @@ void ReducedArap::find_pivots(PointsView points, const Elements& elements, Weigh
     Index nearest = 0;
     const double distance = std::sqrt(
       (points.rowwise() - handle.head.transpose()).rowwise().squaredNorm().minCoeff(&nearest));
-    if (distance <= same_place * this->diagonal_)
+    if (distance <= same_place * this->diagonal)
     {
       const Vec3 at = points.row(nearest);
       this->basis_row(weights.row(nearest).data(), at, row.data());
-      this->pivot_rows_.row(h) = row;
+      this->pivot_rows.row(h) = row;
       continue;
     }
     open.push_back(h);
@@ -123,22 +124,22 @@ void ReducedArap::find_pivots(PointsView points, const Elements& elements, Weigh
     {
       box.add(points.row(elements(e, k)).transpose());
     }
-    const double margin = on_surface * this->diagonal_;
+    const double margin = on_surface * this->diagonal;
     for (std::size_t i = 0; i < open.size(); ++i)
     {
-      const Vec3 p = this->handles_[static_cast<std::size_t>(open[i])].head;
+      const Vec3 p = this->handles[static_cast<std::size_t>(open[i])].head;
       Eigen::Vector4d lambda;
       if (((p - box.lower).array() < -margin).any() || ((p - box.upper).array() > margin).any() ||
-        !locate(points, elements, e, p, this->diagonal_, lambda))
+        !locate(points, elements, e, p, this->diagonal, lambda))
       {
         continue;
       }
-      this->pivot_rows_.row(open[i]).setZero();
+      this->pivot_rows.row(open[i]).setZero();
       for (int k = 0; k < corners; ++k)
       {
         const Vec3 at = points.row(elements(e, k));
         this->basis_row(weights.row(elements(e, k)).data(), at, row.data());
-        this->pivot_rows_.row(open[i]) += lambda[k] * row;
+        this->pivot_rows.row(open[i]) += lambda[k] * row;
       }
       open.erase(open.begin() + static_cast<std::ptrdiff_t>(i));
       --i;
@@ -146,10 +147,10 @@ void ReducedArap::find_pivots(PointsView points, const Elements& elements, Weigh
   }
 }
 
-bool ReducedArap::project_stiffness(
-  ExecutionContext& context, PointsView points, const SparseMatrix& stiffness, WeightsView weights)
+bool ReducedSpace::project_stiffness(ExecutionContext& context, PointsView points,
+  const SparseMatrix& stiffness_matrix, WeightsView weights)
 {
-  const Index n = points.rows(), size = 4 * this->columns_;
+  const Index n = points.rows(), size = 4 * this->columns;
   const Index strip = (n + strips - 1) / strips;
   std::vector<Eigen::MatrixXd> sums(static_cast<std::size_t>(strips));
   std::vector<Eigen::VectorXd> squares(static_cast<std::size_t>(strips));
@@ -175,7 +176,7 @@ bool ReducedArap::project_stiffness(
         {
           const Index v = begin + r;
           this->basis_row(weights.row(v).data(), points.row(v).transpose(), m.row(r).data());
-          for (SparseMatrix::InnerIterator it(stiffness, v); it; ++it)
+          for (SparseMatrix::InnerIterator it(stiffness_matrix, v); it; ++it)
           {
             this->basis_row(
               weights.row(it.row()).data(), points.row(it.row()).transpose(), row.data());
@@ -190,69 +191,91 @@ bool ReducedArap::project_stiffness(
   {
     return false;
   }
-  this->stiffness_ = Eigen::MatrixXd::Zero(size, size);
+  this->stiffness = Eigen::MatrixXd::Zero(size, size);
   Eigen::VectorXd square = Eigen::VectorXd::Zero(size);
   for (Index s = 0; s < strips; ++s)
   {
-    this->stiffness_ += sums[static_cast<std::size_t>(s)];
+    this->stiffness += sums[static_cast<std::size_t>(s)];
     square += squares[static_cast<std::size_t>(s)];
   }
-  this->stiffness_ = (0.5 * (this->stiffness_ + this->stiffness_.transpose())).eval();
+  this->stiffness = (0.5 * (this->stiffness + this->stiffness.transpose())).eval();
   // A column is empty when nothing of it would be seen: 1e-12 of a diagonal everywhere.
   const double count = static_cast<double>(std::max<Index>(n, 1));
-  this->basis_scale_ =
+  this->basis_scale =
     (square / count)
       .unaryExpr([](double mean) { return mean > 1e-24 ? 1.0 / std::sqrt(mean) : 0.0; });
   return true;
 }
 
-void ReducedArap::project_covariance(
-  PointsView points, const SparseMatrix& covariance, WeightsView weights, Index handle_count)
+void ReducedSpace::project_mass(
+  PointsView points, const Eigen::VectorXd& masses, WeightsView weights)
 {
-  const Index clusters = this->groups_.count;
-  this->stride_ = (clusters + 7) / 8 * 8;
-  this->covariance_ = Eigen::MatrixXd::Zero(3 * clusters, 4 * this->columns_);
+  const Index size = 4 * this->columns;
+  this->mass = Eigen::MatrixXd::Zero(size, size);
+  this->mass_sums = Eigen::VectorXd::Zero(size);
+  Weights m(rows_at_once, size);
+  for (Index begin = 0; begin < points.rows(); begin += rows_at_once)
+  {
+    const Index rows = std::min(points.rows() - begin, rows_at_once);
+    for (Index r = 0; r < rows; ++r)
+    {
+      const Index v = begin + r;
+      this->basis_row(weights.row(v).data(), points.row(v).transpose(), m.row(r).data());
+      this->mass_sums += masses[v] * m.row(r).transpose();
+      m.row(r) *= std::sqrt(masses[v]);
+    }
+    this->mass.selfadjointView<Eigen::Lower>().rankUpdate(m.topRows(rows).transpose());
+  }
+  this->mass.triangularView<Eigen::StrictlyUpper>() = this->mass.transpose();
+}
+
+void ReducedSpace::project_covariance(
+  PointsView points, const SparseMatrix& covariance_matrix, WeightsView weights, Index handle_count)
+{
+  const Index clusters = this->groups.count;
+  this->stride = (clusters + 7) / 8 * 8;
+  this->covariance = Eigen::MatrixXd::Zero(3 * clusters, 4 * this->columns);
   // Rows are written while vertices pass by: row-major until the end.
-  Weights product = Weights::Zero(3 * clusters, 4 * this->columns_);
-  this->cluster_weights_ = Eigen::MatrixXd::Zero(clusters, handle_count);
-  this->rest_covariance_.assign(static_cast<std::size_t>(9 * this->stride_), 0.0);
+  Weights product = Weights::Zero(3 * clusters, 4 * this->columns);
+  this->cluster_weights = Eigen::MatrixXd::Zero(clusters, handle_count);
+  this->rest_covariance.assign(static_cast<std::size_t>(9 * this->stride), 0.0);
   Eigen::VectorXd cluster_mass = Eigen::VectorXd::Zero(clusters);
-  Eigen::RowVectorXd row(4 * this->columns_);
+  Eigen::RowVectorXd row(4 * this->columns);
   const Vec3 middle = bounding_box(points).center();
   for (Index v = 0; v < points.rows(); ++v)
   {
     const Vec3 p = points.row(v);
     this->basis_row(weights.row(v).data(), p, row.data());
-    for (SparseMatrix::InnerIterator it(covariance, v); it; ++it)
+    for (SparseMatrix::InnerIterator it(covariance_matrix, v); it; ++it)
     {
       const Index i = it.row() / clusters, k = it.row() % clusters;
       product.row(it.row()) += it.value() * row;
       for (int j = 0; j < 3; ++j)
       {
-        this->rest_covariance_[static_cast<std::size_t>((3 * i + j) * this->stride_ + k)] +=
+        this->rest_covariance[static_cast<std::size_t>((3 * i + j) * this->stride + k)] +=
           it.value() * (p[j] - middle[j]);
       }
       // Squares of edge sums: what a vertex matters to a cluster, in any coordinate frame.
-      const double mass = it.value() * it.value();
-      this->cluster_weights_.row(k) += mass * weights.row(v).head(handle_count).cwiseAbs();
-      cluster_mass[k] += mass;
+      const double square = it.value() * it.value();
+      this->cluster_weights.row(k) += square * weights.row(v).head(handle_count).cwiseAbs();
+      cluster_mass[k] += square;
     }
   }
-  this->covariance_ = product;
+  this->covariance = product;
   for (Index k = 0; k < clusters; ++k)
   {
     if (cluster_mass[k] > 0.0)
     {
-      this->cluster_weights_.row(k) /= cluster_mass[k];
+      this->cluster_weights.row(k) /= cluster_mass[k];
     }
   }
 }
 
 template <typename Elements>
-Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const Elements& elements,
-  WeightsView weights, const Handles& handles, const ReducedArapOptions& options)
+Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const Elements& elements,
+  WeightsView weights, const Handles& their_handles, const ReducedArapOptions& options)
 {
-  *this = ReducedArap();
+  *this = ReducedSpace();
   Status status = check_mesh(points, elements);
   if (status.ok() && !points.allFinite())
   {
@@ -264,7 +287,7 @@ Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const
   }
   if (status.ok())
   {
-    status = check_handles(handles);
+    status = check_handles(their_handles);
   }
   if (!status.ok())
   {
@@ -275,31 +298,31 @@ Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const
     return Status::invalid_input("the weights have " + std::to_string(weights.rows()) +
       " rows, but there are " + std::to_string(points.rows()) + " vertices");
   }
-  if (weights.cols() != static_cast<Index>(handles.size()))
+  if (weights.cols() != static_cast<Index>(their_handles.size()))
   {
     return Status::invalid_input("the weights have " + std::to_string(weights.cols()) +
-      " columns, but there are " + std::to_string(handles.size()) + " handles");
+      " columns, but there are " + std::to_string(their_handles.size()) + " handles");
   }
   {
     Phase phase(context, "copy_weights", 0.0, 0.1);
-    status = this->skinning_.bind(context, weights);
+    status = this->skinning.bind(context, weights);
     if (!status.ok())
     {
       return status;
     }
   }
-  this->handles_ = handles;
-  this->diagonal_ = bounding_box(points).diagonal();
+  this->handles = their_handles;
+  this->diagonal = bounding_box(points).diagonal();
   const Eigen::RowVector3d middle = points.colwise().mean();
-  this->radius_ = std::sqrt((points.rowwise() - middle).rowwise().squaredNorm().mean());
-  const auto handle_count = static_cast<Index>(handles.size());
+  this->radius = std::sqrt((points.rowwise() - middle).rowwise().squaredNorm().mean());
+  const auto handle_count = static_cast<Index>(their_handles.size());
   std::string empty_names;
   for (Index j = 0; j < handle_count; ++j)
   {
     if (weights.col(j).isZero(0.0))
     {
       empty_names +=
-        (empty_names.empty() ? "'" : ", '") + handles[static_cast<std::size_t>(j)].name + "'";
+        (empty_names.empty() ? "'" : ", '") + their_handles[static_cast<std::size_t>(j)].name + "'";
     }
   }
   if (!empty_names.empty())
@@ -309,14 +332,40 @@ Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const
 
   Weights all = weights;
   Clusters clusters;
+  const bool tets = Elements::ColsAtCompileTime == 4;
+  const ArapEnergy energy = resolved(options.energy, tets);
+  Index left_out = 0;
+  const SparseMatrix laplacian = arap_stiffness(points, elements, energy, &left_out);
+  if (left_out > 0)
+  {
+    status.warnings.push_back(left_out_warning(left_out));
+  }
+  const bool modes = options.extra_weights > 0 && options.extra_kind == ExtraWeights::eigenmodes;
+  const Eigen::VectorXd masses =
+    modes || options.mass ? lumped_mass(points, elements) : Eigen::VectorXd();
   {
     Phase phase(context, "clusters", 0.1, 0.5);
     if (options.extra_weights > 0)
     {
-      const Weights extra = spline_bumps(context, weights, options.extra_weights);
+      Weights extra;
+      if (modes)
+      {
+        Eigenmodes found;
+        const Status solved = skinning_eigenmodes(
+          context, laplacian, masses, handle_vertices(weights), options.extra_weights, found);
+        if (!solved.usable())
+        {
+          return solved;
+        }
+        extra = std::move(found.modes);
+      }
+      else
+      {
+        extra = spline_bumps(context, weights, options.extra_weights);
+      }
       all.resize(weights.rows(), weights.cols() + extra.cols());
       all << weights, extra;
-      const Status widened = this->skinning_.bind(context, all);
+      const Status widened = this->skinning.bind(context, all);
       if (!widened.ok())
       {
         return widened;
@@ -333,52 +382,46 @@ Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const
     {
       return Status::cancelled();
     }
-    const bool tets = Elements::ColsAtCompileTime == 4;
-    const ArapEnergy energy = resolved(options.energy, tets);
-    this->groups_ = rotation_groups(energy, elements, clusters.count, std::move(clusters.of_row));
+    this->groups = rotation_groups(energy, elements, clusters.count, std::move(clusters.of_row));
     if (wanted >= points.rows() && energy == ArapEnergy::elements)
     {
-      this->groups_.count = elements.rows();
-      this->groups_.of_element.resize(static_cast<std::size_t>(elements.rows()));
-      std::iota(this->groups_.of_element.begin(), this->groups_.of_element.end(), Index(0));
+      this->groups.count = elements.rows();
+      this->groups.of_element.resize(static_cast<std::size_t>(elements.rows()));
+      std::iota(this->groups.of_element.begin(), this->groups.of_element.end(), Index(0));
     }
     status.report.set("method", to_string(energy, tets));
   }
 
   Phase phase(context, "project", 0.5, 1.0);
-  this->columns_ = all.cols();
-  for (Index j = 0; j < this->columns_; ++j)
+  this->columns = all.cols();
+  for (Index j = 0; j < this->columns; ++j)
   {
     const Eigen::VectorXd w = all.col(j).cwiseAbs();
-    const double mass = w.sum();
-    Vec3 center = mass > 0.0 ? Vec3(points.transpose() * w / mass) : bounding_box(points).center();
-    const double spread = mass > 0.0
-      ? std::sqrt((points.rowwise() - center.transpose()).rowwise().squaredNorm().dot(w) / mass)
+    const double total = w.sum();
+    Vec3 center =
+      total > 0.0 ? Vec3(points.transpose() * w / total) : bounding_box(points).center();
+    const double spread = total > 0.0
+      ? std::sqrt((points.rowwise() - center.transpose()).rowwise().squaredNorm().dot(w) / total)
       : 0.0;
-    this->centers_.push_back(center);
-    this->sizes_.push_back(
-      spread > 1e-9 * this->diagonal_ ? spread : std::max(this->diagonal_, 1e-300));
+    this->centers.push_back(center);
+    this->sizes.push_back(
+      spread > 1e-9 * this->diagonal ? spread : std::max(this->diagonal, 1e-300));
   }
   {
-    Index left_out = 0;
-    const SparseMatrix stiffness =
-      arap_stiffness(points, elements, this->groups_.energy, &left_out);
-    if (left_out > 0)
-    {
-      status.warnings.push_back(left_out_warning(left_out));
-    }
-    if (!this->project_stiffness(context, points, stiffness, all))
+    if (!this->project_stiffness(context, points, laplacian, all))
     {
       return Status::cancelled();
     }
     const Points centered = points.rowwise() - bounding_box(points).center().transpose();
-    this->rest_energy_ = 0.5 * (centered.array() * (stiffness * centered).array()).sum();
+    this->rest_energy = 0.5 * (centered.array() * (laplacian * centered).array()).sum();
+  }
+  if (options.mass)
+  {
+    this->project_mass(points, masses, all);
   }
   this->project_covariance(
-    points, covariance_matrix(points, elements, this->groups_), all, handle_count);
+    points, covariance_matrix(points, elements, this->groups), all, handle_count);
   this->find_pivots(points, elements, all);
-  this->transforms_.assign(static_cast<std::size_t>(this->columns_), identity_affine());
-  this->rotations_.assign(static_cast<std::size_t>(9 * this->stride_), 0.0);
   if (context.cancelled())
   {
     return Status::cancelled();
@@ -386,22 +429,51 @@ Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const
   status.report.set("counts.vertices", Report::Value(std::int64_t(points.rows())));
   status.report.set(element_key(elements), Report::Value(std::int64_t(elements.rows())));
   status.report.set("counts.handles", Report::Value(std::int64_t(handle_count)));
-  status.report.set("counts.clusters", Report::Value(std::int64_t(this->groups_.count)));
+  status.report.set("counts.clusters", Report::Value(std::int64_t(this->groups.count)));
   status.report.set(
-    "counts.extra_weights", Report::Value(std::int64_t(this->columns_ - handle_count)));
+    "counts.extra_weights", Report::Value(std::int64_t(this->columns - handle_count)));
   return status;
 }
 
-Status ReducedArap::bind(ExecutionContext& context, PointsView points, TrianglesView triangles,
-  WeightsView weights, const Handles& handles, const ReducedArapOptions& options)
+template Status ReducedSpace::bind(ExecutionContext& context, PointsView points,
+  const TrianglesView& elements, WeightsView weights, const Handles& handles,
+  const ReducedArapOptions& options);
+template Status ReducedSpace::bind(ExecutionContext& context, PointsView points,
+  const TetsView& elements, WeightsView weights, const Handles& handles,
+  const ReducedArapOptions& options);
+
+Eigen::Matrix<double, 4, 3> ReducedSpace::block_of(const Affine& transform, Index column) const
 {
-  return this->bind_any(context, points, triangles, weights, handles, options);
+  const auto j = static_cast<std::size_t>(column);
+  const Eigen::Matrix3d linear = transform.leftCols<3>() - Eigen::Matrix3d::Identity();
+  Eigen::Matrix<double, 4, 3> block;
+  block.topRows<3>() = this->sizes[j] * linear.transpose();
+  block.row(3) = (linear * this->centers[j] + transform.col(3)).transpose();
+  return block;
 }
 
-Status ReducedArap::bind(ExecutionContext& context, PointsView points, TetsView tets,
-  WeightsView weights, const Handles& handles, const ReducedArapOptions& options)
+Affine ReducedSpace::affine_of(
+  const Eigen::Ref<const Eigen::Matrix<double, 4, 3>>& block, Index column) const
 {
-  return this->bind_any(context, points, tets, weights, handles, options);
+  const auto j = static_cast<std::size_t>(column);
+  const Eigen::Matrix3d linear = block.topRows<3>().transpose() / this->sizes[j];
+  Affine transform;
+  transform.leftCols<3>() = Eigen::Matrix3d::Identity() + linear;
+  transform.col(3) = block.row(3).transpose() - linear * this->centers[j];
+  return transform;
+}
+
+std::vector<Affine> ReducedSpace::transforms_of(const Rows& d, const Pose& pose) const
+{
+  std::vector<Affine> transforms;
+  for (Index j = 0; j < this->columns; ++j)
+  {
+    const auto h = static_cast<std::size_t>(j);
+    transforms.push_back(h < pose.size() && pose[h].mode == HandleMode::full
+        ? pose[h].transform
+        : this->affine_of(d.middleRows<4>(4 * j), j));
+  }
+  return transforms;
 }
 
 } // namespace bindpose

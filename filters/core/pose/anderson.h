@@ -1,0 +1,57 @@
+#ifndef bindpose_pose_anderson_h
+#define bindpose_pose_anderson_h
+
+#include "base/mesh.h"
+
+#include <functional>
+#include <vector>
+
+namespace bindpose
+{
+
+/// Anderson acceleration of an iteration x <- g(x) whose fixed point is sought: the next x is g(x)
+/// less a combination of the last changes of g, namely the one that makes the same combination of
+/// the last changes of the residual g(x) - x cancel g(x) - x best. Where x obeys linear
+/// constraints, the extrapolated x does, too: shares of iterates sum to one. Whether an
+/// extrapolated x is any good is the caller's to decide (by an energy that must not rise); if not,
+/// it goes on from g(x) and calls forget(). Peng et al. 2018, Anderson acceleration for geometry
+/// optimization and physics simulation.
+///
+/// Numbers that are linear functions of x (like a gradient) can be carried along: they follow x in
+/// memory, take part in the combinations, but not in the residual.
+///
+/// Cost of next(): window + 1 inner products, and as many multiply-adds for each number carried.
+class Anderson
+{
+public:
+  static constexpr Index largest_window = 50;
+  /// Inner product of two residuals.
+  using Dot = std::function<double(const double*, const double*)>;
+
+  /// @param window iterates that are looked back on, 0 (no acceleration) to largest_window.
+  /// @param size of x; @param carried how many numbers follow it.
+  Anderson(Index window, Index size, Index carried, Dot dot);
+
+  /// The next iterate has no past.
+  void forget() { this->count_ = 0; }
+
+  /// g is g(x), both with what they carry; x becomes the extrapolated iterate. False, and x is what
+  /// it was, when there is nothing to extrapolate from yet or nothing finite comes out.
+  bool next(const double* g, double* x);
+
+private:
+  Index window_, size_, length_;
+  Dot dot_;
+  Index count_ = 0; ///< iterates seen
+  std::vector<double> changes_g_, changes_f_; ///< rings of `window` rows
+  std::vector<double> last_g_, last_f_;
+  Eigen::MatrixXd products_; ///< of the changes of the residual
+  Eigen::VectorXd right_; ///< of each change with the last residual
+};
+
+/// Sum of a_i b_i in eight running sums, whatever the processor: the same bits everywhere.
+double packed_dot(Index count, const double* a, const double* b);
+
+} // namespace bindpose
+
+#endif

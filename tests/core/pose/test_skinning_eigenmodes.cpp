@@ -1,0 +1,177 @@
+// Skinning eigenmodes: against a bar's analytic eigenvalues, orthogonal, the same every time.
+#include "pose/skinning_eigenmodes.h"
+
+#include "core/pose/arap_cases.h"
+
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+using namespace bindpose::test;
+
+namespace
+{
+/// The eigenproblem of a box of tets, held where x = 0.
+struct Held
+{
+  TetMesh mesh;
+  SparseMatrix stiffness;
+  Eigen::VectorXd mass;
+  std::vector<Index> zero;
+
+  explicit Held(TetMesh box)
+    : mesh(std::move(box)), stiffness(stiffness_matrix(this->mesh.points, this->mesh.tets)),
+      mass(lumped_mass(this->mesh.points, this->mesh.tets))
+  {
+    for (Index v = 0; v < this->mesh.points.rows(); ++v)
+    {
+      if (this->mesh.points(v, 0) == 0.0)
+      {
+        this->zero.push_back(v);
+      }
+    }
+  }
+};
+} // namespace
+
+// A thin bar held at one end: w = sin((k - 1/2) pi x / l), lambda its wave number's square.
+TEST(SkinningEigenmodes, OfABarHeldAtOneEndAreSines)
+{
+  const Held bar(tet_box(48, 2, 2, Vec3::Zero(), Vec3(6.0, 0.25, 0.25)));
+  ExecutionContext context;
+  Eigenmodes found;
+  ASSERT_TRUE(skinning_eigenmodes(context, bar.stiffness, bar.mass, bar.zero, 6, found).ok());
+  ASSERT_EQ(found.modes.cols(), 6);
+  for (Index k = 0; k < 6; ++k)
+  {
+    const double wave = (static_cast<double>(k) + 0.5) * EIGEN_PI / 6.0;
+    // Second order in the mesh size, 1/8 along the bar.
+    EXPECT_NEAR(found.eigenvalues[k], wave * wave, 0.02 * wave * wave);
+    Eigen::VectorXd sine = (wave * bar.mesh.points.col(0)).array().sin();
+    const double agreement = std::abs(sine.dot(bar.mass.asDiagonal() * found.modes.col(k))) /
+      std::sqrt(sine.dot(bar.mass.asDiagonal() * sine) *
+        found.modes.col(k).dot(bar.mass.asDiagonal() * found.modes.col(k)));
+    EXPECT_GT(agreement, 0.999);
+  }
+}
+
+TEST(SkinningEigenmodes, SolveTheProblemAndAreOrthogonal)
+{
+  // As wide as high: eigenvalues come in pairs.
+  const Held box(tet_box(6, 5, 5));
+  ExecutionContext context;
+  Eigenmodes found;
+  ASSERT_TRUE(skinning_eigenmodes(context, box.stiffness, box.mass, box.zero, 15, found).ok());
+  ASSERT_EQ(found.modes.cols(), 15);
+  for (const Index v : box.zero)
+  {
+    EXPECT_EQ(found.modes.row(v).cwiseAbs().maxCoeff(), 0.0);
+  }
+  Eigen::MatrixXd unit = found.modes;
+  for (Index k = 0; k < 15; ++k)
+  {
+    EXPECT_EQ(found.modes.col(k).maxCoeff(), 1.0);
+    EXPECT_GT(found.eigenvalues[k], 0.0);
+    EXPECT_TRUE(k == 0 || found.eigenvalues[k] >= found.eigenvalues[k - 1]);
+    unit.col(k) /= std::sqrt(unit.col(k).dot(box.mass.asDiagonal() * unit.col(k)));
+    Eigen::VectorXd residual = box.stiffness * unit.col(k) -
+      found.eigenvalues[k] * (box.mass.asDiagonal() * unit.col(k)).eval();
+    for (const Index v : box.zero)
+    {
+      residual[v] = 0.0; // what holds the vertex there
+    }
+    EXPECT_LT(residual.norm(), 1e-8 * found.eigenvalues[k]) << k;
+  }
+  const Eigen::MatrixXd gram = unit.transpose() * box.mass.asDiagonal() * unit;
+  EXPECT_LT((gram - Eigen::MatrixXd::Identity(15, 15)).cwiseAbs().maxCoeff(), 1e-8);
+  // The dense solver agrees (asked for so many that it takes over).
+  Eigenmodes dense;
+  ASSERT_TRUE(skinning_eigenmodes(
+    context, box.stiffness, box.mass, box.zero, box.mesh.points.rows() / 2, dense)
+                .ok());
+  EXPECT_LT((dense.eigenvalues.head(15) - found.eigenvalues).cwiseAbs().maxCoeff(), 1e-7);
+}
+
+TEST(SkinningEigenmodes, SameBitsAgainAndOnManyThreads)
+{
+  const Held box(tet_box(6, 5, 5));
+  Eigenmodes found[2];
+  for (int i = 0; i < 2; ++i)
+  {
+    ExecutionContext context;
+    context.set_threads(i == 0 ? 1 : 4);
+    ASSERT_TRUE(skinning_eigenmodes(context, box.stiffness, box.mass, box.zero, 8, found[i]).ok());
+  }
+  EXPECT_EQ(found[0].modes, found[1].modes);
+  EXPECT_EQ(found[0].eigenvalues, found[1].eigenvalues);
+}
+
+TEST(SkinningEigenmodes, APartThatNothingHoldsMayMoveAsAWhole)
+{
+  TetMesh two = tet_box(4, 4, 4);
+  const TetMesh one = two;
+  const Index n = one.points.rows();
+  two.points.conservativeResize(2 * n, 3);
+  two.points.bottomRows(n) = one.points.rowwise() + Eigen::RowVector3d(5, 0, 0);
+  two.tets.conservativeResize(2 * one.tets.rows(), 4);
+  two.tets.bottomRows(one.tets.rows()) = one.tets.array() + static_cast<int>(n);
+  const Held held(two);
+  ExecutionContext context;
+  Eigenmodes found;
+  ASSERT_TRUE(skinning_eigenmodes(context, held.stiffness, held.mass, held.zero, 4, found).ok());
+  EXPECT_NEAR(found.eigenvalues[0], 0.0, 1e-6);
+  EXPECT_GT(found.eigenvalues[1], 0.1);
+  EXPECT_LT((found.modes.col(0).tail(n).array() - 1.0).abs().maxCoeff(), 1e-6);
+  EXPECT_LT(found.modes.col(0).head(n).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(SkinningEigenmodes, NothingFreeGivesNoModesAndCancelEnds)
+{
+  const Held box(tet_box(6, 5, 5));
+  std::vector<Index> all;
+  for (Index v = 0; v < box.mesh.points.rows(); ++v)
+  {
+    all.push_back(v);
+  }
+  ExecutionContext context;
+  Eigenmodes found;
+  ASSERT_TRUE(skinning_eigenmodes(context, box.stiffness, box.mass, all, 5, found).ok());
+  EXPECT_EQ(found.modes.cols(), 0);
+  context.request_cancel();
+  EXPECT_EQ(skinning_eigenmodes(context, box.stiffness, box.mass, box.zero, 5, found).code,
+    StatusCode::cancelled);
+}
+
+// SPEC D37 with modes for bumps.
+TEST(SkinningEigenmodes, AsExtraWeightsTheyRestAtZeroAndLowerTheEnergy)
+{
+  const test::Rig rig = test::bar();
+  ExecutionContext context;
+  ReducedArap plain, wide;
+  ReducedArapOptions options{ ArapEnergy::elements, rig.mesh.tets.rows() };
+  ASSERT_TRUE(
+    plain.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles, options).ok());
+  options.extra_weights = 15;
+  options.extra_kind = ExtraWeights::eigenmodes;
+  const Status bound =
+    wide.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles, options);
+  ASSERT_TRUE(bound.ok());
+  EXPECT_EQ(bound.report.number("counts.extra_weights", 0), 15);
+  Points result;
+  ASSERT_TRUE(wide.solve(context, posed(rig.handles, HandleMode::full)).ok());
+  ASSERT_TRUE(wide.deform(context, rig.mesh.points, result).ok());
+  EXPECT_LT((result - rig.mesh.points).cwiseAbs().maxCoeff(), 1e-12);
+  for (const HandleMode middle : { HandleMode::full, HandleMode::position, HandleMode::free })
+  {
+    ASSERT_TRUE(plain.solve(context, bend(middle), iterations(300)).ok());
+    ASSERT_TRUE(wide.solve(context, bend(middle), iterations(300)).ok());
+    EXPECT_LT(wide.energies().back(), plain.energies().back());
+    ASSERT_TRUE(wide.deform(context, rig.mesh.points, result).ok());
+    for (Index v = 0; v < rig.mesh.points.rows(); ++v)
+    {
+      if (rig.weights(v, 0) > 1.0 - 1e-13)
+      {
+        EXPECT_LT((result.row(v) - rig.mesh.points.row(v)).norm(), 1e-10);
+      }
+    }
+  }
+}

@@ -1,5 +1,5 @@
 # What the kernels are built with: their options and what the system has. Required: Eigen, TBB,
-# nlohmann-json, the headers of Boost. Everything heavy is optional; the feature that misses it says which package would
+# nlohmann-json, the header of tinygltf, the headers of Boost. Everything heavy is optional; the feature that misses it says which package would
 # give it.
 option(BINDPOSE_PERMISSIVE "Leave out GPL and AGPL parts (bindpose-mesher, CHOLMOD)" OFF)
 option(BINDPOSE_WITH_CHOLMOD "Factor with CHOLMOD's supernodal solver when found" ON)
@@ -10,6 +10,12 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(TBB REQUIRED)
 find_package(nlohmann_json 3.10 REQUIRED)
 find_package(Boost 1.71 REQUIRED) # headers: Boost.Graph
+# Its header alone, compiled into ours: no library to link, and none of its ways to the disk.
+find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h)
+mark_as_advanced(TINYGLTF_INCLUDE_DIR)
+if(NOT TINYGLTF_INCLUDE_DIR)
+  message(FATAL_ERROR "tiny_gltf.h is missing; on Debian: apt-get install libtinygltf-dev")
+endif()
 
 # ---- CHOLMOD (its supernodal module is GPL) ----
 set(bindpose_has_cholmod OFF)

@@ -339,9 +339,9 @@ private:
     const tinygltf::Buffer& buffer = at(this->model_.buffers, view.buffer, "buffer");
     const std::size_t stride = view.byteStride > 0 ? view.byteStride : size;
     const std::size_t all = buffer.data.size();
-    if (view.byteOffset > all || view.byteLength > all - view.byteOffset || offset > view.byteLength ||
-      stride > all || size > view.byteLength - offset || stride < size ||
-      (count - 1) > (view.byteLength - offset - size) / stride)
+    if (view.byteOffset > all || view.byteLength > all - view.byteOffset ||
+      offset > view.byteLength || stride > all || size > view.byteLength - offset ||
+      stride < size || (count - 1) > (view.byteLength - offset - size) / stride)
     {
       throw Broken(std::string(what) + " reach beyond their buffer");
     }
@@ -363,10 +363,10 @@ private:
     }
     const auto count = static_cast<std::size_t>(sparse.count);
     const std::size_t id_size = component_size(sparse.indices.componentType);
-    const View ids = this->view(
-      sparse.indices.bufferView, sparse.indices.byteOffset, count, id_size, what);
-    const View values = this->view(
-      sparse.values.bufferView, sparse.values.byteOffset, count, columns * size, what);
+    const View ids =
+      this->view(sparse.indices.bufferView, sparse.indices.byteOffset, count, id_size, what);
+    const View values =
+      this->view(sparse.values.bufferView, sparse.values.byteOffset, count, columns * size, what);
     for (std::size_t k = 0; k < count; ++k)
     {
       const double row = component_at(ids.data + k * ids.stride, sparse.indices.componentType);
@@ -539,8 +539,7 @@ std::optional<GltfNote> read_note(const tinygltf::Value& extras, std::size_t joi
     std::array<Index, 3> element{ -1, -1, -1 };
     for (int k = 0; k < 3; ++k)
     {
-      const bool whole =
-        corners.IsArray() && corners.ArrayLen() == 3 && corners.Get(k).IsInt();
+      const bool whole = corners.IsArray() && corners.ArrayLen() == 3 && corners.Get(k).IsInt();
       element[k] = whole ? corners.Get(k).GetNumberAsInt() : -2;
       if (element[k] < (k < 2 ? 0 : -1) || element[k] >= static_cast<Index>(joints))
       {
@@ -607,7 +606,8 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
     {
       throw Broken("joint " + std::to_string(j) + " has matrices that cannot be used");
     }
-    for (int above = nodes.parents[id]; above >= 0 && joint.parent < 0; above = nodes.parents[above])
+    for (int above = nodes.parents[id]; above >= 0 && joint.parent < 0;
+         above = nodes.parents[above])
     {
       joint.parent = result.joint_of_node[above];
     }
@@ -616,7 +616,8 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
     joint.name = name.empty() ? "joint " + std::to_string(j) : name;
     for (int copy = 2; !names.insert(joint.name).second; ++copy)
     {
-      joint.name = (name.empty() ? "joint " + std::to_string(j) : name) + "_" + std::to_string(copy);
+      joint.name =
+        (name.empty() ? "joint " + std::to_string(j) : name) + "_" + std::to_string(copy);
     }
     skin.joints.push_back(joint);
   }
@@ -708,8 +709,8 @@ void read_influences(const Accessors& accessors, const tinygltf::Primitive& prim
   {
     const std::string joint_name = "JOINTS_" + std::to_string(set);
     const std::string weight_name = "WEIGHTS_" + std::to_string(set);
-    const Numbers ids = read_attribute(
-      accessors, primitive, joint_name.c_str(), TINYGLTF_TYPE_VEC4, vertices, true);
+    const Numbers ids =
+      read_attribute(accessors, primitive, joint_name.c_str(), TINYGLTF_TYPE_VEC4, vertices, true);
     const Numbers weights =
       read_attribute(accessors, primitive, weight_name.c_str(), TINYGLTF_TYPE_VEC4, vertices);
     if (ids.rows() != weights.rows())
@@ -733,8 +734,9 @@ void read_influences(const Accessors& accessors, const tinygltf::Primitive& prim
         if (weight < 0.0 || ids(v, k) >= static_cast<double>(joints))
         {
           throw Broken("vertex " + std::to_string(v) +
-            (weight < 0.0 ? std::string(" has a negative weight")
-                          : " has a weight of joint " + std::to_string(static_cast<Index>(ids(v, k))) +
+            (weight < 0.0
+                ? std::string(" has a negative weight")
+                : " has a weight of joint " + std::to_string(static_cast<Index>(ids(v, k))) +
                   ", but there are " + std::to_string(joints)));
         }
         parts.influences[first + v].emplace_back(static_cast<Index>(ids(v, k)), weight);
@@ -947,8 +949,8 @@ std::optional<Track> read_track(const tinygltf::Model& model, const Accessors& a
   }
   else if (channel.target_path == "translation" || channel.target_path == "scale")
   {
-    track.property = channel.target_path == "scale" ? Track::Property::scale
-                                                    : Track::Property::translation;
+    track.property =
+      channel.target_path == "scale" ? Track::Property::scale : Track::Property::translation;
   }
   else
   {
@@ -1109,8 +1111,7 @@ int first_skin(const tinygltf::Model& model)
   return -1;
 }
 
-void read_model(
-  const tinygltf::Model& model, std::size_t file_size, GltfSkin& skin, Status& status)
+void read_model(const tinygltf::Model& model, std::size_t file_size, GltfSkin& skin, Status& status)
 {
   const Accessors accessors(model, file_size);
   const Nodes nodes = read_nodes(model);

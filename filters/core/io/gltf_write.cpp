@@ -178,9 +178,8 @@ double largest_error(const GltfSkin& skin, const PackedWeights& packed, const Tr
   for (Index v = 0; v < skin.points.rows(); ++v)
   {
     const Vec3 p = skin.points.row(v);
-    const Vec3 to = points.rows() > 0
-      ? Vec3(points.row(v))
-      : moved(right, p, skin.weights.data() + v * joints, joints);
+    const Vec3 to = points.rows() > 0 ? Vec3(points.row(v))
+                                      : moved(right, p, skin.weights.data() + v * joints, joints);
     largest = std::max(largest, (moved(in_file, p, packed, v) - to).norm());
   }
   return largest;
@@ -307,8 +306,7 @@ std::vector<double> to_vector(const Eigen::Quaterniond& q)
 
 tinygltf::Value to_value(const Vec3& v)
 {
-  return tinygltf::Value(
-    { tinygltf::Value(v[0]), tinygltf::Value(v[1]), tinygltf::Value(v[2]) });
+  return tinygltf::Value({ tinygltf::Value(v[0]), tinygltf::Value(v[1]), tinygltf::Value(v[2]) });
 }
 
 tinygltf::Value to_value(const GltfNote& note)
@@ -400,8 +398,7 @@ void add_mesh(Builder& builder, const GltfSkin& skin, const PackedWeights& packe
       builder.add(weights, 4, TINYGLTF_TYPE_VEC4, target);
   }
   std::vector<std::uint32_t> corners(static_cast<std::size_t>(skin.triangles.size()));
-  std::copy(
-    skin.triangles.data(), skin.triangles.data() + skin.triangles.size(), corners.begin());
+  std::copy(skin.triangles.data(), skin.triangles.data() + skin.triangles.size(), corners.begin());
   primitive.indices =
     builder.add(corners, 1, TINYGLTF_TYPE_SCALAR, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER);
   tinygltf::Mesh mesh;
@@ -520,8 +517,8 @@ void animate_joints(Builder& builder, const GltfSkin& skin, std::vector<std::vec
       scales.row(k) = trs.scale.transpose();
     }
     const int node = first_joint + static_cast<int>(j);
-    add_channel(animation, times, builder.add_rows(translations, TINYGLTF_TYPE_VEC3, 0), node,
-      "translation");
+    add_channel(
+      animation, times, builder.add_rows(translations, TINYGLTF_TYPE_VEC3, 0), node, "translation");
     add_channel(
       animation, times, builder.add_rows(rotations, TINYGLTF_TYPE_VEC4, 0), node, "rotation");
     add_channel(animation, times, builder.add_rows(scales, TINYGLTF_TYPE_VEC3, 0), node, "scale");
@@ -647,7 +644,8 @@ Status check(const GltfSkin& skin, const GltfOptions& options)
   return check_frames(skin, options);
 }
 
-Status write_model(const std::string& path, const tinygltf::Model& model, bool binary, Report& report)
+Status write_model(
+  const std::string& path, const tinygltf::Model& model, bool binary, Report& report)
 {
   std::ostringstream text;
   try
@@ -713,8 +711,8 @@ Status write_gltf_skin(const std::string& path, const GltfSkin& skin, const Gltf
     {
       Transforms stands;
       tracks.push_back(local_maps(skin, frame.posed, stands));
-      animation_error = std::max(
-        animation_error, largest_error(skin, packed, frame.posed, stands, frame.points));
+      animation_error =
+        std::max(animation_error, largest_error(skin, packed, frame.posed, stands, frame.points));
     }
     animate_joints(builder, skin, tracks);
   }

@@ -24,8 +24,8 @@ constexpr double float_step = 1.2e-7;
 Eigen::Affine3d motion(const Vec3& axis, double degrees, const Vec3& to, double scale = 1.0)
 {
   Eigen::Affine3d map = Eigen::Affine3d::Identity();
-  map.linear() = scale *
-    Eigen::AngleAxisd(degrees * 0.017453292519943295, axis.normalized()).toRotationMatrix();
+  map.linear() =
+    scale * Eigen::AngleAxisd(degrees * 0.017453292519943295, axis.normalized()).toRotationMatrix();
   map.translation() = to;
   return map;
 }
@@ -83,8 +83,8 @@ Points skinned(const GltfSkin& skin, const std::vector<Eigen::Affine3d>& posed)
     Vec3 moved = p;
     for (std::size_t j = 0; j < skin.joints.size(); ++j)
     {
-      moved += skin.weights(v, static_cast<Index>(j)) *
-        (posed[j] * skin.joints[j].rest.inverse() * p - p);
+      moved +=
+        skin.weights(v, static_cast<Index>(j)) * (posed[j] * skin.joints[j].rest.inverse() * p - p);
     }
     result.row(v) = moved.transpose();
   }
@@ -273,8 +273,7 @@ TEST(GltfSkin, TheLargestWeightsAndWhatThatCosts)
   // The error is the one of the weights that came back.
   GltfSkin cut = skin;
   cut.weights = back.weights;
-  const double error =
-    (skinned(cut, posed) - skinned(skin, posed)).rowwise().norm().maxCoeff() /
+  const double error = (skinned(cut, posed) - skinned(skin, posed)).rowwise().norm().maxCoeff() /
     bounding_box(skin.points).diagonal();
   EXPECT_GT(error, 0.001);
   EXPECT_NEAR(status.report.number("pose_error", 0), error, 1e-6);
@@ -429,8 +428,8 @@ TEST(GltfSkin, ErrorsAreNamed)
   EXPECT_THAT(
     error([](json& f) { f["accessors"][0]["count"] = 4000000000LL; }), HasSubstr("4000000000"));
   EXPECT_THAT(error([](json& f) { f["accessors"][0]["type"] = "VEC2"; }), HasSubstr("POSITION"));
-  EXPECT_THAT(error([](json& f) { f["accessors"][1]["componentType"] = 5126; }),
-    HasSubstr("whole numbers"));
+  EXPECT_THAT(
+    error([](json& f) { f["accessors"][1]["componentType"] = 5126; }), HasSubstr("whole numbers"));
   EXPECT_THAT(error([](json& f) { f["bufferViews"][0]["byteOffset"] = 48; }), HasSubstr("beyond"));
   EXPECT_THAT(error([](json& f) { f["bufferViews"][0]["buffer"] = 7; }), HasSubstr("buffer 7"));
   EXPECT_THAT(error([](json& f) { f["skins"][0]["joints"] = { 1 }; }), HasSubstr("joint 1"));
@@ -438,14 +437,20 @@ TEST(GltfSkin, ErrorsAreNamed)
   EXPECT_THAT(error([](json& f) { f["skins"][0]["joints"] = { 1, 1 }; }), HasSubstr("twice"));
   EXPECT_THAT(error([](json& f) { f["nodes"][2]["children"] = { 1 }; }), HasSubstr("circle"));
   EXPECT_THAT(error([](json& f) { f["nodes"][0]["children"] = { 2 }; }), HasSubstr("two others"));
-  EXPECT_THAT(
-    error([](json& f) { f["nodes"][2]["rotation"] = { 0, 0, 0, 0 }; }), HasSubstr("rotation"));
-  EXPECT_THAT(
-    error([](json& f) { f["nodes"][2]["translation"] = { 0, 0 }; }), HasSubstr("placement"));
+  EXPECT_THAT(error(
+                [](json& f) {
+                  f["nodes"][2]["rotation"] = { 0, 0, 0, 0 };
+                }),
+    HasSubstr("rotation"));
+  EXPECT_THAT(error(
+                [](json& f) {
+                  f["nodes"][2]["translation"] = { 0, 0 };
+                }),
+    HasSubstr("placement"));
   EXPECT_THAT(error([](json& f) { f["skins"][0]["inverseBindMatrices"] = 0; }),
     HasSubstr("inverse bind matrices"));
-  EXPECT_THAT(error([](json& f) { f["meshes"][0]["primitives"][0]["mode"] = 1; }),
-    HasSubstr("no triangle"));
+  EXPECT_THAT(
+    error([](json& f) { f["meshes"][0]["primitives"][0]["mode"] = 1; }), HasSubstr("no triangle"));
   EXPECT_THAT(error([](json& f) { f["extensionsRequired"] = { "KHR_draco_mesh_compression" }; }),
     HasSubstr("KHR_draco"));
   json deep = "x";

@@ -24,6 +24,7 @@ libopenvdb-dev:OpenVDB,_volumes_as_.vdb_files
 libboost-dev:Boost.Graph,_the_cut_between_inside_and_outside
 libcli11-dev:command_line_options
 nlohmann-json3-dev:reports_and_poses
+libtinygltf-dev:rigs_as_glTF_files
 xvfb:pictures_without_a_display
 xauth:pictures_without_a_display
 libgl1-mesa-dri:pictures_without_a_graphics_card

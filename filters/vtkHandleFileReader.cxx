@@ -1,10 +1,12 @@
 // A .tgf graph becomes handles: first the nodes without a bone, then the bones, parents from shared
-// nodes. A .vtp file goes through vtkMeshFileReader and gets the arrays it misses.
+// nodes. A .vtp file goes through vtkMeshFileReader and gets the arrays it misses. The joints of a
+// glTF file are handles by gltf_data.
 #include "vtkHandleFileReader.h"
 
 #include "base/execution.h"
 #include "conversion.h"
 #include "file_kind.h"
+#include "gltf_data.h"
 #include "io/tgf.h"
 #include "report_field_data.h"
 #include "vtkMeshFileReader.h"
@@ -170,6 +172,23 @@ Status read_vtp(const std::string& path, vtkPolyData* output)
   bindpose::set_pose(output, cells, pose);
   return status;
 }
+
+Status read_gltf_handles(const std::string& path, vtkPolyData* output)
+{
+  bindpose::GltfData gltf;
+  Status status = bindpose::read_gltf(path, gltf);
+  status.warnings.clear(); // of the mesh
+  status.report = {};
+  if (status.ok() && gltf.handle_list.empty())
+  {
+    return Status::invalid_input(path + " has no skin, so there are no handles");
+  }
+  if (status.ok())
+  {
+    output->ShallowCopy(gltf.handles);
+  }
+  return status;
+}
 } // namespace
 
 vtkHandleFileReader::vtkHandleFileReader()
@@ -197,7 +216,10 @@ bindpose::Status vtkHandleFileReader::Execute(
   Status status = bindpose::check_extension(path, GetFileExtensions());
   if (status.ok())
   {
-    status = bindpose::file_extension(path) == "tgf" ? read_tgf(path, data) : read_vtp(path, data);
+    const std::string format = bindpose::file_extension(path);
+    status = format == "tgf" ? read_tgf(path, data)
+      : format == "vtp"      ? read_vtp(path, data)
+                             : read_gltf_handles(path, data);
   }
   if (!status.ok())
   {

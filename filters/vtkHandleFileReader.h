@@ -1,6 +1,6 @@
 /**
  * @class   vtkHandleFileReader
- * @brief   reads handles: points and bones from a .tgf file, all kinds from a .vtp file
+ * @brief   reads handles: points and bones from a .tgf file, all kinds from .vtp and .glb files
  *
  * The output is a handle dataset: one handle a cell, one cell a column of the weights, with the
  * cell arrays HandleName, HandleKind, Parent, RegionId, Mode, Transform, Stretch and Twist.
@@ -14,6 +14,8 @@
  *
  * A .vtp file is taken cell by cell (vertices are points, lines are bones unless HandleKind says
  * otherwise); missing arrays get their defaults, all others are kept.
+ *
+ * The joints of the skin in a .glb or .gltf file are handles as vtkGLTFSkinReader says.
  *
  * INVALID_INPUT, naming the file, for what cannot be read and for handles that cannot be used: an
  * empty or doubled name, a coordinate that is not finite, a bone of length zero, two handles at the
@@ -42,7 +44,7 @@ public:
   ///@}
 
   /// The endings that can be read, lower case, without dots, parted by blanks.
-  static const char* GetFileExtensions() { return "tgf vtp"; }
+  static const char* GetFileExtensions() { return "tgf vtp glb gltf"; }
 
 protected:
   vtkHandleFileReader();

@@ -7,6 +7,7 @@
 #include "base/execution.h"
 #include "conversion.h"
 #include "file_kind.h"
+#include "gltf_data.h"
 #include "io/medit.h"
 #include "io/obj.h"
 #include "io/off.h"
@@ -147,6 +148,17 @@ Status read_medit(const std::string& path, vtkDataObject* output)
   else
   {
     output->ShallowCopy(bindpose::to_polydata(mesh.points, mesh.triangles));
+  }
+  return status;
+}
+
+Status read_gltf_mesh(const std::string& path, vtkDataObject* output)
+{
+  bindpose::GltfData gltf;
+  Status status = bindpose::read_gltf(path, gltf);
+  if (status.ok())
+  {
+    output->ShallowCopy(gltf.mesh);
   }
   return status;
 }
@@ -370,6 +382,10 @@ bindpose::Status vtkMeshFileReader::Execute(
   {
     status = read_polygons(path, bindpose::read_stl, data);
   }
+  else if (format == "glb" || format == "gltf")
+  {
+    status = read_gltf_mesh(path, data);
+  }
   else if (format == "vtp")
   {
     status = read_by_vtk<vtkXMLPolyDataReader>(path, data);
@@ -388,9 +404,10 @@ bindpose::Status vtkMeshFileReader::Execute(
   }
   if (status.ok())
   {
-    const bindpose::Report report = status.report;
+    const Status read = status;
     status = check_output(path, data);
-    status.report.merge(report);
+    status.warnings = read.warnings;
+    status.report.merge(read.report);
     status.report.set("format", format);
   }
   return status;

@@ -11,6 +11,7 @@
  * | .vti | image (volume) with arrays | vtkImageData |
  * | .vtk | VTK's old format | what the file holds |
  * | .mesh | MEDIT, ASCII: tets, else triangles | vtkUnstructuredGrid, vtkPolyData |
+ * | .glb .gltf | triangles, `Weights` of a skin: see vtkGLTFSkinReader | vtkPolyData |
  *
  * OFF, OBJ, PLY, STL and MEDIT files are read by Bindpose itself: coordinates are doubles, and
  * vertices stay shared whatever texture coordinates and normals the file carries; those are not
@@ -44,7 +45,7 @@ public:
   ///@}
 
   /// The endings that can be read, lower case, without dots, parted by blanks.
-  static const char* GetFileExtensions() { return "obj off ply stl vtp vtu vti vtk mesh"; }
+  static const char* GetFileExtensions() { return "obj off ply stl vtp vtu vti vtk mesh glb gltf"; }
 
 protected:
   vtkMeshFileReader();

@@ -14,6 +14,9 @@
  * the parent's transform afterwards. Handles that the pose does not mention keep what the input
  * says. Without FileName and PoseJSON the input is passed on.
  *
+ * FileName may also name a .glb or .gltf file: its animation, or without one how its nodes stand,
+ * is taken by the names of joints and handles (see vtkGLTFSkinReader).
+ *
  * All other arrays are the input's own objects, so that filters behind it keep their bind.
  */
 
@@ -22,6 +25,13 @@
 
 #include "BindposeFiltersModule.h" // for export macro
 #include "vtkBindposeAlgorithm.h"
+#include <vector> // for std::vector
+
+namespace bindpose
+{
+struct Handle;
+struct HandlePose;
+} // namespace bindpose
 
 class BINDPOSEFILTERS_EXPORT vtkPoseHandles : public vtkBindposeAlgorithm
 {
@@ -37,7 +47,8 @@ public:
   ///@}
 
   ///@{
-  /// The pose as a file, read anew at each execution; when set, PoseJSON is not used.
+  /// The pose as a file (.json; .glb and .gltf for their animation), read anew at each execution;
+  /// when set, PoseJSON is not used.
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}
@@ -51,6 +62,8 @@ public:
   ///@{
   /// Of the sequence read by the last Update(): a single pose is one frame; 0 before.
   vtkGetMacro(NumberOfFrames, int);
+  /// Whether it was a sequence, which may have one frame.
+  vtkGetMacro(Sequence, bool);
   vtkGetMacro(FramesPerSecond, double);
   ///@}
 
@@ -67,10 +80,14 @@ private:
   vtkPoseHandles(const vtkPoseHandles&) = delete;
   void operator=(const vtkPoseHandles&) = delete;
 
+  bindpose::Status TakeGLTF(
+    const std::vector<bindpose::Handle>& handles, std::vector<bindpose::HandlePose>& pose);
+
   std::string PoseJSON;
   char* FileName = nullptr;
   int Frame = 0;
   int NumberOfFrames = 0;
+  bool Sequence = false;
   double FramesPerSecond = 0.0;
 };
 

@@ -1,6 +1,6 @@
 # What the kernels are built with: their options and what the system has. Required: Eigen, TBB,
-# nlohmann-json, Spectra, the headers of Boost. Everything heavy is optional; the feature that misses it says which package would
-# give it.
+# nlohmann-json, Spectra, the header of tinygltf, the headers of Boost. Everything heavy is optional;
+# the feature that misses it says which package would give it.
 option(BINDPOSE_PERMISSIVE "Leave out GPL and AGPL parts (bindpose-mesher, CHOLMOD)" OFF)
 option(BINDPOSE_WITH_CHOLMOD "Factor with CHOLMOD's supernodal solver when found" ON)
 option(BINDPOSE_WITH_MESHER "Build bindpose-mesher (CGAL, TetGen) when both are found" ON)
@@ -11,6 +11,12 @@ find_package(TBB REQUIRED)
 find_package(nlohmann_json 3.10 REQUIRED)
 find_package(Boost 1.71 REQUIRED) # headers: Boost.Graph
 find_package(Spectra 1.0 REQUIRED) # headers: eigenvalues
+# Its header alone, compiled into ours: no library to link, and none of its ways to the disk.
+find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h)
+mark_as_advanced(TINYGLTF_INCLUDE_DIR)
+if(NOT TINYGLTF_INCLUDE_DIR)
+  message(FATAL_ERROR "tiny_gltf.h is missing; on Debian: apt-get install libtinygltf-dev")
+endif()
 
 # ---- CHOLMOD (its supernodal module is GPL) ----
 set(bindpose_has_cholmod OFF)

@@ -35,7 +35,7 @@ from .errors import (
     Unavailable,
 )
 from .fairing import fair
-from .files import read, read_handles, write
+from .files import Rig, read, read_handles, read_rig, write, write_rig
 from .functions import contains, deform, planar_shape, tetrahedralize, weights, winding_number
 from .handle_sets import farthest_point_handles, handles
 from .meshes import Array, PlanarShape, Tets

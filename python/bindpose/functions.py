@@ -537,7 +537,8 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
         The handles that the weights were made for.
     pose : dict, str or path-like
         ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}``
-        or ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file.
+        or ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file; or a .glb or .gltf file for its
+        animation.
     method : {"lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls", "variational"}
         Linear blend skinning, dual quaternions, stretchable and twistable bones (with the point array
         ``EndpointWeights`` where there is one), reduced as-rigid-as-possible; without weights: full
@@ -599,5 +600,4 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
         report = run(bender, progress)
         posed = bender.GetOutput()
         results.append(shallow_copy(posed) if is_dataset(mesh) else Array(points_of(posed), report))
-    sequence = frames > 1
-    return results if sequence else results[0]
+    return results if poser.GetSequence() else results[0]

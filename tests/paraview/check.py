@@ -18,7 +18,8 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataReader
 # What an object says of its run, not of its parameters.
 NO_PARAMETER = {"Status", "StatusMessage", "Report"}
 # Where a proxy differs from its class on purpose: the file dialog has asked before.
-OTHER_DEFAULTS = {("vtkMeshFileWriter", "Overwrite"), ("vtkVDBWriter", "Overwrite")}
+OTHER_DEFAULTS = {("vtkMeshFileWriter", "Overwrite"), ("vtkVDBWriter", "Overwrite"),
+                  ("vtkGLTFSkinWriter", "Overwrite")}
 
 
 def shape_of(extent):

@@ -4,7 +4,7 @@ import bindpose
 import numpy as np
 import pytest
 import shapes
-from bindpose.meshes import points_of
+from bindpose.meshes import add_point_array, points_of, to_dataset
 from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData
 
 
@@ -18,6 +18,35 @@ def test_arrays_come_back_bit_for_bit(tmp_path, ending):
     assert np.array_equal(points_of(back), np.array(vertices))
     assert back.GetNumberOfCells() == len(faces)
     assert bindpose.report(back)["counts"]["vertices"] == len(vertices)
+
+
+def test_rigs(tmp_path):
+    mesh = to_dataset(shapes.sphere())
+    points = points_of(mesh)
+    weight = np.clip(0.5 + 0.5 * points[:, 0], 0, 1)
+    add_point_array(mesh, "Weights", np.stack([1 - weight, weight], axis=1), ["p1", "p2"])
+    (tmp_path / "h.tgf").write_text("1 -1 0 0\n2 1 0 0\n#\n")
+    pose = {"fps": 10, "frames": [{"handles": {"p2": {"translate": [0, k, 0]}}} for k in range(3)]}
+    posed = bindpose.deform(mesh, tmp_path / "h.tgf", pose)
+    report = bindpose.write_rig(mesh, tmp_path / "h.tgf", tmp_path / "rig.glb", frames=posed, fps=10)
+    assert report["sets"] == 1 and report["animation_error"] < 1e-6
+    rig = bindpose.read_rig(tmp_path / "rig.glb")
+    assert points_of(rig.mesh) == pytest.approx(points, abs=1e-6)
+    assert rig.handles.GetNumberOfCells() == 2
+    assert rig.pose["fps"] == 10 and len(rig.pose["frames"]) == 3
+    for again in (bindpose.deform(rig.mesh, rig.handles, rig.pose),
+                  bindpose.deform(mesh, tmp_path / "h.tgf", tmp_path / "rig.glb")):
+        for k in range(3):
+            assert points_of(again[k]) == pytest.approx(points_of(posed[k]), abs=2e-6)
+    # A sequence of one frame is a list of one.
+    assert len(bindpose.deform(mesh, tmp_path / "h.tgf", {"frames": pose["frames"][:1]})) == 1
+    bindpose.write(shapes.cube(), tmp_path / "cube.gltf")
+    assert bindpose.read(tmp_path / "cube.gltf").GetNumberOfCells() == 12
+    assert bindpose.read_rig(tmp_path / "cube.gltf").pose is None
+    with pytest.raises(bindpose.InvalidInput, match="exists already"):
+        bindpose.write_rig(mesh, tmp_path / "h.tgf", tmp_path / "rig.glb")
+    with pytest.raises(bindpose.InvalidInput, match="animation"):
+        bindpose.write_rig(mesh, tmp_path / "h.tgf", tmp_path / "rig.glb", animation="shapes")
 
 
 def test_existing_files_are_kept(tmp_path):

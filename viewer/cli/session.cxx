@@ -8,6 +8,7 @@
 #include "report_field_data.h"
 #include "vtkBindposeAlgorithm.h"
 #include "vtkFarthestPointHandles.h"
+#include "vtkGLTFSkinWriter.h"
 #include "vtkHandleFileReader.h"
 #include "vtkMeshFileReader.h"
 #include "vtkMeshFileWriter.h"
@@ -268,6 +269,38 @@ bool Session::write(vtkDataSet* data, const std::string& path)
   writer->SetFileName(path.c_str());
   writer->SetOverwrite(this->arguments_.has("overwrite"));
   return this->run(writer, "write", 1.0, 1.0, Merge::nothing);
+}
+
+bool Session::write_rig(vtkDataSet* mesh, vtkPolyData* handles,
+  const std::vector<vtkSmartPointer<vtkDataSet>>& frames, double frames_per_second, bool morph,
+  const std::string& path)
+{
+  vtkNew<vtkGLTFSkinWriter> writer;
+  writer->SetInputData(0, mesh);
+  if (handles)
+  {
+    writer->SetHandlesData(handles);
+  }
+  for (const auto& frame : frames)
+  {
+    writer->AddFrameData(frame);
+  }
+  writer->SetFramesPerSecond(frames_per_second);
+  writer->SetAnimation(morph ? vtkGLTFSkinWriter::MORPH : vtkGLTFSkinWriter::JOINTS);
+  writer->SetMaximumInfluences(this->arguments_.integer("gltf-influences"));
+  writer->SetFileName(path.c_str());
+  writer->SetOverwrite(this->arguments_.has("overwrite"));
+  // Its numbers stand apart from the verb's own.
+  const Report own = this->report_;
+  this->report_ = Report();
+  const bool written = this->run(writer, "write", 1.0, 1.0, Merge::numbers);
+  Report report = own;
+  for (const auto& [key, value] : this->report_.entries())
+  {
+    report.set(starts_with(key, "seconds.") ? key : "gltf." + key, value);
+  }
+  this->report_ = report;
+  return written;
 }
 
 bool Session::write_uncommitted(vtkDataSet* data, const std::string& path, AtomicFile& file)

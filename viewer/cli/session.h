@@ -44,6 +44,8 @@ public:
   bool fail(Status status);
   bool invalid(const std::string& sentence) { return this->fail(Status::invalid_input(sentence)); }
   void warn(const std::string& sentence);
+  /// Progress of what is no algorithm.
+  void show(double fraction, const std::string& what) { this->bar_.show(fraction, what); }
 
   /// Brings the algorithm up to date as a stage [begin, end] of the whole. Its warnings and
   /// errors are the session's, nothing is printed by VTK.
@@ -70,6 +72,10 @@ public:
   /// there all or none.
   bool write_uncommitted(vtkDataSet* data, const std::string& path, AtomicFile& file);
   bool commit(AtomicFile& file);
+  /// A rig as glTF: mesh with weights, its handles (null: none), and frames of an animation.
+  bool write_rig(vtkDataSet* mesh, vtkPolyData* handles,
+    const std::vector<vtkSmartPointer<vtkDataSet>>& frames, double frames_per_second, bool morph,
+    const std::string& path);
   bool write_text(const std::string& text, const std::string& path);
 
   /// Ends the verb: report, error line. Returns the exit code.

@@ -1,5 +1,6 @@
 // bindpose deform MESH_WITH_WEIGHTS --handles H --pose POSE.json: one pose gives one file, a
-// sequence numbered files and a .pvd that ParaView plays.
+// sequence numbered files and a .pvd that ParaView plays, or one animated glTF file.
+#include "cli/sequence_file.h"
 #include "cli/session.h"
 #include "cli/verbs.h"
 
@@ -14,6 +15,7 @@
 
 #include "vtkDataSet.h"
 #include "vtkNew.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 
 #include <cstdio>
@@ -102,20 +104,52 @@ std::string numbered(const std::string& path, int frame)
   return without_ending(path) + number + file_extension(path);
 }
 
-/// ParaView's collection of the frames with their times.
-std::string collection(const std::vector<std::string>& files, double frames_per_second)
+bool is_rig(const std::string& path)
 {
-  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\">\n"
-                     "  <Collection>\n";
-  for (std::size_t i = 0; i < files.size(); ++i)
+  return is_listed(file_extension(path), "glb gltf");
+}
+
+/// One glTF file. Linear blends pose the joints, a frame or, of a single pose, how they stand; what
+/// other methods do no joints can: each frame is a morph target.
+void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPoseHandles* pose,
+  vtkBindposeAlgorithm* deformation, const std::string& output)
+{
+  const Arguments& arguments = session.arguments();
+  const bool linear = arguments.text("method") == "lbs";
+  const std::string animation = arguments.text("gltf-animation");
+  const bool morph = animation == "morph" || (animation == "auto" && !linear);
+  const bool skinned = mesh->GetPointData()->GetArray("Weights") != nullptr;
+  if (!morph && !skinned)
   {
-    const double time = static_cast<double>(i) / (frames_per_second > 0 ? frames_per_second : 1.0);
-    char seconds[40];
-    std::snprintf(seconds, sizeof(seconds), "%.9g", time);
-    const std::string name = files[i].substr(files[i].find_last_of('/') + 1);
-    text += std::string("    <DataSet timestep=\"") + seconds + "\" file=\"" + name + "\"/>\n";
+    session.invalid("joints need weights, and the mesh has no point array 'Weights': take "
+                    "--gltf-animation morph");
+    return;
   }
-  return text + "  </Collection>\n</VTKFile>\n";
+  const int count = pose->GetNumberOfFrames();
+  const bool stands = linear && !morph && !pose->GetSequence();
+  std::vector<vtkSmartPointer<vtkDataSet>> frames;
+  for (int k = 0; k < count && !stands; ++k)
+  {
+    pose->SetFrame(k);
+    if (!session.run(pose, "pose", 0.0, 0.0, Merge::nothing) ||
+      !session.run(deformation, "deform", static_cast<double>(k) / count,
+        static_cast<double>(k + 1) / count, Merge::all))
+    {
+      return;
+    }
+    auto frame = vtk::TakeSmartPointer(deformation->GetOutput()->NewInstance());
+    frame->ShallowCopy(deformation->GetOutput());
+    frames.push_back(frame);
+  }
+  auto* posed = vtkPolyData::SafeDownCast(pose->GetOutput());
+  if (session.write_rig(mesh,
+        !skinned   ? nullptr
+          : stands ? posed
+                   : handles,
+        frames, pose->GetFramesPerSecond(), morph, output))
+  {
+    session.report().set("counts.frames", count);
+  }
 }
 } // namespace
 
@@ -123,7 +157,7 @@ void run_deform(Session& session)
 {
   const Arguments& arguments = session.arguments();
   const std::string output = arguments.text("output");
-  const std::string endings = "vtp vtu vtk ply stl obj off mesh";
+  const std::string endings = "vtp vtu vtk ply stl obj off mesh glb gltf";
   const Status ending = check_extension(output, endings);
   if (!ending.ok())
   {
@@ -144,8 +178,9 @@ void run_deform(Session& session)
     return;
   }
   const int frames = pose->GetNumberOfFrames();
+  const bool sequence = pose->GetSequence() && !is_rig(output);
   std::vector<std::string> files{ output };
-  if (frames > 1)
+  if (sequence)
   {
     files.clear();
     for (int frame = 0; frame < frames; ++frame)
@@ -161,13 +196,18 @@ void run_deform(Session& session)
       return;
     }
   }
-  if (frames > 1 && !session.check_output(pvd, "pvd"))
+  if (sequence && !session.check_output(pvd, "pvd"))
   {
     return;
   }
   const auto deformation = make_deformation(arguments);
   deformation->SetInputData(0, mesh);
   deformation->SetInputConnection(1, pose->GetOutputPort());
+  if (is_rig(output))
+  {
+    write_rig(session, mesh, handles, pose, deformation, output);
+    return;
+  }
   std::int64_t iterations = 0;
   std::vector<AtomicFile> written(files.size());
   for (std::size_t i = 0; i < files.size() && !session.failed(); ++i)
@@ -188,7 +228,7 @@ void run_deform(Session& session)
     session.commit(written[i]);
   }
   if (session.failed() ||
-    (frames > 1 && !session.write_text(collection(files, pose->GetFramesPerSecond()), pvd)))
+    (sequence && !session.write_text(format_collection(files, pose->GetFramesPerSecond()), pvd)))
   {
     return;
   }

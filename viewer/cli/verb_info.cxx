@@ -6,6 +6,7 @@
 #include "conversion.h"
 #include "file_kind.h"
 #include "surface/surface_repair.h"
+#include "vtkGLTFSkinReader.h"
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
@@ -238,6 +239,32 @@ bool looks_like_handles(vtkDataSet* data)
     cells->GetNumberOfStrips() == 0;
 }
 
+/// Joints as handles, sets of weights and the animation of a glTF file.
+bool tell_rig(Session& session, const std::string& path, Facts& facts)
+{
+  vtkNew<vtkGLTFSkinReader> reader;
+  reader->SetFileName(path.c_str());
+  if (!session.run(reader, "read", 0.0, 0.0, Merge::numbers))
+  {
+    return false;
+  }
+  Handles handles;
+  auto* data = vtkPolyData::SafeDownCast(reader->GetOutput(1));
+  if (data->GetNumberOfCells() > 0 && to_handles(data, handles).ok())
+  {
+    facts.table.add(
+      "weights a vertex", "up to " + Table::number(4.0 * session.report().number("sets", 0.0)));
+    tell_handles(handles, facts);
+  }
+  if (reader->GetNumberOfFrames() > 0)
+  {
+    facts.table.add("animation",
+      std::to_string(reader->GetNumberOfFrames()) + " frames, " +
+        Table::number(reader->GetFramesPerSecond()) + " a second");
+  }
+  return true;
+}
+
 Status tell(vtkDataSet* data, Facts& facts)
 {
   facts.count("points", "vertices", data->GetNumberOfPoints());
@@ -293,6 +320,10 @@ void run_info(Session& session)
   {
     status.message = path + ": " + status.message;
     session.fail(status);
+    return;
+  }
+  if (is_listed(format, vtkGLTFSkinReader::GetFileExtensions()) && !tell_rig(session, path, facts))
+  {
     return;
   }
   if (!defects_path.empty())

@@ -2,9 +2,14 @@
 // process when there is no X server, even for offscreen pictures; without one the program runs
 // itself again under xvfb-run.
 #include "cli/interrupt.h"
+#include "cli/sequence_file.h"
 #include "cli/session.h"
 #include "cli/verbs.h"
+#include "cli/video_file.h"
 
+#include "file_kind.h"
+#include "helper/scratch_folder.h"
+#include "io/atomic_file.h"
 #include "io/text_scanner.h"
 #include "scene/categories.h"
 #include "scene/display.h"
@@ -15,6 +20,7 @@
 #include "vtkPolyData.h"
 #include "vtkSurfaceDefects.h"
 
+#include <cstdio>
 #include <cstdlib>
 
 #include <unistd.h>
@@ -252,6 +258,101 @@ bool add_defects(Session& session, std::vector<Tile>& tiles)
   return any || !found.empty() ||
     session.invalid("--defects: there is no surface; name it by --context SURFACE");
 }
+
+/// The files to draw, those of a collection in its stead. Of a strip that is one picture some
+/// frames are taken, evenly.
+bool list_files(Session& session, bool moving, std::vector<std::string>& files,
+  std::vector<std::string>& labels, double& rate)
+{
+  const Arguments& arguments = session.arguments();
+  const std::vector<std::string>& named = arguments.list("FILE");
+  const auto most = static_cast<std::size_t>(arguments.integer("frames"));
+  for (const std::string& file : named)
+  {
+    if (file_extension(file) != "pvd")
+    {
+      files.push_back(file);
+      labels.emplace_back();
+      continue;
+    }
+    if (named.size() > 1)
+    {
+      return session.invalid(file + " is a sequence: it is drawn alone");
+    }
+    Sequence sequence;
+    const Status status = read_collection(file, sequence);
+    if (!status.ok())
+    {
+      return session.fail(status);
+    }
+    rate = frames_per_second(sequence);
+    const std::size_t count = sequence.files.size();
+    for (const std::size_t k : evenly(count, most > 0 ? most : moving ? count : 12))
+    {
+      char label[40];
+      std::snprintf(label, sizeof(label), "%.4g s", sequence.times[k]);
+      files.push_back(sequence.files[k]);
+      labels.emplace_back(label);
+    }
+  }
+  if (arguments.has("fps"))
+  {
+    rate = arguments.number("fps");
+  }
+  return (rate > 0.0 && rate <= 1000.0) || session.invalid("--fps lies above 0 and up to 1000");
+}
+
+/// A picture a tile, all in one view and one range of colours, then ffmpeg. What is made on the way
+/// goes with the folder, whatever happens.
+Status render_video(Session& session, std::vector<Tile> tiles, const PictureOptions& wanted,
+  double rate, const std::string& output)
+{
+  const ScratchFolder folder("frames");
+  if (folder.path().empty())
+  {
+    return Status::failure(StatusCode::unavailable, folder.error());
+  }
+  PictureOptions options = wanted;
+  for (Tile& tile : tiles)
+  {
+    tile.label.clear(); // a time that is another one in each picture
+  }
+  options.around = tiles;
+  Status status;
+  for (std::size_t k = 0; k < tiles.size(); ++k)
+  {
+    if (interrupted())
+    {
+      return Status::cancelled();
+    }
+    session.show(0.9 * static_cast<double>(k) / static_cast<double>(tiles.size()), "render");
+    status =
+      render_to_png({ tiles[k] }, options, frame_file(folder.path(), static_cast<int>(k)), false);
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  AtomicFile file;
+  Status written = file.open(output, session.arguments().has("overwrite"));
+  if (written.ok())
+  {
+    session.show(0.9, "ffmpeg");
+    ExecutionContext context({}, interrupted);
+    written = write_video(folder.path(), rate, file.temporary(), context);
+  }
+  if (written.ok())
+  {
+    written = file.commit();
+  }
+  if (!written.ok())
+  {
+    return written;
+  }
+  status.report.set("counts.frames", tiles.size());
+  status.report.set("frames_per_second", rate);
+  return status;
+}
 } // namespace
 
 void run_render(Session& session)
@@ -259,14 +360,25 @@ void run_render(Session& session)
   const Arguments& arguments = session.arguments();
   const std::string output = arguments.text("output");
   PictureOptions options;
-  if (!session.check_output(output, "png") || !read_options(session, options))
+  const bool moving = is_listed(file_extension(output), video_extensions);
+  std::vector<std::string> files;
+  std::vector<std::string> times;
+  double rate = 24.0;
+  if (!session.check_output(output, "png " + std::string(video_extensions)) ||
+    !read_options(session, options) || !list_files(session, moving, files, times, rate))
   {
     return;
   }
+  if (const Status status = check_ffmpeg(); moving && !status.ok())
+  {
+    session.fail(status); // now, not after the work
+    return;
+  }
   std::vector<Tile> tiles;
-  for (const std::string& file : arguments.list("FILE"))
+  for (const std::string& file : files)
   {
     Tile tile;
+    tile.label = times[tiles.size()];
     tile.data = session.read_any(file);
     if (!tile.data)
     {
@@ -335,7 +447,8 @@ void run_render(Session& session)
     session.fail(Status::cancelled());
     return;
   }
-  Status status = render_to_png(tiles, options, output, arguments.has("overwrite"));
+  Status status = moving ? render_video(session, tiles, options, rate, output)
+                         : render_to_png(tiles, options, output, arguments.has("overwrite"));
   session.report().merge(status.report);
   for (const std::string& warning : status.warnings)
   {

@@ -210,7 +210,7 @@ vtkSmartPointer<vtkDataSet> own_copy(vtkDataSet* data)
   return copy;
 }
 
-/// Writes the mesh, with the array EndpointWeights where it was asked for.
+/// Writes the mesh, with the array EndpointWeights where it was asked for; as glTF with its joints.
 void write_with_endpoints(
   Session& session, vtkDataSet* mesh, vtkPolyData* handles, const std::string& output)
 {
@@ -220,6 +220,12 @@ void write_with_endpoints(
     { "joints", vtkBoneEndpointWeights::JOINTS },
     { "bounded", vtkBoneEndpointWeights::BOUNDED },
   };
+  const std::string ending = file_extension(output);
+  if (ending == "glb" || ending == "gltf")
+  {
+    session.write_rig(mesh, handles, {}, 24.0, false, output);
+    return;
+  }
   const auto method = methods.find(arguments.text("endpoints"));
   if (method == methods.end())
   {
@@ -248,7 +254,7 @@ void run_weights(Session& session)
   const Arguments& arguments = session.arguments();
   const std::string output = arguments.text("output");
   const std::string domain = arguments.text("domain");
-  if (!session.check_output(output, "vtp vtu dmat"))
+  if (!session.check_output(output, "vtp vtu dmat glb gltf"))
   {
     return;
   }

@@ -472,11 +472,13 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
   std::sort(options.isosurfaces.begin(), options.isosurfaces.end());
   options.isosurfaces.erase(
     std::unique(options.isosurfaces.begin(), options.isosurfaces.end()), options.isosurfaces.end());
-  Status status = check_options(tiles, options);
+  std::vector<Tile> seen = tiles;
+  seen.insert(seen.end(), options.around.begin(), options.around.end());
+  Status status = tiles.empty() ? check_options(tiles, options) : check_options(seen, options);
   Colouring colouring;
   if (status.ok())
   {
-    status = choose_colouring(tiles, options, colouring);
+    status = choose_colouring(seen, options, colouring);
   }
   if (status.ok() && (options.volume || !options.isosurfaces.empty()))
   {
@@ -501,7 +503,7 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     return Status::failure(StatusCode::unavailable, no_display_message());
   }
 
-  const Points all = all_points(tiles, options, colouring, nullptr);
+  const Points all = all_points(seen, options, colouring, nullptr);
   if (all.rows() == 0)
   {
     return Status::invalid_input("there is nothing to draw");
@@ -511,7 +513,7 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     return Status::invalid_input("a coordinate is not finite");
   }
   const Frame frame = choose_frame(bounding_box(all), options.view.up);
-  const Points points = all_points(tiles, options, colouring, &frame);
+  const Points points = all_points(seen, options, colouring, &frame);
   const Vec3 size = bounding_box(points).size();
   const int across = 3 - frame.up - frame.depth;
   const double shape_aspect = std::clamp(

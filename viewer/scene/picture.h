@@ -115,6 +115,9 @@ struct PictureOptions
   /// Pixels are averages of this many samples in each direction, 1 to 4, each antialiased by the
   /// graphics driver (4 samples). 1 switches all antialiasing off.
   int supersampling = 2;
+  /// Not drawn, but the view and the colours' range are theirs, too: the other frames of a moving
+  /// picture.
+  std::vector<Tile> around;
 };
 
 /// What a finished picture shows where, so that numbers can be checked against it.

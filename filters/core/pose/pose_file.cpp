@@ -288,6 +288,7 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
       return {};
     }
     check_object(root, "the sequence", { "frames", "fps" });
+    sequence.sequence = true;
     if (root.contains("fps"))
     {
       sequence.frames_per_second = positive_number(root["fps"], "fps");

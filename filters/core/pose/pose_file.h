@@ -29,6 +29,7 @@ struct PoseSequence
 {
   std::vector<std::vector<HandleEdit>> frames;
   double frames_per_second = 24.0;
+  bool sequence = false; ///< the file has "frames", be it one, and is no single pose
 };
 
 /// Reads the text of a POSE.json: one pose

@@ -1,6 +1,7 @@
 // Valid files of every format that core reads, spoilt in the ways in which files get spoilt: bits,
 // lines, numbers, ends. A reader gives something that can be used or one sentence.
 #include "io/dmat.h"
+#include "io/gltf_skin.h"
 #include "io/medit.h"
 #include "io/obj.h"
 #include "io/off.h"
@@ -375,6 +376,91 @@ TEST(FuzzReaders, Dmat)
       // An empty matrix may have a side, but one that somebody can walk along.
       EXPECT_LE(std::max(back.rows(), back.cols()), Index(1) << 20);
       EXPECT_LE(back.size(), static_cast<Index>(std::filesystem::file_size(path)));
+    });
+}
+
+namespace
+{
+/// A rig with an animation of joints, or of shapes, as a file.
+std::string gltf(bool binary, GltfAnimation animation)
+{
+  const test::Folder folder;
+  const TriangleMesh cube = test::cube(-0.1, 1.5);
+  GltfSkin skin;
+  skin.points = cube.points;
+  skin.normals = cube.points;
+  skin.texture = cube.points.leftCols<2>();
+  skin.colors.setConstant(8, 4, 99);
+  skin.triangles = cube.triangles;
+  skin.weights.setConstant(8, 6, 0.1);
+  for (Index j = 0; j < 6; ++j)
+  {
+    GltfJoint joint;
+    joint.name = "j" + std::to_string(j);
+    joint.parent = j - 1;
+    joint.rest.translation() = joint.posed.translation() = Vec3(0, 0.2 * static_cast<double>(j), 0);
+    joint.note = GltfNote{ "cage_vertex", joint.rest.translation(), joint.rest.translation(), 0,
+      { { j, (j + 1) % 6, -1 } } };
+    skin.joints.push_back(joint);
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    GltfFrame frame;
+    frame.points = cube.points * (1.0 + k);
+    for (const GltfJoint& joint : skin.joints)
+    {
+      frame.posed.push_back(joint.rest * Eigen::Translation3d(0, 0, k));
+    }
+    skin.frames.push_back(frame);
+  }
+  GltfOptions options;
+  options.binary = binary;
+  options.animation = animation;
+  EXPECT_TRUE(write_gltf_skin(folder / "rig", skin, options).ok());
+  return folder.read("rig");
+}
+} // namespace
+
+TEST(FuzzReaders, Gltf)
+{
+  std::vector<std::string> valid;
+  for (const bool binary : { true, true, false })
+  {
+    for (const auto animation : { GltfAnimation::joints, GltfAnimation::morph })
+    {
+      valid.push_back(gltf(binary, animation));
+    }
+  }
+  fuzz_texts("glTF files", 8000, valid,
+    [](const std::string& path)
+    {
+      GltfSkin skin;
+      const Status status = read_gltf_skin(path, skin);
+      test::expect_spoken(status);
+      if (!status.ok())
+      {
+        expect_refused(status);
+        EXPECT_EQ(skin.points.rows() + static_cast<Index>(skin.joints.size()), 0);
+        return;
+      }
+      EXPECT_TRUE(check_mesh(skin.points, skin.triangles).ok());
+      const auto joints = static_cast<Index>(skin.joints.size());
+      EXPECT_EQ(skin.weights.cols(), joints);
+      EXPECT_TRUE(skin.weights.allFinite());
+      for (const GltfJoint& joint : skin.joints)
+      {
+        test::expect_sentence(joint.name);
+        EXPECT_TRUE(joint.parent >= -1 && joint.parent < joints);
+        EXPECT_TRUE(joint.rest.matrix().allFinite() && joint.posed.matrix().allFinite());
+      }
+      for (const GltfFrame& frame : skin.frames)
+      {
+        ASSERT_EQ(static_cast<Index>(frame.posed.size()), joints);
+      }
+      EXPECT_GT(skin.frames_per_second, 0.0);
+      // What was read can be written, unless numbers are beyond floats.
+      const Status again = write_gltf_skin(path + ".glb", skin);
+      test::expect_spoken(again);
     });
 }
 

@@ -1,0 +1,1241 @@
+// tinygltf parses, with buffers read through a function of ours and no pictures; what it hands over
+// is not trusted: every index, count and offset is checked before a number is taken from a buffer.
+#include "io/gltf_skin.h"
+
+#include "base/memory.h"
+#include "io/gltf_transform.h"
+#include "io/text_scanner.h"
+#include "io/tiny_gltf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <set>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr Index deepest = 100; // brackets in each other
+constexpr Index most_frames = 100000;
+constexpr double frames_per_second = 24.0; // of animations with uneven keys
+
+using Transforms = std::vector<Eigen::Affine3d>;
+
+/// What is wrong, to be said behind the path.
+struct Broken : std::exception
+{
+  explicit Broken(std::string text) : sentence(std::move(text)) {}
+  const char* what() const noexcept override { return this->sentence.c_str(); }
+  std::string sentence;
+};
+
+// ---- Parsing -----------------------------------------------------------------------------------
+
+/// How many brackets of a JSON text are open at once: what reads it calls itself for each.
+Index depth_of(std::string_view text)
+{
+  Index depth = 0;
+  Index largest = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i)
+  {
+    const char c = text[i];
+    if (quoted)
+    {
+      i += c == '\\';
+      quoted = c != '"';
+    }
+    else if (c == '"')
+    {
+      quoted = true;
+    }
+    else if (c == '{' || c == '[')
+    {
+      largest = std::max(largest, ++depth);
+    }
+    else if (c == '}' || c == ']')
+    {
+      --depth;
+    }
+  }
+  return largest;
+}
+
+bool is_file(const std::string& path, void*)
+{
+  std::error_code error;
+  return std::filesystem::is_regular_file(path, error);
+}
+
+std::string as_it_is(const std::string& path, void*)
+{
+  return path;
+}
+
+bool read_bytes(
+  std::vector<unsigned char>* bytes, std::string* reason, const std::string& path, void*)
+{
+  std::string content;
+  const Status status = read_file(path, content);
+  bytes->assign(content.begin(), content.end());
+  *reason = status.message;
+  return status.ok();
+}
+
+bool no_picture(
+  tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*)
+{
+  return true;
+}
+
+tinygltf::Model parse(const std::string& path, const std::string& content)
+{
+  const bool binary = content.compare(0, 4, "glTF") == 0;
+  if (content.size() > 0xffffffffULL)
+  {
+    throw Broken("it is larger than 4 GB");
+  }
+  std::string_view text(content);
+  if (binary)
+  {
+    std::uint32_t length = 0;
+    if (content.size() >= 20)
+    {
+      std::memcpy(&length, content.data() + 12, sizeof(length));
+    }
+    text = text.substr(std::min<std::size_t>(20, text.size()), length);
+  }
+  if (depth_of(text) > deepest)
+  {
+    throw Broken("its JSON is nested too deeply");
+  }
+  tinygltf::Model model;
+  tinygltf::TinyGLTF parser;
+  parser.SetFsCallbacks({ is_file, as_it_is, read_bytes, nullptr, nullptr });
+  parser.SetImageLoader(no_picture, nullptr);
+  std::string errors;
+  std::string warnings;
+  const auto size = static_cast<unsigned int>(content.size());
+  std::string folder = std::filesystem::path(path).parent_path().string();
+  folder = folder.empty() ? "." : folder;
+  bool parsed = false;
+  try
+  {
+    parsed = binary
+      ? parser.LoadBinaryFromMemory(&model, &errors, &warnings,
+          reinterpret_cast<const unsigned char*>(content.data()), size, folder)
+      : parser.LoadASCIIFromString(&model, &errors, &warnings, content.data(), size, folder);
+  }
+  catch (const std::bad_alloc&)
+  {
+    throw;
+  }
+  catch (const std::exception& error) // of JSON values of a wrong kind
+  {
+    errors = error.what();
+  }
+  if (!parsed)
+  {
+    const std::string first = errors.substr(0, errors.find('\n')).substr(0, 200);
+    throw Broken(first.empty() ? "it is no glTF" : "it is broken: " + first);
+  }
+  if (model.asset.version.compare(0, 2, "2.") != 0)
+  {
+    throw Broken("it is glTF " + model.asset.version.substr(0, 20) + ", and 2.0 is read");
+  }
+  for (const std::string& extension : model.extensionsRequired)
+  {
+    // All others change what the numbers of a mesh or a node mean.
+    if (extension.compare(0, 14, "KHR_materials_") != 0 &&
+      extension.compare(0, 12, "KHR_texture_") != 0)
+    {
+      throw Broken("it needs the extension " + extension.substr(0, 100) + ", which is not read");
+    }
+  }
+  return model;
+}
+
+template <typename Element>
+const Element& at(const std::vector<Element>& list, int id, const char* what)
+{
+  if (id < 0 || static_cast<std::size_t>(id) >= list.size())
+  {
+    throw Broken("there is no " + std::string(what) + " " + std::to_string(id) + ", only " +
+      std::to_string(list.size()));
+  }
+  return list[static_cast<std::size_t>(id)];
+}
+
+// ---- Accessors ---------------------------------------------------------------------------------
+
+using Numbers = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+template <typename T>
+double number_at(const unsigned char* bytes)
+{
+  T value;
+  std::memcpy(&value, bytes, sizeof(T));
+  return static_cast<double>(value);
+}
+
+double component_at(const unsigned char* bytes, int type)
+{
+  switch (type)
+  {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return number_at<std::int8_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return number_at<std::uint8_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return number_at<std::int16_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return number_at<std::uint16_t>(bytes);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+      return number_at<std::uint32_t>(bytes);
+    default:
+      return number_at<float>(bytes);
+  }
+}
+
+std::size_t component_size(int type)
+{
+  switch (type)
+  {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return 1;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return 2;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+    case TINYGLTF_COMPONENT_TYPE_FLOAT:
+      return 4;
+    default:
+      throw Broken("an accessor has numbers of an unknown type");
+  }
+}
+
+/// The largest value of the type, by which normalised ones are divided.
+double unit_of(int type)
+{
+  switch (type)
+  {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return 127.0;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return 255.0;
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return 32767.0;
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return 65535.0;
+    default:
+      return 1.0;
+  }
+}
+
+class Accessors
+{
+public:
+  Accessors(const tinygltf::Model& model, std::size_t file_size) : model_(model)
+  {
+    for (const tinygltf::Buffer& buffer : model.buffers)
+    {
+      this->bytes_ += buffer.data.size();
+    }
+    this->bytes_ = std::max(this->bytes_, file_size);
+  }
+
+  /// All numbers of an accessor, an element a row. type: of tinygltf.
+  Numbers read(int id, int type, const char* what) const
+  {
+    const tinygltf::Accessor& accessor = at(this->model_.accessors, id, "accessor");
+    if (accessor.type != type)
+    {
+      throw Broken(std::string(what) + " have another number of components than they should");
+    }
+    const int columns = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
+    const std::size_t size = component_size(accessor.componentType);
+    // A sparse accessor needs no bytes for what is zero, but none is that much larger.
+    if (accessor.count == 0 || accessor.count > this->bytes_)
+    {
+      throw Broken(std::string(what) + " count " + std::to_string(accessor.count) +
+        " elements, which the file does not hold");
+    }
+    const auto count = static_cast<Index>(accessor.count);
+    if (accessor.bufferView < 0 && !accessor.sparse.isSparse)
+    {
+      throw Broken(std::string(what) + " have no data");
+    }
+    Numbers numbers;
+    if (accessor.bufferView >= 0)
+    {
+      const View view =
+        this->view(accessor.bufferView, accessor.byteOffset, accessor.count, columns * size, what);
+      numbers.resize(count, columns);
+      for (Index r = 0; r < count; ++r)
+      {
+        for (int c = 0; c < columns; ++c)
+        {
+          numbers(r, c) =
+            component_at(view.data + r * view.stride + c * size, accessor.componentType);
+        }
+      }
+    }
+    else
+    {
+      numbers.setZero(count, columns);
+    }
+    if (accessor.sparse.isSparse)
+    {
+      this->replace(accessor, columns, size, what, numbers);
+    }
+    if (accessor.normalized)
+    {
+      numbers /= unit_of(accessor.componentType);
+      numbers = numbers.cwiseMax(-1.0);
+    }
+    return numbers;
+  }
+
+  /// The same with a check: finite.
+  Numbers read_finite(int id, int type, const char* what) const
+  {
+    Numbers numbers = this->read(id, type, what);
+    if (!numbers.allFinite())
+    {
+      throw Broken(std::string(what) + " have a number that is not finite");
+    }
+    return numbers;
+  }
+
+  /// The same of whole numbers.
+  Numbers read_ids(int id, int type, const char* what) const
+  {
+    const int component = at(this->model_.accessors, id, "accessor").componentType;
+    if (component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
+      component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
+      component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
+    {
+      throw Broken(std::string(what) + " are no whole numbers");
+    }
+    return this->read(id, type, what);
+  }
+
+private:
+  struct View
+  {
+    const unsigned char* data;
+    std::size_t stride;
+  };
+
+  View view(int id, std::size_t offset, std::size_t count, std::size_t size, const char* what) const
+  {
+    const tinygltf::BufferView& view = at(this->model_.bufferViews, id, "buffer view");
+    const tinygltf::Buffer& buffer = at(this->model_.buffers, view.buffer, "buffer");
+    const std::size_t stride = view.byteStride > 0 ? view.byteStride : size;
+    const std::size_t all = buffer.data.size();
+    if (view.byteOffset > all || view.byteLength > all - view.byteOffset ||
+      offset > view.byteLength || stride > all || size > view.byteLength - offset ||
+      stride < size || (count - 1) > (view.byteLength - offset - size) / stride)
+    {
+      throw Broken(std::string(what) + " reach beyond their buffer");
+    }
+    return { buffer.data.data() + view.byteOffset + offset, stride };
+  }
+
+  void replace(const tinygltf::Accessor& accessor, int columns, std::size_t size, const char* what,
+    Numbers& numbers) const
+  {
+    const auto& sparse = accessor.sparse;
+    if (sparse.count < 0 || sparse.count > numbers.rows() || sparse.indices.byteOffset < 0 ||
+      sparse.values.byteOffset < 0)
+    {
+      throw Broken(std::string(what) + " have sparse parts that do not fit");
+    }
+    if (sparse.count == 0)
+    {
+      return;
+    }
+    const auto count = static_cast<std::size_t>(sparse.count);
+    const std::size_t id_size = component_size(sparse.indices.componentType);
+    const View ids =
+      this->view(sparse.indices.bufferView, sparse.indices.byteOffset, count, id_size, what);
+    const View values =
+      this->view(sparse.values.bufferView, sparse.values.byteOffset, count, columns * size, what);
+    for (std::size_t k = 0; k < count; ++k)
+    {
+      const double row = component_at(ids.data + k * ids.stride, sparse.indices.componentType);
+      if (!(row >= 0.0 && row < static_cast<double>(numbers.rows())) || row != std::floor(row))
+      {
+        throw Broken(std::string(what) + " have sparse parts that do not fit");
+      }
+      for (int c = 0; c < columns; ++c)
+      {
+        numbers(static_cast<Index>(row), c) =
+          component_at(values.data + k * values.stride + c * size, accessor.componentType);
+      }
+    }
+  }
+
+  const tinygltf::Model& model_;
+  std::size_t bytes_ = 0;
+};
+
+// ---- Nodes -------------------------------------------------------------------------------------
+
+template <int Size>
+bool take(const std::vector<double>& from, Eigen::Matrix<double, Size, 1>& to)
+{
+  if (from.empty())
+  {
+    return true;
+  }
+  if (from.size() != Size)
+  {
+    return false;
+  }
+  to = Eigen::Map<const Eigen::Matrix<double, Size, 1>>(from.data());
+  return to.allFinite();
+}
+
+/// A node's own placement: a matrix, or translation, rotation and scale.
+struct Placement
+{
+  bool has_matrix = false;
+  Eigen::Affine3d matrix = Eigen::Affine3d::Identity();
+  Trs trs;
+
+  Eigen::Affine3d affine() const { return this->has_matrix ? this->matrix : this->trs.affine(); }
+};
+
+void set_rotation(const Eigen::Vector4d& q, Trs& trs)
+{
+  if (!(q.norm() > 1e-12))
+  {
+    throw Broken("a rotation has length zero");
+  }
+  trs.rotation.coeffs() = q.normalized();
+}
+
+Placement placement_of(const tinygltf::Node& node)
+{
+  Placement result;
+  Eigen::Matrix<double, 16, 1> columns = Eigen::Matrix<double, 16, 1>::Zero();
+  Eigen::Vector4d rotation = Eigen::Vector4d::UnitW();
+  if (!take<16>(node.matrix, columns) || !take<3>(node.translation, result.trs.translation) ||
+    !take<4>(node.rotation, rotation) || !take<3>(node.scale, result.trs.scale))
+  {
+    throw Broken("a node has a placement that is no placement");
+  }
+  set_rotation(rotation, result.trs);
+  if (!node.matrix.empty())
+  {
+    result.has_matrix = true;
+    result.matrix.matrix() = Eigen::Map<const Eigen::Matrix4d>(columns.data());
+    result.matrix.makeAffine();
+  }
+  return result;
+}
+
+struct Nodes
+{
+  std::vector<Placement> placements;
+  std::vector<int> parents;
+  std::vector<int> order; ///< parents first
+
+  /// Node to scene.
+  Transforms stand() const
+  {
+    Transforms global(this->placements.size());
+    for (const int id : this->order)
+    {
+      const Eigen::Affine3d own = this->placements[id].affine();
+      global[id] = this->parents[id] < 0 ? own : global[this->parents[id]] * own;
+    }
+    return global;
+  }
+};
+
+Nodes read_nodes(const tinygltf::Model& model)
+{
+  Nodes nodes;
+  nodes.parents.assign(model.nodes.size(), -1);
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+  {
+    nodes.placements.push_back(placement_of(model.nodes[n]));
+    for (const int child : model.nodes[n].children)
+    {
+      at(model.nodes, child, "node");
+      if (nodes.parents[child] >= 0)
+      {
+        throw Broken("node " + std::to_string(child) + " hangs on two others");
+      }
+      nodes.parents[child] = static_cast<int>(n);
+    }
+  }
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+  {
+    if (nodes.parents[n] < 0)
+    {
+      nodes.order.push_back(static_cast<int>(n));
+    }
+  }
+  for (std::size_t k = 0; k < nodes.order.size(); ++k)
+  {
+    const auto& children = model.nodes[nodes.order[k]].children;
+    nodes.order.insert(nodes.order.end(), children.begin(), children.end());
+  }
+  if (nodes.order.size() != model.nodes.size())
+  {
+    throw Broken("its nodes hang on each other in a circle");
+  }
+  return nodes;
+}
+
+// ---- Joints ------------------------------------------------------------------------------------
+
+bool take(const tinygltf::Value& value, Vec3& to)
+{
+  for (int k = 0; k < 3; ++k)
+  {
+    if (!value.IsArray() || value.ArrayLen() != 3 || !value.Get(k).IsNumber())
+    {
+      return false;
+    }
+    to[k] = value.Get(k).GetNumberAsDouble();
+  }
+  return to.allFinite();
+}
+
+/// Our own extras; those of others, and damaged ones, are none.
+std::optional<GltfNote> read_note(const tinygltf::Value& extras, std::size_t joints)
+{
+  if (!extras.IsObject() || !extras.Has("bindpose") || !extras.Get("bindpose").IsObject())
+  {
+    return {};
+  }
+  const tinygltf::Value& words = extras.Get("bindpose");
+  GltfNote note;
+  if (!words.Has("kind") || !words.Get("kind").IsString() || !take(words.Get("head"), note.head) ||
+    !take(words.Get("tail"), note.tail))
+  {
+    return {};
+  }
+  note.kind = words.Get("kind").Get<std::string>();
+  if (words.Has("region") && words.Get("region").IsNumber())
+  {
+    const double region = words.Get("region").GetNumberAsDouble();
+    note.region = region > 0.0 && region < 1e15 ? static_cast<Index>(region) : 0;
+  }
+  const tinygltf::Value& cage = words.Get("cage");
+  for (std::size_t e = 0; cage.IsArray() && e < cage.ArrayLen(); ++e)
+  {
+    const tinygltf::Value& corners = cage.Get(static_cast<int>(e));
+    std::array<Index, 3> element{ -1, -1, -1 };
+    for (int k = 0; k < 3; ++k)
+    {
+      const bool whole = corners.IsArray() && corners.ArrayLen() == 3 && corners.Get(k).IsInt();
+      element[k] = whole ? corners.Get(k).GetNumberAsInt() : -2;
+      if (element[k] < (k < 2 ? 0 : -1) || element[k] >= static_cast<Index>(joints))
+      {
+        return {};
+      }
+    }
+    note.cage.push_back(element);
+  }
+  return note;
+}
+
+struct SkinNodes
+{
+  std::vector<int> nodes; ///< of the joints
+  std::vector<int> joint_of_node;
+};
+
+SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, const Nodes& nodes,
+  const tinygltf::Skin& from, GltfSkin& skin)
+{
+  SkinNodes result;
+  result.joint_of_node.assign(model.nodes.size(), -1);
+  result.nodes = from.joints;
+  if (from.joints.empty())
+  {
+    throw Broken("its skin has no joint");
+  }
+  for (std::size_t j = 0; j < from.joints.size(); ++j)
+  {
+    at(model.nodes, from.joints[j], "node");
+    int& joint = result.joint_of_node[from.joints[j]];
+    if (joint >= 0)
+    {
+      throw Broken("its skin has a joint twice");
+    }
+    joint = static_cast<int>(j);
+  }
+  Numbers inverse_binds;
+  if (from.inverseBindMatrices >= 0)
+  {
+    inverse_binds =
+      accessors.read_finite(from.inverseBindMatrices, TINYGLTF_TYPE_MAT4, "inverse bind matrices");
+    if (inverse_binds.rows() < static_cast<Index>(from.joints.size()))
+    {
+      throw Broken("there are fewer inverse bind matrices than joints");
+    }
+  }
+  const Transforms global = nodes.stand();
+  std::set<std::string> names;
+  for (std::size_t j = 0; j < from.joints.size(); ++j)
+  {
+    const int id = from.joints[j];
+    GltfJoint joint;
+    joint.posed = global[id];
+    if (inverse_binds.rows() > 0)
+    {
+      Eigen::Affine3d inverse;
+      inverse.matrix() =
+        Eigen::Map<const Eigen::Matrix4d>(inverse_binds.data() + 16 * static_cast<Index>(j));
+      inverse.makeAffine();
+      joint.rest = inverse.inverse();
+    }
+    if (!joint.rest.matrix().allFinite() || !joint.posed.matrix().allFinite())
+    {
+      throw Broken("joint " + std::to_string(j) + " has matrices that cannot be used");
+    }
+    for (int above = nodes.parents[id]; above >= 0 && joint.parent < 0;
+         above = nodes.parents[above])
+    {
+      joint.parent = result.joint_of_node[above];
+    }
+    joint.note = read_note(model.nodes[id].extras, from.joints.size());
+    const std::string name = one_line(model.nodes[id].name);
+    joint.name = name.empty() ? "joint " + std::to_string(j) : name;
+    for (int copy = 2; !names.insert(joint.name).second; ++copy)
+    {
+      joint.name =
+        (name.empty() ? "joint " + std::to_string(j) : name) + "_" + std::to_string(copy);
+    }
+    skin.joints.push_back(joint);
+  }
+  return result;
+}
+
+// ---- Meshes ------------------------------------------------------------------------------------
+
+/// What primitives are put together to.
+struct Parts
+{
+  std::vector<Numbers> points;
+  std::vector<Numbers> normals;
+  std::vector<Numbers> textures;
+  std::vector<Numbers> colors;
+  std::vector<std::array<Index, 3>> triangles;
+  Index vertices = 0;
+  Index sets = 0;
+  Index skipped = 0;
+  Index morph_targets = 0;
+  Index unweighted = 0;
+  /// Where the vertices of these accessors begin: materials share them.
+  std::map<std::map<std::string, int>, Index> shared;
+  /// joint, weight, by vertex.
+  std::vector<std::vector<std::pair<Index, double>>> influences;
+};
+
+void add_triangles(const std::vector<Index>& corners, int mode, Index offset, Parts& parts)
+{
+  const auto count = static_cast<Index>(corners.size());
+  if (count < 3 || (mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0))
+  {
+    throw Broken("a mesh has " + std::to_string(count) + " corners of triangles");
+  }
+  const auto add = [&](Index a, Index b, Index c)
+  {
+    parts.triangles.push_back({ offset + corners[static_cast<std::size_t>(a)],
+      offset + corners[static_cast<std::size_t>(b)],
+      offset + corners[static_cast<std::size_t>(c)] });
+  };
+  for (Index k = 0; k + 2 < count; k += mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1)
+  {
+    const Index flip = mode == TINYGLTF_MODE_TRIANGLE_STRIP ? k % 2 : 0;
+    add(mode == TINYGLTF_MODE_TRIANGLE_FAN ? 0 : k, k + 1 + flip, k + 2 - flip);
+  }
+}
+
+/// An attribute with a row a vertex; no rows when it is missing.
+Numbers read_attribute(const Accessors& accessors, const tinygltf::Primitive& primitive,
+  const char* name, int type, Index vertices, bool ids = false)
+{
+  const auto entry = primitive.attributes.find(name);
+  if (entry == primitive.attributes.end())
+  {
+    return {};
+  }
+  Numbers numbers = ids ? accessors.read_ids(entry->second, type, name)
+                        : accessors.read_finite(entry->second, type, name);
+  if (vertices >= 0 && numbers.rows() != vertices)
+  {
+    throw Broken(std::string(name) + " has " + std::to_string(numbers.rows()) + " elements for " +
+      std::to_string(vertices) + " vertices");
+  }
+  return numbers;
+}
+
+Numbers read_colors(const tinygltf::Model& model, const Accessors& accessors,
+  const tinygltf::Primitive& primitive, Index vertices)
+{
+  const auto entry = primitive.attributes.find("COLOR_0");
+  const bool three = entry != primitive.attributes.end() &&
+    at(model.accessors, entry->second, "accessor").type == TINYGLTF_TYPE_VEC3;
+  Numbers colors = read_attribute(
+    accessors, primitive, "COLOR_0", three ? TINYGLTF_TYPE_VEC3 : TINYGLTF_TYPE_VEC4, vertices);
+  if (three)
+  {
+    colors.conservativeResize(Eigen::NoChange, 4);
+    colors.col(3).setOnes();
+  }
+  return colors;
+}
+
+void read_influences(const Accessors& accessors, const tinygltf::Primitive& primitive,
+  Index vertices, std::size_t joints, Parts& parts)
+{
+  const auto first = parts.influences.size();
+  parts.influences.resize(first + static_cast<std::size_t>(vertices));
+  for (Index set = 0;; ++set)
+  {
+    const std::string joint_name = "JOINTS_" + std::to_string(set);
+    const std::string weight_name = "WEIGHTS_" + std::to_string(set);
+    const Numbers ids =
+      read_attribute(accessors, primitive, joint_name.c_str(), TINYGLTF_TYPE_VEC4, vertices, true);
+    const Numbers weights =
+      read_attribute(accessors, primitive, weight_name.c_str(), TINYGLTF_TYPE_VEC4, vertices);
+    if (ids.rows() != weights.rows())
+    {
+      throw Broken(joint_name + " and " + weight_name + " do not come together");
+    }
+    if (ids.rows() == 0)
+    {
+      return;
+    }
+    parts.sets = std::max(parts.sets, set + 1);
+    for (Index v = 0; v < vertices; ++v)
+    {
+      for (int k = 0; k < 4; ++k)
+      {
+        const double weight = weights(v, k);
+        if (weight == 0.0)
+        {
+          continue; // whatever the joint is
+        }
+        if (weight < 0.0 || ids(v, k) >= static_cast<double>(joints))
+        {
+          throw Broken("vertex " + std::to_string(v) +
+            (weight < 0.0
+                ? std::string(" has a negative weight")
+                : " has a weight of joint " + std::to_string(static_cast<Index>(ids(v, k))) +
+                  ", but there are " + std::to_string(joints)));
+        }
+        parts.influences[first + v].emplace_back(static_cast<Index>(ids(v, k)), weight);
+      }
+    }
+  }
+}
+
+void read_primitive(const tinygltf::Model& model, const Accessors& accessors,
+  const tinygltf::Primitive& primitive, const Eigen::Affine3d& place, std::size_t joints,
+  Parts& parts)
+{
+  const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+  if (mode != TINYGLTF_MODE_TRIANGLES && mode != TINYGLTF_MODE_TRIANGLE_STRIP &&
+    mode != TINYGLTF_MODE_TRIANGLE_FAN)
+  {
+    parts.skipped += 1;
+    return;
+  }
+  parts.morph_targets = std::max(parts.morph_targets, static_cast<Index>(primitive.targets.size()));
+  Numbers points = read_attribute(accessors, primitive, "POSITION", TINYGLTF_TYPE_VEC3, -1);
+  if (points.rows() == 0)
+  {
+    throw Broken("a mesh has no POSITION");
+  }
+  const Index vertices = points.rows();
+  const auto [entry, fresh] = parts.shared.insert({ primitive.attributes, parts.vertices });
+  const Index offset = entry->second;
+  if (fresh)
+  {
+    for (Index v = 0; v < vertices; ++v)
+    {
+      points.row(v) = (place * Vec3(points.row(v).transpose())).transpose();
+    }
+    Numbers normals = read_attribute(accessors, primitive, "NORMAL", TINYGLTF_TYPE_VEC3, vertices);
+    const Eigen::Matrix3d turn = place.linear().inverse().transpose();
+    for (Index v = 0; v < normals.rows() && turn.allFinite(); ++v)
+    {
+      normals.row(v) = (turn * normals.row(v).transpose()).stableNormalized().transpose();
+    }
+    parts.points.push_back(points);
+    parts.normals.push_back(normals);
+    parts.textures.push_back(
+      read_attribute(accessors, primitive, "TEXCOORD_0", TINYGLTF_TYPE_VEC2, vertices));
+    parts.colors.push_back(read_colors(model, accessors, primitive, vertices));
+    if (joints > 0)
+    {
+      read_influences(accessors, primitive, vertices, joints, parts);
+    }
+    parts.vertices += vertices;
+  }
+  std::vector<Index> corners(static_cast<std::size_t>(primitive.indices < 0 ? vertices : 0));
+  for (std::size_t k = 0; k < corners.size(); ++k)
+  {
+    corners[k] = static_cast<Index>(k);
+  }
+  if (primitive.indices >= 0)
+  {
+    const Numbers ids = accessors.read_ids(primitive.indices, TINYGLTF_TYPE_SCALAR, "indices");
+    for (Index k = 0; k < ids.rows(); ++k)
+    {
+      if (ids(k, 0) >= static_cast<double>(vertices))
+      {
+        throw Broken("a triangle names vertex " + std::to_string(static_cast<Index>(ids(k, 0))) +
+          ", but there are " + std::to_string(vertices));
+      }
+      corners.push_back(static_cast<Index>(ids(k, 0)));
+    }
+  }
+  add_triangles(corners, mode, offset, parts);
+}
+
+/// One below another; nothing unless all parts have rows.
+template <typename Matrix>
+void join(const std::vector<Numbers>& parts, Index rows, double unit, Matrix& all)
+{
+  Index sum = 0;
+  for (const Numbers& part : parts)
+  {
+    sum += part.rows();
+  }
+  if (sum != rows)
+  {
+    return;
+  }
+  all.resize(rows, all.cols());
+  Index next = 0;
+  for (const Numbers& part : parts)
+  {
+    if constexpr (std::is_integral_v<typename Matrix::Scalar>)
+    {
+      all.middleRows(next, part.rows()) = (part.array().max(0.0).min(1.0) * unit)
+                                            .round()
+                                            .template cast<typename Matrix::Scalar>()
+                                            .matrix();
+    }
+    else
+    {
+      all.middleRows(next, part.rows()) = unit * part;
+    }
+    next += part.rows();
+  }
+}
+
+/// Rows sum to one; then the joint that held what our rows lacked goes.
+void set_weights(Parts& parts, SkinNodes& joint_nodes, GltfSkin& skin)
+{
+  const auto joints = static_cast<Index>(skin.joints.size());
+  const std::size_t needed =
+    static_cast<std::size_t>(parts.vertices) * static_cast<std::size_t>(joints) * sizeof(double);
+  if (static_cast<double>(needed) > available_memory())
+  {
+    throw Broken("its " + std::to_string(parts.vertices) + " vertices and " +
+      std::to_string(joints) + " joints need more memory than there is");
+  }
+  skin.weights.setZero(parts.vertices, joints);
+  for (Index v = 0; v < parts.vertices; ++v)
+  {
+    double sum = 0.0;
+    for (const auto& [joint, weight] : parts.influences[v])
+    {
+      skin.weights(v, joint) += weight;
+      sum += weight;
+    }
+    parts.unweighted += !(sum > 0.0);
+    if (sum > 0.0)
+    {
+      skin.weights.row(v) /= sum;
+    }
+  }
+  const auto& note = skin.joints.back().note;
+  if (joints > 1 && note && note->kind == "rest")
+  {
+    skin.joints.pop_back();
+    joint_nodes.nodes.pop_back();
+    skin.weights.conservativeResize(Eigen::NoChange, joints - 1);
+    for (GltfJoint& joint : skin.joints) // nothing hangs on it in a file of ours
+    {
+      joint.parent = joint.parent < joints - 1 ? joint.parent : -1;
+    }
+  }
+}
+
+// ---- Animation ---------------------------------------------------------------------------------
+
+/// A property of a node over time.
+struct Track
+{
+  int node;
+  enum class Property
+  {
+    translation,
+    rotation,
+    scale
+  } property;
+  std::string interpolation;
+  std::vector<double> times;
+  Numbers values; ///< cubic: three rows a key: in-tangent, value, out-tangent
+
+  bool cubic() const { return this->interpolation == "CUBICSPLINE"; }
+  Eigen::VectorXd value(std::size_t key) const
+  {
+    return this->values.row(static_cast<Index>(this->cubic() ? 3 * key + 1 : key)).transpose();
+  }
+
+  Eigen::VectorXd at(double time) const
+  {
+    const auto after = std::upper_bound(this->times.begin(), this->times.end(), time);
+    if (after == this->times.begin() || after == this->times.end())
+    {
+      return this->value(after == this->times.begin() ? 0 : this->times.size() - 1);
+    }
+    const auto key = static_cast<std::size_t>(after - this->times.begin()) - 1;
+    const double step = this->times[key + 1] - this->times[key];
+    const double u = (time - this->times[key]) / step;
+    const Eigen::VectorXd a = this->value(key);
+    const Eigen::VectorXd b = this->value(key + 1);
+    if (this->interpolation == "STEP")
+    {
+      return a;
+    }
+    if (this->cubic())
+    {
+      const auto row = static_cast<Index>(3 * key);
+      const Eigen::VectorXd out = step * this->values.row(row + 2).transpose();
+      const Eigen::VectorXd in = step * this->values.row(row + 3).transpose();
+      const double u2 = u * u;
+      const double u3 = u2 * u;
+      return (2 * u3 - 3 * u2 + 1) * a + (u3 - 2 * u2 + u) * out + (3 * u2 - 2 * u3) * b +
+        (u3 - u2) * in;
+    }
+    if (this->property == Property::rotation)
+    {
+      const Eigen::Quaterniond p(Eigen::Vector4d(a.normalized()));
+      const Eigen::Quaterniond q(Eigen::Vector4d(b.normalized()));
+      return p.slerp(u, q).coeffs();
+    }
+    return (1.0 - u) * a + u * b;
+  }
+};
+
+std::optional<Track> read_track(const tinygltf::Model& model, const Accessors& accessors,
+  const tinygltf::Animation& animation, const tinygltf::AnimationChannel& channel)
+{
+  Track track;
+  track.node = channel.target_node;
+  if (channel.target_path == "rotation")
+  {
+    track.property = Track::Property::rotation;
+  }
+  else if (channel.target_path == "translation" || channel.target_path == "scale")
+  {
+    track.property =
+      channel.target_path == "scale" ? Track::Property::scale : Track::Property::translation;
+  }
+  else
+  {
+    return {}; // weights of morph targets
+  }
+  if (track.node < 0)
+  {
+    return {}; // of an extension
+  }
+  at(model.nodes, track.node, "node");
+  const tinygltf::AnimationSampler& sampler = at(animation.samplers, channel.sampler, "sampler");
+  track.interpolation = sampler.interpolation;
+  const Numbers times = accessors.read_finite(sampler.input, TINYGLTF_TYPE_SCALAR, "key times");
+  track.times.assign(times.data(), times.data() + times.size());
+  for (std::size_t k = 1; k < track.times.size(); ++k)
+  {
+    if (!(track.times[k] > track.times[k - 1]))
+    {
+      throw Broken("key times of an animation do not rise");
+    }
+  }
+  const bool rotates = track.property == Track::Property::rotation;
+  track.values = accessors.read_finite(
+    sampler.output, rotates ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, "keys");
+  if (track.values.rows() != times.rows() * (track.cubic() ? 3 : 1))
+  {
+    throw Broken("an animation has another number of keys than of key times");
+  }
+  return track;
+}
+
+/// When frames are: at the keys where these are evenly spaced, else 24 times a second.
+std::vector<double> frame_times(const std::vector<Track>& tracks, double& rate)
+{
+  std::set<double> keys;
+  for (const Track& track : tracks)
+  {
+    keys.insert(track.times.begin(), track.times.end());
+  }
+  const double first = *keys.begin();
+  const double length = *keys.rbegin() - first;
+  rate = frames_per_second;
+  const double step = keys.size() > 1 ? length / static_cast<double>(keys.size() - 1) : 0.0;
+  bool even = keys.size() > 1;
+  Index k = 0;
+  for (const double key : keys)
+  {
+    even = even && std::abs(key - first - step * static_cast<double>(k++)) < 1e-3 * step;
+  }
+  if (even)
+  {
+    // Times are floats: a rate that is nearly whole was whole.
+    rate = 1.0 / step;
+    rate = std::abs(rate - std::round(rate)) < 1e-4 * rate ? std::round(rate) : rate;
+    return { keys.begin(), keys.end() };
+  }
+  const double frames = std::round(length * rate) + 1.0;
+  if (!(frames <= static_cast<double>(most_frames)))
+  {
+    throw Broken("its animation is longer than " + std::to_string(most_frames) + " frames");
+  }
+  std::vector<double> times;
+  for (Index frame = 0; frame < static_cast<Index>(frames); ++frame)
+  {
+    times.push_back(first + static_cast<double>(frame) / rate);
+  }
+  return times;
+}
+
+void read_animation(const tinygltf::Model& model, const Accessors& accessors, Nodes nodes,
+  const SkinNodes& skin_nodes, GltfSkin& skin, Status& status)
+{
+  std::vector<char> moves_a_joint(model.nodes.size(), 0);
+  for (int id : skin_nodes.nodes)
+  {
+    for (; id >= 0 && !moves_a_joint[id]; id = nodes.parents[id])
+    {
+      moves_a_joint[id] = 1;
+    }
+  }
+  std::vector<Track> tracks;
+  Index animations = 0;
+  for (const tinygltf::Animation& animation : model.animations)
+  {
+    std::vector<Track> found;
+    for (const tinygltf::AnimationChannel& channel : animation.channels)
+    {
+      if (auto track = read_track(model, accessors, animation, channel);
+          track && moves_a_joint[track->node])
+      {
+        found.push_back(*track);
+      }
+    }
+    animations += !found.empty();
+    tracks = tracks.empty() ? found : tracks;
+  }
+  if (animations > 1)
+  {
+    status.warnings.push_back(
+      "of " + std::to_string(animations) + " animations the first one was read");
+  }
+  if (tracks.empty())
+  {
+    return;
+  }
+  const std::vector<double> times = frame_times(tracks, skin.frames_per_second);
+  if (static_cast<double>(times.size() * skin.joints.size() * sizeof(Eigen::Affine3d)) >
+    available_memory())
+  {
+    throw Broken("its animation needs more memory than there is");
+  }
+  for (const double time : times)
+  {
+    for (const Track& track : tracks)
+    {
+      Placement& placement = nodes.placements[track.node];
+      placement.has_matrix = false; // glTF animates no node with a matrix
+      const Eigen::VectorXd value = track.at(time);
+      switch (track.property)
+      {
+        case Track::Property::translation:
+          placement.trs.translation = value;
+          break;
+        case Track::Property::scale:
+          placement.trs.scale = value;
+          break;
+        case Track::Property::rotation:
+          set_rotation(value, placement.trs);
+          break;
+      }
+    }
+    const Transforms global = nodes.stand();
+    GltfFrame frame;
+    for (const int id : skin_nodes.nodes)
+    {
+      frame.posed.push_back(global[id]);
+      if (!global[id].matrix().allFinite())
+      {
+        throw Broken("its animation moves a joint out of reach");
+      }
+    }
+    skin.frames.push_back(std::move(frame));
+  }
+}
+
+// ---- All ---------------------------------------------------------------------------------------
+
+/// The skin that the first mesh with one uses; -1: no mesh has one.
+int first_skin(const tinygltf::Model& model)
+{
+  for (const tinygltf::Node& node : model.nodes)
+  {
+    if (node.mesh >= 0 && node.skin >= 0)
+    {
+      return node.skin;
+    }
+  }
+  return -1;
+}
+
+void read_model(const tinygltf::Model& model, std::size_t file_size, GltfSkin& skin, Status& status)
+{
+  const Accessors accessors(model, file_size);
+  const Nodes nodes = read_nodes(model);
+  const int which = first_skin(model);
+  SkinNodes skin_nodes;
+  if (which >= 0)
+  {
+    skin_nodes = read_joints(model, accessors, nodes, at(model.skins, which, "skin"), skin);
+  }
+  const Transforms global = nodes.stand();
+  Parts parts;
+  std::set<int> seen;
+  Index left_out = 0;
+  for (std::size_t n = 0; n < model.nodes.size(); ++n)
+  {
+    const tinygltf::Node& node = model.nodes[n];
+    if (node.mesh < 0)
+    {
+      continue;
+    }
+    if (node.skin != which)
+    {
+      left_out += 1;
+      continue;
+    }
+    const tinygltf::Mesh& mesh = at(model.meshes, node.mesh, "mesh");
+    if (which >= 0 && !seen.insert(node.mesh).second)
+    {
+      continue; // the joints place it, so it would be there twice
+    }
+    if (!global[n].matrix().allFinite())
+    {
+      throw Broken("a node stands out of reach");
+    }
+    const Eigen::Affine3d place = which >= 0 ? Eigen::Affine3d::Identity() : global[n];
+    if (which < 0)
+    {
+      parts.shared.clear(); // at another place it is another mesh
+    }
+    for (const tinygltf::Primitive& primitive : mesh.primitives)
+    {
+      read_primitive(model, accessors, primitive, place, skin.joints.size(), parts);
+    }
+    skin.name = mesh.name.empty() ? skin.name : one_line(mesh.name);
+  }
+  if (parts.triangles.empty())
+  {
+    throw Broken("it holds no triangle");
+  }
+  join(parts.points, parts.vertices, 1.0, skin.points);
+  join(parts.normals, parts.vertices, 1.0, skin.normals);
+  join(parts.textures, parts.vertices, 1.0, skin.texture);
+  join(parts.colors, parts.vertices, 255.0, skin.colors);
+  if (!skin.points.allFinite())
+  {
+    throw Broken("a vertex is out of reach");
+  }
+  if (skin.texture.rows() > 0)
+  {
+    skin.texture.col(1) = 1.0 - skin.texture.col(1).array();
+  }
+  skin.triangles.resize(static_cast<Index>(parts.triangles.size()), 3);
+  for (Index t = 0; t < skin.triangles.rows(); ++t)
+  {
+    skin.triangles.row(t) << parts.triangles[t][0], parts.triangles[t][1], parts.triangles[t][2];
+  }
+  if (which >= 0)
+  {
+    set_weights(parts, skin_nodes, skin);
+    read_animation(model, accessors, nodes, skin_nodes, skin, status);
+  }
+  const auto warn = [&status](Index count, const char* sentence)
+  {
+    if (count > 0)
+    {
+      status.warnings.push_back(std::to_string(count) + sentence);
+    }
+  };
+  warn(left_out, " meshes without the first skin were left out");
+  warn(parts.skipped, " primitives that are points or lines were left out");
+  warn(parts.morph_targets, " morph targets were not read");
+  Report& report = status.report;
+  report.set("counts.vertices", skin.points.rows());
+  report.set("counts.triangles", skin.triangles.rows());
+  report.set("counts.joints", skin.joints.size());
+  report.set("counts.skins", model.skins.size());
+  report.set("counts.frames", skin.frames.size());
+  report.set("counts.skipped_primitives", parts.skipped);
+  report.set("counts.morph_targets", parts.morph_targets);
+  if (which >= 0)
+  {
+    report.set("counts.unweighted_vertices", parts.unweighted);
+    report.set("sets", parts.sets);
+  }
+}
+} // namespace
+
+Status read_gltf_skin(const std::string& path, GltfSkin& skin)
+{
+  skin = GltfSkin();
+  std::string content;
+  Status status = read_file(path, content);
+  if (!status.ok())
+  {
+    return status;
+  }
+  try
+  {
+    const tinygltf::Model model = parse(path, content);
+    read_model(model, content.size(), skin, status);
+  }
+  catch (const Broken& broken)
+  {
+    status = Status::invalid_input(path + ": " + broken.sentence);
+  }
+  catch (const std::bad_alloc&)
+  {
+    status = Status::invalid_input(path + ": it asks for more memory than there is");
+  }
+  if (!status.ok())
+  {
+    skin = GltfSkin();
+  }
+  return status;
+}
+
+} // namespace bindpose

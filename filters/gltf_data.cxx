@@ -1,0 +1,330 @@
+// Handles and joints. glTF's joints have a frame and a parent, but no tail and no kind: ours carry
+// both as a note in the file; of other programs' joints the children tell where a bone ends.
+#include "gltf_data.h"
+
+#include "pose/pose_file.h"
+#include "weights_arrays.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkFloatArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+
+namespace bindpose
+{
+
+Eigen::Affine3d joint_frame(const Handle& handle)
+{
+  Eigen::Affine3d frame = Eigen::Affine3d::Identity();
+  frame.translation() = handle.head;
+  if (handle.kind == HandleKind::bone)
+  {
+    // Blender draws bones along y.
+    frame.linear() = minimal_arc(Vec3::UnitY(), handle.tail - handle.head);
+  }
+  return frame;
+}
+
+Eigen::Affine3d to_affine(const Affine& transform)
+{
+  Eigen::Affine3d map = Eigen::Affine3d::Identity();
+  map.matrix().topRows<3>() = transform;
+  return map;
+}
+
+std::vector<GltfJoint> to_joints(const Handles& handles, const std::vector<Affine>& transforms)
+{
+  std::vector<GltfJoint> joints;
+  for (std::size_t h = 0; h < handles.size(); ++h)
+  {
+    const Handle& handle = handles[h];
+    GltfJoint joint;
+    joint.name = handle.name;
+    joint.parent = handle.parent;
+    joint.rest = joint_frame(handle);
+    joint.posed = to_affine(transforms[h]) * joint.rest;
+    joint.note =
+      GltfNote{ to_string(handle.kind), handle.head, handle.tail, handle.region_id, handle.cage };
+    joints.push_back(joint);
+  }
+  return joints;
+}
+
+namespace
+{
+constexpr double float_error = 2e-6; // of lengths that went through floats
+
+bool kind_of(const std::string& word, HandleKind& kind)
+{
+  for (const HandleKind one :
+    { HandleKind::point, HandleKind::bone, HandleKind::cage_vertex, HandleKind::region })
+  {
+    if (word == to_string(one))
+    {
+      kind = one;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// A handle at each joint. Where the note agrees with the inverse bind matrix it holds; a joint
+/// that was moved since, or one of another program, is a bone to the middle of its children, or a
+/// point without any. Joints at one place become short bones along their y axes: handles at one
+/// place cannot be told apart.
+class HandleMaker
+{
+public:
+  HandleMaker(const GltfSkin& skin) : skin_(skin)
+  {
+    Box box = bounding_box(skin.points);
+    for (const GltfJoint& joint : skin.joints)
+    {
+      box.add(joint.rest.translation());
+    }
+    this->children_.resize(skin.joints.size());
+    for (std::size_t j = 0; j < skin.joints.size(); ++j)
+    {
+      if (skin.joints[j].parent >= 0)
+      {
+        this->children_[skin.joints[j].parent].push_back(static_cast<Index>(j));
+      }
+    }
+    this->extent_ = box.diagonal() > 0.0 ? box.diagonal() : 1.0;
+  }
+
+  double extent() const { return this->extent_; }
+
+  /// Handles in the order of the joints.
+  Handles make()
+  {
+    Handles handles;
+    for (std::size_t j = 0; j < this->skin_.joints.size(); ++j)
+    {
+      Handle handle = this->handle_of(j);
+      handle.name = this->skin_.joints[j].name;
+      handle.parent = this->skin_.joints[j].parent;
+      for (int k = 1; this->taken(handles, handle); ++k)
+      {
+        const Vec3 along = this->skin_.joints[j].rest.linear().col(1).stableNormalized();
+        handle.kind = HandleKind::bone;
+        handle.tail = handle.head +
+          0.01 * k * this->extent_ * (along.squaredNorm() > 0.5 ? along : Vec3(Vec3::UnitY()));
+      }
+      handles.push_back(handle);
+    }
+    return handles;
+  }
+
+private:
+  Handle handle_of(std::size_t j) const
+  {
+    const GltfJoint& joint = this->skin_.joints[j];
+    Handle handle;
+    handle.head = handle.tail = joint.rest.translation();
+    if (joint.note && kind_of(joint.note->kind, handle.kind))
+    {
+      Handle noted = handle;
+      noted.head = joint.note->head;
+      noted.tail = noted.kind == HandleKind::bone ? joint.note->tail : noted.head;
+      noted.region_id = joint.note->region;
+      noted.cage = joint.note->cage;
+      const bool usable = noted.kind != HandleKind::bone || noted.head != noted.tail;
+      const double size = this->extent_ + joint.rest.translation().norm();
+      if (usable &&
+        (joint_frame(noted).matrix() - joint.rest.matrix()).cwiseAbs().maxCoeff() <=
+          float_error * std::max(size, 1.0))
+      {
+        return noted;
+      }
+    }
+    handle.kind = HandleKind::point;
+    Vec3 middle = Vec3::Zero();
+    for (const Index child : this->children_[j])
+    {
+      middle += this->skin_.joints[child].rest.translation() /
+        static_cast<double>(this->children_[j].size());
+    }
+    if (!this->children_[j].empty() && (middle - handle.head).norm() > 1e-6 * this->extent_)
+    {
+      handle.kind = HandleKind::bone;
+      handle.tail = middle;
+    }
+    return handle;
+  }
+
+  bool taken(const Handles& others, const Handle& handle) const
+  {
+    const double same = 1e-8 * this->extent_;
+    return handle.kind != HandleKind::region &&
+      std::any_of(others.begin(), others.end(),
+        [&](const Handle& other)
+        {
+          return other.kind == handle.kind &&
+            (((other.head - handle.head).norm() <= same &&
+               (other.tail - handle.tail).norm() <= same) ||
+              ((other.head - handle.tail).norm() <= same &&
+                (other.tail - handle.head).norm() <= same));
+        });
+  }
+
+  const GltfSkin& skin_;
+  std::vector<std::vector<Index>> children_;
+  double extent_ = 1.0;
+};
+
+/// Handle datasets have bones behind all others. order[i]: the joint of handle i.
+void sort_handles(Handles& handles, std::vector<Index>& order)
+{
+  std::vector<Index> place(handles.size());
+  for (const bool bones : { false, true })
+  {
+    for (std::size_t j = 0; j < handles.size(); ++j)
+    {
+      if ((handles[j].kind == HandleKind::bone) == bones)
+      {
+        place[j] = static_cast<Index>(order.size());
+        order.push_back(static_cast<Index>(j));
+      }
+    }
+  }
+  Handles sorted;
+  for (const Index j : order)
+  {
+    Handle handle = handles[j];
+    handle.parent = handle.parent < 0 ? -1 : place[handle.parent];
+    for (CageElement& element : handle.cage)
+    {
+      for (Index& corner : element)
+      {
+        corner = corner < 0 ? -1 : place[corner];
+      }
+    }
+    sorted.push_back(handle);
+  }
+  handles = std::move(sorted);
+}
+
+/// Rest to posed; what only floats took from the identity is the identity.
+Affine transform_of(const Eigen::Affine3d& posed, const Eigen::Affine3d& rest, double extent)
+{
+  const Eigen::Affine3d map = posed * rest.inverse();
+  const double size = extent + rest.translation().norm();
+  const Vec3 pivot = rest.translation();
+  const bool rests =
+    (map.linear() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < float_error &&
+    (map * pivot - pivot).norm() < float_error * size;
+  return rests ? identity_affine() : Affine(map.matrix().topRows<3>());
+}
+
+Pose to_pose(const std::vector<Eigen::Affine3d>& posed, const std::vector<Eigen::Affine3d>& rest,
+  double extent)
+{
+  Pose pose(rest.size());
+  for (std::size_t h = 0; h < rest.size(); ++h)
+  {
+    pose[h].transform = transform_of(posed[h], rest[h], extent);
+  }
+  return pose;
+}
+
+void add_attributes(const GltfSkin& skin, vtkPolyData* mesh)
+{
+  if (skin.normals.rows() > 0)
+  {
+    vtkNew<vtkDoubleArray> normals;
+    normals->SetName("Normals");
+    normals->SetNumberOfComponents(3);
+    normals->SetNumberOfTuples(skin.normals.rows());
+    std::copy(
+      skin.normals.data(), skin.normals.data() + skin.normals.size(), normals->GetPointer(0));
+    mesh->GetPointData()->SetNormals(normals);
+  }
+  if (skin.texture.rows() > 0)
+  {
+    vtkNew<vtkDoubleArray> texture;
+    texture->SetName("TCoords");
+    texture->SetNumberOfComponents(2);
+    texture->SetNumberOfTuples(skin.texture.rows());
+    std::copy(
+      skin.texture.data(), skin.texture.data() + skin.texture.size(), texture->GetPointer(0));
+    mesh->GetPointData()->SetTCoords(texture);
+  }
+  if (skin.colors.rows() > 0)
+  {
+    vtkNew<vtkUnsignedCharArray> colors;
+    colors->SetName("Colors");
+    colors->SetNumberOfComponents(4);
+    colors->SetNumberOfTuples(skin.colors.rows());
+    std::copy(skin.colors.data(), skin.colors.data() + skin.colors.size(), colors->GetPointer(0));
+    mesh->GetPointData()->SetScalars(colors);
+  }
+}
+} // namespace
+
+Status read_gltf(const std::string& path, GltfData& data)
+{
+  data = GltfData();
+  GltfSkin skin;
+  Status status = read_gltf_skin(path, skin);
+  if (!status.ok())
+  {
+    return status;
+  }
+  data.mesh = to_polydata(PointsView(skin.points), TrianglesView(skin.triangles));
+  add_attributes(skin, data.mesh);
+  data.frames_per_second = skin.frames_per_second;
+  if (skin.joints.empty())
+  {
+    data.handles = vtkSmartPointer<vtkPolyData>::New();
+    return status;
+  }
+  HandleMaker maker(skin);
+  Handles& handles = data.handle_list;
+  handles = maker.make();
+  std::vector<Index> order;
+  sort_handles(handles, order);
+  const Status usable = check_handles(handles);
+  if (!usable.ok())
+  {
+    return Status::invalid_input(path + ": " + usable.message);
+  }
+  // Where a handle is its note's, so is its frame, to all digits.
+  std::vector<Eigen::Affine3d> rest;
+  std::vector<Eigen::Affine3d> posed;
+  Weights weights(skin.weights.rows(), skin.weights.cols());
+  for (std::size_t h = 0; h < handles.size(); ++h)
+  {
+    const GltfJoint& joint = skin.joints[order[h]];
+    const Eigen::Affine3d frame = joint_frame(handles[h]);
+    const double size = std::max(maker.extent() + joint.rest.translation().norm(), 1.0);
+    const bool same =
+      (frame.matrix() - joint.rest.matrix()).cwiseAbs().maxCoeff() <= float_error * size;
+    rest.push_back(same ? frame : joint.rest);
+    posed.push_back(joint.posed);
+    weights.col(static_cast<Index>(h)) = skin.weights.col(order[h]);
+  }
+  data.mesh->GetPointData()->AddArray(to_weights_array("Weights", weights, handles));
+  data.handles = to_polydata(handles);
+  std::vector<Index> cells(handles.size());
+  for (std::size_t h = 0; h < cells.size(); ++h)
+  {
+    cells[h] = static_cast<Index>(h);
+  }
+  set_pose(data.handles, cells, to_pose(posed, rest, maker.extent()));
+  for (const GltfFrame& frame : skin.frames)
+  {
+    for (std::size_t h = 0; h < order.size(); ++h)
+    {
+      posed[h] = frame.posed[order[h]];
+    }
+    data.poses.push_back(to_pose(posed, rest, maker.extent()));
+  }
+  return status;
+}
+
+} // namespace bindpose

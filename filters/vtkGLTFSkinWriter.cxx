@@ -1,0 +1,378 @@
+// The kernel writes; here the mesh becomes triangles, the handles joints and the frames places of
+// both.
+#include "vtkGLTFSkinWriter.h"
+
+#include "base/execution.h"
+#include "file_kind.h"
+#include "gltf_data.h"
+#include "io/atomic_file.h"
+#include "io/text_scanner.h"
+#include "pose/pose_file.h"
+#include "pose/skinning.h"
+#include "weights_input.h"
+
+#include "vtkDataArray.h"
+#include "vtkDataSet.h"
+#include "vtkFieldData.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+using namespace bindpose;
+
+vtkStandardNewMacro(vtkGLTFSkinWriter);
+
+namespace
+{
+/// What is written of the mesh: the points on its surface.
+struct Surface
+{
+  Triangles triangles; ///< in the order of `points`
+  std::vector<Index> points; ///< of the mesh
+
+  Points take(PointsView all) const
+  {
+    Points rows(static_cast<Index>(this->points.size()), 3);
+    for (Index v = 0; v < rows.rows(); ++v)
+    {
+      rows.row(v) = all.row(this->points[v]);
+    }
+    return rows;
+  }
+};
+
+/// A surface keeps all its points in their order; of tets the boundary's are left.
+Status to_written_surface(vtkDataSet* mesh, Surface& surface)
+{
+  Domain domain;
+  std::vector<Index> cells;
+  const Status status = to_domain(mesh, domain, cells);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const Index count = domain.points.rows();
+  if (domain.tets.rows() == 0)
+  {
+    surface.triangles = domain.triangles;
+    for (Index v = 0; v < count; ++v)
+    {
+      surface.points.push_back(v);
+    }
+    return status;
+  }
+  surface.triangles = boundary_triangles(domain.tets);
+  std::vector<Index> place(static_cast<std::size_t>(count), -1);
+  for (Index k = 0; k < surface.triangles.size(); ++k)
+  {
+    place[surface.triangles.data()[k]] = 0;
+  }
+  for (Index v = 0; v < count; ++v)
+  {
+    if (place[v] == 0)
+    {
+      place[v] = static_cast<Index>(surface.points.size());
+      surface.points.push_back(v);
+    }
+  }
+  for (Index k = 0; k < surface.triangles.size(); ++k)
+  {
+    surface.triangles.data()[k] = place[surface.triangles.data()[k]];
+  }
+  return status;
+}
+
+/// Rows of an array, as many columns as the matrix has; no rows when there is no such array.
+template <typename Matrix>
+void take_rows(vtkDataArray* array, const Surface& surface, Matrix& rows)
+{
+  if (!array || array->GetNumberOfComponents() < rows.cols())
+  {
+    return;
+  }
+  rows.resize(static_cast<Index>(surface.points.size()), rows.cols());
+  for (Index v = 0; v < rows.rows(); ++v)
+  {
+    for (Index c = 0; c < rows.cols(); ++c)
+    {
+      rows(v, c) = array->GetComponent(surface.points[v], static_cast<int>(c));
+    }
+  }
+}
+
+Status take_colors(vtkPointData* data, const char* name, const Surface& surface, GltfSkin& skin)
+{
+  const bool named = name && name[0];
+  auto* array =
+    vtkUnsignedCharArray::SafeDownCast(named ? data->GetArray(name) : data->GetScalars());
+  const int components = array ? array->GetNumberOfComponents() : 0;
+  if (components != 3 && components != 4)
+  {
+    return named ? Status::invalid_input("the mesh has no point array '" + std::string(name) +
+                     "' of unsigned chars, 3 or 4 a point")
+                 : Status();
+  }
+  skin.colors.setConstant(static_cast<Index>(surface.points.size()), 4, 255);
+  for (Index v = 0; v < skin.colors.rows(); ++v)
+  {
+    for (int c = 0; c < components; ++c)
+    {
+      skin.colors(v, c) = array->GetTypedComponent(surface.points[v], c);
+    }
+  }
+  return {};
+}
+
+/// The transforms that a posed mesh says it was moved by.
+Status take_transforms(vtkDataSet* frame, const Handles& handles, std::vector<Affine>& transforms)
+{
+  vtkDataArray* array = frame->GetFieldData()->GetArray("HandleTransforms");
+  if (!array || array->GetNumberOfComponents() != 12 ||
+    array->GetNumberOfTuples() != static_cast<vtkIdType>(handles.size()))
+  {
+    return Status::invalid_input("a frame has no field data HandleTransforms of these handles, so "
+                                 "the animation can only be one of morph targets");
+  }
+  transforms.resize(handles.size());
+  for (std::size_t h = 0; h < handles.size(); ++h)
+  {
+    array->GetTuple(static_cast<vtkIdType>(h), transforms[h].data());
+  }
+  return {};
+}
+
+std::vector<Eigen::Affine3d> posed_joints(
+  const Handles& handles, const std::vector<Affine>& transforms)
+{
+  std::vector<Eigen::Affine3d> posed;
+  for (std::size_t h = 0; h < handles.size(); ++h)
+  {
+    posed.push_back(to_affine(transforms[h]) * joint_frame(handles[h]));
+  }
+  return posed;
+}
+
+void add_warnings(const Status& from, Status& to)
+{
+  to.warnings.insert(to.warnings.end(), from.warnings.begin(), from.warnings.end());
+}
+
+/// Weights, joints and how they stand.
+Status take_skin(vtkPointSet* mesh, const std::string& array_name, vtkPolyData* handle_data,
+  const Surface& surface, Handles& handles, Pose& pose, GltfSkin& skin)
+{
+  WeightsInput input;
+  Status status = to_weights_input(mesh, array_name, handle_data, input);
+  if (!status.ok())
+  {
+    return status;
+  }
+  handles = input.handles;
+  status = to_pose(handle_data, handles, input.cells, pose);
+  if (!status.ok())
+  {
+    return status;
+  }
+  std::vector<Affine> transforms;
+  status = skinning_transforms(handles, pose, transforms);
+  skin.joints = to_joints(handles, transforms);
+  const WeightsView all = input.weights.view();
+  skin.weights.resize(static_cast<Index>(surface.points.size()), all.cols());
+  for (Index v = 0; v < skin.weights.rows(); ++v)
+  {
+    skin.weights.row(v) = all.row(surface.points[v]);
+  }
+  return status;
+}
+
+Status take_frames(vtkInformationVector* input, const Surface& surface, vtkIdType points,
+  const Handles& handles, bool morph, GltfSkin& skin)
+{
+  for (int k = 0; k < input->GetNumberOfInformationObjects(); ++k)
+  {
+    auto* data = vtkPointSet::GetData(input, k);
+    if (!data || data->GetNumberOfPoints() != points)
+    {
+      return Status::invalid_input("frame " + std::to_string(k) + " has " +
+        std::to_string(data ? data->GetNumberOfPoints() : 0) + " points, but the mesh has " +
+        std::to_string(points));
+    }
+    GltfFrame frame;
+    frame.points = surface.take(to_points(data).view());
+    take_rows(data->GetPointData()->GetNormals(), surface, frame.normals);
+    if (!morph && !handles.empty())
+    {
+      std::vector<Affine> transforms;
+      const Status status = take_transforms(data, handles, transforms);
+      if (!status.ok())
+      {
+        return status;
+      }
+      frame.posed = posed_joints(handles, transforms);
+    }
+    skin.frames.push_back(std::move(frame));
+  }
+  return {};
+}
+
+Status take_poses(const std::string& path, const Handles& handles, const Pose& base, GltfSkin& skin)
+{
+  std::string text;
+  Status status = read_file(path, text);
+  PoseSequence sequence;
+  if (status.ok())
+  {
+    status = parse_pose_file(text, handles, sequence);
+    status.message = status.ok() ? "" : path + ": " + status.message;
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  for (const auto& edits : sequence.frames)
+  {
+    std::vector<Affine> transforms;
+    const Status made = skinning_transforms(handles, apply_edits(edits, handles, base), transforms);
+    status.warnings = made.warnings; // the same of every frame, mostly
+    GltfFrame frame;
+    frame.posed = posed_joints(handles, transforms);
+    skin.frames.push_back(std::move(frame));
+  }
+  skin.frames_per_second = sequence.frames_per_second;
+  return status;
+}
+} // namespace
+
+vtkGLTFSkinWriter::vtkGLTFSkinWriter()
+{
+  this->SetNumberOfInputPorts(3);
+  this->SetArrayName("Weights");
+}
+
+vtkGLTFSkinWriter::~vtkGLTFSkinWriter()
+{
+  this->SetFileName(nullptr);
+  this->SetArrayName(nullptr);
+  this->SetColorArrayName(nullptr);
+  this->SetPoseFileName(nullptr);
+}
+
+int vtkGLTFSkinWriter::Write()
+{
+  this->Modified();
+  this->UpdateWholeExtent();
+  return this->GetStatus() <= NOT_CONVERGED ? 1 : 0;
+}
+
+int vtkGLTFSkinWriter::FillInputPortInformation(int port, vtkInformation* info)
+{
+  info->Set(INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkPolyData" : "vtkPointSet");
+  info->Set(INPUT_IS_OPTIONAL(), port > 0);
+  info->Set(INPUT_IS_REPEATABLE(), port == 2);
+  return 1;
+}
+
+int vtkGLTFSkinWriter::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkPolyData");
+  return 1;
+}
+
+Status vtkGLTFSkinWriter::Execute(
+  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+{
+  const Phase phase(context, "write");
+  const std::string path = this->FileName ? this->FileName : "";
+  auto* mesh = vtkPointSet::GetData(input[0]);
+  auto* handle_data = vtkPolyData::GetData(input[1]);
+  Surface surface;
+  Status status = check_extension(path, GetFileExtensions());
+  if (status.ok())
+  {
+    status = to_written_surface(mesh, surface);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  GltfSkin skin;
+  skin.points = surface.take(to_points(mesh).view());
+  skin.triangles = surface.triangles;
+  take_rows(mesh->GetPointData()->GetNormals(), surface, skin.normals);
+  take_rows(mesh->GetPointData()->GetTCoords(), surface, skin.texture);
+  status = take_colors(mesh->GetPointData(), this->ColorArrayName, surface, skin);
+  Handles handles;
+  Pose pose;
+  Status of_handles;
+  if (status.ok() && handle_data)
+  {
+    of_handles = take_skin(
+      mesh, this->ArrayName ? this->ArrayName : "", handle_data, surface, handles, pose, skin);
+    status.code = of_handles.code;
+    status.message = of_handles.message;
+  }
+  GltfOptions options;
+  options.binary = file_extension(path) == "glb";
+  options.influences = this->MaximumInfluences;
+  options.animation = this->Animation == MORPH ? GltfAnimation::morph : GltfAnimation::joints;
+  skin.frames_per_second = this->FramesPerSecond;
+  if (status.ok() && input[2]->GetNumberOfInformationObjects() > 0)
+  {
+    const bool morph = this->Animation == MORPH;
+    status = take_frames(input[2], surface, mesh->GetNumberOfPoints(), handles, morph, skin);
+  }
+  else if (status.ok() && this->PoseFileName && this->PoseFileName[0])
+  {
+    status = !handle_data ? Status::invalid_input("a sequence of poses needs handles")
+      : this->Animation == MORPH
+      ? Status::invalid_input("an animation of morph targets needs frames, not a pose file")
+      : take_poses(this->PoseFileName, handles, pose, skin);
+  }
+  if (!status.usable())
+  {
+    return status;
+  }
+  AtomicFile file;
+  Status written = file.open(path, this->Overwrite);
+  if (written.ok())
+  {
+    written = write_gltf_skin(file.temporary(), skin, options);
+    const std::size_t at = written.message.find(file.temporary());
+    if (at != std::string::npos)
+    {
+      written.message.replace(at, file.temporary().size(), path);
+    }
+  }
+  add_warnings(of_handles, written);
+  add_warnings(status, written);
+  if (!written.ok())
+  {
+    return written;
+  }
+  const Status committed = context.cancelled() ? Status::cancelled() : file.commit();
+  if (!committed.ok())
+  {
+    return committed;
+  }
+  vtkPolyData::GetData(output)->ShallowCopy(
+    to_polydata(PointsView(skin.points), TrianglesView(skin.triangles)));
+  return written;
+}
+
+void vtkGLTFSkinWriter::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
+  os << indent << "Overwrite: " << (this->Overwrite ? "on" : "off") << "\n";
+  os << indent << "ArrayName: " << (this->ArrayName ? this->ArrayName : "(none)") << "\n";
+  os << indent << "ColorArrayName: " << (this->ColorArrayName ? this->ColorArrayName : "(none)")
+     << "\n";
+  os << indent << "MaximumInfluences: " << this->MaximumInfluences << "\n";
+  os << indent << "Animation: " << (this->Animation == MORPH ? "morph" : "joints") << "\n";
+  os << indent << "PoseFileName: " << (this->PoseFileName ? this->PoseFileName : "(none)") << "\n";
+  os << indent << "FramesPerSecond: " << this->FramesPerSecond << "\n";
+}

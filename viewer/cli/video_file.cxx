@@ -1,0 +1,98 @@
+// ffmpeg is a program of its own: it is found on the PATH, run on a folder of pictures, and killed
+// when the user cancels.
+#include "cli/video_file.h"
+
+#include "file_kind.h"
+#include "helper/child_process.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace bindpose::cli
+{
+
+namespace
+{
+constexpr double time_limit = 3600.0; // seconds
+
+std::string find_ffmpeg()
+{
+  const char* path = std::getenv("PATH");
+  std::string folders = path ? path : "";
+  folders += ':';
+  for (std::size_t begin = 0, end = 0; (end = folders.find(':', begin)) != std::string::npos;
+       begin = end + 1)
+  {
+    const std::string file = folders.substr(begin, end - begin) + "/ffmpeg";
+    if (executable_file(file))
+    {
+      return file;
+    }
+  }
+  return {};
+}
+
+/// What ffmpeg needs to know of a kind of file.
+std::vector<std::string> codec_of(const std::string& ending)
+{
+  if (ending == "gif")
+  {
+    // A palette of these very frames, not the common one of 256 colours.
+    return { "-vf", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse" };
+  }
+  if (ending == "apng")
+  {
+    return { "-plays", "0", "-f", "apng" };
+  }
+  // Players take even sizes and a colour for each four pixels only.
+  const std::string even = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white";
+  return ending == "webm" ? std::vector<std::string>{ "-vf", even, "-c:v", "libvpx-vp9", "-crf",
+    "24", "-b:v", "0", "-pix_fmt", "yuv420p" }
+                          : std::vector<std::string>{ "-vf", even, "-c:v", "libx264", "-crf", "18",
+                              "-pix_fmt", "yuv420p", "-movflags", "+faststart" };
+}
+} // namespace
+
+Status check_ffmpeg()
+{
+  return find_ffmpeg().empty()
+    ? Status::failure(StatusCode::unavailable,
+        "moving pictures are made by ffmpeg, which is not on the PATH (on Debian: apt-get install "
+        "ffmpeg); a .png file shows the frames side by side without it")
+    : Status();
+}
+
+std::string frame_file(const std::string& folder, int frame)
+{
+  char name[32];
+  std::snprintf(name, sizeof(name), "/%06d.png", frame);
+  return folder + name;
+}
+
+Status write_video(const std::string& folder, double frames_per_second, const std::string& path,
+  ExecutionContext& context)
+{
+  char rate[40];
+  std::snprintf(rate, sizeof(rate), "%.9g", frames_per_second);
+  ChildRequest request;
+  request.name = "ffmpeg";
+  request.path = find_ffmpeg();
+  request.arguments = { "-nostdin", "-loglevel", "error", "-y", "-framerate", rate, "-i",
+    folder + "/%06d.png" };
+  const std::vector<std::string> codec = codec_of(file_extension(path));
+  request.arguments.insert(request.arguments.end(), codec.begin(), codec.end());
+  request.arguments.push_back("file:" + path); // a name may have a colon
+  request.time_limit = time_limit;
+  std::string said;
+  ChildEnd end;
+  Status status = run_child(
+    request, [&said](const std::string& line) { said = said.empty() ? line : said; }, end, context);
+  if (status.ok() && !end.failure.empty())
+  {
+    status = Status::failure(StatusCode::unavailable,
+      "ffmpeg " + end.failure + (said.empty() ? "" : ": " + one_line(said.substr(0, 200))));
+  }
+  return status;
+}
+
+} // namespace bindpose::cli

@@ -35,7 +35,7 @@ from .errors import (
     Unavailable,
 )
 from .files import read, read_handles, write
-from .functions import contains, deform, planar_shape, tetrahedralize, weights, winding_number
+from .functions import contains, deform, dynamics, planar_shape, tetrahedralize, weights, winding_number
 from .handle_sets import farthest_point_handles, handles
 from .meshes import Array, PlanarShape, Tets
 from .running import report, run

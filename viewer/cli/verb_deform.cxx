@@ -1,5 +1,5 @@
 // bindpose deform MESH_WITH_WEIGHTS --handles H --pose POSE.json: one pose gives one file, a
-// sequence numbered files and a .pvd that ParaView plays.
+// sequence, expressions in time or a body that moves numbered files and a .pvd that ParaView plays.
 #include "cli/session.h"
 #include "cli/verbs.h"
 
@@ -9,12 +9,16 @@
 #include "vtkMovingLeastSquaresWarp.h"
 #include "vtkPoseHandles.h"
 #include "vtkReducedARAP.h"
+#include "vtkReducedDynamics.h"
 #include "vtkSkinningDeformation.h"
 
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
 #include "vtkDataSet.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 
+#include <cmath>
 #include <cstdio>
 
 namespace bindpose::cli
@@ -33,7 +37,7 @@ int energy_of(const std::string& word)
 
 /// What full and reduced as-rigid-as-possible have in common.
 template <typename Filter>
-vtkSmartPointer<vtkBindposeAlgorithm> make_arap(const Arguments& arguments)
+vtkSmartPointer<Filter> make_arap(const Arguments& arguments)
 {
   auto arap = vtkSmartPointer<Filter>::New();
   arap->SetEnergy(energy_of(arguments.text("energy")));
@@ -43,6 +47,44 @@ vtkSmartPointer<vtkBindposeAlgorithm> make_arap(const Arguments& arguments)
     arap->SetMaximumIterations(arguments.integer("iterations"));
   }
   return arap;
+}
+
+/// What reduced as-rigid-as-possible and its dynamics have in common.
+template <typename Filter>
+vtkSmartPointer<Filter> make_reduced(const Arguments& arguments)
+{
+  auto arap = make_arap<Filter>(arguments);
+  arap->SetNumberOfExtraWeights(arguments.integer("extra-weights"));
+  arap->SetExtraWeights(arguments.text("extra-kind") == "eigenmodes" ? vtkReducedARAP::EIGENMODES
+                                                                     : vtkReducedARAP::BUMPS);
+  return arap;
+}
+
+vtkSmartPointer<vtkBindposeAlgorithm> make_reduced_arap(const Arguments& arguments)
+{
+  const auto arap = make_reduced<vtkReducedARAP>(arguments);
+  arap->SetTimeBudget(arguments.number("budget-us"));
+  return arap;
+}
+
+vtkSmartPointer<vtkReducedDynamics> make_dynamics(const Arguments& arguments)
+{
+  const auto dynamics = make_reduced<vtkReducedDynamics>(arguments);
+  dynamics->SetTimeStep(arguments.number("time-step"));
+  dynamics->SetDensity(arguments.number("density"));
+  dynamics->SetStiffness(arguments.number("stiffness"));
+  dynamics->SetDamping(arguments.number("damping"));
+  return dynamics;
+}
+
+/// "X,Y,Z"; false for anything else.
+bool to_vector(const std::string& text, double (&vector)[3])
+{
+  int end = 0;
+  return std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &vector[0], &vector[1], &vector[2], &end) ==
+    3 &&
+    end == static_cast<int>(text.size()) && std::isfinite(vector[0]) && std::isfinite(vector[1]) &&
+    std::isfinite(vector[2]);
 }
 
 vtkSmartPointer<vtkBindposeAlgorithm> make_deformation(const Arguments& arguments)
@@ -56,7 +98,7 @@ vtkSmartPointer<vtkBindposeAlgorithm> make_deformation(const Arguments& argument
   }
   if (method == "reduced-arap")
   {
-    return make_arap<vtkReducedARAP>(arguments);
+    return make_reduced_arap(arguments);
   }
   if (method == "full-arap")
   {
@@ -123,7 +165,22 @@ void run_deform(Session& session)
   {
     return;
   }
-  const int frames = pose->GetNumberOfFrames();
+  // Frames are those of a sequence; of expressions and of a body that moves, as many as asked for.
+  const bool dynamic = arguments.has("dynamics");
+  const int given = pose->GetNumberOfFrames(), asked = arguments.integer("frames");
+  const bool moves = dynamic || (given == 1 && pose->GetHasExpressions());
+  if (asked > 0 && !moves)
+  {
+    session.invalid("--frames is for poses with expressions in t and for --dynamics");
+    return;
+  }
+  const double time_step = arguments.number("time-step");
+  if (moves && !(std::isfinite(time_step) && time_step > 0.0))
+  {
+    session.invalid("--time-step must be a number above 0");
+    return;
+  }
+  const int frames = asked > 0 ? asked : given;
   std::vector<std::string> files{ output };
   if (frames > 1)
   {
@@ -145,7 +202,25 @@ void run_deform(Session& session)
   {
     return;
   }
-  const auto deformation = make_deformation(arguments);
+  vtkSmartPointer<vtkReducedDynamics> body;
+  if (dynamic)
+  {
+    double gravity[3];
+    if (!to_vector(arguments.text("gravity"), gravity))
+    {
+      session.invalid("--gravity '" + arguments.text("gravity") +
+        "' must be three numbers with commas between, as in 0,-9.81,0");
+      return;
+    }
+    body = make_dynamics(arguments);
+    body->SetGravity(gravity);
+  }
+  const vtkSmartPointer<vtkBindposeAlgorithm> deformation =
+    dynamic ? vtkSmartPointer<vtkBindposeAlgorithm>(body) : make_deformation(arguments);
+  // What goes wrong with a pose on the way, the filter behind it says as well.
+  vtkNew<vtkCallbackCommand> quiet;
+  quiet->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  pose->AddObserver(vtkCommand::ErrorEvent, quiet);
   deformation->SetInputData(0, mesh);
   deformation->SetInputConnection(1, pose->GetOutputPort());
   std::int64_t iterations = 0;
@@ -154,8 +229,20 @@ void run_deform(Session& session)
   {
     const double begin = static_cast<double>(i) / static_cast<double>(files.size());
     const double end = static_cast<double>(i + 1) / static_cast<double>(files.size());
-    pose->SetFrame(static_cast<int>(i));
-    if (session.run(pose, "pose", begin, begin, Merge::nothing) &&
+    const int frame = static_cast<int>(i);
+    if (dynamic)
+    {
+      body->SetStep(frame); // asks for the poses of all times up to its own
+    }
+    else if (moves)
+    {
+      pose->SetTime(frame * time_step);
+    }
+    else
+    {
+      pose->SetFrame(frame);
+    }
+    if ((dynamic || session.run(pose, "pose", begin, begin, Merge::nothing)) &&
       session.run(deformation, "deform", begin, end, Merge::all))
     {
       iterations += static_cast<std::int64_t>(session.report().number("iterations", 0));
@@ -168,7 +255,9 @@ void run_deform(Session& session)
     session.commit(written[i]);
   }
   if (session.failed() ||
-    (frames > 1 && !session.write_text(collection(files, pose->GetFramesPerSecond()), pvd)))
+    (frames > 1 &&
+      !session.write_text(
+        collection(files, moves ? 1.0 / time_step : pose->GetFramesPerSecond()), pvd)))
   {
     return;
   }

@@ -21,6 +21,7 @@
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 using namespace bindpose;
 
@@ -85,6 +86,25 @@ void vtkPoseAlgorithm::BindModified()
 {
   this->BindTime.Modified();
   this->Modified();
+}
+
+int vtkPoseAlgorithm::RequestInformation(
+  vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
+{
+  // The executive passes on what port 0 says of times; handles' times come before a mesh's.
+  using SDDP = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* handles = input[1]->GetInformationObject(0);
+  vtkInformation* info = output->GetInformationObject(0);
+  if (handles && handles->Has(SDDP::TIME_RANGE()))
+  {
+    info->CopyEntry(handles, SDDP::TIME_RANGE());
+    info->Remove(SDDP::TIME_STEPS());
+    if (handles->Has(SDDP::TIME_STEPS()))
+    {
+      info->CopyEntry(handles, SDDP::TIME_STEPS());
+    }
+  }
+  return 1;
 }
 
 Status vtkPoseAlgorithm::Execute(

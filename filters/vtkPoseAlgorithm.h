@@ -91,6 +91,10 @@ protected:
     }
   }
 
+  /// Handles that move with time make the output do so.
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+
   bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
     bindpose::ExecutionContext& context) override;
 

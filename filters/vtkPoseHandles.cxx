@@ -4,6 +4,7 @@
 
 #include "base/execution.h"
 #include "conversion.h"
+#include "expression_parser.h"
 #include "file_kind.h"
 #include "gltf_data.h"
 #include "pose/pose_file.h"
@@ -12,13 +13,17 @@
 #include "vtkInformationVector.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <sstream>
 
 using namespace bindpose;
+using SDDP = vtkStreamingDemandDrivenPipeline;
 
 vtkStandardNewMacro(vtkPoseHandles);
 
@@ -50,6 +55,60 @@ int vtkPoseHandles::FillOutputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
+bool vtkPoseHandles::IsFromGLTF() const
+{
+  return this->FileName && is_listed(file_extension(this->FileName), "glb gltf");
+}
+
+/// The pose and where it is from, as the beginning of a sentence; empty: not from a file.
+Status vtkPoseHandles::ReadText(std::string& text, std::string& source)
+{
+  text = this->PoseJSON;
+  source.clear();
+  if (this->FileName && *this->FileName)
+  {
+    source = std::string(this->FileName) + ": ";
+    std::ifstream file(this->FileName);
+    std::ostringstream content;
+    content << file.rdbuf();
+    if (!file.is_open() || file.bad())
+    {
+      return Status::invalid_input(source + "cannot be read (" + std::strerror(errno) + ")");
+    }
+    text = content.str();
+  }
+  return {};
+}
+
+int vtkPoseHandles::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
+{
+  vtkInformation* info = output->GetInformationObject(0);
+  info->Remove(SDDP::TIME_STEPS());
+  info->Remove(SDDP::TIME_RANGE());
+  std::string text, source;
+  PoseTimes times;
+  // What is wrong with the text, Execute() says.
+  if (this->IsFromGLTF() || !this->ReadText(text, source).ok() || !read_pose_times(text, times) ||
+    (times.frames < 2 && !times.has_expressions))
+  {
+    return 1;
+  }
+  double range[2] = { 0.0, this->EndTime };
+  if (times.frames > 1)
+  {
+    std::vector<double> steps;
+    for (Index frame = 0; frame < times.frames; ++frame)
+    {
+      steps.push_back(static_cast<double>(frame) / times.frames_per_second);
+    }
+    range[1] = steps.back();
+    info->Set(SDDP::TIME_STEPS(), steps.data(), static_cast<int>(steps.size()));
+  }
+  info->Set(SDDP::TIME_RANGE(), range, 2);
+  return 1;
+}
+
 Status vtkPoseHandles::Execute(
   vtkInformationVector** input, vtkInformationVector* output, ExecutionContext&)
 {
@@ -69,40 +128,29 @@ Status vtkPoseHandles::Execute(
     return status;
   }
 
-  std::string text = this->PoseJSON;
-  std::string source;
-  const bool from_file = this->FileName && *this->FileName;
-  const bool from_gltf = from_file && is_listed(file_extension(this->FileName), "glb gltf");
-  if (from_gltf)
+  vtkInformation* info = output->GetInformationObject(0);
+  const bool timed = info->Has(SDDP::UPDATE_TIME_STEP()) && info->Has(SDDP::TIME_RANGE());
+  const double time = timed ? info->Get(SDDP::UPDATE_TIME_STEP()) : this->Time;
+  this->NumberOfFrames = 1;
+  this->Sequence = false;
+  this->FramesPerSecond = PoseSequence().frames_per_second;
+  this->HasExpressions = false;
+  const bool from_gltf = this->IsFromGLTF();
+  std::string text, source;
+  status = from_gltf ? this->TakeGLTF(handles, pose) : this->ReadText(text, source);
+  if (!status.ok())
   {
-    status = this->TakeGLTF(handles, pose);
-    if (!status.ok())
-    {
-      return status;
-    }
+    return status;
   }
-  else if (from_file)
-  {
-    source = std::string(this->FileName) + ": ";
-    std::ifstream file(this->FileName);
-    std::ostringstream content;
-    content << file.rdbuf();
-    if (!file.is_open() || file.bad())
-    {
-      return Status::invalid_input(source + "cannot be read (" + std::strerror(errno) + ")");
-    }
-    text = content.str();
-  }
-  if (!from_gltf)
-  {
-    this->NumberOfFrames = 1;
-    this->Sequence = false;
-    this->FramesPerSecond = PoseSequence().frames_per_second;
-  }
-  if (!from_gltf && (from_file || !text.empty()))
+  if (!from_gltf && (!source.empty() || !text.empty()))
   {
     PoseSequence sequence;
-    status = parse_pose_file(text, handles, sequence);
+    ExpressionParser parser;
+    status = parse_pose_file(
+      text, handles, sequence,
+      [&parser](const std::string& expression, double t, double& value)
+      { return parser.evaluate(expression, t, value); },
+      time);
     if (!status.ok())
     {
       status.message = source + status.message;
@@ -111,15 +159,27 @@ Status vtkPoseHandles::Execute(
     this->NumberOfFrames = static_cast<int>(sequence.frames.size());
     this->FramesPerSecond = sequence.frames_per_second;
     this->Sequence = sequence.sequence;
-    if (this->Frame < 0 || this->Frame >= this->NumberOfFrames)
+    this->HasExpressions = sequence.has_expressions;
+    int frame = this->Frame;
+    if (timed)
     {
-      return Status::invalid_input(source + "there is no frame " + std::to_string(this->Frame) +
+      // The frame that is on; times of frames may be off by round-off.
+      frame = static_cast<int>(std::floor(std::clamp(
+        time * this->FramesPerSecond + 1e-6, 0.0, static_cast<double>(this->NumberOfFrames - 1))));
+    }
+    if (frame < 0 || frame >= this->NumberOfFrames)
+    {
+      return Status::invalid_input(source + "there is no frame " + std::to_string(frame) +
         ", only " + std::to_string(this->NumberOfFrames) + " (counted from 0)");
     }
-    pose = apply_edits(sequence.frames[this->Frame], handles, pose);
+    pose = apply_edits(sequence.frames[frame], handles, pose);
   }
   result->ShallowCopy(data);
   set_pose(result, cells, pose);
+  if (timed)
+  {
+    result->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+  }
   status.report.set("counts.handles", static_cast<int>(handles.size()));
   status.report.set("counts.frames", this->NumberOfFrames);
   return status;
@@ -182,6 +242,9 @@ void vtkPoseHandles::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "PoseJSON: " << this->PoseJSON << "\n";
   os << indent << "FileName: " << (this->FileName ? this->FileName : "(none)") << "\n";
   os << indent << "Frame: " << this->Frame << "\n";
+  os << indent << "Time: " << this->Time << "\n";
+  os << indent << "EndTime: " << this->EndTime << "\n";
+  os << indent << "HasExpressions: " << this->HasExpressions << "\n";
   os << indent << "NumberOfFrames: " << this->NumberOfFrames << "\n";
   os << indent << "Sequence: " << (this->Sequence ? "yes" : "no") << "\n";
   os << indent << "FramesPerSecond: " << this->FramesPerSecond << "\n";

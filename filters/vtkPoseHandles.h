@@ -10,9 +10,18 @@
  *     "head": [x, y, z], "tail": [x, y, z], "stretch": s, "twist": [deg, deg]}}}
  *   {"frames": [pose, …], "fps": n}
  * </pre>
+ * **Expressions.** Any number of a handle may be a text, an expression in `t`, the time in seconds:
+ * "translate": ["0.2 * sin(6.28 * t)", 0, 0] (vtkExprTkFunctionParser; its functions and
+ * constants). In a sequence t is the frame's own time, its number / fps.
+ *
+ * **Time.** The filter is a source of time: a sequence offers the times of its frames, expressions
+ * the range from 0 to EndTime. Who asks for a time gets the frame that is on then, or the
+ * expressions' values; who asks for none, Frame and Time.
+ *
  * A handle with pivot c moves x -> c + translate + R S (x - c), absolute; "space": "parent" applies
- * the parent's transform afterwards. Handles that the pose does not mention keep what the input
- * says. Without FileName and PoseJSON the input is passed on.
+ * the parent's transform afterwards. Errors: a broken file, an unknown handle, an expression that
+ * cannot be read or has no finite value at the time. Handles that the pose does not mention keep
+ * what the input says. Without FileName and PoseJSON the input is passed on.
  *
  * FileName may also name a .glb or .gltf file: its animation, or without one how its nodes stand,
  * is taken by the names of joints and handles (see vtkGLTFSkinReader).
@@ -60,6 +69,21 @@ public:
   ///@}
 
   ///@{
+  /// What `t` is in expressions of a single pose, when the pipeline asks for no time. Default 0.
+  vtkSetMacro(Time, double);
+  vtkGetMacro(Time, double);
+  ///@}
+
+  ///@{
+  /// End of the range of times that expressions offer, 0 or more. Default 10.
+  vtkSetClampMacro(EndTime, double, 0.0, 1e9);
+  vtkGetMacro(EndTime, double);
+  ///@}
+
+  /// Whether the pose read by the last Update() has expressions.
+  vtkGetMacro(HasExpressions, bool);
+
+  ///@{
   /// Of the sequence read by the last Update(): a single pose is one frame; 0 before.
   vtkGetMacro(NumberOfFrames, int);
   /// Whether it was a sequence, which may have one frame.
@@ -73,6 +97,8 @@ protected:
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
     bindpose::ExecutionContext& context) override;
 
@@ -85,7 +111,13 @@ private:
 
   std::string PoseJSON;
   char* FileName = nullptr;
+  bool IsFromGLTF() const;
+  bindpose::Status ReadText(std::string& text, std::string& source);
+
   int Frame = 0;
+  double Time = 0.0;
+  double EndTime = 10.0;
+  bool HasExpressions = false;
   int NumberOfFrames = 0;
   bool Sequence = false;
   double FramesPerSecond = 0.0;

@@ -44,11 +44,18 @@ void vtkReducedARAP::SetNumberOfExtraWeights(int extra)
   this->SetBindParameter(this->NumberOfExtraWeights, extra);
 }
 
+void vtkReducedARAP::SetExtraWeights(int kind)
+{
+  kind = std::clamp<int>(kind, BUMPS, EIGENMODES);
+  this->SetBindParameter(this->ExtraWeights, kind);
+}
+
 Status vtkReducedARAP::Bind(const PoseInput& input, ExecutionContext& context)
 {
   ReducedArapOptions options;
   options.clusters = this->NumberOfClusters;
   options.extra_weights = this->NumberOfExtraWeights;
+  options.extra_kind = static_cast<bindpose::ExtraWeights>(this->ExtraWeights);
   ArapElements elements;
   const Status status = to_arap(input.mesh, this->Energy, elements, options.energy);
   if (!status.ok())
@@ -71,6 +78,8 @@ Status vtkReducedARAP::Deform(const PoseInput& input, ExecutionContext& context,
     ReducedArap::SolveOptions options;
     options.tolerance = this->Tolerance;
     options.max_iterations = this->MaximumIterations;
+    options.budget_microseconds = this->TimeBudget;
+    options.anderson_window = this->AndersonWindow;
     options.start = this->WarmStart ? ReducedArap::Start::last : ReducedArap::Start::guess;
     status = arap.solve(context, input.pose, options);
     if (!status.usable())
@@ -99,7 +108,11 @@ void vtkReducedARAP::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Energy: " << arap_energy_name(this->Energy) << "\n";
   os << indent << "NumberOfClusters: " << this->NumberOfClusters << "\n";
   os << indent << "NumberOfExtraWeights: " << this->NumberOfExtraWeights << "\n";
+  os << indent << "ExtraWeights: " << (this->ExtraWeights == EIGENMODES ? "eigenmodes" : "bumps")
+     << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "TimeBudget: " << this->TimeBudget << "\n";
+  os << indent << "AndersonWindow: " << this->AndersonWindow << "\n";
   os << indent << "WarmStart: " << (this->WarmStart ? "on" : "off") << "\n";
 }

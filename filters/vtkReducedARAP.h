@@ -11,8 +11,8 @@
  *
  * With every handle full the result is linear blend skinning. The energy is the sum over clusters
  * of vertices with similar weights of |e' - R e|^2 over their edges e; a solve alternates best
- * rotations R and best transforms and never raises the energy. Its cost does not depend on the size
- * of the mesh.
+ * rotations R and best transforms, extrapolates between them (Anderson acceleration, Peng et al.
+ * 2018) and never raises the energy. Its cost does not depend on the size of the mesh.
  *
  * Ports, arrays, bind cache and errors: vtkPoseAlgorithm. Port 0 is a surface (vtkPolyData, or a
  * grid of 2D cells) or a vtkUnstructuredGrid of tets: the energy is that of the mesh it is given,
@@ -24,9 +24,10 @@
  * nearly dependent are harmless.
  *
  * Report: method (the energy), counts (clusters, extra_weights among them), energy, iterations,
+ * residual (share of the energy by which the last iteration lowered it),
  * microseconds_per_iteration, constraint_residual (in diagonals), row_sum_error, seconds.bind,
- * seconds.solve, seconds.skin. Status NOT_CONVERGED, with an output, when MaximumIterations were
- * not enough for Tolerance.
+ * seconds.solve, seconds.skin. Status NOT_CONVERGED, with an output, when MaximumIterations or
+ * TimeBudget were not enough for Tolerance.
  */
 
 #ifndef vtkReducedARAP_h
@@ -70,11 +71,27 @@ public:
 
   ///@{
   /**
-   * Extra weights, smooth bumps between the handles, that let the mesh bend where no handle is.
-   * Default 0; 15 is a good number. A bind parameter.
+   * Extra weights that let the mesh bend where no handle is. Default 0; 15 is a good number. A bind
+   * parameter.
    */
   void SetNumberOfExtraWeights(int extra);
   vtkGetMacro(NumberOfExtraWeights, int);
+  ///@}
+
+  enum ExtraWeightsType
+  {
+    BUMPS = 0,
+    EIGENMODES = 1
+  };
+
+  ///@{
+  /**
+   * What they are: smooth bumps around places that are far apart in weights, or skinning eigenmodes
+   * (Benchekroun et al. 2023), the smoothest weights that vanish at the handles. Default BUMPS. A
+   * bind parameter.
+   */
+  void SetExtraWeights(int kind);
+  vtkGetMacro(ExtraWeights, int);
   ///@}
 
   ///@{
@@ -90,6 +107,22 @@ public:
    */
   vtkSetClampMacro(Tolerance, double, 0.0, 1.0);
   vtkGetMacro(Tolerance, double);
+  ///@}
+
+  ///@{
+  /**
+   * A solve ends after the iteration in which so many microseconds have passed. Default 0: no
+   * limit. How many iterations that were is in the report; as MaximumIterations, with Tolerance 0
+   * and from the same start, they give the same result again.
+   */
+  vtkSetClampMacro(TimeBudget, double, 0.0, 1e12);
+  vtkGetMacro(TimeBudget, double);
+  ///@}
+
+  ///@{
+  /// Iterates that the acceleration looks back on, 0 (none) to 50. Default 5.
+  vtkSetClampMacro(AndersonWindow, int, 0, 50);
+  vtkGetMacro(AndersonWindow, int);
   ///@}
 
   ///@{
@@ -120,8 +153,11 @@ private:
   int Energy = AUTO;
   int NumberOfClusters = 0;
   int NumberOfExtraWeights = 0;
+  int ExtraWeights = BUMPS;
   int MaximumIterations = 100;
   double Tolerance = 1e-6;
+  double TimeBudget = 0.0;
+  int AndersonWindow = 5;
   bool WarmStart = true;
   struct Internals;
   std::unique_ptr<Internals> Internal;

@@ -505,7 +505,8 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
 _ENERGIES = ("auto", "spokes-and-rims", "spokes", "tetrahedra", "triangles")
 
 
-def _make_deformation(method, exponent, energy, iterations, tolerance, variational):
+def _make_deformation(method, exponent, energy, iterations, tolerance, budget_us, extra_weights, extra_kind,
+                      variational):
     if method == "variational":
         return make_variational(*variational)
     if method in ("reduced-arap", "full-arap"):
@@ -514,6 +515,10 @@ def _make_deformation(method, exponent, energy, iterations, tolerance, variation
         arap.SetTolerance(tolerance)
         if iterations:
             arap.SetMaximumIterations(int(iterations))
+        if method == "reduced-arap":
+            arap.SetTimeBudget(budget_us)
+            arap.SetNumberOfExtraWeights(int(extra_weights))
+            arap.SetExtraWeights(getattr(arap, extra_kind.upper()))
         return arap
     if method == "mls":
         warp = filters.vtkMovingLeastSquaresWarp()
@@ -524,8 +529,27 @@ def _make_deformation(method, exponent, energy, iterations, tolerance, variation
     return skinning
 
 
+def _posed_handles(mesh, handles, pose, weights):
+    """The mesh as a dataset with its weights, and the filter that poses the handles."""
+    data = to_dataset(mesh)
+    if weights is not None:
+        data = shallow_copy(data)
+        add_point_array(data, "Weights", np.asarray(weights, dtype=float), getattr(weights, "names", ()))
+    poser = filters.vtkPoseHandles()
+    poser.SetInputData(0, to_handles(handles, data))
+    if isinstance(pose, (str, os.PathLike)):
+        poser.SetFileName(os.fspath(pose))
+    else:
+        try:
+            poser.SetPoseJSON(json.dumps(pose))
+        except TypeError as error:
+            raise InvalidInput(f"the pose is no JSON object: {error}") from None
+    return data, poser
+
+
 def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, energy="auto", iterations=0,
-           tolerance=1e-6, order=2, boundary="region", tangents="surroundings", threads=0, progress=None):
+           tolerance=1e-6, budget_us=0.0, extra_weights=0, extra_kind="bumps", times=None, order=2,
+           boundary="region", tangents="surroundings", threads=0, progress=None):
     """Bend a mesh with weights to a pose, or to a sequence of poses.
 
     Parameters
@@ -537,8 +561,8 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
         The handles that the weights were made for.
     pose : dict, str or path-like
         ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}``
-        or ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file; or a .glb or .gltf file for its
-        animation.
+        or ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file, where numbers may be expressions in
+        ``t``; or a .glb or .gltf file for its animation.
     method : {"lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls", "variational"}
         Linear blend skinning, dual quaternions, stretchable and twistable bones (with the point array
         ``EndpointWeights`` where there is one), reduced as-rigid-as-possible; without weights: full
@@ -556,6 +580,16 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
     tolerance : float
         Of reduced-arap and full-arap: an iteration that lowers the energy by less than this share of it is
         the last.
+    budget_us : float
+        Of reduced-arap: microseconds for the iterations of a pose; 0: no limit. The report's ``iterations``,
+        given as `iterations` with `tolerance` 0, repeat the result.
+    extra_weights : int
+        Of reduced-arap: weights beside the handles', which let the mesh bend where no handle is; 15 is a good
+        number.
+    extra_kind : {"bumps", "eigenmodes"}
+        Of `extra_weights`: bumps around places far apart, or the smoothest weights that vanish at the handles.
+    times : sequence of floats, optional
+        Of a pose with expressions: seconds at which to take it; without, 0.
     order, boundary, tangents
         Of variational: see `fair`.
     threads, progress
@@ -574,30 +608,86 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
     """
     _choice(method, ("lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls", "variational"), "method")
     _choice(energy, _ENERGIES, "energy")
-    data = to_dataset(mesh)
-    if weights is not None:
-        data = shallow_copy(data)
-        add_point_array(data, "Weights", np.asarray(weights, dtype=float), getattr(weights, "names", ()))
-    poser = filters.vtkPoseHandles()
-    poser.SetInputData(0, to_handles(handles, data))
-    if isinstance(pose, (str, os.PathLike)):
-        poser.SetFileName(os.fspath(pose))
-    else:
-        try:
-            poser.SetPoseJSON(json.dumps(pose))
-        except TypeError as error:
-            raise InvalidInput(f"the pose is no JSON object: {error}") from None
-    bender = _make_deformation(method, exponent, energy, iterations, tolerance, (order, boundary, tangents))
+    _choice(extra_kind, ("bumps", "eigenmodes"), "extra_kind")
+    data, poser = _posed_handles(mesh, handles, pose, weights)
+    bender = _make_deformation(method, exponent, energy, iterations, tolerance, budget_us, extra_weights, extra_kind,
+                               (order, boundary, tangents))
     bender.SetInputData(0, data)
     bender.SetInputConnection(1, poser.GetOutputPort())
     bender.SetNumberOfThreads(threads)
     results = []
     run(poser)
-    frames = poser.GetNumberOfFrames()
+    frames = poser.GetNumberOfFrames() if times is None else len(times)
     for frame in range(frames):
-        poser.SetFrame(frame)
+        if times is None:
+            poser.SetFrame(frame)
+        else:
+            poser.SetTime(times[frame])
         run(poser)
         report = run(bender, progress)
         posed = bender.GetOutput()
         results.append(shallow_copy(posed) if is_dataset(mesh) else Array(points_of(posed), report))
-    return results if poser.GetSequence() else results[0]
+    return results if times is not None or poser.GetSequence() else results[0]
+
+
+def dynamics(mesh, handles, pose, *, frames, time_step=1 / 24, weights=None, gravity=(0.0, 0.0, 0.0), damping=0.0,
+             stiffness=1000.0, density=1.0, energy="auto", extra_weights=0, extra_kind="bumps", threads=0,
+             progress=None):
+    """Move a mesh as a body with mass: what handles leave open swings and falls.
+
+    Parameters
+    ----------
+    mesh, handles, weights
+        See `deform`.
+    pose : dict, str or path-like
+        See `deform`: a sequence, whose frames lead at their times, a pose with expressions in ``t``, or one that
+        stays. A handle that changes to mode ``free`` lets go.
+    frames : int
+        Steps in time to return; the first is the pose at time 0 without motion.
+    time_step : float
+        Seconds of a step.
+    gravity : sequence of 3 floats
+        Acceleration, lengths / s^2.
+    damping : float
+        Drag of this times mass times velocity, 1 / s.
+    stiffness, density : float
+        Energy of a strain of one, and mass, per volume (of surfaces per area). Waves run at
+        sqrt(stiffness / density) lengths a second.
+    energy, extra_weights, extra_kind
+        See `deform`, of reduced-arap.
+    threads, progress
+        See `winding_number`.
+
+    Returns
+    -------
+    list of Array or of vtkDataSet
+        One a step, as `deform` returns.
+
+    Raises
+    ------
+    InvalidInput
+        Weights that do not fit, a broken pose, numbers out of range.
+    """
+    _choice(energy, _ENERGIES, "energy")
+    _choice(extra_kind, ("bumps", "eigenmodes"), "extra_kind")
+    data, poser = _posed_handles(mesh, handles, pose, weights)
+    body = filters.vtkReducedDynamics()
+    body.SetEnergy(getattr(filters.vtkReducedARAP, energy.upper().replace("-", "_")))
+    body.SetNumberOfExtraWeights(int(extra_weights))
+    body.SetExtraWeights(getattr(filters.vtkReducedARAP, extra_kind.upper()))
+    body.SetTimeStep(time_step)
+    body.SetGravity(*(float(x) for x in gravity))
+    body.SetDamping(damping)
+    body.SetStiffness(stiffness)
+    body.SetDensity(density)
+    body.SetInputData(0, data)
+    body.SetInputConnection(1, poser.GetOutputPort())
+    body.SetNumberOfThreads(threads)
+    run(poser)
+    results = []
+    for frame in range(frames):
+        body.SetStep(frame)
+        report = run(body, progress)
+        posed = body.GetOutput()
+        results.append(shallow_copy(posed) if is_dataset(mesh) else Array(points_of(posed), report))
+    return results

@@ -7,11 +7,14 @@
 #include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkDoubleArray.h"
+#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
@@ -158,5 +161,71 @@ TEST(PoseHandles, WhatIsWrongIsNamed)
     EXPECT_NE(error.find(word), std::string::npos) << error;
     EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
     EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
+  }
+}
+
+TEST(PoseHandles, ExpressionsFollowTime)
+{
+  vtkNew<vtkPoseHandles> filter;
+  filter->SetInputData(arm());
+  filter->SetPoseJSON(R"json({"handles": {"p": {
+    "translate": ["sin(3.14159265358979 * t)", "t < 1 ? t : min(5, 7)", 0]}}})json");
+  EXPECT_EQ(update(filter), "");
+  EXPECT_TRUE(filter->GetHasExpressions());
+  const auto place = [&]
+  {
+    return moved(
+      pose_of(vtkPolyData::SafeDownCast(filter->GetOutput()))[0].transform, Vec3::Zero());
+  };
+  EXPECT_LT(place().norm(), 1e-14);
+  filter->SetTime(0.5);
+  EXPECT_EQ(update(filter), "");
+  EXPECT_LT((place() - Vec3(1, 0.5, 0)).norm(), 1e-12);
+  // A pipeline's time comes first.
+  filter->UpdateTimeStep(1.5);
+  EXPECT_LT((place() - Vec3(-1, 5, 0)).norm(), 1e-12);
+  filter->UpdateTimeStep(0.25);
+  EXPECT_LT((place() - Vec3(std::sqrt(0.5), 0.25, 0)).norm(), 1e-12);
+}
+
+TEST(PoseHandles, BadExpressionsAreNamed)
+{
+  vtkNew<vtkPoseHandles> filter;
+  filter->SetInputData(arm());
+  const auto error = [&](const std::string& expression, double time = 0.0)
+  {
+    filter->SetPoseJSON("{\"handles\": {\"p\": {\"scale\": \"" + expression + "\"}}}");
+    filter->SetTime(time);
+    return update(filter);
+  };
+  for (const char* bad : { "", "sin(", "2 *", "unknown + t", "t t", "iHat", "'" })
+  {
+    const std::string text = error(bad);
+    EXPECT_NE(text.find("handle 'p'.scale"), std::string::npos) << bad << ": " << text;
+    EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT) << bad;
+  }
+  EXPECT_EQ(error("sqrt(1 - t)"), "");
+  EXPECT_NE(error("sqrt(1 - t)", 2.0).find("not a finite number at t = 2"), std::string::npos);
+  EXPECT_NE(error("1 / t").find("not a finite number at t = 0"), std::string::npos);
+  EXPECT_NE(error("0 - t", 1.0).find("must be greater than 0"), std::string::npos);
+}
+
+TEST(PoseHandles, SequencesAreSourcesOfTime)
+{
+  vtkNew<vtkPoseHandles> filter;
+  filter->SetInputData(arm());
+  filter->SetPoseJSON(R"({"fps": 10, "frames": [{"handles": {"p": {"translate": [0, 0, 0]}}},
+    {"handles": {"p": {"translate": [1, 0, 0]}}}, {"handles": {"p": {"translate": [2, 0, 0]}}}]})");
+  filter->UpdateInformation();
+  vtkInformation* info = filter->GetOutputInformation(0);
+  ASSERT_EQ(info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 3);
+  EXPECT_DOUBLE_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS())[2], 0.2);
+  const std::vector<std::pair<double, double>> frames{ { 0.0, 0 }, { 0.1, 1 }, { 0.19, 1 },
+    { 0.2, 2 }, { 9.0, 2 }, { -1.0, 0 } };
+  for (const auto& [time, x] : frames)
+  {
+    filter->UpdateTimeStep(time);
+    EXPECT_EQ(pose_of(vtkPolyData::SafeDownCast(filter->GetOutput()))[0].transform(0, 3), x)
+      << time;
   }
 }

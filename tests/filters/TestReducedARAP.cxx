@@ -386,3 +386,35 @@ TEST_F(ReducedARAPFilter, PrintSelfNamesEveryParameter)
     EXPECT_THAT(text.str(), HasSubstr(word));
   }
 }
+
+TEST_F(ReducedARAPFilter, ATimeBudgetIsReportedAndReplayed)
+{
+  this->pose->SetPoseJSON(drag_right(1.0));
+  this->filter->SetTolerance(1e-15);
+  this->filter->SetMaximumIterations(1000000);
+  this->filter->SetTimeBudget(5.0);
+  this->filter->Update();
+  EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::NOT_CONVERGED);
+  EXPECT_GE(this->report("residual"), 0.0);
+  const Points first = this->output();
+  vtkNew<vtkReducedARAP> again;
+  again->SetInputData(0, this->tets);
+  again->SetInputConnection(1, this->pose->GetOutputPort());
+  again->SetTolerance(0.0);
+  again->SetMaximumIterations(static_cast<int>(this->report("iterations")));
+  again->Update();
+  EXPECT_EQ(to_points(again->GetOutput()).view(), first);
+}
+
+TEST_F(ReducedARAPFilter, EigenmodesAreABindParameterAndLowerTheEnergy)
+{
+  this->pose->SetPoseJSON(drag_right(1.0));
+  this->filter->Update();
+  const double plain = this->report("energy");
+  this->filter->SetNumberOfExtraWeights(15);
+  this->filter->SetExtraWeights(vtkReducedARAP::EIGENMODES);
+  this->filter->Update();
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 2);
+  EXPECT_EQ(this->report("counts.extra_weights"), 15.0);
+  EXPECT_LT(this->report("energy"), plain);
+}

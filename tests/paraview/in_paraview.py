@@ -17,7 +17,7 @@ from vtkmodules.util.numpy_support import vtk_to_numpy
 FILTERS = (
     "WindingNumberField PlanarShape TetrahedralizeSurface FarthestPointHandles BoundedBiharmonicWeights MonotoneWeights "
     "MonotoneSmoothing UnconstrainedWeights TransferWeights BoneEndpointWeights PoseHandles WeightedColors DepthOrder CutAlongBones SkinningDeformation "
-    "MovingLeastSquaresWarp ReducedARAP FullARAP VariationalSurface"
+    "MovingLeastSquaresWarp ReducedARAP ReducedDynamics FullARAP VariationalSurface"
 ).split()
 SOURCES = "BindposeMeshReader BindposeHandleReader".split()
 WRITERS = "BindposeMeshWriter BindposeVDBWriter".split()

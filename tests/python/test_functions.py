@@ -229,6 +229,29 @@ def test_sequences_are_lists():
         assert posed[k] == pytest.approx(np.array(BAR[0]) + np.outer(x, [0, k, 0]), abs=1e-12)
 
 
+def test_expressions_in_time():
+    handles = bindpose.handles(bones=BONES)
+    x = np.array(BAR[0])[:, 0] / 6
+    w = np.stack([1 - x, x], axis=1)
+    pose = {"handles": {"b2": {"translate": [0, "2 * t", 0]}}}
+    posed = bindpose.deform(BAR, handles, pose, weights=w, times=[0, 0.5, 1.5])
+    for k, t in enumerate([0, 0.5, 1.5]):
+        assert posed[k] == pytest.approx(np.array(BAR[0]) + np.outer(x, [0, 2 * t, 0]), abs=1e-12)
+    with pytest.raises(bindpose.InvalidInput, match=r"'b2'.translate is '2 \*'"):
+        bindpose.deform(BAR, handles, {"handles": {"b2": {"translate": [0, "2 *", 0]}}}, weights=w)
+
+
+def test_dynamics_falls():
+    handles = bindpose.handles(bones=BONES)
+    x = np.array(BAR[0])[:, 0] / 6
+    pose = {"handles": {"b1": {"mode": "free"}, "b2": {"mode": "free"}}}
+    posed = bindpose.dynamics(BAR, handles, pose, frames=11, time_step=0.1, gravity=(0, -10, 0),
+                              weights=np.stack([1 - x, x], axis=1))
+    assert len(posed) == 11 and bindpose.report(posed[-1])["steps"] == 10
+    for n in range(11):  # implicit Euler's parabola
+        assert posed[n] == pytest.approx(np.array(BAR[0]) + [0, -10 * 0.01 * n * (n + 1) / 2, 0], abs=1e-9)
+
+
 def test_a_handle_outside_warns():
     with pytest.warns(bindpose.BindposeWarning, match="p2"):
         bindpose.weights(BAR, bindpose.handles([[1, 0.5, 0.5], [5, 0.5, 3]]))

@@ -74,7 +74,7 @@ def test_warnings_are_warnings(tmp_path):
 def test_classes_are_at_package_level():
     for name in ("vtkWindingNumberField", "vtkTetrahedralizeSurface", "vtkBoundedBiharmonicWeights",
                  "vtkMonotoneWeights", "vtkUnconstrainedWeights", "vtkTransferWeights", "vtkPoseHandles",
-                 "vtkSkinningDeformation", "vtkReducedARAP", "vtkFullARAP",
+                 "vtkSkinningDeformation", "vtkReducedARAP", "vtkReducedDynamics", "vtkFullARAP",
                  "vtkVariationalSurface", "vtkMovingLeastSquaresWarp", "vtkWeightedColors",
                  "vtkDepthOrder", "vtkCutAlongBones", "vtkMonotoneSmoothing", "vtkMeshFileReader", "vtkMeshFileWriter",
                  "vtkHandleFileReader", "vtkFarthestPointHandles", "vtkHandleSetWidget", "vtkBoneEndpointWeights"):

@@ -228,7 +228,9 @@ const std::vector<Verb>& verbs()
           "what the verb weights wrote; for full-arap, mls and variational any mesh", true },
         { "--handles", "HANDLES", Kind::text, "", "", "handles: .tgf, .vtp, .glb or .gltf", true },
         { "--pose", "POSE", Kind::text, "", "",
-          "pose or sequence as .json, or the animation in a .glb or .gltf file", true },
+          "pose or sequence as .json, where numbers may be expressions in t, the time in seconds; "
+          "or the animation in a .glb or .gltf file",
+          true },
         { "--method", "METHOD", Kind::choice, "lbs",
           "lbs|dqs|stbs|reduced-arap|full-arap|mls|variational",
           "linear blend, dual quaternions, stretchable and twistable bones (along the point array "
@@ -244,6 +246,35 @@ const std::vector<Verb>& verbs()
         { "--tolerance", "NUMBER", Kind::number, "1e-6", "",
           "of reduced-arap and full-arap: an iteration that lowers the energy by less than this "
           "share of it is the last" },
+        { "--budget-us", "MICROSECONDS", Kind::number, "0", "",
+          "of reduced-arap: time for the iterations of a pose; 0: no limit; how many that allowed "
+          "is "
+          "reported, and --iterations with it and --tolerance 0 repeats the result" },
+        { "--extra-weights", "N", Kind::integer, "0", "",
+          "of reduced-arap: weights beside the handles', which let the mesh bend where no handle "
+          "is; "
+          "15 is a good number",
+          false, false, 0 },
+        { "--extra-kind", "KIND", Kind::choice, "bumps", "bumps|eigenmodes",
+          "of --extra-weights: bumps around places far apart, or the smoothest weights that vanish "
+          "at the handles (skinning eigenmodes)" },
+        { "--dynamics", "", Kind::flag, "", "",
+          "the mesh as a body with mass, by reduced-arap's energy, whatever --method is: what "
+          "handles "
+          "leave open swings and falls; a handle that becomes free lets go" },
+        { "--frames", "N", Kind::integer, "0", "",
+          "of poses with expressions in t, and of --dynamics: steps in time, the first at t = 0; "
+          "0: as "
+          "many as the pose file has frames",
+          false, false, 0 },
+        { "--time-step", "SECONDS", Kind::number, "0.0416666666666667", "", "between them" },
+        { "--gravity", "X,Y,Z", Kind::text, "0,0,0", "", "of --dynamics: lengths / s^2" },
+        { "--damping", "NUMBER", Kind::number, "0", "",
+          "of --dynamics: drag, this times mass times velocity, 1 / s" },
+        { "--stiffness", "NUMBER", Kind::number, "1000", "",
+          "of --dynamics: energy per volume (of surfaces per area) of a strain of one" },
+        { "--density", "NUMBER", Kind::number, "1", "",
+          "of --dynamics: mass per volume (of surfaces per area)" },
         { "--exponent", "NUMBER", Kind::number, "1", "",
           "of mls: handles count by 1 / distance^(2 NUMBER), 1 to 8" },
         { "--order", "ORDER", Kind::choice, "2", "1|2|3",

@@ -1,5 +1,6 @@
 // bindpose deform MESH_WITH_WEIGHTS --handles H --pose POSE.json: one pose gives one file, a
-// sequence numbered files and a .pvd that ParaView plays, or one animated glTF file.
+// sequence, expressions in time or a body that moves numbered files and a .pvd that ParaView plays,
+// or one animated glTF file.
 #include "cli/sequence_file.h"
 #include "cli/session.h"
 #include "cli/verbs.h"
@@ -10,15 +11,20 @@
 #include "vtkMovingLeastSquaresWarp.h"
 #include "vtkPoseHandles.h"
 #include "vtkReducedARAP.h"
+#include "vtkReducedDynamics.h"
 #include "vtkSkinningDeformation.h"
 #include "vtkVariationalSurface.h"
 
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
 #include "vtkDataSet.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
+#include <cmath>
 #include <cstdio>
+#include <functional>
 
 namespace bindpose::cli
 {
@@ -36,7 +42,7 @@ int energy_of(const std::string& word)
 
 /// What full and reduced as-rigid-as-possible have in common.
 template <typename Filter>
-vtkSmartPointer<vtkBindposeAlgorithm> make_arap(const Arguments& arguments)
+vtkSmartPointer<Filter> make_arap(const Arguments& arguments)
 {
   auto arap = vtkSmartPointer<Filter>::New();
   arap->SetEnergy(energy_of(arguments.text("energy")));
@@ -63,6 +69,44 @@ vtkSmartPointer<vtkBindposeAlgorithm> make_variational(const Arguments& argument
   return surface;
 }
 
+/// What reduced as-rigid-as-possible and its dynamics have in common.
+template <typename Filter>
+vtkSmartPointer<Filter> make_reduced(const Arguments& arguments)
+{
+  auto arap = make_arap<Filter>(arguments);
+  arap->SetNumberOfExtraWeights(arguments.integer("extra-weights"));
+  arap->SetExtraWeights(arguments.text("extra-kind") == "eigenmodes" ? vtkReducedARAP::EIGENMODES
+                                                                     : vtkReducedARAP::BUMPS);
+  return arap;
+}
+
+vtkSmartPointer<vtkBindposeAlgorithm> make_reduced_arap(const Arguments& arguments)
+{
+  const auto arap = make_reduced<vtkReducedARAP>(arguments);
+  arap->SetTimeBudget(arguments.number("budget-us"));
+  return arap;
+}
+
+vtkSmartPointer<vtkReducedDynamics> make_dynamics(const Arguments& arguments)
+{
+  const auto dynamics = make_reduced<vtkReducedDynamics>(arguments);
+  dynamics->SetTimeStep(arguments.number("time-step"));
+  dynamics->SetDensity(arguments.number("density"));
+  dynamics->SetStiffness(arguments.number("stiffness"));
+  dynamics->SetDamping(arguments.number("damping"));
+  return dynamics;
+}
+
+/// "X,Y,Z"; false for anything else.
+bool to_vector(const std::string& text, double (&vector)[3])
+{
+  int end = 0;
+  return std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &vector[0], &vector[1], &vector[2], &end) ==
+    3 &&
+    end == static_cast<int>(text.size()) && std::isfinite(vector[0]) && std::isfinite(vector[1]) &&
+    std::isfinite(vector[2]);
+}
+
 vtkSmartPointer<vtkBindposeAlgorithm> make_deformation(const Arguments& arguments)
 {
   const std::string method = arguments.text("method");
@@ -74,7 +118,7 @@ vtkSmartPointer<vtkBindposeAlgorithm> make_deformation(const Arguments& argument
   }
   if (method == "reduced-arap")
   {
-    return make_arap<vtkReducedARAP>(arguments);
+    return make_reduced_arap(arguments);
   }
   if (method == "full-arap")
   {
@@ -109,13 +153,22 @@ bool is_rig(const std::string& path)
   return is_listed(file_extension(path), "glb gltf");
 }
 
+/// The frames of a pose file, of expressions in time or of a body that moves.
+struct Frames
+{
+  int count = 1;
+  double per_second = 0.0;
+  bool sequence = false; ///< else one pose
+  std::function<bool(int)> deform; ///< makes one the deformation's output; false: it failed
+};
+
 /// One glTF file. Linear blends pose the joints, a frame or, of a single pose, how they stand; what
 /// other methods do no joints can: each frame is a morph target.
 void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPoseHandles* pose,
-  vtkBindposeAlgorithm* deformation, const std::string& output)
+  const Frames& frames, vtkBindposeAlgorithm* deformation, const std::string& output)
 {
   const Arguments& arguments = session.arguments();
-  const bool linear = arguments.text("method") == "lbs";
+  const bool linear = arguments.text("method") == "lbs" && !arguments.has("dynamics");
   const std::string animation = arguments.text("gltf-animation");
   const bool morph = animation == "morph" || (animation == "auto" && !linear);
   const bool skinned = mesh->GetPointData()->GetArray("Weights") != nullptr;
@@ -125,30 +178,26 @@ void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPose
                     "--gltf-animation morph");
     return;
   }
-  const int count = pose->GetNumberOfFrames();
-  const bool stands = linear && !morph && !pose->GetSequence();
-  std::vector<vtkSmartPointer<vtkDataSet>> frames;
-  for (int k = 0; k < count && !stands; ++k)
+  const bool stands = linear && !morph && !frames.sequence;
+  std::vector<vtkSmartPointer<vtkDataSet>> posed_meshes;
+  for (int k = 0; k < frames.count && !stands; ++k)
   {
-    pose->SetFrame(k);
-    if (!session.run(pose, "pose", 0.0, 0.0, Merge::nothing) ||
-      !session.run(deformation, "deform", static_cast<double>(k) / count,
-        static_cast<double>(k + 1) / count, Merge::all))
+    if (!frames.deform(k))
     {
       return;
     }
-    auto frame = vtk::TakeSmartPointer(deformation->GetOutput()->NewInstance());
-    frame->ShallowCopy(deformation->GetOutput());
-    frames.push_back(frame);
+    auto copy = vtk::TakeSmartPointer(deformation->GetOutput()->NewInstance());
+    copy->ShallowCopy(deformation->GetOutput());
+    posed_meshes.push_back(copy);
   }
   auto* posed = vtkPolyData::SafeDownCast(pose->GetOutput());
   if (session.write_rig(mesh,
         !skinned   ? nullptr
           : stands ? posed
                    : handles,
-        frames, pose->GetFramesPerSecond(), morph, output))
+        posed_meshes, frames.per_second, morph, output))
   {
-    session.report().set("counts.frames", count);
+    session.report().set("counts.frames", frames.count);
   }
 }
 } // namespace
@@ -177,13 +226,31 @@ void run_deform(Session& session)
   {
     return;
   }
-  const int frames = pose->GetNumberOfFrames();
-  const bool sequence = pose->GetSequence() && !is_rig(output);
+  // Frames are those of a sequence; of expressions and of a body that moves, as many as asked for.
+  const bool dynamic = arguments.has("dynamics");
+  const int given = pose->GetNumberOfFrames(), asked = arguments.integer("frames");
+  const bool moves = dynamic || (given == 1 && pose->GetHasExpressions());
+  if (asked > 0 && !moves)
+  {
+    session.invalid("--frames is for poses with expressions in t and for --dynamics");
+    return;
+  }
+  const double time_step = arguments.number("time-step");
+  if (moves && !(std::isfinite(time_step) && time_step > 0.0))
+  {
+    session.invalid("--time-step must be a number above 0");
+    return;
+  }
+  Frames frames;
+  frames.count = asked > 0 ? asked : given;
+  frames.per_second = moves ? 1.0 / time_step : pose->GetFramesPerSecond();
+  frames.sequence = pose->GetSequence() || asked > 0;
+  const bool numbers = frames.sequence && !is_rig(output);
   std::vector<std::string> files{ output };
-  if (sequence)
+  if (numbers)
   {
     files.clear();
-    for (int frame = 0; frame < frames; ++frame)
+    for (int frame = 0; frame < frames.count; ++frame)
     {
       files.push_back(numbered(output, frame));
     }
@@ -196,27 +263,60 @@ void run_deform(Session& session)
       return;
     }
   }
-  if (sequence && !session.check_output(pvd, "pvd"))
+  if (numbers && !session.check_output(pvd, "pvd"))
   {
     return;
   }
-  const auto deformation = make_deformation(arguments);
+  vtkSmartPointer<vtkReducedDynamics> body;
+  if (dynamic)
+  {
+    double gravity[3];
+    if (!to_vector(arguments.text("gravity"), gravity))
+    {
+      session.invalid("--gravity '" + arguments.text("gravity") +
+        "' must be three numbers with commas between, as in 0,-9.81,0");
+      return;
+    }
+    body = make_dynamics(arguments);
+    body->SetGravity(gravity);
+  }
+  const vtkSmartPointer<vtkBindposeAlgorithm> deformation =
+    dynamic ? vtkSmartPointer<vtkBindposeAlgorithm>(body) : make_deformation(arguments);
+  // What goes wrong with a pose on the way, the filter behind it says as well.
+  vtkNew<vtkCallbackCommand> quiet;
+  quiet->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  pose->AddObserver(vtkCommand::ErrorEvent, quiet);
   deformation->SetInputData(0, mesh);
   deformation->SetInputConnection(1, pose->GetOutputPort());
+  frames.deform = [&](int frame)
+  {
+    if (dynamic)
+    {
+      body->SetStep(frame); // asks for the poses of all times up to its own
+    }
+    else if (moves)
+    {
+      pose->SetTime(frame * time_step);
+    }
+    else
+    {
+      pose->SetFrame(frame);
+    }
+    const double begin = static_cast<double>(frame) / frames.count;
+    const double end = static_cast<double>(frame + 1) / frames.count;
+    return (dynamic || session.run(pose, "pose", begin, begin, Merge::nothing)) &&
+      session.run(deformation, "deform", begin, end, Merge::all);
+  };
   if (is_rig(output))
   {
-    write_rig(session, mesh, handles, pose, deformation, output);
+    write_rig(session, mesh, handles, pose, frames, deformation, output);
     return;
   }
   std::int64_t iterations = 0;
   std::vector<AtomicFile> written(files.size());
   for (std::size_t i = 0; i < files.size() && !session.failed(); ++i)
   {
-    const double begin = static_cast<double>(i) / static_cast<double>(files.size());
-    const double end = static_cast<double>(i + 1) / static_cast<double>(files.size());
-    pose->SetFrame(static_cast<int>(i));
-    if (session.run(pose, "pose", begin, begin, Merge::nothing) &&
-      session.run(deformation, "deform", begin, end, Merge::all))
+    if (frames.deform(static_cast<int>(i)))
     {
       iterations += static_cast<std::int64_t>(session.report().number("iterations", 0));
       session.write_uncommitted(deformation->GetOutput(), files[i], written[i]);
@@ -228,11 +328,11 @@ void run_deform(Session& session)
     session.commit(written[i]);
   }
   if (session.failed() ||
-    (sequence && !session.write_text(format_collection(files, pose->GetFramesPerSecond()), pvd)))
+    (numbers && !session.write_text(format_collection(files, frames.per_second), pvd)))
   {
     return;
   }
-  session.report().set("counts.frames", frames);
+  session.report().set("counts.frames", frames.count);
   if (session.report().find("iterations"))
   {
     session.report().set("iterations", iterations);

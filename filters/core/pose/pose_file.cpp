@@ -4,6 +4,7 @@
 // transform may stand later in the file.
 #include "pose/pose_file.h"
 
+#include "base/number_text.h"
 #include "pose/rotation_fit.h"
 
 #include <nlohmann/json.hpp>
@@ -216,8 +217,58 @@ HandleEdit read_handle(const Json& value, const std::string& where, Index index,
   return edit;
 }
 
+/// Whether a text in a handle's entry stands for a number: all but the words do.
+bool is_expression(const std::string& key, const Json& value)
+{
+  return value.is_string() && key != "mode" && key != "space";
+}
+
+/// Expressions at a time, and whether there were any.
+struct Expressions
+{
+  const PoseExpression& value_of;
+  double time;
+  bool found = false;
+
+  /// Puts numbers in the place of texts.
+  void replace(Json& value, const std::string& key, const std::string& where)
+  {
+    if (is_expression(key, value) && this->value_of)
+    {
+      this->found = true;
+      const auto text = value.get<std::string>();
+      double result = 0.0;
+      const Status status = this->value_of(text, this->time, result);
+      if (!status.ok())
+      {
+        fail(where, " is '" + text + "': " + status.message);
+      }
+      if (!std::isfinite(result))
+      {
+        fail(where,
+          " is '" + text + "', which is not a finite number at t = " + short_number(this->time));
+      }
+      value = result;
+    }
+    else if (value.is_array())
+    {
+      for (Json& entry : value)
+      {
+        this->replace(entry, key, where);
+      }
+    }
+    else if (value.is_object())
+    {
+      for (const auto& item : value.items())
+      {
+        this->replace(item.value(), item.key(), where + "." + item.key());
+      }
+    }
+  }
+};
+
 std::vector<HandleEdit> read_pose(const Json& value, const std::string& where,
-  const std::map<std::string, Index>& index_of, const Handles& handles)
+  const std::map<std::string, Index>& index_of, const Handles& handles, Expressions& expressions)
 {
   check_object(value, where, { "handles" });
   if (!value.contains("handles"))
@@ -236,8 +287,11 @@ std::vector<HandleEdit> read_pose(const Json& value, const std::string& where,
     {
       fail(where, " names a handle '" + item.key() + "' that does not exist");
     }
-    edits.push_back(read_handle(item.value(), where + " handle '" + item.key() + "'", found->second,
-      handles[static_cast<std::size_t>(found->second)]));
+    const std::string handle = where + " handle '" + item.key() + "'";
+    Json entry = item.value();
+    expressions.replace(entry, "", handle);
+    edits.push_back(
+      read_handle(entry, handle, found->second, handles[static_cast<std::size_t>(found->second)]));
   }
   return edits;
 }
@@ -267,7 +321,8 @@ Json parse_without_doubled_keys(const std::string& text)
 }
 } // namespace
 
-Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequence& sequence)
+Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequence& sequence,
+  const PoseExpression& expression, double time)
 {
   sequence = PoseSequence();
   if (text.find_first_not_of(" \t\r\n") == std::string::npos)
@@ -284,7 +339,9 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
     const Json root = parse_without_doubled_keys(text);
     if (!root.is_object() || !root.contains("frames"))
     {
-      sequence.frames.push_back(read_pose(root, "the pose", index_of, handles));
+      Expressions expressions{ expression, time };
+      sequence.frames.push_back(read_pose(root, "the pose", index_of, handles, expressions));
+      sequence.has_expressions = expressions.found;
       return {};
     }
     check_object(root, "the sequence", { "frames", "fps" });
@@ -300,7 +357,10 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
     for (const Json& frame : root["frames"])
     {
       const std::string where = "frame " + std::to_string(sequence.frames.size());
-      sequence.frames.push_back(read_pose(frame, where, index_of, handles));
+      Expressions expressions{ expression,
+        static_cast<double>(sequence.frames.size()) / sequence.frames_per_second };
+      sequence.frames.push_back(read_pose(frame, where, index_of, handles, expressions));
+      sequence.has_expressions = sequence.has_expressions || expressions.found;
     }
   }
   catch (const PoseFileError& error)
@@ -318,6 +378,56 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
       (end == std::string::npos ? what : what.substr(end + 2)));
   }
   return {};
+}
+
+bool read_pose_times(const std::string& text, PoseTimes& times)
+{
+  times = PoseTimes();
+  const Json root = Json::parse(text, nullptr, false);
+  if (!root.is_object())
+  {
+    return false;
+  }
+  const auto expressions_in = [](const Json& pose)
+  {
+    const auto handles = pose.is_object() ? pose.find("handles") : pose.end();
+    if (!pose.is_object() || handles == pose.end() || !handles->is_object())
+    {
+      return false;
+    }
+    const std::function<bool(const std::string&, const Json&)> any =
+      [&any](const std::string& key, const Json& value)
+    {
+      bool found = is_expression(key, value);
+      for (auto item = value.begin(); value.is_structured() && item != value.end(); ++item)
+      {
+        found = found || any(value.is_object() ? item.key() : key, *item);
+      }
+      return found;
+    };
+    return any("", *handles);
+  };
+  if (!root.contains("frames"))
+  {
+    times.has_expressions = expressions_in(root);
+    return root.contains("handles");
+  }
+  const Json& frames = root["frames"];
+  if (!frames.is_array() || frames.empty())
+  {
+    return false;
+  }
+  times.frames = static_cast<Index>(frames.size());
+  const auto fps = root.find("fps");
+  if (fps != root.end() && fps->is_number() && fps->get<double>() > 0.0)
+  {
+    times.frames_per_second = fps->get<double>();
+  }
+  for (const Json& frame : frames)
+  {
+    times.has_expressions = times.has_expressions || expressions_in(frame);
+  }
+  return true;
 }
 
 Affine affine_about(const Vec3& pivot, const Eigen::Matrix3d& linear, const Vec3& translation)

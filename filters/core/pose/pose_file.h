@@ -4,6 +4,7 @@
 #include "pose/pose.h"
 #include "weights/handles.h"
 
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -30,7 +31,12 @@ struct PoseSequence
   std::vector<std::vector<HandleEdit>> frames;
   double frames_per_second = 24.0;
   bool sequence = false; ///< the file has "frames", be it one, and is no single pose
+  bool has_expressions = false; ///< somewhere stands a text for a number
 };
+
+/// Gives the value of an expression in t (seconds); invalid_input says in one clause what is wrong
+/// with it.
+using PoseExpression = std::function<Status(const std::string& text, double t, double& value)>;
 
 /// Reads the text of a POSE.json: one pose
 ///
@@ -43,10 +49,27 @@ struct PoseSequence
 /// or a sequence {"frames": [pose, …], "fps": n}. All keys of a handle are optional; the last four
 /// are for bones, and head or tail exclude translate, rotate and scale.
 ///
+/// Any number of a handle may be a text: an expression in t, for example "sin(2 * t)". With
+/// `expression` it is evaluated at t = `time` (single pose) or the frame's own time, its number /
+/// fps (sequence); without, it is an error.
+///
 /// Strict: an empty or broken text, an unknown handle or key, a key given twice, a wrong type, a
 /// number that is not finite, a rotation axis of length zero, a scale, stretch or fps that is not
-/// positive, a bone posed to length zero: invalid_input with one sentence that names it.
-Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequence& sequence);
+/// positive, a bone posed to length zero, an expression that cannot be read or has no finite value:
+/// invalid_input with one sentence that names it.
+Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequence& sequence,
+  const PoseExpression& expression = {}, double time = 0.0);
+
+/// What can be said of a POSE.json without handles.
+struct PoseTimes
+{
+  Index frames = 1;
+  double frames_per_second = 24.0;
+  bool has_expressions = false;
+};
+
+/// False for a text that is no pose file at all; parse_pose_file() says why.
+bool read_pose_times(const std::string& text, PoseTimes& times);
 
 /// The pose that a frame asks for. A handle with pivot c (point, bone head, cage vertex, region
 /// pivot) moves x -> c + translate + R * scale * (x - c), absolute, not on top of the base pose.

@@ -142,6 +142,65 @@ TEST(PoseFile, SequencesHaveFramesAndARate)
   EXPECT_EQ(apply_edits(sequence.frames[1], rig(), Pose(3))[0].transform(0, 3), 1.0);
 }
 
+// Expressions are somebody else's; here 't', 'twice t' and 'never'.
+TEST(PoseFile, TextsAreExpressionsInTime)
+{
+  const PoseExpression expression = [](const std::string& text, double t, double& value)
+  {
+    value = text == "t" ? t : text == "twice t" ? 2.0 * t : std::nan("");
+    return text == "nonsense" ? Status::invalid_input("nobody knows this") : Status();
+  };
+  const std::string text = R"({"handles": {
+    "p": {"mode": "position", "translate": ["t", 1, "twice t"]},
+    "upper": {"rotate": {"axis": [0, 0, 1], "degrees": "t"}, "stretch": "t"}}})";
+  PoseSequence sequence;
+  ASSERT_TRUE(parse_pose_file(text, rig(), sequence, expression, 90.0).ok());
+  EXPECT_TRUE(sequence.has_expressions);
+  const Pose pose = apply_edits(sequence.frames[0], rig(), Pose(3));
+  EXPECT_EQ(pose[0].transform.col(3), Vec3(90, 1, 180));
+  EXPECT_LT((apply(pose[2].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-14);
+  EXPECT_EQ(pose[2].stretch, 90.0);
+  // In a sequence t is the frame's own.
+  const std::string frame = R"({"handles": {"p": {"translate": ["t", 0, 0]}}})";
+  ASSERT_TRUE(parse_pose_file(
+    R"({"fps": 4, "frames": [)" + frame + "," + frame + "]}", rig(), sequence, expression, 90.0)
+                .ok());
+  EXPECT_EQ(*sequence.frames[1][0].translate, Vec3(0.25, 0, 0));
+
+  const auto wrong = [&](const std::string& entry)
+  {
+    const Status status =
+      parse_pose_file(R"({"handles": {"p": {)" + entry + "}}}", rig(), sequence, expression, 0.5);
+    EXPECT_EQ(status.code, StatusCode::invalid_input);
+    return status.message;
+  };
+  EXPECT_THAT(wrong(R"("translate": [0, "nonsense", 0])"),
+    HasSubstr("handle 'p'.translate is 'nonsense': nobody knows this"));
+  EXPECT_THAT(wrong(R"("scale": "never")"),
+    HasSubstr("handle 'p'.scale is 'never', which is not a finite number at t = 0.5"));
+  EXPECT_THAT(wrong(R"("mode": "t")"), HasSubstr("must be one of full, position, free"));
+  EXPECT_THAT(wrong(R"("rotate": "t")"), HasSubstr("it must be an object"));
+  // Without anybody who knows expressions a text is none.
+  EXPECT_THAT(message(text), HasSubstr("it must be a number"));
+}
+
+TEST(PoseFile, TimesAreReadWithoutHandles)
+{
+  PoseTimes times;
+  ASSERT_TRUE(read_pose_times(R"({"handles": {"?": {"scale": 1, "mode": "full"}}})", times));
+  EXPECT_EQ(times.frames, 1);
+  EXPECT_FALSE(times.has_expressions);
+  ASSERT_TRUE(read_pose_times(R"({"handles": {"?": {"translate": [0, "t", 0]}}})", times));
+  EXPECT_TRUE(times.has_expressions);
+  ASSERT_TRUE(read_pose_times(R"({"fps": 5, "frames": [{"handles": {}}, {}, 3]})", times));
+  EXPECT_EQ(times.frames, 3);
+  EXPECT_EQ(times.frames_per_second, 5.0);
+  for (const char* text : { "", "{", "[]", "3", "{}", R"({"frames": []})" })
+  {
+    EXPECT_FALSE(read_pose_times(text, times)) << text;
+  }
+}
+
 TEST(PoseFile, WhatIsWrongIsNamed)
 {
   EXPECT_THAT(message(""), HasSubstr("empty"));

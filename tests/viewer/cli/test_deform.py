@@ -164,3 +164,48 @@ def test_meshes_that_do_not_fit(bar):
     refused("none.tgf", handles="none.tgf")
     refused("no/out.vtp", output="no/out.vtp")
     refused("out.doc", output="out.doc")
+
+
+def test_expressions_give_frames(bar):
+    pose = {"handles": {"b2": {"translate": [0, "3 * t", 0]}}}
+    deform(bar, pose, "--frames", "3", "--time-step", "0.5").is_good()
+    x = bar.points[:, :1] / 6
+    for k in range(3):
+        posed = points_of(bindpose.read(bar / f"out_{k:04d}.vtp"))
+        assert posed == pytest.approx(bar.points + x * [0, 1.5 * k, 0], abs=1e-12)
+    assert 'timestep="0.5" file="out_0001.vtp"' in (bar / "out.pvd").read_text()
+    deform(bar, {"handles": {}}, "--frames", "3", "--overwrite").is_refused("--frames is for poses with expressions")
+    bad = {"handles": {"b2": {"translate": [0, "sqrt(0.3 - t)", 0]}}}
+    deform(bar, bad, "--frames", "3", "--time-step", "0.5", "--overwrite").is_refused("not a finite number at t = 0.5")
+
+
+def test_dynamics_falls_and_replays(bar):
+    pose = {"handles": {"b1": {"mode": "free"}, "b2": {"mode": "free"}}}
+    fall = ("--dynamics", "--frames", "4", "--time-step", "0.1", "--gravity", "0,-10,0")
+    report = deform(bar, pose, *fall, "--report", "-").is_good().report
+    assert report["counts"]["frames"] == 4
+    posed = [points_of(bindpose.read(bar / f"out_{k:04d}.vtp")) for k in range(4)]
+    for n in range(4):
+        assert posed[n] == pytest.approx(bar.points - [0, 0.1 * n * (n + 1) / 2, 0], abs=1e-9)
+    deform(bar, pose, *fall, "--threads", "1", "--overwrite").is_good()
+    assert np.array_equal(points_of(bindpose.read(bar / "out_0003.vtp")), posed[3])
+    deform(bar, pose, "--dynamics", "--gravity", "1,2", "--overwrite").is_refused("--gravity")
+    deform(bar, pose, "--dynamics", "--time-step", "0", "--overwrite").is_refused("--time-step")
+    # A bad pose on the way is one sentence.
+    bad = {"handles": {"b2": {"translate": [0, "sqrt(0.15 - t)", 0]}}}
+    deform(bar, bad, *fall, "--overwrite").is_refused("not a finite number at t = 0.2")
+
+
+def test_a_time_budget_is_repeated_by_its_iterations(bar):
+    first = deform(bar, shapes.BENT, "--budget-us", "1", "--tolerance", "1e-15", "--report", "-", method="reduced-arap")
+    assert first.code == 3 and first.report["iterations"] == 1
+    expected = points_of(bindpose.read(bar / "out.vtp"))
+    deform(bar, shapes.BENT, "--iterations", "1", "--tolerance", "0", "--overwrite", method="reduced-arap").is_good()
+    assert np.array_equal(points_of(bindpose.read(bar / "out.vtp")), expected)
+
+
+def test_extra_weights(bar):
+    for kind in ("bumps", "eigenmodes"):
+        report = deform(bar, shapes.BENT, "--extra-weights", "3", "--extra-kind", kind, "--overwrite", "--report", "-",
+                        method="reduced-arap").is_good().report
+        assert report["counts"]["extra_weights"] == 3

@@ -1,0 +1,74 @@
+// The parser tells what is wrong by error events, some lines long; the first line that says what it
+// is becomes the clause.
+#include "expression_parser.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
+#include "vtkExprTkFunctionParser.h"
+
+#include <limits>
+
+namespace bindpose
+{
+
+namespace
+{
+/// "ERROR: In …\nvtkExprTkFunctionParser (0x…): message\n\n": the message, in one line.
+std::string message_of(const std::string& event)
+{
+  const std::size_t begin = event.find("): ");
+  std::string text = begin == std::string::npos ? event : event.substr(begin + 3);
+  for (char& c : text)
+  {
+    c = c == '\n' ? ' ' : c;
+  }
+  while (!text.empty() && text.back() == ' ')
+  {
+    text.pop_back();
+  }
+  return text;
+}
+} // namespace
+
+ExpressionParser::ExpressionParser()
+{
+  vtkNew<vtkCallbackCommand> keep;
+  keep->SetClientData(&this->error_);
+  keep->SetCallback(
+    [](vtkObject*, unsigned long, void* client, void* data)
+    {
+      auto& error = *static_cast<std::string*>(client);
+      if (error.empty() && data)
+      {
+        error = message_of(static_cast<const char*>(data));
+      }
+    });
+  this->parser_->AddObserver(vtkCommand::ErrorEvent, keep);
+  this->parser_->AddObserver(vtkCommand::WarningEvent, keep);
+  // A value that is not finite would be an error of the parser's, not to be told from others.
+  this->parser_->ReplaceInvalidValuesOn();
+  this->parser_->SetReplacementValue(std::numeric_limits<double>::quiet_NaN());
+}
+
+ExpressionParser::~ExpressionParser() = default;
+
+Status ExpressionParser::evaluate(const std::string& text, double t, double& value)
+{
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos)
+  {
+    return Status::invalid_input("the expression is empty");
+  }
+  this->error_.clear();
+  this->parser_->SetScalarVariableValue("t", t);
+  this->parser_->SetFunction(text.c_str());
+  if (this->parser_->IsScalarResult() == 0)
+  {
+    return Status::invalid_input(this->error_.empty()
+        ? "this is no expression of one number in t"
+        : "this is no expression of one number in t (" + this->error_ + ")");
+  }
+  value = this->parser_->GetScalarResult();
+  return {};
+}
+
+} // namespace bindpose

@@ -1,0 +1,302 @@
+// Glue around the kernel bindpose::ReducedDynamics. The executive calls once for each step that is
+// missing (CONTINUE_EXECUTING, as filters over time do), so that the handles can be asked for the
+// pose of each step's time.
+//
+// What has been simulated stands until something changes that it depends on. Poses change with time
+// by themselves, so their arrays cannot tell; what can is the time of modification of all that is
+// upstream, which the inputs' executives keep.
+#include "vtkReducedDynamics.h"
+
+#include "arap_input.h"
+#include "pose/reduced_dynamics.h"
+#include "pose_input.h"
+#include "vtkReducedARAP.h"
+
+#include "vtkDataArray.h"
+#include "vtkDemandDrivenPipeline.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace bindpose;
+using SDDP = vtkStreamingDemandDrivenPipeline;
+
+vtkStandardNewMacro(vtkReducedDynamics);
+
+struct vtkReducedDynamics::Internals
+{
+  ReducedDynamics body;
+  bool started = false;
+  Index target = 0; ///< step that is asked for
+  Index next = 0; ///< step that the handles are asked for: 0 starts
+  bool more = false; ///< steps are missing after this one
+  std::vector<vtkMTimeType> upstream; ///< that the body has moved by
+};
+
+vtkReducedDynamics::vtkReducedDynamics() : Internal(new Internals) {}
+
+vtkReducedDynamics::~vtkReducedDynamics() = default;
+
+void vtkReducedDynamics::SetEnergy(int energy)
+{
+  energy = std::clamp<int>(energy, vtkReducedARAP::AUTO, vtkReducedARAP::SPOKES);
+  this->SetBindParameter(this->Energy, energy);
+}
+
+void vtkReducedDynamics::SetNumberOfClusters(int clusters)
+{
+  clusters = std::max(clusters, 0);
+  this->SetBindParameter(this->NumberOfClusters, clusters);
+}
+
+void vtkReducedDynamics::SetNumberOfExtraWeights(int extra)
+{
+  extra = std::max(extra, 0);
+  this->SetBindParameter(this->NumberOfExtraWeights, extra);
+}
+
+void vtkReducedDynamics::SetExtraWeights(int kind)
+{
+  kind = std::clamp<int>(kind, vtkReducedARAP::BUMPS, vtkReducedARAP::EIGENMODES);
+  this->SetBindParameter(this->ExtraWeights, kind);
+}
+
+void vtkReducedDynamics::SetTimeStep(double seconds)
+{
+  this->SetMotionParameter(this->TimeStep, seconds);
+}
+
+void vtkReducedDynamics::SetGravity(double x, double y, double z)
+{
+  for (const auto& [component, value] : { std::pair(0, x), std::pair(1, y), std::pair(2, z) })
+  {
+    this->SetMotionParameter(this->Gravity[component], value);
+  }
+}
+
+void vtkReducedDynamics::SetGravity(const double gravity[3])
+{
+  this->SetGravity(gravity[0], gravity[1], gravity[2]);
+}
+
+void vtkReducedDynamics::SetDensity(double density)
+{
+  this->SetMotionParameter(this->Density, density);
+}
+
+void vtkReducedDynamics::SetStiffness(double stiffness)
+{
+  this->SetMotionParameter(this->Stiffness, stiffness);
+}
+
+void vtkReducedDynamics::SetDamping(double damping)
+{
+  this->SetMotionParameter(this->Damping, damping);
+}
+
+void vtkReducedDynamics::SetMaximumIterations(int iterations)
+{
+  iterations = std::clamp(iterations, 1, 1000000);
+  this->SetMotionParameter(this->MaximumIterations, iterations);
+}
+
+void vtkReducedDynamics::SetTolerance(double tolerance)
+{
+  tolerance = std::clamp(tolerance, 0.0, 1.0);
+  this->SetMotionParameter(this->Tolerance, tolerance);
+}
+
+void vtkReducedDynamics::SetInteractive(bool interactive)
+{
+  this->SetMotionParameter(this->Interactive, interactive);
+}
+
+void vtkReducedDynamics::Restart()
+{
+  this->Internal->started = false;
+  this->Modified();
+}
+
+int vtkReducedDynamics::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
+{
+  vtkInformation* info = output->GetInformationObject(0);
+  if (this->Interactive || !(this->TimeStep > 0.0))
+  {
+    info->Remove(SDDP::TIME_STEPS());
+    info->Remove(SDDP::TIME_RANGE());
+    return 1;
+  }
+  std::vector<double> times;
+  for (int step = 0; step <= this->NumberOfSteps; ++step)
+  {
+    times.push_back(step * this->TimeStep);
+  }
+  const double range[2] = { times.front(), times.back() };
+  info->Set(SDDP::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
+  info->Set(SDDP::TIME_RANGE(), range, 2);
+  return 1;
+}
+
+int vtkReducedDynamics::RequestUpdateExtent(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  this->Superclass::RequestUpdateExtent(request, input, output);
+  Internals& state = *this->Internal;
+  std::vector<vtkMTimeType> upstream;
+  for (int port = 0; port < 2; ++port)
+  {
+    auto* executive = this->GetNumberOfInputConnections(port) > 0
+      ? vtkDemandDrivenPipeline::SafeDownCast(this->GetInputExecutive(port, 0))
+      : nullptr;
+    upstream.push_back(executive ? executive->GetPipelineMTime() : 0);
+  }
+  state.started = state.started && (this->Interactive || state.upstream == upstream);
+  state.upstream = upstream;
+  vtkInformation* info = output->GetInformationObject(0);
+  const auto done = state.body.state().steps;
+  if (this->Interactive)
+  {
+    state.target = state.next = state.started ? done + 1 : 0;
+    return 1;
+  }
+  const bool timed = info->Has(SDDP::UPDATE_TIME_STEP()) != 0 && this->TimeStep > 0.0;
+  // A time between two steps shows the earlier; that of a step may be off by round-off.
+  state.target = timed ? static_cast<Index>(std::floor(std::clamp(
+                           info->Get(SDDP::UPDATE_TIME_STEP()) / this->TimeStep + 1e-6, 0.0, 1e7)))
+                       : this->Step;
+  state.started = state.started && done <= state.target;
+  state.next = !state.started ? 0 : std::min(done + 1, state.target);
+  if (this->GetNumberOfInputConnections(1) > 0)
+  {
+    input[1]->GetInformationObject(0)->Set(
+      SDDP::UPDATE_TIME_STEP(), static_cast<double>(state.next) * this->TimeStep);
+  }
+  return 1;
+}
+
+vtkTypeBool vtkReducedDynamics::ProcessRequest(
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
+{
+  const bool data = request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()) != 0;
+  this->Internal->more = false;
+  const vtkTypeBool result = this->Superclass::ProcessRequest(request, input, output);
+  if (data && this->Internal->more)
+  {
+    request->Set(SDDP::CONTINUE_EXECUTING(), 1);
+  }
+  else if (data)
+  {
+    request->Remove(SDDP::CONTINUE_EXECUTING());
+    vtkDataObject* posed = vtkDataObject::GetData(output);
+    if (posed && !this->Interactive)
+    {
+      posed->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(),
+        static_cast<double>(this->Internal->target) * this->TimeStep);
+    }
+  }
+  return result;
+}
+
+Status vtkReducedDynamics::Bind(const PoseInput& input, ExecutionContext& context)
+{
+  ReducedArapOptions options;
+  options.clusters = this->NumberOfClusters;
+  options.extra_weights = this->NumberOfExtraWeights;
+  options.extra_kind = static_cast<bindpose::ExtraWeights>(this->ExtraWeights);
+  ArapElements elements;
+  const Status status = to_arap(input.mesh, this->Energy, elements, options.energy);
+  if (!status.ok())
+  {
+    return status;
+  }
+  this->Internal->started = false;
+  ReducedDynamics& body = this->Internal->body;
+  return elements.volume ? body.bind(context, input.points, elements.tets.tets.view(),
+                             input.weights, input.handles, options)
+                         : body.bind(context, input.points, elements.surface.triangles.view(),
+                             input.weights, input.handles, options);
+}
+
+Status vtkReducedDynamics::Deform(
+  const PoseInput& input, ExecutionContext& context, PosedPoints& posed)
+{
+  Internals& state = *this->Internal;
+  Status status;
+  ReducedDynamicsOptions options;
+  options.time_step = this->TimeStep;
+  options.gravity = Vec3(this->Gravity);
+  options.density = this->Density;
+  options.stiffness = this->Stiffness;
+  options.damping = this->Damping;
+  options.solve.tolerance = this->Tolerance;
+  options.solve.max_iterations = this->MaximumIterations;
+  if (!state.started && state.next > 0)
+  {
+    state.more = true; // the bind is new, and these are not the handles of time 0
+  }
+  else
+  {
+    Phase phase(context, "step", 0.8, 0.9);
+    if (state.next == 0)
+    {
+      ReducedSolveOptions still;
+      still.max_iterations = 1000;
+      status = state.body.start(context, input.pose, still);
+      const Status checked = check_options(options);
+      status = checked.ok() ? status : checked;
+    }
+    else if (state.body.state().steps < state.next)
+    {
+      status = state.body.step(context, input.pose, options);
+    }
+    state.started = status.usable();
+    if (!status.usable())
+    {
+      return status;
+    }
+    state.more = state.body.state().steps < state.target;
+  }
+  status.report.set("time", Report::Value(state.body.state().time));
+  status.report.set("steps", Report::Value(std::int64_t(state.body.state().steps)));
+  Phase phase(context, "skin", 0.9, 1.0);
+  const Status moved = state.body.deform(context, input.points, posed.points);
+  posed.transforms.assign(
+    state.body.transforms().begin(), state.body.transforms().begin() + input.weights.cols());
+  return moved.ok() ? status : moved;
+}
+
+Status vtkReducedDynamics::DeformNormals(
+  const PoseInput& input, ExecutionContext& context, const PosedPoints&, PosedPoints& normals)
+{
+  const SharedMatrix<Weights> rest = to_matrix(input.mesh->GetPointData()->GetNormals());
+  const Eigen::Map<const Points> directions(rest.view().data(), rest.view().rows(), 3);
+  return this->Internal->body.deform_normals(context, directions, normals.points);
+}
+
+void vtkReducedDynamics::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Energy: " << arap_energy_name(this->Energy) << "\n";
+  os << indent << "NumberOfClusters: " << this->NumberOfClusters << "\n";
+  os << indent << "NumberOfExtraWeights: " << this->NumberOfExtraWeights << "\n";
+  os << indent << "ExtraWeights: "
+     << (this->ExtraWeights == vtkReducedARAP::EIGENMODES ? "eigenmodes" : "bumps") << "\n";
+  os << indent << "TimeStep: " << this->TimeStep << "\n";
+  os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
+  os << indent << "Step: " << this->Step << "\n";
+  os << indent << "Gravity: (" << this->Gravity[0] << ", " << this->Gravity[1] << ", "
+     << this->Gravity[2] << ")\n";
+  os << indent << "Density: " << this->Density << "\n";
+  os << indent << "Stiffness: " << this->Stiffness << "\n";
+  os << indent << "Damping: " << this->Damping << "\n";
+  os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "Interactive: " << (this->Interactive ? "on" : "off") << "\n";
+}

@@ -1,0 +1,183 @@
+// Reduced dynamics as a filter: a source of time whose answers do not depend on who asked before.
+#include "vtkReducedDynamics.h"
+
+#include "TestFilter.h"
+#include "conversion.h"
+#include "report_field_data.h"
+#include "vtkPoseHandles.h"
+#include "vtkReducedARAP.h"
+
+#include "support/bars.h"
+#include "support/meshes.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkInformation.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+using testing::HasSubstr;
+
+namespace
+{
+/// The bar, drawn aside by its right end for the first tenth of a second, then let go.
+const char* const drawn_and_let_go = R"({"fps": 10, "frames": [
+  {"handles": {"middle": {"mode": "free"}, "right": {"mode": "position", "translate": [0, 1, 0]}}},
+  {"handles": {"middle": {"mode": "free"}, "right": {"mode": "free"}}}]})";
+
+class ReducedDynamicsFilter : public testing::Test
+{
+protected:
+  ReducedDynamicsFilter()
+  {
+    this->rig = test::bar();
+    this->tets = to_unstructured_grid(this->rig.mesh.points, this->rig.mesh.tets);
+    vtkNew<vtkDoubleArray> weights;
+    weights->SetName("Weights");
+    weights->SetNumberOfComponents(3);
+    for (Index v = 0; v < this->rig.weights.rows(); ++v)
+    {
+      weights->InsertNextTuple(this->rig.weights.row(v).data());
+    }
+    for (int h = 0; h < 3; ++h)
+    {
+      weights->SetComponentName(h, this->rig.handles[h].name.c_str());
+    }
+    this->tets->GetPointData()->AddArray(weights);
+    this->handles = to_polydata(this->rig.handles);
+    this->pose->SetInputData(this->handles);
+    this->pose->SetPoseJSON(drawn_and_let_go);
+    this->connect(this->filter);
+    this->listener->listen(this->filter);
+  }
+
+  void connect(vtkReducedDynamics* dynamics)
+  {
+    dynamics->SetInputData(0, this->tets);
+    dynamics->SetInputConnection(1, this->pose->GetOutputPort());
+    dynamics->SetTimeStep(0.02);
+    dynamics->SetStiffness(100.0);
+    dynamics->SetNumberOfSteps(50);
+  }
+  static Points at(vtkReducedDynamics* dynamics, double time)
+  {
+    dynamics->UpdateTimeStep(time);
+    return to_points(vtkPointSet::SafeDownCast(dynamics->GetOutput())).view();
+  }
+  double report(const char* key)
+  {
+    return read_report(this->filter->GetOutput()).number(key, -1.0);
+  }
+
+  test::Rig rig;
+  vtkSmartPointer<vtkUnstructuredGrid> tets;
+  vtkSmartPointer<vtkPolyData> handles;
+  vtkNew<vtkPoseHandles> pose;
+  vtkNew<vtkReducedDynamics> filter;
+  vtkNew<test::Listener> listener;
+};
+} // namespace
+
+TEST_F(ReducedDynamicsFilter, OffersItsSteps)
+{
+  this->filter->UpdateInformation();
+  vtkInformation* info = this->filter->GetOutputInformation(0);
+  ASSERT_EQ(info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 51);
+  EXPECT_DOUBLE_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_RANGE())[1], 1.0);
+}
+
+TEST_F(ReducedDynamicsFilter, BeginsWhereReducedARAPIs)
+{
+  vtkNew<vtkReducedARAP> still;
+  still->SetInputData(0, this->tets);
+  still->SetInputConnection(1, this->pose->GetOutputPort());
+  still->SetMaximumIterations(1000);
+  still->Update();
+  const Points expected = to_points(vtkPointSet::SafeDownCast(still->GetOutput())).view();
+  EXPECT_EQ(at(this->filter, 0.0), expected);
+  EXPECT_EQ(this->report("steps"), 0.0);
+}
+
+TEST_F(ReducedDynamicsFilter, TheSameTimeGivesTheSameBitsInAnyOrder)
+{
+  std::vector<Points> forward;
+  for (int step = 0; step <= 20; ++step)
+  {
+    forward.push_back(at(this->filter, 0.02 * step));
+    EXPECT_EQ(this->report("steps"), step);
+    EXPECT_NEAR(this->report("time"), 0.02 * step, 1e-12);
+  }
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
+  EXPECT_GT((forward[20] - forward[5]).cwiseAbs().maxCoeff(), 1e-3); // it moves
+  EXPECT_EQ(at(this->filter, 0.14), forward[7]);
+  EXPECT_EQ(at(this->filter, 0.4), forward[20]);
+  EXPECT_EQ(at(this->filter, 0.15), forward[7]); // between two steps: the earlier
+  vtkNew<vtkReducedDynamics> fresh;
+  this->connect(fresh);
+  fresh->SetNumberOfThreads(1);
+  EXPECT_EQ(at(fresh, 0.26), forward[13]);
+  // Steps by number, without a time.
+  vtkNew<vtkReducedDynamics> counted;
+  this->connect(counted);
+  counted->SetStep(13);
+  counted->Update();
+  EXPECT_EQ(to_points(vtkPointSet::SafeDownCast(counted->GetOutput())).view(), forward[13]);
+}
+
+TEST_F(ReducedDynamicsFilter, WhatChangesStartsAnew)
+{
+  const Points before = at(this->filter, 0.3);
+  this->filter->SetGravity(0, -5, 0);
+  const Points heavy = at(this->filter, 0.3);
+  EXPECT_LT(heavy.col(1).mean(), before.col(1).mean() - 0.01);
+  this->filter->SetGravity(0, 0, 0);
+  EXPECT_EQ(at(this->filter, 0.3), before);
+  this->pose->SetPoseJSON(R"({"handles": {}})");
+  EXPECT_EQ(at(this->filter, 0.3), this->rig.mesh.points);
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
+  this->tets->GetPoints()->GetData()->Modified();
+  this->tets->Modified();
+  this->pose->SetPoseJSON(drawn_and_let_go);
+  EXPECT_EQ(at(this->filter, 0.3), before);
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 2);
+}
+
+TEST_F(ReducedDynamicsFilter, InteractiveStepsOnceAnUpdate)
+{
+  this->filter->InteractiveOn();
+  for (int step = 0; step < 5; ++step)
+  {
+    this->filter->Modified();
+    this->filter->Update();
+    EXPECT_EQ(this->report("steps"), step);
+  }
+  this->filter->Restart();
+  this->filter->Update();
+  EXPECT_EQ(this->report("steps"), 0.0);
+}
+
+TEST_F(ReducedDynamicsFilter, BadNumbersAndPosesEndIt)
+{
+  this->filter->SetStiffness(0.0);
+  this->filter->Update();
+  ASSERT_EQ(this->listener->errors.size(), 1u);
+  EXPECT_THAT(this->listener->errors[0], HasSubstr("stiffness"));
+  EXPECT_EQ(this->filter->GetOutput()->GetNumberOfPoints(), 0);
+  this->filter->SetStiffness(100.0);
+  EXPECT_EQ(at(this->filter, 0.1).rows(), this->rig.mesh.points.rows());
+  // An expression that goes wrong on the way.
+  this->pose->SetPoseJSON(
+    R"json({"handles": {"right": {"translate": [0, "sqrt(0.1 - t)", 0]}}})json");
+  vtkNew<test::Listener> upstream;
+  upstream->listen(this->pose);
+  EXPECT_EQ(at(this->filter, 0.3).rows(), 0);
+  EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
+  EXPECT_THAT(this->filter->GetStatusMessage(), HasSubstr("sqrt(0.1 - t)"));
+  EXPECT_EQ(at(this->filter, 0.04).rows(), this->rig.mesh.points.rows());
+}

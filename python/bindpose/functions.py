@@ -520,7 +520,7 @@ def _make_deformation(method, exponent, energy, iterations, tolerance):
 
 
 def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, energy="auto", iterations=0,
-           tolerance=1e-6, threads=0, progress=None):
+           tolerance=1e-6, stretch_limit=2.0, stretch_array=False, threads=0, progress=None):
     """Bend a mesh with weights to a pose, or to a sequence of poses.
 
     Parameters
@@ -549,6 +549,13 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
     tolerance : float
         Of reduced-arap and full-arap: an iteration that lowers the energy by less than this share of it is
         the last.
+    stretch_limit : float
+        The report counts elements that become more than this many times as long in some direction, or less than one
+        over this (``counts.stretched_elements``), and those turned inside out (``counts.inverted_elements``, a
+        warning), with ``largest_stretch`` and ``smallest_stretch``; 0: it does not look at them.
+    stretch_array : bool
+        For a dataset: add the cell array ``Stretch``, the largest and the smallest stretch of each cell, the smallest
+        below 0 where it is inside out.
     threads, progress
         See `winding_number`.
 
@@ -581,6 +588,8 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
     bender = _make_deformation(method, exponent, energy, iterations, tolerance)
     bender.SetInputData(0, data)
     bender.SetInputConnection(1, poser.GetOutputPort())
+    bender.SetStretchLimit(stretch_limit)
+    bender.SetStretchArray(stretch_array)
     bender.SetNumberOfThreads(threads)
     results = []
     run(poser)

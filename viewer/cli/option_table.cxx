@@ -239,6 +239,12 @@ const std::vector<Verb>& verbs()
           "share of it is the last" },
         { "--exponent", "NUMBER", Kind::number, "1", "",
           "of mls: handles count by 1 / distance^(2 NUMBER), 1 to 8" },
+        { "--stretch-limit", "NUMBER", Kind::number, "2", "",
+          "the report counts elements that become more than this many times as long in some "
+          "direction, or less than one over this, and those turned inside out; 0: it does not" },
+        { "--stretch-array", "", Kind::flag, "", "",
+          "write the cell array Stretch: the largest and the smallest stretch of each cell, the "
+          "smallest below 0 where it is inside out" },
         { "-o,--output", "OUT", Kind::text, "", "",
           "mesh file; a sequence gives OUT_0000, OUT_0001, … and OUT.pvd", true } } },
     { "render", "picture of one or more datasets",

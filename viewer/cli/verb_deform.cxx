@@ -33,7 +33,7 @@ int energy_of(const std::string& word)
 
 /// What full and reduced as-rigid-as-possible have in common.
 template <typename Filter>
-vtkSmartPointer<vtkBindposeAlgorithm> make_arap(const Arguments& arguments)
+vtkSmartPointer<vtkPoseAlgorithm> make_arap(const Arguments& arguments)
 {
   auto arap = vtkSmartPointer<Filter>::New();
   arap->SetEnergy(energy_of(arguments.text("energy")));
@@ -45,7 +45,7 @@ vtkSmartPointer<vtkBindposeAlgorithm> make_arap(const Arguments& arguments)
   return arap;
 }
 
-vtkSmartPointer<vtkBindposeAlgorithm> make_deformation(const Arguments& arguments)
+vtkSmartPointer<vtkPoseAlgorithm> make_deformation(const Arguments& arguments)
 {
   const std::string method = arguments.text("method");
   if (method == "mls")
@@ -146,6 +146,8 @@ void run_deform(Session& session)
     return;
   }
   const auto deformation = make_deformation(arguments);
+  deformation->SetStretchLimit(arguments.number("stretch-limit"));
+  deformation->SetStretchArray(arguments.has("stretch-array"));
   deformation->SetInputData(0, mesh);
   deformation->SetInputConnection(1, pose->GetOutputPort());
   std::int64_t iterations = 0;

@@ -38,8 +38,8 @@ struct ElementStretch
 /// numbers where an element is inverted. invalid_input for a limit out of range and for posed
 /// points that are not as many as those at rest; elements must be valid (check_mesh).
 ///
-/// Cost: about 60 ns a tet, 40 ns a triangle (one core); no memory but for values. The same bits for any number
-/// of threads.
+/// Cost: about 60 ns a tet, 40 ns a triangle (one core); no memory but for values. The same bits
+/// for any number of threads.
 Status element_stretch(ExecutionContext& context, const ElementStretchOptions& options,
   PointsView rest, PointsView posed, TetsView tets, ElementStretch& stretch);
 Status element_stretch(ExecutionContext& context, const ElementStretchOptions& options,

@@ -8,6 +8,7 @@
 
 #include "base/execution.h"
 #include "bind_key.h"
+#include "pose_elements.h"
 #include "pose_input.h"
 #include "weights_input.h"
 
@@ -23,6 +24,8 @@
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <optional>
+
 using namespace bindpose;
 
 struct vtkPoseAlgorithm::Cache
@@ -33,6 +36,7 @@ struct vtkPoseAlgorithm::Cache
   std::vector<Index> cells;
   SharedMatrix<Points> points;
   SharedMatrix<Weights> weights;
+  std::optional<PoseElements> elements; // once they are asked for
   Status status; // of the bind: its report and warnings stand on every output
 };
 
@@ -222,6 +226,22 @@ Status vtkPoseAlgorithm::Execute(
     polydata->GetPointData()->SetNormals(to_normals(normals.points, rest));
   }
 
+  Status stretch;
+  if (this->StretchLimit != 0.0)
+  {
+    Phase phase(context, "stretch", 1.0, 1.0);
+    if (!bound.elements)
+    {
+      bound.elements = to_pose_elements(mesh);
+    }
+    stretch = measure_stretch(context, { this->StretchLimit, this->StretchArray }, *bound.elements,
+      bound.points.view(), posed.points, result);
+    if (!stretch.ok())
+    {
+      return stretch;
+    }
+  }
+
   Status total = deformed;
   Report report;
   report.set("counts.vertices", static_cast<int>(mesh->GetNumberOfPoints()));
@@ -229,7 +249,9 @@ Status vtkPoseAlgorithm::Execute(
   report.set("binds", this->NumberOfBinds);
   report.merge(bound.status.report);
   report.merge(deformed.report);
+  report.merge(stretch.report);
   total.report = report;
+  total.warnings.insert(total.warnings.end(), stretch.warnings.begin(), stretch.warnings.end());
   // A bind's warnings are said once, when it is made.
   if (bind)
   {
@@ -276,5 +298,7 @@ void vtkPoseAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "ArrayName: " << this->ArrayName << "\n";
+  os << indent << "StretchLimit: " << this->StretchLimit << "\n";
+  os << indent << "StretchArray: " << this->StretchArray << "\n";
   os << indent << "NumberOfBinds: " << this->NumberOfBinds << "\n";
 }

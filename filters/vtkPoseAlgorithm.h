@@ -15,6 +15,12 @@
  * told by their own modification times, or a bind parameter of the filter. GetNumberOfBinds()
  * counts.
  *
+ * **Stretch.** The report of every pose says how much it stretches the mesh's tets, or its
+ * triangles where there are none (cells of other kinds are split): counts.elements,
+ * counts.inverted_elements (turned inside out; of triangles only in flat shapes, z = const),
+ * counts.stretched_elements (beyond StretchLimit), largest_stretch and smallest_stretch (singular
+ * values of the deformation gradient, 1 at rest). Inverted elements are a warning.
+ *
  * **Errors**: no mesh, no handles, no array of that name, an array with another number of tuples
  * than points or of components than handles, a component that is named after another handle than
  * its own, weights that are not finite. Rows that do not sum to one are a warning.
@@ -41,6 +47,26 @@ public:
   /// Name of the point array of weights. Default "Weights". A bind parameter.
   void SetArrayName(const std::string& name);
   std::string GetArrayName() { return this->ArrayName; }
+  ///@}
+
+  ///@{
+  /**
+   * An element counts as stretched when some direction in it becomes more than StretchLimit times
+   * as long, or less than 1 / StretchLimit. Default 2; at least 1, or 0: elements are not looked
+   * at, which saves about 60 ns a tet and 40 ns a triangle, several times what skinning takes.
+   */
+  vtkSetMacro(StretchLimit, double);
+  vtkGetMacro(StretchLimit, double);
+  ///@}
+
+  ///@{
+  /**
+   * Whether the output gets the cell array `Stretch`: the largest and the smallest stretch of each
+   * cell, the smallest less than zero where it is inverted. Default off; needs a StretchLimit.
+   */
+  vtkSetMacro(StretchArray, bool);
+  vtkGetMacro(StretchArray, bool);
+  vtkBooleanMacro(StretchArray, bool);
   ///@}
 
   /// How often Bind() has run.
@@ -103,6 +129,8 @@ private:
   void operator=(const vtkPoseAlgorithm&) = delete;
 
   std::string ArrayName = "Weights";
+  double StretchLimit = 2.0;
+  bool StretchArray = false;
   int NumberOfBinds = 0;
   vtkTimeStamp BindTime;
   struct Cache;

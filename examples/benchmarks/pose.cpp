@@ -4,6 +4,7 @@
 // so that no solver is waited for.
 #include "surfaces.h"
 
+#include "pose/element_stretch.h"
 #include "pose/full_arap.h"
 #include "pose/reduced_arap.h"
 #include "pose/rotation_fit.h"
@@ -12,6 +13,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace
@@ -241,6 +243,58 @@ BENCHMARK(skinning)
   ->ArgNames({ "handles", "dual", "single" })
   ->ArgsProduct({ { 5, 20, 50 }, { 0, 1 }, { 0, 1 } })
   ->Unit(benchmark::kMillisecond);
+
+/// What the report says of elements after each pose; a bend, so that few elements are alike.
+template <typename Elements>
+void measure(benchmark::State& state, const Points& rest, const Elements& elements)
+{
+  Points posed = rest;
+  for (Index v = 0; v < rest.rows(); ++v)
+  {
+    posed.row(v) = Eigen::AngleAxisd(rest(v, 0), Vec3::UnitZ()) * Vec3(rest.row(v));
+  }
+  ExecutionContext context;
+  context.set_threads(1);
+  ElementStretch stretch;
+  for (auto _ : state)
+  {
+    const Status status =
+      element_stretch(context, {}, rest, posed, MatrixView<Elements>(elements), stretch);
+    benchmark::DoNotOptimize(status.ok());
+  }
+  state.counters["elements"] = static_cast<double>(elements.rows());
+}
+
+void stretch_of_triangles(benchmark::State& state)
+{
+  const TriangleMesh mesh = benchmarks::bumpy_sphere(200000);
+  measure(state, mesh.points, mesh.triangles);
+}
+BENCHMARK(stretch_of_triangles)->Unit(benchmark::kMillisecond);
+
+/// A box of Kuhn's tets.
+void stretch_of_tets(benchmark::State& state)
+{
+  constexpr Index side = 45;
+  Points points((side + 1) * (side + 1) * (side + 1), 3);
+  Tets tets(6 * side * side * side, 4);
+  const Index step[3] = { 1, side + 1, (side + 1) * (side + 1) };
+  constexpr int order[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 1, 0, 2 }, { 0, 2, 1 },
+    { 2, 1, 0 } };
+  Index tet = 0;
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    const Index at[3] = { v % step[1], v / step[1] % (side + 1), v / step[2] };
+    points.row(v) = Vec3(at[0], at[1], at[2]).transpose() / static_cast<double>(side);
+    for (int k = 0; k < 6 && std::max({ at[0], at[1], at[2] }) < side; ++k, ++tet)
+    {
+      const Index one = v + step[order[k][0]], two = one + step[order[k][1]];
+      tets.row(tet) << v, one, two, two + step[order[k][2]];
+    }
+  }
+  measure(state, points, tets);
+}
+BENCHMARK(stretch_of_tets)->Unit(benchmark::kMillisecond);
 
 /// 1024 random 3x3 matrices; time per matrix is the time divided by 1024.
 void rotation_fit(benchmark::State& state)

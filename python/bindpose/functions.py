@@ -549,7 +549,8 @@ def _posed_handles(mesh, handles, pose, weights):
 
 def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, energy="auto", iterations=0,
            tolerance=1e-6, budget_us=0.0, extra_weights=0, extra_kind="bumps", times=None, order=2,
-           boundary="region", tangents="surroundings", threads=0, progress=None):
+           boundary="region", tangents="surroundings", stretch_limit=2.0, stretch_array=False, threads=0,
+           progress=None):
     """Bend a mesh with weights to a pose, or to a sequence of poses.
 
     Parameters
@@ -592,6 +593,13 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
         Of a pose with expressions: seconds at which to take it; without, 0.
     order, boundary, tangents
         Of variational: see `fair`.
+    stretch_limit : float
+        The report counts elements that become more than this many times as long in some direction, or less than one
+        over this (``counts.stretched_elements``), and those turned inside out (``counts.inverted_elements``, a
+        warning), with ``largest_stretch`` and ``smallest_stretch``; 0: it does not look at them.
+    stretch_array : bool
+        For a dataset: add the cell array ``Stretch``, the largest and the smallest stretch of each cell, the smallest
+        below 0 where it is inside out.
     threads, progress
         See `winding_number`.
 
@@ -614,6 +622,8 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
                                (order, boundary, tangents))
     bender.SetInputData(0, data)
     bender.SetInputConnection(1, poser.GetOutputPort())
+    bender.SetStretchLimit(stretch_limit)
+    bender.SetStretchArray(stretch_array)
     bender.SetNumberOfThreads(threads)
     results = []
     run(poser)

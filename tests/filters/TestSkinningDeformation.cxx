@@ -359,3 +359,90 @@ TEST_F(SkinningDeformation, InSinglePrecisionWithFewInfluencesSaysWhatItDropped)
   this->filter->Update();
   EXPECT_NE(this->error.find("smallest weight"), std::string::npos) << this->error;
 }
+
+TEST_F(SkinningDeformation, ReportsWhatIsInsideOutAndStretched)
+{
+  // The upper half goes down through the lower one.
+  const TetMesh box = test::tet_box(2, 2, 8, Vec3(-1, -1, -1), Vec3(1, 1, 1));
+  const auto grid = to_unstructured_grid(box.points, box.tets);
+  grid->GetPointData()->AddArray(weights_of(box.points));
+  this->filter->SetInputData(0, grid);
+  this->filter->Update();
+  Report report = read_report(this->filter->GetOutput());
+  EXPECT_EQ(report.number("counts.elements", 0), 192);
+  EXPECT_EQ(report.number("counts.inverted_elements", -1), 0);
+  EXPECT_EQ(report.number("counts.stretched_elements", -1), 0);
+  EXPECT_NEAR(report.number("largest_stretch", 0), 1.0, 1e-12);
+  EXPECT_EQ(this->filter->GetOutput()->GetCellData()->GetArray("Stretch"), nullptr);
+
+  this->pose->SetPoseJSON(R"({"handles": {"upper": {"translate": [0, 0, -3]}}})");
+  this->filter->StretchArrayOn();
+  this->filter->Update();
+  // Between z = -1/2 and 1/2 z becomes z - 3 (z + 1/2): half of the tets, each -2 times as long.
+  report = read_report(this->filter->GetOutput());
+  EXPECT_EQ(report.number("counts.inverted_elements", 0), 96);
+  EXPECT_EQ(report.number("counts.stretched_elements", -1), 0) << "not beyond twice";
+  EXPECT_NEAR(report.number("largest_stretch", 0), 2.0, 1e-12);
+  EXPECT_NEAR(report.number("smallest_stretch", 0), 1.0, 1e-12);
+  EXPECT_NE(this->error.find("turns 96 of 192 tets inside out"), std::string::npos) << this->error;
+  vtkDataArray* stretch = this->filter->GetOutput()->GetCellData()->GetArray("Stretch");
+  ASSERT_NE(stretch, nullptr);
+  int inverted = 0;
+  for (vtkIdType c = 0; c < stretch->GetNumberOfTuples(); ++c)
+  {
+    inverted += stretch->GetComponent(c, 1) < 0.0 ? 1 : 0;
+    EXPECT_NEAR(std::abs(stretch->GetComponent(c, 1)), 1.0, 1e-12);
+  }
+  EXPECT_EQ(inverted, 96);
+  this->filter->SetStretchLimit(1.5);
+  this->filter->Update();
+  report = read_report(this->filter->GetOutput());
+  EXPECT_EQ(report.number("counts.stretched_elements", 0), 96);
+
+  this->filter->SetStretchLimit(0.0);
+  this->error.clear();
+  this->filter->Update();
+  EXPECT_EQ(this->error, "");
+  EXPECT_EQ(read_report(this->filter->GetOutput()).find("counts.elements"), nullptr);
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
+  this->filter->SetStretchLimit(0.5);
+  this->filter->Update();
+  EXPECT_NE(this->error.find("must be at least 1"), std::string::npos) << this->error;
+}
+
+TEST_F(SkinningDeformation, StretchOfHexesAndPolygonsIsThatOfTheirParts)
+{
+  vtkNew<vtkUnstructuredGrid> grid;
+  vtkNew<vtkPoints> points;
+  for (int v = 0; v < 8; ++v)
+  {
+    points->InsertNextPoint(v & 1, v >> 1 & 1, v >> 2);
+  }
+  grid->SetPoints(points);
+  const vtkIdType line[2] = { 0, 1 };
+  const vtkIdType hex[8] = { 0, 1, 3, 2, 4, 5, 7, 6 };
+  grid->InsertNextCell(VTK_LINE, 2, line);
+  grid->InsertNextCell(VTK_HEXAHEDRON, 8, hex);
+  vtkNew<vtkDoubleArray> weights;
+  weights->SetName("Weights");
+  weights->SetNumberOfComponents(2);
+  weights->SetNumberOfTuples(8);
+  for (int v = 0; v < 8; ++v)
+  {
+    weights->SetTuple2(v, v < 4, v >= 4);
+  }
+  grid->GetPointData()->AddArray(weights);
+  this->filter->SetInputData(0, grid);
+  this->filter->StretchArrayOn();
+  this->pose->SetPoseJSON(R"({"handles": {"upper": {"translate": [0, 0, 2]}}})");
+  this->filter->Update();
+  const Report report = read_report(this->filter->GetOutput());
+  EXPECT_EQ(report.number("counts.elements", 0), 5) << "tets of a hex";
+  EXPECT_EQ(report.number("counts.stretched_elements", 0), 5);
+  EXPECT_NEAR(report.number("largest_stretch", 0), 3.0, 1e-12);
+  EXPECT_NEAR(report.number("smallest_stretch", 0), 1.0, 1e-12);
+  vtkDataArray* stretch = this->filter->GetOutput()->GetCellData()->GetArray("Stretch");
+  EXPECT_TRUE(std::isnan(stretch->GetComponent(0, 0)));
+  EXPECT_NEAR(stretch->GetComponent(1, 0), 3.0, 1e-12);
+  EXPECT_NEAR(stretch->GetComponent(1, 1), 1.0, 1e-12);
+}

@@ -26,6 +26,9 @@ Deformation::Deformation()
     filter->AddObserver(vtkCommand::ErrorEvent, quiet);
     filter->AddObserver(vtkCommand::WarningEvent, quiet);
   }
+  // A drag shows what it stretches; nobody reads its report.
+  this->skinning_->SetStretchLimit(0.0);
+  this->arap_->SetStretchLimit(0.0);
 }
 
 Deformation::~Deformation() = default;

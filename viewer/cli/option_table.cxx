@@ -294,6 +294,12 @@ const std::vector<Verb>& verbs()
           "morph target; auto: joints for lbs, morph for all others" },
         { "--gltf-influences", "N", Kind::integer, "0", "",
           "of .glb and .gltf: weights of a vertex that are written, the largest; 0: all" },
+        { "--stretch-limit", "NUMBER", Kind::number, "2", "",
+          "the report counts elements that become more than this many times as long in some "
+          "direction, or less than one over this, and those turned inside out; 0: it does not" },
+        { "--stretch-array", "", Kind::flag, "", "",
+          "write the cell array Stretch: the largest and the smallest stretch of each cell, the "
+          "smallest below 0 where it is inside out" },
         { "-o,--output", "OUT", Kind::text, "", "",
           "mesh file; a sequence gives OUT_0000, OUT_0001, … and OUT.pvd; .glb or .gltf: the rest "
           "mesh with its joints, posed or animated, in one file",

@@ -54,7 +54,7 @@ vtkSmartPointer<Filter> make_arap(const Arguments& arguments)
   return arap;
 }
 
-vtkSmartPointer<vtkBindposeAlgorithm> make_variational(const Arguments& arguments)
+vtkSmartPointer<vtkPoseAlgorithm> make_variational(const Arguments& arguments)
 {
   auto surface = vtkSmartPointer<vtkVariationalSurface>::New();
   const std::string boundary = arguments.text("boundary"), tangents = arguments.text("tangents");
@@ -80,7 +80,7 @@ vtkSmartPointer<Filter> make_reduced(const Arguments& arguments)
   return arap;
 }
 
-vtkSmartPointer<vtkBindposeAlgorithm> make_reduced_arap(const Arguments& arguments)
+vtkSmartPointer<vtkPoseAlgorithm> make_reduced_arap(const Arguments& arguments)
 {
   const auto arap = make_reduced<vtkReducedARAP>(arguments);
   arap->SetTimeBudget(arguments.number("budget-us"));
@@ -107,7 +107,7 @@ bool to_vector(const std::string& text, double (&vector)[3])
     std::isfinite(vector[2]);
 }
 
-vtkSmartPointer<vtkBindposeAlgorithm> make_deformation(const Arguments& arguments)
+vtkSmartPointer<vtkPoseAlgorithm> make_deformation(const Arguments& arguments)
 {
   const std::string method = arguments.text("method");
   if (method == "mls")
@@ -280,8 +280,10 @@ void run_deform(Session& session)
     body = make_dynamics(arguments);
     body->SetGravity(gravity);
   }
-  const vtkSmartPointer<vtkBindposeAlgorithm> deformation =
-    dynamic ? vtkSmartPointer<vtkBindposeAlgorithm>(body) : make_deformation(arguments);
+  const vtkSmartPointer<vtkPoseAlgorithm> deformation =
+    dynamic ? vtkSmartPointer<vtkPoseAlgorithm>(body) : make_deformation(arguments);
+  deformation->SetStretchLimit(arguments.number("stretch-limit"));
+  deformation->SetStretchArray(arguments.has("stretch-array"));
   // What goes wrong with a pose on the way, the filter behind it says as well.
   vtkNew<vtkCallbackCommand> quiet;
   quiet->SetCallback([](vtkObject*, unsigned long, void*, void*) {});

@@ -144,6 +144,46 @@ DualQuaternion dual_quaternion_of(const Eigen::Matrix3d& rotation, const Vec3& t
   return d;
 }
 
+/// A linear map as a rotation after a shear; without shear the rotation is the map, bit for bit.
+struct SplitMap
+{
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d shear; ///< less the identity
+};
+
+SplitMap split(const Eigen::Matrix3d& linear)
+{
+  SplitMap map;
+  fit_rotation(linear.transpose(), map.rotation);
+  map.shear = map.rotation.transpose() * linear - Eigen::Matrix3d::Identity();
+  if (map.shear.norm() <= 1e-14)
+  {
+    map.shear.setZero();
+    map.rotation = linear; // rigid already; the fit would only round it
+  }
+  return map;
+}
+
+/// Signs by which quaternions are blended as their references'; left empty where all agree.
+template <typename Scalar>
+void set_signs(const std::vector<DualQuaternion>& motions, BlendValues<Scalar, 8>& quaternions)
+{
+  bool any_flip = false;
+  for (const DualQuaternion& of_column : motions)
+  {
+    for (const DualQuaternion& of_reference : motions)
+    {
+      const bool flip = of_column.real.dot(of_reference.real) < 0.0;
+      any_flip = any_flip || flip;
+      quaternions.signs.push_back(flip ? quaternions.sign_bit : 0);
+    }
+  }
+  if (!any_flip)
+  {
+    quaternions.signs.clear();
+  }
+}
+
 /// What is kept of a row, and what it is multiplied by.
 class KeptRow
 {
@@ -580,16 +620,8 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
   bool any_shear = false;
   for (std::size_t j = 0; j < transforms.size(); ++j)
   {
-    const Eigen::Matrix3d linear = transforms[j].leftCols<3>();
     const Vec3 c = pivots.row(static_cast<Index>(j));
-    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-    fit_rotation(linear.transpose(), rotation);
-    Eigen::Matrix3d shear = rotation.transpose() * linear - Eigen::Matrix3d::Identity();
-    if (shear.norm() <= 1e-14)
-    {
-      shear.setZero();
-      rotation = linear; // rigid already; the fit would only round it
-    }
+    const auto [rotation, shear] = split(transforms[j].leftCols<3>());
     any_shear = any_shear || !shear.isZero(0.0);
     shears[j].leftCols<3>() = Eigen::Matrix3d::Identity() + shear;
     shears[j].col(3) = -shear * c;
@@ -602,20 +634,7 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
         static_cast<Scalar>(e < 4 ? motions[j].real[e] : motions[j].dual[e - 4]));
     }
   }
-  bool any_flip = false;
-  for (const DualQuaternion& of_column : motions)
-  {
-    for (const DualQuaternion& of_reference : motions)
-    {
-      const bool flip = of_column.real.dot(of_reference.real) < 0.0;
-      any_flip = any_flip || flip;
-      quaternions.signs.push_back(flip ? quaternions.sign_bit : 0);
-    }
-  }
-  if (!any_flip)
-  {
-    quaternions.signs.clear();
-  }
+  set_signs(motions, quaternions);
   const auto shear_moves = displacements<Scalar>(shears, centre);
   posed.resize(rest.rows(), 3);
   return parallel_for(context, rest.rows(), block_size,
@@ -695,6 +714,116 @@ Status Skinning::dual_quaternion_normals(ExecutionContext& context, PointsView r
   const bool done = this->single_
     ? this->blend_dual<float>(context, rest_normals, transforms, pivots, true, posed_normals)
     : this->blend_dual<double>(context, rest_normals, transforms, pivots, true, posed_normals);
+  return done ? status : Status::cancelled();
+}
+
+/// @param centres null: rest are normals.
+template <typename Scalar>
+bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
+  const std::vector<Affine>& transforms, const PointsView* centres, Points& posed) const
+{
+  const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
+  constexpr Index lanes = WeightTiles<Scalar>::lanes;
+  const Vec3 middle = centres ? centre_of(*centres) : Vec3::Zero();
+  const auto moves = displacements<Scalar>(transforms, middle);
+  std::vector<Affine> shears;
+  std::vector<DualQuaternion> motions;
+  BlendValues<Scalar, 8> quaternions; // without their dual parts
+  bool any_shear = false;
+  for (const Affine& transform : transforms)
+  {
+    const SplitMap map = split(transform.leftCols<3>());
+    any_shear = any_shear || !map.shear.isZero(0.0);
+    shears.push_back(identity_affine());
+    shears.back().leftCols<3>() += map.shear;
+    motions.push_back(dual_quaternion_of(map.rotation, Vec3::Zero()));
+    for (int e = 0; e < 8; ++e)
+    {
+      quaternions.values.push_back(static_cast<Scalar>(e < 4 ? motions.back().real[e] : 0.0));
+    }
+  }
+  set_signs(motions, quaternions);
+  const auto shear_moves = displacements<Scalar>(shears, Vec3::Zero());
+  posed.resize(rest.rows(), 3);
+  return parallel_for(context, rest.rows(), block_size,
+    [&](Index begin, Index end)
+    {
+      BlendedTile<Scalar, 12> moved, sheared;
+      BlendedTile<Scalar, 8> turned;
+      for (Index v = begin; v < end; v += lanes)
+      {
+        const Index count = std::min(lanes, end - v);
+        blend_tile(tiles, v / lanes, quaternions, this->references_.data() + v, turned);
+        if (any_shear)
+        {
+          blend_tile(tiles, v / lanes, shear_moves, nullptr, sheared);
+        }
+        if (centres)
+        {
+          blend_tile(tiles, v / lanes, moves, nullptr, moved);
+        }
+        for (Index i = 0; i < count; ++i)
+        {
+          Eigen::Vector4d q(
+            turned.sums[0][i], turned.sums[1][i], turned.sums[2][i], turned.sums[3][i]);
+          const double length = q.norm();
+          q = length > 1e-300 ? Eigen::Vector4d(q / length) : Eigen::Vector4d(0, 0, 0, 1);
+          const Vec3 axis = q.head<3>();
+          const Eigen::Matrix3d shear = any_shear
+            ? Eigen::Matrix3d(affine_of(sheared, i).template leftCols<3>())
+            : Eigen::Matrix3d(Eigen::Matrix3d::Zero());
+          if (!centres)
+          {
+            const Eigen::Matrix3d linear =
+              Eigen::Quaterniond(q).toRotationMatrix() * (Eigen::Matrix3d::Identity() + shear);
+            posed.row(v + i) = turned_normal(linear, Vec3(rest.row(v + i))).transpose();
+            continue;
+          }
+          // Displacements all along: what does not move adds exactly nothing.
+          const Vec3 centre = centres->row(v + i);
+          const Affine move = affine_of(moved, i);
+          const Vec3 arm = rest.row(v + i).transpose() - centre;
+          const Vec3 longer = shear * arm;
+          const Vec3 across = axis.cross(arm + longer);
+          posed.row(v + i) = rest.row(v + i) +
+            (move.leftCols<3>() * (centre - middle) + move.col(3) + longer +
+              2.0 * (q[3] * across + axis.cross(across)))
+              .transpose();
+        }
+      }
+    });
+}
+
+Status Skinning::about_centres(ExecutionContext& context, PointsView rest,
+  const std::vector<Affine>& transforms, PointsView centres, Points& posed) const
+{
+  Status status = this->check(rest, transforms);
+  if (status.ok() && centres.rows() != rest.rows())
+  {
+    status = Status::invalid_input("there are " + std::to_string(centres.rows()) +
+      " centres of rotation for " + std::to_string(rest.rows()) + " vertices");
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  const bool done = this->single_
+    ? this->blend_about<float>(context, rest, transforms, &centres, posed)
+    : this->blend_about<double>(context, rest, transforms, &centres, posed);
+  return done ? status : Status::cancelled();
+}
+
+Status Skinning::about_centres_normals(ExecutionContext& context, PointsView rest_normals,
+  const std::vector<Affine>& transforms, Points& posed_normals) const
+{
+  const Status status = this->check(rest_normals, transforms);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const bool done = this->single_
+    ? this->blend_about<float>(context, rest_normals, transforms, nullptr, posed_normals)
+    : this->blend_about<double>(context, rest_normals, transforms, nullptr, posed_normals);
   return done ? status : Status::cancelled();
 }
 

@@ -85,6 +85,17 @@ public:
   Status dual_quaternion_normals(ExecutionContext& context, PointsView rest_normals,
     const std::vector<Affine>& transforms, PointsView pivots, Points& posed_normals) const;
 
+  /// Skinning about centres of rotation (Le and Hodgins 2016): a vertex turns by the handles'
+  /// blended quaternions (signs as in dual_quaternion) about its centre, which moves by
+  /// linear_blend. A scale and shear of a transform is blended linearly and comes before the turn.
+  /// So a twist keeps its radius where the centre lies on the axis, and a bent joint does not bulge
+  /// as dual quaternions make it. Exact for one affine map of all handles.
+  /// @param centres #V x 3 at rest, from rotation_centres().
+  Status about_centres(ExecutionContext& context, PointsView rest,
+    const std::vector<Affine>& transforms, PointsView centres, Points& posed) const;
+  Status about_centres_normals(ExecutionContext& context, PointsView rest_normals,
+    const std::vector<Affine>& transforms, Points& posed_normals) const;
+
   /// Stretchable, twistable bones (Jacobson and Sorkine 2011): a bone first moves a point by
   /// K (p - a) + e (stretch - 1) (b - a) from its head a on, where K turns about the bone by the
   /// angle between both ends' twists at the endpoint weight e (0 at the head, 1 at the tail); then
@@ -117,6 +128,9 @@ private:
   template <typename Scalar>
   bool blend_dual(ExecutionContext& context, PointsView rest, const std::vector<Affine>& transforms,
     PointsView pivots, bool normals, Points& posed) const;
+  template <typename Scalar>
+  bool blend_about(ExecutionContext& context, PointsView rest,
+    const std::vector<Affine>& transforms, const PointsView* centres, Points& posed) const;
   template <typename Scalar>
   bool add_changes(ExecutionContext& context, PointsView rest,
     const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,

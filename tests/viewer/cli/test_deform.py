@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import shapes
 from bindpose.meshes import add_point_array, points_of, to_dataset
+from vtkmodules.util import numpy_support
 
 METHODS = ["lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls"]
 
@@ -209,3 +210,17 @@ def test_extra_weights(bar):
         report = deform(bar, shapes.BENT, "--extra-weights", "3", "--extra-kind", kind, "--overwrite", "--report", "-",
                         method="reduced-arap").is_good().report
         assert report["counts"]["extra_weights"] == 3
+
+
+def test_what_is_stretched_is_in_the_report_and_a_cell_array(bar):
+    longer = {"handles": {"b2": {"translate": [18, 0, 0]}}}  # x becomes 4 x
+    report = deform(bar, longer, "--report", "-", "--stretch-array").is_good().report
+    assert report["counts"]["inverted_elements"] == 0
+    assert 0 < report["counts"]["stretched_elements"] < report["counts"]["elements"]  # not both ends
+    assert report["largest_stretch"] == pytest.approx(4)
+    stretch = numpy_support.vtk_to_numpy(bindpose.read(bar / "out.vtp").GetCellData().GetArray("Stretch"))
+    assert stretch.max() == pytest.approx(4) and stretch.min() == pytest.approx(1)
+    report = deform(bar, longer, "--report", "-", "--overwrite", "--stretch-limit", 5).is_good().report
+    assert report["counts"]["stretched_elements"] == 0
+    report = deform(bar, longer, "--report", "-", "--overwrite", "--stretch-limit", 0).is_good().report
+    assert "largest_stretch" not in report

@@ -1,0 +1,316 @@
+// Rotations at point handles from where they are dragged (Jacobson et al. 2011, Bounded Biharmonic
+// Weights, section 5): a person drags points, and edges between them, which bend nothing, tell how
+// far each of its ends turns.
+#include "pose/pseudo_edges.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <queue>
+#include <tuple>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Vertices side by side with their neighbours: those of v are to[start[v]] to to[start[v + 1]].
+struct Neighbours
+{
+  std::vector<Index> start, to;
+};
+
+/// Each edge as often as elements use it; that changes no shortest way.
+template <typename Elements>
+Neighbours neighbours_of(Index vertices, const Elements& elements)
+{
+  Neighbours list;
+  const Index others = elements.cols() - 1;
+  list.start.assign(static_cast<std::size_t>(vertices) + 1, 0);
+  for (Index k = 0; k < elements.size(); ++k)
+  {
+    list.start[static_cast<std::size_t>(elements.data()[k]) + 1] += others;
+  }
+  std::partial_sum(list.start.begin(), list.start.end(), list.start.begin());
+  list.to.resize(static_cast<std::size_t>(list.start.back()));
+  std::vector<Index> next(list.start.begin(), list.start.end() - 1);
+  for (Index e = 0; e < elements.rows(); ++e)
+  {
+    for (Index a = 0; a < elements.cols(); ++a)
+    {
+      for (Index b = 0; b < elements.cols(); ++b)
+      {
+        if (a != b)
+        {
+          Index& at = next[static_cast<std::size_t>(elements(e, a))];
+          list.to[static_cast<std::size_t>(at++)] = elements(e, b);
+        }
+      }
+    }
+  }
+  return list;
+}
+
+/// The nearest vertex that an element uses; -1: there is none.
+Index nearest_vertex(PointsView points, const Neighbours& neighbours, const Vec3& to)
+{
+  Index nearest = -1;
+  double least = std::numeric_limits<double>::infinity();
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    const double distance = (points.row(v).transpose() - to).squaredNorm();
+    const auto at = static_cast<std::size_t>(v);
+    if (neighbours.start[at] < neighbours.start[at + 1] && distance < least)
+    {
+      least = distance;
+      nearest = v;
+    }
+  }
+  return nearest;
+}
+
+/// A way from one handle to another, first by its length.
+using Way = std::tuple<double, Index, Index>;
+
+Way way(double length, Index a, Index b)
+{
+  return { length, std::min(a, b), std::max(a, b) };
+}
+
+/// The shortest ways that join all that can be joined (Kruskal).
+PseudoEdges spanning_tree(std::vector<Way> ways, std::size_t handles)
+{
+  std::sort(ways.begin(), ways.end());
+  std::vector<Index> part(handles);
+  std::iota(part.begin(), part.end(), Index(0));
+  PseudoEdges edges;
+  for (const auto& [length, a, b] : ways)
+  {
+    const Index from = part[static_cast<std::size_t>(a)], to = part[static_cast<std::size_t>(b)];
+    if (from != to)
+    {
+      edges.push_back({ a, b });
+      std::replace(part.begin(), part.end(), to, from);
+    }
+  }
+  return edges;
+}
+
+template <typename Elements>
+Status find_edges(ExecutionContext& context, PointsView points, const Elements& elements,
+  const Handles& handles, PseudoEdges& edges)
+{
+  edges.clear();
+  const Status valid = check_mesh(points, elements);
+  if (!valid.ok())
+  {
+    return valid;
+  }
+  const Neighbours neighbours = neighbours_of(points.rows(), elements);
+  const auto size = static_cast<std::size_t>(points.rows());
+  std::vector<double> distance(size, std::numeric_limits<double>::infinity());
+  std::vector<Index> owner(size, -1);
+  std::vector<Way> ways;
+  using Reached = std::tuple<double, Index, Index>; // distance, handle, vertex
+  std::priority_queue<Reached, std::vector<Reached>, std::greater<Reached>> front;
+  Index count = 0;
+  for (std::size_t h = 0; h < handles.size(); ++h)
+  {
+    if (handles[h].kind != HandleKind::point)
+    {
+      continue;
+    }
+    const Index vertex = nearest_vertex(points, neighbours, handles[h].head);
+    if (vertex >= 0)
+    {
+      count += 1;
+      front.emplace(
+        (points.row(vertex).transpose() - handles[h].head).norm(), static_cast<Index>(h), vertex);
+    }
+  }
+  Index steps = 0;
+  while (!front.empty())
+  {
+    const auto [length, handle, v] = front.top();
+    front.pop();
+    const auto at = static_cast<std::size_t>(v);
+    if (owner[at] >= 0)
+    {
+      if (owner[at] != handle) // two handles at one vertex, or met on the way
+      {
+        ways.push_back(way(distance[at] + length, owner[at], handle));
+      }
+      continue;
+    }
+    owner[at] = handle;
+    distance[at] = length;
+    for (Index k = neighbours.start[at]; k < neighbours.start[at + 1]; ++k)
+    {
+      const Index u = neighbours.to[static_cast<std::size_t>(k)];
+      const auto next = static_cast<std::size_t>(u);
+      const double farther = length + (points.row(u) - points.row(v)).norm();
+      if (owner[next] < 0)
+      {
+        if (farther < distance[next])
+        {
+          distance[next] = farther;
+          front.emplace(farther, handle, u);
+        }
+      }
+      else if (owner[next] != handle)
+      {
+        ways.push_back(way(farther + distance[next], owner[next], handle));
+      }
+    }
+    if (++steps % 1024 == 0)
+    {
+      context.progress(static_cast<double>(steps) / static_cast<double>(points.rows()));
+      if (context.cancelled())
+      {
+        return Status::cancelled();
+      }
+    }
+  }
+  edges = spanning_tree(std::move(ways), handles.size());
+  Status status;
+  if (edges.empty())
+  {
+    status.warnings.push_back(count < 2
+        ? "automatic pseudo-edges join point handles on the mesh, of which there are " +
+          std::to_string(count)
+        : "there are no automatic pseudo-edges: no two point handles are on the same part of the "
+          "mesh");
+  }
+  return status;
+}
+
+/// What the edges at a handle say.
+struct Turn
+{
+  Eigen::Vector4d quaternion = Eigen::Vector4d::Zero(); // sum
+  double ratio = 0.0; // sum
+  Index edges = 0;
+
+  void add(const Vec3& rest, const Vec3& posed)
+  {
+    const double from = rest.stableNorm(), to = posed.stableNorm();
+    if (!(from > 0.0 && to > 0.0))
+    {
+      return; // an edge without length looks nowhere
+    }
+    const Eigen::Vector4d q = least_rotation(rest, posed).coeffs();
+    this->quaternion += this->edges > 0 && q.dot(this->first) < 0.0 ? Eigen::Vector4d(-q) : q;
+    this->first = this->edges > 0 ? this->first : q;
+    this->ratio += to / from;
+    this->edges += 1;
+  }
+
+private:
+  Eigen::Vector4d first = Eigen::Vector4d::Zero();
+};
+} // namespace
+
+Status check_pseudo_edges(const Handles& handles, const PseudoEdges& edges)
+{
+  const auto is_point = [&](Index h)
+  {
+    return h >= 0 && h < static_cast<Index>(handles.size()) &&
+      handles[static_cast<std::size_t>(h)].kind == HandleKind::point;
+  };
+  for (std::size_t e = 0; e < edges.size(); ++e)
+  {
+    const auto [a, b] = edges[e];
+    if (!is_point(a) || !is_point(b) || a == b)
+    {
+      return Status::invalid_input(
+        "pseudo-edge " + std::to_string(e) + " does not join two different points");
+    }
+  }
+  return {};
+}
+
+Status automatic_pseudo_edges(ExecutionContext& context, PointsView points, TetsView tets,
+  const Handles& handles, PseudoEdges& edges)
+{
+  return find_edges(context, points, tets, handles, edges);
+}
+
+Status automatic_pseudo_edges(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const Handles& handles, PseudoEdges& edges)
+{
+  return find_edges(context, points, triangles, handles, edges);
+}
+
+Eigen::Quaterniond least_rotation(const Vec3& from, const Vec3& to)
+{
+  const Vec3 u = from.stableNormalized(), v = to.stableNormalized();
+  if (u.isZero(0.0) || v.isZero(0.0) || u == v)
+  {
+    return Eigen::Quaterniond::Identity();
+  }
+  const Vec3 sum = u + v;
+  Vec3 axis = u.cross(v);
+  if (axis.isZero(0.0) && u.dot(v) > 0.0)
+  {
+    return Eigen::Quaterniond::Identity();
+  }
+  if (axis.isZero(0.0))
+  {
+    Index farthest = 2;
+    for (const Index k : { 1, 0 })
+    {
+      farthest = std::abs(u[k]) < std::abs(u[farthest]) ? k : farthest;
+    }
+    axis = Vec3::Unit(farthest) - u[farthest] * u;
+  }
+  // Half the angle's cosine and sine are half the sum's and half the difference's length.
+  Eigen::Quaterniond q;
+  q.w() = 0.5 * sum.norm();
+  q.vec() = 0.5 * (u - v).norm() * axis.stableNormalized();
+  q.normalize();
+  return q;
+}
+
+void turn_by_pseudo_edges(
+  const Handles& handles, const PseudoEdges& edges, bool stretch, Pose& pose)
+{
+  Points posed(static_cast<Index>(handles.size()), 3);
+  for (std::size_t h = 0; h < handles.size(); ++h)
+  {
+    const Vec3 pivot = handles[h].head;
+    const Vec3 moved = pose[h].transform * pivot.homogeneous();
+    posed.row(static_cast<Index>(h)) = pose[h].mode == HandleMode::free ? pivot : moved;
+  }
+  std::vector<Turn> turns(handles.size());
+  for (const auto& [a, b] : edges)
+  {
+    const Vec3 rest =
+      handles[static_cast<std::size_t>(b)].head - handles[static_cast<std::size_t>(a)].head;
+    const Vec3 now = (posed.row(b) - posed.row(a)).transpose();
+    turns[static_cast<std::size_t>(a)].add(rest, now);
+    turns[static_cast<std::size_t>(b)].add(rest, now);
+  }
+  for (std::size_t h = 0; h < handles.size(); ++h)
+  {
+    const Turn& turn = turns[h];
+    if (turn.edges == 0 || pose[h].mode == HandleMode::free)
+    {
+      continue;
+    }
+    // No sum is zero: all quaternions are within a right angle of the first.
+    const Eigen::Quaterniond q(Eigen::Vector4d(turn.quaternion.normalized()));
+    Eigen::Matrix3d linear = q.toRotationMatrix();
+    linear *= stretch ? turn.ratio / static_cast<double>(turn.edges) : 1.0;
+    if (pose[h].mode == HandleMode::full)
+    {
+      linear *= Eigen::Matrix3d(pose[h].transform.leftCols<3>());
+    }
+    pose[h].mode = HandleMode::full;
+    pose[h].transform.leftCols<3>() = linear;
+    pose[h].transform.col(3) =
+      posed.row(static_cast<Index>(h)).transpose() - linear * handles[h].head;
+  }
+}
+
+} // namespace bindpose

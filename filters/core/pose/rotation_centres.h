@@ -1,0 +1,46 @@
+#ifndef bindpose_pose_rotation_centres_h
+#define bindpose_pose_rotation_centres_h
+
+#include "base/execution.h"
+#include "base/mesh.h"
+
+namespace bindpose
+{
+
+struct RotationCentresOptions
+{
+  /// How alike weights must be to count, sigma of the paper; above 0. 0.1 by default.
+  double width = 0.1;
+  /// Weights below this count as zero, 0 to 1. 1e-4 by default: what a weight of that size turns
+  /// and moves is not seen, and most of weights without exact zeros goes away.
+  double smallest_weight = 1e-4;
+  /// Elements whose weights differ by no more than this are taken together, as one of their mean
+  /// weights at their centroid; 0: none but equals. 0.01 by default, a tenth of the width: centres
+  /// move by less than a thousandth of the shape.
+  double group_size = 0.01;
+};
+
+/// A centre of rotation for each vertex (Le and Hodgins 2016, Real-time skeletal skinning with
+/// optimized centers of rotation): the mean place of all of the shape whose weights are like the
+/// vertex's,
+///
+///     p(i) = integral of s(W_i, W_x) x dx / integral of s(W_i, W_x) dx,
+///     s(a, b) = sum over pairs j < k of a_j a_k b_j b_k exp(-((a_j b_k - a_k b_j) / width)^2).
+///
+/// The integral is over the elements, each with the mean of its corners' weights at its centroid.
+/// A vertex with less than two weights, to which nothing is similar, is its own centre: whatever
+/// the centre, it moves the same.
+///
+/// Cost: a vertex looks at the groups of elements that have two of its handles, about 2 ns each
+/// and pair of handles with AVX2. Memory: 48 bytes for each group and pair of handles it has.
+/// Report: counts.groups, counts.centers (vertices with one of their own). The same bits for any
+/// number of threads and on any machine. invalid_input for options out of range and weights that
+/// are not as many rows as points, or not finite; elements must be valid (check_mesh).
+Status rotation_centres(ExecutionContext& context, const RotationCentresOptions& options,
+  PointsView points, TetsView tets, WeightsView weights, Points& centres);
+Status rotation_centres(ExecutionContext& context, const RotationCentresOptions& options,
+  PointsView points, TrianglesView triangles, WeightsView weights, Points& centres);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,363 @@
+// Rotations from where points go: what motions imply, what an edge cannot see, and trees that
+// follow the shape.
+#include "pose/pseudo_edges.h"
+
+#include "pose/skinning.h"
+
+#include "support/meshes.h"
+
+#include <Eigen/Geometry>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace bindpose;
+
+namespace
+{
+const double pi = std::acos(-1.0);
+
+Handle point(const Vec3& at, Index number)
+{
+  Handle handle;
+  handle.name = "p" + std::to_string(number);
+  handle.head = handle.tail = at;
+  return handle;
+}
+
+Handles points(const std::vector<Vec3>& places)
+{
+  Handles handles;
+  for (const Vec3& place : places)
+  {
+    handles.push_back(point(place, static_cast<Index>(handles.size())));
+  }
+  return handles;
+}
+
+Eigen::Matrix3d rotation(double degrees, const Vec3& axis)
+{
+  return Eigen::AngleAxisd(degrees * pi / 180.0, axis.normalized()).toRotationMatrix();
+}
+
+/// Each handle's pivot goes where the motion takes it, nothing turns.
+Pose translations(
+  const Handles& handles, const Eigen::Matrix3d& turn, const Vec3& by = Vec3::Zero())
+{
+  Pose pose(handles.size());
+  for (std::size_t h = 0; h < handles.size(); ++h)
+  {
+    pose[h].mode = HandleMode::position;
+    pose[h].transform.col(3) = turn * handles[h].head + by - handles[h].head;
+  }
+  return pose;
+}
+
+Eigen::Matrix3d linear(const Pose& pose, std::size_t h)
+{
+  return pose[h].transform.leftCols<3>();
+}
+
+double difference(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b)
+{
+  return (a - b).cwiseAbs().maxCoeff();
+}
+
+const Handles corners =
+  points({ Vec3(0, 0, 0.5), Vec3(2, 0, 0.5), Vec3(2.5, 1, 0.5), Vec3(-0.3, 1.7, 0.5) });
+const PseudoEdges ring = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 } };
+} // namespace
+
+TEST(PseudoEdges, WhatStaysOrIsMovedAlongDoesNotTurn)
+{
+  Pose pose = translations(corners, Eigen::Matrix3d::Identity(), Vec3(3, -1, 2));
+  turn_by_pseudo_edges(corners, ring, true, pose);
+  for (std::size_t h = 0; h < corners.size(); ++h)
+  {
+    EXPECT_LT(difference(linear(pose, h), Eigen::Matrix3d::Identity()), 1e-15);
+    EXPECT_LT((pose[h].transform.col(3) - Vec3(3, -1, 2)).norm(), 1e-15);
+  }
+  Pose rest(corners.size());
+  turn_by_pseudo_edges(corners, ring, false, rest);
+  for (const HandlePose& one : rest)
+  {
+    EXPECT_EQ(one.transform, identity_affine()) << "no bit moves at rest";
+  }
+}
+
+TEST(PseudoEdges, ARigidMotionInThePlaneIsFoundExactly)
+{
+  for (const double degrees : { 1e-6, 30.0, 90.0, -135.0, 179.9, 180.0, -179.9 })
+  {
+    const Eigen::Matrix3d turn = rotation(degrees, Vec3(0, 0, 1));
+    Pose pose = translations(corners, turn, Vec3(0.2, 5, 0));
+    turn_by_pseudo_edges(corners, ring, false, pose);
+    for (std::size_t h = 0; h < corners.size(); ++h)
+    {
+      EXPECT_LT(difference(linear(pose, h), turn), 1e-13) << degrees;
+      EXPECT_LT((pose[h].transform.col(3) - Vec3(0.2, 5, 0)).norm(), 1e-12) << degrees;
+      EXPECT_EQ(pose[h].mode, HandleMode::full);
+    }
+  }
+}
+
+TEST(PseudoEdges, SkinningByTheRotationsOfARigidMotionIsThatMotion)
+{
+  const TriangleMesh mesh = test::grid(6, 6, 3.0, 2.0);
+  test::Random random(2);
+  Weights weights(mesh.points.rows(), 4);
+  for (Index v = 0; v < weights.rows(); ++v)
+  {
+    for (Index j = 0; j < 4; ++j)
+    {
+      weights(v, j) = random.uniform();
+    }
+    weights.row(v) /= weights.row(v).sum();
+  }
+  const Eigen::Matrix3d turn = rotation(110, Vec3(0, 0, 1));
+  Pose pose = translations(corners, turn);
+  turn_by_pseudo_edges(corners, ring, false, pose);
+  ExecutionContext context;
+  Skinning skinning;
+  ASSERT_TRUE(skinning.bind(context, weights).ok());
+  std::vector<Affine> transforms;
+  ASSERT_TRUE(skinning_transforms(corners, pose, transforms).warnings.empty());
+  Points posed;
+  ASSERT_TRUE(skinning.linear_blend(context, mesh.points, transforms, posed).ok());
+  EXPECT_LT((posed - mesh.points * turn.transpose()).cwiseAbs().maxCoeff(), 1e-13);
+}
+
+TEST(PseudoEdges, AnEdgeDoesNotSeeATurnAboutItself)
+{
+  const Handles pair = points({ Vec3(0, 0, 0), Vec3(0, 0, 1) });
+  Pose pose = translations(pair, rotation(70, Vec3(0, 0, 1)));
+  turn_by_pseudo_edges(pair, { { 0, 1 } }, false, pose);
+  EXPECT_EQ(pose[0].transform, identity_affine());
+  EXPECT_EQ(pose[1].transform, identity_affine());
+}
+
+TEST(PseudoEdges, OppositeDirectionsTurnAboutAFixedAxis)
+{
+  // In their plane where that is z = const.
+  EXPECT_LT(difference(
+              least_rotation(Vec3(1, 0, 0), Vec3(-2, 0, 0)).matrix(), rotation(180, Vec3(0, 0, 1))),
+    1e-15);
+  EXPECT_LT(difference(least_rotation(Vec3(3, -4, 0), Vec3(-3, 4, 0)).matrix(),
+              rotation(180, Vec3(0, 0, 1))),
+    1e-15);
+  test::Random random(9);
+  for (int k = 0; k < 200; ++k)
+  {
+    const Vec3 u = random.in_box(Vec3::Constant(-1), Vec3::Constant(1));
+    const Vec3 v = k % 2 ? Vec3(-u) : random.in_box(Vec3::Constant(-1), Vec3::Constant(1));
+    const Eigen::Quaterniond q = least_rotation(u, v);
+    EXPECT_NEAR(q.norm(), 1.0, 1e-15);
+    EXPECT_LT((q * u.normalized() - v.normalized()).norm(), 1e-14);
+    EXPECT_NEAR(q.angularDistance(Eigen::Quaterniond::Identity()),
+      std::acos(std::clamp(u.normalized().dot(v.normalized()), -1.0, 1.0)), 1e-7)
+      << "and no farther than it must";
+    EXPECT_EQ(q.coeffs(), least_rotation(u, v).coeffs());
+  }
+  for (const double tiny : { 1e-5, 1e-9, 1e-13 })
+  {
+    const Vec3 almost(-1, tiny, 0);
+    const Eigen::Quaterniond q = least_rotation(Vec3(1, 0, 0), almost);
+    EXPECT_LT((q * Vec3(1, 0, 0) - almost.normalized()).norm(), 1e-14) << tiny;
+  }
+}
+
+TEST(PseudoEdges, EdgesOfAHandleCountAlike)
+{
+  // The middle's edges turn by 0 and by 60 degrees: it turns by 30, its neighbours by their own.
+  const Handles row = points({ Vec3(-1, 0, 0), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(5, 5, 5) });
+  Pose pose(4);
+  const Vec3 end = rotation(60, Vec3(0, 0, 1)) * Vec3(1, 0, 0);
+  pose[2].transform.col(3) = end - Vec3(1, 0, 0);
+  pose[3].transform.leftCols<3>() = rotation(33, Vec3(1, 2, 3));
+  const Affine own = pose[3].transform;
+  turn_by_pseudo_edges(row, { { 0, 1 }, { 2, 1 } }, false, pose);
+  EXPECT_EQ(linear(pose, 0), Eigen::Matrix3d::Identity());
+  EXPECT_LT(difference(linear(pose, 1), rotation(30, Vec3(0, 0, 1))), 1e-15);
+  EXPECT_LT(difference(linear(pose, 2), rotation(60, Vec3(0, 0, 1))), 1e-15);
+  EXPECT_LT((pose[2].transform * Vec3(1, 0, 0).homogeneous() - end).norm(), 1e-15);
+  EXPECT_EQ(pose[3].transform, own) << "no edge: its own";
+}
+
+TEST(PseudoEdges, TurnWhatTheUserTurnedAndScaleWhenAsked)
+{
+  const Handles pair = points({ Vec3(1, 1, 0), Vec3(3, 1, 0) });
+  const Eigen::Matrix3d turn = rotation(90, Vec3(0, 0, 1));
+  Pose pose = translations(pair, turn);
+  const Eigen::Matrix3d twist = rotation(25, Vec3(1, 0, 0));
+  pose[0].mode = HandleMode::full;
+  pose[0].transform.leftCols<3>() = twist;
+  pose[0].transform.col(3) = turn * pair[0].head - twist * pair[0].head;
+  pose[1].transform.col(3) += 2.0 * (turn * Vec3(2, 0, 0)); // three times as long
+  const Vec3 before = pose[0].transform * pair[0].head.homogeneous();
+  Pose scaled = pose;
+  turn_by_pseudo_edges(pair, { { 0, 1 } }, false, pose);
+  EXPECT_LT(difference(linear(pose, 0), turn * twist), 1e-15);
+  EXPECT_LT((pose[0].transform * pair[0].head.homogeneous() - before).norm(), 1e-15);
+  turn_by_pseudo_edges(pair, { { 0, 1 } }, true, scaled);
+  EXPECT_LT(difference(linear(scaled, 1), 3.0 * turn), 1e-14);
+}
+
+TEST(PseudoEdges, FreeAndCollapsedEndsSayNothing)
+{
+  const Handles pair = points({ Vec3(0, 0, 0), Vec3(1, 0, 0) });
+  Pose pose(2);
+  pose[0].mode = pose[1].mode = HandleMode::position;
+  pose[1].transform.col(3) = Vec3(-1, 0, 0); // onto the other
+  turn_by_pseudo_edges(pair, { { 0, 1 } }, true, pose);
+  EXPECT_EQ(linear(pose, 0), Eigen::Matrix3d::Identity());
+  EXPECT_EQ(pose[1].mode, HandleMode::position);
+  pose[0].mode = HandleMode::free;
+  pose[1].transform.col(3) = Vec3(-1, 1, 0);
+  turn_by_pseudo_edges(pair, { { 0, 1 } }, false, pose);
+  EXPECT_EQ(pose[0].mode, HandleMode::free);
+  EXPECT_LT(difference(linear(pose, 1), rotation(90, Vec3(0, 0, 1))), 1e-15);
+}
+
+TEST(PseudoEdges, AutomaticOnesFollowTheShape)
+{
+  // A strip bent to a U: its ends are near each other, but far along it.
+  TriangleMesh strip = test::grid(60, 4, 6.0, 0.4);
+  const auto bent = [](const Vec3& p)
+  {
+    const double angle = p[0] / 6.0 * 1.8 * pi, radius = 1.0 + p[1];
+    return Vec3(radius * std::cos(angle), radius * std::sin(angle), 0.0);
+  };
+  for (Index v = 0; v < strip.points.rows(); ++v)
+  {
+    strip.points.row(v) = bent(strip.points.row(v));
+  }
+  Handles handles = points({ bent(Vec3(6, 0.2, 0)), bent(Vec3(3, 0.2, 0)), bent(Vec3(0, 0.2, 0)),
+    bent(Vec3(4.5, 0.21, 0)) });
+  ASSERT_LT((handles[0].head - handles[2].head).norm(), (handles[0].head - handles[3].head).norm());
+  Handle bone = point(Vec3(1, 0, 0), 9);
+  bone.kind = HandleKind::bone;
+  bone.tail = Vec3(0, 1, 0);
+  handles.insert(handles.begin(), bone);
+  const PseudoEdges expected = { { 1, 4 }, { 2, 4 }, { 2, 3 } };
+  for (const int threads : { 1, 4 })
+  {
+    ExecutionContext context;
+    context.set_threads(threads);
+    PseudoEdges edges;
+    const Status status =
+      automatic_pseudo_edges(context, strip.points, TrianglesView(strip.triangles), handles, edges);
+    EXPECT_TRUE(status.ok() && status.warnings.empty());
+    std::sort(edges.begin(), edges.end());
+    PseudoEdges sorted = expected;
+    std::sort(sorted.begin(), sorted.end());
+    EXPECT_EQ(edges, sorted);
+  }
+}
+
+TEST(PseudoEdges, AutomaticOnesAreAMinimumSpanningTreeOfShortestWays)
+{
+  const TetMesh box = test::tet_box(6, 5, 4);
+  test::Random random(4);
+  std::vector<Vec3> places;
+  for (int k = 0; k < 9; ++k)
+  {
+    places.emplace_back(box.points.row(random.below(box.points.rows())));
+  }
+  places.push_back(places[3] + Vec3(0.01, 0, 0)); // two at one vertex
+  const Handles handles = points(places);
+  ExecutionContext context;
+  PseudoEdges edges;
+  ASSERT_TRUE(automatic_pseudo_edges(context, box.points, TetsView(box.tets), handles, edges).ok());
+  EXPECT_EQ(edges.size(), handles.size() - 1);
+  // Floyd and Warshall over all vertices, then Prim: the same total length.
+  const Index n = box.points.rows();
+  Eigen::MatrixXd way = Eigen::MatrixXd::Constant(n, n, 1e300);
+  for (Index t = 0; t < box.tets.rows(); ++t)
+  {
+    for (int a = 0; a < 4; ++a)
+    {
+      for (int b = 0; b < 4; ++b)
+      {
+        way(box.tets(t, a), box.tets(t, b)) =
+          (box.points.row(box.tets(t, a)) - box.points.row(box.tets(t, b))).norm();
+      }
+    }
+  }
+  for (Index k = 0; k < n; ++k)
+  {
+    way = way.cwiseMin(way.col(k).replicate(1, n) + way.row(k).replicate(n, 1));
+  }
+  std::vector<Index> vertex;
+  std::vector<double> offset;
+  for (const Handle& handle : handles)
+  {
+    Index nearest = 0;
+    offset.push_back(
+      (box.points.rowwise() - handle.head.transpose()).rowwise().norm().minCoeff(&nearest));
+    vertex.push_back(nearest);
+  }
+  const auto length = [&](std::size_t a, std::size_t b)
+  { return offset[a] + offset[b] + (a == b ? 0.0 : way(vertex[a], vertex[b])); };
+  double total = 0.0, least = 0.0;
+  for (const auto& [a, b] : edges)
+  {
+    total += length(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
+  }
+  std::vector<double> to_tree(handles.size(), 1e300);
+  std::vector<char> in_tree(handles.size(), 0);
+  to_tree[0] = 0.0;
+  for (std::size_t step = 0; step < handles.size(); ++step)
+  {
+    std::size_t next = handles.size();
+    for (std::size_t h = 0; h < handles.size(); ++h)
+    {
+      next = !in_tree[h] && (next == handles.size() || to_tree[h] < to_tree[next]) ? h : next;
+    }
+    in_tree[next] = 1;
+    least += to_tree[next];
+    for (std::size_t h = 0; h < handles.size(); ++h)
+    {
+      to_tree[h] = std::min(to_tree[h], length(next, h));
+    }
+  }
+  EXPECT_NEAR(total, least, 1e-12);
+}
+
+TEST(PseudoEdges, PartsHaveTreesOfTheirOwnAndLonelyPointsAreToldOf)
+{
+  const TriangleMesh a = test::grid(3, 3);
+  const TriangleMesh both = test::join(a, test::translated(a, Vec3(5, 0, 0)));
+  ExecutionContext context;
+  PseudoEdges edges;
+  const auto run = [&](const std::vector<Vec3>& places)
+  {
+    return automatic_pseudo_edges(
+      context, both.points, TrianglesView(both.triangles), points(places), edges);
+  };
+  EXPECT_TRUE(run({ Vec3(0, 0, 0), Vec3(5, 0, 0), Vec3(1, 1, 0), Vec3(6, 1, 0) }).warnings.empty());
+  std::sort(edges.begin(), edges.end());
+  EXPECT_EQ(edges, (PseudoEdges{ { 0, 2 }, { 1, 3 } }));
+  EXPECT_EQ(run({ Vec3(0, 0, 0), Vec3(5, 0, 0) }).warnings.size(), 1u);
+  EXPECT_TRUE(edges.empty());
+  EXPECT_EQ(run({ Vec3(0, 0, 0) }).warnings.size(), 1u);
+  Points broken = both.points;
+  broken(3, 1) = std::nan("");
+  EXPECT_EQ(automatic_pseudo_edges(
+              context, broken, TrianglesView(both.triangles), points({ Vec3::Zero() }), edges)
+              .code,
+    StatusCode::invalid_input);
+}
+
+TEST(PseudoEdges, JoinTwoDifferentPoints)
+{
+  Handles list = points({ Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0) });
+  EXPECT_TRUE(check_pseudo_edges(list, { { 0, 1 }, { 2, 1 } }).ok());
+  EXPECT_EQ(check_pseudo_edges(list, { { 0, 1 }, { 1, 1 } }).code, StatusCode::invalid_input);
+  EXPECT_EQ(check_pseudo_edges(list, { { 0, 3 } }).code, StatusCode::invalid_input);
+  EXPECT_EQ(check_pseudo_edges(list, { { -1, 0 } }).code, StatusCode::invalid_input);
+  list[2].kind = HandleKind::region;
+  EXPECT_EQ(check_pseudo_edges(list, { { 0, 1 }, { 2, 1 } }).message,
+    "pseudo-edge 1 does not join two different points");
+}

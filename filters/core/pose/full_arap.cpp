@@ -43,7 +43,7 @@ Status FullArap::prepare(const Pose& pose)
 {
   this->modes_.clear();
   this->grips_.choose(pose);
-  const Status status = this->system_.prepare(this->stiffness_, this->parts_.of_vertex,
+  Status status = this->system_.prepare(this->stiffness_, this->parts_.of_vertex,
     this->parts_.count, this->grips_.given(), this->grips_.held());
   if (!status.ok())
   {

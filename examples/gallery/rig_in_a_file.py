@@ -44,7 +44,7 @@ def make(options):
     surface = common.demo_mesh(options, "elephant.off")
     size = float(np.linalg.norm(np.ptp(points_of(surface), axis=0)))
     handles = bindpose.farthest_point_handles(surface, 6 if options.small else 10)
-    weighted = bindpose.weights(surface, handles, domain="embedding", **({"resolution": 16} if options.small else {}))
+    weighted = bindpose.weights(surface, handles, domain="embedding")
     pose = poses(handles, size)
     exact = bindpose.deform(weighted, handles, pose)
     numbers, back = {}, {}

@@ -8,7 +8,7 @@ GALLERY = EXAMPLES / "gallery"
 NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "colours_of_handles", "cost_of_a_point",
          "cost_of_weights", "cut_out_cartoon", "defect_classes", "full_and_reduced", "growth", "hull_segmentation", "image_rectangle", "jump_and_harmonic",
          "limbs_in_front", "mesh_independence", "near_limbs", "new_hues", "open_crossing_flipped", "original_and_faster",
-         "preview_and_certified", "rigidity_brush", "small_features", "spurious_extrema", "topological_simplification", "weights_in_volume"]
+         "preview_and_certified", "rig_in_a_file", "rigidity_brush", "small_features", "spurious_extrema", "topological_simplification", "weights_in_volume"]
 
 
 def test_open_crossing_flipped(tmp_path):
@@ -54,6 +54,15 @@ def test_full_and_reduced(tmp_path):
         assert 1e-4 < numbers[f"{name}, apart"] < 0.5
         assert numbers[f"{name}, reduced, microseconds"] < numbers[f"{name}, full, microseconds"]
     assert max(numbers[f"bump, {method}, sharpest fold"] for method in ("reduced", "full")) < 90
+
+
+def test_rig_in_a_file(tmp_path):
+    numbers = numbers_of("gallery/rig_in_a_file.py", tmp_path)
+    assert numbers["all: sets of weights"] == 2 and numbers["four: sets of weights"] == 1  # of six handles
+    assert max(numbers["all: error, as written"], numbers["all: error, as read"]) < 1e-6
+    assert 1e-3 < numbers["four: error, as read"] < 0.2
+    assert numbers["four: error, as written"] == pytest.approx(numbers["four: error, as read"], abs=1e-6)
+    assert numbers["all: bytes"] > numbers["four: bytes"]
 
 
 def test_rigidity_brush(tmp_path):

@@ -324,6 +324,11 @@ Status vtkGLTFSkinWriter::Execute(
   {
     const bool morph = this->Animation == MORPH;
     status = take_frames(input[2], surface, mesh->GetNumberOfPoints(), handles, morph, skin);
+    for (GltfJoint& joint : skin.joints)
+    {
+      // Joints move what the targets have moved already.
+      joint.posed = morph ? joint.rest : joint.posed;
+    }
   }
   else if (status.ok() && this->PoseFileName && this->PoseFileName[0])
   {
@@ -340,7 +345,7 @@ Status vtkGLTFSkinWriter::Execute(
   Status written = file.open(path, this->Overwrite);
   if (written.ok())
   {
-    written = write_gltf_skin(file.temporary(), skin, options);
+    written = write_gltf_skin(file.temporary(), skin, options, context);
     const std::size_t at = written.message.find(file.temporary());
     if (at != std::string::npos)
     {

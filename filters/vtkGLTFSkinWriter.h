@@ -30,7 +30,7 @@
  * is told: animation_error is the largest distance, as a fraction of the diagonal, of a vertex as
  * the file moves it from where it belongs. MORPH writes the frames' points as morph targets: right
  * for every method (reduced and full as-rigid-as-possible, dual quaternions), 12 bytes a vertex and
- * frame.
+ * frame. The joints rest then.
  *
  * The file is written beside its target and renamed at the end; a failure or cancel leaves nothing
  * behind. An existing file is an error unless Overwrite is on.

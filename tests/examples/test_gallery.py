@@ -8,7 +8,7 @@ GALLERY = EXAMPLES / "gallery"
 NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "colours_of_handles", "cost_of_a_point",
          "cost_of_weights", "cut_out_cartoon", "defect_classes", "full_and_reduced", "growth", "hull_segmentation", "image_rectangle", "jump_and_harmonic",
          "limbs_in_front", "mesh_independence", "near_limbs", "new_hues", "open_crossing_flipped", "original_and_faster",
-         "preview_and_certified", "rigidity_brush", "small_features", "spurious_extrema", "topological_simplification", "weights_in_volume",
+         "preview_and_certified", "rig_in_a_file", "rigidity_brush", "small_features", "spurious_extrema", "topological_simplification", "weights_in_volume",
          "handle_modes", "drag_only", "disjoint_skeleton", "four_energies", "rotation_clusters", "surface_and_volume", "tether",
          "orders_and_boundaries", "torus_and_tubes"]
 
@@ -133,6 +133,15 @@ def test_torus_and_tubes(tmp_path):
         assert max(numbers[f"{name}: kink at the end, degrees"][1:]) < 10
     assert numbers["torus rings: farthest from the torus"][2] < 0.5 * numbers["straight tubes: farthest from the torus"][2]
     assert numbers["half the domain: narrowest"][0] > 2 * numbers["straight tubes: narrowest"][0]
+
+
+def test_rig_in_a_file(tmp_path):
+    numbers = numbers_of("gallery/rig_in_a_file.py", tmp_path)
+    assert numbers["all: sets of weights"] == 2 and numbers["four: sets of weights"] == 1  # of six handles
+    assert max(numbers["all: error, as written"], numbers["all: error, as read"]) < 1e-6
+    assert 1e-3 < numbers["four: error, as read"] < 0.2
+    assert numbers["four: error, as written"] == pytest.approx(numbers["four: error, as read"], abs=1e-6)
+    assert numbers["all: bytes"] > numbers["four: bytes"]
 
 
 def test_rigidity_brush(tmp_path):

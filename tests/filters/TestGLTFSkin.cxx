@@ -325,7 +325,13 @@ TEST_F(GLTFSkin, FramesOfOtherMethodsAreMorphTargets)
   }
   this->Refuses("HandleTransforms");
   this->Writer->SetAnimation(vtkGLTFSkinWriter::MORPH);
+  vtkNew<vtkPoseHandles> posed;
+  posed->SetInputData(0, this->Handles);
+  posed->SetPoseJSON(R"({"handles": {"h7": {"translate": [1, 0, 0]}}})");
+  posed->Update();
+  this->Writer->SetHandlesData(posed->GetOutput());
   this->WriteAndRead();
+  EXPECT_EQ(this->PoseRead()[7].transform, identity_affine()); // what is moved is not moved again
   EXPECT_THAT(this->Writer->GetReportJSON(), HasSubstr("\"animation\": \"morph\""));
   // Joints that should hold them are off by as much, and say so: 5 to 6 from the ball.
   vtkNew<vtkDoubleArray> transforms;

@@ -266,7 +266,8 @@ bool MainWindow::open(const QString& path)
     case OpenedFile::Kind::curves:
       return this->set_curves(vtkPolyData::SafeDownCast(file.data));
     default:
-      return this->set_mesh(file.data, name);
+      return this->set_mesh(file.data, name) &&
+        (!file.handles || this->set_handles(file.handles, name));
   }
 }
 

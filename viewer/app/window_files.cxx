@@ -1,5 +1,6 @@
 #include "window_files.h"
 
+#include "file_kind.h"
 #include "io/atomic_file.h"
 #include "pose/pose_file.h"
 #include "scene/categories.h"
@@ -7,6 +8,7 @@
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
+#include "vtkGLTFSkinReader.h"
 #include "vtkHandleFileReader.h"
 #include "vtkImageData.h"
 #include "vtkMeshFileReader.h"
@@ -59,6 +61,17 @@ Status read_file(const std::string& path, OpenedFile& file)
     vtkNew<vtkHandleFileReader> reader;
     file.kind = OpenedFile::Kind::handles;
     return read_with(reader.Get(), path, file);
+  }
+  if (is_listed(file_extension(path), vtkGLTFSkinReader::GetFileExtensions()))
+  {
+    vtkNew<vtkGLTFSkinReader> reader;
+    const Status status = read_with(reader.Get(), path, file);
+    auto* handles = vtkPolyData::SafeDownCast(reader->GetOutputDataObject(1));
+    if (status.ok() && handles->GetNumberOfCells() > 0)
+    {
+      file.handles = handles;
+    }
+    return status;
   }
   vtkNew<vtkMeshFileReader> reader;
   Status status = read_with(reader.Get(), path, file);

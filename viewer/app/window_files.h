@@ -6,11 +6,10 @@
 #include "weights/handles.h"
 
 #include "vtkDataSet.h"
+#include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <string>
-
-class vtkPolyData;
 
 // What the window reads and writes. Nothing goes to the terminal.
 
@@ -26,6 +25,7 @@ struct OpenedFile
   };
   Kind kind = Kind::mesh;
   vtkSmartPointer<vtkDataSet> data;
+  vtkSmartPointer<vtkPolyData> handles; ///< of a mesh: those of its skin, in glTF files
 };
 bindpose::Status read_file(const std::string& path, OpenedFile& file);
 

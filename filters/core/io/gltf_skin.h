@@ -1,6 +1,7 @@
 #ifndef bindpose_io_gltf_skin_h
 #define bindpose_io_gltf_skin_h
 
+#include "base/execution.h"
 #include "base/mesh.h"
 
 #include <array>
@@ -84,16 +85,19 @@ struct GltfOptions
 /// replaced by their polar decomposition's rotation and the scales along the joint's axes, each
 /// below what its parents really hold, so that errors do not add up.
 ///
-/// Report: joints, skin.sets, counts.vertices, counts.triangles, counts.frames, file_bytes,
-/// counts.dropped_weights and dropped_share (the largest part of a row that `influences` dropped;
-/// the rest of the row is divided by its sum), rest_joint (yes, no), pose_error, animation_error:
+/// Report: counts.{vertices, triangles, joints, frames, dropped_weights}, sets, rest_joint (yes,
+/// no), dropped_share (the largest part of a row that `influences` dropped; the rest of the row is
+/// divided by its sum), animation (joints, morph), file_bytes, and pose_error and animation_error:
 /// the largest distance, as a fraction of the diagonal, of a vertex as the file moves it from where
-/// it belongs; its size is what shears and dropped weights do.
+/// it belongs: what shears and dropped weights do.
 ///
 /// invalid_input for sizes that do not fit, numbers that are not finite floats, more than 65534
 /// joints, parents in a circle, names that are not UTF-8, more than 4 GB.
 Status write_gltf_skin(
   const std::string& path, const GltfSkin& skin, const GltfOptions& options = {});
+/// The same with progress and cancel, frame by frame; a cancelled file is not written.
+Status write_gltf_skin(const std::string& path, const GltfSkin& skin, const GltfOptions& options,
+  ExecutionContext& context);
 
 /// Reads the triangles of a .gltf or .glb file and, if it has one, the first skin that a mesh uses,
 /// with all meshes that use it; without a skin all meshes, where their nodes put them. Rows of
@@ -102,7 +106,7 @@ Status write_gltf_skin(
 /// 24 frames a second. Buffers may be in the file, in its text or in files beside it; pictures are
 /// not read.
 ///
-/// Report: format, counts.vertices, counts.triangles, counts.joints, counts.frames, counts.skins,
+/// Report: counts.vertices, counts.triangles, counts.joints, counts.frames, counts.skins,
 /// counts.unweighted_vertices, counts.skipped_primitives (points and lines), counts.morph_targets
 /// (which are not read), sets. Warnings tell what is left out.
 ///

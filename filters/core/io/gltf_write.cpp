@@ -644,8 +644,7 @@ Status check(const GltfSkin& skin, const GltfOptions& options)
   return check_frames(skin, options);
 }
 
-Status write_model(
-  const std::string& path, const tinygltf::Model& model, bool binary, Report& report)
+Status write_model(const std::string& path, const tinygltf::Model& model, bool binary)
 {
   std::ostringstream text;
   try
@@ -665,12 +664,20 @@ Status write_model(
     return Status::invalid_input("a name is not UTF-8");
   }
   const std::string content = text.str();
-  report.set("file_bytes", content.size());
-  return write_file(path, content);
+  Status status = write_file(path, content);
+  status.report.set("file_bytes", content.size());
+  return status;
 }
 } // namespace
 
 Status write_gltf_skin(const std::string& path, const GltfSkin& skin, const GltfOptions& options)
+{
+  ExecutionContext context;
+  return write_gltf_skin(path, skin, options, context);
+}
+
+Status write_gltf_skin(const std::string& path, const GltfSkin& skin, const GltfOptions& options,
+  ExecutionContext& context)
 {
   Status status = check(skin, options);
   if (!status.ok())
@@ -709,6 +716,12 @@ Status write_gltf_skin(const std::string& path, const GltfSkin& skin, const Gltf
     std::vector<std::vector<Trs>> tracks;
     for (const GltfFrame& frame : skin.frames)
     {
+      if (context.cancelled())
+      {
+        return Status::cancelled();
+      }
+      context.progress(
+        static_cast<double>(tracks.size()) / static_cast<double>(skin.frames.size()));
       Transforms stands;
       tracks.push_back(local_maps(skin, frame.posed, stands));
       animation_error =
@@ -716,12 +729,13 @@ Status write_gltf_skin(const std::string& path, const GltfSkin& skin, const Gltf
     }
     animate_joints(builder, skin, tracks);
   }
-  Report& report = status.report;
-  status = write_model(path, builder.model, options.binary, report);
+  status =
+    context.cancelled() ? Status::cancelled() : write_model(path, builder.model, options.binary);
   if (!status.ok())
   {
     return status;
   }
+  Report& report = status.report;
   report.set("counts.vertices", skin.points.rows());
   report.set("counts.triangles", skin.triangles.rows());
   if (skinned)

@@ -169,6 +169,8 @@ TEST(GltfSkin, WhatIsWrittenComesBack)
     Status status = write_gltf_skin(folder / "rig.gltf", skin, options);
     ASSERT_TRUE(status.ok()) << status.message;
     EXPECT_EQ(status.report.number("sets", 0), 2);
+    EXPECT_EQ(
+      status.report.number("file_bytes", 0), std::filesystem::file_size(folder / "rig.gltf"));
     EXPECT_EQ(status.report.text("rest_joint"), "no");
     EXPECT_LT(status.report.number("pose_error", 1), 1e-7);
     EXPECT_TRUE(status.warnings.empty());
@@ -461,6 +463,23 @@ TEST(GltfSkin, ErrorsAreNamed)
   EXPECT_THAT(error([&](json& f) { f["extras"] = deep; }), HasSubstr("nested"));
   EXPECT_THAT(read_gltf_skin(folder.write("f.glb", "glTF"), skin).message, HasSubstr("f.glb"));
   EXPECT_THAT(read_gltf_skin(folder / "none.glb", skin).message, HasSubstr("none.glb"));
+}
+
+TEST(GltfSkin, ACancelLeavesNoFile)
+{
+  const test::Folder folder;
+  GltfSkin skin = example(3);
+  skin.frames.resize(50);
+  for (GltfFrame& frame : skin.frames)
+  {
+    frame.posed.assign(3, Eigen::Affine3d::Identity());
+  }
+  int asked = 0;
+  ExecutionContext context({}, [&asked] { return ++asked > 10; });
+  const Status status = write_gltf_skin(folder / "rig.glb", skin, GltfOptions(), context);
+  EXPECT_EQ(status.code, StatusCode::cancelled);
+  EXPECT_EQ(folder.number_of_files(), 0u);
+  EXPECT_LT(asked, 20);
 }
 
 TEST(GltfSkin, WhatCannotBeWrittenIsTold)

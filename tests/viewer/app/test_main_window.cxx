@@ -15,6 +15,7 @@
 
 #include "vtkCommand.h"
 #include "vtkDoubleArray.h"
+#include "vtkGLTFSkinWriter.h"
 #include "vtkHandleSetRepresentation.h"
 #include "vtkHandleSetWidget.h"
 #include "vtkImageData.h"
@@ -190,6 +191,24 @@ TEST_F(Window, ADragMovesVerticesAndUndoTakesItBack)
   EXPECT_EQ(top_of(this->window.shown()), rest);
   this->window.history()->redo();
   EXPECT_EQ(top_of(this->window.shown()), moved);
+}
+
+TEST_F(Window, ARigIsReadyToBePosed)
+{
+  const std::string path = testing::TempDir() + "bindpose_rig.glb";
+  vtkNew<vtkGLTFSkinWriter> writer;
+  writer->SetInputData(0, with_weights(column()));
+  writer->SetHandlesData(two_points());
+  writer->SetFileName(path.c_str());
+  writer->OverwriteOn();
+  ASSERT_EQ(writer->Write(), 1) << writer->GetStatusMessage();
+  EXPECT_TRUE(this->window.open(QString::fromStdString(path)));
+  std::remove(path.c_str());
+  ASSERT_TRUE(this->window.is_bound()); // by the weights in the file
+  this->render();
+  const Vec3 rest = top_of(this->window.shown());
+  this->drag(1, { 80, 0 });
+  EXPECT_GT((top_of(this->window.shown()) - rest).norm(), 0.1);
 }
 
 TEST_F(Window, EscapeTakesTheDragBackAndLeavesNoHistory)

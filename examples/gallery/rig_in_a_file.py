@@ -1,0 +1,73 @@
+#!/usr/bin/env python3
+"""A rig as a glTF file: what the file holds of the shape that linear blends make.
+
+Handles spread over an elephant swing, each its own way; the strip shows frames of the animation as they come back from
+the file: mesh, joints, weights and poses, all from one .glb. Below each frame how far the file with the four largest
+weights of each vertex, which is what many programs take, moves a vertex from where all weights do, at most, as a
+fraction of the diagonal.
+
+Numbers: bytes of the files; sets of four weights; the largest part of a vertex's weights that four leave out; the
+largest error of both files over all frames, as the writer measured it and as it comes back.
+"""
+
+import common
+import bindpose
+import numpy as np
+from bindpose.meshes import points_of
+
+FRAMES = 5
+
+
+def poses(handles, size):
+    """Handles swing about the middle, each its own way, more from frame to frame."""
+    count = handles.GetNumberOfCells()
+    names = [handles.GetCellData().GetAbstractArray("HandleName").GetValue(k) for k in range(count)]
+    frames = []
+    for k in range(FRAMES):
+        share = k / (FRAMES - 1)
+        frame = {}
+        for j, name in enumerate(names):
+            axis = [0.0, 0.0, 0.0]
+            axis[j % 3] = 1.0
+            frame[name] = {"rotate": {"axis": axis, "degrees": (-1) ** j * 35 * share},
+                           "translate": [0, 0.06 * size * share * np.cos(2.4 * j), 0.04 * size * share * np.sin(j)]}
+        frames.append({"handles": frame})
+    return {"fps": 8, "frames": frames}
+
+
+def largest(a, b, size):
+    """Largest distance of vertices, as a fraction of the diagonal."""
+    return float(np.linalg.norm(points_of(a) - points_of(b), axis=1).max() / size)
+
+
+def make(options):
+    surface = common.demo_mesh(options, "elephant.off")
+    size = float(np.linalg.norm(np.ptp(points_of(surface), axis=0)))
+    handles = bindpose.farthest_point_handles(surface, 6 if options.small else 10)
+    weighted = bindpose.weights(surface, handles, domain="embedding")
+    pose = poses(handles, size)
+    exact = bindpose.deform(weighted, handles, pose)
+    numbers, back = {}, {}
+    for name, influences in (("all", 0), ("four", 4)):
+        path = options.scratch / f"{name}.glb"
+        report = bindpose.write_rig(weighted, handles, path, frames=exact, fps=8, influences=influences)
+        rig = bindpose.read_rig(path)
+        back[name] = bindpose.deform(rig.mesh, rig.handles, rig.pose)
+        numbers[f"{name}: bytes"] = report["file_bytes"]
+        numbers[f"{name}: sets of weights"] = report["sets"]
+        numbers[f"{name}: left out, of a vertex's weights"] = report["dropped_share"]
+        numbers[f"{name}: error, as written"] = report["animation_error"]
+        numbers[f"{name}: error, as read"] = max(largest(a, b, size) for a, b in zip(back[name], exact))
+    files, labels = [], []
+    for k, frame in enumerate(back["all"]):
+        files.append(f"frame{k}.vtp")
+        bindpose.write(frame, options.scratch / files[-1])
+        labels.append(f"four weights: {largest(back['four'][k], frame, size):.2g}")
+    common.render(options, *files, "--columns", FRAMES, "--size", "1500x480", "--color", "handle",
+                  "--labels", ",".join(labels),
+                  "--title", "An animation read from one glTF file, and what four weights a vertex cost")
+    return numbers
+
+
+if __name__ == "__main__":
+    common.main(__file__, __doc__, make)

@@ -715,7 +715,7 @@ void read_influences(const Accessors& accessors, const tinygltf::Primitive& prim
       read_attribute(accessors, primitive, weight_name.c_str(), TINYGLTF_TYPE_VEC4, vertices);
     if (ids.rows() != weights.rows())
     {
-      throw Broken(joint_name + " and " + weight_name + " do not come together");
+      throw Broken("JOINTS and WEIGHTS of set " + std::to_string(set) + " do not come together");
     }
     if (ids.rows() == 0)
     {
@@ -912,7 +912,7 @@ struct Track
     const auto key = static_cast<std::size_t>(after - this->times.begin()) - 1;
     const double step = this->times[key + 1] - this->times[key];
     const double u = (time - this->times[key]) / step;
-    const Eigen::VectorXd a = this->value(key);
+    Eigen::VectorXd a = this->value(key);
     const Eigen::VectorXd b = this->value(key + 1);
     if (this->interpolation == "STEP")
     {

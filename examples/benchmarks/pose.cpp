@@ -112,12 +112,19 @@ void reduced_arap_to_energy(benchmark::State& state)
     least = std::min(least, arap.energies().back());
   }
   arap.solve(context, pose, { 0.0, 5000, ReducedArap::Start::rest, state.range(2) });
-  Index iterations = 0;
-  while (2 * iterations + 1 < static_cast<Index>(arap.energies().size()) &&
-    arap.energies()[static_cast<std::size_t>(2 * iterations)] > 1.0001 * least)
+  const auto iterations_to = [&](double share)
   {
-    ++iterations;
-  }
+    Index iterations = 0;
+    while (2 * iterations + 1 < static_cast<Index>(arap.energies().size()) &&
+      arap.energies()[static_cast<std::size_t>(2 * iterations)] > (1.0 + share) * least)
+    {
+      ++iterations;
+    }
+    return iterations;
+  };
+  const Index iterations = iterations_to(1e-4);
+  state.counters["to_1e-6"] = static_cast<double>(iterations_to(1e-6));
+  state.counters["to_1e-8"] = static_cast<double>(iterations_to(1e-8));
   for (auto _ : state)
   {
     arap.solve(context, pose, { 0.0, iterations, ReducedArap::Start::rest, state.range(2) });

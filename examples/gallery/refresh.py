@@ -28,7 +28,7 @@ SCRIPTS = ("../01_inside_outside.py", "open_crossing_flipped.py", "boundary_and_
            "small_features.py", "mesh_independence.py",
            "weights_in_volume.py", "preview_and_certified.py", "cost_of_weights.py",
            "handle_modes.py", "drag_only.py", "disjoint_skeleton.py", "four_energies.py", "rotation_clusters.py",
-           "surface_and_volume.py", "tether.py", "full_and_reduced.py",
+           "surface_and_volume.py", "tether.py", "full_and_reduced.py", "extra_weights.py", "jello.py", "procedural.py",
            "orders_and_boundaries.py", "torus_and_tubes.py", "rig_in_a_file.py")
 
 

@@ -6,9 +6,10 @@ from running import EXAMPLES, is_refused, numbers_of, script
 
 GALLERY = EXAMPLES / "gallery"
 NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "colours_of_handles", "cost_of_a_point",
-         "cost_of_weights", "cut_out_cartoon", "defect_classes", "full_and_reduced", "growth", "hull_segmentation", "image_rectangle", "jump_and_harmonic",
+         "cost_of_weights", "cut_out_cartoon", "defect_classes",
+         "extra_weights", "full_and_reduced", "growth", "hull_segmentation", "image_rectangle", "jello", "jump_and_harmonic",
          "limbs_in_front", "mesh_independence", "near_limbs", "new_hues", "open_crossing_flipped", "original_and_faster",
-         "preview_and_certified", "rig_in_a_file", "rigidity_brush", "small_features", "spurious_extrema", "topological_simplification", "weights_in_volume",
+         "preview_and_certified", "procedural", "rig_in_a_file", "rigidity_brush", "small_features", "spurious_extrema", "topological_simplification", "weights_in_volume",
          "handle_modes", "drag_only", "disjoint_skeleton", "four_energies", "rotation_clusters", "surface_and_volume", "tether",
          "orders_and_boundaries", "torus_and_tubes"]
 
@@ -142,6 +143,32 @@ def test_rig_in_a_file(tmp_path):
     assert 1e-3 < numbers["four: error, as read"] < 0.2
     assert numbers["four: error, as written"] == pytest.approx(numbers["four: error, as read"], abs=1e-6)
     assert numbers["all: bytes"] > numbers["four: bytes"]
+
+
+def test_extra_weights(tmp_path):
+    numbers = numbers_of("gallery/extra_weights.py", tmp_path)
+    for name in ("S", "squeeze"):
+        none, bumps, modes = (numbers[f"{name}, {kind}, energy"]
+                              for kind in ("no extra weights", "15 bumps", "15 eigenmodes"))
+        assert 0 < modes < bumps < none
+    assert numbers["S, every vertex, energy"] < numbers["S, 15 eigenmodes, energy"]
+    for kind in ("bumps", "eigenmodes"):
+        energies = numbers[f"squeeze, 0 3 6 10 15 {kind}"]
+        assert energies == sorted(energies, reverse=True)
+
+
+def test_jello(tmp_path):
+    numbers = numbers_of("gallery/jello.py", tmp_path)
+    aside, peaks = numbers["aside"], numbers["kinetic energy at its peaks"]
+    assert aside[0] > 0.25 and min(aside) < -0.1 and abs(aside[-1]) < 0.5 * aside[0]  # over, and less and less
+    assert numbers["turns"] >= 2
+    assert peaks == sorted(peaks, reverse=True) and 0 < peaks[-1] < 0.6
+
+
+def test_procedural(tmp_path):
+    numbers = numbers_of("gallery/procedural.py", tmp_path)
+    assert numbers["largest miss"] <= 1e-12
+    assert numbers["least volume"] > 0.9
 
 
 def test_rigidity_brush(tmp_path):

@@ -5,8 +5,6 @@
 
 #include "base/simd.h"
 
-#include <Eigen/Cholesky>
-
 #include <algorithm>
 #include <cmath>
 
@@ -109,7 +107,54 @@ Anderson::Anderson(Index window, Index size, Index carried, Dot dot)
     this->changes_f_.resize(this->window_ * this->size_);
     this->last_g_.resize(this->length_);
     this->last_f_.resize(this->size_);
+    this->factor_.resize(largest_window * this->window_);
   }
+}
+
+/// The normal equations by Cholesky's method, in place. By hand, because a solve takes thousands of
+/// these five by five, and a library's call for any size costs more than an iteration's products.
+bool Anderson::solve(Index count, std::array<double, largest_window>& shares)
+{
+  double* const l = this->factor_.data();
+  std::array<double, largest_window> scale;
+  bool good = true;
+  for (Index i = 0; i < count; ++i)
+  {
+    const double square = this->products_(i, i);
+    scale[i] = square > 0.0 ? 1.0 / std::sqrt(square) : 0.0;
+    double right = scale[i] * this->right_[i];
+    double pivot = 1.0 + ridge;
+    for (Index j = 0; j < i; ++j)
+    {
+      double entry = scale[i] * scale[j] * this->products_(i, j);
+      for (Index k = 0; k < j; ++k)
+      {
+        entry -= l[i * largest_window + k] * l[j * largest_window + k];
+      }
+      entry *= l[j * largest_window + j];
+      l[i * largest_window + j] = entry;
+      pivot -= entry * entry;
+      right -= entry * shares[j];
+    }
+    good = good && pivot > 0.0;
+    const double inverse = 1.0 / std::sqrt(pivot);
+    l[i * largest_window + i] = inverse; // the diagonal's reciprocals
+    shares[i] = right * inverse;
+  }
+  for (Index i = count - 1; i >= 0; --i)
+  {
+    for (Index k = i + 1; k < count; ++k)
+    {
+      shares[i] -= l[k * largest_window + i] * shares[k];
+    }
+    shares[i] *= l[i * largest_window + i];
+  }
+  for (Index i = 0; i < count; ++i)
+  {
+    shares[i] *= scale[i];
+    good = good && std::isfinite(shares[i]);
+  }
+  return good;
 }
 
 bool Anderson::next(const double* g, double* x)
@@ -140,30 +185,8 @@ bool Anderson::next(const double* g, double* x)
   }
   this->right_[at] = this->dot_(change, this->last_f_.data());
 
-  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor,
-    largest_window, largest_window>; // on the stack
-  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, largest_window, 1>;
-  Vector scale(filled), shares(filled);
-  Matrix matrix(filled, filled);
-  for (Index i = 0; i < filled; ++i)
-  {
-    const double square = this->products_(i, i);
-    scale[i] = square > 0.0 ? 1.0 / std::sqrt(square) : 0.0;
-    shares[i] = scale[i] * this->right_[i];
-    for (Index j = 0; j < i; ++j)
-    {
-      matrix(i, j) = scale[i] * scale[j] * this->products_(i, j);
-    }
-    matrix(i, i) = 1.0 + ridge;
-  }
-  Eigen::LLT<Eigen::Ref<Matrix>> factor(matrix);
-  if (factor.info() != Eigen::Success)
-  {
-    return false;
-  }
-  factor.solveInPlace(shares);
-  shares.array() *= scale.array();
-  if (!shares.allFinite())
+  std::array<double, largest_window> shares;
+  if (!this->solve(filled, shares))
   {
     return false;
   }

@@ -3,6 +3,7 @@
 
 #include "base/mesh.h"
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -40,6 +41,8 @@ public:
   bool next(const double* g, double* x);
 
 private:
+  bool solve(Index count, std::array<double, largest_window>& shares);
+
   Index window_, size_, length_;
   Dot dot_;
   Index count_ = 0; ///< iterates seen
@@ -47,6 +50,7 @@ private:
   std::vector<double> last_g_, last_f_;
   Eigen::MatrixXd products_; ///< of the changes of the residual
   Eigen::VectorXd right_; ///< of each change with the last residual
+  std::vector<double> factor_; ///< rows of largest_window
 };
 
 /// Sum of a_i b_i in eight running sums, whatever the processor: the same bits everywhere.

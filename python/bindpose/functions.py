@@ -36,7 +36,8 @@ _WINDING = {"auto": "AUTO", "exact": "EXACT", "fast": "FAST"}
 _TETRAHEDRALIZE = {"auto": "AUTO", "cdt": "CDT", "remesh": "REMESH", "embed": "EMBED", "wrap": "WRAP",
                    "ftetwild": "FTETWILD"}
 _SEGMENTATION = {"graph-cut": "GRAPH_CUT", "threshold": "THRESHOLD"}
-_SKINNING = {"lbs": "LINEAR_BLEND", "dqs": "DUAL_QUATERNION", "stbs": "STRETCHABLE_BONES"}
+_SKINNING = {"lbs": "LINEAR_BLEND", "dqs": "DUAL_QUATERNION", "stbs": "STRETCHABLE_BONES",
+             "cor": "CENTERS_OF_ROTATION"}
 
 
 def _choice(value, choices, what):
@@ -502,7 +503,10 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
 _ENERGIES = ("auto", "spokes-and-rims", "spokes", "tetrahedra", "triangles")
 
 
-def _make_deformation(method, exponent, energy, iterations, tolerance):
+_PSEUDO_EDGES = {"none": "NO_PSEUDO_EDGES", "given": "GIVEN_PSEUDO_EDGES", "auto": "AUTOMATIC_PSEUDO_EDGES"}
+
+
+def _make_deformation(method, exponent, energy, iterations, tolerance, pseudo_edges, pseudo_edge_stretch):
     if method in ("reduced-arap", "full-arap"):
         arap = filters.vtkReducedARAP() if method == "reduced-arap" else filters.vtkFullARAP()
         arap.SetEnergy(getattr(arap, energy.upper().replace("-", "_")))
@@ -516,11 +520,13 @@ def _make_deformation(method, exponent, energy, iterations, tolerance):
         return warp
     skinning = filters.vtkSkinningDeformation()
     skinning.SetMethod(getattr(skinning, _SKINNING[method]))
+    skinning.SetPseudoEdges(getattr(skinning, _PSEUDO_EDGES[pseudo_edges]))
+    skinning.SetPseudoEdgeStretch(pseudo_edge_stretch)
     return skinning
 
 
 def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, energy="auto", iterations=0,
-           tolerance=1e-6, stretch_limit=2.0, stretch_array=False, threads=0, progress=None):
+           tolerance=1e-6, pseudo_edges="given", pseudo_edge_stretch=False, stretch_limit=2.0, stretch_array=False, threads=0, progress=None):
     """Bend a mesh with weights to a pose, or to a sequence of poses.
 
     Parameters
@@ -533,9 +539,9 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
     pose : dict, str or path-like
         ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}``
         or ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file.
-    method : {"lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls"}
+    method : {"lbs", "dqs", "stbs", "cor", "reduced-arap", "full-arap", "mls"}
         Linear blend skinning, dual quaternions, stretchable and twistable bones (with the point array
-        ``EndpointWeights`` where there is one), reduced as-rigid-as-possible; without weights: full
+        ``EndpointWeights`` where there is one), centers of rotation (neither twists nor bends lose width), reduced as-rigid-as-possible; without weights: full
         as-rigid-as-possible, or the rigid warp by moving least squares, which knows nothing of the shape.
     weights : (#V, #handles) array, optional
         For a mesh of arrays.
@@ -549,6 +555,11 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
     tolerance : float
         Of reduced-arap and full-arap: an iteration that lowers the energy by less than this share of it is
         the last.
+    pseudo_edges : {"none", "given", "auto"}
+        Of lbs, dqs, stbs and cor: edges between points that tell how these turn when they are dragged: those of the
+        handles (see `handles`), or the tree that joins near points through the shape.
+    pseudo_edge_stretch : bool
+        Scale points by how much longer their pseudo-edges become.
     stretch_limit : float
         The report counts elements that become more than this many times as long in some direction, or less than one
         over this (``counts.stretched_elements``), and those turned inside out (``counts.inverted_elements``, a
@@ -570,8 +581,9 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
     InvalidInput
         Weights that do not fit, an unknown handle in the pose, a broken pose.
     """
-    _choice(method, ("lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls"), "method")
+    _choice(method, ("lbs", "dqs", "stbs", "cor", "reduced-arap", "full-arap", "mls"), "method")
     _choice(energy, _ENERGIES, "energy")
+    _choice(pseudo_edges, tuple(_PSEUDO_EDGES), "pseudo_edges")
     data = to_dataset(mesh)
     if weights is not None:
         data = shallow_copy(data)
@@ -585,7 +597,7 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
             poser.SetPoseJSON(json.dumps(pose))
         except TypeError as error:
             raise InvalidInput(f"the pose is no JSON object: {error}") from None
-    bender = _make_deformation(method, exponent, energy, iterations, tolerance)
+    bender = _make_deformation(method, exponent, energy, iterations, tolerance, pseudo_edges, pseudo_edge_stretch)
     bender.SetInputData(0, data)
     bender.SetInputConnection(1, poser.GetOutputPort())
     bender.SetStretchLimit(stretch_limit)

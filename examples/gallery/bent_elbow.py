@@ -10,6 +10,8 @@ Numbers: how near to the bent axis the skin comes on the outside of the bend and
 rest; the volume, of that at rest; tets inside out.
 """
 
+import warnings
+
 import common
 import bindpose
 import numpy as np
@@ -42,6 +44,7 @@ def volume(points, tets):
 
 
 def make(options):
+    warnings.filterwarnings("ignore", "the pose turns", bindpose.BindposeWarning)  # counted among the numbers
     weighted, handles = weighted_cylinder(options.small)
     rest, tets = points_of(weighted), tets_of(weighted)
     skin = np.hypot(rest[:, 1], rest[:, 2]) > 0.999

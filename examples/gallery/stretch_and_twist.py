@@ -11,6 +11,8 @@ angle at the middle of the shaft, and by how much it changes radii; the arm's le
 that are inside out.
 """
 
+import warnings
+
 import common
 import bindpose
 import numpy as np
@@ -98,6 +100,7 @@ def cats(options, numbers):
 
 
 def make(options):
+    warnings.filterwarnings("ignore", "the pose turns", bindpose.BindposeWarning)  # counted among the numbers
     numbers = {}
     above = mallets(options, numbers)
     below, _window = cats(options, numbers)

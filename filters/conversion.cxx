@@ -2,6 +2,8 @@
 // the layout allows: doubles side by side, 64-bit connectivity of triangles or tets only.
 #include "conversion.h"
 
+#include "pseudo_edge_cells.h"
+
 #include "vtkCell.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
@@ -467,6 +469,10 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
     const std::string where = "handle cell " + std::to_string(cell);
     const double fallback_kind = size == 2 ? 1 : 0;
     const int kind = static_cast<int>(cell_value(data, "HandleKind", cell, fallback_kind));
+    if (kind == pseudo_edge_kind)
+    {
+      continue; // only poses know it
+    }
     if (kind < -1 || kind > 3)
     {
       return Status::invalid_input(where + " has an unknown HandleKind " + std::to_string(kind));

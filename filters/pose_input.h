@@ -12,6 +12,8 @@ struct vtkPoseAlgorithm::PoseInput
   bindpose::WeightsView weights; ///< #V x #handles
   const bindpose::Handles& handles;
   const bindpose::Pose& pose;
+  vtkPolyData* handle_data; ///< with what is no handle: pseudo-edges
+  const std::vector<bindpose::Index>& cells; ///< of the handles, in it
 };
 
 struct vtkPoseAlgorithm::PosedPoints

@@ -8,6 +8,7 @@
 #include "file_kind.h"
 #include "gltf_data.h"
 #include "io/tgf.h"
+#include "pseudo_edge_cells.h"
 #include "report_field_data.h"
 #include "vtkMeshFileReader.h"
 
@@ -30,7 +31,8 @@ using bindpose::Handles;
 using bindpose::Index;
 using bindpose::Status;
 
-Handles to_handles(const bindpose::Tgf& graph)
+/// @param pseudo_edges those between nodes that are points.
+Handles to_handles(const bindpose::Tgf& graph, bindpose::PseudoEdges& pseudo_edges)
 {
   std::vector<char> in_bone(graph.nodes.size(), 0);
   std::vector<char> in_cage(graph.nodes.size(), 0);
@@ -72,6 +74,14 @@ Handles to_handles(const bindpose::Tgf& graph)
       handles[from].cage.push_back({ from, handle_of_node[edge.to], -1 });
     }
   }
+  for (const auto& edge : graph.edges)
+  {
+    const bindpose::PseudoEdge ends{ handle_of_node[edge.from], handle_of_node[edge.to] };
+    if (edge.pseudo && !edge.bone && check_pseudo_edges(handles, { ends }).ok())
+    {
+      pseudo_edges.push_back(ends);
+    }
+  }
   const std::size_t points = handles.size();
   std::vector<const bindpose::Tgf::Edge*> bones;
   for (const auto& edge : graph.edges)
@@ -108,7 +118,8 @@ Status read_tgf(const std::string& path, vtkPolyData* output)
   {
     return status;
   }
-  const Handles handles = to_handles(graph);
+  bindpose::PseudoEdges pseudo_edges;
+  const Handles handles = to_handles(graph, pseudo_edges);
   status = check_handles(handles);
   if (!status.ok())
   {
@@ -116,7 +127,14 @@ Status read_tgf(const std::string& path, vtkPolyData* output)
     return status;
   }
   output->ShallowCopy(bindpose::to_polydata(handles));
-  Index others = 0;
+  if (!pseudo_edges.empty())
+  {
+    Handles list;
+    std::vector<Index> cells;
+    bindpose::to_handles(output, list, &cells);
+    bindpose::add_pseudo_edges(output, cells, pseudo_edges);
+  }
+  Index others = -static_cast<Index>(pseudo_edges.size());
   for (const auto& edge : graph.edges)
   {
     others += !edge.bone && !edge.cage;
@@ -124,7 +142,7 @@ Status read_tgf(const std::string& path, vtkPolyData* output)
   if (others > 0)
   {
     status.warnings.push_back(path + ": " + std::to_string(others) +
-      " edges that are neither bones nor of a cage (pseudo-edges) make no handle");
+      " edges are neither bones nor of a cage nor pseudo-edges between points; they are left out");
   }
   return status;
 }

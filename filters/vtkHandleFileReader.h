@@ -10,7 +10,8 @@
  * is its name, else p1, p2, … by order among the points. Bones are named b1, b2, … in file order.
  * Columns are points, then bones. A bone whose head is the tail of another has that one as parent
  * (the first in file order). Nodes of cage edges are cage vertices, along whose edges weights are
- * linear. Pseudo-edges make no handle: a warning counts them.
+ * linear. Pseudo-edges between points are lines of HandleKind -2, which make no handle but tell how
+ * points turn (vtkSkinningDeformation); all other edges are left out, and a warning counts them.
  *
  * A .vtp file is taken cell by cell (vertices are points, lines are bones unless HandleKind says
  * otherwise); missing arrays get their defaults, all others are kept.

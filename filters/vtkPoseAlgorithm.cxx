@@ -184,8 +184,8 @@ Status vtkPoseAlgorithm::Execute(
   {
     return status;
   }
-  const PoseInput pose_input{ mesh, bound.points.view(), bound.weights.view(), bound.handles,
-    pose };
+  const PoseInput pose_input{ mesh, bound.points.view(), bound.weights.view(), bound.handles, pose,
+    handle_data, bound.cells };
   if (bind)
   {
     Phase phase(context, "bind", 0.0, 0.8);

@@ -1,8 +1,11 @@
 // Glue around the kernel bindpose::Skinning: the bind keeps its sparse weights.
 #include "vtkSkinningDeformation.h"
 
+#include "pose/rotation_centres.h"
 #include "pose/skinning.h"
+#include "pose_elements.h"
 #include "pose_input.h"
+#include "pseudo_edge_cells.h"
 #include "weights_input.h"
 
 #include "vtkDataArray.h"
@@ -10,13 +13,17 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 
+#include <optional>
+
 using namespace bindpose;
 
 vtkStandardNewMacro(vtkSkinningDeformation);
 
 namespace
 {
-constexpr const char* method_names[] = { "linear_blend", "dual_quaternion", "stretchable_bones" };
+constexpr const char* method_names[] = { "linear_blend", "dual_quaternion", "stretchable_bones",
+  "centers_of_rotation" };
+constexpr const char* pseudo_edges_names[] = { "none", "given", "automatic" };
 
 Status check_endpoints(WeightsView endpoints, const Handles& handles, const std::string& name)
 {
@@ -41,6 +48,9 @@ struct vtkSkinningDeformation::Internals
 {
   Skinning skinning;
   SharedMatrix<Weights> endpoints; // size 0: there are none
+  Points centers; // at rest, once they are asked for
+  Status of_centers;
+  std::optional<bindpose::PseudoEdges> edges; // automatic ones, once they are asked for
   std::vector<Affine> transforms;
 };
 
@@ -79,6 +89,8 @@ Status vtkSkinningDeformation::Bind(const PoseInput& input, ExecutionContext& co
 {
   Internals& internal = *this->Internal;
   internal.endpoints = {};
+  internal.edges.reset();
+  internal.centers.resize(0, 3);
   vtkDataArray* endpoints = this->EndpointArrayName.empty()
     ? nullptr
     : input.mesh->GetPointData()->GetArray(this->EndpointArrayName.c_str());
@@ -99,15 +111,95 @@ Status vtkSkinningDeformation::Bind(const PoseInput& input, ExecutionContext& co
   options.single_precision = this->SinglePrecision;
   options.smallest_weight = this->SmallestWeight;
   options.influences = this->MaximumInfluences;
-  return internal.skinning.bind(context, input.weights, options);
+  const bool centers = this->Method == CENTERS_OF_ROTATION;
+  Status status;
+  {
+    const ProgressRange range(context, 0.0, centers ? 0.01 : 1.0);
+    status = internal.skinning.bind(context, input.weights, options);
+  }
+  if (!status.usable() || !centers)
+  {
+    return status;
+  }
+  const Status found = this->FindCenters(input, context, 0.01, 1.0);
+  return found.ok() ? status : found;
+}
+
+Status vtkSkinningDeformation::FindCenters(
+  const PoseInput& input, ExecutionContext& context, double begin, double end)
+{
+  Phase phase(context, "centers", begin, end);
+  Internals& internal = *this->Internal;
+  const PoseElements elements = to_pose_elements(input.mesh);
+  Points centers;
+  internal.of_centers = elements.volume
+    ? rotation_centres(context, {}, input.points, elements.tets.view(), input.weights, centers)
+    : rotation_centres(
+        context, {}, input.points, elements.triangles.view(), input.weights, centers);
+  if (internal.of_centers.ok())
+  {
+    internal.centers = std::move(centers);
+  }
+  return internal.of_centers;
+}
+
+/// Those of the pose, with what pseudo-edges turn.
+Status vtkSkinningDeformation::FindTransforms(const PoseInput& input, ExecutionContext& context)
+{
+  Internals& internal = *this->Internal;
+  Status status;
+  bindpose::PseudoEdges edges;
+  if (this->PseudoEdges == AUTOMATIC_PSEUDO_EDGES)
+  {
+    if (!internal.edges)
+    {
+      const PoseElements elements = to_pose_elements(input.mesh);
+      bindpose::PseudoEdges found;
+      status = elements.volume
+        ? automatic_pseudo_edges(context, input.points, elements.tets.view(), input.handles, found)
+        : automatic_pseudo_edges(
+            context, input.points, elements.triangles.view(), input.handles, found);
+      if (!status.ok())
+      {
+        return status;
+      }
+      internal.edges = std::move(found);
+    }
+    edges = *internal.edges;
+  }
+  else if (this->PseudoEdges == GIVEN_PSEUDO_EDGES)
+  {
+    status = to_pseudo_edges(input.handle_data, input.handles, input.cells, edges);
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  Pose pose = input.pose;
+  turn_by_pseudo_edges(input.handles, edges, this->PseudoEdgeStretch, pose);
+  const Status found = skinning_transforms(input.handles, pose, internal.transforms);
+  status.warnings.insert(status.warnings.end(), found.warnings.begin(), found.warnings.end());
+  if (!edges.empty())
+  {
+    status.report.set("counts.pseudo_edges", static_cast<Index>(edges.size()));
+  }
+  return status;
 }
 
 Status vtkSkinningDeformation::Deform(
   const PoseInput& input, ExecutionContext& context, PosedPoints& posed)
 {
-  Phase phase(context, "skin", 0.8, 1.0);
   Internals& internal = *this->Internal;
-  Status status = skinning_transforms(input.handles, input.pose, internal.transforms);
+  if (this->Method == CENTERS_OF_ROTATION && internal.centers.rows() != input.points.rows())
+  {
+    const Status found = this->FindCenters(input, context, 0.0, 0.8);
+    if (!found.ok())
+    {
+      return found;
+    }
+  }
+  Phase phase(context, "skin", 0.8, 1.0);
+  const Status status = this->FindTransforms(input, context);
   if (!status.usable())
   {
     return status;
@@ -123,6 +215,11 @@ Status vtkSkinningDeformation::Deform(
       moved = internal.skinning.stretchable_bones(context, input.points, internal.transforms,
         bone_changes(input.handles, input.pose), internal.endpoints.view(), posed.points);
       break;
+    case CENTERS_OF_ROTATION:
+      moved = internal.skinning.about_centres(
+        context, input.points, internal.transforms, internal.centers, posed.points);
+      moved.report.merge(internal.of_centers.report);
+      break;
     default:
       moved =
         internal.skinning.linear_blend(context, input.points, internal.transforms, posed.points);
@@ -130,6 +227,7 @@ Status vtkSkinningDeformation::Deform(
   }
   posed.transforms = internal.transforms;
   moved.warnings.insert(moved.warnings.end(), status.warnings.begin(), status.warnings.end());
+  moved.report.merge(status.report);
   moved.report.set("method", method_names[this->Method]);
   return moved;
 }
@@ -144,6 +242,11 @@ Status vtkSkinningDeformation::DeformNormals(
   }
   const SharedMatrix<Weights> rest = to_matrix(input.mesh->GetPointData()->GetNormals());
   const Eigen::Map<const Points> directions(rest.view().data(), rest.view().rows(), 3);
+  if (this->Method == CENTERS_OF_ROTATION)
+  {
+    return this->Internal->skinning.about_centres_normals(
+      context, directions, this->Internal->transforms, normals.points);
+  }
   return this->Method == DUAL_QUATERNION
     ? this->Internal->skinning.dual_quaternion_normals(context, directions,
         this->Internal->transforms, handle_pivots(input.handles), normals.points)
@@ -155,6 +258,8 @@ void vtkSkinningDeformation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Method: " << method_names[this->Method] << "\n";
+  os << indent << "PseudoEdges: " << pseudo_edges_names[this->PseudoEdges] << "\n";
+  os << indent << "PseudoEdgeStretch: " << this->PseudoEdgeStretch << "\n";
   os << indent << "SinglePrecision: " << this->SinglePrecision << "\n";
   os << indent << "SmallestWeight: " << this->SmallestWeight << "\n";
   os << indent << "MaximumInfluences: " << this->MaximumInfluences << "\n";

@@ -13,12 +13,23 @@
  *   head to 1 at the tail: the component of that handle in the point array `EndpointWeights`
  *   (vtkBoneEndpointWeights, or painted), where it is missing or NaN the projection to the bone.
  *   Other handles are blended linearly.
+ * - **centers of rotation** (Le and Hodgins 2016): a point turns by the blended rotations about a
+ *   center of its own, the mean place of all of the mesh with similar weights, which moves by
+ *   linear blend. Twists and bends keep their radius, without the bulge of dual quaternions.
+ *   Centers are made when they are asked for first, and kept with the bind.
+ *
+ * **Pseudo-edges** (Jacobson et al. 2011) let points be dragged only: lines between point handles
+ * (HandleKind -2, or found automatically), which bend nothing themselves, turn each point by the
+ * mean of the least rotations that take its edges from rest to where their ends are posed, on top
+ * of what its `Transform` turns. In a plane a rigid motion of all points is found exactly; in space
+ * an edge does not see a turn about itself. Points without edges keep their own rotation.
  *
  * Ports, arrays, bind cache and errors: vtkPoseAlgorithm. Handles whose mode is position count as a
  * translation, free ones as identity (with a warning): skinning finds nothing by itself, see
  * vtkReducedARAP. Works on any vtkPointSet, FE meshes included.
  *
- * Report: method, seconds.bind, seconds.skin, counts, row_sum_error.
+ * Report: method, seconds.bind, seconds.skin, counts (pseudo_edges and centers
+ * among them), row_sum_error.
  */
 
 #ifndef vtkSkinningDeformation_h
@@ -38,17 +49,43 @@ public:
   {
     LINEAR_BLEND = 0,
     DUAL_QUATERNION = 1,
-    STRETCHABLE_BONES = 2
+    STRETCHABLE_BONES = 2,
+    CENTERS_OF_ROTATION = 3
   };
 
   ///@{
   /// How transforms are blended. Default LINEAR_BLEND. A pose parameter: changing it keeps the
   /// bind.
-  vtkSetClampMacro(Method, int, LINEAR_BLEND, STRETCHABLE_BONES);
+  vtkSetClampMacro(Method, int, LINEAR_BLEND, CENTERS_OF_ROTATION);
   vtkGetMacro(Method, int);
   void SetMethodToLinearBlend() { this->SetMethod(LINEAR_BLEND); }
   void SetMethodToDualQuaternion() { this->SetMethod(DUAL_QUATERNION); }
   void SetMethodToStretchableBones() { this->SetMethod(STRETCHABLE_BONES); }
+  void SetMethodToCentersOfRotation() { this->SetMethod(CENTERS_OF_ROTATION); }
+  ///@}
+
+  enum PseudoEdgesType
+  {
+    NO_PSEUDO_EDGES = 0,
+    GIVEN_PSEUDO_EDGES = 1,
+    AUTOMATIC_PSEUDO_EDGES = 2
+  };
+
+  ///@{
+  /**
+   * Which pseudo-edges turn points: none, those of the handles (default), or automatic ones: the
+   * minimum spanning tree of the point handles by distances along the mesh's edges, so that they
+   * follow the shape and no gap is crossed. A pose parameter.
+   */
+  vtkSetClampMacro(PseudoEdges, int, NO_PSEUDO_EDGES, AUTOMATIC_PSEUDO_EDGES);
+  vtkGetMacro(PseudoEdges, int);
+  ///@}
+
+  ///@{
+  /// Whether points are scaled by the mean ratio of their pseudo-edges' lengths. Default off.
+  vtkSetMacro(PseudoEdgeStretch, bool);
+  vtkGetMacro(PseudoEdgeStretch, bool);
+  vtkBooleanMacro(PseudoEdgeStretch, bool);
   ///@}
 
   ///@{
@@ -98,7 +135,13 @@ private:
   vtkSkinningDeformation(const vtkSkinningDeformation&) = delete;
   void operator=(const vtkSkinningDeformation&) = delete;
 
+  bindpose::Status FindCenters(
+    const PoseInput& input, bindpose::ExecutionContext& context, double begin, double end);
+  bindpose::Status FindTransforms(const PoseInput& input, bindpose::ExecutionContext& context);
+
   int Method = LINEAR_BLEND;
+  int PseudoEdges = GIVEN_PSEUDO_EDGES;
+  bool PseudoEdgeStretch = false;
   bool SinglePrecision = false;
   double SmallestWeight = 0.0;
   int MaximumInfluences = 0;

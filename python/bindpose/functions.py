@@ -39,7 +39,8 @@ _WINDING = {"auto": "AUTO", "exact": "EXACT", "fast": "FAST"}
 _TETRAHEDRALIZE = {"auto": "AUTO", "cdt": "CDT", "remesh": "REMESH", "embed": "EMBED", "wrap": "WRAP",
                    "ftetwild": "FTETWILD"}
 _SEGMENTATION = {"graph-cut": "GRAPH_CUT", "threshold": "THRESHOLD"}
-_SKINNING = {"lbs": "LINEAR_BLEND", "dqs": "DUAL_QUATERNION", "stbs": "STRETCHABLE_BONES"}
+_SKINNING = {"lbs": "LINEAR_BLEND", "dqs": "DUAL_QUATERNION", "stbs": "STRETCHABLE_BONES",
+             "cor": "CENTERS_OF_ROTATION"}
 
 
 def _choice(value, choices, what):
@@ -505,27 +506,32 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
 _ENERGIES = ("auto", "spokes-and-rims", "spokes", "tetrahedra", "triangles")
 
 
-def _make_deformation(method, exponent, energy, iterations, tolerance, budget_us, extra_weights, extra_kind,
-                      variational):
+_PSEUDO_EDGES = {"none": "NO_PSEUDO_EDGES", "given": "GIVEN_PSEUDO_EDGES", "auto": "AUTOMATIC_PSEUDO_EDGES"}
+
+
+def _make_deformation(method, energy, options):
+    """The filter of a method, with what deform() was told of it."""
     if method == "variational":
-        return make_variational(*variational)
+        return make_variational(options["order"], options["boundary"], options["tangents"])
     if method in ("reduced-arap", "full-arap"):
         arap = filters.vtkReducedARAP() if method == "reduced-arap" else filters.vtkFullARAP()
         arap.SetEnergy(getattr(arap, energy.upper().replace("-", "_")))
-        arap.SetTolerance(tolerance)
-        if iterations:
-            arap.SetMaximumIterations(int(iterations))
+        arap.SetTolerance(options["tolerance"])
+        if options["iterations"]:
+            arap.SetMaximumIterations(int(options["iterations"]))
         if method == "reduced-arap":
-            arap.SetTimeBudget(budget_us)
-            arap.SetNumberOfExtraWeights(int(extra_weights))
-            arap.SetExtraWeights(getattr(arap, extra_kind.upper()))
+            arap.SetTimeBudget(options["budget_us"])
+            arap.SetNumberOfExtraWeights(int(options["extra_weights"]))
+            arap.SetExtraWeights(getattr(arap, options["extra_kind"].upper()))
         return arap
     if method == "mls":
         warp = filters.vtkMovingLeastSquaresWarp()
-        warp.SetExponent(exponent)
+        warp.SetExponent(options["exponent"])
         return warp
     skinning = filters.vtkSkinningDeformation()
     skinning.SetMethod(getattr(skinning, _SKINNING[method]))
+    skinning.SetPseudoEdges(getattr(skinning, _PSEUDO_EDGES[options["pseudo_edges"]]))
+    skinning.SetPseudoEdgeStretch(options["pseudo_edge_stretch"])
     return skinning
 
 
@@ -549,8 +555,8 @@ def _posed_handles(mesh, handles, pose, weights):
 
 def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, energy="auto", iterations=0,
            tolerance=1e-6, budget_us=0.0, extra_weights=0, extra_kind="bumps", times=None, order=2,
-           boundary="region", tangents="surroundings", stretch_limit=2.0, stretch_array=False, threads=0,
-           progress=None):
+           boundary="region", tangents="surroundings", pseudo_edges="given", pseudo_edge_stretch=False,
+           stretch_limit=2.0, stretch_array=False, threads=0, progress=None):
     """Bend a mesh with weights to a pose, or to a sequence of poses.
 
     Parameters
@@ -564,11 +570,12 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
         ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}``
         or ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file, where numbers may be expressions in
         ``t``; or a .glb or .gltf file for its animation.
-    method : {"lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls", "variational"}
+    method : {"lbs", "dqs", "stbs", "cor", "reduced-arap", "full-arap", "mls", "variational"}
         Linear blend skinning, dual quaternions, stretchable and twistable bones (with the point array
-        ``EndpointWeights`` where there is one), reduced as-rigid-as-possible; without weights: full
-        as-rigid-as-possible, the rigid warp by moving least squares, which knows nothing of the shape, or the
-        smooth displacement between what handles and the point array ``Fixed`` hold (see `fair`).
+        ``EndpointWeights`` where there is one), centres of rotation (neither twists nor bends lose width),
+        reduced as-rigid-as-possible; without weights: full as-rigid-as-possible, the rigid warp by moving least
+        squares, which knows nothing of the shape, or the smooth displacement between what handles and the point
+        array ``Fixed`` hold (see `fair`).
     weights : (#V, #handles) array, optional
         For a mesh of arrays.
     exponent : float
@@ -593,6 +600,11 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
         Of a pose with expressions: seconds at which to take it; without, 0.
     order, boundary, tangents
         Of variational: see `fair`.
+    pseudo_edges : {"none", "given", "auto"}
+        Of lbs, dqs, stbs and cor: edges between points that tell how these turn when they are dragged: those of the
+        handles (see `handles`), or the tree that joins near points through the shape.
+    pseudo_edge_stretch : bool
+        Scale points by how much longer their pseudo-edges become.
     stretch_limit : float
         The report counts elements that become more than this many times as long in some direction, or less than one
         over this (``counts.stretched_elements``), and those turned inside out (``counts.inverted_elements``, a
@@ -614,12 +626,15 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
     InvalidInput
         Weights that do not fit, an unknown handle in the pose, a broken pose.
     """
-    _choice(method, ("lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls", "variational"), "method")
+    _choice(method, (*_SKINNING, "reduced-arap", "full-arap", "mls", "variational"), "method")
     _choice(energy, _ENERGIES, "energy")
     _choice(extra_kind, ("bumps", "eigenmodes"), "extra_kind")
+    _choice(pseudo_edges, tuple(_PSEUDO_EDGES), "pseudo_edges")
     data, poser = _posed_handles(mesh, handles, pose, weights)
-    bender = _make_deformation(method, exponent, energy, iterations, tolerance, budget_us, extra_weights, extra_kind,
-                               (order, boundary, tangents))
+    bender = _make_deformation(method, energy, {
+        "exponent": exponent, "iterations": iterations, "tolerance": tolerance, "budget_us": budget_us,
+        "extra_weights": extra_weights, "extra_kind": extra_kind, "order": order, "boundary": boundary,
+        "tangents": tangents, "pseudo_edges": pseudo_edges, "pseudo_edge_stretch": pseudo_edge_stretch})
     bender.SetInputData(0, data)
     bender.SetInputConnection(1, poser.GetOutputPort())
     bender.SetStretchLimit(stretch_limit)

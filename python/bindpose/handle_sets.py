@@ -14,7 +14,7 @@ from .meshes import is_dataset, shallow_copy, to_dataset, to_vtk_points
 from .running import run
 
 
-def handles(points=None, bones=None, names=None, parents=None):
+def handles(points=None, bones=None, names=None, parents=None, pseudo_edges=None):
     """Make a handle dataset from arrays.
 
     Parameters
@@ -28,12 +28,14 @@ def handles(points=None, bones=None, names=None, parents=None):
     parents : sequence of int, optional
         For each point, then each bone, the number of its parent in this order, or -1. Default: a bone
         whose head is the tail of another has that one as parent.
+    pseudo_edges : (#E, 2) array of int, optional
+        Pairs of points, by number, that tell each other how they turn when they are dragged (see `deform`).
 
     Returns
     -------
     vtkPolyData
         One cell a handle, one column of the weights: points, then bones, with the cell arrays
-        ``HandleName``, ``HandleKind`` and ``Parent``.
+        ``HandleName``, ``HandleKind`` and ``Parent``; then pseudo-edges, which have no column.
 
     Raises
     ------
@@ -49,6 +51,10 @@ def handles(points=None, bones=None, names=None, parents=None):
     count = len(points) + len(bones)
     if count == 0:
         raise InvalidInput("there is no handle")
+    edges = np.zeros((0, 2), dtype=int) if pseudo_edges is None else np.array(pseudo_edges, ndmin=2)
+    if edges.shape[1:] != (2,) or edges.dtype.kind not in "iu" or (len(edges) and (
+            edges.min() < 0 or edges.max() >= len(points) or (edges[:, 0] == edges[:, 1]).any())):
+        raise InvalidInput("pseudo-edges are an array #E x 2 of numbers of two different points each")
     if names is None:
         names = [f"p{i + 1}" for i in range(len(points))] + [f"b{i + 1}" for i in range(len(bones))]
     if parents is None:
@@ -65,9 +71,13 @@ def handles(points=None, bones=None, names=None, parents=None):
     for i in range(len(bones)):
         head = len(points) + 2 * i
         lines.InsertNextCell(2, [head, head + 1])
+    for a, b in edges:
+        lines.InsertNextCell(2, [int(a), int(b)])
     data.SetVerts(vertices)
     data.SetLines(lines)
-    kinds = [0] * len(points) + [1] * len(bones)
+    kinds = [0] * len(points) + [1] * len(bones) + [-2] * len(edges)
+    names = [*names, *[""] * len(edges)]
+    parents = [*parents, *[-1] * len(edges)]
     columns = ((vtkStringArray(), "HandleName", map(str, names)), (vtkIntArray(), "HandleKind", kinds),
                (vtkIdTypeArray(), "Parent", map(int, parents)))
     for array, name, values in columns:

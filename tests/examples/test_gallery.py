@@ -5,13 +5,14 @@ import pytest
 from running import EXAMPLES, is_refused, numbers_of, script
 
 GALLERY = EXAMPLES / "gallery"
-NAMES = ["amount_of_insideness", "boundary_and_parts", "closing_holes", "colours_of_handles", "cost_of_a_point",
-         "cost_of_weights", "cut_out_cartoon", "defect_classes",
-         "extra_weights", "full_and_reduced", "growth", "hull_segmentation", "image_rectangle", "jello", "jump_and_harmonic",
-         "limbs_in_front", "mesh_independence", "near_limbs", "new_hues", "open_crossing_flipped", "original_and_faster",
-         "preview_and_certified", "procedural", "rig_in_a_file", "rigidity_brush", "small_features", "spurious_extrema", "topological_simplification", "weights_in_volume",
-         "handle_modes", "drag_only", "disjoint_skeleton", "four_energies", "rotation_clusters", "surface_and_volume", "tether",
-         "orders_and_boundaries", "torus_and_tubes"]
+NAMES = ["amount_of_insideness", "bent_elbow", "boundary_and_parts", "candy_wrapper", "closing_holes", "colours_of_handles",
+         "cost_of_a_point", "cost_of_weights", "cut_out_cartoon", "defect_classes", "disjoint_skeleton", "drag_only",
+         "dragged_points", "extra_weights", "four_energies", "full_and_reduced", "growth", "handle_modes",
+         "hull_segmentation", "image_rectangle", "jello", "jump_and_harmonic", "limbs_in_front", "mesh_independence",
+         "near_limbs", "new_hues", "open_crossing_flipped", "orders_and_boundaries", "original_and_faster",
+         "preview_and_certified", "procedural", "rig_in_a_file", "rigidity_brush", "rotation_clusters",
+         "small_features", "spurious_extrema", "stretch_and_twist", "surface_and_volume", "tether",
+         "topological_simplification", "torus_and_tubes", "weights_in_volume"]
 
 
 def test_open_crossing_flipped(tmp_path):
@@ -169,6 +170,46 @@ def test_procedural(tmp_path):
     numbers = numbers_of("gallery/procedural.py", tmp_path)
     assert numbers["largest miss"] <= 1e-12
     assert numbers["least volume"] > 0.9
+
+
+def test_candy_wrapper(tmp_path):
+    numbers = numbers_of("gallery/candy_wrapper.py", tmp_path)
+    for degrees, radius in ((90, 0.5 ** 0.5), (120, 0.5), (180, 0)):  # cos(degrees / 2)
+        assert numbers[f"linear blend, {degrees} degrees, radius"] == pytest.approx(radius, abs=0.02)
+        for name in ("dual quaternions", "centers of rotation"):
+            assert numbers[f"{name}, {degrees} degrees, radius"] == pytest.approx(1, abs=0.01)
+    open_, closed = (numbers[f"{name}, 180 degrees, inside out"] for name in ("dual quaternions", "linear blend"))
+    assert open_ < 0.1 * closed
+
+
+def test_bent_elbow(tmp_path):
+    numbers = numbers_of("gallery/bent_elbow.py", tmp_path)
+    for degrees in (60, 120):
+        thin, round_, ours = (f"{degrees} degrees, {name}" for name in ("linear blend", "dual quaternions", "centers of rotation"))
+        assert numbers[f"{thin}, nearest"] < numbers[f"{ours}, nearest"]
+        assert numbers[f"{round_}, farthest"] > numbers[f"{ours}, farthest"]
+    assert numbers["120 degrees, dual quaternions, farthest"] > 1.05
+
+
+def test_stretch_and_twist(tmp_path):
+    numbers = numbers_of("gallery/stretch_and_twist.py", tmp_path)
+    assert numbers["at rest, middle and length of the head"] == pytest.approx([1.3, 0.6], abs=1e-12)
+    assert numbers["scaled, middle and length of the head"] == pytest.approx([2.6, 1.2], abs=1e-12)
+    assert numbers["stretched, middle and length of the head"] == pytest.approx([2.3, 0.6], abs=1e-12)
+    assert numbers["twisted, degrees at the middle"] == pytest.approx(90, abs=1e-6)
+    assert numbers["twisted, largest change of a radius"] <= 1e-12
+    assert numbers["arm, stretchable bones, length"] == pytest.approx(0.5, abs=0.1)
+    assert numbers["arm, linear blend, length"] > 0.8
+
+
+def test_dragged_points(tmp_path):
+    numbers = numbers_of("gallery/dragged_points.py", tmp_path)
+    assert numbers["translations, degrees"] == pytest.approx([0, 0, 0, 0], abs=1e-9)
+    turned = numbers["pseudo-edges, degrees"]
+    assert turned == pytest.approx([-50, -25, 25, 50], abs=1e-6)  # chords: the mean of those at a point
+    assert numbers["reduced ARAP, degrees"] == pytest.approx([-75, -25, 25, 75], abs=30)
+    for name in ("pseudo-edges", "reduced ARAP"):
+        assert abs(numbers[f"{name}, area"] - 1) < abs(numbers["translations, area"] - 1)
 
 
 def test_rigidity_brush(tmp_path):

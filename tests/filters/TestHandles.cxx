@@ -1,5 +1,6 @@
 // Handles from files and from the surface itself.
 #include "conversion.h"
+#include "pseudo_edge_cells.h"
 #include "vtkFarthestPointHandles.h"
 #include "vtkHandleFileReader.h"
 #include "vtkMeshFileWriter.h"
@@ -8,6 +9,7 @@
 #include "support/meshes.h"
 
 #include "vtkCallbackCommand.h"
+#include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
@@ -64,6 +66,51 @@ TEST_F(HandleFiles, TgfGivesPointsThenBones)
   EXPECT_EQ(handles[2].head, Vec3(1, 0, 0));
   EXPECT_EQ(handles[2].tail, Vec3(2, 0, 0));
   EXPECT_THAT(this->Reader->GetReportJSON(), HasSubstr("\"left hand\""));
+}
+
+TEST_F(HandleFiles, TgfPseudoEdgesJoinPoints)
+{
+  const auto pseudo_edges_of = [this](const std::string& path, PseudoEdges& edges)
+  {
+    this->Read(path);
+    auto* data = vtkPolyData::SafeDownCast(this->Reader->GetOutput());
+    Handles handles;
+    std::vector<Index> cells;
+    EXPECT_TRUE(to_handles(data, handles, &cells).ok());
+    EXPECT_EQ(handles.size(), 3u) << "they are no handles";
+    return to_pseudo_edges(data, handles, cells, edges);
+  };
+  PseudoEdges edges;
+  const std::string path = this->Folder.write(
+    "h.tgf", "1 0 0 0\n2 1 0 0\n3 2 0 0\n4 5 5 5\n#\n1 2 0 1 0\n3 4 1 0 0\n2 1 0 1 0\n");
+  EXPECT_TRUE(pseudo_edges_of(path, edges).ok());
+  ASSERT_EQ(this->Reader->GetStatusMessage(), "");
+  EXPECT_EQ(edges, (PseudoEdges{ { 0, 1 } })) << "each once";
+  // A file of all kinds keeps them.
+  vtkNew<vtkPolyData> copy;
+  copy->DeepCopy(this->Reader->GetOutput());
+  vtkNew<vtkMeshFileWriter> writer;
+  writer->SetInputData(copy);
+  writer->SetFileName((this->Folder / "h.vtp").c_str());
+  ASSERT_EQ(writer->Write(), 1);
+  EXPECT_TRUE(pseudo_edges_of(this->Folder / "h.vtp", edges).ok());
+  EXPECT_EQ(edges, (PseudoEdges{ { 0, 1 } }));
+  // Their ends must be points, not ends of bones.
+  const vtkIdType at_a_bone[2] = { 0, 2 };
+  copy->GetLines()->InsertNextCell(2, at_a_bone);
+  vtkDataArray* kinds = copy->GetCellData()->GetArray("HandleKind");
+  const double kind = pseudo_edge_kind;
+  const vtkIdType cell = kinds->InsertNextTuple(&kind);
+  vtkNew<vtkPolyData> broken;
+  broken->SetPoints(copy->GetPoints());
+  broken->SetVerts(copy->GetVerts());
+  broken->SetLines(copy->GetLines());
+  broken->GetCellData()->AddArray(kinds);
+  Handles handles;
+  std::vector<Index> cells;
+  ASSERT_TRUE(to_handles(broken, handles, &cells).ok());
+  EXPECT_THAT(to_pseudo_edges(broken, handles, cells, edges).message,
+    HasSubstr("handle cell " + std::to_string(cell) + " is a pseudo-edge"));
 }
 
 TEST_F(HandleFiles, VtpKeepsNamesParentsAndPose)

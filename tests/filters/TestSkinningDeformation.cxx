@@ -3,6 +3,7 @@
 #include "vtkSkinningDeformation.h"
 
 #include "conversion.h"
+#include "pseudo_edge_cells.h"
 #include "report_field_data.h"
 #include "vtkPoseHandles.h"
 
@@ -155,17 +156,21 @@ TEST_F(SkinningDeformation, ATwistedJointShrinksUnderLinearBlendAndKeepsItsRadiu
     this->filter->SetMethodToLinearBlend();
     this->filter->Update();
     EXPECT_NEAR(this->ring_radius(), radius, 1e-6); // the mesh's points are floats
-    this->filter->SetMethodToDualQuaternion();
-    this->filter->Update();
-    EXPECT_NEAR(this->ring_radius(), 1.0, 1e-6);
+    for (const int method :
+      { vtkSkinningDeformation::DUAL_QUATERNION, vtkSkinningDeformation::CENTERS_OF_ROTATION })
+    {
+      this->filter->SetMethod(method);
+      this->filter->Update();
+      EXPECT_NEAR(this->ring_radius(), 1.0, 1e-6);
+    }
   }
   EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
 }
 
 TEST_F(SkinningDeformation, NormalsTurnWithARigidMotion)
 {
-  for (const int method :
-    { vtkSkinningDeformation::LINEAR_BLEND, vtkSkinningDeformation::DUAL_QUATERNION })
+  for (const int method : { vtkSkinningDeformation::LINEAR_BLEND,
+         vtkSkinningDeformation::DUAL_QUATERNION, vtkSkinningDeformation::CENTERS_OF_ROTATION })
   {
     this->filter->SetMethod(method);
     this->handles->GetCellData()->GetArray("Parent")->SetComponent(1, 0, 0);
@@ -358,6 +363,98 @@ TEST_F(SkinningDeformation, InSinglePrecisionWithFewInfluencesSaysWhatItDropped)
   this->filter->SetSmallestWeight(2.0);
   this->filter->Update();
   EXPECT_NE(this->error.find("smallest weight"), std::string::npos) << this->error;
+}
+
+TEST_F(SkinningDeformation, CentersAreMadeOnceAndCanBeCancelled)
+{
+  this->pose->SetPoseJSON(turn_upper(90.0, "[0, 0, 1]"));
+  this->filter->Update();
+  EXPECT_EQ(read_report(this->filter->GetOutput()).find("seconds.centers"), nullptr);
+  this->filter->SetMethodToCentersOfRotation();
+  this->filter->Update();
+  Report report = read_report(this->filter->GetOutput());
+  EXPECT_NE(report.find("seconds.centers"), nullptr);
+  EXPECT_GT(report.number("counts.centers", 0), 0);
+  this->pose->SetPoseJSON(turn_upper(120.0, "[0, 0, 1]"));
+  this->filter->Update();
+  report = read_report(this->filter->GetOutput());
+  EXPECT_EQ(report.find("seconds.centers"), nullptr) << "kept";
+  EXPECT_GT(report.number("counts.centers", 0), 0);
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
+
+  this->mesh->GetPointData()->GetArray("Weights")->Modified();
+  this->mesh->Modified();
+  vtkNew<vtkCallbackCommand> stop;
+  stop->SetCallback([](vtkObject* caller, unsigned long, void*, void*)
+    { vtkAlgorithm::SafeDownCast(caller)->SetAbortExecute(1); });
+  const unsigned long tag = this->filter->AddObserver(vtkCommand::ProgressEvent, stop);
+  this->filter->Update();
+  EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::CANCELLED);
+  this->filter->RemoveObserver(tag);
+  this->filter->SetAbortExecute(0);
+  this->filter->Update();
+  EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::OK);
+  EXPECT_NEAR(this->ring_radius(), 1.0, 1e-6);
+}
+
+TEST_F(SkinningDeformation, PseudoEdgesTurnPointsThatAreDragged)
+{
+  // Three points on a square that is turned by 90 degrees about the first.
+  const TriangleMesh square = test::grid(4, 4);
+  const auto flat = to_polydata(square.points, square.triangles);
+  vtkNew<vtkDoubleArray> weights;
+  weights->SetName("Weights");
+  weights->SetNumberOfComponents(3);
+  for (Index v = 0; v < square.points.rows(); ++v)
+  {
+    const double row[3] = { 0.2 * square.points(v, 0), 0.7 * square.points(v, 1),
+      1.0 - 0.2 * square.points(v, 0) - 0.7 * square.points(v, 1) };
+    weights->InsertNextTuple(row);
+  }
+  flat->GetPointData()->AddArray(weights);
+  Handles points(3);
+  const Vec3 places[3] = { Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 1, 0) };
+  for (int k = 0; k < 3; ++k)
+  {
+    points[k].name = "p" + std::to_string(k);
+    points[k].head = points[k].tail = places[k];
+  }
+  this->filter->SetInputData(0, flat);
+  this->pose->SetPoseJSON(R"({"handles": {"p1": {"mode": "position", "translate": [-1, 1, 0]},
+    "p2": {"mode": "position", "translate": [-2, 0, 0]}}})");
+  const auto farthest = [&]
+  {
+    double most = 0.0;
+    for (Index v = 0; v < square.points.rows(); ++v)
+    {
+      double p[3];
+      this->filter->GetOutput()->GetPoint(v, p);
+      most = std::max(most, std::hypot(p[0] + square.points(v, 1), p[1] - square.points(v, 0)));
+    }
+    return most;
+  };
+  const auto without = to_polydata(points);
+  this->pose->SetInputData(without);
+  this->filter->Update();
+  EXPECT_GT(farthest(), 0.5) << "translations do not turn";
+  EXPECT_EQ(read_report(this->filter->GetOutput()).find("counts.pseudo_edges"), nullptr);
+  this->filter->SetPseudoEdges(vtkSkinningDeformation::AUTOMATIC_PSEUDO_EDGES);
+  this->filter->Update();
+  EXPECT_LT(farthest(), 1e-14);
+  EXPECT_EQ(read_report(this->filter->GetOutput()).number("counts.pseudo_edges", 0), 2);
+
+  const auto with = to_polydata(points);
+  add_pseudo_edges(with, { 0, 1, 2 }, { { 1, 0 }, { 1, 2 } });
+  EXPECT_EQ(with->GetNumberOfCells(), 5);
+  this->pose->SetInputData(with);
+  this->filter->SetPseudoEdges(vtkSkinningDeformation::GIVEN_PSEUDO_EDGES);
+  this->filter->Update();
+  EXPECT_LT(farthest(), 1e-14);
+  this->filter->SetPseudoEdges(vtkSkinningDeformation::NO_PSEUDO_EDGES);
+  this->filter->Update();
+  EXPECT_GT(farthest(), 0.5);
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 2) << "other handles, nothing else";
+  ASSERT_EQ(this->error, "");
 }
 
 TEST_F(SkinningDeformation, ReportsWhatIsInsideOutAndStretched)

@@ -199,7 +199,7 @@ def test_weights_on_the_surface():
         bindpose.weights(bindpose.tetrahedralize(BAR)[:2], "auto:3", domain="surface")
 
 
-@pytest.mark.parametrize("method", ["lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls"])
+@pytest.mark.parametrize("method", ["lbs", "dqs", "stbs", "cor", "reduced-arap", "full-arap", "mls"])
 def test_deform_is_the_programs(tmp_path, method):
     handles = bindpose.handles(bones=BONES)
     x = np.array(BAR[0])[:, 0] / 6

@@ -66,7 +66,7 @@ def test_nothing_is_printed_where_an_exception_tells():
 
 
 def test_warnings_are_warnings(tmp_path):
-    (tmp_path / "h.tgf").write_text("1 0 0 0\n2 1 0 0\n#\n1 2 0 1 0\n")
+    (tmp_path / "h.tgf").write_text("1 0 0 0\n2 1 0 0\n#\n1 2 0 0 0\n")
     with pytest.warns(bindpose.BindposeWarning, match="pseudo-edges"):
         bindpose.read_handles(tmp_path / "h.tgf")
 

@@ -232,11 +232,16 @@ const std::vector<Verb>& verbs()
           "or the animation in a .glb or .gltf file",
           true },
         { "--method", "METHOD", Kind::choice, "lbs",
-          "lbs|dqs|stbs|reduced-arap|full-arap|mls|variational",
+          "lbs|dqs|stbs|cor|reduced-arap|full-arap|mls|variational",
           "linear blend, dual quaternions, stretchable and twistable bones (along the point array "
-          "EndpointWeights), reduced as-rigid-as-possible; without weights: full "
-          "as-rigid-as-possible, moving least squares, which knows nothing of the shape, or the "
-          "smooth surface between what handles and the point array Fixed hold" },
+          "EndpointWeights), centres of rotation, reduced as-rigid-as-possible; without weights: "
+          "full as-rigid-as-possible, moving least squares, which knows nothing of the shape, or "
+          "the smooth surface between what handles and the point array Fixed hold" },
+        { "--pseudo-edges", "WHICH", Kind::choice, "given", "none|given|auto",
+          "of lbs, dqs, stbs and cor: edges between points that tell how these turn when they are "
+          "dragged: those of the handles, or the tree that joins near points through the shape" },
+        { "--pseudo-edge-stretch", "", Kind::flag, "", "",
+          "scale points by how much longer their pseudo-edges become" },
         { "--energy", "ENERGY", Kind::choice, "auto",
           "auto|spokes-and-rims|spokes|tetrahedra|triangles",
           "of reduced-arap and full-arap: which edges share a rotation; auto: tetrahedra on tets, "

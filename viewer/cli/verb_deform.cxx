@@ -131,7 +131,13 @@ vtkSmartPointer<vtkPoseAlgorithm> make_deformation(const Arguments& arguments)
   auto skinning = vtkSmartPointer<vtkSkinningDeformation>::New();
   skinning->SetMethod(method == "dqs" ? vtkSkinningDeformation::DUAL_QUATERNION
       : method == "stbs"              ? vtkSkinningDeformation::STRETCHABLE_BONES
+      : method == "cor"               ? vtkSkinningDeformation::CENTERS_OF_ROTATION
                                       : vtkSkinningDeformation::LINEAR_BLEND);
+  const std::string edges = arguments.text("pseudo-edges");
+  skinning->SetPseudoEdges(edges == "none" ? vtkSkinningDeformation::NO_PSEUDO_EDGES
+      : edges == "auto"                    ? vtkSkinningDeformation::AUTOMATIC_PSEUDO_EDGES
+                                           : vtkSkinningDeformation::GIVEN_PSEUDO_EDGES);
+  skinning->SetPseudoEdgeStretch(arguments.has("pseudo-edge-stretch"));
   return skinning;
 }
 

@@ -206,10 +206,10 @@ Status check(const RotationCentresOptions& options, PointsView points, WeightsVi
 {
   if (!(options.width > 0.0) ||
     !(options.smallest_weight >= 0.0 && options.smallest_weight < 1.0) ||
-    !(options.group_size >= 0.0))
+    !(options.smallest_pair >= 0.0 && options.smallest_pair < 1.0) || !(options.group_size >= 0.0))
   {
     return Status::invalid_input(
-      "the width must be above 0, the smallest weight at least 0 and less "
+      "the width must be above 0, the smallest weight and pair at least 0 and less "
       "than 1, and the group size at least 0");
   }
   if (weights.rows() != points.rows())
@@ -333,14 +333,25 @@ Status find_centres(ExecutionContext& context, const RotationCentresOptions& opt
             own.push_back(j);
           }
         }
+        // The largest product is that of the two largest weights.
+        double most = 0.0, second_most = 0.0;
+        for (const Index j : own)
+        {
+          second_most = std::max(second_most, std::min(most, weights(v, j)));
+          most = std::max(most, weights(v, j));
+        }
+        const double least = options.smallest_pair * most * second_most;
         Sums sums;
         for (std::size_t a = 0; a < own.size(); ++a)
         {
           for (std::size_t b = a + 1; b < own.size(); ++b)
           {
             const double first = weights(v, own[a]), second = weights(v, own[b]);
-            add_similar(pairs[static_cast<std::size_t>(pair_of(own[a], own[b], handles))], first,
-              second, first * second, sums);
+            if (first * second >= least)
+            {
+              add_similar(pairs[static_cast<std::size_t>(pair_of(own[a], own[b], handles))], first,
+                second, first * second, sums);
+            }
           }
         }
         if (sums.amount > 1e-300)

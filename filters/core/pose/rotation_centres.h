@@ -14,6 +14,9 @@ struct RotationCentresOptions
   /// Weights below this count as zero, 0 to 1. 1e-4 by default: what a weight of that size turns
   /// and moves is not seen, and most of weights without exact zeros goes away.
   double smallest_weight = 1e-4;
+  /// Pairs of a vertex's handles whose product of weights is less than this share of its largest do
+  /// not count, 0 to 1. 1e-3 by default: most pairs of many handles are that small.
+  double smallest_pair = 1e-3;
   /// Elements whose weights differ by no more than this are taken together, as one of their mean
   /// weights at their centroid; 0: none but equals. 0.01 by default, a tenth of the width: centres
   /// move by less than a thousandth of the shape.

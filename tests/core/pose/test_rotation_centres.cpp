@@ -149,6 +149,7 @@ RotationCentresOptions exact()
 {
   RotationCentresOptions options;
   options.smallest_weight = 0.0;
+  options.smallest_pair = 0.0;
   options.group_size = 0.0;
   return options;
 }
@@ -373,6 +374,9 @@ TEST(RotationCentres, BadInputAndCancel)
   EXPECT_EQ(code(options), StatusCode::invalid_input);
   options = {};
   options.smallest_weight = 1.0;
+  EXPECT_EQ(code(options), StatusCode::invalid_input);
+  options = {};
+  options.smallest_pair = -1.0;
   EXPECT_EQ(code(options), StatusCode::invalid_input);
   options = {};
   options.group_size = -1.0;

@@ -9,7 +9,7 @@ import shapes
 from bindpose.meshes import add_point_array, points_of, to_dataset
 from vtkmodules.util import numpy_support
 
-METHODS = ["lbs", "dqs", "stbs", "reduced-arap", "full-arap", "mls"]
+METHODS = ["lbs", "dqs", "stbs", "cor", "reduced-arap", "full-arap", "mls"]
 
 
 @pytest.fixture
@@ -210,6 +210,26 @@ def test_extra_weights(bar):
         report = deform(bar, shapes.BENT, "--extra-weights", "3", "--extra-kind", kind, "--overwrite", "--report", "-",
                         method="reduced-arap").is_good().report
         assert report["counts"]["extra_weights"] == 3
+
+
+def test_pseudo_edges_turn_dragged_points(folder):
+    mesh = to_dataset(shapes.bar())
+    x = points_of(mesh)[:, 0] / 6
+    add_point_array(mesh, "Weights", np.stack([1 - x, x], axis=1), ["p1", "p2"])
+    bindpose.write(mesh, folder / "bar.vtp")
+    folder.write("h.tgf", "1 0 0.5 0.5\n2 6 0.5 0.5\n#\n1 2 0 1 0\n")
+    drag = {"handles": {"p2": {"mode": "position", "translate": [-6, 6, 0]}}}  # a quarter about p1
+    deform(folder, drag).is_good()
+    turned = points_of(bindpose.read(folder / "out.vtp"))
+    deform(folder, drag, "--overwrite", "--pseudo-edges", "auto").is_good()
+    assert np.array_equal(points_of(bindpose.read(folder / "out.vtp")), turned)
+    p = points_of(mesh) - [0, 0.5, 0.5]
+    assert turned == pytest.approx(np.stack([-p[:, 1], p[:, 0] + 0.5, p[:, 2] + 0.5], axis=1), abs=1e-6)
+    deform(folder, drag, "--overwrite", "--pseudo-edges", "none").is_good()
+    assert points_of(bindpose.read(folder / "out.vtp")) == pytest.approx(
+        points_of(mesh) + np.outer(x, [-6, 6, 0]), abs=1e-12)
+    posed = bindpose.deform(mesh, bindpose.handles([[0, 0.5, 0.5], [6, 0.5, 0.5]], pseudo_edges=[[0, 1]]), drag)
+    assert np.array_equal(points_of(posed), turned)
 
 
 def test_what_is_stretched_is_in_the_report_and_a_cell_array(bar):

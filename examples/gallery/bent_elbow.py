@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""A bent elbow: linear blend gets thin, dual quaternions bulge, centers of rotation do neither as much.
+
+The cylinder of candy_wrapper.py, its right half bent about the middle by 60 and 120 degrees: linear blend, dual
+quaternions and centers of rotation, from left to right. Where both bones weigh 1/2, linear blend pulls the skin to the
+joint; dual quaternions turn everything about the joint, so that what was beside it swings outwards; about its own
+center, in the middle of its slice, a point keeps its distance from the axis.
+
+Numbers: how near to the bent axis the skin comes on the outside of the bend and how far from it, where both are 1 at
+rest; the volume, of that at rest; tets inside out.
+"""
+
+import warnings
+
+import common
+import bindpose
+import numpy as np
+from bindpose.meshes import points_of, tets_of
+
+from candy_wrapper import LENGTH, METHODS, weighted_cylinder
+
+BENDS = (60, 120)
+JOINT = np.array([LENGTH / 2, 0, 0])
+
+
+def bend(degrees):
+    """The right bone about the joint: about its own head, and the head's way."""
+    angle = np.radians(degrees)
+    from_joint = np.array([3.5, 0, 0]) - JOINT
+    moved = np.array([np.cos(angle), np.sin(angle), 0]) * np.linalg.norm(from_joint)
+    return {"handles": {"b2": {"rotate": {"axis": [0, 0, 1], "degrees": degrees},
+                               "translate": (moved - from_joint).tolist()}}}
+
+
+def to_segment(points, start, end):
+    along = end - start
+    share = np.clip((points - start) @ along / (along @ along), 0, 1)
+    return np.linalg.norm(points - start - share[:, None] * along, axis=1)
+
+
+def volume(points, tets):
+    a, b, c, d = (points[tets[:, k]] for k in range(4))
+    return float(np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a).sum() / 6)
+
+
+def make(options):
+    warnings.filterwarnings("ignore", "the pose turns", bindpose.BindposeWarning)  # counted among the numbers
+    weighted, handles = weighted_cylinder(options.small)
+    rest, tets = points_of(weighted), tets_of(weighted)
+    skin = np.hypot(rest[:, 1], rest[:, 2]) > 0.999
+    outside = skin & (rest[:, 1] < -0.999)  # the bend goes to +y
+    numbers, files, labels = {}, [], []
+    for degrees in BENDS:
+        angle = np.radians(degrees)
+        tip = JOINT + 3 * np.array([np.cos(angle), np.sin(angle), 0])
+        for method, name in METHODS.items():
+            posed = bindpose.deform(weighted, handles, bend(degrees), method=method)
+            points = points_of(posed)[outside]
+            distance = np.minimum(to_segment(points, np.zeros(3), JOINT), to_segment(points, JOINT, tip))
+            numbers[f"{degrees} degrees, {name}, nearest"] = float(distance.min())
+            numbers[f"{degrees} degrees, {name}, farthest"] = float(distance.max())
+            numbers[f"{degrees} degrees, {name}, volume"] = volume(points_of(posed), tets) / volume(rest, tets)
+            numbers[f"{degrees} degrees, {name}, inside out"] = bindpose.report(posed)["counts"]["inverted_elements"]
+            files.append(f"{method}-{degrees}.vtu")
+            labels.append(f"{name}: {distance.min():.2f} to {distance.max():.2f}")
+            bindpose.write(posed, options.scratch / files[-1])
+    common.render(options, *files, "--columns", 3, "--size", "1500x1000", "--edges", "--elevation", 10, "--section", "none",
+                  "--labels", ",".join(labels),
+                  "--title", "A bent elbow: distance of its outside from the axis, 1 at rest")
+    return numbers
+
+
+if __name__ == "__main__":
+    common.main(__file__, __doc__, make)

@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+"""Points that are only dragged: who turns them?
+
+A strip with four points, which are dragged to an arc of 150 degrees and not turned. From left to right: translations
+blended as they are shear the strip; pseudo-edges between neighbours tell how far each point turns; reduced
+as-rigid-as-possible finds the turns that bend the strip least. Pseudo-edges cost nothing and need no iteration; they
+see chords, so that the ends turn as their only edge does.
+
+Numbers: degrees by which each point turns, where the arc has -75, -25, 25 and 75; the strip's area, of that at rest;
+its largest and smallest stretch; triangles inside out.
+"""
+
+import common
+import bindpose
+import numpy as np
+from bindpose.meshes import points_of, to_dataset
+from vtkmodules.util.numpy_support import vtk_to_numpy
+
+ARC = 150  # degrees
+LENGTH = 6
+WAYS = {"translations": ("lbs", "none"), "pseudo-edges": ("lbs", "auto"), "reduced ARAP": ("reduced-arap", "none")}
+
+
+def strip(along, across):
+    """A rectangle of LENGTH by 1 about the x axis."""
+    x, y = np.meshgrid(np.linspace(0, LENGTH, along + 1), np.linspace(-0.5, 0.5, across + 1))
+    points = np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1)
+    corner = (np.arange(across)[:, None] * (along + 1) + np.arange(along)).ravel()
+    squares = np.stack([corner, corner + 1, corner + along + 2, corner + along + 1], axis=1)
+    return points, np.concatenate([squares[:, [0, 1, 2]], squares[:, [0, 2, 3]]])
+
+
+def area(points, triangles):
+    a, b, c = (points[triangles[:, k], :2] for k in range(3))
+    (x, y), (u, v) = (b - a).T, (c - a).T
+    return float((x * v - y * u).sum() / 2)
+
+
+def turns(posed):
+    """Degrees of each handle's transform."""
+    transforms = vtk_to_numpy(posed.GetFieldData().GetArray("HandleTransforms")).reshape(-1, 3, 4)
+    return [float(np.degrees(np.arctan2(t[1, 0] - t[0, 1], t[0, 0] + t[1, 1]))) for t in transforms]
+
+
+def make(options):
+    points, triangles = strip(*((48, 8) if options.small else (96, 16)))
+    places = np.array([[x, 0, 0] for x in np.linspace(0, LENGTH, 4)])
+    handles = bindpose.handles(points=places)
+    weighted = bindpose.weights(to_dataset((points, triangles)), handles, domain="surface")
+    # The arc is as long as the strip, its middle where the strip's is.
+    angles = np.radians(ARC) * (places[:, 0] / LENGTH - 0.5)
+    radius = LENGTH / np.radians(ARC)
+    arc = np.stack([LENGTH / 2 + radius * np.sin(angles), radius * (1 - np.cos(angles)), 0 * angles], axis=1)
+    pose = {"handles": {f"p{k + 1}": {"mode": "position", "translate": (arc[k] - places[k]).tolist()} for k in range(4)}}
+    numbers, files, labels = {}, [], []
+    for name, (method, edges) in WAYS.items():
+        posed = bindpose.deform(weighted, handles, pose, method=method, pseudo_edges=edges, stretch_array=True)
+        report = bindpose.report(posed)
+        share = area(points_of(posed), triangles) / area(points, triangles)
+        numbers[f"{name}, degrees"] = turns(posed)
+        numbers[f"{name}, area"] = share
+        numbers[f"{name}, largest and smallest stretch"] = [report["largest_stretch"], report["smallest_stretch"]]
+        numbers[f"{name}, inside out"] = report["counts"]["inverted_elements"]
+        files.append(f"{name}.vtp".replace(" ", "-"))
+        labels.append(f"{name}: area {share:.2f}")
+        bindpose.write(posed, options.scratch / files[-1])
+    common.render(options, *files, "--columns", 3, "--size", "1500x480", "--edges", "--array", "Stretch", "--component",
+                  "largest", "--range", "1,2", "--labels", ",".join(labels),
+                  "--title", "Points dragged to an arc: largest stretch")
+    return numbers
+
+
+if __name__ == "__main__":
+    common.main(__file__, __doc__, make)

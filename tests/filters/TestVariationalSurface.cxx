@@ -47,7 +47,8 @@ protected:
     }
     this->surface->GetPointData()->AddArray(this->fixed);
     this->surface->GetPointData()->AddArray(this->labels);
-    this->pose->SetInputData(to_polydata(Handles{ test::region_handle("middle", 1, Vec3(0.5, 0.5, 0)) }));
+    this->pose->SetInputData(
+      to_polydata(Handles{ test::region_handle("middle", 1, Vec3(0.5, 0.5, 0)) }));
     this->filter->SetInputData(0, this->surface);
     this->listener->listen(this->filter);
   }

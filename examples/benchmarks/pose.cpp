@@ -1,19 +1,24 @@
 // Pose time, one thread: microseconds per iteration of reduced ARAP by handles and clusters (the
 // mesh does not matter: two sizes show it) and of full ARAP (by the mesh alone), bind and
 // re-factor, skinning of 100k vertices with dense weights. Weights are made up (inverse distances),
-// so that no solver is waited for.
+// so that no solver is waited for; those of the crowd are bounded biharmonic.
 #include "surfaces.h"
 
+#include "pose/crowd.h"
 #include "pose/element_stretch.h"
 #include "pose/full_arap.h"
 #include "pose/reduced_arap.h"
 #include "pose/rotation_fit.h"
 #include "pose/skinning.h"
+#include "weights/bounded_biharmonic_weights.h"
 #include "weights/farthest_points.h"
+#include "weights/surface_weights.h"
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <limits>
 
 namespace
@@ -302,6 +307,67 @@ void stretch_of_tets(benchmark::State& state)
   measure(state, points, tets);
 }
 BENCHMARK(stretch_of_tets)->Unit(benchmark::kMillisecond);
+
+/// Arguments: triangles, handles, clusters. 100 instances, each with a pose of its own that moves
+/// on from frame to frame: solved warm with at most 10 iterations, and all vertices. Weights are
+/// bounded biharmonic, those up to 1e-6 dropped.
+void crowd(benchmark::State& state)
+{
+  Rig rig = make_rig(state.range(0), state.range(1));
+  ExecutionContext context;
+  SurfaceWeightsOptions where;
+  where.domain = WeightsDomain::embedding;
+  const WeightsMethod method =
+    [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& result)
+  { return bounded_biharmonic_weights(problem, {}, of_method, result); };
+  SurfaceWeights weights;
+  const Status solved = surface_weights(
+    rig.mesh.points, rig.mesh.triangles, {}, rig.handles, where, {}, method, context, weights);
+  if (!solved.usable())
+  {
+    state.SkipWithError(solved.message.c_str());
+    return;
+  }
+  context.set_threads(1);
+  Crowd crowd;
+  ReducedArapOptions options;
+  options.clusters = state.range(2);
+  options.skinning.smallest_weight = 1e-6;
+  crowd.bind(context, rig.mesh.points, rig.mesh.triangles, weights.weights, rig.handles, options);
+  ReducedSolveOptions solve;
+  solve.tolerance = 1e-4;
+  solve.max_iterations = 10;
+  std::vector<Pose> poses(100, dragged(rig.handles, 0.0));
+  std::vector<FloatPoints> posed;
+  double seconds = 0.0, iterations = 0.0, frames = 0.0;
+  for (auto _ : state)
+  {
+    for (std::size_t i = 0; i < poses.size(); ++i)
+    {
+      const double angle = 0.05 * frames + 0.3 * static_cast<double>(i);
+      for (std::size_t h = 0; h < rig.handles.size(); h += 2)
+      {
+        poses[i][h].transform.col(3) =
+          0.2 * std::sin(angle + static_cast<double>(h)) * rig.handles[h].head.reverse();
+      }
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const Status status = crowd.solve(context, poses, solve);
+    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    crowd.deform(context, rig.mesh.points, posed);
+    iterations += status.report.number("iterations", 0.0);
+    frames += 1.0;
+    benchmark::DoNotOptimize(posed.data());
+  }
+  state.counters["frames_per_second"] = benchmark::Counter(frames, benchmark::Counter::kIsRate);
+  state.counters["ms_of_solves"] = 1e3 * seconds / frames;
+  state.counters["iterations_each"] = iterations / frames / 100.0;
+}
+BENCHMARK(crowd)
+  ->ArgNames({ "triangles", "handles", "clusters" })
+  ->Args({ 86000, 5, 20 })
+  ->Args({ 86000, 20, 80 })
+  ->Unit(benchmark::kMillisecond);
 
 /// 1024 random 3x3 matrices; time per matrix is the time divided by 1024.
 void rotation_fit(benchmark::State& state)

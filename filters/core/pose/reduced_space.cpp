@@ -305,7 +305,7 @@ Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const El
   }
   {
     Phase phase(context, "copy_weights", 0.0, 0.1);
-    status = this->skinning.bind(context, weights);
+    status = this->skinning.bind(context, weights, options.skinning);
     if (!status.ok())
     {
       return status;
@@ -365,7 +365,7 @@ Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const El
       }
       all.resize(weights.rows(), weights.cols() + extra.cols());
       all << weights, extra;
-      const Status widened = this->skinning.bind(context, all);
+      const Status widened = this->skinning.bind(context, all, options.skinning);
       if (!widened.ok())
       {
         return widened;

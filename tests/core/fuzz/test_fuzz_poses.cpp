@@ -428,12 +428,14 @@ TEST(FuzzPoses, FullArap)
           ASSERT_LT((r.transpose() * r - Eigen::Matrix3d::Identity()).norm(), 1e-9);
           ASSERT_GT(r.determinant(), 0.0);
         }
+        // As above; contradicting handles add energies hundreds of times that of rest, differences
+        // of terms that are larger still.
         const double size = size_of(pose);
         const double unit = 1e-12 * arap.rest_energy() * size * size;
         for (std::size_t i = 1; i < arap.energies().size(); ++i)
         {
           ASSERT_LE(arap.energies()[i],
-            arap.energies()[i - 1] + unit + 1e-12 * std::abs(arap.energies()[i - 1]))
+            arap.energies()[i - 1] + unit + 1e-11 * std::abs(arap.energies()[i - 1]))
             << i << " size " << size;
         }
         ASSERT_TRUE(twin.solve(many, pose, options).usable());

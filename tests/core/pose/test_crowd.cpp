@@ -1,0 +1,107 @@
+// A crowd is what ReducedArap would do, instance by instance.
+#include "pose/crowd.h"
+
+#include "core/pose/arap_cases.h"
+
+#include <gmock/gmock.h>
+
+using namespace bindpose;
+using namespace bindpose::test;
+using testing::HasSubstr;
+
+namespace
+{
+/// Poses of instances at a time, all different.
+std::vector<Pose> poses_at(const Handles& handles, int time)
+{
+  std::vector<Pose> poses;
+  for (int i = 0; i < 5; ++i)
+  {
+    Pose pose(handles.size());
+    pose[1].mode = i % 2 == 0 ? HandleMode::free : HandleMode::position;
+    pose[1].transform.col(3) << 0.0, 0.1 * i, 0.0;
+    pose[2].transform = affine_about(handles[2].head,
+      rigid(20.0 * i + 10.0 * time, Vec3(0, 0, 1), Vec3::Zero()).leftCols<3>(),
+      Vec3(-0.1 * i, 0.2 * i, 0));
+    poses.push_back(pose);
+  }
+  return poses;
+}
+} // namespace
+
+TEST(Crowd, InstancesAreWhatReducedArapMakesOfTheirPoses)
+{
+  const Rig rig = bar();
+  ExecutionContext one, many;
+  one.set_threads(1);
+  many.set_threads(4);
+  Crowd crowd;
+  ASSERT_TRUE(crowd.bind(one, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).usable());
+  std::vector<ReducedArap> alone(5);
+  for (ReducedArap& arap : alone)
+  {
+    ASSERT_TRUE(arap.bind(one, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).usable());
+  }
+  const double diagonal = bounding_box(rig.mesh.points).diagonal();
+  for (int time = 0; time < 3; ++time)
+  {
+    const std::vector<Pose> poses = poses_at(rig.handles, time);
+    const Status status = crowd.solve(one, poses);
+    ASSERT_TRUE(status.usable()) << status.message;
+    EXPECT_EQ(status.report.number("counts.instances", 0), 5);
+    std::vector<FloatPoints> posed, again;
+    ASSERT_TRUE(crowd.deform(one, rig.mesh.points, posed).ok());
+    ASSERT_TRUE(crowd.deform(many, rig.mesh.points, again).ok());
+    EXPECT_EQ(posed, again);
+    double iterations = 0.0;
+    for (std::size_t i = 0; i < 5; ++i)
+    {
+      const Status single = alone[i].solve(one, poses[i]);
+      ASSERT_TRUE(single.usable());
+      iterations += single.report.number("iterations", 0);
+      EXPECT_EQ(crowd.transforms()[i], alone[i].transforms()) << time << " " << i;
+      Points expected;
+      ASSERT_TRUE(alone[i].deform(one, rig.mesh.points, expected).ok());
+      EXPECT_LT((posed[i].cast<double>() - expected).cwiseAbs().maxCoeff(), 1e-6 * diagonal);
+    }
+    EXPECT_EQ(status.report.number("iterations", 0), iterations);
+  }
+}
+
+TEST(Crowd, ComesAndGoesAndSaysWhichPoseIsBad)
+{
+  const Rig rig = bar();
+  ExecutionContext context;
+  Crowd crowd;
+  ASSERT_TRUE(
+    crowd.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).usable());
+  std::vector<Pose> poses = poses_at(rig.handles, 0);
+  ASSERT_TRUE(crowd.solve(context, poses).usable());
+  const std::vector<std::vector<Affine>> first = crowd.transforms();
+  poses[3][2].transform(1, 1) = std::nan("");
+  Status status = crowd.solve(context, poses);
+  EXPECT_EQ(status.code, StatusCode::invalid_input);
+  EXPECT_THAT(status.message, HasSubstr("instance 3: "));
+  // The others' poses and its own again, from the beginning.
+  poses = poses_at(rig.handles, 0);
+  poses.resize(2);
+  ASSERT_TRUE(crowd.solve(context, poses).usable());
+  std::vector<FloatPoints> posed;
+  ASSERT_TRUE(crowd.deform(context, rig.mesh.points, posed).ok());
+  EXPECT_EQ(posed.size(), 2u);
+  poses = poses_at(rig.handles, 0);
+  ASSERT_TRUE(crowd.solve(context, poses).usable());
+  EXPECT_EQ(crowd.transforms()[4], first[4]);
+  // Iterations that do not suffice are counted.
+  ReducedSolveOptions few;
+  few.tolerance = 1e-15;
+  few.max_iterations = 1;
+  poses = poses_at(rig.handles, 7);
+  status = crowd.solve(context, poses, few);
+  EXPECT_EQ(status.code, StatusCode::not_converged);
+  EXPECT_GT(status.report.number("counts.not_converged", 0), 0);
+  EXPECT_THAT(status.message, HasSubstr("of 5 instances did not converge"));
+
+  context.request_cancel();
+  EXPECT_EQ(crowd.solve(context, poses).code, StatusCode::cancelled);
+}

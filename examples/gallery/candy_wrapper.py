@@ -16,7 +16,7 @@ import bindpose
 import numpy as np
 from bindpose.meshes import points_of, to_dataset
 
-from full_and_reduced import bar
+from posing import bar
 
 METHODS = {"lbs": "linear blend", "dqs": "dual quaternions", "cor": "centers of rotation"}
 TURNS = (90, 120, 180)

@@ -14,7 +14,7 @@ import common
 import bindpose
 import numpy as np
 from bindpose.meshes import add_point_array, to_dataset
-from full_and_reduced import bar
+from posing import bar
 from vtkmodules.util.numpy_support import numpy_to_vtk
 
 KINDS = {"no extra weights": (0, "bumps"), "15 bumps": (15, "bumps"), "15 eigenmodes": (15, "eigenmodes")}

@@ -14,7 +14,7 @@ import bindpose
 import numpy as np
 from bindpose.meshes import points_of
 from extra_weights import with_regions
-from full_and_reduced import bar
+from posing import bar
 
 STEP = 1 / 96
 FRAMES = 193

@@ -12,7 +12,7 @@ import common
 import bindpose
 import numpy as np
 from bindpose.meshes import points_of, to_dataset
-from full_and_reduced import bar
+from posing import bar
 
 TIMES = [0, 0.15, 0.3, 0.45, 0.6, 0.75]
 

@@ -54,7 +54,8 @@ private:
   std::vector<Index> redundant_;
   Eigen::MatrixXd least_squares_; ///< #kept x #held: targets of the kept ones
   Eigen::MatrixXd response_; ///< #unknowns x #kept: L^-1 A^T
-  Eigen::MatrixXd multipliers_; ///< inverse of the held points' own system
+  Eigen::MatrixXd held_system_; ///< A L^-1 A^T and the shifts of parts
+  Eigen::MatrixXd multipliers_; ///< its inverse
 
   std::vector<Index> floating_; ///< #V: place among the parts without a given vertex, or -1
   std::vector<Index> shift_; ///< of each floating part: its column in multipliers_; -1: not held

@@ -197,6 +197,11 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
     join_components(joined, result.components);
   }
 
+  const Status valid = check_regions(handles, region_ids, static_cast<Index>(region_ids.size()));
+  if (!valid.ok())
+  {
+    return valid;
+  }
   const std::vector<Index> labels = extend_labels(mesh, region_ids);
   std::vector<std::vector<Index>> of_handle(handles.size());
   result.counts.assign(handles.size(), 0);

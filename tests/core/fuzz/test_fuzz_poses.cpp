@@ -334,6 +334,7 @@ struct FullCase
   Triangles surface; ///< when it is bound as a surface
   Handles handles;
   FullArapOptions options;
+  bool vertices_alone = true; ///< no other point of the mesh is held
 
   explicit FullCase(Random& random) : mesh(rig(random.below(2)).mesh)
   {
@@ -349,9 +350,12 @@ struct FullCase
     {
       const std::string name = "h" + std::to_string(h);
       const Index v = random.below(this->mesh.points.rows());
-      const Vec3 at = chance(random, 0.5) ? Vec3(this->mesh.points.row(v))
-                                          : random.in_box(1.1 * box.lower, 1.1 * box.upper);
-      switch (random.below(4))
+      const bool on_vertex = chance(random, 0.5);
+      const Vec3 at = on_vertex ? Vec3(this->mesh.points.row(v))
+                                : random.in_box(1.1 * box.lower, 1.1 * box.upper);
+      const Index kind = random.below(4);
+      this->vertices_alone = this->vertices_alone && on_vertex && kind > 1;
+      switch (kind)
       {
         case 0:
           this->handles.push_back(region_handle(name, h + 1, at));
@@ -428,16 +432,20 @@ TEST(FuzzPoses, FullArap)
           ASSERT_LT((r.transpose() * r - Eigen::Matrix3d::Identity()).norm(), 1e-9);
           ASSERT_GT(r.determinant(), 0.0);
         }
-        // As above; contradicting handles add energies hundreds of times that of rest, differences
-        // of terms that are larger still.
+        // As above where vertices are held. Points inside of elements are held by constraints: of
+        // some that lie close to each other and are dragged apart the system has a condition of
+        // 1e8, and an energy is as exact as its constraints are met, so only the whole way is
+        // looked at.
         const double size = size_of(pose);
         const double unit = 1e-12 * arap.rest_energy() * size * size;
-        for (std::size_t i = 1; i < arap.energies().size(); ++i)
+        for (std::size_t i = 1; shape.vertices_alone && i < arap.energies().size(); ++i)
         {
           ASSERT_LE(arap.energies()[i],
-            arap.energies()[i - 1] + unit + 1e-11 * std::abs(arap.energies()[i - 1]))
+            arap.energies()[i - 1] + unit + 1e-12 * std::abs(arap.energies()[i - 1]))
             << i << " size " << size;
         }
+        ASSERT_LE(arap.energies().back(),
+          arap.energies().front() + unit + 1e-6 * std::abs(arap.energies().front()));
         ASSERT_TRUE(twin.solve(many, pose, options).usable());
         ASSERT_EQ(arap.posed(), twin.posed());
         ASSERT_EQ(arap.energies(), twin.energies());

@@ -1,6 +1,8 @@
 // A space made at bind time, a solver for it, and the transforms that come out.
 #include "pose/reduced_arap.h"
 
+#include "pose/rotation_fit.h"
+
 namespace bindpose
 {
 
@@ -53,16 +55,8 @@ Status ReducedArap::deform_normals(
 
 std::vector<Eigen::Matrix3d> ReducedArap::rotations() const
 {
-  std::vector<Eigen::Matrix3d> result(static_cast<std::size_t>(this->space_.groups.count));
-  const std::vector<double>& planes = this->solver_.rotations();
-  for (std::size_t k = 0; k < result.size(); ++k)
-  {
-    for (Index e = 0; e < 9; ++e)
-    {
-      result[k](e / 3, e % 3) = planes[static_cast<std::size_t>(e * this->space_.stride) + k];
-    }
-  }
-  return result;
+  return rotation_matrices(
+    this->space_.groups.count, this->space_.stride, this->solver_.rotations());
 }
 
 } // namespace bindpose

@@ -6,6 +6,8 @@
 // what the solver watches is the energy and small terms, not squares of how far the body has come.
 #include "pose/reduced_dynamics.h"
 
+#include "pose/rotation_fit.h"
+
 #include <cmath>
 
 namespace bindpose
@@ -157,16 +159,7 @@ Status ReducedDynamics::deform_normals(
 
 std::vector<Eigen::Matrix3d> ReducedDynamics::rotations() const
 {
-  std::vector<Eigen::Matrix3d> result(static_cast<std::size_t>(this->space_.groups.count));
-  for (std::size_t k = 0; k < result.size(); ++k)
-  {
-    for (Index e = 0; e < 9; ++e)
-    {
-      result[k](e / 3, e % 3) =
-        this->state_.rotations[static_cast<std::size_t>(e * this->space_.stride) + k];
-    }
-  }
-  return result;
+  return rotation_matrices(this->space_.groups.count, this->space_.stride, this->state_.rotations);
 }
 
 double ReducedDynamics::elastic_energy() const

@@ -248,4 +248,19 @@ void fit_rotation(const Eigen::Matrix3d& s, Eigen::Matrix3d& rotation)
   }
 }
 
+std::vector<Eigen::Matrix3d> rotation_matrices(
+  Index count, Index stride, const std::vector<double>& planes)
+{
+  std::vector<Eigen::Matrix3d> result(static_cast<std::size_t>(count));
+  for (Index k = 0; k < count; ++k)
+  {
+    for (Index e = 0; e < 9; ++e)
+    {
+      result[static_cast<std::size_t>(k)](e / 3, e % 3) =
+        planes[static_cast<std::size_t>(e * stride + k)];
+    }
+  }
+  return result;
+}
+
 } // namespace bindpose

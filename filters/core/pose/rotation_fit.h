@@ -3,6 +3,8 @@
 
 #include "base/mesh.h"
 
+#include <vector>
+
 namespace bindpose
 {
 
@@ -20,6 +22,10 @@ void fit_rotation(const Eigen::Matrix3d& s, Eigen::Matrix3d& rotation);
 /// Several at once per instruction where the processor can; the same bits on any of them. Cost:
 /// about 30 ns a matrix with AVX2, 1 µs for a rare one near rank 1.
 void fit_rotations(Index count, Index stride, const double* s, double* rotations);
+
+/// The first `count` matrices of such planes, one by one.
+std::vector<Eigen::Matrix3d> rotation_matrices(
+  Index count, Index stride, const std::vector<double>& planes);
 
 } // namespace bindpose
 

@@ -50,10 +50,7 @@ Status FullArap::prepare(const Pose& pose)
     return status;
   }
   this->factorisations_ += 1;
-  for (const HandlePose& handle : pose)
-  {
-    this->modes_.push_back(handle.mode);
-  }
+  this->modes_ = modes_of(pose);
   return status;
 }
 
@@ -361,15 +358,7 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
 
 std::vector<Eigen::Matrix3d> FullArap::rotations() const
 {
-  std::vector<Eigen::Matrix3d> result(static_cast<std::size_t>(this->groups_.count));
-  for (Index k = 0; k < this->groups_.count; ++k)
-  {
-    for (Index e = 0; e < 9; ++e)
-    {
-      result[k](e / 3, e % 3) = this->rotations_[e * this->stride_ + k];
-    }
-  }
-  return result;
+  return rotation_matrices(this->groups_.count, this->stride_, this->rotations_);
 }
 
 } // namespace bindpose

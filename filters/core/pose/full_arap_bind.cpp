@@ -140,19 +140,7 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
   const Handles& handles, const FullArapOptions& options)
 {
   *this = FullArap();
-  Status status = check_mesh(points, elements);
-  if (status.ok() && !points.allFinite())
-  {
-    status = Status::invalid_input("the mesh has an unused point that is not finite");
-  }
-  if (status.ok() && elements.rows() == 0)
-  {
-    status = Status::invalid_input("there is nothing to bend: the mesh has no elements");
-  }
-  if (status.ok())
-  {
-    status = check_handles(handles);
-  }
+  Status status = check_bendable(points, elements, handles);
   if (!status.ok())
   {
     return status;

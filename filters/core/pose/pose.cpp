@@ -37,6 +37,48 @@ Status check_pose(const Handles& handles, const Pose& pose)
   return {};
 }
 
+namespace
+{
+template <typename Elements>
+Status check_elements(PointsView points, const Elements& elements, const Handles& handles)
+{
+  const Status status = check_mesh(points, elements);
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (!points.allFinite())
+  {
+    return Status::invalid_input("the mesh has an unused point that is not finite");
+  }
+  if (elements.rows() == 0)
+  {
+    return Status::invalid_input("there is nothing to bend: the mesh has no elements");
+  }
+  return check_handles(handles);
+}
+} // namespace
+
+Status check_bendable(PointsView points, TrianglesView triangles, const Handles& handles)
+{
+  return check_elements(points, triangles, handles);
+}
+
+Status check_bendable(PointsView points, TetsView tets, const Handles& handles)
+{
+  return check_elements(points, tets, handles);
+}
+
+std::vector<HandleMode> modes_of(const Pose& pose)
+{
+  std::vector<HandleMode> modes;
+  for (const HandlePose& handle : pose)
+  {
+    modes.push_back(handle.mode);
+  }
+  return modes;
+}
+
 bool same_modes(const std::vector<HandleMode>& modes, const Pose& pose)
 {
   return std::equal(modes.begin(), modes.end(), pose.begin(), pose.end(),

@@ -44,6 +44,12 @@ using Pose = std::vector<HandlePose>;
 /// for a transform that is not finite.
 Status check_pose(const Handles& handles, const Pose& pose);
 
+/// What can be bound: invalid_input for check_mesh()'s reasons, a point that is not finite, no
+/// element, and for check_handles()'s reasons.
+Status check_bendable(PointsView points, TrianglesView triangles, const Handles& handles);
+Status check_bendable(PointsView points, TetsView tets, const Handles& handles);
+
+std::vector<HandleMode> modes_of(const Pose& pose);
 /// Whether these are the modes of the pose.
 bool same_modes(const std::vector<HandleMode>& modes, const Pose& pose);
 

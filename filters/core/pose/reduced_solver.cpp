@@ -173,15 +173,13 @@ void ReducedSolver::set_rotations(std::vector<double> rotations)
 void ReducedSolver::factor(
   const ReducedSpace& space, const Eigen::MatrixXd& stiffness, const Pose& pose)
 {
-  this->modes_.clear();
+  this->modes_ = modes_of(pose);
   this->open_.clear();
   this->positions_.clear();
   this->redundant_.clear();
   for (Index h = 0; h < static_cast<Index>(pose.size()); ++h)
   {
-    const HandleMode mode = pose[static_cast<std::size_t>(h)].mode;
-    this->modes_.push_back(mode);
-    if (mode == HandleMode::position)
+    if (pose[static_cast<std::size_t>(h)].mode == HandleMode::position)
     {
       this->positions_.push_back(h);
     }

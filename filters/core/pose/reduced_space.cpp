@@ -276,19 +276,7 @@ Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const El
   WeightsView weights, const Handles& their_handles, const ReducedArapOptions& options)
 {
   *this = ReducedSpace();
-  Status status = check_mesh(points, elements);
-  if (status.ok() && !points.allFinite())
-  {
-    status = Status::invalid_input("the mesh has an unused point that is not finite");
-  }
-  if (status.ok() && elements.rows() == 0)
-  {
-    status = Status::invalid_input("there is nothing to bend: the mesh has no elements");
-  }
-  if (status.ok())
-  {
-    status = check_handles(their_handles);
-  }
+  Status status = check_bendable(points, elements, their_handles);
   if (!status.ok())
   {
     return status;

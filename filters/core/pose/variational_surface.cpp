@@ -192,11 +192,7 @@ Status VariationalSurface::solve(ExecutionContext& context, const Pose& pose)
     {
       return this->prepared_status_;
     }
-    this->modes_.clear();
-    for (const HandlePose& handle : pose)
-    {
-      this->modes_.push_back(handle.mode);
-    }
+    this->modes_ = modes_of(pose);
     this->prepared_ = true;
   }
   Status status = this->prepared_status_;

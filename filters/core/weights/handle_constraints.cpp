@@ -197,7 +197,8 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
     join_components(joined, result.components);
   }
 
-  const Status valid = check_regions(handles, region_ids, static_cast<Index>(region_ids.size()));
+  const Status valid = check_regions(
+    handles, region_ids, domain.points.rows() - static_cast<Index>(mesh.inserted.size()));
   if (!valid.ok())
   {
     return valid;

@@ -35,8 +35,8 @@ struct HandleConstraints
 /// A vertex on several handles gets equal shares (a joint of two bones: 1/2, 1/2); where that
 /// happens although the handles do not touch, a warning names them. A handle that shares all of its
 /// vertices gets one for itself, so that every column has a one. A connected part without any
-/// handle follows the handle nearest to it, with a warning. invalid_input, naming the handle, when
-/// a handle constrains no vertex (a region whose label no vertex has) or can have none of its own.
+/// handle follows the handle nearest to it, with a warning. invalid_input for check_regions()'s
+/// reasons and, naming the handle, when one constrains no vertex or can have none of its own.
 ///
 /// @param region_ids label of every original vertex, or empty when there are no regions.
 /// @param joined label of every vertex, or empty: parts with a label > 0 in common count as one.

@@ -126,10 +126,6 @@ Status make_weights_problem(const Domain& domain, const std::vector<Index>& regi
   Status status = insert_handles(domain, handles, options.insertion, context, problem.mesh);
   if (status.ok())
   {
-    status = check_regions(handles, region_ids, domain.points.rows());
-  }
-  if (status.ok())
-  {
     status = check_terms(options.terms, domain.points.rows(), handles);
   }
   if (status.ok())

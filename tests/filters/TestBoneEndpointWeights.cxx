@@ -6,6 +6,7 @@
 #include "TestFilter.h"
 #include "conversion.h"
 #include "report_field_data.h"
+#include "support/handles.h"
 #include "support/meshes.h"
 
 #include "vtkDoubleArray.h"
@@ -24,16 +25,6 @@ using testing::HasSubstr;
 
 namespace
 {
-Handle bone(const std::string& name, const Vec3& head, const Vec3& tail)
-{
-  Handle handle;
-  handle.name = name;
-  handle.kind = HandleKind::bone;
-  handle.head = head;
-  handle.tail = tail;
-  return handle;
-}
-
 class BoneEndpointWeights : public testing::Test
 {
 protected:
@@ -88,7 +79,7 @@ TEST_F(BoneEndpointWeights, AreLinearAlongTheBoneOrAwareOfTheShape)
   Handle point;
   point.name = "far";
   point.head = point.tail = Vec3(5.0 / 6.0, 5.0 / 6.0, 0.0);
-  const Handles handles = { point, bone("leg", head, tail) };
+  const Handles handles = { point, test::bone_handle("leg", head, tail) };
   const vtkIdType other_tip = mesh->FindPoint(5.0 / 6.0, 5.0 / 6.0, 0.0);
   for (const int method : { 0, 1, 2 })
   {
@@ -130,8 +121,8 @@ TEST_F(BoneEndpointWeights, OfTetsStayWhilePosesChangeAndSkinningTakesThem)
 {
   const TetMesh box = test::tet_box(8, 2, 2, Vec3(0, 0, 0), Vec3(4, 1, 1));
   const auto mesh = to_unstructured_grid(box.points, box.tets);
-  const Handles handles = { bone("a", Vec3(0, 0.5, 0.5), Vec3(2, 0.5, 0.5)),
-    bone("b", Vec3(2, 0.5, 0.5), Vec3(4, 0.5, 0.5)) };
+  const Handles handles = { test::bone_handle("a", Vec3(0, 0.5, 0.5), Vec3(2, 0.5, 0.5)),
+    test::bone_handle("b", Vec3(2, 0.5, 0.5), Vec3(4, 0.5, 0.5)) };
   vtkNew<vtkDoubleArray> weights;
   weights->SetName("Weights");
   weights->SetNumberOfComponents(2);
@@ -174,6 +165,7 @@ TEST_F(BoneEndpointWeights, BadInputIsOneSentence)
   point.name = "p";
   this->update(u_shape(), { point }, 1);
   EXPECT_THAT(this->report().text("message"), HasSubstr("no bone"));
-  this->update(vtkSmartPointer<vtkPolyData>::New(), { bone("b", { 0, 0, 0 }, { 0, 1, 0 }) }, 1);
+  this->update(
+    vtkSmartPointer<vtkPolyData>::New(), { test::bone_handle("b", { 0, 0, 0 }, { 0, 1, 0 }) }, 1);
   EXPECT_THAT(this->report().text("message"), HasSubstr("no mesh"));
 }

@@ -10,6 +10,7 @@
 
 #include "conversion.h"
 #include "report_field_data.h"
+#include "support/handles.h"
 #include "support/meshes.h"
 
 #include "vtkCellData.h"
@@ -34,16 +35,6 @@ using testing::HasSubstr;
 
 namespace
 {
-Handle bone(const std::string& name, const Vec3& head, const Vec3& tail)
-{
-  Handle handle;
-  handle.name = name;
-  handle.kind = HandleKind::bone;
-  handle.head = head;
-  handle.tail = tail;
-  return handle;
-}
-
 void set_cells(vtkPolyData* handles, const char* name, const std::vector<double>& values)
 {
   vtkNew<vtkDoubleArray> array;
@@ -135,9 +126,9 @@ protected:
   WeightUses()
   {
     this->rest = two_limbs();
-    this->handles = to_polydata({ bone("base", Vec3(0.5, 0.5, 0), Vec3(2.5, 0.5, 0)),
-      bone("left", Vec3(0.5, 1.5, 0), Vec3(0.5, 2.75, 0)),
-      bone("right", Vec3(2.5, 1.5, 0), Vec3(2.5, 2.75, 0)) });
+    this->handles = to_polydata({ test::bone_handle("base", Vec3(0.5, 0.5, 0), Vec3(2.5, 0.5, 0)),
+      test::bone_handle("left", Vec3(0.5, 1.5, 0), Vec3(0.5, 2.75, 0)),
+      test::bone_handle("right", Vec3(2.5, 1.5, 0), Vec3(2.5, 2.75, 0)) });
     this->weights->SetInputData(0, this->rest);
     this->weights->SetInputData(1, this->handles);
     this->skinning->SetInputConnection(0, this->weights->GetOutputPort());
@@ -326,7 +317,8 @@ TEST_F(WeightUses, WhatDoesNotFitIsNamed)
   fails_with(this->colors, "no point array 'W'");
   this->handles->GetCellData()->RemoveArray("Color");
   this->colors->SetArrayName("Weights");
-  this->colors->SetInputData(1, to_polydata(Handles{ bone("b", Vec3(0, 0, 0), Vec3(1, 0, 0)) }));
+  this->colors->SetInputData(
+    1, to_polydata(Handles{ test::bone_handle("b", Vec3(0, 0, 0), Vec3(1, 0, 0)) }));
   fails_with(this->colors, "3 components, but there are 1 handles");
 }
 
@@ -341,7 +333,7 @@ TEST(CutAlongBones, SidesAreRegionsThatWeightsTake)
     marks->InsertNextValue(static_cast<float>(v));
   }
   square->GetPointData()->AddArray(marks);
-  Handles list{ Handle(), bone("curve", Vec3(0.25, 0.5, 0), Vec3(0.75, 0.5, 0)) };
+  Handles list{ Handle(), test::bone_handle("curve", Vec3(0.25, 0.5, 0), Vec3(0.75, 0.5, 0)) };
   list[0].name = "dot";
   list[0].head = list[0].tail = Vec3(0.5, 0.875, 0);
   const auto handles = to_polydata(list);
@@ -403,7 +395,7 @@ TEST(CutAlongBones, BonesOfOneCurveAreOnePairOfSides)
   Handles ring;
   for (int k = 0; k < 4; ++k)
   {
-    ring.push_back(bone("r" + std::to_string(k), corners[k], corners[(k + 1) % 4]));
+    ring.push_back(test::bone_handle("r" + std::to_string(k), corners[k], corners[(k + 1) % 4]));
   }
   const auto handles = to_polydata(ring);
   vtkNew<vtkCutAlongBones> cut;
@@ -442,7 +434,8 @@ TEST(CutAlongBones, LabelsThatAreThereStay)
   square->GetPointData()->AddArray(old_labels);
   vtkNew<vtkCutAlongBones> cut;
   cut->SetInputData(0, square);
-  cut->SetInputData(1, to_polydata(Handles{ bone("b", Vec3(0.25, 0.5, 0), Vec3(0.75, 0.5, 0)) }));
+  cut->SetInputData(
+    1, to_polydata(Handles{ test::bone_handle("b", Vec3(0.25, 0.5, 0), Vec3(0.75, 0.5, 0)) }));
   cut->Update();
   vtkDataArray* labels = cut->GetOutput()->GetPointData()->GetArray("RegionId");
   EXPECT_EQ(labels->GetComponent(3, 0), 4);
@@ -461,7 +454,7 @@ TEST(CutAlongBones, WhatCannotBeCutIsNamed)
   listener->listen(cut);
   cut->SetInputData(0, to_polydata(mesh.points, mesh.triangles));
   const auto handles =
-    to_polydata(Handles{ bone("oblique", Vec3(0.1, 0.2, 0), Vec3(0.8, 0.7, 0)) });
+    to_polydata(Handles{ test::bone_handle("oblique", Vec3(0.1, 0.2, 0), Vec3(0.8, 0.7, 0)) });
   cut->SetInputData(1, handles);
   cut->Update();
   ASSERT_EQ(listener->errors.size(), 1u);

@@ -8,6 +8,7 @@
 
 #include "conversion.h"
 #include "report_field_data.h"
+#include "support/handles.h"
 #include "support/meshes.h"
 
 #include "vtkCallbackCommand.h"
@@ -49,29 +50,12 @@ vtkSmartPointer<vtkPolyData> square(int n)
   return to_polydata(mesh.points, mesh.triangles);
 }
 
-Handle point(const std::string& name, double x, double y, double z)
-{
-  Handle handle;
-  handle.name = name;
-  handle.head = handle.tail = Vec3(x, y, z);
-  return handle;
-}
-
-Handle bone(const std::string& name, const Vec3& head, const Vec3& tail)
-{
-  Handle handle;
-  handle.name = name;
-  handle.kind = HandleKind::bone;
-  handle.head = head;
-  handle.tail = tail;
-  return handle;
-}
-
 /// Two points and a bone within the unit cube, none on a vertex.
 vtkSmartPointer<vtkPolyData> three_handles()
 {
-  return to_polydata({ point("left", 0.13, 0.22, 0.31), point("right", 0.87, 0.71, 0.64),
-    bone("middle", Vec3(0.45, 0.52, 0.2), Vec3(0.52, 0.47, 0.8)) });
+  return to_polydata({ test::point_handle("left", Vec3(0.13, 0.22, 0.31)),
+    test::point_handle("right", Vec3(0.87, 0.71, 0.64)),
+    test::bone_handle("middle", Vec3(0.45, 0.52, 0.2), Vec3(0.52, 0.47, 0.8)) });
 }
 
 template <typename Filter>
@@ -237,8 +221,8 @@ TEST(WeightsFilters, SurfacesOfAnyPolygonsWork)
   vtkNew<vtkPlaneSource> plane; // quads, float points, from (-.5, -.5) to (.5, .5)
   plane->SetResolution(12, 12);
   plane->Update();
-  const auto on_vertices =
-    to_polydata(Handles{ point("a", -0.5, -0.5, 0), point("b", 0.5, 0.5, 0) });
+  const auto on_vertices = to_polydata(Handles{
+    test::point_handle("a", Vec3(-0.5, -0.5, 0)), test::point_handle("b", Vec3(0.5, 0.5, 0)) });
   Pipeline<vtkBoundedBiharmonicWeights> quads(plane->GetOutput(), on_vertices);
   quads.filter->Update();
   ASSERT_EQ(quads.filter->GetStatus(), vtkBindposeAlgorithm::OK)
@@ -246,8 +230,8 @@ TEST(WeightsFilters, SurfacesOfAnyPolygonsWork)
   EXPECT_EQ(quads.output()->GetNumberOfCells(), 144) << "no handle inserted: quads stay";
   expect_rows_sum_to_one(quads.weights());
 
-  const auto off_vertices =
-    to_polydata(Handles{ point("a", -0.39, -0.37, 0), point("b", 0.41, 0.3, 0) });
+  const auto off_vertices = to_polydata(Handles{
+    test::point_handle("a", Vec3(-0.39, -0.37, 0)), test::point_handle("b", Vec3(0.41, 0.3, 0)) });
   vtkNew<vtkIntArray> row;
   row->SetName("Row");
   for (int cell = 0; cell < 144; ++cell)
@@ -295,7 +279,8 @@ TEST(WeightsFilters, RegionsByLabels)
     labels->SetValue(v, p[0] < 0.25 ? 5 : 0);
   }
   mesh->GetPointData()->AddArray(labels);
-  Handles handles{ point("tip", 0.93, 0.52, 0.0), point("left", 0.0, 0.5, 0.0) };
+  Handles handles{ test::point_handle("tip", Vec3(0.93, 0.52, 0.0)),
+    test::point_handle("left", Vec3(0.0, 0.5, 0.0)) };
   handles[1].kind = HandleKind::region;
   handles[1].region_id = 5;
   Pipeline<vtkBoundedBiharmonicWeights> run(mesh, to_polydata(handles));
@@ -370,8 +355,8 @@ TEST(WeightsFilters, KeepMeshKeepsEveryObject)
 TEST(WeightsFilters, WithoutBoundsByMethod)
 {
   const auto mesh = square(20);
-  const auto handles = to_polydata(
-    Handles{ point("a", 0.2, 0.2, 0), point("b", 0.5, 0.5, 0), point("c", 0.8, 0.75, 0) });
+  const auto handles = to_polydata(Handles{ test::point_handle("a", Vec3(0.2, 0.2, 0)),
+    test::point_handle("b", Vec3(0.5, 0.5, 0)), test::point_handle("c", Vec3(0.8, 0.75, 0)) });
   Pipeline<vtkUnconstrainedWeights> run(mesh, handles);
   run.filter->Update();
   EXPECT_EQ(run.report().text("method"), "biharmonic");
@@ -474,7 +459,8 @@ TEST(WeightsFilters, EveryBadInputIsOneSentence)
   EXPECT_FALSE(message(no_grid, three_handles()).empty());
   EXPECT_THAT(message(tet_box(2), no_handles), HasSubstr("no handle"));
   EXPECT_THAT(message(tet_box(2),
-                to_polydata(Handles{ point("a", 0.1, 0.1, 0.1), point("b", 0.1, 0.1, 0.1) })),
+                to_polydata(Handles{ test::point_handle("a", Vec3(0.1, 0.1, 0.1)),
+                  test::point_handle("b", Vec3(0.1, 0.1, 0.1)) })),
     HasSubstr("'a' and 'b' are at the same place"));
   const auto not_a_number = tet_box(2);
   not_a_number->GetPoints()->SetPoint(5, 0.0, std::nan(""), 0.0);
@@ -516,8 +502,9 @@ TEST(WeightsFilters, OfASurfaceInALatticeComeWithTheLattice)
 {
   const TriangleMesh ball = test::sphere(3);
   const auto surface = to_polydata(ball.points, ball.triangles);
-  Pipeline<vtkBoundedBiharmonicWeights> weights(
-    surface, to_polydata({ point("a", 0, 0, 0.9), point("b", 0.5, 0, -0.7) }));
+  Pipeline<vtkBoundedBiharmonicWeights> weights(surface,
+    to_polydata(
+      { test::point_handle("a", Vec3(0, 0, 0.9)), test::point_handle("b", Vec3(0.5, 0, -0.7)) }));
   weights.filter->SetDomainToEmbedding();
   weights.filter->SetEmbeddingResolution(8);
   weights.filter->SetKeepRaw(true);
@@ -554,8 +541,9 @@ TEST(WeightsFilters, ExtremaComeAsPoints)
 {
   // Known of the five points on a square: 5, 5, 4, 5, 4 extrema of biharmonic weights.
   Pipeline<vtkUnconstrainedWeights> weights(square(40),
-    to_polydata({ point("c", 0.5, 0.5, 0), point("a", 0.2, 0.2, 0), point("b", 0.8, 0.2, 0),
-      point("d", 0.8, 0.8, 0), point("e", 0.2, 0.8, 0) }));
+    to_polydata({ test::point_handle("c", Vec3(0.5, 0.5, 0)),
+      test::point_handle("a", Vec3(0.2, 0.2, 0)), test::point_handle("b", Vec3(0.8, 0.2, 0)),
+      test::point_handle("d", Vec3(0.8, 0.8, 0)), test::point_handle("e", Vec3(0.2, 0.8, 0)) }));
   weights.filter->SetMethod(vtkUnconstrainedWeights::BIHARMONIC);
   weights.filter->SetKeepRaw(true);
   weights.filter->Update();
@@ -623,7 +611,8 @@ TEST(WeightsFilters, APreviewIsThereBeforeTheWeights)
 TEST(WeightsFilters, TermsComeFromArraysAndBelongToTheBind)
 {
   const auto mesh = square(12);
-  const auto handles = to_polydata({ point("left", 0.25, 0.25, 0), point("right", 0.75, 0.75, 0) });
+  const auto handles = to_polydata({ test::point_handle("left", Vec3(0.25, 0.25, 0)),
+    test::point_handle("right", Vec3(0.75, 0.75, 0)) });
   const vtkIdType count = mesh->GetNumberOfPoints();
   vtkNew<vtkDoubleArray> pins;
   pins->SetName("PinnedWeights");
@@ -681,8 +670,10 @@ TEST(WeightsFilters, TermsComeFromArraysAndBelongToTheBind)
 TEST(WeightsFilters, HandlesHaveBoundsOfTheirOwn)
 {
   const auto mesh = square(12);
-  const auto handles = to_polydata({ point("left", 0.25, 0.25, 0), point("right", 0.75, 0.75, 0),
-    point("low", 0.75, 0.25, 0), point("middle", 0.5, 0.5, 0) });
+  const auto handles = to_polydata({ test::point_handle("left", Vec3(0.25, 0.25, 0)),
+    test::point_handle("right", Vec3(0.75, 0.75, 0)),
+    test::point_handle("low", Vec3(0.75, 0.25, 0)),
+    test::point_handle("middle", Vec3(0.5, 0.5, 0)) });
   Pipeline<vtkUnconstrainedWeights> free(mesh, handles);
   free.filter->SetMethod(vtkUnconstrainedWeights::BIHARMONIC);
   free.filter->SetKeepRaw(true);
@@ -731,8 +722,9 @@ TEST(WeightsFilters, HandlesHaveBoundsOfTheirOwn)
 TEST(WeightsFilters, MirroredHandlesByAPlane)
 {
   const auto mesh = square(12);
-  const auto handles = to_polydata(
-    { point("left", 0.25, 0.25, 0), point("right", 0.75, 0.25, 0), point("top", 0.25, 1, 0) });
+  const auto handles = to_polydata({ test::point_handle("left", Vec3(0.25, 0.25, 0)),
+    test::point_handle("right", Vec3(0.75, 0.25, 0)),
+    test::point_handle("top", Vec3(0.25, 1, 0)) });
   Pipeline<vtkMonotoneWeights> pipeline(mesh, handles);
   pipeline.filter->SetKeepRaw(true);
   pipeline.filter->SetMirrorNormal(1, 0, 0);
@@ -749,7 +741,8 @@ TEST(WeightsFilters, MirroredHandlesByAPlane)
 TEST(WeightsFilters, TermsThatContradictAreErrors)
 {
   const auto mesh = square(12);
-  const auto handles = to_polydata({ point("left", 0.25, 0.25, 0), point("right", 0.75, 0.75, 0) });
+  const auto handles = to_polydata({ test::point_handle("left", Vec3(0.25, 0.25, 0)),
+    test::point_handle("right", Vec3(0.75, 0.75, 0)) });
   vtkNew<vtkDoubleArray> upper;
   upper->SetName("WeightsUpper");
   upper->SetNumberOfComponents(3);

@@ -8,6 +8,8 @@
 #include "support/bars.h"
 #include "support/meshes.h"
 
+#include <gtest/gtest.h>
+
 namespace bindpose::test
 {
 
@@ -61,6 +63,47 @@ inline Pose bend(HandleMode middle)
   pose[2].transform = affine_about(
     Vec3(4, 0.5, 0.5), rigid(70, Vec3(0, 0, 1), Vec3::Zero()).leftCols<3>(), Vec3(-1, 1.5, 0));
   return pose;
+}
+
+/// SPEC D37: extra weights rest at zero, leave handles alone and lower the energy. Gives what the
+/// bind said.
+inline Status expect_that_extra_weights_help(ExtraWeights kind)
+{
+  const Rig rig = bar();
+  ExecutionContext context;
+  ReducedArap plain, wide;
+  ReducedArapOptions options{ ArapEnergy::elements, rig.mesh.tets.rows() };
+  EXPECT_TRUE(
+    plain.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles, options).ok());
+  options.extra_weights = 15;
+  options.extra_kind = kind;
+  const Status bound =
+    wide.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles, options);
+  if (!bound.ok())
+  {
+    ADD_FAILURE() << bound.message;
+    return bound;
+  }
+  Points result;
+  EXPECT_TRUE(wide.solve(context, posed(rig.handles, HandleMode::full)).ok());
+  EXPECT_TRUE(wide.deform(context, rig.mesh.points, result).ok());
+  EXPECT_LT((result - rig.mesh.points).cwiseAbs().maxCoeff(), 1e-12);
+  for (const HandleMode middle : { HandleMode::full, HandleMode::position, HandleMode::free })
+  {
+    EXPECT_TRUE(plain.solve(context, bend(middle), iterations(300)).ok());
+    EXPECT_TRUE(wide.solve(context, bend(middle), iterations(300)).ok());
+    EXPECT_LT(wide.energies().back(), plain.energies().back());
+    // Extra weights vanish at the handles: the full ones stay what they are.
+    EXPECT_TRUE(wide.deform(context, rig.mesh.points, result).ok());
+    for (Index v = 0; v < rig.mesh.points.rows(); ++v)
+    {
+      if (rig.weights(v, 0) > 1.0 - 1e-13)
+      {
+        EXPECT_LT((result.row(v) - rig.mesh.points.row(v)).norm(), 1e-10);
+      }
+    }
+  }
+  return bound;
 }
 
 } // namespace bindpose::test

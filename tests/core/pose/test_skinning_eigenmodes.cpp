@@ -144,34 +144,6 @@ TEST(SkinningEigenmodes, NothingFreeGivesNoModesAndCancelEnds)
 // SPEC D37 with modes for bumps.
 TEST(SkinningEigenmodes, AsExtraWeightsTheyRestAtZeroAndLowerTheEnergy)
 {
-  const test::Rig rig = test::bar();
-  ExecutionContext context;
-  ReducedArap plain, wide;
-  ReducedArapOptions options{ ArapEnergy::elements, rig.mesh.tets.rows() };
-  ASSERT_TRUE(
-    plain.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles, options).ok());
-  options.extra_weights = 15;
-  options.extra_kind = ExtraWeights::eigenmodes;
-  const Status bound =
-    wide.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles, options);
-  ASSERT_TRUE(bound.ok());
+  const Status bound = expect_that_extra_weights_help(ExtraWeights::eigenmodes);
   EXPECT_EQ(bound.report.number("counts.extra_weights", 0), 15);
-  Points result;
-  ASSERT_TRUE(wide.solve(context, posed(rig.handles, HandleMode::full)).ok());
-  ASSERT_TRUE(wide.deform(context, rig.mesh.points, result).ok());
-  EXPECT_LT((result - rig.mesh.points).cwiseAbs().maxCoeff(), 1e-12);
-  for (const HandleMode middle : { HandleMode::full, HandleMode::position, HandleMode::free })
-  {
-    ASSERT_TRUE(plain.solve(context, bend(middle), iterations(300)).ok());
-    ASSERT_TRUE(wide.solve(context, bend(middle), iterations(300)).ok());
-    EXPECT_LT(wide.energies().back(), plain.energies().back());
-    ASSERT_TRUE(wide.deform(context, rig.mesh.points, result).ok());
-    for (Index v = 0; v < rig.mesh.points.rows(); ++v)
-    {
-      if (rig.weights(v, 0) > 1.0 - 1e-13)
-      {
-        EXPECT_LT((result.row(v) - rig.mesh.points.row(v)).norm(), 1e-10);
-      }
-    }
-  }
 }

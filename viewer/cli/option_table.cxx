@@ -253,24 +253,20 @@ const std::vector<Verb>& verbs()
           "share of it is the last" },
         { "--budget-us", "MICROSECONDS", Kind::number, "0", "",
           "of reduced-arap: time for the iterations of a pose; 0: no limit; how many that allowed "
-          "is "
-          "reported, and --iterations with it and --tolerance 0 repeats the result" },
+          "is reported, and --iterations with it and --tolerance 0 repeats the result" },
         { "--extra-weights", "N", Kind::integer, "0", "",
           "of reduced-arap: weights beside the handles', which let the mesh bend where no handle "
-          "is; "
-          "15 is a good number",
+          "is; 15 is a good number",
           false, false, 0 },
         { "--extra-kind", "KIND", Kind::choice, "bumps", "bumps|eigenmodes",
           "of --extra-weights: bumps around places far apart, or the smoothest weights that vanish "
           "at the handles (skinning eigenmodes)" },
         { "--dynamics", "", Kind::flag, "", "",
           "the mesh as a body with mass, by reduced-arap's energy, whatever --method is: what "
-          "handles "
-          "leave open swings and falls; a handle that becomes free lets go" },
+          "handles leave open swings and falls; a handle that becomes free lets go" },
         { "--frames", "N", Kind::integer, "0", "",
           "of poses with expressions in t, and of --dynamics: steps in time, the first at t = 0; "
-          "0: as "
-          "many as the pose file has frames",
+          "0: as many as the pose file has frames",
           false, false, 0 },
         { "--time-step", "SECONDS", Kind::number, "0.0416666666666667", "", "between them" },
         { "--gravity", "X,Y,Z", Kind::text, "0,0,0", "", "of --dynamics: lengths / s^2" },
@@ -287,8 +283,7 @@ const std::vector<Verb>& verbs()
           "the mesh at rest or of its point array Parameterization" },
         { "--boundary", "BOUNDARY", Kind::choice, "region", "region|curve|tangent",
           "of variational: what is fixed is a band that the surface continues smoothly, or its "
-          "edge "
-          "alone, or the edge with --tangents" },
+          "edge alone, or the edge with --tangents" },
         { "--tangents", "SOURCE", Kind::choice, "surroundings", "surroundings|given|clamped",
           "of --boundary tangent: as beyond the edge, of the point array Tangents, or as at rest" },
         { "--fair", "", Kind::flag, "", "",

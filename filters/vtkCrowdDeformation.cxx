@@ -29,7 +29,6 @@
 #include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <cstring>
 
 using namespace bindpose;
 
@@ -42,12 +41,11 @@ struct vtkCrowdDeformation::Internals
 
 namespace
 {
-vtkSmartPointer<vtkFloatArray> to_array(const FloatPoints& values)
+vtkSmartPointer<vtkFloatArray> make_vectors(Index count)
 {
   auto array = vtkSmartPointer<vtkFloatArray>::New();
   array->SetNumberOfComponents(3);
-  array->SetNumberOfTuples(values.rows());
-  std::memcpy(array->GetPointer(0), values.data(), sizeof(float) * values.size());
+  array->SetNumberOfTuples(count);
   return array;
 }
 
@@ -201,10 +199,17 @@ Status vtkCrowdDeformation::Execute(
   }
   auto* polydata = vtkPolyData::SafeDownCast(bound.mesh);
   vtkDataArray* rest_normals = polydata ? polydata->GetPointData()->GetNormals() : nullptr;
-  std::vector<FloatPoints> points, normals;
+  std::vector<vtkSmartPointer<vtkFloatArray>> points;
+  std::vector<FloatPoints> normals;
   {
     Phase phase(context, "skin", 0.9, 1.0);
-    Status moved = crowd.deform(context, bound.points, points, instances.placements);
+    std::vector<float*> rows;
+    for (std::size_t i = 0; i < instances.poses.size(); ++i)
+    {
+      points.push_back(make_vectors(bound.points.rows()));
+      rows.push_back(points.back()->GetPointer(0));
+    }
+    Status moved = crowd.deform(context, bound.points, rows, instances.placements);
     if (moved.ok() && rest_normals)
     {
       const SharedMatrix<Weights> rest = to_matrix(rest_normals);
@@ -224,16 +229,16 @@ Status vtkCrowdDeformation::Execute(
     instance.TakeReference(bound.mesh->NewInstance());
     instance->ShallowCopy(bound.mesh);
     vtkNew<vtkPoints> at;
-    at->SetData(to_array(points[i]));
+    at->SetData(points[i]);
     instance->SetPoints(at);
     instance->GetFieldData()->AddArray(to_array(crowd.transforms()[i], bound.weights.cols()));
     if (rest_normals)
     {
-      vtkSmartPointer<vtkFloatArray> turned = to_array(normals[i]);
+      vtkSmartPointer<vtkFloatArray> turned = make_vectors(normals[i].rows());
+      std::copy_n(normals[i].data(), normals[i].size(), turned->GetPointer(0));
       turned->SetName(rest_normals->GetName());
       instance->GetPointData()->SetNormals(turned);
     }
-    points[i].resize(0, 3);
     posed.push_back(instance);
   }
   vtkDataObject* result = vtkDataObject::GetData(output, 0);

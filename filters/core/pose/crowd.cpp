@@ -93,6 +93,13 @@ Status Crowd::deform(ExecutionContext& context, PointsView rest, std::vector<Flo
     context, rest, this->transforms_, posed, placements);
 }
 
+Status Crowd::deform(ExecutionContext& context, PointsView rest, const std::vector<float*>& posed,
+  const std::vector<Affine>& placements) const
+{
+  return this->space_.skinning.linear_blend_many(
+    context, rest, this->transforms_, posed, placements);
+}
+
 Status Crowd::deform_normals(ExecutionContext& context, PointsView rest_normals,
   std::vector<FloatPoints>& posed, const std::vector<Affine>& placements) const
 {

@@ -497,14 +497,39 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
   const std::vector<std::vector<Affine>>& transforms, std::vector<FloatPoints>& posed,
   const std::vector<Affine>& placements) const
 {
+  std::vector<float*> rows;
+  posed.resize(transforms.size());
+  for (FloatPoints& points : posed)
+  {
+    points.resize(rest.rows(), 3);
+    rows.push_back(points.data());
+  }
+  return this->linear_blend_many(context, rest, transforms, rows, placements);
+}
+
+Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
+  const std::vector<std::vector<Affine>>& transforms, const std::vector<float*>& posed,
+  const std::vector<Affine>& placements) const
+{
   if (!this->single_)
   {
     return Status::invalid_input("many instances are posed with weights in single precision");
   }
-  if (!placements.empty() && placements.size() != transforms.size())
+  const auto of_instances = [&](std::size_t count, const char* what)
   {
-    return Status::invalid_input("there are " + std::to_string(placements.size()) +
-      " placements for " + std::to_string(transforms.size()) + " instances");
+    return count == transforms.size()
+      ? Status()
+      : Status::invalid_input("there are " + std::to_string(count) + what +
+          std::to_string(transforms.size()) + " instances");
+  };
+  Status fits = of_instances(posed.size(), " arrays of points for ");
+  if (fits.ok() && !placements.empty())
+  {
+    fits = of_instances(placements.size(), " placements for ");
+  }
+  if (!fits.ok())
+  {
+    return fits;
   }
   constexpr Index lanes = WeightTiles<float>::lanes;
   const Vec3 centre = centre_of(rest);
@@ -523,11 +548,6 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
       placed[j] = identity_affine() + placements[i].leftCols<3>() * (placed[j] - identity_affine());
     }
     moves.push_back(displacements<float>(placed, centre));
-  }
-  posed.resize(transforms.size());
-  for (FloatPoints& points : posed)
-  {
-    points.resize(rest.rows(), 3);
   }
   const bool done = parallel_for(context, rest.rows(), block_size,
     [&](Index begin, Index end)
@@ -552,7 +572,7 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
           }
           pose_tile(this->floats_, v / lanes, moves[i], points[tile],
             placements.empty() ? at[tile] : placed, std::min(lanes, end - v),
-            posed[i].data() + 3 * v);
+            posed[i] + 3 * v);
         }
       }
     });

@@ -18,30 +18,29 @@ constexpr Index tile_cols = 8;
 constexpr Index inner_block = 256; ///< with tile_cols: 16 KiB, the first cache
 constexpr Index row_block = 96; ///< times inner_block: 192 KiB, the second cache
 
-typedef double Pack __attribute__((vector_size(64), aligned(8), may_alias));
+/// Half a row of a tile: AVX2 has registers for twelve of them and what they are made from.
+typedef double Pack __attribute__((vector_size(32), aligned(8), may_alias));
 
 /// sums = a b for tile_rows x inner packed column by column and inner x tile_cols row by row.
 BINDPOSE_SIMD_CLONES void multiply_tile(const double* a, const double* b, Index inner, double* sums)
 {
-  Pack s0 = {}, s1 = {}, s2 = {}, s3 = {}, s4 = {}, s5 = {};
+  Pack packs[tile_rows][2] = {};
   for (Index k = 0; k < inner; ++k)
   {
-    const Pack columns = *reinterpret_cast<const Pack*>(b + k * tile_cols);
-    const double* rows = a + k * tile_rows;
-    s0 += rows[0] * columns;
-    s1 += rows[1] * columns;
-    s2 += rows[2] * columns;
-    s3 += rows[3] * columns;
-    s4 += rows[4] * columns;
-    s5 += rows[5] * columns;
+    const Pack left = *reinterpret_cast<const Pack*>(b + k * tile_cols);
+    const Pack right = *reinterpret_cast<const Pack*>(b + k * tile_cols + tile_cols / 2);
+    for (Index i = 0; i < tile_rows; ++i)
+    {
+      packs[i][0] += a[k * tile_rows + i] * left;
+      packs[i][1] += a[k * tile_rows + i] * right;
+    }
   }
   auto* out = reinterpret_cast<Pack*>(sums);
-  out[0] = s0;
-  out[1] = s1;
-  out[2] = s2;
-  out[3] = s3;
-  out[4] = s4;
-  out[5] = s5;
+  for (Index i = 0; i < tile_rows; ++i)
+  {
+    out[2 * i] = packs[i][0];
+    out[2 * i + 1] = packs[i][1];
+  }
 }
 
 Index tiles_of(Index count, Index size)
@@ -111,6 +110,16 @@ void add_product(
       }
     }
   }
+}
+
+Eigen::MatrixXd dense_product(
+  const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b)
+{
+  // Columns lie one after the other: it is the transposed product that goes row by row.
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(a.rows(), b.cols());
+  add_product({ b.data(), b.cols(), b.rows(), b.outerStride(), 1 },
+    { a.data(), a.cols(), a.rows(), a.outerStride(), 1 }, c.data(), c.rows());
+  return c;
 }
 
 } // namespace bindpose

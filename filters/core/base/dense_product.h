@@ -24,6 +24,10 @@ struct StridedMatrix
 void add_product(
   const StridedMatrix& a, const StridedMatrix& b, double* c, Index c_stride, bool lower = false);
 
+/// A B.
+Eigen::MatrixXd dense_product(
+  const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b);
+
 } // namespace bindpose
 
 #endif

@@ -315,6 +315,21 @@ DragMotion Drag::stretched() const
   return result;
 }
 
+Vector3d Drag::start_arm() const
+{
+  const Vector3d axis = this->axis().normalized();
+  Vector3d at;
+  const Vector3d sight = this->view_.sight_to(this->setup_.pivot);
+  if (std::abs(axis.dot(sight)) < seen_from_side ||
+    !meet_plane(this->view_.ray(this->start_), this->setup_.pivot, axis, at))
+  {
+    at = this->setup_.pivot - sight;
+  }
+  const Vector3d arm = at - this->setup_.pivot;
+  const Vector3d across = arm - axis * axis.dot(arm);
+  return across.norm() > 0.0 ? Vector3d(across.normalized()) : axis.unitOrthogonal();
+}
+
 DragMotion Drag::motion()
 {
   switch (this->setup_.kind)

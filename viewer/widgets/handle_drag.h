@@ -68,6 +68,8 @@ public:
   const DragSetup& setup() const { return this->setup_; }
   /// The axis of a turn, or of a move along a line.
   Eigen::Vector3d axis() const;
+  /// A turn: unit, across the axis, from the pivot to where the mouse grabbed.
+  Eigen::Vector3d start_arm() const;
   DragMotion motion();
 
 private:

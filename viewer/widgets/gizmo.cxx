@@ -28,7 +28,7 @@ struct Layout
 };
 // in the order of GizmoKind
 constexpr Layout layouts[5] = { {}, { 74, 92, 33, 0, 0, 0 }, { 0, 0, 0, 0, 78, 96 },
-  { 76, 0, 0, 80, 0, 104 }, { 84, 102, 27, 45, 64, 116 } };
+  { 76, 0, 0, 80, 0, 104 }, { 84, 102, 27, 45, 64, 124 } };
 constexpr double gap = 15.0; // around the ball
 constexpr double plate_half = 7.0;
 constexpr double cone_radius = 5.6;
@@ -39,6 +39,7 @@ constexpr double outline = 1.2;
 constexpr double twist_radius = 20.0;
 constexpr double stretch_from = 10.0;
 constexpr double stretch_to = 30.0;
+constexpr double stretch_room = 32.0; // around tips
 constexpr int ring_sides = 72;
 constexpr double along_sight = 0.985; // cosine: an axis seen along itself
 constexpr double edge_on = 0.13; // cosine: a plate seen from its side
@@ -234,6 +235,8 @@ void Gizmo::add_rings()
       layout.view_ring, true);
     ring.colour = this->setup_.plain;
     ring.rank = 4;
+    ring.quiet = true;
+    ring.thickness = 1.8;
     if (scales || this->setup_.kind == GizmoKind::all)
     {
       Part knob = ring;
@@ -276,7 +279,26 @@ void Gizmo::add_bone()
     knob.part = stretch_bone;
     knob.colour = this->setup_.bone;
     const double pixel = this->unit_ * this->pixel_;
-    knob.path = { tail + stretch_from * pixel * axis, tail + stretch_to * pixel * axis };
+    // Farther out where an arrow's tip is in the way.
+    double out = stretch_to;
+    const auto is_taken = [&]()
+    {
+      const Vector2d at = this->view_.to_display(tail + out * pixel * axis).head<2>();
+      return std::any_of(this->parts_.begin(), this->parts_.end(),
+        [&](const Part& part)
+        {
+          const Vector3d* tip = !part.cone.empty() ? &part.cone[1]
+            : !part.box.empty()                    ? &part.box[0]
+                                                   : nullptr;
+          return tip &&
+            (this->view_.to_display(*tip).head<2>() - at).norm() < stretch_room * this->unit_;
+        });
+    };
+    for (int step = 0; step < 8 && is_taken(); ++step)
+    {
+      out += 0.5 * stretch_room;
+    }
+    knob.path = { tail + stretch_from * pixel * axis, tail + out * pixel * axis };
     knob.box = { knob.path[1] };
     knob.box_half = box_half;
     knob.thickness = thin;
@@ -424,7 +446,7 @@ void Gizmo::draw(HandleShapes& solid, HandleShapes& hull) const
     if (part.path.size() > 1)
     {
       solid.add_tube(part.path, tube, colour);
-      if (!part.guide)
+      if (!part.guide && !(part.quiet && !hot))
       {
         hull.add_tube(part.path, tube + margin, dark);
       }
@@ -480,7 +502,8 @@ std::vector<Gizmo::Label> Gizmo::labels() const
     const Vector2d display = this->view_.to_display(tip).head<2>();
     Vector2d aside = display - origin;
     aside = aside.norm() > 0.0 ? Vector2d(aside.normalized()) : Vector2d(1.0, 0.0);
-    labels.push_back({ part.label, display + 12.0 * this->unit_ * aside, part.colour });
+    labels.push_back({ part.label,
+      display + (part.cone.empty() ? 18.0 : 12.0) * this->unit_ * aside, part.colour });
   }
   return labels;
 }

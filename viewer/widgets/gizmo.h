@@ -53,9 +53,10 @@ struct GizmoSetup
   std::optional<Eigen::Vector3d> tail; ///< of a bone; its head is the origin
   bool twists_apart = true; ///< a twist ring at each end, else one in the middle
   double pixels = 80.0; ///< length of the axes of the gizmo that only moves
-  Colour axes[3] = { { 0.86, 0.27, 0.19 }, { 0.36, 0.70, 0.24 }, { 0.18, 0.43, 0.93 } };
+  /// Red, green and blue as everywhere, but told apart without each kind of cone.
+  Colour axes[3] = { { 0.80, 0.15, 0.25 }, { 0.50, 0.80, 0.25 }, { 0.18, 0.43, 0.93 } };
   Colour bone = { 0.72, 0.40, 0.72 };
-  Colour plain = { 0.93, 0.93, 0.93 }; ///< what belongs to no axis
+  Colour plain = { 0.60, 0.61, 0.65 }; ///< what belongs to no axis
 };
 
 /// The kind of gizmo that has a part, the given one if it has.
@@ -111,6 +112,7 @@ private:
     std::vector<Eigen::Vector3d> cone; // base and tip
     double cone_radius = 0.0; // pixels
     bool guide = false; // is only seen
+    bool quiet = false; // without an outline
     std::string label;
   };
   void add_axes();

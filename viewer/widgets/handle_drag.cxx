@@ -181,12 +181,13 @@ DragMotion Drag::moved() const
       return result;
     }
     way = after - before;
-    if (this->snap_ && s.length_step > 0.0)
+    if (bits == 2 || (this->snap_ && s.length_step > 0.0))
     {
       Vector3d own = s.frame.transpose() * way;
-      for (double& length : own)
+      for (int k = 0; k < 3; ++k)
       {
-        length = this->snapped(length, s.length_step);
+        // exactly in the plane, without the round-off of the hits
+        own[k] = (s.axes >> k) & 1 ? this->snapped(own[k], s.length_step) : 0.0;
       }
       way = s.frame * own;
     }

@@ -735,13 +735,22 @@ void vtkHandleSetRepresentation::BuildRepresentation()
   {
     const bool hot = cell == this->HoveredHandle || cell == this->ActiveHandle;
     const HandlePlace& place = places[static_cast<std::size_t>(cell)];
-    if (place.is_handle() && (this->ShowLabels || (this->ShowHoverName && hot)))
+    const bool dragged = self.Dragged && cell == this->ActiveHandle;
+    const bool named = this->ShowHoverName && hot && self.HoveredPart == bindpose::no_part;
+    if (place.is_handle() && (this->ShowLabels || named || dragged))
     {
       std::string text = self.Data.name(cell);
-      text += place.locked ? " (locked)" : place.is_free() && !this->ShowLabels ? " (free)" : "";
-      text += self.Dragged && cell == this->ActiveHandle ? "   " + self.LastText : "";
-      self.Labels.add(text, bindpose::label_place(view, place, this->PixelScale * this->PointSize),
-        this->PixelScale);
+      text += place.locked ? " (locked)" : place.is_free() && hot ? " (free)" : "";
+      text += dragged && !self.LastText.empty() ? "   " + self.LastText : "";
+      Vector2d at = bindpose::label_place(view, place, this->PixelScale * this->PointSize);
+      if (dragged && self.Dragged->part() != bindpose::no_part)
+      {
+        // below the gizmo, where there is room
+        const double aside = this->PixelScale * (1.45 * this->GizmoSize + 14.0);
+        at = view.to_display(place.head).head<2>();
+        at += Vector2d(-0.25 * aside, at[1] > 1.2 * aside ? -aside : aside);
+      }
+      self.Labels.add(text, at, this->PixelScale);
     }
   }
   self.Handles.Set(solid, outline);

@@ -19,7 +19,7 @@
  *   the mouse. The bone's length stays, unless Reach is on: then the tail stays under the mouse.
  * - a part of the gizmo (see SetGizmo()), which stands at the selected handle: arrows move along
  *   its axes, plates in its planes, rings turn about its axes and about the line of sight, boxes
- *   scale along its axes, the white box or ring scales evenly; of a bone the box beyond its tail
+ *   scale along its axes, the grey box or ring scales evenly; of a bone the box beyond its tail
  *   stretches it and the rings around it twist it.
  * - All selected handles move, turn and scale together, about the one that is grabbed. Tails,
  *   stretches and twists are of one bone alone.

@@ -8,7 +8,6 @@
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkStringArray.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <map>
 
@@ -54,10 +53,8 @@ public:
   Reader(vtkPolyData* data, bool at_rest)
     : data_(data), at_rest_(at_rest), kinds_(data, "HandleKind", 1), modes_(data, "Mode", 1),
       locks_(data, "Locked", 1), parents_(data, "Parent", 1), transforms_(data, "Transform", 12),
-      stretches_(data, "Stretch", 1), twists_(data, "Twist", 2), colours_(data, "Color", 3)
+      stretches_(data, "Stretch", 1), twists_(data, "Twist", 2), colours_(data, "Color", 4)
   {
-    vtkDataArray* colours = data->GetCellData()->GetArray("Color");
-    this->bytes_ = vtkUnsignedCharArray::SafeDownCast(colours) != nullptr;
     if (data->NeedToBuildCells())
     {
       data->BuildCells();
@@ -79,9 +76,12 @@ public:
     this->twists_.read(cell, place.twist.data());
     if (this->colours_.has(cell))
     {
-      place.colour = Vec3::Zero();
-      this->colours_.read(cell, place.colour->data());
-      *place.colour *= this->bytes_ ? 1.0 / 255.0 : 1.0;
+      Eigen::Vector4d bytes;
+      this->colours_.read(cell, bytes.data());
+      if (bytes[3] > 0.0)
+      {
+        place.colour = bytes.head<3>() / 255.0;
+      }
     }
     if (size == 0)
     {
@@ -104,7 +104,6 @@ public:
 private:
   vtkPolyData* data_;
   bool at_rest_;
-  bool bytes_ = false;
   CellNumbers kinds_, modes_, locks_, parents_, transforms_, stretches_, twists_, colours_;
 };
 

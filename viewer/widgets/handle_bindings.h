@@ -22,7 +22,15 @@ enum class HandleAction
   reach,
   type,
   confirm,
-  cancel
+  cancel,
+  move_rest,
+  add_point,
+  add_bone,
+  add_cage_vertex,
+  close_cage,
+  finish_cage,
+  drop_vertex,
+  snap_place
 };
 
 /// One row of the table of keys and buttons, of which the widget's documentation and the program's
@@ -30,14 +38,15 @@ enum class HandleAction
 struct HandleBinding
 {
   HandleAction action;
-  const char* when; ///< "pose", "drag"
+  /// "pose", "drag" (in any mode), "move rest", "add points", "add bones", "add cage"
+  const char* when;
   const char* input; ///< as people read it
   const char*
     keys; ///< names of keys (vtkRenderWindowInteractor's KeySym) with blanks around, or ""
   const char* text; ///< what it does
 };
 
-constexpr std::array<HandleBinding, 14> handle_bindings{ {
+constexpr std::array<HandleBinding, 22> handle_bindings{ {
   { HandleAction::select, "pose", "Left button on a handle", "",
     "Select it and drag it: a ball, a bone or its head moves, a bone's tail turns it" },
   { HandleAction::toggle, "pose", "Shift + left button on a handle", "",
@@ -63,6 +72,21 @@ constexpr std::array<HandleBinding, 14> handle_bindings{ {
   { HandleAction::confirm, "drag", "Enter, left button", " Return KP_Enter ", "End the drag" },
   { HandleAction::cancel, "drag", "Esc, right button", " Escape ",
     "Cancel the drag: everything is as before it" },
+  { HandleAction::move_rest, "move rest", "Left button on a handle", "",
+    "Move its rest place: a point, a bone by its body, a joint with all bones that meet there" },
+  { HandleAction::add_point, "add points", "Left button on the surface", "",
+    "Add a point, inside the shape or on its surface" },
+  { HandleAction::add_bone, "add bones", "Left button, drag", "",
+    "Draw a bone from head to tail; from the end of a bone: its child" },
+  { HandleAction::add_cage_vertex, "add cage", "Left button", "",
+    "Add a vertex of a cage, joined to the last one" },
+  { HandleAction::close_cage, "add cage", "Left button on the first vertex", "", "Close the cage" },
+  { HandleAction::finish_cage, "add cage", "Enter, double click", " Return KP_Enter ",
+    "End the cage, open" },
+  { HandleAction::drop_vertex, "add cage", "Esc", " Escape ",
+    "Take the last vertex away; without one: leave the mode" },
+  { HandleAction::snap_place, "add points, add bones, add cage, move rest", "Ctrl, held", "",
+    "Snap to the ends of handles and to the surface's vertices" },
 } };
 
 } // namespace bindpose

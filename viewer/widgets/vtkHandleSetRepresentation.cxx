@@ -1,118 +1,34 @@
-// The glue between the handle dataset (handle_data), the mouse (handle_picking, handle_drag) and
-// the picture (handle_drawing, screen_labels).
-//
-// What is drawn is rebuilt whenever the handles, the camera or the window change. All solid parts
-// make one polydata, all outlines another.
-//
-// Handles lie inside the shape they bend. To be seen they are drawn in the overlay pass after the
-// depth buffer has been cleared, so they hide each other correctly and nothing hides them; the same
-// once more for the gizmo.
+// The glue between the handle dataset (handle_data, handle_poses), the mouse (handle_picking,
+// gizmo, pose_drag; rest_editor in edit modes) and the picture, which handle_set_drawing.cxx makes.
 //
 // A drag keeps the poses from its start. Every move makes one motion D from the start to now and
 // writes D * start for the grabbed handle and its descendants: no error accumulates, and a cancel
 // copies the start back.
 #include "vtkHandleSetRepresentation.h"
 
-#include "gizmo.h"
-#include "handle_data.h"
-#include "handle_drawing.h"
 #include "handle_picking.h"
-#include "handle_poses.h"
-#include "pose_drag.h"
-#include "screen_labels.h"
+#include "handle_set_internals.h"
 #include "screen_view.h"
 
-#include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkMath.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLState.h"
 #include "vtkPolyData.h"
-#include "vtkPolyDataMapper.h"
-#include "vtkProperty.h"
 #include "vtkRenderer.h"
 #include "vtkTextProperty.h"
-#include "vtkWindow.h"
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <utility>
 #include <vector>
 
-using bindpose::Affine;
 using bindpose::HandlePlace;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 namespace
 {
-constexpr unsigned int gl_depth_test = 0x0B71;
-constexpr unsigned int gl_depth_buffer_bit = 0x00000100;
-
-bindpose::Colour to_colour(const double rgb[3])
-{
-  return { rgb[0], rgb[1], rgb[2] };
-}
-
-/// Shapes and their hull, as two actors.
-class ShapeActors
-{
-public:
-  ShapeActors()
-  {
-    const std::pair<vtkActor*, vtkPolyDataMapper*> both[2] = {
-      { this->Outline, this->OutlineMapper }, { this->Solid, this->SolidMapper }
-    };
-    for (const auto& [actor, mapper] : both)
-    {
-      mapper->SetScalarModeToUsePointData();
-      mapper->SetColorModeToDirectScalars();
-      actor->SetMapper(mapper);
-    }
-    vtkProperty* solid = this->Solid->GetProperty();
-    solid->SetAmbient(0.25);
-    solid->SetDiffuse(0.75);
-    solid->SetSpecular(0.25);
-    solid->SetSpecularPower(30.0);
-    solid->BackfaceCullingOn();
-    this->Outline->GetProperty()->LightingOff();
-    this->Outline->GetProperty()->FrontfaceCullingOn();
-  }
-  /// Colours as they are, not as lights make them.
-  void SetFlat()
-  {
-    this->Solid->GetProperty()->SetAmbient(0.75);
-    this->Solid->GetProperty()->SetDiffuse(0.3);
-    this->Solid->GetProperty()->SetSpecular(0.0);
-  }
-  void Set(const bindpose::HandleShapes& solid, const bindpose::HandleShapes& outline)
-  {
-    this->SolidMapper->SetInputData(solid.polydata());
-    this->OutlineMapper->SetInputData(outline.polydata());
-  }
-  int Render(vtkViewport* viewport)
-  {
-    return this->Outline->RenderOpaqueGeometry(viewport) +
-      this->Solid->RenderOpaqueGeometry(viewport);
-  }
-  void Release(vtkWindow* window)
-  {
-    this->Outline->ReleaseGraphicsResources(window);
-    this->Solid->ReleaseGraphicsResources(window);
-  }
-
-private:
-  vtkNew<vtkPolyDataMapper> OutlineMapper;
-  vtkNew<vtkPolyDataMapper> SolidMapper;
-  vtkNew<vtkActor> Outline;
-  vtkNew<vtkActor> Solid;
-};
-
 /// 1, 2 or 5 times a power of ten: the largest that is not above the length.
 double round_length(double length)
 {
@@ -125,21 +41,6 @@ double round_length(double length)
   return power * (digits >= 5.0 ? 5.0 : digits >= 2.0 ? 2.0 : 1.0);
 }
 } // namespace
-
-class vtkHandleSetRepresentation::Internals
-{
-public:
-  bindpose::HandleData Data;
-  ShapeActors Handles;
-  ShapeActors Gizmo;
-  bindpose::ScreenLabels Labels;
-  std::vector<vtkIdType> Selected;
-  int HoveredPart = bindpose::no_part; // of the gizmo
-
-  std::optional<bindpose::PoseDrag> Dragged;
-  std::string LastName; // of the last drag
-  std::string LastText;
-};
 
 vtkStandardNewMacro(vtkHandleSetRepresentation);
 
@@ -166,6 +67,8 @@ void vtkHandleSetRepresentation::SetHandles(vtkPolyData* handles)
   {
     return;
   }
+  this->Internal->Editor.cancel(); // writes into the old ones
+  this->Internal->Editor.finish_cage();
   this->Internal->Data.set(handles);
   this->HoveredHandle = -1;
   this->ActiveHandle = -1;
@@ -304,145 +207,9 @@ int vtkHandleSetRepresentation::GetDragRefusal(vtkIdType handle)
   {
     return IS_NO_HANDLE;
   }
-  return place.locked ? IS_LOCKED : place.is_free() ? IS_FREE : DRAGGABLE;
-}
-
-bool vtkHandleSetRepresentation::WriteHandle(vtkIdType handle, const HandlePlace& posed)
-{
-  const std::vector<HandlePlace> places = this->Internal->Data.places();
-  if (!this->Internal->Data.exists(handle) || this->GetDragRefusal(handle) == IS_LOCKED ||
-    !places[static_cast<std::size_t>(handle)].is_handle() || !posed.transform.allFinite())
-  {
-    return false;
-  }
-  const HandlePlace& before = places[static_cast<std::size_t>(handle)];
-  const bindpose::HandleGroup group =
-    bindpose::make_group(places, { handle }, this->MoveDescendants != 0);
-  // The motion from the one to the other is what the followers do; the handle itself takes the
-  // numbers as they are.
-  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
-  const Eigen::Matrix3d inverse = before.transform.leftCols<3>().inverse();
-  if (posed.transform != before.transform && inverse.allFinite())
-  {
-    motion.linear() = posed.transform.leftCols<3>() * inverse;
-    motion.translation() = posed.transform.col(3) - motion.linear() * before.transform.col(3);
-  }
-  const double factor = before.stretch != 0.0 ? posed.stretch / before.stretch : 1.0;
-  std::vector<bindpose::HandleData::CellPose> poses = bindpose::moved_poses(
-    places, group, motion, { factor, Vector2d(0.0, posed.twist[1] - before.twist[1]), true });
-  poses.front() = { posed.transform, posed.stretch, posed.twist };
-  this->Internal->Data.set_poses(group.cells, poses);
-  this->Modified();
-  return true;
-}
-
-bool vtkHandleSetRepresentation::SetHandleTranslation(vtkIdType handle, const double translation[3])
-{
-  HandlePlace place = this->Internal->Data.place(handle);
-  const Affine linear = place.transform;
-  place.transform.col(3) =
-    place.rest_head + Vector3d(translation) - linear.leftCols<3>() * place.rest_head;
-  return this->WriteHandle(handle, place);
-}
-
-bool vtkHandleSetRepresentation::SetHandleRotation(
-  vtkIdType handle, const double axis[3], double degrees)
-{
-  HandlePlace place = this->Internal->Data.place(handle);
-  bindpose::PoseParts parts = bindpose::split_pose(place.transform, place.rest_head);
-  const double length = Vector3d(axis).norm();
-  if (!(length > 0.0))
-  {
-    return false;
-  }
-  parts.rotation = Eigen::AngleAxisd(vtkMath::RadiansFromDegrees(degrees), Vector3d(axis) / length)
-                     .toRotationMatrix();
-  place.transform = bindpose::join_pose(parts, place.rest_head);
-  return this->WriteHandle(handle, place);
-}
-
-bool vtkHandleSetRepresentation::SetHandleScale(vtkIdType handle, const double factors[3])
-{
-  HandlePlace place = this->Internal->Data.place(handle);
-  bindpose::PoseParts parts = bindpose::split_pose(place.transform, place.rest_head);
-  const Eigen::Matrix3d axes = bindpose::rest_axes(place);
-  const Vector3d scale(factors);
-  if ((scale.array() == 0.0).any())
-  {
-    return false;
-  }
-  parts.scale = axes * scale.asDiagonal() * axes.transpose();
-  if (scale[0] == scale[1] && scale[1] == scale[2])
-  {
-    parts.scale = scale[0] * Eigen::Matrix3d::Identity(); // without round-off
-  }
-  place.transform = bindpose::join_pose(parts, place.rest_head);
-  return this->WriteHandle(handle, place);
-}
-
-bool vtkHandleSetRepresentation::SetHandleScale(vtkIdType handle, double factor)
-{
-  const double factors[3] = { factor, factor, factor };
-  return this->SetHandleScale(handle, factors);
-}
-
-bool vtkHandleSetRepresentation::SetHandleStretch(vtkIdType handle, double ratio)
-{
-  HandlePlace place = this->Internal->Data.place(handle);
-  place.stretch = ratio;
-  return ratio > 0.0 && std::isfinite(ratio) && place.is_bone() && this->WriteHandle(handle, place);
-}
-
-bool vtkHandleSetRepresentation::SetHandleTwist(
-  vtkIdType handle, double headDegrees, double tailDegrees)
-{
-  HandlePlace place = this->Internal->Data.place(handle);
-  place.twist = Vector2d(headDegrees, tailDegrees);
-  return place.twist.allFinite() && place.is_bone() && this->WriteHandle(handle, place);
-}
-
-bool vtkHandleSetRepresentation::ResetHandle(vtkIdType handle)
-{
-  HandlePlace place = this->Internal->Data.place(handle);
-  place.transform = bindpose::identity_affine();
-  place.stretch = 1.0;
-  place.twist.setZero();
-  return this->WriteHandle(handle, place);
-}
-
-void vtkHandleSetRepresentation::GetHandleTranslation(vtkIdType handle, double translation[3])
-{
-  const HandlePlace place = this->Internal->Data.place(handle);
-  const Vector3d moved = bindpose::split_pose(place.transform, place.rest_head).translation;
-  std::copy_n(moved.data(), 3, translation);
-}
-
-double vtkHandleSetRepresentation::GetHandleRotation(vtkIdType handle, double axis[3])
-{
-  const HandlePlace place = this->Internal->Data.place(handle);
-  const Eigen::AngleAxisd turned(bindpose::split_pose(place.transform, place.rest_head).rotation);
-  std::copy_n(turned.axis().data(), 3, axis);
-  return vtkMath::DegreesFromRadians(turned.angle());
-}
-
-void vtkHandleSetRepresentation::GetHandleScale(vtkIdType handle, double factors[3])
-{
-  const HandlePlace place = this->Internal->Data.place(handle);
-  const Eigen::Matrix3d axes = bindpose::rest_axes(place);
-  const Vector3d scale =
-    (axes.transpose() * bindpose::split_pose(place.transform, place.rest_head).scale * axes)
-      .diagonal();
-  std::copy_n(scale.data(), 3, factors);
-}
-
-double vtkHandleSetRepresentation::GetHandleStretch(vtkIdType handle)
-{
-  return this->Internal->Data.place(handle).stretch;
-}
-
-void vtkHandleSetRepresentation::GetHandleTwist(vtkIdType handle, double degrees[2])
-{
-  std::copy_n(this->Internal->Data.place(handle).twist.data(), 2, degrees);
+  // At rest a handle has a place of its own, whatever its mode.
+  const bool free = place.is_free() && this->EditMode == POSE;
+  return place.locked ? IS_LOCKED : free ? IS_FREE : DRAGGABLE;
 }
 
 // ---- Picking -----------------------------------------------------------------------------------
@@ -471,13 +238,25 @@ int vtkHandleSetRepresentation::ComputeInteractionState(int x, int y, int vtkNot
   Internals& self = *this->Internal;
   bindpose::HandlePick pick;
   int part = bindpose::no_part;
+  const double position[2] = { static_cast<double>(x), static_cast<double>(y) };
+  if (this->Renderer && this->EditMode > MOVE_REST)
+  {
+    self.Editor.hover(
+      bindpose::ScreenView(this->Renderer), this->MakeHand(position), this->MakeEditSettings());
+    const bool has_place = self.Editor.preview().ball.has_value();
+    this->InteractionState = has_place ? PLACING : OUTSIDE;
+    this->SetHoveredHandle(self.Editor.target());
+    this->Modified();
+    return this->InteractionState;
+  }
   if (this->Renderer)
   {
     const bindpose::ScreenView view(this->Renderer);
     const Vector2d mouse(x, y);
     const vtkIdType selected = this->GetSelectedHandle();
     const double tolerance = this->PixelScale * this->PickTolerance;
-    if (this->Gizmo != GIZMO_NONE && this->GetDragRefusal(selected) == DRAGGABLE)
+    if (this->EditMode == POSE && this->Gizmo != GIZMO_NONE &&
+      this->GetDragRefusal(selected) == DRAGGABLE)
     {
       part =
         bindpose::Gizmo(view, this->MakeGizmo(self.Data.place(selected))).pick(mouse, tolerance);
@@ -492,7 +271,7 @@ int vtkHandleSetRepresentation::ComputeInteractionState(int x, int y, int vtkNot
       sizes.ball = this->PixelScale * this->PointSize;
       sizes.bone_width = this->BoneWidth;
       sizes.tolerance = tolerance;
-      pick = bindpose::pick_handle(view, self.Data.places(), mouse, sizes);
+      pick = bindpose::pick_handle(view, self.Data.places(this->EditMode != POSE), mouse, sizes);
     }
   }
   this->InteractionState = part != bindpose::no_part ? part : static_cast<int>(pick.part);
@@ -507,6 +286,11 @@ int vtkHandleSetRepresentation::ComputeInteractionState(int x, int y, int vtkNot
 
 void vtkHandleSetRepresentation::LeaveHandles()
 {
+  if (this->Internal->Editor.preview().ball)
+  {
+    this->Internal->Editor.leave();
+    this->Modified();
+  }
   this->InteractionState = OUTSIDE;
   if (this->Internal->HoveredPart != bindpose::no_part)
   {
@@ -519,7 +303,8 @@ void vtkHandleSetRepresentation::LeaveHandles()
 bool vtkHandleSetRepresentation::GetGizmoGrip(int part, double display[2])
 {
   const HandlePlace place = this->Internal->Data.place(this->GetSelectedHandle());
-  if (!this->Renderer || this->GetDragRefusal(this->GetSelectedHandle()) != DRAGGABLE)
+  if (!this->Renderer || this->EditMode != POSE ||
+    this->GetDragRefusal(this->GetSelectedHandle()) != DRAGGABLE)
   {
     return false;
   }
@@ -590,6 +375,17 @@ void vtkHandleSetRepresentation::StartWidgetInteraction(double eventPos[2])
 {
   this->ActiveHandle = -1;
   this->Internal->Dragged.reset();
+  this->Edited = false;
+  this->Internal->Message.clear();
+  if (this->Renderer && this->EditMode != POSE)
+  {
+    const vtkIdType hovered = this->HoveredHandle;
+    const bool began = this->Internal->Editor.press(bindpose::ScreenView(this->Renderer),
+      this->MakeHand(eventPos), this->MakeEditSettings(), this->Internal->Selected);
+    this->ActiveHandle = began && this->EditMode == MOVE_REST ? hovered : -1;
+    this->TakeEdit();
+    return;
+  }
   if (this->Renderer && this->InteractionState != OUTSIDE &&
     this->GetDragRefusal(this->HoveredHandle) == DRAGGABLE)
   {
@@ -603,7 +399,8 @@ bool vtkHandleSetRepresentation::StartDrag(int gizmo, double eventPos[2])
   Internals& self = *this->Internal;
   const vtkIdType handle = this->GetSelectedHandle();
   const bool moves = gizmo == GIZMO_MOVE;
-  if (this->ActiveHandle >= 0 || !this->Renderer || this->GetDragRefusal(handle) != DRAGGABLE ||
+  if (this->ActiveHandle >= 0 || !this->Renderer || this->EditMode != POSE ||
+    this->GetDragRefusal(handle) != DRAGGABLE ||
     (!moves &&
       (self.Data.place(handle).only_moves() || (gizmo != GIZMO_TURN && gizmo != GIZMO_SCALE))))
   {
@@ -633,6 +430,13 @@ void vtkHandleSetRepresentation::UpdateDrag()
 
 void vtkHandleSetRepresentation::WidgetInteraction(double eventPos[2])
 {
+  if (this->Internal->Editor.busy() && this->Renderer)
+  {
+    this->Internal->Editor.move(
+      bindpose::ScreenView(this->Renderer), this->MakeHand(eventPos), this->MakeEditSettings());
+    this->Modified();
+    return;
+  }
   if (this->Internal->Dragged)
   {
     this->Internal->Dragged->drag().move_to(Vector2d(eventPos), this->Fine != 0);
@@ -642,6 +446,10 @@ void vtkHandleSetRepresentation::WidgetInteraction(double eventPos[2])
 
 void vtkHandleSetRepresentation::ConstrainDrag(int axis, bool plane)
 {
+  if (this->Internal->Editor.busy() && axis >= 0 && axis < 3)
+  {
+    this->Internal->Editor.constrain(plane ? 7 ^ (1 << axis) : 1 << axis);
+  }
   if (this->Internal->Dragged && axis >= 0 && axis < 3)
   {
     this->Internal->Dragged->press_axis(axis, plane);
@@ -659,8 +467,14 @@ bool vtkHandleSetRepresentation::TypeIntoDrag(char key)
   return true;
 }
 
-void vtkHandleSetRepresentation::EndWidgetInteraction(double vtkNotUsed(eventPos)[2])
+void vtkHandleSetRepresentation::EndWidgetInteraction(double eventPos[2])
 {
+  if (this->Internal->Editor.busy() && this->Renderer)
+  {
+    this->Internal->Editor.release(
+      bindpose::ScreenView(this->Renderer), this->MakeHand(eventPos), this->MakeEditSettings());
+    this->TakeEdit();
+  }
   this->ActiveHandle = -1;
   this->Internal->Dragged.reset();
   this->Modified();
@@ -668,6 +482,14 @@ void vtkHandleSetRepresentation::EndWidgetInteraction(double vtkNotUsed(eventPos
 
 void vtkHandleSetRepresentation::CancelWidgetInteraction()
 {
+  if (this->Internal->Editor.busy())
+  {
+    this->Internal->Editor.cancel();
+    this->Internal->Editor.take_result();
+    this->Edited = false;
+    this->ActiveHandle = -1;
+    this->Modified();
+  }
   if (this->Internal->Dragged)
   {
     const bindpose::HandleGroup& group = this->Internal->Dragged->group();
@@ -676,6 +498,118 @@ void vtkHandleSetRepresentation::CancelWidgetInteraction()
     this->ActiveHandle = -1;
     this->Modified();
   }
+}
+
+// ---- Edit modes --------------------------------------------------------------------------------
+
+bool vtkHandleSetRepresentation::IsInteracting()
+{
+  return this->Internal->Dragged.has_value() || this->Internal->Editor.busy();
+}
+
+void vtkHandleSetRepresentation::SetEditMode(int mode)
+{
+  const int clamped = std::clamp<int>(mode, POSE, ADD_CAGE);
+  if (clamped != this->EditMode)
+  {
+    this->CancelWidgetInteraction();
+    this->FinishCage();
+    this->LeaveHandles();
+    this->EditMode = clamped;
+    this->Modified();
+  }
+}
+
+void vtkHandleSetRepresentation::SetSurface(vtkPolyData* surface)
+{
+  if (surface != this->GetSurface())
+  {
+    this->Internal->Editor.surface().set(surface);
+    this->Modified();
+  }
+}
+
+vtkPolyData* vtkHandleSetRepresentation::GetSurface()
+{
+  return this->Internal->Editor.surface().get();
+}
+
+bindpose::EditSettings vtkHandleSetRepresentation::MakeEditSettings()
+{
+  bindpose::EditSettings settings;
+  settings.mode = static_cast<bindpose::EditMode>(this->EditMode);
+  settings.place_inside = this->PlaceInside != 0;
+  settings.length_step = this->GetSnapLength();
+  settings.sizes.ball = this->PixelScale * this->PointSize;
+  settings.sizes.bone_width = this->BoneWidth;
+  settings.sizes.tolerance = this->PixelScale * this->PickTolerance;
+  settings.focus = Vector3d(this->Renderer->GetActiveCamera()->GetFocalPoint());
+  return settings;
+}
+
+bindpose::Hand vtkHandleSetRepresentation::MakeHand(const double eventPos[2])
+{
+  return { Vector2d(eventPos), this->Fine != 0, this->Snap != 0 };
+}
+
+/// What the editor has done, when it is done: cells may have other numbers now.
+void vtkHandleSetRepresentation::TakeEdit()
+{
+  Internals& self = *this->Internal;
+  self.LastName = self.Editor.name();
+  self.LastText.clear();
+  if (self.Editor.busy())
+  {
+    return;
+  }
+  const bindpose::EditResult result = self.Editor.take_result();
+  this->Edited = result.changed;
+  self.Message = result.message;
+  if (result.changed)
+  {
+    std::vector<vtkIdType> selected;
+    for (const vtkIdType handle : self.Selected)
+    {
+      const auto cell = static_cast<std::size_t>(handle);
+      if (cell < result.cell_of.size() && result.cell_of[cell] >= 0)
+      {
+        selected.push_back(result.cell_of[cell]);
+      }
+    }
+    // What is new is selected alone.
+    self.Selected = result.added.empty() ? selected : std::vector<vtkIdType>{ result.added.back() };
+    this->SetHoveredHandle(-1);
+  }
+  this->Modified();
+}
+
+bool vtkHandleSetRepresentation::IsMakingCage()
+{
+  return this->Internal->Editor.has_cage();
+}
+
+bool vtkHandleSetRepresentation::FinishCage()
+{
+  const bool any = this->Internal->Editor.finish_cage();
+  this->Modified();
+  return any;
+}
+
+bool vtkHandleSetRepresentation::DropCageVertex()
+{
+  this->Edited = false;
+  this->Internal->Message.clear();
+  if (!this->Internal->Editor.drop_cage_vertex())
+  {
+    return false;
+  }
+  this->TakeEdit();
+  return true;
+}
+
+std::string vtkHandleSetRepresentation::GetEditMessage()
+{
+  return this->Internal->Message;
 }
 
 std::string vtkHandleSetRepresentation::GetInteractionName()
@@ -688,168 +622,14 @@ std::string vtkHandleSetRepresentation::GetInteractionText()
   return this->Internal->LastText;
 }
 
-// ---- Drawing -----------------------------------------------------------------------------------
-
-vtkMTimeType vtkHandleSetRepresentation::GetMTime()
-{
-  vtkMTimeType time = this->Superclass::GetMTime();
-  time = std::max(time, this->Internal->Labels.text()->GetMTime());
-  if (this->Internal->Data.get())
-  {
-    time = std::max(time, this->Internal->Data.get()->GetMTime());
-  }
-  return time;
-}
-
-void vtkHandleSetRepresentation::BuildRepresentation()
-{
-  Internals& self = *this->Internal;
-  if (!this->Renderer || !this->Renderer->GetRenderWindow())
-  {
-    return;
-  }
-  vtkWindow* window = this->Renderer->GetRenderWindow();
-  if (this->BuildTime > this->GetMTime() && this->BuildTime > window->GetMTime() &&
-    this->BuildTime > this->Renderer->GetMTime() &&
-    this->BuildTime > this->Renderer->GetActiveCamera()->GetMTime())
-  {
-    return;
-  }
-  const bindpose::ScreenView view(this->Renderer);
-  const std::vector<HandlePlace> places = self.Data.places();
-  const bool fine = places.size() <= 60;
-  bindpose::HandleShapes solid(fine);
-  bindpose::HandleShapes outline(fine);
-  bindpose::HandleSizes sizes;
-  sizes.ball = this->PixelScale * this->PointSize;
-  sizes.bone_width = this->BoneWidth;
-  const bindpose::HandleLook look{ { to_colour(this->FullColor), to_colour(this->PositionColor),
-                                     to_colour(this->FreeColor) },
-    to_colour(this->OutlineColor), to_colour(this->SelectedColor), this->PixelScale };
-  const bindpose::HandleMarks marks{ this->HoveredHandle, this->ActiveHandle, self.Selected };
-  bindpose::draw_handles(view, places,
-    places.empty() ? std::vector<bindpose::HandleData::Bar>() : self.Data.bars(places), sizes, look,
-    marks, solid, outline);
-  self.Labels.clear();
-  for (vtkIdType cell = 0; cell < self.Data.count(); ++cell)
-  {
-    const bool hot = cell == this->HoveredHandle || cell == this->ActiveHandle;
-    const HandlePlace& place = places[static_cast<std::size_t>(cell)];
-    const bool dragged = self.Dragged && cell == this->ActiveHandle;
-    const bool named = this->ShowHoverName && hot && self.HoveredPart == bindpose::no_part;
-    if (place.is_handle() && (this->ShowLabels || named || dragged))
-    {
-      std::string text = self.Data.name(cell);
-      text += place.locked ? " (locked)" : place.is_free() && hot ? " (free)" : "";
-      text += dragged && !self.LastText.empty() ? "   " + self.LastText : "";
-      Vector2d at = bindpose::label_place(view, place, this->PixelScale * this->PointSize);
-      if (dragged && self.Dragged->part() != bindpose::no_part)
-      {
-        // below the gizmo, where there is room
-        const double aside = this->PixelScale * (1.45 * this->GizmoSize + 14.0);
-        at = view.to_display(place.head).head<2>();
-        at += Vector2d(-0.25 * aside, at[1] > 1.2 * aside ? -aside : aside);
-      }
-      self.Labels.add(text, at, this->PixelScale);
-    }
-  }
-  self.Handles.Set(solid, outline);
-
-  bindpose::HandleShapes gizmo_solid(true);
-  bindpose::HandleShapes gizmo_outline(true);
-  const vtkIdType gizmo_handle = self.Dragged ? this->ActiveHandle : this->GetSelectedHandle();
-  const bool shows = this->Gizmo != GIZMO_NONE || self.Dragged;
-  if (shows && this->GetDragRefusal(gizmo_handle) == DRAGGABLE)
-  {
-    bindpose::GizmoSetup setup = this->MakeGizmo(places[static_cast<std::size_t>(gizmo_handle)]);
-    bindpose::GizmoMarks gizmo_marks;
-    gizmo_marks.hovered = self.HoveredPart;
-    if (self.Dragged)
-    {
-      // Whatever starts a drag, what it is held to is drawn.
-      gizmo_marks.active = self.Dragged->part();
-      setup.kind = bindpose::gizmo_with(gizmo_marks.active, setup.kind);
-      setup.frame = self.Dragged->frame();
-      const auto spokes = self.Dragged->spokes(
-        bindpose::ring_pixels(setup, gizmo_marks.active) * view.pixel_at(setup.origin));
-      std::copy(spokes.begin(), spokes.end(), gizmo_marks.spokes);
-    }
-    if (!self.Dragged || gizmo_marks.active != bindpose::no_part)
-    {
-      const bindpose::Gizmo gizmo(view, setup, gizmo_marks);
-      gizmo.draw(gizmo_solid, gizmo_outline);
-      for (const bindpose::Gizmo::Label& label : gizmo.labels())
-      {
-        self.Labels.add(label.text, label.display, this->PixelScale, label.colour.data());
-      }
-    }
-  }
-  self.Gizmo.Set(gizmo_solid, gizmo_outline);
-  this->BuildTime.Modified();
-}
-
-double* vtkHandleSetRepresentation::GetBounds()
-{
-  Eigen::AlignedBox3d box;
-  for (const HandlePlace& place : this->Internal->Data.places())
-  {
-    box.extend(place.head).extend(place.tail);
-  }
-  vtkMath::UninitializeBounds(this->Bounds);
-  for (int axis = 0; axis < 3 && !box.isEmpty(); ++axis)
-  {
-    this->Bounds[2 * axis] = box.min()[axis];
-    this->Bounds[2 * axis + 1] = box.max()[axis];
-  }
-  return this->Bounds;
-}
-
-int vtkHandleSetRepresentation::RenderOpaqueGeometry(vtkViewport* viewport)
-{
-  if (this->DrawOnTop)
-  {
-    return 0;
-  }
-  this->BuildRepresentation();
-  return this->Internal->Handles.Render(viewport);
-}
-
-int vtkHandleSetRepresentation::RenderOverlay(vtkViewport* viewport)
-{
-  this->BuildRepresentation();
-  int rendered = 0;
-  auto* window = vtkOpenGLRenderWindow::SafeDownCast(viewport->GetVTKWindow());
-  const auto on_top = [&](ShapeActors& actors)
-  {
-    vtkOpenGLState* state = window->GetState();
-    state->vtkglEnable(gl_depth_test);
-    state->vtkglDepthMask(1);
-    state->vtkglClear(gl_depth_buffer_bit);
-    rendered += actors.Render(viewport);
-  };
-  if (window && this->DrawOnTop)
-  {
-    on_top(this->Internal->Handles);
-  }
-  if (window)
-  {
-    on_top(this->Internal->Gizmo);
-  }
-  return rendered + this->Internal->Labels.render(viewport);
-}
-
-void vtkHandleSetRepresentation::ReleaseGraphicsResources(vtkWindow* window)
-{
-  this->Internal->Handles.Release(window);
-  this->Internal->Gizmo.Release(window);
-  this->Internal->Labels.release(window);
-  this->Superclass::ReleaseGraphicsResources(window);
-}
-
 void vtkHandleSetRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Handles: " << this->Internal->Data.get() << "\n";
+  os << indent << "EditMode: " << this->EditMode << "\n";
+  os << indent << "Surface: " << this->GetSurface() << "\n";
+  os << indent << "PlaceInside: " << this->PlaceInside << "\n";
+  os << indent << "Edited: " << this->Edited << "\n";
   os << indent << "Gizmo: " << this->Gizmo << "\n";
   os << indent << "Space: " << (this->Space == LOCAL ? "local" : "world") << "\n";
   os << indent << "GizmoSize: " << this->GizmoSize << "\n";

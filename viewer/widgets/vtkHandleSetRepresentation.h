@@ -46,6 +46,29 @@
  * tails, heads, bodies; among equals the nearest to the mouse wins, then the one nearest to the
  * camera.
  *
+ * **Edit modes** (SetEditMode()) show handles at rest and change what a bind depends on: points,
+ * cells and the arrays HandleName, HandleKind, Parent and RegionId, in place. All other cell arrays
+ * follow their handles, new ones are at rest with a free name (p1, b1, c1, …). What would not be a
+ * valid handle dataset (two points at one place, a bone without length) is refused:
+ * GetEditMessage(). Cells are numbered points first, so numbers of bones move when a point is
+ * added; selected handles stay selected.
+ * - MOVE_REST drags rest places in the plane that faces the camera: points, cage vertices, pivots,
+ *   ends of bones with all bones that meet there, whole bones by their body; of several selected
+ *   handles all.
+ * - ADD_POINTS puts a point where the button is released: on the surface (SetSurface()) under the
+ *   mouse or, with PlaceInside, halfway to where the line of sight comes out again, by winding
+ *   number (overlapping and nested parts are one, a cavity ends it; an open surface: halfway to the
+ *   second hit, or on the only one). Beside the surface the camera has the mouse.
+ * - ADD_BONES draws a bone from where the button goes down to where it comes up, at the same
+ * depths; beside the surface its tail stays in the plane through its head that faces the camera.
+ * From the end of a bone it is that bone's child, so the next drag continues the chain.
+ * - ADD_CAGE adds a cage vertex with every click, joined to the last one by a cage's edge; a click
+ * on the first one closes the cage, one on another cage vertex joins it. The first lies on the
+ *   surface under the mouse, if there is any, the others in the plane through it that faces the
+ *   camera. FinishCage() leaves it open.
+ * - Snap places on ends of other handles and on vertices of the surface, or, moving rest places
+ * away from any, in steps.
+ *
  * Sizes are in pixels of the window, multiplied by PixelScale (for pictures rendered larger than
  * they are shown). Handles are drawn over everything else unless DrawOnTop is off.
  */
@@ -64,7 +87,9 @@ class vtkTextProperty;
 namespace bindpose
 {
 struct DragSettings;
+struct EditSettings;
 struct GizmoSetup;
+struct Hand;
 struct HandlePlace;
 } // namespace bindpose
 
@@ -100,7 +125,18 @@ public:
     SCALE_ALL,
     STRETCH = 40, ///< the box beyond a bone's tail
     TWIST_HEAD, ///< rings around a bone
-    TWIST_TAIL
+    TWIST_TAIL,
+    PLACING = 50 ///< an edit mode has a place for what the button would add
+  };
+
+  /// What the hand does with handles.
+  enum EditModeType
+  {
+    POSE = 0,
+    MOVE_REST = 1,
+    ADD_POINTS = 2,
+    ADD_BONES = 3,
+    ADD_CAGE = 4
   };
 
   /// What the gizmo at the selected handle does.
@@ -133,6 +169,37 @@ public:
   void SetHandles(vtkPolyData* handles);
   vtkPolyData* GetHandles();
   ///@}
+
+  ///@{
+  /// See EditModeType and the class's text. Default POSE. Changing it ends what was begun.
+  void SetEditMode(int mode);
+  vtkGetMacro(EditMode, int);
+  ///@}
+  ///@{
+  /// The surface at rest that handles are placed on. Default none: they are placed at the depth of
+  /// the camera's focal point.
+  void SetSurface(vtkPolyData* surface);
+  vtkPolyData* GetSurface();
+  ///@}
+  ///@{
+  /// Whether points and bones are placed inside the surface, else on it. Default on.
+  vtkSetMacro(PlaceInside, vtkTypeBool);
+  vtkGetMacro(PlaceInside, vtkTypeBool);
+  vtkBooleanMacro(PlaceInside, vtkTypeBool);
+  ///@}
+  ///@{
+  /// The cage that ADD_CAGE is making: whether there is one; ends it, open; takes its last vertex
+  /// away, with its edge. False when there is none.
+  bool IsMakingCage();
+  bool FinishCage();
+  bool DropCageVertex();
+  ///@}
+  /// Why the last edit was refused, in one sentence; empty when it was not.
+  std::string GetEditMessage();
+  /// Whether the last press, release or drop has changed the handles.
+  vtkGetMacro(Edited, bool);
+  /// Whether the button that began a drag or a placing is held still.
+  bool IsInteracting();
 
   ///@{
   /// The gizmo: see GizmoType. Default GIZMO_NONE.
@@ -338,8 +405,9 @@ public:
   bool TypeIntoDrag(char key);
   ///@}
   ///@{
-  /// What the drag does, or did last: "move", "turn", "scale", "stretch" or "twist"; and how much,
-  /// in words: "X 0.25", "30.0°".
+  /// What the drag does, or did last: "move", "turn", "scale", "stretch", "twist", or in edit modes
+  /// "move rest", "add point", "add bone", "add cage vertex", "add cage edge", "close cage" or
+  /// "remove cage vertex"; and how much, in words: "X 0.25", "30.0°".
   std::string GetInteractionName();
   std::string GetInteractionText();
   ///@}
@@ -368,10 +436,16 @@ private:
 
   bindpose::DragSettings MakeSettings();
   bindpose::GizmoSetup MakeGizmo(const bindpose::HandlePlace& place);
+  bindpose::EditSettings MakeEditSettings();
+  bindpose::Hand MakeHand(const double eventPos[2]);
+  void TakeEdit();
   void BeginDrag(int part, const double eventPos[2]);
   void UpdateDrag();
   bool WriteHandle(vtkIdType handle, const bindpose::HandlePlace& posed);
 
+  int EditMode = POSE;
+  vtkTypeBool PlaceInside = 1;
+  bool Edited = false;
   int Gizmo = GIZMO_NONE;
   int Space = WORLD;
   double GizmoSize = 80.0;

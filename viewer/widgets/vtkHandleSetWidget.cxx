@@ -74,6 +74,8 @@ vtkHandleSetWidget::vtkHandleSetWidget()
     vtkWidgetEvent::EndSelect, this, vtkHandleSetWidget::EndSelectAction);
   this->CallbackMapper->SetCallbackMethod(vtkCommand::RightButtonPressEvent, vtkWidgetEvent::Reset,
     this, vtkHandleSetWidget::CancelAction);
+  this->CallbackMapper->SetCallbackMethod(vtkCommand::LeftButtonDoubleClickEvent,
+    vtkWidgetEvent::AddFinalPoint, this, vtkHandleSetWidget::DoubleClickAction);
   this->CallbackMapper->SetCallbackMethod(
     vtkCommand::KeyPressEvent, vtkWidgetEvent::ModifyEvent, this, vtkHandleSetWidget::KeyAction);
 }
@@ -128,6 +130,7 @@ std::string vtkHandleSetWidget::GetInteractionName()
 bool vtkHandleSetWidget::Hover()
 {
   vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
+  this->ReadModifiers();
   const int x = this->Interactor->GetEventPosition()[0];
   const int y = this->Interactor->GetEventPosition()[1];
   const vtkIdType handle_before = representation->GetHoveredHandle();
@@ -144,6 +147,11 @@ bool vtkHandleSetWidget::Hover()
   // Within a handle it is the same highlight.
   const bool on_gizmo = state >= vtkHandleSetRepresentation::MOVE_X ||
     state_before >= vtkHandleSetRepresentation::MOVE_X;
+  if (representation->GetEditMode() > vtkHandleSetRepresentation::MOVE_REST &&
+    (on_gizmo || state_before != state))
+  {
+    this->Render(); // the preview follows the mouse
+  }
   if (representation->GetHoveredHandle() != handle_before || (on_gizmo && state != state_before))
   {
     const bool usable = state != vtkHandleSetRepresentation::OUTSIDE &&
@@ -178,7 +186,10 @@ void vtkHandleSetWidget::MoveAction(vtkAbstractWidget* widget)
   self->Moved = true;
   self->GetHandleSetRepresentation()->WidgetInteraction(position);
   self->EventCallbackCommand->SetAbortFlag(1);
-  self->InvokeEvent(vtkCommand::InteractionEvent, nullptr);
+  if (self->GetEditMode() <= vtkHandleSetRepresentation::MOVE_REST)
+  {
+    self->InvokeEvent(vtkCommand::InteractionEvent, nullptr);
+  }
   self->Render();
 }
 
@@ -204,15 +215,22 @@ void vtkHandleSetWidget::SelectAction(vtkAbstractWidget* widget)
   const bool on_gizmo = representation->GetInteractionState() >= vtkHandleSetRepresentation::MOVE_X;
   if (!on_gizmo && self->Interactor->GetShiftKey())
   {
+    // (a place for something new counts as a part of the gizmo)
     representation->ToggleSelected(handle);
     self->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);
     self->Render();
     return;
   }
-  if (!representation->IsSelected(handle))
+  const bool adds = representation->GetEditMode() > vtkHandleSetRepresentation::MOVE_REST;
+  if (!adds && !representation->IsSelected(handle))
   {
     representation->SetSelectedHandle(handle);
     self->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);
+  }
+  if (self->Edits())
+  {
+    self->PressInMode();
+    return;
   }
   double position[2] = { static_cast<double>(self->Interactor->GetEventPosition()[0]),
     static_cast<double>(self->Interactor->GetEventPosition()[1]) };
@@ -224,6 +242,58 @@ void vtkHandleSetWidget::SelectAction(vtkAbstractWidget* widget)
     self->BeginDragging();
   }
   self->Render();
+}
+
+/// In edit modes: what a press begins, or does at once. StartInteractionEvent comes first, so that
+/// whoever remembers the handles for an undo sees them as they were.
+void vtkHandleSetWidget::PressInMode()
+{
+  vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
+  double position[2] = { static_cast<double>(this->Interactor->GetEventPosition()[0]),
+    static_cast<double>(this->Interactor->GetEventPosition()[1]) };
+  if (this->Interactor->GetRepeatCount() > 0 && representation->FinishCage())
+  {
+    this->Render(); // a double click
+    return;
+  }
+  this->ReadModifiers();
+  this->ByKey = false;
+  this->BeginDragging();
+  representation->StartWidgetInteraction(position);
+  if (!representation->IsInteracting())
+  {
+    this->FinishDragging(!representation->GetEdited());
+  }
+  this->Render();
+}
+
+void vtkHandleSetWidget::DoubleClickAction(vtkAbstractWidget* widget)
+{
+  auto* self = static_cast<vtkHandleSetWidget*>(widget);
+  if (self->State == HOVERING && self->GetHandleSetRepresentation()->FinishCage())
+  {
+    self->EventCallbackCommand->SetAbortFlag(1);
+    self->Render();
+  }
+}
+
+bool vtkHandleSetWidget::Edits()
+{
+  return this->GetEditMode() != vtkHandleSetRepresentation::POSE;
+}
+
+void vtkHandleSetWidget::SetEditMode(int mode)
+{
+  if (mode != this->GetEditMode())
+  {
+    this->CancelDrag();
+    this->GetHandleSetRepresentation()->SetEditMode(mode);
+  }
+}
+
+int vtkHandleSetWidget::GetEditMode()
+{
+  return this->GetHandleSetRepresentation()->GetEditMode();
 }
 
 void vtkHandleSetWidget::EndSelectAction(vtkAbstractWidget* widget)
@@ -274,6 +344,10 @@ bool vtkHandleSetWidget::PressKey(const std::string& key)
   {
     return this->PressKeyInDrag(key);
   }
+  if (this->Edits())
+  {
+    return this->PressKeyInMode(key);
+  }
   if (!this->StartKeys || this->Interactor->GetControlKey() || this->Interactor->GetAltKey())
   {
     return false;
@@ -292,6 +366,33 @@ bool vtkHandleSetWidget::PressKey(const std::string& key)
   return false;
 }
 
+bool vtkHandleSetWidget::PressKeyInMode(const std::string& key)
+{
+  vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
+  if (is_key_of(HandleAction::finish_cage, key) && representation->FinishCage())
+  {
+    this->Render();
+    return true;
+  }
+  if (!is_key_of(HandleAction::drop_vertex, key))
+  {
+    return false;
+  }
+  if (representation->IsMakingCage())
+  {
+    this->BeginDragging();
+    representation->DropCageVertex();
+    this->FinishDragging(!representation->GetEdited());
+  }
+  else
+  {
+    this->SetEditMode(vtkHandleSetRepresentation::POSE);
+    this->InvokeEvent(vtkCommand::StateChangedEvent, nullptr);
+    this->Render();
+  }
+  return true;
+}
+
 bool vtkHandleSetWidget::PressKeyInDrag(const std::string& key)
 {
   vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
@@ -304,6 +405,10 @@ bool vtkHandleSetWidget::PressKeyInDrag(const std::string& key)
   {
     this->EndDrag();
     return true;
+  }
+  if (this->GetEditMode() > vtkHandleSetRepresentation::MOVE_REST)
+  {
+    return false;
   }
   if (is_key_of(HandleAction::hold_axis, key))
   {
@@ -358,12 +463,36 @@ void vtkHandleSetWidget::FinishDragging(bool cancelled)
   this->Cancelled = cancelled;
   this->ReleaseFocus();
   this->Superclass::EndInteraction();
-  if (cancelled)
+  if (this->Edits())
+  {
+    this->TellEdit();
+  }
+  else if (cancelled)
   {
     this->InvokeEvent(vtkCommand::InteractionEvent, nullptr);
   }
   this->InvokeEvent(vtkCommand::EndInteractionEvent, nullptr);
   this->Render();
+}
+
+void vtkHandleSetWidget::TellEdit()
+{
+  vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
+  std::string message = representation->GetEditMessage();
+  if (!message.empty())
+  {
+    this->InvokeEvent(vtkCommand::WarningEvent, &message[0]);
+  }
+  const bool moves = this->GetEditMode() == vtkHandleSetRepresentation::MOVE_REST;
+  if (representation->GetEdited() && !moves)
+  {
+    this->InvokeEvent(vtkCommand::PlacePointEvent, nullptr);
+    this->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);
+  }
+  if (representation->GetEdited() || moves)
+  {
+    this->InvokeEvent(vtkCommand::InteractionEvent, nullptr);
+  }
 }
 
 bool vtkHandleSetWidget::StartDrag(int gizmo)
@@ -390,8 +519,9 @@ void vtkHandleSetWidget::EndDrag()
   {
     double position[2] = { static_cast<double>(this->Interactor->GetEventPosition()[0]),
       static_cast<double>(this->Interactor->GetEventPosition()[1]) };
-    this->GetHandleSetRepresentation()->EndWidgetInteraction(position);
-    this->FinishDragging(false);
+    vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
+    representation->EndWidgetInteraction(position);
+    this->FinishDragging(this->Edits() && !representation->GetEdited());
   }
 }
 

@@ -23,6 +23,10 @@
  *     0-9 . - Backspace       type the length, degrees or factor in place of the mouse
  *     Enter                   end the drag
  *     Escape                  cancel the drag: every pose is as before it, bit by bit
+ *     in edit modes (see vtkHandleSetRepresentation::SetEditMode()):
+ *     Enter, double click     end a cage, open
+ *     Escape                  cancel what the button has begun; take a cage's last vertex away;
+ *                             else back to POSE
  *   Shift held in a drag      fine: a tenth of the mouse's motion
  *   Ctrl held in a drag       snap: see vtkHandleSetRepresentation::SetLengthStep()
  * </pre>
@@ -32,8 +36,12 @@
  *   SelectionChangedEvent   other handles are selected
  *   StartInteractionEvent   a drag begins; GetInteractionName() says of what kind
  *   InteractionEvent        poses have changed (also when a cancel restores them)
- *   EndInteractionEvent     the drag has ended; GetCancelled() tells how, GetInteractionName() what
- *                           it was, for an undo step's name
+ *   EndInteractionEvent     the drag has ended; GetCancelled() tells whether nothing has changed,
+ *                           GetInteractionName() what it was, for an undo step's name
+ *   PlacePointEvent         an edit mode has added or removed a handle or an edge, between
+ *                           StartInteractionEvent (the dataset is as before) and InteractionEvent
+ *   WarningEvent            an edit was refused; the call data is the sentence
+ *   StateChangedEvent       Escape has left an edit mode
  * </pre>
  * @code
  *   vtkNew<vtkHandleSetWidget> widget;
@@ -84,9 +92,15 @@ public:
 
   /// Whether a drag is going on.
   bool IsDragging() { return this->State == DRAGGING; }
-  /// Whether the last drag was cancelled.
+  ///@{
+  /// The representation's edit mode. Changing it cancels a drag that is going on.
+  void SetEditMode(int mode);
+  int GetEditMode();
+  ///@}
+
+  /// Whether the last drag was cancelled, or changed nothing.
   vtkGetMacro(Cancelled, bool);
-  /// What the drag does, or did last: "move", "turn", "scale", "stretch", "twist".
+  /// What the drag does, or did last; see vtkHandleSetRepresentation::GetInteractionName().
   std::string GetInteractionName();
 
   /// Starts a drag of the selected handles that follows the mouse without a button, as the keys G,
@@ -101,8 +115,8 @@ public:
   void SetEnabled(int enabling) override;
 
   ///@{
-  /// The table of buttons and keys, a row each: when it applies ("pose", "drag"), the input as
-  /// people read it, and what it does.
+  /// The table of buttons and keys, a row each: when it applies ("pose", "drag" in any mode, or
+  /// the edit modes), the input as people read it, and what it does.
   static int GetNumberOfBindings();
   static std::string GetBindingWhen(int row);
   static std::string GetBindingInput(int row);
@@ -127,9 +141,14 @@ private:
   static void EndSelectAction(vtkAbstractWidget* widget);
   static void CancelAction(vtkAbstractWidget* widget);
   static void KeyAction(vtkAbstractWidget* widget);
+  static void DoubleClickAction(vtkAbstractWidget* widget);
   bool Hover();
   bool PressKey(const std::string& key);
   bool PressKeyInDrag(const std::string& key);
+  bool PressKeyInMode(const std::string& key);
+  void PressInMode();
+  bool Edits();
+  void TellEdit();
   void ReadModifiers();
   void BeginDragging();
   void FinishDragging(bool cancelled);

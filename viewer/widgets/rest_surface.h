@@ -1,0 +1,41 @@
+#ifndef rest_surface_h
+#define rest_surface_h
+
+#include "conversion.h"
+#include "surface/surface_probe.h"
+
+#include "vtkSmartPointer.h"
+
+#include <memory>
+
+class vtkPolyData;
+
+namespace bindpose
+{
+
+/// The surface that handles are placed on: its probe is built when it is asked for, and again when
+/// the dataset has changed.
+class RestSurface
+{
+public:
+  RestSurface();
+  ~RestSurface();
+  void set(vtkPolyData* data);
+  vtkPolyData* get() const;
+  /// Null without a surface, or for one that has no triangle or cannot be read.
+  const SurfaceProbe* probe();
+  /// The vertex of a triangle nearest to a place.
+  Vec3 nearest_vertex(Index triangle, const Vec3& place) const;
+  /// The middle of its box; the origin without a surface.
+  Vec3 center();
+
+private:
+  vtkSmartPointer<vtkPolyData> data_;
+  vtkMTimeType time_ = 0;
+  SurfaceInput input_;
+  std::unique_ptr<SurfaceProbe> probe_;
+};
+
+} // namespace bindpose
+
+#endif

@@ -1,6 +1,10 @@
 #include "rest_surface.h"
 
+#include "vtkCellArray.h"
+#include "vtkPoints.h"
 #include "vtkPolyData.h"
+
+#include <initializer_list>
 
 namespace bindpose
 {
@@ -11,7 +15,7 @@ RestSurface::~RestSurface() = default;
 void RestSurface::set(vtkPolyData* data)
 {
   this->data_ = data;
-  this->time_ = 0;
+  this->read_.clear();
   this->probe_.reset();
 }
 
@@ -22,9 +26,20 @@ vtkPolyData* RestSurface::get() const
 
 const SurfaceProbe* RestSurface::probe()
 {
-  if (this->data_ && this->data_->GetMTime() > this->time_)
+  if (!this->data_)
   {
-    this->time_ = this->data_->GetMTime();
+    return nullptr;
+  }
+  std::vector<std::pair<const void*, vtkMTimeType>> now;
+  for (vtkObject* object : std::initializer_list<vtkObject*>{
+         this->data_->GetPoints() ? this->data_->GetPoints()->GetData() : nullptr,
+         this->data_->GetPolys(), this->data_->GetStrips() })
+  {
+    now.emplace_back(object, object ? object->GetMTime() : 0);
+  }
+  if (now != this->read_)
+  {
+    this->read_ = now;
     this->probe_.reset();
     if (this->data_->GetNumberOfCells() > 0 && to_surface(this->data_, this->input_).ok())
     {

@@ -4,6 +4,7 @@
 // A window with the handle widget, and a hand that sends it events as a mouse and keyboard would.
 
 #include "conversion.h"
+#include "handle_edit_cells.h"
 #include "vtkHandleSetRepresentation.h"
 #include "vtkHandleSetWidget.h"
 

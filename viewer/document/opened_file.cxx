@@ -1,4 +1,4 @@
-#include "window_files.h"
+#include "document/opened_file.h"
 
 #include "file_kind.h"
 #include "io/atomic_file.h"

@@ -1,5 +1,5 @@
-#ifndef window_files_h
-#define window_files_h
+#ifndef document_opened_file_h
+#define document_opened_file_h
 
 #include "base/status.h"
 #include "pose/pose.h"
@@ -11,7 +11,7 @@
 
 #include <string>
 
-// What the window reads and writes. Nothing goes to the terminal.
+// What a document is made of and gives out. Nothing goes to the terminal.
 
 /// What a file holds, by its contents.
 struct OpenedFile

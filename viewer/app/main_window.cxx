@@ -2,8 +2,11 @@
 
 #include "document/document.h"
 #include "document/opened_file.h"
+#include "document/recent_files.h"
+#include "document/work_inputs.h"
 #include "error_bar.h"
 #include "inspection.h"
+#include "notice_bar.h"
 #include "option_links.h"
 #include "panel_column.h"
 #include "side_panel.h"
@@ -12,6 +15,7 @@
 #include "volume_view.h"
 #include "weight_inspection.h"
 #include "window_menus.h"
+#include "window_sessions.h"
 
 #include "conversion.h"
 #include "handle_geometry.h"
@@ -27,6 +31,8 @@
 #include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <QApplication>
+#include <QCloseEvent>
 #include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -61,6 +67,7 @@ MainWindow::MainWindow(QWidget* parent)
   this->make_inspections();
   this->menus_ = new WindowMenus(this);
   this->links_ = new OptionLinks(this->document_, this->panels_);
+  this->sessions_ = new WindowSessions(this, this->links_, this->recovery_bar_, this->note_bar_);
   this->connect_panel();
   this->connect_volume();
   this->connect_handles();
@@ -98,6 +105,11 @@ void MainWindow::make_layout()
 
   this->error_bar_ = new ErrorBar(centre);
   rows->addWidget(this->error_bar_);
+  for (NoticeBar** bar : { &this->recovery_bar_, &this->note_bar_, &this->rebind_bar_ })
+  {
+    *bar = new NoticeBar(centre);
+    rows->addWidget(*bar);
+  }
 
   this->viewport_ = new Viewport(centre);
   auto* over = new QVBoxLayout(this->viewport_);
@@ -232,9 +244,10 @@ void MainWindow::document_changed(int parts)
       this->panel_->set_mode(static_cast<int>(k), static_cast<int>(pose[k].mode));
     }
   }
+  this->update_title();
+  this->offer_rebind();
   if (parts & ~(options_part | key_poses_part | sources_part))
   {
-    this->update_title();
     this->update_panel();
     this->update_pose();
   }
@@ -342,9 +355,26 @@ void MainWindow::connect_weights()
 
 void MainWindow::update_title()
 {
-  const Work& work = this->document_->work();
-  const QString name = work.surface ? work.name : work.volume ? work.volume_name : QString();
-  this->setWindowTitle(name.isEmpty() ? "Bindpose" : QString("%1 — Bindpose").arg(name));
+  const QString name = this->sessions_->name();
+  this->setWindowTitle(name.isEmpty() ? "Bindpose" : QString("%1[*] — Bindpose").arg(name));
+  this->setWindowModified(
+    !name.isEmpty() && this->document_->is_changed(!this->sessions_->path().isEmpty()));
+}
+
+/// Offered, never forced: what is bound stays usable meanwhile (BoundColumns).
+void MainWindow::offer_rebind()
+{
+  const QString reason = this->is_binding() ? QString() : this->document_->rebind_reason();
+  if (reason != this->rebind_reason_)
+  {
+    this->rebind_reason_ = reason;
+    this->rebind_bar_->hide();
+    if (!reason.isEmpty())
+    {
+      this->rebind_bar_->offer(
+        reason, { { tr("Bind again"), [this] { this->bind(); } } }, tr("Later"));
+    }
+  }
 }
 
 bool MainWindow::is_empty() const
@@ -359,15 +389,38 @@ bool MainWindow::say(const QString& name, const Status& status)
 {
   if (!status.ok())
   {
-    this->show_error(QString("%1: %2").arg(name, QString::fromStdString(status.message)));
+    const QString message = QString::fromStdString(status.message);
+    this->show_error(name.isEmpty() ? message : QString("%1: %2").arg(name, message));
   }
   return status.ok();
 }
 
 bool MainWindow::open(const QString& path)
 {
+  // To look at a file is no change that could be lost.
+  const bool unchanged = !this->document_->is_changed(true) && this->sessions_->path().isEmpty();
+  const bool done = this->open_file(path);
+  if (done)
+  {
+    RecentFiles::add(path);
+    if (unchanged)
+    {
+      this->document_->set_saved();
+    }
+    this->update_title();
+  }
+  return done;
+}
+
+bool MainWindow::open_file(const QString& path)
+{
   const QString name = short_name(path);
   OpenedFile file;
+  if (path.endsWith(QString(".") + session_ending, Qt::CaseInsensitive))
+  {
+    this->error_bar_->hide();
+    return this->sessions_->open(path);
+  }
   const Status status = read_file(path.toStdString(), file);
   if (!status.ok())
   {
@@ -376,24 +429,55 @@ bool MainWindow::open(const QString& path)
       QString::fromStdString(status.message).replace(path, name), path);
     return false;
   }
+  const Source source = source_of(path);
   switch (file.kind)
   {
     case OpenedFile::Kind::handles:
-      return this->set_handles(vtkPolyData::SafeDownCast(file.data), name);
+      return this->set_handles(vtkPolyData::SafeDownCast(file.data), name, source);
     case OpenedFile::Kind::volume:
-      return this->set_volume(vtkImageData::SafeDownCast(file.data), name);
+      return this->set_volume(vtkImageData::SafeDownCast(file.data), name, source);
     case OpenedFile::Kind::curves:
-      return this->set_curves(vtkPolyData::SafeDownCast(file.data));
+      return this->set_curves(vtkPolyData::SafeDownCast(file.data), source);
+    case OpenedFile::Kind::weights:
+      this->error_bar_->hide();
+      return this->say(QString(), this->document_->set_weights(file.weights, name));
+    case OpenedFile::Kind::picture:
+      return this->open_picture(vtkImageData::SafeDownCast(file.data), name, source, false);
     default:
-      return this->set_mesh(file.data, name) &&
-        (!file.handles || this->set_handles(file.handles, name));
+      return this->set_mesh(file.data, name, source) &&
+        (!file.handles || this->set_handles(file.handles, name, source));
   }
 }
 
-bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name)
+/// Cut out by its alpha, or the whole rectangle.
+bool MainWindow::open_picture(
+  vtkImageData* picture, const QString& name, const Source& source, bool whole)
 {
   this->error_bar_->hide();
-  const bool done = this->say(name, this->document_->set_mesh(mesh, name));
+  QApplication::setOverrideCursor(Qt::WaitCursor);
+  vtkSmartPointer<vtkPolyData> shape;
+  bool cut_out = false;
+  Status status = make_shape(picture, whole, shape, cut_out);
+  QApplication::restoreOverrideCursor();
+  if (status.ok())
+  {
+    status = this->document_->set_picture(shape, picture, name, source);
+  }
+  if (status.ok() && cut_out)
+  {
+    const vtkSmartPointer<vtkImageData> kept = picture;
+    this->note_bar_->offer(tr("%1 is cut out along its transparent parts.").arg(name),
+      { { tr("Take the whole picture"),
+        [this, kept, name, source] { this->open_picture(kept, name, source, true); } } },
+      tr("Close"));
+  }
+  return this->say(name, status);
+}
+
+bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name, const Source& source)
+{
+  this->error_bar_->hide();
+  const bool done = this->say(name, this->document_->set_mesh(mesh, name, source));
   if (done && this->inspection_->tet_view()->tets() && !this->document_->handle_data())
   {
     this->panels_->show_panel(PanelColumn::tets);
@@ -401,29 +485,29 @@ bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name)
   return done;
 }
 
-bool MainWindow::set_handles(vtkPolyData* handles, const QString& name)
+bool MainWindow::set_handles(vtkPolyData* handles, const QString& name, const Source& source)
 {
   this->error_bar_->hide();
   this->cancel_bind();
-  return this->say(name, this->document_->set_handles(handles, name));
+  return this->say(name, this->document_->set_handles(handles, name, source));
 }
 
-bool MainWindow::set_volume(vtkImageData* volume, const QString& name)
+bool MainWindow::set_volume(vtkImageData* volume, const QString& name, const Source& source)
 {
   this->error_bar_->hide();
   const bool done = this->say(name, check_volume(volume, "WindingNumber"));
   if (done)
   {
-    this->document_->set_volume(volume, name);
+    this->document_->set_volume(volume, name, source);
   }
   return done;
 }
 
-bool MainWindow::set_curves(vtkPolyData* curves)
+bool MainWindow::set_curves(vtkPolyData* curves, const Source& source)
 {
   this->error_bar_->hide();
   const bool alone = this->is_empty();
-  this->document_->set_curves(curves, tr("curves"));
+  this->document_->set_curves(curves, tr("curves"), source);
   if (alone)
   {
     this->viewport_->reset_view();
@@ -438,10 +522,12 @@ void MainWindow::close_volume()
 
 void MainWindow::choose_and_open()
 {
-  const QString endings = QString(vtkMeshFileReader::GetFileExtensions()).replace(' ', " *.");
+  const QString endings = QString(vtkMeshFileReader::GetFileExtensions()).replace(' ', " *.") +
+    " *.tgf *.glb *.gltf *.dmat *.png *.jpg *.jpeg *." + session_ending;
   for (const QString& path : QFileDialog::getOpenFileNames(this, tr("Open"), QString(),
-         tr("Meshes, handles and volumes (*.%1 *.tgf);;All files (*)").arg(endings), nullptr,
-         QFileDialog::HideNameFilterDetails))
+         tr("All that can be opened (*.%1);;Sessions (*.%2);;All files (*)")
+           .arg(endings, session_ending),
+         nullptr, QFileDialog::HideNameFilterDetails))
   {
     this->open(path);
   }
@@ -463,6 +549,11 @@ void MainWindow::dropEvent(QDropEvent* event)
   }
 }
 
+void MainWindow::closeEvent(QCloseEvent* event)
+{
+  event->setAccepted(this->sessions_->may_go());
+}
+
 // ---- Binding -----------------------------------------------------------------------------------
 
 void MainWindow::bind()
@@ -480,6 +571,7 @@ void MainWindow::bind()
   input.method = this->panel_->monotone() ? BindMethod::monotone : BindMethod::bounded;
   this->document_->begin_bind();
   this->job_->start(std::move(input));
+  this->offer_rebind();
   this->update_panel();
   this->update_pose();
 }
@@ -553,6 +645,7 @@ void MainWindow::bind_finished()
 {
   const BindResult& result = this->job_->result();
   this->document_->drop_preview();
+  this->offer_rebind();
   this->update_panel();
   this->update_pose();
   if (result.status.code == StatusCode::cancelled)
@@ -573,6 +666,7 @@ void MainWindow::bind_finished()
   {
     return;
   }
+  this->sessions_->autosave()->save();
   const Report& report = result.status.report;
   this->panel_->set_note(result.status.ok()
       ? tr("Bound in %1 s, certified to %2.")

@@ -3,6 +3,7 @@
 
 #include "bind_job.h"
 #include "deformation.h"
+#include "document/work.h"
 
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -14,6 +15,7 @@ class QUndoStack;
 class Document;
 class ErrorBar;
 class Inspection;
+class NoticeBar;
 class OptionLinks;
 class PanelColumn;
 class SidePanel;
@@ -21,6 +23,7 @@ class Viewport;
 class VolumeView;
 class WeightInspection;
 class WindowMenus;
+class WindowSessions;
 class vtkDataSet;
 class vtkImageData;
 
@@ -40,13 +43,15 @@ public:
   Document* document() const { return this->document_; }
   QUndoStack* history() const;
 
-  /// Opens a mesh, handles, a volume or curves, whichever it is. False, with a sentence in the
-  /// error bar, when it cannot be used; what was open stays.
+  WindowSessions* sessions() const { return this->sessions_; }
+
+  /// Opens a mesh, handles, weights, a picture, a volume, curves or a session, whichever it is.
+  /// False, with a sentence in the error bar, when it cannot be used; what was open stays.
   bool open(const QString& path);
-  bool set_mesh(vtkDataSet* mesh, const QString& name);
-  bool set_handles(vtkPolyData* handles, const QString& name);
-  bool set_volume(vtkImageData* volume, const QString& name);
-  bool set_curves(vtkPolyData* curves);
+  bool set_mesh(vtkDataSet* mesh, const QString& name, const Source& source = {});
+  bool set_handles(vtkPolyData* handles, const QString& name, const Source& source = {});
+  bool set_volume(vtkImageData* volume, const QString& name, const Source& source = {});
+  bool set_curves(vtkPolyData* curves, const Source& source = {});
   void close_volume();
   /// Asks for files to open.
   void choose_and_open();
@@ -75,10 +80,17 @@ public:
   QString reading() const;
   /// The sentence in the error bar; empty when it is hidden.
   QString error() const;
+  void show_error(const QString& sentence);
+  void update_title();
+  NoticeBar* rebind_bar() const { return this->rebind_bar_; }
+  NoticeBar* recovery_bar() const { return this->recovery_bar_; }
+  /// What is missing of a session, how a picture was cut out, where a surface is unclean.
+  NoticeBar* note_bar() const { return this->note_bar_; }
 
 protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
 
 private:
   void make_layout();
@@ -93,7 +105,7 @@ private:
   void show_volume();
   void connect_weights();
   void update_surface_look();
-  void update_title();
+  void offer_rebind();
   void update_pose();
   void update_panel();
   void show_column(int column);
@@ -101,7 +113,8 @@ private:
   vtkSmartPointer<vtkPolyData> with_weights(const BindResult& result) const;
   void preview_arrived(const bindpose::Weights& weights);
   void bind_finished();
-  void show_error(const QString& sentence);
+  bool open_file(const QString& path);
+  bool open_picture(vtkImageData* picture, const QString& name, const Source& source, bool whole);
   bool say(const QString& name, const bindpose::Status& status);
   void stop_drag();
   void selection_changed();
@@ -117,7 +130,11 @@ private:
   SidePanel* panel_ = nullptr; // one of them
   OptionLinks* links_ = nullptr;
   WindowMenus* menus_ = nullptr;
+  WindowSessions* sessions_ = nullptr;
   ErrorBar* error_bar_ = nullptr;
+  NoticeBar* recovery_bar_ = nullptr;
+  NoticeBar* note_bar_ = nullptr;
+  NoticeBar* rebind_bar_ = nullptr;
   QLabel* hint_ = nullptr;
   QLabel* reading_ = nullptr;
   QLabel* empty_ = nullptr; // in the middle of the picture as long as nothing is open
@@ -126,6 +143,7 @@ private:
   vtkSmartPointer<vtkPolyData> shown_;
   Deformation deformation_;
   int dragged_ = -1;
+  QString rebind_reason_; // that was offered
 };
 
 #endif

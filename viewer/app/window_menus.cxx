@@ -5,10 +5,12 @@
 #include "main_window.h"
 #include "viewport.h"
 #include "volume_view.h"
+#include "window_sessions.h"
 
 #include <QAction>
 #include <QActionGroup>
 #include <QKeySequence>
+#include <QMenu>
 #include <QMenuBar>
 #include <QUndoStack>
 
@@ -37,6 +39,15 @@ void WindowMenus::add_file_menu()
   MainWindow* window = this->window_;
   QMenu* file = window->menuBar()->addMenu(tr("&File"));
   this->add(file, tr("&Open…"), QKeySequence::Open, [window] { window->choose_and_open(); });
+  QMenu* recent = file->addMenu(tr("Open &recent"));
+  recent->setToolTipsVisible(true);
+  QObject::connect(recent, &QMenu::aboutToShow, this,
+    [window, recent] { window->sessions()->fill_recent(recent); });
+  file->addSeparator();
+  this->save_ = this->add(
+    file, tr("&Save session"), QKeySequence::Save, [window] { window->sessions()->save(); });
+  this->save_as_ = this->add(file, tr("Save session &as…"),
+    QKeySequence(Qt::CTRL + Qt::SHIFT + Qt::Key_S), [window] { window->sessions()->save_as(); });
   file->addSeparator();
   this->save_shape_ = this->add(
     file, tr("Save s&hape as…"), QKeySequence(), [window] { window->export_as("shape"); });
@@ -99,6 +110,8 @@ void WindowMenus::update()
 {
   const Document* document = this->window_->document();
   const bool ready = document->surface() && document->handle_data();
+  this->save_->setEnabled(!this->window_->is_empty());
+  this->save_as_->setEnabled(!this->window_->is_empty());
   this->save_shape_->setEnabled(document->surface());
   this->save_picture_->setEnabled(!this->window_->is_empty());
   this->save_pose_->setEnabled(document->handle_data());

@@ -29,6 +29,8 @@ private:
   void add_view_menu();
 
   MainWindow* window_;
+  QAction* save_ = nullptr;
+  QAction* save_as_ = nullptr;
   QAction* save_shape_ = nullptr;
   QAction* save_pose_ = nullptr;
   QAction* save_picture_ = nullptr;

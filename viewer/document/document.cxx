@@ -4,11 +4,10 @@
 #include "document/document.h"
 
 #include "document/edit.h"
+#include "document/work_inputs.h"
 
 #include "conversion.h"
 
-#include "vtkDataSetSurfaceFilter.h"
-#include "vtkNew.h"
 #include "vtkPointData.h"
 
 #include <QUndoStack>
@@ -20,22 +19,6 @@ using namespace bindpose;
 namespace
 {
 constexpr int longest_history = 1000;
-
-/// The mesh's skin: of tets their boundary; weights come along.
-vtkSmartPointer<vtkPolyData> skin_of(vtkDataSet* mesh)
-{
-  auto result = vtkSmartPointer<vtkPolyData>::New();
-  if (auto* surface = vtkPolyData::SafeDownCast(mesh))
-  {
-    result->ShallowCopy(surface);
-    return result;
-  }
-  vtkNew<vtkDataSetSurfaceFilter> surface;
-  surface->SetInputData(mesh);
-  surface->Update();
-  result->ShallowCopy(surface->GetOutput());
-  return result;
-}
 
 vtkSmartPointer<vtkPolyData> copy_of(vtkPolyData* data)
 {
@@ -49,15 +32,6 @@ vtkDataArray* weights_of(vtkPolyData* surface)
   return surface ? surface->GetPointData()->GetArray("Weights") : nullptr;
 }
 
-/// Handles that were opened own the weights that came with the mesh when they are theirs.
-void adopt_weights(Work& work, const Handles& handles)
-{
-  if (!work.bound_handles && work.handles && weights_of(work.surface) &&
-    weights_are_of(weights_of(work.surface), handles))
-  {
-    work.bound_handles = work.handles;
-  }
-}
 } // namespace
 
 Document::Document(QObject* parent)
@@ -65,11 +39,25 @@ Document::Document(QObject* parent)
 {
   this->history_->setUndoLimit(longest_history);
   this->work_.options = initial_options();
+  this->saved_ = this->work_;
 }
 
 Document::~Document()
 {
   this->history_->clear(); // its steps know this document
+}
+
+void Document::set_saved()
+{
+  this->saved_ = this->work_;
+  this->history_->setClean();
+}
+
+bool Document::is_changed(bool looks) const
+{
+  const bool recovered = this->history_->cleanIndex() < 0;
+  return !this->history_->isClean() &&
+    (looks || recovered || (differences(this->saved_, this->work_) & ~options_part));
 }
 
 vtkPolyData* Document::surface() const
@@ -201,7 +189,10 @@ void Document::arrange()
   }
   Handles handles;
   to_handles(bound, handles);
-  this->columns_ = BoundColumns(handles, this->handles_);
+  if (weights->GetNumberOfComponents() == static_cast<int>(handles.size()))
+  {
+    this->columns_ = BoundColumns(handles, this->handles_);
+  }
   if (this->columns_.any())
   {
     this->surface_ = vtkPolyData::SafeDownCast(this->columns_.arranged(surface));
@@ -218,64 +209,55 @@ void Document::replace(const Work& work)
   this->preview_ = nullptr;
   this->binding_ = Binding();
   this->become(work, Live::to_be_written);
+  this->set_saved();
 }
 
 // ---- Opening -----------------------------------------------------------------------------------
 
 Status Document::set_mesh(vtkDataSet* mesh, const QString& name, const Source& source)
 {
-  SurfaceInput surface;
-  const vtkSmartPointer<vtkPolyData> skin =
-    vtkPointSet::SafeDownCast(mesh) ? skin_of(mesh) : nullptr;
-  Status status = to_surface(skin ? skin.Get() : mesh, surface);
-  if (!status.ok())
-  {
-    return status;
-  }
-  TetInput tets;
-  auto* grid = vtkUnstructuredGrid::SafeDownCast(mesh);
-  const bool has_tets = grid && to_tets(grid, tets).ok();
   Work after = this->work_;
-  after.name = name;
-  after.surface = skin;
-  after.mesh_tets = has_tets ? grid : nullptr;
-  after.weighted_tets = after.mesh_tets;
-  after.picture = nullptr;
-  after.mesh_source = source;
-  after.picture_source = Source();
-  if (weights_of(skin))
+  Status status = use_mesh(mesh, name, source, after);
+  if (status.ok())
   {
-    after.bound_handles = nullptr;
-    adopt_weights(after, this->handles_);
+    this->push(tr("open %1").arg(name), after);
   }
-  this->push(tr("open %1").arg(name), after);
   return status;
 }
 
 Status Document::set_handles(vtkPolyData* data, const QString& name, const Source& source)
 {
-  Handles handles;
-  std::vector<Index> cells;
   Work after = this->work_;
-  Status status = to_handles(data, handles, &cells);
+  Status status = use_handles(data, source, after);
   if (status.ok())
   {
-    status = to_pose(data, handles, cells, after.pose);
+    this->push(tr("open handles %1").arg(name), after);
   }
-  if (!status.ok())
+  return status;
+}
+
+Status Document::set_weights(const Weights& weights, const QString& name)
+{
+  Work after = this->work_;
+  Status status = use_weights(weights, name, after);
+  if (status.ok())
   {
-    return status;
+    this->push(tr("open weights %1").arg(name), after);
   }
-  after.handles = copy_of(data);
-  after.handle_source = source;
-  Handles bound;
-  if (after.bound_handles && to_handles(after.bound_handles, bound).ok() &&
-    weights_of(after.surface) && !BoundColumns(bound, handles).any())
+  return status;
+}
+
+Status Document::set_picture(
+  vtkPolyData* shape, vtkImageData* picture, const QString& name, const Source& source)
+{
+  Work after = this->work_;
+  Status status = use_mesh(shape, name, Source(), after);
+  if (status.ok())
   {
-    after.bound_handles = nullptr;
+    after.picture = picture;
+    after.picture_source = source;
+    this->push(tr("open %1").arg(name), after);
   }
-  adopt_weights(after, handles);
-  this->push(tr("open handles %1").arg(name), after);
   return status;
 }
 
@@ -401,6 +383,7 @@ bool Document::set_bound(vtkPolyData* surface, vtkUnstructuredGrid* tets)
   Work after = this->work_;
   after.surface = surface;
   after.weighted_tets = tets;
+  after.made_here = true;
   after.bound_handles = this->binding_.handle_data;
   this->push(tr("bind"), after);
   return true;

@@ -6,10 +6,10 @@
 #include "document/work.h"
 
 #include <QObject>
+#include <QUndoStack>
 
 #include <vector>
 
-class QUndoStack;
 class vtkDataSet;
 
 /// What a window keeps: surface, handles, weights, pose, options and where they came from, with
@@ -34,6 +34,12 @@ public:
 
   const Work& work() const { return this->work_; }
   QUndoStack* history() const { return this->history_; }
+  /// What is now is in a file, or nothing that a person has made.
+  void set_saved();
+  /// It is in no file, though it has no history: recovered work.
+  void set_unsaved() { this->history_->resetClean(); }
+  /// Whether there is more than at set_saved(). How things are looked at counts where `looks`.
+  bool is_changed(bool looks) const;
 
   // ---- What there is ----
   /// At rest; with weights it has the columns of the handles, in their order. Null without a mesh.
@@ -63,6 +69,11 @@ public:
   /// Other handles, with the pose that their arrays tell.
   bindpose::Status set_handles(
     vtkPolyData* handles, const QString& name, const Source& source = {});
+  /// Weights for the surface's points and the handles that are open; invalid_input otherwise.
+  bindpose::Status set_weights(const bindpose::Weights& weights, const QString& name);
+  /// A surface that was cut out of a picture (vtkPlanarShape), which it shows.
+  bindpose::Status set_picture(
+    vtkPolyData* shape, vtkImageData* picture, const QString& name, const Source& source = {});
   /// Null closes it.
   void set_volume(vtkImageData* volume, const QString& name, const Source& source = {});
   void set_curves(vtkPolyData* curves, const QString& name, const Source& source = {});
@@ -133,6 +144,7 @@ private:
   void arrange();
 
   Work work_;
+  Work saved_;
   QUndoStack* history_;
   vtkSmartPointer<vtkPolyData> live_; // handles, edited in place
   bindpose::Handles handles_; // of live_

@@ -66,6 +66,7 @@ void apply_edit(const Work& before, const Work& after, Work& work)
 {
   take(before.name, after.name, work.name);
   take(before.surface, after.surface, work.surface);
+  take(before.made_here, after.made_here, work.made_here);
   take(before.mesh_tets, after.mesh_tets, work.mesh_tets);
   take(before.weighted_tets, after.weighted_tets, work.weighted_tets);
   take(before.handles, after.handles, work.handles);

@@ -40,6 +40,7 @@ struct Work
 {
   QString name; ///< of the mesh, for the title
   vtkSmartPointer<vtkPolyData> surface; ///< at rest, with the array Weights or not
+  bool made_here = true; ///< the surface or its weights are not those of the mesh's file
   vtkSmartPointer<vtkUnstructuredGrid> mesh_tets; ///< of which the surface is the skin; or null
   vtkSmartPointer<vtkUnstructuredGrid> weighted_tets; ///< what the weights were solved on; or null
   vtkSmartPointer<vtkPolyData> handles; ///< at rest; what its pose arrays say does not count

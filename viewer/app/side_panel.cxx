@@ -37,6 +37,7 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
 
   column->addWidget(heading(tr("Bind"), this));
   this->kind_ = combo(this);
+  this->kind_->setObjectName("bind.method");
   this->kind_->addItem(tr("Bounded biharmonic weights"));
   this->kind_->addItem(tr("Monotone weights"));
   // The panel is as wide as this line, in any font.
@@ -72,6 +73,7 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   column->addSpacing(10);
   column->addWidget(heading(tr("Show"), this));
   this->shown_ = combo(this);
+  this->shown_->setObjectName("show.column");
   this->shown_->setToolTip(tr("The shaded surface, or one handle's weights on it"));
   column->addWidget(this->shown_);
 

@@ -6,19 +6,21 @@
 
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
 #include "vtkIntArray.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <string>
 
 namespace bindpose
 {
 namespace
 {
+constexpr double none = std::numeric_limits<double>::quiet_NaN(); // of a colour
+
 const char* const pose_arrays[4] = { "Mode", "Transform", "Stretch", "Twist" };
 
 bool is_pose_array(const std::string& name)
@@ -26,11 +28,42 @@ bool is_pose_array(const std::string& name)
   return std::find(std::begin(pose_arrays), std::end(pose_arrays), name) != std::end(pose_arrays);
 }
 
+/// The array Color as doubles, with a tuple a cell: made, or made anew, when it is not.
+vtkDataArray* colours_of(vtkPolyData* data)
+{
+  vtkDataArray* before = data->GetCellData()->GetArray("Color");
+  const vtkIdType count = data->GetNumberOfCells();
+  const bool fits = before && before->GetNumberOfComponents() == 3;
+  if (fits && before->GetDataType() == VTK_DOUBLE && before->GetNumberOfTuples() == count)
+  {
+    return before;
+  }
+  vtkNew<vtkDoubleArray> fresh;
+  fresh->SetName("Color");
+  fresh->SetNumberOfComponents(3);
+  fresh->SetNumberOfTuples(count);
+  const double unit = fits && before->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
+  for (vtkIdType cell = 0; cell < count; ++cell)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const bool known = fits && cell < before->GetNumberOfTuples();
+      fresh->SetComponent(cell, k, known ? before->GetComponent(cell, k) / unit : none);
+    }
+  }
+  data->GetCellData()->AddArray(fresh);
+  return data->GetCellData()->GetArray("Color");
+}
+
 /// Arrays of `before` that `now` lacks, or whose numbers follow the handles.
 void carry_arrays(vtkPolyData* before, vtkPolyData* now, const std::vector<Index>& source,
   const std::vector<Index>& model)
 {
   vtkCellData* from = before->GetCellData();
+  if (from->GetArray("Color"))
+  {
+    colours_of(before); // new handles have none, which unsigned chars cannot say
+  }
   for (int a = 0; a < from->GetNumberOfArrays(); ++a)
   {
     vtkAbstractArray* array = from->GetAbstractArray(a);
@@ -50,7 +83,7 @@ void carry_arrays(vtkPolyData* before, vtkPolyData* now, const std::vector<Index
       fresh->SetNumberOfTuples(now->GetNumberOfCells());
       if (auto* numbers = vtkDataArray::SafeDownCast(fresh))
       {
-        numbers->Fill(0.0);
+        numbers->Fill(name == "Color" ? none : 0.0);
       }
       now->GetCellData()->AddArray(fresh);
       target = fresh;
@@ -165,27 +198,11 @@ Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<I
 void set_handle_colour(
   vtkPolyData* data, Index cell, const std::optional<std::array<double, 3>>& colour)
 {
-  vtkDataArray* before = data->GetCellData()->GetArray("Color");
-  auto* array = vtkUnsignedCharArray::SafeDownCast(before);
-  const vtkIdType count = data->GetNumberOfCells();
-  if (!array || array->GetNumberOfComponents() != 4 || array->GetNumberOfTuples() != count)
+  vtkDataArray* array = colours_of(data);
+  for (int k = 0; k < 3 && cell >= 0 && cell < data->GetNumberOfCells(); ++k)
   {
-    vtkNew<vtkUnsignedCharArray> fresh;
-    fresh->SetName("Color");
-    fresh->SetNumberOfComponents(4);
-    fresh->SetNumberOfTuples(count);
-    fresh->Fill(0.0);
-    data->GetCellData()->AddArray(fresh);
-    array = fresh;
-  }
-  if (cell < 0 || cell >= count)
-  {
-    return;
-  }
-  for (int k = 0; k < 4; ++k)
-  {
-    const double value = !colour ? 0.0 : k < 3 ? (*colour)[static_cast<std::size_t>(k)] : 1.0;
-    array->SetComponent(cell, k, std::round(255.0 * std::clamp(value, 0.0, 1.0)));
+    array->SetComponent(
+      cell, k, colour ? std::clamp((*colour)[static_cast<std::size_t>(k)], 0.0, 1.0) : none);
   }
   array->Modified();
   data->Modified();

@@ -22,8 +22,8 @@ using HandleListEdit = std::function<Status(const Handles& before, EditedHandles
 /// Edits a handle dataset in place: its points and cells and the arrays of its handles are made
 /// anew. All other cell arrays (Mode, Transform, Stretch, Twist, Color, Locked and any others)
 /// follow their handles; a new handle is at rest with mode full, and has Color, Locked and unknown
-/// arrays of the one it is a copy of, or nothing. Pseudo-edges stay while both their points do.
-/// Nothing changes when the edit is refused.
+/// arrays of the one it is a copy of, or no colour and zeros. Pseudo-edges stay while both their
+/// points do. Nothing changes when the edit is refused.
 ///
 /// Cells are numbered points first, then bones, so a new point moves the numbers of bones.
 /// @param cell_of  of each cell before, its number now, or -1
@@ -31,8 +31,9 @@ using HandleListEdit = std::function<Status(const Handles& before, EditedHandles
 BINDPOSEFILTERS_EXPORT Status edit_handles(vtkPolyData* data, const HandleListEdit& edit,
   std::vector<Index>* cell_of = nullptr, std::vector<Index>* added = nullptr);
 
-/// The cell array `Color`: red, green, blue and 255 where a handle has a colour of its own, four
-/// zeros where it is drawn in the colour of its mode. Made when absent. @param colour 0 to 1.
+/// The cell array `Color`: red, green and blue from 0 to 1 where a handle has a colour of its own,
+/// three NaN where it is drawn in the colour of its mode. Made when absent; one of unsigned chars
+/// becomes one of doubles.
 BINDPOSEFILTERS_EXPORT void set_handle_colour(
   vtkPolyData* data, Index cell, const std::optional<std::array<double, 3>>& colour);
 

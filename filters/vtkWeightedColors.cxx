@@ -23,7 +23,8 @@ vtkStandardNewMacro(vtkWeightedColors);
 
 namespace
 {
-/// The cells' colours, one row a handle; unsigned chars count 255 as 1.
+/// The cells' colours, one row a handle; unsigned chars count 255 as 1. Where a cell has none
+/// (three NaN) the row stays.
 Status to_colors(vtkDataArray* array, const WeightsInput& input, Colors& colors)
 {
   const std::string name = std::string("the handles' array '") + array->GetName() + "'";
@@ -33,13 +34,18 @@ Status to_colors(vtkDataArray* array, const WeightsInput& input, Colors& colors)
       " components, but a colour has 3");
   }
   const double unit = array->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
-  colors.resize(static_cast<Index>(input.handles.size()), 3);
   for (Index j = 0; j < colors.rows(); ++j)
   {
     const std::size_t handle = static_cast<std::size_t>(j);
+    double own[3];
+    array->GetTuple(input.cells[handle], own);
+    if (std::isnan(own[0]) && std::isnan(own[1]) && std::isnan(own[2]))
+    {
+      continue;
+    }
     for (int k = 0; k < 3; ++k)
     {
-      colors(j, k) = array->GetComponent(input.cells[handle], k) / unit;
+      colors(j, k) = own[k] / unit;
       if (!(colors(j, k) >= 0.0 && colors(j, k) <= 1.0))
       {
         return Status::invalid_input(name + " has a value outside 0 to 1 at handle '" +

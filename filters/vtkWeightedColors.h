@@ -8,7 +8,8 @@
  *
  * **Input 0**: a mesh with weights (any vtkPointSet; see vtkWeightsAlgorithm), posed or not.
  * **Input 1**: the handles, with a cell array `Color` of 3 components: numbers from 0 to 1, or
- * unsigned chars. Without it each handle gets a colour that is easily told from the others.
+ * unsigned chars. Without it, or with three NaN, a handle gets a colour that is easily told from
+ * the others.
  * **Output**: input 0 with the point arrays
  * - `Color`: 3 unsigned chars, the active scalars: what a renderer shows as it is;
  * - `ColorValues`: 3 doubles, the same before rounding, not clamped when Clamp is off;

@@ -27,6 +27,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 using namespace bindpose;
@@ -232,6 +233,34 @@ TEST_F(WeightUses, DepthDisplacesZAndNothingElse)
   double bounds[6];
   this->depth->GetOutput()->GetBounds(bounds);
   EXPECT_EQ(bounds[5], 0.0);
+}
+
+TEST_F(WeightUses, AHandleWithoutAColourOfItsOwnKeepsItsCategory)
+{
+  // NaN in the array is as if it were absent there.
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  this->colors->Update();
+  const auto at_handle = [&](int handle)
+  {
+    vtkPointData* data = this->colors->GetOutput()->GetPointData();
+    for (vtkIdType v = 0; v < this->colors->GetOutput()->GetNumberOfPoints(); ++v)
+    {
+      if (data->GetArray("Weights")->GetComponent(v, handle) == 1.0)
+      {
+        return Vec3(data->GetArray("ColorValues")->GetTuple3(v));
+      }
+    }
+    return Vec3(-1, -1, -1);
+  };
+  const Vec3 category = at_handle(1);
+  set_cells(this->handles, "Color", { 1, 0, 0, none, none, none, 0, 0, 1 });
+  this->colors->Update();
+  ASSERT_EQ(this->colors->GetStatus(), vtkBindposeAlgorithm::OK);
+  EXPECT_EQ(at_handle(1), category);
+  EXPECT_EQ(at_handle(0), Vec3(1, 0, 0));
+  set_cells(this->handles, "Color", { 1, 0, 0, none, 0, none, 0, 0, 1 });
+  this->colors->Update();
+  EXPECT_EQ(this->colors->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT) << "half a colour";
 }
 
 TEST_F(WeightUses, ColoursOfHandlesBytesAndNumbersAlike)

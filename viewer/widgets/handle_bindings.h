@@ -33,18 +33,33 @@ enum class HandleAction
   snap_place
 };
 
+/// The same for the region brush.
+enum class BrushAction
+{
+  paint,
+  erase,
+  grow,
+  shrink,
+  cancel
+};
+
 /// One row of the table of keys and buttons, of which the widget's documentation and the program's
 /// key sheet are made, and by which the widget knows its keys.
-struct HandleBinding
+template <typename Action>
+struct Binding
 {
-  HandleAction action;
-  /// "pose", "drag" (in any mode), "move rest", "add points", "add bones", "add cage"
+  Action action;
+  /// "pose", "drag" (in any mode), "move rest", "add points", "add bones", "add cage",
+  /// "paint regions"
   const char* when;
   const char* input; ///< as people read it
   const char*
     keys; ///< names of keys (vtkRenderWindowInteractor's KeySym) with blanks around, or ""
   const char* text; ///< what it does
 };
+
+using HandleBinding = Binding<HandleAction>;
+using BrushBinding = Binding<BrushAction>;
 
 constexpr std::array<HandleBinding, 22> handle_bindings{ {
   { HandleAction::select, "pose", "Left button on a handle", "",
@@ -87,6 +102,18 @@ constexpr std::array<HandleBinding, 22> handle_bindings{ {
     "Take the last vertex away; without one: leave the mode" },
   { HandleAction::snap_place, "add points, add bones, add cage, move rest", "Ctrl, held", "",
     "Snap to the ends of handles and to the surface's vertices" },
+} };
+
+constexpr std::array<BrushBinding, 5> brush_bindings{ {
+  { BrushAction::paint, "paint regions", "Left button on the surface", "",
+    "Paint the region's label" },
+  { BrushAction::erase, "paint regions", "Ctrl + left button", "", "Erase labels" },
+  { BrushAction::grow, "paint regions", "], Shift + wheel up", " bracketright ] ",
+    "A larger brush" },
+  { BrushAction::shrink, "paint regions", "[, Shift + wheel down", " bracketleft [ ",
+    "A smaller brush" },
+  { BrushAction::cancel, "paint regions", "Esc", " Escape ",
+    "Cancel the stroke: all labels are as before it" },
 } };
 
 } // namespace bindpose

@@ -53,8 +53,10 @@ public:
   Reader(vtkPolyData* data, bool at_rest)
     : data_(data), at_rest_(at_rest), kinds_(data, "HandleKind", 1), modes_(data, "Mode", 1),
       locks_(data, "Locked", 1), parents_(data, "Parent", 1), transforms_(data, "Transform", 12),
-      stretches_(data, "Stretch", 1), twists_(data, "Twist", 2), colours_(data, "Color", 4)
+      stretches_(data, "Stretch", 1), twists_(data, "Twist", 2), colours_(data, "Color", 3)
   {
+    vtkDataArray* colours = data->GetCellData()->GetArray("Color");
+    this->colour_unit_ = colours && colours->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
     if (data->NeedToBuildCells())
     {
       data->BuildCells();
@@ -76,11 +78,11 @@ public:
     this->twists_.read(cell, place.twist.data());
     if (this->colours_.has(cell))
     {
-      Eigen::Vector4d bytes;
-      this->colours_.read(cell, bytes.data());
-      if (bytes[3] > 0.0)
+      Vec3 colour;
+      this->colours_.read(cell, colour.data());
+      if (colour.allFinite())
       {
-        place.colour = bytes.head<3>() / 255.0;
+        place.colour = colour / this->colour_unit_;
       }
     }
     if (size == 0)
@@ -104,6 +106,7 @@ public:
 private:
   vtkPolyData* data_;
   bool at_rest_;
+  double colour_unit_ = 1.0;
   CellNumbers kinds_, modes_, locks_, parents_, transforms_, stretches_, twists_, colours_;
 };
 

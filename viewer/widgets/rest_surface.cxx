@@ -40,6 +40,7 @@ const SurfaceProbe* RestSurface::probe()
   if (now != this->read_)
   {
     this->read_ = now;
+    ++this->builds_;
     this->probe_.reset();
     if (this->data_->GetNumberOfCells() > 0 && to_surface(this->data_, this->input_).ok())
     {

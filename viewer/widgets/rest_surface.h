@@ -26,6 +26,8 @@ public:
   vtkPolyData* get() const;
   /// Null without a surface, or for one that has no triangle or cannot be read.
   const SurfaceProbe* probe();
+  /// How often a probe was built: other points and triangles than before.
+  int builds() const { return this->builds_; }
   /// After probe() was not null.
   PointsView points() const { return this->input_.points.view(); }
   TrianglesView triangles() const { return this->input_.triangles.view(); }
@@ -38,6 +40,7 @@ private:
   vtkSmartPointer<vtkPolyData> data_;
   std::vector<std::pair<const void*, vtkMTimeType>> read_; // what the probe was built of
   SurfaceInput input_;
+  int builds_ = 0;
   std::unique_ptr<SurfaceProbe> probe_;
 };
 

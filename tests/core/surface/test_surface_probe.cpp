@@ -77,8 +77,8 @@ TEST(SurfaceProbe, OverlapsAreOneThicknessAndCavitiesEndIt)
     EXPECT_NEAR(span.middle()[0], -1.5, 0.05) << "between the walls";
   }
   {
-    const TriangleMesh overlap =
-      test::join(test::translated(inner, Vec3(-0.5, 0, 0)), test::translated(inner, Vec3(0.5, 0, 0)));
+    const TriangleMesh overlap = test::join(
+      test::translated(inner, Vec3(-0.5, 0, 0)), test::translated(inner, Vec3(0.5, 0, 0)));
     const SurfaceProbe probe(overlap.points, overlap.triangles);
     ASSERT_TRUE(probe.first_inside(far_left, Vec3::UnitX(), span));
     EXPECT_NEAR((span.exit - span.entry).norm(), 3.0, 0.05);

@@ -9,6 +9,7 @@
 #include "vtkProperty.h"
 #include "vtkWindowToImageFilter.h"
 
+#include <chrono>
 #include <cstdlib>
 
 using namespace bindpose;
@@ -194,4 +195,51 @@ TEST(GizmoPicture, AxesAreToldApartByAllEyes)
       EXPECT_GT(difference.norm(), 25.0) << k;
     }
   }
+}
+
+TEST(GizmoPicture, EditModesShowWhatAClickWouldMake)
+{
+  PictureStage stage(arm, Widget::GIZMO_ALL);
+  const auto posed = picture(stage);
+  stage.widget->SetEditMode(Widget::ADD_BONES);
+  const int rest = drawn_pixels(picture(stage));
+  EXPECT_LT(rest, drawn_pixels(posed)) << "no gizmo";
+  stage.press(stage.tail(0));
+  stage.move(Vec3(0.3, 1.3, 0));
+  const auto drawing = picture(stage);
+  keep(drawing, "add-bone");
+  EXPECT_GT(drawn_pixels(drawing), rest + 400);
+  stage.release(Vec3(0.3, 1.3, 0));
+  stage.widget->SetEditMode(Widget::ADD_CAGE);
+  for (const Vec3& at : { Vec3(-1.5, -1.2, 0), Vec3(1.3, -1.2, 0), Vec3(1.3, 1.2, 0) })
+  {
+    stage.press(at);
+    stage.release(at);
+  }
+  stage.hold(false, true);
+  stage.move(Vec3(-1.5, -1.2, 0));
+  keep(picture(stage), "add-cage-snapped");
+}
+
+TEST(GizmoPicture, FiveHundredHandlesAreBuiltQuickly)
+{
+  Handles handles;
+  for (int i = 0; i < 500; ++i)
+  {
+    handles.push_back(
+      point("p" + std::to_string(i), Vec3(0.1 * (i % 25) - 1.2, 0.12 * (i / 25) - 1.1, 0)));
+  }
+  PictureStage stage(handles, Widget::GIZMO_MOVE);
+  double best = 1e9;
+  for (int round = 0; round < 5; ++round)
+  {
+    stage.representation()->Modified();
+    const auto start = std::chrono::steady_clock::now();
+    stage.representation()->BuildRepresentation();
+    const std::chrono::duration<double, std::milli> spent =
+      std::chrono::steady_clock::now() - start;
+    best = std::min(best, spent.count());
+  }
+  std::printf("shapes of 500 handles: %.2f ms\n", best);
+  EXPECT_LT(best, 50.0);
 }

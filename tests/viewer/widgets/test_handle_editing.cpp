@@ -426,3 +426,97 @@ TEST(HandleEditing, UndoByEventsIsExact)
     EXPECT_EQ(stage.list()[0].head, Vec3(0.4, 0.4, 0));
   }
 }
+
+TEST(HandleEditing, CageVerticesTakeTheirEdgesAlong)
+{
+  EditStage stage(Widget::ADD_CAGE, {}, false);
+  const Vec3 corners[3] = { Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0) };
+  for (const int k : { 0, 1, 2, 0 })
+  {
+    stage.click(corners[k]);
+  }
+  stage.widget->SetEditMode(Widget::MOVE_REST);
+  stage.drag(Vec3(0, 1, 0), Vec3(0.5, 0.5, 0));
+  const Handles handles = stage.list();
+  EXPECT_LT((handles[2].head - Vec3(0.5, 0.5, 0)).norm(), shot);
+  EXPECT_EQ(stage.handles->GetNumberOfLines(), 3);
+  std::size_t elements = 0;
+  for (const Handle& handle : handles)
+  {
+    elements += handle.cage.size();
+  }
+  EXPECT_EQ(elements, 3u) << "they end at their vertices still";
+}
+
+TEST(HandleEditing, RandomEventsLeaveAValidDataset)
+{
+  // A monkey with a mouse and a keyboard, in every mode. Whatever it does, filters can read the
+  // handles, every transform is finite, and nothing hangs on to the mouse in the end.
+  EditStage stage(Widget::POSE,
+    { point("p", Vec3(0.4, 0.4, 0.3)), bone("b", Vec3(-0.5, 0, 0), Vec3(0.2, 0.1, 0)),
+      bone("c", Vec3(0.2, 0.1, 0), Vec3(0.8, 0, 0), 1) });
+  test::Random random(11);
+  const char* const keys[] = { "g", "r", "s", "x", "Y", "z", "Escape", "Return", "1", "period",
+    "minus", "BackSpace", "5", "F1", "q" };
+  int most = 0;
+  for (int i = 0; i < 1500; ++i)
+  {
+    const Eigen::Vector2d at(random.uniform(-10, 410), random.uniform(-10, 410));
+    // often where something is
+    const vtkIdType count = stage.handles->GetNumberOfCells();
+    const bool aimed = count > 0 && random.uniform() < 0.4;
+    Vec3 place = Vec3::Zero();
+    if (aimed)
+    {
+      stage.representation()->GetPosedHead(random.below(count), place.data());
+    }
+    const Eigen::Vector2d there =
+      aimed && place.allFinite() && place.norm() < 5.0 ? stage.display(place) : at;
+    stage.hold(random.uniform() < 0.2, random.uniform() < 0.2, random.uniform() < 0.2);
+    switch (random.below(9))
+    {
+      case 0:
+      case 1:
+        stage.send(vtkCommand::LeftButtonPressEvent, there);
+        break;
+      case 2:
+        stage.send(vtkCommand::LeftButtonReleaseEvent, there);
+        break;
+      case 3:
+        stage.key(keys[random.below(15)], random.uniform() < 0.3);
+        break;
+      case 4:
+        if (random.uniform() < 0.3)
+        {
+          stage.widget->SetEditMode(static_cast<int>(random.below(5)));
+          stage.representation()->SetGizmo(static_cast<int>(random.below(5)));
+          stage.representation()->SetSpace(static_cast<int>(random.below(2)));
+        }
+        break;
+      default:
+        stage.send(vtkCommand::MouseMoveEvent, there);
+    }
+    most = std::max(most, static_cast<int>(count));
+    if (i % 25 == 0 && count > 0)
+    {
+      stage.list();
+      // not so many that the screen is full of them
+      if (count > 40)
+      {
+        stage.widget->SetHandles(nullptr);
+        stage.handles->Initialize();
+        stage.widget->SetHandles(stage.handles);
+      }
+    }
+  }
+  stage.escape();
+  stage.send(vtkCommand::LeftButtonReleaseEvent, Eigen::Vector2d(1, 1));
+  stage.widget->CancelDrag();
+  EXPECT_FALSE(stage.widget->IsDragging());
+  EXPECT_GT(most, 10) << "it did make handles";
+  vtkDataArray* transforms = stage.handles->GetCellData()->GetArray("Transform");
+  for (vtkIdType cell = 0; transforms && cell < transforms->GetNumberOfTuples(); ++cell)
+  {
+    EXPECT_TRUE(stage.transform(cell).allFinite()) << cell;
+  }
+}

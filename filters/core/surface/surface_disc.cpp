@@ -1,0 +1,149 @@
+// Dijkstra's order over vertices. Besides the way along an edge, a vertex c takes the way through a
+// triangle a b c of which a and b have distances: in the triangle's plane the source lies where
+// circles around a and b meet, on the other side of ab; when the straight way from there to c
+// crosses ab, its length is c's distance. (M. Novotni and R. Klein, "Computing geodesic distances
+// on triangular meshes", 2002.)
+#include "surface/surface_disc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <queue>
+
+namespace bindpose
+{
+namespace
+{
+constexpr double infinity = std::numeric_limits<double>::infinity();
+} // namespace
+
+SurfaceDisc::SurfaceDisc(PointsView points, TrianglesView triangles)
+  : points_(points), triangles_(triangles)
+{
+  const auto count = static_cast<std::size_t>(points.rows());
+  this->first_.assign(count + 1, 0);
+  for (Index f = 0; f < triangles.rows(); ++f)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      ++this->first_[static_cast<std::size_t>(triangles(f, k)) + 1];
+    }
+  }
+  for (std::size_t v = 0; v < count; ++v)
+  {
+    this->first_[v + 1] += this->first_[v];
+  }
+  this->around_.resize(static_cast<std::size_t>(3 * triangles.rows()));
+  std::vector<Index> next(this->first_.begin(), this->first_.end() - 1);
+  for (Index f = 0; f < triangles.rows(); ++f)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      this->around_[static_cast<std::size_t>(next[static_cast<std::size_t>(triangles(f, k))]++)] =
+        f;
+    }
+  }
+  this->distance_.assign(count, infinity);
+  this->done_.assign(count, 0);
+}
+
+double SurfaceDisc::carried(Index a, Index b, Index c) const
+{
+  const Vec3 pa = this->points_.row(a);
+  const Vec3 pb = this->points_.row(b);
+  const Vec3 pc = this->points_.row(c);
+  const double da = this->distance_[static_cast<std::size_t>(a)];
+  const double db = this->distance_[static_cast<std::size_t>(b)];
+  const double along_edge = std::min(da + (pc - pa).norm(), db + (pc - pb).norm());
+  const double length = (pb - pa).norm();
+  if (!(length > 0.0) || !std::isfinite(da + db))
+  {
+    return along_edge;
+  }
+  // a at 0, b at (length, 0), c above, the source below.
+  const Vec3 u = (pb - pa) / length;
+  const double cx = u.dot(pc - pa);
+  const double cy = (pc - pa - cx * u).norm();
+  const double sx = (da * da - db * db + length * length) / (2.0 * length);
+  const double sy2 = da * da - sx * sx;
+  if (sy2 < 0.0 || cy == 0.0)
+  {
+    return along_edge; // the circles do not meet: round-off, or a way around a corner
+  }
+  const double sy = std::sqrt(sy2);
+  const double crossing = sx + (cx - sx) * sy / (sy + cy);
+  if (crossing < 0.0 || crossing > length)
+  {
+    return along_edge;
+  }
+  return std::min(along_edge, std::hypot(cx - sx, cy + sy));
+}
+
+std::vector<SurfaceDisc::Found> SurfaceDisc::within(
+  const Vec3& place, Index triangle, double radius) const
+{
+  std::vector<Found> found;
+  if (triangle < 0 || triangle >= this->triangles_.rows() || !place.allFinite())
+  {
+    return found;
+  }
+  using Entry = std::pair<double, Index>;
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+  std::vector<Index> touched;
+  const auto offer = [&](Index vertex, double distance)
+  {
+    double& current = this->distance_[static_cast<std::size_t>(vertex)];
+    if (distance <= radius && distance < current && !this->done_[static_cast<std::size_t>(vertex)])
+    {
+      if (current == infinity)
+      {
+        touched.push_back(vertex);
+      }
+      current = distance;
+      queue.emplace(distance, vertex);
+    }
+  };
+  for (int k = 0; k < 3; ++k)
+  {
+    const Index vertex = this->triangles_(triangle, k);
+    offer(vertex, (Vec3(this->points_.row(vertex)) - place).norm());
+  }
+  while (!queue.empty())
+  {
+    const auto [distance, vertex] = queue.top();
+    queue.pop();
+    const auto v = static_cast<std::size_t>(vertex);
+    if (this->done_[v] || distance > this->distance_[v])
+    {
+      continue;
+    }
+    this->done_[v] = 1;
+    found.emplace_back(vertex, distance);
+    for (Index i = this->first_[v]; i < this->first_[v + 1]; ++i)
+    {
+      const auto t = this->triangles_.row(this->around_[static_cast<std::size_t>(i)]);
+      for (int k = 0; k < 3; ++k)
+      {
+        const Index other = t[k];
+        const Index third = t[0] + t[1] + t[2] - vertex - other;
+        if (other != vertex && third != vertex && third != other)
+        {
+          offer(other, this->carried(vertex, third, other));
+        }
+      }
+    }
+  }
+  // A way through an obtuse triangle can be a hair shorter than the one that was taken before it.
+  std::sort(found.begin(), found.end(),
+    [](const Found& a, const Found& b)
+    { return a.second != b.second ? a.second < b.second : a.first < b.first; });
+  for (const Index vertex : touched)
+  {
+    this->distance_[static_cast<std::size_t>(vertex)] = infinity;
+    this->done_[static_cast<std::size_t>(vertex)] = 0;
+  }
+  return found;
+}
+
+} // namespace bindpose

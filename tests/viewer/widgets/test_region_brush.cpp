@@ -1,0 +1,355 @@
+// The brush on surfaces where distances are known: what a stroke labels, and what it leaves.
+#include "conversion.h"
+#include "support/meshes.h"
+#include "vtkRegionBrushRepresentation.h"
+#include "vtkRegionBrushWidget.h"
+
+#include "vtkActor.h"
+#include "vtkCallbackCommand.h"
+#include "vtkCamera.h"
+#include "vtkCommand.h"
+#include "vtkDataArray.h"
+#include "vtkImageData.h"
+#include "vtkInteractorStyleTrackballCamera.h"
+#include "vtkNew.h"
+#include "vtkPNGWriter.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderWindowInteractor.h"
+#include "vtkRenderer.h"
+#include "vtkWindowToImageFilter.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+
+using namespace bindpose;
+
+namespace
+{
+constexpr double pixel = 0.0134; // as in widget_stage.h
+
+class BrushStage
+{
+public:
+  explicit BrushStage(const TriangleMesh& mesh) : surface(to_polydata(mesh.points, mesh.triangles))
+  {
+    this->window->SetOffScreenRendering(1);
+    this->window->SetMultiSamples(0);
+    this->window->SetSize(400, 400);
+    this->window->AddRenderer(this->renderer);
+    this->interactor->SetRenderWindow(this->window);
+    this->interactor->SetInteractorStyle(this->style);
+    vtkCamera* camera = this->renderer->GetActiveCamera();
+    camera->SetPosition(0, 0, 10);
+    camera->SetFocalPoint(0, 0, 0);
+    camera->SetViewAngle(30);
+    camera->SetClippingRange(1, 20);
+    this->widget->SetInteractor(this->interactor);
+    this->widget->SetSurface(this->surface);
+    this->widget->On();
+    this->window->Render();
+    this->counter->SetClientData(this);
+    this->counter->SetCallback([](vtkObject*, unsigned long event, void* self, void*)
+      { ++static_cast<BrushStage*>(self)->events[event]; });
+    for (const unsigned long event :
+      { vtkCommand::StartInteractionEvent, vtkCommand::InteractionEvent,
+        vtkCommand::EndInteractionEvent, vtkCommand::StateChangedEvent })
+    {
+      this->widget->AddObserver(event, this->counter);
+    }
+  }
+  vtkRegionBrushRepresentation* brush() { return this->widget->GetRegionBrushRepresentation(); }
+  void send(unsigned long event, const Vec3& world, bool control = false, bool shift = false)
+  {
+    this->renderer->SetWorldPoint(world[0], world[1], world[2], 1.0);
+    this->renderer->WorldToDisplay();
+    const double* at = this->renderer->GetDisplayPoint();
+    this->interactor->SetEventInformation(
+      static_cast<int>(std::lround(at[0])), static_cast<int>(std::lround(at[1])), control, shift);
+    this->interactor->InvokeEvent(event);
+  }
+  void stroke(const Vec3& from, const Vec3& to, int steps = 1, bool control = false)
+  {
+    this->send(vtkCommand::MouseMoveEvent, from, control);
+    this->send(vtkCommand::LeftButtonPressEvent, from, control);
+    for (int i = 1; i <= steps; ++i)
+    {
+      this->send(vtkCommand::MouseMoveEvent, from + (to - from) * i / steps, control);
+    }
+    this->send(vtkCommand::LeftButtonReleaseEvent, to, control);
+  }
+  void key(const char* name)
+  {
+    this->interactor->SetKeyEventInformation(0, 0, 0, 1, name);
+    this->interactor->InvokeEvent(vtkCommand::KeyPressEvent);
+  }
+  double label(vtkIdType v)
+  {
+    return this->surface->GetPointData()->GetArray("RegionId")->GetComponent(v, 0);
+  }
+  std::vector<double> labels()
+  {
+    std::vector<double> all;
+    for (vtkIdType v = 0; v < this->surface->GetNumberOfPoints(); ++v)
+    {
+      all.push_back(this->label(v));
+    }
+    return all;
+  }
+
+  vtkSmartPointer<vtkPolyData> surface;
+  vtkNew<vtkRenderWindow> window;
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkRenderWindowInteractor> interactor;
+  vtkNew<vtkInteractorStyleTrackballCamera> style;
+  vtkNew<vtkRegionBrushWidget> widget;
+  vtkNew<vtkCallbackCommand> counter;
+  std::map<unsigned long, int> events;
+};
+
+TriangleMesh flat()
+{
+  return test::translated(test::grid(60, 60, 4.0, 4.0), Vec3(-2, -2, 0));
+}
+} // namespace
+
+TEST(RegionBrush, ADiscIsWhatLiesWithinTheRadius)
+{
+  for (const bool geodesic : { true, false })
+  {
+    BrushStage stage(flat());
+    stage.brush()->SetGeodesic(geodesic);
+    stage.brush()->SetRadius(0.5);
+    stage.brush()->SetRegionId(3);
+    const Vec3 middle(0.3, -0.2, 0);
+    stage.send(vtkCommand::MouseMoveEvent, middle);
+    stage.send(vtkCommand::LeftButtonPressEvent, middle);
+    stage.send(vtkCommand::LeftButtonReleaseEvent, middle);
+    int inside = 0;
+    for (vtkIdType v = 0; v < stage.surface->GetNumberOfPoints(); ++v)
+    {
+      const double distance = (Vec3(stage.surface->GetPoint(v)) - middle).norm();
+      if (std::abs(distance - 0.5) > 2 * pixel)
+      {
+        EXPECT_EQ(stage.label(v), distance < 0.5 ? 3.0 : 0.0) << distance;
+      }
+      inside += stage.label(v) == 3.0;
+    }
+    EXPECT_EQ(inside, stage.brush()->GetNumberOfChangedPoints());
+    EXPECT_EQ(stage.widget->GetInteractionName(), "paint region");
+    EXPECT_EQ(stage.events[vtkCommand::StartInteractionEvent], 1);
+    EXPECT_EQ(stage.events[vtkCommand::EndInteractionEvent], 1);
+    EXPECT_FALSE(stage.widget->GetCancelled());
+  }
+}
+
+TEST(RegionBrush, AFastStrokeHasNoGaps)
+{
+  BrushStage stage(flat());
+  stage.brush()->SetRadius(0.2);
+  stage.stroke(Vec3(-1.5, 0.5, 0), Vec3(1.5, 0.5, 0), 1); // one event for the whole way
+  for (vtkIdType v = 0; v < stage.surface->GetNumberOfPoints(); ++v)
+  {
+    const Vec3 p(stage.surface->GetPoint(v));
+    const Vec3 foot(std::min(std::max(p[0], -1.5), 1.5), 0.5, 0);
+    const double distance = (p - foot).norm();
+    if (distance < 0.17)
+    {
+      EXPECT_EQ(stage.label(v), 1.0) << p.transpose();
+    }
+    else if (distance > 0.2 + 2 * pixel)
+    {
+      EXPECT_EQ(stage.label(v), 0.0) << p.transpose();
+    }
+  }
+}
+
+TEST(RegionBrush, CtrlErasesAndEscapeGivesEveryLabelBack)
+{
+  BrushStage stage(flat());
+  stage.brush()->SetRadius(0.5);
+  stage.stroke(Vec3(-1, 0, 0), Vec3(1, 0, 0));
+  const std::vector<double> painted = stage.labels();
+  stage.brush()->SetRegionId(2);
+  stage.send(vtkCommand::MouseMoveEvent, Vec3(0, 0, 0));
+  stage.send(vtkCommand::LeftButtonPressEvent, Vec3(0, 0, 0));
+  stage.send(vtkCommand::MouseMoveEvent, Vec3(0.5, 0.5, 0));
+  EXPECT_NE(stage.labels(), painted);
+  stage.key("Escape");
+  EXPECT_EQ(stage.labels(), painted);
+  EXPECT_TRUE(stage.widget->GetCancelled());
+  EXPECT_FALSE(stage.widget->IsPainting());
+  stage.send(vtkCommand::LeftButtonReleaseEvent, Vec3(0.5, 0.5, 0));
+  stage.stroke(Vec3(0, 0, 0), Vec3(0, 0, 0), 1, true);
+  int erased = 0;
+  for (std::size_t v = 0; v < painted.size(); ++v)
+  {
+    const double now = stage.label(static_cast<vtkIdType>(v));
+    EXPECT_TRUE(now == painted[v] || now == 0.0);
+    erased += now != painted[v];
+  }
+  EXPECT_EQ(erased, stage.brush()->GetNumberOfChangedPoints());
+  EXPECT_GT(erased, 100);
+  EXPECT_EQ(stage.widget->GetInteractionName(), "erase region");
+  stage.stroke(Vec3(0, 0, 0), Vec3(0, 0, 0), 1, true); // there is nothing left to erase
+  EXPECT_TRUE(stage.widget->GetCancelled());
+}
+
+TEST(RegionBrush, TheGeodesicBrushDoesNotReachThroughWalls)
+{
+  // A thin plate of two sheets, closed by nothing: only the one towards the eye is painted.
+  const TriangleMesh sheet = flat();
+  const TriangleMesh both =
+    test::join(sheet, test::flipped(test::translated(sheet, Vec3(0, 0, -0.05))));
+  BrushStage stage(both);
+  stage.brush()->SetRadius(0.5);
+  stage.stroke(Vec3(0, 0, 0), Vec3(0, 0, 0));
+  const vtkIdType half = stage.surface->GetNumberOfPoints() / 2;
+  const auto count = [&](bool behind)
+  {
+    int labelled = 0;
+    for (vtkIdType v = behind ? half : 0; v < (behind ? 2 * half : half); ++v)
+    {
+      labelled += stage.label(v) == 1.0;
+    }
+    return labelled;
+  };
+  EXPECT_GT(count(false), 100);
+  EXPECT_EQ(count(true), 0);
+  stage.brush()->GeodesicOff();
+  stage.stroke(Vec3(0, 0, 0), Vec3(0, 0, 0));
+  EXPECT_GT(count(true), 100) << "a ball does";
+}
+
+TEST(RegionBrush, RadiusByKeysAndWheelAndTheCameraElsewhere)
+{
+  BrushStage stage(test::sphere(3));
+  const double start = stage.brush()->GetDiscRadius();
+  EXPECT_NEAR(start, std::sqrt(12.0) / 20.0, 0.01);
+  stage.send(vtkCommand::MouseMoveEvent, Vec3(0, 0, 0));
+  stage.key("bracketright");
+  EXPECT_NEAR(stage.brush()->GetDiscRadius(), 1.15 * start, 1e-12);
+  stage.key("bracketleft");
+  EXPECT_NEAR(stage.brush()->GetDiscRadius(), start, 1e-12);
+  const double away = stage.renderer->GetActiveCamera()->GetDistance();
+  stage.send(vtkCommand::MouseWheelForwardEvent, Vec3(0, 0, 0), false, true);
+  EXPECT_NEAR(stage.brush()->GetDiscRadius(), 1.15 * start, 1e-12);
+  EXPECT_EQ(stage.renderer->GetActiveCamera()->GetDistance(), away);
+  stage.send(vtkCommand::MouseWheelForwardEvent, Vec3(0, 0, 0));
+  EXPECT_NEAR(stage.brush()->GetDiscRadius(), 1.15 * start, 1e-12);
+  EXPECT_LT(stage.renderer->GetActiveCamera()->GetDistance(), away) << "the camera's wheel";
+  EXPECT_EQ(stage.events[vtkCommand::StateChangedEvent], 3);
+  // Beside the surface: the camera's.
+  const Vec3 before(stage.renderer->GetActiveCamera()->GetPosition());
+  stage.stroke(Vec3(-1.7, 1.7, 0), Vec3(-1.2, 1.7, 0), 3);
+  EXPECT_GT((Vec3(stage.renderer->GetActiveCamera()->GetPosition()) - before).norm(), 0.1);
+  EXPECT_EQ(stage.events[vtkCommand::StartInteractionEvent], 0);
+  EXPECT_EQ(stage.surface->GetPointData()->GetArray("RegionId"), nullptr);
+}
+
+TEST(RegionBrush, TakesNoSurfaceAndOddOnes)
+{
+  BrushStage stage(test::sphere(1));
+  vtkNew<vtkPolyData> empty;
+  for (vtkPolyData* data : { static_cast<vtkPolyData*>(empty), static_cast<vtkPolyData*>(nullptr) })
+  {
+    stage.widget->SetSurface(data);
+    stage.stroke(Vec3(0, 0, 0), Vec3(0.3, 0, 0));
+    stage.key("bracketright");
+    stage.window->Render();
+  }
+  EXPECT_EQ(stage.events[vtkCommand::StartInteractionEvent], 0);
+  std::ostringstream text;
+  stage.widget->Print(text);
+  stage.brush()->Print(text);
+  for (const char* name : { "RegionId", "Radius", "Geodesic", "Erase", "PaintColor", "Cancelled" })
+  {
+    EXPECT_NE(text.str().find(name), std::string::npos) << name;
+  }
+  EXPECT_EQ(vtkRegionBrushWidget::GetNumberOfBindings(), 5);
+  EXPECT_FALSE(vtkRegionBrushWidget::GetBindingInput(0).empty());
+  EXPECT_EQ(vtkRegionBrushWidget::GetBindingText(5), "");
+}
+
+TEST(RegionBrush, AHundredThousandTrianglesAtMouseRate)
+{
+  BrushStage stage(test::torus(400, 125, 1.2, 0.5)); // 100,000 triangles
+  ASSERT_EQ(stage.surface->GetNumberOfCells(), 100000);
+  const Vec3 ring(0, 1.2, 0.5);
+  stage.send(vtkCommand::MouseMoveEvent, ring); // builds the tree
+  stage.send(vtkCommand::LeftButtonPressEvent, ring);
+  double best = 1e9;
+  for (int round = 0; round < 5; ++round)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    double at[2];
+    for (int i = 0; i < 20; ++i)
+    {
+      const double angle = 0.5 * EIGEN_PI + 0.02 * (20 * round + i);
+      stage.renderer->SetWorldPoint(1.2 * std::cos(angle), 1.2 * std::sin(angle), 0.5, 1.0);
+      stage.renderer->WorldToDisplay();
+      std::copy_n(stage.renderer->GetDisplayPoint(), 2, at);
+      stage.brush()->WidgetInteraction(at);
+    }
+    const std::chrono::duration<double, std::milli> spent =
+      std::chrono::steady_clock::now() - start;
+    best = std::min(best, spent.count() / 20);
+  }
+  std::printf("a move of the brush on 100,000 triangles: %.2f ms\n", best);
+  EXPECT_LT(best, 8.0) << "mouse rate";
+  EXPECT_GT(stage.brush()->GetNumberOfChangedPoints(), 1000);
+  stage.send(vtkCommand::LeftButtonReleaseEvent, ring);
+}
+
+TEST(RegionBrush, TheDiscIsSeen)
+{
+  BrushStage stage(test::sphere(4));
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(stage.surface);
+  mapper->SetScalarModeToUsePointFieldData();
+  mapper->SelectColorArray("RegionId");
+  mapper->SetScalarRange(-1, 2);
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  stage.renderer->AddActor(actor);
+  stage.renderer->SetBackground(0.93, 0.94, 0.95);
+  stage.brush()->SetRadius(0.3);
+  stage.stroke(Vec3(-0.5, -0.2, 0), Vec3(0.4, 0.3, 0), 5);
+  const auto grab = [&]()
+  {
+    stage.window->Render();
+    vtkNew<vtkWindowToImageFilter> filter;
+    filter->SetInput(stage.window);
+    filter->ReadFrontBufferOff();
+    filter->Update();
+    return vtkSmartPointer<vtkImageData>(filter->GetOutput());
+  };
+  const auto with = grab();
+  if (const char* folder = std::getenv("BINDPOSE_PICTURES"))
+  {
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetInputData(with);
+    writer->SetFileName((std::string(folder) + "/brush.png").c_str());
+    writer->Write();
+  }
+  stage.send(vtkCommand::MouseMoveEvent, Vec3(-2, -2, 0)); // away
+  const auto without = grab();
+  int different = 0;
+  for (int y = 0; y < 400; ++y)
+  {
+    for (int x = 0; x < 400; ++x)
+    {
+      different += std::abs(with->GetScalarComponentAsDouble(x, y, 0, 0) -
+                     without->GetScalarComponentAsDouble(x, y, 0, 0)) > 24.0;
+    }
+  }
+  EXPECT_GT(different, 150) << "a circle of 140 pixels around, 2 wide";
+  EXPECT_LT(different, 1500);
+}

@@ -1,0 +1,346 @@
+// The place under the mouse is a ray's first hit; the disc's vertices come from the kernel
+// (surface_disc), or from a pass over all vertices. Only labels that change are written and
+// remembered, so a cancel gives back exactly these.
+#include "vtkRegionBrushRepresentation.h"
+
+#include "handle_shapes.h"
+#include "rest_surface.h"
+#include "screen_view.h"
+#include "surface/surface_disc.h"
+
+#include "vtkActor.h"
+#include "vtkDataArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace
+{
+constexpr int outline_sides = 64;
+constexpr double spacing = 0.4; // of the radius, between the discs of a stroke
+constexpr int most_discs = 200; // of one move of the mouse
+} // namespace
+
+class vtkRegionBrushRepresentation::Internals
+{
+public:
+  bindpose::RestSurface Surface;
+  std::unique_ptr<bindpose::SurfaceDisc> Disc;
+  int DiscOf = -1; // which build of the surface
+
+  bool HasPlace = false;
+  Vector3d Place = Vector3d::Zero();
+  Vector3d Normal = Vector3d::UnitZ();
+  bindpose::Index Triangle = -1;
+
+  bool Painting = false;
+  Vector2d Last = Vector2d::Zero(); // display position of the stroke
+  std::vector<std::pair<vtkIdType, double>> Before; // labels that have changed
+
+  vtkNew<vtkPolyDataMapper> Mapper;
+  vtkNew<vtkActor> Actor;
+
+  vtkDataArray* Labels()
+  {
+    vtkPointData* data = this->Surface.get()->GetPointData();
+    vtkDataArray* labels = data->GetArray("RegionId");
+    const vtkIdType count = this->Surface.get()->GetNumberOfPoints();
+    if (!labels || labels->GetNumberOfComponents() != 1 || labels->GetNumberOfTuples() != count)
+    {
+      vtkNew<vtkIntArray> fresh;
+      fresh->SetName("RegionId");
+      fresh->SetNumberOfTuples(count);
+      fresh->Fill(0.0);
+      data->AddArray(fresh);
+      labels = data->GetArray("RegionId");
+    }
+    return labels;
+  }
+
+  void Tell(vtkDataArray* labels)
+  {
+    labels->Modified();
+    this->Surface.get()->Modified();
+  }
+};
+
+vtkStandardNewMacro(vtkRegionBrushRepresentation);
+
+vtkRegionBrushRepresentation::vtkRegionBrushRepresentation() : Internal(new Internals)
+{
+  this->InteractionState = OUTSIDE;
+  Internals& self = *this->Internal;
+  self.Mapper->SetScalarModeToUsePointData();
+  self.Mapper->SetColorModeToDirectScalars();
+  self.Actor->SetMapper(self.Mapper);
+  self.Actor->GetProperty()->LightingOff();
+}
+
+vtkRegionBrushRepresentation::~vtkRegionBrushRepresentation() = default;
+
+void vtkRegionBrushRepresentation::SetSurface(vtkPolyData* surface)
+{
+  if (surface != this->GetSurface())
+  {
+    this->CancelWidgetInteraction();
+    this->Internal->Surface.set(surface);
+    this->Internal->DiscOf = -1;
+    this->Internal->Before.clear();
+    this->Leave();
+    this->Modified();
+  }
+}
+
+vtkPolyData* vtkRegionBrushRepresentation::GetSurface()
+{
+  return this->Internal->Surface.get();
+}
+
+double vtkRegionBrushRepresentation::GetDiscRadius()
+{
+  if (this->Radius > 0.0 || !this->GetSurface())
+  {
+    return this->Radius;
+  }
+  double bounds[6];
+  this->GetSurface()->GetBounds(bounds);
+  return Vector3d(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]).norm() /
+    20.0;
+}
+
+vtkIdType vtkRegionBrushRepresentation::GetNumberOfChangedPoints()
+{
+  return static_cast<vtkIdType>(this->Internal->Before.size());
+}
+
+bool vtkRegionBrushRepresentation::IsPainting()
+{
+  return this->Internal->Painting;
+}
+
+// ---- The mouse ---------------------------------------------------------------------------------
+
+bool vtkRegionBrushRepresentation::FindPlace(const double eventPos[2])
+{
+  Internals& self = *this->Internal;
+  self.HasPlace = false;
+  const bindpose::SurfaceProbe* probe = this->Renderer ? self.Surface.probe() : nullptr;
+  if (!probe)
+  {
+    return false;
+  }
+  const bindpose::ScreenView view(this->Renderer);
+  const bindpose::Ray ray = view.ray(Vector2d(eventPos));
+  const std::vector<bindpose::SurfaceProbe::Hit> hits = probe->hits(ray.origin, ray.direction);
+  if (hits.empty())
+  {
+    return false;
+  }
+  self.HasPlace = true;
+  self.Place = ray.origin + hits.front().distance * ray.direction;
+  self.Triangle = hits.front().triangle;
+  const auto points = self.Surface.points();
+  const auto corners = self.Surface.triangles().row(self.Triangle);
+  const Vector3d a = points.row(corners[0]);
+  self.Normal =
+    (Vector3d(points.row(corners[1])) - a).cross(Vector3d(points.row(corners[2])) - a).normalized();
+  return true;
+}
+
+int vtkRegionBrushRepresentation::ComputeInteractionState(int x, int y, int vtkNotUsed(modify))
+{
+  const double position[2] = { static_cast<double>(x), static_cast<double>(y) };
+  this->InteractionState = this->FindPlace(position) ? ON_SURFACE : OUTSIDE;
+  this->Modified();
+  return this->InteractionState;
+}
+
+void vtkRegionBrushRepresentation::Leave()
+{
+  this->InteractionState = OUTSIDE;
+  if (this->Internal->HasPlace)
+  {
+    this->Internal->HasPlace = false;
+    this->Modified();
+  }
+}
+
+void vtkRegionBrushRepresentation::PaintDisc()
+{
+  Internals& self = *this->Internal;
+  const double label = this->Erase ? 0.0 : this->RegionId;
+  const double radius = this->GetDiscRadius();
+  vtkDataArray* labels = self.Labels();
+  const auto paint = [&](vtkIdType vertex)
+  {
+    const double before = labels->GetComponent(vertex, 0);
+    if (before != label)
+    {
+      self.Before.emplace_back(vertex, before);
+      labels->SetComponent(vertex, 0, label);
+    }
+  };
+  if (this->Geodesic)
+  {
+    if (self.DiscOf != self.Surface.builds())
+    {
+      self.Disc =
+        std::make_unique<bindpose::SurfaceDisc>(self.Surface.points(), self.Surface.triangles());
+      self.DiscOf = self.Surface.builds();
+    }
+    for (const auto& found : self.Disc->within(self.Place, self.Triangle, radius))
+    {
+      paint(found.first);
+    }
+    return;
+  }
+  const auto points = self.Surface.points();
+  for (bindpose::Index v = 0; v < points.rows(); ++v)
+  {
+    if ((points.row(v).transpose() - self.Place).squaredNorm() <= radius * radius)
+    {
+      paint(v);
+    }
+  }
+}
+
+void vtkRegionBrushRepresentation::StartWidgetInteraction(double eventPos[2])
+{
+  Internals& self = *this->Internal;
+  if (!this->FindPlace(eventPos))
+  {
+    return;
+  }
+  self.Painting = true;
+  self.Before.clear();
+  self.Last = Vector2d(eventPos);
+  this->PaintDisc();
+  self.Tell(self.Labels());
+  this->Modified();
+}
+
+void vtkRegionBrushRepresentation::WidgetInteraction(double eventPos[2])
+{
+  Internals& self = *this->Internal;
+  if (!self.Painting)
+  {
+    return;
+  }
+  // Discs along the way of the mouse, which may have gone far since the last event.
+  const Vector2d to(eventPos);
+  const Vector2d way = to - self.Last;
+  const double pixel =
+    self.HasPlace ? bindpose::ScreenView(this->Renderer).pixel_at(self.Place) : 0.0;
+  const double step = pixel > 0.0 ? spacing * this->GetDiscRadius() / pixel : way.norm();
+  const int count = static_cast<int>(
+    std::clamp(std::ceil(way.norm() / std::max(step, 1.0)), 1.0, static_cast<double>(most_discs)));
+  for (int i = 1; i <= count; ++i)
+  {
+    const Vector2d at = self.Last + way * i / count;
+    if (this->FindPlace(at.data()))
+    {
+      this->PaintDisc();
+    }
+  }
+  self.Last = to;
+  self.Tell(self.Labels());
+  this->Modified();
+}
+
+void vtkRegionBrushRepresentation::EndWidgetInteraction(double vtkNotUsed(eventPos)[2])
+{
+  this->Internal->Painting = false;
+  this->Modified();
+}
+
+void vtkRegionBrushRepresentation::CancelWidgetInteraction()
+{
+  Internals& self = *this->Internal;
+  if (!self.Painting)
+  {
+    return;
+  }
+  self.Painting = false;
+  vtkDataArray* labels = self.Labels();
+  // backwards: a vertex may have changed twice
+  for (auto change = self.Before.rbegin(); change != self.Before.rend(); ++change)
+  {
+    labels->SetComponent(change->first, 0, change->second);
+  }
+  self.Before.clear();
+  self.Tell(labels);
+  this->Modified();
+}
+
+// ---- Drawing -----------------------------------------------------------------------------------
+
+void vtkRegionBrushRepresentation::BuildRepresentation()
+{
+  Internals& self = *this->Internal;
+  bindpose::HandleShapes shapes(false);
+  if (self.HasPlace && this->Renderer)
+  {
+    const bindpose::ScreenView view(this->Renderer);
+    const double* rgb = this->Erase ? this->EraseColor : this->PaintColor;
+    const double pixel = this->PixelScale * view.pixel_at(self.Place);
+    const Vector3d u = self.Normal.unitOrthogonal();
+    const Vector3d v = self.Normal.cross(u);
+    std::vector<Vector3d> circle;
+    for (int side = 0; side <= outline_sides; ++side)
+    {
+      const double angle = 2.0 * EIGEN_PI * (side % outline_sides) / outline_sides;
+      circle.push_back(
+        self.Place + this->GetDiscRadius() * (std::cos(angle) * u + std::sin(angle) * v));
+    }
+    shapes.add_tube(circle, 2.0 * pixel, { 0.13, 0.13, 0.15 });
+    // towards the eye, so that the dark one is its edge
+    for (Vector3d& place : circle)
+    {
+      place -= 3.0 * pixel * view.sight_to(place);
+    }
+    shapes.add_tube(circle, 1.2 * pixel, { rgb[0], rgb[1], rgb[2] });
+    shapes.add_ball(self.Place - 3.0 * pixel * view.sight_to(self.Place), 2.2 * pixel,
+      { rgb[0], rgb[1], rgb[2] });
+  }
+  self.Mapper->SetInputData(shapes.polydata());
+}
+
+int vtkRegionBrushRepresentation::RenderOverlay(vtkViewport* viewport)
+{
+  this->BuildRepresentation();
+  return this->Internal->HasPlace ? this->Internal->Actor->RenderOpaqueGeometry(viewport) : 0;
+}
+
+void vtkRegionBrushRepresentation::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->Internal->Actor->ReleaseGraphicsResources(window);
+  this->Superclass::ReleaseGraphicsResources(window);
+}
+
+void vtkRegionBrushRepresentation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Surface: " << this->GetSurface() << "\n";
+  os << indent << "RegionId: " << this->RegionId << "\n";
+  os << indent << "Radius: " << this->Radius << "\n";
+  os << indent << "Geodesic: " << this->Geodesic << "\n";
+  os << indent << "Erase: " << this->Erase << "\n";
+  os << indent << "PixelScale: " << this->PixelScale << "\n";
+  const auto print_colour = [&](const char* name, const double c[3])
+  { os << indent << name << ": (" << c[0] << ", " << c[1] << ", " << c[2] << ")\n"; };
+  print_colour("PaintColor", this->PaintColor);
+  print_colour("EraseColor", this->EraseColor);
+}

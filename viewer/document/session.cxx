@@ -24,6 +24,8 @@
 
 #include <fstream>
 
+#include <csignal>
+
 using namespace bindpose;
 using nlohmann::json;
 
@@ -53,15 +55,22 @@ QString companion_stem(const QString& session)
   return QFileInfo(session).completeBaseName() + '.';
 }
 
+/// What the last save had and this one has not, and what a killed one has left half-written.
 void remove_stale_companions(const QString& session, const QStringList& named)
 {
   QDir folder(QFileInfo(session).absolutePath());
-  const QRegularExpression ours(
-    QRegularExpression::anchoredPattern(QRegularExpression::escape(companion_stem(session)) +
-      QString("(surface-[0-9a-f]{%1}\\.vtp|tets-[0-9a-f]{%1}\\.vtu)").arg(hash_digits)));
+  const QString stem = QRegularExpression::escape(companion_stem(session));
+  const auto anchored = [](const QString& pattern)
+  { return QRegularExpression(QRegularExpression::anchoredPattern(pattern)); };
+  const QRegularExpression ours = anchored(
+    stem + QString("(surface-[0-9a-f]{%1}\\.vtp|tets-[0-9a-f]{%1}\\.vtu)").arg(hash_digits));
+  const QRegularExpression half =
+    anchored(stem + R"(((surface|tets)\.)?part-(\d+)-\d+\.(vtp|vtu|bindpose))");
   for (const QString& name : folder.entryList(QDir::Files))
   {
-    if (ours.match(name).hasMatch() && !named.contains(name))
+    const auto left = half.match(name);
+    const bool is_dead = left.hasMatch() && ::kill(left.captured(3).toInt(), 0) != 0;
+    if (is_dead || (ours.match(name).hasMatch() && !named.contains(name)))
     {
       folder.remove(name);
     }

@@ -1,0 +1,63 @@
+#ifndef bindpose_tests_viewer_document_save_loop_h
+#define bindpose_tests_viewer_document_save_loop_h
+
+// What a process does that is going to be killed.
+
+#include "work_test.h"
+
+#include "document/autosave.h"
+
+#include <QCoreApplication>
+
+#include <cstdio>
+
+namespace bindpose::test
+{
+
+/// Two states of the work, which are saved in turns: other weights, another pose, another name.
+inline Work state_of_work(int which)
+{
+  Document document;
+  open_bound(document);
+  bind(document, which);
+  document.set_mode(which, 1);
+  Work work = document.work();
+  work.name = which == 0 ? "even" : "odd";
+  return work;
+}
+
+/// Saves to the session file until it is killed.
+inline int save_for_ever(const char* path)
+{
+  SessionFile file;
+  Session sessions[2];
+  sessions[0].work = state_of_work(0);
+  sessions[1].work = state_of_work(1);
+  for (int k = 0;; ++k)
+  {
+    if (!file.write(path, sessions[k % 2]).ok())
+    {
+      return 1;
+    }
+    if (k == 0)
+    {
+      std::puts("saved");
+      std::fflush(stdout);
+    }
+  }
+}
+
+/// Works with an autosave in the folder until it is killed.
+inline int autosave_for_ever(const char* root)
+{
+  Session session;
+  session.work = state_of_work(1);
+  session.saved_as = "/somewhere/else.bindpose";
+  Autosave autosave([&session] { return session; }, root);
+  autosave.note_change();
+  return QCoreApplication::exec();
+}
+
+} // namespace bindpose::test
+
+#endif

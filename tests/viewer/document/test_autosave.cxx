@@ -1,0 +1,172 @@
+// Processes that are killed at any moment lose nothing that was saved, and leave no half file.
+#include "save_loop.h"
+
+#include "support/files.h"
+
+#include <QDir>
+#include <QElapsedTimer>
+#include <QFile>
+#include <QProcess>
+#include <QThread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace bindpose;
+
+namespace
+{
+void start(QProcess& process, const char* what, const std::string& where)
+{
+  process.setProcessChannelMode(QProcess::ForwardedErrorChannel);
+  process.start(QCoreApplication::applicationFilePath(), { what, QString::fromStdString(where) });
+  ASSERT_TRUE(process.waitForStarted());
+}
+
+void kill_now(QProcess& process)
+{
+  process.kill(); // SIGKILL
+  process.waitForFinished();
+}
+} // namespace
+
+TEST(Saving, AKillAtAnyMomentLeavesAWholeSession)
+{
+  const test::Folder folder;
+  const std::string path = folder / "work.bindpose";
+  const std::string states[2] = { test::fingerprint(test::state_of_work(0)),
+    test::fingerprint(test::state_of_work(1)) };
+  std::mt19937 random(7);
+  int found[2] = { 0, 0 };
+  for (int kill = 0; kill < 40; ++kill)
+  {
+    QProcess process;
+    start(process, "--save-for-ever", path);
+    ASSERT_TRUE(process.waitForReadyRead(30000)); // it has saved once
+    QThread::usleep(random() % 100000);
+    kill_now(process);
+    Session session;
+    const Status status = read_session(QString::fromStdString(path), session);
+    ASSERT_TRUE(status.ok()) << status.message;
+    EXPECT_TRUE(session.notes.isEmpty()) << session.notes.join(' ').toStdString();
+    const std::string is = test::fingerprint(session.work);
+    ASSERT_TRUE(is == states[0] || is == states[1]);
+    ++found[is == states[1]];
+  }
+  EXPECT_GT(found[0], 5); // it was killed all over the place
+  EXPECT_GT(found[1], 5);
+  // What the killed ones left behind goes with the next whole save.
+  Session session;
+  session.work = test::state_of_work(0);
+  ASSERT_TRUE(SessionFile().write(QString::fromStdString(path), session).ok());
+  EXPECT_EQ(folder.number_of_files(), 2u);
+}
+
+TEST(Autosaving, WhatAKilledProcessHadIsFoundOnce)
+{
+  const test::Folder folder;
+  const QString root = QString::fromStdString(folder / "recovery");
+  qputenv("BINDPOSE_AUTOSAVE_SECONDS", "0.1");
+  QProcess process;
+  start(process, "--autosave-for-ever", root.toStdString());
+  QElapsedTimer clock;
+  clock.start();
+  const auto sessions = [&root]
+  {
+    int count = 0;
+    for (const QString& name : QDir(root).entryList(QDir::Dirs | QDir::NoDotAndDotDot))
+    {
+      count += QFile::exists(root + '/' + name + "/work.bindpose");
+    }
+    return count;
+  };
+  while (sessions() == 0 && clock.elapsed() < 30000)
+  {
+    QThread::msleep(10);
+  }
+  ASSERT_EQ(sessions(), 1);
+  EXPECT_EQ(RecoveredWork::find(root), nullptr) << "its process lives";
+  kill_now(process);
+  {
+    const auto found = RecoveredWork::find(root);
+    ASSERT_NE(found, nullptr);
+    Session session;
+    const Status status = read_session(found->path(), session);
+    ASSERT_TRUE(status.ok()) << status.message;
+    EXPECT_EQ(test::fingerprint(session.work), test::fingerprint(test::state_of_work(1)));
+    EXPECT_EQ(session.saved_as, "/somewhere/else.bindpose");
+    EXPECT_LT(found->time().secsTo(QDateTime::currentDateTime()), 60);
+    EXPECT_EQ(RecoveredWork::find(root), nullptr) << "somebody else has it already";
+  }
+  // Whoever did not want it now finds it again; removed it is gone.
+  auto found = RecoveredWork::find(root);
+  ASSERT_NE(found, nullptr);
+  found->remove();
+  found.reset();
+  EXPECT_EQ(RecoveredWork::find(root), nullptr);
+  EXPECT_TRUE(QDir(root).isEmpty());
+}
+
+TEST(Autosaving, TheIntervalIsAMinuteOrWhatTheEnvironmentSays)
+{
+  qunsetenv("BINDPOSE_AUTOSAVE_SECONDS");
+  EXPECT_EQ(Autosave::interval(), 60.0);
+  qputenv("BINDPOSE_AUTOSAVE_SECONDS", "2.5");
+  EXPECT_EQ(Autosave::interval(), 2.5);
+  for (const char* nonsense : { "soon", "-1", "nan" })
+  {
+    qputenv("BINDPOSE_AUTOSAVE_SECONDS", nonsense);
+    EXPECT_EQ(Autosave::interval(), 60.0) << nonsense;
+  }
+}
+
+TEST(Autosaving, AnEndAsItShouldBeLeavesNothing)
+{
+  const test::Folder folder;
+  const QString root = QString::fromStdString(folder.path());
+  {
+    Autosave autosave([] { return Session(); }, root);
+    EXPECT_EQ(folder.number_of_files(), 0u); // nothing to keep yet
+    EXPECT_EQ(autosave.path(), "");
+    ASSERT_TRUE(autosave.save().ok());
+    EXPECT_EQ(folder.number_of_files(), 1u);
+    EXPECT_TRUE(QFile::exists(autosave.path()));
+    EXPECT_EQ(RecoveredWork::find(root), nullptr);
+  }
+  EXPECT_EQ(folder.number_of_files(), 0u);
+}
+
+TEST(Autosaving, UnchangedWeightsAreNotWrittenAgain)
+{
+  const test::Folder folder;
+  Session session;
+  session.work = test::state_of_work(0);
+  Autosave autosave([&session] { return session; }, QString::fromStdString(folder.path()));
+  ASSERT_TRUE(autosave.save().ok());
+  const QDir own(QFileInfo(autosave.path()).absolutePath());
+  const QStringList before = own.entryList({ "work.surface-*" });
+  ASSERT_EQ(before.size(), 1);
+  const QDateTime time = QFileInfo(own.filePath(before.front())).lastModified();
+  QThread::msleep(20);
+  session.work.pose[0].stretch = 1.5;
+  ASSERT_TRUE(autosave.save().ok());
+  EXPECT_EQ(own.entryList({ "work.surface-*" }), before);
+  EXPECT_EQ(QFileInfo(own.filePath(before.front())).lastModified(), time);
+  // Other weights take their place.
+  session.work = test::state_of_work(1);
+  ASSERT_TRUE(autosave.save().ok());
+  const QStringList after = own.entryList({ "work.surface-*" });
+  EXPECT_EQ(after.size(), 1);
+  EXPECT_NE(after, before);
+}
+
+TEST(Autosaving, AFolderThatCannotBeWrittenIsToldAboutOnce)
+{
+  Autosave autosave([] { return Session(); }, "/proc/no/such/folder");
+  QString told;
+  QObject::connect(&autosave, &Autosave::failed, [&told](const QString& text) { told = text; });
+  EXPECT_FALSE(autosave.save().ok());
+  EXPECT_NE(told.indexOf("not being backed up"), -1) << told.toStdString();
+}

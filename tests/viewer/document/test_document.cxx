@@ -1,0 +1,478 @@
+// Undo gives back the same work to the last bit, whatever was done; weights follow their handles.
+#include "work_test.h"
+
+#include "document/autosave.h"
+#include "save_loop.h"
+
+#include "vtkCellData.h"
+#include "vtkIntArray.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <QCoreApplication>
+#include <QUndoStack>
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace bindpose;
+using test::ball;
+using test::fingerprint;
+using test::open_bound;
+using test::three_handles;
+
+namespace
+{
+class Editing : public testing::Test
+{
+protected:
+  /// The step is there, undo takes it back and redo brings it again, to the last bit.
+  template <typename Edit>
+  void check(const char* name, const Edit& edit)
+  {
+    SCOPED_TRACE(name);
+    QUndoStack* history = this->document.history();
+    const int steps = history->index();
+    const std::string before = fingerprint(this->document);
+    edit();
+    const std::string after = fingerprint(this->document);
+    EXPECT_NE(after, before);
+    ASSERT_EQ(history->index(), steps + 1);
+    EXPECT_EQ(history->undoText().toStdString(), name);
+    history->undo();
+    EXPECT_EQ(fingerprint(this->document), before);
+    history->redo();
+    EXPECT_EQ(fingerprint(this->document), after);
+  }
+
+  vtkStringArray* names()
+  {
+    return vtkStringArray::SafeDownCast(
+      this->document.handle_data()->GetCellData()->GetAbstractArray("HandleName"));
+  }
+
+  void rename(int cell, const char* name)
+  {
+    this->names()->SetValue(cell, name);
+    this->names()->DataChanged();
+  }
+
+  /// Handles as a widget would leave them after an edit.
+  void replace_live(const Handles& handles)
+  {
+    this->document.editable_handles()->DeepCopy(to_polydata(handles));
+  }
+
+  Document document;
+};
+} // namespace
+
+TEST_F(Editing, EveryEditIsAStepThatUndoTakesBackBitByBit)
+{
+  Document& d = this->document;
+  this->check("open ball", [&] { ASSERT_TRUE(d.set_mesh(ball(), "ball").ok()); });
+  this->check("open handles h.tgf",
+    [&] { ASSERT_TRUE(d.set_handles(to_polydata(three_handles()), "h.tgf").ok()); });
+  this->check("bind", [&] { test::bind(d, 0.0); });
+  EXPECT_TRUE(d.is_bound());
+  this->check("bind", [&] { test::bind(d, 1.0); });
+  this->check("move top",
+    [&]
+    {
+      // As the widget does it: in place, then commit.
+      vtkDataArray* transforms = d.handle_data()->GetCellData()->GetArray("Transform");
+      transforms->SetComponent(1, 3, 0.1);
+      transforms->SetComponent(1, 7, 1.0 / 3.0);
+      transforms->Modified();
+      d.commit_pose("move top");
+    });
+  this->check("mode of spine", [&] { d.set_mode(2, 1); });
+  this->check("back to rest", [&] { d.back_to_rest(); });
+  this->check("rename",
+    [&]
+    {
+      this->rename(0, "foot");
+      ASSERT_TRUE(d.commit_handles("rename").ok());
+    });
+  this->check("colour",
+    [&]
+    {
+      vtkNew<vtkUnsignedCharArray> colours;
+      colours->SetName("Color");
+      colours->SetNumberOfComponents(3);
+      colours->SetNumberOfTuples(3);
+      colours->FillValue(200);
+      d.handle_data()->GetCellData()->AddArray(colours);
+      ASSERT_TRUE(d.commit_handles("colour").ok());
+    });
+  this->check("lock",
+    [&]
+    {
+      vtkNew<vtkIntArray> locked;
+      locked->SetName("Locked");
+      locked->SetNumberOfTuples(3);
+      locked->FillValue(1);
+      d.handle_data()->GetCellData()->AddArray(locked);
+      ASSERT_TRUE(d.commit_handles("lock").ok());
+    });
+  this->check("move foot at rest",
+    [&]
+    {
+      d.handle_data()->GetPoints()->SetPoint(0, 0.1, 0.2, -0.7);
+      ASSERT_TRUE(d.commit_handles("move foot at rest").ok());
+    });
+  this->check("add p4",
+    [&]
+    {
+      Handles more = three_handles();
+      more.resize(4);
+      more[3].name = "p4";
+      more[3].head = more[3].tail = Vec3(0.5, 0, 0);
+      this->replace_live(more);
+      ASSERT_TRUE(d.commit_handles("add p4").ok());
+    });
+  this->check("delete top",
+    [&]
+    {
+      Handles fewer = three_handles();
+      fewer.erase(fewer.begin() + 1);
+      fewer[0].parent = 1;
+      this->replace_live(fewer);
+      ASSERT_TRUE(d.commit_handles("delete top").ok());
+    });
+  this->check("delete all",
+    [&]
+    {
+      d.editable_handles()->Initialize();
+      ASSERT_TRUE(d.commit_handles("delete all").ok());
+      EXPECT_EQ(d.handle_data(), nullptr);
+    });
+  this->check("way to pose", [&] { d.set_option("pose.method", 2); });
+  this->check("kind of weights", [&] { d.set_option("bind.method", 1); });
+  this->check("what is shown", [&] { d.set_option("show.column", 1); });
+  this->check("bands", [&] { d.set_option("weights.bands", false); });
+  this->check("keep a pose",
+    [&]
+    {
+      KeyPose pose;
+      pose.name = "wave";
+      pose.seconds = 0.1;
+      pose.handles["top"].stretch = 1.1;
+      d.set_key_poses({ pose }, "keep a pose");
+    });
+  this->check("open other", [&] { ASSERT_TRUE(d.set_mesh(ball(), "other").ok()); });
+  this->check("open handles again",
+    [&] { ASSERT_TRUE(d.set_handles(to_polydata(three_handles()), "again").ok()); });
+  this->check("open weights w.dmat",
+    [&]
+    {
+      ASSERT_TRUE(
+        d.set_weights(test::some_weights(d.surface()->GetNumberOfPoints(), 3, 2.0), "w.dmat").ok());
+      EXPECT_TRUE(d.is_bound());
+    });
+  // All the way back and forth.
+  const std::string last = fingerprint(d);
+  while (d.history()->canUndo())
+  {
+    d.history()->undo();
+  }
+  EXPECT_EQ(fingerprint(d), fingerprint(Document()));
+  while (d.history()->canRedo())
+  {
+    d.history()->redo();
+  }
+  EXPECT_EQ(fingerprint(d), last);
+}
+
+TEST_F(Editing, WhatChangesNothingIsNoStep)
+{
+  open_bound(this->document);
+  const int steps = this->document.history()->count();
+  this->document.set_option("pose.method", 0);
+  this->document.commit_pose("move nothing");
+  this->document.back_to_rest();
+  this->document.set_mode(0, 0);
+  EXPECT_EQ(this->document.history()->count(), steps);
+}
+
+TEST_F(Editing, OptionsTakeOnlyWhatTheyCanHave)
+{
+  const Options before = this->document.work().options;
+  this->document.set_option("no.such", 1);
+  this->document.set_option("weights.bands", 3);
+  this->document.set_option("weights.what", 3);
+  this->document.set_option("weights.what", 0.5);
+  this->document.set_option("tets.shrink", std::nan(""));
+  this->document.set_option("tets.shrink", "wide");
+  EXPECT_EQ(this->document.work().options, before);
+  EXPECT_EQ(this->document.history()->count(), 0);
+}
+
+TEST_F(Editing, AMovedSliderIsOneStep)
+{
+  QUndoStack* history = this->document.history();
+  for (const double size : { 0.9, 0.8, 0.7 })
+  {
+    this->document.set_option("tets.shrink", size);
+  }
+  EXPECT_EQ(history->count(), 1);
+  this->document.end_merge(); // let go, and moved again
+  this->document.set_option("tets.shrink", 0.5);
+  this->document.set_option("tets.shrink", 0.4);
+  EXPECT_EQ(history->count(), 2);
+  history->undo();
+  EXPECT_EQ(this->document.option("tets.shrink").toDouble(), 0.7);
+  history->undo();
+  EXPECT_EQ(this->document.option("tets.shrink").toDouble(), 1.0);
+  // Choices do not merge.
+  this->document.set_option("pose.method", 1);
+  this->document.set_option("pose.method", 2);
+  history->undo();
+  EXPECT_EQ(this->document.number("pose.method"), 1);
+}
+
+TEST_F(Editing, ASliderMovedBackIsNoStep)
+{
+  this->document.set_option("tets.shrink", 0.5);
+  this->document.set_option("tets.shrink", 1.0);
+  EXPECT_EQ(this->document.history()->count(), 0);
+}
+
+TEST_F(Editing, WhatTheProgramChoseSurvivesUndo)
+{
+  this->document.set_option("weights.bands", false);
+  this->document.note_option("weights.column", 2);
+  this->document.history()->undo();
+  EXPECT_EQ(this->document.number("weights.column"), 2);
+  EXPECT_TRUE(this->document.option("weights.bands").toBool());
+}
+
+TEST_F(Editing, AnEditThatCannotBeUsedIsTakenBack)
+{
+  open_bound(this->document);
+  const std::string before = fingerprint(this->document);
+  this->rename(0, "top"); // there is one already
+  const Status status = this->document.commit_handles("rename");
+  EXPECT_FALSE(status.ok());
+  EXPECT_NE(status.message.find("top"), std::string::npos) << status.message;
+  EXPECT_EQ(fingerprint(this->document), before);
+  this->document.handle_data()->GetPoints()->SetPoint(0, 1, 2, 3);
+  this->document.revert_handles();
+  EXPECT_EQ(fingerprint(this->document), before);
+}
+
+TEST_F(Editing, ABadMeshOrBadHandlesLeaveTheWork)
+{
+  open_bound(this->document);
+  const std::string before = fingerprint(this->document);
+  vtkNew<vtkPolyData> nothing;
+  EXPECT_FALSE(this->document.set_mesh(nothing, "nothing").ok());
+  EXPECT_FALSE(this->document.set_handles(nothing, "nothing").ok());
+  EXPECT_FALSE(this->document.set_weights(Weights::Zero(3, 3), "short.dmat").ok());
+  EXPECT_EQ(fingerprint(this->document), before);
+}
+
+// ---- Weights and handles that have changed -----------------------------------------------------
+
+TEST_F(Editing, WeightsFollowTheirHandlesByName)
+{
+  open_bound(this->document);
+  vtkNew<vtkDoubleArray> bound;
+  bound->DeepCopy(this->document.surface()->GetPointData()->GetArray("Weights"));
+  EXPECT_EQ(this->document.rebind_reason(), "");
+  // The first one renamed, one new, "top" gone.
+  const Handles before = three_handles();
+  Handles now{ before[0], before[0], before[2] };
+  now[0].parent = now[1].parent = now[2].parent = -1;
+  now[0].name = "foot";
+  now[1].name = "new";
+  now[1].head = now[1].tail = Vec3(0.5, 0.5, 0);
+  this->replace_live(now);
+  ASSERT_TRUE(this->document.commit_handles("edit").ok());
+  ASSERT_TRUE(this->document.is_bound());
+  vtkDataArray* weights = this->document.surface()->GetPointData()->GetArray("Weights");
+  ASSERT_EQ(weights->GetNumberOfComponents(), 3);
+  EXPECT_STREQ(weights->GetComponentName(0), "foot");
+  for (vtkIdType v = 0; v < weights->GetNumberOfTuples(); ++v)
+  {
+    ASSERT_EQ(weights->GetComponent(v, 0), bound->GetComponent(v, 0));
+    ASSERT_EQ(weights->GetComponent(v, 1), 0.0);
+    ASSERT_EQ(weights->GetComponent(v, 2), bound->GetComponent(v, 2));
+  }
+  const QString reason = this->document.rebind_reason();
+  EXPECT_NE(reason.indexOf("1 handle is new"), -1) << reason.toStdString();
+  EXPECT_NE(reason.indexOf("1 handle is gone"), -1) << reason.toStdString();
+  test::bind(this->document, 3.0);
+  EXPECT_EQ(this->document.rebind_reason(), "");
+}
+
+TEST_F(Editing, AMovedHandleKeepsItsWeightsAndARebindIsOffered)
+{
+  open_bound(this->document);
+  const std::string weights = fingerprint(this->document.work());
+  this->document.handle_data()->GetPoints()->SetPoint(0, 0.1, 0.2, -0.7);
+  ASSERT_TRUE(this->document.commit_handles("move").ok());
+  EXPECT_TRUE(this->document.is_bound());
+  EXPECT_EQ(this->document.rebind_reason(), "Since the bind 1 handle was moved.");
+  this->document.history()->undo();
+  EXPECT_EQ(this->document.rebind_reason(), "");
+  // A pose or a name is no reason.
+  this->rename(0, "foot");
+  ASSERT_TRUE(this->document.commit_handles("rename").ok());
+  this->document.set_mode(1, 2);
+  EXPECT_EQ(this->document.rebind_reason(), "");
+  EXPECT_STREQ(
+    this->document.surface()->GetPointData()->GetArray("Weights")->GetComponentName(0), "foot");
+}
+
+TEST_F(Editing, AnotherMeshHasNoWeightsAndUndoBringsThemBack)
+{
+  open_bound(this->document);
+  ASSERT_TRUE(this->document.set_mesh(ball(), "other").ok());
+  EXPECT_FALSE(this->document.is_bound());
+  EXPECT_NE(this->document.rebind_reason(), "");
+  this->document.history()->undo();
+  EXPECT_TRUE(this->document.is_bound());
+  EXPECT_EQ(this->document.rebind_reason(), "");
+}
+
+TEST_F(Editing, WeightsOfAMeshThatIsGoneAreNotTaken)
+{
+  open_bound(this->document);
+  this->document.begin_bind();
+  const auto late = test::with_weights(this->document.surface(), three_handles(), 4.0);
+  ASSERT_TRUE(this->document.set_mesh(ball(), "other").ok());
+  const std::string before = fingerprint(this->document);
+  EXPECT_FALSE(this->document.set_preview(late));
+  EXPECT_FALSE(this->document.set_bound(late, nullptr));
+  EXPECT_EQ(fingerprint(this->document), before);
+}
+
+TEST_F(Editing, APreviewIsNoStepAndPosesWork)
+{
+  this->document.set_mesh(ball(), "ball");
+  this->document.set_handles(to_polydata(three_handles()), "handles");
+  const std::string before = fingerprint(this->document);
+  const int steps = this->document.history()->count();
+  this->document.begin_bind();
+  ASSERT_TRUE(
+    this->document.set_preview(test::with_weights(this->document.surface(), three_handles(), 0.0)));
+  EXPECT_TRUE(this->document.is_bound());
+  EXPECT_EQ(this->document.history()->count(), steps);
+  this->document.set_mode(0, 1);
+  EXPECT_TRUE(this->document.is_bound());
+  this->document.history()->undo();
+  this->document.drop_preview();
+  EXPECT_EQ(fingerprint(this->document), before);
+}
+
+// ---- A random day at work ----------------------------------------------------------------------
+
+TEST(FuzzDocument, UndoOfEverythingIsTheBeginningAndRedoTheEnd)
+{
+  for (unsigned seed = 0; seed < 20; ++seed)
+  {
+    SCOPED_TRACE(seed);
+    std::mt19937 random(seed);
+    const auto pick = [&random](int count) { return static_cast<int>(random() % count); };
+    const auto number = [&random] { return std::uniform_real_distribution<>(-1, 1)(random); };
+    Document document;
+    document.set_mesh(ball(), "ball");
+    document.set_handles(to_polydata(three_handles()), "handles");
+    document.history()->clear();
+    std::vector<std::string> states{ fingerprint(document) }; // after each step
+    for (int edit = 0; edit < 60; ++edit)
+    {
+      const int handles = static_cast<int>(document.handles().size());
+      switch (pick(12))
+      {
+        case 0:
+          test::bind(document, number());
+          break;
+        case 1:
+          document.set_mesh(ball(), QString("mesh %1").arg(edit));
+          break;
+        case 2:
+          document.set_option("pose.method", pick(3));
+          break;
+        case 3:
+          document.set_option("tets.shrink", 0.1 + 0.1 * pick(10));
+          break;
+        case 4:
+          document.set_option("weights.isolines", pick(2) == 0);
+          break;
+        case 5:
+          document.back_to_rest();
+          break;
+        case 6:
+          document.set_mode(pick(handles), pick(3));
+          break;
+        case 7: // a drag that ends, or is cancelled
+        {
+          const Pose before = document.pose();
+          vtkDataArray* transforms = document.handle_data()->GetCellData()->GetArray("Transform");
+          transforms->SetComponent(pick(handles), pick(12), number());
+          transforms->Modified();
+          if (pick(3) == 0)
+          {
+            set_pose(document.handle_data(), document.handle_cells(), before);
+          }
+          document.commit_pose("move");
+          break;
+        }
+        case 8: // moved at rest
+          document.handle_data()->GetPoints()->SetPoint(pick(handles), number(), number(), 9.0);
+          document.handle_data()->GetPoints()->Modified();
+          document.commit_handles("move at rest");
+          break;
+        case 9: // one more
+        {
+          Handles more = document.handles();
+          more.resize(more.size() + 1);
+          more.back().name = "handle " + std::to_string(edit);
+          more.back().head = more.back().tail = Vec3(number(), number(), number());
+          document.editable_handles()->DeepCopy(to_polydata(more));
+          document.commit_handles("add");
+          break;
+        }
+        case 10: // there and back, in between
+          for (int k = pick(4); k > 0 && document.history()->canUndo(); --k)
+          {
+            document.history()->undo();
+            EXPECT_EQ(fingerprint(document), states[document.history()->index()]);
+          }
+          break;
+        default:
+          document.set_key_poses({ KeyPose{ "p", number(), {} } }, "keep");
+          break;
+      }
+      states.resize(document.history()->count() + 1);
+      states[document.history()->index()] = fingerprint(document);
+    }
+    while (document.history()->canUndo())
+    {
+      document.history()->undo();
+      ASSERT_EQ(fingerprint(document), states[document.history()->index()]);
+    }
+    while (document.history()->canRedo())
+    {
+      document.history()->redo();
+      ASSERT_EQ(fingerprint(document), states[document.history()->index()]);
+    }
+  }
+}
+
+int main(int argc, char** argv)
+{
+  QCoreApplication application(argc, argv);
+  if (argc == 3 && std::string(argv[1]) == "--save-for-ever")
+  {
+    return test::save_for_ever(argv[2]);
+  }
+  if (argc == 3 && std::string(argv[1]) == "--autosave-for-ever")
+  {
+    return test::autosave_for_ever(argv[2]);
+  }
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,426 @@
+// Sessions come back to the last bit, on this machine and on another; broken ones give a sentence.
+#include "work_test.h"
+
+#include "document/session.h"
+#include "document/work_inputs.h"
+
+#include "support/files.h"
+
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+
+#include <nlohmann/json.hpp>
+
+#include <QDir>
+#include <QFile>
+#include <QUndoStack>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+using nlohmann::json;
+using test::fingerprint;
+using testing::HasSubstr;
+
+namespace
+{
+const char* const mesh_text = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n"
+                              "3 1 2 3\n";
+
+QString text(const std::string& path)
+{
+  return QString::fromStdString(path);
+}
+
+Session read(const std::string& path)
+{
+  Session session;
+  const Status status = read_session(text(path), session);
+  EXPECT_TRUE(status.ok()) << status.message;
+  return session;
+}
+
+void write(const std::string& path, const Session& session)
+{
+  const Status status = SessionFile().write(text(path), session);
+  ASSERT_TRUE(status.ok()) << status.message;
+}
+
+/// Of everything something.
+Work full_work()
+{
+  Document document;
+  test::open_bound(document);
+  Pose pose = document.pose();
+  for (std::size_t k = 0; k < pose.size(); ++k)
+  {
+    for (int c = 0; c < 12; ++c)
+    {
+      pose[k].transform.data()[c] = std::cos(1.0 + 12.0 * k + c) / 3.0;
+    }
+    pose[k].stretch = 1.0 / 3.0;
+    pose[k].twist << -0.0, 1e-310; // neither is to become 0
+  }
+  pose[1].mode = HandleMode::position;
+  document.set_pose(pose, "pose");
+  vtkNew<vtkFloatArray> size;
+  size->SetName("Size");
+  size->SetNumberOfTuples(3);
+  size->FillValue(0.1F);
+  document.handle_data()->GetCellData()->AddArray(size);
+  document.commit_handles("size");
+  KeyPose key;
+  key.name = "wave “hello”";
+  key.seconds = 1.0 / 7.0;
+  key.handles["top"] = pose[1];
+  document.set_key_poses({ key }, "keep");
+  document.set_option("pose.method", 2);
+  document.set_option("tets.shrink", 1.0 / 3.0);
+  document.set_option("weights.bands", false);
+  document.handle_data()->GetPoints()->SetPoint(0, 0.1, 0.2, -0.7); // after the bind
+  document.commit_handles("move");
+  return document.work();
+}
+
+/// A mesh file and a session that was saved with it, handles and a pose, unbound.
+Session with_file(const test::Folder& folder)
+{
+  const std::string mesh = folder.write("corner.off", mesh_text);
+  Document document;
+  TriangleMesh corner;
+  corner.points = Points::Zero(4, 3);
+  corner.points(1, 0) = corner.points(2, 1) = corner.points(3, 2) = 1.0;
+  corner.triangles.resize(4, 3);
+  corner.triangles << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
+  document.set_mesh(
+    to_polydata(corner.points, corner.triangles), "corner.off", source_of(text(mesh)));
+  document.set_handles(to_polydata(test::three_handles()), "handles");
+  Session session;
+  session.work = document.work();
+  return session;
+}
+} // namespace
+
+TEST(Sessions, ComeBackToTheLastBit)
+{
+  const test::Folder folder;
+  Session session;
+  session.work = full_work();
+  session.view.panel = 2;
+  session.view.camera.emplace();
+  session.view.camera->position = { 0.1, 1.0 / 3.0, 1e-300 };
+  session.view.camera->angle = 22.5;
+  session.view.camera->parallel = true;
+  write(folder / "a.bindpose", session);
+  const Session back = read(folder / "a.bindpose");
+  EXPECT_EQ(fingerprint(back.work), fingerprint(session.work));
+  EXPECT_TRUE(back.notes.isEmpty());
+  EXPECT_EQ(back.view.panel, 2);
+  ASSERT_TRUE(back.view.camera);
+  EXPECT_EQ(back.view.camera->position, session.view.camera->position);
+  EXPECT_EQ(back.view.camera->angle, 22.5);
+  EXPECT_TRUE(back.view.camera->parallel);
+  // In a document they are what they were: bound, with the same reason to bind again.
+  Document before;
+  before.replace(session.work);
+  Document after;
+  after.replace(back.work);
+  EXPECT_TRUE(after.is_bound());
+  EXPECT_EQ(fingerprint(after), fingerprint(before));
+  EXPECT_EQ(after.rebind_reason(), "Since the bind 1 handle was moved.");
+  EXPECT_FALSE(after.is_changed(true));
+  EXPECT_EQ(after.history()->count(), 0);
+}
+
+TEST(Sessions, AnEmptyOneComesBack)
+{
+  const test::Folder folder;
+  Session session;
+  session.work = Document().work();
+  write(folder / "a.bindpose", session);
+  EXPECT_EQ(fingerprint(read(folder / "a.bindpose").work), fingerprint(session.work));
+  EXPECT_EQ(folder.number_of_files(), 1u);
+}
+
+TEST(Sessions, CertificatesAndRawWeightsAreKept)
+{
+  const test::Folder folder;
+  Session session;
+  session.work = full_work();
+  vtkNew<vtkDoubleArray> gaps;
+  gaps->SetName("WeightsRelativeGap");
+  gaps->InsertNextValue(1.0 / 3.0);
+  session.work.surface->GetFieldData()->AddArray(gaps);
+  write(folder / "a.bindpose", session);
+  const Session opened = read(folder / "a.bindpose");
+  vtkDataArray* back = opened.work.surface->GetFieldData()->GetArray("WeightsRelativeGap");
+  ASSERT_NE(back, nullptr);
+  EXPECT_EQ(back->GetComponent(0, 0), 1.0 / 3.0);
+}
+
+TEST(Sessions, AnotherFolderOpensTheSameWork)
+{
+  const test::Folder folder;
+  std::filesystem::create_directories(folder / "here/meshes");
+  const std::string mesh = folder.write("here/meshes/corner.off", mesh_text);
+  Session session = with_file(folder);
+  session.work.mesh_source = source_of(text(mesh));
+  write(folder / "here/work.bindpose", session);
+  EXPECT_THAT(folder.read("here/work.bindpose"), HasSubstr("\"meshes/corner.off\""));
+  EXPECT_THAT(folder.read("here/work.bindpose"), Not(HasSubstr(folder.path())));
+  std::filesystem::create_directories(folder / "far");
+  std::filesystem::rename(folder / "here", folder / "far/away");
+  const Session back = read(folder / "far/away/work.bindpose");
+  EXPECT_TRUE(back.notes.isEmpty()) << back.notes.join(' ').toStdString();
+  EXPECT_TRUE(back.lost.empty());
+  ASSERT_NE(back.work.surface, nullptr);
+  EXPECT_EQ(back.work.surface->GetNumberOfPoints(), 4);
+  EXPECT_EQ(back.work.mesh_source.path, text(folder / "far/away/meshes/corner.off"));
+  EXPECT_EQ(back.work.mesh_source.checksum, session.work.mesh_source.checksum);
+
+  // Companions go along, too.
+  Session bound;
+  bound.work = full_work();
+  std::filesystem::create_directories(folder / "one");
+  write(folder / "one/b.bindpose", bound);
+  std::filesystem::rename(folder / "one", folder / "two");
+  EXPECT_EQ(fingerprint(read(folder / "two/b.bindpose").work), fingerprint(bound.work));
+}
+
+TEST(Sessions, OpenWithoutAMissingInputAndSaySo)
+{
+  const test::Folder folder;
+  write(folder / "a.bindpose", with_file(folder));
+  std::filesystem::remove(folder / "corner.off");
+  const Session back = read(folder / "a.bindpose");
+  EXPECT_EQ(back.work.surface, nullptr);
+  ASSERT_NE(back.work.handles, nullptr);
+  ASSERT_EQ(back.lost.size(), 1u);
+  EXPECT_EQ(back.lost[0].role, "mesh");
+  EXPECT_EQ(back.lost[0].path, text(folder / "corner.off"));
+  ASSERT_EQ(back.notes.size(), 1);
+  EXPECT_EQ(back.notes[0], "corner.off is missing; the session is open without it.");
+  // What can no longer be read is as good as missing.
+  folder.write("corner.off", "OFF\n4 4");
+  EXPECT_EQ(read(folder / "a.bindpose").notes.size(), 1);
+  EXPECT_EQ(read(folder / "a.bindpose").lost.size(), 1u);
+}
+
+TEST(Sessions, SayWhenAnInputHasChanged)
+{
+  const test::Folder folder;
+  write(folder / "a.bindpose", with_file(folder));
+  std::string other = mesh_text;
+  other.replace(other.find("1 0 0"), 5, "2 0 0");
+  folder.write("corner.off", other);
+  const Session back = read(folder / "a.bindpose");
+  ASSERT_EQ(back.notes.size(), 1);
+  EXPECT_EQ(back.notes[0], "corner.off has changed since the session was saved.");
+  EXPECT_EQ(back.work.surface->GetPoint(1)[0], 2.0);
+  EXPECT_TRUE(back.lost.empty());
+}
+
+TEST(Sessions, ABoundSurfaceDoesNotNeedItsInput)
+{
+  const test::Folder folder;
+  Document document;
+  document.replace(with_file(folder).work);
+  test::bind(document, 0.0);
+  Session session;
+  session.work = document.work();
+  write(folder / "a.bindpose", session);
+  std::filesystem::remove(folder / "corner.off");
+  const Session back = read(folder / "a.bindpose");
+  EXPECT_EQ(fingerprint(back.work), fingerprint(session.work));
+  ASSERT_EQ(back.notes.size(), 1);
+  EXPECT_THAT(back.notes[0].toStdString(), HasSubstr("own copy"));
+  EXPECT_TRUE(back.lost.empty());
+}
+
+TEST(Sessions, ADamagedCompanionCostsItsWeightsOnly)
+{
+  const test::Folder folder;
+  Document document;
+  document.replace(with_file(folder).work);
+  test::bind(document, 0.0);
+  Session session;
+  session.work = document.work();
+  write(folder / "a.bindpose", session);
+  for (const bool there : { true, false })
+  {
+    for (const QString& name : QDir(text(folder.path())).entryList({ "a.surface-*" }, QDir::Files))
+    {
+      const std::string path = folder / name.toStdString();
+      if (there)
+      {
+        std::filesystem::resize_file(path, std::filesystem::file_size(path) / 2);
+      }
+      else
+      {
+        std::filesystem::remove(path);
+      }
+    }
+    const Session back = read(folder / "a.bindpose");
+    ASSERT_EQ(back.notes.size(), 1);
+    EXPECT_THAT(back.notes[0].toStdString(), HasSubstr("bind again"));
+    Document opened;
+    opened.replace(back.work);
+    EXPECT_FALSE(opened.is_bound());
+    EXPECT_NE(opened.surface(), nullptr); // from its file
+    EXPECT_NE(opened.handle_data(), nullptr);
+  }
+}
+
+TEST(Sessions, OnlyTheirOwnCompanionsGo)
+{
+  const test::Folder folder;
+  folder.write("a.surface-important.vtp", "mine");
+  folder.write("b.surface-0123456789ab.vtp", "of another session");
+  folder.write("a.surface-0123456789ab.vtp", "of the last save");
+  Session session;
+  session.work = full_work();
+  write(folder / "a.bindpose", session);
+  EXPECT_EQ(folder.read("a.surface-important.vtp"), "mine");
+  EXPECT_EQ(folder.read("b.surface-0123456789ab.vtp"), "of another session");
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.surface-0123456789ab.vtp"));
+}
+
+TEST(Sessions, ThatCannotBeWrittenLeaveTheLastOne)
+{
+  const test::Folder folder;
+  Session session;
+  session.work = full_work();
+  EXPECT_THAT(
+    SessionFile().write("/no/such/folder/a.bindpose", session).message, HasSubstr("cannot write"));
+  write(folder / "a.bindpose", session);
+  const std::string before = folder.read("a.bindpose");
+  std::filesystem::create_directory(folder / "b.bindpose");
+  EXPECT_FALSE(SessionFile().write(text(folder / "b.bindpose"), session).ok());
+  EXPECT_EQ(folder.read("a.bindpose"), before);
+}
+
+/// This text stands for all files that version 1 has written: it must be read for ever.
+TEST(Sessions, SchemaOneIsRead)
+{
+  const test::Folder folder;
+  folder.write("corner.off", mesh_text);
+  folder.write("old.bindpose", R"({
+  "bindpose": {"schema": 1}, "name": "corner.off",
+  "inputs": {"mesh": {"path": "corner.off", "sha256": "00"}},
+  "companions": {},
+  "handles": {"points_type": "double", "points": [[0, 0, 0], [0.5, 0.25, 1]],
+    "vertices": [[0], [1]], "lines": [], "polygons": [],
+    "cell_arrays": [
+      {"name": "HandleName", "type": "text", "components": 1, "values": ["a", "b"]},
+      {"name": "HandleKind", "type": "int32", "components": 1, "values": [0, 0]}]},
+  "bound_handles": null,
+  "pose": [
+    {"mode": "full", "transform": [1,0,0,0, 0,1,0,0, 0,0,1,0], "stretch": 1, "twist": [0, 0]},
+    {"mode": "free", "transform": [1,0,0,2, 0,1,0,0, 0,0,1,0], "stretch": 1, "twist": [0, 0]}],
+  "poses": [],
+  "options": {"pose.method": 1, "of.another.version": "x"},
+  "view": {"panel": 0, "camera": null}
+})");
+  const Session session = read(folder / "old.bindpose");
+  EXPECT_EQ(session.work.surface->GetNumberOfPoints(), 4);
+  ASSERT_EQ(session.work.pose.size(), 2u);
+  EXPECT_EQ(session.work.pose[1].mode, HandleMode::free);
+  EXPECT_EQ(session.work.pose[1].transform(0, 3), 2.0);
+  EXPECT_EQ(session.work.options["pose.method"].toInt(), 1);
+  EXPECT_EQ(session.work.options["tets.shrink"].toDouble(), 1.0);
+}
+
+TEST(Sessions, BrokenOnesGiveOneSentence)
+{
+  const test::Folder folder;
+  Session session;
+  session.work = full_work();
+  write(folder / "good.bindpose", session);
+  const json good = json::parse(folder.read("good.bindpose"));
+  const auto refused = [&](const std::string& contents, const char* what)
+  {
+    SCOPED_TRACE(what);
+    folder.write("bad.bindpose", contents);
+    Session result;
+    result.work.name = "untouched";
+    const Status status = read_session(text(folder / "bad.bindpose"), result);
+    EXPECT_FALSE(status.ok());
+    EXPECT_THAT(status.message, HasSubstr("bad.bindpose cannot be opened: "));
+    EXPECT_THAT(status.message, Not(HasSubstr("\n")));
+    EXPECT_LT(status.message.size(), 200u);
+    EXPECT_EQ(result.work.name, "untouched");
+    return status.message;
+  };
+  refused("", "empty");
+  refused("no json", "no json");
+  refused("[]", "a list");
+  refused("null", "null");
+  refused(R"({"bindpose": 3})", "no schema");
+  refused(std::string(200000, '['), "deep");
+  refused(R"({"bindpose": {"schema": 1e999}})", "huge");
+  EXPECT_THAT(refused(R"({"bindpose": {"schema": 99}})", "newer"), HasSubstr("newer"));
+  const std::string whole = good.dump();
+  for (std::size_t size = 0; size < whole.size(); size += 1 + whole.size() / 97)
+  {
+    refused(whole.substr(0, size), "cut");
+  }
+  // Every value in turn of every wrong type, and missing.
+  const auto flat = good.flatten();
+  const std::vector<json> wrong = { json("text"), json(-7.5e300), json(json::array()),
+    json(json::object()), json(true), json() };
+  int tried = 0;
+  for (const auto& [where, value] : flat.items())
+  {
+    for (const json& other : wrong)
+    {
+      json changed = good;
+      changed[json::json_pointer(where)] = other;
+      folder.write("maybe.bindpose", changed.dump());
+      Session result;
+      const Status status = read_session(text(folder / "maybe.bindpose"), result);
+      ++tried;
+      // Some are as good as what was there; what is read can be used.
+      if (status.ok())
+      {
+        Document document;
+        document.replace(result.work);
+        EXPECT_TRUE(!document.handle_data() || document.pose().size() == document.handles().size());
+      }
+      else
+      {
+        EXPECT_THAT(status.message, Not(HasSubstr("\n"))) << where;
+        EXPECT_LT(status.message.size(), 250u) << where;
+      }
+    }
+  }
+  EXPECT_GT(tried, 500);
+  for (const auto& [key, value] : good.items())
+  {
+    json changed = good;
+    changed.erase(key);
+    EXPECT_THAT(refused(changed.dump(), key.c_str()), HasSubstr(key));
+  }
+  const auto with = [&good](const char* where, const json& value)
+  {
+    json changed = good;
+    changed[json::json_pointer(where)] = value;
+    return changed.dump();
+  };
+  refused(with("/pose/0/transform/3", json()), "a number that is not finite");
+  refused(with("/pose", json::array()), "another number of handles");
+  refused(with("/handles/points/0/0", json()), "a place that is not finite");
+  refused(with("/handles/vertices/0/0", 99), "a point that is not there");
+  refused(with("/handles/vertices/0/0", -1), "a negative point");
+  refused(with("/handles/cell_arrays/0/components", 1000000), "an array too large");
+  refused(with("/handles/cell_arrays/0/values", json::array()), "an array too short");
+  refused(with("/options/tets.shrink", 7), "an option out of range");
+  refused(with("/options/pose.method", "best"), "an option of another type");
+  refused(with("/view/camera/angle", 0), "a camera that sees nothing");
+  EXPECT_FALSE(
+    [&]
+    {
+      Session result;
+      return read_session("/no/such/file.bindpose", result).ok();
+    }());
+}

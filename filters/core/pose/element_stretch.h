@@ -43,7 +43,7 @@ struct ElementStretch
 ///     const RestElements elements(rest, tets);
 ///     elements.stretch(context, options, posed, stretch);
 ///
-/// Cost with AVX-512: about 30 ns a tet, 10 ns a triangle (one core). Memory: 112 bytes a tet, 56 a
+/// Cost with AVX-512: about 50 ns a tet, 10 ns a triangle (one core). Memory: 112 bytes a tet, 56 a
 /// triangle. The same bits for any number of threads and on any machine.
 class RestElements
 {

@@ -18,9 +18,9 @@ struct RotationCentresOptions
   /// not count, 0 to 1. 1e-3 by default: most pairs of many handles are that small.
   double smallest_pair = 1e-3;
   /// Elements whose weights of a pair of handles differ by no more than this are one for that pair,
-  /// with the mean of these weights; 0: none but equals, the formula itself. 0.01 by default, a
-  /// tenth of the width: centres move by less than a thousandth of the shape.
-  double group_size = 0.01;
+  /// with the mean of these weights; 0: none but equals, the formula itself. 0.015 by default:
+  /// centres move by less than a thousandth of the shape.
+  double group_size = 0.015;
 };
 
 /// A centre of rotation for each vertex (Le and Hodgins 2016, Real-time skeletal skinning with

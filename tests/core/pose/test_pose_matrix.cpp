@@ -120,5 +120,6 @@ TEST(PoseMatrix, SizesAndNumbersThatCannotBeAreNamed)
   matrix(3, 1) = std::nan("");
   EXPECT_THAT(message(matrix), HasSubstr("not finite"));
   const Handles points(2, Handle());
-  EXPECT_EQ(pose_of_matrix(Weights(Weights::Zero(0, 1)), points, pose).code, StatusCode::invalid_input);
+  EXPECT_EQ(
+    pose_of_matrix(Weights(Weights::Zero(0, 1)), points, pose).code, StatusCode::invalid_input);
 }

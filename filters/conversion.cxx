@@ -632,7 +632,7 @@ Status to_pose(
   {
     const vtkIdType cell = cells[i];
     const int mode = static_cast<int>(cell_value(data, "Mode", cell, 0));
-    if (mode < 0 || mode > 2)
+    if (mode < 0 || mode > 4)
     {
       return Status::invalid_input(
         "handle '" + handles[i].name + "' has an unknown Mode " + std::to_string(mode));

@@ -13,6 +13,7 @@
 #include "vtkTable.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace bindpose
 {
@@ -140,7 +141,7 @@ Status from_rows(vtkDataSetAttributes* arrays, vtkIdType rows, vtkPointSet* poin
       for (std::size_t h = 0; h < handles.size(); ++h)
       {
         const double mode = modes->GetComponent(i, static_cast<int>(h));
-        if (mode != 0.0 && mode != 1.0 && mode != 2.0)
+        if (!(mode >= 0.0 && mode <= 4.0) || mode != std::floor(mode))
         {
           return Status::invalid_input(of_instance(static_cast<std::size_t>(i)) + "handle '" +
             handles[h].name + "' has an unknown Mode");

@@ -41,6 +41,7 @@ void split_volume_cells(vtkPointSet* mesh, std::vector<Index>& corners, std::vec
     }
   }
 }
+
 } // namespace
 
 PoseElements to_pose_elements(vtkPointSet* mesh)
@@ -73,14 +74,17 @@ PoseElements to_pose_elements(vtkPointSet* mesh)
   }
   return elements;
 }
+RestElements to_rest_elements(const PoseElements& elements, PointsView rest)
+{
+  return elements.volume ? RestElements(rest, elements.tets.view())
+                         : RestElements(rest, elements.triangles.view());
+}
 
 Status measure_stretch(ExecutionContext& context, const ElementStretchOptions& options,
-  const PoseElements& elements, PointsView rest, PointsView posed, vtkDataSet* result)
+  const PoseElements& elements, const RestElements& rest, PointsView posed, vtkDataSet* result)
 {
   ElementStretch stretch;
-  const Status status = elements.volume
-    ? element_stretch(context, options, rest, posed, elements.tets.view(), stretch)
-    : element_stretch(context, options, rest, posed, elements.triangles.view(), stretch);
+  const Status status = rest.stretch(context, options, posed, stretch);
   if (!status.ok() || !options.values)
   {
     return status;

@@ -21,10 +21,13 @@ struct PoseElements
 /// that cannot be read leave none: whoever needs them says so.
 PoseElements to_pose_elements(vtkPointSet* mesh);
 
+/// The shapes of those that count.
+RestElements to_rest_elements(const PoseElements& elements, PointsView rest);
+
 /// The kernel's report; with options.values the cell array Stretch of the result has the largest
 /// and smallest stretch of each cell, NaN where there is none.
 Status measure_stretch(ExecutionContext& context, const ElementStretchOptions& options,
-  const PoseElements& elements, PointsView rest, PointsView posed, vtkDataSet* result);
+  const PoseElements& elements, const RestElements& rest, PointsView posed, vtkDataSet* result);
 
 } // namespace bindpose
 

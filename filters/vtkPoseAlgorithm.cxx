@@ -21,6 +21,7 @@ using namespace bindpose;
 struct vtkPoseAlgorithm::Elements
 {
   std::optional<PoseElements> of_bind;
+  RestElements rest;
 };
 
 namespace
@@ -104,9 +105,10 @@ Status vtkPoseAlgorithm::Execute(
     if (!this->Measured->of_bind)
     {
       this->Measured->of_bind = to_pose_elements(mesh);
+      this->Measured->rest = to_rest_elements(*this->Measured->of_bind, pose_input.points);
     }
     stretch = measure_stretch(context, { this->StretchLimit, this->StretchArray },
-      *this->Measured->of_bind, pose_input.points, posed.points, result);
+      *this->Measured->of_bind, this->Measured->rest, posed.points, result);
     if (!stretch.ok())
     {
       return stretch;

@@ -7,7 +7,9 @@
 #include "expression_parser.h"
 #include "file_kind.h"
 #include "gltf_data.h"
+#include "io/dmat.h"
 #include "pose/pose_file.h"
+#include "pose/pose_matrix.h"
 
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -55,9 +57,9 @@ int vtkPoseHandles::FillOutputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
-bool vtkPoseHandles::IsFromGLTF() const
+bool vtkPoseHandles::IsFrom(const char* endings) const
 {
-  return this->FileName && is_listed(file_extension(this->FileName), "glb gltf");
+  return this->FileName && is_listed(file_extension(this->FileName), endings);
 }
 
 /// The pose and where it is from, as the beginning of a sentence; empty: not from a file.
@@ -89,8 +91,8 @@ int vtkPoseHandles::RequestInformation(
   std::string text, source;
   PoseTimes times;
   // What is wrong with the text, Execute() says.
-  if (this->IsFromGLTF() || !this->ReadText(text, source).ok() || !read_pose_times(text, times) ||
-    (times.frames < 2 && !times.has_expressions))
+  if (this->IsFrom("glb gltf dmat") || !this->ReadText(text, source).ok() ||
+    !read_pose_times(text, times) || (times.frames < 2 && !times.has_expressions))
   {
     return 1;
   }
@@ -135,14 +137,16 @@ Status vtkPoseHandles::Execute(
   this->Sequence = false;
   this->FramesPerSecond = PoseSequence().frames_per_second;
   this->HasExpressions = false;
-  const bool from_gltf = this->IsFromGLTF();
+  const bool from_text = !this->IsFrom("glb gltf dmat");
   std::string text, source;
-  status = from_gltf ? this->TakeGLTF(handles, pose) : this->ReadText(text, source);
+  status = from_text       ? this->ReadText(text, source)
+    : this->IsFrom("dmat") ? this->TakeDMAT(handles, pose)
+                           : this->TakeGLTF(handles, pose);
   if (!status.ok())
   {
     return status;
   }
-  if (!from_gltf && (!source.empty() || !text.empty()))
+  if (from_text && (!source.empty() || !text.empty()))
   {
     PoseSequence sequence;
     ExpressionParser parser;
@@ -183,6 +187,27 @@ Status vtkPoseHandles::Execute(
   status.report.set("counts.handles", static_cast<int>(handles.size()));
   status.report.set("counts.frames", this->NumberOfFrames);
   return status;
+}
+
+/// One pose of all handles.
+Status vtkPoseHandles::TakeDMAT(const Handles& handles, Pose& pose)
+{
+  Weights matrix;
+  Status status = read_dmat(this->FileName, matrix);
+  if (!status.ok())
+  {
+    return status;
+  }
+  status = pose_of_matrix(matrix, handles, pose);
+  if (!status.ok())
+  {
+    status.message = std::string(this->FileName) + ": " + status.message;
+    return status;
+  }
+  return this->Frame == 0
+    ? status
+    : Status::invalid_input(std::string(this->FileName) + ": there is no frame " +
+        std::to_string(this->Frame) + ", only 1 (counted from 0)");
 }
 
 /// The frame's transforms, by name; handles that are no joints keep their pose.

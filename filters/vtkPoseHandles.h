@@ -5,7 +5,7 @@
  * Reads a pose (or one frame of a sequence) from JSON and writes it into the cell arrays `Mode`,
  * `Transform`, `Stretch` and `Twist` of the handles:
  * <pre>
- *   {"handles": {NAME: {"mode": "full|position|free", "translate": [x, y, z],
+ *   {"handles": {NAME: {"mode": "full|position|free|tail|ends", "translate": [x, y, z],
  *     "rotate": {"axis": [x, y, z], "degrees": d}, "scale": s, "space": "world|parent",
  *     "head": [x, y, z], "tail": [x, y, z], "stretch": s, "twist": [deg, deg]}}}
  *   {"frames": [pose, …], "fps": n}
@@ -24,7 +24,10 @@
  * what the input says. Without FileName and PoseJSON the input is passed on.
  *
  * FileName may also name a .glb or .gltf file: its animation, or without one how its nodes stand,
- * is taken by the names of joints and handles (see vtkGLTFSkinReader).
+ * is taken by the names of joints and handles (see vtkGLTFSkinReader). Or a .dmat file of libigl,
+ * which poses all handles, points before bones: (d + 1) m x d numbers, a transposed transform a
+ * handle (d = 3, or 2 in a plane), or 4 b x 1, a rotation (x, y, z, w) a bone about its head,
+ * before its parent's.
  *
  * All other arrays are the input's own objects, so that filters behind it keep their bind.
  */
@@ -56,7 +59,8 @@ public:
   ///@}
 
   ///@{
-  /// The pose as a file (.json; .glb and .gltf for their animation), read anew at each execution;
+  /// The pose as a file (.json, .dmat; .glb and .gltf for their animation), read anew at each
+  /// execution;
   /// when set, PoseJSON is not used.
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
@@ -111,7 +115,9 @@ private:
 
   std::string PoseJSON;
   char* FileName = nullptr;
-  bool IsFromGLTF() const;
+  bindpose::Status TakeDMAT(
+    const std::vector<bindpose::Handle>& handles, std::vector<bindpose::HandlePose>& pose);
+  bool IsFrom(const char* endings) const;
   bindpose::Status ReadText(std::string& text, std::string& source);
 
   int Frame = 0;

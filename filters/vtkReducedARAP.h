@@ -7,6 +7,8 @@
  * given, the rest of the transforms is found so that the mesh bends as little as it can:
  * - a handle in mode `full` (0) has its `Transform`;
  * - a handle in mode `position` (1) has its pivot where `Transform` takes it, turns by itself;
+ * - a bone in mode `tail` (3) has its tail where Transform and Stretch take it, in mode `ends` (4)
+ *   both ends, and finds the rest (how it turns about itself, or about the end);
  * - a handle in mode `free` (2) finds itself.
  *
  * With every handle full the result is linear blend skinning. The energy is the sum over clusters

@@ -572,7 +572,7 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
     pose : dict, str or path-like
         ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}``
         or ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file, where numbers may be expressions in
-        ``t``; or a .glb or .gltf file for its animation.
+        ``t``; or a .dmat file of libigl; or a .glb or .gltf file for its animation.
     method : {"lbs", "dqs", "stbs", "cor", "reduced-arap", "full-arap", "mls", "variational"}
         Linear blend skinning, dual quaternions, stretchable and twistable bones (with the point array
         ``EndpointWeights`` where there is one), centres of rotation (neither twists nor bends lose width),

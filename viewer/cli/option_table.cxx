@@ -226,11 +226,11 @@ const std::vector<Verb>& verbs()
     { "deform", "bend a mesh with weights to a pose or a sequence of poses",
       { { "MESH_WITH_WEIGHTS", "", Kind::text, "", "",
           "what the verb weights wrote; for full-arap, mls and variational any mesh", true },
-        { "--handles", "HANDLES", Kind::text, "", "", "handles: .tgf, .vtp, .glb or .gltf", true },
+        { "--handles", "HANDLES", Kind::text, "", "",
+          "handles: .tgf, .vtp, .glb or .gltf; all but --fair need them" },
         { "--pose", "POSE", Kind::text, "", "",
           "pose or sequence as .json, where numbers may be expressions in t, the time in seconds; "
-          "or the animation in a .glb or .gltf file",
-          true },
+          "or a pose of libigl in a .dmat file, or the animation in a .glb or .gltf file" },
         { "--method", "METHOD", Kind::choice, "lbs",
           "lbs|dqs|stbs|cor|reduced-arap|full-arap|mls|variational",
           "linear blend, dual quaternions, stretchable and twistable bones (along the point array "
@@ -288,7 +288,7 @@ const std::vector<Verb>& verbs()
           "of --boundary tangent: as beyond the edge, of the point array Tangents, or as at rest" },
         { "--fair", "", Kind::flag, "", "",
           "of variational: the free points are made anew from what is around them, for holes and "
-          "blends; else they are moved" },
+          "blends; else they are moved; the point array Fixed may hold the rest without handles" },
         { "--gltf-animation", "HOW", Kind::choice, "auto", "auto|joints|morph",
           "of .glb and .gltf: frames move joints, which is what linear blends do, or each is a "
           "morph target; auto: joints for lbs, morph for all others" },

@@ -206,6 +206,29 @@ void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPose
     session.report().set("counts.frames", frames.count);
   }
 }
+/// A surface made anew between the points that its array Fixed holds.
+void run_fairing(Session& session, const std::string& output, const std::string& endings)
+{
+  const Arguments& arguments = session.arguments();
+  if (is_rig(output))
+  {
+    session.invalid("a fair surface without handles is no rig: write .vtp");
+    return;
+  }
+  const auto mesh = session.read(arguments.text("MESH_WITH_WEIGHTS"));
+  if (!mesh || !session.check_output(output, endings))
+  {
+    return;
+  }
+  const vtkSmartPointer<vtkPoseAlgorithm> surface = make_variational(arguments);
+  surface->SetStretchLimit(arguments.number("stretch-limit"));
+  surface->SetStretchArray(arguments.has("stretch-array"));
+  surface->SetInputData(0, mesh);
+  if (session.run(surface, "fair", 0.0, 1.0, Merge::all))
+  {
+    session.write(surface->GetOutput(), output);
+  }
+}
 } // namespace
 
 void run_deform(Session& session)
@@ -218,6 +241,21 @@ void run_deform(Session& session)
   {
     session.fail(ending);
     return;
+  }
+  const bool fair = arguments.text("method") == "variational" && arguments.has("fair");
+  if (fair && !arguments.has("handles") && !arguments.has("pose") && !arguments.has("dynamics"))
+  {
+    run_fairing(session, output, endings);
+    return;
+  }
+  for (const char* needed : { "handles", "pose" })
+  {
+    if (!arguments.has(needed))
+    {
+      session.invalid(std::string("--") + needed +
+        " is required; only --method variational --fair does without handles and pose");
+      return;
+    }
   }
   const auto mesh = session.read(arguments.text("MESH_WITH_WEIGHTS"));
   const auto handles = mesh ? session.read_handles(arguments.text("handles"), mesh) : nullptr;

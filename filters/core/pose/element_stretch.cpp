@@ -1,9 +1,13 @@
 // The gradient of a tet is (posed edges) (rest edges)^-1. Its singular values are the lengths of
 // its columns once they have been turned until they are at right angles (one-sided Jacobi), which
-// is exact to round-off for collapsed tets, too. Eight tets are turned at once, lanes side by side.
+// is exact to round-off for collapsed tets, too.
 //
 // A triangle's gradient is 3 x 2, in a frame of its plane at rest, and has its singular values in
 // closed form.
+//
+// Eight elements go at once, lanes side by side. Their inverses at rest are kept: a tet's nine
+// numbers and the sign of its volume; of a triangle with edges a and b, and h its height over a,
+//     1 / |a|,   a.b / |a|^2,   1 / h,   the sign of its area in the plane z = const.
 #include "pose/element_stretch.h"
 
 #include "base/parallel.h"
@@ -24,8 +28,10 @@ constexpr Index block_size = 4096;
 constexpr double degenerate_share = 1e-12;
 /// Of the diagonal: a shape as flat as this lies in a plane.
 constexpr double flat_tolerance = 1e-9;
-/// Matrices that are turned at once; block_size is a multiple.
+/// Elements that go at once; block_size is a multiple.
 constexpr Index lanes = 8;
+/// Numbers of an element at rest; the last is a sign, and all are zero of a degenerate one.
+constexpr Index triangle_numbers = 4, tet_numbers = 10;
 /// Squared cosine between two columns above which a sweep over them is not the last: the next one
 /// squares what is left.
 constexpr double right_angle = 1e-16;
@@ -47,6 +53,7 @@ struct alignas(64) Batch
 struct alignas(64) BatchValues
 {
   double largest[lanes], smallest[lanes];
+  double area[lanes]; ///< less than zero: turned over, or inside out
 };
 
 /// Turns columns p and q of each lane to a right angle; the largest squared cosine before, over
@@ -80,7 +87,7 @@ BINDPOSE_ALWAYS_INLINE double turn(double (*p)[lanes], double (*q)[lanes])
   return most;
 }
 
-BINDPOSE_SIMD_CLONES void singular_values(Batch& f, BatchValues& values)
+BINDPOSE_ALWAYS_INLINE void singular_values(Batch& f, BatchValues& values)
 {
   double size[lanes];
   for (Index i = 0; i < lanes; ++i)
@@ -155,9 +162,78 @@ void count(Block& block, double limit, Index element, double largest, double sma
   }
 }
 
-/// The gradient of a tet into a lane; whether it has one.
-bool load(
-  PointsView rest, PointsView posed, const Index* v, Index lane, Batch& batch, bool& flipped)
+/// Edges of posed elements, from their first corner: edge, coordinate, lane.
+template <int corners>
+BINDPOSE_ALWAYS_INLINE void load_edges(
+  const double* posed, const Index* ids, double (&edges)[corners - 1][3][lanes])
+{
+  for (Index i = 0; i < lanes; ++i)
+  {
+    const double* from = posed + 3 * ids[i];
+    for (int k = 1; k < corners; ++k)
+    {
+      const double* to = posed + 3 * ids[k * lanes + i];
+      edges[k - 1][0][i] = to[0] - from[0];
+      edges[k - 1][1][i] = to[1] - from[1];
+      edges[k - 1][2][i] = to[2] - from[2];
+    }
+  }
+}
+
+BINDPOSE_SIMD_CLONES void measure_tets(
+  const double* posed, const Index* ids, const double* shape, BatchValues& values)
+{
+  alignas(64) double p[3][3][lanes];
+  load_edges<4>(posed, ids, p);
+  Batch f;
+  for (int k = 0; k < 3; ++k) // [pa pb pc] [a b c]^-1
+  {
+    const double *u = shape + 3 * k * lanes, *v = u + lanes, *w = v + lanes;
+    for (int row = 0; row < 3; ++row)
+    {
+      for (Index i = 0; i < lanes; ++i)
+      {
+        f.at[k][row][i] = u[i] * p[0][row][i] + v[i] * p[1][row][i] + w[i] * p[2][row][i];
+      }
+    }
+  }
+  const double* sign = shape + 9 * lanes;
+  for (Index i = 0; i < lanes; ++i)
+  {
+    values.area[i] = sign[i] *
+      (p[0][0][i] * (p[1][1][i] * p[2][2][i] - p[1][2][i] * p[2][1][i]) +
+        p[0][1][i] * (p[1][2][i] * p[2][0][i] - p[1][0][i] * p[2][2][i]) +
+        p[0][2][i] * (p[1][0][i] * p[2][1][i] - p[1][1][i] * p[2][0][i]));
+  }
+  singular_values(f, values);
+}
+
+BINDPOSE_SIMD_CLONES void measure_triangles(
+  const double* posed, const Index* ids, const double* shape, BatchValues& values)
+{
+  alignas(64) double p[2][3][lanes];
+  load_edges<3>(posed, ids, p);
+  const double *length = shape, *slope = shape + lanes, *height = shape + 2 * lanes,
+               *sign = shape + 3 * lanes;
+  for (Index i = 0; i < lanes; ++i)
+  {
+    const double a0 = p[0][0][i], a1 = p[0][1][i], a2 = p[0][2][i];
+    const double x0 = a0 * length[i], x1 = a1 * length[i], x2 = a2 * length[i];
+    const double y0 = (p[1][0][i] - slope[i] * a0) * height[i];
+    const double y1 = (p[1][1][i] - slope[i] * a1) * height[i];
+    const double y2 = (p[1][2][i] - slope[i] * a2) * height[i];
+    const double xx = x0 * x0 + x1 * x1 + x2 * x2, yy = y0 * y0 + y1 * y1 + y2 * y2;
+    const double half = 0.5 * (xx - yy), mixed = x0 * y0 + x1 * y1 + x2 * y2;
+    const double n0 = x1 * y2 - x2 * y1, n1 = x2 * y0 - x0 * y2, n2 = x0 * y1 - x1 * y0;
+    const double largest = std::sqrt(0.5 * (xx + yy) + std::sqrt(half * half + mixed * mixed));
+    values.largest[i] = largest;
+    values.smallest[i] = largest > 0.0 ? std::sqrt(n0 * n0 + n1 * n1 + n2 * n2) / largest : 0.0;
+    values.area[i] = sign[i] * (a0 * p[1][1][i] - a1 * p[1][0][i]);
+  }
+}
+
+/// The numbers of an element at rest into a lane; none of a degenerate one.
+void shape_of(PointsView rest, const Index* v, TetsView, double* shape)
 {
   const Vec3 a = edge(rest, v[0], v[1]), b = edge(rest, v[0], v[2]), c = edge(rest, v[0], v[3]);
   const Vec3 bc = b.cross(c), ca = c.cross(a), ab = a.cross(b);
@@ -165,32 +241,42 @@ bool load(
   const double longest = std::max({ a.squaredNorm(), b.squaredNorm(), c.squaredNorm() });
   if (!(std::abs(volume) > degenerate_share * longest * std::sqrt(longest)))
   {
-    return false;
+    return;
   }
-  const Vec3 pa = edge(posed, v[0], v[1]), pb = edge(posed, v[0], v[2]),
-             pc = edge(posed, v[0], v[3]);
-  for (int k = 0; k < 3; ++k) // [pa pb pc] [a b c]^-1
+  for (int k = 0; k < 3; ++k)
   {
-    const Vec3 column = (bc[k] / volume) * pa + (ca[k] / volume) * pb + (ab[k] / volume) * pc;
-    for (int row = 0; row < 3; ++row)
-    {
-      batch.at[k][row][lane] = column[row];
-    }
+    shape[3 * k * lanes] = bc[k] / volume;
+    shape[(3 * k + 1) * lanes] = ca[k] / volume;
+    shape[(3 * k + 2) * lanes] = ab[k] / volume;
   }
-  flipped = pa.dot(pb.cross(pc)) / volume < 0.0;
-  return true;
+  shape[9 * lanes] = volume > 0.0 ? 1.0 : -1.0;
 }
 
-Status check(const ElementStretchOptions& options, PointsView rest, PointsView posed)
+void shape_of(PointsView rest, const Index* v, TrianglesView, double* shape)
+{
+  const Vec3 a = edge(rest, v[0], v[1]), b = edge(rest, v[0], v[2]);
+  const double length = a.norm();
+  const double height = a.cross(b).norm() / length;
+  if (!(height > degenerate_share * std::max(length, b.norm())))
+  {
+    return;
+  }
+  shape[0] = 1.0 / length;
+  shape[lanes] = a.dot(b) / (length * length);
+  shape[2 * lanes] = 1.0 / height;
+  shape[3 * lanes] = a[0] * b[1] - a[1] * b[0] > 0.0 ? 1.0 : -1.0;
+}
+
+Status check(const ElementStretchOptions& options, Index rest, PointsView posed)
 {
   if (!(options.limit >= 1.0))
   {
     return Status::invalid_input("the stretch limit must be at least 1");
   }
-  if (rest.rows() != posed.rows())
+  if (rest != posed.rows())
   {
     return Status::invalid_input("there are " + std::to_string(posed.rows()) +
-      " posed points for " + std::to_string(rest.rows()) + " at rest");
+      " posed points for " + std::to_string(rest) + " at rest");
   }
   return {};
 }
@@ -257,90 +343,84 @@ bool in_a_plane(PointsView points)
 }
 } // namespace
 
-Status element_stretch(ExecutionContext& context, const ElementStretchOptions& options,
-  PointsView rest, PointsView posed, TetsView tets, ElementStretch& stretch)
+template <typename Elements>
+void RestElements::take(PointsView rest, const Elements& elements)
 {
-  Status status = check(options, rest, posed);
+  constexpr Index numbers = Elements::ColsAtCompileTime == 4 ? tet_numbers : triangle_numbers;
+  this->corners_ = Elements::ColsAtCompileTime;
+  this->points_ = rest.rows();
+  this->count_ = elements.rows();
+  this->flat_ = this->corners_ == 3 && in_a_plane(rest);
+  const Index tiles = (this->count_ + lanes - 1) / lanes;
+  this->ids_.assign(static_cast<std::size_t>(tiles * this->corners_ * lanes), 0);
+  this->shape_.assign(static_cast<std::size_t>(tiles * numbers * lanes), 0.0);
+  for (Index e = 0; e < this->count_; ++e)
+  {
+    const Index tile = e / lanes, lane = e % lanes;
+    const Index* v = elements.data() + this->corners_ * e;
+    for (int k = 0; k < this->corners_; ++k)
+    {
+      this->ids_[static_cast<std::size_t>((tile * this->corners_ + k) * lanes + lane)] = v[k];
+    }
+    shape_of(rest, v, elements, this->shape_.data() + tile * numbers * lanes + lane);
+  }
+}
+
+Status RestElements::stretch(ExecutionContext& context, const ElementStretchOptions& options,
+  PointsView posed, ElementStretch& stretch) const
+{
+  Status status = check(options, this->points_, posed);
   if (!status.ok())
   {
     return status;
   }
-  prepare(options, tets.rows(), stretch);
-  return over_elements(context, tets.rows(), "tets",
+  prepare(options, this->count_, stretch);
+  const bool tets = this->corners_ == 4;
+  // Triangles in space have no sign.
+  const bool sign = tets || (this->flat_ && in_a_plane(posed));
+  const Index numbers = tets ? tet_numbers : triangle_numbers;
+  return over_elements(context, this->count_, tets ? "tets" : "triangles",
     [&](Index begin, Index end, Block& block)
     {
-      Batch batch;
       BatchValues values;
-      Index element[lanes];
-      bool flipped[lanes];
-      for (Index t = begin; t < end;)
+      for (Index e = begin; e < end; e += lanes)
       {
-        Index filled = 0;
-        for (; t < end && filled < lanes; ++t)
+        const Index tile = e / lanes;
+        const Index* ids = this->ids_.data() + tile * this->corners_ * lanes;
+        const double* shape = this->shape_.data() + tile * numbers * lanes;
+        if (tets)
         {
-          if (load(rest, posed, tets.data() + 4 * t, filled, batch, flipped[filled]))
-          {
-            element[filled] = t;
-            filled += 1;
-          }
-          else
+          measure_tets(posed.data(), ids, shape, values);
+        }
+        else
+        {
+          measure_triangles(posed.data(), ids, shape, values);
+        }
+        const double* whole = shape + (numbers - 1) * lanes;
+        for (Index i = 0; i < std::min(lanes, end - e); ++i)
+        {
+          if (whole[i] == 0.0)
           {
             block.degenerate += 1;
+            continue;
           }
-        }
-        for (Index i = filled; i < lanes; ++i)
-        {
-          for (auto& column : batch.at)
-          {
-            column[0][i] = column[1][i] = column[2][i] = 0.0;
-          }
-        }
-        singular_values(batch, values);
-        for (Index i = 0; i < filled; ++i)
-        {
-          count(block, options.limit, element[i], values.largest[i], values.smallest[i], flipped[i],
-            stretch);
+          count(block, options.limit, e + i, values.largest[i], values.smallest[i],
+            sign && values.area[i] < 0.0, stretch);
         }
       }
     });
 }
 
 Status element_stretch(ExecutionContext& context, const ElementStretchOptions& options,
+  PointsView rest, PointsView posed, TetsView tets, ElementStretch& stretch)
+{
+  return RestElements(rest, tets).stretch(context, options, posed, stretch);
+}
+
+Status element_stretch(ExecutionContext& context, const ElementStretchOptions& options,
   PointsView rest, PointsView posed, TrianglesView triangles, ElementStretch& stretch)
 {
-  Status status = check(options, rest, posed);
-  if (!status.ok())
-  {
-    return status;
-  }
-  prepare(options, triangles.rows(), stretch);
-  const bool flat = in_a_plane(rest) && in_a_plane(posed);
-  return over_elements(context, triangles.rows(), "triangles",
-    [&](Index begin, Index end, Block& block)
-    {
-      for (Index t = begin; t < end; ++t)
-      {
-        const Index* v = triangles.data() + 3 * t;
-        const Vec3 a = edge(rest, v[0], v[1]), b = edge(rest, v[0], v[2]);
-        const double length = a.norm();
-        const double height = a.cross(b).norm() / length;
-        if (!(height > degenerate_share * std::max(length, b.norm())))
-        {
-          block.degenerate += 1;
-          continue;
-        }
-        const Vec3 pa = edge(posed, v[0], v[1]), pb = edge(posed, v[0], v[2]);
-        const Vec3 x = pa / length;
-        const Vec3 y = (pb - (a.dot(b) / length) * x) / height;
-        const double half = 0.5 * (x.squaredNorm() - y.squaredNorm()), mixed = x.dot(y);
-        const double largest = std::sqrt(
-          0.5 * (x.squaredNorm() + y.squaredNorm()) + std::sqrt(half * half + mixed * mixed));
-        const double smallest = largest > 0.0 ? x.cross(y).norm() / largest : 0.0;
-        const bool flipped =
-          flat && (pa[0] * pb[1] - pa[1] * pb[0]) * (a[0] * b[1] - a[1] * b[0]) < 0.0;
-        count(block, options.limit, t, largest, smallest, flipped, stretch);
-      }
-    });
+  return RestElements(rest, triangles).stretch(context, options, posed, stretch);
 }
 
 } // namespace bindpose

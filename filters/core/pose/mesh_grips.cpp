@@ -130,6 +130,7 @@ Status MeshGrips::find_any(PointsView points, const Elements& elements, const Co
       grip.pivot = point_at(handle.head, distance);
       if (handle.kind == HandleKind::bone)
       {
+        grip.tail = point_at(handle.tail, distance);
         for (Index v = 0; v < this->rest_.rows(); ++v)
         {
           if (parts.of_vertex[v] >= 0 &&
@@ -197,7 +198,11 @@ Vec3 MeshGrips::wanted(const Hold& hold, const HandlePose& pose) const
 {
   const Eigen::Matrix3d linear = pose.transform.leftCols<3>() - Eigen::Matrix3d::Identity();
   const Handle& handle = this->handles_[hold.handle];
-  const bool by_pivot = pose.mode == HandleMode::position && handle.kind != HandleKind::region;
+  if (hold.tail)
+  {
+    return posed_tail(handle, pose) - handle.tail;
+  }
+  const bool by_pivot = holds_pivot(pose.mode) && handle.kind != HandleKind::region;
   return linear * (by_pivot ? handle.head : this->at_rest(hold.point)) + pose.transform.col(3);
 }
 
@@ -208,25 +213,26 @@ void MeshGrips::choose(const Pose& pose, const std::vector<Index>& staying)
   this->given_.clear();
   this->held_.clear();
   this->holder_.clear();
-  for (const HandleMode mode : { HandleMode::full, HandleMode::position })
+  for (const bool full : { true, false })
   {
     for (std::size_t h = 0; h < pose.size(); ++h)
     {
       const auto handle = static_cast<Index>(h);
-      if (pose[h].mode != mode)
+      if (full != (pose[h].mode == HandleMode::full))
       {
         continue;
       }
-      if (mode == HandleMode::position)
+      for (std::size_t k = 0; full && k < this->grips_[h].points.size(); ++k)
+      {
+        this->holds_.push_back({ handle, this->grips_[h].points[k] });
+      }
+      if (holds_pivot(pose[h].mode))
       {
         this->holds_.push_back({ handle, this->grips_[h].pivot });
       }
-      else
+      if (holds_tail(pose[h].mode))
       {
-        for (const MeshPoint& point : this->grips_[h].points)
-        {
-          this->holds_.push_back({ handle, point });
-        }
+        this->holds_.push_back({ handle, this->grips_[h].tail, -1, -1, true });
       }
     }
   }
@@ -304,7 +310,7 @@ std::vector<std::string> MeshGrips::redundancy(
   for (const Index point : points)
   {
     const Index handle = this->holder_[point];
-    if (pose[handle].mode == HandleMode::position)
+    if (pose[handle].mode != HandleMode::full)
     {
       redundant.push_back(handle);
     }

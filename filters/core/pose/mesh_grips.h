@@ -14,8 +14,9 @@ namespace bindpose
 /// A handle in mode `full` takes its vertices with it: a point or cage vertex the vertex at its
 /// place, a bone those along it, a region those of its label. In mode `position` its pivot goes
 /// where the transform takes it (of a region the middle of its vertices), in mode `free` nothing is
-/// asked. Where no vertex is, the point of the element there is held, exactly; beside the mesh, the
-/// mesh's nearest point. A vertex of several full handles goes to the mean of where they want it.
+/// asked; in the modes of bones' ends these are held as pivots are. Where no vertex is, the point
+/// of the element there is held, exactly; beside the mesh, the mesh's nearest point. A vertex of
+/// several full handles goes to the mean of where they want it.
 class MeshGrips
 {
 public:
@@ -28,6 +29,7 @@ public:
     MeshPoint point;
     Index given = -1; ///< place among the given vertices, else
     Index held = -1; ///< among the held points
+    bool tail = false; ///< of a bone, in the modes of ends
   };
 
   /// @param elements those that count; parts: their connected parts.
@@ -63,7 +65,8 @@ private:
   struct Grip
   {
     std::vector<MeshPoint> points; ///< in mode full
-    MeshPoint pivot; ///< in mode position
+    MeshPoint pivot; ///< in modes position and ends
+    MeshPoint tail; ///< bones: in modes tail and ends
   };
   template <typename Elements>
   Status find_any(PointsView points, const Elements& elements, const Components& parts,

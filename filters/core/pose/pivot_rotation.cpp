@@ -14,10 +14,15 @@ Eigen::Matrix3d pivot_rotation(const Handles& handles, const Pose& pose, double 
   Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
   for (std::size_t h = 0; h < pose.size(); ++h)
   {
-    if (pose[h].mode != HandleMode::free)
+    if (pose[h].mode == HandleMode::full || holds_pivot(pose[h].mode))
     {
-      const Vec3 pivot = handles[h].head;
-      pivots.emplace_back(pivot, pose[h].transform * pivot.homogeneous());
+      pivots.emplace_back(handles[h].head, posed_pivot(handles[h], pose[h]));
+      rest_mean += pivots.back().first;
+      posed_mean += pivots.back().second;
+    }
+    if (holds_tail(pose[h].mode))
+    {
+      pivots.emplace_back(handles[h].tail, posed_tail(handles[h], pose[h]));
       rest_mean += pivots.back().first;
       posed_mean += pivots.back().second;
     }

@@ -1,6 +1,8 @@
 #include "pose/pose.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 namespace bindpose
 {
@@ -13,10 +15,25 @@ const char* to_string(HandleMode mode)
       return "position";
     case HandleMode::free:
       return "free";
+    case HandleMode::tail:
+      return "tail";
+    case HandleMode::ends:
+      return "ends";
     case HandleMode::full:
       break;
   }
   return "full";
+}
+
+Vec3 posed_pivot(const Handle& handle, const HandlePose& pose)
+{
+  return pose.transform * handle.head.homogeneous();
+}
+
+Vec3 posed_tail(const Handle& handle, const HandlePose& pose)
+{
+  const Vec3 stretched = handle.head + pose.stretch * (handle.tail - handle.head);
+  return pose.transform * stretched.homogeneous();
 }
 
 Status check_pose(const Handles& handles, const Pose& pose)
@@ -28,10 +45,15 @@ Status check_pose(const Handles& handles, const Pose& pose)
   }
   for (std::size_t h = 0; h < pose.size(); ++h)
   {
-    if (!pose[h].transform.allFinite())
+    if (!pose[h].transform.allFinite() || !std::isfinite(pose[h].stretch))
     {
       return Status::invalid_input(
         "the transform of handle '" + handles[h].name + "' has a number that is not finite");
+    }
+    if (holds_tail(pose[h].mode) && handles[h].kind != HandleKind::bone)
+    {
+      return Status::invalid_input("the mode " + std::string(to_string(pose[h].mode)) +
+        " of handle '" + handles[h].name + "' is for bones");
     }
   }
   return {};

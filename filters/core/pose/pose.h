@@ -13,10 +13,12 @@ enum class HandleMode : int
 {
   full = 0, ///< the whole transform
   position = 1, ///< where the pivot goes; rotation and scale are found
-  free = 2 ///< nothing
+  free = 2, ///< nothing
+  tail = 3, ///< bones: where the tail goes
+  ends = 4 ///< bones: where both ends go
 };
 
-/// "full", "position", "free".
+/// "full", "position", "free", "tail", "ends".
 const char* to_string(HandleMode mode);
 
 /// x -> linear * x + translation as 3 x 4, rest to posed, absolute.
@@ -37,11 +39,25 @@ struct HandlePose
   Eigen::Vector2d twist = Eigen::Vector2d::Zero(); ///< bones: degrees at head and tail
 };
 
+/// Whether a mode that is not full fixes where the pivot goes, or the tail.
+inline bool holds_pivot(HandleMode mode)
+{
+  return mode == HandleMode::position || mode == HandleMode::ends;
+}
+inline bool holds_tail(HandleMode mode)
+{
+  return mode == HandleMode::tail || mode == HandleMode::ends;
+}
+
+/// Where a pose takes a handle's pivot, or its tail: along the posed bone, as far as it stretches.
+Vec3 posed_pivot(const Handle& handle, const HandlePose& pose);
+Vec3 posed_tail(const Handle& handle, const HandlePose& pose);
+
 /// One HandlePose for each handle, in the order of the columns.
 using Pose = std::vector<HandlePose>;
 
 /// invalid_input for another number of entries than of handles, for none, and, naming the handle,
-/// for a transform that is not finite.
+/// for numbers that are not finite and for a mode of bones' ends at another handle.
 Status check_pose(const Handles& handles, const Pose& pose);
 
 /// What can be bound: invalid_input for check_mesh()'s reasons, a point that is not finite, no

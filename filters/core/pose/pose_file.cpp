@@ -165,10 +165,18 @@ HandleEdit read_handle(const Json& value, const std::string& where, Index index,
     }
     if (key == "mode")
     {
-      const std::string mode = word(entry, at, { "full", "position", "free" });
+      const std::string mode = word(entry, at, { "full", "position", "free", "tail", "ends" });
       edit.mode = mode == "free" ? HandleMode::free
         : mode == "position"     ? HandleMode::position
+        : mode == "tail"         ? HandleMode::tail
+        : mode == "ends"         ? HandleMode::ends
                                  : HandleMode::full;
+      if (holds_tail(*edit.mode) && rest.kind != HandleKind::bone)
+      {
+        fail(at,
+          " is '" + mode + "', for bones, but the handle is a " +
+            std::string(to_string(rest.kind)));
+      }
     }
     else if (key == "translate")
     {

@@ -40,7 +40,7 @@ using PoseExpression = std::function<Status(const std::string& text, double t, d
 
 /// Reads the text of a POSE.json: one pose
 ///
-///     {"handles": {NAME: {"mode": "full|position|free", "translate": [x, y, z],
+///     {"handles": {NAME: {"mode": "full|position|free|tail|ends", "translate": [x, y, z],
 ///                         "rotate": {"axis": [x, y, z], "degrees": d}, "scale": s,
 ///                         "space": "world|parent",
 ///                         "head": [x, y, z], "tail": [x, y, z], "stretch": s,

@@ -118,9 +118,13 @@ void ReducedSolver::factor(
   this->redundant_.clear();
   for (Index h = 0; h < static_cast<Index>(pose.size()); ++h)
   {
-    if (pose[static_cast<std::size_t>(h)].mode == HandleMode::position)
+    if (holds_pivot(pose[static_cast<std::size_t>(h)].mode))
     {
       this->positions_.push_back(h);
+    }
+    if (holds_tail(pose[static_cast<std::size_t>(h)].mode))
+    {
+      this->positions_.push_back(h + static_cast<Index>(pose.size()));
     }
   }
   for (Index j = 0; j < space.columns; ++j)
@@ -173,7 +177,8 @@ void ReducedSolver::factor(
     for (Index r = rank; r < asked; ++r)
     {
       this->redundant_.push_back(
-        this->positions_[static_cast<std::size_t>(qr.colsPermutation().indices()[r])]);
+        this->positions_[static_cast<std::size_t>(qr.colsPermutation().indices()[r])] %
+        static_cast<Index>(pose.size()));
     }
     if (rank > 0)
     {
@@ -297,9 +302,12 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   for (Index r = 0; r < asked; ++r)
   {
     const Index h = this->positions_[static_cast<std::size_t>(r)];
-    const Vec3 pivot = space.handles[static_cast<std::size_t>(h)].head;
-    wanted.row(r) =
-      (pose[static_cast<std::size_t>(h)].transform * pivot.homogeneous() - pivot).transpose();
+    const auto handle = static_cast<std::size_t>(h) % pose.size();
+    const Handle& rest = space.handles[handle];
+    const Vec3 move = static_cast<std::size_t>(h) < pose.size()
+      ? posed_pivot(rest, pose[handle]) - rest.head
+      : posed_tail(rest, pose[handle]) - rest.tail;
+    wanted.row(r) = move.transpose();
   }
   // D*: the positions met, then the given blocks, that and the load answered with Q = 0.
   Rows star = d;
@@ -416,7 +424,8 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
       residual = std::max(residual, miss);
       if (miss > contradiction)
       {
-        contradicting.push_back(this->positions_[static_cast<std::size_t>(r)]);
+        contradicting.push_back(
+          this->positions_[static_cast<std::size_t>(r)] % static_cast<Index>(pose.size()));
       }
     }
   }

@@ -70,7 +70,7 @@ private:
   // ---- per choice of modes
   std::vector<HandleMode> modes_;
   std::vector<Index> open_; ///< open unknowns: rows of D
-  std::vector<Index> positions_; ///< handles in mode position
+  std::vector<Index> positions_; ///< pivots and tails that are held: rows of pivot_rows
   std::vector<Index> redundant_;
   Eigen::MatrixXd position_rows_; ///< positions x 4 columns: displacement of their pivots
   Eigen::MatrixXd particular_; ///< open x positions: least change that meets the positions

@@ -91,31 +91,40 @@ template <typename Elements>
 void ReducedSpace::find_pivots(PointsView points, const Elements& elements, WeightsView weights)
 {
   const auto count = static_cast<Index>(this->handles.size());
-  this->pivot_rows = Eigen::MatrixXd::Zero(count, 4 * this->columns);
+  this->pivot_rows = Eigen::MatrixXd::Zero(2 * count, 4 * this->columns);
   Eigen::RowVectorXd row(4 * this->columns);
   std::vector<Index> open;
-  for (Index h = 0; h < count; ++h)
+  const auto place = [&](Index end) -> const Vec3&
   {
-    const Handle& handle = this->handles[static_cast<std::size_t>(h)];
-    // What holds when the mesh does not hold the pivot: the handle's own transform.
-    Eigen::VectorXd unit = Eigen::VectorXd::Unit(this->columns, h);
-    this->basis_row(unit.data(), handle.head, row.data());
-    this->pivot_rows.row(h) = row;
+    const Handle& handle = this->handles[static_cast<std::size_t>(end % count)];
+    return end < count ? handle.head : handle.tail;
+  };
+  for (Index end = 0; end < 2 * count; ++end)
+  {
+    const Handle& handle = this->handles[static_cast<std::size_t>(end % count)];
+    if (end >= count && handle.kind != HandleKind::bone)
+    {
+      continue;
+    }
+    // What holds when the mesh does not hold the place: the handle's own transform.
+    Eigen::VectorXd unit = Eigen::VectorXd::Unit(this->columns, end % count);
+    this->basis_row(unit.data(), place(end), row.data());
+    this->pivot_rows.row(end) = row;
     if (handle.kind == HandleKind::region)
     {
       continue; // its vertices move as one, wherever their middle lies
     }
     Index nearest = 0;
     const double distance = std::sqrt(
-      (points.rowwise() - handle.head.transpose()).rowwise().squaredNorm().minCoeff(&nearest));
+      (points.rowwise() - place(end).transpose()).rowwise().squaredNorm().minCoeff(&nearest));
     if (distance <= same_place * this->diagonal)
     {
       const Vec3 at = points.row(nearest);
       this->basis_row(weights.row(nearest).data(), at, row.data());
-      this->pivot_rows.row(h) = row;
+      this->pivot_rows.row(end) = row;
       continue;
     }
-    open.push_back(h);
+    open.push_back(end);
   }
   constexpr int corners = Elements::ColsAtCompileTime;
   for (Index e = 0; e < elements.rows() && !open.empty(); ++e)
@@ -128,7 +137,7 @@ void ReducedSpace::find_pivots(PointsView points, const Elements& elements, Weig
     const double margin = on_surface * this->diagonal;
     for (std::size_t i = 0; i < open.size(); ++i)
     {
-      const Vec3 p = this->handles[static_cast<std::size_t>(open[i])].head;
+      const Vec3 p = place(open[i]);
       Eigen::Vector4d lambda;
       if (((p - box.lower).array() < -margin).any() || ((p - box.upper).array() > margin).any() ||
         !locate(points, elements, e, p, this->diagonal, lambda))

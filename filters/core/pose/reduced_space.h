@@ -67,7 +67,8 @@ struct ReducedSpace
   Eigen::MatrixXd mass; ///< M^T M_L M, M_L lumped, of density 1; only when asked for
   Eigen::VectorXd mass_sums; ///< M^T M_L 1
   Eigen::MatrixXd covariance; ///< K M, rows i * clusters + k
-  Eigen::MatrixXd pivot_rows; ///< #handles x 4 columns: displacement of the pivots
+  /// Displacements of the handles' pivots, then of their tails: 2 #handles x 4 columns.
+  Eigen::MatrixXd pivot_rows;
   Eigen::MatrixXd cluster_weights; ///< #clusters x #handles, mean |weights|
   /// Matrices of clusters lie in planes: (3 i + j) * stride + k holds entry (i, j) of matrix k, and
   /// the stride is in whole tiles of 8.

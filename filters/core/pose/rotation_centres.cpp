@@ -1,10 +1,11 @@
-// Similarity depends on weights only and is smooth in them, so elements of nearly the same weights
-// are one term of the sum: weight space is halved, along the weight that differs most, until no
-// box is larger than the group size. A group keeps its size (area or volume), centroid and mean
-// weights, so that what is linear in the weights within it is exact.
+// Similarity is a sum over pairs of handles, and a pair's term depends on two weights only and is
+// smooth in them. So elements in which these two are nearly the same are one term of the pair's
+// sum, whatever their other weights are: the plane of both weights is halved, along the one that
+// differs more, until no box is larger than the group size. Twenty handles that are all felt
+// everywhere leave hardly two elements alike, but hundreds in each plane.
 //
-// A pair of handles sees only groups that have both. Each pair has these side by side, and a vertex
-// that has the pair runs over them, eight at once.
+// Each pair has its groups side by side, and a vertex that has the pair runs over them, eight at
+// once. Pairs are made one by one, all from the elements that have both handles.
 #include "pose/rotation_centres.h"
 
 #include "base/parallel.h"
@@ -24,32 +25,35 @@ constexpr Index block_size = 16; // vertices: a cancel is seen soon
 constexpr Index element_block = 4096;
 constexpr Index lanes = 8;
 
-/// Elements of nearly the same weights.
-struct Group
+/// An element that has both handles of a pair.
+struct PairElement
 {
-  double size = 0.0;
-  Vec3 moment = Vec3::Zero(); ///< size times centroid
+  double weights[2]; ///< means of its corners'
+  double amount; ///< size * both weights
+  Index element;
 };
 
-/// The groups that have both handles of a pair; the arrays are padded to whole lanes by groups of
-/// size zero.
+/// The groups of elements that have both handles of a pair; the arrays are padded to whole lanes by
+/// groups of amount zero.
 struct PairGroups
 {
-  std::vector<double> first, second; ///< mean weights
-  std::vector<double> amount; ///< size * first * second
-  std::vector<double> x, y, z; ///< amount * centroid
+  std::vector<double> first, second; ///< mean weights, over the width
+  std::vector<double> amount; ///< sum of size * first * second
+  std::vector<double> x, y, z; ///< sum of amount * centroid
+  Index count = 0;
 
-  void add(double a, double b, double size, const Vec3& centroid)
+  void add(double a, double b, double of_all, const Vec3& moment)
   {
     this->first.push_back(a);
     this->second.push_back(b);
-    this->amount.push_back(size * a * b);
-    this->x.push_back(size * a * b * centroid[0]);
-    this->y.push_back(size * a * b * centroid[1]);
-    this->z.push_back(size * a * b * centroid[2]);
+    this->amount.push_back(of_all);
+    this->x.push_back(moment[0]);
+    this->y.push_back(moment[1]);
+    this->z.push_back(moment[2]);
   }
   void pad()
   {
+    this->count = static_cast<Index>(this->first.size());
     while (static_cast<Index>(this->first.size()) % lanes != 0)
     {
       this->add(0.0, 0.0, 0.0, Vec3::Zero());
@@ -131,76 +135,76 @@ double size_of(PointsView points, const Index* v, int corners)
                       : std::abs(tet_volume(a, b, c, Vec3(points.row(v[3]))));
 }
 
-/// Puts elements of nearly the same weights together.
-class Grouping
+/// Where the second half of a range begins, halved along the weight that differs more; begin: there
+/// is none, the range is a group.
+std::size_t split(
+  std::vector<PairElement>& elements, std::size_t begin, std::size_t end, double limit)
 {
-public:
-  Grouping(Weights weights, const RotationCentresOptions& options)
-    : weights_(std::move(weights)), limit_(options.group_size)
+  double lower[2] = { elements[begin].weights[0], elements[begin].weights[1] };
+  double upper[2] = { lower[0], lower[1] };
+  for (std::size_t k = begin + 1; k < end; ++k)
   {
+    for (int axis = 0; axis < 2; ++axis)
+    {
+      lower[axis] = std::min(lower[axis], elements[k].weights[axis]);
+      upper[axis] = std::max(upper[axis], elements[k].weights[axis]);
+    }
   }
-
-  /// Ranges of `order` that are groups.
-  bool run(ExecutionContext& context, std::vector<Index>& order, std::vector<Index>& ends)
+  const int axis = upper[1] - lower[1] > upper[0] - lower[0] ? 1 : 0;
+  if (!(upper[axis] - lower[axis] > limit))
   {
-    std::vector<std::pair<Index, Index>> open;
-    if (!order.empty())
-    {
-      open.emplace_back(0, static_cast<Index>(order.size()));
-    }
-    Index done = 0;
-    while (!open.empty())
-    {
-      const auto [begin, end] = open.back();
-      open.pop_back();
-      const Index middle = this->split(order, begin, end);
-      if (middle > begin)
-      {
-        open.emplace_back(middle, end);
-        open.emplace_back(begin, middle);
-        continue;
-      }
-      ends.push_back(end);
-      done += end - begin;
-      context.progress(static_cast<double>(done) / static_cast<double>(order.size()));
-      if (context.cancelled())
-      {
-        return false;
-      }
-    }
-    return true;
+    return begin;
   }
+  // Below the upper end even where both are neighbours, so that each half has an element.
+  const double half = 0.5 * (lower[axis] + upper[axis]);
+  const double cut = half < upper[axis] ? half : lower[axis];
+  const auto first = elements.begin();
+  return static_cast<std::size_t>(
+    std::stable_partition(first + static_cast<std::ptrdiff_t>(begin),
+      first + static_cast<std::ptrdiff_t>(end),
+      [&](const PairElement& element) { return element.weights[axis] <= cut; }) -
+    first);
+}
 
-  const Weights& weights() const { return this->weights_; }
-
-private:
-  /// Where the second half begins; begin: there is none.
-  Index split(std::vector<Index>& order, Index begin, Index end) const
+/// What is the same of elements whose two weights are nearly the same.
+PairGroups groups_of(std::vector<PairElement>& elements, const Points& centroids,
+  const RotationCentresOptions& options)
+{
+  PairGroups groups;
+  std::vector<std::pair<std::size_t, std::size_t>> open;
+  if (!elements.empty())
   {
-    Eigen::RowVectorXd lower = this->weights_.row(order[static_cast<std::size_t>(begin)]);
-    Eigen::RowVectorXd upper = lower;
-    for (Index k = begin + 1; k < end; ++k)
-    {
-      const auto row = this->weights_.row(order[static_cast<std::size_t>(k)]);
-      lower = lower.cwiseMin(row);
-      upper = upper.cwiseMax(row);
-    }
-    Index widest = 0;
-    if (!((upper - lower).maxCoeff(&widest) > this->limit_))
-    {
-      return begin;
-    }
-    // Below the upper end even where both are neighbours, so that each half has an element.
-    const double half = 0.5 * (lower[widest] + upper[widest]);
-    const double cut = half < upper[widest] ? half : lower[widest];
-    const auto middle = std::stable_partition(order.begin() + begin, order.begin() + end,
-      [&](Index e) { return this->weights_(e, widest) <= cut; });
-    return middle - order.begin();
+    open.emplace_back(0, elements.size());
   }
-
-  Weights weights_;
-  double limit_;
-};
+  while (!open.empty())
+  {
+    const auto [begin, end] = open.back();
+    open.pop_back();
+    const std::size_t middle = split(elements, begin, end, options.group_size);
+    if (middle > begin)
+    {
+      open.emplace_back(middle, end);
+      open.emplace_back(begin, middle);
+      continue;
+    }
+    double amount = 0.0, first = 0.0, second = 0.0;
+    Vec3 moment = Vec3::Zero();
+    for (std::size_t k = begin; k < end; ++k)
+    {
+      const PairElement& element = elements[k];
+      amount += element.amount;
+      first += element.amount * element.weights[0];
+      second += element.amount * element.weights[1];
+      moment += element.amount * centroids.row(element.element).transpose();
+    }
+    if (amount > 0.0)
+    {
+      groups.add(first / amount / options.width, second / amount / options.width, amount, moment);
+    }
+  }
+  groups.pad();
+  return groups;
+}
 
 Status check(const RotationCentresOptions& options, PointsView points, WeightsView weights)
 {
@@ -254,7 +258,7 @@ Status find_centres(ExecutionContext& context, const RotationCentresOptions& opt
       sizes[static_cast<std::size_t>(e)] = size_of(points, elements.data() + corners * e, corners);
     }
   };
-  std::vector<Index> order, ends;
+  Points centroids = Points::Zero(count, 3);
   {
     const ProgressRange range(context, 0.0, 0.02);
     if (!parallel_for(context, count, element_block, gather))
@@ -262,63 +266,66 @@ Status find_centres(ExecutionContext& context, const RotationCentresOptions& opt
       return Status::cancelled();
     }
   }
+  // The elements that each handle is felt in.
+  std::vector<std::vector<Index>> felt(static_cast<std::size_t>(handles));
   for (Index e = 0; e < count; ++e)
   {
-    // What has one handle only is similar to nothing.
-    if (sizes[static_cast<std::size_t>(e)] > 0.0 && (means.row(e).array() > smallest).count() > 1)
+    for (Index j = 0; j < handles && sizes[static_cast<std::size_t>(e)] > 0.0; ++j)
     {
-      order.push_back(e);
+      if (means(e, j) > smallest)
+      {
+        felt[static_cast<std::size_t>(j)].push_back(e);
+      }
+    }
+    for (int c = 0; c < corners; ++c)
+    {
+      centroids.row(e) += points.row(elements(e, c)) / corners;
     }
   }
-  Grouping grouping(std::move(means), options);
+  const Index pair_count = handles * (handles - 1) / 2;
+  std::vector<PairGroups> pairs(static_cast<std::size_t>(pair_count));
+  std::vector<std::pair<Index, Index>> names;
+  for (Index j = 0; j < handles; ++j)
   {
-    const ProgressRange range(context, 0.02, 0.1);
-    if (!grouping.run(context, order, ends))
+    for (Index k = j + 1; k < handles; ++k)
+    {
+      names.emplace_back(j, k);
+    }
+  }
+  {
+    const ProgressRange range(context, 0.02, 0.3);
+    const bool done = parallel_for(context, pair_count, 1,
+      [&](Index from, Index to)
+      {
+        std::vector<PairElement> both;
+        for (Index p = from; p < to; ++p)
+        {
+          const auto [j, k] = names[static_cast<std::size_t>(p)];
+          both.clear();
+          for (const Index e : felt[static_cast<std::size_t>(j)])
+          {
+            const double a = means(e, j), b = means(e, k);
+            if (b > smallest)
+            {
+              both.push_back({ { a, b }, sizes[static_cast<std::size_t>(e)] * a * b, e });
+            }
+          }
+          pairs[static_cast<std::size_t>(p)] = groups_of(both, centroids, options);
+        }
+      });
+    if (!done)
     {
       return Status::cancelled();
     }
   }
-
-  std::vector<PairGroups> pairs(static_cast<std::size_t>(handles * (handles - 1) / 2));
-  Index begin = 0;
-  for (const Index end : ends)
+  Index groups = 0;
+  for (const PairGroups& pair : pairs)
   {
-    Group group;
-    Eigen::RowVectorXd mean = Eigen::RowVectorXd::Zero(handles);
-    for (Index k = begin; k < end; ++k)
-    {
-      const Index e = order[static_cast<std::size_t>(k)];
-      const double size = sizes[static_cast<std::size_t>(e)];
-      Vec3 centroid = Vec3::Zero();
-      for (int c = 0; c < corners; ++c)
-      {
-        centroid += points.row(elements(e, c)).transpose() / corners;
-      }
-      group.size += size;
-      group.moment += size * centroid;
-      mean += size * grouping.weights().row(e);
-    }
-    begin = end;
-    mean /= group.size;
-    for (Index j = 0; j < handles; ++j)
-    {
-      for (Index k = j + 1; mean[j] > smallest && k < handles; ++k)
-      {
-        if (mean[k] > smallest)
-        {
-          pairs[static_cast<std::size_t>(pair_of(j, k, handles))].add(mean[j] / options.width,
-            mean[k] / options.width, group.size, group.moment / group.size);
-        }
-      }
-    }
-  }
-  for (PairGroups& pair : pairs)
-  {
-    pair.pad();
+    groups += pair.count;
   }
 
   std::vector<char> found(static_cast<std::size_t>(points.rows()), 0);
-  const ProgressRange range(context, 0.1, 1.0);
+  const ProgressRange range(context, 0.3, 1.0);
   const bool done = parallel_for(context, points.rows(), block_size,
     [&](Index from, Index to)
     {
@@ -366,7 +373,7 @@ Status find_centres(ExecutionContext& context, const RotationCentresOptions& opt
     return Status::cancelled();
   }
   Status status;
-  status.report.set("counts.groups", static_cast<Index>(ends.size()));
+  status.report.set("counts.groups", groups);
   status.report.set(
     "counts.centers", static_cast<Index>(std::count(found.begin(), found.end(), char(1))));
   return status;

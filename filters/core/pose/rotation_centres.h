@@ -17,10 +17,10 @@ struct RotationCentresOptions
   /// Pairs of a vertex's handles whose product of weights is less than this share of its largest do
   /// not count, 0 to 1. 1e-3 by default: most pairs of many handles are that small.
   double smallest_pair = 1e-3;
-  /// Elements whose weights differ by no more than this are taken together, as one of their mean
-  /// weights at their centroid; 0: none but equals. 0.01 by default, a tenth of the width: centres
-  /// move by less than a thousandth of the shape.
-  double group_size = 0.01;
+  /// Elements whose weights of a pair of handles differ by no more than this are one for that pair,
+  /// with the mean of these weights; 0: none but equals, the formula itself. 0.015 by default:
+  /// centres move by less than a thousandth of the shape.
+  double group_size = 0.015;
 };
 
 /// A centre of rotation for each vertex (Le and Hodgins 2016, Real-time skeletal skinning with
@@ -34,11 +34,11 @@ struct RotationCentresOptions
 /// A vertex with less than two weights, to which nothing is similar, is its own centre: whatever
 /// the centre, it moves the same.
 ///
-/// Cost: a vertex looks at the groups of elements that have two of its handles, about 2 ns each
-/// and pair of handles with AVX2. Memory: 48 bytes for each group and pair of handles it has.
-/// Report: counts.groups, counts.centers (vertices with one of their own). The same bits for any
-/// number of threads and on any machine. invalid_input for options out of range and weights that
-/// are not as many rows as points, or not finite; elements must be valid (check_mesh).
+/// Cost: a vertex looks at the groups of each pair of its handles, some hundreds, about 2 ns each
+/// with AVX2. Memory: 48 bytes for each group, and for each element as many as it has handles.
+/// Report: counts.groups (of all pairs), counts.centers (vertices with one of their own). The same
+/// bits for any number of threads and on any machine. invalid_input for options out of range and
+/// weights that are not as many rows as points, or not finite; elements must be valid (check_mesh).
 Status rotation_centres(ExecutionContext& context, const RotationCentresOptions& options,
   PointsView points, TetsView tets, WeightsView weights, Points& centres);
 Status rotation_centres(ExecutionContext& context, const RotationCentresOptions& options,

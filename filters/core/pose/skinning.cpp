@@ -517,10 +517,9 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
   }
   const auto of_instances = [&](std::size_t count, const char* what)
   {
-    return count == transforms.size()
-      ? Status()
-      : Status::invalid_input("there are " + std::to_string(count) + what +
-          std::to_string(transforms.size()) + " instances");
+    return count == transforms.size() ? Status()
+                                      : Status::invalid_input("there are " + std::to_string(count) +
+                                          what + std::to_string(transforms.size()) + " instances");
   };
   Status fits = of_instances(posed.size(), " arrays of points for ");
   if (fits.ok() && !placements.empty())
@@ -571,8 +570,7 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
             place(placements[i], at[tile], placed);
           }
           pose_tile(this->floats_, v / lanes, moves[i], points[tile],
-            placements.empty() ? at[tile] : placed, std::min(lanes, end - v),
-            posed[i] + 3 * v);
+            placements.empty() ? at[tile] : placed, std::min(lanes, end - v), posed[i] + 3 * v);
         }
       }
     });
@@ -887,13 +885,17 @@ Status skinning_transforms(
   std::vector<Index> free;
   for (std::size_t h = 0; h < handles.size(); ++h)
   {
-    if (pose[h].mode == HandleMode::full)
+    if (pose[h].mode == HandleMode::full || pose[h].mode == HandleMode::ends)
     {
       transforms[h] = pose[h].transform;
     }
     else if (pose[h].mode == HandleMode::position)
     {
-      transforms[h].col(3) = pose[h].transform * handles[h].head.homogeneous() - handles[h].head;
+      transforms[h].col(3) = posed_pivot(handles[h], pose[h]) - handles[h].head;
+    }
+    else if (pose[h].mode == HandleMode::tail)
+    {
+      transforms[h].col(3) = posed_tail(handles[h], pose[h]) - handles[h].tail;
     }
     else
     {
@@ -914,7 +916,8 @@ std::vector<BoneChange> bone_changes(const Handles& handles, const Pose& pose)
   std::vector<BoneChange> changes(handles.size());
   for (std::size_t h = 0; h < handles.size(); ++h)
   {
-    if (handles[h].kind == HandleKind::bone && pose[h].mode == HandleMode::full)
+    if (handles[h].kind == HandleKind::bone &&
+      (pose[h].mode == HandleMode::full || pose[h].mode == HandleMode::ends))
     {
       changes[h] = { handles[h].head, handles[h].tail - handles[h].head, pose[h].stretch,
         pose[h].twist };

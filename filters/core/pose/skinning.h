@@ -151,7 +151,8 @@ private:
 };
 
 /// The transforms that skinning uses: those of handles in mode full; of a handle in mode position
-/// the translation of its pivot; identity for a free handle, with a warning that names them.
+/// or tail the translation of that, of a bone in mode ends its own; identity for a free handle,
+/// with a warning that names them.
 Status skinning_transforms(
   const Handles& handles, const Pose& pose, std::vector<Affine>& transforms);
 

@@ -217,6 +217,8 @@ TEST(PoseFile, WhatIsWrongIsNamed)
   EXPECT_THAT(
     message(R"({"handles": {"p": {"mode": "half"}}})"), HasSubstr("full, position, free"));
   EXPECT_THAT(message(R"({"handles": {"p": {"mode": 1}}})"), HasSubstr("full, position, free"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"mode": "ends"}}})"),
+    HasSubstr("mode is 'ends', for bones, but the handle is a point"));
   EXPECT_THAT(message(R"({"handles": {"p": {"translate": [1, 2]}}})"), HasSubstr("3 numbers"));
   EXPECT_THAT(message(R"({"handles": {"p": {"translate": [1, 2, "x"]}}})"), HasSubstr("a text"));
   EXPECT_THAT(message(R"({"handles": {"p": {"translate": [1, 2, null]}}})"), HasSubstr("null"));

@@ -1,5 +1,6 @@
 // Reduced as-rigid-as-possible: constraints, extra weights, and what must hold whatever the
 // weights, the world and the machine.
+#include "pose/full_arap.h"
 #include "pose/reduced_arap.h"
 
 #include "core/pose/arap_cases.h"
@@ -490,4 +491,110 @@ TEST(ReducedArapRobustness, CancelEndsTheBindAndTheSolve)
   ASSERT_TRUE(arap.bind(fine, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).ok());
   EXPECT_EQ(
     arap.solve(context, bend(HandleMode::free), iterations(1000)).code, StatusCode::cancelled);
+}
+
+namespace
+{
+/// The bar, its middle handle a bone between two vertices away from it.
+struct BoneInABar
+{
+  test::Rig rig = test::bar();
+  Index head = 0, tail = 0; ///< vertices
+
+  BoneInABar()
+  {
+    const auto nearest = [&](const Vec3& place)
+    {
+      Index v = 0;
+      (this->rig.mesh.points.rowwise() - place.transpose()).rowwise().norm().minCoeff(&v);
+      return v;
+    };
+    this->head = nearest(Vec3(1.5, 0, 0));
+    this->tail = nearest(Vec3(2.5, 1, 1));
+    Handle& bone = this->rig.handles[1];
+    bone.kind = HandleKind::bone;
+    bone.head = this->rig.mesh.points.row(this->head);
+    bone.tail = this->rig.mesh.points.row(this->tail);
+  }
+};
+} // namespace
+
+TEST(ReducedArapRobustness, EndsOfBonesAreHeldOneByOne)
+{
+  const BoneInABar bar;
+  const test::Rig& rig = bar.rig;
+  ExecutionContext context;
+  ReducedArap arap;
+  ASSERT_TRUE(arap.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).ok());
+  FullArap whole;
+  ASSERT_TRUE(whole.bind(context, rig.mesh.points, rig.mesh.tets, rig.handles).usable());
+  Pose pose = bend(HandleMode::free);
+  pose[1].transform = rigid(25, Vec3(0, 0.3, 1), Vec3(0.2, 0.4, -0.1));
+  pose[1].stretch = 1.2;
+  const Vec3 head = posed_pivot(rig.handles[1], pose[1]);
+  const Vec3 tail = posed_tail(rig.handles[1], pose[1]);
+  EXPECT_NEAR(
+    (tail - head).norm(), 1.2 * (rig.handles[1].tail - rig.handles[1].head).norm(), 1e-12);
+  std::vector<double> energies;
+  for (const HandleMode mode :
+    { HandleMode::free, HandleMode::position, HandleMode::tail, HandleMode::ends })
+  {
+    pose[1].mode = mode;
+    const Status status = arap.solve(context, pose, iterations(500));
+    ASSERT_TRUE(status.ok() && status.warnings.empty()) << to_string(mode);
+    ASSERT_LT(status.report.number("constraint_residual", 0.0), 1e-12);
+    energies.push_back(status.report.number("energy", -1.0));
+    Points result;
+    ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
+    EXPECT_EQ((result.row(bar.head).transpose() - head).norm() < 1e-11, holds_pivot(mode));
+    EXPECT_EQ((result.row(bar.tail).transpose() - tail).norm() < 1e-11, holds_tail(mode));
+
+    const Status full = whole.solve(context, pose);
+    ASSERT_TRUE(full.usable()) << full.message;
+    ASSERT_LT(full.report.number("constraint_residual", 0.0), 1e-9);
+    const Points& without = whole.posed();
+    EXPECT_EQ((without.row(bar.head).transpose() - head).norm() < 1e-9, holds_pivot(mode));
+    EXPECT_EQ((without.row(bar.tail).transpose() - tail).norm() < 1e-9, holds_tail(mode));
+  }
+  // What is held costs, both ends most.
+  EXPECT_LT(energies[0], energies[1]);
+  EXPECT_LT(energies[0], energies[2]);
+  EXPECT_LT(energies[1], energies[3]);
+  EXPECT_LT(energies[2], energies[3]);
+}
+
+TEST(ReducedArapRobustness, RigidTargetsOfEndsAreReached)
+{
+  // Both ends of bones that are not all on one line hold a rigid motion.
+  BoneInABar bar;
+  test::Rig& rig = bar.rig;
+  rig.handles[2].kind = HandleKind::bone;
+  rig.handles[2].tail = rig.mesh.points.row(0);
+  ExecutionContext context;
+  ReducedArap arap;
+  ASSERT_TRUE(arap.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).ok());
+  const Affine motion = rigid(110, Vec3(1, 2, 3), Vec3(5, -2, 1));
+  Pose pose = posed(rig.handles, HandleMode::ends, motion);
+  pose[0].mode = HandleMode::position;
+  const Status status = arap.solve(context, pose, iterations(2000));
+  ASSERT_TRUE(status.ok());
+  Points result;
+  ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
+  EXPECT_LT((result - moved(rig.mesh.points, motion)).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(ReducedArapRobustness, ModesOfEndsAreForBones)
+{
+  const test::Rig rig = test::bar();
+  ExecutionContext context;
+  ReducedArap arap;
+  ASSERT_TRUE(arap.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).ok());
+  for (const HandleMode mode : { HandleMode::tail, HandleMode::ends })
+  {
+    const Status status = arap.solve(context, bend(mode));
+    EXPECT_EQ(status.code, StatusCode::invalid_input);
+    EXPECT_EQ(status.message,
+      "the mode " + std::string(to_string(mode)) + " of handle '" + rig.handles[1].name +
+        "' is for bones");
+  }
 }

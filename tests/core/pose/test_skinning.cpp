@@ -323,6 +323,17 @@ TEST(Skinning, ModesReadAsTranslationsAndIdentity)
   EXPECT_EQ(transforms[2], identity_affine());
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("'c'"));
+
+  // Bones held by their ends: the tail moves along, both ends have the transform.
+  handles[1].kind = handles[2].kind = HandleKind::bone;
+  handles[1].tail = Vec3(3, 0, 0);
+  pose[1].mode = HandleMode::tail;
+  pose[1].stretch = 1.5;
+  pose[2].mode = HandleMode::ends;
+  EXPECT_TRUE(skinning_transforms(handles, pose, transforms).warnings.empty());
+  EXPECT_EQ(transforms[1].leftCols<3>(), Eigen::Matrix3d::Identity());
+  EXPECT_LT((transforms[1].col(3) - (Vec3(0, 4, 2) - Vec3(3, 0, 0))).norm(), 1e-14);
+  EXPECT_EQ(transforms[2], pose[2].transform);
 }
 
 namespace

@@ -97,6 +97,45 @@ def test_a_variational_surface_needs_no_weights(folder):
     assert heights["1"] < heights["tangent"] and heights["1"] < heights["3"]  # a membrane hangs
     deform(folder, pose, "--order", "4", method="variational").is_refused("4", code=1)
 
+    # Fairing needs no handles: the flat patch between fixed points, however it was bent.
+    bent = points + np.where(depth >= 2, 0.3, 0)[:, None] * [0, 0, 1]
+    mesh = to_dataset((bent, triangles))
+    add_point_array(mesh, "Fixed", 1.0 * (depth < 2))
+    bindpose.write(mesh, folder / "bent.vtp")
+    fair = ["deform", "bent.vtp", "--method", "variational"]
+    folder.run(*fair, "--fair", "-o", "fair.vtp", "--report", "f.json").is_good()
+    flat = points_of(bindpose.read(folder / "fair.vtp"))
+    assert flat == pytest.approx(points_of(bindpose.fair(mesh)), abs=1e-12)
+    assert abs(flat[:, 2]).max() < 1e-12
+    assert json.loads((folder / "f.json").read_text())["counts"]["constrained"] == int((depth < 2).sum())
+    folder.run(*fair, "-o", "x.vtp").is_refused("--handles is required")
+    folder.run(*fair, "--fair", "--handles", "h.tgf", "-o", "x.vtp").is_refused("--pose is required")
+    folder.run(*fair, "--fair", "-o", "x.glb").is_refused("no rig")
+
+
+def test_poses_of_libigl(bar):
+    x = points_of(bindpose.read(bar / "bar.vtp"))
+    turn = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])
+    block = np.vstack([turn.T, [1, 2, 3]])  # transposed: (p, 1) times it
+    pose = np.vstack([block, block])
+
+    def dmat(name, matrix):
+        matrix = np.asarray(matrix, dtype=float)
+        bar.write(name, f"{matrix.shape[1]} {matrix.shape[0]}\n" + "\n".join(map(repr, map(float, matrix.T.ravel()))) + "\n")
+        return bar.run("deform", "bar.vtp", "--handles", "h.tgf", "--pose", name, "-o", "out.vtp", "--overwrite")
+
+    dmat("pose.dmat", pose).is_good()
+    assert points_of(bindpose.read(bar / "out.vtp")) == pytest.approx(x @ turn.T + [1, 2, 3], abs=1e-12)
+    # Rotations of the two bones, the second after the first's: no rotation of its own moves it along.
+    half = np.sqrt(0.5)
+    dmat("turns.dmat", np.array([[0, 0, half, half, 0, 0, 0, 1]]).T).is_good()
+    head = [float(c) for c in (bar / "h.tgf").read_text().splitlines()[0].split()[1:4]]
+    assert points_of(bindpose.read(bar / "out.vtp")) == pytest.approx((x - head) @ turn.T + head, abs=1e-12)
+    dmat("short.dmat", pose[:7]).is_refused("short.dmat", "7 x 3", "8 x 3", "6 x 2", "8 x 1")
+    dmat("nan.dmat", np.full((8, 3), np.nan)).is_refused("nan.dmat", "finite")
+    bar.write("broken.dmat", "3 8\n1 2")
+    bar.run("deform", "bar.vtp", "--handles", "h.tgf", "--pose", "broken.dmat", "-o", "x.vtp").is_refused("broken.dmat")
+
 
 def test_a_sequence_is_there_whole_or_not_at_all(bar):
     frames = [{"handles": {}}, {"handles": {}}]

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""Runs the benchmarks of pose time and prints them as the tables of README.md.
+
+With --readme the tables replace what stands in README.md beside this file between `<!-- pose -->` and `<!-- end -->`.
+"""
+
+import argparse
+import json
+import pathlib
+import re
+import subprocess
+import sys
+
+FOLDER = pathlib.Path(__file__).resolve().parent
+FILTER = "^(reduced_arap/|reduced_arap_of_tets|skinning|crowd|stretch)"
+METHODS = ("linear blend", "dual quaternions", "stretchable bones")
+
+
+def table(head, rows):
+    lines = ["| " + " | ".join(head) + " |", "|" + "---|" * len(head)]
+    return "\n".join(lines + ["| " + " | ".join(map(str, row)) + " |" for row in rows])
+
+
+def number(value):
+    """Three digits, no exponent."""
+    if value >= 100:
+        return f"{value:,.0f}"
+    return f"{value:.3g}"
+
+
+def arguments(row):
+    """Name and numbers of a row: reduced_arap/triangles:86000/handles:5 …"""
+    name, *words = row["name"].split("/")
+    return name, {key: int(value) for key, value in (word.split(":") for word in words if ":" in word)}
+
+
+def reduced(rows):
+    lines = []
+    for row in rows:
+        name, given = arguments(row)
+        if name not in ("reduced_arap", "reduced_arap_of_tets"):
+            continue
+        lines.append([row["label"].replace("_", " "), f"{given.get('triangles', 0):,}" if "triangles" in given else "43k vertices",
+                      f"{given['handles']}, {given['clusters']}", number(row["plain_us"]), number(row["us"]),
+                      int(row["iterations"]), number(row["converge_us"]), number(row["modes_ms"]), number(row["bind_s"]),
+                      number(row["bind_MiB"])])
+    head = ["energy", "triangles", "handles, clusters", "µs an iteration", "accelerated", "iterations to convergence",
+            "µs to convergence", "ms a change of modes", "s of the bind", "MiB of the bind"]
+    return table(head, lines)
+
+
+def skinning(rows):
+    found = {}
+    for row in rows:
+        name, given = arguments(row)
+        if name == "skinning":
+            found.setdefault((given["bounded"], given["method"], given["handles"]), {})[given["single"]] = row
+    lines = []
+    for (bounded, method, handles), both in sorted(found.items(), reverse=True, key=lambda item: (item[0][0], -item[0][1], -item[0][2])):
+        lines.append(["bounded biharmonic" if bounded else "none is zero", METHODS[method], handles,
+                      number(both[0]["weights_each"]), number(both[0]["cpu_time"]), number(both[1]["cpu_time"]),
+                      f"{both[0]['error']:.0e}", f"{both[1]['error']:.0e}"])
+    head = ["weights", "method", "handles", "weights a vertex", "ms, double", "ms, float", "error, double", "error, float"]
+    return table(head, lines)
+
+
+def others(rows):
+    lines = []
+    for row in rows:
+        name, given = arguments(row)
+        if name == "crowd":
+            what = f"100 instances of {given['triangles']:,} triangles, {given['handles']} handles, {given['clusters']} clusters"
+            lines.append([what, f"{number(row['cpu_time'])} ms a frame, of which {number(row['ms_of_solves'])} are solves; "
+                          f"{number(row['iterations_each'])} iterations each"])
+        elif name.startswith("stretch"):
+            lines.append([name.replace("_", " "), f"{number(1e6 * row['cpu_time'] / row['elements'])} ns each"])
+    return table(["what", ""], lines)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--program", type=pathlib.Path, default=FOLDER.parents[1] / "build" / "bin" / "bindpose_benchmarks")
+    parser.add_argument("--filter", default=FILTER, help="of the program's rows (default: those of the tables)")
+    parser.add_argument("--readme", action="store_true", help="write them to README.md, too")
+    options = parser.parse_args()
+    done = subprocess.run([options.program, f"--benchmark_filter={options.filter}", "--benchmark_format=json"],
+                          stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True)
+    rows = [row for row in json.loads(done.stdout)["benchmarks"] if not row.get("error_occurred")]
+    text = "\n\n".join([reduced(rows), skinning(rows), others(rows)])
+    print(text)
+    if options.readme:
+        readme = FOLDER / "README.md"
+        whole, found = re.subn(r"(<!-- pose -->\n).*?(<!-- end -->)", lambda m: m[1] + text + "\n" + m[2],
+                               readme.read_text(), flags=re.S)
+        if found != 1:
+            sys.exit(f"pose_table.py: {readme} has no place <!-- pose -->")
+        readme.write_text(whole)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,126 @@
+// Sizes tell the kinds apart: four handles of a plane and three of space have other columns, and
+// rotations have only one.
+#include "pose/pose_matrix.h"
+
+#include "pose/pose_file.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Transposed transforms, one below the other.
+void take_transforms(WeightsView matrix, Pose& pose)
+{
+  const Index d = matrix.cols();
+  for (Index h = 0; h < static_cast<Index>(pose.size()); ++h)
+  {
+    Affine& transform = pose[static_cast<std::size_t>(h)].transform;
+    const auto block = matrix.middleRows((d + 1) * h, d + 1);
+    transform.topLeftCorner(d, d) = block.topRows(d).transpose();
+    transform.col(3).head(d) = block.row(d).transpose();
+  }
+}
+
+/// The handle that a bone hangs on, or -1.
+Index parent_of(const Handles& handles, std::size_t h)
+{
+  if (handles[h].parent >= 0 || handles[h].kind != HandleKind::bone)
+  {
+    return handles[h].parent;
+  }
+  const auto above = std::find_if(handles.begin(), handles.end(),
+    [&](const Handle& other)
+    { return other.kind == HandleKind::bone && other.tail == handles[h].head; });
+  return above != handles.end() ? above - handles.begin() : -1;
+}
+
+/// The transform of a bone and, after it, of its parents. Of bones in a ring none is the first:
+/// the one that is asked for is.
+const Affine& follow(const std::vector<Eigen::Matrix3d>& rotations, const Handles& handles,
+  std::size_t h, std::vector<char>& done, Pose& pose)
+{
+  Affine& transform = pose[h].transform;
+  if (!done[h])
+  {
+    done[h] = 1;
+    transform = affine_about(handles[h].head, rotations[h], Vec3::Zero());
+    const Index parent = parent_of(handles, h);
+    if (parent >= 0)
+    {
+      const Affine above = follow(rotations, handles, static_cast<std::size_t>(parent), done, pose);
+      const Eigen::Matrix3d linear = above.leftCols<3>();
+      transform.col(3) = linear * transform.col(3) + above.col(3);
+      transform.leftCols<3>() = linear * Eigen::Matrix3d(transform.leftCols<3>());
+    }
+  }
+  return transform;
+}
+
+std::string size_of(Index rows, Index cols)
+{
+  return std::to_string(rows) + " x " + std::to_string(cols);
+}
+} // namespace
+
+Status pose_of_matrix(WeightsView matrix, const Handles& handles, Pose& pose)
+{
+  const auto count = static_cast<Index>(handles.size());
+  Index bones = 0;
+  for (const Handle& handle : handles)
+  {
+    bones += handle.kind == HandleKind::bone ? 1 : 0;
+  }
+  if (!matrix.allFinite())
+  {
+    return Status::invalid_input("the pose has a number that is not finite");
+  }
+  const bool transforms =
+    (matrix.cols() == 2 || matrix.cols() == 3) && matrix.rows() == (matrix.cols() + 1) * count;
+  const bool rotations = matrix.cols() == 1 && bones > 0 && matrix.rows() == 4 * bones;
+  if (!transforms && !rotations)
+  {
+    return Status::invalid_input("the pose is a matrix of " +
+      size_of(matrix.rows(), matrix.cols()) + "; of " + std::to_string(count) +
+      " handles it must be " + size_of(4 * count, 3) + ", in a plane " + size_of(3 * count, 2) +
+      " (transposed transforms)" +
+      (bones > 0 ? ", or " + size_of(4 * bones, 1) + " (rotations of the bones)" : ""));
+  }
+  pose.assign(handles.size(), HandlePose());
+  if (transforms)
+  {
+    take_transforms(matrix, pose);
+    return {};
+  }
+  std::vector<Eigen::Matrix3d> turns(handles.size(), Eigen::Matrix3d::Identity());
+  Index bone = 0;
+  for (std::size_t h = 0; h < handles.size(); ++h)
+  {
+    if (handles[h].kind != HandleKind::bone)
+    {
+      continue;
+    }
+    Eigen::Quaterniond q;
+    q.coeffs() = matrix.col(0).segment<4>(4 * bone++); // x, y, z, w
+    const double length = q.coeffs().stableNorm();
+    if (!(length > 0.0))
+    {
+      return Status::invalid_input(
+        "the pose's rotation of bone '" + handles[h].name + "' has length zero");
+    }
+    q.coeffs() /= length;
+    turns[h] = q.toRotationMatrix();
+  }
+  std::vector<char> done(handles.size(), 0);
+  for (std::size_t h = 0; h < handles.size(); ++h)
+  {
+    follow(turns, handles, h, done, pose);
+  }
+  return {};
+}
+
+} // namespace bindpose

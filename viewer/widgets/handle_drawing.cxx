@@ -9,7 +9,7 @@ namespace bindpose
 namespace
 {
 constexpr double outline_pixels = 1.6;
-constexpr double bar_pixels = 1.2;
+constexpr double bar_pixels = 0.9;
 constexpr double hot_growth = 1.2;
 } // namespace
 
@@ -30,7 +30,7 @@ void draw_handles(const ScreenView& view, const std::vector<HandlePlace>& places
   for (const HandleData::Bar& bar : bars)
   {
     const double pixel = look.pixel_scale * view.pixel_at(0.5 * (bar.from + bar.to));
-    solid.add_bone(bar.from, bar.to, bar_pixels * pixel, look.outline);
+    solid.add_tube({ bar.from, bar.to }, bar_pixels * pixel, look.outline);
   }
   for (std::size_t i = 0; i < places.size(); ++i)
   {

@@ -142,6 +142,11 @@ void RestEditor::hover(const ScreenView& view, const Hand& hand, const EditSetti
   {
     return;
   }
+  // An undo may have taken the vertices away.
+  while (!this->cage_.empty() && this->cell_named(this->cage_.back()) < 0)
+  {
+    this->cage_.pop_back();
+  }
   std::optional<Vec3> depth;
   if (settings.mode == EditMode::add_cage && !this->cage_.empty())
   {

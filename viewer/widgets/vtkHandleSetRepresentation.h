@@ -165,7 +165,7 @@ public:
   };
 
   ///@{
-  /// The handle dataset. It is edited in place: the pose arrays only.
+  /// The handle dataset. It is edited in place: in POSE the pose arrays only.
   void SetHandles(vtkPolyData* handles);
   vtkPolyData* GetHandles();
   ///@}

@@ -26,7 +26,7 @@ EditedHandles unedited(const Handles& handles)
 /// Hands the edit on when it is a list of handles still.
 Status finish(const Handles& before, EditedHandles edited, EditedHandles& after)
 {
-  const Status status = edited.handles.empty() ? Status() : check_handles(edited.handles);
+  Status status = edited.handles.empty() ? Status() : check_handles(edited.handles);
   after = status.ok() ? std::move(edited) : unedited(before);
   return status;
 }
@@ -110,7 +110,7 @@ std::string free_name(const Handles& handles, const std::string& wanted, HandleK
   {
     char digits[16];
     std::snprintf(digits, sizeof(digits), ".%03d", number);
-    const std::string name = wanted.empty() ? letter + std::to_string(number) : wanted + digits;
+    std::string name = wanted.empty() ? letter + std::to_string(number) : wanted + digits;
     if (!has_name(handles, name))
     {
       return name;
@@ -164,11 +164,11 @@ std::string mirrored_name(const std::string& name)
     {
       if (size >= from.size() && stem.compare(size - from.size(), from.size(), from) == 0)
       {
-        return stem.substr(0, size - from.size()) + to + number;
+        return stem.replace(size - from.size(), from.size(), to) + number;
       }
       if (stem.compare(0, from.size(), from) == 0)
       {
-        return to + stem.substr(from.size()) + number;
+        return stem.replace(0, from.size(), to) + number;
       }
     }
   }

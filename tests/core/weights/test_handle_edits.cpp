@@ -34,7 +34,8 @@ Handles arm()
   Handles handles = { bone("upper.L", Vec3(1, 0, 0), Vec3(2, 0, 0)),
     bone("lower.L", Vec3(2, 0, 0), Vec3(3, 0, 0), 0),
     bone("hand.L", Vec3(3, 0, 0), Vec3(3.5, 0.5, 0), 1),
-    make("nail", HandleKind::point, Vec3(4, 1, 0)), make("nose", HandleKind::point, Vec3(0, 1, 0)) };
+    make("nail", HandleKind::point, Vec3(4, 1, 0)),
+    make("nose", HandleKind::point, Vec3(0, 1, 0)) };
   handles[3].parent = 2;
   return handles;
 }
@@ -69,8 +70,7 @@ TEST(HandleEdits, AddedHandlesHaveFreeNames)
   EXPECT_THAT(after.source, ElementsAre(-1));
   EditedHandles two;
   ASSERT_TRUE(add_handle(after.handles, make("", HandleKind::point, Vec3(1, 0, 0)), two).ok());
-  ASSERT_TRUE(
-    add_handle(two.handles, bone("", Vec3(0, 0, 0), Vec3(1, 0, 0)), after).ok());
+  ASSERT_TRUE(add_handle(two.handles, bone("", Vec3(0, 0, 0), Vec3(1, 0, 0)), after).ok());
   ASSERT_TRUE(add_handle(after.handles, make("p1", HandleKind::point, Vec3(2, 0, 0)), two).ok());
   EXPECT_THAT(names(two), ElementsAre("p1", "p2", "b1", "p1.001"));
   EXPECT_THAT(two.source, ElementsAre(0, 1, 2, -1));
@@ -163,8 +163,8 @@ TEST(HandleEdits, MirroredNamesAreThoseOfTheOtherSide)
   const std::pair<const char*, const char*> pairs[] = { { "arm.L", "arm.R" }, { "arm_l", "arm_r" },
     { "arm-R", "arm-L" }, { "arm r", "arm l" }, { "L.arm", "R.arm" }, { "l_arm", "r_arm" },
     { "arm.L.001", "arm.R.001" }, { "HandLeft", "HandRight" }, { "left_hand", "right_hand" },
-    { "LEFTHAND", "RIGHTHAND" }, { "hand.right", "hand.left" }, { "nose", "nose" },
-    { "L", "L" }, { "tail", "tail" }, { "b1", "b1" }, { "p.001", "p.001" }, { "", "" } };
+    { "LEFTHAND", "RIGHTHAND" }, { "hand.right", "hand.left" }, { "nose", "nose" }, { "L", "L" },
+    { "tail", "tail" }, { "b1", "b1" }, { "p.001", "p.001" }, { "", "" } };
   for (const auto& [name, other] : pairs)
   {
     EXPECT_EQ(mirrored_name(name), other);
@@ -177,8 +177,8 @@ TEST(HandleEdits, MirroringCopiesBonesWithNamesAndParents)
   EditedHandles after;
   ASSERT_TRUE(mirror_handles(arm(), {}, Vec3::Zero(), Vec3(-2, 0, 0), after).ok());
   EXPECT_THAT(names(after),
-    ElementsAre("upper.L", "lower.L", "hand.L", "nail", "nose", "upper.R", "lower.R", "hand.R",
-      "nail.001"))
+    ElementsAre(
+      "upper.L", "lower.L", "hand.L", "nail", "nose", "upper.R", "lower.R", "hand.R", "nail.001"))
     << "the nose lies in the plane";
   EXPECT_THAT(after.source, ElementsAre(0, 1, 2, 3, 4, -1, -1, -1, -1));
   EXPECT_THAT(after.model, ElementsAre(0, 1, 2, 3, 4, 0, 1, 2, 3));
@@ -230,6 +230,5 @@ TEST(HandleEdits, SnappingPutsEndsOnTheSurface)
   EXPECT_EQ(after.handles[2].head, after.handles[1].tail) << "also to who was not asked";
   EXPECT_EQ(after.handles[3].head, arm()[3].head);
   const TriangleMesh none{ Points(0, 3), Triangles(0, 3) };
-  EXPECT_FALSE(
-    snap_to_surface(arm(), {}, SurfaceProbe(none.points, none.triangles), after).ok());
+  EXPECT_FALSE(snap_to_surface(arm(), {}, SurfaceProbe(none.points, none.triangles), after).ok());
 }

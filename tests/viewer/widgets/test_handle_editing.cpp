@@ -272,6 +272,24 @@ TEST(HandleEditing, EscapeDropsVerticesAndEnterLeavesACageOpen)
   EXPECT_EQ(stage.list().size(), 4u);
 }
 
+TEST(HandleEditing, ACageGoesOnFromWhatAnUndoHasLeft)
+{
+  EditStage stage(Widget::ADD_CAGE, {}, false);
+  stage.click(Vec3(-1, -1, 0));
+  vtkNew<vtkPolyData> one;
+  one->ShallowCopy(stage.handles);
+  stage.click(Vec3(1, -1, 0));
+  stage.handles->ShallowCopy(one);
+  stage.click(Vec3(0, 1, 0));
+  ASSERT_EQ(stage.list().size(), 2u);
+  EXPECT_EQ(stage.handles->GetNumberOfLines(), 1) << "joined to the first";
+  vtkNew<vtkPolyData> none;
+  stage.handles->ShallowCopy(none);
+  stage.click(Vec3(0, 0, 0));
+  EXPECT_EQ(stage.list().size(), 1u);
+  EXPECT_EQ(stage.handles->GetNumberOfLines(), 0);
+}
+
 TEST(HandleEditing, RestPlacesMoveUnderTheMouse)
 {
   EditStage stage(Widget::MOVE_REST, { point("p", Vec3(0.5, 0.5, 0.2)) });

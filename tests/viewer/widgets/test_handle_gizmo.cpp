@@ -1,8 +1,12 @@
 // Posing with the gizmo, keys and numbers: where handles are after it, exactly, and what stays.
 #include "widget_stage.h"
 
+#include "vtkSkinningDeformation.h"
+
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
 
 #include <Eigen/SVD>
 
@@ -559,6 +563,46 @@ TEST(HandleGizmo, ATwistByTheMouseIsTheAngleAroundTheBone)
   const Eigen::Vector2d from = stage.grip(Widget::TWIST_TAIL);
   stage.drag_pixels(from, center + Eigen::Rotation2Dd(EIGEN_PI / 2) * (from - center), 9);
   EXPECT_NEAR(stage.twist(0, 1) + stage.twist(0, 0), 90.0, 4.0) << "a pixel is 3 degrees here";
+}
+
+TEST(HandleGizmo, StretchableBonesReadWhatTheWidgetWrites)
+{
+  // A mesh that one bone owns: what is at its tail goes where the widget draws the tail, turned by
+  // the tail's twist; what is at its head turns with the head's.
+  GizmoStage stage({ bone("b", Vec3(-0.6, 0, 0), Vec3(0.8, 0, 0)) });
+  const Eigen::Vector2d knob = stage.grip(Widget::STRETCH);
+  stage.drag_pixels(knob, knob + 0.4 * stage.on_screen(Vec3::UnitX()));
+  stage.representation()->SetHandleTwist(0, 20.0, 75.0);
+  const double axis[3] = { 1, 2, 3 };
+  stage.representation()->SetHandleRotation(0, axis, 50.0);
+  ASSERT_GT(stage.stretch(0), 1.1);
+
+  TriangleMesh mesh;
+  mesh.points.resize(4, 3);
+  mesh.points << -0.6, 0.2, 0, 0.8, 0.2, 0, 0.8, 0, 0.2, -0.6, 0, 0;
+  mesh.triangles.resize(2, 3);
+  mesh.triangles << 0, 1, 2, 0, 2, 3;
+  const auto data = bindpose::to_polydata(mesh.points, mesh.triangles);
+  vtkNew<vtkDoubleArray> weights;
+  weights->SetName("Weights");
+  weights->SetNumberOfTuples(4);
+  weights->Fill(1.0);
+  weights->SetComponentName(0, "b");
+  data->GetPointData()->AddArray(weights);
+  vtkNew<vtkSkinningDeformation> skinning;
+  skinning->SetMethodToStretchableBones();
+  skinning->SetInputData(0, data);
+  skinning->SetInputData(1, stage.handles);
+  skinning->Update();
+  ASSERT_EQ(skinning->GetStatus(), vtkBindposeAlgorithm::OK) << skinning->GetStatusMessage();
+  const auto posed = [&](vtkIdType v) { return Vec3(skinning->GetOutput()->GetPoint(v)); };
+  const Eigen::Matrix3d turn = linear(stage.transform(0));
+  const auto twist = [&](double degrees)
+  { return Eigen::AngleAxisd(degrees * EIGEN_PI / 180.0, Vec3::UnitX()).toRotationMatrix(); };
+  EXPECT_LT((posed(3) - stage.head(0)).norm(), 1e-9);
+  EXPECT_LT((posed(1) - stage.tail(0) - turn * twist(75.0) * Vec3(0, 0.2, 0)).norm(), 1e-9);
+  EXPECT_LT((posed(2) - stage.tail(0) - turn * twist(75.0) * Vec3(0, 0, 0.2)).norm(), 1e-9);
+  EXPECT_LT((posed(0) - stage.head(0) - turn * twist(20.0) * Vec3(0, 0.2, 0)).norm(), 1e-9);
 }
 
 TEST(HandleGizmo, AltOnATailReaches)

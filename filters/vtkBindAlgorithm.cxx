@@ -16,6 +16,9 @@
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <Eigen/LU>
+
+#include <cmath>
 #include <optional>
 
 using namespace bindpose;
@@ -32,9 +35,53 @@ struct vtkBindAlgorithm::Cache
 
   // of the present execution
   bool bound_now = false;
+  std::vector<std::string> pose_warnings;
   Pose pose;
   std::optional<PoseInput> input;
 };
+
+namespace
+{
+/// Of the size of a transform's columns: less volume than this is none.
+constexpr double no_volume = 1e-12;
+
+/// What full handles do that no motion of a body does, named.
+std::vector<std::string> warnings_of(const Handles& handles, const Pose& pose)
+{
+  std::vector<Index> mirrored, collapsed;
+  for (std::size_t h = 0; h < pose.size(); ++h)
+  {
+    const Eigen::Matrix3d linear = pose[h].transform.leftCols<3>();
+    const double volume = linear.determinant(), size = linear.norm();
+    if (pose[h].mode != HandleMode::full)
+    {
+      continue;
+    }
+    if (!(std::abs(volume) > no_volume * size * size * size))
+    {
+      collapsed.push_back(static_cast<Index>(h));
+    }
+    else if (volume < 0.0)
+    {
+      mirrored.push_back(static_cast<Index>(h));
+    }
+  }
+  std::vector<std::string> warnings;
+  if (!mirrored.empty())
+  {
+    warnings.push_back(
+      "these handles' transforms are reflections, which turn the mesh inside out: " +
+      quoted_names(handles, mirrored));
+  }
+  if (!collapsed.empty())
+  {
+    warnings.push_back(
+      "these handles' transforms scale some direction to zero, which flattens the mesh: " +
+      quoted_names(handles, collapsed));
+  }
+  return warnings;
+}
+} // namespace
 
 vtkBindAlgorithm::vtkBindAlgorithm() : Bound(new Cache)
 {
@@ -155,6 +202,7 @@ Status vtkBindAlgorithm::Prepare(vtkInformationVector** input, ExecutionContext&
   {
     return status;
   }
+  bound.pose_warnings = warnings_of(bound.handles, bound.pose);
   bound.input.emplace(PoseInput{ mesh, bound.points.view(), bound.weights.view(), bound.handles,
     bound.pose, handle_data, bound.cells });
   bound.bound_now = bind;
@@ -192,6 +240,8 @@ Status vtkBindAlgorithm::WithBindReport(const Status& posed) const
   report.merge(bound.status.report);
   report.merge(posed.report);
   total.report = report;
+  total.warnings.insert(
+    total.warnings.begin(), bound.pose_warnings.begin(), bound.pose_warnings.end());
   if (bound.bound_now)
   {
     total.warnings.insert(

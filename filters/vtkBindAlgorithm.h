@@ -12,7 +12,8 @@
  *
  * **Errors**: no mesh, no handles, no array of that name, an array with another number of tuples
  * than points or of components than handles, a component that is named after another handle than
- * its own, weights that are not finite. Rows that do not sum to one are a warning.
+ * its own, weights that are not finite. Warnings: rows that do not sum to one; handles in mode full
+ * whose transform is a reflection or scales a direction to zero, by name.
  */
 
 #ifndef vtkBindAlgorithm_h

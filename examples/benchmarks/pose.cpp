@@ -19,7 +19,6 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <ctime>
 #include <fstream>
@@ -501,9 +500,9 @@ void crowd(benchmark::State& state)
           0.2 * std::sin(angle + static_cast<double>(h)) * rig.handles[h].head.reverse();
       }
     }
-    const auto start = std::chrono::steady_clock::now();
+    const std::clock_t start = std::clock();
     const Status status = crowd.solve(context, poses, solve);
-    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    seconds += static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     crowd.deform(context, rig.mesh.points, posed);
     iterations += status.report.number("iterations", 0.0);
     frames += 1.0;

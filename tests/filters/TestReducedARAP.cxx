@@ -24,6 +24,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 
 using namespace bindpose;
@@ -417,4 +418,49 @@ TEST_F(ReducedARAPFilter, EigenmodesAreABindParameterAndLowerTheEnergy)
   EXPECT_EQ(this->filter->GetNumberOfBinds(), 2);
   EXPECT_EQ(this->report("counts.extra_weights"), 15.0);
   EXPECT_LT(this->report("energy"), plain);
+}
+
+TEST_F(ReducedARAPFilter, ReflectionsAndCollapsedScalesAreNamedAndDestroyNothing)
+{
+  Handles list;
+  std::vector<Index> cells;
+  ASSERT_TRUE(to_handles(this->handles, list, &cells).ok());
+  vtkNew<vtkSkinningDeformation> linear, dual;
+  dual->SetMethod(vtkSkinningDeformation::DUAL_QUATERNION);
+  vtkNew<test::Listener> quiet;
+  for (vtkPoseAlgorithm* filter :
+    std::initializer_list<vtkPoseAlgorithm*>{ this->filter, linear, dual })
+  {
+    filter->SetInputData(0, this->tets);
+    quiet->listen(filter);
+    // A reflection, the same through a negative scale, a flat one, and nothing at all.
+    for (const Vec3& scale :
+      { Vec3(1, 1, -1), Vec3(-2, -2, -2), Vec3(1, 0, 1), Vec3(0, 0, 0), Vec3(2, 1, 0.5) })
+    {
+      Pose pose(3);
+      pose[2].transform.leftCols<3>() = scale.asDiagonal();
+      pose[1].mode = filter == this->filter ? HandleMode::free : HandleMode::full;
+      vtkNew<vtkPolyData> posed;
+      posed->ShallowCopy(this->handles);
+      set_pose(posed, cells, pose);
+      filter->SetInputData(1, posed);
+      quiet->warnings.clear();
+      filter->Update();
+      EXPECT_TRUE(filter->GetStatus() == vtkBindposeAlgorithm::OK ||
+        filter->GetStatus() == vtkBindposeAlgorithm::NOT_CONVERGED);
+      const Points result = to_points(filter->GetOutput()).view();
+      ASSERT_EQ(result.rows(), this->rig.mesh.points.rows());
+      EXPECT_TRUE(result.allFinite());
+      EXPECT_LT(result.cwiseAbs().maxCoeff(), 100.0);
+      const double volume = scale.prod();
+      const std::string words = volume < 0.0 ? "are reflections" : "scale some direction to zero";
+      const bool said = std::any_of(quiet->warnings.begin(), quiet->warnings.end(),
+        [&](const std::string& warning)
+        {
+          return warning.find(words) != std::string::npos &&
+            warning.find("'" + list[2].name + "'") != std::string::npos;
+        });
+      EXPECT_EQ(said, volume <= 0.0) << scale.transpose();
+    }
+  }
 }

@@ -252,6 +252,22 @@ def test_dynamics_falls():
         assert posed[n] == pytest.approx(np.array(BAR[0]) + [0, -10 * 0.01 * n * (n + 1) / 2, 0], abs=1e-9)
 
 
+@pytest.mark.parametrize("method", ["lbs", "dqs", "stbs", "cor"])
+def test_single_precision_and_few_influences(method):
+    handles = bindpose.handles(bones=BONES)
+    x = np.array(BAR[0])[:, 0] / 6
+    pose = {"handles": {"b2": {"rotate": {"axis": [0, 0, 1], "degrees": 40}}}}
+    weights = np.stack([1 - x, x], axis=1)
+    exact = bindpose.deform(BAR, handles, pose, weights=weights, method=method)
+    single = bindpose.deform(BAR, handles, pose, weights=weights, method=method, single_precision=True)
+    assert 0 < abs(single - exact).max() < 1e-5
+    one = bindpose.deform(BAR, handles, pose, weights=weights, method=method, influences=1)
+    assert one.report["dropped_share"] == pytest.approx(np.minimum(x, 1 - x).max())
+    assert one.report["counts"]["dropped_weights"] == np.count_nonzero(np.minimum(x, 1 - x))
+    few = bindpose.deform(BAR, handles, pose, weights=weights, method=method, smallest_weight=0.2)
+    assert few.report["dropped_share"] <= 0.2
+
+
 def test_crowd():
     handles = bindpose.handles(bones=BONES)
     x = np.array(BAR[0])[:, 0] / 6

@@ -237,6 +237,16 @@ const std::vector<Verb>& verbs()
           "EndpointWeights), centres of rotation, reduced as-rigid-as-possible; without weights: "
           "full as-rigid-as-possible, moving least squares, which knows nothing of the shape, or "
           "the smooth surface between what handles and the point array Fixed hold" },
+        { "--single-precision", "", Kind::flag, "", "",
+          "of lbs, dqs, stbs and cor: weights and transforms as floats: half the memory, up to "
+          "twice "
+          "as fast, right to about a millionth of the diagonal" },
+        { "--influences", "N", Kind::integer, "0", "",
+          "of lbs, dqs, stbs and cor: weights of a vertex that count, the largest; 0: all; the "
+          "report "
+          "tells what is lost (dropped_share)" },
+        { "--smallest-weight", "NUMBER", Kind::number, "0", "",
+          "of lbs, dqs, stbs and cor: weights of at most this size do not count" },
         { "--pseudo-edges", "WHICH", Kind::choice, "given", "none|given|auto",
           "of lbs, dqs, stbs and cor: edges between points that tell how these turn when they are "
           "dragged: those of the handles, or the tree that joins near points through the shape" },

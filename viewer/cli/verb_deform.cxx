@@ -133,6 +133,9 @@ vtkSmartPointer<vtkPoseAlgorithm> make_deformation(const Arguments& arguments)
       : method == "stbs"              ? vtkSkinningDeformation::STRETCHABLE_BONES
       : method == "cor"               ? vtkSkinningDeformation::CENTERS_OF_ROTATION
                                       : vtkSkinningDeformation::LINEAR_BLEND);
+  skinning->SetSinglePrecision(arguments.has("single-precision"));
+  skinning->SetMaximumInfluences(arguments.integer("influences"));
+  skinning->SetSmallestWeight(arguments.number("smallest-weight"));
   const std::string edges = arguments.text("pseudo-edges");
   skinning->SetPseudoEdges(edges == "none" ? vtkSkinningDeformation::NO_PSEUDO_EDGES
       : edges == "auto"                    ? vtkSkinningDeformation::AUTOMATIC_PSEUDO_EDGES

@@ -113,6 +113,16 @@ def test_a_variational_surface_needs_no_weights(folder):
     folder.run(*fair, "--fair", "-o", "x.glb").is_refused("no rig")
 
 
+def test_single_precision_and_few_influences(bar):
+    deform(bar, shapes.BENT, output="exact.vtp").is_good()
+    deform(bar, shapes.BENT, "--single-precision", output="single.vtp").is_good()
+    deform(bar, shapes.BENT, "--influences", "1", "--report", "r.json", output="one.vtp").is_good()
+    deform(bar, shapes.BENT, "--smallest-weight", "0.1", output="few.vtp").is_good()
+    exact, single, one = (points_of(bindpose.read(bar / f"{name}.vtp")) for name in ("exact", "single", "one"))
+    assert 0 < abs(single - exact).max() < 1e-5 and abs(one - exact).max() > 1e-3
+    assert json.loads((bar / "r.json").read_text())["dropped_share"] > 0.1
+
+
 def test_poses_of_libigl(bar):
     x = points_of(bindpose.read(bar / "bar.vtp"))
     turn = np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]])

@@ -56,7 +56,7 @@ Status find_defects(
 /// "boundary 12, fold 3"; empty without any.
 QString counts_of(vtkPolyData* defects)
 {
-  std::vector<Category> categories;
+  std::vector<Category> categories = defect_categories();
   count_defects(defects, categories);
   QStringList counts;
   for (const Category& category : categories)

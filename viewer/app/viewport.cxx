@@ -360,6 +360,7 @@ void Viewport::reset_view()
   vtkCamera* camera = this->renderer_->GetActiveCamera();
   bindpose::fit_camera(
     camera, points, frame, view, static_cast<double>(this->width()) / this->height(), 0.12);
+  camera->SetParallelProjection(this->picture_ != nullptr);
   // As large in a parallel view.
   camera->SetParallelScale(
     camera->GetDistance() * std::tan(vtkMath::RadiansFromDegrees(0.5 * camera->GetViewAngle())));

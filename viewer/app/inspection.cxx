@@ -3,6 +3,8 @@
 #include "tet_panel.h"
 #include "viewport.h"
 
+#include "scene/categories.h"
+
 #include "conversion.h"
 #include "surface/surface_defects.h"
 #include "surface/surface_repair.h"
@@ -50,6 +52,23 @@ Status find_defects(
     defects = to_polydata(list_defects(mesh.points, mesh.triangles, repaired), mesh.points, {});
   }
   return status;
+}
+/// "boundary 12, fold 3"; empty without any.
+QString counts_of(vtkPolyData* defects)
+{
+  std::vector<Category> categories = defect_categories();
+  count_defects(defects, categories);
+  QStringList counts;
+  for (const Category& category : categories)
+  {
+    if (category.count > 0)
+    {
+      counts << QString("%1: %L2")
+                  .arg(QString::fromStdString(category.name))
+                  .arg(static_cast<qlonglong>(category.count));
+    }
+  }
+  return counts.join(", ");
 }
 } // namespace
 
@@ -229,14 +248,9 @@ void Inspection::update_defects()
 {
   const bool wanted = this->active_ && this->panel_->wants_defects() && this->surface_;
   this->defects_.show(wanted);
-  SurfaceInput surface;
-  if (wanted && !this->defects_.defects() && !this->defect_job_.is_running() &&
-    to_surface(this->surface_, surface).ok())
+  if (wanted)
   {
-    this->made_defects_ = std::make_shared<vtkSmartPointer<vtkPolyData>>();
-    this->defect_job_.start(
-      [made = this->made_defects_, mesh = copy_of(surface)](ExecutionContext& context)
-      { return find_defects(mesh, *made, context); });
+    this->start_looking();
   }
   vtkPolyData* found = this->defects_.defects();
   this->panel_->set_defects_note(!wanted ? QString()
@@ -245,16 +259,50 @@ void Inspection::update_defects()
   Q_EMIT this->surface_look_changed();
 }
 
+void Inspection::look_for_defects()
+{
+  this->looking_ = this->surface_ != nullptr;
+  this->start_looking();
+}
+
+void Inspection::show_defects()
+{
+  this->panel_->show_defects(true);
+}
+
+/// Once for a surface, be it to show the defects or to tell that there are some.
+void Inspection::start_looking()
+{
+  SurfaceInput surface;
+  if (this->surface_ && !this->defects_.defects() && !this->defect_job_.is_running() &&
+    to_surface(this->surface_, surface).ok())
+  {
+    this->made_defects_ = std::make_shared<vtkSmartPointer<vtkPolyData>>();
+    this->defect_job_.start(
+      [made = this->made_defects_, mesh = copy_of(surface)](ExecutionContext& context)
+      { return find_defects(mesh, *made, context); });
+  }
+}
+
 void Inspection::defects_finished()
 {
   const Status& status = this->defect_job_.status();
   if (status.code == StatusCode::cancelled)
   {
     this->update_defects(); // of the surface that has come meanwhile
+    if (this->looking_)
+    {
+      this->start_looking();
+    }
     return;
   }
   if (!status.ok() || !*this->made_defects_)
   {
+    this->looking_ = false;
+    if (!this->panel_->wants_defects())
+    {
+      return; // nobody has asked
+    }
     this->panel_->show_defects(false);
     Q_EMIT this->failed(
       tr("Cannot look at the surface: %1.").arg(QString::fromStdString(status.message)));
@@ -262,4 +310,10 @@ void Inspection::defects_finished()
   }
   this->defects_.set_defects(*this->made_defects_);
   this->update_defects();
+  const QString counts = counts_of(this->defects_.defects());
+  if (this->looking_ && !counts.isEmpty())
+  {
+    Q_EMIT this->defects_found(counts);
+  }
+  this->looking_ = false;
 }

@@ -27,6 +27,9 @@ public:
   void set_active(bool active);
   void make_tets(int method); ///< of TetPanel
   void cancel();
+  /// Beside the window; defects_found() tells when there are some.
+  void look_for_defects();
+  void show_defects();
   bool is_busy() const { return this->tet_job_.is_running() || this->defect_job_.is_running(); }
   /// How the surface is to be drawn (of Viewport): tets take its place, defects shine through it.
   int surface_look() const;
@@ -36,6 +39,8 @@ public:
 
 Q_SIGNALS:
   void surface_look_changed();
+  /// How many of which kind, for a sentence.
+  void defects_found(const QString& counts);
   /// One sentence; what was shown stays.
   void failed(const QString& sentence);
 
@@ -43,6 +48,7 @@ private:
   void tets_finished();
   void defects_finished();
   void update_defects();
+  void start_looking();
   void choose_colours(int colours);
   void show_position();
   void update_panel();
@@ -52,6 +58,7 @@ private:
   DefectView defects_;
   vtkSmartPointer<vtkPolyData> surface_;
   bool active_ = false;
+  bool looking_ = false; // for defects, to tell about them
   int colours_ = 0; // of TetPanel, those that are shown
   std::shared_ptr<vtkSmartPointer<vtkUnstructuredGrid>> made_tets_;
   std::shared_ptr<vtkSmartPointer<vtkPolyData>> made_defects_;

@@ -56,6 +56,11 @@ QString short_name(const QString& path)
     ? name
     : name.left(longest / 2) + QStringLiteral("…") + name.right(longest / 2);
 }
+bool bounds_are_flat(vtkPolyData* surface)
+{
+  const double* bounds = surface->GetBounds();
+  return bounds[0] == bounds[1] || bounds[2] == bounds[3] || bounds[4] == bounds[5];
+}
 } // namespace
 
 MainWindow::MainWindow(QWidget* parent)
@@ -73,6 +78,8 @@ MainWindow::MainWindow(QWidget* parent)
   this->connect_handles();
   QObject::connect(this->document_, &Document::about_to_change, this, &MainWindow::stop_drag);
   QObject::connect(this->document_, &Document::changed, this, &MainWindow::document_changed);
+  // Whether all is saved is known after a step, not while it is made.
+  QObject::connect(this->history(), &QUndoStack::indexChanged, this, &MainWindow::update_title);
   QObject::connect(this->document_, &Document::option_changed, this, &MainWindow::option_changed);
   QObject::connect(this->job_, &BindJob::progress, this->panel_, &SidePanel::set_progress);
   QObject::connect(this->job_, &BindJob::preview, this, &MainWindow::preview_arrived);
@@ -144,6 +151,7 @@ void MainWindow::make_inspections()
   QObject::connect(
     this->inspection_, &Inspection::surface_look_changed, this, &MainWindow::update_surface_look);
   QObject::connect(this->inspection_, &Inspection::failed, this, &MainWindow::show_error);
+  QObject::connect(this->inspection_, &Inspection::defects_found, this, &MainWindow::offer_defects);
   this->weights_ = new WeightInspection(this->viewport_, this->panels_->weight(),
     [this](BindInput& input) { return this->is_bound() && this->make_bind_input(input); });
   QObject::connect(this->weights_, &WeightInspection::surface_look_changed, this,
@@ -266,13 +274,20 @@ void MainWindow::option_changed(const QString& key, const QVariant& value)
 
 void MainWindow::show_mesh()
 {
+  this->note_bar_->hide(); // it is about the last one
   const Work& work = this->document_->work();
   this->cancel_bind();
   this->deformation_.clear();
   this->shown_ = work.surface;
   this->drawn_ = work.surface;
   this->viewport_->set_surface(work.surface);
+  this->viewport_->set_picture(work.picture);
   this->inspection_->set_surface(work.surface, work.mesh_tets);
+  const bool flat = work.surface && bounds_are_flat(work.surface);
+  if (work.surface && !flat)
+  {
+    this->inspection_->look_for_defects(); // of what lies in a plane the border is none
+  }
   if (!work.curves)
   {
     const bool has_lines = work.surface && work.surface->GetNumberOfLines() > 0;
@@ -359,6 +374,19 @@ void MainWindow::update_title()
   this->setWindowTitle(name.isEmpty() ? "Bindpose" : QString("%1[*] — Bindpose").arg(name));
   this->setWindowModified(
     !name.isEmpty() && this->document_->is_changed(!this->sessions_->path().isEmpty()));
+}
+
+void MainWindow::offer_defects(const QString& counts)
+{
+  this->note_bar_->offer(
+    tr("The surface is not clean (%1). It can be bound and bent all the same.").arg(counts),
+    { { tr("Show where"),
+      [this]
+      {
+        this->panels_->show_panel(PanelColumn::tets);
+        this->inspection_->show_defects();
+      } } },
+    tr("Close"));
 }
 
 /// Offered, never forced: what is bound stays usable meanwhile (BoundColumns).

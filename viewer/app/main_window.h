@@ -106,6 +106,7 @@ private:
   void connect_weights();
   void update_surface_look();
   void offer_rebind();
+  void offer_defects(const QString& counts);
   void update_pose();
   void update_panel();
   void show_column(int column);

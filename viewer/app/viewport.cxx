@@ -18,6 +18,8 @@
 #include "vtkHandleSetRepresentation.h"
 #include "vtkHandleSetWidget.h"
 #include "vtkInteractorStyleTrackballCamera.h"
+#include "vtkImageData.h"
+#include "vtkMath.h"
 #include "vtkObjectFactory.h"
 #include "vtkPNGWriter.h"
 #include "vtkPointData.h"
@@ -26,9 +28,12 @@
 #include "vtkProperty.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
+#include "vtkTexture.h"
 #include "vtkWindowToImageFilter.h"
 
 #include <QApplication>
+
+#include <cmath>
 
 namespace
 {
@@ -39,6 +44,19 @@ public:
   static CameraStyle* New();
   vtkTypeMacro(CameraStyle, vtkInteractorStyleTrackballCamera);
   void OnChar() override {}
+  void OnLeftButtonDown() override
+  {
+    if (!this->Flat)
+    {
+      this->vtkInteractorStyleTrackballCamera::OnLeftButtonDown();
+      return;
+    }
+    const int* at = this->Interactor->GetEventPosition();
+    this->FindPokedRenderer(at[0], at[1]);
+    this->StartPan();
+  }
+
+  bool Flat = false; ///< in front of a plane: it is moved, not turned
 };
 vtkStandardNewMacro(CameraStyle);
 } // namespace
@@ -102,9 +120,11 @@ void Viewport::set_surface_look(int look)
   this->actor_->SetVisibility(this->shaded_ && look != hidden);
   property->SetOpacity(look == see_through ? 0.25 : 1.0);
   property->SetRepresentation(look == edges_only ? VTK_WIREFRAME : VTK_SURFACE);
-  property->SetLighting(look != edges_only);
-  const bindpose::Rgb& colour =
-    look == edges_only ? bindpose::palette::edges : bindpose::palette::surface;
+  property->SetLighting(look != edges_only && !this->picture_);
+  constexpr bindpose::Rgb white{ 1.0, 1.0, 1.0 };
+  const bindpose::Rgb& colour = look == edges_only ? bindpose::palette::edges
+    : this->picture_                               ? white
+                                                   : bindpose::palette::surface;
   property->SetColor(colour[0], colour[1], colour[2]);
   // The driver cannot sort see-through triangles by depth with several samples a pixel.
   const bool sorts = look == see_through && this->shaded_;
@@ -113,6 +133,25 @@ void Viewport::set_surface_look(int look)
   this->renderer_->SetUseFXAA(sorts);
   this->window_->SetMultiSamples(sorts ? 0 : 4);
   this->refresh();
+}
+
+void Viewport::set_picture(vtkImageData* picture)
+{
+  this->picture_ = picture;
+  CameraStyle::SafeDownCast(this->interactor()->GetInteractorStyle())->Flat = picture != nullptr;
+  this->renderer_->GetActiveCamera()->SetParallelProjection(picture != nullptr);
+  vtkSmartPointer<vtkTexture> texture;
+  if (picture)
+  {
+    texture = vtkSmartPointer<vtkTexture>::New();
+    texture->SetInputData(picture);
+    texture->InterpolateOn();
+    texture->MipmapOn();
+    texture->SetColorModeToDirectScalars();
+  }
+  this->actor_->SetTexture(texture);
+  this->actor_->SetForceOpaque(picture != nullptr); // cut out already: nothing to sort
+  this->set_surface_look(this->look_);
 }
 
 void Viewport::set_curves(vtkPolyData* curves)
@@ -318,8 +357,13 @@ void Viewport::reset_view()
     places.front().data(), static_cast<bindpose::Index>(places.size()), 3);
   const bindpose::View view;
   const bindpose::Frame frame = bindpose::choose_frame(bindpose::bounding_box(points), view.up);
-  bindpose::fit_camera(this->renderer_->GetActiveCamera(), points, frame, view,
-    static_cast<double>(this->width()) / this->height(), 0.12);
+  vtkCamera* camera = this->renderer_->GetActiveCamera();
+  bindpose::fit_camera(
+    camera, points, frame, view, static_cast<double>(this->width()) / this->height(), 0.12);
+  camera->SetParallelProjection(this->picture_ != nullptr);
+  // As large in a parallel view.
+  camera->SetParallelScale(
+    camera->GetDistance() * std::tan(vtkMath::RadiansFromDegrees(0.5 * camera->GetViewAngle())));
   this->renderer_->ResetCameraClippingRange();
 }
 

@@ -22,6 +22,7 @@ class vtkActor;
 class vtkDoubleArray;
 class vtkGenericOpenGLRenderWindow;
 class vtkHandleSetWidget;
+class vtkImageData;
 class vtkPolyData;
 class vtkPolyDataMapper;
 class vtkRenderer;
@@ -61,6 +62,9 @@ public:
   /// For each point of drawn() that of the surface.
   const std::vector<bindpose::Index>& drawn_points() const;
   void set_surface_look(int look);
+  /// What the surface shows, by its texture coordinates, and the 2D mode: the view is parallel and
+  /// stays in front of the plane; dragging moves it. Null: neither.
+  void set_picture(vtkImageData* picture);
   /// Lines, drawn as tubes; null: none.
   void set_curves(vtkPolyData* curves);
   /// Legends beside the column's, each in its place; with an empty name none.
@@ -103,6 +107,7 @@ private:
   vtkNew<vtkRenderer> legend_; // in front, to the left: the colour scale
   vtkNew<vtkHandleSetWidget> handles_;
   std::unique_ptr<bindpose::ShadedSurface> shaded_;
+  vtkSmartPointer<vtkImageData> picture_;
   std::vector<vtkSmartPointer<vtkActor>> curves_;
   vtkSmartPointer<vtkPolyData> curve_data_;
   bindpose::Box also_shown_;

@@ -372,7 +372,7 @@ const std::vector<Verb>& verbs()
         { "--title", "TEXT", Kind::text, "", "", "above the picture" } } },
     { "view", "window to look at datasets and volumes and to drag handles",
       { { "FILE", "", Kind::text, "", "",
-        "meshes, handles, volumes of winding numbers, boundary curves", false, true } } },
+        "meshes, handles, weights, pictures, volumes, curves, sessions", false, true } } },
   };
   return table;
 }

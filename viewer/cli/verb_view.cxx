@@ -3,7 +3,9 @@
 #include "cli/session.h"
 #include "cli/verbs.h"
 
+#include "file_kind.h"
 #include "scene/display.h"
+#include "scene/picture_file.h"
 
 #include "vtkDataSet.h"
 
@@ -26,7 +28,11 @@ void run_view(Session& session)
   }
   for (const std::string& file : session.arguments().list("FILE"))
   {
-    if (!session.read_any(file)) // said here, in the words of all verbs, before a window opens
+    // What only the window reads it speaks about itself.
+    const bool of_window =
+      is_picture_file(file) || is_listed(file_extension(file), "dmat bindpose");
+    if (!of_window &&
+      !session.read_any(file)) // said here, in the words of all verbs, before a window opens
     {
       return;
     }

@@ -11,6 +11,7 @@
 
 #include "conversion.h"
 
+#include "support/files.h"
 #include "support/meshes.h"
 
 #include "vtkCommand.h"
@@ -563,6 +564,10 @@ int main(int argc, char** argv)
   {
     return RUN_ALL_TESTS(); // tests are listed while building, without a display
   }
+  // Recent files and recovered work of the tests are not those of whoever runs them.
+  const bindpose::test::Folder folder;
+  qputenv("XDG_CONFIG_HOME", QByteArray::fromStdString(folder / "config"));
+  qputenv("XDG_DATA_HOME", QByteArray::fromStdString(folder / "data"));
   QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
   QApplication application(argc, argv);
   apply_style(application);

@@ -1,0 +1,611 @@
+// What the window keeps over its end, a crash or a mistake: sessions, recovery, recent files, undo.
+#include "unclipped.h"
+#include "window_test.h"
+
+#include "document/autosave.h"
+#include "document/document.h"
+#include "document/recent_files.h"
+#include "io/dmat.h"
+#include "inspection.h"
+#include "notice_bar.h"
+#include "side_panel.h"
+#include "weight_panel.h"
+#include "window_sessions.h"
+
+#include "support/files.h"
+#include "support/meshes.h"
+
+#include "vtkCamera.h"
+#include "vtkDoubleArray.h"
+#include "vtkGLTFSkinWriter.h"
+#include "vtkImageData.h"
+#include "vtkMeshFileWriter.h"
+#include "vtkPointData.h"
+#include "vtkXMLImageDataWriter.h"
+#include "vtkXMLPolyDataWriter.h"
+
+#include <QAction>
+#include <QCheckBox>
+#include <QDir>
+#include <QDropEvent>
+#include <QElapsedTimer>
+#include <QLabel>
+#include <QMenu>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QProcess>
+#include <QPushButton>
+#include <QSettings>
+#include <QThread>
+#include <QTimer>
+#include <QUndoStack>
+
+using namespace bindpose;
+using test::two_points;
+
+namespace
+{
+QString text(const std::string& path)
+{
+  return QString::fromStdString(path);
+}
+
+vtkSmartPointer<vtkPolyData> column(bool weights)
+{
+  TriangleMesh mesh = test::sphere(2);
+  mesh.points.col(0) *= 0.4;
+  mesh.points.col(1) *= 0.4;
+  const auto data = to_polydata(mesh.points, mesh.triangles);
+  if (weights)
+  {
+    vtkNew<vtkDoubleArray> array;
+    array->SetName("Weights");
+    array->SetNumberOfComponents(2);
+    for (Index v = 0; v < mesh.points.rows(); ++v)
+    {
+      const double t = 0.5 * (1.0 + mesh.points(v, 2));
+      array->InsertNextTuple2(1.0 - t, t);
+    }
+    data->GetPointData()->AddArray(array);
+  }
+  return data;
+}
+
+template <typename Writer>
+void write_with(vtkDataSet* data, const std::string& path)
+{
+  vtkNew<Writer> writer;
+  writer->SetInputData(data);
+  writer->SetFileName(path.c_str());
+  ASSERT_EQ(writer->Write(), 1) << path;
+}
+
+void write_mesh(vtkPolyData* mesh, const std::string& path)
+{
+  vtkNew<vtkMeshFileWriter> writer;
+  writer->SetInputData(mesh);
+  writer->SetFileName(path.c_str());
+  writer->OverwriteOn();
+  writer->Update();
+  ASSERT_EQ(writer->GetStatus(), vtkBindposeAlgorithm::OK) << writer->GetStatusMessage();
+}
+
+class SessionWindow : public test::WindowTest
+{
+protected:
+  SessionWindow()
+  {
+    qputenv("XDG_CONFIG_HOME", QByteArray::fromStdString(this->folder / "config"));
+    qputenv("XDG_DATA_HOME", QByteArray::fromStdString(this->folder / "data"));
+    QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, text(this->folder / "config"));
+    RecentFiles::clear();
+  }
+
+  /// Mesh with weights and handles from files.
+  void open_files()
+  {
+    write_with<vtkXMLPolyDataWriter>(column(true), this->folder / "column.vtp");
+    write_with<vtkXMLPolyDataWriter>(two_points(), this->folder / "points.vtp");
+    ASSERT_TRUE(this->window.open(text(this->folder / "column.vtp")));
+    ASSERT_TRUE(this->window.open(text(this->folder / "points.vtp")));
+    ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
+    this->render();
+  }
+
+  static double top_of(vtkPolyData* data) { return data->GetBounds()[5]; }
+
+  void pose()
+  {
+    Pose pose = this->window.document()->pose();
+    pose[1].transform(2, 3) = 0.7;
+    this->window.document()->set_pose(pose, "move top");
+  }
+
+  static QPushButton* button_of(QWidget* bar, const QString& text)
+  {
+    for (QPushButton* button : bar->findChildren<QPushButton*>())
+    {
+      if (button->text() == text && !button->isHidden())
+      {
+        return button;
+      }
+    }
+    ADD_FAILURE() << "there is no button " << text.toStdString();
+    return nullptr;
+  }
+
+  /// Answers the question that comes up; true when one came.
+  bool close_and_answer(QMessageBox::StandardButton answer, bool* closed)
+  {
+    bool asked = false;
+    QTimer::singleShot(0, &this->window,
+      [&]
+      {
+        if (auto* question = qobject_cast<QMessageBox*>(QApplication::activeModalWidget()))
+        {
+          asked = true;
+          question->button(answer)->click();
+        }
+      });
+    *closed = this->window.close();
+    QApplication::processEvents();
+    return asked;
+  }
+
+  void drop(const std::string& path)
+  {
+    QMimeData data;
+    data.setUrls({ QUrl::fromLocalFile(text(path)) });
+    QDragEnterEvent enter({ 10, 10 }, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&this->window, &enter);
+    EXPECT_TRUE(enter.isAccepted());
+    QDropEvent event({ 10, 10 }, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(&this->window, &event);
+  }
+
+  QAction* menu_entry(const QString& starts)
+  {
+    for (QAction* menu : this->window.menuBar()->actions())
+    {
+      for (QAction* entry : menu->menu()->actions())
+      {
+        if (entry->text().remove('&').startsWith(starts))
+        {
+          return entry;
+        }
+      }
+    }
+    ADD_FAILURE() << "no entry " << starts.toStdString();
+    return nullptr;
+  }
+
+  test::Folder folder;
+};
+} // namespace
+
+TEST_F(SessionWindow, ASessionOpensAsItWasSaved)
+{
+  this->open_files();
+  this->pose();
+  this->window.set_method(1);
+  this->window.set_mode(0, 2);
+  this->window.viewport()->renderer()->GetActiveCamera()->Azimuth(33);
+  const double top = top_of(this->window.shown());
+  double camera[3];
+  this->window.viewport()->renderer()->GetActiveCamera()->GetPosition(camera);
+  ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "work.bindpose")));
+
+  MainWindow other;
+  other.show();
+  ASSERT_TRUE(other.open(text(this->folder / "work.bindpose"))) << other.error().toStdString();
+  EXPECT_TRUE(other.is_bound());
+  EXPECT_EQ(top_of(other.shown()), top);
+  EXPECT_EQ(other.document()->number("pose.method"), 1);
+  EXPECT_EQ(other.document()->pose()[0].mode, HandleMode::free);
+  EXPECT_EQ(other.history()->count(), 0);
+  for (int k = 0; k < 3; ++k)
+  {
+    EXPECT_EQ(other.viewport()->renderer()->GetActiveCamera()->GetPosition()[k], camera[k]);
+  }
+  EXPECT_TRUE(other.windowTitle().startsWith("work")) << other.windowTitle().toStdString();
+}
+
+TEST_F(SessionWindow, TheTitleMarksWhatIsNotSaved)
+{
+  this->open_files();
+  EXPECT_TRUE(this->window.windowTitle().startsWith("column.vtp"));
+  EXPECT_FALSE(this->window.isWindowModified()); // only looked at so far
+  this->pose();
+  EXPECT_TRUE(this->window.isWindowModified());
+  ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "work.bindpose")));
+  EXPECT_FALSE(this->window.isWindowModified());
+  EXPECT_TRUE(this->window.windowTitle().startsWith("work"));
+  this->window.history()->undo();
+  EXPECT_TRUE(this->window.isWindowModified());
+  this->window.history()->redo();
+  EXPECT_FALSE(this->window.isWindowModified());
+}
+
+TEST_F(SessionWindow, ClosingAsksWhenSomethingWouldBeLost)
+{
+  this->open_files();
+  bool closed = false;
+  this->pose();
+  EXPECT_TRUE(this->close_and_answer(QMessageBox::Cancel, &closed));
+  EXPECT_FALSE(closed);
+  ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "work.bindpose")));
+  this->window.set_mode(0, 1);
+  EXPECT_TRUE(this->close_and_answer(QMessageBox::Save, &closed));
+  EXPECT_TRUE(closed);
+  Session saved;
+  ASSERT_TRUE(read_session(text(this->folder / "work.bindpose"), saved).ok());
+  EXPECT_EQ(saved.work.pose[0].mode, HandleMode::position);
+  this->window.show();
+  EXPECT_FALSE(this->close_and_answer(QMessageBox::Cancel, &closed)); // nothing to lose
+  EXPECT_TRUE(closed);
+  this->window.show();
+  this->window.set_mode(0, 2);
+  EXPECT_TRUE(this->close_and_answer(QMessageBox::Discard, &closed));
+  EXPECT_TRUE(closed);
+}
+
+TEST_F(SessionWindow, WhoOnlyLooksIsNotAsked)
+{
+  this->open_files();
+  this->window.document()->set_option("weights.bands", false);
+  bool closed = false;
+  EXPECT_FALSE(this->close_and_answer(QMessageBox::Cancel, &closed));
+  EXPECT_TRUE(closed);
+}
+
+TEST_F(SessionWindow, ABrokenSessionLeavesTheWork)
+{
+  this->open_files();
+  this->pose();
+  vtkPolyData* before = this->window.shown();
+  const int steps = this->window.history()->count();
+  const std::string path = this->folder.write("bad.bindpose", R"({"bindpose": {"schema": 1}})");
+  EXPECT_FALSE(this->window.open(text(path)));
+  EXPECT_NE(this->window.error().indexOf("bad.bindpose cannot be opened"), -1)
+    << this->window.error().toStdString();
+  EXPECT_EQ(this->window.shown(), before);
+  EXPECT_EQ(this->window.history()->count(), steps);
+  EXPECT_TRUE(this->window.is_bound());
+}
+
+TEST_F(SessionWindow, AMissingInputIsSaidAndCanBeLocated)
+{
+  write_mesh(column(false), this->folder / "column.off");
+  ASSERT_TRUE(this->window.open(text(this->folder / "column.off")));
+  ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
+  ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "work.bindpose")));
+  std::filesystem::rename(this->folder / "column.off", this->folder / "moved.off");
+  ASSERT_TRUE(this->window.open(text(this->folder / "work.bindpose")));
+  EXPECT_EQ(
+    this->window.note_bar()->sentence(), "column.off is missing; the session is open without it.");
+  EXPECT_NE(button_of(this->window.note_bar(), "Locate…"), nullptr);
+  EXPECT_EQ(this->window.document()->surface(), nullptr);
+  EXPECT_NE(this->window.document()->handle_data(), nullptr);
+}
+
+TEST_F(SessionWindow, PanelsFollowUndo)
+{
+  this->open_files();
+  this->window.panels()->show_panel(PanelColumn::weights);
+  auto* isolines = this->find<QCheckBox>("Isolines");
+  ASSERT_TRUE(isolines->isChecked());
+  isolines->click();
+  EXPECT_EQ(this->window.history()->undoText(), "isolines");
+  this->window.history()->undo();
+  EXPECT_TRUE(isolines->isChecked());
+  this->window.history()->redo();
+  EXPECT_FALSE(isolines->isChecked());
+  this->window.set_method(2);
+  this->window.history()->undo();
+  this->window.history()->undo();
+  EXPECT_TRUE(isolines->isChecked());
+  EXPECT_EQ(this->window.document()->number("pose.method"), 0);
+}
+
+TEST_F(SessionWindow, ABindIsOneStepAndIsBackedUpAtOnce)
+{
+  ASSERT_TRUE(this->window.set_mesh(column(false), "column"));
+  ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
+  EXPECT_EQ(this->window.sessions()->autosave()->path(), "");
+  this->window.bind();
+  QElapsedTimer clock;
+  clock.start();
+  while (this->window.is_binding() && clock.elapsed() < 60000)
+  {
+    QApplication::processEvents(QEventLoop::AllEvents, 20);
+  }
+  ASSERT_TRUE(this->window.is_bound());
+  EXPECT_EQ(this->window.history()->undoText(), "bind");
+  Session backup;
+  ASSERT_TRUE(read_session(this->window.sessions()->autosave()->path(), backup).ok());
+  EXPECT_TRUE(backup.work.surface->GetPointData()->HasArray("Weights"));
+  this->window.history()->undo();
+  EXPECT_FALSE(this->window.is_bound());
+  this->window.history()->redo();
+  EXPECT_TRUE(this->window.is_bound());
+}
+
+TEST_F(SessionWindow, ARebindIsOfferedAndPosingGoesOn)
+{
+  this->open_files();
+  EXPECT_EQ(this->window.rebind_bar()->sentence(), "");
+  this->window.document()->handle_data()->GetPoints()->SetPoint(0, 0, 0, -0.5);
+  ASSERT_TRUE(this->window.document()->commit_handles("move at rest").ok());
+  EXPECT_EQ(this->window.rebind_bar()->sentence(), "Since the bind 1 handle was moved.");
+  const double before = top_of(this->window.shown());
+  this->pose();
+  EXPECT_GT(top_of(this->window.shown()), before + 0.3);
+  EXPECT_EQ(this->window.error(), "");
+  this->window.history()->undo();
+  this->window.history()->undo();
+  EXPECT_EQ(this->window.rebind_bar()->sentence(), "");
+  this->window.history()->redo();
+  button_of(this->window.rebind_bar(), "Bind again")->click();
+  EXPECT_TRUE(this->window.is_binding());
+  EXPECT_EQ(this->window.rebind_bar()->sentence(), "");
+  this->window.cancel_bind();
+  while (this->window.is_binding())
+  {
+    QApplication::processEvents(QEventLoop::AllEvents, 20);
+  }
+  EXPECT_NE(this->window.rebind_bar()->sentence(), ""); // still good for something
+}
+
+// ---- After a crash -----------------------------------------------------------------------------
+
+TEST_F(SessionWindow, AKilledProgramsWorkIsOfferedAndRestored)
+{
+  write_with<vtkXMLPolyDataWriter>(column(true), this->folder / "column.vtp");
+  write_with<vtkXMLPolyDataWriter>(two_points(), this->folder / "points.vtp");
+  QProcess program;
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  environment.insert("BINDPOSE_AUTOSAVE_SECONDS", "0.3");
+  program.setProcessEnvironment(environment);
+  program.setProcessChannelMode(QProcess::ForwardedErrorChannel);
+  program.start(BINDPOSE_PROGRAM,
+    { "view", text(this->folder / "column.vtp"), text(this->folder / "points.vtp") });
+  ASSERT_TRUE(program.waitForStarted());
+  const QString root = text(this->folder / "data/bindpose/recovery");
+  const auto is_saved = [&root]
+  {
+    for (const QString& name : QDir(root).entryList(QDir::Dirs | QDir::NoDotAndDotDot))
+    {
+      Session session;
+      if (read_session(root + '/' + name + "/work.bindpose", session).ok() && session.work.handles)
+      {
+        return true;
+      }
+    }
+    return false;
+  };
+  QElapsedTimer clock;
+  clock.start();
+  while (!is_saved() && clock.elapsed() < 60000)
+  {
+    QThread::msleep(50);
+  }
+  ASSERT_TRUE(is_saved());
+  this->window.sessions()->offer_recovery(root);
+  EXPECT_EQ(this->window.recovery_bar()->sentence(), ""); // it lives
+  program.kill();
+  program.waitForFinished();
+
+  this->window.sessions()->offer_recovery(root);
+  EXPECT_NE(this->window.recovery_bar()->sentence().indexOf("did not end as it should"), -1);
+  EXPECT_TRUE(this->window.is_empty()); // never silently
+  button_of(this->window.recovery_bar(), "Restore")->click();
+  EXPECT_EQ(this->window.recovery_bar()->sentence(), "");
+  EXPECT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
+  EXPECT_EQ(this->window.document()->handles().size(), 2u);
+  EXPECT_TRUE(this->window.isWindowModified());
+  EXPECT_EQ(RecoveredWork::find(root), nullptr); // it is this window's now
+}
+
+TEST_F(SessionWindow, DiscardedWorkIsGoneAndTheNextIsOffered)
+{
+  const QString root = text(this->folder / "recovery");
+  for (const char* name : { "one", "two" })
+  {
+    QDir().mkpath(root + '/' + name);
+    ASSERT_TRUE(SessionFile().write(root + '/' + name + "/work.bindpose", Session()).ok());
+  }
+  this->window.sessions()->offer_recovery(root);
+  for (int left = 2; left > 0; --left)
+  {
+    EXPECT_EQ(QDir(root).entryList(QDir::Dirs | QDir::NoDotAndDotDot).size(), left);
+    ASSERT_NE(this->window.recovery_bar()->sentence(), "");
+    button_of(this->window.recovery_bar(), "Discard")->click();
+  }
+  EXPECT_EQ(this->window.recovery_bar()->sentence(), "");
+  EXPECT_TRUE(QDir(root).isEmpty());
+}
+
+// ---- Open anything -----------------------------------------------------------------------------
+
+TEST_F(SessionWindow, EveryKindOfMeshCanBeDropped)
+{
+  const auto mesh = column(false);
+  for (const char* ending : { "obj", "off", "ply", "stl", "vtp" })
+  {
+    SCOPED_TRACE(ending);
+    const std::string path = this->folder / (std::string("shape.") + ending);
+    write_mesh(mesh, path);
+    this->drop(path);
+    EXPECT_EQ(this->window.error(), "");
+    ASSERT_NE(this->window.document()->surface(), nullptr);
+    EXPECT_EQ(this->window.document()->surface()->GetNumberOfPolys(), mesh->GetNumberOfPolys());
+    EXPECT_EQ(this->window.document()->work().mesh_source.path, text(path));
+    this->window.history()->undo();
+    EXPECT_EQ(this->window.document()->surface(), nullptr);
+  }
+}
+
+TEST_F(SessionWindow, TetsRigsHandlesWeightsVolumesAndSessionsCanBeDropped)
+{
+  // A rig is mesh, weights and handles.
+  vtkNew<vtkGLTFSkinWriter> rig;
+  rig->SetInputData(0, column(true));
+  rig->SetHandlesData(two_points());
+  rig->SetFileName((this->folder / "rig.glb").c_str());
+  ASSERT_EQ(rig->Write(), 1);
+  this->drop(this->folder / "rig.glb");
+  EXPECT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
+  // Weights, when they fit.
+  const Index points = this->window.document()->surface()->GetNumberOfPoints();
+  Weights weights = Weights::Constant(points, 2, 0.5);
+  ASSERT_TRUE(write_dmat(this->folder / "w.dmat", weights).ok());
+  this->drop(this->folder / "w.dmat");
+  EXPECT_EQ(this->window.error(), "");
+  EXPECT_EQ(
+    this->window.document()->surface()->GetPointData()->GetArray("Weights")->GetComponent(0, 0),
+    0.5);
+  ASSERT_TRUE(write_dmat(this->folder / "short.dmat", Weights(weights.topRows(5))).ok());
+  this->drop(this->folder / "short.dmat");
+  EXPECT_NE(this->window.error().indexOf("5 points and 2 handles"), -1)
+    << this->window.error().toStdString();
+  EXPECT_TRUE(this->window.is_bound());
+  // Handles.
+  this->folder.write("h.tgf", "1 0 0 -0.9\n2 0 0 0.9\n#\n");
+  this->drop(this->folder / "h.tgf");
+  EXPECT_EQ(this->window.document()->handles().size(), 2u);
+  // Tets.
+  this->folder.write("tet.mesh",
+    "MeshVersionFormatted 1\nDimension 3\nVertices\n4\n0 0 0 0\n1 0 0 0\n0 1 0 0\n0 0 1 0\n"
+    "Tetrahedra\n1\n1 2 3 4 0\nEnd\n");
+  this->drop(this->folder / "tet.mesh");
+  EXPECT_EQ(this->window.error(), "");
+  EXPECT_NE(this->window.document()->work().mesh_tets, nullptr);
+  // A session.
+  ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "s.bindpose")));
+  this->drop(this->folder / "s.bindpose");
+  EXPECT_NE(this->window.document()->work().mesh_tets, nullptr);
+  // What is none of these.
+  this->folder.write("x.txt", "words");
+  this->drop(this->folder / "x.txt");
+  EXPECT_NE(this->window.error(), "");
+  EXPECT_NE(this->window.document()->work().mesh_tets, nullptr);
+}
+
+/// Red on the left, blue on the right, transparent around them.
+std::string write_picture(const test::Folder& folder)
+{
+  QImage image(64, 48, QImage::Format_RGBA8888);
+  image.fill(Qt::transparent);
+  for (int y = 8; y < 40; ++y)
+  {
+    for (int x = 8; x < 56; ++x)
+    {
+      image.setPixelColor(x, y, x < 32 ? QColor(220, 20, 20) : QColor(20, 20, 220));
+    }
+  }
+  EXPECT_TRUE(image.save(text(folder / "flag.png")));
+  return folder / "flag.png";
+}
+
+TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
+{
+  this->drop(write_picture(this->folder));
+  ASSERT_EQ(this->window.error(), "");
+  ASSERT_NE(this->window.document()->surface(), nullptr);
+  EXPECT_NE(this->window.note_bar()->sentence().indexOf("cut out"), -1);
+  const auto red = [](const QColor& c) { return c.red() > 180 && c.green() < 80 && c.blue() < 80; };
+  const auto blue = [](const QColor& c)
+  { return c.blue() > 180 && c.green() < 80 && c.red() < 80; };
+  const QImage rest = this->picture();
+  const int as_many = this->count(rest, red);
+  EXPECT_GT(as_many, 5000);
+  EXPECT_NEAR(this->count(rest, blue), as_many, 0.1 * as_many);
+  EXPECT_TRUE(this->window.viewport()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
+  const double* bounds = this->window.document()->surface()->GetBounds();
+  EXPECT_NEAR(bounds[1] - bounds[0], 48, 2);
+  // The whole picture, when that is wanted.
+  button_of(this->window.note_bar(), "Take the whole picture")->click();
+  ASSERT_EQ(this->window.error(), "");
+  const double* whole = this->window.document()->surface()->GetBounds();
+  EXPECT_NEAR(whole[1] - whole[0], 64, 1e-6);
+  this->window.history()->undo();
+  this->window.history()->undo();
+  EXPECT_FALSE(
+    this->window.viewport()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
+  // In a session, too.
+  this->window.history()->redo();
+  ASSERT_TRUE(this->window.sessions()->write(text(this->folder / "flag.bindpose")));
+  ASSERT_TRUE(this->window.open(text(this->folder / "flag.bindpose")));
+  EXPECT_GT(this->count(this->picture(), red), 5000);
+}
+
+TEST_F(SessionWindow, AnUncleanSurfaceIsToldAboutAndShown)
+{
+  const TriangleMesh mesh = test::open_cube();
+  ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "box"));
+  QElapsedTimer clock;
+  clock.start();
+  while (this->window.note_bar()->sentence().isEmpty() && clock.elapsed() < 20000)
+  {
+    QApplication::processEvents(QEventLoop::AllEvents, 20);
+  }
+  EXPECT_NE(this->window.note_bar()->sentence().indexOf("4"), -1) // edges around the hole
+    << this->window.note_bar()->sentence().toStdString();
+  button_of(this->window.note_bar(), "Show where")->click();
+  EXPECT_EQ(this->window.panels()->shown_panel(), PanelColumn::tets);
+  EXPECT_TRUE(this->window.inspection()->defect_view().is_shown());
+}
+
+TEST_F(SessionWindow, WeightsWithoutAMeshAreOneSentence)
+{
+  ASSERT_TRUE(write_dmat(this->folder / "w.dmat", Weights(Weights::Constant(3, 2, 0.5))).ok());
+  EXPECT_FALSE(this->window.open(text(this->folder / "w.dmat")));
+  EXPECT_EQ(this->window.error(), "w.dmat holds weights: open their mesh and handles first");
+}
+
+TEST_F(SessionWindow, RecentFilesAreListedAndMissingOnesGreyed)
+{
+  this->open_files();
+  std::filesystem::remove(this->folder / "points.vtp");
+  QMenu* recent = this->menu_entry("Open recent")->menu();
+  Q_EMIT recent->aboutToShow();
+  ASSERT_GE(recent->actions().size(), 3);
+  EXPECT_TRUE(recent->actions()[0]->text().startsWith("points.vtp"));
+  EXPECT_FALSE(recent->actions()[0]->isEnabled());
+  EXPECT_TRUE(recent->actions()[1]->text().startsWith("column.vtp"));
+  EXPECT_TRUE(recent->actions()[1]->isEnabled());
+  const int steps = this->window.history()->count();
+  recent->actions()[1]->trigger();
+  EXPECT_EQ(this->window.history()->count(), steps + 1);
+  EXPECT_EQ(RecentFiles::list().size(), 2);
+  EXPECT_EQ(RecentFiles::list().front(), text(this->folder / "column.vtp"));
+  for (int k = 0; k < 20; ++k)
+  {
+    RecentFiles::add(QString("/file %1").arg(k));
+  }
+  EXPECT_EQ(RecentFiles::list().size(), RecentFiles::most);
+}
+
+TEST_F(SessionWindow, BarsAreNeverClippedAndNeverWidenTheWindow)
+{
+  this->window.resize(900, 600);
+  QApplication::processEvents();
+  for (NoticeBar* bar :
+    { this->window.recovery_bar(), this->window.note_bar(), this->window.rebind_bar() })
+  {
+    bar->offer(QString("A sentence that is so long that no line of this window holds it, with a "
+                       "name like %1 in it, and then some more of it.")
+                 .arg(QString(80, 'x')),
+      { { "Do it", [] {} } }, "Later");
+  }
+  this->render();
+  EXPECT_EQ(this->window.width(), 900);
+  for (NoticeBar* bar :
+    { this->window.recovery_bar(), this->window.note_bar(), this->window.rebind_bar() })
+  {
+    test::expect_unclipped_buttons(bar);
+    auto* label = bar->findChild<QLabel*>();
+    EXPECT_LE(label->heightForWidth(label->width()), label->height());
+  }
+}

@@ -3,8 +3,11 @@
 #include "error_bar.h"
 #include "help_boxes.h"
 #include "inspection.h"
+#include "key_strip.h"
 #include "panel_column.h"
 #include "pose_history.h"
+#include "pose_panel.h"
+#include "posing.h"
 #include "side_panel.h"
 #include "viewport.h"
 #include "volume_panel.h"
@@ -97,6 +100,7 @@ MainWindow::MainWindow(QWidget* parent)
     {
       auto* drawn = this->viewport_->handle_widget()->GetHandleSetRepresentation();
       drawn->SetSelectedHandle(handle < 0 ? -1 : this->handle_cells_[handle]);
+      this->posing_->select_handle(handle);
       this->viewport_->refresh();
     });
   QObject::connect(this->job_, &BindJob::progress, this->panel_, &SidePanel::set_progress);
@@ -109,6 +113,7 @@ MainWindow::MainWindow(QWidget* parent)
   widget->AddObserver(vtkCommand::InteractionEvent, this, &MainWindow::update_pose);
   widget->AddObserver(vtkCommand::EndInteractionEvent, this, &MainWindow::drag_ended);
   this->connect_volume();
+  this->connect_posing();
   this->update_panel();
   this->update_pose();
 }
@@ -161,6 +166,10 @@ void MainWindow::make_layout()
       this->weights_->set_active(panel == PanelColumn::weights);
     });
   rows->addWidget(this->viewport_, 1);
+  this->strip_ = new KeyStrip(centre);
+  rows->addWidget(this->strip_);
+  this->posing_ = new Posing(this->viewport_,
+    { this->panel_->pose(), this->panel_->fields(), this->panel_->poses(), this->strip_ });
   columns->addLayout(rows, 1);
   columns->addWidget(this->panels_);
   this->setCentralWidget(centre);
@@ -226,13 +235,18 @@ void MainWindow::make_menus()
       this->viewport_->refresh();
     });
   view->addSeparator();
-  const char* const methods[] = { QT_TR_NOOP("&Linear blend"), QT_TR_NOOP("&Dual quaternions"),
-    QT_TR_NOOP("&As rigid as possible") };
+  add(view, tr("&Rest or posed"), QKeySequence(Qt::Key_R),
+    [this] { this->posing_->look_at_rest(!this->posing_->looks_at_rest()); });
+  add(view, tr("&Play or pause"), QKeySequence(Qt::Key_Space),
+    [this] { this->posing_->play_keys(!this->posing_->is_playing()); });
+  add(
+    view, tr("&Set a key"), QKeySequence(Qt::Key_K), [this] { Q_EMIT this->strip_->key_wanted(); });
+  view->addSeparator();
   this->methods_ = new QActionGroup(this);
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < pose_method_count; ++k)
   {
-    QAction* method =
-      add(view, tr(methods[k]), QKeySequence(Qt::Key_1 + k), [this, k] { this->set_method(k); });
+    QAction* method = add(view, method_name(static_cast<PoseMethod>(k)),
+      QKeySequence(Qt::Key_1 + k), [this, k] { this->set_method(k); });
     method->setCheckable(true);
     this->methods_->addAction(method);
   }
@@ -284,9 +298,7 @@ bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name)
   this->cancel_bind();
   this->error_bar_->hide();
   this->history_->clear();
-  this->deformation_.clear();
   this->rest_ = skin;
-  this->shown_ = skin;
   this->viewport_->set_surface(skin);
   TetInput tets;
   auto* grid = vtkUnstructuredGrid::SafeDownCast(mesh);
@@ -319,7 +331,6 @@ bool MainWindow::set_handles(vtkPolyData* handle_data, const QString& name)
   this->cancel_bind();
   this->error_bar_->hide();
   this->history_->clear();
-  this->deformation_.clear();
   this->handles_ = handles;
   this->handle_cells_ = cells;
   this->handle_data_ = vtkSmartPointer<vtkPolyData>::New();
@@ -425,6 +436,7 @@ void MainWindow::connect_volume()
 void MainWindow::connect_weights()
 {
   vtkDataArray* weights = this->rest_ ? this->rest_->GetPointData()->GetArray("Weights") : nullptr;
+  bool fit = false;
   if (weights && this->handle_data_)
   {
     bool same_names = true;
@@ -435,7 +447,7 @@ void MainWindow::connect_weights()
     }
     if (weights->GetNumberOfComponents() == static_cast<int>(this->handles_.size()) && same_names)
     {
-      this->deformation_.set_input(this->rest_, this->handle_data_);
+      fit = true;
     }
     else if (weights->GetNumberOfComponents() == static_cast<int>(this->handles_.size()))
     {
@@ -449,6 +461,7 @@ void MainWindow::connect_weights()
           .arg(this->handles_.size()));
     }
   }
+  this->posing_->set_data(this->rest_, this->weighted_tets_, this->handle_data_, fit);
   this->weights_->set_data(this->rest_, this->weighted_tets_, this->is_bound());
   this->update_panel();
   this->update_pose();
@@ -546,10 +559,6 @@ void MainWindow::set_rest(vtkPolyData* rest, vtkUnstructuredGrid* weighted_tets)
   this->rest_ = rest;
   this->weighted_tets_ = weighted_tets;
   this->viewport_->set_surface(rest);
-  if (!rest->GetPointData()->HasArray("Weights"))
-  {
-    this->deformation_.clear();
-  }
   this->connect_weights();
 }
 
@@ -661,6 +670,7 @@ void MainWindow::selection_changed()
   const int handle = this->handle_of_cell(
     this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetSelectedHandle());
   this->panel_->select_handle(handle);
+  this->posing_->select_handle(handle);
   if (this->is_bound())
   {
     this->weights_->choose_column(handle);
@@ -669,6 +679,7 @@ void MainWindow::selection_changed()
 
 void MainWindow::drag_began()
 {
+  this->posing_->drag_began();
   this->before_drag_ = this->pose();
   this->dragged_ = this->handle_of_cell(
     this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetActiveHandle());
@@ -688,7 +699,6 @@ void MainWindow::set_method(int method)
 {
   this->panel_->set_method(method);
   this->methods_->actions()[method]->setChecked(true);
-  this->deformation_.set_method(static_cast<Deformation::Method>(method));
   this->update_pose();
 }
 
@@ -719,7 +729,47 @@ void MainWindow::back_to_rest()
   this->remember(tr("back to rest"), before);
 }
 
+bool MainWindow::is_bound() const
+{
+  return this->posing_->has_weights();
+}
+
+vtkPolyData* MainWindow::shown() const
+{
+  return this->posing_->shape();
+}
+
+void MainWindow::connect_posing()
+{
+  QObject::connect(this->posing_, &Posing::moved, this, &MainWindow::draw_pose);
+  QObject::connect(this->posing_, &Posing::failed, this, &MainWindow::show_error);
+  QObject::connect(this->posing_, &Posing::pose_changed, this,
+    [this](const Pose& pose)
+    {
+      if (this->before_change_.empty())
+      {
+        this->before_change_ = this->pose();
+      }
+      this->apply_pose(pose);
+    });
+  QObject::connect(this->posing_, &Posing::pose_done, this,
+    [this](const QString& step)
+    {
+      if (!this->before_change_.empty())
+      {
+        this->remember(step, this->before_change_);
+        this->before_change_.clear();
+      }
+    });
+}
+
 void MainWindow::update_pose()
+{
+  this->posing_->handles_moved();
+  this->draw_pose();
+}
+
+void MainWindow::draw_pose()
 {
   const bool volume_only = this->volume_view_->volume() && !(this->rest_ && this->handle_data_);
   QString reading = volume_only ? tr("Drag the slice to move it, elsewhere to turn the view.")
@@ -727,35 +777,21 @@ void MainWindow::update_pose()
     : !this->handle_data_       ? tr("Open handles (.tgf or .vtp) to bind and pose.")
     : this->is_binding()        ? tr("Binding; the view can be turned meanwhile.")
                                 : tr("Bind (Ctrl+B), then drag the handles.");
-  if (this->deformation_.has_input())
+  if (this->posing_->can_pose())
   {
-    if (vtkPolyData* posed = this->deformation_.posed())
-    {
-      this->shown_ = posed;
-      reading = tr("%L1 vertices  ·  %2 ms a pose")
-                  .arg(static_cast<qlonglong>(posed->GetNumberOfPoints()))
-                  .arg(this->deformation_.milliseconds(), 0, 'f', 2);
-      if (this->deformation_.microseconds_per_iteration() > 0.0)
-      {
-        reading += tr("  ·  %1 µs an iteration")
-                     .arg(this->deformation_.microseconds_per_iteration(), 0, 'f', 1);
-      }
-    }
-    else
-    {
-      this->show_error(
-        tr("Cannot pose: %1.").arg(QString::fromStdString(this->deformation_.error())));
-    }
-  }
-  else if (this->rest_)
-  {
-    this->shown_ = this->rest_;
+    reading = this->posing_->reading();
   }
   if (this->rest_)
   {
-    vtkPolyData* drawn = this->weights_->wants_rest() ? this->rest_ : this->shown_;
-    this->viewport_->move_surface(drawn);
-    this->weights_->move_surface(drawn);
+    if (this->weights_->wants_rest())
+    {
+      this->viewport_->move_surface(this->rest_.Get());
+    }
+    else
+    {
+      this->posing_->draw();
+    }
+    this->weights_->move_surface(this->weights_->wants_rest() ? this->rest_.Get() : this->shown());
   }
   this->hint_->setText(reading);
   this->viewport_->refresh();
@@ -788,7 +824,8 @@ void MainWindow::update_panel()
   this->save_pose_->setEnabled(this->handle_data_);
   this->bind_->setEnabled(ready && !binding);
   this->rest_pose_->setEnabled(bound);
-  this->methods_->setEnabled(bound);
+  this->methods_->setEnabled(ready);
+  this->strip_->setVisible(ready);
 }
 
 /// Tets take the surface's place, and defects shine through it; else a volume decides.
@@ -835,7 +872,7 @@ void MainWindow::save(const QString& what)
   }
   const Status status = what == "pose"
     ? write_pose(this->pose(), this->handles_, path.toStdString())
-    : write_shape(this->shown_, path.toStdString());
+    : write_shape(this->shown(), path.toStdString());
   if (!status.ok())
   {
     this->show_error(QString::fromStdString(status.message));

@@ -2,7 +2,6 @@
 #define main_window_h
 
 #include "bind_job.h"
-#include "deformation.h"
 #include "pose/pose.h"
 #include "weights/handles.h"
 
@@ -18,7 +17,9 @@ class QLabel;
 class QUndoStack;
 class ErrorBar;
 class Inspection;
+class KeyStrip;
 class PanelColumn;
+class Posing;
 class SidePanel;
 class Viewport;
 class VolumeView;
@@ -52,13 +53,13 @@ public:
   void bind();
   void cancel_bind();
   bool is_binding() const { return this->job_->is_running(); }
-  bool is_bound() const { return this->deformation_.has_input(); }
+  bool is_bound() const;
   void set_method(int method);
   void set_mode(int handle, int mode);
   void back_to_rest();
 
   /// What is drawn: the posed surface, or the rest one before a bind.
-  vtkPolyData* shown() const { return this->shown_; }
+  vtkPolyData* shown() const;
   Viewport* viewport() const { return this->viewport_; }
   QUndoStack* history() const { return this->history_; }
   SidePanel* panel() const { return this->panel_; }
@@ -66,6 +67,7 @@ public:
   VolumeView* volume_view() const { return this->volume_view_; }
   Inspection* inspection() const { return this->inspection_; }
   WeightInspection* weights() const { return this->weights_; }
+  Posing* posing() const { return this->posing_; }
   /// What is under the mouse on the slice, as the status bar shows it.
   QString reading() const;
   /// The sentence in the error bar; empty when it is hidden.
@@ -88,7 +90,9 @@ private:
   /// False when they are not of this mesh and these handles.
   bool take_weights(const BindResult& result);
   void set_rest(vtkPolyData* rest, vtkUnstructuredGrid* weighted_tets);
+  void connect_posing();
   void update_pose();
+  void draw_pose();
   void update_panel();
   void show_column(int column);
   int handle_of_cell(vtkIdType cell) const;
@@ -105,6 +109,8 @@ private:
   VolumeView* volume_view_ = nullptr;
   Inspection* inspection_ = nullptr;
   WeightInspection* weights_ = nullptr;
+  Posing* posing_ = nullptr;
+  KeyStrip* strip_ = nullptr; // below the picture
   PanelColumn* panels_ = nullptr;
   SidePanel* panel_ = nullptr; // one of them
   ErrorBar* error_bar_ = nullptr;
@@ -126,12 +132,11 @@ private:
   vtkSmartPointer<vtkPolyData> before_preview_, preview_;
   vtkSmartPointer<vtkUnstructuredGrid> tets_before_preview_;
   vtkSmartPointer<vtkPolyData> handle_data_;
-  vtkSmartPointer<vtkPolyData> shown_;
   bool has_curves_ = false; // opened as such, not the lines of a mesh
   bindpose::Handles handles_;
   std::vector<bindpose::Index> handle_cells_;
-  Deformation deformation_;
   bindpose::Pose before_drag_;
+  bindpose::Pose before_change_; // by posing_; empty: none is going on
   int dragged_ = -1;
 };
 

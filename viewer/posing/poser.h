@@ -29,6 +29,8 @@ public:
   /// @param most_iterations  fewer than the options', for a slice of a long solve; 0: theirs
   Status solve(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
     Index most_iterations, Points& posed);
+  /// After a solve: the transforms that were found, one a handle or more; null where none are.
+  virtual const std::vector<Affine>* found() const { return nullptr; }
   /// How often something was bound.
   Index binds() const { return this->binds_; }
 

@@ -16,8 +16,7 @@ class ReducedPoser : public Poser
 public:
   explicit ReducedPoser(std::shared_ptr<const PoseSource> source) : Poser(std::move(source)) {}
   bool is_bound(const PoseOptions& options) const override;
-  /// Of the last solve, one a handle: what was found for those that are not full.
-  const std::vector<Affine>& transforms() const { return this->arap_.transforms(); }
+  const std::vector<Affine>* found() const override { return &this->arap_.transforms(); }
 
 protected:
   Status bind_missing(ExecutionContext& context, const PoseOptions& options) override;

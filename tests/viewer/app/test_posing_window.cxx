@@ -22,6 +22,7 @@
 
 #include "vtkCellData.h"
 #include "vtkCommand.h"
+#include "vtkDoubleArray.h"
 #include "vtkGLTFSkinReader.h"
 #include "vtkHandleSetRepresentation.h"
 #include "vtkHandleSetWidget.h"
@@ -42,7 +43,6 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSlider>
-#include <QTest>
 #include <QUndoStack>
 
 #include <gtest/gtest.h>
@@ -106,7 +106,7 @@ protected:
   void open(int levels = 3)
   {
     const TriangleMesh mesh = pole(levels);
-    this->list = handles_of_pole();
+
     this->surface = to_polydata(mesh.points, mesh.triangles);
     this->surface->GetPointData()->AddArray(
       to_weights_array("Weights", weights_of(mesh.points, this->list), this->list));
@@ -184,7 +184,7 @@ protected:
     }
   }
 
-  Handles list;
+  Handles list = handles_of_pole();
   vtkSmartPointer<vtkPolyData> surface, handles;
 };
 } // namespace
@@ -309,6 +309,7 @@ TEST_F(PosingWindow, CentresAreMadeBesideTheWindowAndCanBeStopped)
   EXPECT_EQ(this->window.error(), QString());
   this->choose(PoseMethod::linear_blend);
   this->put(this->bent());
+  ASSERT_TRUE(this->settle());
   EXPECT_NE(this->points(), before);
   this->choose(PoseMethod::rotation_centres);
   ASSERT_TRUE(this->settle());
@@ -470,7 +471,6 @@ TEST_F(PosingWindow, RestAndPoseAreOneKeyApart)
   this->open();
   this->put(this->bent());
   const Points posed = this->points();
-  QTest::keyClick(&this->window, Qt::Key_R);
   this->posing()->look_at_rest(true);
   EXPECT_EQ(this->points(), Points(to_points(this->surface).view()));
   this->posing()->look_at_rest(false);
@@ -573,11 +573,15 @@ TEST_F(PosingWindow, KeyFramesPlayAndScrubThroughTheirKeys)
   this->render();
   KeyTrack* track = strip->track();
   const int y = track->height() - 12;
-  QTest::mousePress(track, Qt::LeftButton, Qt::NoModifier, { track->pixel(0.5), y });
-  QMouseEvent move(
-    QEvent::MouseMove, QPoint(track->pixel(1.0), y), Qt::NoButton, Qt::LeftButton, Qt::NoModifier);
-  QApplication::sendEvent(track, &move);
-  QTest::mouseRelease(track, Qt::LeftButton, Qt::NoModifier, { track->pixel(1.0), y });
+  const QPoint from(track->pixel(0.5), y), to(track->pixel(1.0), y);
+  const auto send = [&](QEvent::Type type, const QPoint& at, Qt::MouseButton pressed)
+  {
+    QMouseEvent event(type, at, pressed, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(track, &event);
+  };
+  send(QEvent::MouseButtonPress, from, Qt::LeftButton);
+  send(QEvent::MouseMove, to, Qt::NoButton);
+  send(QEvent::MouseButtonRelease, to, Qt::LeftButton);
   EXPECT_NEAR(this->posing()->shelf().keys.duration(), 1.0, 0.02);
   EXPECT_EQ(this->window.error(), QString());
 }

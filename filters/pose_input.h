@@ -4,8 +4,8 @@
 #include "conversion.h"
 #include "vtkPoseAlgorithm.h"
 
-/// What vtkPoseAlgorithm hands to its subclasses.
-struct vtkPoseAlgorithm::PoseInput
+/// What vtkBindAlgorithm hands to its subclasses.
+struct vtkBindAlgorithm::PoseInput
 {
   vtkPointSet* mesh;
   bindpose::PointsView points; ///< #V x 3, at rest
@@ -16,6 +16,7 @@ struct vtkPoseAlgorithm::PoseInput
   const std::vector<bindpose::Index>& cells; ///< of the handles, in it
 };
 
+/// And vtkPoseAlgorithm to its own.
 struct vtkPoseAlgorithm::PosedPoints
 {
   bindpose::Points points;

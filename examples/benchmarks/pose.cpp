@@ -1,9 +1,11 @@
-// Pose time, one thread: microseconds per iteration of reduced ARAP by handles and clusters (the
-// mesh does not matter: two sizes show it) and of full ARAP (by the mesh alone), bind and
-// re-factor, skinning of 100k vertices with dense weights. Weights are made up (inverse distances),
-// so that no solver is waited for; those of the crowd are bounded biharmonic.
+// Pose time, one thread: reduced ARAP by handles, clusters and energies (the mesh does not matter:
+// three sizes show it), with bind, memory and change of modes; full ARAP (by the mesh alone);
+// skinning of 100k vertices; stretch; a crowd. Weights are made up (inverse distances), so that no
+// solver is waited for; those of the crowd, and of skinning where it says so, are bounded
+// biharmonic. pose_table.py makes the tables of README.md from it.
 #include "surfaces.h"
 
+#include "base/memory.h"
 #include "pose/crowd.h"
 #include "pose/element_stretch.h"
 #include "pose/full_arap.h"
@@ -19,7 +21,10 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
+#include <fstream>
 #include <limits>
+#include <map>
 
 namespace
 {
@@ -32,28 +37,59 @@ struct Rig
   Weights weights;
 };
 
-/// Point handles at farthest points, weights 1 / distance^4, normalised: 1 at the own handle.
-Rig make_rig(Index triangles, Index count)
+/// 1 / distance^4, normalised: 1 at the own handle.
+Weights distance_weights(const Points& points, const Handles& handles)
+{
+  Weights weights(points.rows(), static_cast<Index>(handles.size()));
+  for (Index h = 0; h < weights.cols(); ++h)
+  {
+    weights.col(h) = (points.rowwise() - handles[static_cast<std::size_t>(h)].head.transpose())
+                       .rowwise()
+                       .squaredNorm()
+                       .unaryExpr([](double d2) { return 1.0 / (d2 * d2 + 1e-12); });
+  }
+  return (weights.array().colwise() / weights.rowwise().sum().array()).matrix();
+}
+
+/// A closed surface and point handles at farthest points, without weights.
+Rig make_bare_rig(Index triangles, Index count)
 {
   Rig rig;
   rig.mesh = benchmarks::bumpy_sphere(triangles);
   ExecutionContext context;
   std::vector<Index> at;
   farthest_points(rig.mesh.points, rig.mesh.triangles, count, context, at);
-  rig.weights.resize(rig.mesh.points.rows(), count);
   for (Index h = 0; h < count; ++h)
   {
     Handle handle;
     handle.name = "p" + std::to_string(h + 1);
     handle.head = handle.tail = rig.mesh.points.row(at[static_cast<std::size_t>(h)]);
-    rig.weights.col(h) = (rig.mesh.points.rowwise() - handle.head.transpose())
-                           .rowwise()
-                           .squaredNorm()
-                           .unaryExpr([](double d2) { return 1.0 / (d2 * d2 + 1e-12); });
     rig.handles.push_back(handle);
   }
-  rig.weights = (rig.weights.array().colwise() / rig.weights.rowwise().sum().array()).matrix();
   return rig;
+}
+
+Rig make_rig(Index triangles, Index count)
+{
+  Rig rig = make_bare_rig(triangles, count);
+  rig.weights = distance_weights(rig.mesh.points, rig.handles);
+  return rig;
+}
+
+/// Bounded biharmonic weights, by a lattice around the surface.
+Status add_bounded_weights(Rig& rig)
+{
+  ExecutionContext context;
+  SurfaceWeightsOptions where;
+  where.domain = WeightsDomain::embedding;
+  const WeightsMethod method =
+    [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& result)
+  { return bounded_biharmonic_weights(problem, {}, of_method, result); };
+  SurfaceWeights weights;
+  const Status status = surface_weights(
+    rig.mesh.points, rig.mesh.triangles, {}, rig.handles, where, {}, method, context, weights);
+  rig.weights = std::move(weights.weights);
+  return status;
 }
 
 /// Every second handle dragged by its position, the others free.
@@ -68,34 +104,168 @@ Pose dragged(const Handles& handles, double by)
   return pose;
 }
 
-/// Arguments: triangles, handles, clusters, iterates that acceleration looks back on.
-void reduced_arap_iteration(benchmark::State& state)
+/// Processor time, which others on the machine do not add to: a call's median of several, seconds.
+template <typename Call>
+double processor_seconds(int calls, const Call& call)
 {
-  const Rig rig = make_rig(state.range(0), state.range(1));
+  std::vector<double> seconds;
+  for (int i = 0; i < calls; ++i)
+  {
+    const std::clock_t start = std::clock();
+    call();
+    seconds.push_back(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
+  }
+  std::nth_element(seconds.begin(), seconds.begin() + calls / 2, seconds.end());
+  return seconds[static_cast<std::size_t>(calls / 2)];
+}
+
+/// Linux: the peak that peak_memory() tells begins anew.
+void forget_peak()
+{
+  std::ofstream("/proc/self/clear_refs") << "5";
+}
+
+/// One row of the table: bind, iterations without and with acceleration, a cold solve to
+/// convergence, a change of modes. Google's own time is that of the cold solve.
+template <typename Elements>
+void measure_reduced(benchmark::State& state, const Points& points, const Elements& elements,
+  const Weights& weights, const Handles& handles, const ReducedArapOptions& options)
+{
   ExecutionContext context;
   context.set_threads(1);
   ReducedArap arap;
-  ReducedArapOptions options;
-  options.clusters = state.range(2);
-  arap.bind(context, rig.mesh.points, rig.mesh.triangles, rig.weights, rig.handles, options);
-  const Pose pose = dragged(rig.handles, 0.3);
-  double microseconds = 0.0, solves = 0.0;
+  forget_peak();
+  const double before = resident_memory();
+  const double bind = processor_seconds(1,
+    [&]()
+    { arap.bind(context, points, MatrixView<Elements>(elements), weights, handles, options); });
+  state.counters["bind_MiB"] = (peak_memory() - before) / mebibyte;
+  state.counters["bind_s"] = bind;
+
+  Pose pose = dragged(handles, 0.3);
+  const bool large = handles.size() >= 100;
+  const int calls = large ? 5 : 15, solves = large ? 5 : 100;
+  // From rest, so few that they do not come to an end; the first and the last are left out.
+  const auto seconds = [&](Index iterations, Index window, bool mixed)
+  {
+    const ReducedArap::SolveOptions solve{ 0.0, iterations, ReducedArap::Start::rest, window, 0.0,
+      mixed };
+    arap.solve(context, pose, solve); // factors
+    return processor_seconds(calls,
+      [&]()
+      {
+        for (int i = 0; i < solves; ++i)
+        {
+          arap.solve(context, pose, solve);
+        }
+      });
+  };
+  const auto microseconds = [&](Index window, bool mixed)
+  { return 1e6 * (seconds(9, window, mixed) - seconds(2, window, mixed)) / (7.0 * solves); };
+  state.counters["double_us"] = microseconds(0, false);
+  state.counters["plain_us"] = microseconds(0, true);
+  state.counters["us"] = microseconds(5, true);
+  state.counters["modes_ms"] = 1e3 *
+    processor_seconds(calls,
+      [&]()
+      {
+        pose[0].mode = pose[0].mode == HandleMode::full ? HandleMode::position : HandleMode::full;
+        arap.solve(context, pose, { 0.0, 0 });
+      });
+  pose = dragged(handles, 0.3);
+  ReducedArap::SolveOptions converge;
+  converge.max_iterations = 2000;
+  converge.start = ReducedArap::Start::rest;
+  arap.solve(context, pose, converge);
   for (auto _ : state)
   {
-    const Status status =
-      arap.solve(context, pose, { 0.0, 200, ReducedArap::Start::rest, state.range(3) });
-    microseconds += status.report.number("microseconds_per_iteration", 0.0);
-    solves += 1.0;
+    state.counters["converge_us"] =
+      1e6 * processor_seconds(calls, [&]() { arap.solve(context, pose, converge); });
   }
-  state.counters["us_per_iteration"] = microseconds / solves;
+  state.counters["iterations"] = static_cast<double>(arap.energies().size() / 2);
   state.counters["clusters"] = static_cast<double>(arap.groups().count);
 }
-BENCHMARK(reduced_arap_iteration)
-  ->ArgNames({ "triangles", "handles", "clusters", "window" })
-  ->ArgsProduct({ { 20000 }, { 5 }, { 20 }, { 0, 5 } })
-  ->ArgsProduct({ { 20000 }, { 20 }, { 80 }, { 0, 5 } })
-  ->ArgsProduct({ { 20000 }, { 50 }, { 150 }, { 0, 5 } })
-  ->Args({ 86000, 20, 80, 5 })
+
+/// Arguments: triangles, handles, clusters, energy (bindpose::ArapEnergy).
+void reduced_arap(benchmark::State& state)
+{
+  const Rig rig = make_rig(state.range(0), state.range(1));
+  ReducedArapOptions options;
+  options.clusters = state.range(2);
+  options.energy = static_cast<ArapEnergy>(state.range(3));
+  state.SetLabel(to_string(options.energy, false));
+  measure_reduced(state, rig.mesh.points, rig.mesh.triangles, rig.weights, rig.handles, options);
+}
+BENCHMARK(reduced_arap)
+  ->ArgNames({ "triangles", "handles", "clusters", "energy" })
+  ->ArgsProduct({ { 86000 }, { 5 }, { 20 }, { 1, 2, 3 } })
+  ->ArgsProduct({ { 86000 }, { 20 }, { 80 }, { 1, 2, 3 } })
+  ->ArgsProduct({ { 86000 }, { 20 }, { 400 }, { 1, 2, 3 } })
+  ->ArgsProduct({ { 86000 }, { 50 }, { 150 }, { 1, 2, 3 } })
+  ->ArgsProduct({ { 86000 }, { 100 }, { 300 }, { 1, 2, 3 } })
+  ->ArgsProduct({ { 86000 }, { 300 }, { 600 }, { 1, 2, 3 } })
+  ->Args({ 5000, 20, 80, 1 })
+  ->Args({ 20000, 20, 80, 1 })
+  ->Iterations(1)
+  ->Unit(benchmark::kMillisecond);
+
+/// Kuhn's tets in a box, six a cube.
+TetMesh tet_box(Index side)
+{
+  TetMesh mesh;
+  mesh.points.resize((side + 1) * (side + 1) * (side + 1), 3);
+  mesh.tets.resize(6 * side * side * side, 4);
+  const Index step[3] = { 1, side + 1, (side + 1) * (side + 1) };
+  constexpr int order[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 1, 0, 2 }, { 0, 2, 1 },
+    { 2, 1, 0 } };
+  Index tet = 0;
+  for (Index v = 0; v < mesh.points.rows(); ++v)
+  {
+    const Index at[3] = { v % step[1], v / step[1] % (side + 1), v / step[2] };
+    mesh.points.row(v) = Vec3(at[0], at[1], at[2]).transpose() / static_cast<double>(side);
+    for (int k = 0; k < 6 && std::max({ at[0], at[1], at[2] }) < side; ++k, ++tet)
+    {
+      const Index one = v + step[order[k][0]], two = one + step[order[k][1]];
+      mesh.tets.row(tet) << v, one, two, two + step[order[k][2]];
+      if (k >= 3)
+      {
+        std::swap(mesh.tets(tet, 1), mesh.tets(tet, 2));
+      }
+    }
+  }
+  return mesh;
+}
+
+/// Arguments: handles, clusters. The energy of tets in a box of 43k vertices.
+void reduced_arap_of_tets(benchmark::State& state)
+{
+  const TetMesh mesh = tet_box(34);
+  // Handles all over the box: a sparse walk through its vertices.
+  Handles handles;
+  const Index count = state.range(0);
+  benchmarks::Random random;
+  for (Index h = 0; h < count; ++h)
+  {
+    Handle handle;
+    handle.name = "p" + std::to_string(h + 1);
+    handle.head = handle.tail = mesh.points.row(random.below(mesh.points.rows()));
+    handles.push_back(handle);
+  }
+  ReducedArapOptions options;
+  options.clusters = state.range(1);
+  state.SetLabel("tetrahedra");
+  measure_reduced(
+    state, mesh.points, mesh.tets, distance_weights(mesh.points, handles), handles, options);
+}
+BENCHMARK(reduced_arap_of_tets)
+  ->ArgNames({ "handles", "clusters" })
+  ->Args({ 5, 20 })
+  ->Args({ 20, 80 })
+  ->Args({ 20, 400 })
+  ->Args({ 50, 150 })
+  ->Args({ 100, 300 })
+  ->Args({ 300, 600 })
+  ->Iterations(1)
   ->Unit(benchmark::kMillisecond);
 
 /// Arguments: handles, clusters, iterates that acceleration looks back on, drag in tenths of the
@@ -144,47 +314,6 @@ BENCHMARK(reduced_arap_to_energy)
   ->ArgsProduct({ { 50 }, { 150 }, { 0, 5, 10 }, { 3, 10, 20 } })
   ->Unit(benchmark::kMicrosecond);
 
-/// Arguments: triangles, handles. Clusters: automatic.
-void reduced_arap_bind(benchmark::State& state)
-{
-  const Rig rig = make_rig(state.range(0), state.range(1));
-  for (auto _ : state)
-  {
-    ExecutionContext context;
-    context.set_threads(1);
-    ReducedArap arap;
-    const Status status =
-      arap.bind(context, rig.mesh.points, rig.mesh.triangles, rig.weights, rig.handles);
-    benchmark::DoNotOptimize(status.ok());
-  }
-}
-BENCHMARK(reduced_arap_bind)
-  ->ArgNames({ "triangles", "handles" })
-  ->Args({ 20000, 20 })
-  ->Args({ 86000, 20 })
-  ->Unit(benchmark::kMillisecond);
-
-/// Arguments: handles. A change of modes and a solve of one iteration.
-void reduced_arap_change_of_modes(benchmark::State& state)
-{
-  const Rig rig = make_rig(5000, state.range(0));
-  ExecutionContext context;
-  context.set_threads(1);
-  ReducedArap arap;
-  arap.bind(context, rig.mesh.points, rig.mesh.triangles, rig.weights, rig.handles);
-  Pose pose = dragged(rig.handles, 0.1);
-  for (auto _ : state)
-  {
-    pose[0].mode = pose[0].mode == HandleMode::full ? HandleMode::position : HandleMode::full;
-    arap.solve(context, pose, { 0.0, 1, ReducedArap::Start::last });
-  }
-}
-BENCHMARK(reduced_arap_change_of_modes)
-  ->ArgName("handles")
-  ->Arg(20)
-  ->Arg(50)
-  ->Unit(benchmark::kMillisecond);
-
 /// Arguments: triangles, iterates that acceleration looks back on.
 void full_arap_iteration(benchmark::State& state)
 {
@@ -215,45 +344,90 @@ BENCHMARK(full_arap_iteration)
   ->Args({ 86000, 0 })
   ->Unit(benchmark::kMillisecond);
 
-/// Arguments: handles, 0 linear blend or 1 dual quaternions, 1 for single precision. 100k vertices,
-/// no weight is zero; in single precision those up to 1e-6 are dropped.
+/// Arguments: handles, 0 linear blend, 1 dual quaternions or 2 stretchable bones, 1 for single
+/// precision, 1 for bounded biharmonic weights (else none is zero). 100k vertices; weights up to
+/// 1e-6 are dropped, and what is lost by it is told.
 void skinning(benchmark::State& state)
 {
-  const Rig rig = make_rig(200000, state.range(0));
+  const Index count = state.range(0);
+  // The handles and their weights are kept from row to row: a minute for all three.
+  static std::map<std::pair<Index, bool>, Rig> rigs;
+  Rig& rig = rigs[{ count, state.range(3) != 0 }];
+  if (rig.handles.empty())
+  {
+    rig = make_bare_rig(200000, count);
+    for (Handle& handle : rig.handles)
+    {
+      handle.kind = HandleKind::bone;
+      handle.tail = 0.5 * handle.head;
+    }
+    if (state.range(3) == 0)
+    {
+      rig.weights = distance_weights(rig.mesh.points, rig.handles);
+    }
+    else if (const Status solved = add_bounded_weights(rig); !solved.usable())
+    {
+      state.SkipWithError(solved.message.c_str());
+      return;
+    }
+  }
   ExecutionContext context;
   context.set_threads(1);
   Skinning skin;
   SkinningOptions options;
   options.single_precision = state.range(2) != 0;
-  options.smallest_weight = options.single_precision ? 1e-6 : 0.0;
-  skin.bind(context, rig.weights, options);
+  options.smallest_weight = 1e-6;
+  const Status bound = skin.bind(context, rig.weights, options);
   std::vector<Affine> transforms;
-  for (Index h = 0; h < state.range(0); ++h)
+  std::vector<BoneChange> bones;
+  for (Index h = 0; h < count; ++h)
   {
+    const Handle& handle = rig.handles[static_cast<std::size_t>(h)];
     Affine t = identity_affine();
     t.leftCols<3>() = Eigen::AngleAxisd(0.1 * static_cast<double>(h), Vec3::UnitZ()).matrix();
     transforms.push_back(t);
+    bones.push_back({ handle.head, handle.tail - handle.head, 1.2, Eigen::Vector2d(0.0, 30.0) });
   }
   const Points pivots = handle_pivots(rig.handles);
   Points posed;
   for (auto _ : state)
   {
-    if (state.range(1) == 0)
+    switch (state.range(1))
     {
-      skin.linear_blend(context, rig.mesh.points, transforms, posed);
-    }
-    else
-    {
-      skin.dual_quaternion(context, rig.mesh.points, transforms, pivots, posed);
+      case 0:
+        skin.linear_blend(context, rig.mesh.points, transforms, posed);
+        break;
+      case 1:
+        skin.dual_quaternion(context, rig.mesh.points, transforms, pivots, posed);
+        break;
+      default:
+        skin.stretchable_bones(context, rig.mesh.points, transforms, bones, Weights(), posed);
     }
     benchmark::DoNotOptimize(posed.data());
   }
-  state.counters["vertices"] = static_cast<double>(rig.mesh.points.rows());
-  state.counters["weights"] = static_cast<double>(skin.weight_count());
+  Skinning exact;
+  Points reference;
+  exact.bind(context, rig.weights);
+  switch (state.range(1))
+  {
+    case 0:
+      exact.linear_blend(context, rig.mesh.points, transforms, reference);
+      break;
+    case 1:
+      exact.dual_quaternion(context, rig.mesh.points, transforms, pivots, reference);
+      break;
+    default:
+      exact.stretchable_bones(context, rig.mesh.points, transforms, bones, Weights(), reference);
+  }
+  state.counters["error"] =
+    (posed - reference).rowwise().norm().maxCoeff() / bounding_box(rig.mesh.points).diagonal();
+  state.counters["weights_each"] =
+    static_cast<double>(skin.weight_count()) / static_cast<double>(rig.mesh.points.rows());
+  state.counters["dropped_share"] = bound.report.number("dropped_share", 0.0);
 }
 BENCHMARK(skinning)
-  ->ArgNames({ "handles", "dual", "single" })
-  ->ArgsProduct({ { 5, 20, 50 }, { 0, 1 }, { 0, 1 } })
+  ->ArgNames({ "handles", "method", "single", "bounded" })
+  ->ArgsProduct({ { 5, 20, 50 }, { 0, 1, 2 }, { 0, 1 }, { 0, 1 } })
   ->Unit(benchmark::kMillisecond);
 
 /// What the report says of elements after each pose; a bend, so that few elements are alike.
@@ -284,27 +458,10 @@ void stretch_of_triangles(benchmark::State& state)
 }
 BENCHMARK(stretch_of_triangles)->Unit(benchmark::kMillisecond);
 
-/// A box of Kuhn's tets.
 void stretch_of_tets(benchmark::State& state)
 {
-  constexpr Index side = 45;
-  Points points((side + 1) * (side + 1) * (side + 1), 3);
-  Tets tets(6 * side * side * side, 4);
-  const Index step[3] = { 1, side + 1, (side + 1) * (side + 1) };
-  constexpr int order[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 }, { 1, 0, 2 }, { 0, 2, 1 },
-    { 2, 1, 0 } };
-  Index tet = 0;
-  for (Index v = 0; v < points.rows(); ++v)
-  {
-    const Index at[3] = { v % step[1], v / step[1] % (side + 1), v / step[2] };
-    points.row(v) = Vec3(at[0], at[1], at[2]).transpose() / static_cast<double>(side);
-    for (int k = 0; k < 6 && std::max({ at[0], at[1], at[2] }) < side; ++k, ++tet)
-    {
-      const Index one = v + step[order[k][0]], two = one + step[order[k][1]];
-      tets.row(tet) << v, one, two, two + step[order[k][2]];
-    }
-  }
-  measure(state, points, tets);
+  const TetMesh mesh = tet_box(45);
+  measure(state, mesh.points, mesh.tets);
 }
 BENCHMARK(stretch_of_tets)->Unit(benchmark::kMillisecond);
 
@@ -313,27 +470,20 @@ BENCHMARK(stretch_of_tets)->Unit(benchmark::kMillisecond);
 /// bounded biharmonic, those up to 1e-6 dropped.
 void crowd(benchmark::State& state)
 {
-  Rig rig = make_rig(state.range(0), state.range(1));
-  ExecutionContext context;
-  SurfaceWeightsOptions where;
-  where.domain = WeightsDomain::embedding;
-  const WeightsMethod method =
-    [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& result)
-  { return bounded_biharmonic_weights(problem, {}, of_method, result); };
-  SurfaceWeights weights;
-  const Status solved = surface_weights(
-    rig.mesh.points, rig.mesh.triangles, {}, rig.handles, where, {}, method, context, weights);
+  Rig rig = make_bare_rig(state.range(0), state.range(1));
+  const Status solved = add_bounded_weights(rig);
   if (!solved.usable())
   {
     state.SkipWithError(solved.message.c_str());
     return;
   }
+  ExecutionContext context;
   context.set_threads(1);
   Crowd crowd;
   ReducedArapOptions options;
   options.clusters = state.range(2);
   options.skinning.smallest_weight = 1e-6;
-  crowd.bind(context, rig.mesh.points, rig.mesh.triangles, weights.weights, rig.handles, options);
+  crowd.bind(context, rig.mesh.points, rig.mesh.triangles, rig.weights, rig.handles, options);
   ReducedSolveOptions solve;
   solve.tolerance = 1e-4;
   solve.max_iterations = 10;

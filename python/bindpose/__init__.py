@@ -26,6 +26,7 @@ try:
 except ModuleNotFoundError:
     pass  # built without pictures
 
+from .crowds import crowd
 from .errors import (
     BindposeError,
     BindposeWarning,

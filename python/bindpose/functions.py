@@ -30,9 +30,7 @@ from .meshes import (
     to_vtk_points,
     triangles_of,
 )
-from .fairing import make_variational
 from .running import report as report_of
-from .fairing import make_variational
 from .running import run
 
 _WINDING = {"auto": "AUTO", "exact": "EXACT", "fast": "FAST"}
@@ -541,8 +539,13 @@ def _posed_handles(mesh, handles, pose, weights):
     if weights is not None:
         data = shallow_copy(data)
         add_point_array(data, "Weights", np.asarray(weights, dtype=float), getattr(weights, "names", ()))
+    return data, _make_poser(to_handles(handles, data), pose)
+
+
+def _make_poser(handles, pose):
+    """The filter that poses a handle dataset."""
     poser = filters.vtkPoseHandles()
-    poser.SetInputData(0, to_handles(handles, data))
+    poser.SetInputData(0, handles)
     if isinstance(pose, (str, os.PathLike)):
         poser.SetFileName(os.fspath(pose))
     else:
@@ -550,7 +553,7 @@ def _posed_handles(mesh, handles, pose, weights):
             poser.SetPoseJSON(json.dumps(pose))
         except TypeError as error:
             raise InvalidInput(f"the pose is no JSON object: {error}") from None
-    return data, poser
+    return poser
 
 
 def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, energy="auto", iterations=0,

@@ -6,7 +6,7 @@ from running import EXAMPLES, is_refused, numbers_of, script
 
 GALLERY = EXAMPLES / "gallery"
 NAMES = ["amount_of_insideness", "bent_elbow", "boundary_and_parts", "candy_wrapper", "closing_holes", "colours_of_handles",
-         "cost_of_a_point", "cost_of_weights", "cut_out_cartoon", "defect_classes", "disjoint_skeleton", "drag_only",
+         "cost_of_a_point", "cost_of_weights", "crowd", "cut_out_cartoon", "defect_classes", "disjoint_skeleton", "drag_only",
          "dragged_points", "extra_weights", "four_energies", "full_and_reduced", "growth", "handle_modes",
          "hull_segmentation", "image_rectangle", "jello", "jump_and_harmonic", "limbs_in_front", "mesh_independence",
          "near_limbs", "new_hues", "open_crossing_flipped", "orders_and_boundaries", "original_and_faster",
@@ -156,6 +156,13 @@ def test_extra_weights(tmp_path):
     for kind in ("bumps", "eigenmodes"):
         energies = numbers[f"squeeze, 0 3 6 10 15 {kind}"]
         assert energies == sorted(energies, reverse=True)
+
+
+def test_crowd(tmp_path):
+    numbers = numbers_of("gallery/crowd.py", tmp_path)
+    assert numbers["apart from one alone, diagonals"] <= 1e-5
+    assert 0 < numbers["iterations an instance"] <= 10
+    assert numbers["milliseconds of all solves"] > 0 and numbers["milliseconds of moving all points"] > 0
 
 
 def test_jello(tmp_path):

@@ -252,6 +252,41 @@ def test_dynamics_falls():
         assert posed[n] == pytest.approx(np.array(BAR[0]) + [0, -10 * 0.01 * n * (n + 1) / 2, 0], abs=1e-9)
 
 
+def test_crowd():
+    handles = bindpose.handles(bones=BONES)
+    x = np.array(BAR[0])[:, 0] / 6
+    weights = np.stack([1 - x, x], axis=1)
+    poses = [{"handles": {"b2": {"mode": "position", "translate": [0, 0.3 * k, 0]}}} for k in range(4)]
+    alone = [bindpose.deform(BAR, handles, pose, method="reduced-arap", weights=weights) for pose in poses]
+    posed = bindpose.crowd(BAR, handles, poses, weights=weights)
+    assert len(posed) == 4 and bindpose.report(posed[3])["counts"]["instances"] == 4
+    for one, other in zip(posed, alone):
+        assert one == pytest.approx(other, abs=1e-5)
+    # Frames of a sequence are instances, and each stands where it is told.
+    turn = np.array([[0, -1, 0, 5], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+    placed = bindpose.crowd(BAR, handles, {"frames": poses}, weights=weights,
+                            placements=[[1, 2, 3], turn, turn[:3], [0, 0, 0]])
+    assert placed[0] == pytest.approx(alone[0] + [1, 2, 3], abs=1e-5)
+    for k in (1, 2):
+        assert placed[k] == pytest.approx(alone[k] @ turn[:3, :3].T + turn[:3, 3], abs=1e-5)
+    assert placed[3] == pytest.approx(alone[3], abs=1e-5)
+
+    data = bindpose.meshes.to_dataset(BAR)
+    posed = bindpose.crowd(data, handles, poses, weights=weights)
+    assert posed[2].GetNumberOfCells() == data.GetNumberOfCells() and bindpose.report(posed[2])["status"] == "ok"
+    together = bindpose.crowd(data, handles, poses, weights=weights, appended=True)
+    assert together.GetNumberOfPoints() == 4 * len(BAR[0]) and together.GetPointData().HasArray("Instance")
+
+    for what, sentence in ((dict(placements=[[0, 0, 0]]), "1 placements for 4"),
+                           (dict(placements=[[0, 0]] * 4), "a placement is")):
+        with pytest.raises(bindpose.InvalidInput, match=sentence):
+            bindpose.crowd(BAR, handles, poses, weights=weights, **what)
+    with pytest.raises(bindpose.InvalidInput, match="there is no instance"):
+        bindpose.crowd(BAR, handles, [], weights=weights)
+    with pytest.raises(bindpose.InvalidInput, match="'b9' that does not exist"):
+        bindpose.crowd(BAR, handles, [{"handles": {"b9": {}}}], weights=weights)
+
+
 def test_a_handle_outside_warns():
     with pytest.warns(bindpose.BindposeWarning, match="p2"):
         bindpose.weights(BAR, bindpose.handles([[1, 0.5, 0.5], [5, 0.5, 3]]))

@@ -2,7 +2,6 @@
 
 #include "panel_parts.h"
 
-#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
 #include <QKeyEvent>
@@ -54,18 +53,17 @@ KeyStrip::KeyStrip(QWidget* parent) : QFrame(parent), track_(new KeyTrack(this))
   this->loop_->setCheckable(true);
   this->loop_->setChecked(true);
   this->clock_ = new QLabel(seconds_text(0.0), this);
-  this->clock_->setMinimumWidth(this->clock_->fontMetrics().horizontalAdvance(" 000.00 s "));
+  this->clock_->setMinimumWidth(this->clock_->fontMetrics().horizontalAdvance("000.00 s"));
   this->clock_->setAlignment(Qt::AlignCenter);
   line->addWidget(this->clock_);
   this->add_ = add(tr("Set key"), tr("Keeps the pose as it is, at this time (K)"));
   this->remove_ = add(tr("Delete"), tr("Takes away the key at this time"));
   line->addStretch(1);
-  this->interpolation_ = new QComboBox(this);
-  this->interpolation_->addItems({ tr("straight ways"), tr("smooth ways") });
-  this->interpolation_->setToolTip(
-    tr("Between keys places go straight, or on a smooth curve through all of them.\n"
-       "Turns take the shorter way round, sizes change evenly."));
-  line->addWidget(this->interpolation_);
+  this->smooth_ = add(tr("Smooth"),
+    tr("Between keys places go on a smooth curve through all of them, not straight.\n"
+       "Turns take the shorter way round and sizes change evenly, either way."));
+  this->smooth_->setObjectName("toggle");
+  this->smooth_->setCheckable(true);
   this->rate_ = new QDoubleSpinBox(this);
   this->rate_->setRange(1.0, 240.0);
   this->rate_->setDecimals(0);
@@ -74,7 +72,6 @@ KeyStrip::KeyStrip(QWidget* parent) : QFrame(parent), track_(new KeyTrack(this))
   this->rate_->setButtonSymbols(QAbstractSpinBox::NoButtons);
   this->rate_->setKeyboardTracking(false);
   this->rate_->setToolTip(tr("Frames a second of what is exported"));
-  line->addWidget(this->rate_);
   this->bar_ = new QProgressBar(this);
   this->bar_->setRange(0, 1000);
   this->bar_->setTextVisible(false);
@@ -85,7 +82,11 @@ KeyStrip::KeyStrip(QWidget* parent) : QFrame(parent), track_(new KeyTrack(this))
     tr("Pose file (.json), datasets (.vtp and .pvd), glTF animation (.glb), strip of pictures\n"
        "(.png), or moving picture (.gif, .webm, .mp4)"));
   rows->addLayout(line);
-  rows->addWidget(this->track_);
+  auto* below = new QHBoxLayout;
+  below->setSpacing(6);
+  below->addWidget(this->track_, 1);
+  below->addWidget(this->rate_, 0, Qt::AlignBottom);
+  rows->addLayout(below);
 
   QObject::connect(this->play_, &QPushButton::clicked, this,
     [this] { Q_EMIT this->play_wanted(!this->playing_); });
@@ -93,8 +94,7 @@ KeyStrip::KeyStrip(QWidget* parent) : QFrame(parent), track_(new KeyTrack(this))
   QObject::connect(this->add_, &QPushButton::clicked, this, &KeyStrip::key_wanted);
   QObject::connect(this->remove_, &QPushButton::clicked, this,
     [this] { Q_EMIT this->remove_wanted(this->keys_.at(this->time_)); });
-  QObject::connect(this->interpolation_, QOverload<int>::of(&QComboBox::activated), this,
-    &KeyStrip::interpolation_chosen);
+  QObject::connect(this->smooth_, &QPushButton::clicked, this, &KeyStrip::smooth_chosen);
   QObject::connect(this->rate_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
     &KeyStrip::rate_chosen);
   QObject::connect(this->export_, &QPushButton::clicked, this,
@@ -121,7 +121,7 @@ void KeyStrip::set_keys(const KeyFrames& keys)
   this->keys_ = keys;
   this->track_->set_keys(keys);
   this->loop_->setChecked(keys.loop);
-  this->interpolation_->setCurrentIndex(static_cast<int>(keys.interpolation));
+  this->smooth_->setChecked(keys.interpolation == KeyInterpolation::spline);
   this->rate_->setValue(keys.frames_per_second);
   this->enable();
 }

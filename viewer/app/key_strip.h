@@ -5,7 +5,6 @@
 
 #include <QFrame>
 
-class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
 class QProgressBar;
@@ -38,7 +37,7 @@ Q_SIGNALS:
   void remove_wanted(int key);
   void key_moved(int key, double seconds);
   void loop_chosen(bool loop);
-  void interpolation_chosen(int interpolation);
+  void smooth_chosen(bool smooth);
   void rate_chosen(double frames_per_second);
   void export_wanted();
   void cancel_wanted();
@@ -51,8 +50,8 @@ private:
   QPushButton* add_;
   QPushButton* remove_;
   QPushButton* loop_;
+  QPushButton* smooth_;
   QPushButton* export_;
-  QComboBox* interpolation_;
   QDoubleSpinBox* rate_;
   QLabel* clock_;
   QProgressBar* bar_;

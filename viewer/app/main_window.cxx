@@ -1,49 +1,45 @@
 #include "main_window.h"
 
+#include "document/document.h"
+#include "document/opened_file.h"
+#include "document/recent_files.h"
+#include "document/work_inputs.h"
 #include "error_bar.h"
-#include "help_boxes.h"
 #include "inspection.h"
 #include "key_strip.h"
+#include "notice_bar.h"
+#include "option_links.h"
 #include "panel_column.h"
-#include "pose_history.h"
-#include "pose_panel.h"
 #include "posing.h"
 #include "side_panel.h"
 #include "viewport.h"
 #include "volume_panel.h"
 #include "volume_view.h"
 #include "weight_inspection.h"
-#include "window_files.h"
+#include "window_menus.h"
+#include "window_sessions.h"
 
 #include "conversion.h"
 #include "handle_geometry.h"
-#include "report_field_data.h"
 #include "scene/volume.h"
 
-#include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
-#include "vtkDataSetSurfaceFilter.h"
 #include "vtkFieldData.h"
 #include "vtkHandleSetRepresentation.h"
 #include "vtkHandleSetWidget.h"
 #include "vtkImageData.h"
 #include "vtkMeshFileReader.h"
 #include "vtkPointData.h"
-#include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 
-#include <algorithm>
-
-#include <QAction>
-#include <QActionGroup>
 #include <QApplication>
+#include <QCloseEvent>
 #include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QMenuBar>
 #include <QMimeData>
 #include <QStatusBar>
 #include <QUndoStack>
@@ -62,63 +58,44 @@ QString short_name(const QString& path)
     ? name
     : name.left(longest / 2) + QStringLiteral("…") + name.right(longest / 2);
 }
-
-/// The mesh's skin: of tets their boundary; weights come along.
-vtkSmartPointer<vtkPolyData> skin_of(vtkDataSet* mesh)
-{
-  auto result = vtkSmartPointer<vtkPolyData>::New();
-  if (auto* surface = vtkPolyData::SafeDownCast(mesh))
-  {
-    result->ShallowCopy(surface);
-    return result;
-  }
-  vtkNew<vtkDataSetSurfaceFilter> surface;
-  surface->SetInputData(mesh);
-  surface->Update();
-  result->ShallowCopy(surface->GetOutput());
-  return result;
-}
 } // namespace
 
 MainWindow::MainWindow(QWidget* parent)
-  : QMainWindow(parent), history_(new QUndoStack(this)), job_(new BindJob(this))
+  : QMainWindow(parent), document_(new Document(this)), job_(new BindJob(this))
 {
-  this->setWindowTitle("Bindpose");
   this->setAcceptDrops(true);
   this->resize(1280, 800);
   this->make_layout();
-  this->make_menus();
-
-  QObject::connect(this->panel_, &SidePanel::bind_wanted, this, &MainWindow::bind);
-  QObject::connect(this->panel_, &SidePanel::cancel_wanted, this, &MainWindow::cancel_bind);
-  QObject::connect(this->panel_, &SidePanel::method_chosen, this, &MainWindow::set_method);
-  QObject::connect(this->panel_, &SidePanel::mode_chosen, this, &MainWindow::set_mode);
-  QObject::connect(this->panel_, &SidePanel::rest_wanted, this, &MainWindow::back_to_rest);
-  QObject::connect(this->panel_, &SidePanel::column_chosen, this, &MainWindow::show_column);
-  QObject::connect(this->panel_, &SidePanel::handle_chosen, this,
-    [this](int handle)
-    {
-      auto* drawn = this->viewport_->handle_widget()->GetHandleSetRepresentation();
-      drawn->SetSelectedHandle(handle < 0 ? -1 : this->handle_cells_[handle]);
-      this->posing_->select_handle(handle);
-      this->viewport_->refresh();
-    });
+  this->make_inspections();
+  this->menus_ = new WindowMenus(this);
+  this->links_ = new OptionLinks(this->document_, this->panels_);
+  this->sessions_ = new WindowSessions(this, this->links_, this->recovery_bar_, this->note_bar_);
+  this->connect_panel();
+  this->connect_volume();
+  this->connect_handles();
+  this->connect_posing();
+  QObject::connect(this->document_, &Document::about_to_change, this, &MainWindow::stop_drag);
+  QObject::connect(this->document_, &Document::changed, this, &MainWindow::document_changed);
+  QObject::connect(this->document_, &Document::option_changed, this, &MainWindow::option_changed);
   QObject::connect(this->job_, &BindJob::progress, this->panel_, &SidePanel::set_progress);
   QObject::connect(this->job_, &BindJob::preview, this, &MainWindow::preview_arrived);
   QObject::connect(this->job_, &BindJob::finished, this, &MainWindow::bind_finished);
-
-  vtkHandleSetWidget* widget = this->viewport_->handle_widget();
-  widget->AddObserver(vtkCommand::SelectionChangedEvent, this, &MainWindow::selection_changed);
-  widget->AddObserver(vtkCommand::StartInteractionEvent, this, &MainWindow::drag_began);
-  widget->AddObserver(vtkCommand::InteractionEvent, this, &MainWindow::update_pose);
-  widget->AddObserver(vtkCommand::EndInteractionEvent, this, &MainWindow::drag_ended);
-  this->connect_volume();
-  this->connect_posing();
+  this->update_title();
   this->update_panel();
   this->update_pose();
 }
 
-MainWindow::~MainWindow() = default;
+MainWindow::~MainWindow()
+{
+  this->document_->disconnect(this); // it ends after the views
+}
+
+QUndoStack* MainWindow::history() const
+{
+  return this->document_->history();
+}
+
+// ---- Layout and wiring -------------------------------------------------------------------------
 
 void MainWindow::make_layout()
 {
@@ -131,6 +108,11 @@ void MainWindow::make_layout()
 
   this->error_bar_ = new ErrorBar(centre);
   rows->addWidget(this->error_bar_);
+  for (NoticeBar** bar : { &this->recovery_bar_, &this->note_bar_, &this->rebind_bar_ })
+  {
+    *bar = new NoticeBar(centre);
+    rows->addWidget(*bar);
+  }
 
   this->viewport_ = new Viewport(centre);
   auto* over = new QVBoxLayout(this->viewport_);
@@ -143,9 +125,28 @@ void MainWindow::make_layout()
                            "<p>Then open handles (.tgf or .vtp), bind, and drag them.</p>"
                            "<p>A volume of winding numbers (.vti) is shown sliced.</p>"));
   over->addWidget(this->empty_);
-  this->volume_view_ = new VolumeView(this->viewport_);
   this->panels_ = new PanelColumn(centre);
   this->panel_ = this->panels_->side();
+  rows->addWidget(this->viewport_, 1);
+  this->strip_ = new KeyStrip(centre);
+  rows->addWidget(this->strip_);
+  this->posing_ = new Posing(this->viewport_,
+    { this->panel_->pose(), this->panel_->fields(), this->panel_->poses(), this->strip_ });
+  columns->addLayout(rows, 1);
+  columns->addWidget(this->panels_);
+  this->setCentralWidget(centre);
+  this->hint_ = new QLabel(this);
+  this->statusBar()->addWidget(this->hint_, 1);
+  this->hint_->setContentsMargins(12, 3, 12, 4);
+  this->reading_ = new QLabel(this);
+  this->reading_->setContentsMargins(12, 3, 12, 4);
+  this->statusBar()->addPermanentWidget(this->reading_);
+  this->statusBar()->setSizeGripEnabled(false);
+}
+
+void MainWindow::make_inspections()
+{
+  this->volume_view_ = new VolumeView(this->viewport_);
   this->inspection_ = new Inspection(this->viewport_, this->panels_->tet());
   QObject::connect(
     this->inspection_, &Inspection::surface_look_changed, this, &MainWindow::update_surface_look);
@@ -165,242 +166,24 @@ void MainWindow::make_layout()
       this->inspection_->set_active(panel == PanelColumn::tets);
       this->weights_->set_active(panel == PanelColumn::weights);
     });
-  rows->addWidget(this->viewport_, 1);
-  this->strip_ = new KeyStrip(centre);
-  rows->addWidget(this->strip_);
-  this->posing_ = new Posing(this->viewport_,
-    { this->panel_->pose(), this->panel_->fields(), this->panel_->poses(), this->strip_ });
-  columns->addLayout(rows, 1);
-  columns->addWidget(this->panels_);
-  this->setCentralWidget(centre);
-  this->hint_ = new QLabel(this);
-  this->statusBar()->addWidget(this->hint_, 1);
-  this->hint_->setContentsMargins(12, 3, 12, 4);
-  this->reading_ = new QLabel(this);
-  this->reading_->setContentsMargins(12, 3, 12, 4);
-  this->statusBar()->addPermanentWidget(this->reading_);
-  this->statusBar()->setSizeGripEnabled(false);
 }
 
-void MainWindow::make_menus()
+void MainWindow::connect_panel()
 {
-  const auto add = [this](QMenu* menu, const QString& text, const QKeySequence& keys, auto action)
-  {
-    QAction* entry = menu->addAction(text);
-    entry->setShortcut(keys);
-    QObject::connect(entry, &QAction::triggered, this, action);
-    return entry;
-  };
-
-  QMenu* file = this->menuBar()->addMenu(tr("&File"));
-  add(file, tr("&Open…"), QKeySequence::Open,
-    [this]
+  QObject::connect(this->panel_, &SidePanel::bind_wanted, this, &MainWindow::bind);
+  QObject::connect(this->panel_, &SidePanel::cancel_wanted, this, &MainWindow::cancel_bind);
+  QObject::connect(this->panel_, &SidePanel::method_chosen, this, &MainWindow::set_method);
+  QObject::connect(this->panel_, &SidePanel::mode_chosen, this, &MainWindow::set_mode);
+  QObject::connect(this->panel_, &SidePanel::rest_wanted, this, &MainWindow::back_to_rest);
+  QObject::connect(this->panel_, &SidePanel::column_chosen, this, &MainWindow::show_column);
+  QObject::connect(this->panel_, &SidePanel::handle_chosen, this,
+    [this](int handle)
     {
-      const QString endings = QString(vtkMeshFileReader::GetFileExtensions()).replace(' ', " *.");
-      for (const QString& path : QFileDialog::getOpenFileNames(this, tr("Open"), QString(),
-             tr("Meshes, handles and volumes (*.%1 *.tgf);;All files (*)").arg(endings), nullptr,
-             QFileDialog::HideNameFilterDetails))
-      {
-        this->open(path);
-      }
-    });
-  this->save_shape_ = add(file, tr("Save &shape as…"),
-    QKeySequence(Qt::CTRL + Qt::SHIFT + Qt::Key_S), [this] { this->save("shape"); });
-  this->save_pose_ =
-    add(file, tr("Save &pose as…"), QKeySequence(), [this] { this->save("pose"); });
-  this->save_picture_ =
-    add(file, tr("Save p&icture as…"), QKeySequence(), [this] { this->save("picture"); });
-  file->addSeparator();
-  add(file, tr("&Quit"), QKeySequence::Quit, [this] { this->close(); });
-
-  QMenu* edit = this->menuBar()->addMenu(tr("&Edit"));
-  QAction* undo = this->history_->createUndoAction(this, tr("&Undo"));
-  undo->setShortcut(QKeySequence::Undo);
-  QAction* redo = this->history_->createRedoAction(this, tr("&Redo"));
-  redo->setShortcuts(
-    { QKeySequence(Qt::CTRL + Qt::SHIFT + Qt::Key_Z), QKeySequence(Qt::CTRL + Qt::Key_Y) });
-  edit->addAction(undo);
-  edit->addAction(redo);
-  edit->addSeparator();
-  this->bind_ =
-    add(edit, tr("&Bind"), QKeySequence(Qt::CTRL + Qt::Key_B), [this] { this->bind(); });
-  this->rest_pose_ = add(edit, tr("Back to &rest"), QKeySequence(Qt::CTRL + Qt::Key_R),
-    [this] { this->back_to_rest(); });
-
-  QMenu* view = this->menuBar()->addMenu(tr("&View"));
-  add(view, tr("&Whole shape"), QKeySequence(Qt::Key_Home),
-    [this]
-    {
-      this->viewport_->reset_view();
+      auto* drawn = this->viewport_->handle_widget()->GetHandleSetRepresentation();
+      drawn->SetSelectedHandle(handle < 0 ? -1 : this->document_->handle_cells()[handle]);
+      this->posing_->select_handle(handle);
       this->viewport_->refresh();
     });
-  view->addSeparator();
-  add(view, tr("&Rest or posed"), QKeySequence(Qt::Key_R),
-    [this] { this->posing_->look_at_rest(!this->posing_->looks_at_rest()); });
-  add(view, tr("&Play or pause"), QKeySequence(Qt::Key_Space),
-    [this] { this->posing_->play_keys(!this->posing_->is_playing()); });
-  add(
-    view, tr("&Set a key"), QKeySequence(Qt::Key_K), [this] { Q_EMIT this->strip_->key_wanted(); });
-  view->addSeparator();
-  this->methods_ = new QActionGroup(this);
-  for (int k = 0; k < pose_method_count; ++k)
-  {
-    QAction* method = add(view, method_name(static_cast<PoseMethod>(k)),
-      QKeySequence(Qt::Key_1 + k), [this, k] { this->set_method(k); });
-    method->setCheckable(true);
-    this->methods_->addAction(method);
-  }
-  this->methods_->actions().front()->setChecked(true);
-
-  QMenu* help = this->menuBar()->addMenu(tr("&Help"));
-  add(help, tr("&Mouse and keys"), QKeySequence(Qt::Key_F1), [this] { show_mouse_and_keys(this); });
-  add(help, tr("&About Bindpose"), QKeySequence(), [this] { show_about(this); });
-}
-
-// ---- Opening -----------------------------------------------------------------------------------
-
-bool MainWindow::open(const QString& path)
-{
-  const QString name = short_name(path);
-  OpenedFile file;
-  const Status status = read_file(path.toStdString(), file);
-  if (!status.ok())
-  {
-    // The readers name the whole path; here the name says enough.
-    this->error_bar_->show_sentence(
-      QString::fromStdString(status.message).replace(path, name), path);
-    return false;
-  }
-  switch (file.kind)
-  {
-    case OpenedFile::Kind::handles:
-      return this->set_handles(vtkPolyData::SafeDownCast(file.data), name);
-    case OpenedFile::Kind::volume:
-      return this->set_volume(vtkImageData::SafeDownCast(file.data), name);
-    case OpenedFile::Kind::curves:
-      return this->set_curves(vtkPolyData::SafeDownCast(file.data));
-    default:
-      return this->set_mesh(file.data, name) &&
-        (!file.handles || this->set_handles(file.handles, name));
-  }
-}
-
-bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name)
-{
-  SurfaceInput surface;
-  vtkSmartPointer<vtkPolyData> skin = vtkPointSet::SafeDownCast(mesh) ? skin_of(mesh) : nullptr;
-  const Status status = to_surface(skin ? skin.Get() : mesh, surface);
-  if (!status.ok())
-  {
-    this->show_error(QString("%1: %2").arg(name, QString::fromStdString(status.message)));
-    return false;
-  }
-  this->cancel_bind();
-  this->error_bar_->hide();
-  this->history_->clear();
-  this->rest_ = skin;
-  this->viewport_->set_surface(skin);
-  TetInput tets;
-  auto* grid = vtkUnstructuredGrid::SafeDownCast(mesh);
-  this->weighted_tets_ = grid && to_tets(grid, tets).ok() ? grid : nullptr;
-  this->inspection_->set_surface(skin, this->weighted_tets_);
-  if (!this->has_curves_)
-  {
-    this->viewport_->set_curves(skin->GetNumberOfLines() > 0 ? skin.Get() : nullptr);
-  }
-  this->viewport_->reset_view();
-  this->setWindowTitle(QString("%1 — Bindpose").arg(name));
-  this->connect_weights();
-  if (this->inspection_->tet_view()->tets() && !this->handle_data_)
-  {
-    this->panels_->show_panel(PanelColumn::tets);
-  }
-  return true;
-}
-
-bool MainWindow::set_handles(vtkPolyData* handle_data, const QString& name)
-{
-  Handles handles;
-  std::vector<Index> cells;
-  const Status status = to_handles(handle_data, handles, &cells);
-  if (!status.ok())
-  {
-    this->show_error(QString("%1: %2").arg(name, QString::fromStdString(status.message)));
-    return false;
-  }
-  this->cancel_bind();
-  this->error_bar_->hide();
-  this->history_->clear();
-  this->handles_ = handles;
-  this->handle_cells_ = cells;
-  this->handle_data_ = vtkSmartPointer<vtkPolyData>::New();
-  this->handle_data_->DeepCopy(handle_data);
-  Pose pose;
-  to_pose(this->handle_data_, this->handles_, this->handle_cells_, pose);
-  set_pose(this->handle_data_, this->handle_cells_, pose);
-  this->viewport_->set_handles(this->handle_data_);
-  if (!this->rest_)
-  {
-    this->viewport_->reset_view();
-  }
-  QStringList names;
-  QList<int> modes;
-  for (std::size_t k = 0; k < this->handles_.size(); ++k)
-  {
-    names << QString::fromStdString(this->handles_[k].name);
-    modes << static_cast<int>(pose[k].mode);
-  }
-  this->panel_->set_handles(names, modes);
-  this->connect_weights();
-  return true;
-}
-
-bool MainWindow::set_volume(vtkImageData* volume, const QString& name)
-{
-  const Status status = check_volume(volume, "WindingNumber");
-  if (!status.ok())
-  {
-    this->show_error(QString("%1: %2").arg(name, QString::fromStdString(status.message)));
-    return false;
-  }
-  this->error_bar_->hide();
-  const double lowest = status.report.number("volume.minimum", 0.0);
-  const double highest = status.report.number("volume.maximum", 1.0);
-  this->panels_->volume()->set_values(lowest, highest);
-  this->volume_view_->set_level(this->panels_->volume()->level());
-  this->volume_view_->set_volume(volume, lowest, highest);
-  this->panels_->set_open(true, this->rest_ || this->handle_data_, this->rest_);
-  this->panels_->show_panel(PanelColumn::volume_slice);
-  if (!this->rest_)
-  {
-    this->setWindowTitle(QString("%1 — Bindpose").arg(name));
-  }
-  this->viewport_->reset_view();
-  this->update_panel();
-  this->update_pose();
-  return true;
-}
-
-bool MainWindow::set_curves(vtkPolyData* curves)
-{
-  this->error_bar_->hide();
-  const bool alone = !this->rest_ && !this->handle_data_ && !this->volume_view_->volume();
-  this->has_curves_ = true;
-  this->viewport_->set_curves(curves);
-  if (alone)
-  {
-    this->viewport_->reset_view();
-  }
-  this->update_panel();
-  this->update_pose();
-  return true;
-}
-
-void MainWindow::close_volume()
-{
-  this->volume_view_->set_volume(nullptr, 0.0, 1.0);
-  this->update_panel();
-  this->update_pose();
 }
 
 void MainWindow::connect_volume()
@@ -432,39 +215,325 @@ void MainWindow::connect_volume()
   QObject::connect(view, &VolumeView::reading_changed, this->reading_, &QLabel::setText);
 }
 
-/// Weights that came with the mesh are used when they are those of the handles.
-void MainWindow::connect_weights()
+void MainWindow::connect_handles()
 {
-  vtkDataArray* weights = this->rest_ ? this->rest_->GetPointData()->GetArray("Weights") : nullptr;
-  bool fit = false;
-  if (weights && this->handle_data_)
+  vtkHandleSetWidget* widget = this->viewport_->handle_widget();
+  widget->AddObserver(vtkCommand::SelectionChangedEvent, this, &MainWindow::selection_changed);
+  widget->AddObserver(vtkCommand::StartInteractionEvent, this, &MainWindow::drag_began);
+  widget->AddObserver(vtkCommand::InteractionEvent, this, &MainWindow::update_pose);
+  widget->AddObserver(vtkCommand::EndInteractionEvent, this, &MainWindow::drag_ended);
+}
+
+// ---- What the document has become --------------------------------------------------------------
+
+void MainWindow::document_changed(int parts)
+{
+  if (parts & mesh_part)
   {
-    bool same_names = true;
-    for (std::size_t k = 0; k < this->handles_.size(); ++k)
+    this->show_mesh();
+  }
+  if (parts & handles_part)
+  {
+    this->show_handles();
+  }
+  if (parts & (volume_part | curves_part))
+  {
+    this->show_volume();
+  }
+  if (parts & (mesh_part | weights_part | handles_part))
+  {
+    this->connect_weights();
+  }
+  if (parts & pose_part)
+  {
+    const Pose pose = this->document_->pose();
+    for (std::size_t k = 0; k < pose.size(); ++k)
     {
-      const char* name = weights->GetComponentName(static_cast<vtkIdType>(k));
-      same_names = same_names && (!name || this->handles_[k].name == name);
-    }
-    if (weights->GetNumberOfComponents() == static_cast<int>(this->handles_.size()) && same_names)
-    {
-      fit = true;
-    }
-    else if (weights->GetNumberOfComponents() == static_cast<int>(this->handles_.size()))
-    {
-      this->show_error(tr("The mesh has weights for handles of other names: bind again."));
-    }
-    else
-    {
-      this->show_error(
-        tr("The mesh has weights for %1 handles, but %2 handles are open: bind again.")
-          .arg(weights->GetNumberOfComponents())
-          .arg(this->handles_.size()));
+      this->panel_->set_mode(static_cast<int>(k), static_cast<int>(pose[k].mode));
     }
   }
-  this->posing_->set_data(this->rest_, this->weighted_tets_, this->handle_data_, fit);
-  this->weights_->set_data(this->rest_, this->weighted_tets_, this->is_bound());
-  this->update_panel();
-  this->update_pose();
+  if ((parts & key_poses_part) && this->document_->work().key_poses)
+  {
+    this->posing_->set_shelf(*this->document_->work().key_poses);
+  }
+  this->update_title();
+  this->offer_rebind();
+  if (parts & ~(options_part | key_poses_part | sources_part))
+  {
+    this->update_panel();
+    this->update_pose();
+  }
+}
+
+void MainWindow::option_changed(const QString& key, const QVariant& value)
+{
+  if (key == "pose.method")
+  {
+    this->panel_->set_method(value.toInt());
+    this->menus_->show_method(value.toInt());
+    this->update_pose();
+  }
+}
+
+void MainWindow::show_mesh()
+{
+  const Work& work = this->document_->work();
+  this->cancel_bind();
+  this->drawn_ = work.surface;
+  this->viewport_->set_surface(work.surface);
+  this->inspection_->set_surface(work.surface, work.mesh_tets);
+  if (!work.curves)
+  {
+    const bool has_lines = work.surface && work.surface->GetNumberOfLines() > 0;
+    this->viewport_->set_curves(has_lines ? work.surface.Get() : nullptr);
+  }
+  this->viewport_->reset_view();
+}
+
+void MainWindow::show_handles()
+{
+  this->viewport_->set_handles(this->document_->handle_data());
+  if (!this->document_->surface())
+  {
+    this->viewport_->reset_view();
+  }
+  QStringList names;
+  QList<int> modes;
+  const Pose pose = this->document_->pose();
+  for (std::size_t k = 0; k < pose.size(); ++k)
+  {
+    names << QString::fromStdString(this->document_->handles()[k].name);
+    modes << static_cast<int>(pose[k].mode);
+  }
+  this->panel_->set_handles(names, modes);
+}
+
+void MainWindow::show_volume()
+{
+  const Work& work = this->document_->work();
+  if (work.curves)
+  {
+    this->viewport_->set_curves(work.curves);
+  }
+  if (this->volume_view_->volume() == work.volume)
+  {
+    return;
+  }
+  double lowest = 0.0;
+  double highest = 1.0;
+  if (work.volume)
+  {
+    const Status status = check_volume(work.volume, "WindingNumber");
+    lowest = status.report.number("volume.minimum", 0.0);
+    highest = status.report.number("volume.maximum", 1.0);
+    this->panels_->volume()->set_values(lowest, highest);
+    this->volume_view_->set_level(this->panels_->volume()->level());
+  }
+  this->volume_view_->set_volume(work.volume, lowest, highest);
+  if (work.volume)
+  {
+    this->panels_->set_open(true, !this->is_empty() && work.surface, work.surface);
+    this->panels_->show_panel(PanelColumn::volume_slice);
+    this->viewport_->reset_view();
+  }
+}
+
+/// Weights that are those of the handles pose the surface.
+void MainWindow::connect_weights()
+{
+  vtkPolyData* surface = this->document_->surface();
+  if (surface != this->drawn_)
+  {
+    this->drawn_ = surface;
+    this->viewport_->set_surface(surface);
+  }
+  this->posing_->set_data(surface, this->document_->weighted_tets(), this->document_->handle_data(),
+    this->document_->is_bound());
+  if (!this->document_->unused_weights().isEmpty())
+  {
+    this->show_error(this->document_->unused_weights());
+  }
+  this->weights_->set_data(surface, this->document_->weighted_tets(), this->is_bound());
+}
+
+void MainWindow::update_title()
+{
+  const QString name = this->sessions_->name();
+  this->setWindowTitle(name.isEmpty() ? "Bindpose" : QString("%1[*] — Bindpose").arg(name));
+  this->setWindowModified(
+    !name.isEmpty() && this->document_->is_changed(!this->sessions_->path().isEmpty()));
+}
+
+/// Offered, never forced: what is bound stays usable meanwhile (BoundColumns).
+void MainWindow::offer_rebind()
+{
+  const QString reason = this->is_binding() ? QString() : this->document_->rebind_reason();
+  if (reason != this->rebind_reason_)
+  {
+    this->rebind_reason_ = reason;
+    this->rebind_bar_->hide();
+    if (!reason.isEmpty())
+    {
+      this->rebind_bar_->offer(
+        reason, { { tr("Bind again"), [this] { this->bind(); } } }, tr("Later"));
+    }
+  }
+}
+
+bool MainWindow::is_empty() const
+{
+  const Work& work = this->document_->work();
+  return !work.surface && !work.handles && !work.volume && !work.curves;
+}
+
+// ---- Opening -----------------------------------------------------------------------------------
+
+bool MainWindow::say(const QString& name, const Status& status)
+{
+  if (!status.ok())
+  {
+    const QString message = QString::fromStdString(status.message);
+    this->show_error(name.isEmpty() ? message : QString("%1: %2").arg(name, message));
+  }
+  return status.ok();
+}
+
+bool MainWindow::open(const QString& path)
+{
+  // To look at a file is no change that could be lost.
+  const bool unchanged = !this->document_->is_changed(true) && this->sessions_->path().isEmpty();
+  const bool done = this->open_file(path);
+  if (done)
+  {
+    RecentFiles::add(path);
+    if (unchanged)
+    {
+      this->document_->set_saved();
+    }
+    this->update_title();
+  }
+  return done;
+}
+
+bool MainWindow::open_file(const QString& path)
+{
+  const QString name = short_name(path);
+  OpenedFile file;
+  if (path.endsWith(QString(".") + session_ending, Qt::CaseInsensitive))
+  {
+    this->error_bar_->hide();
+    return this->sessions_->open(path);
+  }
+  const Status status = read_file(path.toStdString(), file);
+  if (!status.ok())
+  {
+    // The readers name the whole path; here the name says enough.
+    this->error_bar_->show_sentence(
+      QString::fromStdString(status.message).replace(path, name), path);
+    return false;
+  }
+  const Source source = source_of(path);
+  switch (file.kind)
+  {
+    case OpenedFile::Kind::handles:
+      return this->set_handles(vtkPolyData::SafeDownCast(file.data), name, source);
+    case OpenedFile::Kind::volume:
+      return this->set_volume(vtkImageData::SafeDownCast(file.data), name, source);
+    case OpenedFile::Kind::curves:
+      return this->set_curves(vtkPolyData::SafeDownCast(file.data), source);
+    case OpenedFile::Kind::weights:
+      this->error_bar_->hide();
+      return this->say(QString(), this->document_->set_weights(file.weights, name));
+    case OpenedFile::Kind::picture:
+      return this->open_picture(vtkImageData::SafeDownCast(file.data), name, source, false);
+    default:
+      return this->set_mesh(file.data, name, source) &&
+        (!file.handles || this->set_handles(file.handles, name, source));
+  }
+}
+
+/// Cut out by its alpha, or the whole rectangle.
+bool MainWindow::open_picture(
+  vtkImageData* picture, const QString& name, const Source& source, bool whole)
+{
+  this->error_bar_->hide();
+  QApplication::setOverrideCursor(Qt::WaitCursor);
+  vtkSmartPointer<vtkPolyData> shape;
+  bool cut_out = false;
+  Status status = make_shape(picture, whole, shape, cut_out);
+  QApplication::restoreOverrideCursor();
+  if (status.ok())
+  {
+    status = this->document_->set_picture(shape, picture, name, source);
+  }
+  if (status.ok() && cut_out)
+  {
+    const vtkSmartPointer<vtkImageData> kept = picture;
+    this->note_bar_->offer(tr("%1 is cut out along its transparent parts.").arg(name),
+      { { tr("Take the whole picture"),
+        [this, kept, name, source] { this->open_picture(kept, name, source, true); } } },
+      tr("Close"));
+  }
+  return this->say(name, status);
+}
+
+bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name, const Source& source)
+{
+  this->error_bar_->hide();
+  const bool done = this->say(name, this->document_->set_mesh(mesh, name, source));
+  if (done && this->inspection_->tet_view()->tets() && !this->document_->handle_data())
+  {
+    this->panels_->show_panel(PanelColumn::tets);
+  }
+  return done;
+}
+
+bool MainWindow::set_handles(vtkPolyData* handles, const QString& name, const Source& source)
+{
+  this->error_bar_->hide();
+  this->cancel_bind();
+  return this->say(name, this->document_->set_handles(handles, name, source));
+}
+
+bool MainWindow::set_volume(vtkImageData* volume, const QString& name, const Source& source)
+{
+  this->error_bar_->hide();
+  const bool done = this->say(name, check_volume(volume, "WindingNumber"));
+  if (done)
+  {
+    this->document_->set_volume(volume, name, source);
+  }
+  return done;
+}
+
+bool MainWindow::set_curves(vtkPolyData* curves, const Source& source)
+{
+  this->error_bar_->hide();
+  const bool alone = this->is_empty();
+  this->document_->set_curves(curves, tr("curves"), source);
+  if (alone)
+  {
+    this->viewport_->reset_view();
+  }
+  return true;
+}
+
+void MainWindow::close_volume()
+{
+  this->document_->set_volume(nullptr, QString());
+}
+
+void MainWindow::choose_and_open()
+{
+  const QString endings = QString(vtkMeshFileReader::GetFileExtensions()).replace(' ', " *.") +
+    " *.tgf *.glb *.gltf *.dmat *.png *.jpg *.jpeg *." + session_ending;
+  for (const QString& path : QFileDialog::getOpenFileNames(this, tr("Open"), QString(),
+         tr("All that can be opened (*.%1);;Sessions (*.%2);;All files (*)")
+           .arg(endings, session_ending),
+         nullptr, QFileDialog::HideNameFilterDetails))
+  {
+    this->open(path);
+  }
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event)
@@ -483,22 +552,29 @@ void MainWindow::dropEvent(QDropEvent* event)
   }
 }
 
+void MainWindow::closeEvent(QCloseEvent* event)
+{
+  event->setAccepted(this->sessions_->may_go());
+}
+
 // ---- Binding -----------------------------------------------------------------------------------
 
 void MainWindow::bind()
 {
-  if (!this->rest_ || !this->handle_data_ || this->is_binding())
+  BindInput input;
+  if (!this->document_->surface() || !this->document_->handle_data() || this->is_binding())
   {
     return;
   }
   this->error_bar_->hide();
-  BindInput input;
   if (!this->make_bind_input(input))
   {
     return;
   }
   input.method = this->panel_->monotone() ? BindMethod::monotone : BindMethod::bounded;
+  this->document_->begin_bind();
   this->job_->start(std::move(input));
+  this->offer_rebind();
   this->update_panel();
   this->update_pose();
 }
@@ -508,10 +584,11 @@ bool MainWindow::make_bind_input(BindInput& input)
 {
   SurfaceInput surface;
   HandleGeometry geometry;
-  Status status = to_surface(this->rest_, surface);
+  vtkPolyData* surface_data = this->document_->surface();
+  Status status = to_surface(surface_data, surface);
   if (status.ok())
   {
-    status = to_handle_geometry(this->handle_data_, geometry);
+    status = to_handle_geometry(this->document_->handle_data(), geometry);
   }
   if (!status.ok())
   {
@@ -520,9 +597,9 @@ bool MainWindow::make_bind_input(BindInput& input)
   }
   input.surface.points = surface.points.view();
   input.surface.triangles = surface.triangles.view();
-  input.handles = this->handles_;
+  input.handles = this->document_->handles();
   input.handle_places = to_handle_places(geometry);
-  if (vtkDataArray* regions = this->rest_->GetPointData()->GetArray("RegionId"))
+  if (vtkDataArray* regions = this->document_->surface()->GetPointData()->GetArray("RegionId"))
   {
     for (vtkIdType v = 0; v < regions->GetNumberOfTuples(); ++v)
     {
@@ -537,42 +614,32 @@ void MainWindow::cancel_bind()
   this->job_->cancel();
 }
 
-bool MainWindow::take_weights(const BindResult& result)
+/// The surface that is being bound, with the weights; null when they are not its own.
+vtkSmartPointer<vtkPolyData> MainWindow::with_weights(const BindResult& result) const
 {
-  if (!this->rest_ || result.weights.rows() != this->rest_->GetNumberOfPoints() ||
-    result.weights.cols() != static_cast<Index>(this->handles_.size()))
+  vtkPolyData* surface = this->document_->work().surface;
+  const Handles& handles = this->document_->bound_handles();
+  if (!surface || result.weights.rows() != surface->GetNumberOfPoints() ||
+    result.weights.cols() != static_cast<Index>(handles.size()))
   {
-    return false; // another mesh was opened while this one was being bound
+    return nullptr; // another mesh was opened while this one was being bound
   }
   auto bound = vtkSmartPointer<vtkPolyData>::New();
-  bound->ShallowCopy(this->rest_);
+  bound->ShallowCopy(surface);
   vtkNew<vtkFieldData> own; // the copy shares what it was made from
-  own->ShallowCopy(this->rest_->GetFieldData());
+  own->ShallowCopy(surface->GetFieldData());
   bound->SetFieldData(own);
-  add_weights(result, this->handles_, bound);
-  this->set_rest(bound, make_weighted_tets(result, this->handles_));
-  return true;
-}
-
-void MainWindow::set_rest(vtkPolyData* rest, vtkUnstructuredGrid* weighted_tets)
-{
-  this->rest_ = rest;
-  this->weighted_tets_ = weighted_tets;
-  this->viewport_->set_surface(rest);
-  this->connect_weights();
+  add_weights(result, handles, bound);
+  return bound;
 }
 
 void MainWindow::preview_arrived(const Weights& weights)
 {
-  const vtkSmartPointer<vtkPolyData> before = this->rest_;
-  const vtkSmartPointer<vtkUnstructuredGrid> tets_before = this->weighted_tets_;
   BindResult preview;
   preview.weights = weights;
-  if (this->is_binding() && this->take_weights(preview))
+  const auto bound = this->is_binding() ? this->with_weights(preview) : nullptr;
+  if (bound && this->document_->set_preview(bound))
   {
-    this->before_preview_ = before;
-    this->tets_before_preview_ = tets_before;
-    this->preview_ = this->rest_;
     this->panel_->set_note(tr("A preview to pose with; exact weights follow …"));
   }
 }
@@ -580,15 +647,8 @@ void MainWindow::preview_arrived(const Weights& weights)
 void MainWindow::bind_finished()
 {
   const BindResult& result = this->job_->result();
-  const vtkSmartPointer<vtkPolyData> before =
-    this->preview_ == this->rest_ ? this->before_preview_ : nullptr;
-  this->preview_ = nullptr;
-  this->before_preview_ = nullptr;
-  if (before && !result.status.usable())
-  {
-    this->set_rest(before, this->tets_before_preview_);
-  }
-  this->tets_before_preview_ = nullptr;
+  this->document_->drop_preview();
+  this->offer_rebind();
   this->update_panel();
   this->update_pose();
   if (result.status.code == StatusCode::cancelled)
@@ -602,10 +662,14 @@ void MainWindow::bind_finished()
     this->show_error(tr("Cannot bind: %1.").arg(QString::fromStdString(result.status.message)));
     return;
   }
-  if (!this->take_weights(result))
+  const auto bound = this->with_weights(result);
+  if (!bound ||
+    !this->document_->set_bound(
+      bound, make_weighted_tets(result, this->document_->bound_handles())))
   {
     return;
   }
+  this->sessions_->autosave()->save();
   const Report& report = result.status.report;
   this->panel_->set_note(result.status.ok()
       ? tr("Bound in %1 s, certified to %2.")
@@ -623,51 +687,14 @@ void MainWindow::bind_finished()
 
 // ---- Posing ------------------------------------------------------------------------------------
 
-Pose MainWindow::pose() const
-{
-  Pose pose;
-  if (this->handle_data_)
-  {
-    to_pose(this->handle_data_, this->handles_, this->handle_cells_, pose);
-  }
-  return pose;
-}
-
-int MainWindow::handle_of_cell(vtkIdType cell) const
-{
-  const auto found = std::find(this->handle_cells_.begin(), this->handle_cells_.end(), cell);
-  return found == this->handle_cells_.end() ? -1
-                                            : static_cast<int>(found - this->handle_cells_.begin());
-}
-
 void MainWindow::stop_drag()
 {
   this->viewport_->handle_widget()->CancelDrag();
 }
 
-void MainWindow::apply_pose(const Pose& pose)
-{
-  set_pose(this->handle_data_, this->handle_cells_, pose);
-  for (std::size_t k = 0; k < pose.size(); ++k)
-  {
-    this->panel_->set_mode(static_cast<int>(k), static_cast<int>(pose[k].mode));
-  }
-  this->update_pose();
-}
-
-void MainWindow::remember(const QString& name, const Pose& before)
-{
-  this->history_->push(new PoseStep(name, before, this->pose(),
-    [this](const Pose& pose)
-    {
-      this->stop_drag();
-      this->apply_pose(pose);
-    }));
-}
-
 void MainWindow::selection_changed()
 {
-  const int handle = this->handle_of_cell(
+  const int handle = this->document_->handle_of_cell(
     this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetSelectedHandle());
   this->panel_->select_handle(handle);
   this->posing_->select_handle(handle);
@@ -680,8 +707,7 @@ void MainWindow::selection_changed()
 void MainWindow::drag_began()
 {
   this->posing_->drag_began();
-  this->before_drag_ = this->pose();
-  this->dragged_ = this->handle_of_cell(
+  this->dragged_ = this->document_->handle_of_cell(
     this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetActiveHandle());
 }
 
@@ -689,44 +715,26 @@ void MainWindow::drag_ended()
 {
   if (!this->viewport_->handle_widget()->GetCancelled() && this->dragged_ >= 0)
   {
-    this->remember(tr("move %1").arg(QString::fromStdString(this->handles_[this->dragged_].name)),
-      this->before_drag_);
+    this->document_->commit_pose(
+      tr("move %1").arg(QString::fromStdString(this->document_->handles()[this->dragged_].name)));
   }
   this->dragged_ = -1;
 }
 
 void MainWindow::set_method(int method)
 {
-  this->panel_->set_method(method);
-  this->methods_->actions()[method]->setChecked(true);
-  this->update_pose();
+  this->document_->set_option("pose.method", method);
+  this->update_pose(); // also when it is the same: who chooses wants to see what there is
 }
 
 void MainWindow::set_mode(int handle, int mode)
 {
-  this->stop_drag();
-  const Pose before = this->pose();
-  Pose after = before;
-  after[handle].mode = static_cast<HandleMode>(mode);
-  this->apply_pose(after);
-  this->remember(tr("mode of %1").arg(QString::fromStdString(this->handles_[handle].name)), before);
+  this->document_->set_mode(handle, mode);
 }
 
 void MainWindow::back_to_rest()
 {
-  if (!this->handle_data_)
-  {
-    return;
-  }
-  this->stop_drag();
-  const Pose before = this->pose();
-  Pose rest(before.size());
-  for (std::size_t k = 0; k < before.size(); ++k)
-  {
-    rest[k].mode = before[k].mode;
-  }
-  this->apply_pose(rest);
-  this->remember(tr("back to rest"), before);
+  this->document_->back_to_rest();
 }
 
 bool MainWindow::is_bound() const
@@ -746,21 +754,17 @@ void MainWindow::connect_posing()
   QObject::connect(this->posing_, &Posing::pose_changed, this,
     [this](const Pose& pose)
     {
-      if (this->before_change_.empty())
+      set_pose(this->document_->handle_data(), this->document_->handle_cells(), pose);
+      for (std::size_t k = 0; k < pose.size(); ++k)
       {
-        this->before_change_ = this->pose();
+        this->panel_->set_mode(static_cast<int>(k), static_cast<int>(pose[k].mode));
       }
-      this->apply_pose(pose);
+      this->update_pose();
     });
-  QObject::connect(this->posing_, &Posing::pose_done, this,
-    [this](const QString& step)
-    {
-      if (!this->before_change_.empty())
-      {
-        this->remember(step, this->before_change_);
-        this->before_change_.clear();
-      }
-    });
+  QObject::connect(this->posing_, &Posing::pose_done, this->document_,
+    [this](const QString& step) { this->document_->commit_pose(step); });
+  QObject::connect(this->posing_, &Posing::shelf_changed, this->document_,
+    [this](const QString& step) { this->document_->set_key_poses(this->posing_->shelf(), step); });
 }
 
 void MainWindow::update_pose()
@@ -771,27 +775,27 @@ void MainWindow::update_pose()
 
 void MainWindow::draw_pose()
 {
-  const bool volume_only = this->volume_view_->volume() && !(this->rest_ && this->handle_data_);
+  vtkPolyData* rest = this->document_->surface();
+  const bool handles = this->document_->handle_data();
+  const bool volume_only = this->volume_view_->volume() && !(rest && handles);
   QString reading = volume_only ? tr("Drag the slice to move it, elsewhere to turn the view.")
-    : !this->rest_              ? tr("Open a mesh (Ctrl+O) or drop one here.")
-    : !this->handle_data_       ? tr("Open handles (.tgf or .vtp) to bind and pose.")
+    : !rest                     ? tr("Open a mesh (Ctrl+O) or drop one here.")
+    : !handles                  ? tr("Open handles (.tgf or .vtp) to bind and pose.")
     : this->is_binding()        ? tr("Binding; the view can be turned meanwhile.")
                                 : tr("Bind (Ctrl+B), then drag the handles.");
   if (this->posing_->can_pose())
   {
     reading = this->posing_->reading();
   }
-  if (this->rest_)
+  if (rest && this->weights_->wants_rest())
   {
-    if (this->weights_->wants_rest())
-    {
-      this->viewport_->move_surface(this->rest_.Get());
-    }
-    else
-    {
-      this->posing_->draw();
-    }
-    this->weights_->move_surface(this->weights_->wants_rest() ? this->rest_.Get() : this->shown());
+    this->viewport_->move_surface(rest);
+    this->weights_->move_surface(rest);
+  }
+  else if (rest)
+  {
+    this->posing_->draw();
+    this->weights_->move_surface(this->shown());
   }
   this->hint_->setText(reading);
   this->viewport_->refresh();
@@ -799,33 +803,28 @@ void MainWindow::draw_pose()
 
 void MainWindow::update_panel()
 {
-  const bool ready = this->rest_ && this->handle_data_;
+  const bool surface = this->document_->surface();
+  const bool handles = this->document_->handle_data();
+  const bool ready = surface && handles;
   const bool binding = this->is_binding();
   const bool bound = this->is_bound();
   this->panel_->set_state(ready, binding, bound);
   const int column = this->panel_->shown_column();
-  this->panel_->show_column(
-    bound && column < static_cast<int>(this->handles_.size()) ? column : -1);
+  const int columns = static_cast<int>(this->document_->handles().size());
+  this->panel_->show_column(bound && column < columns ? column : -1);
   this->show_column(this->panel_->shown_column());
-  this->panel_->set_note(binding            ? tr("Starting …")
-      : bound                               ? tr("Bound with the mesh's weights.")
-      : ready                               ? tr("Not bound yet.")
-      : !this->rest_ && !this->handle_data_ ? tr("Needs a mesh and handles.")
-      : this->rest_                         ? tr("Needs handles.")
-                                            : tr("Needs a mesh."));
-  const bool volume = this->volume_view_->volume();
-  this->panels_->set_open(volume, this->rest_ || this->handle_data_, this->rest_);
-  this->panels_->volume()->set_has_surface(this->rest_);
+  this->panel_->set_note(binding ? tr("Starting …")
+      : bound                    ? tr("Bound with the mesh's weights.")
+      : ready                    ? tr("Not bound yet.")
+      : !surface && !handles     ? tr("Needs a mesh and handles.")
+      : surface                  ? tr("Needs handles.")
+                                 : tr("Needs a mesh."));
+  this->panels_->set_open(this->volume_view_->volume(), surface || handles, surface);
+  this->panels_->volume()->set_has_surface(surface);
   this->update_surface_look();
-  const bool nothing = !this->rest_ && !this->handle_data_ && !volume && !this->has_curves_;
-  this->empty_->setVisible(nothing);
-  this->save_shape_->setEnabled(this->rest_);
-  this->save_picture_->setEnabled(!nothing);
-  this->save_pose_->setEnabled(this->handle_data_);
-  this->bind_->setEnabled(ready && !binding);
-  this->rest_pose_->setEnabled(bound);
-  this->methods_->setEnabled(ready);
+  this->empty_->setVisible(this->is_empty());
   this->strip_->setVisible(ready);
+  this->menus_->update();
 }
 
 /// Tets take the surface's place, and defects shine through it; else a volume decides.
@@ -840,16 +839,16 @@ void MainWindow::update_surface_look()
 
 void MainWindow::show_column(int column)
 {
-  const int handle = column < static_cast<int>(this->handles_.size()) ? column : -1;
+  const Handles& handles = this->document_->handles();
+  const int handle = column < static_cast<int>(handles.size()) ? column : -1;
   this->viewport_->show_column(handle,
-    handle < 0
-      ? QString()
-      : tr("Weights of %1").arg(short_name(QString::fromStdString(this->handles_[handle].name))));
+    handle < 0 ? QString()
+               : tr("Weights of %1").arg(short_name(QString::fromStdString(handles[handle].name))));
 }
 
 // ---- Saving and errors -------------------------------------------------------------------------
 
-void MainWindow::save(const QString& what)
+void MainWindow::export_as(const QString& what)
 {
   const QString kinds = what == "shape" ? tr("Shapes (*.vtp *.ply *.obj *.off *.stl)")
     : what == "pose"                    ? tr("Poses (*.json)")
@@ -871,7 +870,7 @@ void MainWindow::save(const QString& what)
     return;
   }
   const Status status = what == "pose"
-    ? write_pose(this->pose(), this->handles_, path.toStdString())
+    ? write_pose(this->document_->pose(), this->document_->handles(), path.toStdString())
     : write_shape(this->shown(), path.toStdString());
   if (!status.ok())
   {

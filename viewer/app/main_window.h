@@ -2,28 +2,29 @@
 #define main_window_h
 
 #include "bind_job.h"
-#include "pose/pose.h"
-#include "weights/handles.h"
+#include "document/work.h"
 
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
-#include "vtkUnstructuredGrid.h"
 
 #include <QMainWindow>
 
-class QAction;
-class QActionGroup;
 class QLabel;
 class QUndoStack;
+class Document;
 class ErrorBar;
 class Inspection;
 class KeyStrip;
+class NoticeBar;
+class OptionLinks;
 class PanelColumn;
 class Posing;
 class SidePanel;
 class Viewport;
 class VolumeView;
 class WeightInspection;
+class WindowMenus;
+class WindowSessions;
 class vtkDataSet;
 class vtkImageData;
 
@@ -31,8 +32,7 @@ class vtkImageData;
 /// winding numbers, alone or along with a surface and its boundary curves, and inspect it. Of a
 /// surface the weights, tets and defects can be looked at, of tets the inside.
 ///
-/// Three things are kept: the surface at rest (with or without weights), the handles (edited in
-/// place by the drag widget: pose arrays only), and the history of the pose. All else is derived.
+/// What is kept is in its Document; the window lays views and panels out, and wires them to it.
 class MainWindow : public QMainWindow
 {
   Q_OBJECT
@@ -41,14 +41,23 @@ public:
   explicit MainWindow(QWidget* parent = nullptr);
   ~MainWindow() override;
 
-  /// Opens a mesh, handles, a volume or curves, whichever it is. False, with a sentence in the
-  /// error bar, when it cannot be used; what was open stays.
+  Document* document() const { return this->document_; }
+  QUndoStack* history() const;
+
+  WindowSessions* sessions() const { return this->sessions_; }
+
+  /// Opens a mesh, handles, weights, a picture, a volume, curves or a session, whichever it is.
+  /// False, with a sentence in the error bar, when it cannot be used; what was open stays.
   bool open(const QString& path);
-  bool set_mesh(vtkDataSet* mesh, const QString& name);
-  bool set_handles(vtkPolyData* handles, const QString& name);
-  bool set_volume(vtkImageData* volume, const QString& name);
-  bool set_curves(vtkPolyData* curves);
+  bool set_mesh(vtkDataSet* mesh, const QString& name, const Source& source = {});
+  bool set_handles(vtkPolyData* handles, const QString& name, const Source& source = {});
+  bool set_volume(vtkImageData* volume, const QString& name, const Source& source = {});
+  bool set_curves(vtkPolyData* curves, const Source& source = {});
   void close_volume();
+  /// Asks for files to open.
+  void choose_and_open();
+  /// Asks where to write the "shape", the "pose" or the "picture".
+  void export_as(const QString& what);
 
   void bind();
   void cancel_bind();
@@ -57,54 +66,67 @@ public:
   void set_method(int method);
   void set_mode(int handle, int mode);
   void back_to_rest();
+  /// Nothing is open.
+  bool is_empty() const;
 
   /// What is drawn: the posed surface, or the rest one before a bind.
   vtkPolyData* shown() const;
   Viewport* viewport() const { return this->viewport_; }
-  QUndoStack* history() const { return this->history_; }
   SidePanel* panel() const { return this->panel_; }
   PanelColumn* panels() const { return this->panels_; }
   VolumeView* volume_view() const { return this->volume_view_; }
   Inspection* inspection() const { return this->inspection_; }
   WeightInspection* weights() const { return this->weights_; }
   Posing* posing() const { return this->posing_; }
+  KeyStrip* strip() const { return this->strip_; }
   /// What is under the mouse on the slice, as the status bar shows it.
   QString reading() const;
   /// The sentence in the error bar; empty when it is hidden.
   QString error() const;
+  void show_error(const QString& sentence);
+  void update_title();
+  NoticeBar* rebind_bar() const { return this->rebind_bar_; }
+  NoticeBar* recovery_bar() const { return this->recovery_bar_; }
+  /// What is missing of a session, how a picture was cut out, where a surface is unclean.
+  NoticeBar* note_bar() const { return this->note_bar_; }
 
 protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
+  void closeEvent(QCloseEvent* event) override;
 
 private:
-  void make_menus();
   void make_layout();
-  void show_error(const QString& sentence);
+  void make_inspections();
+  void connect_panel();
   void connect_volume();
-  void update_surface_look();
+  void connect_handles();
+  void document_changed(int parts);
+  void option_changed(const QString& key, const QVariant& value);
+  void show_mesh();
+  void show_handles();
+  void show_volume();
   void connect_weights();
-  bool make_bind_input(BindInput& input);
-  void preview_arrived(const bindpose::Weights& weights);
-  void bind_finished();
-  /// False when they are not of this mesh and these handles.
-  bool take_weights(const BindResult& result);
-  void set_rest(vtkPolyData* rest, vtkUnstructuredGrid* weighted_tets);
+  void update_surface_look();
+  void offer_rebind();
   void connect_posing();
   void update_pose();
   void draw_pose();
   void update_panel();
   void show_column(int column);
-  int handle_of_cell(vtkIdType cell) const;
-  bindpose::Pose pose() const;
-  void apply_pose(const bindpose::Pose& pose);
-  void remember(const QString& name, const bindpose::Pose& before);
+  bool make_bind_input(BindInput& input);
+  vtkSmartPointer<vtkPolyData> with_weights(const BindResult& result) const;
+  void preview_arrived(const bindpose::Weights& weights);
+  void bind_finished();
+  bool open_file(const QString& path);
+  bool open_picture(vtkImageData* picture, const QString& name, const Source& source, bool whole);
+  bool say(const QString& name, const bindpose::Status& status);
   void stop_drag();
   void selection_changed();
   void drag_began();
   void drag_ended();
-  void save(const QString& what);
 
+  Document* document_;
   Viewport* viewport_ = nullptr;
   VolumeView* volume_view_ = nullptr;
   Inspection* inspection_ = nullptr;
@@ -113,31 +135,20 @@ private:
   KeyStrip* strip_ = nullptr; // below the picture
   PanelColumn* panels_ = nullptr;
   SidePanel* panel_ = nullptr; // one of them
+  OptionLinks* links_ = nullptr;
+  WindowMenus* menus_ = nullptr;
+  WindowSessions* sessions_ = nullptr;
   ErrorBar* error_bar_ = nullptr;
+  NoticeBar* recovery_bar_ = nullptr;
+  NoticeBar* note_bar_ = nullptr;
+  NoticeBar* rebind_bar_ = nullptr;
   QLabel* hint_ = nullptr;
   QLabel* reading_ = nullptr;
   QLabel* empty_ = nullptr; // in the middle of the picture as long as nothing is open
-  QAction* save_shape_ = nullptr;
-  QAction* save_pose_ = nullptr;
-  QAction* save_picture_ = nullptr;
-  QAction* bind_ = nullptr;
-  QAction* rest_pose_ = nullptr;
-  QActionGroup* methods_ = nullptr;
-  QUndoStack* history_ = nullptr;
   BindJob* job_ = nullptr;
-
-  vtkSmartPointer<vtkPolyData> rest_;
-  vtkSmartPointer<vtkUnstructuredGrid> weighted_tets_; ///< what was solved on; null: not known
-  /// While a preview's weights are used.
-  vtkSmartPointer<vtkPolyData> before_preview_, preview_;
-  vtkSmartPointer<vtkUnstructuredGrid> tets_before_preview_;
-  vtkSmartPointer<vtkPolyData> handle_data_;
-  bool has_curves_ = false; // opened as such, not the lines of a mesh
-  bindpose::Handles handles_;
-  std::vector<bindpose::Index> handle_cells_;
-  bindpose::Pose before_drag_;
-  bindpose::Pose before_change_; // by posing_; empty: none is going on
+  vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport has
   int dragged_ = -1;
+  QString rebind_reason_; // that was offered
 };
 
 #endif

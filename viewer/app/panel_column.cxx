@@ -89,8 +89,17 @@ void PanelColumn::set_open(bool volume, bool shape, bool surface)
   }
 }
 
+int PanelColumn::shown_panel() const
+{
+  return this->buttons_->checkedId();
+}
+
 void PanelColumn::show_panel(int panel)
 {
+  if (!this->buttons_->button(panel) || this->buttons_->button(panel)->isHidden())
+  {
+    panel = bind_and_pose; // of a session that had something else open
+  }
   this->buttons_->button(panel)->setChecked(true);
   this->side_->setVisible(panel == bind_and_pose);
   this->weight_->setVisible(panel == weights);

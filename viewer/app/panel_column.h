@@ -35,6 +35,7 @@ public:
   /// What is open decides what can be chosen.
   void set_open(bool volume, bool shape, bool surface);
   void show_panel(int panel);
+  int shown_panel() const;
 
 Q_SIGNALS:
   void panel_shown(int panel);

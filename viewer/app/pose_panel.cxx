@@ -97,6 +97,8 @@ PosePanel::PosePanel(QWidget* parent) : QWidget(parent)
   column->setSpacing(6);
   this->add_methods(column);
   this->add_options(column);
+  this->middle_ = new QVBoxLayout;
+  column->addLayout(this->middle_);
   this->add_comparison(column);
   this->add_motion(column);
   this->show_options();
@@ -403,6 +405,11 @@ void PosePanel::add_motion(QVBoxLayout* column)
   QObject::connect(this->restart_, &QPushButton::clicked, this, &PosePanel::restart_wanted);
 }
 
+void PosePanel::insert(QWidget* widget)
+{
+  this->middle_->addWidget(widget);
+}
+
 PoseMethod PosePanel::method() const
 {
   return static_cast<PoseMethod>(this->methods_->checkedId());
@@ -410,6 +417,7 @@ PoseMethod PosePanel::method() const
 
 void PosePanel::show_options()
 {
+  this->note_->setText(method_purpose(this->method()));
   for (const Option& option : this->options_)
   {
     option.row->setVisible(std::find(option.methods.begin(), option.methods.end(),
@@ -505,11 +513,6 @@ void PosePanel::set_progress(double fraction, const QString& phase)
 {
   this->bar_->setValue(static_cast<int>(1000.0 * fraction));
   this->bar_->setToolTip(phase);
-}
-
-void PosePanel::set_note(const QString& text)
-{
-  this->note_->setText(text);
 }
 
 void PosePanel::set_difference(const QString& text)

@@ -29,6 +29,8 @@ class PosePanel : public QWidget
 public:
   explicit PosePanel(QWidget* parent = nullptr);
 
+  /// Something of its own between the method's options and what is seldom needed.
+  void insert(QWidget* widget);
   /// What is chosen.
   bindpose::PoseOptions options() const;
   void set_method(int method);
@@ -50,8 +52,6 @@ public:
   /// A bind of the method itself, which has a bar of its own.
   void set_binding(bool binding);
   void set_progress(double fraction, const QString& phase);
-  /// One or two lines under the choice: what the method is for, or what it says of the last pose.
-  void set_note(const QString& text);
   void set_difference(const QString& text);
   void set_playing(bool playing);
   void set_time(const QString& text);
@@ -83,6 +83,7 @@ private:
     std::vector<bindpose::PoseMethod> methods;
   };
   std::vector<Option> options_;
+  QVBoxLayout* middle_;
   State state_;
   QButtonGroup* methods_;
   QLabel* note_;

@@ -496,6 +496,8 @@ void Posing::moves_changed()
 {
   this->move_body(false);
   this->body_points_.resize(0, 3);
+  this->viewport_->handle_widget()->GetHandleSetRepresentation()->SetDragFree(
+    this->panels_.pose->moves());
   if (!this->panels_.pose->moves())
   {
     this->body_.reset();
@@ -755,10 +757,11 @@ void Posing::connect_strip()
       this->shelf_.keys.loop = loop;
       this->change_shelf(tr("loop"));
     });
-  QObject::connect(strip, &KeyStrip::interpolation_chosen, this,
-    [this](int interpolation)
+  QObject::connect(strip, &KeyStrip::smooth_chosen, this,
+    [this](bool smooth)
     {
-      this->shelf_.keys.interpolation = static_cast<KeyInterpolation>(interpolation);
+      this->shelf_.keys.interpolation =
+        smooth ? KeyInterpolation::spline : KeyInterpolation::linear;
       this->change_shelf(tr("ways between keys"));
     });
   QObject::connect(strip, &KeyStrip::rate_chosen, this,

@@ -1,8 +1,8 @@
 #include "sequence_export.h"
 
 #include "viewport.h"
-#include "window_files.h"
 
+#include "document/opened_file.h"
 #include "file_kind.h"
 #include "helper/scratch_folder.h"
 #include "io/atomic_file.h"

@@ -42,6 +42,7 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
 
   column->addWidget(heading(tr("Bind"), this));
   this->kind_ = combo(this);
+  this->kind_->setObjectName("bind.method");
   this->kind_->addItem(tr("Bounded biharmonic weights"));
   this->kind_->addItem(tr("Monotone weights"));
   // The panel is as wide as this line, in any font.
@@ -77,6 +78,7 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   column->addSpacing(10);
   column->addWidget(heading(tr("Show"), this));
   this->shown_ = combo(this);
+  this->shown_->setObjectName("show.column");
   this->shown_->setToolTip(tr("The shaded surface, or one handle's weights on it"));
   column->addWidget(this->shown_);
 
@@ -126,12 +128,14 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   this->rest_->setToolTip(tr("All handles back to where they were bound (Ctrl+R)"));
   list->addWidget(this->rest_);
 
+  this->pose_->insert(handles);
   parts->addWidget(this->pose_);
   parts->addWidget(poses);
-  parts->addWidget(handles);
   parts->addStretch(1);
   scroll->setWidget(content);
+  // As wide as it must be, not as wide as its sentences would like to be.
   scroll->setMinimumWidth(content->minimumSizeHint().width());
+  scroll->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Expanding);
   column->addWidget(scroll, 1);
 
   QObject::connect(this->bind_, &QPushButton::clicked, this, &SidePanel::bind_wanted);

@@ -86,6 +86,10 @@ QProgressBar::chunk { background: #2b6ca8; border-radius: 3px; }
 QFrame#error { background: #fbe9e7; border: none; border-bottom: 1px solid #e6b8b2; }
 QFrame#error QLabel { color: #7c1f14; }
 QFrame#error QPushButton { border: none; background: transparent; color: #7c1f14; font-weight: 600; padding: 2px 8px; }
+QFrame#notice { background: #eaf1f8; border: none; border-bottom: 1px solid #bfd3e6; }
+QFrame#notice QLabel { color: #12324f; }
+QFrame#notice QPushButton { padding: 3px 10px; }
+QFrame#notice QPushButton:focus { padding: 2px 9px; }
 QToolTip { background: #ffffe9; color: #1f1f1d; border: 1px solid #d4d4b8; padding: 3px; }
 )";
 }

@@ -35,6 +35,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
 
   column->addWidget(heading(tr("Tets"), this));
   this->method_ = new QComboBox(this);
+  this->method_->setObjectName("tets.method");
   this->method_->addItem(tr("Automatic"));
   this->method_->addItem(tr("Constrained (cdt)"));
   this->method_->addItem(tr("Remeshed"));
@@ -71,8 +72,10 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->note_);
 
   this->tets_ = new QCheckBox(tr("Show the tets"), this);
+  this->tets_->setObjectName("tets.shown");
   column->addWidget(this->tets_);
   this->colours_ = new QComboBox(this);
+  this->colours_->setObjectName("tets.colours");
   this->colours_->addItem(tr("Plain"));
   this->colours_->addItem(tr("By winding number"));
   this->colours_->addItem(tr("By label"));
@@ -89,12 +92,15 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   column->addWidget(heading(tr("Cut"), this));
   this->cut_ = new QCheckBox(tr("Cut them open"), this);
   this->cut_->setChecked(true);
+  this->cut_->setObjectName("tets.cut");
   column->addWidget(this->cut_);
   this->orientations_ = add_orientations(column, this);
+  this->orientations_->setObjectName("tets.orientation");
   this->position_ = new ValueRow(this);
   this->position_->setToolTip(tr("Where the plane lies along its normal; the mouse drags it, too"));
   column->addWidget(this->position_);
   this->other_side_ = new QCheckBox(tr("Keep the other side"), this);
+  this->other_side_->setObjectName("tets.other_side");
   column->addWidget(this->other_side_);
   this->count_ = note();
   keep_place(this->count_);
@@ -104,6 +110,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->shrink_label_ = heading(tr("Size of each tet"), this);
   column->addWidget(this->shrink_label_);
   this->shrink_ = new ValueRow(this);
+  this->shrink_->setObjectName("tets.shrink");
   this->shrink_->set_range(0.1, 1.0);
   this->shrink_->set_value(1.0);
   this->shrink_->setToolTip(tr("Below 1 the tets stand apart"));
@@ -113,6 +120,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   column->addWidget(heading(tr("Surface"), this));
   this->defects_ = new QCheckBox(tr("Show its defects"), this);
   this->defects_->setToolTip(tr("Open, crossing and doubled places, each kind in its colour"));
+  this->defects_->setObjectName("defects.shown");
   column->addWidget(this->defects_);
   this->defects_note_ = note();
   keep_place(this->defects_note_);

@@ -2,6 +2,7 @@
 
 #include "main_window.h"
 #include "style.h"
+#include "window_sessions.h"
 
 #include <QApplication>
 #include <QSurfaceFormat>
@@ -17,10 +18,12 @@ int run_viewer(const std::vector<std::string>& files)
   char name[] = "bindpose";
   char* argv[] = { name, nullptr };
   QApplication application(argc, argv);
+  QApplication::setApplicationName("bindpose"); // of the folder that recovered work is in
   QApplication::setApplicationDisplayName("Bindpose");
   apply_style(application);
   MainWindow window;
   window.show();
+  window.sessions()->offer_recovery();
   for (const std::string& file : files)
   {
     window.open(QString::fromLocal8Bit(file.c_str()));

@@ -24,8 +24,10 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->addWidget(heading(tr("Slice"), this));
   this->slice_ = new QCheckBox(tr("Show the slice"), this);
   this->slice_->setChecked(true);
+  this->slice_->setObjectName("volume.slice");
   column->addWidget(this->slice_);
   this->orientations_ = add_orientations(column, this);
+  this->orientations_->setObjectName("volume.orientation");
   this->position_ = new ValueRow(this);
   this->position_->setToolTip(tr("Where the slice lies along its normal; the mouse drags it, too"));
   column->addWidget(this->position_);
@@ -33,8 +35,10 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->addSpacing(10);
   column->addWidget(heading(tr("Isosurface"), this));
   this->isosurface_ = new QCheckBox(tr("Show where w is"), this);
+  this->isosurface_->setObjectName("volume.isosurface");
   column->addWidget(this->isosurface_);
   this->level_ = new ValueRow(this);
+  this->level_->setObjectName("volume.level");
   this->level_->setToolTip(tr("The winding number on the isosurface"));
   column->addWidget(this->level_);
   this->area_ = new QLabel(this);
@@ -46,12 +50,14 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   this->cloud_ = new QCheckBox(tr("Show as a cloud"), this);
   this->cloud_->setToolTip(tr("Volume rendering: clear where w is 0, faint inside, dense where the "
                               "surface overlaps or is inside out"));
+  this->cloud_->setObjectName("volume.cloud");
   column->addWidget(this->cloud_);
 
   column->addSpacing(10);
   this->surface_heading_ = heading(tr("Surface"), this);
   column->addWidget(this->surface_heading_);
   this->surface_ = new QComboBox(this);
+  this->surface_->setObjectName("volume.surface_look");
   this->surface_->addItem(tr("Solid"));
   this->surface_->addItem(tr("See-through"));
   this->surface_->addItem(tr("Edges only"));

@@ -85,6 +85,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
 
   column->addWidget(heading(tr("Look at"), this));
   this->column_ = new QComboBox(this);
+  this->column_->setObjectName("weights.column");
   this->column_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   this->column_->setMinimumContentsLength(8);
   this->column_->setToolTip(
@@ -98,6 +99,8 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   this->raw_ = this->add_choice({ tr("Normalised"), tr("Raw") },
     { tr("Rows divided by their sums: what bends the shape"),
       tr("As solved for, before that: what the certificate is about") });
+  this->what_->setObjectName("weights.what");
+  this->raw_->setObjectName("weights.raw");
   this->certificate_ = note(2);
   this->certificate_->setToolTip(
     tr("How well the column is solved for. Gap: its energy is at most this share above the least "
@@ -107,12 +110,15 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   this->bands_ =
     box(tr("Bands"), tr("One colour for each tenth; else colours change smoothly"), true);
   this->isolines_ = box(tr("Isolines"), tr("A line where a weight is 0.1, 0.2, … 0.9"), true);
+  this->bands_->setObjectName("weights.bands");
+  this->isolines_->setObjectName("weights.isolines");
   lines->addWidget(this->bands_, 1);
   lines->addWidget(this->isolines_, 1);
   column->addLayout(lines);
   this->extrema_ = box(tr("Extrema away from handles"),
     tr("Balls where the numbers have a local maximum (red) or minimum (blue) besides the handles, "
        "by more than a thousandth of their range"));
+  this->extrema_->setObjectName("weights.extrema");
   column->addWidget(this->extrema_);
   this->extrema_note_ = note(1);
   column->addWidget(this->extrema_note_);
@@ -120,6 +126,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   column->addSpacing(10);
   column->addWidget(heading(tr("Other method"), this));
   this->method_ = new QComboBox(this);
+  this->method_->setObjectName("weights.compare_with");
   for (const ComparedMethod& method : compared_methods())
   {
     this->method_->addItem(tr(method.name));
@@ -151,8 +158,10 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   column->addWidget(heading(tr("Inside"), this));
   this->slice_ = box(tr("Slice through the volume"),
     tr("Shows the weights on a plane inside, in the shape at rest; the mouse drags the plane"));
+  this->slice_->setObjectName("weights.slice");
   column->addWidget(this->slice_);
   this->orientations_ = add_orientations(column, this);
+  this->orientations_->setObjectName("weights.orientation");
   this->position_ = new ValueRow(this);
   this->position_->setToolTip(tr("Where the slice lies along its normal; the mouse drags it, too"));
   column->addWidget(this->position_);

@@ -1,7 +1,7 @@
 // bindpose outline IMAGE_OR_CURVES: what an image shows, or curves enclose, as triangles.
-#include "cli/picture_file.h"
 #include "cli/session.h"
 #include "cli/verbs.h"
+#include "scene/picture_file.h"
 
 #include "vtkNew.h"
 #include "vtkPlanarShape.h"

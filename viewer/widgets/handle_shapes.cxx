@@ -1,4 +1,5 @@
-// Balls are a subdivided icosahedron, made once. A bone is an octahedron: head, a square
+// Balls are a subdivided icosahedron, made once; tubes carry their circle along the path without
+// twist. A bone is an octahedron: head, a square
 // waist around the axis near the head, tail; each of its 8 sides owns its three corners, so that
 // the shading is flat.
 #include "handle_shapes.h"
@@ -127,11 +128,126 @@ void HandleShapes::add_bone(const Eigen::Vector3d& head, const Eigen::Vector3d& 
       const Eigen::Vector3d& first = at_tail ? a : b;
       const Eigen::Vector3d& second = at_tail ? b : a;
       const Eigen::Vector3d& third = ends[at_tail ? 1 : 0];
-      const Eigen::Vector3d normal = (second - first).cross(third - first).normalized();
-      for (const Eigen::Vector3d* corner : { &first, &second, &third })
-      {
-        this->triangles_.push_back(this->add_vertex(*corner, normal, colour));
-      }
+      this->add_triangle(first, second, third, colour);
+    }
+  }
+}
+
+void HandleShapes::add_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+  const Eigen::Vector3d& c, const Colour& colour)
+{
+  const Eigen::Vector3d normal = (b - a).cross(c - a).normalized();
+  for (const Eigen::Vector3d* corner : { &a, &b, &c })
+  {
+    this->triangles_.push_back(this->add_vertex(*corner, normal, colour));
+  }
+}
+
+void HandleShapes::add_tube(
+  const std::vector<Eigen::Vector3d>& path, double radius, const Colour& colour)
+{
+  constexpr int sides = 10;
+  const std::size_t count = path.size();
+  if (count < 2)
+  {
+    return;
+  }
+  const bool closed = count > 3 && path.front() == path.back();
+  const auto direction = [&](std::size_t i)
+  {
+    const Eigen::Vector3d& before = i > 0 ? path[i - 1] : closed ? path[count - 2] : path[0];
+    const Eigen::Vector3d& after = i + 1 < count ? path[i + 1] : closed ? path[1] : path[i];
+    return Eigen::Vector3d((after - before).normalized());
+  };
+  Eigen::Vector3d u = direction(0).unitOrthogonal();
+  std::vector<long long> rings;
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const Eigen::Vector3d along = direction(i);
+    u = (u - along * along.dot(u)).normalized();
+    const Eigen::Vector3d v = along.cross(u);
+    for (int side = 0; side < sides; ++side)
+    {
+      const double angle = 2.0 * EIGEN_PI * side / sides;
+      const Eigen::Vector3d normal = std::cos(angle) * u + std::sin(angle) * v;
+      rings.push_back(this->add_vertex(path[i] + radius * normal, normal, colour));
+    }
+  }
+  for (std::size_t i = 0; i + 1 < count; ++i)
+  {
+    for (int side = 0; side < sides; ++side)
+    {
+      const long long a = rings[i * sides + side];
+      const long long b = rings[i * sides + (side + 1) % sides];
+      const long long c = rings[(i + 1) * sides + side];
+      const long long d = rings[(i + 1) * sides + (side + 1) % sides];
+      this->triangles_.insert(this->triangles_.end(), { a, b, d, a, d, c });
+    }
+  }
+  for (const bool end : { false, true })
+  {
+    if (closed)
+    {
+      break;
+    }
+    const std::size_t i = end ? count - 1 : 0;
+    const Eigen::Vector3d normal = (end ? 1.0 : -1.0) * direction(i);
+    const long long center = this->add_vertex(path[i], normal, colour);
+    for (int side = 0; side < sides; ++side)
+    {
+      const long long a = rings[i * sides + side];
+      const long long b = rings[i * sides + (side + 1) % sides];
+      this->triangles_.insert(this->triangles_.end(), { center, end ? a : b, end ? b : a });
+    }
+  }
+}
+
+void HandleShapes::add_cone(
+  const Eigen::Vector3d& base, const Eigen::Vector3d& tip, double radius, const Colour& colour)
+{
+  constexpr int sides = 20;
+  const Eigen::Vector3d axis = (tip - base).normalized();
+  const Eigen::Vector3d u = axis.unitOrthogonal();
+  const Eigen::Vector3d v = axis.cross(u);
+  const double slope = radius / (tip - base).norm();
+  const auto around = [&](double side)
+  {
+    const double angle = 2.0 * EIGEN_PI * side / sides;
+    return Eigen::Vector3d(std::cos(angle) * u + std::sin(angle) * v);
+  };
+  const auto normal_at = [&](double side)
+  { return Eigen::Vector3d((around(side) + slope * axis).normalized()); };
+  const long long center = this->add_vertex(base, -axis, colour);
+  for (int side = 0; side < sides; ++side)
+  {
+    const Eigen::Vector3d a = base + radius * around(side);
+    const Eigen::Vector3d b = base + radius * around(side + 1);
+    const long long corners[5] = { this->add_vertex(a, normal_at(side), colour),
+      this->add_vertex(b, normal_at(side + 1), colour),
+      this->add_vertex(tip, normal_at(side + 0.5), colour), this->add_vertex(a, -axis, colour),
+      this->add_vertex(b, -axis, colour) };
+    this->triangles_.insert(this->triangles_.end(),
+      { corners[0], corners[1], corners[2], center, corners[4], corners[3] });
+  }
+}
+
+void HandleShapes::add_box(const Eigen::Vector3d& center, const Eigen::Matrix3d& frame,
+  const Eigen::Vector3d& half, const Colour& colour)
+{
+  for (int k = 0; k < 3; ++k)
+  {
+    const Eigen::Vector3d u = half[(k + 1) % 3] * frame.col((k + 1) % 3);
+    const Eigen::Vector3d v = half[(k + 2) % 3] * frame.col((k + 2) % 3);
+    const Eigen::Vector3d w = half[k] * frame.col(k);
+    for (const bool up : { false, true })
+    {
+      const Eigen::Vector3d middle = up ? Eigen::Vector3d(center + w) : center - w;
+      const Eigen::Vector3d a = middle - u - v;
+      const Eigen::Vector3d b = middle + u - v;
+      const Eigen::Vector3d c = middle + u + v;
+      const Eigen::Vector3d d = middle - u + v;
+      this->add_triangle(a, up ? b : c, up ? c : b, colour);
+      this->add_triangle(a, up ? c : d, up ? d : c, colour);
     }
   }
 }

@@ -16,7 +16,7 @@ namespace bindpose
 /// Red, green, blue in [0, 1].
 using Colour = std::array<double, 3>;
 
-/// Collects the balls and bones of a handle set into one polydata with point normals and a colour
+/// Collects balls, bones and the parts of a gizmo into one polydata with point normals and a colour
 /// per point, wound outwards: one actor draws any number of handles.
 class HandleShapes
 {
@@ -31,9 +31,20 @@ public:
   void add_bone(const Eigen::Vector3d& head, const Eigen::Vector3d& tail, double half_width,
     const Colour& colour, double margin = 0.0);
 
+  /// A round tube along a polyline, closed at both ends; a closed one ends where it begins.
+  void add_tube(const std::vector<Eigen::Vector3d>& path, double radius, const Colour& colour);
+  /// A cone with its base.
+  void add_cone(
+    const Eigen::Vector3d& base, const Eigen::Vector3d& tip, double radius, const Colour& colour);
+  /// A box with flat sides along the columns of the frame.
+  void add_box(const Eigen::Vector3d& center, const Eigen::Matrix3d& frame,
+    const Eigen::Vector3d& half, const Colour& colour);
+
   vtkSmartPointer<vtkPolyData> polydata() const;
 
 private:
+  void add_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
+    const Colour& colour);
   long long add_vertex(
     const Eigen::Vector3d& place, const Eigen::Vector3d& normal, const Colour& colour);
 

@@ -1,36 +1,21 @@
-// What is drawn is rebuilt whenever the handles, the camera or the window change: sizes are in
-// pixels, so every ball gets the world radius that a pixel has at its place. All solid parts make
-// one polydata, all outlines another (the same shapes, a little larger, back sides only).
+// The glue between the handle dataset (handle_data, handle_poses), the mouse (handle_picking,
+// gizmo, pose_drag; rest_editor in edit modes) and the picture, which handle_set_drawing.cxx makes.
 //
-// Handles lie inside the shape they bend. To be seen they are drawn in the overlay pass after the
-// depth buffer has been cleared, so they hide each other correctly and nothing hides them.
-//
-// A drag keeps the transforms from its start. Every move makes one rigid motion D from the start
-// to now and writes D * start for the grabbed handle and its descendants: no error accumulates,
-// and a cancel copies the start back.
+// A drag keeps the poses from its start. Every move makes one motion D from the start to now and
+// writes D * start for the grabbed handle and its descendants: no error accumulates, and a cancel
+// copies the start back.
 #include "vtkHandleSetRepresentation.h"
 
-#include "handle_shapes.h"
+#include "handle_picking.h"
+#include "handle_set_internals.h"
+#include "screen_view.h"
 
-#include "vtkActor.h"
 #include "vtkCamera.h"
-#include "vtkCellData.h"
-#include "vtkDoubleArray.h"
-#include "vtkIdList.h"
-#include "vtkInteractorObserver.h"
 #include "vtkMath.h"
-#include "vtkNew.h"
 #include "vtkObjectFactory.h"
-#include "vtkOpenGLRenderWindow.h"
-#include "vtkOpenGLState.h"
 #include "vtkPolyData.h"
-#include "vtkPolyDataMapper.h"
-#include "vtkProperty.h"
 #include "vtkRenderer.h"
-#include "vtkStringArray.h"
-#include "vtkTextActor.h"
 #include "vtkTextProperty.h"
-#include "vtkWindow.h"
 
 #include <Eigen/Geometry>
 
@@ -38,165 +23,24 @@
 #include <cmath>
 #include <vector>
 
+using bindpose::HandlePlace;
+using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 namespace
 {
-constexpr double bone_end_size = 0.6; // of a ball's radius
-constexpr double outline_pixels = 1.6;
-constexpr unsigned int gl_depth_test = 0x0B71;
-constexpr unsigned int gl_depth_buffer_bit = 0x00000100;
-
-using Affine = Eigen::Matrix<double, 3, 4, Eigen::RowMajor>;
-
-struct Place
+/// 1, 2 or 5 times a power of ten: the largest that is not above the length.
+double round_length(double length)
 {
-  int kind = 0;
-  Vector3d head = Vector3d::Zero(); // posed
-  Vector3d tail = Vector3d::Zero();
-};
-
-bindpose::Colour lighter(const bindpose::Colour& colour)
-{
-  bindpose::Colour result = colour;
-  for (double& c : result)
+  if (!(length > 0.0) || !std::isfinite(length))
   {
-    c += 0.45 * (1.0 - c);
+    return 0.1;
   }
-  return result;
-}
-
-bindpose::Colour to_colour(const double rgb[3])
-{
-  return { rgb[0], rgb[1], rgb[2] };
-}
-
-double cell_value(vtkPolyData* data, const char* name, vtkIdType cell, double fallback)
-{
-  vtkDataArray* array = data->GetCellData()->GetArray(name);
-  return array && cell < array->GetNumberOfTuples() ? array->GetComponent(cell, 0) : fallback;
-}
-
-void use_point_colours(vtkActor* actor, vtkPolyDataMapper* mapper)
-{
-  mapper->SetScalarModeToUsePointData();
-  mapper->SetColorModeToDirectScalars();
-  actor->SetMapper(mapper);
+  const double power = std::pow(10.0, std::floor(std::log10(length) + 1e-9));
+  const double digits = length / power * (1.0 + 1e-9);
+  return power * (digits >= 5.0 ? 5.0 : digits >= 2.0 ? 2.0 : 1.0);
 }
 } // namespace
-
-class vtkHandleSetRepresentation::Internals
-{
-public:
-  vtkSmartPointer<vtkPolyData> Handles;
-  vtkNew<vtkPolyDataMapper> SolidMapper;
-  vtkNew<vtkActor> Solid;
-  vtkNew<vtkPolyDataMapper> OutlineMapper;
-  vtkNew<vtkActor> Outline;
-  vtkNew<vtkTextProperty> Text;
-  std::vector<vtkSmartPointer<vtkTextActor>> Labels;
-  std::size_t VisibleLabels = 0;
-
-  // the drag that is going on
-  int Grabbed = OUTSIDE;
-  std::vector<Affine> StartTransforms;
-  std::vector<vtkIdType> Moving;
-  Vector3d GrabStart = Vector3d::Zero(); // world, under the mouse, in the plane of the drag
-  Vector3d HeadStart = Vector3d::Zero();
-  Vector3d TailStart = Vector3d::Zero();
-  double GrabDepth = 0.0;
-
-  Affine Transform(vtkIdType cell) const
-  {
-    Affine t = Affine::Zero();
-    t.leftCols<3>().setIdentity();
-    vtkDataArray* array = this->Handles->GetCellData()->GetArray("Transform");
-    if (array && array->GetNumberOfComponents() == 12 && cell < array->GetNumberOfTuples())
-    {
-      array->GetTuple(cell, t.data());
-    }
-    return t;
-  }
-
-  void SetTransforms(const std::vector<vtkIdType>& cells, const std::vector<Affine>& transforms)
-  {
-    vtkCellData* data = this->Handles->GetCellData();
-    vtkDataArray* array = data->GetArray("Transform");
-    const vtkIdType count = this->Handles->GetNumberOfCells();
-    if (!array || array->GetNumberOfComponents() != 12 || array->GetNumberOfTuples() != count)
-    {
-      vtkNew<vtkDoubleArray> fresh;
-      fresh->SetName("Transform");
-      fresh->SetNumberOfComponents(12);
-      fresh->SetNumberOfTuples(count);
-      for (vtkIdType cell = 0; cell < count; ++cell)
-      {
-        fresh->SetTuple(cell, this->Transform(cell).data());
-      }
-      data->AddArray(fresh);
-      array = fresh;
-    }
-    for (std::size_t i = 0; i < cells.size(); ++i)
-    {
-      array->SetTuple(cells[i], transforms[i].data());
-    }
-    array->Modified();
-    this->Handles->Modified();
-  }
-
-  bool Exists(vtkIdType cell) const
-  {
-    return this->Handles && cell >= 0 && cell < this->Handles->GetNumberOfCells();
-  }
-
-  int Kind(vtkIdType cell) const
-  {
-    vtkNew<vtkIdList> ids;
-    this->Handles->GetCellPoints(cell, ids);
-    const double fallback = ids->GetNumberOfIds() == 2 ? 1.0 : 0.0;
-    return static_cast<int>(cell_value(this->Handles, "HandleKind", cell, fallback));
-  }
-
-  // Bones and bars have two ends, all else one; the stretch lengthens a bone from its head.
-  Place PlaceOf(vtkIdType cell) const
-  {
-    Place place;
-    place.kind = this->Kind(cell);
-    vtkNew<vtkIdList> ids;
-    this->Handles->GetCellPoints(cell, ids);
-    if (ids->GetNumberOfIds() == 0)
-    {
-      return place;
-    }
-    this->Handles->GetPoint(ids->GetId(0), place.head.data());
-    this->Handles->GetPoint(ids->GetId(ids->GetNumberOfIds() == 2 ? 1 : 0), place.tail.data());
-    const Affine t = this->Transform(cell);
-    place.head = t * place.head.homogeneous();
-    place.tail = t * place.tail.homogeneous();
-    const double stretch = cell_value(this->Handles, "Stretch", cell, 1.0);
-    place.tail = place.head + stretch * (place.tail - place.head);
-    return place;
-  }
-
-  vtkIdType CountCells() const { return this->Handles ? this->Handles->GetNumberOfCells() : 0; }
-
-  // Where a cage element's end is: with the cage vertex at the same rest point.
-  Vector3d PosedPoint(vtkIdType point) const
-  {
-    vtkNew<vtkIdList> ids;
-    for (vtkIdType cell = 0; cell < this->CountCells(); ++cell)
-    {
-      this->Handles->GetCellPoints(cell, ids);
-      if (ids->GetNumberOfIds() == 1 && ids->GetId(0) == point && this->Kind(cell) >= 0)
-      {
-        return this->PlaceOf(cell).head;
-      }
-    }
-    Vector3d rest;
-    this->Handles->GetPoint(point, rest.data());
-    return rest;
-  }
-};
 
 vtkStandardNewMacro(vtkHandleSetRepresentation);
 
@@ -205,47 +49,44 @@ vtkHandleSetRepresentation::vtkHandleSetRepresentation() : Internal(new Internal
   this->InteractionState = OUTSIDE;
   vtkMath::UninitializeBounds(this->Bounds);
   Internals& self = *this->Internal;
-  use_point_colours(self.Solid, self.SolidMapper);
-  use_point_colours(self.Outline, self.OutlineMapper);
-  self.Solid->GetProperty()->SetAmbient(0.25);
-  self.Solid->GetProperty()->SetDiffuse(0.75);
-  self.Solid->GetProperty()->SetSpecular(0.25);
-  self.Solid->GetProperty()->SetSpecularPower(30.0);
-  self.Solid->GetProperty()->BackfaceCullingOn();
-  self.Outline->GetProperty()->LightingOff();
-  self.Outline->GetProperty()->FrontfaceCullingOn();
-  self.Text->SetFontFamilyToArial();
-  self.Text->SetFontSize(13);
-  self.Text->SetColor(0.13, 0.13, 0.15);
-  self.Text->SetBackgroundColor(1.0, 1.0, 1.0);
-  self.Text->SetBackgroundOpacity(0.8);
-  self.Text->SetVerticalJustificationToCentered();
+  self.Gizmo.SetFlat();
+  vtkTextProperty* text = self.Labels.text();
+  text->SetFontFamilyToArial();
+  text->SetFontSize(13);
+  text->SetColor(0.13, 0.13, 0.15);
+  text->SetBackgroundColor(1.0, 1.0, 1.0);
+  text->SetBackgroundOpacity(0.8);
+  text->SetVerticalJustificationToCentered();
 }
 
 vtkHandleSetRepresentation::~vtkHandleSetRepresentation() = default;
 
 void vtkHandleSetRepresentation::SetHandles(vtkPolyData* handles)
 {
-  if (this->Internal->Handles == handles)
+  if (this->Internal->Data.get() == handles)
   {
     return;
   }
-  this->Internal->Handles = handles;
+  this->Internal->Editor.cancel(); // writes into the old ones
+  this->Internal->Editor.finish_cage();
+  this->Internal->Data.set(handles);
   this->HoveredHandle = -1;
-  this->SelectedHandle = -1;
   this->ActiveHandle = -1;
   this->InteractionState = OUTSIDE;
+  this->Internal->Selected.clear();
+  this->Internal->HoveredPart = bindpose::no_part;
+  this->Internal->Dragged.reset();
   this->Modified();
 }
 
 vtkPolyData* vtkHandleSetRepresentation::GetHandles()
 {
-  return this->Internal->Handles;
+  return this->Internal->Data.get();
 }
 
 vtkTextProperty* vtkHandleSetRepresentation::GetLabelTextProperty()
 {
-  return this->Internal->Text;
+  return this->Internal->Labels.text();
 }
 
 void vtkHandleSetRepresentation::SetHoveredHandle(vtkIdType handle)
@@ -257,457 +98,548 @@ void vtkHandleSetRepresentation::SetHoveredHandle(vtkIdType handle)
   }
 }
 
+// ---- Selection ---------------------------------------------------------------------------------
+
 void vtkHandleSetRepresentation::SetSelectedHandle(vtkIdType handle)
 {
-  if (this->SelectedHandle != handle)
+  const std::vector<vtkIdType> selected =
+    handle < 0 ? std::vector<vtkIdType>() : std::vector<vtkIdType>{ handle };
+  if (this->Internal->Selected != selected)
   {
-    this->SelectedHandle = handle;
+    this->Internal->Selected = selected;
     this->Modified();
   }
 }
 
-std::string vtkHandleSetRepresentation::GetHandleName(vtkIdType handle)
+vtkIdType vtkHandleSetRepresentation::GetSelectedHandle()
 {
-  if (!this->Internal->Exists(handle))
-  {
-    return std::string();
-  }
-  vtkPolyData* handles = this->Internal->Handles;
-  auto* names =
-    vtkStringArray::SafeDownCast(handles->GetCellData()->GetAbstractArray("HandleName"));
-  if (names && handle < names->GetNumberOfValues() && !names->GetValue(handle).empty())
-  {
-    return names->GetValue(handle);
-  }
-  // the names that the filters give: points and bones are numbered apart
-  const bool bone = this->IsBone(handle);
-  int number = 0;
-  for (vtkIdType cell = 0; cell <= handle; ++cell)
-  {
-    const int kind = this->Internal->Kind(cell);
-    number += kind >= 0 && (kind == 1) == bone;
-  }
-  return (bone ? "b" : "p") + std::to_string(number);
+  return this->Internal->Selected.empty() ? -1 : this->Internal->Selected.back();
 }
 
-int vtkHandleSetRepresentation::GetHandleMode(vtkIdType handle)
+void vtkHandleSetRepresentation::ToggleSelected(vtkIdType handle)
 {
-  return this->Internal->Exists(handle)
-    ? static_cast<int>(cell_value(this->Internal->Handles, "Mode", handle, 0))
-    : 0;
-}
-
-bool vtkHandleSetRepresentation::IsBone(vtkIdType handle)
-{
-  return this->Internal->Exists(handle) && this->Internal->Kind(handle) == 1;
-}
-
-void vtkHandleSetRepresentation::GetPosedHead(vtkIdType handle, double head[3])
-{
-  const Place place = this->Internal->Exists(handle) ? this->Internal->PlaceOf(handle) : Place();
-  std::copy_n(place.head.data(), 3, head);
-}
-
-void vtkHandleSetRepresentation::GetPosedTail(vtkIdType handle, double tail[3])
-{
-  const Place place = this->Internal->Exists(handle) ? this->Internal->PlaceOf(handle) : Place();
-  std::copy_n(place.tail.data(), 3, tail);
-}
-
-// ---- Picking -----------------------------------------------------------------------------------
-
-int vtkHandleSetRepresentation::ComputeInteractionState(int x, int y, int vtkNotUsed(modify))
-{
-  Internals& self = *this->Internal;
-  int best_state = OUTSIDE;
-  vtkIdType best_handle = -1;
-  int best_rank = 4;
-  double best_distance = 0.0;
-  double best_depth = 0.0;
-  const auto offer = [&](int state, vtkIdType handle, int rank, double distance, double depth)
+  std::vector<vtkIdType>& selected = this->Internal->Selected;
+  const auto found = std::find(selected.begin(), selected.end(), handle);
+  if (found != selected.end())
   {
-    const bool better = rank < best_rank ||
-      (rank == best_rank &&
-        (distance < best_distance || (distance == best_distance && depth < best_depth)));
-    if (better)
-    {
-      best_state = state;
-      best_handle = handle;
-      best_rank = rank;
-      best_distance = distance;
-      best_depth = depth;
-    }
-  };
-  const Eigen::Vector2d mouse(x, y);
-  const double ball = this->PixelScale * (this->PointSize + this->PickTolerance);
-  const double end = this->PixelScale * (bone_end_size * this->PointSize + this->PickTolerance);
-  for (vtkIdType cell = 0; this->Renderer && cell < self.CountCells(); ++cell)
-  {
-    const Place place = self.PlaceOf(cell);
-    if (place.kind < 0)
-    {
-      continue;
-    }
-    Vector3d head;
-    vtkInteractorObserver::ComputeWorldToDisplay(
-      this->Renderer, place.head[0], place.head[1], place.head[2], head.data());
-    const double to_head = (head.head<2>() - mouse).norm();
-    if (place.kind != 1)
-    {
-      if (to_head <= ball)
-      {
-        offer(ON_POINT, cell, 0, to_head, head[2]);
-      }
-      continue;
-    }
-    Vector3d tail;
-    vtkInteractorObserver::ComputeWorldToDisplay(
-      this->Renderer, place.tail[0], place.tail[1], place.tail[2], tail.data());
-    const double to_tail = (tail.head<2>() - mouse).norm();
-    // Of a joint that two bones share the tail is grabbed: turning the upper bone is what is
-    // meant, moving the lower one off it hardly ever.
-    if (to_tail <= end)
-    {
-      offer(ON_TAIL, cell, 1, to_tail, tail[2]);
-    }
-    if (to_head <= end)
-    {
-      offer(ON_HEAD, cell, 2, to_head, head[2]);
-    }
-    const Eigen::Vector2d along = (tail - head).head<2>();
-    const double length2 = along.squaredNorm();
-    const double s =
-      length2 > 0.0 ? std::clamp((mouse - head.head<2>()).dot(along) / length2, 0.0, 1.0) : 0.0;
-    const double to_body = (head.head<2>() + s * along - mouse).norm();
-    const double width = std::clamp(this->BoneWidth * std::sqrt(length2),
-      0.5 * this->PixelScale * this->PointSize, 2.0 * this->PixelScale * this->PointSize);
-    if (to_body <= width + this->PixelScale * this->PickTolerance)
-    {
-      offer(ON_BODY, cell, 3, to_body, head[2] + s * (tail[2] - head[2]));
-    }
+    selected.erase(found);
   }
-  this->InteractionState = best_state;
-  this->SetHoveredHandle(best_handle);
-  return best_state;
-}
-
-// ---- Dragging ----------------------------------------------------------------------------------
-
-void vtkHandleSetRepresentation::StartWidgetInteraction(double eventPos[2])
-{
-  Internals& self = *this->Internal;
-  this->ActiveHandle = -1;
-  self.Grabbed = this->InteractionState;
-  if (!this->Renderer || self.Grabbed == OUTSIDE || !self.Exists(this->HoveredHandle) ||
-    this->GetHandleMode(this->HoveredHandle) == 2)
+  else if (this->Internal->Data.exists(handle))
   {
-    return;
-  }
-  this->ActiveHandle = this->HoveredHandle;
-  const Place place = self.PlaceOf(this->ActiveHandle);
-  self.HeadStart = place.head;
-  self.TailStart = place.tail;
-  Vector3d grabbed = place.head;
-  if (self.Grabbed == ON_TAIL)
-  {
-    grabbed = place.tail;
-  }
-  else if (self.Grabbed == ON_BODY)
-  {
-    grabbed = 0.5 * (place.head + place.tail);
-  }
-  Vector3d display;
-  vtkInteractorObserver::ComputeWorldToDisplay(
-    this->Renderer, grabbed[0], grabbed[1], grabbed[2], display.data());
-  self.GrabDepth = display[2];
-  Eigen::Vector4d world;
-  vtkInteractorObserver::ComputeDisplayToWorld(
-    this->Renderer, eventPos[0], eventPos[1], self.GrabDepth, world.data());
-  self.GrabStart = world.head<3>();
-
-  self.Moving.clear();
-  self.StartTransforms.clear();
-  const vtkIdType count = self.CountCells();
-  for (vtkIdType cell = 0; cell < count; ++cell)
-  {
-    // Up the hierarchy; the number of steps is bounded, whatever the file says.
-    vtkIdType ancestor = cell;
-    for (vtkIdType step = 0; step < count && self.Exists(ancestor); ++step)
-    {
-      if (ancestor == this->ActiveHandle)
-      {
-        self.Moving.push_back(cell);
-        self.StartTransforms.push_back(self.Transform(cell));
-        break;
-      }
-      ancestor = this->MoveDescendants
-        ? static_cast<vtkIdType>(cell_value(self.Handles, "Parent", ancestor, -1))
-        : -1;
-    }
+    selected.push_back(handle);
   }
   this->Modified();
 }
 
-void vtkHandleSetRepresentation::WidgetInteraction(double eventPos[2])
+bool vtkHandleSetRepresentation::IsSelected(vtkIdType handle)
 {
-  Internals& self = *this->Internal;
-  if (this->ActiveHandle < 0)
-  {
-    return;
-  }
-  Eigen::Vector4d world;
-  vtkInteractorObserver::ComputeDisplayToWorld(
-    this->Renderer, eventPos[0], eventPos[1], self.GrabDepth, world.data());
-  const Vector3d moved = world.head<3>() - self.GrabStart;
-  Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
-  if (self.Grabbed == ON_TAIL)
-  {
-    const Vector3d before = self.TailStart - self.HeadStart;
-    const Vector3d after = before + moved;
-    if (before.norm() > 0.0 && after.norm() > 1e-6 * before.norm())
-    {
-      motion.translate(self.HeadStart);
-      motion.rotate(Eigen::Quaterniond::FromTwoVectors(before, after));
-      motion.translate(Vector3d(-self.HeadStart));
-    }
-  }
-  else
-  {
-    motion.translate(moved);
-  }
-  std::vector<Affine> transforms;
-  for (const Affine& start : self.StartTransforms)
-  {
-    Affine t = motion.linear() * start;
-    t.col(3) += motion.translation();
-    transforms.push_back(t);
-  }
-  self.SetTransforms(self.Moving, transforms);
+  const std::vector<vtkIdType>& selected = this->Internal->Selected;
+  return std::find(selected.begin(), selected.end(), handle) != selected.end();
 }
 
-void vtkHandleSetRepresentation::EndWidgetInteraction(double vtkNotUsed(eventPos)[2])
+int vtkHandleSetRepresentation::GetNumberOfSelectedHandles()
+{
+  return static_cast<int>(this->Internal->Selected.size());
+}
+
+vtkIdType vtkHandleSetRepresentation::GetSelectedHandle(int number)
+{
+  const std::vector<vtkIdType>& selected = this->Internal->Selected;
+  return number >= 0 && number < static_cast<int>(selected.size())
+    ? selected[static_cast<std::size_t>(number)]
+    : -1;
+}
+
+void vtkHandleSetRepresentation::SelectInRectangle(const double corner[2], const double opposite[2])
+{
+  std::vector<vtkIdType> selected;
+  if (this->Renderer)
+  {
+    const bindpose::ScreenView view(this->Renderer);
+    Eigen::AlignedBox2d box;
+    box.extend(Vector2d(corner)).extend(Vector2d(opposite));
+    const std::vector<HandlePlace> places = this->Internal->Data.places();
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      const Vector3d middle = 0.5 * (places[i].head + places[i].tail);
+      if (places[i].is_handle() && view.pixel_at(middle) > 0.0 &&
+        box.contains(Vector2d(view.to_display(middle).head<2>())))
+      {
+        selected.push_back(static_cast<vtkIdType>(i));
+      }
+    }
+  }
+  this->Internal->Selected = selected;
+  this->Modified();
+}
+
+// ---- Handles in numbers ------------------------------------------------------------------------
+
+std::string vtkHandleSetRepresentation::GetHandleName(vtkIdType handle)
+{
+  return this->Internal->Data.name(handle);
+}
+
+int vtkHandleSetRepresentation::GetHandleMode(vtkIdType handle)
+{
+  return this->Internal->Data.place(handle).mode;
+}
+
+bool vtkHandleSetRepresentation::IsBone(vtkIdType handle)
+{
+  return this->Internal->Data.place(handle).is_bone();
+}
+
+void vtkHandleSetRepresentation::GetPosedHead(vtkIdType handle, double head[3])
+{
+  std::copy_n(this->Internal->Data.place(handle).head.data(), 3, head);
+}
+
+void vtkHandleSetRepresentation::GetPosedTail(vtkIdType handle, double tail[3])
+{
+  std::copy_n(this->Internal->Data.place(handle).tail.data(), 3, tail);
+}
+
+int vtkHandleSetRepresentation::GetDragRefusal(vtkIdType handle)
+{
+  const HandlePlace place = this->Internal->Data.place(handle);
+  if (!this->Internal->Data.exists(handle) || !place.is_handle())
+  {
+    return IS_NO_HANDLE;
+  }
+  // At rest a handle has a place of its own, whatever its mode.
+  const bool free = place.is_free() && this->EditMode == POSE && !this->DragFree;
+  return place.locked ? IS_LOCKED : free ? IS_FREE : DRAGGABLE;
+}
+
+// ---- Picking -----------------------------------------------------------------------------------
+
+bindpose::GizmoSetup vtkHandleSetRepresentation::MakeGizmo(const HandlePlace& place)
+{
+  bindpose::GizmoSetup setup;
+  setup.kind = static_cast<bindpose::GizmoKind>(this->Gizmo);
+  setup.origin = place.head;
+  setup.only_moves = place.only_moves();
+  setup.twists_apart = this->StretchableBones != 0;
+  setup.pixels = this->PixelScale * this->GizmoSize;
+  if (this->Space == LOCAL)
+  {
+    setup.frame = bindpose::posed_axes(place);
+  }
+  if (place.is_bone())
+  {
+    setup.tail = place.tail;
+  }
+  return setup;
+}
+
+int vtkHandleSetRepresentation::ComputeInteractionState(int x, int y, int vtkNotUsed(modify))
+{
+  Internals& self = *this->Internal;
+  bindpose::HandlePick pick;
+  int part = bindpose::no_part;
+  const double position[2] = { static_cast<double>(x), static_cast<double>(y) };
+  if (this->Renderer && this->EditMode > MOVE_REST)
+  {
+    self.Editor.hover(
+      bindpose::ScreenView(this->Renderer), this->MakeHand(position), this->MakeEditSettings());
+    const bool has_place = self.Editor.preview().ball.has_value();
+    this->InteractionState = has_place ? PLACING : OUTSIDE;
+    this->SetHoveredHandle(self.Editor.target());
+    this->Modified();
+    return this->InteractionState;
+  }
+  if (this->Renderer)
+  {
+    const bindpose::ScreenView view(this->Renderer);
+    const Vector2d mouse(x, y);
+    const vtkIdType selected = this->GetSelectedHandle();
+    const double tolerance = this->PixelScale * this->PickTolerance;
+    if (this->EditMode == POSE && this->Gizmo != GIZMO_NONE &&
+      this->GetDragRefusal(selected) == DRAGGABLE)
+    {
+      part =
+        bindpose::Gizmo(view, this->MakeGizmo(self.Data.place(selected))).pick(mouse, tolerance);
+    }
+    if (part != bindpose::no_part)
+    {
+      pick.handle = selected;
+    }
+    else
+    {
+      bindpose::HandleSizes sizes;
+      sizes.ball = this->PixelScale * this->PointSize;
+      sizes.bone_width = this->BoneWidth;
+      sizes.tolerance = tolerance;
+      pick = bindpose::pick_handle(view, self.Data.places(this->EditMode != POSE), mouse, sizes);
+    }
+  }
+  this->InteractionState = part != bindpose::no_part ? part : static_cast<int>(pick.part);
+  if (self.HoveredPart != part)
+  {
+    self.HoveredPart = part;
+    this->Modified();
+  }
+  this->SetHoveredHandle(pick.handle);
+  return this->InteractionState;
+}
+
+void vtkHandleSetRepresentation::LeaveHandles()
+{
+  if (this->Internal->Editor.preview().ball)
+  {
+    this->Internal->Editor.leave();
+    this->Modified();
+  }
+  this->InteractionState = OUTSIDE;
+  if (this->Internal->HoveredPart != bindpose::no_part)
+  {
+    this->Internal->HoveredPart = bindpose::no_part;
+    this->Modified();
+  }
+  this->SetHoveredHandle(-1);
+}
+
+bool vtkHandleSetRepresentation::GetGizmoGrip(int part, double display[2])
+{
+  const HandlePlace place = this->Internal->Data.place(this->GetSelectedHandle());
+  if (!this->Renderer || this->EditMode != POSE ||
+    this->GetDragRefusal(this->GetSelectedHandle()) != DRAGGABLE)
+  {
+    return false;
+  }
+  const auto grip =
+    bindpose::Gizmo(bindpose::ScreenView(this->Renderer), this->MakeGizmo(place)).grip(part);
+  std::copy_n(grip ? grip->data() : Vector2d::Zero().eval().data(), 2, display);
+  return grip.has_value();
+}
+
+// ---- Dragging ----------------------------------------------------------------------------------
+
+double vtkHandleSetRepresentation::GetSnapLength()
+{
+  if (this->LengthStep > 0.0)
+  {
+    return this->LengthStep;
+  }
+  double bounds[6];
+  vtkMath::UninitializeBounds(bounds);
+  if (this->Renderer)
+  {
+    this->Renderer->ComputeVisiblePropBounds(bounds);
+  }
+  if (!vtkMath::AreBoundsInitialized(bounds))
+  {
+    std::copy_n(this->GetBounds(), 6, bounds);
+  }
+  const Vector3d size(bounds[1] - bounds[0], bounds[3] - bounds[2], bounds[5] - bounds[4]);
+  return round_length(size.norm() / 50.0);
+}
+
+bindpose::DragSettings vtkHandleSetRepresentation::MakeSettings()
+{
+  bindpose::DragSettings settings;
+  settings.local_space = this->Space == LOCAL;
+  settings.descend = this->MoveDescendants != 0;
+  settings.bone_arrays = this->StretchableBones != 0;
+  settings.reach = this->Reach != 0;
+  settings.ring_pixels = this->PixelScale * this->GizmoSize;
+  settings.length_step = this->GetSnapLength();
+  settings.degree_step = this->DegreeStep;
+  settings.factor_step = this->FactorStep;
+  return settings;
+}
+
+void vtkHandleSetRepresentation::BeginDrag(int part, const double eventPos[2])
+{
+  Internals& self = *this->Internal;
+  std::vector<vtkIdType> grabbed{ this->ActiveHandle };
+  if (this->IsSelected(this->ActiveHandle))
+  {
+    for (const vtkIdType handle : self.Selected)
+    {
+      if (handle != this->ActiveHandle && this->GetDragRefusal(handle) == DRAGGABLE)
+      {
+        grabbed.push_back(handle);
+      }
+    }
+  }
+  self.Dragged.emplace(bindpose::ScreenView(this->Renderer), self.Data.places(), part, grabbed,
+    Vector2d(eventPos), this->MakeSettings());
+  self.LastName = self.Dragged->name();
+  self.LastText.clear();
+  this->Modified();
+}
+
+void vtkHandleSetRepresentation::StartWidgetInteraction(double eventPos[2])
 {
   this->ActiveHandle = -1;
+  this->Internal->Dragged.reset();
+  this->Edited = false;
+  this->Internal->Message.clear();
+  if (this->Renderer && this->EditMode != POSE)
+  {
+    const vtkIdType hovered = this->HoveredHandle;
+    const bool began = this->Internal->Editor.press(bindpose::ScreenView(this->Renderer),
+      this->MakeHand(eventPos), this->MakeEditSettings(), this->Internal->Selected);
+    this->ActiveHandle = began && this->EditMode == MOVE_REST ? hovered : -1;
+    this->TakeEdit();
+    return;
+  }
+  if (this->Renderer && this->InteractionState != OUTSIDE &&
+    this->GetDragRefusal(this->HoveredHandle) == DRAGGABLE)
+  {
+    this->ActiveHandle = this->HoveredHandle;
+    this->BeginDrag(this->InteractionState, eventPos);
+  }
+}
+
+bool vtkHandleSetRepresentation::StartDrag(int gizmo, double eventPos[2])
+{
+  Internals& self = *this->Internal;
+  const vtkIdType handle = this->GetSelectedHandle();
+  const bool moves = gizmo == GIZMO_MOVE;
+  if (this->ActiveHandle >= 0 || !this->Renderer || this->EditMode != POSE ||
+    this->GetDragRefusal(handle) != DRAGGABLE ||
+    (!moves &&
+      (self.Data.place(handle).only_moves() || (gizmo != GIZMO_TURN && gizmo != GIZMO_SCALE))))
+  {
+    return false;
+  }
+  this->ActiveHandle = handle;
+  const int point = static_cast<int>(bindpose::HandlePart::point);
+  this->BeginDrag(moves     ? point
+      : gizmo == GIZMO_TURN ? static_cast<int>(bindpose::turn_view)
+                            : static_cast<int>(bindpose::scale_all),
+    eventPos);
+  return true;
+}
+
+void vtkHandleSetRepresentation::UpdateDrag()
+{
+  Internals& self = *this->Internal;
+  if (self.Dragged)
+  {
+    self.Dragged->drag().set_snapping(this->Snap != 0);
+    self.Data.set_poses(self.Dragged->group().cells, self.Dragged->poses());
+    self.LastName = self.Dragged->name();
+    self.LastText = self.Dragged->text();
+    this->Modified();
+  }
+}
+
+void vtkHandleSetRepresentation::WidgetInteraction(double eventPos[2])
+{
+  if (this->Internal->Editor.busy() && this->Renderer)
+  {
+    this->Internal->Editor.move(
+      bindpose::ScreenView(this->Renderer), this->MakeHand(eventPos), this->MakeEditSettings());
+    this->Modified();
+    return;
+  }
+  if (this->Internal->Dragged)
+  {
+    this->Internal->Dragged->drag().move_to(Vector2d(eventPos), this->Fine != 0);
+    this->UpdateDrag();
+  }
+}
+
+void vtkHandleSetRepresentation::ConstrainDrag(int axis, bool plane)
+{
+  if (this->Internal->Editor.busy() && axis >= 0 && axis < 3)
+  {
+    this->Internal->Editor.constrain(plane ? 7 ^ (1 << axis) : 1 << axis);
+  }
+  if (this->Internal->Dragged && axis >= 0 && axis < 3)
+  {
+    this->Internal->Dragged->press_axis(axis, plane);
+    this->UpdateDrag();
+  }
+}
+
+bool vtkHandleSetRepresentation::TypeIntoDrag(char key)
+{
+  if (!this->Internal->Dragged || !this->Internal->Dragged->type(key))
+  {
+    return false;
+  }
+  this->UpdateDrag();
+  return true;
+}
+
+void vtkHandleSetRepresentation::EndWidgetInteraction(double eventPos[2])
+{
+  if (this->Internal->Editor.busy() && this->Renderer)
+  {
+    this->Internal->Editor.release(
+      bindpose::ScreenView(this->Renderer), this->MakeHand(eventPos), this->MakeEditSettings());
+    this->TakeEdit();
+  }
+  this->ActiveHandle = -1;
+  this->Internal->Dragged.reset();
   this->Modified();
 }
 
 void vtkHandleSetRepresentation::CancelWidgetInteraction()
 {
-  if (this->ActiveHandle >= 0)
+  if (this->Internal->Editor.busy())
   {
-    this->Internal->SetTransforms(this->Internal->Moving, this->Internal->StartTransforms);
+    this->Internal->Editor.cancel();
+    this->Internal->Editor.take_result();
+    this->Edited = false;
+    this->ActiveHandle = -1;
+    this->Modified();
+  }
+  if (this->Internal->Dragged)
+  {
+    const bindpose::HandleGroup& group = this->Internal->Dragged->group();
+    this->Internal->Data.set_poses(group.cells, group.start);
+    this->Internal->Dragged.reset();
     this->ActiveHandle = -1;
     this->Modified();
   }
 }
 
-// ---- Drawing -----------------------------------------------------------------------------------
+// ---- Edit modes --------------------------------------------------------------------------------
 
-vtkMTimeType vtkHandleSetRepresentation::GetMTime()
+bool vtkHandleSetRepresentation::IsInteracting()
 {
-  vtkMTimeType time = this->Superclass::GetMTime();
-  time = std::max(time, this->Internal->Text->GetMTime());
-  if (this->Internal->Handles)
-  {
-    time = std::max(time, this->Internal->Handles->GetMTime());
-  }
-  return time;
+  return this->Internal->Dragged.has_value() || this->Internal->Editor.busy();
 }
 
-void vtkHandleSetRepresentation::BuildRepresentation()
+void vtkHandleSetRepresentation::SetEditMode(int mode)
+{
+  const int clamped = std::clamp<int>(mode, POSE, ADD_CAGE);
+  if (clamped != this->EditMode)
+  {
+    this->CancelWidgetInteraction();
+    this->FinishCage();
+    this->LeaveHandles();
+    this->EditMode = clamped;
+    this->Modified();
+  }
+}
+
+void vtkHandleSetRepresentation::SetSurface(vtkPolyData* surface)
+{
+  if (surface != this->GetSurface())
+  {
+    this->Internal->Editor.surface().set(surface);
+    this->Modified();
+  }
+}
+
+vtkPolyData* vtkHandleSetRepresentation::GetSurface()
+{
+  return this->Internal->Editor.surface().get();
+}
+
+bindpose::EditSettings vtkHandleSetRepresentation::MakeEditSettings()
+{
+  bindpose::EditSettings settings;
+  settings.mode = static_cast<bindpose::EditMode>(this->EditMode);
+  settings.place_inside = this->PlaceInside != 0;
+  settings.length_step = this->GetSnapLength();
+  settings.sizes.ball = this->PixelScale * this->PointSize;
+  settings.sizes.bone_width = this->BoneWidth;
+  settings.sizes.tolerance = this->PixelScale * this->PickTolerance;
+  settings.focus = Vector3d(this->Renderer->GetActiveCamera()->GetFocalPoint());
+  return settings;
+}
+
+bindpose::Hand vtkHandleSetRepresentation::MakeHand(const double eventPos[2])
+{
+  return { Vector2d(eventPos), this->Fine != 0, this->Snap != 0 };
+}
+
+/// What the editor has done, when it is done: cells may have other numbers now.
+void vtkHandleSetRepresentation::TakeEdit()
 {
   Internals& self = *this->Internal;
-  if (!this->Renderer || !this->Renderer->GetRenderWindow())
+  self.LastName = self.Editor.name();
+  self.LastText.clear();
+  if (self.Editor.busy())
   {
     return;
   }
-  vtkWindow* window = this->Renderer->GetRenderWindow();
-  if (this->BuildTime > this->GetMTime() && this->BuildTime > window->GetMTime() &&
-    this->BuildTime > this->Renderer->GetMTime() &&
-    this->BuildTime > this->Renderer->GetActiveCamera()->GetMTime())
+  const bindpose::EditResult result = self.Editor.take_result();
+  this->Edited = result.changed;
+  self.Message = result.message;
+  if (result.changed)
   {
-    return;
+    std::vector<vtkIdType> selected;
+    for (const vtkIdType handle : self.Selected)
+    {
+      const auto cell = static_cast<std::size_t>(handle);
+      if (cell < result.cell_of.size() && result.cell_of[cell] >= 0)
+      {
+        selected.push_back(result.cell_of[cell]);
+      }
+    }
+    // What is new is selected alone.
+    self.Selected = result.added.empty() ? selected : std::vector<vtkIdType>{ result.added.back() };
+    this->SetHoveredHandle(-1);
   }
-  const bool fine = self.CountCells() <= 60;
-  bindpose::HandleShapes solid(fine);
-  bindpose::HandleShapes outline(fine);
-  self.VisibleLabels = 0;
-  const bindpose::Colour mode_colours[3] = { to_colour(this->FullColor),
-    to_colour(this->PositionColor), to_colour(this->FreeColor) };
-  // World length of a pixel at a place.
-  vtkCamera* camera = this->Renderer->GetActiveCamera();
-  const Vector3d eye(camera->GetPosition());
-  const Vector3d sight(camera->GetDirectionOfProjection());
-  const double height = std::max(this->Renderer->GetSize()[1], 1);
-  const auto pixel_at = [&](const Vector3d& place)
-  {
-    const double half_height = camera->GetParallelProjection()
-      ? camera->GetParallelScale()
-      : std::max(sight.dot(place - eye), 0.0) *
-        std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()));
-    return this->PixelScale * 2.0 * half_height / height;
-  };
-  for (vtkIdType cell = 0; cell < self.CountCells(); ++cell)
-  {
-    const Place place = self.PlaceOf(cell);
-    if (place.kind < 0)
-    {
-      vtkNew<vtkIdList> ids;
-      self.Handles->GetCellPoints(cell, ids);
-      for (vtkIdType i = 0; i + 1 < ids->GetNumberOfIds() + (ids->GetNumberOfIds() > 2); ++i)
-      {
-        const Vector3d a = self.PosedPoint(ids->GetId(i));
-        const Vector3d b = self.PosedPoint(ids->GetId((i + 1) % ids->GetNumberOfIds()));
-        solid.add_bone(a, b, 1.2 * pixel_at(0.5 * (a + b)), to_colour(this->OutlineColor));
-      }
-      continue;
-    }
-    const bool hot = cell == this->HoveredHandle || cell == this->ActiveHandle;
-    const bool selected = cell == this->SelectedHandle;
-    const bindpose::Colour base = mode_colours[std::clamp(this->GetHandleMode(cell), 0, 2)];
-    const bindpose::Colour colour = hot ? lighter(base) : base;
-    const bindpose::Colour edge = to_colour(selected ? this->SelectedColor : this->OutlineColor);
-    const double growth = hot ? 1.2 : 1.0;
-    const double line = outline_pixels * (selected ? 1.6 : 1.0);
-    // Around the selected handle's outline there is another, so that it shows on any ground.
-    const double rim = line + outline_pixels;
-    const bindpose::Colour rim_colour = to_colour(this->OutlineColor);
-    const auto add_ball = [&](const Vector3d& center, double size)
-    {
-      const double pixel = pixel_at(center);
-      solid.add_ball(center, size * growth * pixel, colour);
-      outline.add_ball(center, (size * growth + line) * pixel, edge);
-      if (selected)
-      {
-        outline.add_ball(center, (size * growth + rim) * pixel, rim_colour);
-      }
-    };
-    if (place.kind == 1)
-    {
-      const Vector3d middle = 0.5 * (place.head + place.tail);
-      const double pixel = pixel_at(middle);
-      const double width = growth *
-        std::clamp(this->BoneWidth * (place.tail - place.head).norm(),
-          0.5 * this->PointSize * pixel, 2.0 * this->PointSize * pixel);
-      solid.add_bone(place.head, place.tail, width, colour);
-      outline.add_bone(place.head, place.tail, width, edge, line * pixel);
-      if (selected)
-      {
-        outline.add_bone(place.head, place.tail, width, rim_colour, rim * pixel);
-      }
-      add_ball(place.head, bone_end_size * this->PointSize);
-      add_ball(place.tail, bone_end_size * this->PointSize);
-    }
-    else
-    {
-      add_ball(place.head, this->PointSize);
-    }
-    if (this->ShowLabels || (this->ShowHoverName && hot))
-    {
-      const Vector3d at = place.kind == 1 ? Vector3d(0.5 * (place.head + place.tail)) : place.head;
-      Vector3d display;
-      vtkInteractorObserver::ComputeWorldToDisplay(
-        this->Renderer, at[0], at[1], at[2], display.data());
-      if (self.Labels.size() == self.VisibleLabels)
-      {
-        self.Labels.push_back(vtkSmartPointer<vtkTextActor>::New());
-        self.Labels.back()->GetPositionCoordinate()->SetCoordinateSystemToDisplay();
-      }
-      vtkTextActor* label = self.Labels[self.VisibleLabels++];
-      label->SetInput((" " + this->GetHandleName(cell) + " ").c_str());
-      label->GetTextProperty()->ShallowCopy(self.Text);
-      label->GetTextProperty()->SetFontSize(
-        static_cast<int>(self.Text->GetFontSize() * this->PixelScale + 0.5));
-      // Right of a ball; of a bone on the side that faces right, so as not to cover it.
-      Eigen::Vector2d aside(1.0, 0.0);
-      if (place.kind == 1)
-      {
-        Vector3d head;
-        vtkInteractorObserver::ComputeWorldToDisplay(
-          this->Renderer, place.head[0], place.head[1], place.head[2], head.data());
-        const Eigen::Vector2d along = (display - head).head<2>();
-        if (along.norm() > 0.0)
-        {
-          aside = Eigen::Vector2d(along.y(), -along.x()).normalized();
-          aside *= aside.x() < 0.0 ? -1.0 : 1.0;
-        }
-      }
-      const double distance = this->PixelScale * this->PointSize;
-      label->SetDisplayPosition(static_cast<int>(display[0] + 1.9 * distance * aside.x()),
-        static_cast<int>(display[1] + 2.4 * distance * aside.y()));
-    }
-  }
-  self.SolidMapper->SetInputData(solid.polydata());
-  self.OutlineMapper->SetInputData(outline.polydata());
-  this->BuildTime.Modified();
+  this->Modified();
 }
 
-double* vtkHandleSetRepresentation::GetBounds()
+bool vtkHandleSetRepresentation::IsMakingCage()
 {
-  Eigen::AlignedBox3d box;
-  for (vtkIdType cell = 0; cell < this->Internal->CountCells(); ++cell)
-  {
-    const Place place = this->Internal->PlaceOf(cell);
-    box.extend(place.head).extend(place.tail);
-  }
-  vtkMath::UninitializeBounds(this->Bounds);
-  for (int axis = 0; axis < 3 && !box.isEmpty(); ++axis)
-  {
-    this->Bounds[2 * axis] = box.min()[axis];
-    this->Bounds[2 * axis + 1] = box.max()[axis];
-  }
-  return this->Bounds;
+  return this->Internal->Editor.has_cage();
 }
 
-int vtkHandleSetRepresentation::RenderOpaqueGeometry(vtkViewport* viewport)
+bool vtkHandleSetRepresentation::FinishCage()
 {
-  if (this->DrawOnTop)
-  {
-    return 0;
-  }
-  this->BuildRepresentation();
-  return this->Internal->Outline->RenderOpaqueGeometry(viewport) +
-    this->Internal->Solid->RenderOpaqueGeometry(viewport);
+  const bool any = this->Internal->Editor.finish_cage();
+  this->Modified();
+  return any;
 }
 
-int vtkHandleSetRepresentation::RenderOverlay(vtkViewport* viewport)
+bool vtkHandleSetRepresentation::DropCageVertex()
 {
-  this->BuildRepresentation();
-  int rendered = 0;
-  auto* window = vtkOpenGLRenderWindow::SafeDownCast(viewport->GetVTKWindow());
-  if (this->DrawOnTop && window)
+  this->Edited = false;
+  this->Internal->Message.clear();
+  if (!this->Internal->Editor.drop_cage_vertex())
   {
-    vtkOpenGLState* state = window->GetState();
-    state->vtkglEnable(gl_depth_test);
-    state->vtkglDepthMask(1);
-    state->vtkglClear(gl_depth_buffer_bit);
-    rendered += this->Internal->Outline->RenderOpaqueGeometry(viewport);
-    rendered += this->Internal->Solid->RenderOpaqueGeometry(viewport);
+    return false;
   }
-  for (std::size_t i = 0; i < this->Internal->VisibleLabels; ++i)
-  {
-    // A text actor draws its letters in the opaque pass and shows them in the overlay.
-    this->Internal->Labels[i]->RenderOpaqueGeometry(viewport);
-    rendered += this->Internal->Labels[i]->RenderOverlay(viewport);
-  }
-  return rendered;
+  this->TakeEdit();
+  return true;
 }
 
-void vtkHandleSetRepresentation::ReleaseGraphicsResources(vtkWindow* window)
+std::string vtkHandleSetRepresentation::GetEditMessage()
 {
-  this->Internal->Solid->ReleaseGraphicsResources(window);
-  this->Internal->Outline->ReleaseGraphicsResources(window);
-  for (const auto& label : this->Internal->Labels)
-  {
-    label->ReleaseGraphicsResources(window);
-  }
-  this->Superclass::ReleaseGraphicsResources(window);
+  return this->Internal->Message;
+}
+
+std::string vtkHandleSetRepresentation::GetInteractionName()
+{
+  return this->Internal->LastName;
+}
+
+std::string vtkHandleSetRepresentation::GetInteractionText()
+{
+  return this->Internal->LastText;
 }
 
 void vtkHandleSetRepresentation::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Handles: " << this->Internal->Handles.Get() << "\n";
+  os << indent << "Handles: " << this->Internal->Data.get() << "\n";
+  os << indent << "EditMode: " << this->EditMode << "\n";
+  os << indent << "Surface: " << this->GetSurface() << "\n";
+  os << indent << "PlaceInside: " << this->PlaceInside << "\n";
+  os << indent << "Edited: " << this->Edited << "\n";
+  os << indent << "Gizmo: " << this->Gizmo << "\n";
+  os << indent << "Space: " << (this->Space == LOCAL ? "local" : "world") << "\n";
+  os << indent << "GizmoSize: " << this->GizmoSize << "\n";
+  os << indent << "StretchableBones: " << this->StretchableBones << "\n";
+  os << indent << "LengthStep: " << this->LengthStep << "\n";
+  os << indent << "DegreeStep: " << this->DegreeStep << "\n";
+  os << indent << "FactorStep: " << this->FactorStep << "\n";
+  os << indent << "Fine: " << this->Fine << "\n";
+  os << indent << "Snap: " << this->Snap << "\n";
+  os << indent << "Reach: " << this->Reach << "\n";
   os << indent << "PointSize: " << this->PointSize << "\n";
   os << indent << "BoneWidth: " << this->BoneWidth << "\n";
   os << indent << "PickTolerance: " << this->PickTolerance << "\n";
@@ -716,6 +648,7 @@ void vtkHandleSetRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ShowHoverName: " << this->ShowHoverName << "\n";
   os << indent << "DrawOnTop: " << this->DrawOnTop << "\n";
   os << indent << "MoveDescendants: " << this->MoveDescendants << "\n";
+  os << indent << "DragFree: " << this->DragFree << "\n";
   const auto print_colour = [&](const char* name, const double c[3])
   { os << indent << name << ": (" << c[0] << ", " << c[1] << ", " << c[2] << ")\n"; };
   print_colour("FullColor", this->FullColor);
@@ -724,6 +657,6 @@ void vtkHandleSetRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   print_colour("OutlineColor", this->OutlineColor);
   print_colour("SelectedColor", this->SelectedColor);
   os << indent << "HoveredHandle: " << this->HoveredHandle << "\n";
-  os << indent << "SelectedHandle: " << this->SelectedHandle << "\n";
+  os << indent << "SelectedHandle: " << this->GetSelectedHandle() << "\n";
   os << indent << "ActiveHandle: " << this->ActiveHandle << "\n";
 }

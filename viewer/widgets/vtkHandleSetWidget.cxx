@@ -1,13 +1,13 @@
 // Two states. Hovering: the mouse only moves the highlight, and events pass on. Dragging: the
-// widget holds the focus, moves go to the representation, and every change of transforms is told
-// by an InteractionEvent.
+// widget holds the focus, moves go to the representation, and every change of poses is told by an
+// InteractionEvent. Keys are looked up in handle_bindings.h.
 #include "vtkHandleSetWidget.h"
 
+#include "handle_bindings.h"
 #include "vtkHandleSetRepresentation.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
-#include "vtkEvent.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 #include "vtkRenderWindow.h"
@@ -16,7 +16,51 @@
 #include "vtkWidgetCallbackMapper.h"
 #include "vtkWidgetEvent.h"
 
+#include <cctype>
 #include <cstring>
+
+using bindpose::HandleAction;
+
+namespace
+{
+/// Letters are one key, whether Shift is held or not.
+std::string plain_key(const char* key)
+{
+  std::string name = key ? key : "";
+  if (name.size() == 1)
+  {
+    name[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(name[0])));
+  }
+  return name;
+}
+
+bool is_key_of(HandleAction action, const std::string& key)
+{
+  for (const bindpose::HandleBinding& binding : bindpose::handle_bindings)
+  {
+    if (binding.action == action && !key.empty() &&
+      std::strstr(binding.keys, (" " + key + " ").c_str()))
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
+/// As vtkHandleSetRepresentation::TypeIntoDrag() takes it.
+char typed_character(const std::string& key)
+{
+  if (key == "period" || key == "comma" || key == "KP_Decimal")
+  {
+    return '.';
+  }
+  if (key == "minus" || key == "KP_Subtract")
+  {
+    return '-';
+  }
+  return key == "BackSpace" ? 'b' : key.back();
+}
+} // namespace
 
 vtkStandardNewMacro(vtkHandleSetWidget);
 
@@ -28,8 +72,12 @@ vtkHandleSetWidget::vtkHandleSetWidget()
     this, vtkHandleSetWidget::SelectAction);
   this->CallbackMapper->SetCallbackMethod(vtkCommand::LeftButtonReleaseEvent,
     vtkWidgetEvent::EndSelect, this, vtkHandleSetWidget::EndSelectAction);
-  this->CallbackMapper->SetCallbackMethod(vtkCommand::KeyPressEvent, vtkEvent::AnyModifier, 0, 0,
-    "Escape", vtkWidgetEvent::Reset, this, vtkHandleSetWidget::CancelAction);
+  this->CallbackMapper->SetCallbackMethod(vtkCommand::RightButtonPressEvent, vtkWidgetEvent::Reset,
+    this, vtkHandleSetWidget::CancelAction);
+  this->CallbackMapper->SetCallbackMethod(vtkCommand::LeftButtonDoubleClickEvent,
+    vtkWidgetEvent::AddFinalPoint, this, vtkHandleSetWidget::DoubleClickAction);
+  this->CallbackMapper->SetCallbackMethod(
+    vtkCommand::KeyPressEvent, vtkWidgetEvent::ModifyEvent, this, vtkHandleSetWidget::KeyAction);
 }
 
 vtkHandleSetWidget::~vtkHandleSetWidget() = default;
@@ -72,12 +120,21 @@ void vtkHandleSetWidget::SetEnabled(int enabling)
   this->Superclass::SetEnabled(enabling);
 }
 
+std::string vtkHandleSetWidget::GetInteractionName()
+{
+  return this->GetHandleSetRepresentation()->GetInteractionName();
+}
+
+// ---- The mouse ---------------------------------------------------------------------------------
+
 bool vtkHandleSetWidget::Hover()
 {
   vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
+  this->ReadModifiers();
   const int x = this->Interactor->GetEventPosition()[0];
   const int y = this->Interactor->GetEventPosition()[1];
-  const vtkIdType before = representation->GetHoveredHandle();
+  const vtkIdType handle_before = representation->GetHoveredHandle();
+  const int state_before = representation->GetInteractionState();
   int state = vtkHandleSetRepresentation::OUTSIDE;
   if (this->CurrentRenderer && this->CurrentRenderer->IsInViewport(x, y))
   {
@@ -85,16 +142,34 @@ bool vtkHandleSetWidget::Hover()
   }
   else
   {
-    representation->SetHoveredHandle(-1);
+    representation->LeaveHandles();
   }
-  if (representation->GetHoveredHandle() != before)
+  // Within a handle it is the same highlight.
+  const bool on_gizmo = state >= vtkHandleSetRepresentation::MOVE_X ||
+    state_before >= vtkHandleSetRepresentation::MOVE_X;
+  if (representation->GetEditMode() > vtkHandleSetRepresentation::MOVE_REST &&
+    (on_gizmo || state_before != state))
   {
-    this->RequestCursorShape(
-      state == vtkHandleSetRepresentation::OUTSIDE ? VTK_CURSOR_DEFAULT : VTK_CURSOR_HAND);
+    this->Render(); // the preview follows the mouse
+  }
+  if (representation->GetHoveredHandle() != handle_before || (on_gizmo && state != state_before))
+  {
+    const bool usable = state != vtkHandleSetRepresentation::OUTSIDE &&
+      representation->GetDragRefusal(representation->GetHoveredHandle()) ==
+        vtkHandleSetRepresentation::DRAGGABLE;
+    this->RequestCursorShape(usable ? VTK_CURSOR_HAND : VTK_CURSOR_DEFAULT);
     this->InvokeEvent(vtkCommand::HighlightEvent, nullptr);
     this->Render();
   }
   return state != vtkHandleSetRepresentation::OUTSIDE;
+}
+
+void vtkHandleSetWidget::ReadModifiers()
+{
+  vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
+  representation->SetFine(this->Interactor->GetShiftKey() != 0);
+  representation->SetSnap(this->Interactor->GetControlKey() != 0);
+  representation->SetReach(this->Interactor->GetAltKey() != 0);
 }
 
 void vtkHandleSetWidget::MoveAction(vtkAbstractWidget* widget)
@@ -107,89 +182,362 @@ void vtkHandleSetWidget::MoveAction(vtkAbstractWidget* widget)
   }
   double position[2] = { static_cast<double>(self->Interactor->GetEventPosition()[0]),
     static_cast<double>(self->Interactor->GetEventPosition()[1]) };
+  self->ReadModifiers();
+  self->Moved = true;
   self->GetHandleSetRepresentation()->WidgetInteraction(position);
   self->EventCallbackCommand->SetAbortFlag(1);
-  self->InvokeEvent(vtkCommand::InteractionEvent, nullptr);
+  if (self->GetEditMode() <= vtkHandleSetRepresentation::MOVE_REST)
+  {
+    self->InvokeEvent(vtkCommand::InteractionEvent, nullptr);
+  }
   self->Render();
 }
 
 void vtkHandleSetWidget::SelectAction(vtkAbstractWidget* widget)
 {
   auto* self = static_cast<vtkHandleSetWidget*>(widget);
-  if (self->State == DRAGGING || !self->Hover())
+  if (self->State == DRAGGING)
+  {
+    self->EventCallbackCommand->SetAbortFlag(1);
+    if (self->ByKey)
+    {
+      self->EndDrag();
+    }
+    return;
+  }
+  if (!self->Hover())
   {
     return; // the camera's
   }
   self->EventCallbackCommand->SetAbortFlag(1);
   vtkHandleSetRepresentation* representation = self->GetHandleSetRepresentation();
-  if (representation->GetSelectedHandle() != representation->GetHoveredHandle())
+  const vtkIdType handle = representation->GetHoveredHandle();
+  const bool on_gizmo = representation->GetInteractionState() >= vtkHandleSetRepresentation::MOVE_X;
+  if (!on_gizmo && self->Interactor->GetShiftKey())
   {
-    representation->SetSelectedHandle(representation->GetHoveredHandle());
+    // (a place for something new counts as a part of the gizmo)
+    representation->ToggleSelected(handle);
     self->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);
+    self->Render();
+    return;
+  }
+  const bool adds = representation->GetEditMode() > vtkHandleSetRepresentation::MOVE_REST;
+  if (!adds && !representation->IsSelected(handle))
+  {
+    representation->SetSelectedHandle(handle);
+    self->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);
+  }
+  if (self->Edits())
+  {
+    self->PressInMode();
+    return;
   }
   double position[2] = { static_cast<double>(self->Interactor->GetEventPosition()[0]),
     static_cast<double>(self->Interactor->GetEventPosition()[1]) };
+  self->ReadModifiers();
   representation->StartWidgetInteraction(position);
   if (representation->GetActiveHandle() >= 0)
   {
-    self->State = DRAGGING;
-    self->Cancelled = false;
-    self->GrabFocus(self->EventCallbackCommand, self->EventCallbackCommand);
-    self->Superclass::StartInteraction();
-    self->InvokeEvent(vtkCommand::StartInteractionEvent, nullptr);
+    self->ByKey = false;
+    self->BeginDragging();
   }
   self->Render();
+}
+
+/// In edit modes: what a press begins, or does at once. StartInteractionEvent comes first, so that
+/// whoever remembers the handles for an undo sees them as they were.
+void vtkHandleSetWidget::PressInMode()
+{
+  vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
+  double position[2] = { static_cast<double>(this->Interactor->GetEventPosition()[0]),
+    static_cast<double>(this->Interactor->GetEventPosition()[1]) };
+  if (this->Interactor->GetRepeatCount() > 0 && representation->FinishCage())
+  {
+    this->Render(); // a double click
+    return;
+  }
+  this->ReadModifiers();
+  this->ByKey = false;
+  this->BeginDragging();
+  representation->StartWidgetInteraction(position);
+  if (!representation->IsInteracting())
+  {
+    this->FinishDragging(!representation->GetEdited());
+  }
+  this->Render();
+}
+
+void vtkHandleSetWidget::DoubleClickAction(vtkAbstractWidget* widget)
+{
+  auto* self = static_cast<vtkHandleSetWidget*>(widget);
+  if (self->State == HOVERING && self->GetHandleSetRepresentation()->FinishCage())
+  {
+    self->EventCallbackCommand->SetAbortFlag(1);
+    self->Render();
+  }
+}
+
+bool vtkHandleSetWidget::Edits()
+{
+  return this->GetEditMode() != vtkHandleSetRepresentation::POSE;
+}
+
+void vtkHandleSetWidget::SetEditMode(int mode)
+{
+  if (mode != this->GetEditMode())
+  {
+    this->CancelDrag();
+    this->GetHandleSetRepresentation()->SetEditMode(mode);
+  }
+}
+
+int vtkHandleSetWidget::GetEditMode()
+{
+  return this->GetHandleSetRepresentation()->GetEditMode();
 }
 
 void vtkHandleSetWidget::EndSelectAction(vtkAbstractWidget* widget)
 {
   auto* self = static_cast<vtkHandleSetWidget*>(widget);
-  if (self->State != DRAGGING)
+  if (self->State != DRAGGING || self->ByKey)
   {
     return;
   }
-  double position[2] = { static_cast<double>(self->Interactor->GetEventPosition()[0]),
-    static_cast<double>(self->Interactor->GetEventPosition()[1]) };
-  self->GetHandleSetRepresentation()->EndWidgetInteraction(position);
-  self->State = HOVERING;
-  self->ReleaseFocus();
   self->EventCallbackCommand->SetAbortFlag(1);
-  self->Superclass::EndInteraction();
-  self->InvokeEvent(vtkCommand::EndInteractionEvent, nullptr);
-  self->Render();
+  vtkHandleSetRepresentation* representation = self->GetHandleSetRepresentation();
+  const vtkIdType handle = representation->GetActiveHandle();
+  const bool click = !self->Moved && representation->GetNumberOfSelectedHandles() > 1 &&
+    representation->GetInteractionState() < vtkHandleSetRepresentation::MOVE_X;
+  self->EndDrag();
+  if (click) // on one of several, without a drag
+  {
+    representation->SetSelectedHandle(handle);
+    self->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);
+    self->Render();
+  }
 }
 
 void vtkHandleSetWidget::CancelAction(vtkAbstractWidget* widget)
 {
   auto* self = static_cast<vtkHandleSetWidget*>(widget);
-  // The translator takes a key without a name for any key.
-  const char* key = self->Interactor->GetKeySym();
-  if (self->State == DRAGGING && key && std::strcmp(key, "Escape") == 0)
+  if (self->State == DRAGGING)
   {
     self->EventCallbackCommand->SetAbortFlag(1);
     self->CancelDrag();
   }
 }
 
-void vtkHandleSetWidget::CancelDrag()
+// ---- The keyboard ------------------------------------------------------------------------------
+
+void vtkHandleSetWidget::KeyAction(vtkAbstractWidget* widget)
 {
-  if (this->State != DRAGGING)
+  auto* self = static_cast<vtkHandleSetWidget*>(widget);
+  if (self->PressKey(plain_key(self->Interactor->GetKeySym())))
   {
-    return;
+    self->EventCallbackCommand->SetAbortFlag(1);
   }
-  this->GetHandleSetRepresentation()->CancelWidgetInteraction();
+}
+
+bool vtkHandleSetWidget::PressKey(const std::string& key)
+{
+  if (this->State == DRAGGING)
+  {
+    return this->PressKeyInDrag(key);
+  }
+  if (this->Edits())
+  {
+    return this->PressKeyInMode(key);
+  }
+  if (!this->StartKeys || this->Interactor->GetControlKey() || this->Interactor->GetAltKey())
+  {
+    return false;
+  }
+  const std::pair<HandleAction, int> starts[3] = { { HandleAction::start_move,
+                                                     vtkHandleSetRepresentation::GIZMO_MOVE },
+    { HandleAction::start_turn, vtkHandleSetRepresentation::GIZMO_TURN },
+    { HandleAction::start_scale, vtkHandleSetRepresentation::GIZMO_SCALE } };
+  for (const auto& [action, gizmo] : starts)
+  {
+    if (is_key_of(action, key))
+    {
+      return this->StartDrag(gizmo);
+    }
+  }
+  return false;
+}
+
+bool vtkHandleSetWidget::PressKeyInMode(const std::string& key)
+{
+  vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
+  if (is_key_of(HandleAction::finish_cage, key) && representation->FinishCage())
+  {
+    this->Render();
+    return true;
+  }
+  if (!is_key_of(HandleAction::drop_vertex, key))
+  {
+    return false;
+  }
+  if (representation->IsMakingCage())
+  {
+    this->BeginDragging();
+    representation->DropCageVertex();
+    this->FinishDragging(!representation->GetEdited());
+  }
+  else
+  {
+    this->SetEditMode(vtkHandleSetRepresentation::POSE);
+    this->InvokeEvent(vtkCommand::StateChangedEvent, nullptr);
+    this->Render();
+  }
+  return true;
+}
+
+bool vtkHandleSetWidget::PressKeyInDrag(const std::string& key)
+{
+  vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
+  if (is_key_of(HandleAction::cancel, key))
+  {
+    this->CancelDrag();
+    return true;
+  }
+  if (is_key_of(HandleAction::confirm, key))
+  {
+    this->EndDrag();
+    return true;
+  }
+  if (this->GetEditMode() > vtkHandleSetRepresentation::MOVE_REST)
+  {
+    return false;
+  }
+  if (is_key_of(HandleAction::hold_axis, key))
+  {
+    representation->ConstrainDrag(key[0] - 'x', this->Interactor->GetShiftKey() != 0);
+  }
+  else if (!is_key_of(HandleAction::type, key) ||
+    !representation->TypeIntoDrag(typed_character(key)))
+  {
+    return false;
+  }
+  this->Moved = true;
+  this->InvokeEvent(vtkCommand::InteractionEvent, nullptr);
+  this->Render();
+  return true;
+}
+
+int vtkHandleSetWidget::GetNumberOfBindings()
+{
+  return static_cast<int>(bindpose::handle_bindings.size());
+}
+
+std::string vtkHandleSetWidget::GetBindingWhen(int row)
+{
+  return row >= 0 && row < GetNumberOfBindings() ? bindpose::handle_bindings[row].when : "";
+}
+
+std::string vtkHandleSetWidget::GetBindingInput(int row)
+{
+  return row >= 0 && row < GetNumberOfBindings() ? bindpose::handle_bindings[row].input : "";
+}
+
+std::string vtkHandleSetWidget::GetBindingText(int row)
+{
+  return row >= 0 && row < GetNumberOfBindings() ? bindpose::handle_bindings[row].text : "";
+}
+
+// ---- Drags -------------------------------------------------------------------------------------
+
+void vtkHandleSetWidget::BeginDragging()
+{
+  this->State = DRAGGING;
+  this->Moved = false;
+  this->Cancelled = false;
+  this->GrabFocus(this->EventCallbackCommand, this->EventCallbackCommand);
+  this->Superclass::StartInteraction();
+  this->InvokeEvent(vtkCommand::StartInteractionEvent, nullptr);
+}
+
+void vtkHandleSetWidget::FinishDragging(bool cancelled)
+{
   this->State = HOVERING;
-  this->Cancelled = true;
+  this->Cancelled = cancelled;
   this->ReleaseFocus();
   this->Superclass::EndInteraction();
-  this->InvokeEvent(vtkCommand::InteractionEvent, nullptr);
+  if (this->Edits())
+  {
+    this->TellEdit();
+  }
+  else if (cancelled)
+  {
+    this->InvokeEvent(vtkCommand::InteractionEvent, nullptr);
+  }
   this->InvokeEvent(vtkCommand::EndInteractionEvent, nullptr);
   this->Render();
+}
+
+void vtkHandleSetWidget::TellEdit()
+{
+  vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
+  std::string message = representation->GetEditMessage();
+  if (!message.empty())
+  {
+    this->InvokeEvent(vtkCommand::WarningEvent, &message[0]);
+  }
+  const bool moves = this->GetEditMode() == vtkHandleSetRepresentation::MOVE_REST;
+  if (representation->GetEdited() && !moves)
+  {
+    this->InvokeEvent(vtkCommand::PlacePointEvent, nullptr);
+    this->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);
+  }
+  if (representation->GetEdited() || moves)
+  {
+    this->InvokeEvent(vtkCommand::InteractionEvent, nullptr);
+  }
+}
+
+bool vtkHandleSetWidget::StartDrag(int gizmo)
+{
+  if (this->State == DRAGGING || !this->Enabled || !this->Interactor)
+  {
+    return false;
+  }
+  double position[2] = { static_cast<double>(this->Interactor->GetEventPosition()[0]),
+    static_cast<double>(this->Interactor->GetEventPosition()[1]) };
+  if (!this->GetHandleSetRepresentation()->StartDrag(gizmo, position))
+  {
+    return false;
+  }
+  this->ByKey = true;
+  this->BeginDragging();
+  this->Render();
+  return true;
+}
+
+void vtkHandleSetWidget::EndDrag()
+{
+  if (this->State == DRAGGING)
+  {
+    double position[2] = { static_cast<double>(this->Interactor->GetEventPosition()[0]),
+      static_cast<double>(this->Interactor->GetEventPosition()[1]) };
+    vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
+    representation->EndWidgetInteraction(position);
+    this->FinishDragging(this->Edits() && !representation->GetEdited());
+  }
+}
+
+void vtkHandleSetWidget::CancelDrag()
+{
+  if (this->State == DRAGGING)
+  {
+    this->GetHandleSetRepresentation()->CancelWidgetInteraction();
+    this->FinishDragging(true);
+  }
 }
 
 void vtkHandleSetWidget::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
   os << indent << "State: " << (this->State == DRAGGING ? "dragging" : "hovering") << "\n";
+  os << indent << "StartKeys: " << this->StartKeys << "\n";
   os << indent << "Cancelled: " << (this->Cancelled ? "yes" : "no") << "\n";
 }

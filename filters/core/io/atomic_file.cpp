@@ -37,6 +37,21 @@ Status cannot_write(const std::string& path, const std::string& reason)
   return Status::invalid_input("cannot write " + path + ": " + reason);
 }
 
+/// Waits until a file or a folder is on the disk; false, with errno, when that fails.
+bool sync_path(const std::string& path)
+{
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0)
+  {
+    return false;
+  }
+  const bool done = ::fsync(descriptor) == 0;
+  const int reason = errno;
+  ::close(descriptor);
+  errno = reason;
+  return done;
+}
+
 Status check_target(const std::string& target, bool overwrite)
 {
   struct stat info = {};
@@ -121,6 +136,32 @@ Status AtomicFile::commit()
   }
   this->discard();
   return status;
+}
+
+Status AtomicFile::commit_synced()
+{
+  const std::string target = this->target_;
+  if (!this->temporary_.empty() && !sync_path(this->temporary_))
+  {
+    const Status status = cannot_write(target, std::strerror(errno));
+    this->discard();
+    return status;
+  }
+  Status status = this->commit();
+  if (status.ok())
+  {
+    // The name lives in the folder. A file system that cannot sync folders has done what it can.
+    const std::size_t name = target.find_last_of('/');
+    sync_path(name == std::string::npos ? "." : target.substr(0, name + 1));
+  }
+  return status;
+}
+
+Status AtomicFile::commit_synced_as(const std::string& target)
+{
+  this->target_ = target;
+  this->overwrite_ = true;
+  return this->commit_synced();
 }
 
 void AtomicFile::discard()

@@ -17,7 +17,8 @@ namespace bindpose
 ///     if (status.ok()) status = write_it(file.temporary());
 ///     if (status.ok()) status = file.commit();
 ///
-/// No fsync: after a power failure the target may be missing, but never half there for a reader.
+/// commit() does no fsync: after a power failure the target may be missing or empty. Work that a
+/// person would miss is committed by commit_synced(), which waits for the disk.
 class AtomicFile
 {
 public:
@@ -35,6 +36,14 @@ public:
 
   /// Gives the file its final name.
   Status commit();
+
+  /// The same, with contents and name on the disk when it returns: not even a power failure leaves
+  /// half a file.
+  Status commit_synced();
+
+  /// The same under another name in the same folder: for files that are named after what is in
+  /// them. Replaces a file of that name.
+  Status commit_synced_as(const std::string& target);
 
   /// Removes the temporary file; nothing when there is none.
   void discard();

@@ -13,16 +13,23 @@ namespace bindpose
 
 namespace
 {
-constexpr Index tile = 8;
-typedef double Pack __attribute__((vector_size(tile * sizeof(double)), aligned(8), may_alias));
+/// Half of a tile of 16 floats or 8 doubles: what AVX2 has registers for.
+template <typename Scalar>
+struct PackOf
+{
+  static constexpr Index half = 32 / sizeof(Scalar);
+  typedef Scalar Half __attribute__((vector_size(32), aligned(alignof(Scalar)), may_alias));
+};
 
 /// Of products scaled to ones on the diagonal: changes nearer to parallel than this share out
 /// evenly instead of cancelling in large numbers.
-constexpr double ridge = 1e-10;
+template <typename Scalar>
+constexpr double ridge = sizeof(Scalar) == 4 ? 1e-6 : 1e-10;
 
 /// change = now - last, last = now
-BINDPOSE_SIMD_CLONES void take_change(
-  Index count, const double* __restrict now, double* __restrict last, double* __restrict change)
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE void take_change_of(
+  Index count, const Scalar* __restrict now, Scalar* __restrict last, Scalar* __restrict change)
 {
   for (Index i = 0; i < count; ++i)
   {
@@ -32,71 +39,118 @@ BINDPOSE_SIMD_CLONES void take_change(
 }
 
 /// The same for the residual g - x.
-BINDPOSE_SIMD_CLONES void take_residual_change(Index count, const double* __restrict g,
-  const double* __restrict x, double* __restrict last, double* __restrict change)
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE void take_residual_change_of(Index count, const Scalar* __restrict g,
+  const Scalar* __restrict x, Scalar* __restrict last, Scalar* __restrict change)
 {
   for (Index i = 0; i < count; ++i)
   {
-    const double now = g[i] - x[i];
+    const Scalar now = g[i] - x[i];
     change[i] = now - last[i];
     last[i] = now;
   }
 }
 
 /// x = g - sum of shares times rows
-BINDPOSE_SIMD_CLONES void extrapolate(Index count, Index rows, const double* shares,
-  const double* __restrict g, const double* __restrict changes, double* __restrict x)
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE void extrapolate_of(Index count, Index rows, const double* shares,
+  const Scalar* __restrict g, const Scalar* __restrict changes, Scalar* __restrict x)
 {
+  using Half = typename PackOf<Scalar>::Half;
+  constexpr Index half = PackOf<Scalar>::half;
   Index i = 0;
-  for (; i + 2 * tile <= count; i += 2 * tile)
+  for (; i + 2 * half <= count; i += 2 * half)
   {
-    Pack a = *reinterpret_cast<const Pack*>(g + i);
-    Pack b = *reinterpret_cast<const Pack*>(g + i + tile);
+    Half a = *reinterpret_cast<const Half*>(g + i);
+    Half b = *reinterpret_cast<const Half*>(g + i + half);
     for (Index r = 0; r < rows; ++r)
     {
-      a -= *reinterpret_cast<const Pack*>(changes + r * count + i) * shares[r];
-      b -= *reinterpret_cast<const Pack*>(changes + r * count + i + tile) * shares[r];
+      const auto share = static_cast<Scalar>(shares[r]);
+      a -= *reinterpret_cast<const Half*>(changes + r * count + i) * share;
+      b -= *reinterpret_cast<const Half*>(changes + r * count + i + half) * share;
     }
-    *reinterpret_cast<Pack*>(x + i) = a;
-    *reinterpret_cast<Pack*>(x + i + tile) = b;
+    *reinterpret_cast<Half*>(x + i) = a;
+    *reinterpret_cast<Half*>(x + i + half) = b;
   }
   for (; i < count; ++i)
   {
-    double sum = g[i];
+    Scalar sum = g[i];
     for (Index r = 0; r < rows; ++r)
     {
-      sum -= changes[r * count + i] * shares[r];
+      sum -= changes[r * count + i] * static_cast<Scalar>(shares[r]);
     }
     x[i] = sum;
   }
 }
-} // namespace
 
-BINDPOSE_SIMD_CLONES double packed_dot(Index count, const double* a, const double* b)
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE double dot_of(Index count, const Scalar* a, const Scalar* b)
 {
-  Pack first = {}, second = {};
+  using Half = typename PackOf<Scalar>::Half;
+  constexpr Index half = PackOf<Scalar>::half;
+  const auto at = [](const Scalar* from) -> const Half&
+  { return *reinterpret_cast<const Half*>(from); };
+  Half low[2] = {}, high[2] = {};
   Index i = 0;
-  for (; i + 2 * tile <= count; i += 2 * tile)
+  for (; i + 4 * half <= count; i += 4 * half)
   {
-    first += *reinterpret_cast<const Pack*>(a + i) * *reinterpret_cast<const Pack*>(b + i);
-    second +=
-      *reinterpret_cast<const Pack*>(a + i + tile) * *reinterpret_cast<const Pack*>(b + i + tile);
+    low[0] += at(a + i) * at(b + i);
+    high[0] += at(a + i + half) * at(b + i + half);
+    low[1] += at(a + i + 2 * half) * at(b + i + 2 * half);
+    high[1] += at(a + i + 3 * half) * at(b + i + 3 * half);
   }
-  for (; i + tile <= count; i += tile)
+  for (; i + 2 * half <= count; i += 2 * half)
   {
-    first += *reinterpret_cast<const Pack*>(a + i) * *reinterpret_cast<const Pack*>(b + i);
+    low[0] += at(a + i) * at(b + i);
+    high[0] += at(a + i + half) * at(b + i + half);
   }
-  first += second;
-  double sum = ((first[0] + first[4]) + (first[2] + first[6])) +
-    ((first[1] + first[5]) + (first[3] + first[7]));
+  const Half sums = (low[0] + low[1]) + (high[0] + high[1]);
+  double sum = 0.0;
+  for (Index k = 0; k < half / 2; ++k)
+  {
+    sum += double(sums[k]) + double(sums[k + half / 2]);
+  }
   for (; i < count; ++i)
   {
-    sum += a[i] * b[i];
+    sum += double(a[i]) * double(b[i]);
   }
   return sum;
 }
 
-Anderson::Anderson(Index window, Index size, Index carried, Dot dot)
+// Clones cannot be templates.
+#define BINDPOSE_ANDERSON_LOOPS(Scalar)                                                \
+  BINDPOSE_SIMD_CLONES void take_change(                                               \
+    Index count, const Scalar* now, Scalar* last, Scalar* change)                      \
+  {                                                                                    \
+    take_change_of(count, now, last, change);                                          \
+  }                                                                                    \
+  BINDPOSE_SIMD_CLONES void take_residual_change(                                      \
+    Index count, const Scalar* g, const Scalar* x, Scalar* last, Scalar* change)       \
+  {                                                                                    \
+    take_residual_change_of(count, g, x, last, change);                                \
+  }                                                                                    \
+  BINDPOSE_SIMD_CLONES void extrapolate(Index count, Index rows, const double* shares, \
+    const Scalar* g, const Scalar* changes, Scalar* x)                                 \
+  {                                                                                    \
+    extrapolate_of(count, rows, shares, g, changes, x);                                \
+  }
+BINDPOSE_ANDERSON_LOOPS(float)
+BINDPOSE_ANDERSON_LOOPS(double)
+#undef BINDPOSE_ANDERSON_LOOPS
+} // namespace
+
+BINDPOSE_SIMD_CLONES double packed_dot(Index count, const double* a, const double* b)
+{
+  return dot_of(count, a, b);
+}
+
+BINDPOSE_SIMD_CLONES double packed_dot(Index count, const float* a, const float* b)
+{
+  return dot_of(count, a, b);
+}
+
+template <typename Scalar>
+Anderson<Scalar>::Anderson(Index window, Index size, Index carried, Dot dot)
   : window_(std::clamp<Index>(window, 0, largest_window)), size_(size), length_(size + carried),
     dot_(std::move(dot)), products_(Eigen::MatrixXd::Zero(this->window_, this->window_)),
     right_(Eigen::VectorXd::Zero(this->window_))
@@ -113,7 +167,8 @@ Anderson::Anderson(Index window, Index size, Index carried, Dot dot)
 
 /// The normal equations by Cholesky's method, in place. By hand, because a solve takes thousands of
 /// these five by five, and a library's call for any size costs more than an iteration's products.
-bool Anderson::solve(Index count, std::array<double, largest_window>& shares)
+template <typename Scalar>
+bool Anderson<Scalar>::solve(Index count, std::array<double, largest_window>& shares)
 {
   double* const l = this->factor_.data();
   std::array<double, largest_window> scale;
@@ -123,7 +178,7 @@ bool Anderson::solve(Index count, std::array<double, largest_window>& shares)
     const double square = this->products_(i, i);
     scale[i] = square > 0.0 ? 1.0 / std::sqrt(square) : 0.0;
     double right = scale[i] * this->right_[i];
-    double pivot = 1.0 + ridge;
+    double pivot = 1.0 + ridge<Scalar>;
     for (Index j = 0; j < i; ++j)
     {
       double entry = scale[i] * scale[j] * this->products_(i, j);
@@ -157,7 +212,8 @@ bool Anderson::solve(Index count, std::array<double, largest_window>& shares)
   return good;
 }
 
-bool Anderson::next(const double* g, double* x)
+template <typename Scalar>
+bool Anderson<Scalar>::next(const Scalar* g, Scalar* x)
 {
   if (this->window_ == 0)
   {
@@ -174,7 +230,7 @@ bool Anderson::next(const double* g, double* x)
   }
   const Index at = (this->count_ - 2) % this->window_;
   const Index filled = std::min(this->count_ - 1, this->window_);
-  double* const change = this->changes_f_.data() + at * this->size_;
+  Scalar* const change = this->changes_f_.data() + at * this->size_;
   take_change(this->length_, g, this->last_g_.data(), this->changes_g_.data() + at * this->length_);
   take_residual_change(this->size_, g, x, this->last_f_.data(), change);
   for (Index i = 0; i < filled; ++i)
@@ -190,8 +246,16 @@ bool Anderson::next(const double* g, double* x)
   {
     return false;
   }
+  this->reach_ = 0.0;
+  for (Index i = 0; i < filled; ++i)
+  {
+    this->reach_ += std::abs(shares[i]);
+  }
   extrapolate(this->length_, filled, shares.data(), g, this->changes_g_.data(), x);
   return true;
 }
+
+template class Anderson<float>;
+template class Anderson<double>;
 
 } // namespace bindpose

@@ -1,6 +1,7 @@
 #ifndef bindpose_pose_anderson_h
 #define bindpose_pose_anderson_h
 
+#include "base/aligned_vector.h"
 #include "base/mesh.h"
 
 #include <array>
@@ -9,6 +10,8 @@
 
 namespace bindpose
 {
+
+constexpr Index largest_anderson_window = 50;
 
 /// Anderson acceleration of an iteration x <- g(x) whose fixed point is sought: the next x is g(x)
 /// less a combination of the last changes of g, namely the one that makes the same combination of
@@ -21,13 +24,16 @@ namespace bindpose
 /// Numbers that are linear functions of x (like a gradient) can be carried along: they follow x in
 /// memory, take part in the combinations, but not in the residual.
 ///
+/// Scalar: float or double.
+///
 /// Cost of next(): window + 1 inner products, and as many multiply-adds for each number carried.
+template <typename Scalar>
 class Anderson
 {
 public:
-  static constexpr Index largest_window = 50;
+  static constexpr Index largest_window = largest_anderson_window;
   /// Inner product of two residuals.
-  using Dot = std::function<double(const double*, const double*)>;
+  using Dot = std::function<double(const Scalar*, const Scalar*)>;
 
   /// @param window iterates that are looked back on, 0 (no acceleration) to largest_window.
   /// @param size of x; @param carried how many numbers follow it.
@@ -38,7 +44,11 @@ public:
 
   /// g is g(x), both with what they carry; x becomes the extrapolated iterate. False, and x is what
   /// it was, when there is nothing to extrapolate from yet or nothing finite comes out.
-  bool next(const double* g, double* x);
+  bool next(const Scalar* g, Scalar* x);
+
+  /// Sum of the sizes of the last shares: how much larger than an iterate's the round-off of what
+  /// was carried along may be.
+  double reach() const { return this->reach_; }
 
 private:
   bool solve(Index count, std::array<double, largest_window>& shares);
@@ -46,15 +56,18 @@ private:
   Index window_, size_, length_;
   Dot dot_;
   Index count_ = 0; ///< iterates seen
-  std::vector<double> changes_g_, changes_f_; ///< rings of `window` rows
-  std::vector<double> last_g_, last_f_;
+  double reach_ = 0.0;
+  AlignedVector<Scalar> changes_g_, changes_f_; ///< rings of `window` rows
+  AlignedVector<Scalar> last_g_, last_f_;
   Eigen::MatrixXd products_; ///< of the changes of the residual
   Eigen::VectorXd right_; ///< of each change with the last residual
   std::vector<double> factor_; ///< rows of largest_window
 };
 
-/// Sum of a_i b_i in eight running sums, whatever the processor: the same bits everywhere.
+/// Sum of a_i b_i in eight running sums, or sixteen of floats, whatever the processor: the same
+/// bits everywhere.
 double packed_dot(Index count, const double* a, const double* b);
+double packed_dot(Index count, const float* a, const float* b);
 
 } // namespace bindpose
 

@@ -86,10 +86,45 @@ Status Crowd::solve(
   return all;
 }
 
-Status Crowd::deform(
-  ExecutionContext& context, PointsView rest, std::vector<FloatPoints>& posed) const
+Status Crowd::deform(ExecutionContext& context, PointsView rest, std::vector<FloatPoints>& posed,
+  const std::vector<Affine>& placements) const
 {
-  return this->space_.skinning.linear_blend_many(context, rest, this->transforms_, posed);
+  return this->space_.skinning.linear_blend_many(
+    context, rest, this->transforms_, posed, placements);
+}
+
+Status Crowd::deform(ExecutionContext& context, PointsView rest, const std::vector<float*>& posed,
+  const std::vector<Affine>& placements) const
+{
+  return this->space_.skinning.linear_blend_many(
+    context, rest, this->transforms_, posed, placements);
+}
+
+Status Crowd::deform_normals(ExecutionContext& context, PointsView rest_normals,
+  std::vector<FloatPoints>& posed, const std::vector<Affine>& placements) const
+{
+  posed.resize(this->transforms_.size());
+  Points normals;
+  for (std::size_t i = 0; i < posed.size(); ++i)
+  {
+    const Status status = this->space_.skinning.linear_blend_normals(
+      context, rest_normals, this->transforms_[i], normals);
+    if (!status.ok())
+    {
+      return status;
+    }
+    if (!placements.empty())
+    {
+      // The cofactors of a map turn normals: their columns are cross products of its own.
+      const Eigen::Matrix3d linear = placements[i].leftCols<3>();
+      Eigen::Matrix3d cofactor;
+      cofactor << linear.col(1).cross(linear.col(2)), linear.col(2).cross(linear.col(0)),
+        linear.col(0).cross(linear.col(1));
+      normals = (normals * cofactor.transpose()).rowwise().normalized().eval();
+    }
+    posed[i] = normals.cast<float>();
+  }
+  return {};
 }
 
 } // namespace bindpose

@@ -37,7 +37,15 @@ public:
     const ReducedSolveOptions& options = {});
 
   /// The vertices of all instances in their last solved poses, #V x 3 each.
-  Status deform(ExecutionContext& context, PointsView rest, std::vector<FloatPoints>& posed) const;
+  /// @param placements where each instance stands: an affine map after its pose; empty: none.
+  Status deform(ExecutionContext& context, PointsView rest, std::vector<FloatPoints>& posed,
+    const std::vector<Affine>& placements = {}) const;
+  /// The same into memory of the caller's, #V x 3 for each instance, row by row.
+  Status deform(ExecutionContext& context, PointsView rest, const std::vector<float*>& posed,
+    const std::vector<Affine>& placements = {}) const;
+  /// And normals of unit length.
+  Status deform_normals(ExecutionContext& context, PointsView rest_normals,
+    std::vector<FloatPoints>& posed, const std::vector<Affine>& placements = {}) const;
 
   /// Of each instance, see ReducedArap::transforms().
   const std::vector<std::vector<Affine>>& transforms() const { return this->transforms_; }

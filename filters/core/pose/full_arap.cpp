@@ -281,7 +281,7 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   d = g;
   this->energies_.assign(1, energy_after_global(g));
   const double floor = nothing_bends * this->rest_energy_;
-  Anderson anderson(options.anderson_window, 3 * n, 0,
+  Anderson<double> anderson(options.anderson_window, 3 * n, 0,
     [&](const double* a, const double* b) { return dot(context, 3 * n, a, b); });
   Index iterations = 0;
   bool converged = false, accelerated = false;

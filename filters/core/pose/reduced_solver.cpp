@@ -24,12 +24,12 @@
 // ill-conditioned. What neither energy nor constraints see stays at rest.
 #include "pose/reduced_solver.h"
 
-#include "base/simd.h"
-#include "pose/anderson.h"
+#include "base/dense_cholesky.h"
+#include "base/dense_product.h"
+#include "base/thin_product.h"
 #include "pose/pivot_rotation.h"
 #include "pose/rotation_fit.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 
@@ -55,108 +55,47 @@ constexpr double nothing_bends = 1e-6;
 /// Energies this share of the rest energy apart are equal but for round-off.
 constexpr double same_energy = 1e-15;
 
-constexpr Index tile = 8;
-typedef double Pack __attribute__((vector_size(tile * sizeof(double)), aligned(8), may_alias));
-
-/// y_j = A x_j for j = 0, 1, 2; A has whole tiles of rows, columns follow each other, and so do the
-/// x_j and the y_j.
-BINDPOSE_SIMD_CLONES void multiply(Index rows, Index cols, const double* __restrict a,
-  const double* x, Index x_stride, double* __restrict y)
+/// The columns that follow the first `rank` of the orthogonal factor of a QR decomposition, as
+/// I - V T V^T with the reflections in V (Schreiber and Van Loan 1989).
+class OrthogonalTail
 {
-  const double *x0 = x, *x1 = x + x_stride, *x2 = x + 2 * x_stride;
-  Index r = 0;
-  for (; r + 2 * tile <= rows; r += 2 * tile)
+public:
+  OrthogonalTail(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& qr, Index rank)
+    : rank_(rank), v_(qr.matrixQR().leftCols(rank)), t_(Eigen::MatrixXd::Zero(rank, rank))
   {
-    Pack s0 = {}, s1 = {}, s2 = {}, t0 = {}, t1 = {}, t2 = {};
-    for (Index c = 0; c < cols; ++c)
+    this->v_.triangularView<Eigen::StrictlyUpper>().setZero();
+    this->v_.diagonal().setOnes();
+    const Eigen::MatrixXd products = this->v_.transpose() * this->v_;
+    for (Index k = 0; k < rank; ++k)
     {
-      const Pack u = *reinterpret_cast<const Pack*>(a + c * rows + r);
-      const Pack v = *reinterpret_cast<const Pack*>(a + c * rows + r + tile);
-      s0 += u * x0[c];
-      t0 += v * x0[c];
-      s1 += u * x1[c];
-      t1 += v * x1[c];
-      s2 += u * x2[c];
-      t2 += v * x2[c];
-    }
-    *reinterpret_cast<Pack*>(y + r) = s0;
-    *reinterpret_cast<Pack*>(y + r + tile) = t0;
-    *reinterpret_cast<Pack*>(y + rows + r) = s1;
-    *reinterpret_cast<Pack*>(y + rows + r + tile) = t1;
-    *reinterpret_cast<Pack*>(y + 2 * rows + r) = s2;
-    *reinterpret_cast<Pack*>(y + 2 * rows + r + tile) = t2;
-  }
-  for (; r < rows; r += tile)
-  {
-    Pack s0 = {}, s1 = {}, s2 = {};
-    for (Index c = 0; c < cols; ++c)
-    {
-      const Pack u = *reinterpret_cast<const Pack*>(a + c * rows + r);
-      s0 += u * x0[c];
-      s1 += u * x1[c];
-      s2 += u * x2[c];
-    }
-    *reinterpret_cast<Pack*>(y + r) = s0;
-    *reinterpret_cast<Pack*>(y + rows + r) = s1;
-    *reinterpret_cast<Pack*>(y + 2 * rows + r) = s2;
-  }
-}
-
-BINDPOSE_ALWAYS_INLINE double sum_of(const Pack& p)
-{
-  return ((p[0] + p[4]) + (p[2] + p[6])) + ((p[1] + p[5]) + (p[3] + p[7]));
-}
-
-/// y_j = A^T x_j for j = 0, 1, 2, likewise.
-BINDPOSE_SIMD_CLONES void multiply_transposed(Index rows, Index cols, const double* __restrict a,
-  const double* __restrict x, double* __restrict y, Index y_stride)
-{
-  const double *x0 = x, *x1 = x + rows, *x2 = x + 2 * rows;
-  Index c = 0;
-  for (; c + 2 <= cols; c += 2)
-  {
-    const double *a0 = a + c * rows, *a1 = a0 + rows;
-    Pack s0 = {}, s1 = {}, s2 = {}, t0 = {}, t1 = {}, t2 = {};
-    for (Index r = 0; r < rows; r += tile)
-    {
-      const Pack u = *reinterpret_cast<const Pack*>(a0 + r);
-      const Pack v = *reinterpret_cast<const Pack*>(a1 + r);
-      const Pack p0 = *reinterpret_cast<const Pack*>(x0 + r);
-      const Pack p1 = *reinterpret_cast<const Pack*>(x1 + r);
-      const Pack p2 = *reinterpret_cast<const Pack*>(x2 + r);
-      s0 += u * p0;
-      t0 += v * p0;
-      s1 += u * p1;
-      t1 += v * p1;
-      s2 += u * p2;
-      t2 += v * p2;
-    }
-    y[c] = sum_of(s0);
-    y[c + 1] = sum_of(t0);
-    y[y_stride + c] = sum_of(s1);
-    y[y_stride + c + 1] = sum_of(t1);
-    y[2 * y_stride + c] = sum_of(s2);
-    y[2 * y_stride + c + 1] = sum_of(t2);
-  }
-  for (; c < cols; ++c)
-  {
-    for (Index j = 0; j < 3; ++j)
-    {
-      Pack s = {};
-      for (Index r = 0; r < rows; r += tile)
-      {
-        s += *reinterpret_cast<const Pack*>(a + c * rows + r) *
-          *reinterpret_cast<const Pack*>(x + j * rows + r);
-      }
-      y[j * y_stride + c] = sum_of(s);
+      const double factor = qr.hCoeffs()[k];
+      this->t_(k, k) = factor;
+      this->t_.col(k).head(k) = this->t_.topLeftCorner(k, k) * (-factor * products.col(k).head(k));
     }
   }
-}
 
-Index padded(Index count)
-{
-  return (count + tile - 1) / tile * tile;
-}
+  /// M Z
+  Eigen::MatrixXd times(const Eigen::MatrixXd& m) const
+  {
+    const Index count = m.cols() - this->rank_;
+    return m.rightCols(count) -
+      dense_product(dense_product(dense_product(m, this->v_), this->t_),
+        this->v_.bottomRows(count).transpose());
+  }
+  /// Z
+  Eigen::MatrixXd matrix() const
+  {
+    const Index count = this->v_.rows() - this->rank_;
+    Eigen::MatrixXd z =
+      -dense_product(this->v_, dense_product(this->t_, this->v_.bottomRows(count).transpose()));
+    z.bottomRows(count).diagonal().array() += 1.0;
+    return z;
+  }
+
+private:
+  Index rank_;
+  Eigen::MatrixXd v_, t_;
+};
 } // namespace
 
 void ReducedSolver::reset()
@@ -214,16 +153,23 @@ void ReducedSolver::factor(
     }
   }
 
-  // Positions: D = particular b + Z z with rows Z = 0; Z is the tail of the orthogonal factor.
-  Eigen::MatrixXd free_space = Eigen::MatrixXd::Identity(size, size);
+  // Positions: D = particular b + Z z with rows Z = 0; Z is the tail of the orthogonal factor,
+  // which is kept as reflections.
   this->particular_ = Eigen::MatrixXd::Zero(size, asked);
+  Eigen::MatrixXd covariance(space.covariance.rows(), size);
+  for (Index c = 0; c < size; ++c)
+  {
+    const Index from = this->open_[static_cast<std::size_t>(c)];
+    covariance.col(c) = space.basis_scale[from] * space.covariance.col(from);
+  }
+  Eigen::MatrixXd reduced = std::move(open_stiffness), free_space;
+  Index rank = 0;
   if (asked > 0 && size > 0)
   {
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(rows.transpose());
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(size, asked);
     qr.setThreshold(position_rank);
-    const Index rank = qr.rank();
-    const Eigen::MatrixXd orthogonal = qr.householderQ();
-    free_space = orthogonal.rightCols(size - rank);
+    qr.compute(rows.transpose());
+    rank = qr.rank();
     for (Index r = rank; r < asked; ++r)
     {
       this->redundant_.push_back(
@@ -231,27 +177,42 @@ void ReducedSolver::factor(
     }
     if (rank > 0)
     {
-      const Eigen::MatrixXd reduced = rows * orthogonal.leftCols(rank); // full column rank
-      this->particular_ = orthogonal.leftCols(rank) *
-        reduced.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(asked, asked));
+      Eigen::MatrixXd range = Eigen::MatrixXd::Identity(size, rank);
+      range.applyOnTheLeft(qr.householderQ());
+      const Eigen::MatrixXd met = rows * range; // full column rank
+      this->particular_ =
+        range * met.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(asked, asked));
+      const OrthogonalTail tail(qr, rank);
+      free_space = tail.matrix();
+      covariance = tail.times(covariance);
+      reduced = tail.times(tail.times(reduced).transpose()); // H is symmetric
     }
   }
-  const Eigen::MatrixXd reduced = free_space.transpose() * open_stiffness * free_space;
+  if (rank == 0)
+  {
+    free_space = Eigen::MatrixXd::Identity(size, size);
+  }
+  // B = Z L^-T, C = K B; in single precision that would do for C, but not for directions that are
+  // nearly the same.
   this->basis_.resize(size, 0);
   if (reduced.rows() > 0)
   {
-    const Eigen::LLT<Eigen::MatrixXd> llt(reduced);
-    if (llt.info() == Eigen::Success && llt.rcond() > 1e3 * energy_rank)
+    DenseCholesky cholesky;
+    if (cholesky.factor(reduced) && cholesky.reciprocal_condition() > 1e3 * energy_rank)
     {
-      this->basis_ = llt.matrixL().solve(free_space.transpose()).transpose();
+      this->basis_ = std::move(free_space);
+      cholesky.solve_right(this->basis_);
+      cholesky.solve_right(covariance);
     }
     else
     {
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduced);
       const double largest = std::max(eigen.eigenvalues().maxCoeff(), 0.0);
       const Index seen = (eigen.eigenvalues().array() > energy_rank * largest).count(); // the last
-      this->basis_ = free_space * eigen.eigenvectors().rightCols(seen) *
+      const Eigen::MatrixXd directions = eigen.eigenvectors().rightCols(seen) *
         eigen.eigenvalues().tail(seen).cwiseSqrt().cwiseInverse().asDiagonal();
+      this->basis_ = dense_product(free_space, directions);
+      covariance = dense_product(covariance, directions);
     }
   }
   for (Index r = 0; r < size; ++r)
@@ -260,21 +221,18 @@ void ReducedSolver::factor(
     this->particular_.row(r) *= scale;
     this->basis_.row(r) *= scale;
   }
-  const Index clusters = space.groups.count, stride = space.stride;
-  Eigen::MatrixXd open_covariance(space.covariance.rows(), size);
-  for (Index c = 0; c < size; ++c)
+  this->position_rows_.resize(asked, 4 * space.columns);
+  for (Index r = 0; r < asked; ++r)
   {
-    open_covariance.col(c) = space.covariance.col(this->open_[static_cast<std::size_t>(c)]);
+    this->position_rows_.row(r) =
+      space.pivot_rows.row(this->positions_[static_cast<std::size_t>(r)]);
   }
-  const Eigen::MatrixXd covariance = open_covariance * this->basis_;
-  this->covariance_.assign(static_cast<std::size_t>(3 * stride * covariance.cols()), 0.0);
-  for (Index c = 0; c < covariance.cols(); ++c)
+  this->iteration_.set_matrix(covariance, 1.0);
+  const double unit = std::sqrt(space.rest_energy);
+  this->has_single_ = std::isnormal(unit);
+  if (this->has_single_)
   {
-    for (Index i = 0; i < 3; ++i)
-    {
-      std::copy_n(covariance.data() + c * covariance.rows() + i * clusters, clusters,
-        this->covariance_.data() + (3 * c + i) * stride);
-    }
+    this->single_iteration_.set_matrix(covariance, unit);
   }
 }
 
@@ -335,42 +293,44 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
     }
   }
   const auto asked = static_cast<Index>(this->positions_.size());
-  Rows wanted(asked, 3), target(asked, 3);
+  Rows wanted(asked, 3);
   for (Index r = 0; r < asked; ++r)
   {
     const Index h = this->positions_[static_cast<std::size_t>(r)];
     const Vec3 pivot = space.handles[static_cast<std::size_t>(h)].head;
     wanted.row(r) =
       (pose[static_cast<std::size_t>(h)].transform * pivot.homogeneous() - pivot).transpose();
-    target.row(r) = wanted.row(r) - space.pivot_rows.row(h) * d;
   }
   // D*: the positions met, then the given blocks, that and the load answered with Q = 0.
   Rows star = d;
-  const Rows met = this->particular_ * target;
-  for (Index r = 0; r < size; ++r)
+  if (asked > 0)
   {
-    star.row(this->open_[static_cast<std::size_t>(r)]) = met.row(r);
+    const Rows met =
+      thin_product(this->particular_, wanted - thin_product(this->position_rows_, d));
+    for (Index r = 0; r < size; ++r)
+    {
+      star.row(this->open_[static_cast<std::size_t>(r)]) = met.row(r);
+    }
   }
-  const Rows force = quadratic.stiffness * star - quadratic.load;
+  const Rows bent = thin_product(quadratic.stiffness, star);
   Rows open_force(size, 3);
   for (Index r = 0; r < size; ++r)
   {
-    open_force.row(r) = force.row(this->open_[static_cast<std::size_t>(r)]);
+    const Index row = this->open_[static_cast<std::size_t>(r)];
+    open_force.row(r) = bent.row(row) - quadratic.load.row(row);
   }
-  const Rows answer = this->basis_ * (this->basis_.transpose() * open_force);
+  const Rows answer = transposed_thin_product(this->basis_, open_force);
+  // The answer takes half its square from the energy: H is the identity for it.
+  const double star_energy = quadratic.constant + 0.5 * (star.array() * bent.array()).sum() -
+    (star.array() * quadratic.load.array()).sum() - 0.5 * answer.squaredNorm();
+  const Rows answered = thin_product(this->basis_, answer);
   for (Index r = 0; r < size; ++r)
   {
-    star.row(this->open_[static_cast<std::size_t>(r)]) -= answer.row(r);
+    star.row(this->open_[static_cast<std::size_t>(r)]) -= answered.row(r);
   }
-  const double star_energy = quadratic.constant +
-    0.5 * (star.array() * (quadratic.stiffness * star).array()).sum() -
-    (star.array() * quadratic.load.array()).sum();
-  // Covariances in planes. In those of C Y the roles of row and column are exchanged: what one
-  // column of Y makes lies together.
-  const Index length = padded(this->basis_.cols()), planes = 9 * stride;
   std::vector<double> star_covariance = space.rest_covariance;
   {
-    const Rows given = space.covariance * star;
+    const Rows given = thin_product(space.covariance, star);
     for (Index e = 0; e < 9; ++e)
     {
       for (Index k = 0; k < clusters; ++k)
@@ -381,7 +341,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
     }
   }
 
-  this->rotations_.resize(static_cast<std::size_t>(planes), 0.0);
+  this->rotations_.resize(static_cast<std::size_t>(9 * stride), 0.0);
   if (options.start == ReducedStart::rest)
   {
     for (Index e = 0; e < 9; ++e)
@@ -394,108 +354,52 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   {
     this->start_rotations(space, pose);
   }
-  // Q and S row by column, Q in the padding zero; an iterate is the three columns of Y, then C Y.
-  std::vector<double> q(static_cast<std::size_t>(planes), 0.0), s(q);
-  std::vector<double> plain(static_cast<std::size_t>(3 * length + planes), 0.0), tried(plain);
-  const auto take_rotations = [&]
-  {
-    for (Index e = 0; e < 9; ++e)
-    {
-      const double rest = e % 4 == 0 ? 1.0 : 0.0;
-      const double* from = this->rotations_.data() + e * stride;
-      double* to = q.data() + e * stride;
-      for (Index k = 0; k < clusters; ++k)
-      {
-        to[k] = from[k] - rest;
-      }
-    }
-  };
-  // Row i of S goes with column i of the rotations.
-  const auto paired = [&](const std::vector<double>& covariance)
-  {
-    double sum = 0.0;
-    for (Index e = 0; e < 9; ++e)
-    {
-      sum += packed_dot(
-        stride, q.data() + e * stride, covariance.data() + (3 * (e % 3) + e / 3) * stride);
-    }
-    return sum;
-  };
-  const auto half_square = [length](const std::vector<double>& iterate)
-  { return 0.5 * packed_dot(3 * length, iterate.data(), iterate.data()); };
-  const auto local_step = [&](const std::vector<double>& iterate)
-  {
-    for (Index e = 0; e < 9; ++e)
-    {
-      const double* moved = iterate.data() + 3 * length + (3 * (e % 3) + e / 3) * stride;
-      const double* given = star_covariance.data() + e * stride;
-      double* to = s.data() + e * stride;
-      for (Index k = 0; k < stride; ++k)
-      {
-        to[k] = given[k] + moved[k];
-      }
-    }
-    fit_rotations(clusters, stride, s.data(), this->rotations_.data());
-    take_rotations();
-    return star_energy + half_square(iterate) - paired(s);
-  };
-  const auto global_step = [&](std::vector<double>& iterate)
-  {
-    const Index columns = this->basis_.cols();
-    multiply_transposed(
-      3 * stride, columns, this->covariance_.data(), q.data(), iterate.data(), length);
-    multiply(3 * stride, columns, this->covariance_.data(), iterate.data(), length,
-      iterate.data() + 3 * length);
-    return star_energy - half_square(iterate) - paired(star_covariance);
-  };
-  take_rotations();
-  this->energies_.assign(1, global_step(plain));
-  tried = plain;
-  Anderson anderson(options.anderson_window, 3 * length, planes,
-    [length](const double* a, const double* b) { return packed_dot(3 * length, a, b); });
-  const double floor = nothing_bends * space.rest_energy;
-  Index iterations = 0;
-  bool converged = false, accelerated = false, in_time = true;
-  double change = 0.0, microseconds = 0.0;
+
   const auto start = std::chrono::steady_clock::now();
-  const auto elapsed = [start]
+  const double floor = nothing_bends * space.rest_energy;
+  this->energies_.clear();
+  ReducedProgress progress{ this->energies_ };
+  ReducedLimits limits{ options.tolerance, floor, same_energy * space.rest_energy };
+  if (options.budget_microseconds > 0.0)
   {
-    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
-      .count();
-  };
-  while (iterations < options.max_iterations && !converged && in_time)
-  {
-    if (iterations % 64 == 63 && context.cancelled())
-    {
-      return Status::cancelled();
-    }
-    const double energy_before = this->energies_.back();
-    double energy = local_step(accelerated ? tried : plain);
-    if (accelerated && !(energy <= energy_before + same_energy * space.rest_energy))
-    {
-      anderson.forget();
-      energy = local_step(plain);
-      accelerated = false;
-    }
-    this->energies_.push_back(energy);
-    if (!accelerated && options.anderson_window > 0)
-    {
-      tried = plain;
-    }
-    this->energies_.push_back(global_step(plain));
-    ++iterations;
-    energy = this->energies_.back();
-    change = energy_before - energy;
-    converged = options.tolerance > 0.0 && change <= options.tolerance * std::max(energy, floor);
-    in_time = options.budget_microseconds <= 0.0 || elapsed() < options.budget_microseconds;
-    accelerated = anderson.next(plain.data(), tried.data());
+    limits.deadline = start +
+      std::chrono::duration_cast<std::chrono::steady_clock::duration>(
+        std::chrono::duration<double, std::micro>(options.budget_microseconds));
   }
-  microseconds = elapsed();
+  Index single_iterations = 0;
+  this->iteration_.begin(stride, star_covariance, this->rotations_);
+  if (options.mixed_precision && this->has_single_ && options.max_iterations > 1)
+  {
+    limits.iterations = options.max_iterations - 1;
+    this->single_iteration_.begin(stride, star_covariance, this->rotations_);
+    if (this->single_iteration_.run(
+          context, limits, options.anderson_window, star_energy, progress))
+    {
+      this->iteration_.go_on(this->single_iteration_);
+      single_iterations = progress.iterations;
+    }
+    progress.in_time = true; // for one in double precision
+  }
+  if (!progress.cancelled)
+  {
+    // What has converged needs one more for its last digits.
+    const bool converged = progress.converged;
+    limits.iterations = converged ? 1 : options.max_iterations - progress.iterations;
+    this->iteration_.run(context, limits, options.anderson_window, star_energy, progress);
+    progress.converged |= converged;
+  }
+  if (progress.cancelled)
+  {
+    return Status::cancelled();
+  }
+  this->iteration_.rotations(stride, this->rotations_);
+  const double microseconds =
+    std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+  const Index iterations = progress.iterations;
+  const double change = progress.change;
   this->warm_ = true;
 
-  const Rows best = this->basis_ *
-    Eigen::Map<const Rows, 0, Eigen::OuterStride<>>(
-      plain.data(), this->basis_.cols(), 3, Eigen::OuterStride<>(length));
+  const Rows best = thin_product(this->basis_, this->iteration_.coordinates());
   for (Index r = 0; r < size; ++r)
   {
     const Index row = this->open_[static_cast<std::size_t>(r)];
@@ -503,15 +407,17 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   }
   double residual = 0.0;
   std::vector<Index> contradicting;
-  for (Index r = 0; r < asked; ++r)
+  if (asked > 0)
   {
-    const Index h = this->positions_[static_cast<std::size_t>(r)];
-    const double miss =
-      (space.pivot_rows.row(h) * d - wanted.row(r)).norm() / std::max(space.diagonal, 1e-300);
-    residual = std::max(residual, miss);
-    if (miss > contradiction)
+    const Rows missed = thin_product(this->position_rows_, d) - wanted;
+    for (Index r = 0; r < asked; ++r)
     {
-      contradicting.push_back(h);
+      const double miss = missed.row(r).norm() / std::max(space.diagonal, 1e-300);
+      residual = std::max(residual, miss);
+      if (miss > contradiction)
+      {
+        contradicting.push_back(this->positions_[static_cast<std::size_t>(r)]);
+      }
     }
   }
   if (!contradicting.empty())
@@ -523,6 +429,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   }
   status.report.set("energy", Report::Value(std::max(this->energies_.back(), 0.0)));
   status.report.set("iterations", Report::Value(std::int64_t(iterations)));
+  status.report.set("iterations.single_precision", Report::Value(std::int64_t(single_iterations)));
   if (iterations > 0)
   {
     status.report.set(
@@ -534,12 +441,12 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   {
     status.report.set("constraint_residual", Report::Value(residual));
   }
-  if (options.tolerance > 0.0 && !converged && options.max_iterations > 0)
+  if (options.tolerance > 0.0 && !progress.converged && options.max_iterations > 0)
   {
     status.code = StatusCode::not_converged;
     status.message = "the energy still fell by " + std::to_string(change) + " of " +
       std::to_string(this->energies_.back()) + " in the last of " + std::to_string(iterations) +
-      " iterations" + (in_time ? "" : ", when the time budget was spent");
+      " iterations" + (progress.in_time ? "" : ", when the time budget was spent");
   }
   return status;
 }

@@ -1,6 +1,7 @@
 #ifndef bindpose_pose_reduced_solver_h
 #define bindpose_pose_reduced_solver_h
 
+#include "pose/reduced_iteration.h"
 #include "pose/reduced_space.h"
 
 namespace bindpose
@@ -21,11 +22,14 @@ struct ReducedSolveOptions
   double tolerance = 1e-6;
   Index max_iterations = 100;
   ReducedStart start = ReducedStart::last;
-  /// Iterates that acceleration looks back on, at most Anderson::largest_window; 0: none.
+  /// Iterates that acceleration looks back on, at most largest_anderson_window; 0: none.
   Index anderson_window = 5;
   /// Ends after the iteration in which this much time has passed; 0: no limit. How many iterations
   /// that allows depends on the machine: as max_iterations they give the same bits again.
   double budget_microseconds = 0.0;
+  /// Iterates in single precision until its round-off hides whether the energy falls, and from
+  /// there, at least once, in double precision. Off: in double precision from the start.
+  bool mixed_precision = true;
 };
 
 /// Minimises 1/2 <D, H D> - <P, D> - (what rotations gain) over displacements D of a ReducedSpace
@@ -68,10 +72,12 @@ private:
   std::vector<Index> open_; ///< open unknowns: rows of D
   std::vector<Index> positions_; ///< handles in mode position
   std::vector<Index> redundant_;
+  Eigen::MatrixXd position_rows_; ///< positions x 4 columns: displacement of their pivots
   Eigen::MatrixXd particular_; ///< open x positions: least change that meets the positions
   Eigen::MatrixXd basis_; ///< open x coordinates: B with B^T H B = I that keeps positions met
-  /// K M B in columns of 3 strides (row i of the covariances after row i - 1), for both products.
-  std::vector<double> covariance_;
+  ReducedIteration<double> iteration_; ///< with C = K M B
+  ReducedIteration<float> single_iteration_; ///< where single precision can hold C
+  bool has_single_ = false;
 
   // ---- state
   std::vector<double> rotations_; ///< planes, see ReducedSpace

@@ -4,6 +4,7 @@
 // nearly constant and would spoil the conditioning in a common frame.
 #include "pose/reduced_space.h"
 
+#include "base/dense_product.h"
 #include "base/parallel.h"
 #include "pose/skinning_eigenmodes.h"
 #include "pose/weight_clusters.h"
@@ -152,15 +153,15 @@ bool ReducedSpace::project_stiffness(ExecutionContext& context, PointsView point
 {
   const Index n = points.rows(), size = 4 * this->columns;
   const Index strip = (n + strips - 1) / strips;
-  std::vector<Eigen::MatrixXd> sums(static_cast<std::size_t>(strips));
+  std::vector<Weights> sums(static_cast<std::size_t>(strips));
   std::vector<Eigen::VectorXd> squares(static_cast<std::size_t>(strips));
   // M is made in pieces: all of it would be the largest thing in memory.
   const bool done = parallel_for(context, strips, 1,
     [&](Index s, Index)
     {
-      Eigen::MatrixXd& sum = sums[static_cast<std::size_t>(s)];
+      Weights& sum = sums[static_cast<std::size_t>(s)];
       Eigen::VectorXd& square = squares[static_cast<std::size_t>(s)];
-      sum = Eigen::MatrixXd::Zero(size, size);
+      sum = Weights::Zero(size, size);
       square = Eigen::VectorXd::Zero(size);
       Weights m(rows_at_once, size), lm(rows_at_once, size);
       Eigen::RowVectorXd row(size);
@@ -183,7 +184,8 @@ bool ReducedSpace::project_stiffness(ExecutionContext& context, PointsView point
             lm.row(r) += it.value() * row;
           }
         }
-        sum.noalias() += m.topRows(rows).transpose() * lm.topRows(rows);
+        add_product({ m.data(), size, rows, 1, size }, { lm.data(), rows, size, size, 1 },
+          sum.data(), size, true);
         square += m.topRows(rows).colwise().squaredNorm().transpose();
       }
     });
@@ -191,14 +193,14 @@ bool ReducedSpace::project_stiffness(ExecutionContext& context, PointsView point
   {
     return false;
   }
-  this->stiffness = Eigen::MatrixXd::Zero(size, size);
-  Eigen::VectorXd square = Eigen::VectorXd::Zero(size);
-  for (Index s = 0; s < strips; ++s)
+  Eigen::VectorXd square = squares[0];
+  for (std::size_t s = 1; s < sums.size(); ++s)
   {
-    this->stiffness += sums[static_cast<std::size_t>(s)];
-    square += squares[static_cast<std::size_t>(s)];
+    sums[0] += sums[s];
+    sums[s].resize(0, 0);
+    square += squares[s];
   }
-  this->stiffness = (0.5 * (this->stiffness + this->stiffness.transpose())).eval();
+  this->stiffness = Eigen::MatrixXd(sums[0].selfadjointView<Eigen::Lower>());
   // A column is empty when nothing of it would be seen: 1e-12 of a diagonal everywhere.
   const double count = static_cast<double>(std::max<Index>(n, 1));
   this->basis_scale =

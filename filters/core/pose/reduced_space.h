@@ -2,6 +2,7 @@
 #define bindpose_pose_reduced_space_h
 
 #include "base/execution.h"
+#include "base/thin_product.h"
 #include "pose/arap_energy.h"
 #include "pose/pose.h"
 #include "pose/skinning.h"
@@ -39,7 +40,7 @@ struct ReducedArapOptions
 struct ReducedSpace
 {
   /// What D is: 4 #columns x 3.
-  using Rows = Eigen::Matrix<double, Eigen::Dynamic, 3>;
+  using Rows = Coordinates;
 
   /// See ReducedArap::bind().
   template <typename Elements>

@@ -24,51 +24,75 @@ namespace bindpose
 
 namespace
 {
-/// Matrices that go through together; also the length of the local arrays.
-constexpr int lanes = 8;
-/// p'(lambda) / |S|^3 below which the fast path is not trusted.
-constexpr double smallest_slope = 1e-3;
 /// Eigenvalues closer than this share of |S| to the top count as equal to it.
 constexpr double same_eigenvalue = 1e-12;
 
+/// The fast path in a precision.
+template <typename Scalar>
+struct Fast;
+template <>
+struct Fast<double>
+{
+  static constexpr int lanes = 8; ///< matrices that go through together
+  static constexpr int steps = 5; ///< of Laguerre's iteration
+  static constexpr double last_step = 1e-5; ///< a longer one has not arrived
+  static constexpr double slope = 1e-3; ///< p'(lambda) / |S|^3 below which it is not trusted
+  static constexpr double tiny = 1e-300; ///< keeps quotients finite
+  static constexpr double least = 1e-200, most = 1e200; ///< of |S|^2
+};
+template <>
+struct Fast<float>
+{
+  static constexpr int lanes = 16;
+  static constexpr int steps = 4;
+  static constexpr float last_step = 1e-3F;
+  static constexpr float slope = 3e-2F;
+  static constexpr float tiny = 1e-36F;
+  static constexpr float least = 1e-25F, most = 1e25F;
+};
+
 /// The symmetric matrix N over (w, x, y, z).
+template <typename Scalar>
 struct Horn
 {
-  double ww, wx, wy, wz, xx, xy, xz, yy, yz, zz;
+  Scalar ww, wx, wy, wz, xx, xy, xz, yy, yz, zz;
 };
 
+template <typename Scalar>
 struct Quaternion
 {
-  double w, x, y, z;
+  Scalar w, x, y, z;
 };
 
-BINDPOSE_ALWAYS_INLINE Horn horn(double s00, double s01, double s02, double s10, double s11,
-  double s12, double s20, double s21, double s22)
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE Horn<Scalar> horn(Scalar s00, Scalar s01, Scalar s02, Scalar s10, Scalar s11,
+  Scalar s12, Scalar s20, Scalar s21, Scalar s22)
 {
   return { s00 + s11 + s22, s12 - s21, s20 - s02, s01 - s10, s00 - s11 - s22, s01 + s10, s02 + s20,
     s11 - s00 - s22, s12 + s21, s22 - s00 - s11 };
 }
 
 /// The unit column of the adjugate of N - lambda whose diagonal entry is the largest.
-BINDPOSE_ALWAYS_INLINE Quaternion eigenvector(const Horn& n, double lambda)
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE Quaternion<Scalar> eigenvector(const Horn<Scalar>& n, Scalar lambda)
 {
-  const double a = n.ww - lambda, b = n.xx - lambda, c = n.yy - lambda, d = n.zz - lambda;
-  const double p = n.wx, q = n.wy, r = n.wz, s = n.xy, t = n.xz, u = n.yz;
-  const double cd = c * d - u * u, sd = s * d - u * t, qd = q * d - u * r;
-  const double su = s * u - c * t, qu = q * u - c * r, qt = q * t - s * r;
-  const double pt = p * t - b * r;
-  const double ww = b * cd - s * sd + t * su;
-  const double wx = -(p * cd - s * qd + t * qu);
-  const double wy = p * sd - b * qd + t * qt;
-  const double wz = -(p * su - b * qu + s * qt);
-  const double xx = a * cd - q * qd + r * qu;
-  const double xy = -(a * sd - p * qd + r * qt);
-  const double xz = a * su - p * qu + q * qt;
-  const double yy = a * (b * d - t * t) - p * (p * d - t * r) + r * pt;
-  const double yz = -(a * (b * u - s * t) - p * (p * u - s * r) + q * pt);
-  const double zz = a * (b * c - s * s) - p * (p * c - s * q) + q * (p * s - b * q);
+  const Scalar a = n.ww - lambda, b = n.xx - lambda, c = n.yy - lambda, d = n.zz - lambda;
+  const Scalar p = n.wx, q = n.wy, r = n.wz, s = n.xy, t = n.xz, u = n.yz;
+  const Scalar cd = c * d - u * u, sd = s * d - u * t, qd = q * d - u * r;
+  const Scalar su = s * u - c * t, qu = q * u - c * r, qt = q * t - s * r;
+  const Scalar pt = p * t - b * r;
+  const Scalar ww = b * cd - s * sd + t * su;
+  const Scalar wx = -(p * cd - s * qd + t * qu);
+  const Scalar wy = p * sd - b * qd + t * qt;
+  const Scalar wz = -(p * su - b * qu + s * qt);
+  const Scalar xx = a * cd - q * qd + r * qu;
+  const Scalar xy = -(a * sd - p * qd + r * qt);
+  const Scalar xz = a * su - p * qu + q * qt;
+  const Scalar yy = a * (b * d - t * t) - p * (p * d - t * r) + r * pt;
+  const Scalar yz = -(a * (b * u - s * t) - p * (p * u - s * r) + q * pt);
+  const Scalar zz = a * (b * c - s * s) - p * (p * c - s * q) + q * (p * s - b * q);
   // Selects, not branches.
-  double w0 = ww, x0 = wx, y0 = wy, z0 = wz, size = std::abs(ww);
+  Scalar w0 = ww, x0 = wx, y0 = wy, z0 = wz, size = std::abs(ww);
   const bool use_x = std::abs(xx) > size;
   w0 = use_x ? wx : w0;
   x0 = use_x ? xx : x0;
@@ -86,78 +110,96 @@ BINDPOSE_ALWAYS_INLINE Quaternion eigenvector(const Horn& n, double lambda)
   x0 = use_z ? xz : x0;
   y0 = use_z ? yz : y0;
   z0 = use_z ? zz : z0;
-  const double scale = 1.0 / std::sqrt(w0 * w0 + x0 * x0 + y0 * y0 + z0 * z0 + 1e-300);
+  const Scalar scale = 1 / std::sqrt(w0 * w0 + x0 * x0 + y0 * y0 + z0 * z0 + Fast<Scalar>::tiny);
   return { w0 * scale, x0 * scale, y0 * scale, z0 * scale };
 }
 
-BINDPOSE_ALWAYS_INLINE double rayleigh(const Horn& n, const Quaternion& v)
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE Scalar rayleigh(const Horn<Scalar>& n, const Quaternion<Scalar>& v)
 {
   return n.ww * v.w * v.w + n.xx * v.x * v.x + n.yy * v.y * v.y + n.zz * v.z * v.z +
-    2.0 *
+    2 *
     (v.w * (n.wx * v.x + n.wy * v.y + n.wz * v.z) + v.x * (n.xy * v.y + n.xz * v.z) +
       n.yz * v.y * v.z);
 }
 
-/// One block of matrices by the fast path; slope says how far the result can be trusted.
-BINDPOSE_SIMD_CLONES void fit_block(
-  const double* __restrict s, double* __restrict r, double* __restrict slope)
+/// One block of matrices by the fast path: R - I, and a slope that says how far it can be trusted.
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE void fit_lanes(
+  const Scalar* __restrict s, Scalar* __restrict r, Scalar* __restrict slope)
 {
+  using Limits = Fast<Scalar>;
+  constexpr int lanes = Limits::lanes;
   for (int k = 0; k < lanes; ++k)
   {
-    double norm2 = 0.0;
+    Scalar norm2 = 0;
     for (int e = 0; e < 9; ++e)
     {
       norm2 += s[e * lanes + k] * s[e * lanes + k];
     }
-    const double f = 1.0 / std::sqrt(norm2 + 1e-300);
-    const double s00 = f * s[0 * lanes + k], s01 = f * s[1 * lanes + k], s02 = f * s[2 * lanes + k];
-    const double s10 = f * s[3 * lanes + k], s11 = f * s[4 * lanes + k], s12 = f * s[5 * lanes + k];
-    const double s20 = f * s[6 * lanes + k], s21 = f * s[7 * lanes + k], s22 = f * s[8 * lanes + k];
-    const Horn n = horn(s00, s01, s02, s10, s11, s12, s20, s21, s22);
+    const Scalar f = 1 / std::sqrt(norm2 + Limits::tiny);
+    const Scalar s00 = f * s[0 * lanes + k], s01 = f * s[1 * lanes + k], s02 = f * s[2 * lanes + k];
+    const Scalar s10 = f * s[3 * lanes + k], s11 = f * s[4 * lanes + k], s12 = f * s[5 * lanes + k];
+    const Scalar s20 = f * s[6 * lanes + k], s21 = f * s[7 * lanes + k], s22 = f * s[8 * lanes + k];
+    const Horn<Scalar> n = horn(s00, s01, s02, s10, s11, s12, s20, s21, s22);
 
     // p(x) = x^4 - 2 x^2 + c1 x + c0, with c1 = -8 det S and c0 = 1 - 4 |cofactors of S|^2.
-    const double k00 = s11 * s22 - s12 * s21, k01 = s12 * s20 - s10 * s22,
+    const Scalar k00 = s11 * s22 - s12 * s21, k01 = s12 * s20 - s10 * s22,
                  k02 = s10 * s21 - s11 * s20;
-    const double k10 = s21 * s02 - s22 * s01, k11 = s22 * s00 - s20 * s02,
+    const Scalar k10 = s21 * s02 - s22 * s01, k11 = s22 * s00 - s20 * s02,
                  k12 = s20 * s01 - s21 * s00;
-    const double k20 = s01 * s12 - s02 * s11, k21 = s02 * s10 - s00 * s12,
+    const Scalar k20 = s01 * s12 - s02 * s11, k21 = s02 * s10 - s00 * s12,
                  k22 = s00 * s11 - s01 * s10;
-    const double c1 = -8.0 * (s00 * k00 + s01 * k01 + s02 * k02);
-    const double c0 = 1.0 -
-      4.0 *
+    const Scalar c1 = -8 * (s00 * k00 + s01 * k01 + s02 * k02);
+    const Scalar c0 = 1 -
+      4 *
         (k00 * k00 + k01 * k01 + k02 * k02 + k10 * k10 + k11 * k11 + k12 * k12 + k20 * k20 +
           k21 * k21 + k22 * k22);
 
-    double x = 1.7320508075688772; // the sum of three singular values of |S| = 1 at most
-    double step = 0.0;
-    for (int i = 0; i < 5; ++i)
+    Scalar x = Scalar(1.7320508075688772); // the sum of three singular values of |S| = 1 at most
+    Scalar step = 0;
+    for (int i = 0; i < Limits::steps; ++i)
     {
-      const double x2 = x * x;
-      const double value = (x2 - 2.0) * x2 + c1 * x + c0;
-      const double first = (4.0 * x2 - 4.0) * x + c1;
-      const double second = 12.0 * x2 - 4.0;
-      const double inside = 9.0 * first * first - 12.0 * value * second;
-      const double below = first + std::sqrt(inside > 0.0 ? inside : 0.0);
-      step = 4.0 * value / (below > 1e-30 ? below : 1e-30);
+      const Scalar x2 = x * x;
+      const Scalar value = (x2 - 2) * x2 + c1 * x + c0;
+      const Scalar first = (4 * x2 - 4) * x + c1;
+      const Scalar second = 12 * x2 - 4;
+      const Scalar inside = 9 * first * first - 12 * value * second;
+      const Scalar below = first + std::sqrt(inside > 0 ? inside : 0);
+      step = 4 * value / (below > Scalar(1e-30) ? below : Scalar(1e-30));
       x -= step;
     }
     // Not there yet (a double root draws the iteration in slowly), or S out of the squares' range:
     // the careful way.
-    const double p1 = (4.0 * x * x - 4.0) * x + c1;
-    slope[k] = std::abs(step) < 1e-5 && norm2 > 1e-200 && norm2 < 1e200 ? p1 : 0.0;
+    const Scalar p1 = (4 * x * x - 4) * x + c1;
+    slope[k] = std::abs(step) < Limits::last_step && norm2 > Limits::least && norm2 < Limits::most
+      ? p1
+      : Scalar(0);
 
-    Quaternion v = eigenvector(n, x);
+    Quaternion<Scalar> v = eigenvector(n, x);
     v = eigenvector(n, rayleigh(n, v));
-    r[0 * lanes + k] = v.w * v.w + v.x * v.x - v.y * v.y - v.z * v.z;
-    r[1 * lanes + k] = 2.0 * (v.x * v.y - v.w * v.z);
-    r[2 * lanes + k] = 2.0 * (v.x * v.z + v.w * v.y);
-    r[3 * lanes + k] = 2.0 * (v.x * v.y + v.w * v.z);
-    r[4 * lanes + k] = v.w * v.w - v.x * v.x + v.y * v.y - v.z * v.z;
-    r[5 * lanes + k] = 2.0 * (v.y * v.z - v.w * v.x);
-    r[6 * lanes + k] = 2.0 * (v.x * v.z - v.w * v.y);
-    r[7 * lanes + k] = 2.0 * (v.y * v.z + v.w * v.x);
-    r[8 * lanes + k] = v.w * v.w - v.x * v.x - v.y * v.y + v.z * v.z;
+    r[0 * lanes + k] = -2 * (v.y * v.y + v.z * v.z);
+    r[1 * lanes + k] = 2 * (v.x * v.y - v.w * v.z);
+    r[2 * lanes + k] = 2 * (v.x * v.z + v.w * v.y);
+    r[3 * lanes + k] = 2 * (v.x * v.y + v.w * v.z);
+    r[4 * lanes + k] = -2 * (v.x * v.x + v.z * v.z);
+    r[5 * lanes + k] = 2 * (v.y * v.z - v.w * v.x);
+    r[6 * lanes + k] = 2 * (v.x * v.z - v.w * v.y);
+    r[7 * lanes + k] = 2 * (v.y * v.z + v.w * v.x);
+    r[8 * lanes + k] = -2 * (v.x * v.x + v.y * v.y);
   }
+}
+
+BINDPOSE_SIMD_CLONES void fit_block(
+  const double* __restrict s, double* __restrict r, double* __restrict slope)
+{
+  fit_lanes(s, r, slope);
+}
+
+BINDPOSE_SIMD_CLONES void fit_block(
+  const float* __restrict s, float* __restrict r, float* __restrict slope)
+{
+  fit_lanes(s, r, slope);
 }
 
 /// The best rotation nearest to the previous one, for any S.
@@ -190,47 +232,82 @@ void fit_carefully(const Eigen::Matrix3d& matrix, Eigen::Matrix3d& rotation)
   best.normalize();
   rotation = Eigen::Quaterniond(best[0], best[1], best[2], best[3]).toRotationMatrix();
 }
-} // namespace
 
-void fit_rotations(Index count, Index stride, const double* s, double* rotations)
+/// What is written is R - I with `diagonal` added to its diagonal: 0, or 1 for R.
+template <typename Scalar>
+void fit_all(Index count, const MatrixPlanes<const Scalar>& s,
+  const MatrixPlanes<Scalar>& rotations, Scalar diagonal)
 {
-  double in[9 * lanes];
-  double out[9 * lanes];
-  double slope[lanes];
+  constexpr int lanes = Fast<Scalar>::lanes;
+  Scalar in[9 * lanes];
+  Scalar out[9 * lanes];
+  Scalar slope[lanes];
   for (Index begin = 0; begin < count; begin += lanes)
   {
     const int size = static_cast<int>(std::min<Index>(lanes, count - begin));
+    if (size < lanes)
+    {
+      std::fill_n(in, 9 * lanes, Scalar(0));
+    }
     for (int e = 0; e < 9; ++e)
+    {
+      std::copy_n(s.at(e / 3, e % 3) + begin, size, in + e * lanes);
+    }
+    fit_block(in, out, slope);
+    for (int e = 0; e < 9; e += 4)
     {
       for (int k = 0; k < lanes; ++k)
       {
-        in[e * lanes + k] = k < size ? s[e * stride + begin + k] : 0.0;
+        out[e * lanes + k] += diagonal;
       }
     }
-    fit_block(in, out, slope);
+    bool trusted = true;
     for (int k = 0; k < size; ++k)
     {
-      if (slope[k] > smallest_slope) // not a number goes the careful way
+      trusted &= slope[k] > Fast<Scalar>::slope; // not a number goes the careful way
+    }
+    const double missing = 1.0 - diagonal;
+    for (int k = 0; !trusted && k < size; ++k)
+    {
+      if (slope[k] > Fast<Scalar>::slope)
       {
-        for (int e = 0; e < 9; ++e)
-        {
-          rotations[e * stride + begin + k] = out[e * lanes + k];
-        }
         continue;
       }
       Eigen::Matrix3d matrix, rotation;
       for (int e = 0; e < 9; ++e)
       {
         matrix(e / 3, e % 3) = in[e * lanes + k];
-        rotation(e / 3, e % 3) = rotations[e * stride + begin + k];
+        rotation(e / 3, e % 3) =
+          rotations.at(e / 3, e % 3)[begin + k] + (e % 4 == 0 ? missing : 0.0);
       }
       fit_carefully(matrix, rotation);
       for (int e = 0; e < 9; ++e)
       {
-        rotations[e * stride + begin + k] = rotation(e / 3, e % 3);
+        out[e * lanes + k] =
+          static_cast<Scalar>(rotation(e / 3, e % 3) - (e % 4 == 0 ? missing : 0.0));
       }
     }
+    for (int e = 0; e < 9; ++e)
+    {
+      std::copy_n(out + e * lanes, size, rotations.at(e / 3, e % 3) + begin);
+    }
   }
+}
+} // namespace
+
+void fit_rotations(Index count, Index stride, const double* s, double* rotations)
+{
+  fit_all(count, { s, 3 * stride, stride }, { rotations, 3 * stride, stride }, 1.0);
+}
+
+void fit_turns(Index count, MatrixPlanes<const double> s, MatrixPlanes<double> turns)
+{
+  fit_all(count, s, turns, 0.0);
+}
+
+void fit_turns(Index count, MatrixPlanes<const float> s, MatrixPlanes<float> turns)
+{
+  fit_all(count, s, turns, 0.0F);
 }
 
 void fit_rotation(const Eigen::Matrix3d& s, Eigen::Matrix3d& rotation)

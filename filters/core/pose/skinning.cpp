@@ -237,6 +237,20 @@ private:
   double factor_ = 1.0, row_sum_ = 0.0, share_ = 0.0;
   Index dropped_ = 0;
 };
+/// A tile's points under an affine map.
+void place(const Affine& placement, const TilePoints<float>& points, TilePoints<float>& placed)
+{
+  constexpr Index lanes = WeightTiles<float>::lanes;
+  const Eigen::Matrix<float, 3, 4> p = placement.cast<float>();
+  for (int r = 0; r < 3; ++r)
+  {
+    for (Index i = 0; i < lanes; ++i)
+    {
+      placed.at[r][i] =
+        p(r, 0) * points.at[0][i] + p(r, 1) * points.at[1][i] + p(r, 2) * points.at[2][i] + p(r, 3);
+    }
+  }
+}
 } // namespace
 
 template <>
@@ -480,28 +494,60 @@ Status Skinning::linear_blend(ExecutionContext& context, PointsView rest,
 }
 
 Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
-  const std::vector<std::vector<Affine>>& transforms, std::vector<FloatPoints>& posed) const
+  const std::vector<std::vector<Affine>>& transforms, std::vector<FloatPoints>& posed,
+  const std::vector<Affine>& placements) const
+{
+  std::vector<float*> rows;
+  posed.resize(transforms.size());
+  for (FloatPoints& points : posed)
+  {
+    points.resize(rest.rows(), 3);
+    rows.push_back(points.data());
+  }
+  return this->linear_blend_many(context, rest, transforms, rows, placements);
+}
+
+Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
+  const std::vector<std::vector<Affine>>& transforms, const std::vector<float*>& posed,
+  const std::vector<Affine>& placements) const
 {
   if (!this->single_)
   {
     return Status::invalid_input("many instances are posed with weights in single precision");
   }
+  const auto of_instances = [&](std::size_t count, const char* what)
+  {
+    return count == transforms.size()
+      ? Status()
+      : Status::invalid_input("there are " + std::to_string(count) + what +
+          std::to_string(transforms.size()) + " instances");
+  };
+  Status fits = of_instances(posed.size(), " arrays of points for ");
+  if (fits.ok() && !placements.empty())
+  {
+    fits = of_instances(placements.size(), " placements for ");
+  }
+  if (!fits.ok())
+  {
+    return fits;
+  }
   constexpr Index lanes = WeightTiles<float>::lanes;
   const Vec3 centre = centre_of(rest);
   std::vector<BlendValues<float, 12>> moves;
-  for (const std::vector<Affine>& of_instance : transforms)
+  for (std::size_t i = 0; i < transforms.size(); ++i)
   {
-    const Status status = this->check(rest, of_instance);
+    const Status status = this->check(rest, transforms[i]);
     if (!status.ok())
     {
       return status;
     }
-    moves.push_back(displacements<float>(of_instance, centre));
-  }
-  posed.resize(transforms.size());
-  for (FloatPoints& points : posed)
-  {
-    points.resize(rest.rows(), 3);
+    // P (v + sum w (T v - v)) = P v + sum w L (T v - v), where L is the linear part of P.
+    std::vector<Affine> placed = transforms[i];
+    for (std::size_t j = 0; !placements.empty() && j < placed.size(); ++j)
+    {
+      placed[j] = identity_affine() + placements[i].leftCols<3>() * (placed[j] - identity_affine());
+    }
+    moves.push_back(displacements<float>(placed, centre));
   }
   const bool done = parallel_for(context, rest.rows(), block_size,
     [&](Index begin, Index end)
@@ -514,13 +560,19 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
         load_points(rest.data() + 3 * v, count, centre, points[tile]);
         load_points(rest.data() + 3 * v, count, Vec3::Zero(), at[tile]);
       }
+      TilePoints<float> placed;
       for (std::size_t i = 0; i < moves.size(); ++i)
       {
         for (Index v = begin; v < end; v += lanes)
         {
           const auto tile = static_cast<std::size_t>((v - begin) / lanes);
-          pose_tile(this->floats_, v / lanes, moves[i], points[tile], at[tile],
-            std::min(lanes, end - v), posed[i].data() + 3 * v);
+          if (!placements.empty())
+          {
+            place(placements[i], at[tile], placed);
+          }
+          pose_tile(this->floats_, v / lanes, moves[i], points[tile],
+            placements.empty() ? at[tile] : placed, std::min(lanes, end - v),
+            posed[i] + 3 * v);
         }
       }
     });

@@ -65,9 +65,14 @@ public:
 
   /// The same for many instances of the shape at once, each with transforms of its own: weights and
   /// points are read once for all. Of weights bound in single precision; invalid_input for others.
-  /// posed: #V x 3 for each instance.
+  /// @param posed #V x 3 for each instance, row by row.
+  /// @param placements where each instance stands: an affine map after the blend; empty: none.
   Status linear_blend_many(ExecutionContext& context, PointsView rest,
-    const std::vector<std::vector<Affine>>& transforms, std::vector<FloatPoints>& posed) const;
+    const std::vector<std::vector<Affine>>& transforms, const std::vector<float*>& posed,
+    const std::vector<Affine>& placements = {}) const;
+  Status linear_blend_many(ExecutionContext& context, PointsView rest,
+    const std::vector<std::vector<Affine>>& transforms, std::vector<FloatPoints>& posed,
+    const std::vector<Affine>& placements = {}) const;
 
   /// Normals under the same blend: the cofactor matrix of the blended linear part, unit length.
   /// A normal that collapses to zero keeps its rest direction.

@@ -2,6 +2,7 @@
 // depend on the order of threads (means, ties, what an empty cluster does) is done in row order.
 #include "pose/weight_clusters.h"
 
+#include "base/dense_product.h"
 #include "base/parallel.h"
 
 #include <cmath>
@@ -14,6 +15,8 @@ namespace
 {
 constexpr Index block_size = 512;
 constexpr Index lloyd_rounds = 100;
+/// Rows that means are found from, a cluster; all rows are assigned in the end.
+constexpr Index rows_a_cluster = 25;
 /// Rows closer than this are one point of weight space.
 constexpr double same_row = 1e-12;
 
@@ -31,12 +34,15 @@ bool assign_rows(
   ExecutionContext& context, WeightsView rows, const Weights& means, std::vector<Index>& labels)
 {
   const Eigen::RowVectorXd mean_norms = means.rowwise().squaredNorm().transpose();
-  const Eigen::MatrixXd transposed = -2.0 * means.transpose();
+  const Weights transposed = -2.0 * means.transpose();
   return parallel_for(context, rows.rows(), block_size,
     [&](Index begin, Index end)
     {
-      Weights distances = rows.middleRows(begin, end - begin) * transposed;
-      distances.rowwise() += mean_norms;
+      const Index width = rows.cols();
+      Weights distances = mean_norms.replicate(end - begin, 1);
+      add_product({ rows.data() + begin * width, end - begin, width, width, 1 },
+        { transposed.data(), width, transposed.cols(), transposed.cols(), 1 }, distances.data(),
+        distances.cols());
       for (Index i = begin; i < end; ++i)
       {
         Index nearest = 0;
@@ -133,7 +139,7 @@ bool cluster_rows(ExecutionContext& context, WeightsView rows, Index count, Clus
     return !context.cancelled();
   }
   count = std::max<Index>(1, std::min(count, rows.rows()));
-  const Index wanted = std::max<Index>(5000, 50 * count);
+  const Index wanted = std::max<Index>(5000, rows_a_cluster * count);
   const Index step = (rows.rows() + wanted - 1) / wanted;
   Weights sample((rows.rows() + step - 1) / step, rows.cols());
   for (Index i = 0; i < sample.rows(); ++i)

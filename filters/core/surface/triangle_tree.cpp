@@ -100,7 +100,7 @@ Box TriangleTree::build(std::vector<Item>& items, Index begin, Index end)
   return box;
 }
 
-double TriangleTree::distance(const Vec3& p, double limit) const
+double TriangleTree::distance(const Vec3& p, double limit, Vec3* nearest) const
 {
   double best = limit * limit;
   bool found = false;
@@ -123,14 +123,17 @@ double TriangleTree::distance(const Vec3& p, double limit) const
       for (Index i = node.begin; i < node.end; ++i)
       {
         const auto t = this->triangles_.row(this->order_[i]);
-        const double d = (closest_point(p, this->points_.row(t[0]), this->points_.row(t[1]),
-                            this->points_.row(t[2])) -
-          p)
-                           .squaredNorm();
+        const Vec3 place = closest_point(
+          p, this->points_.row(t[0]), this->points_.row(t[1]), this->points_.row(t[2]));
+        const double d = (place - p).squaredNorm();
         if (d <= best)
         {
           best = d;
           found = true;
+          if (nearest)
+          {
+            *nearest = place;
+          }
         }
       }
       continue;

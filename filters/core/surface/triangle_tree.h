@@ -19,7 +19,8 @@ public:
   TriangleTree(PointsView points, TrianglesView triangles);
 
   /// Distance from p to the surface when it is at most `limit`, else infinity. Thread-safe.
-  double distance(const Vec3& p, double limit) const;
+  /// @param nearest  the place on the surface, when it is that near
+  double distance(const Vec3& p, double limit, Vec3* nearest = nullptr) const;
 
   /// True when the segment from a to b meets a triangle that counts. Thread-safe.
   bool segment_meets(const Vec3& a, const Vec3& b, const std::function<bool(Index)>& counts) const;

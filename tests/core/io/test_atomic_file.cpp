@@ -24,6 +24,28 @@ TEST(AtomicFile, AppearsOnCommit)
   EXPECT_EQ(folder.number_of_files(), 1u);
 }
 
+TEST(AtomicFile, IsTheSameWhenItWaitsForTheDisk)
+{
+  const test::Folder folder;
+  AtomicFile file;
+  ASSERT_TRUE(file.open(folder / "out", false).ok());
+  ASSERT_TRUE(write_file(file.temporary(), "new").ok());
+  ASSERT_TRUE(file.commit_synced().ok());
+  EXPECT_EQ(folder.read("out"), "new");
+  EXPECT_EQ(folder.number_of_files(), 1u);
+  EXPECT_FALSE(file.commit_synced().ok()); // of nothing
+  ASSERT_TRUE(file.open(folder / "unnamed", false).ok());
+  ASSERT_TRUE(write_file(file.temporary(), "named").ok());
+  ASSERT_TRUE(file.commit_synced_as(folder / "named").ok());
+  EXPECT_EQ(folder.read("named"), "named");
+  EXPECT_EQ(folder.number_of_files(), 2u);
+  // A temporary file that somebody has taken away.
+  ASSERT_TRUE(file.open(folder / "out", true).ok());
+  std::filesystem::remove(file.temporary());
+  EXPECT_THAT(file.commit_synced().message, HasSubstr("cannot write"));
+  EXPECT_EQ(folder.read("out"), "new");
+}
+
 TEST(AtomicFile, LeavesNothingWithoutCommit)
 {
   const test::Folder folder;

@@ -43,15 +43,16 @@ inline Pose posed(const Handles& handles, HandleMode mode, const Affine& t = ide
   return pose;
 }
 
-/// Plain iterations: nothing extrapolates.
+/// Plain iterations in double precision: nothing extrapolates.
 constexpr ReducedArap::SolveOptions iterations_from_rest(Index count)
 {
-  return { 0.0, count, ReducedArap::Start::rest, 0 };
+  return { 0.0, count, ReducedArap::Start::rest, 0, 0.0, false };
 }
 
+/// In double precision.
 constexpr ReducedArap::SolveOptions iterations(Index count)
 {
-  return { 0.0, count, ReducedArap::Start::guess };
+  return { 0.0, count, ReducedArap::Start::guess, 5, 0.0, false };
 }
 
 /// Bends a bar: left end held, right end turned and moved, middle as told.

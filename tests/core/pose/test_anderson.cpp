@@ -51,7 +51,7 @@ double dot4(const double* a, const double* b)
 TEST(Anderson, FindsALinearFixedPointInAboutAsManyStepsAsItHasUnknowns)
 {
   const Problem problem;
-  Anderson anderson(4, 4, 2, dot4);
+  Anderson<double> anderson(4, 4, 2, dot4);
   Problem::Iterate x = Problem::Iterate::Zero(), g;
   for (int step = 0; step < 8; ++step)
   {
@@ -79,7 +79,7 @@ TEST(Anderson, WithoutAPastOrAWindowItLeavesTheIterateAlone)
   const Problem::Iterate start = Problem::Iterate::Constant(3.0);
   for (const Index window : { 0, 3 })
   {
-    Anderson anderson(window, 4, 2, dot4);
+    Anderson<double> anderson(window, 4, 2, dot4);
     Problem::Iterate x = start;
     const Problem::Iterate g = problem.map(x);
     EXPECT_FALSE(anderson.next(g.data(), x.data()));
@@ -96,7 +96,7 @@ TEST(Anderson, WithoutAPastOrAWindowItLeavesTheIterateAlone)
 
 TEST(Anderson, AnIterateThatStandsStillStaysFinite)
 {
-  Anderson anderson(5, 4, 2, dot4);
+  Anderson<double> anderson(5, 4, 2, dot4);
   Problem::Iterate x = Problem::Iterate::Constant(1.0);
   for (int step = 0; step < 20; ++step)
   {
@@ -109,12 +109,16 @@ TEST(Anderson, AnIterateThatStandsStillStaysFinite)
 TEST(Anderson, PackedDotIsTheSumOfProducts)
 {
   std::vector<double> a, b;
+  std::vector<float> single_a, single_b;
   double sum = 0.0;
   for (Index i = 0; i < 61; ++i)
   {
     EXPECT_EQ(packed_dot(i, a.data(), b.data()), sum) << i;
+    EXPECT_EQ(packed_dot(i, single_a.data(), single_b.data()), sum) << i;
     a.push_back(static_cast<double>(i % 7) - 3.0);
     b.push_back(static_cast<double>(i % 5) + 0.5);
+    single_a.push_back(static_cast<float>(a.back()));
+    single_b.push_back(static_cast<float>(b.back()));
     sum += a.back() * b.back(); // exact: small halves
   }
 }

@@ -105,3 +105,74 @@ TEST(Crowd, ComesAndGoesAndSaysWhichPoseIsBad)
   context.request_cancel();
   EXPECT_EQ(crowd.solve(context, poses).code, StatusCode::cancelled);
 }
+
+TEST(Crowd, StandsWhereItIsPlaced)
+{
+  // A placement is a map of the posed points, whatever the rows of weights sum to.
+  for (const double share : { 1.0, 0.7 })
+  {
+    Rig rig = bar();
+    rig.weights *= share;
+    ExecutionContext context;
+    Crowd crowd;
+    ASSERT_TRUE(
+      crowd.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).usable());
+    const std::vector<Pose> poses = poses_at(rig.handles, 1);
+    ASSERT_TRUE(crowd.solve(context, poses).usable());
+    std::vector<Affine> placements;
+    for (int i = 0; i < 5; ++i)
+    {
+      Affine place = rigid(70.0 * i, Vec3(1, 2, 0.5).normalized(), Vec3(i, -2.0 * i, 0.5));
+      place.leftCols<3>() *= 1.0 + 0.5 * i;
+      placements.push_back(place);
+    }
+    std::vector<FloatPoints> plain, placed;
+    ASSERT_TRUE(crowd.deform(context, rig.mesh.points, plain).ok());
+    ASSERT_TRUE(crowd.deform(context, rig.mesh.points, placed, placements).ok());
+    for (std::size_t i = 0; i < 5; ++i)
+    {
+      const Points expected =
+        (plain[i].cast<double>() * placements[i].leftCols<3>().transpose()).rowwise() +
+        placements[i].col(3).transpose();
+      EXPECT_LT((placed[i].cast<double>() - expected).cwiseAbs().maxCoeff(), 1e-5) << i;
+    }
+    placements.pop_back();
+    EXPECT_EQ(
+      crowd.deform(context, rig.mesh.points, placed, placements).code, StatusCode::invalid_input);
+  }
+}
+
+TEST(Crowd, NormalsFollow)
+{
+  const Rig rig = bar();
+  ExecutionContext context;
+  Crowd crowd;
+  ASSERT_TRUE(
+    crowd.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).usable());
+  // All handles by one map: normals by its inverse transpose, then by that of the placement.
+  Eigen::Matrix3d map, place;
+  map << 1.2, 0.3, 0, 0, 0.9, -0.2, 0.1, 0, 1.1;
+  place << 0, -2, 0, 1, 0, 0.4, 0, 0, 1.5;
+  std::vector<Pose> poses(1, Pose(rig.handles.size()));
+  for (HandlePose& handle : poses[0])
+  {
+    handle.transform.leftCols<3>() = map;
+  }
+  ASSERT_TRUE(crowd.solve(context, poses).usable());
+  Affine placement = identity_affine();
+  placement.leftCols<3>() = place;
+  Points rest(rig.mesh.points.rows(), 3);
+  for (Index v = 0; v < rest.rows(); ++v)
+  {
+    rest.row(v) = Vec3(std::cos(v), std::sin(v), 0.3).normalized().transpose();
+  }
+  std::vector<FloatPoints> normals;
+  ASSERT_TRUE(crowd.deform_normals(context, rest, normals, { placement }).ok());
+  ASSERT_EQ(normals.size(), 1u);
+  const Eigen::Matrix3d turn = (place * map).inverse().transpose();
+  for (Index v = 0; v < rest.rows(); ++v)
+  {
+    const Vec3 expected = (turn * rest.row(v).transpose()).normalized();
+    EXPECT_LT((normals[0].row(v).cast<double>().transpose() - expected).norm(), 1e-5);
+  }
+}

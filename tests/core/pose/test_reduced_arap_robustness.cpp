@@ -181,11 +181,14 @@ TEST(ReducedArapRobustness, RandomDragsStayFiniteAndNearTheirHandles)
     handle.transform = rigid(random.uniform(-180, 180), random.in_box(-Vec3::Ones(), Vec3::Ones()),
       random.in_box(-Vec3::Ones(), Vec3::Ones()));
     handle.transform.col(drag % 3) *= drag % 7 == 0 ? 0.0 : random.uniform(-1.5, 1.5);
-    const Status status = arap.solve(context, pose, { 1e-6, 20, ReducedArap::Start::last });
+    const bool mixed = drag % 2 == 0;
+    const Status status =
+      arap.solve(context, pose, { 1e-6, 20, ReducedArap::Start::last, 5, 0.0, mixed });
     ASSERT_TRUE(status.usable());
     for (std::size_t i = 1; i < arap.energies().size(); ++i)
     {
-      ASSERT_LE(arap.energies()[i], arap.energies()[i - 1] + 1e-12 * arap.rest_energy());
+      ASSERT_LE(
+        arap.energies()[i], arap.energies()[i - 1] + (mixed ? 1e-6 : 1e-12) * arap.rest_energy());
     }
     ASSERT_LT(status.report.number("constraint_residual", 0.0), 1e-9);
     ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
@@ -403,10 +406,52 @@ TEST(ReducedArapRobustness, ATimeBudgetIsReplayedByItsIterations)
   ASSERT_TRUE(timed.deform(context, rig.mesh.points, first).ok());
   ASSERT_TRUE(counted.deform(context, rig.mesh.points, second).ok());
   EXPECT_EQ(first, second);
-  // However short it is, one iteration is done.
+  // However short it is, one iteration in each precision is done.
   options.max_iterations = 100;
   options.budget_microseconds = 1e-9;
+  EXPECT_EQ(timed.solve(context, pose, options).report.number("iterations", 0.0), 2.0);
+  options.mixed_precision = false;
   EXPECT_EQ(timed.solve(context, pose, options).report.number("iterations", 0.0), 1.0);
+}
+
+// Single precision is a way, not another result: last digits are those of double precision.
+TEST(ReducedArapRobustness, MixedPrecisionComesToTheSameShape)
+{
+  for (const double size : { 1.0, 1e-15, 1e15, 1e-60, 1e60 }) // the last two no float can hold
+  {
+    test::Rig rig = test::bar();
+    rig.mesh.points *= size;
+    for (Handle& handle : rig.handles)
+    {
+      handle.head *= size;
+      handle.tail *= size;
+    }
+    ExecutionContext context;
+    ReducedArap arap;
+    ASSERT_TRUE(arap.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).ok());
+    Pose pose = bend(HandleMode::position);
+    for (HandlePose& handle : pose)
+    {
+      handle.transform.col(3) *= size;
+    }
+    Points shapes[2];
+    double energies[2];
+    for (const bool mixed : { false, true })
+    {
+      const Status status =
+        arap.solve(context, pose, { 1e-12, 1000, ReducedArap::Start::rest, 5, 0.0, mixed });
+      ASSERT_TRUE(status.ok()) << status.message;
+      EXPECT_EQ(status.report.number("iterations.single_precision", -1.0) > 0.0, mixed);
+      ASSERT_TRUE(arap.deform(context, rig.mesh.points, shapes[mixed]).ok());
+      energies[mixed] = arap.energies().back();
+      for (const Eigen::Matrix3d& r : arap.rotations())
+      {
+        EXPECT_LT((r.transpose() * r - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+      }
+    }
+    EXPECT_NEAR(energies[1], energies[0], 1e-11 * energies[0]);
+    EXPECT_LT((shapes[1] - shapes[0]).cwiseAbs().maxCoeff(), 1e-5 * size);
+  }
 }
 
 TEST(ReducedArapRobustness, BadInputIsNamed)

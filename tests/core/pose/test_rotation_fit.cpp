@@ -193,3 +193,66 @@ TEST(RotationFit, BatchesAndSinglesAgreeToTheBit)
     }
   }
 }
+
+TEST(RotationFit, TurnsAreRotationsLessOneInAnyPlanes)
+{
+  test::Random random(17);
+  constexpr Index count = 29;
+  std::vector<double> s(9 * count), r(9 * count, 0.0), transposed(9 * count),
+    turns(9 * count, -1.0);
+  std::vector<float> single(9 * count), single_turns(9 * count, 0.0F);
+  for (Index k = 0; k < count; ++k)
+  {
+    const Eigen::Matrix3d matrix = random_rotation(random) *
+      Vec3(1.0, random.uniform(0.2, 1.0), random.uniform(0.1, 1.0)).asDiagonal();
+    for (int e = 0; e < 9; ++e)
+    {
+      s[e * count + k] = matrix(e / 3, e % 3);
+      transposed[(3 * (e % 3) + e / 3) * count + k] = matrix(e / 3, e % 3);
+      single[e * count + k] = static_cast<float>(matrix(e / 3, e % 3));
+    }
+  }
+  fit_rotations(count, count, s.data(), r.data());
+  fit_turns(count, MatrixPlanes<const double>{ transposed.data(), count, 3 * count },
+    MatrixPlanes<double>{ turns.data(), 3 * count, count });
+  fit_turns(count, MatrixPlanes<const float>{ single.data(), 3 * count, count },
+    MatrixPlanes<float>{ single_turns.data(), 3 * count, count });
+  for (Index k = 0; k < count; ++k)
+  {
+    for (int e = 0; e < 9; ++e)
+    {
+      const double rotation = r[e * count + k] - (e % 4 == 0 ? 1.0 : 0.0);
+      EXPECT_NEAR(turns[e * count + k], rotation, 1e-15);
+      EXPECT_NEAR(single_turns[e * count + k], rotation, 2e-5);
+    }
+  }
+}
+
+TEST(RotationFit, SinglePrecisionLosesNextToNothing)
+{
+  test::Random random(19);
+  constexpr Index count = 20000;
+  std::vector<float> s(9 * count), turns(9 * count, 0.0F);
+  for (Index k = 0; k < count; ++k)
+  {
+    const Eigen::Matrix3d matrix = random_matrix(random).normalized();
+    for (int e = 0; e < 9; ++e)
+    {
+      s[e * count + k] = static_cast<float>(matrix(e / 3, e % 3));
+    }
+  }
+  fit_turns(count, MatrixPlanes<const float>{ s.data(), 3 * count, count },
+    MatrixPlanes<float>{ turns.data(), 3 * count, count });
+  for (Index k = 0; k < count; ++k)
+  {
+    Eigen::Matrix3d matrix, rotation, best = Eigen::Matrix3d::Identity();
+    for (int e = 0; e < 9; ++e)
+    {
+      matrix(e / 3, e % 3) = s[e * count + k];
+      rotation(e / 3, e % 3) = turns[e * count + k] + (e % 4 == 0 ? 1.0 : 0.0);
+    }
+    fit_rotation(matrix, best);
+    ASSERT_LT((rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm(), 2e-6);
+    ASSERT_NEAR((rotation * matrix).trace(), (best * matrix).trace(), 2e-6);
+  }
+}

@@ -127,6 +127,7 @@ protected:
     ASSERT_TRUE(this->window.set_mesh(with_weights(column()), "column"));
     ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
     ASSERT_TRUE(this->window.is_bound());
+    this->window.history()->clear(); // of opening
     this->render();
   }
 
@@ -244,12 +245,12 @@ TEST_F(Window, ModesAreRememberedAndUndone)
   this->open_bound();
   this->window.set_method(2);
   this->window.set_mode(1, 1);
-  EXPECT_EQ(this->window.history()->count(), 1);
+  EXPECT_EQ(this->window.history()->count(), 2);
   this->drag(1, { 60, 0 });
   EXPECT_EQ(this->window.error(), QString());
   this->window.back_to_rest();
-  EXPECT_EQ(this->window.history()->count(), 3);
-  for (int step = 0; step < 3; ++step)
+  EXPECT_EQ(this->window.history()->count(), 4);
+  for (int step = 0; step < 4; ++step)
   {
     this->window.history()->undo();
   }
@@ -546,7 +547,7 @@ TEST_F(Window, HandlesAreDraggedWithAVolumeOpen)
   this->drag(1, { 80, 0 });
   EXPECT_GT((top_of(this->window.shown()) - rest).norm(), 0.1);
   EXPECT_EQ(this->window.volume_view()->position(), slice);
-  EXPECT_EQ(this->window.history()->count(), 1);
+  EXPECT_EQ(this->window.history()->count(), 2); // the volume and the drag
 }
 
 TEST_F(Window, ALongErrorDoesNotWidenTheWindow)

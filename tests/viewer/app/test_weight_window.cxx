@@ -6,7 +6,7 @@
 #include "value_row.h"
 #include "weight_inspection.h"
 #include "weight_panel.h"
-#include "window_files.h"
+#include "document/opened_file.h"
 
 #include "conversion.h"
 #include "scene/categories.h"

@@ -1,5 +1,5 @@
-#ifndef bindpose_cli_picture_file_h
-#define bindpose_cli_picture_file_h
+#ifndef bindpose_scene_picture_file_h
+#define bindpose_scene_picture_file_h
 
 #include "base/status.h"
 
@@ -8,7 +8,7 @@
 
 #include <string>
 
-namespace bindpose::cli
+namespace bindpose
 {
 
 /// By its ending: png, jpg, jpeg, tif, tiff or bmp.
@@ -19,6 +19,6 @@ bool is_picture_file(const std::string& path);
 /// there, is broken or of another kind.
 Status read_picture(const std::string& path, vtkSmartPointer<vtkImageData>& image);
 
-} // namespace bindpose::cli
+} // namespace bindpose
 
 #endif

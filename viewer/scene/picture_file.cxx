@@ -1,5 +1,5 @@
 // PNG by libpng itself: VTK's reader crashes on damaged files. The others by VTK's readers.
-#include "cli/picture_file.h"
+#include "scene/picture_file.h"
 
 #include "file_kind.h"
 
@@ -15,7 +15,7 @@
 
 #include <png.h>
 
-namespace bindpose::cli
+namespace bindpose
 {
 
 namespace
@@ -97,4 +97,4 @@ Status read_picture(const std::string& path, vtkSmartPointer<vtkImageData>& imag
                          : read_by_vtk<vtkTIFFReader>(path, image);
 }
 
-} // namespace bindpose::cli
+} // namespace bindpose

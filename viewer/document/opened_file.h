@@ -1,17 +1,18 @@
-#ifndef window_files_h
-#define window_files_h
+#ifndef document_opened_file_h
+#define document_opened_file_h
 
 #include "base/status.h"
 #include "pose/pose.h"
 #include "weights/handles.h"
 
 #include "vtkDataSet.h"
+#include "vtkImageData.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
 #include <string>
 
-// What the window reads and writes. Nothing goes to the terminal.
+// What a document is made of and gives out. Nothing goes to the terminal.
 
 /// What a file holds, by its contents.
 struct OpenedFile
@@ -21,13 +22,21 @@ struct OpenedFile
     mesh,
     handles, ///< vtkPolyData
     volume, ///< vtkImageData
-    curves ///< vtkPolyData
+    curves, ///< vtkPolyData
+    picture, ///< vtkImageData of colours
+    weights
   };
   Kind kind = Kind::mesh;
   vtkSmartPointer<vtkDataSet> data;
   vtkSmartPointer<vtkPolyData> handles; ///< of a mesh: those of its skin, in glTF files
+  bindpose::Weights weights;
 };
 bindpose::Status read_file(const std::string& path, OpenedFile& file);
+
+/// What a picture shows, as triangles with texture coordinates (vtkPlanarShape): cut out by its
+/// alpha, or the whole rectangle where it is opaque or where that is asked for.
+bindpose::Status make_shape(
+  vtkImageData* picture, bool whole, vtkSmartPointer<vtkPolyData>& shape, bool& cut_out);
 
 /// These replace the file that is there: the dialog has asked.
 bindpose::Status write_shape(vtkPolyData* shape, const std::string& path);

@@ -1,10 +1,13 @@
-#include "window_files.h"
+#include "document/opened_file.h"
 
 #include "file_kind.h"
 #include "io/atomic_file.h"
+#include "io/dmat.h"
 #include "pose/pose_file.h"
 #include "scene/categories.h"
 #include "scene/curves.h"
+#include "scene/picture_file.h"
+#include "report_field_data.h"
 
 #include "vtkCallbackCommand.h"
 #include "vtkCommand.h"
@@ -14,6 +17,7 @@
 #include "vtkMeshFileReader.h"
 #include "vtkMeshFileWriter.h"
 #include "vtkNew.h"
+#include "vtkPlanarShape.h"
 #include "vtkPolyData.h"
 
 #include <QString>
@@ -62,6 +66,19 @@ Status read_file(const std::string& path, OpenedFile& file)
     file.kind = OpenedFile::Kind::handles;
     return read_with(reader.Get(), path, file);
   }
+  if (file_extension(path) == "dmat")
+  {
+    file.kind = OpenedFile::Kind::weights;
+    return read_dmat(path, file.weights);
+  }
+  if (is_picture_file(path))
+  {
+    vtkSmartPointer<vtkImageData> picture;
+    const Status status = read_picture(path, picture);
+    file.kind = OpenedFile::Kind::picture;
+    file.data = picture;
+    return status;
+  }
   if (is_listed(file_extension(path), vtkGLTFSkinReader::GetFileExtensions()))
   {
     vtkNew<vtkGLTFSkinReader> reader;
@@ -93,6 +110,23 @@ Status read_file(const std::string& path, OpenedFile& file)
     : looks_like_handles(file.data)    ? OpenedFile::Kind::handles
                                        : OpenedFile::Kind::mesh;
   return status;
+}
+
+Status make_shape(
+  vtkImageData* picture, bool whole, vtkSmartPointer<vtkPolyData>& shape, bool& cut_out)
+{
+  vtkNew<vtkPlanarShape> planar;
+  quiet(planar);
+  planar->SetInputData(0, picture);
+  planar->SetRectangle(whole);
+  planar->Update();
+  if (planar->GetStatus() != vtkBindposeAlgorithm::OK)
+  {
+    return Status::invalid_input(planar->GetStatusMessage());
+  }
+  shape = vtkPolyData::SafeDownCast(planar->GetOutput());
+  cut_out = read_report(shape).text("domain") == "alpha";
+  return {};
 }
 
 Status write_shape(vtkPolyData* shape, const std::string& path)

@@ -1,0 +1,27 @@
+#ifndef bindpose_base_dense_cholesky_h
+#define bindpose_base_dense_cholesky_h
+
+#include "base/mesh.h"
+
+namespace bindpose
+{
+
+/// A = L L^T of a dense symmetric matrix, by LAPACK where it is there. Cost: n^3 / 6 multiply-adds.
+class DenseCholesky
+{
+public:
+  /// Takes the lower triangle of A. False when A is not positive definite to round-off.
+  bool factor(Eigen::MatrixXd a);
+  /// Estimate of 1 / (|A| |A^-1|) in the one-norm.
+  double reciprocal_condition() const;
+  /// X becomes X L^-T.
+  void solve_right(Eigen::MatrixXd& x) const;
+
+private:
+  Eigen::MatrixXd l_;
+  double norm_ = 0.0; ///< one-norm of A
+};
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,379 @@
+// One pass over C makes Y and S: while four columns are in the nearest cache, they are multiplied
+// with Q, which is four rows of Y, and these are added to S. An iterate carries S along, so that an
+// extrapolated Y costs no product, unless it comes from so far that S would be of noise.
+//
+// Energies, with E* for what does not depend on Q, are
+//     after a local step   E* + 1/2 |Y|^2 - <Q, S>,
+//     after a global step  E* - 1/2 |Y|^2 - <Q, S*>.
+// In single precision both are wrong by about a millionth of |Y|^2 and <Q, S*>; a change below that
+// says nothing any more.
+#include "pose/reduced_iteration.h"
+
+#include "base/simd.h"
+#include "pose/rotation_fit.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+/// In single precision energies are known to this share of their parts.
+template <typename Scalar>
+constexpr double energy_noise = sizeof(Scalar) == 4 ? 2e-7 : 0.0;
+
+/// Extrapolations that reach farther than this carry too much round-off along.
+template <typename Scalar>
+constexpr double farthest_reach = sizeof(Scalar) == 4 ? 3.0 : 1e4;
+
+constexpr Index columns_at_once = 4;
+
+/// Rows go in tiles of 16 floats or 8 doubles. A pack is half a tile: AVX2 has registers for it.
+template <typename Scalar>
+struct PackOf
+{
+  static constexpr Index lanes = 32 / sizeof(Scalar);
+  typedef Scalar Pack __attribute__((vector_size(32), aligned(alignof(Scalar)), may_alias));
+};
+
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE auto& pack_at(Scalar* from)
+{
+  return *reinterpret_cast<typename PackOf<Scalar>::Pack*>(from);
+}
+
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE const auto& pack_at(const Scalar* from)
+{
+  return *reinterpret_cast<const typename PackOf<Scalar>::Pack*>(from);
+}
+
+BINDPOSE_ALWAYS_INLINE float sum_of(const PackOf<float>::Pack& p)
+{
+  typedef float Four __attribute__((vector_size(16), aligned(4), may_alias));
+  const Four* const halves = reinterpret_cast<const Four*>(&p);
+  const Four sum = halves[0] + halves[1];
+  return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+
+BINDPOSE_ALWAYS_INLINE double sum_of(const PackOf<double>::Pack& p)
+{
+  return (p[0] + p[2]) + (p[1] + p[3]);
+}
+
+/// y_j = A^T q_j for two columns of A and j = 0, 1, 2.
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE void multiply_two(
+  Index rows, const Scalar* a, const Scalar* q, Scalar* y, Index length)
+{
+  constexpr Index lanes = PackOf<Scalar>::lanes;
+  using Pack = typename PackOf<Scalar>::Pack;
+  Pack sums[2][3][2] = {};
+  for (Index r = 0; r < rows; r += 2 * lanes)
+  {
+    for (Index half = 0; half < 2; ++half)
+    {
+      const Scalar* const from = q + r + half * lanes;
+      const Pack q0 = pack_at(from), q1 = pack_at(from + rows), q2 = pack_at(from + 2 * rows);
+      for (Index c = 0; c < 2; ++c)
+      {
+        const Pack entry = pack_at(a + c * rows + r + half * lanes);
+        sums[c][0][half] += entry * q0;
+        sums[c][1][half] += entry * q1;
+        sums[c][2][half] += entry * q2;
+      }
+    }
+  }
+  for (Index c = 0; c < 2; ++c)
+  {
+    for (Index j = 0; j < 3; ++j)
+    {
+      y[j * length + c] = sum_of(sums[c][j][0] + sums[c][j][1]);
+    }
+  }
+}
+
+/// s_j += A y_j for four columns of A.
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE void add_four(
+  Index rows, const Scalar* a, const Scalar* y, Index length, Scalar* s)
+{
+  constexpr Index lanes = PackOf<Scalar>::lanes;
+  using Pack = typename PackOf<Scalar>::Pack;
+  Scalar factors[columns_at_once][3];
+  for (Index c = 0; c < columns_at_once; ++c)
+  {
+    for (Index j = 0; j < 3; ++j)
+    {
+      factors[c][j] = y[j * length + c];
+    }
+  }
+  for (Index r = 0; r < rows; r += lanes)
+  {
+    Pack s0 = pack_at(s + r), s1 = pack_at(s + rows + r), s2 = pack_at(s + 2 * rows + r);
+    for (Index c = 0; c < columns_at_once; ++c)
+    {
+      const Pack entry = pack_at(a + c * rows + r);
+      s0 += entry * factors[c][0];
+      s1 += entry * factors[c][1];
+      s2 += entry * factors[c][2];
+    }
+    pack_at(s + r) = s0;
+    pack_at(s + rows + r) = s1;
+    pack_at(s + 2 * rows + r) = s2;
+  }
+}
+
+/// Y = C^T Q and S = S* + C Y.
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE void multiply_both(Index rows, Index columns, const Scalar* covariance,
+  const Scalar* q, const Scalar* star, Scalar* y, Index length, Scalar* s)
+{
+  std::copy_n(star, 3 * rows, s);
+  for (Index c = 0; c < columns; c += columns_at_once)
+  {
+    const Scalar* const a = covariance + c * rows;
+    multiply_two(rows, a, q, y + c, length);
+    multiply_two(rows, a + 2 * rows, q, y + c + 2, length);
+    add_four(rows, a, y + c, length, s);
+  }
+}
+
+BINDPOSE_SIMD_CLONES void products(Index rows, Index columns, const float* covariance,
+  const float* q, const float* star, float* y, Index length, float* s)
+{
+  multiply_both(rows, columns, covariance, q, star, y, length, s);
+}
+
+BINDPOSE_SIMD_CLONES void products(Index rows, Index columns, const double* covariance,
+  const double* q, const double* star, double* y, Index length, double* s)
+{
+  multiply_both(rows, columns, covariance, q, star, y, length, s);
+}
+
+/// S = S* + C Y.
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE void multiply_once(Index rows, Index columns, const Scalar* covariance,
+  const Scalar* star, const Scalar* y, Index length, Scalar* s)
+{
+  std::copy_n(star, 3 * rows, s);
+  for (Index c = 0; c < columns; c += columns_at_once)
+  {
+    add_four(rows, covariance + c * rows, y + c, length, s);
+  }
+}
+
+BINDPOSE_SIMD_CLONES void product(Index rows, Index columns, const float* covariance,
+  const float* star, const float* y, Index length, float* s)
+{
+  multiply_once(rows, columns, covariance, star, y, length, s);
+}
+
+BINDPOSE_SIMD_CLONES void product(Index rows, Index columns, const double* covariance,
+  const double* star, const double* y, Index length, double* s)
+{
+  multiply_once(rows, columns, covariance, star, y, length, s);
+}
+
+Index padded(Index count, Index to)
+{
+  return (count + to - 1) / to * to;
+}
+} // namespace
+
+template <typename Scalar>
+void ReducedIteration<Scalar>::set_matrix(const Eigen::MatrixXd& covariance, double unit)
+{
+  constexpr Index tile = 2 * PackOf<Scalar>::lanes;
+  this->clusters_ = covariance.rows() / 3;
+  this->columns_ = covariance.cols();
+  this->rows_ = padded(covariance.rows(), tile);
+  this->length_ = padded(this->columns_, tile);
+  this->unit_ = unit;
+  this->covariance_.assign(
+    static_cast<std::size_t>(this->rows_ * padded(this->columns_, columns_at_once)), Scalar(0));
+  for (Index c = 0; c < this->columns_; ++c)
+  {
+    for (Index r = 0; r < covariance.rows(); ++r)
+    {
+      this->covariance_[static_cast<std::size_t>(c * this->rows_ + r)] =
+        static_cast<Scalar>(covariance(r, c) / unit);
+    }
+  }
+  const auto size = static_cast<std::size_t>(3 * this->rows_);
+  this->star_.assign(size, Scalar(0));
+  this->turns_.assign(size, Scalar(0));
+  this->plain_.assign(size + static_cast<std::size_t>(3 * this->length_), Scalar(0));
+}
+
+template <typename Scalar>
+void ReducedIteration<Scalar>::set_star(Index stride, const std::vector<double>& star)
+{
+  const double scale = 1.0 / (this->unit_ * this->unit_);
+  for (Index e = 0; e < 9; ++e)
+  {
+    const double* const from = star.data() + e * stride;
+    Scalar* const to = this->star_.data() + e % 3 * this->rows_ + e / 3 * this->clusters_;
+    for (Index k = 0; k < this->clusters_; ++k)
+    {
+      to[k] = static_cast<Scalar>(scale * from[k]);
+    }
+  }
+}
+
+template <typename Scalar>
+void ReducedIteration<Scalar>::begin(
+  Index stride, const std::vector<double>& star, const std::vector<double>& rotations)
+{
+  this->set_star(stride, star);
+  for (Index e = 0; e < 9; ++e)
+  {
+    const double rest = e % 4 == 0 ? 1.0 : 0.0;
+    const double* const from = rotations.data() + e * stride;
+    Scalar* const to = this->turns_.data() + e / 3 * this->rows_ + e % 3 * this->clusters_;
+    for (Index k = 0; k < this->clusters_; ++k)
+    {
+      to[k] = static_cast<Scalar>(from[k] - rest);
+    }
+  }
+  this->has_iterate_ = false;
+}
+
+template <typename Scalar>
+template <typename Other>
+void ReducedIteration<Scalar>::go_on(const ReducedIteration<Other>& from)
+{
+  const double y_unit = from.unit_ / this->unit_, s_unit = y_unit * y_unit;
+  for (Index j = 0; j < 3; ++j)
+  {
+    const Other* const y = from.plain_.data() + j * from.length_;
+    for (Index c = 0; c < this->columns_; ++c)
+    {
+      this->plain_[static_cast<std::size_t>(j * this->length_ + c)] =
+        static_cast<Scalar>(y_unit * y[c]);
+    }
+    const Other* const s = from.plain_.data() + 3 * from.length_ + j * from.rows_;
+    Scalar* const to = this->plain_.data() + 3 * this->length_ + j * this->rows_;
+    for (Index k = 0; k < 3 * this->clusters_; ++k)
+    {
+      to[k] = static_cast<Scalar>(s_unit * s[k]);
+    }
+  }
+  this->has_iterate_ = true;
+}
+
+template <typename Scalar>
+double ReducedIteration<Scalar>::local_step(AlignedVector<Scalar>& iterate)
+{
+  const Scalar* const s = iterate.data() + 3 * this->length_;
+  fit_turns(this->clusters_, MatrixPlanes<const Scalar>{ s, this->clusters_, this->rows_ },
+    MatrixPlanes<Scalar>{ this->turns_.data(), this->rows_, this->clusters_ });
+  return 0.5 * packed_dot(3 * this->length_, iterate.data(), iterate.data()) -
+    packed_dot(3 * this->rows_, this->turns_.data(), s);
+}
+
+template <typename Scalar>
+double ReducedIteration<Scalar>::global_step(AlignedVector<Scalar>& iterate)
+{
+  products(this->rows_, this->columns_, this->covariance_.data(), this->turns_.data(),
+    this->star_.data(), iterate.data(), this->length_, iterate.data() + 3 * this->length_);
+  const double half_square = 0.5 * packed_dot(3 * this->length_, iterate.data(), iterate.data());
+  const double gained = packed_dot(3 * this->rows_, this->turns_.data(), this->star_.data());
+  this->magnitude_ = half_square + std::abs(gained);
+  return -half_square - gained;
+}
+
+template <typename Scalar>
+bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimits& limits,
+  Index window, double star_energy, ReducedProgress& progress)
+{
+  const double unit = this->unit_ * this->unit_;
+  std::vector<double>& energies = progress.energies;
+  const std::size_t first = energies.size();
+  if (!this->has_iterate_)
+  {
+    energies.push_back(star_energy + unit * this->global_step(this->plain_));
+  }
+  this->tried_ = this->plain_;
+  Anderson<Scalar> anderson(window, 3 * this->length_, 3 * this->rows_,
+    [this](const Scalar* a, const Scalar* b) { return packed_dot(3 * this->length_, a, b); });
+  bool accelerated = false, can_see = true;
+  Index iterations = 0;
+  progress.converged = false;
+  while (iterations < limits.iterations && !progress.converged && progress.in_time && can_see)
+  {
+    if (iterations % 64 == 63 && context.cancelled())
+    {
+      progress.cancelled = true;
+      break;
+    }
+    const double energy_before = energies.back();
+    const double noise = energy_noise<Scalar> * unit * this->magnitude_;
+    double energy =
+      star_energy + unit * this->local_step(accelerated ? this->tried_ : this->plain_);
+    if (accelerated && !(energy <= energy_before + limits.same_energy))
+    {
+      anderson.forget();
+      energy = star_energy + unit * this->local_step(this->plain_);
+      accelerated = false;
+    }
+    energies.push_back(energy);
+    if (!accelerated && window > 0)
+    {
+      this->tried_ = this->plain_;
+    }
+    energy = star_energy + unit * this->global_step(this->plain_);
+    energies.push_back(energy);
+    ++iterations;
+    if (!std::isfinite(energy))
+    {
+      energies.resize(first);
+      return false;
+    }
+    progress.change = energy_before - energy;
+    can_see = noise == 0.0 || progress.change > noise;
+    progress.converged = limits.tolerance > 0.0 && can_see &&
+      progress.change <= limits.tolerance * std::max(energy, limits.least_energy);
+    progress.in_time = std::chrono::steady_clock::now() < limits.deadline;
+    accelerated = anderson.next(this->plain_.data(), this->tried_.data());
+    if (accelerated && anderson.reach() > farthest_reach<Scalar>)
+    {
+      product(this->rows_, this->columns_, this->covariance_.data(), this->star_.data(),
+        this->tried_.data(), this->length_, this->tried_.data() + 3 * this->length_);
+    }
+  }
+  progress.iterations += iterations;
+  return true;
+}
+
+template <typename Scalar>
+void ReducedIteration<Scalar>::rotations(Index stride, std::vector<double>& planes) const
+{
+  for (Index e = 0; e < 9; ++e)
+  {
+    const double rest = e % 4 == 0 ? 1.0 : 0.0;
+    const Scalar* const from = this->turns_.data() + e / 3 * this->rows_ + e % 3 * this->clusters_;
+    double* const to = planes.data() + e * stride;
+    for (Index k = 0; k < this->clusters_; ++k)
+    {
+      to[k] = from[k] + rest;
+    }
+  }
+}
+
+template <typename Scalar>
+Coordinates ReducedIteration<Scalar>::coordinates() const
+{
+  return this->unit_ *
+    Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 3>, 0, Eigen::OuterStride<>>(
+      this->plain_.data(), this->columns_, 3, Eigen::OuterStride<>(this->length_))
+      .template cast<double>();
+}
+
+template class ReducedIteration<float>;
+template class ReducedIteration<double>;
+template void ReducedIteration<double>::go_on(const ReducedIteration<float>&);
+
+} // namespace bindpose

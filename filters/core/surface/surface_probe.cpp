@@ -1,0 +1,106 @@
+// A ray is a segment that ends behind the surface's box. Which triangles it meets is decided
+// exactly, so none is slipped through between; where, in doubles.
+#include "surface/surface_probe.h"
+
+#include "surface/triangle_predicates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bindpose
+{
+namespace
+{
+constexpr double same_place = 1e-9; // of the segment
+} // namespace
+
+SurfaceProbe::SurfaceProbe(PointsView points, TrianglesView triangles)
+  : points_(points), triangles_(triangles), tree_(points, triangles), box_(bounding_box(points))
+{
+}
+
+std::vector<SurfaceProbe::Hit> SurfaceProbe::hits(const Vec3& origin, const Vec3& direction) const
+{
+  std::vector<Hit> all;
+  const double speed = direction.norm();
+  if (this->box_.empty() || !(speed > 0.0) || !origin.allFinite() || !direction.allFinite())
+  {
+    return all;
+  }
+  const double far = 1.01 * ((this->box_.center() - origin).norm() + this->box_.diagonal()) / speed;
+  const Vec3 end = origin + far * direction;
+  const auto take = [&](Index f)
+  {
+    const auto t = this->triangles_.row(f);
+    const Vec3 a = this->points_.row(t[0]);
+    const Vec3 b = this->points_.row(t[1]);
+    const Vec3 c = this->points_.row(t[2]);
+    const Vec3 normal = (b - a).cross(c - a);
+    const double slope = normal.dot(direction);
+    const double distance = normal.dot(a - origin) / slope;
+    if (slope != 0.0 && std::isfinite(distance) && segment_meets_triangle(origin, end, a, b, c))
+    {
+      all.push_back({ std::max(distance, 0.0), f, slope < 0.0 });
+    }
+    return false; // on to the next one
+  };
+  this->tree_.segment_meets(origin, end, take);
+  std::sort(all.begin(), all.end(),
+    [](const Hit& a, const Hit& b)
+    { return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle; });
+  // On a shared edge or vertex one crossing is several triangles.
+  std::vector<Hit> once;
+  for (const Hit& hit : all)
+  {
+    const bool again = std::any_of(once.rbegin(), once.rend(),
+      [&](const Hit& other)
+      { return other.enters == hit.enters && hit.distance - other.distance <= same_place * far; });
+    if (!again)
+    {
+      once.push_back(hit);
+    }
+  }
+  return once;
+}
+
+bool SurfaceProbe::first_inside(const Vec3& origin, const Vec3& direction, LineSpan& span) const
+{
+  const std::vector<Hit> all = this->hits(origin, direction);
+  if (all.empty())
+  {
+    return false;
+  }
+  const auto set = [&](const Hit& from, const Hit& to)
+  {
+    span.entry = origin + from.distance * direction;
+    span.exit = origin + to.distance * direction;
+    span.triangle = from.triangle;
+  };
+  const double small = same_place * std::max(all.back().distance, 1.0);
+  int depth = 0;
+  std::size_t first = 0;
+  for (std::size_t i = 0; i < all.size(); ++i)
+  {
+    if (depth == 0)
+    {
+      first = i;
+    }
+    depth += all[i].enters ? 1 : -1;
+    // A silhouette's edge is in and out at one place: not a thickness.
+    if (depth == 0 && all[i].distance - all[first].distance > small)
+    {
+      set(all[first], all[i]);
+      return true;
+    }
+  }
+  set(all[0], all[all.size() > 1 ? 1 : 0]);
+  return true;
+}
+
+bool SurfaceProbe::nearest(const Vec3& p, Vec3& place) const
+{
+  return std::isfinite(this->tree_.distance(p, std::numeric_limits<double>::infinity(), &place));
+}
+
+} // namespace bindpose

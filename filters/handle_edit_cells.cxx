@@ -1,0 +1,215 @@
+// The dataset becomes a list of handles, the list is edited, and a dataset is made of it; then
+// every array that the list does not know is carried over, cell by cell.
+#include "handle_edit_cells.h"
+
+#include "pseudo_edge_cells.h"
+
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace bindpose
+{
+namespace
+{
+const char* const pose_arrays[4] = { "Mode", "Transform", "Stretch", "Twist" };
+
+bool is_pose_array(const std::string& name)
+{
+  return std::find(std::begin(pose_arrays), std::end(pose_arrays), name) != std::end(pose_arrays);
+}
+
+/// Arrays of `before` that `now` lacks, or whose numbers follow the handles.
+void carry_arrays(vtkPolyData* before, vtkPolyData* now, const std::vector<Index>& source,
+  const std::vector<Index>& model)
+{
+  vtkCellData* from = before->GetCellData();
+  for (int a = 0; a < from->GetNumberOfArrays(); ++a)
+  {
+    vtkAbstractArray* array = from->GetAbstractArray(a);
+    const std::string name = array->GetName() ? array->GetName() : "";
+    const bool pose = is_pose_array(name);
+    vtkAbstractArray* target = now->GetCellData()->GetAbstractArray(name.c_str());
+    if (name.empty() || (target && !pose))
+    {
+      continue;
+    }
+    if (!target || target->GetNumberOfComponents() != array->GetNumberOfComponents())
+    {
+      vtkSmartPointer<vtkAbstractArray> fresh;
+      fresh.TakeReference(array->NewInstance());
+      fresh->SetName(name.c_str());
+      fresh->SetNumberOfComponents(array->GetNumberOfComponents());
+      fresh->SetNumberOfTuples(now->GetNumberOfCells());
+      if (auto* numbers = vtkDataArray::SafeDownCast(fresh))
+      {
+        numbers->Fill(0.0);
+      }
+      now->GetCellData()->AddArray(fresh);
+      target = fresh;
+    }
+    for (vtkIdType cell = 0; cell < now->GetNumberOfCells(); ++cell)
+    {
+      const Index other = (pose ? source : model)[static_cast<std::size_t>(cell)];
+      if (other >= 0 && other < array->GetNumberOfTuples())
+      {
+        target->SetTuple(cell, other, array);
+      }
+    }
+  }
+}
+} // namespace
+
+Status to_editable(vtkPolyData* data, Handles& handles, std::vector<Index>& cells)
+{
+  handles.clear();
+  cells.clear();
+  return data && data->GetNumberOfCells() > 0 ? to_handles(data, handles, &cells) : Status();
+}
+
+Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<Index>* cell_of,
+  std::vector<Index>* added)
+{
+  Handles before;
+  std::vector<Index> cells;
+  Status status = to_editable(data, before, cells);
+  PseudoEdges edges;
+  if (status.ok() && !cells.empty())
+  {
+    status = to_pseudo_edges(data, before, cells, edges);
+  }
+  EditedHandles after;
+  if (status.ok())
+  {
+    status = edit(before, after);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  const vtkSmartPointer<vtkPolyData> now = to_polydata(after.handles);
+  // to_polydata() puts bones behind all others.
+  std::vector<Index> cell_of_handle(after.handles.size(), -1);
+  Index next = 0;
+  for (const bool bones : { false, true })
+  {
+    for (std::size_t i = 0; i < after.handles.size(); ++i)
+    {
+      if ((after.handles[i].kind == HandleKind::bone) == bones)
+      {
+        cell_of_handle[i] = next++;
+      }
+    }
+  }
+  if (cell_of)
+  {
+    cell_of->assign(static_cast<std::size_t>(data->GetNumberOfCells()), -1);
+  }
+  if (added)
+  {
+    added->clear();
+  }
+  std::vector<Index> handle_now(before.size(), -1);
+  std::vector<Index> source(static_cast<std::size_t>(now->GetNumberOfCells()), -1);
+  std::vector<Index> model = source;
+  for (std::size_t i = 0; i < after.handles.size(); ++i)
+  {
+    const auto cell = static_cast<std::size_t>(cell_of_handle[i]);
+    if (after.model[i] >= 0)
+    {
+      model[cell] = cells[static_cast<std::size_t>(after.model[i])];
+    }
+    if (after.source[i] >= 0)
+    {
+      const Index old = cells[static_cast<std::size_t>(after.source[i])];
+      source[cell] = old;
+      handle_now[static_cast<std::size_t>(after.source[i])] = static_cast<Index>(i);
+      if (cell_of)
+      {
+        (*cell_of)[static_cast<std::size_t>(old)] = static_cast<Index>(cell);
+      }
+    }
+    else if (added)
+    {
+      added->push_back(static_cast<Index>(cell));
+    }
+  }
+  carry_arrays(data, now, source, model);
+  PseudoEdges kept;
+  for (const PseudoEdge& edge : edges)
+  {
+    const Index a = handle_now[static_cast<std::size_t>(edge[0])];
+    const Index b = handle_now[static_cast<std::size_t>(edge[1])];
+    if (a >= 0 && b >= 0)
+    {
+      kept.push_back({ std::min(a, b), std::max(a, b) });
+    }
+  }
+  if (!kept.empty() && now->GetNumberOfPolys() == 0)
+  {
+    add_pseudo_edges(now, cell_of_handle, kept);
+  }
+  now->GetFieldData()->ShallowCopy(data->GetFieldData());
+  data->ShallowCopy(now);
+  data->Modified();
+  return status;
+}
+
+void set_handle_colour(
+  vtkPolyData* data, Index cell, const std::optional<std::array<double, 3>>& colour)
+{
+  vtkDataArray* before = data->GetCellData()->GetArray("Color");
+  auto* array = vtkUnsignedCharArray::SafeDownCast(before);
+  const vtkIdType count = data->GetNumberOfCells();
+  if (!array || array->GetNumberOfComponents() != 4 || array->GetNumberOfTuples() != count)
+  {
+    vtkNew<vtkUnsignedCharArray> fresh;
+    fresh->SetName("Color");
+    fresh->SetNumberOfComponents(4);
+    fresh->SetNumberOfTuples(count);
+    fresh->Fill(0.0);
+    data->GetCellData()->AddArray(fresh);
+    array = fresh;
+  }
+  if (cell < 0 || cell >= count)
+  {
+    return;
+  }
+  for (int k = 0; k < 4; ++k)
+  {
+    const double value = !colour ? 0.0 : k < 3 ? (*colour)[static_cast<std::size_t>(k)] : 1.0;
+    array->SetComponent(cell, k, std::round(255.0 * std::clamp(value, 0.0, 1.0)));
+  }
+  array->Modified();
+  data->Modified();
+}
+
+void set_handle_locked(vtkPolyData* data, Index cell, bool locked)
+{
+  vtkDataArray* array = data->GetCellData()->GetArray("Locked");
+  const vtkIdType count = data->GetNumberOfCells();
+  if (!array || array->GetNumberOfTuples() != count)
+  {
+    vtkNew<vtkIntArray> fresh;
+    fresh->SetName("Locked");
+    fresh->SetNumberOfTuples(count);
+    fresh->Fill(0.0);
+    data->GetCellData()->AddArray(fresh);
+    array = data->GetCellData()->GetArray("Locked");
+  }
+  if (cell >= 0 && cell < count)
+  {
+    array->SetComponent(cell, 0, locked ? 1.0 : 0.0);
+    array->Modified();
+    data->Modified();
+  }
+}
+
+} // namespace bindpose

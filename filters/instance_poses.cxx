@@ -1,0 +1,219 @@
+// A row (a point) an instance: arrays named after handles say how these are posed, and what there
+// is no array of keeps the pose of the handles. A composite has a handle dataset an instance.
+#include "instance_poses.h"
+
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDataArray.h"
+#include "vtkDataSetAttributes.h"
+#include "vtkFieldData.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkTable.h"
+
+#include <algorithm>
+
+namespace bindpose
+{
+
+namespace
+{
+const char* const placement_name = "Placement";
+const char* const mode_name = "Mode";
+
+std::string of_instance(std::size_t i)
+{
+  return "instance " + std::to_string(i) + ": ";
+}
+
+Affine affine_of(vtkDataArray* array, vtkIdType tuple)
+{
+  Affine affine = identity_affine();
+  if (array->GetNumberOfComponents() == 12)
+  {
+    array->GetTuple(tuple, affine.data());
+    return affine;
+  }
+  double translation[3];
+  array->GetTuple(tuple, translation);
+  affine.col(3) = Vec3(translation);
+  return affine;
+}
+
+/// The same handles, in the same order.
+bool same_handles(const Handles& a, const Handles& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+    [](const Handle& x, const Handle& y)
+    { return x.name == y.name && x.kind == y.kind && x.head == y.head && x.tail == y.tail; });
+}
+
+Status from_handles(vtkCompositeDataSet* data, const Handles& handles, InstancePoses& instances)
+{
+  bool placed = false;
+  vtkSmartPointer<vtkCompositeDataIterator> block;
+  block.TakeReference(data->NewIterator());
+  for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
+  {
+    const std::size_t i = instances.poses.size();
+    auto* polydata = vtkPolyData::SafeDownCast(block->GetCurrentDataObject());
+    if (!polydata)
+    {
+      return Status::invalid_input(of_instance(i) + "a " +
+        block->GetCurrentDataObject()->GetClassName() +
+        " has no handles; it must be a vtkPolyData");
+    }
+    Handles own;
+    std::vector<Index> cells;
+    Pose pose;
+    Status status = to_handles(polydata, own, &cells);
+    if (status.ok() && !same_handles(own, handles))
+    {
+      status = Status::invalid_input("its handles are not those of the mesh");
+    }
+    if (status.ok())
+    {
+      status = to_pose(polydata, own, cells, pose);
+    }
+    vtkDataArray* place = polydata->GetFieldData()->GetArray(placement_name);
+    if (status.ok() && place &&
+      (place->GetNumberOfTuples() != 1 ||
+        (place->GetNumberOfComponents() != 12 && place->GetNumberOfComponents() != 3)))
+    {
+      status = Status::invalid_input(
+        "its field data array Placement must be a tuple of 12 numbers (3x4, row by row) or of 3 "
+        "(a translation)");
+    }
+    if (!status.ok())
+    {
+      status.message = of_instance(i) + status.message;
+      return status;
+    }
+    placed = placed || place;
+    instances.poses.push_back(std::move(pose));
+    instances.placements.push_back(place ? affine_of(place, 0) : identity_affine());
+  }
+  if (!placed)
+  {
+    instances.placements.clear();
+  }
+  return {};
+}
+
+Status from_rows(vtkDataSetAttributes* arrays, vtkIdType rows, vtkPointSet* points,
+  const Handles& handles, const Pose& base, InstancePoses& instances)
+{
+  Status status;
+  instances.poses.assign(static_cast<std::size_t>(rows), base);
+  bool any = false;
+  for (std::size_t h = 0; h < handles.size(); ++h)
+  {
+    vtkDataArray* array = arrays->GetArray(handles[h].name.c_str());
+    if (!array)
+    {
+      continue;
+    }
+    any = true;
+    if (array->GetNumberOfComponents() != 12 && array->GetNumberOfComponents() != 3)
+    {
+      return Status::invalid_input("the array '" + handles[h].name + "' of the instances has " +
+        std::to_string(array->GetNumberOfComponents()) +
+        " components; it needs 12 (3x4, row by row) or 3 (a translation)");
+    }
+    for (vtkIdType i = 0; i < rows; ++i)
+    {
+      instances.poses[static_cast<std::size_t>(i)][h].transform = affine_of(array, i);
+    }
+  }
+  if (vtkDataArray* modes = arrays->GetArray(mode_name))
+  {
+    any = true;
+    if (modes->GetNumberOfComponents() != static_cast<int>(handles.size()))
+    {
+      return Status::invalid_input("the array Mode of the instances has " +
+        std::to_string(modes->GetNumberOfComponents()) + " components, but there are " +
+        std::to_string(handles.size()) + " handles");
+    }
+    for (vtkIdType i = 0; i < rows; ++i)
+    {
+      for (std::size_t h = 0; h < handles.size(); ++h)
+      {
+        const double mode = modes->GetComponent(i, static_cast<int>(h));
+        if (mode != 0.0 && mode != 1.0 && mode != 2.0)
+        {
+          return Status::invalid_input(of_instance(static_cast<std::size_t>(i)) + "handle '" +
+            handles[h].name + "' has an unknown Mode");
+        }
+        instances.poses[static_cast<std::size_t>(i)][h].mode = static_cast<HandleMode>(int(mode));
+      }
+    }
+  }
+  if (!any)
+  {
+    status.warnings.emplace_back("no array of the instances has the name of a handle: all have the "
+                                 "pose of the handles");
+  }
+  vtkDataArray* places = arrays->GetArray(placement_name);
+  if (places && places->GetNumberOfComponents() != 12 && places->GetNumberOfComponents() != 3)
+  {
+    return Status::invalid_input("the array Placement of the instances has " +
+      std::to_string(places->GetNumberOfComponents()) +
+      " components; it needs 12 (3x4, row by row) or 3 (a translation)");
+  }
+  for (vtkIdType i = 0; i < rows && (places || points); ++i)
+  {
+    Affine place = identity_affine();
+    if (places)
+    {
+      place = affine_of(places, i);
+    }
+    else
+    {
+      place.col(3) = Vec3(points->GetPoint(i));
+    }
+    instances.placements.push_back(place);
+  }
+  return status;
+}
+} // namespace
+
+Status to_instance_poses(
+  vtkDataObject* data, const Handles& handles, const Pose& base, InstancePoses& instances)
+{
+  instances = InstancePoses();
+  Status status;
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    status = from_handles(composite, handles, instances);
+  }
+  else if (auto* table = vtkTable::SafeDownCast(data))
+  {
+    status =
+      from_rows(table->GetRowData(), table->GetNumberOfRows(), nullptr, handles, base, instances);
+  }
+  else if (auto* points = vtkPointSet::SafeDownCast(data))
+  {
+    status = from_rows(
+      points->GetPointData(), points->GetNumberOfPoints(), points, handles, base, instances);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (instances.poses.empty())
+  {
+    return Status::invalid_input("there is no instance: the poses of the crowd are empty");
+  }
+  for (std::size_t i = 0; i < instances.placements.size(); ++i)
+  {
+    if (!instances.placements[i].allFinite())
+    {
+      return Status::invalid_input(
+        of_instance(i) + "where it stands has a number that is not finite");
+    }
+  }
+  return status;
+}
+
+} // namespace bindpose

@@ -1,0 +1,208 @@
+// The cache key holds the modification times of the arrays that a bind reads, never those of a
+// dataset: editing `Transform` raises the handle dataset's time, and a filter upstream that runs
+// again raises its output's, though neither changes what was bound.
+#include "vtkBindAlgorithm.h"
+
+#include "base/execution.h"
+#include "bind_key.h"
+#include "pose_input.h"
+#include "weights_input.h"
+
+#include "vtkDataArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <optional>
+
+using namespace bindpose;
+
+struct vtkBindAlgorithm::Cache
+{
+  bool valid = false;
+  BindKey key;
+  Handles handles;
+  std::vector<Index> cells;
+  SharedMatrix<Points> points;
+  SharedMatrix<Weights> weights;
+  Status status; // of the bind: its report and warnings stand on every output
+
+  // of the present execution
+  bool bound_now = false;
+  Pose pose;
+  std::optional<PoseInput> input;
+};
+
+vtkBindAlgorithm::vtkBindAlgorithm() : Bound(new Cache)
+{
+  this->BindTime.Modified();
+}
+
+vtkBindAlgorithm::~vtkBindAlgorithm() = default;
+
+void vtkBindAlgorithm::SetArrayName(const std::string& name)
+{
+  this->SetBindParameter(this->ArrayName, name);
+}
+
+std::vector<std::string> vtkBindAlgorithm::BindArrays()
+{
+  return std::vector<std::string>(this->NeedsWeights() ? 1 : 0, this->ArrayName);
+}
+
+void vtkBindAlgorithm::BindModified()
+{
+  this->BindTime.Modified();
+  this->Modified();
+}
+
+int vtkBindAlgorithm::RequestInformation(
+  vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
+{
+  // The executive passes on what port 0 says of times; poses' times come before a mesh's.
+  using SDDP = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* info = output->GetInformationObject(0);
+  for (int port = this->GetNumberOfInputPorts() - 1; port > 0; --port)
+  {
+    vtkInformation* poses = input[port]->GetInformationObject(0);
+    if (poses && poses->Has(SDDP::TIME_RANGE()))
+    {
+      info->CopyEntry(poses, SDDP::TIME_RANGE());
+      info->Remove(SDDP::TIME_STEPS());
+      if (poses->Has(SDDP::TIME_STEPS()))
+      {
+        info->CopyEntry(poses, SDDP::TIME_STEPS());
+      }
+      break;
+    }
+  }
+  return 1;
+}
+
+Status vtkBindAlgorithm::Prepare(vtkInformationVector** input, ExecutionContext& context)
+{
+  auto* mesh = vtkPointSet::GetData(input[0], 0);
+  auto* handle_data = vtkPolyData::GetData(input[1], 0);
+  if (!mesh || mesh->GetNumberOfPoints() == 0)
+  {
+    return Status::invalid_input("the mesh to pose is empty");
+  }
+  vtkDataArray* weights =
+    this->NeedsWeights() ? mesh->GetPointData()->GetArray(this->ArrayName.c_str()) : nullptr;
+  if (!weights && this->NeedsWeights())
+  {
+    return no_weights(mesh, this->ArrayName);
+  }
+  if (!handle_data && this->NeedsHandles())
+  {
+    return Status::invalid_input("there is no handle");
+  }
+
+  BindKey key;
+  key.add(this->BindTime.GetMTime());
+  for (vtkObject* object : bind_objects(mesh, this->BindArrays()))
+  {
+    key.add(object);
+  }
+  if (handle_data)
+  {
+    for (vtkObject* object : bind_objects(handle_data))
+    {
+      key.add(object);
+    }
+  }
+  const bool bind = !this->Bound->valid || this->Bound->key != key;
+  if (bind)
+  {
+    this->Bound.reset(new Cache);
+  }
+  Cache& bound = *this->Bound;
+  if (bind)
+  {
+    Status status;
+    if (handle_data)
+    {
+      status = to_handles(handle_data, bound.handles, &bound.cells);
+    }
+    if (!status.ok())
+    {
+      return status;
+    }
+    if (weights)
+    {
+      status = check_weights(weights, mesh->GetNumberOfPoints(), bound.handles);
+      if (!status.ok())
+      {
+        return status;
+      }
+      bound.weights = to_matrix(weights);
+    }
+    bound.points = to_points(mesh);
+    if (!bound.points.view().allFinite())
+    {
+      return Status::invalid_input("the mesh has a coordinate that is not a finite number");
+    }
+  }
+  Status status;
+  if (handle_data)
+  {
+    status = to_pose(handle_data, bound.handles, bound.cells, bound.pose);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  bound.input.emplace(PoseInput{ mesh, bound.points.view(), bound.weights.view(), bound.handles,
+    bound.pose, handle_data, bound.cells });
+  bound.bound_now = bind;
+  if (bind)
+  {
+    Phase phase(context, "bind", 0.0, 0.8);
+    const Status made = this->Bind(*bound.input, context);
+    if (!made.usable())
+    {
+      return made;
+    }
+    bound.status.report.merge(made.report);
+    bound.status.warnings.insert(
+      bound.status.warnings.end(), made.warnings.begin(), made.warnings.end());
+    bound.key = key;
+    bound.valid = true;
+    this->NumberOfBinds += 1;
+  }
+  return {};
+}
+
+const vtkBindAlgorithm::PoseInput& vtkBindAlgorithm::GetPoseInput() const
+{
+  return *this->Bound->input;
+}
+
+Status vtkBindAlgorithm::WithBindReport(const Status& posed) const
+{
+  const Cache& bound = *this->Bound;
+  Status total = posed;
+  Report report;
+  report.set("counts.vertices", static_cast<int>(bound.points.view().rows()));
+  report.set("counts.handles", static_cast<int>(bound.handles.size()));
+  report.set("binds", this->NumberOfBinds);
+  report.merge(bound.status.report);
+  report.merge(posed.report);
+  total.report = report;
+  if (bound.bound_now)
+  {
+    total.warnings.insert(
+      total.warnings.begin(), bound.status.warnings.begin(), bound.status.warnings.end());
+  }
+  return total;
+}
+
+void vtkBindAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "ArrayName: " << this->ArrayName << "\n";
+  os << indent << "NumberOfBinds: " << this->NumberOfBinds << "\n";
+}

@@ -1,0 +1,289 @@
+// Glue around the kernel bindpose::Crowd: the bind keeps one space of deformations, an execution
+// asks it for the transforms of every instance and blends them all at once.
+#include "vtkCrowdDeformation.h"
+
+#include "arap_input.h"
+#include "base/execution.h"
+#include "instance_poses.h"
+#include "output_type.h"
+#include "pose/crowd.h"
+#include "pose_input.h"
+#include "vtkReducedARAP.h"
+
+#include "vtkAppendFilter.h"
+#include "vtkAppendPolyData.h"
+#include "vtkCompositeDataSet.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
+#include "vtkInformation.h"
+#include "vtkInformationVector.h"
+#include "vtkIntArray.h"
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPartitionedDataSetCollection.h"
+#include "vtkPointData.h"
+#include "vtkPointSet.h"
+#include "vtkPoints.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <algorithm>
+
+using namespace bindpose;
+
+vtkStandardNewMacro(vtkCrowdDeformation);
+
+struct vtkCrowdDeformation::Internals
+{
+  Crowd crowd;
+};
+
+namespace
+{
+vtkSmartPointer<vtkFloatArray> make_vectors(Index count)
+{
+  auto array = vtkSmartPointer<vtkFloatArray>::New();
+  array->SetNumberOfComponents(3);
+  array->SetNumberOfTuples(count);
+  return array;
+}
+
+vtkSmartPointer<vtkDoubleArray> to_array(const std::vector<Affine>& transforms, Index count)
+{
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName("HandleTransforms");
+  array->SetNumberOfComponents(12);
+  for (Index j = 0; j < count; ++j)
+  {
+    array->InsertNextTuple(transforms[static_cast<std::size_t>(j)].data());
+  }
+  return array;
+}
+
+/// All in one data set; `Append` is VTK's filter for their class, `Data`.
+template <typename Append, typename Data>
+void append(const std::vector<vtkSmartPointer<vtkPointSet>>& instances, vtkDataObject* result)
+{
+  vtkNew<Append> all;
+  for (std::size_t i = 0; i < instances.size(); ++i)
+  {
+    vtkNew<vtkIntArray> number;
+    number->SetName("Instance");
+    number->SetNumberOfTuples(instances[i]->GetNumberOfPoints());
+    number->FillValue(static_cast<int>(i));
+    instances[i]->GetPointData()->AddArray(number);
+    all->AddInputData(Data::SafeDownCast(instances[i]));
+  }
+  all->Update();
+  result->ShallowCopy(all->GetOutput());
+}
+} // namespace
+
+vtkCrowdDeformation::vtkCrowdDeformation() : Internal(new Internals)
+{
+  this->SetNumberOfInputPorts(3);
+}
+
+vtkCrowdDeformation::~vtkCrowdDeformation() = default;
+
+int vtkCrowdDeformation::FillInputPortInformation(int port, vtkInformation* info)
+{
+  if (port < 2)
+  {
+    return this->Superclass::FillInputPortInformation(port, info);
+  }
+  info->Set(INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  info->Append(INPUT_REQUIRED_DATA_TYPE(), "vtkTable");
+  info->Append(INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+  return 1;
+}
+
+int vtkCrowdDeformation::FillOutputPortInformation(int, vtkInformation* info)
+{
+  info->Set(vtkDataObject::DATA_TYPE_NAME(), "vtkDataObject");
+  return 1;
+}
+
+int vtkCrowdDeformation::RequestDataObject(
+  vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
+{
+  vtkNew<vtkPartitionedDataSetCollection> collection;
+  match_output_type(this->OutputType == APPENDED ? vtkDataObject::GetData(input[0], 0)
+                                                 : static_cast<vtkDataObject*>(collection.Get()),
+    output);
+  return 1;
+}
+
+void vtkCrowdDeformation::SetEnergy(int energy)
+{
+  energy = std::clamp<int>(energy, vtkReducedARAP::AUTO, vtkReducedARAP::SPOKES);
+  this->SetBindParameter(this->Energy, energy);
+}
+
+void vtkCrowdDeformation::SetNumberOfClusters(int clusters)
+{
+  clusters = std::max(clusters, 0);
+  this->SetBindParameter(this->NumberOfClusters, clusters);
+}
+
+void vtkCrowdDeformation::SetNumberOfExtraWeights(int extra)
+{
+  extra = std::max(extra, 0);
+  this->SetBindParameter(this->NumberOfExtraWeights, extra);
+}
+
+void vtkCrowdDeformation::SetExtraWeights(int kind)
+{
+  kind = std::clamp<int>(kind, vtkReducedARAP::BUMPS, vtkReducedARAP::EIGENMODES);
+  this->SetBindParameter(this->ExtraWeights, kind);
+}
+
+void vtkCrowdDeformation::SetSmallestWeight(double smallest)
+{
+  smallest = std::clamp(smallest, 0.0, 1.0);
+  this->SetBindParameter(this->SmallestWeight, smallest);
+}
+
+Status vtkCrowdDeformation::Bind(const PoseInput& input, ExecutionContext& context)
+{
+  ReducedArapOptions options;
+  options.clusters = this->NumberOfClusters;
+  options.extra_weights = this->NumberOfExtraWeights;
+  options.extra_kind = static_cast<bindpose::ExtraWeights>(this->ExtraWeights);
+  options.skinning.smallest_weight = this->SmallestWeight;
+  ArapElements elements;
+  const Status status = to_arap(input.mesh, this->Energy, elements, options.energy);
+  if (!status.ok())
+  {
+    return status;
+  }
+  Crowd& crowd = this->Internal->crowd;
+  return elements.volume ? crowd.bind(context, input.points, elements.tets.tets.view(),
+                             input.weights, input.handles, options)
+                         : crowd.bind(context, input.points, elements.surface.triangles.view(),
+                             input.weights, input.handles, options);
+}
+
+Status vtkCrowdDeformation::Execute(
+  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+{
+  const Status prepared = this->Prepare(input, context);
+  if (!prepared.usable())
+  {
+    return prepared;
+  }
+  const PoseInput& bound = this->GetPoseInput();
+  InstancePoses instances;
+  const Status told =
+    to_instance_poses(vtkDataObject::GetData(input[2], 0), bound.handles, bound.pose, instances);
+  if (!told.ok())
+  {
+    return told;
+  }
+
+  Crowd& crowd = this->Internal->crowd;
+  Status status;
+  {
+    Phase phase(context, "solve", 0.8, 0.9);
+    ReducedSolveOptions options;
+    options.tolerance = this->Tolerance;
+    options.max_iterations = this->MaximumIterations;
+    options.anderson_window = this->AndersonWindow;
+    options.start = this->WarmStart ? ReducedStart::last : ReducedStart::guess;
+    status = crowd.solve(context, instances.poses, options);
+    if (!status.usable())
+    {
+      return status;
+    }
+  }
+  auto* polydata = vtkPolyData::SafeDownCast(bound.mesh);
+  vtkDataArray* rest_normals = polydata ? polydata->GetPointData()->GetNormals() : nullptr;
+  std::vector<vtkSmartPointer<vtkFloatArray>> points;
+  std::vector<FloatPoints> normals;
+  {
+    Phase phase(context, "skin", 0.9, 1.0);
+    std::vector<float*> rows;
+    for (std::size_t i = 0; i < instances.poses.size(); ++i)
+    {
+      points.push_back(make_vectors(bound.points.rows()));
+      rows.push_back(points.back()->GetPointer(0));
+    }
+    Status moved = crowd.deform(context, bound.points, rows, instances.placements);
+    if (moved.ok() && rest_normals)
+    {
+      const SharedMatrix<Weights> rest = to_matrix(rest_normals);
+      const Eigen::Map<const Points> directions(rest.view().data(), rest.view().rows(), 3);
+      moved = crowd.deform_normals(context, directions, normals, instances.placements);
+    }
+    if (!moved.ok())
+    {
+      return moved;
+    }
+  }
+
+  std::vector<vtkSmartPointer<vtkPointSet>> posed;
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    vtkSmartPointer<vtkPointSet> instance;
+    instance.TakeReference(bound.mesh->NewInstance());
+    instance->ShallowCopy(bound.mesh);
+    vtkNew<vtkPoints> at;
+    at->SetData(points[i]);
+    instance->SetPoints(at);
+    instance->GetFieldData()->AddArray(to_array(crowd.transforms()[i], bound.weights.cols()));
+    if (rest_normals)
+    {
+      vtkSmartPointer<vtkFloatArray> turned = make_vectors(normals[i].rows());
+      std::copy_n(normals[i].data(), normals[i].size(), turned->GetPointer(0));
+      turned->SetName(rest_normals->GetName());
+      instance->GetPointData()->SetNormals(turned);
+    }
+    posed.push_back(instance);
+  }
+  vtkDataObject* result = vtkDataObject::GetData(output, 0);
+  result->Initialize();
+  if (this->OutputType == APPENDED && polydata)
+  {
+    append<vtkAppendPolyData, vtkPolyData>(posed, result);
+  }
+  else if (this->OutputType == APPENDED && vtkUnstructuredGrid::SafeDownCast(bound.mesh))
+  {
+    append<vtkAppendFilter, vtkDataSet>(posed, result);
+  }
+  else if (this->OutputType == APPENDED)
+  {
+    return Status::invalid_input(std::string("instances of a ") + bound.mesh->GetClassName() +
+      " cannot be appended; ask for a collection");
+  }
+  else
+  {
+    auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(result);
+    collection->SetNumberOfPartitionedDataSets(static_cast<unsigned int>(posed.size()));
+    for (unsigned int i = 0; i < posed.size(); ++i)
+    {
+      collection->SetPartition(i, 0, posed[i]);
+      collection->GetMetaData(i)->Set(
+        vtkCompositeDataSet::NAME(), ("instance " + std::to_string(i)).c_str());
+    }
+  }
+  status.warnings.insert(status.warnings.begin(), told.warnings.begin(), told.warnings.end());
+  return this->WithBindReport(status);
+}
+
+void vtkCrowdDeformation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "Energy: " << arap_energy_name(this->Energy) << "\n";
+  os << indent << "NumberOfClusters: " << this->NumberOfClusters << "\n";
+  os << indent << "NumberOfExtraWeights: " << this->NumberOfExtraWeights << "\n";
+  os << indent << "ExtraWeights: "
+     << (this->ExtraWeights == vtkReducedARAP::EIGENMODES ? "eigenmodes" : "bumps") << "\n";
+  os << indent << "SmallestWeight: " << this->SmallestWeight << "\n";
+  os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
+  os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "AndersonWindow: " << this->AndersonWindow << "\n";
+  os << indent << "WarmStart: " << (this->WarmStart ? "on" : "off") << "\n";
+  os << indent << "OutputType: " << (this->OutputType == APPENDED ? "appended" : "collection")
+     << "\n";
+}

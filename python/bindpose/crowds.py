@@ -1,0 +1,105 @@
+"""A mesh posed many times over."""
+
+import os
+
+import numpy as np
+from vtkmodules.util.numpy_support import numpy_to_vtk
+from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
+
+from . import BindposeFilters as filters
+from .errors import InvalidInput
+from .functions import _ENERGIES, _choice, _make_poser, _posed_handles
+from .meshes import Array, copy_report, is_dataset, points_of, shallow_copy
+from .running import run
+
+
+def _placement(place):
+    """3x4 numbers of a place: a translation, a 3x4 or a 4x4 matrix."""
+    place = np.asarray(place, dtype=float)
+    if place.shape == (3,):
+        return np.column_stack([np.eye(3), place])
+    if place.shape in ((3, 4), (4, 4)):
+        return place[:3]
+    raise InvalidInput(f"a placement is a translation, a 3x4 or a 4x4 matrix, not an array of shape {place.shape}")
+
+
+def crowd(mesh, handles, poses, *, placements=None, weights=None, energy="auto", clusters=0, iterations=0,
+          tolerance=1e-6, extra_weights=0, extra_kind="bumps", appended=False, threads=0, progress=None):
+    """Bend many instances of a mesh, each to a pose of its own, by reduced as-rigid-as-possible.
+
+    The mesh is bound once; an instance costs its iterations and its points, in single precision.
+
+    Parameters
+    ----------
+    mesh, handles, weights
+        See `deform`.
+    poses : list of poses, or one
+        Dicts or files, see `deform`: an instance a pose, or a frame of ``{"frames": [...]}``.
+    placements : sequence, optional
+        Where each instance stands: translations, 3x4 or 4x4 matrices, applied to the posed mesh.
+    energy, iterations, tolerance, extra_weights, extra_kind
+        See `deform`, of reduced-arap.
+    clusters : int
+        Rotations fitted in an iteration; 0: four a handle.
+    appended : bool
+        For a dataset: all instances in one, with the point array ``Instance``.
+    threads, progress
+        See `winding_number`.
+
+    Returns
+    -------
+    list of Array or of vtkDataSet, or vtkDataSet
+        One an instance, as `deform` returns; the datasets share cells and arrays. With `appended` one dataset.
+
+    Raises
+    ------
+    InvalidInput
+        As `deform`, naming the instance; another number of placements than of poses.
+
+    Notes
+    -----
+    A crowd that moves keeps a ``vtkCrowdDeformation``: it is bound once, and each instance starts from its last pose.
+    """
+    _choice(energy, _ENERGIES, "energy")
+    _choice(extra_kind, ("bumps", "eigenmodes"), "extra_kind")
+    data, posed = _posed_handles(mesh, handles, {"handles": {}}, weights)
+    rest = posed.GetInputDataObject(0, 0)
+    instances = vtkMultiBlockDataSet()
+    for pose in [poses] if isinstance(poses, (dict, str, os.PathLike)) else poses:
+        poser = _make_poser(rest, pose)
+        run(poser)
+        for frame in range(poser.GetNumberOfFrames()):
+            poser.SetFrame(frame)
+            run(poser)
+            instances.SetBlock(instances.GetNumberOfBlocks(), shallow_copy(poser.GetOutput()))
+    count = instances.GetNumberOfBlocks()
+    if placements is not None:
+        if len(placements) != count:
+            raise InvalidInput(f"there are {len(placements)} placements for {count} instances")
+        for k, place in enumerate(placements):
+            array = numpy_to_vtk(np.ascontiguousarray(_placement(place).reshape(1, 12)), deep=True)
+            array.SetName("Placement")
+            instances.GetBlock(k).GetFieldData().AddArray(array)
+    bender = filters.vtkCrowdDeformation()
+    bender.SetEnergy(getattr(filters.vtkReducedARAP, energy.upper().replace("-", "_")))
+    bender.SetNumberOfClusters(int(clusters))
+    bender.SetNumberOfExtraWeights(int(extra_weights))
+    bender.SetExtraWeights(getattr(filters.vtkReducedARAP, extra_kind.upper()))
+    bender.SetTolerance(tolerance)
+    if iterations:
+        bender.SetMaximumIterations(int(iterations))
+    bender.SetOutputType(bender.APPENDED if appended and is_dataset(mesh) else bender.COLLECTION)
+    bender.SetNumberOfThreads(threads)
+    bender.SetInputData(0, data)
+    bender.SetInputData(1, rest)
+    bender.SetInputData(2, instances)
+    report = run(bender, progress)
+    result = bender.GetOutput()
+    if appended and is_dataset(mesh):
+        return result
+    posed = [result.GetPartition(k, 0) for k in range(count)]
+    if not is_dataset(mesh):
+        return [Array(points_of(one), report) for one in posed]
+    for one in posed:
+        copy_report(result, one)
+    return posed

@@ -1,0 +1,56 @@
+// The product is Eigen's, whatever the sizes and strides.
+#include "base/dense_product.h"
+
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+
+namespace
+{
+Weights noise(Index rows, Index cols, unsigned seed)
+{
+  std::srand(seed);
+  return Weights::Random(rows, cols);
+}
+} // namespace
+
+TEST(DenseProduct, IsEigensAtAllSizes)
+{
+  for (const Index rows : { 1, 5, 6, 7, 96, 131 })
+  {
+    for (const Index cols : { 1, 7, 8, 9, 50 })
+    {
+      for (const Index inner : { 0, 1, 3, 256, 300 })
+      {
+        const Weights a = noise(rows, inner, 1), b = noise(inner, cols, 2);
+        Weights c = noise(rows, cols, 3);
+        const Weights expected = c + a * b;
+        add_product(
+          { a.data(), rows, inner, inner, 1 }, { b.data(), inner, cols, cols, 1 }, c.data(), cols);
+        EXPECT_LT((c - expected).cwiseAbs().maxCoeff(), 1e-13 * static_cast<double>(inner + 1))
+          << rows << " " << cols << " " << inner;
+      }
+    }
+  }
+}
+
+TEST(DenseProduct, TakesTransposedAndWholeNumbersExactly)
+{
+  // Sums of whole numbers have no round-off.
+  Weights a = (noise(300, 37, 4) * 10.0).array().round();
+  Weights b = (noise(300, 41, 5) * 10.0).array().round();
+  Weights c = Weights::Zero(37, 50);
+  add_product({ a.data(), 37, 300, 1, 37 }, { b.data(), 300, 41, 41, 1 }, c.data(), 50);
+  EXPECT_EQ(Weights(c.leftCols(41)), Weights(a.transpose() * b));
+  EXPECT_TRUE(c.rightCols(9).isZero(0.0)); // what lies between the rows stays
+}
+
+TEST(DenseProduct, LowerHasTheLowerTriangle)
+{
+  const Weights a = (noise(290, 61, 6) * 10.0).array().round();
+  Weights c = Weights::Zero(61, 61);
+  add_product({ a.data(), 61, 290, 1, 61 }, { a.data(), 290, 61, 61, 1 }, c.data(), 61, true);
+  const Weights expected = a.transpose() * a;
+  EXPECT_EQ(
+    Weights(c.triangularView<Eigen::Lower>()), Weights(expected.triangularView<Eigen::Lower>()));
+}

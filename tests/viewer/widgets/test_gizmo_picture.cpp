@@ -1,0 +1,197 @@
+// The gizmo as it is seen: every part has pixels of its colour, what the mouse is on is lighter,
+// the colours of the axes are told apart by everyone, and 2x is the same picture twice as large.
+#include "widget_stage.h"
+#include "widgets/gizmo.h"
+
+#include "vtkImageData.h"
+#include "vtkMath.h"
+#include "vtkPNGWriter.h"
+#include "vtkProperty.h"
+#include "vtkWindowToImageFilter.h"
+
+#include <cstdlib>
+
+using namespace bindpose;
+using namespace bindpose::test;
+
+namespace
+{
+vtkSmartPointer<vtkImageData> picture(Stage& stage)
+{
+  stage.window->Render();
+  vtkNew<vtkWindowToImageFilter> grab;
+  grab->SetInput(stage.window);
+  grab->ReadFrontBufferOff();
+  grab->Update();
+  return grab->GetOutput();
+}
+
+// To be looked at: BINDPOSE_PICTURES names a folder.
+void keep(vtkImageData* image, const std::string& name)
+{
+  if (const char* folder = std::getenv("BINDPOSE_PICTURES"))
+  {
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetInputData(image);
+    writer->SetFileName((std::string(folder) + "/" + name + ".png").c_str());
+    writer->Write();
+  }
+}
+
+Vec3 pixel_of(vtkImageData* image, const Eigen::Vector2d& at)
+{
+  Vec3 colour;
+  for (int k = 0; k < 3; ++k)
+  {
+    colour[k] = image->GetScalarComponentAsDouble(
+      static_cast<int>(std::lround(at[0])), static_cast<int>(std::lround(at[1])), 0, k);
+  }
+  return colour;
+}
+
+// Pixels of an image that differ from its corner.
+int drawn_pixels(vtkImageData* image)
+{
+  const Vec3 ground = pixel_of(image, Eigen::Vector2d(0, 0));
+  int count = 0;
+  for (int y = 0; y < image->GetDimensions()[1]; ++y)
+  {
+    for (int x = 0; x < image->GetDimensions()[0]; ++x)
+    {
+      count += (pixel_of(image, Eigen::Vector2d(x, y)) - ground).norm() > 24.0;
+    }
+  }
+  return count;
+}
+
+class PictureStage : public Stage
+{
+public:
+  PictureStage(const Handles& list, int gizmo, int scale = 1) : Stage(list)
+  {
+    this->window->SetSize(400 * scale, 400 * scale);
+    this->renderer->SetBackground(0.93, 0.94, 0.95);
+    vtkCamera* camera = this->renderer->GetActiveCamera();
+    camera->SetPosition(5, 4, 8);
+    this->representation()->SetPixelScale(scale);
+    this->representation()->SetGizmo(gizmo);
+    this->representation()->SetSelectedHandle(0);
+    this->window->Render();
+  }
+};
+
+const Handles arm = { bone("arm", Vec3(-0.5, -0.3, 0), Vec3(1.1, 0.5, 0.6)) };
+const Handles lone = { point("p", Vec3(0, 0, 0)) };
+} // namespace
+
+TEST(GizmoPicture, EveryGizmoAtOneAndTwoPixels)
+{
+  const std::pair<int, const char*> gizmos[4] = { { Widget::GIZMO_MOVE, "move" },
+    { Widget::GIZMO_TURN, "turn" }, { Widget::GIZMO_SCALE, "scale" },
+    { Widget::GIZMO_ALL, "all" } };
+  for (const auto& [gizmo, name] : gizmos)
+  {
+    for (const bool bony : { false, true })
+    {
+      int drawn[2];
+      for (const int scale : { 1, 2 })
+      {
+        PictureStage stage(bony ? arm : lone, gizmo, scale);
+        const auto image = picture(stage);
+        keep(image, std::string(name) + (bony ? "-bone" : "-point") + "@" + std::to_string(scale));
+        drawn[scale - 1] = drawn_pixels(image);
+      }
+      EXPECT_GT(drawn[0], 2000) << name;
+      EXPECT_NEAR(static_cast<double>(drawn[1]) / drawn[0], 4.0, 0.25) << name;
+    }
+  }
+}
+
+TEST(GizmoPicture, WhatTheMouseIsOnIsLighterAndLarger)
+{
+  PictureStage stage(lone, Widget::GIZMO_MOVE);
+  const auto before = picture(stage);
+  const Eigen::Vector2d plate = stage.grip(Widget::MOVE_XY);
+  stage.send(vtkCommand::MouseMoveEvent, plate);
+  const auto after = picture(stage);
+  keep(after, "hover-plate");
+  EXPECT_GT(pixel_of(after, plate).sum(), pixel_of(before, plate).sum() + 60.0);
+  EXPECT_GT(drawn_pixels(after), drawn_pixels(before));
+}
+
+TEST(GizmoPicture, ADragShowsWhatItIsHeldTo)
+{
+  PictureStage stage(arm, Widget::GIZMO_TURN);
+  const Eigen::Vector2d from = stage.grip(Widget::TURN_Y);
+  stage.send(vtkCommand::MouseMoveEvent, from);
+  stage.send(vtkCommand::LeftButtonPressEvent, from);
+  stage.send(vtkCommand::MouseMoveEvent, from + Eigen::Vector2d(45, 10));
+  keep(picture(stage), "drag-turn");
+  stage.escape();
+
+  PictureStage moving(lone, Widget::GIZMO_NONE);
+  const int ball = drawn_pixels(picture(moving));
+  moving.key("g");
+  moving.send(vtkCommand::MouseMoveEvent, Eigen::Vector2d(220, 230));
+  moving.key("x");
+  const auto held = picture(moving);
+  keep(held, "drag-axis");
+  EXPECT_GT(drawn_pixels(held), ball + 300) << "a line along x through the whole window";
+  moving.escape();
+  moving.send(vtkCommand::MouseMoveEvent, Eigen::Vector2d(1, 1));
+  EXPECT_NEAR(drawn_pixels(picture(moving)), ball, 5);
+}
+
+TEST(GizmoPicture, ManyHandlesAreTwoActors)
+{
+  Handles handles;
+  for (int i = 0; i < 500; ++i)
+  {
+    handles.push_back(
+      point("p" + std::to_string(i), Vec3(0.1 * (i % 25) - 1.2, 0.12 * (i / 25) - 1.1, 0)));
+  }
+  PictureStage stage(handles, Widget::GIZMO_ALL);
+  keep(picture(stage), "many");
+  EXPECT_EQ(stage.renderer->GetActors()->GetNumberOfItems(), 0)
+    << "the representation draws by itself";
+  EXPECT_EQ(stage.renderer->GetViewProps()->GetNumberOfItems(), 1);
+}
+
+TEST(GizmoPicture, AxesAreToldApartByAllEyes)
+{
+  // What eyes without one kind of cone see (Machado, Oliveira and Fernandes 2009, severity 1).
+  Eigen::Matrix3d eyes[4];
+  eyes[0].setIdentity();
+  eyes[1] << 0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116,
+    1.051998;
+  eyes[2] << 0.367322, 0.860646, -0.227968, 0.280085, 0.672501, 0.047413, -0.011820, 0.042940,
+    0.968881;
+  eyes[3] << 1.255528, -0.076749, -0.178779, -0.078411, 0.930809, 0.147602, 0.004733, 0.691367,
+    0.303900;
+  const auto seen = [](const Eigen::Matrix3d& eye, const Colour& colour)
+  {
+    Vec3 light;
+    for (int k = 0; k < 3; ++k)
+    {
+      light[k] =
+        colour[k] <= 0.04045 ? colour[k] / 12.92 : std::pow((colour[k] + 0.055) / 1.055, 2.4);
+    }
+    light = (eye * light).cwiseMax(0.0).cwiseMin(1.0);
+    for (double& c : light)
+    {
+      c = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
+    }
+    Vec3 lab;
+    vtkMath::RGBToLab(light.data(), lab.data());
+    return lab;
+  };
+  const GizmoSetup setup;
+  for (const Eigen::Matrix3d& eye : eyes)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3 difference = seen(eye, setup.axes[k]) - seen(eye, setup.axes[(k + 1) % 3]);
+      EXPECT_GT(difference.norm(), 25.0) << k;
+    }
+  }
+}

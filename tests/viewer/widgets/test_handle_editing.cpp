@@ -1,0 +1,428 @@
+// Edit modes: what a click makes, where, and that the dataset is a valid one after every step.
+#include "widget_stage.h"
+
+#include "support/meshes.h"
+
+#include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkStringArray.h"
+
+using namespace bindpose;
+using namespace bindpose::test;
+
+namespace
+{
+// No handle yet, and a ball of radius 1 around the origin, seen from +z.
+class EditStage : public Stage
+{
+public:
+  explicit EditStage(int mode, const Handles& list = {}, bool with_ball = true)
+    : Stage(list.empty() ? vtkSmartPointer<vtkPolyData>::New() : to_polydata(list))
+  {
+    const TriangleMesh ball = sphere(3);
+    this->surface = bindpose::to_polydata(ball.points, ball.triangles);
+    if (with_ball)
+    {
+      this->representation()->SetSurface(this->surface);
+    }
+    this->widget->SetEditMode(mode);
+    this->widget->AddObserver(vtkCommand::PlacePointEvent, this->counter);
+    this->widget->AddObserver(vtkCommand::WarningEvent, this->counter);
+    this->widget->AddObserver(vtkCommand::StateChangedEvent, this->counter);
+    this->window->Render();
+  }
+  void click(const Vec3& at)
+  {
+    this->press(at);
+    this->release(at);
+  }
+  // What filters make of the dataset.
+  Handles list()
+  {
+    Handles result;
+    const Status status = to_handles(this->handles, result);
+    EXPECT_TRUE(status.ok()) << status.message;
+    return result;
+  }
+  vtkSmartPointer<vtkPolyData> surface;
+};
+
+const double shot = 2.5 * pixel; // a pixel, and the facets of the ball
+} // namespace
+
+TEST(HandleEditing, PointsGoToMidThickness)
+{
+  EditStage stage(Widget::ADD_POINTS);
+  stage.click(Vec3(0.3, 0.2, 0));
+  Handles handles = stage.list();
+  ASSERT_EQ(handles.size(), 1u);
+  EXPECT_EQ(handles[0].name, "p1");
+  EXPECT_EQ(handles[0].kind, HandleKind::point);
+  // From the side of the eye the middle of the chord is nearest to the centre.
+  const Vec3 sight = (handles[0].head - Vec3(0, 0, 10)).normalized();
+  EXPECT_LT(std::abs(handles[0].head.dot(sight)), 0.02) << "in the centre plane across the ray";
+  EXPECT_LT((stage.display(handles[0].head) - stage.display(Vec3(0.3, 0.2, 0))).norm(), 1.0);
+  EXPECT_EQ(stage.representation()->GetSelectedHandle(), 0);
+  EXPECT_EQ(stage.representation()->GetInteractionName(), "add point");
+  EXPECT_EQ(stage.events[vtkCommand::PlacePointEvent], 1);
+  EXPECT_EQ(stage.events[vtkCommand::StartInteractionEvent], 1);
+  EXPECT_EQ(stage.events[vtkCommand::InteractionEvent], 1);
+  EXPECT_EQ(stage.events[vtkCommand::EndInteractionEvent], 1);
+  EXPECT_FALSE(stage.widget->GetCancelled());
+
+  stage.representation()->PlaceInsideOff();
+  stage.click(Vec3(-0.3, 0.2, 0));
+  handles = stage.list();
+  ASSERT_EQ(handles.size(), 2u);
+  EXPECT_NEAR(handles[1].head.norm(), 1.0, 0.01) << "on the surface";
+  EXPECT_GT(handles[1].head[2], 0.5) << "on the side of the eye";
+  EXPECT_EQ(handles[1].name, "p2");
+}
+
+TEST(HandleEditing, BesideTheSurfaceTheCameraHasTheMouse)
+{
+  EditStage stage(Widget::ADD_POINTS);
+  const Vec3 before(stage.renderer->GetActiveCamera()->GetPosition());
+  stage.drag(Vec3(-1.8, -1.8, 0), Vec3(-1.2, -1.8, 0));
+  EXPECT_GT((Vec3(stage.renderer->GetActiveCamera()->GetPosition()) - before).norm(), 0.1);
+  EXPECT_EQ(stage.handles->GetNumberOfCells(), 0);
+}
+
+TEST(HandleEditing, APointIsWhereTheButtonIsReleasedAndEscapeMakesNone)
+{
+  EditStage stage(Widget::ADD_POINTS);
+  stage.drag(Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0));
+  ASSERT_EQ(stage.list().size(), 1u);
+  EXPECT_GT(stage.list()[0].head[0], 0.4);
+  stage.press(Vec3(0, 0.5, 0));
+  stage.move(Vec3(0, 0.4, 0));
+  stage.escape();
+  EXPECT_TRUE(stage.widget->GetCancelled());
+  stage.release(Vec3(0, 0.4, 0));
+  EXPECT_EQ(stage.list().size(), 1u);
+  EXPECT_EQ(stage.widget->GetEditMode(), Widget::ADD_POINTS) << "only the placing is cancelled";
+  stage.escape();
+  EXPECT_EQ(stage.widget->GetEditMode(), Widget::POSE);
+  EXPECT_EQ(stage.events[vtkCommand::StateChangedEvent], 1);
+}
+
+TEST(HandleEditing, TwoPointsAtOnePlaceAreRefused)
+{
+  EditStage stage(Widget::ADD_POINTS);
+  stage.click(Vec3(0.3, 0.2, 0));
+  stage.click(Vec3(0.3, 0.2, 0));
+  EXPECT_EQ(stage.list().size(), 1u);
+  EXPECT_EQ(stage.events[vtkCommand::WarningEvent], 1);
+  EXPECT_NE(stage.representation()->GetEditMessage().find("same place"), std::string::npos);
+  EXPECT_TRUE(stage.widget->GetCancelled());
+  stage.click(Vec3(-0.3, 0.2, 0));
+  EXPECT_EQ(stage.events[vtkCommand::WarningEvent], 1) << "said once";
+}
+
+TEST(HandleEditing, CtrlSnapsToVerticesOfTheSurface)
+{
+  EditStage stage(Widget::ADD_POINTS);
+  stage.hold(false, true);
+  stage.click(Vec3(0.31, 0.22, 0));
+  const Vec3 place = stage.list()[0].head;
+  double nearest = 1.0;
+  for (vtkIdType v = 0; v < stage.surface->GetNumberOfPoints(); ++v)
+  {
+    nearest = std::min(nearest, (Vec3(stage.surface->GetPoint(v)) - place).norm());
+  }
+  EXPECT_EQ(nearest, 0.0);
+}
+
+TEST(HandleEditing, BonesAreDrawnAndContinueChains)
+{
+  EditStage stage(Widget::ADD_BONES);
+  stage.drag(Vec3(-0.6, 0, 0), Vec3(0, 0.1, 0));
+  Handles handles = stage.list();
+  ASSERT_EQ(handles.size(), 1u);
+  EXPECT_EQ(handles[0].kind, HandleKind::bone);
+  EXPECT_EQ(handles[0].name, "b1");
+  EXPECT_EQ(handles[0].parent, -1);
+  EXPECT_LT((stage.display(handles[0].head) - stage.display(Vec3(-0.6, 0, 0))).norm(), 1.0);
+  EXPECT_LT((stage.display(handles[0].tail) - stage.display(Vec3(0, 0.1, 0))).norm(), 1.0);
+  // The next drag begins at the tail, a little beside it: the child hangs there exactly. It leaves
+  // the shape: its tail is at its head's depth then.
+  const Vec3 tail = handles[0].tail;
+  stage.drag(tail + Vec3(2 * pixel, 0, 0), Vec3(1.6, 0.4, tail[2]));
+  handles = stage.list();
+  ASSERT_EQ(handles.size(), 2u);
+  EXPECT_EQ(handles[1].parent, 0);
+  EXPECT_EQ(handles[1].head, tail);
+  EXPECT_LT((handles[1].tail - Vec3(1.6, 0.4, tail[2])).norm(), shot);
+  // And from the joint a second child; from the root's head one, too.
+  stage.drag(tail, Vec3(0, -0.6, 0));
+  stage.drag(handles[0].head, Vec3(-0.6, 0.5, 0));
+  handles = stage.list();
+  ASSERT_EQ(handles.size(), 4u);
+  EXPECT_EQ(handles[2].parent, 0);
+  EXPECT_EQ(handles[2].head, tail);
+  EXPECT_EQ(handles[3].parent, 0);
+  EXPECT_EQ(handles[3].head, handles[0].head);
+  EXPECT_EQ(stage.representation()->GetInteractionName(), "add bone");
+  // A click is no bone.
+  stage.click(Vec3(0.4, -0.4, 0));
+  EXPECT_EQ(stage.list().size(), 4u);
+  EXPECT_TRUE(stage.widget->GetCancelled());
+}
+
+TEST(HandleEditing, ATailSnapsToOtherEndsWithCtrl)
+{
+  EditStage stage(Widget::ADD_BONES, { point("p", Vec3(0.4, 0.4, 0.3)) });
+  stage.hold(false, true);
+  stage.press(Vec3(-0.4, 0, 0));
+  stage.hold(false, false);
+  stage.release(Vec3(-0.4, 0, 0)); // nothing: a click
+  stage.press(Vec3(-0.4, 0, 0));
+  stage.hold(false, true);
+  stage.move(Vec3(0.4, 0.4, 0.3) + Vec3(3 * pixel, 0, 0));
+  stage.release(Vec3(0.4, 0.4, 0.3) + Vec3(3 * pixel, 0, 0));
+  ASSERT_EQ(stage.list().size(), 2u);
+  EXPECT_EQ(stage.list()[1].tail, Vec3(0.4, 0.4, 0.3));
+}
+
+TEST(HandleEditing, PosesColoursAndSelectionFollowTheirHandles)
+{
+  // A point is added before the bone in the order of cells.
+  EditStage stage(Widget::ADD_POINTS, { bone("b", Vec3(-0.5, 0, 0), Vec3(0.2, 0, 0)) });
+  const double t[3] = { 0.5, 0.25, 0 };
+  stage.representation()->SetHandleTranslation(0, t);
+  stage.representation()->SetHandleStretch(0, 1.25);
+  vtkNew<vtkDoubleArray> own;
+  own->SetName("Weight of my own");
+  own->InsertNextValue(42.0);
+  stage.handles->GetCellData()->AddArray(own);
+  stage.handles->GetCellData()->GetArray("Mode")->SetComponent(0, 0, 1);
+  stage.representation()->SetSelectedHandle(0);
+  stage.click(Vec3(0.3, 0.5, 0));
+  ASSERT_EQ(stage.handles->GetNumberOfCells(), 2);
+  EXPECT_EQ(stage.representation()->GetHandleName(1), "b");
+  EXPECT_EQ(stage.transform(0), identity_affine());
+  double now[3];
+  stage.representation()->GetHandleTranslation(1, now);
+  EXPECT_EQ(Vec3(now), Vec3(t));
+  EXPECT_EQ(stage.representation()->GetHandleStretch(1), 1.25);
+  EXPECT_EQ(stage.representation()->GetHandleStretch(0), 1.0);
+  EXPECT_EQ(stage.representation()->GetHandleMode(1), 1);
+  EXPECT_EQ(stage.representation()->GetHandleMode(0), 0);
+  EXPECT_EQ(stage.handles->GetCellData()->GetArray("Weight of my own")->GetComponent(1, 0), 42.0);
+  EXPECT_EQ(stage.representation()->GetSelectedHandle(), 0) << "the new one";
+}
+
+TEST(HandleEditing, CagesAreClickedAndClosed)
+{
+  EditStage stage(Widget::ADD_CAGE);
+  const Vec3 corners[4] = { Vec3(-1.4, -1.4, 0), Vec3(1.4, -1.4, 0), Vec3(1.4, 1.4, 0),
+    Vec3(-1.4, 1.4, 0) };
+  for (int k = 0; k < 4; ++k)
+  {
+    stage.click(corners[k]);
+    const Handles handles = stage.list();
+    ASSERT_EQ(handles.size(), static_cast<std::size_t>(k + 1));
+    EXPECT_EQ(handles.back().kind, HandleKind::cage_vertex);
+    EXPECT_LT((handles.back().head - corners[k]).norm(), shot);
+    EXPECT_EQ(stage.handles->GetNumberOfLines(), k) << "edges";
+  }
+  EXPECT_TRUE(stage.representation()->IsMakingCage());
+  stage.click(corners[0]);
+  EXPECT_FALSE(stage.representation()->IsMakingCage()) << "closed";
+  EXPECT_EQ(stage.list().size(), 4u);
+  EXPECT_EQ(stage.handles->GetNumberOfLines(), 4);
+  EXPECT_EQ(stage.representation()->GetInteractionName(), "close cage");
+  vtkDataArray* kinds = stage.handles->GetCellData()->GetArray("HandleKind");
+  ASSERT_EQ(kinds->GetNumberOfTuples(), 8);
+  for (vtkIdType cell = 0; cell < 8; ++cell)
+  {
+    EXPECT_EQ(kinds->GetComponent(cell, 0), cell < 4 ? 2 : -1);
+  }
+  EXPECT_EQ(stage.events[vtkCommand::PlacePointEvent], 5);
+}
+
+TEST(HandleEditing, EscapeDropsVerticesAndEnterLeavesACageOpen)
+{
+  EditStage stage(Widget::ADD_CAGE);
+  stage.click(Vec3(-1.4, -1.4, 0));
+  stage.click(Vec3(1.4, -1.4, 0));
+  stage.click(Vec3(1.4, 1.4, 0));
+  stage.escape();
+  EXPECT_EQ(stage.list().size(), 2u);
+  EXPECT_EQ(stage.handles->GetNumberOfLines(), 1);
+  EXPECT_EQ(stage.representation()->GetInteractionName(), "remove cage vertex");
+  stage.click(Vec3(0, 1.5, 0));
+  stage.key("Return");
+  EXPECT_FALSE(stage.representation()->IsMakingCage());
+  EXPECT_EQ(stage.list().size(), 3u);
+  EXPECT_EQ(stage.handles->GetNumberOfLines(), 2);
+  // It goes on from any vertex; a second click of a double click ends it.
+  stage.click(Vec3(0, 1.5, 0));
+  EXPECT_TRUE(stage.representation()->IsMakingCage());
+  stage.click(Vec3(-1.5, 1.0, 0));
+  const Eigen::Vector2d at = stage.display(Vec3(-1.5, 1.0, 0));
+  stage.interactor->SetEventInformation(
+    static_cast<int>(at[0]), static_cast<int>(at[1]), 0, 0, 0, 1);
+  stage.interactor->InvokeEvent(vtkCommand::LeftButtonPressEvent);
+  EXPECT_FALSE(stage.representation()->IsMakingCage());
+  EXPECT_EQ(stage.list().size(), 4u);
+  EXPECT_EQ(stage.handles->GetNumberOfLines(), 3);
+  stage.escape();
+  EXPECT_EQ(stage.widget->GetEditMode(), Widget::POSE);
+  EXPECT_EQ(stage.list().size(), 4u);
+}
+
+TEST(HandleEditing, RestPlacesMoveUnderTheMouse)
+{
+  EditStage stage(Widget::MOVE_REST, { point("p", Vec3(0.5, 0.5, 0.2)) });
+  const double t[3] = { 0, -1, 0 };
+  stage.representation()->SetHandleTranslation(0, t); // posed elsewhere: the rest is what is seen
+  stage.drag(Vec3(0.5, 0.5, 0.2), Vec3(-0.5, 0.75, 0.2));
+  EXPECT_LT((stage.list()[0].head - Vec3(-0.5, 0.75, 0.2)).norm(), shot);
+  EXPECT_NEAR(stage.list()[0].head[2], 0.2, 1e-9);
+  double now[3];
+  stage.representation()->GetHandleTranslation(0, now);
+  EXPECT_LT((Vec3(now) - Vec3(t)).norm(), 1e-12);
+  EXPECT_EQ(stage.representation()->GetInteractionName(), "move rest");
+  EXPECT_EQ(stage.events[vtkCommand::InteractionEvent], 5) << "four moves and the end";
+}
+
+TEST(HandleEditing, JointsMoveTogetherAndBodiesWhole)
+{
+  const Handles arm = { bone("upper", Vec3(-1, 0, 0), Vec3(0, 0, 0)),
+    bone("lower", Vec3(0, 0, 0), Vec3(1, 0, 0), 0), bone("other", Vec3(-1, 1, 0), Vec3(1, 1, 0)) };
+  EditStage stage(Widget::MOVE_REST, arm);
+  stage.drag(Vec3(0, 0, 0), Vec3(0, 0.5, 0));
+  Handles handles = stage.list();
+  EXPECT_LT((handles[0].tail - Vec3(0, 0.5, 0)).norm(), shot);
+  EXPECT_EQ(handles[0].tail, handles[1].head);
+  EXPECT_EQ(handles[0].head, Vec3(-1, 0, 0));
+  EXPECT_EQ(handles[1].tail, Vec3(1, 0, 0));
+  stage.drag(Vec3(0, 1, 0), Vec3(0.2, 1.3, 0)); // the body of the other one
+  handles = stage.list();
+  EXPECT_LT((handles[2].head - Vec3(-0.8, 1.3, 0)).norm(), shot);
+  EXPECT_LT((handles[2].tail - Vec3(1.2, 1.3, 0)).norm(), shot);
+  EXPECT_LT((handles[2].tail - handles[2].head - Vec3(2, 0, 0)).norm(), 1e-12);
+}
+
+TEST(HandleEditing, CancelledRestMovesKeepEveryBitAndTheBind)
+{
+  EditStage stage(Widget::MOVE_REST,
+    { point("p", Vec3(0.5, 0.5, 0.2)), bone("b", Vec3(-1, 0, 0), Vec3(0, 0, 0)) });
+  const std::vector<vtkObject*> before = bind_objects(stage.handles);
+  stage.press(Vec3(0.5, 0.5, 0.2));
+  stage.move(Vec3(0.7, 0.5, 0.2));
+  stage.move(Vec3(0.9, 0.9, 0.2));
+  EXPECT_NE(bind_objects(stage.handles), before);
+  stage.escape();
+  EXPECT_EQ(bind_objects(stage.handles), before) << "the very same arrays";
+  EXPECT_EQ(stage.list()[0].head, Vec3(0.5, 0.5, 0.2));
+  EXPECT_TRUE(stage.widget->GetCancelled());
+  stage.press(Vec3(0.5, 0.5, 0.2)); // a click changes nothing either
+  stage.release(Vec3(0.5, 0.5, 0.2));
+  EXPECT_EQ(bind_objects(stage.handles), before);
+  EXPECT_TRUE(stage.widget->GetCancelled());
+}
+
+TEST(HandleEditing, RestMovesAreHeldSnappedAndLocked)
+{
+  EditStage stage(Widget::MOVE_REST,
+    { point("p", Vec3(0.5, 0.5, 0.2)), point("q", Vec3(-0.5, -0.5, 0)),
+      bone("b", Vec3(-1, 1, 0.3), Vec3(0, 1, 0)) },
+    false);
+  stage.press(Vec3(0.5, 0.5, 0.2));
+  stage.move(Vec3(0.9, 0.8, 0.2));
+  stage.key("x");
+  stage.move(Vec3(1.0, 0.9, 0.2));
+  EXPECT_EQ(stage.list()[0].head.tail<2>(), Eigen::Vector2d(0.5, 0.2));
+  EXPECT_NEAR(stage.list()[0].head[0], 1.0, shot);
+  stage.escape();
+  // Ctrl: in steps, or onto another handle's end.
+  stage.representation()->SetLengthStep(0.25);
+  stage.hold(false, true);
+  stage.drag(Vec3(0.5, 0.5, 0.2), Vec3(0.8, 0.2, 0.2));
+  EXPECT_LT((stage.list()[0].head - Vec3(0.75, 0.25, 0.2)).norm(), 1e-12);
+  stage.drag(Vec3(0.75, 0.25, 0.2), Vec3(-1, 1, 0.3) + Vec3(3 * pixel, 0, 0));
+  EXPECT_EQ(stage.list()[0].head, Vec3(-1, 1, 0.3));
+  stage.hold(false, false);
+  set_handle_locked(stage.handles, 1, true);
+  stage.drag(Vec3(-0.5, -0.5, 0), Vec3(0, 0, 0));
+  EXPECT_EQ(stage.list()[1].head, Vec3(-0.5, -0.5, 0));
+  // Onto one of its own kind it cannot go: it stays where it last could be.
+  set_handle_locked(stage.handles, 1, false);
+  stage.hold(false, true);
+  stage.drag(Vec3(-1, 1, 0.3), Vec3(-0.5, -0.5, 0), 2);
+  EXPECT_NE(stage.list()[0].head, stage.list()[1].head);
+  EXPECT_EQ(stage.events[vtkCommand::WarningEvent], 1);
+}
+
+TEST(HandleEditing, SeveralRestPlacesMoveTogether)
+{
+  EditStage stage(Widget::MOVE_REST,
+    { point("p", Vec3(0.5, 0.5, 0)), point("q", Vec3(-0.5, -0.5, 0)),
+      point("r", Vec3(-0.5, 0.5, 0)) });
+  stage.representation()->SetSelectedHandle(0);
+  stage.representation()->ToggleSelected(1);
+  stage.drag(Vec3(0.5, 0.5, 0), Vec3(0.7, 0.6, 0));
+  const Handles handles = stage.list();
+  EXPECT_LT((handles[0].head - Vec3(0.7, 0.6, 0)).norm(), shot);
+  EXPECT_LT((handles[0].head - handles[1].head - Vec3(1, 1, 0)).norm(), 1e-12);
+  EXPECT_EQ(handles[2].head, Vec3(-0.5, 0.5, 0));
+}
+
+TEST(HandleEditing, WithoutASurfacePlacesAreAtTheFocus)
+{
+  EditStage stage(Widget::ADD_POINTS, {}, false);
+  stage.click(Vec3(1.2, -0.7, 0));
+  EXPECT_LT((stage.list()[0].head - Vec3(1.2, -0.7, 0)).norm(), pixel);
+}
+
+TEST(HandleEditing, APreviewIsDrawnAndChangesNothing)
+{
+  EditStage stage(Widget::ADD_BONES);
+  stage.move(Vec3(0.2, 0.2, 0));
+  EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::PLACING);
+  stage.press(Vec3(-0.5, 0, 0));
+  stage.move(Vec3(0.5, 0.3, 0));
+  stage.window->Render();
+  EXPECT_EQ(stage.handles->GetNumberOfCells(), 0);
+  EXPECT_EQ(stage.events[vtkCommand::InteractionEvent], 0);
+  stage.widget->SetEditMode(Widget::POSE); // lets go of it
+  EXPECT_FALSE(stage.widget->IsDragging());
+  stage.release(Vec3(0.5, 0.3, 0));
+  EXPECT_EQ(stage.handles->GetNumberOfCells(), 0);
+}
+
+TEST(HandleEditing, UndoByEventsIsExact)
+{
+  // As the application does it: a copy at the start of each interaction, put back later.
+  EditStage stage(Widget::ADD_BONES, { point("p", Vec3(0.4, 0.4, 0)) });
+  struct Memory
+  {
+    vtkPolyData* handles;
+    std::vector<vtkSmartPointer<vtkPolyData>> before;
+  } memory{ stage.handles, {} };
+  vtkNew<vtkCallbackCommand> keep;
+  keep->SetClientData(&memory);
+  keep->SetCallback(
+    [](vtkObject*, unsigned long, void* data, void*)
+    {
+      auto* self = static_cast<Memory*>(data);
+      self->before.push_back(vtkSmartPointer<vtkPolyData>::New());
+      self->before.back()->ShallowCopy(self->handles);
+    });
+  stage.widget->AddObserver(vtkCommand::StartInteractionEvent, keep);
+  stage.drag(Vec3(-0.6, 0, 0), Vec3(0, 0.1, 0));
+  stage.widget->SetEditMode(Widget::ADD_CAGE);
+  stage.click(Vec3(1.2, 1.2, 0));
+  stage.widget->SetEditMode(Widget::MOVE_REST);
+  stage.drag(Vec3(0.4, 0.4, 0), Vec3(0.6, 0.4, 0));
+  ASSERT_EQ(memory.before.size(), 3u);
+  const std::size_t sizes[3] = { 1, 2, 3 };
+  for (int step = 2; step >= 0; --step)
+  {
+    stage.handles->ShallowCopy(memory.before[static_cast<std::size_t>(step)]);
+    EXPECT_EQ(stage.list().size(), sizes[step]);
+    EXPECT_EQ(stage.list()[0].head, Vec3(0.4, 0.4, 0));
+  }
+}

@@ -1,0 +1,44 @@
+#ifndef notice_bar_h
+#define notice_bar_h
+
+#include <QFrame>
+#include <QList>
+
+#include <functional>
+
+class QHBoxLayout;
+class QLabel;
+class QPushButton;
+
+/// A sentence above the picture with something to do about it, until that is done or it is closed.
+/// It never stops the work.
+class NoticeBar : public QFrame
+{
+  Q_OBJECT
+
+public:
+  struct Choice
+  {
+    QString text;
+    std::function<void()> action; ///< the bar is hidden before
+  };
+
+  explicit NoticeBar(QWidget* parent);
+
+  /// Replaces what is there. `close` names the button that only hides the bar; empty: none.
+  void offer(const QString& sentence, const QList<Choice>& choices, const QString& close);
+  /// Empty when the bar is hidden.
+  QString sentence() const;
+
+Q_SIGNALS:
+  void closed();
+
+private:
+  QPushButton* add_button(const QString& text);
+
+  QLabel* text_;
+  QHBoxLayout* row_;
+  QList<QPushButton*> buttons_;
+};
+
+#endif

@@ -1,0 +1,42 @@
+#ifndef window_menus_h
+#define window_menus_h
+
+#include <QObject>
+
+class MainWindow;
+class QAction;
+class QActionGroup;
+class QKeySequence;
+class QMenu;
+
+/// The menus of the window, and what of them can be chosen now.
+class WindowMenus : public QObject
+{
+  Q_OBJECT
+
+public:
+  explicit WindowMenus(MainWindow* window);
+
+  /// What is there decides what can be chosen.
+  void update();
+  void show_method(int method);
+
+private:
+  template <typename Action>
+  QAction* add(QMenu* menu, const QString& text, const QKeySequence& keys, Action action);
+  void add_file_menu();
+  void add_edit_menu();
+  void add_view_menu();
+
+  MainWindow* window_;
+  QAction* save_ = nullptr;
+  QAction* save_as_ = nullptr;
+  QAction* save_shape_ = nullptr;
+  QAction* save_pose_ = nullptr;
+  QAction* save_picture_ = nullptr;
+  QAction* bind_ = nullptr;
+  QAction* rest_pose_ = nullptr;
+  QActionGroup* methods_ = nullptr;
+};
+
+#endif

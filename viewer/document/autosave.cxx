@@ -1,0 +1,156 @@
+// One folder a process, ROOT/PID-RANDOM, with a lock file that names the process. A folder whose
+// lock can be had belongs to nobody any more.
+#include "document/autosave.h"
+
+#include <QCoreApplication>
+#include <QDir>
+#include <QElapsedTimer>
+#include <QFileInfo>
+#include <QLockFile>
+#include <QRandomGenerator>
+#include <QStandardPaths>
+
+#include <algorithm>
+
+using namespace bindpose;
+
+namespace
+{
+constexpr double usual_interval = 60.0; // seconds
+const char* const session_name = "work.bindpose";
+
+std::unique_ptr<QLockFile> lock_of(const QString& folder)
+{
+  auto lock = std::make_unique<QLockFile>(folder + "/lock");
+  lock->setStaleLockTime(0); // only the death of its process frees it
+  return lock;
+}
+} // namespace
+
+Autosave::Autosave(MakeSession make_session, const QString& root, QObject* parent)
+  : QObject(parent), make_session_(std::move(make_session)),
+    root_(root.isEmpty() ? default_root() : root)
+{
+  this->timer_.setSingleShot(true);
+  this->timer_.setInterval(static_cast<int>(1000.0 * interval()));
+  QObject::connect(&this->timer_, &QTimer::timeout, this, &Autosave::save);
+}
+
+Autosave::~Autosave()
+{
+  if (!this->folder_.isEmpty())
+  {
+    this->lock_->unlock();
+    QDir(this->folder_).removeRecursively();
+  }
+}
+
+QString Autosave::default_root()
+{
+  return QStandardPaths::writableLocation(QStandardPaths::AppDataLocation) + "/recovery";
+}
+
+double Autosave::interval()
+{
+  bool given = false;
+  const double seconds = qEnvironmentVariable("BINDPOSE_AUTOSAVE_SECONDS").toDouble(&given);
+  return given && seconds >= 0.0 ? std::min(seconds, 86400.0) : usual_interval;
+}
+
+void Autosave::note_change()
+{
+  if (!this->timer_.isActive())
+  {
+    this->timer_.start();
+  }
+}
+
+QString Autosave::path() const
+{
+  return this->folder_.isEmpty() ? QString() : this->folder_ + '/' + session_name;
+}
+
+/// Made when there is something to put into it.
+bool Autosave::make_folder()
+{
+  constexpr int tries = 8; // another process may look into a new folder before it is locked
+  for (int k = 0; k < tries && this->folder_.isEmpty(); ++k)
+  {
+    const QString folder = QString("%1/%2-%3")
+                             .arg(this->root_)
+                             .arg(QCoreApplication::applicationPid())
+                             .arg(QRandomGenerator::global()->generate(), 8, 16, QChar('0'));
+    auto lock = lock_of(folder);
+    if (QDir().mkpath(folder) && lock->tryLock(0))
+    {
+      this->folder_ = folder;
+      this->lock_ = std::move(lock);
+    }
+  }
+  return !this->folder_.isEmpty();
+}
+
+Status Autosave::save()
+{
+  QElapsedTimer clock;
+  clock.start();
+  this->timer_.stop();
+  const Status status = this->make_folder()
+    ? this->file_.write(this->path(), this->make_session_())
+    : Status::invalid_input("cannot write to " + this->root_.toStdString());
+  this->milliseconds_ = 1e-6 * static_cast<double>(clock.nsecsElapsed());
+  if (!status.ok())
+  {
+    Q_EMIT this->failed(
+      tr("The work is not being backed up: %1.").arg(QString::fromStdString(status.message)));
+  }
+  return status;
+}
+
+// ---- After a crash -----------------------------------------------------------------------------
+
+std::unique_ptr<RecoveredWork> RecoveredWork::find(const QString& root)
+{
+  std::unique_ptr<RecoveredWork> latest;
+  for (const QFileInfo& folder : QDir(root).entryInfoList(QDir::Dirs | QDir::NoDotAndDotDot))
+  {
+    auto lock = lock_of(folder.filePath());
+    if (!lock->tryLock(0))
+    {
+      continue; // its process lives
+    }
+    const QFileInfo session(folder.filePath() + '/' + session_name);
+    if (!session.exists())
+    {
+      lock->unlock();
+      QDir(folder.filePath()).removeRecursively(); // it died before there was anything
+      continue;
+    }
+    if (latest && latest->time_ >= session.lastModified())
+    {
+      continue;
+    }
+    latest.reset(new RecoveredWork);
+    latest->folder_ = folder.filePath();
+    latest->time_ = session.lastModified();
+    latest->lock_ = std::move(lock);
+  }
+  return latest;
+}
+
+RecoveredWork::~RecoveredWork() = default;
+
+QString RecoveredWork::path() const
+{
+  return this->folder_ + '/' + session_name;
+}
+
+void RecoveredWork::remove()
+{
+  if (!this->folder_.isEmpty())
+  {
+    this->lock_->unlock();
+    QDir(this->folder_).removeRecursively();
+    this->folder_.clear();
+  }
+}

@@ -1,0 +1,390 @@
+#include "document/dataset_json.h"
+
+#include "vtkAbstractArray.h"
+#include "vtkCellArray.h"
+#include "vtkCellArrayIterator.h"
+#include "vtkCellData.h"
+#include "vtkDataArray.h"
+#include "vtkNew.h"
+#include "vtkStringArray.h"
+
+#include <cmath>
+#include <limits>
+
+using nlohmann::json;
+
+namespace
+{
+constexpr int most_components = 1000000;
+
+/// Names of types in the file. Others are written as doubles.
+const struct
+{
+  int type;
+  const char* name;
+} types[] = { { VTK_DOUBLE, "double" }, { VTK_FLOAT, "float" }, { VTK_INT, "int32" },
+  { VTK_ID_TYPE, "id" }, { VTK_LONG_LONG, "int64" }, { VTK_UNSIGNED_CHAR, "uint8" },
+  { VTK_SIGNED_CHAR, "int8" }, { VTK_CHAR, "char" } };
+
+bool is_real(int type)
+{
+  return type == VTK_DOUBLE || type == VTK_FLOAT;
+}
+
+json array_to_json(vtkAbstractArray* array)
+{
+  json result = { { "name", array->GetName() }, { "components", array->GetNumberOfComponents() } };
+  json& values = result["values"] = json::array();
+  if (auto* texts = vtkStringArray::SafeDownCast(array))
+  {
+    result["type"] = "text";
+    for (vtkIdType i = 0; i < texts->GetNumberOfValues(); ++i)
+    {
+      values.push_back(std::string(texts->GetValue(i)));
+    }
+    return result;
+  }
+  auto* numbers = vtkDataArray::SafeDownCast(array);
+  int type = VTK_DOUBLE;
+  result["type"] = "double";
+  for (const auto& known : types)
+  {
+    if (known.type == numbers->GetDataType())
+    {
+      type = known.type;
+      result["type"] = known.name;
+    }
+  }
+  for (vtkIdType i = 0; i < numbers->GetNumberOfTuples(); ++i)
+  {
+    for (int c = 0; c < numbers->GetNumberOfComponents(); ++c)
+    {
+      const double value = numbers->GetComponent(i, c);
+      if (is_real(type))
+      {
+        values.push_back(value); // null where it is not finite
+      }
+      else
+      {
+        values.push_back(static_cast<std::int64_t>(value));
+      }
+    }
+  }
+  return result;
+}
+
+vtkSmartPointer<vtkAbstractArray> array_from_json(const json& value, vtkIdType tuples)
+{
+  const std::string name = json_text(json_at(value, "name"), "the name of an array");
+  const std::string type = json_text(json_at(value, "type"), "the type of an array");
+  const int components =
+    json_integer(json_at(value, "components"), "the components of an array", 1, most_components);
+  const json& values = json_at(value, "values");
+  if (!values.is_array() || values.size() != static_cast<std::size_t>(tuples) * components)
+  {
+    throw SessionError("the array " + name + " of the handles has a wrong number of values");
+  }
+  if (type == "text")
+  {
+    auto texts = vtkSmartPointer<vtkStringArray>::New();
+    texts->SetName(name.c_str());
+    texts->SetNumberOfComponents(components);
+    for (const json& text : values)
+    {
+      texts->InsertNextValue(json_text(text, "a name of a handle"));
+    }
+    return texts;
+  }
+  for (const auto& known : types)
+  {
+    if (type != known.name)
+    {
+      continue;
+    }
+    auto numbers = vtk::TakeSmartPointer(vtkDataArray::CreateDataArray(known.type));
+    numbers->SetName(name.c_str());
+    numbers->SetNumberOfComponents(components);
+    numbers->SetNumberOfTuples(tuples);
+    for (std::size_t i = 0; i < values.size(); ++i)
+    {
+      const bool nothing = values[i].is_null() && is_real(known.type);
+      const double number = nothing ? std::numeric_limits<double>::quiet_NaN()
+                                    : json_number(values[i], "a number of the handles");
+      if (number < numbers->GetDataTypeMin() || number > numbers->GetDataTypeMax())
+      {
+        throw SessionError("a number of the array " + name + " of the handles is out of range");
+      }
+      numbers->SetComponent(
+        static_cast<vtkIdType>(i / components), static_cast<int>(i % components), number);
+    }
+    return numbers;
+  }
+  throw SessionError("the array " + name + " of the handles is of an unknown type");
+}
+
+json cells_to_json(vtkCellArray* cells)
+{
+  json result = json::array();
+  const auto each = vtk::TakeSmartPointer(cells->NewIterator());
+  for (each->GoToFirstCell(); !each->IsDoneWithTraversal(); each->GoToNextCell())
+  {
+    vtkIdType size = 0;
+    const vtkIdType* ids = nullptr;
+    each->GetCurrentCell(size, ids);
+    result.push_back(std::vector<vtkIdType>(ids, ids + size));
+  }
+  return result;
+}
+
+vtkSmartPointer<vtkCellArray> cells_from_json(const json& list, vtkIdType points)
+{
+  auto cells = vtkSmartPointer<vtkCellArray>::New();
+  if (!list.is_array())
+  {
+    throw SessionError("the cells of the handles are no list");
+  }
+  for (const json& cell : list)
+  {
+    if (!cell.is_array() || cell.empty())
+    {
+      throw SessionError("a cell of the handles is no list of points");
+    }
+    cells->InsertNextCell(static_cast<int>(cell.size()));
+    for (const json& id : cell)
+    {
+      cells->InsertCellPoint(
+        json_integer(id, "a point of a handle", 0, static_cast<int>(points) - 1));
+    }
+  }
+  return cells;
+}
+
+const char* const kinds_of_cells[] = { "vertices", "lines", "polygons" };
+} // namespace
+
+const json& json_at(const json& object, const char* key)
+{
+  if (!object.is_object())
+  {
+    throw SessionError(std::string("what should hold '") + key + "' is no object");
+  }
+  const auto found = object.find(key);
+  if (found == object.end())
+  {
+    throw SessionError(std::string("it lacks '") + key + "'");
+  }
+  return *found;
+}
+
+double json_number(const json& value, const char* what)
+{
+  if (!value.is_number() || !std::isfinite(value.get<double>()))
+  {
+    throw SessionError(std::string(what) + " is not a finite number");
+  }
+  return value.get<double>();
+}
+
+int json_integer(const json& value, const char* what, int lowest, int highest)
+{
+  const double number = json_number(value, what);
+  if (number != std::floor(number) || number < lowest || number > highest)
+  {
+    throw SessionError(std::string(what) + " is out of range");
+  }
+  return static_cast<int>(number);
+}
+
+std::string json_text(const json& value, const char* what)
+{
+  if (!value.is_string())
+  {
+    throw SessionError(std::string(what) + " is no text");
+  }
+  return value.get<std::string>();
+}
+
+// ---- Handles -----------------------------------------------------------------------------------
+
+json handles_to_json(vtkPolyData* handles)
+{
+  json result;
+  vtkPoints* points = handles->GetPoints();
+  result["points_type"] = points && points->GetDataType() == VTK_FLOAT ? "float" : "double";
+  json& places = result["points"] = json::array();
+  for (vtkIdType v = 0; v < handles->GetNumberOfPoints(); ++v)
+  {
+    double p[3];
+    handles->GetPoint(v, p);
+    places.push_back({ p[0], p[1], p[2] });
+  }
+  result["vertices"] = cells_to_json(handles->GetVerts());
+  result["lines"] = cells_to_json(handles->GetLines());
+  result["polygons"] = cells_to_json(handles->GetPolys());
+  json& arrays = result["cell_arrays"] = json::array();
+  for (int a = 0; a < handles->GetCellData()->GetNumberOfArrays(); ++a)
+  {
+    vtkAbstractArray* array = handles->GetCellData()->GetAbstractArray(a);
+    const bool known = vtkStringArray::SafeDownCast(array) || vtkDataArray::SafeDownCast(array);
+    if (known && array->GetName())
+    {
+      arrays.push_back(array_to_json(array));
+    }
+  }
+  return result;
+}
+
+vtkSmartPointer<vtkPolyData> handles_from_json(const json& value)
+{
+  auto handles = vtkSmartPointer<vtkPolyData>::New();
+  const std::string type = json_text(json_at(value, "points_type"), "the type of the points");
+  const json& places = json_at(value, "points");
+  if (!places.is_array() || (type != "float" && type != "double"))
+  {
+    throw SessionError("the points of the handles are no list of numbers");
+  }
+  vtkNew<vtkPoints> points;
+  points->SetDataType(type == "float" ? VTK_FLOAT : VTK_DOUBLE);
+  for (const json& place : places)
+  {
+    if (!place.is_array() || place.size() != 3)
+    {
+      throw SessionError("a point of the handles has not three coordinates");
+    }
+    double p[3];
+    for (int k = 0; k < 3; ++k)
+    {
+      p[k] = json_number(place[k], "a coordinate of the handles");
+    }
+    points->InsertNextPoint(p);
+  }
+  handles->SetPoints(points);
+  vtkSmartPointer<vtkCellArray> cells[3];
+  for (int kind = 0; kind < 3; ++kind)
+  {
+    cells[kind] =
+      cells_from_json(json_at(value, kinds_of_cells[kind]), points->GetNumberOfPoints());
+  }
+  handles->SetVerts(cells[0]);
+  handles->SetLines(cells[1]);
+  handles->SetPolys(cells[2]);
+  const json& arrays = json_at(value, "cell_arrays");
+  if (!arrays.is_array())
+  {
+    throw SessionError("the arrays of the handles are no list");
+  }
+  for (const json& array : arrays)
+  {
+    handles->GetCellData()->AddArray(array_from_json(array, handles->GetNumberOfCells()));
+  }
+  return handles;
+}
+
+// ---- Poses -------------------------------------------------------------------------------------
+
+json pose_to_json(const bindpose::HandlePose& pose)
+{
+  return { { "mode", bindpose::to_string(pose.mode) },
+    { "transform", std::vector<double>(pose.transform.data(), pose.transform.data() + 12) },
+    { "stretch", pose.stretch }, { "twist", { pose.twist[0], pose.twist[1] } } };
+}
+
+bindpose::HandlePose pose_from_json(const json& value)
+{
+  bindpose::HandlePose pose;
+  const std::string mode = json_text(json_at(value, "mode"), "the mode of a handle");
+  bool known = false;
+  for (const auto candidate :
+    { bindpose::HandleMode::full, bindpose::HandleMode::position, bindpose::HandleMode::free })
+  {
+    if (mode == bindpose::to_string(candidate))
+    {
+      pose.mode = candidate;
+      known = true;
+    }
+  }
+  const json& transform = json_at(value, "transform");
+  const json& twist = json_at(value, "twist");
+  if (!known || !transform.is_array() || transform.size() != 12 || !twist.is_array() ||
+    twist.size() != 2)
+  {
+    throw SessionError("the pose of a handle has no mode, or not 12 numbers and a twist");
+  }
+  for (int k = 0; k < 12; ++k)
+  {
+    pose.transform.data()[k] = json_number(transform[k], "a number of the pose");
+  }
+  for (int k = 0; k < 2; ++k)
+  {
+    pose.twist[k] = json_number(twist[k], "a twist");
+  }
+  pose.stretch = json_number(json_at(value, "stretch"), "a stretch");
+  return pose;
+}
+
+json key_poses_to_json(const bindpose::PoseShelf& poses)
+{
+  return json(bindpose::to_json(poses));
+}
+
+bindpose::PoseShelf key_poses_from_json(const json& value)
+{
+  bindpose::PoseShelf result;
+  const bindpose::Status status = bindpose::from_json(nlohmann::ordered_json(value), result);
+  if (!status.ok())
+  {
+    throw SessionError(status.message);
+  }
+  return result;
+}
+
+// ---- Options -----------------------------------------------------------------------------------
+
+json options_to_json(const Options& options)
+{
+  json result = json::object();
+  for (auto option = options.begin(); option != options.end(); ++option)
+  {
+    json& value = result[option.key().toStdString()];
+    switch (option.value().type())
+    {
+      case QVariant::Bool:
+        value = option.value().toBool();
+        break;
+      case QVariant::Int:
+        value = option.value().toInt();
+        break;
+      default:
+        value = option.value().toDouble();
+        break;
+    }
+  }
+  return result;
+}
+
+Options options_from_json(const json& value)
+{
+  Options result = initial_options();
+  if (!value.is_object())
+  {
+    throw SessionError("the options are no object");
+  }
+  for (const auto& [key, item] : value.items())
+  {
+    const OptionInfo* option = find_option(QString::fromStdString(key));
+    if (!option)
+    {
+      continue; // of another version of the program
+    }
+    const QVariant checked = checked_option(*option,
+      item.is_boolean()    ? QVariant(item.get<bool>())
+        : item.is_number() ? QVariant(item.get<double>())
+                           : QVariant());
+    if (!checked.isValid())
+    {
+      throw SessionError("the option '" + key + "' has a value that it cannot have");
+    }
+    result[option->key] = checked;
+  }
+  return result;
+}

@@ -1,0 +1,41 @@
+#ifndef document_dataset_json_h
+#define document_dataset_json_h
+
+#include "document/work.h"
+
+#include <nlohmann/json.hpp>
+
+#include <stdexcept>
+#include <string>
+
+// Parts of a session as JSON. What is read is checked; numbers come back as they were, to the last
+// bit.
+
+/// What is wrong with a JSON text, as a clause: "the pose has 3 entries for 2 handles".
+class SessionError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The value of a key; SessionError where there is none or it is of another type.
+const nlohmann::json& json_at(const nlohmann::json& object, const char* key);
+double json_number(const nlohmann::json& value, const char* what);
+int json_integer(const nlohmann::json& value, const char* what, int lowest, int highest);
+std::string json_text(const nlohmann::json& value, const char* what);
+
+/// Points, vertices, lines and polygons with their cell arrays.
+nlohmann::json handles_to_json(vtkPolyData* handles);
+vtkSmartPointer<vtkPolyData> handles_from_json(const nlohmann::json& json);
+
+nlohmann::json pose_to_json(const bindpose::HandlePose& pose);
+bindpose::HandlePose pose_from_json(const nlohmann::json& json);
+
+nlohmann::json key_poses_to_json(const bindpose::PoseShelf& poses);
+bindpose::PoseShelf key_poses_from_json(const nlohmann::json& json);
+
+nlohmann::json options_to_json(const Options& options);
+/// What is missing is as in a new document; what is unknown is left out.
+Options options_from_json(const nlohmann::json& json);
+
+#endif

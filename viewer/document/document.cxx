@@ -1,0 +1,437 @@
+// The work is a value; an edit makes another value of it and pushes a step with both. What views
+// need besides (handles as kernels take them, weights in the handles' order) is derived from it
+// whenever it changes.
+#include "document/document.h"
+
+#include "document/edit.h"
+#include "document/work_inputs.h"
+
+#include "conversion.h"
+
+#include "vtkPointData.h"
+
+#include <QUndoStack>
+
+#include <algorithm>
+
+using namespace bindpose;
+
+namespace
+{
+constexpr int longest_history = 1000;
+
+vtkSmartPointer<vtkPolyData> copy_of(vtkPolyData* data)
+{
+  auto copy = vtkSmartPointer<vtkPolyData>::New();
+  copy->DeepCopy(data);
+  return copy;
+}
+
+vtkDataArray* weights_of(vtkPolyData* surface)
+{
+  return surface ? surface->GetPointData()->GetArray("Weights") : nullptr;
+}
+
+} // namespace
+
+Document::Document(QObject* parent)
+  : QObject(parent), history_(new QUndoStack(this)), live_(vtkSmartPointer<vtkPolyData>::New())
+{
+  this->history_->setUndoLimit(longest_history);
+  this->work_.options = initial_options();
+  this->saved_ = this->work_;
+}
+
+Document::~Document()
+{
+  this->history_->clear(); // its steps know this document
+}
+
+void Document::set_saved()
+{
+  this->saved_ = this->work_;
+  this->history_->setClean();
+}
+
+bool Document::is_changed(bool looks) const
+{
+  const bool recovered = this->history_->cleanIndex() < 0;
+  return !this->history_->isClean() &&
+    (looks || recovered || (differences(this->saved_, this->work_) & ~options_part));
+}
+
+vtkPolyData* Document::surface() const
+{
+  return this->surface_;
+}
+
+vtkUnstructuredGrid* Document::weighted_tets() const
+{
+  return this->tets_;
+}
+
+vtkPolyData* Document::handle_data() const
+{
+  return this->work_.handles ? this->live_.Get() : nullptr;
+}
+
+int Document::handle_of_cell(vtkIdType cell) const
+{
+  const auto found = std::find(this->cells_.begin(), this->cells_.end(), cell);
+  return found == this->cells_.end() ? -1 : static_cast<int>(found - this->cells_.begin());
+}
+
+Pose Document::pose() const
+{
+  Pose pose;
+  if (this->work_.handles)
+  {
+    to_pose(this->live_, this->handles_, this->cells_, pose);
+  }
+  return pose;
+}
+
+bool Document::is_bound() const
+{
+  return this->work_.handles && weights_of(this->surface_) && this->columns_.any();
+}
+
+QString Document::rebind_reason() const
+{
+  if (!this->work_.handles || !this->work_.surface || !this->work_.bound_handles)
+  {
+    return {};
+  }
+  return weights_of(this->surface_) ? this->columns_.reason()
+                                    : tr("The mesh is another than the one that was bound.");
+}
+
+// ---- Steps -------------------------------------------------------------------------------------
+
+void Document::push(const QString& step, const Work& after, const QString& merge, Live live)
+{
+  if (differences(this->work_, after) == 0)
+  {
+    return;
+  }
+  const QString key = merge.isEmpty() ? QString() : merge + '#' + QString::number(this->merges_);
+  this->history_->push(new Edit(this, step, after, key, live));
+}
+
+void Document::become(const Work& work, Live live)
+{
+  const Work before = this->work_;
+  const int parts = differences(before, work);
+  this->work_ = work;
+  if (parts & (mesh_part | weights_part))
+  {
+    this->preview_ = nullptr;
+  }
+  if (parts & handles_part)
+  {
+    if (live == Live::to_be_written)
+    {
+      if (work.handles)
+      {
+        this->live_->DeepCopy(work.handles);
+      }
+      else
+      {
+        this->live_->Initialize();
+      }
+    }
+    this->handles_.clear();
+    this->cells_.clear();
+    if (work.handles)
+    {
+      to_handles(work.handles, this->handles_, &this->cells_);
+    }
+  }
+  if (parts & (handles_part | pose_part) && work.handles && live == Live::to_be_written)
+  {
+    bindpose::set_pose(this->live_, this->cells_, work.pose);
+  }
+  if (parts & (mesh_part | weights_part | handles_part))
+  {
+    this->arrange();
+  }
+  Q_EMIT this->changed(parts);
+  if (parts & options_part)
+  {
+    for (auto option = work.options.begin(); option != work.options.end(); ++option)
+    {
+      if (before.options.value(option.key()) != option.value())
+      {
+        Q_EMIT this->option_changed(option.key(), option.value());
+      }
+    }
+  }
+}
+
+/// Weights in the order of the handles.
+void Document::arrange()
+{
+  vtkPolyData* surface = this->preview_ ? this->preview_ : this->work_.surface;
+  vtkDataArray* weights = weights_of(surface);
+  this->surface_ = surface;
+  this->tets_ = this->preview_ ? nullptr : this->work_.weighted_tets;
+  this->columns_ = BoundColumns();
+  this->unused_weights_.clear();
+  vtkPolyData* bound = this->preview_ ? this->binding_.handle_data : this->work_.bound_handles;
+  if (!weights || !this->work_.handles)
+  {
+    return;
+  }
+  if (!bound)
+  {
+    weights_are_of(weights, this->handles_, &this->unused_weights_);
+    return;
+  }
+  Handles handles;
+  to_handles(bound, handles);
+  if (weights->GetNumberOfComponents() == static_cast<int>(handles.size()))
+  {
+    this->columns_ = BoundColumns(handles, this->handles_);
+  }
+  if (this->columns_.any())
+  {
+    this->surface_ = vtkPolyData::SafeDownCast(this->columns_.arranged(surface));
+    this->tets_ = vtkUnstructuredGrid::SafeDownCast(this->columns_.arranged(this->tets_));
+    return;
+  }
+  weights_are_of(weights, this->handles_, &this->unused_weights_);
+}
+
+void Document::replace(const Work& work)
+{
+  Q_EMIT this->about_to_change();
+  this->history_->clear();
+  this->preview_ = nullptr;
+  this->binding_ = Binding();
+  this->become(work, Live::to_be_written);
+  this->set_saved();
+}
+
+// ---- Opening -----------------------------------------------------------------------------------
+
+Status Document::set_mesh(vtkDataSet* mesh, const QString& name, const Source& source)
+{
+  Work after = this->work_;
+  Status status = use_mesh(mesh, name, source, after);
+  if (status.ok())
+  {
+    this->push(tr("open %1").arg(name), after);
+  }
+  return status;
+}
+
+Status Document::set_handles(vtkPolyData* data, const QString& name, const Source& source)
+{
+  Work after = this->work_;
+  Status status = use_handles(data, source, after);
+  if (status.ok())
+  {
+    this->push(tr("open handles %1").arg(name), after);
+  }
+  return status;
+}
+
+Status Document::set_weights(const Weights& weights, const QString& name)
+{
+  Work after = this->work_;
+  Status status = use_weights(weights, name, after);
+  if (status.ok())
+  {
+    this->push(tr("open weights %1").arg(name), after);
+  }
+  return status;
+}
+
+Status Document::set_picture(
+  vtkPolyData* shape, vtkImageData* picture, const QString& name, const Source& source)
+{
+  Work after = this->work_;
+  Status status = use_mesh(shape, name, Source(), after);
+  if (status.ok())
+  {
+    after.picture = picture;
+    after.picture_source = source;
+    this->push(tr("open %1").arg(name), after);
+  }
+  return status;
+}
+
+void Document::set_volume(vtkImageData* volume, const QString& name, const Source& source)
+{
+  Work after = this->work_;
+  after.volume = volume;
+  after.volume_name = name;
+  after.volume_source = source;
+  this->push(volume ? tr("open volume %1").arg(name) : tr("close the volume"), after);
+}
+
+void Document::set_curves(vtkPolyData* curves, const QString& name, const Source& source)
+{
+  Work after = this->work_;
+  after.curves = curves;
+  after.curve_source = source;
+  this->push(tr("open curves %1").arg(name), after);
+}
+
+// ---- Handles and pose --------------------------------------------------------------------------
+
+Status Document::commit_handles(const QString& step, const QString& merge)
+{
+  Work after = this->work_;
+  after.handles = nullptr;
+  after.pose.clear();
+  if (this->live_->GetNumberOfCells() > 0)
+  {
+    Handles handles;
+    std::vector<Index> cells;
+    Status status = to_handles(this->live_, handles, &cells);
+    if (status.ok())
+    {
+      status = to_pose(this->live_, handles, cells, after.pose);
+    }
+    if (!status.ok())
+    {
+      this->revert_handles();
+      return status;
+    }
+    after.handles = copy_of(this->live_);
+  }
+  this->push(step, after, merge, Live::is_there);
+  return {};
+}
+
+void Document::commit_pose(const QString& step, const QString& merge)
+{
+  Work after = this->work_;
+  after.pose = this->pose();
+  this->push(step, after, merge, Live::is_there);
+}
+
+void Document::revert_handles()
+{
+  if (this->work_.handles)
+  {
+    this->live_->DeepCopy(this->work_.handles);
+    bindpose::set_pose(this->live_, this->cells_, this->work_.pose);
+  }
+  else
+  {
+    this->live_->Initialize();
+  }
+  Q_EMIT this->changed(handles_part | pose_part);
+}
+
+void Document::set_pose(const Pose& pose, const QString& step, const QString& merge)
+{
+  Q_EMIT this->about_to_change();
+  if (pose.size() == this->handles_.size())
+  {
+    Work after = this->work_;
+    after.pose = pose;
+    this->push(step, after, merge);
+  }
+}
+
+void Document::set_mode(int handle, int mode)
+{
+  Q_EMIT this->about_to_change();
+  Pose after = this->pose();
+  after[handle].mode = static_cast<HandleMode>(mode);
+  this->set_pose(after, tr("mode of %1").arg(QString::fromStdString(this->handles_[handle].name)));
+}
+
+void Document::back_to_rest()
+{
+  Q_EMIT this->about_to_change();
+  Pose rest(this->handles_.size());
+  const Pose before = this->pose();
+  for (std::size_t k = 0; k < rest.size(); ++k)
+  {
+    rest[k].mode = before[k].mode;
+  }
+  this->set_pose(rest, tr("back to rest"));
+}
+
+void Document::set_key_poses(PoseShelf poses, const QString& step, const QString& merge)
+{
+  Work after = this->work_;
+  after.key_poses = std::make_shared<const PoseShelf>(std::move(poses));
+  this->push(step, after, merge);
+}
+
+// ---- Weights -----------------------------------------------------------------------------------
+
+void Document::begin_bind()
+{
+  this->binding_.surface = this->work_.surface;
+  this->binding_.handle_data = this->work_.handles;
+  this->binding_.handles = this->handles_;
+}
+
+bool Document::set_bound(vtkPolyData* surface, vtkUnstructuredGrid* tets)
+{
+  this->drop_preview();
+  if (!this->binding_.surface || !same_mesh(this->binding_.surface, this->work_.surface))
+  {
+    return false;
+  }
+  Work after = this->work_;
+  after.surface = surface;
+  after.weighted_tets = tets;
+  after.made_here = true;
+  after.bound_handles = this->binding_.handle_data;
+  this->push(tr("bind"), after);
+  return true;
+}
+
+bool Document::set_preview(vtkPolyData* surface)
+{
+  if (!this->binding_.surface || !same_mesh(this->binding_.surface, this->work_.surface))
+  {
+    return false;
+  }
+  this->preview_ = surface;
+  this->arrange();
+  Q_EMIT this->changed(weights_part);
+  return true;
+}
+
+void Document::drop_preview()
+{
+  if (this->preview_)
+  {
+    this->preview_ = nullptr;
+    this->arrange();
+    Q_EMIT this->changed(weights_part);
+  }
+}
+
+// ---- Options -----------------------------------------------------------------------------------
+
+void Document::set_option(const QString& key, const QVariant& value)
+{
+  const OptionInfo* option = find_option(key);
+  const QVariant checked = option ? checked_option(*option, value) : QVariant();
+  if (checked.isValid() && checked != this->option(key))
+  {
+    Work after = this->work_;
+    after.options[key] = checked;
+    const bool moves = option->initial.type() == QVariant::Double;
+    this->push(tr(option->step), after, moves ? key : QString());
+  }
+}
+
+void Document::note_option(const QString& key, const QVariant& value)
+{
+  const OptionInfo* option = find_option(key);
+  const QVariant checked = option ? checked_option(*option, value) : QVariant();
+  if (checked.isValid())
+  {
+    this->work_.options[key] = checked;
+  }
+}

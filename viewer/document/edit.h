@@ -1,0 +1,31 @@
+#ifndef document_edit_h
+#define document_edit_h
+
+#include "document/document.h"
+
+#include <QUndoCommand>
+
+/// One step of a document's history: the work before and after it. Undo and redo change what the
+/// step changed and nothing else. The first redo, which QUndoStack calls on push, may find the
+/// handles there already.
+class Edit : public QUndoCommand
+{
+public:
+  Edit(
+    Document* document, const QString& name, Work after, const QString& merge, Document::Live live);
+
+  void undo() override;
+  void redo() override;
+  int id() const override { return this->merge_.isEmpty() ? -1 : 1; }
+  bool mergeWith(const QUndoCommand* next) override;
+
+private:
+  Document* document_;
+  Work before_;
+  Work after_;
+  QString merge_;
+  Document::Live live_;
+  bool done_ = false;
+};
+
+#endif

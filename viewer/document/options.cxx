@@ -1,0 +1,105 @@
+#include "document/options.h"
+
+#include <QtGlobal>
+
+#include <cmath>
+#include <limits>
+
+namespace
+{
+constexpr double any = std::numeric_limits<double>::max();
+constexpr double columns = 1e6;
+} // namespace
+
+const std::vector<OptionInfo>& option_table()
+{
+  static const std::vector<OptionInfo> table = {
+    { "bind.method", QT_TRANSLATE_NOOP("Document", "kind of weights"), 0, 0, 1 },
+    { "pose.method", QT_TRANSLATE_NOOP("Document", "way to pose"), 0, 0, 31 },
+    { "pose.endpoints", QT_TRANSLATE_NOOP("Document", "place along bones"), 0, 0, 2 },
+    { "pose.pseudo_edges", QT_TRANSLATE_NOOP("Document", "what turns points"), 1, 0, 2 },
+    { "pose.single_precision", QT_TRANSLATE_NOOP("Document", "precision"), false },
+    { "pose.drag_only", QT_TRANSLATE_NOOP("Document", "drag only"), false },
+    { "pose.in_tets", QT_TRANSLATE_NOOP("Document", "energy of the volume"), false },
+    { "pose.energy", QT_TRANSLATE_NOOP("Document", "what is rigid"), 0, 0, 3 },
+    { "pose.extra_weights", QT_TRANSLATE_NOOP("Document", "extra weights"), 0.0, 0.0, 30.0 },
+    { "pose.extra_kind", QT_TRANSLATE_NOOP("Document", "kind of extra weights"), 0, 0, 1 },
+    { "pose.iterations", QT_TRANSLATE_NOOP("Document", "iterations"), 100.0, 1.0, 200.0 },
+    { "pose.budget_us", QT_TRANSLATE_NOOP("Document", "time of a solve"), 0.0, 0.0, 5000.0 },
+    { "pose.order", QT_TRANSLATE_NOOP("Document", "order of the surface"), 1, 0, 2 },
+    { "pose.boundary", QT_TRANSLATE_NOOP("Document", "edge of the surface"), 0, 0, 2 },
+    { "pose.compared", QT_TRANSLATE_NOOP("Document", "comparison"), 0, 0, 31 },
+    { "pose.ghost", QT_TRANSLATE_NOOP("Document", "place of the comparison"), 0, 0, 1 },
+    { "pose.moves", QT_TRANSLATE_NOOP("Document", "motion"), false },
+    { "motion.gravity", QT_TRANSLATE_NOOP("Document", "gravity"), 0.5, 0.0, 5.0 },
+    { "motion.down", QT_TRANSLATE_NOOP("Document", "direction of gravity"), 1, 0, 2 },
+    { "motion.stiffness", QT_TRANSLATE_NOOP("Document", "stiffness"), 2.0, 0.0, 5.0 },
+    { "motion.damping", QT_TRANSLATE_NOOP("Document", "damping"), 0.5, 0.0, 20.0 },
+    { "show.column", QT_TRANSLATE_NOOP("Document", "what is shown"), 0, 0, columns },
+    { "weights.column", QT_TRANSLATE_NOOP("Document", "handle looked at"), 0, 0, columns },
+    { "weights.bands", QT_TRANSLATE_NOOP("Document", "bands"), true },
+    { "weights.isolines", QT_TRANSLATE_NOOP("Document", "isolines"), true },
+    { "weights.extrema", QT_TRANSLATE_NOOP("Document", "extrema"), false },
+    { "weights.what", QT_TRANSLATE_NOOP("Document", "what is looked at"), 0, 0, 2 },
+    { "weights.raw", QT_TRANSLATE_NOOP("Document", "raw weights"), 0, 0, 1 },
+    { "weights.compare_with", QT_TRANSLATE_NOOP("Document", "method to compare with"), 1, 0, 63 },
+    { "weights.slice", QT_TRANSLATE_NOOP("Document", "slice of weights"), false },
+    { "weights.orientation", QT_TRANSLATE_NOOP("Document", "slice of weights turned"), 2, 0, 3 },
+    { "tets.method", QT_TRANSLATE_NOOP("Document", "way to make tets"), 0, 0, 63 },
+    { "tets.shown", QT_TRANSLATE_NOOP("Document", "tets shown"), false },
+    { "tets.colours", QT_TRANSLATE_NOOP("Document", "colours of tets"), 0, 0, 15 },
+    { "tets.cut", QT_TRANSLATE_NOOP("Document", "cut"), true },
+    { "tets.other_side", QT_TRANSLATE_NOOP("Document", "side of the cut"), false },
+    { "tets.orientation", QT_TRANSLATE_NOOP("Document", "cut turned"), 2, 0, 3 },
+    { "tets.shrink", QT_TRANSLATE_NOOP("Document", "size of each tet"), 1.0, 0.1, 1.0 },
+    { "defects.shown", QT_TRANSLATE_NOOP("Document", "defects"), false },
+    { "volume.slice", QT_TRANSLATE_NOOP("Document", "slice"), true },
+    { "volume.orientation", QT_TRANSLATE_NOOP("Document", "slice turned"), 2, 0, 3 },
+    { "volume.isosurface", QT_TRANSLATE_NOOP("Document", "isosurface"), false },
+    { "volume.level", QT_TRANSLATE_NOOP("Document", "level of the isosurface"), 0.5, -any, any },
+    { "volume.cloud", QT_TRANSLATE_NOOP("Document", "cloud"), false },
+    { "volume.surface_look", QT_TRANSLATE_NOOP("Document", "look of the surface"), 1, 0, 3 },
+  };
+  return table;
+}
+
+const OptionInfo* find_option(const QString& key)
+{
+  for (const OptionInfo& option : option_table())
+  {
+    if (key == QLatin1String(option.key))
+    {
+      return &option;
+    }
+  }
+  return nullptr;
+}
+
+Options initial_options()
+{
+  Options options;
+  for (const OptionInfo& option : option_table())
+  {
+    options[option.key] = option.initial;
+  }
+  return options;
+}
+
+QVariant checked_option(const OptionInfo& option, const QVariant& value)
+{
+  if (option.initial.type() == QVariant::Bool)
+  {
+    return value.type() == QVariant::Bool ? value : QVariant();
+  }
+  bool is_number = false;
+  const double number = value.type() == QVariant::Bool ? 0.0 : value.toDouble(&is_number);
+  if (!is_number || !(number >= option.lowest && number <= option.highest))
+  {
+    return {};
+  }
+  if (option.initial.type() == QVariant::Int)
+  {
+    return std::floor(number) == number ? QVariant(static_cast<int>(number)) : QVariant();
+  }
+  return number;
+}

@@ -1,0 +1,510 @@
+// Writing: companions first, each under a name that tells its contents, then the session itself by
+// one rename, then companions that it does not name go. Reading: everything is checked before
+// anything is used; inputs are looked for beside the session file.
+#include "document/session.h"
+
+#include "document/dataset_json.h"
+#include "document/opened_file.h"
+#include "document/work_inputs.h"
+
+#include "conversion.h"
+#include "io/atomic_file.h"
+#include "scene/picture_file.h"
+
+#include "vtkNew.h"
+#include "vtkXMLPolyDataReader.h"
+#include "vtkXMLPolyDataWriter.h"
+#include "vtkXMLUnstructuredGridReader.h"
+#include "vtkXMLUnstructuredGridWriter.h"
+
+#include <QDir>
+#include <QFile>
+#include <QFileInfo>
+#include <QRegularExpression>
+
+#include <fstream>
+
+using namespace bindpose;
+using nlohmann::json;
+
+namespace
+{
+constexpr qint64 largest_session = 256LL << 20;
+constexpr int hash_digits = 12;
+
+// ---- Writing -----------------------------------------------------------------------------------
+
+template <typename Writer>
+bool write_xml(vtkDataSet* data, const std::string& path)
+{
+  vtkNew<Writer> writer;
+  writer->SetInputData(data);
+  writer->SetFileName(path.c_str());
+  writer->SetDataModeToAppended();
+  writer->EncodeAppendedDataOff();
+  writer->SetCompressorTypeToNone(); // an autosave should not be felt
+  writer->SetHeaderTypeToUInt64();
+  return writer->Write() == 1 && writer->GetErrorCode() == 0;
+}
+
+/// "NAME." of NAME.bindpose.
+QString companion_stem(const QString& session)
+{
+  return QFileInfo(session).completeBaseName() + '.';
+}
+
+void remove_stale_companions(const QString& session, const QStringList& named)
+{
+  QDir folder(QFileInfo(session).absolutePath());
+  const QRegularExpression ours(
+    QRegularExpression::anchoredPattern(QRegularExpression::escape(companion_stem(session)) +
+      QString("(surface-[0-9a-f]{%1}\\.vtp|tets-[0-9a-f]{%1}\\.vtu)").arg(hash_digits)));
+  for (const QString& name : folder.entryList(QDir::Files))
+  {
+    if (ours.match(name).hasMatch() && !named.contains(name))
+    {
+      folder.remove(name);
+    }
+  }
+}
+
+json source_to_json(const Source& source, const QDir& folder)
+{
+  return { { "path", folder.relativeFilePath(source.path).toStdString() },
+    { "sha256", source.checksum.toStdString() } };
+}
+
+json camera_to_json(const SessionView::Camera& camera)
+{
+  return { { "position", camera.position }, { "focal_point", camera.focal_point },
+    { "up", camera.up }, { "angle", camera.angle }, { "scale", camera.scale },
+    { "parallel", camera.parallel } };
+}
+
+// ---- Reading -----------------------------------------------------------------------------------
+
+template <typename Reader>
+vtkSmartPointer<vtkDataSet> read_xml(const QString& path)
+{
+  vtkNew<Reader> reader;
+  reader->SetFileName(path.toStdString().c_str());
+  reader->Update();
+  return reader->GetOutput();
+}
+
+std::array<double, 3> triple(const json& value, const char* what)
+{
+  std::array<double, 3> result{};
+  if (!value.is_array() || value.size() != 3)
+  {
+    throw SessionError(std::string(what) + " has not three numbers");
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    result[k] = json_number(value[k], what);
+  }
+  return result;
+}
+
+SessionView view_from_json(const json& value)
+{
+  SessionView view;
+  view.panel = json_integer(json_at(value, "panel"), "the panel", 0, 100);
+  const json& camera = json_at(value, "camera");
+  if (!camera.is_null())
+  {
+    view.camera.emplace();
+    view.camera->position = triple(json_at(camera, "position"), "the camera's position");
+    view.camera->focal_point = triple(json_at(camera, "focal_point"), "the camera's focal point");
+    view.camera->up = triple(json_at(camera, "up"), "the camera's up direction");
+    view.camera->angle = json_number(json_at(camera, "angle"), "the camera's angle");
+    view.camera->scale = json_number(json_at(camera, "scale"), "the camera's scale");
+    const json& parallel = json_at(camera, "parallel");
+    if (!parallel.is_boolean() || view.camera->angle <= 0.0 || view.camera->angle >= 180.0 ||
+      view.camera->scale <= 0.0)
+    {
+      throw SessionError("the camera is impossible");
+    }
+    view.camera->parallel = parallel.get<bool>();
+  }
+  return view;
+}
+
+/// A session that is being read: its text, checked, and the folder that paths are relative to.
+class SessionReader
+{
+public:
+  SessionReader(const json& text, const QString& path)
+    : text_(text), folder_(QFileInfo(path).absolutePath())
+  {
+  }
+
+  void read(Session& session)
+  {
+    Work& work = session.work;
+    this->read_handles(work);
+    work.options = options_from_json(json_at(this->text_, "options"));
+    work.key_poses =
+      std::make_shared<const PoseShelf>(key_poses_from_json(json_at(this->text_, "poses")));
+    session.view = view_from_json(json_at(this->text_, "view"));
+    const json& inputs = json_at(this->text_, "inputs");
+    const json& companions = json_at(this->text_, "companions");
+    if (!inputs.is_object() || !companions.is_object())
+    {
+      throw SessionError("its inputs are no object");
+    }
+    if (this->text_.contains("saved_as"))
+    {
+      session.saved_as = QString::fromStdString(json_text(this->text_["saved_as"], "its origin"));
+    }
+    const QString name =
+      QString::fromStdString(json_text(json_at(this->text_, "name"), "its name"));
+    this->read_mesh(inputs, companions, name, session);
+    this->read_others(inputs, session);
+  }
+
+private:
+  void read_handles(Work& work)
+  {
+    const json& handles = json_at(this->text_, "handles");
+    const json& pose = json_at(this->text_, "pose");
+    if (!pose.is_array())
+    {
+      throw SessionError("the pose is no list");
+    }
+    if (!handles.is_null())
+    {
+      work.handles = handles_from_json(handles);
+      Handles list;
+      const Status status = to_handles(work.handles, list);
+      if (!status.ok())
+      {
+        throw SessionError(status.message);
+      }
+      if (pose.size() != list.size())
+      {
+        throw SessionError("the pose has " + std::to_string(pose.size()) + " entries for " +
+          std::to_string(list.size()) + " handles");
+      }
+      for (const json& of_handle : pose)
+      {
+        work.pose.push_back(pose_from_json(of_handle));
+      }
+    }
+    const json& bound = json_at(this->text_, "bound_handles");
+    if (bound.is_object())
+    {
+      work.bound_handles = handles_from_json(bound);
+    }
+    else if (bound == "handles")
+    {
+      work.bound_handles = work.handles;
+    }
+    else if (!bound.is_null())
+    {
+      throw SessionError("the handles that were bound are no handles");
+    }
+  }
+
+  Source source(const json& input) const
+  {
+    Source source;
+    const QString path = QString::fromStdString(json_text(json_at(input, "path"), "a path"));
+    source.path = QDir::cleanPath(this->folder_.absoluteFilePath(path));
+    source.checksum = QByteArray::fromStdString(json_text(json_at(input, "sha256"), "a checksum"));
+    return source;
+  }
+
+  /// The companion, unless it is missing or another than it was.
+  template <typename Reader>
+  vtkSmartPointer<vtkDataSet> companion(const json& companions, const char* role, bool& lost) const
+  {
+    if (!companions.contains(role))
+    {
+      return nullptr;
+    }
+    const Source file = this->source(companions[role]);
+    if (file.checksum.isEmpty() || checksum_of(file.path) != file.checksum)
+    {
+      lost = true;
+      return nullptr;
+    }
+    return read_xml<Reader>(file.path);
+  }
+
+  void read_mesh(
+    const json& inputs, const json& companions, const QString& name, Session& session) const
+  {
+    Work& work = session.work;
+    const auto bound_handles = work.bound_handles;
+    bool lost = false;
+    const auto surface = this->companion<vtkXMLPolyDataReader>(companions, "surface", lost);
+    const auto tets = this->companion<vtkXMLUnstructuredGridReader>(companions, "tets", lost);
+    const bool has_input = inputs.contains("mesh");
+    const Source source = has_input ? this->source(inputs["mesh"]) : Source();
+    const QByteArray now = has_input ? checksum_of(source.path) : QByteArray();
+    const QString file = QFileInfo(source.path).fileName();
+    if (surface)
+    {
+      const Status status = use_mesh(surface, name, source, work);
+      if (!status.ok())
+      {
+        throw SessionError("its surface cannot be used: " + status.message);
+      }
+      work.made_here = true;
+      work.weighted_tets = vtkUnstructuredGrid::SafeDownCast(tets);
+      if (has_input && now != source.checksum)
+      {
+        session.notes << (now.isEmpty()
+            ? tr("%1 is missing; the session's own copy of the mesh is shown.")
+            : tr("%1 has changed since; the session's own copy of the mesh is shown."))
+                           .arg(file);
+      }
+    }
+    else if (has_input)
+    {
+      OpenedFile opened;
+      const bool read = !now.isEmpty() && read_file(source.path.toStdString(), opened).ok() &&
+        use_mesh(opened.data, name, Source{ source.path, now }, work).ok();
+      if (!read)
+      {
+        session.lost.push_back({ "mesh", source.path, source.checksum });
+        session.notes << (now.isEmpty() ? tr("%1 is missing; the session is open without it.")
+                                        : tr("%1 cannot be read any more; the session is open "
+                                             "without it."))
+                           .arg(file);
+      }
+      else if (now != source.checksum)
+      {
+        session.notes << tr("%1 has changed since the session was saved.").arg(file);
+      }
+    }
+    if (lost)
+    {
+      session.notes << tr("A file beside the session, with what was made here, is missing or "
+                          "damaged: bind again.");
+    }
+    // What weights were for stays true whichever surface is there.
+    work.bound_handles = bound_handles;
+    if (!surface && lost)
+    {
+      work.bound_handles = nullptr;
+    }
+  }
+
+  void read_others(const json& inputs, Session& session) const
+  {
+    Work& work = session.work;
+    const auto lose = [&](const char* role, const Source& source)
+    {
+      session.lost.push_back({ role, source.path, source.checksum });
+      session.notes << tr("%1 is missing; the session is open without it.")
+                         .arg(QFileInfo(source.path).fileName());
+    };
+    if (inputs.contains("handles"))
+    {
+      work.handle_source = this->source(inputs["handles"]); // the session has its own
+    }
+    if (inputs.contains("picture"))
+    {
+      work.picture_source = this->source(inputs["picture"]);
+      if (!read_picture(work.picture_source.path.toStdString(), work.picture).ok())
+      {
+        work.picture = nullptr;
+        lose("picture", work.picture_source);
+      }
+    }
+    for (const char* role : { "volume", "curves" })
+    {
+      if (!inputs.contains(role))
+      {
+        continue;
+      }
+      const Source source = this->source(inputs[role]);
+      const bool is_volume = std::string(role) == "volume";
+      OpenedFile opened;
+      const bool read = read_file(source.path.toStdString(), opened).ok() &&
+        opened.kind == (is_volume ? OpenedFile::Kind::volume : OpenedFile::Kind::curves);
+      if (!read)
+      {
+        lose(role, source);
+      }
+      else if (is_volume)
+      {
+        work.volume = vtkImageData::SafeDownCast(opened.data);
+        work.volume_name = QFileInfo(source.path).fileName();
+        work.volume_source = source;
+      }
+      else
+      {
+        work.curves = vtkPolyData::SafeDownCast(opened.data);
+        work.curve_source = source;
+      }
+    }
+  }
+
+  static QString tr(const char* text) { return QObject::tr(text); }
+
+  const json& text_;
+  QDir folder_;
+};
+} // namespace
+
+Status SessionFile::write_companion(
+  const QString& session, const QString& role, vtkDataSet* data, Companion& companion)
+{
+  const QDir folder(QFileInfo(session).absolutePath());
+  if (companion.data == data && companion.session == session && folder.exists(companion.name))
+  {
+    return {};
+  }
+  const bool is_tets = role == "tets";
+  const QString ending = is_tets ? "vtu" : "vtp";
+  AtomicFile file;
+  const QString unnamed = folder.filePath(companion_stem(session) + role + '.' + ending);
+  Status status = file.open(unnamed.toStdString(), true);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const bool written = is_tets ? write_xml<vtkXMLUnstructuredGridWriter>(data, file.temporary())
+                               : write_xml<vtkXMLPolyDataWriter>(data, file.temporary());
+  const QString temporary = QString::fromStdString(file.temporary());
+  const QByteArray checksum = written ? checksum_of(temporary) : QByteArray();
+  if (checksum.isEmpty())
+  {
+    return Status::invalid_input("cannot write " + unnamed.toStdString() + ": the disk is full");
+  }
+  const QString name =
+    QString("%1%2-%3.%4")
+      .arg(companion_stem(session), role, QString::fromLatin1(checksum.left(hash_digits)), ending);
+  if (!folder.exists(name) || checksum_of(folder.filePath(name)) != checksum)
+  {
+    status = file.commit_synced_as(folder.filePath(name).toStdString());
+  }
+  companion = { data, session, name, checksum };
+  return status;
+}
+
+Status SessionFile::write(const QString& path, const Session& session)
+{
+  const Work& work = session.work;
+  const QDir folder(QFileInfo(path).absolutePath());
+  const QString absolute = QFileInfo(path).absoluteFilePath();
+  json text;
+  text["bindpose"] = { { "schema", session_schema } };
+  text["name"] = work.name.toStdString();
+  json& inputs = text["inputs"] = json::object();
+  const std::pair<const char*, const Source*> sources[] = { { "mesh", &work.mesh_source },
+    { "handles", &work.handle_source }, { "picture", &work.picture_source },
+    { "volume", work.volume ? &work.volume_source : nullptr },
+    { "curves", work.curves ? &work.curve_source : nullptr } };
+  for (const auto& [role, source] : sources)
+  {
+    if (source && !source->path.isEmpty())
+    {
+      inputs[role] = source_to_json(*source, folder);
+    }
+  }
+  json& companions = text["companions"] = json::object();
+  QStringList named;
+  const auto add = [&](const char* role, vtkDataSet* data, Companion& companion)
+  {
+    Status status = this->write_companion(absolute, role, data, companion);
+    if (status.ok())
+    {
+      named << companion.name;
+      companions[role] = { { "path", companion.name.toStdString() },
+        { "sha256", companion.checksum.toStdString() } };
+    }
+    return status;
+  };
+  Status status;
+  if (work.surface && work.made_here)
+  {
+    status = add("surface", work.surface, this->surface_);
+    if (status.ok() && work.weighted_tets)
+    {
+      status = add("tets", work.weighted_tets, this->tets_);
+    }
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  text["handles"] = work.handles ? handles_to_json(work.handles) : json();
+  text["bound_handles"] = !work.bound_handles ? json()
+    : work.bound_handles == work.handles      ? json("handles")
+                                              : handles_to_json(work.bound_handles);
+  json& pose = text["pose"] = json::array();
+  for (const HandlePose& of_handle : work.pose)
+  {
+    pose.push_back(pose_to_json(of_handle));
+  }
+  text["poses"] = work.key_poses ? key_poses_to_json(*work.key_poses) : json::object();
+  text["options"] = options_to_json(work.options);
+  text["view"] = { { "panel", session.view.panel },
+    { "camera", session.view.camera ? camera_to_json(*session.view.camera) : json() } };
+  if (!session.saved_as.isEmpty())
+  {
+    text["saved_as"] = session.saved_as.toStdString();
+  }
+  AtomicFile file;
+  status = file.open(absolute.toStdString(), true);
+  if (!status.ok())
+  {
+    return status;
+  }
+  std::ofstream stream(file.temporary());
+  stream << text.dump(1, ' ', false, json::error_handler_t::replace) << '\n';
+  stream.close();
+  if (!stream)
+  {
+    return Status::invalid_input("cannot write " + path.toStdString() + ": the disk is full");
+  }
+  status = file.commit_synced();
+  if (status.ok())
+  {
+    remove_stale_companions(absolute, named);
+  }
+  return status;
+}
+
+Status read_session(const QString& path, Session& session)
+{
+  const std::string name = QFileInfo(path).fileName().toStdString();
+  const auto broken = [&name](const std::string& reason)
+  { return Status::invalid_input(name + " cannot be opened: " + reason); };
+  QFile file(path);
+  if (!file.open(QIODevice::ReadOnly))
+  {
+    return broken("there is no such file, or it may not be read");
+  }
+  if (file.size() > largest_session)
+  {
+    return broken("it is too large for a session");
+  }
+  const QByteArray bytes = file.readAll();
+  try
+  {
+    const json text = json::parse(bytes.begin(), bytes.end());
+    const int schema =
+      json_integer(json_at(json_at(text, "bindpose"), "schema"), "its schema version", 1, 1 << 20);
+    if (schema > session_schema)
+    {
+      return broken("a newer Bindpose has written it");
+    }
+    Session read;
+    SessionReader(text, path).read(read);
+    session = std::move(read);
+    return {};
+  }
+  catch (const SessionError& error)
+  {
+    return broken(error.what());
+  }
+  catch (const json::exception&)
+  {
+    return broken("it is no session, or damaged");
+  }
+}

@@ -1,0 +1,95 @@
+#include "document/work.h"
+
+#include <algorithm>
+
+namespace
+{
+bool same_source(const Source& a, const Source& b)
+{
+  return a.path == b.path && a.checksum == b.checksum;
+}
+
+template <typename Part>
+void take(const Part& before, const Part& after, Part& now)
+{
+  if (!(before == after))
+  {
+    now = after;
+  }
+}
+
+void take(const Source& before, const Source& after, Source& now)
+{
+  if (!same_source(before, after))
+  {
+    now = after;
+  }
+}
+
+} // namespace
+
+bool same_mesh(vtkPolyData* a, vtkPolyData* b)
+{
+  return a == b ||
+    (a && b && a->GetPoints() == b->GetPoints() && a->GetPolys() == b->GetPolys() &&
+      a->GetStrips() == b->GetStrips());
+}
+
+bool same_pose(const bindpose::Pose& a, const bindpose::Pose& b)
+{
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+    [](const bindpose::HandlePose& x, const bindpose::HandlePose& y)
+    {
+      return x.mode == y.mode && x.transform == y.transform && x.stretch == y.stretch &&
+        x.twist == y.twist;
+    });
+}
+
+int differences(const Work& a, const Work& b)
+{
+  const bool same_sources = same_source(a.mesh_source, b.mesh_source) &&
+    same_source(a.handle_source, b.handle_source) &&
+    same_source(a.picture_source, b.picture_source) &&
+    same_source(a.volume_source, b.volume_source) && same_source(a.curve_source, b.curve_source);
+  const bool mesh = same_mesh(a.surface, b.surface) && a.mesh_tets == b.mesh_tets &&
+    a.picture == b.picture && a.name == b.name;
+  const bool weights = a.surface == b.surface && a.weighted_tets == b.weighted_tets &&
+    a.bound_handles == b.bound_handles;
+  return (mesh ? 0 : mesh_part) | (weights ? 0 : weights_part) |
+    (a.handles == b.handles ? 0 : handles_part) | (same_pose(a.pose, b.pose) ? 0 : pose_part) |
+    (a.key_poses == b.key_poses ? 0 : key_poses_part) |
+    (a.options == b.options ? 0 : options_part) | (a.volume == b.volume ? 0 : volume_part) |
+    (a.curves == b.curves ? 0 : curves_part) | (same_sources ? 0 : sources_part);
+}
+
+void apply_edit(const Work& before, const Work& after, Work& work)
+{
+  take(before.name, after.name, work.name);
+  take(before.surface, after.surface, work.surface);
+  take(before.made_here, after.made_here, work.made_here);
+  take(before.mesh_tets, after.mesh_tets, work.mesh_tets);
+  take(before.weighted_tets, after.weighted_tets, work.weighted_tets);
+  take(before.handles, after.handles, work.handles);
+  take(before.bound_handles, after.bound_handles, work.bound_handles);
+  if (!same_pose(before.pose, after.pose))
+  {
+    work.pose = after.pose;
+  }
+  take(before.key_poses, after.key_poses, work.key_poses);
+  take(before.picture, after.picture, work.picture);
+  take(before.volume, after.volume, work.volume);
+  take(before.volume_name, after.volume_name, work.volume_name);
+  take(before.curves, after.curves, work.curves);
+  for (auto option = after.options.begin(); option != after.options.end(); ++option)
+  {
+    if (before.options.value(option.key()) != option.value())
+    {
+      work.options[option.key()] = option.value();
+    }
+  }
+  take(before.mesh_source, after.mesh_source, work.mesh_source);
+  take(before.handle_source, after.handle_source, work.handle_source);
+  take(before.picture_source, after.picture_source, work.picture_source);
+  take(before.volume_source, after.volume_source, work.volume_source);
+  take(before.curve_source, after.curve_source, work.curve_source);
+}

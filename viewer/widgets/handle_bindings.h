@@ -1,0 +1,94 @@
+#ifndef handle_bindings_h
+#define handle_bindings_h
+
+#include <array>
+
+namespace bindpose
+{
+
+/// What a key or button does to the widget. Those without a key are listed for people only.
+enum class HandleAction
+{
+  select,
+  toggle,
+  grip,
+  start_move,
+  start_turn,
+  start_scale,
+  hold_axis,
+  hold_plane,
+  fine,
+  snap,
+  reach,
+  type,
+  confirm,
+  cancel,
+  move_rest,
+  add_point,
+  add_bone,
+  add_cage_vertex,
+  close_cage,
+  finish_cage,
+  drop_vertex,
+  snap_place
+};
+
+/// One row of the table of keys and buttons, of which the widget's documentation and the program's
+/// key sheet are made, and by which the widget knows its keys.
+struct HandleBinding
+{
+  HandleAction action;
+  /// "pose", "drag" (in any mode), "move rest", "add points", "add bones", "add cage"
+  const char* when;
+  const char* input; ///< as people read it
+  const char*
+    keys; ///< names of keys (vtkRenderWindowInteractor's KeySym) with blanks around, or ""
+  const char* text; ///< what it does
+};
+
+constexpr std::array<HandleBinding, 22> handle_bindings{ {
+  { HandleAction::select, "pose", "Left button on a handle", "",
+    "Select it and drag it: a ball, a bone or its head moves, a bone's tail turns it" },
+  { HandleAction::toggle, "pose", "Shift + left button on a handle", "",
+    "Add it to the selection, or take it out" },
+  { HandleAction::grip, "pose", "Left button on the gizmo", "",
+    "Move, turn, scale, stretch or twist all selected handles" },
+  { HandleAction::start_move, "pose", "G", " g ", "Move the selected handles with the mouse" },
+  { HandleAction::start_turn, "pose", "R", " r ", "Turn the selected handles with the mouse" },
+  { HandleAction::start_scale, "pose", "S", " s ", "Scale the selected handles with the mouse" },
+  { HandleAction::hold_axis, "drag", "X, Y, Z", " x y z ",
+    "Hold the drag to an axis; again: of the other space; a third time: to none" },
+  { HandleAction::hold_plane, "drag", "Shift + X, Y, Z", " x y z ",
+    "Hold the drag to the plane across an axis" },
+  { HandleAction::fine, "drag", "Shift, held", "", "Fine: a tenth of the mouse's motion" },
+  { HandleAction::snap, "drag", "Ctrl, held", "",
+    "Snap: lengths to the grid's step, angles to 15°, factors to 0.1" },
+  { HandleAction::reach, "pose", "Alt + left button on a bone's tail", "",
+    "Turn and stretch the bone: its tail stays under the mouse" },
+  { HandleAction::type, "drag", "0–9 . − Backspace",
+    " 0 1 2 3 4 5 6 7 8 9 period comma minus BackSpace KP_0 KP_1 KP_2 KP_3 KP_4 KP_5 KP_6 KP_7 "
+    "KP_8 KP_9 KP_Decimal KP_Subtract ",
+    "Type the length, the angle in degrees or the factor" },
+  { HandleAction::confirm, "drag", "Enter, left button", " Return KP_Enter ", "End the drag" },
+  { HandleAction::cancel, "drag", "Esc, right button", " Escape ",
+    "Cancel the drag: everything is as before it" },
+  { HandleAction::move_rest, "move rest", "Left button on a handle", "",
+    "Move its rest place: a point, a bone by its body, a joint with all bones that meet there" },
+  { HandleAction::add_point, "add points", "Left button on the surface", "",
+    "Add a point, inside the shape or on its surface" },
+  { HandleAction::add_bone, "add bones", "Left button, drag", "",
+    "Draw a bone from head to tail; from the end of a bone: its child" },
+  { HandleAction::add_cage_vertex, "add cage", "Left button", "",
+    "Add a vertex of a cage, joined to the last one" },
+  { HandleAction::close_cage, "add cage", "Left button on the first vertex", "", "Close the cage" },
+  { HandleAction::finish_cage, "add cage", "Enter, double click", " Return KP_Enter ",
+    "End the cage, open" },
+  { HandleAction::drop_vertex, "add cage", "Esc", " Escape ",
+    "Take the last vertex away; without one: leave the mode" },
+  { HandleAction::snap_place, "add points, add bones, add cage, move rest", "Ctrl, held", "",
+    "Snap to the ends of handles and to the surface's vertices" },
+} };
+
+} // namespace bindpose
+
+#endif

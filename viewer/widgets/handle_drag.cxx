@@ -1,0 +1,358 @@
+// Every kind of drag compares the followed mouse with where it was at the start:
+//
+// - a move along a plane: where both rays meet it; along a line: in the plane through the line that
+//   faces the camera most, the way along the line;
+// - a turn: the angle, in the ring's plane, from the start's hit to the current one, summed step by
+//   step so that several turns are counted; a ring seen from its side has no hits, there the way
+//   along its near side counts, as if it were rolled by a finger;
+// - a scale: the ratio of distances from the pivot, on the screen or along an axis;
+// - an arm: the smallest rotation towards the mouse, in the plane that faces the camera.
+#include "handle_drag.h"
+
+#include <algorithm>
+#include <cmath>
+
+using Eigen::Affine3d;
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace bindpose
+{
+namespace
+{
+constexpr double fine_share = 0.1;
+constexpr double seen_along = 0.998; // cosine: a line so near to the line of sight gives no way
+constexpr double seen_from_side = 0.12; // cosine: of a ring's axis to the line of sight
+constexpr double smallest_factor = 0.01;
+constexpr double near_pixels = 8.0; // a scale grabbed so near to its pivot has no ratio
+constexpr double double_pixels = 80.0; // then so many pixels are a factor of two
+
+Affine3d about(const Vector3d& pivot, const Matrix3d& linear)
+{
+  Affine3d motion;
+  motion.linear() = linear;
+  motion.translation() = pivot - linear * pivot;
+  return motion;
+}
+
+int count_bits(int axes)
+{
+  return (axes & 1) + ((axes >> 1) & 1) + ((axes >> 2) & 1);
+}
+
+/// The number of the only axis in the mask, or of the only one that is not; -1 for none and all.
+int single_axis(int axes)
+{
+  const int mask = count_bits(axes) == 2 ? 7 ^ axes : axes;
+  return count_bits(mask) == 1 ? mask / 2 : -1; // 1, 2, 4: 0, 1, 2
+}
+} // namespace
+
+Drag::Drag(const ScreenView& view, const DragSetup& setup, const Vector2d& mouse)
+  : view_(view), setup_(setup), mouse_(mouse), start_(mouse), now_(mouse)
+{
+  this->restart();
+}
+
+void Drag::restart()
+{
+  this->turned_ = 0.0;
+  this->last_angle_ = this->angle(this->start_).value_or(0.0);
+  this->last_ = DragMotion();
+  this->follow_angle();
+}
+
+void Drag::move_to(const Vector2d& mouse, bool fine)
+{
+  this->now_ += (fine ? fine_share : 1.0) * (mouse - this->mouse_);
+  this->mouse_ = mouse;
+  this->follow_angle();
+}
+
+void Drag::constrain(const Matrix3d& frame, int axes)
+{
+  this->setup_.frame = frame;
+  this->setup_.axes = axes;
+  if (this->setup_.kind == DragKind::aim || this->setup_.kind == DragKind::reach)
+  {
+    this->setup_.kind = DragKind::turn;
+  }
+  this->restart();
+}
+
+Vector3d Drag::axis() const
+{
+  const int single = single_axis(this->setup_.axes);
+  return single < 0 ? Vector3d(-this->view_.sight_to(this->setup_.pivot))
+                    : Vector3d(this->setup_.frame.col(single));
+}
+
+/// The way along an axis through the grabbed place; none when it is seen along.
+std::optional<double> Drag::along(const Vector3d& axis, const Vector2d& mouse) const
+{
+  const Vector3d& place = this->setup_.grabbed;
+  const Vector3d sight = this->view_.sight_to(place);
+  const Vector3d normal = sight - axis * axis.dot(sight);
+  Vector3d at;
+  if (std::abs(axis.dot(sight)) > seen_along ||
+    !meet_plane(this->view_.ray(mouse), place, normal, at))
+  {
+    return std::nullopt;
+  }
+  return axis.dot(at - place);
+}
+
+std::optional<double> Drag::angle(const Vector2d& mouse) const
+{
+  const Vector3d axis = this->axis();
+  const Vector3d& pivot = this->setup_.pivot;
+  const Vector3d sight = this->view_.sight_to(pivot);
+  if (single_axis(this->setup_.axes) < 0)
+  {
+    const Vector2d way = mouse - this->view_.to_display(pivot).head<2>();
+    return std::atan2(way[1], way[0]);
+  }
+  if (std::abs(axis.dot(sight)) < seen_from_side)
+  {
+    const double pixel = this->view_.pixel_at(pivot);
+    const Vector3d near = pivot - this->setup_.ring_pixels * pixel * sight;
+    const Vector2d way =
+      (this->view_.to_display(near + pixel * axis.cross(-sight)) - this->view_.to_display(near))
+        .head<2>();
+    return way.norm() > 0.0 ? way.normalized().dot(mouse - this->start_) / this->setup_.ring_pixels
+                            : 0.0;
+  }
+  Vector3d at;
+  if (!meet_plane(this->view_.ray(mouse), pivot, axis, at))
+  {
+    return std::nullopt;
+  }
+  const Vector3d u = axis.unitOrthogonal();
+  const Vector3d v = axis.cross(u);
+  return std::atan2(v.dot(at - pivot), u.dot(at - pivot));
+}
+
+void Drag::follow_angle()
+{
+  const std::optional<double> angle = this->angle(this->now_);
+  if (angle)
+  {
+    this->turned_ += std::remainder(*angle - this->last_angle_, 2.0 * EIGEN_PI);
+    this->last_angle_ = *angle;
+  }
+}
+
+double Drag::snapped(double amount, double step) const
+{
+  return this->snap_ && step > 0.0 ? step * std::round(amount / step) : amount;
+}
+
+DragMotion Drag::moved() const
+{
+  const DragSetup& s = this->setup_;
+  DragMotion result = this->last_;
+  const int bits = count_bits(s.axes);
+  const int single = single_axis(s.axes);
+  Vector3d way = Vector3d::Zero();
+  if (this->typed_)
+  {
+    const int first = (s.axes & 1) ? 0 : (s.axes & 2) ? 1 : 2;
+    way = *this->typed_ * s.frame.col(first);
+  }
+  else if (bits == 1)
+  {
+    const std::optional<double> before = this->along(s.frame.col(single), this->start_);
+    const std::optional<double> after = this->along(s.frame.col(single), this->now_);
+    if (!before || !after)
+    {
+      return result;
+    }
+    way = this->snapped(*after - *before, s.length_step) * s.frame.col(single);
+  }
+  else
+  {
+    const Vector3d normal = bits == 2 ? Vector3d(s.frame.col(single)) : this->view_.sight();
+    Vector3d before;
+    Vector3d after;
+    if (!meet_plane(this->view_.ray(this->start_), s.grabbed, normal, before) ||
+      !meet_plane(this->view_.ray(this->now_), s.grabbed, normal, after))
+    {
+      return result;
+    }
+    way = after - before;
+    if (bits == 2 || (this->snap_ && s.length_step > 0.0))
+    {
+      Vector3d own = s.frame.transpose() * way;
+      for (int k = 0; k < 3; ++k)
+      {
+        // exactly in the plane, without the round-off of the hits
+        own[k] = (s.axes >> k) & 1 ? this->snapped(own[k], s.length_step) : 0.0;
+      }
+      way = s.frame * own;
+    }
+  }
+  result.motion = Affine3d(Eigen::Translation3d(way));
+  result.amount = bits == 1 ? way.dot(s.frame.col(single)) : way.norm();
+  return result;
+}
+
+DragMotion Drag::turned() const
+{
+  DragMotion result;
+  const double degrees = this->typed_
+    ? *this->typed_
+    : this->snapped(this->turned_ * 180.0 / EIGEN_PI, this->setup_.degree_step);
+  result.amount = degrees;
+  result.motion = about(this->setup_.pivot,
+    Eigen::AngleAxisd(degrees * EIGEN_PI / 180.0, this->axis().normalized()).toRotationMatrix());
+  return result;
+}
+
+DragMotion Drag::aimed() const
+{
+  const DragSetup& s = this->setup_;
+  DragMotion result = this->last_;
+  Vector3d before;
+  Vector3d after;
+  if (!meet_plane(this->view_.ray(this->start_), s.grabbed, this->view_.sight(), before) ||
+    !meet_plane(this->view_.ray(this->now_), s.grabbed, this->view_.sight(), after))
+  {
+    return result;
+  }
+  const Vector3d arm = s.arm + (after - before);
+  const double length = s.arm.norm();
+  if (!(length > 0.0) || arm.norm() <= 1e-6 * length)
+  {
+    return result;
+  }
+  Eigen::AngleAxisd rotation(Eigen::Quaterniond::FromTwoVectors(s.arm, arm));
+  rotation.angle() = this->snapped(rotation.angle(), this->setup_.degree_step * EIGEN_PI / 180.0);
+  result.motion = about(s.pivot, rotation.toRotationMatrix());
+  result.amount = rotation.angle() * 180.0 / EIGEN_PI;
+  if (s.kind == DragKind::reach)
+  {
+    result.factor = std::max(this->snapped(arm.norm() / length, s.factor_step), smallest_factor);
+    result.amount = result.factor;
+  }
+  return result;
+}
+
+DragMotion Drag::scaled() const
+{
+  const DragSetup& s = this->setup_;
+  DragMotion result = this->last_;
+  double factor = 1.0;
+  const Vector2d pivot = this->view_.to_display(s.pivot).head<2>();
+  const double far = (this->start_ - pivot).norm();
+  std::optional<double> before;
+  std::optional<double> after;
+  if (count_bits(s.axes) == 1)
+  {
+    const Vector3d axis = s.frame.col(single_axis(s.axes));
+    const double offset = axis.dot(s.grabbed - s.pivot);
+    before = this->along(axis, this->start_);
+    after = this->along(axis, this->now_);
+    if (before && after)
+    {
+      *before += offset;
+      *after += offset;
+    }
+  }
+  if (this->typed_)
+  {
+    // A negative one mirrors; nothing is flattened.
+    factor = std::copysign(std::max(std::abs(*this->typed_), smallest_factor), *this->typed_);
+  }
+  else if (before && after && std::abs(*before) > near_pixels * this->view_.pixel_at(s.pivot))
+  {
+    factor = *after / *before;
+  }
+  else if (far > near_pixels)
+  {
+    factor = (this->now_ - pivot).norm() / far;
+  }
+  else
+  {
+    factor = 1.0 + (this->now_ - this->start_).sum() * std::sqrt(0.5) / double_pixels;
+  }
+  if (!this->typed_)
+  {
+    factor = std::max(this->snapped(factor, s.factor_step), smallest_factor);
+  }
+  Vector3d factors;
+  for (int k = 0; k < 3; ++k)
+  {
+    factors[k] = (s.axes >> k) & 1 ? factor : 1.0;
+  }
+  result.motion = about(s.pivot,
+    s.axes == 7 ? Matrix3d(factor * Matrix3d::Identity())
+                : Matrix3d(s.frame * factors.asDiagonal() * s.frame.transpose()));
+  result.amount = factor;
+  return result;
+}
+
+DragMotion Drag::stretched() const
+{
+  const DragSetup& s = this->setup_;
+  DragMotion result = this->last_;
+  const double length = s.arm.norm();
+  if (!(length > 0.0))
+  {
+    return result;
+  }
+  const Vector3d axis = s.arm / length;
+  const std::optional<double> before = this->along(axis, this->start_);
+  const std::optional<double> after = this->along(axis, this->now_);
+  if (!this->typed_ && (!before || !after))
+  {
+    return result;
+  }
+  const double factor = this->typed_
+    ? *this->typed_
+    : this->snapped((length + *after - *before) / length, s.factor_step);
+  result.factor = std::max(factor, smallest_factor);
+  result.amount = result.factor;
+  return result;
+}
+
+Vector3d Drag::start_arm() const
+{
+  const Vector3d axis = this->axis().normalized();
+  Vector3d at;
+  const Vector3d sight = this->view_.sight_to(this->setup_.pivot);
+  if (std::abs(axis.dot(sight)) < seen_from_side ||
+    !meet_plane(this->view_.ray(this->start_), this->setup_.pivot, axis, at))
+  {
+    at = this->setup_.pivot - sight;
+  }
+  const Vector3d arm = at - this->setup_.pivot;
+  const Vector3d across = arm - axis * axis.dot(arm);
+  return across.norm() > 0.0 ? Vector3d(across.normalized()) : axis.unitOrthogonal();
+}
+
+DragMotion Drag::motion()
+{
+  switch (this->setup_.kind)
+  {
+    case DragKind::move:
+      this->last_ = this->moved();
+      break;
+    case DragKind::turn:
+      this->last_ = this->turned();
+      break;
+    case DragKind::aim:
+    case DragKind::reach:
+      this->last_ = this->typed_ ? this->turned() : this->aimed();
+      break;
+    case DragKind::scale:
+      this->last_ = this->scaled();
+      break;
+    case DragKind::stretch:
+      this->last_ = this->stretched();
+      break;
+  }
+  return this->last_;
+}
+
+} // namespace bindpose

@@ -1,0 +1,99 @@
+// Sizes are in pixels, so every ball gets the world radius that a pixel has at its place. An
+// outline is a hull of the same shape, a little larger, of which only the back sides are drawn.
+#include "handle_drawing.h"
+
+#include <algorithm>
+
+namespace bindpose
+{
+namespace
+{
+constexpr double outline_pixels = 1.6;
+constexpr double bar_pixels = 1.2;
+constexpr double hot_growth = 1.2;
+} // namespace
+
+Colour lighter(const Colour& colour)
+{
+  Colour result = colour;
+  for (double& c : result)
+  {
+    c += 0.45 * (1.0 - c);
+  }
+  return result;
+}
+
+void draw_handles(const ScreenView& view, const std::vector<HandlePlace>& places,
+  const std::vector<HandleData::Bar>& bars, const HandleSizes& sizes, const HandleLook& look,
+  const HandleMarks& marks, HandleShapes& solid, HandleShapes& outline)
+{
+  for (const HandleData::Bar& bar : bars)
+  {
+    const double pixel = look.pixel_scale * view.pixel_at(0.5 * (bar.from + bar.to));
+    solid.add_bone(bar.from, bar.to, bar_pixels * pixel, look.outline);
+  }
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    const HandlePlace& place = places[i];
+    if (!place.is_handle())
+    {
+      continue;
+    }
+    const auto cell = static_cast<vtkIdType>(i);
+    const bool hot = cell == marks.hovered || cell == marks.active;
+    const bool selected =
+      std::find(marks.selected.begin(), marks.selected.end(), cell) != marks.selected.end();
+    const Colour base = place.colour
+      ? Colour{ (*place.colour)[0], (*place.colour)[1], (*place.colour)[2] }
+      : look.modes[std::clamp(place.mode, 0, 2)];
+    const Colour colour = hot ? lighter(base) : base;
+    const Colour edge = selected ? look.selected : look.outline;
+    const double growth = hot ? hot_growth : 1.0;
+    const double line = look.pixel_scale * outline_pixels * (selected ? 1.6 : 1.0);
+    // Around the selected handle's outline there is another, so that it shows on any ground.
+    const double rim = line + look.pixel_scale * outline_pixels;
+    const auto add_ball = [&](const Vec3& center, double size)
+    {
+      const double pixel = view.pixel_at(center);
+      solid.add_ball(center, size * growth * pixel, colour);
+      outline.add_ball(center, (size * growth + line) * pixel, edge);
+      if (selected)
+      {
+        outline.add_ball(center, (size * growth + rim) * pixel, look.outline);
+      }
+    };
+    if (!place.is_bone())
+    {
+      add_ball(place.head, sizes.ball);
+      continue;
+    }
+    const double pixel = view.pixel_at(0.5 * (place.head + place.tail));
+    const double width = growth * sizes.half_width((place.tail - place.head).norm(), pixel);
+    solid.add_bone(place.head, place.tail, width, colour);
+    outline.add_bone(place.head, place.tail, width, edge, line * pixel);
+    if (selected)
+    {
+      outline.add_bone(place.head, place.tail, width, look.outline, rim * pixel);
+    }
+    add_ball(place.head, sizes.end());
+    add_ball(place.tail, sizes.end());
+  }
+}
+
+Eigen::Vector2d label_place(const ScreenView& view, const HandlePlace& place, double ball)
+{
+  const Eigen::Vector2d display = view.to_display(0.5 * (place.head + place.tail)).head<2>();
+  Eigen::Vector2d aside(1.0, 0.0);
+  if (place.is_bone())
+  {
+    const Eigen::Vector2d along = display - view.to_display(place.head).head<2>();
+    if (along.norm() > 0.0)
+    {
+      aside = Eigen::Vector2d(along.y(), -along.x()).normalized();
+      aside *= aside.x() < 0.0 ? -1.0 : 1.0;
+    }
+  }
+  return display + ball * Eigen::Vector2d(1.9 * aside.x(), 2.4 * aside.y());
+}
+
+} // namespace bindpose

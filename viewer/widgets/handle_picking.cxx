@@ -1,0 +1,83 @@
+// Picking is done on the screen, without rendering: every place is projected once, and the first
+// in the order of rank, distance and depth is kept.
+#include "handle_picking.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace bindpose
+{
+
+double HandleSizes::half_width(double length, double pixel) const
+{
+  return std::clamp(this->bone_width * length, 0.5 * this->ball * pixel, 2.0 * this->ball * pixel);
+}
+
+HandlePick pick_handle(const ScreenView& view, const std::vector<HandlePlace>& places,
+  const Vector2d& mouse, const HandleSizes& sizes)
+{
+  HandlePick best;
+  std::tuple<int, double, double> best_order{ 4, 0.0, 0.0 };
+  vtkIdType cell = -1;
+  const auto offer = [&](HandlePart part, int rank, double distance, double depth)
+  {
+    const std::tuple<int, double, double> order{ rank, distance, depth };
+    if (order < best_order)
+    {
+      best = { part, cell };
+      best_order = order;
+    }
+  };
+  const double ball = sizes.ball + sizes.tolerance;
+  const double end = sizes.end() + sizes.tolerance;
+  for (const HandlePlace& place : places)
+  {
+    ++cell;
+    if (!place.is_handle() || view.pixel_at(place.head) == 0.0)
+    {
+      continue;
+    }
+    const Vector3d head = view.to_display(place.head);
+    const double to_head = (head.head<2>() - mouse).norm();
+    if (!place.is_bone())
+    {
+      if (to_head <= ball)
+      {
+        offer(HandlePart::point, 0, to_head, head[2]);
+      }
+      continue;
+    }
+    if (view.pixel_at(place.tail) == 0.0)
+    {
+      continue;
+    }
+    const Vector3d tail = view.to_display(place.tail);
+    const double to_tail = (tail.head<2>() - mouse).norm();
+    // Of a joint that two bones share the tail is grabbed: turning the upper bone is what is
+    // meant, moving the lower one off it hardly ever.
+    if (to_tail <= end)
+    {
+      offer(HandlePart::tail, 1, to_tail, tail[2]);
+    }
+    if (to_head <= end)
+    {
+      offer(HandlePart::head, 2, to_head, head[2]);
+    }
+    const Vector2d along = (tail - head).head<2>();
+    const double length2 = along.squaredNorm();
+    const double s =
+      length2 > 0.0 ? std::clamp((mouse - head.head<2>()).dot(along) / length2, 0.0, 1.0) : 0.0;
+    const double to_body = (head.head<2>() + s * along - mouse).norm();
+    if (to_body <= sizes.half_width(std::sqrt(length2), 1.0) + sizes.tolerance)
+    {
+      offer(HandlePart::body, 3, to_body, head[2] + s * (tail[2] - head[2]));
+    }
+  }
+  return best;
+}
+
+} // namespace bindpose

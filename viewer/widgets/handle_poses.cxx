@@ -1,0 +1,159 @@
+// A pose is split by the singular value decomposition L = U S V^T: the rotation is U V^T (with the
+// last column of U turned around when that would be a reflection), the scale V S V^T.
+#include "handle_poses.h"
+
+#include <Eigen/SVD>
+
+#include <algorithm>
+
+using Eigen::Affine3d;
+using Eigen::Matrix3d;
+
+namespace bindpose
+{
+namespace
+{
+Affine3d about(const Vec3& pivot, const Matrix3d& linear)
+{
+  Affine3d motion;
+  motion.linear() = linear;
+  motion.translation() = pivot - linear * pivot;
+  return motion;
+}
+
+Affine after(const Affine3d& motion, const Affine& transform)
+{
+  Affine moved = motion.linear() * transform;
+  moved.col(3) += motion.translation();
+  return moved;
+}
+
+Matrix3d turn(const Vec3& axis, double degrees)
+{
+  return Eigen::AngleAxisd(degrees * EIGEN_PI / 180.0, axis).toRotationMatrix();
+}
+} // namespace
+
+PoseParts split_pose(const Affine& transform, const Vec3& pivot)
+{
+  const Matrix3d linear = transform.leftCols<3>();
+  PoseParts parts;
+  parts.translation = transform * pivot.homogeneous() - pivot;
+  if (linear != Matrix3d::Identity())
+  {
+    const Eigen::JacobiSVD<Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Vec3 values = svd.singularValues();
+    Matrix3d u = svd.matrixU();
+    if (u.determinant() * svd.matrixV().determinant() < 0.0)
+    {
+      u.col(2) *= -1.0;
+      values[2] *= -1.0;
+    }
+    parts.rotation = u * svd.matrixV().transpose();
+    parts.scale = svd.matrixV() * values.asDiagonal() * svd.matrixV().transpose();
+  }
+  return parts;
+}
+
+Affine join_pose(const PoseParts& parts, const Vec3& pivot)
+{
+  Affine transform;
+  transform.leftCols<3>() = parts.rotation * parts.scale;
+  transform.col(3) = pivot + parts.translation - transform.leftCols<3>() * pivot;
+  return transform;
+}
+
+Matrix3d rest_axes(const HandlePlace& place)
+{
+  Matrix3d axes = Matrix3d::Identity();
+  const Vec3 bone = place.rest_tail - place.rest_head;
+  if (place.is_bone() && bone.norm() > 0.0)
+  {
+    axes = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitY(), bone).toRotationMatrix();
+  }
+  return axes;
+}
+
+Matrix3d posed_axes(const HandlePlace& place)
+{
+  return split_pose(place.transform, place.rest_head).rotation * rest_axes(place);
+}
+
+HandleGroup make_group(
+  const std::vector<HandlePlace>& places, const std::vector<vtkIdType>& grabbed, bool descend)
+{
+  HandleGroup group;
+  group.cells = grabbed;
+  group.grabbed = grabbed.size();
+  const auto count = static_cast<vtkIdType>(places.size());
+  const auto is_grabbed = [&](vtkIdType cell)
+  { return std::find(grabbed.begin(), grabbed.end(), cell) != grabbed.end(); };
+  for (vtkIdType cell = 0; descend && cell < count; ++cell)
+  {
+    // Up the hierarchy; the number of steps is bounded, whatever the file says.
+    vtkIdType ancestor = places[static_cast<std::size_t>(cell)].parent;
+    for (vtkIdType step = 0; step < count && ancestor >= 0 && ancestor < count; ++step)
+    {
+      if (is_grabbed(ancestor))
+      {
+        if (!is_grabbed(cell))
+        {
+          group.cells.push_back(cell);
+        }
+        break;
+      }
+      ancestor = places[static_cast<std::size_t>(ancestor)].parent;
+    }
+  }
+  for (const vtkIdType cell : group.cells)
+  {
+    const HandlePlace& place = places[static_cast<std::size_t>(cell)];
+    group.start.push_back({ place.transform, place.stretch, place.twist });
+  }
+  return group;
+}
+
+std::vector<HandleData::CellPose> moved_poses(const std::vector<HandlePlace>& places,
+  const HandleGroup& group, const Affine3d& motion, const BoneChange& change)
+{
+  std::vector<HandleData::CellPose> poses = group.start;
+  if (group.cells.empty())
+  {
+    return poses;
+  }
+  const HandlePlace& bone = places[static_cast<std::size_t>(group.cells.front())];
+  const Vec3 head = motion * bone.head;
+  const Vec3 arm = motion.linear() * (bone.tail - bone.head);
+  const bool is_bone = bone.is_bone() && arm.norm() > 0.0;
+  const Vec3 axis = is_bone ? Vec3(arm.normalized()) : Vec3::UnitY();
+  // what the followers do beyond the motion
+  Affine3d following = about(head, turn(axis, change.twist[1]));
+  following.translation() += (change.factor - 1.0) * arm;
+  for (std::size_t i = 0; i < group.cells.size(); ++i)
+  {
+    const HandlePlace& place = places[static_cast<std::size_t>(group.cells[i])];
+    HandleData::CellPose& pose = poses[i];
+    Affine3d whole = i < group.grabbed || !is_bone ? motion : Affine3d(following * motion);
+    if (i == 0 && is_bone && !change.to_arrays)
+    {
+      const Matrix3d along = Matrix3d::Identity() + (change.factor - 1.0) * axis * axis.transpose();
+      whole = about(head, turn(axis, change.twist.sum()) * along) * motion;
+    }
+    if (place.only_moves())
+    {
+      pose.transform.col(3) += whole * place.head - place.head;
+    }
+    else
+    {
+      pose.transform = after(whole, pose.transform);
+    }
+    if (i == 0 && is_bone && change.to_arrays)
+    {
+      pose.stretch *= change.factor;
+      pose.twist += change.twist;
+    }
+  }
+  return poses;
+}
+
+} // namespace bindpose

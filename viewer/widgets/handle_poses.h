@@ -1,0 +1,55 @@
+#ifndef handle_poses_h
+#define handle_poses_h
+
+#include "handle_data.h"
+
+#include <vector>
+
+namespace bindpose
+{
+
+/// A transform about a pivot c as x -> c + translation + rotation * scale * (x - c); the scale is
+/// symmetric, so this is the polar decomposition. A reflection is in the scale.
+struct PoseParts
+{
+  Vec3 translation = Vec3::Zero();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d scale = Eigen::Matrix3d::Identity();
+};
+PoseParts split_pose(const Affine& transform, const Vec3& pivot);
+Affine join_pose(const PoseParts& parts, const Vec3& pivot);
+
+/// A handle's own axes at rest, as columns: of a bone y along it; of all others the world's.
+Eigen::Matrix3d rest_axes(const HandlePlace& place);
+/// The same, turned with the pose.
+Eigen::Matrix3d posed_axes(const HandlePlace& place);
+
+/// Handles that move together: those that are grabbed and, below them by Parent, those that follow.
+struct HandleGroup
+{
+  std::vector<vtkIdType> cells; ///< grabbed ones first
+  std::size_t grabbed = 0; ///< how many are
+  std::vector<HandleData::CellPose> start; ///< one a cell
+};
+/// @param descend  whether any follow
+HandleGroup make_group(
+  const std::vector<HandlePlace>& places, const std::vector<vtkIdType>& grabbed, bool descend);
+
+/// What happens to the first grabbed handle of a group, beyond the motion of all.
+struct BoneChange
+{
+  double factor = 1.0; ///< of its length
+  Eigen::Vector2d twist = Eigen::Vector2d::Zero(); ///< degrees added at head and tail
+  /// Whether that goes to Stretch and Twist, or into the transform.
+  bool to_arrays = true;
+};
+
+/// Poses after a motion of the world. A handle whose mode is position goes with its pivot and does
+/// not turn. Of a longer bone the followers go with the tail; of one twisted at the tail they turn
+/// about it.
+std::vector<HandleData::CellPose> moved_poses(const std::vector<HandlePlace>& places,
+  const HandleGroup& group, const Eigen::Affine3d& motion, const BoneChange& change = {});
+
+} // namespace bindpose
+
+#endif

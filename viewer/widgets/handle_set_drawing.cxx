@@ -1,0 +1,219 @@
+// What is drawn is rebuilt whenever the handles, the camera or the window change. All solid parts
+// make one polydata, all outlines another.
+//
+// Handles lie inside the shape they bend. To be seen they are drawn in the overlay pass after the
+// depth buffer has been cleared, so they hide each other correctly and nothing hides them; the same
+// once more for the gizmo.
+#include "handle_drawing.h"
+#include "handle_set_internals.h"
+#include "screen_view.h"
+
+#include "vtkCamera.h"
+#include "vtkMath.h"
+#include "vtkOpenGLRenderWindow.h"
+#include "vtkOpenGLState.h"
+#include "vtkRenderer.h"
+#include "vtkTextProperty.h"
+
+#include <Eigen/Geometry>
+
+#include <algorithm>
+
+using bindpose::HandlePlace;
+using bindpose::ShapeActors;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace
+{
+constexpr unsigned int gl_depth_test = 0x0B71;
+constexpr unsigned int gl_depth_buffer_bit = 0x00000100;
+
+bindpose::Colour to_colour(const double rgb[3])
+{
+  return { rgb[0], rgb[1], rgb[2] };
+}
+} // namespace
+
+vtkMTimeType vtkHandleSetRepresentation::GetMTime()
+{
+  vtkMTimeType time = this->Superclass::GetMTime();
+  time = std::max(time, this->Internal->Labels.text()->GetMTime());
+  if (this->Internal->Data.get())
+  {
+    time = std::max(time, this->Internal->Data.get()->GetMTime());
+  }
+  return time;
+}
+
+void vtkHandleSetRepresentation::BuildRepresentation()
+{
+  Internals& self = *this->Internal;
+  if (!this->Renderer || !this->Renderer->GetRenderWindow())
+  {
+    return;
+  }
+  vtkWindow* window = this->Renderer->GetRenderWindow();
+  if (this->BuildTime > this->GetMTime() && this->BuildTime > window->GetMTime() &&
+    this->BuildTime > this->Renderer->GetMTime() &&
+    this->BuildTime > this->Renderer->GetActiveCamera()->GetMTime())
+  {
+    return;
+  }
+  const bindpose::ScreenView view(this->Renderer);
+  const std::vector<HandlePlace> places = self.Data.places(this->EditMode != POSE);
+  const bool fine = places.size() <= 60;
+  bindpose::HandleShapes solid(fine);
+  bindpose::HandleShapes outline(fine);
+  bindpose::HandleSizes sizes;
+  sizes.ball = this->PixelScale * this->PointSize;
+  sizes.bone_width = this->BoneWidth;
+  const bindpose::HandleLook look{ { to_colour(this->FullColor), to_colour(this->PositionColor),
+                                     to_colour(this->FreeColor) },
+    to_colour(this->OutlineColor), to_colour(this->SelectedColor), this->PixelScale };
+  const bindpose::HandleMarks marks{ this->HoveredHandle, this->ActiveHandle, self.Selected };
+  bindpose::draw_handles(view, places,
+    places.empty() ? std::vector<bindpose::HandleData::Bar>() : self.Data.bars(places), sizes, look,
+    marks, solid, outline);
+  const bindpose::RestEditor::Preview& preview = self.Editor.preview();
+  const bindpose::Colour fresh = bindpose::lighter(look.modes[0]);
+  if (preview.bone)
+  {
+    const auto& [head, tail] = *preview.bone;
+    const double pixel = view.pixel_at(0.5 * (head + tail));
+    const double width = sizes.half_width((tail - head).norm(), pixel);
+    solid.add_bone(head, tail, width, fresh);
+    outline.add_bone(head, tail, width, look.outline, 1.6 * this->PixelScale * pixel);
+    solid.add_ball(head, sizes.end() * view.pixel_at(head), fresh);
+  }
+  if (preview.bar)
+  {
+    const auto& [from, to] = *preview.bar;
+    solid.add_tube({ from, to }, 1.2 * this->PixelScale * view.pixel_at(0.5 * (from + to)), fresh);
+  }
+  if (preview.ball)
+  {
+    // On something that was there: a ring around it.
+    const double pixel = view.pixel_at(*preview.ball);
+    const double size = this->EditMode == ADD_BONES ? sizes.end() : sizes.ball;
+    const double rim = this->PixelScale * (preview.snapped ? 4.5 : 1.6);
+    solid.add_ball(*preview.ball, size * pixel, fresh);
+    outline.add_ball(
+      *preview.ball, (size + rim) * pixel, preview.snapped ? look.selected : look.outline);
+    outline.add_ball(*preview.ball, (size + rim + 1.6 * this->PixelScale) * pixel, look.outline);
+  }
+  self.Labels.clear();
+  for (vtkIdType cell = 0; cell < self.Data.count(); ++cell)
+  {
+    const bool hot = cell == this->HoveredHandle || cell == this->ActiveHandle;
+    const HandlePlace& place = places[static_cast<std::size_t>(cell)];
+    const bool dragged = self.Dragged && cell == this->ActiveHandle;
+    const bool named = this->ShowHoverName && hot && self.HoveredPart == bindpose::no_part;
+    if (place.is_handle() && (this->ShowLabels || named || dragged))
+    {
+      std::string text = self.Data.name(cell);
+      text += place.locked ? " (locked)" : place.is_free() && hot ? " (free)" : "";
+      text += dragged && !self.LastText.empty() ? "   " + self.LastText : "";
+      Vector2d at = bindpose::label_place(view, place, this->PixelScale * this->PointSize);
+      if (dragged && self.Dragged->part() != bindpose::no_part)
+      {
+        // below the gizmo, where there is room
+        const double aside = this->PixelScale * (1.45 * this->GizmoSize + 14.0);
+        at = view.to_display(place.head).head<2>();
+        at += Vector2d(-0.25 * aside, at[1] > 1.2 * aside ? -aside : aside);
+      }
+      self.Labels.add(text, at, this->PixelScale);
+    }
+  }
+  self.Handles.Set(solid, outline);
+
+  bindpose::HandleShapes gizmo_solid(true);
+  bindpose::HandleShapes gizmo_outline(true);
+  const vtkIdType gizmo_handle = self.Dragged ? this->ActiveHandle : this->GetSelectedHandle();
+  const bool shows = self.Dragged || (this->EditMode == POSE && this->Gizmo != GIZMO_NONE);
+  if (shows && this->GetDragRefusal(gizmo_handle) == DRAGGABLE)
+  {
+    bindpose::GizmoSetup setup = this->MakeGizmo(places[static_cast<std::size_t>(gizmo_handle)]);
+    bindpose::GizmoMarks gizmo_marks;
+    gizmo_marks.hovered = self.HoveredPart;
+    if (self.Dragged)
+    {
+      // Whatever starts a drag, what it is held to is drawn.
+      gizmo_marks.active = self.Dragged->part();
+      setup.kind = bindpose::gizmo_with(gizmo_marks.active, setup.kind);
+      setup.frame = self.Dragged->frame();
+      const auto spokes = self.Dragged->spokes(
+        bindpose::ring_pixels(setup, gizmo_marks.active) * view.pixel_at(setup.origin));
+      std::copy(spokes.begin(), spokes.end(), gizmo_marks.spokes);
+    }
+    if (!self.Dragged || gizmo_marks.active != bindpose::no_part)
+    {
+      const bindpose::Gizmo gizmo(view, setup, gizmo_marks);
+      gizmo.draw(gizmo_solid, gizmo_outline);
+      for (const bindpose::Gizmo::Label& label : gizmo.labels())
+      {
+        self.Labels.add(label.text, label.display, this->PixelScale, label.colour.data());
+      }
+    }
+  }
+  self.Gizmo.Set(gizmo_solid, gizmo_outline);
+  this->BuildTime.Modified();
+}
+
+double* vtkHandleSetRepresentation::GetBounds()
+{
+  Eigen::AlignedBox3d box;
+  for (const HandlePlace& place : this->Internal->Data.places(this->EditMode != POSE))
+  {
+    box.extend(place.head).extend(place.tail);
+  }
+  vtkMath::UninitializeBounds(this->Bounds);
+  for (int axis = 0; axis < 3 && !box.isEmpty(); ++axis)
+  {
+    this->Bounds[2 * axis] = box.min()[axis];
+    this->Bounds[2 * axis + 1] = box.max()[axis];
+  }
+  return this->Bounds;
+}
+
+int vtkHandleSetRepresentation::RenderOpaqueGeometry(vtkViewport* viewport)
+{
+  if (this->DrawOnTop)
+  {
+    return 0;
+  }
+  this->BuildRepresentation();
+  return this->Internal->Handles.Render(viewport);
+}
+
+int vtkHandleSetRepresentation::RenderOverlay(vtkViewport* viewport)
+{
+  this->BuildRepresentation();
+  int rendered = 0;
+  auto* window = vtkOpenGLRenderWindow::SafeDownCast(viewport->GetVTKWindow());
+  const auto on_top = [&](ShapeActors& actors)
+  {
+    vtkOpenGLState* state = window->GetState();
+    state->vtkglEnable(gl_depth_test);
+    state->vtkglDepthMask(1);
+    state->vtkglClear(gl_depth_buffer_bit);
+    rendered += actors.Render(viewport);
+  };
+  if (window && this->DrawOnTop)
+  {
+    on_top(this->Internal->Handles);
+  }
+  if (window)
+  {
+    on_top(this->Internal->Gizmo);
+  }
+  return rendered + this->Internal->Labels.render(viewport);
+}
+
+void vtkHandleSetRepresentation::ReleaseGraphicsResources(vtkWindow* window)
+{
+  this->Internal->Handles.Release(window);
+  this->Internal->Gizmo.Release(window);
+  this->Internal->Labels.release(window);
+  this->Superclass::ReleaseGraphicsResources(window);
+}

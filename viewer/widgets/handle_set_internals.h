@@ -1,0 +1,103 @@
+#ifndef handle_set_internals_h
+#define handle_set_internals_h
+
+// What vtkHandleSetRepresentation keeps, for the files that its member functions are in.
+
+#include "gizmo.h"
+#include "handle_data.h"
+#include "handle_poses.h"
+#include "handle_shapes.h"
+#include "pose_drag.h"
+#include "rest_editor.h"
+#include "screen_labels.h"
+#include "vtkHandleSetRepresentation.h"
+
+#include "vtkActor.h"
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace bindpose
+{
+
+/// Shapes and their hull, as two actors.
+class ShapeActors
+{
+public:
+  ShapeActors()
+  {
+    const std::pair<vtkActor*, vtkPolyDataMapper*> both[2] = {
+      { this->Outline, this->OutlineMapper }, { this->Solid, this->SolidMapper }
+    };
+    for (const auto& [actor, mapper] : both)
+    {
+      mapper->SetScalarModeToUsePointData();
+      mapper->SetColorModeToDirectScalars();
+      actor->SetMapper(mapper);
+    }
+    vtkProperty* solid = this->Solid->GetProperty();
+    solid->SetAmbient(0.25);
+    solid->SetDiffuse(0.75);
+    solid->SetSpecular(0.25);
+    solid->SetSpecularPower(30.0);
+    solid->BackfaceCullingOn();
+    this->Outline->GetProperty()->LightingOff();
+    this->Outline->GetProperty()->FrontfaceCullingOn();
+  }
+  /// Colours as they are, not as lights make them.
+  void SetFlat()
+  {
+    this->Solid->GetProperty()->SetAmbient(0.75);
+    this->Solid->GetProperty()->SetDiffuse(0.3);
+    this->Solid->GetProperty()->SetSpecular(0.0);
+  }
+  void Set(const bindpose::HandleShapes& solid, const bindpose::HandleShapes& outline)
+  {
+    this->SolidMapper->SetInputData(solid.polydata());
+    this->OutlineMapper->SetInputData(outline.polydata());
+  }
+  int Render(vtkViewport* viewport)
+  {
+    return this->Outline->RenderOpaqueGeometry(viewport) +
+      this->Solid->RenderOpaqueGeometry(viewport);
+  }
+  void Release(vtkWindow* window)
+  {
+    this->Outline->ReleaseGraphicsResources(window);
+    this->Solid->ReleaseGraphicsResources(window);
+  }
+
+private:
+  vtkNew<vtkPolyDataMapper> OutlineMapper;
+  vtkNew<vtkPolyDataMapper> SolidMapper;
+  vtkNew<vtkActor> Outline;
+  vtkNew<vtkActor> Solid;
+};
+
+} // namespace bindpose
+
+class vtkHandleSetRepresentation::Internals
+{
+public:
+  bindpose::HandleData Data;
+  bindpose::ShapeActors Handles;
+  bindpose::ShapeActors Gizmo;
+  bindpose::ScreenLabels Labels;
+  std::vector<vtkIdType> Selected;
+  int HoveredPart = bindpose::no_part; // of the gizmo
+
+  std::optional<bindpose::PoseDrag> Dragged;
+  bindpose::RestEditor Editor{ this->Data };
+  std::string Message; // why the last edit was refused
+
+  std::string LastName; // of the last drag
+  std::string LastText;
+};
+
+#endif

@@ -1,0 +1,153 @@
+// Poses in numbers: each function splits the transform, replaces one part and joins it again.
+#include "handle_set_internals.h"
+
+#include "vtkMath.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <cmath>
+
+using bindpose::Affine;
+using bindpose::HandlePlace;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+bool vtkHandleSetRepresentation::WriteHandle(vtkIdType handle, const HandlePlace& posed)
+{
+  const std::vector<HandlePlace> places = this->Internal->Data.places();
+  if (!this->Internal->Data.exists(handle) || this->GetDragRefusal(handle) == IS_LOCKED ||
+    !places[static_cast<std::size_t>(handle)].is_handle() || !posed.transform.allFinite())
+  {
+    return false;
+  }
+  const HandlePlace& before = places[static_cast<std::size_t>(handle)];
+  const bindpose::HandleGroup group =
+    bindpose::make_group(places, { handle }, this->MoveDescendants != 0);
+  // The motion from the one to the other is what the followers do; the handle itself takes the
+  // numbers as they are.
+  Eigen::Affine3d motion = Eigen::Affine3d::Identity();
+  const Eigen::Matrix3d inverse = before.transform.leftCols<3>().inverse();
+  if (posed.transform != before.transform && inverse.allFinite())
+  {
+    motion.linear() = posed.transform.leftCols<3>() * inverse;
+    motion.translation() = posed.transform.col(3) - motion.linear() * before.transform.col(3);
+  }
+  const double factor = before.stretch != 0.0 ? posed.stretch / before.stretch : 1.0;
+  std::vector<bindpose::HandleData::CellPose> poses = bindpose::moved_poses(
+    places, group, motion, { factor, Vector2d(0.0, posed.twist[1] - before.twist[1]), true });
+  poses.front() = { posed.transform, posed.stretch, posed.twist };
+  this->Internal->Data.set_poses(group.cells, poses);
+  this->Modified();
+  return true;
+}
+
+bool vtkHandleSetRepresentation::SetHandleTranslation(vtkIdType handle, const double translation[3])
+{
+  HandlePlace place = this->Internal->Data.place(handle);
+  const Affine linear = place.transform;
+  place.transform.col(3) =
+    place.rest_head + Vector3d(translation) - linear.leftCols<3>() * place.rest_head;
+  return this->WriteHandle(handle, place);
+}
+
+bool vtkHandleSetRepresentation::SetHandleRotation(
+  vtkIdType handle, const double axis[3], double degrees)
+{
+  HandlePlace place = this->Internal->Data.place(handle);
+  bindpose::PoseParts parts = bindpose::split_pose(place.transform, place.rest_head);
+  const double length = Vector3d(axis).norm();
+  if (!(length > 0.0))
+  {
+    return false;
+  }
+  parts.rotation = Eigen::AngleAxisd(vtkMath::RadiansFromDegrees(degrees), Vector3d(axis) / length)
+                     .toRotationMatrix();
+  place.transform = bindpose::join_pose(parts, place.rest_head);
+  return this->WriteHandle(handle, place);
+}
+
+bool vtkHandleSetRepresentation::SetHandleScale(vtkIdType handle, const double factors[3])
+{
+  HandlePlace place = this->Internal->Data.place(handle);
+  bindpose::PoseParts parts = bindpose::split_pose(place.transform, place.rest_head);
+  const Eigen::Matrix3d axes = bindpose::rest_axes(place);
+  const Vector3d scale(factors);
+  if ((scale.array() == 0.0).any())
+  {
+    return false;
+  }
+  parts.scale = axes * scale.asDiagonal() * axes.transpose();
+  if (scale[0] == scale[1] && scale[1] == scale[2])
+  {
+    parts.scale = scale[0] * Eigen::Matrix3d::Identity(); // without round-off
+  }
+  place.transform = bindpose::join_pose(parts, place.rest_head);
+  return this->WriteHandle(handle, place);
+}
+
+bool vtkHandleSetRepresentation::SetHandleScale(vtkIdType handle, double factor)
+{
+  const double factors[3] = { factor, factor, factor };
+  return this->SetHandleScale(handle, factors);
+}
+
+bool vtkHandleSetRepresentation::SetHandleStretch(vtkIdType handle, double ratio)
+{
+  HandlePlace place = this->Internal->Data.place(handle);
+  place.stretch = ratio;
+  return ratio > 0.0 && std::isfinite(ratio) && place.is_bone() && this->WriteHandle(handle, place);
+}
+
+bool vtkHandleSetRepresentation::SetHandleTwist(
+  vtkIdType handle, double headDegrees, double tailDegrees)
+{
+  HandlePlace place = this->Internal->Data.place(handle);
+  place.twist = Vector2d(headDegrees, tailDegrees);
+  return place.twist.allFinite() && place.is_bone() && this->WriteHandle(handle, place);
+}
+
+bool vtkHandleSetRepresentation::ResetHandle(vtkIdType handle)
+{
+  HandlePlace place = this->Internal->Data.place(handle);
+  place.transform = bindpose::identity_affine();
+  place.stretch = 1.0;
+  place.twist.setZero();
+  return this->WriteHandle(handle, place);
+}
+
+void vtkHandleSetRepresentation::GetHandleTranslation(vtkIdType handle, double translation[3])
+{
+  const HandlePlace place = this->Internal->Data.place(handle);
+  const Vector3d moved = bindpose::split_pose(place.transform, place.rest_head).translation;
+  std::copy_n(moved.data(), 3, translation);
+}
+
+double vtkHandleSetRepresentation::GetHandleRotation(vtkIdType handle, double axis[3])
+{
+  const HandlePlace place = this->Internal->Data.place(handle);
+  const Eigen::AngleAxisd turned(bindpose::split_pose(place.transform, place.rest_head).rotation);
+  std::copy_n(turned.axis().data(), 3, axis);
+  return vtkMath::DegreesFromRadians(turned.angle());
+}
+
+void vtkHandleSetRepresentation::GetHandleScale(vtkIdType handle, double factors[3])
+{
+  const HandlePlace place = this->Internal->Data.place(handle);
+  const Eigen::Matrix3d axes = bindpose::rest_axes(place);
+  const Vector3d scale =
+    (axes.transpose() * bindpose::split_pose(place.transform, place.rest_head).scale * axes)
+      .diagonal();
+  std::copy_n(scale.data(), 3, factors);
+}
+
+double vtkHandleSetRepresentation::GetHandleStretch(vtkIdType handle)
+{
+  return this->Internal->Data.place(handle).stretch;
+}
+
+void vtkHandleSetRepresentation::GetHandleTwist(vtkIdType handle, double degrees[2])
+{
+  std::copy_n(this->Internal->Data.place(handle).twist.data(), 2, degrees);
+}

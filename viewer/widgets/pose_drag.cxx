@@ -1,0 +1,249 @@
+// Which part does what: balls, bodies and heads move in the plane that faces the camera; a tail
+// aims its bone, or reaches; parts of the gizmo are named for what they do. A handle whose mode is
+// position only ever moves.
+#include "pose_drag.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+using Eigen::Matrix3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace bindpose
+{
+namespace
+{
+bool is_twist(int part)
+{
+  return part == twist_head || part == twist_tail;
+}
+
+DragKind kind_of_part(int part, bool reach)
+{
+  if (part == static_cast<int>(HandlePart::tail))
+  {
+    return reach ? DragKind::reach : DragKind::aim;
+  }
+  if ((part >= turn_x && part <= turn_view) || is_twist(part))
+  {
+    return DragKind::turn;
+  }
+  if (part >= scale_x && part <= scale_all)
+  {
+    return DragKind::scale;
+  }
+  return part == stretch_bone ? DragKind::stretch : DragKind::move;
+}
+
+/// What only the handle does that the mouse holds.
+bool is_of_one(int part)
+{
+  return part == static_cast<int>(HandlePart::tail) || part >= stretch_bone;
+}
+
+Matrix3d axes_in(bool local, const HandlePlace& place)
+{
+  return local ? posed_axes(place) : Matrix3d(Matrix3d::Identity());
+}
+
+DragSetup setup_of(const HandlePlace& place, int part, const DragSettings& settings)
+{
+  DragSetup setup;
+  const bool on_tail = part == static_cast<int>(HandlePart::tail);
+  setup.kind = place.only_moves() ? DragKind::move : kind_of_part(part, settings.reach);
+  setup.pivot = setup.grabbed = place.head;
+  setup.arm = place.tail - place.head;
+  if (part == static_cast<int>(HandlePart::body))
+  {
+    setup.grabbed = 0.5 * (place.head + place.tail);
+  }
+  else if (on_tail || part == stretch_bone)
+  {
+    setup.grabbed = place.tail;
+  }
+  setup.frame = axes_in(settings.local_space, place);
+  setup.axes = axes_of_part(part);
+  if (is_twist(part))
+  {
+    // about the bone, through the ring's place on it
+    setup.frame =
+      Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitY(), setup.arm).toRotationMatrix();
+    setup.axes = 2;
+  }
+  setup.ring_pixels = settings.ring_pixels;
+  setup.length_step = settings.length_step;
+  setup.degree_step = settings.degree_step;
+  setup.factor_step = settings.factor_step;
+  return setup;
+}
+} // namespace
+
+int axes_of_part(int part)
+{
+  const auto within = [&](int first) { return part >= first && part < first + 3; };
+  if (within(move_yz))
+  {
+    return 7 ^ (1 << (part - move_yz));
+  }
+  for (const int first : { move_x, turn_x, scale_x })
+  {
+    if (within(first))
+    {
+      return 1 << (part - first);
+    }
+  }
+  return 7;
+}
+
+PoseDrag::PoseDrag(const ScreenView& view, std::vector<HandlePlace> places, int part,
+  const std::vector<vtkIdType>& grabbed, const Vector2d& mouse, const DragSettings& settings)
+  : start_part_(part), places_(std::move(places)),
+    group_(make_group(this->places_,
+      is_of_one(part) ? std::vector<vtkIdType>{ grabbed.front() } : grabbed, settings.descend)),
+    settings_(settings),
+    drag_(view, setup_of(this->places_[static_cast<std::size_t>(grabbed.front())], part, settings),
+      mouse)
+{
+}
+
+std::vector<HandleData::CellPose> PoseDrag::poses()
+{
+  const DragMotion result = this->drag_.motion();
+  BoneChange change;
+  change.factor = result.factor;
+  change.to_arrays = this->settings_.bone_arrays;
+  Eigen::Affine3d motion = result.motion;
+  if (is_twist(this->start_part_) && this->drag_.setup().kind == DragKind::turn)
+  {
+    motion.setIdentity();
+    change.twist[this->start_part_ == twist_head && change.to_arrays ? 0 : 1] = result.amount;
+  }
+  return moved_poses(this->places_, this->group_, motion, change);
+}
+
+void PoseDrag::press_axis(int axis, bool plane)
+{
+  if (is_twist(this->start_part_) || this->drag_.setup().kind == DragKind::stretch)
+  {
+    return; // they have an axis of their own
+  }
+  const int axes = plane ? 7 ^ (1 << axis) : 1 << axis;
+  this->presses_ = axes == this->pressed_axes_ ? (this->presses_ + 1) % 3 : 1;
+  this->pressed_axes_ = axes;
+  const HandlePlace& place = this->places_[static_cast<std::size_t>(this->group_.cells.front())];
+  const bool local = this->settings_.local_space == (this->presses_ == 1);
+  this->drag_.constrain(axes_in(local, place), this->presses_ == 0 ? 7 : axes);
+}
+
+bool PoseDrag::type(char key)
+{
+  if ((key >= '0' && key <= '9') || (key == '.' && this->typed_.find('.') == std::string::npos))
+  {
+    this->typed_ += key;
+  }
+  else if (key == '-')
+  {
+    const bool negative = !this->typed_.empty() && this->typed_[0] == '-';
+    this->typed_ = negative ? this->typed_.substr(1) : "-" + this->typed_;
+  }
+  else if (key == 'b' && !this->typed_.empty())
+  {
+    this->typed_.pop_back();
+  }
+  else
+  {
+    return false;
+  }
+  const bool number = this->typed_.find_first_of("0123456789") != std::string::npos;
+  this->drag_.set_typed(
+    number ? std::optional<double>(std::strtod(this->typed_.c_str(), nullptr)) : std::nullopt);
+  return true;
+}
+
+const char* PoseDrag::name() const
+{
+  switch (this->drag_.setup().kind)
+  {
+    case DragKind::turn:
+      return is_twist(this->start_part_) ? "twist" : "turn";
+    case DragKind::aim:
+      return "turn";
+    case DragKind::scale:
+      return "scale";
+    case DragKind::stretch:
+    case DragKind::reach:
+      return "stretch";
+    case DragKind::move:
+      break;
+  }
+  return "move";
+}
+
+std::string PoseDrag::text()
+{
+  const DragSetup& setup = this->drag_.setup();
+  char number[64];
+  const double amount = this->drag_.motion().amount;
+  const bool degrees = setup.kind == DragKind::turn || setup.kind == DragKind::aim;
+  std::snprintf(number, sizeof(number), degrees ? "%.1f°" : "%.4g", amount);
+  std::string text = this->typed_.empty() ? number : this->typed_ + (degrees ? "°" : "");
+  if (setup.axes != 7 && !is_twist(this->start_part_))
+  {
+    text = " " + text;
+    for (int k = 2; k >= 0; --k)
+    {
+      if ((setup.axes >> k) & 1)
+      {
+        text = "XYZ"[k] + text;
+      }
+    }
+  }
+  return text;
+}
+
+int PoseDrag::part() const
+{
+  const DragSetup& setup = this->drag_.setup();
+  if (is_twist(this->start_part_) || setup.kind == DragKind::stretch)
+  {
+    return this->start_part_;
+  }
+  int axis = -1;
+  for (int k = 0; k < 3; ++k)
+  {
+    if (setup.axes == 1 << k || setup.axes == (7 ^ (1 << k)))
+    {
+      axis = k;
+    }
+  }
+  const bool plane = setup.axes == (7 ^ (1 << std::max(axis, 0)));
+  switch (setup.kind)
+  {
+    case DragKind::move:
+      return axis < 0 ? no_part : (plane ? move_yz : move_x) + axis;
+    case DragKind::turn:
+      return axis < 0 ? turn_view : turn_x + axis;
+    case DragKind::scale:
+      return axis < 0 || plane ? scale_all : scale_x + axis;
+    default:
+      return no_part;
+  }
+}
+
+std::array<std::optional<Vector3d>, 2> PoseDrag::spokes(double radius)
+{
+  std::array<std::optional<Vector3d>, 2> spokes;
+  const DragSetup& setup = this->drag_.setup();
+  if (setup.kind == DragKind::turn && !is_twist(this->start_part_))
+  {
+    const Vector3d from = radius * this->drag_.start_arm();
+    spokes[0] = setup.pivot + from;
+    spokes[1] = setup.pivot + this->drag_.motion().motion.linear() * from;
+  }
+  return spokes;
+}
+
+} // namespace bindpose

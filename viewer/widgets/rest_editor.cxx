@@ -1,0 +1,485 @@
+// Where a click means: the end of a handle under the mouse; else where the ray meets the surface,
+// or halfway to where it comes out again; else, off the surface, in the plane that faces the camera
+// through what was placed before. A cage lies around a shape: its vertices go into that plane, the
+// first one onto the surface.
+//
+// Cells change their numbers with every edit, so a cage in the making is remembered by names.
+#include "rest_editor.h"
+
+#include "vtkNew.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+namespace
+{
+constexpr double snap_pixels = 14.0;
+constexpr double shortest_pixels = 5.0; // of a bone that is meant
+} // namespace
+
+Index RestEditor::handle_of(vtkIdType cell) const
+{
+  Handles handles;
+  std::vector<Index> cells;
+  if (!to_editable(this->data_.get(), handles, cells).ok())
+  {
+    return -1;
+  }
+  const auto found = std::find(cells.begin(), cells.end(), cell);
+  return found == cells.end() ? -1 : static_cast<Index>(found - cells.begin());
+}
+
+bool RestEditor::edit(const char* name, const HandleListEdit& edit)
+{
+  const Status status =
+    edit_handles(this->data_.get(), edit, &this->result_.cell_of, &this->result_.added);
+  this->name_ = name;
+  this->result_.changed = status.ok();
+  this->result_.message = status.message;
+  return status.ok();
+}
+
+EditResult RestEditor::take_result()
+{
+  EditResult result = std::move(this->result_);
+  this->result_ = EditResult();
+  return result;
+}
+
+// ---- Where the mouse is ------------------------------------------------------------------------
+
+std::optional<RestEditor::Target> RestEditor::end_under(const ScreenView& view,
+  const Eigen::Vector2d& mouse, const EditSettings& settings, bool any_kind) const
+{
+  std::optional<Target> best;
+  double nearest = std::max(settings.sizes.ball + settings.sizes.tolerance,
+    any_kind ? snap_pixels * settings.sizes.ball / 7.0 : 0.0);
+  const std::vector<HandlePlace> places = this->data_.places(true);
+  for (std::size_t i = 0; i < places.size(); ++i)
+  {
+    for (const bool tail : { true, false }) // of a joint the upper bone's tail
+    {
+      const HandlePlace& place = places[i];
+      const Vec3& at = tail ? place.tail : place.head;
+      if (!place.is_handle() || (tail && !place.is_bone()) || view.pixel_at(at) == 0.0)
+      {
+        continue;
+      }
+      const double distance = (view.to_display(at).head<2>() - mouse).norm();
+      if (distance < nearest)
+      {
+        nearest = distance;
+        best = Target{ at, static_cast<vtkIdType>(i), tail, true };
+      }
+    }
+  }
+  // A tail at the same place wins over a head that was found first.
+  for (std::size_t i = 0; best && !best->tail && i < places.size(); ++i)
+  {
+    if (places[i].is_bone() && (places[i].tail - best->place).norm() == 0.0)
+    {
+      best = Target{ places[i].tail, static_cast<vtkIdType>(i), true, true };
+    }
+  }
+  return best;
+}
+
+std::optional<RestEditor::Target> RestEditor::find(const ScreenView& view, const Hand& hand,
+  const EditSettings& settings, const std::optional<Vec3>& depth, bool take_ends)
+{
+  if (take_ends || hand.snap)
+  {
+    const std::optional<Target> end = this->end_under(view, hand.mouse, settings, hand.snap);
+    if (end)
+    {
+      return end;
+    }
+  }
+  Target target;
+  const Ray ray = view.ray(hand.mouse);
+  const SurfaceProbe* probe = this->surface_.probe();
+  LineSpan span;
+  const bool cage = settings.mode == EditMode::add_cage;
+  if (probe && (hand.snap || !(cage && depth)) &&
+    probe->first_inside(ray.origin, ray.direction, span))
+  {
+    if (hand.snap)
+    {
+      target.place = this->surface_.nearest_vertex(span.triangle, span.entry);
+      target.snapped = true;
+    }
+    else
+    {
+      target.place = settings.place_inside && !cage ? span.middle() : span.entry;
+    }
+    return target;
+  }
+  if (probe && !depth && !cage)
+  {
+    return std::nullopt; // beside the shape
+  }
+  const Vec3 through = depth ? *depth : probe ? this->surface_.center() : settings.focus;
+  if (!meet_plane(ray, through, view.sight(), target.place))
+  {
+    return std::nullopt;
+  }
+  return target;
+}
+
+void RestEditor::leave()
+{
+  this->target_.reset();
+  this->preview_ = Preview();
+}
+
+void RestEditor::hover(const ScreenView& view, const Hand& hand, const EditSettings& settings)
+{
+  this->leave();
+  if (settings.mode == EditMode::pose || settings.mode == EditMode::move_rest)
+  {
+    return;
+  }
+  std::optional<Vec3> depth;
+  if (settings.mode == EditMode::add_cage && !this->cage_.empty())
+  {
+    depth = this->data_.place(this->cell_named(this->cage_.back()), true).head;
+  }
+  this->target_ = this->find(view, hand, settings, depth, settings.mode != EditMode::add_points);
+  if (this->target_)
+  {
+    this->preview_.ball = this->target_->place;
+    this->preview_.snapped = this->target_->snapped;
+    if (depth)
+    {
+      this->preview_.bar = { *depth, this->target_->place };
+    }
+  }
+}
+
+vtkIdType RestEditor::cell_named(const std::string& name) const
+{
+  for (vtkIdType cell = 0; cell < this->data_.count(); ++cell)
+  {
+    if (this->data_.name(cell) == name)
+    {
+      return cell;
+    }
+  }
+  return -1;
+}
+
+// ---- The button --------------------------------------------------------------------------------
+
+bool RestEditor::press(const ScreenView& view, const Hand& hand, const EditSettings& settings,
+  const std::vector<vtkIdType>& selected)
+{
+  if (settings.mode == EditMode::move_rest)
+  {
+    this->busy_ = this->press_rest(view, hand, settings, selected);
+    return this->busy_;
+  }
+  this->hover(view, hand, settings);
+  if (settings.mode == EditMode::pose || !this->target_)
+  {
+    return false;
+  }
+  if (settings.mode == EditMode::add_cage)
+  {
+    return this->press_cage(*this->target_);
+  }
+  this->remember();
+  this->name_ = settings.mode == EditMode::add_points ? "add point" : "add bone";
+  this->head_ = *this->target_;
+  this->busy_ = true;
+  return true;
+}
+
+void RestEditor::move(const ScreenView& view, const Hand& hand, const EditSettings& settings)
+{
+  if (!this->busy_)
+  {
+    return;
+  }
+  if (this->drag_)
+  {
+    this->move_rest(view, hand, settings);
+    return;
+  }
+  const bool bone = settings.mode == EditMode::add_bones;
+  // A bone's tail that leaves the shape stays at its head's depth.
+  this->target_ = this->find(
+    view, hand, settings, bone ? std::optional<Vec3>(this->head_.place) : std::nullopt, false);
+  this->preview_ = Preview();
+  if (!this->target_)
+  {
+    return;
+  }
+  this->preview_.snapped = this->target_->snapped;
+  this->preview_.ball = this->target_->place;
+  if (bone)
+  {
+    this->preview_.bone = { this->head_.place, this->target_->place };
+  }
+}
+
+void RestEditor::release(const ScreenView& view, const Hand& hand, const EditSettings& settings)
+{
+  if (!this->busy_)
+  {
+    return;
+  }
+  if (!this->drag_)
+  {
+    this->move(view, hand, settings);
+  }
+  this->busy_ = false;
+  if (this->drag_)
+  {
+    this->drag_.reset();
+    this->result_.changed = !this->result_.cell_of.empty();
+    return;
+  }
+  const std::optional<Target> target = this->target_;
+  this->leave();
+  Handle handle;
+  if (!target)
+  {
+    return;
+  }
+  handle.head = handle.tail = target->place;
+  if (settings.mode == EditMode::add_bones)
+  {
+    handle.kind = HandleKind::bone;
+    handle.head = this->head_.place;
+    const double length =
+      (view.to_display(handle.head) - view.to_display(handle.tail)).head<2>().norm();
+    if (length < shortest_pixels * settings.sizes.ball / 7.0)
+    {
+      return; // a click
+    }
+    // from a bone's end its child
+    handle.parent =
+      this->data_.place(this->head_.cell).is_bone() ? this->handle_of(this->head_.cell) : -1;
+  }
+  this->edit(this->name_.c_str(),
+    [&](const Handles& before, EditedHandles& after) { return add_handle(before, handle, after); });
+}
+
+void RestEditor::cancel()
+{
+  if (this->busy_)
+  {
+    this->busy_ = false;
+    this->drag_.reset();
+    this->data_.get()->ShallowCopy(this->start_);
+    this->data_.get()->Modified();
+    this->leave();
+  }
+}
+
+/// The dataset's arrays are replaced by edits, never written into: a shallow copy keeps them.
+void RestEditor::remember()
+{
+  this->start_ = vtkSmartPointer<vtkPolyData>::New();
+  this->start_->ShallowCopy(this->data_.get());
+}
+
+// ---- Cages -------------------------------------------------------------------------------------
+
+bool RestEditor::press_cage(const Target& target)
+{
+  const vtkIdType last = this->cage_.empty() ? -1 : this->cell_named(this->cage_.back());
+  const HandlePlace under = this->data_.place(target.cell, true);
+  const Index from = last < 0 ? -1 : this->handle_of(last);
+  if (target.cell >= 0 && under.kind == static_cast<int>(HandleKind::cage_vertex))
+  {
+    const std::string name = this->data_.name(target.cell);
+    if (target.cell == last)
+    {
+      this->finish_cage();
+      return true;
+    }
+    const bool closes = !this->cage_.empty() && name == this->cage_.front();
+    const Index to = this->handle_of(target.cell);
+    if (from < 0)
+    {
+      this->cage_ = { name }; // goes on from there
+      return true;
+    }
+    // Back along the edge that was just made is no way.
+    const bool back = this->cage_.size() > 1 && name == this->cage_[this->cage_.size() - 2];
+    if (!back)
+    {
+      this->edit(closes ? "close cage" : "add cage edge",
+        [&](const Handles& before, EditedHandles& after)
+        { return toggle_cage_edge(before, from, to, after); });
+    }
+    if (closes)
+    {
+      this->finish_cage();
+    }
+    else if (!back)
+    {
+      this->cage_.push_back(name);
+    }
+    return true;
+  }
+  Handle handle;
+  handle.kind = HandleKind::cage_vertex;
+  handle.head = handle.tail = target.place;
+  const bool done = this->edit("add cage vertex",
+    [&](const Handles& before, EditedHandles& after)
+    {
+      if (from >= 0)
+      {
+        handle.cage = { { static_cast<Index>(before.size()), from, -1 } };
+      }
+      return add_handle(before, handle, after);
+    });
+  if (done && !this->result_.added.empty())
+  {
+    this->cage_.push_back(this->data_.name(this->result_.added.front()));
+  }
+  return true;
+}
+
+bool RestEditor::finish_cage()
+{
+  const bool any = !this->cage_.empty();
+  this->cage_.clear();
+  this->leave();
+  return any;
+}
+
+bool RestEditor::drop_cage_vertex()
+{
+  if (this->cage_.empty())
+  {
+    return false;
+  }
+  const Index last = this->handle_of(this->cell_named(this->cage_.back()));
+  this->cage_.pop_back();
+  this->leave();
+  if (last >= 0)
+  {
+    this->edit("remove cage vertex",
+      [&](const Handles& before, EditedHandles& after)
+      { return remove_handles(before, { last }, after); });
+  }
+  return true;
+}
+
+// ---- Rest places -------------------------------------------------------------------------------
+
+bool RestEditor::press_rest(const ScreenView& view, const Hand& hand, const EditSettings& settings,
+  const std::vector<vtkIdType>& selected)
+{
+  const std::vector<HandlePlace> places = this->data_.places(true);
+  const HandlePick pick = pick_handle(view, places, hand.mouse, settings.sizes);
+  Handles handles;
+  std::vector<Index> cells;
+  if (pick.part == HandlePart::none || !to_editable(this->data_.get(), handles, cells).ok() ||
+    places[static_cast<std::size_t>(pick.handle)].locked)
+  {
+    return false;
+  }
+  this->ends_.clear();
+  this->places_.clear();
+  const auto add = [&](vtkIdType cell, bool tail)
+  {
+    const HandleEnd end{ this->handle_of(cell), tail };
+    const HandlePlace& place = places[static_cast<std::size_t>(cell)];
+    this->ends_.push_back(end);
+    this->places_.push_back(tail ? place.tail : place.head);
+  };
+  const auto add_whole = [&](vtkIdType cell)
+  {
+    const HandlePlace& place = places[static_cast<std::size_t>(cell)];
+    if (place.is_handle() && !place.locked)
+    {
+      add(cell, false);
+      if (place.is_bone())
+      {
+        add(cell, true);
+      }
+    }
+  };
+  const bool of_many = selected.size() > 1 &&
+    std::find(selected.begin(), selected.end(), pick.handle) != selected.end();
+  const bool tail = pick.part == HandlePart::tail;
+  if (of_many)
+  {
+    for (const vtkIdType cell : selected)
+    {
+      add_whole(cell);
+    }
+  }
+  else if (pick.part == HandlePart::body)
+  {
+    add_whole(pick.handle);
+  }
+  else
+  {
+    add(pick.handle, tail);
+  }
+  const HandlePlace& held = places[static_cast<std::size_t>(pick.handle)];
+  DragSetup setup;
+  setup.grabbed = pick.part == HandlePart::body ? Vec3(0.5 * (held.head + held.tail))
+    : tail                                      ? held.tail
+                                                : held.head;
+  setup.pivot = setup.grabbed;
+  setup.length_step = settings.length_step;
+  this->drag_.emplace(view, setup, hand.mouse);
+  this->remember();
+  this->name_ = "move rest";
+  return true;
+}
+
+void RestEditor::constrain(int axes)
+{
+  if (this->drag_)
+  {
+    const bool same = this->drag_->setup().axes == axes;
+    this->drag_->constrain(Eigen::Matrix3d::Identity(), same ? 7 : axes);
+  }
+}
+
+void RestEditor::move_rest(const ScreenView& view, const Hand& hand, const EditSettings& settings)
+{
+  this->drag_->move_to(hand.mouse, hand.fine);
+  this->drag_->set_snapping(hand.snap);
+  Vec3 way = this->drag_->motion().motion.translation();
+  // as it began: edits do not add up
+  vtkNew<vtkPolyData> valid;
+  valid->ShallowCopy(this->data_.get());
+  this->data_.get()->ShallowCopy(this->start_);
+  if (hand.snap && this->drag_->setup().axes == 7)
+  {
+    // onto another handle's end or a vertex of the surface, where one is near
+    const std::optional<Target> target =
+      this->find(view, hand, settings, this->drag_->setup().grabbed, false);
+    const bool own =
+      target && target->cell >= 0 && (target->place - this->drag_->setup().grabbed).norm() == 0.0;
+    if (target && target->snapped && !own)
+    {
+      way = target->place - this->drag_->setup().grabbed;
+    }
+  }
+  std::vector<Vec3> places = this->places_;
+  for (Vec3& place : places)
+  {
+    place += way;
+  }
+  if (!this->edit("move rest",
+        [&](const Handles& before, EditedHandles& after)
+        { return move_ends(before, this->ends_, places, after); }))
+  {
+    this->data_.get()->ShallowCopy(valid); // where it last could be
+  }
+  this->data_.get()->Modified();
+}
+
+} // namespace bindpose

@@ -1,0 +1,53 @@
+// A text actor draws its letters in the opaque pass and shows them in the overlay.
+#include "screen_labels.h"
+
+#include "vtkCoordinate.h"
+#include "vtkTextActor.h"
+#include "vtkTextProperty.h"
+
+namespace bindpose
+{
+
+void ScreenLabels::add(
+  const std::string& text, const Eigen::Vector2d& display, double scale, const double* colour)
+{
+  if (this->actors_.size() == this->shown_)
+  {
+    this->actors_.push_back(vtkSmartPointer<vtkTextActor>::New());
+    this->actors_.back()->GetPositionCoordinate()->SetCoordinateSystemToDisplay();
+  }
+  vtkTextActor* label = this->actors_[this->shown_++];
+  label->SetInput((colour ? text : " " + text + " ").c_str());
+  vtkTextProperty* property = label->GetTextProperty();
+  property->ShallowCopy(this->text_);
+  property->SetFontSize(static_cast<int>(this->text_->GetFontSize() * scale + 0.5));
+  if (colour)
+  {
+    property->SetColor(colour[0], colour[1], colour[2]);
+    property->SetBackgroundOpacity(0.0);
+    property->SetJustificationToCentered();
+    property->BoldOn();
+  }
+  label->SetDisplayPosition(static_cast<int>(display[0]), static_cast<int>(display[1]));
+}
+
+int ScreenLabels::render(vtkViewport* viewport)
+{
+  int rendered = 0;
+  for (std::size_t i = 0; i < this->shown_; ++i)
+  {
+    this->actors_[i]->RenderOpaqueGeometry(viewport);
+    rendered += this->actors_[i]->RenderOverlay(viewport);
+  }
+  return rendered;
+}
+
+void ScreenLabels::release(vtkWindow* window)
+{
+  for (const auto& actor : this->actors_)
+  {
+    actor->ReleaseGraphicsResources(window);
+  }
+}
+
+} // namespace bindpose

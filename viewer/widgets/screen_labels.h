@@ -1,0 +1,41 @@
+#ifndef screen_labels_h
+#define screen_labels_h
+
+#include "vtkNew.h"
+#include "vtkSmartPointer.h"
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+class vtkTextActor;
+class vtkTextProperty;
+class vtkViewport;
+class vtkWindow;
+
+namespace bindpose
+{
+
+/// Short texts at display positions, all in one font. Actors are kept for the next time.
+class ScreenLabels
+{
+public:
+  vtkTextProperty* text() const { return this->text_; }
+  void clear() { this->shown_ = 0; }
+  /// @param scale   factor on the font's size
+  /// @param colour  without a plate behind, or null for the font's own colour and plate
+  void add(const std::string& text, const Eigen::Vector2d& display, double scale,
+    const double* colour = nullptr);
+  int render(vtkViewport* viewport);
+  void release(vtkWindow* window);
+
+private:
+  vtkNew<vtkTextProperty> text_;
+  std::vector<vtkSmartPointer<vtkTextActor>> actors_;
+  std::size_t shown_ = 0;
+};
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,57 @@
+#ifndef screen_view_h
+#define screen_view_h
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+
+class vtkRenderer;
+
+namespace bindpose
+{
+
+/// What a pixel of the window looks along.
+struct Ray
+{
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero(); ///< in the near plane
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ(); ///< unit, away from the eye
+};
+
+/// A renderer's camera at one moment: where the world is on the screen, and back. Reads the camera
+/// once, so that hundreds of places cost hundreds of small products.
+class ScreenView
+{
+public:
+  explicit ScreenView(vtkRenderer* renderer);
+
+  /// Display coordinates in pixels, from the window's lower left; z is the depth, 0 near to 1 far.
+  Eigen::Vector3d to_display(const Eigen::Vector3d& world) const;
+  Ray ray(const Eigen::Vector2d& display) const;
+  /// The world length of a pixel at a place; 0 behind the eye.
+  double pixel_at(const Eigen::Vector3d& place) const;
+  /// Unit, from the eye to the place.
+  Eigen::Vector3d sight_to(const Eigen::Vector3d& place) const;
+
+  const Eigen::Vector3d& sight() const { return this->sight_; }
+  const Eigen::Vector3d& right() const { return this->right_; }
+  const Eigen::Vector3d& up() const { return this->up_; }
+
+private:
+  Eigen::Matrix4d to_clip_;
+  Eigen::Matrix4d from_clip_;
+  Eigen::Vector2d lower_; // display coordinates of the view's corners
+  Eigen::Vector2d upper_;
+  Eigen::Vector3d eye_;
+  Eigen::Vector3d sight_;
+  Eigen::Vector3d right_;
+  Eigen::Vector3d up_;
+  bool parallel_ = false;
+  double pixel_slope_ = 0.0; // world length of a pixel: at any place, or a unit away from the eye
+};
+
+/// Where a ray meets a plane. False when it does not, or behind the ray's origin.
+bool meet_plane(
+  const Ray& ray, const Eigen::Vector3d& place, const Eigen::Vector3d& normal, Eigen::Vector3d& at);
+
+} // namespace bindpose
+
+#endif

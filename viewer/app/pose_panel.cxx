@@ -13,6 +13,7 @@
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QSlider>
 #include <QVBoxLayout>
 
 #include <algorithm>
@@ -217,6 +218,7 @@ void PosePanel::add_options(QVBoxLayout* column)
     row->setObjectName(key);
     row->set_range(lowest, highest);
     row->set_value(at);
+    row->slider()->setMinimumWidth(50); // beside its name
     return row;
   };
   const auto check = [this](const char* key, const QString& text)
@@ -364,6 +366,7 @@ void PosePanel::add_motion(QVBoxLayout* column)
     value->setObjectName(key);
     value->set_range(0.0, highest);
     value->set_value(at);
+    value->slider()->setMinimumWidth(50);
     value->setToolTip(tip);
     auto* line = new QHBoxLayout;
     line->setSpacing(8);

@@ -17,6 +17,8 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 namespace
 {
 const char* const mode_names[] = { QT_TRANSLATE_NOOP("SidePanel", "full"),
@@ -134,7 +136,8 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   parts->addStretch(1);
   scroll->setWidget(content);
   // As wide as it must be, not as wide as its sentences would like to be.
-  scroll->setMinimumWidth(content->minimumSizeHint().width());
+  scroll->setMinimumWidth(
+    std::max(content->minimumSizeHint().width(), 36 * this->fontMetrics().horizontalAdvance('0')));
   scroll->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Expanding);
   column->addWidget(scroll, 1);
 

@@ -406,7 +406,7 @@ QString Posing::reading() const
   parts << (moves ? tr("Motion") : method_name(this->main_->options().method));
   const double solve = report.number("seconds.solve", 0.0);
   const auto iterations = static_cast<int>(report.number("iterations", 0.0));
-  if (iterations > 0)
+  if (iterations > 0 && solve > 0.0)
   {
     parts << tr("%1 iterations in %2, %3 each")
                .arg(iterations)
@@ -436,6 +436,10 @@ QString Posing::reading() const
     parts << (status.code == StatusCode::not_converged
         ? (moves || this->main_->is_settled() ? tr("NOT converged") : tr("still converging"))
         : tr("converged"));
+  }
+  if (!status.warnings.empty())
+  {
+    parts << QString::fromStdString(status.warnings.front());
   }
   return parts.join(QStringLiteral("  ·  "));
 }

@@ -87,7 +87,7 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   // What poses has more to choose from than a small window has room for.
   column->addSpacing(6);
   auto* scroll = new QScrollArea(this);
-  scroll->setObjectName("panel");
+  scroll->setObjectName("scroll");
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setWidgetResizable(true);
   scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);

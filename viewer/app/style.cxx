@@ -47,7 +47,7 @@ QPushButton#section { border: none; border-top: 1px solid #e6e6e2; border-radius
 QPushButton#section:hover { color: #1f1f1d; }
 QPushButton#section:focus { border: none; border-top: 2px solid #2b6ca8; padding: 6px 0 3px 0; }
 QPushButton#toggle:checked { background: #d8e5f1; border-color: #2b6ca8; }
-QScrollArea#panel { background: transparent; }
+QScrollArea#scroll { background: transparent; border: none; }
 QWidget#scrolled { background: #fbfbfa; }
 QFrame#strip { background: #fbfbfa; border: none; border-top: 1px solid #dededa; }
 QComboBox { background: #ffffff; border: 1px solid #cfcfca; border-radius: 5px; padding: 4px 8px; }

@@ -1,6 +1,7 @@
 #ifndef pseudo_edge_cells_h
 #define pseudo_edge_cells_h
 
+#include "BindposeFiltersModule.h" // for export macro
 #include "conversion.h"
 #include "pose/pseudo_edges.h"
 
@@ -14,7 +15,7 @@ constexpr int pseudo_edge_kind = -2;
 /// The pseudo-edges of a handle dataset, each once. Their points are those of point handles, or at
 /// the same places; invalid_input, naming the cell, when they are not.
 /// @param cells of the handles, from to_handles().
-Status to_pseudo_edges(
+BINDPOSEFILTERS_EXPORT Status to_pseudo_edges(
   vtkPolyData* data, const Handles& handles, const std::vector<Index>& cells, PseudoEdges& edges);
 
 /// Adds pseudo-edges to a handle dataset without polygons, behind its other cells.

@@ -1,6 +1,7 @@
 #ifndef weights_input_h
 #define weights_input_h
 
+#include "BindposeFiltersModule.h" // for export macro
 #include "conversion.h"
 
 #include <string>
@@ -15,7 +16,8 @@ namespace bindpose
 
 /// Weights that were made for this mesh and these handles: as many rows and columns, and columns
 /// that have a name have the handle's.
-Status check_weights(vtkDataArray* weights, vtkIdType points, const Handles& handles);
+BINDPOSEFILTERS_EXPORT Status check_weights(
+  vtkDataArray* weights, vtkIdType points, const Handles& handles);
 
 /// A mesh's weights and the handles that they belong to.
 struct WeightsInput
@@ -32,7 +34,8 @@ Status to_weights_input(
 
 /// The labels of regions, a number a point; empty when the mesh has no such array. invalid_input
 /// for numbers that are not whole.
-Status to_region_ids(vtkPointSet* mesh, const std::string& name, std::vector<Index>& region_ids);
+BINDPOSEFILTERS_EXPORT Status to_region_ids(
+  vtkPointSet* mesh, const std::string& name, std::vector<Index>& region_ids);
 
 /// "the mesh has no point array 'W' with weights (its point arrays: A, B)".
 Status no_weights(vtkPointSet* mesh, const std::string& array_name);

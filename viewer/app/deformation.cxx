@@ -1,79 +1,300 @@
+// All state is the window's thread's; a job gets a poser for itself and points of its own, and
+// nobody touches that poser until the job's end is told.
 #include "deformation.h"
 
-#include "report_field_data.h"
+#include <algorithm>
+#include <thread>
 
-#include "vtkCallbackCommand.h"
-#include "vtkCommand.h"
-#include "vtkPolyData.h"
-#include "vtkReducedARAP.h"
-#include "vtkSkinningDeformation.h"
-
-#include <chrono>
+using namespace bindpose;
 
 namespace
 {
-/// Errors and warnings go to the window's error bar, not to the terminal.
-void keep_quiet(vtkObject*, unsigned long, void*, void*) {}
+/// Iterations of the first slice for a pose, of the longest, and of all for one pose: as many as
+/// vtkFullARAP makes.
+constexpr Index first_slice = 2;
+constexpr Index longest_slice = 64;
+constexpr Index most_iterations = 500;
+
+/// Binds of so little work (vertices and columns) take no longer than a blink.
+bool binds_at_once(const PoseSource& source, const PoseOptions& options)
+{
+  const auto columns = static_cast<Index>(source.handles.size()) + options.extra_weights;
+  const Index vertices = options.in_tets ? source.tet_points.rows() : source.points.rows();
+  if (options.method == PoseMethod::rotation_centres ||
+    (options.method == PoseMethod::stretchable_bones &&
+      options.endpoints != EndpointMethod::projection))
+  {
+    return false;
+  }
+  return is_skinning(options.method) ? vertices * columns < 2000000 : vertices * columns < 20000;
+}
 } // namespace
 
-Deformation::Deformation()
+Deformation::Deformation(QObject* parent) : QObject(parent)
 {
-  vtkNew<vtkCallbackCommand> quiet;
-  quiet->SetCallback(keep_quiet);
-  for (vtkObject* filter :
-    { static_cast<vtkObject*>(this->skinning_), static_cast<vtkObject*>(this->arap_) })
-  {
-    filter->AddObserver(vtkCommand::ErrorEvent, quiet);
-    filter->AddObserver(vtkCommand::WarningEvent, quiet);
-  }
-  // A drag shows what it stretches; nobody reads its report.
-  this->skinning_->SetStretchLimit(0.0);
-  this->arap_->SetStretchLimit(0.0);
+  QObject::connect(&this->job_, &KernelJob::finished, this, &Deformation::job_finished);
+  QObject::connect(&this->job_, &KernelJob::progress, this,
+    [this](double fraction, const QString& phase)
+    {
+      if (this->task_.bind && !this->task_.stale)
+      {
+        Q_EMIT this->bind_progress(fraction, phase);
+      }
+    });
 }
 
 Deformation::~Deformation() = default;
 
-void Deformation::set_input(vtkPolyData* surface, vtkPolyData* handles)
+void Deformation::set_source(std::shared_ptr<const PoseSource> source)
 {
-  this->surface_ = surface;
-  this->skinning_->SetInputData(0, surface);
-  this->skinning_->SetInputData(1, handles);
-  this->arap_->SetInputData(0, surface);
-  this->arap_->SetInputData(1, handles);
-}
-
-void Deformation::clear()
-{
-  this->set_input(nullptr, nullptr);
-}
-
-vtkBindposeAlgorithm* Deformation::filter() const
-{
-  return this->method_ == reduced_arap ? static_cast<vtkBindposeAlgorithm*>(this->arap_.Get())
-                                       : static_cast<vtkBindposeAlgorithm*>(this->skinning_.Get());
-}
-
-vtkPolyData* Deformation::posed()
-{
-  if (!this->surface_)
-  {
-    return nullptr;
-  }
-  this->skinning_->SetMethod(this->method_ == dual_quaternion
-      ? vtkSkinningDeformation::DUAL_QUATERNION
-      : vtkSkinningDeformation::LINEAR_BLEND);
-  vtkBindposeAlgorithm* filter = this->filter();
-  const auto start = std::chrono::steady_clock::now();
-  filter->Update();
-  this->milliseconds_ =
-    std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-  auto* output = vtkPolyData::SafeDownCast(filter->GetOutput());
-  this->microseconds_ = bindpose::read_report(output).number("microseconds_per_iteration", 0.0);
+  this->source_ = std::move(source);
+  this->posers_.clear();
+  this->pose_.clear();
+  this->points_ = this->source_ ? this->source_->points : Points();
+  this->status_ = Status();
   this->error_.clear();
-  if (filter->GetStatus() > vtkBindposeAlgorithm::NOT_CONVERGED)
+  this->settled_ = false;
+  this->cancelled_ = false;
+  this->task_.stale = true;
+  this->job_.cancel();
+  this->set_binding(false);
+}
+
+void Deformation::set_options(const PoseOptions& options)
+{
+  if (options == this->options_)
   {
-    this->error_ = filter->GetStatusMessage();
-    return nullptr;
+    return;
   }
-  return output;
+  this->options_ = options;
+  this->settled_ = false;
+  this->cancelled_ = false;
+  this->slice_ = first_slice;
+  this->spent_ = 0;
+  if (this->task_.poser)
+  {
+    this->task_.stale = true;
+    this->job_.cancel();
+  }
+  this->set_binding(false);
+  this->advance();
+}
+
+bool Deformation::can_pose() const
+{
+  return this->source_ && (!needs_weights(this->options_.method) || this->source_->has_weights());
+}
+
+void Deformation::set_pose(const Pose& pose)
+{
+  this->pose_ = pose;
+  ++this->pose_number_;
+  this->settled_ = false;
+  this->slice_ = first_slice;
+  this->spent_ = 0;
+  if (this->task_.poser && !this->task_.bind && this->task_.slice > first_slice &&
+    !this->task_.stale)
+  {
+    this->task_.stale = true;
+    ++this->restarts_;
+    this->job_.cancel();
+  }
+  this->asked_at_once_ = true;
+  this->advance();
+  this->asked_at_once_ = false;
+}
+
+void Deformation::cancel()
+{
+  this->cancelled_ = true;
+  this->task_.stale = true;
+  this->job_.cancel();
+  this->set_binding(false);
+}
+
+void Deformation::bind()
+{
+  this->cancelled_ = false;
+  this->advance();
+}
+
+const std::vector<Affine>* Deformation::found()
+{
+  return this->can_pose() && this->settled_ && this->error_.isEmpty() &&
+      !is_slow(this->options_.method)
+    ? this->poser()->found()
+    : nullptr;
+}
+
+Index Deformation::binds() const
+{
+  Index all = 0;
+  for (const auto& [method, poser] : this->posers_)
+  {
+    all += poser->binds();
+  }
+  return all;
+}
+
+std::shared_ptr<Poser> Deformation::poser()
+{
+  for (const auto& [method, poser] : this->posers_)
+  {
+    if (same_poser(method, this->options_.method))
+    {
+      return poser;
+    }
+  }
+  return this->posers_[this->options_.method] = make_poser(this->options_.method, this->source_);
+}
+
+/// Does the next thing that is to be done, if it can be done now.
+void Deformation::advance()
+{
+  if (!this->can_pose() || this->pose_.empty() || this->cancelled_ || this->settled_)
+  {
+    return;
+  }
+  const std::shared_ptr<Poser> poser = this->poser();
+  if (this->task_.poser == poser)
+  {
+    return; // job_finished() comes back
+  }
+  if (!poser->is_bound(this->options_))
+  {
+    if (!binds_at_once(*this->source_, this->options_))
+    {
+      this->set_binding(true);
+      this->bind_beside(poser);
+      return;
+    }
+    ExecutionContext context;
+    const Status status = poser->bind(context, this->options_);
+    if (!status.usable())
+    {
+      this->fail(status);
+      return;
+    }
+  }
+  if (is_slow(this->options_.method))
+  {
+    this->solve_beside(poser);
+  }
+  else
+  {
+    this->solve_now(*poser);
+  }
+}
+
+void Deformation::bind_beside(const std::shared_ptr<Poser>& poser)
+{
+  if (this->job_.is_running())
+  {
+    return; // with something else, which is being cancelled
+  }
+  this->task_ = { poser, true, false, 0, 0, nullptr };
+  this->job_.start([poser, options = this->options_](ExecutionContext& context)
+    { return poser->bind(context, options); });
+}
+
+void Deformation::solve_now(Poser& poser)
+{
+  ExecutionContext context;
+  this->settled_ = true;
+  this->take(poser.solve(context, this->pose_, this->options_, 0, this->points_));
+}
+
+void Deformation::solve_beside(const std::shared_ptr<Poser>& poser)
+{
+  if (this->job_.is_running())
+  {
+    return;
+  }
+  auto points = std::make_shared<Points>();
+  this->task_ = { poser, false, false, std::min(this->slice_, most_iterations - this->spent_),
+    this->pose_number_, points };
+  this->job_.start(
+    [poser, points, pose = this->pose_, options = this->options_, slice = this->task_.slice](
+      ExecutionContext& context)
+    {
+      // One core is left to the window.
+      context.set_threads(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1));
+      return poser->solve(context, pose, options, slice, *points);
+    });
+}
+
+void Deformation::job_finished()
+{
+  const Task task = this->task_;
+  this->task_ = Task();
+  const Status status = this->job_.status();
+  if (task.bind && !task.stale)
+  {
+    this->set_binding(false);
+    if (!status.usable())
+    {
+      this->fail(status);
+      return;
+    }
+    this->status_ = status;
+  }
+  else if (!task.bind && !task.stale && status.code != StatusCode::cancelled)
+  {
+    if (status.usable())
+    {
+      this->points_ = std::move(*task.points);
+    }
+    if (task.pose_number == this->pose_number_)
+    {
+      this->spent_ += static_cast<Index>(status.report.number("iterations", 0.0));
+      this->settled_ = status.code != StatusCode::not_converged || this->spent_ >= most_iterations;
+      this->slice_ = std::min(2 * this->slice_, longest_slice);
+    }
+    this->take(status);
+    if (!status.usable())
+    {
+      return;
+    }
+  }
+  this->advance();
+}
+
+void Deformation::set_binding(bool binding)
+{
+  if (this->binding_ != binding)
+  {
+    this->binding_ = binding;
+    Q_EMIT this->binding_changed();
+  }
+}
+
+void Deformation::take(const Status& status)
+{
+  if (!status.usable())
+  {
+    this->fail(status);
+    return;
+  }
+  this->status_ = status;
+  this->error_.clear();
+  if (!this->asked_at_once_)
+  {
+    Q_EMIT this->arrived();
+  }
+}
+
+void Deformation::fail(const Status& status)
+{
+  this->settled_ = true;
+  this->status_ = status;
+  if (status.code == StatusCode::cancelled)
+  {
+    this->cancelled_ = true;
+    return;
+  }
+  this->error_ = QString::fromStdString(status.message);
+  if (!this->asked_at_once_)
+  {
+    Q_EMIT this->failed();
+  }
 }

@@ -6,9 +6,11 @@
 #include "document/work_inputs.h"
 #include "error_bar.h"
 #include "inspection.h"
+#include "key_strip.h"
 #include "notice_bar.h"
 #include "option_links.h"
 #include "panel_column.h"
+#include "posing.h"
 #include "side_panel.h"
 #include "viewport.h"
 #include "volume_panel.h"
@@ -76,6 +78,7 @@ MainWindow::MainWindow(QWidget* parent)
   this->connect_panel();
   this->connect_volume();
   this->connect_handles();
+  this->connect_posing();
   QObject::connect(this->document_, &Document::about_to_change, this, &MainWindow::stop_drag);
   QObject::connect(this->document_, &Document::changed, this, &MainWindow::document_changed);
   // Whether all is saved is known after a step, not while it is made.
@@ -132,6 +135,10 @@ void MainWindow::make_layout()
   this->panels_ = new PanelColumn(centre);
   this->panel_ = this->panels_->side();
   rows->addWidget(this->viewport_, 1);
+  this->strip_ = new KeyStrip(centre);
+  rows->addWidget(this->strip_);
+  this->posing_ = new Posing(this->viewport_,
+    { this->panel_->pose(), this->panel_->fields(), this->panel_->poses(), this->strip_ });
   columns->addLayout(rows, 1);
   columns->addWidget(this->panels_);
   this->setCentralWidget(centre);
@@ -182,6 +189,7 @@ void MainWindow::connect_panel()
     {
       auto* drawn = this->viewport_->handle_widget()->GetHandleSetRepresentation();
       drawn->SetSelectedHandle(handle < 0 ? -1 : this->document_->handle_cells()[handle]);
+      this->posing_->select_handle(handle);
       this->viewport_->refresh();
     });
 }
@@ -252,6 +260,10 @@ void MainWindow::document_changed(int parts)
       this->panel_->set_mode(static_cast<int>(k), static_cast<int>(pose[k].mode));
     }
   }
+  if ((parts & key_poses_part) && this->document_->work().key_poses)
+  {
+    this->posing_->set_shelf(*this->document_->work().key_poses);
+  }
   this->update_title();
   this->offer_rebind();
   if (parts & ~(options_part | key_poses_part | sources_part))
@@ -267,7 +279,6 @@ void MainWindow::option_changed(const QString& key, const QVariant& value)
   {
     this->panel_->set_method(value.toInt());
     this->menus_->show_method(value.toInt());
-    this->deformation_.set_method(static_cast<Deformation::Method>(value.toInt()));
     this->update_pose();
   }
 }
@@ -277,8 +288,6 @@ void MainWindow::show_mesh()
   this->note_bar_->hide(); // it is about the last one
   const Work& work = this->document_->work();
   this->cancel_bind();
-  this->deformation_.clear();
-  this->shown_ = work.surface;
   this->drawn_ = work.surface;
   this->viewport_->set_surface(work.surface);
   this->viewport_->set_picture(work.picture);
@@ -353,14 +362,8 @@ void MainWindow::connect_weights()
     this->drawn_ = surface;
     this->viewport_->set_surface(surface);
   }
-  if (this->document_->is_bound())
-  {
-    this->deformation_.set_input(surface, this->document_->handle_data());
-  }
-  else
-  {
-    this->deformation_.clear();
-  }
+  this->posing_->set_data(surface, this->document_->weighted_tets(), this->document_->handle_data(),
+    this->document_->is_bound());
   if (!this->document_->unused_weights().isEmpty())
   {
     this->show_error(this->document_->unused_weights());
@@ -722,6 +725,7 @@ void MainWindow::selection_changed()
   const int handle = this->document_->handle_of_cell(
     this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetSelectedHandle());
   this->panel_->select_handle(handle);
+  this->posing_->select_handle(handle);
   if (this->is_bound())
   {
     this->weights_->choose_column(handle);
@@ -730,6 +734,7 @@ void MainWindow::selection_changed()
 
 void MainWindow::drag_began()
 {
+  this->posing_->drag_began();
   this->dragged_ = this->document_->handle_of_cell(
     this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetActiveHandle());
 }
@@ -760,7 +765,43 @@ void MainWindow::back_to_rest()
   this->document_->back_to_rest();
 }
 
+bool MainWindow::is_bound() const
+{
+  return this->posing_->has_weights();
+}
+
+vtkPolyData* MainWindow::shown() const
+{
+  return this->posing_->shape();
+}
+
+void MainWindow::connect_posing()
+{
+  QObject::connect(this->posing_, &Posing::moved, this, &MainWindow::draw_pose);
+  QObject::connect(this->posing_, &Posing::failed, this, &MainWindow::show_error);
+  QObject::connect(this->posing_, &Posing::pose_changed, this,
+    [this](const Pose& pose)
+    {
+      set_pose(this->document_->handle_data(), this->document_->handle_cells(), pose);
+      for (std::size_t k = 0; k < pose.size(); ++k)
+      {
+        this->panel_->set_mode(static_cast<int>(k), static_cast<int>(pose[k].mode));
+      }
+      this->update_pose();
+    });
+  QObject::connect(this->posing_, &Posing::pose_done, this->document_,
+    [this](const QString& step) { this->document_->commit_pose(step); });
+  QObject::connect(this->posing_, &Posing::shelf_changed, this->document_,
+    [this](const QString& step) { this->document_->set_key_poses(this->posing_->shelf(), step); });
+}
+
 void MainWindow::update_pose()
+{
+  this->posing_->handles_moved();
+  this->draw_pose();
+}
+
+void MainWindow::draw_pose()
 {
   vtkPolyData* rest = this->document_->surface();
   const bool handles = this->document_->handle_data();
@@ -770,35 +811,19 @@ void MainWindow::update_pose()
     : !handles                  ? tr("Open handles (.tgf or .vtp) to bind and pose.")
     : this->is_binding()        ? tr("Binding; the view can be turned meanwhile.")
                                 : tr("Bind (Ctrl+B), then drag the handles.");
-  if (this->deformation_.has_input())
+  if (this->posing_->can_pose())
   {
-    if (vtkPolyData* posed = this->deformation_.posed())
-    {
-      this->shown_ = posed;
-      reading = tr("%L1 vertices  ·  %2 ms a pose")
-                  .arg(static_cast<qlonglong>(posed->GetNumberOfPoints()))
-                  .arg(this->deformation_.milliseconds(), 0, 'f', 2);
-      if (this->deformation_.microseconds_per_iteration() > 0.0)
-      {
-        reading += tr("  ·  %1 µs an iteration")
-                     .arg(this->deformation_.microseconds_per_iteration(), 0, 'f', 1);
-      }
-    }
-    else
-    {
-      this->show_error(
-        tr("Cannot pose: %1.").arg(QString::fromStdString(this->deformation_.error())));
-    }
+    reading = this->posing_->reading();
+  }
+  if (rest && this->weights_->wants_rest())
+  {
+    this->viewport_->move_surface(rest);
+    this->weights_->move_surface(rest);
   }
   else if (rest)
   {
-    this->shown_ = rest;
-  }
-  if (rest)
-  {
-    vtkPolyData* drawn = this->weights_->wants_rest() ? rest : this->shown_.Get();
-    this->viewport_->move_surface(drawn);
-    this->weights_->move_surface(drawn);
+    this->posing_->draw();
+    this->weights_->move_surface(this->shown());
   }
   this->hint_->setText(reading);
   this->viewport_->refresh();
@@ -826,6 +851,7 @@ void MainWindow::update_panel()
   this->panels_->volume()->set_has_surface(surface);
   this->update_surface_look();
   this->empty_->setVisible(this->is_empty());
+  this->strip_->setVisible(ready);
   this->menus_->update();
 }
 
@@ -873,7 +899,7 @@ void MainWindow::export_as(const QString& what)
   }
   const Status status = what == "pose"
     ? write_pose(this->document_->pose(), this->document_->handles(), path.toStdString())
-    : write_shape(this->shown_, path.toStdString());
+    : write_shape(this->shown(), path.toStdString());
   if (!status.ok())
   {
     this->show_error(QString::fromStdString(status.message));

@@ -2,7 +2,6 @@
 #define main_window_h
 
 #include "bind_job.h"
-#include "deformation.h"
 #include "document/work.h"
 
 #include "vtkPolyData.h"
@@ -15,9 +14,11 @@ class QUndoStack;
 class Document;
 class ErrorBar;
 class Inspection;
+class KeyStrip;
 class NoticeBar;
 class OptionLinks;
 class PanelColumn;
+class Posing;
 class SidePanel;
 class Viewport;
 class VolumeView;
@@ -61,7 +62,7 @@ public:
   void bind();
   void cancel_bind();
   bool is_binding() const { return this->job_->is_running(); }
-  bool is_bound() const { return this->deformation_.has_input(); }
+  bool is_bound() const;
   void set_method(int method);
   void set_mode(int handle, int mode);
   void back_to_rest();
@@ -69,13 +70,15 @@ public:
   bool is_empty() const;
 
   /// What is drawn: the posed surface, or the rest one before a bind.
-  vtkPolyData* shown() const { return this->shown_; }
+  vtkPolyData* shown() const;
   Viewport* viewport() const { return this->viewport_; }
   SidePanel* panel() const { return this->panel_; }
   PanelColumn* panels() const { return this->panels_; }
   VolumeView* volume_view() const { return this->volume_view_; }
   Inspection* inspection() const { return this->inspection_; }
   WeightInspection* weights() const { return this->weights_; }
+  Posing* posing() const { return this->posing_; }
+  KeyStrip* strip() const { return this->strip_; }
   /// What is under the mouse on the slice, as the status bar shows it.
   QString reading() const;
   /// The sentence in the error bar; empty when it is hidden.
@@ -107,7 +110,9 @@ private:
   void update_surface_look();
   void offer_rebind();
   void offer_defects(const QString& counts);
+  void connect_posing();
   void update_pose();
+  void draw_pose();
   void update_panel();
   void show_column(int column);
   bool make_bind_input(BindInput& input);
@@ -127,6 +132,8 @@ private:
   VolumeView* volume_view_ = nullptr;
   Inspection* inspection_ = nullptr;
   WeightInspection* weights_ = nullptr;
+  Posing* posing_ = nullptr;
+  KeyStrip* strip_ = nullptr; // below the picture
   PanelColumn* panels_ = nullptr;
   SidePanel* panel_ = nullptr; // one of them
   OptionLinks* links_ = nullptr;
@@ -141,8 +148,6 @@ private:
   QLabel* empty_ = nullptr; // in the middle of the picture as long as nothing is open
   BindJob* job_ = nullptr;
   vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport has
-  vtkSmartPointer<vtkPolyData> shown_;
-  Deformation deformation_;
   int dragged_ = -1;
   QString rebind_reason_; // that was offered
 };

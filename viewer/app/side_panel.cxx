@@ -1,16 +1,23 @@
 #include "side_panel.h"
 
+#include "handle_fields.h"
 #include "panel_parts.h"
+#include "pose_list.h"
+#include "pose_panel.h"
+#include "section.h"
 
-#include <QButtonGroup>
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QListWidget>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
+
+#include <algorithm>
 
 namespace
 {
@@ -77,33 +84,62 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   this->shown_->setToolTip(tr("The shaded surface, or one handle's weights on it"));
   column->addWidget(this->shown_);
 
-  column->addSpacing(10);
-  column->addWidget(heading(tr("Pose"), this));
-  this->methods_ = add_segments(column, this, { tr("Linear"), tr("Dual quat."), tr("ARAP") },
-    { tr("Linear blend skinning (1)"), tr("Dual quaternion skinning (2): twists keep their volume"),
-      tr("Reduced as-rigid-as-possible (3): finds what handles leave open") });
-  this->rest_ = button(tr("Back to rest"), this);
-  this->rest_->setToolTip(tr("All handles back to where they were bound (Ctrl+R)"));
-  column->addWidget(this->rest_);
+  // What poses has more to choose from than a small window has room for.
+  column->addSpacing(6);
+  auto* scroll = new QScrollArea(this);
+  scroll->setObjectName("scroll");
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setFocusPolicy(Qt::NoFocus);
+  auto* content = new QWidget(scroll);
+  content->setObjectName("scrolled");
+  auto* parts = new QVBoxLayout(content);
+  parts->setContentsMargins(0, 0, scroll->verticalScrollBar()->sizeHint().width() + 2, 0);
+  parts->setSpacing(6);
+  this->pose_ = new PosePanel(content);
+  auto* poses =
+    new Section(tr("Poses"), tr("Poses that are kept, to come back to"), false, content);
+  this->poses_ = new PoseList(content);
+  poses->column()->addWidget(this->poses_);
 
-  column->addSpacing(10);
-  column->addWidget(heading(tr("Handles"), this));
-  this->handles_ = new QListWidget(this);
+  auto* handles = new QWidget(content);
+  auto* list = new QVBoxLayout(handles);
+  list->setContentsMargins(0, 4, 0, 0);
+  list->setSpacing(6);
+  list->addWidget(heading(tr("Handles"), handles));
+  this->handles_ = new QListWidget(handles);
   this->handles_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   this->handles_->setTextElideMode(Qt::ElideMiddle);
-  this->handles_->setMinimumHeight(4 * this->handles_->fontMetrics().lineSpacing());
-  column->addWidget(this->handles_, 1);
+  this->handles_->setFixedHeight(6 * this->handles_->fontMetrics().lineSpacing());
+  list->addWidget(this->handles_);
   auto* mode_row = new QHBoxLayout;
-  this->mode_label_ = new QLabel(tr("Fixes"), this);
+  this->mode_label_ = new QLabel(tr("Fixes"), handles);
   mode_row->addWidget(this->mode_label_);
-  this->mode_ = combo(this);
+  this->mode_ = combo(handles);
   this->mode_->addItem(tr("full transform"));
   this->mode_->addItem(tr("position only"));
   this->mode_->addItem(tr("nothing (free)"));
   this->mode_->setToolTip(
     tr("What the selected handle fixes; as-rigid-as-possible (ARAP) finds the rest"));
   mode_row->addWidget(this->mode_, 1);
-  column->addLayout(mode_row);
+  list->addLayout(mode_row);
+  this->fields_ = new HandleFields(handles);
+  list->addWidget(this->fields_);
+  this->rest_ = button(tr("Back to rest"), handles);
+  this->rest_->setToolTip(tr("All handles back to where they were bound (Ctrl+R)"));
+  list->addWidget(this->rest_);
+
+  this->pose_->insert(handles);
+  parts->addWidget(this->pose_);
+  parts->addWidget(poses);
+  parts->addStretch(1);
+  scroll->setWidget(content);
+  // As wide as it must be, not as wide as its sentences would like to be.
+  scroll->setMinimumWidth(
+    std::max(content->minimumSizeHint().width(), 36 * this->fontMetrics().horizontalAdvance('0')));
+  scroll->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Expanding);
+  column->addWidget(scroll, 1);
 
   QObject::connect(this->bind_, &QPushButton::clicked, this, &SidePanel::bind_wanted);
   QObject::connect(this->cancel_, &QPushButton::clicked, this,
@@ -114,7 +150,7 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
       Q_EMIT this->cancel_wanted();
     });
   QObject::connect(this->rest_, &QPushButton::clicked, this, &SidePanel::rest_wanted);
-  QObject::connect(this->methods_, &QButtonGroup::idClicked, this, &SidePanel::method_chosen);
+  QObject::connect(this->pose_, &PosePanel::method_chosen, this, &SidePanel::method_chosen);
   QObject::connect(this->shown_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     [this](int index) { Q_EMIT this->column_chosen(index - 1); });
   QObject::connect(this->handles_, &QListWidget::currentRowChanged, this,
@@ -225,10 +261,6 @@ void SidePanel::set_state(bool ready, bool binding, bool bound)
   this->bar_->setVisible(binding);
   enable(this->shown_, bound);
   enable(this->rest_, bound);
-  for (QAbstractButton* method : this->methods_->buttons())
-  {
-    enable(method, bound);
-  }
 }
 
 void SidePanel::set_progress(double fraction, const QString& phase)
@@ -247,7 +279,7 @@ void SidePanel::set_note(const QString& text)
 
 void SidePanel::set_method(int method)
 {
-  this->methods_->button(method)->setChecked(true);
+  this->pose_->set_method(method);
 }
 
 bool SidePanel::monotone() const

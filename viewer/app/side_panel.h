@@ -4,12 +4,14 @@
 #include <QFrame>
 #include <QStringList>
 
-class QButtonGroup;
 class QComboBox;
 class QLabel;
 class QListWidget;
 class QProgressBar;
 class QPushButton;
+class HandleFields;
+class PoseList;
+class PosePanel;
 
 /// The panel right of the picture: bind, show, pose. It holds no state of the work; it tells what
 /// the user wants by signals and shows what the window tells it.
@@ -32,6 +34,10 @@ public:
   /// One or two lines under the bind button: certificate, or what to do next.
   void set_note(const QString& text);
   void set_method(int method);
+
+  PosePanel* pose() const { return this->pose_; }
+  HandleFields* fields() const { return this->fields_; }
+  PoseList* poses() const { return this->poses_; }
 
   /// True when monotone weights are wanted.
   bool monotone() const;
@@ -62,7 +68,9 @@ private:
   QProgressBar* bar_;
   QLabel* note_;
   QPushButton* rest_;
-  QButtonGroup* methods_;
+  PosePanel* pose_;
+  HandleFields* fields_;
+  PoseList* poses_;
   QStringList names_;
   QList<int> modes_;
   bool stopping_ = false; // cancel was pressed, the bind has not ended yet

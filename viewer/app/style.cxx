@@ -43,6 +43,13 @@ QPushButton#segment[place="second"] { border-right: none; }
 QPushButton#segment:checked { background: #2b6ca8; border-color: #2b6ca8; color: #ffffff; }
 QPushButton#segment:checked:disabled { background: #d3dde6; border-color: #d3dde6; color: #71869a; }
 QPushButton#segment:focus { border: 2px solid #12324f; padding: 4px 5px; }
+QPushButton#section { border: none; border-top: 1px solid #e6e6e2; border-radius: 0; background: transparent; color: #66665f; font-weight: 600; text-align: left; padding: 7px 0 3px 0; }
+QPushButton#section:hover { color: #1f1f1d; }
+QPushButton#section:focus { border: none; border-top: 2px solid #2b6ca8; padding: 6px 0 3px 0; }
+QPushButton#toggle:checked { background: #d8e5f1; border-color: #2b6ca8; }
+QScrollArea#scroll { background: transparent; border: none; }
+QWidget#scrolled { background: #fbfbfa; }
+QFrame#strip { background: #fbfbfa; border: none; border-top: 1px solid #dededa; }
 QComboBox { background: #ffffff; border: 1px solid #cfcfca; border-radius: 5px; padding: 4px 8px; }
 QComboBox:hover { border-color: #9c9c95; }
 QComboBox:focus { border-color: #2b6ca8; }

@@ -1,5 +1,7 @@
 #include "viewport.h"
 
+#include "timed_mapper.h"
+
 #include "scene/camera.h"
 #include "scene/colouring.h"
 #include "scene/colours.h"
@@ -13,6 +15,7 @@
 #include "vtkActor.h"
 #include "vtkCamera.h"
 #include "vtkCellData.h"
+#include "vtkCommand.h"
 #include "vtkDoubleArray.h"
 #include "vtkGenericOpenGLRenderWindow.h"
 #include "vtkHandleSetRepresentation.h"
@@ -24,7 +27,6 @@
 #include "vtkPNGWriter.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
@@ -97,6 +99,8 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->window_->AddRenderer(this->legend_);
   this->handles_->SetInteractor(this->interactor());
   this->handles_->CreateDefaultRepresentation();
+  this->since_start_.start();
+  this->renderer_->AddObserver(vtkCommand::EndEvent, this, &Viewport::frame_drawn);
 }
 
 Viewport::~Viewport()
@@ -127,7 +131,7 @@ void Viewport::set_surface_look(int look)
                                                    : bindpose::palette::surface;
   property->SetColor(colour[0], colour[1], colour[2]);
   // The driver cannot sort see-through triangles by depth with several samples a pixel.
-  const bool sorts = look == see_through && this->shaded_;
+  const bool sorts = (look == see_through || this->ghosted_) && this->shaded_;
   this->renderer_->SetUseDepthPeeling(sorts);
   this->renderer_->SetMaximumNumberOfPeels(6);
   this->renderer_->SetUseFXAA(sorts);
@@ -201,6 +205,47 @@ void Viewport::move_surface(vtkPolyData* posed)
   {
     this->shaded_->move(bindpose::to_points(posed).view());
   }
+}
+
+void Viewport::move_surface(bindpose::PointsView points)
+{
+  if (this->shaded_)
+  {
+    this->shaded_->move(points);
+  }
+}
+
+void Viewport::set_ghosted(bool ghosted)
+{
+  this->ghosted_ = ghosted;
+  this->set_surface_look(this->look_);
+}
+
+void Viewport::set_split(bool split)
+{
+  this->split_ = split;
+  this->renderer_->SetViewport(0.0, 0.0, split ? 0.5 : 1.0, 1.0);
+  this->refresh();
+}
+
+double Viewport::upload_microseconds() const
+{
+  return this->mapper_->upload_microseconds();
+}
+
+void Viewport::frame_drawn()
+{
+  const double now = 1e-9 * static_cast<double>(this->since_start_.nsecsElapsed());
+  const double seconds = now - this->last_drawn_;
+  this->frame_seconds_ = seconds > 0.5 ? 0.0
+    : this->frame_seconds_ > 0.0       ? 0.8 * this->frame_seconds_ + 0.2 * seconds
+                                       : seconds;
+  this->last_drawn_ = now;
+}
+
+double Viewport::frames_per_second() const
+{
+  return this->frame_seconds_ > 0.0 ? 1.0 / this->frame_seconds_ : 0.0;
 }
 
 void Viewport::show_column(int column, const QString& name)
@@ -358,8 +403,8 @@ void Viewport::reset_view()
   const bindpose::View view;
   const bindpose::Frame frame = bindpose::choose_frame(bindpose::bounding_box(points), view.up);
   vtkCamera* camera = this->renderer_->GetActiveCamera();
-  bindpose::fit_camera(
-    camera, points, frame, view, static_cast<double>(this->width()) / this->height(), 0.12);
+  bindpose::fit_camera(camera, points, frame, view,
+    (this->split_ ? 0.5 : 1.0) * this->width() / this->height(), 0.12);
   camera->SetParallelProjection(this->picture_ != nullptr);
   // As large in a parallel view.
   camera->SetParallelScale(

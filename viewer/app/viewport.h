@@ -1,6 +1,7 @@
 #ifndef viewport_h
 #define viewport_h
 
+#include <QElapsedTimer>
 #include <QTimer>
 #include <QVTKOpenGLNativeWidget.h>
 
@@ -24,7 +25,7 @@ class vtkGenericOpenGLRenderWindow;
 class vtkHandleSetWidget;
 class vtkImageData;
 class vtkPolyData;
-class vtkPolyDataMapper;
+class TimedMapper;
 class vtkRenderer;
 
 /// The picture: one surface, shaded or coloured by a column of its weights, the handles on top,
@@ -49,6 +50,15 @@ public:
   void set_surface(vtkPolyData* surface);
   /// The same surface with its points elsewhere: a pose.
   void move_surface(vtkPolyData* posed);
+  void move_surface(bindpose::PointsView points);
+  /// Something see-through is drawn over the surface: both are then sorted by depth.
+  void set_ghosted(bool ghosted);
+  /// The left half only: something else is on the right.
+  void set_split(bool split);
+  /// Of the last drawn change of points: what it took to bring them to the graphics card.
+  double upload_microseconds() const;
+  /// Pictures a second, while they follow each other within half a second; else 0.
+  double frames_per_second() const;
   void set_handles(vtkPolyData* handles);
   /// Column of the array Weights, named on the scalar bar; -1: plain shading.
   void show_column(int column, const QString& name);
@@ -98,11 +108,12 @@ protected:
 
 private:
   void draw_legend();
+  void frame_drawn();
   void use_column();
 
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<vtkRenderer> renderer_;
-  vtkNew<vtkPolyDataMapper> mapper_;
+  vtkNew<TimedMapper> mapper_;
   vtkNew<vtkActor> actor_;
   vtkNew<vtkRenderer> legend_; // in front, to the left: the colour scale
   vtkNew<vtkHandleSetWidget> handles_;
@@ -116,6 +127,10 @@ private:
   bool has_values_ = false; // shown instead of the column
   std::map<LegendPlace, std::pair<QString, bindpose::ColourMap>> legends_;
   int look_ = solid;
+  bool ghosted_ = false;
+  bool split_ = false;
+  QElapsedTimer since_start_;
+  double last_drawn_ = -1e9, frame_seconds_ = 0.0; // smoothed
   bool refresh_pending_ = false;
   QTimer settle_; // after a drag
 };

@@ -2,7 +2,10 @@
 
 #include "document/document.h"
 #include "help_boxes.h"
+#include "key_strip.h"
 #include "main_window.h"
+#include "pose_panel.h"
+#include "posing.h"
 #include "viewport.h"
 #include "volume_view.h"
 #include "window_sessions.h"
@@ -88,13 +91,18 @@ void WindowMenus::add_view_menu()
       window->viewport()->refresh();
     });
   view->addSeparator();
-  const char* const methods[] = { QT_TR_NOOP("&Linear blend"), QT_TR_NOOP("&Dual quaternions"),
-    QT_TR_NOOP("&As rigid as possible") };
+  this->add(view, tr("&Rest or posed"), QKeySequence(Qt::Key_R),
+    [window] { window->posing()->look_at_rest(!window->posing()->looks_at_rest()); });
+  this->add(view, tr("&Play or pause"), QKeySequence(Qt::Key_Space),
+    [window] { window->posing()->play_keys(!window->posing()->is_playing()); });
+  this->add(view, tr("&Set a key"), QKeySequence(Qt::Key_K),
+    [window] { Q_EMIT window->strip()->key_wanted(); });
+  view->addSeparator();
   this->methods_ = new QActionGroup(this);
-  for (int k = 0; k < 3; ++k)
+  for (int k = 0; k < bindpose::pose_method_count; ++k)
   {
-    QAction* method = this->add(
-      view, tr(methods[k]), QKeySequence(Qt::Key_1 + k), [window, k] { window->set_method(k); });
+    QAction* method = this->add(view, method_name(static_cast<bindpose::PoseMethod>(k)),
+      QKeySequence(Qt::Key_1 + k), [window, k] { window->set_method(k); });
     method->setCheckable(true);
     this->methods_->addAction(method);
   }
@@ -117,5 +125,5 @@ void WindowMenus::update()
   this->save_pose_->setEnabled(document->handle_data());
   this->bind_->setEnabled(ready && !this->window_->is_binding());
   this->rest_pose_->setEnabled(document->is_bound());
-  this->methods_->setEnabled(document->is_bound());
+  this->methods_->setEnabled(ready);
 }

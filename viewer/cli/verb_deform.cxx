@@ -1,12 +1,12 @@
 // bindpose deform MESH_WITH_WEIGHTS --handles H --pose POSE.json: one pose gives one file, a
 // sequence, expressions in time or a body that moves numbered files and a .pvd that ParaView plays,
 // or one animated glTF file.
-#include "cli/sequence_file.h"
 #include "cli/session.h"
 #include "cli/verbs.h"
 
 #include "file_kind.h"
 #include "io/atomic_file.h"
+#include "scene/sequence_file.h"
 #include "vtkFullARAP.h"
 #include "vtkMovingLeastSquaresWarp.h"
 #include "vtkPoseHandles.h"
@@ -142,19 +142,6 @@ vtkSmartPointer<vtkPoseAlgorithm> make_deformation(const Arguments& arguments)
                                            : vtkSkinningDeformation::GIVEN_PSEUDO_EDGES);
   skinning->SetPseudoEdgeStretch(arguments.has("pseudo-edge-stretch"));
   return skinning;
-}
-
-std::string without_ending(const std::string& path)
-{
-  return path.substr(0, path.size() - file_extension(path).size() - 1);
-}
-
-/// OUT_0007.vtp
-std::string numbered(const std::string& path, int frame)
-{
-  char number[16];
-  std::snprintf(number, sizeof(number), "_%04d.", frame);
-  return without_ending(path) + number + file_extension(path);
 }
 
 bool is_rig(const std::string& path)
@@ -299,10 +286,10 @@ void run_deform(Session& session)
     files.clear();
     for (int frame = 0; frame < frames.count; ++frame)
     {
-      files.push_back(numbered(output, frame));
+      files.push_back(numbered_file(output, frame));
     }
   }
-  const std::string pvd = without_ending(output) + ".pvd";
+  const std::string pvd = collection_file(output);
   for (const std::string& file : files)
   {
     if (!session.check_output(file, endings))

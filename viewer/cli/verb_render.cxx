@@ -2,14 +2,14 @@
 // process when there is no X server, even for offscreen pictures; without one the program runs
 // itself again under xvfb-run.
 #include "cli/interrupt.h"
-#include "cli/sequence_file.h"
 #include "cli/session.h"
 #include "cli/verbs.h"
-#include "cli/video_file.h"
 
 #include "file_kind.h"
 #include "helper/scratch_folder.h"
 #include "io/atomic_file.h"
+#include "scene/sequence_file.h"
+#include "scene/video_file.h"
 #include "io/text_scanner.h"
 #include "scene/categories.h"
 #include "scene/display.h"

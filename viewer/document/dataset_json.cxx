@@ -322,44 +322,18 @@ bindpose::HandlePose pose_from_json(const json& value)
   return pose;
 }
 
-json key_poses_to_json(const KeyPoses& poses)
+json key_poses_to_json(const bindpose::PoseShelf& poses)
 {
-  json result = json::array();
-  for (const KeyPose& pose : poses)
-  {
-    json handles = json::object();
-    for (const auto& [name, of_handle] : pose.handles)
-    {
-      handles[name] = pose_to_json(of_handle);
-    }
-    result.push_back(
-      { { "name", pose.name.toStdString() }, { "seconds", pose.seconds }, { "handles", handles } });
-  }
-  return result;
+  return json(bindpose::to_json(poses));
 }
 
-KeyPoses key_poses_from_json(const json& value)
+bindpose::PoseShelf key_poses_from_json(const json& value)
 {
-  KeyPoses result;
-  if (!value.is_array())
+  bindpose::PoseShelf result;
+  const bindpose::Status status = bindpose::from_json(nlohmann::ordered_json(value), result);
+  if (!status.ok())
   {
-    throw SessionError("the poses are no list");
-  }
-  for (const json& item : value)
-  {
-    KeyPose pose;
-    pose.name = QString::fromStdString(json_text(json_at(item, "name"), "the name of a pose"));
-    pose.seconds = json_number(json_at(item, "seconds"), "the time of a pose");
-    const json& handles = json_at(item, "handles");
-    if (!handles.is_object())
-    {
-      throw SessionError("the handles of a pose are no object");
-    }
-    for (const auto& [name, of_handle] : handles.items())
-    {
-      pose.handles[name] = pose_from_json(of_handle);
-    }
-    result.push_back(pose);
+    throw SessionError(status.message);
   }
   return result;
 }

@@ -31,8 +31,8 @@ vtkSmartPointer<vtkPolyData> handles_from_json(const nlohmann::json& json);
 nlohmann::json pose_to_json(const bindpose::HandlePose& pose);
 bindpose::HandlePose pose_from_json(const nlohmann::json& json);
 
-nlohmann::json key_poses_to_json(const KeyPoses& poses);
-KeyPoses key_poses_from_json(const nlohmann::json& json);
+nlohmann::json key_poses_to_json(const bindpose::PoseShelf& poses);
+bindpose::PoseShelf key_poses_from_json(const nlohmann::json& json);
 
 nlohmann::json options_to_json(const Options& options);
 /// What is missing is as in a new document; what is unknown is left out.

@@ -357,10 +357,10 @@ void Document::back_to_rest()
   this->set_pose(rest, tr("back to rest"));
 }
 
-void Document::set_key_poses(KeyPoses poses, const QString& step, const QString& merge)
+void Document::set_key_poses(PoseShelf poses, const QString& step, const QString& merge)
 {
   Work after = this->work_;
-  after.key_poses = std::make_shared<const KeyPoses>(std::move(poses));
+  after.key_poses = std::make_shared<const PoseShelf>(std::move(poses));
   this->push(step, after, merge);
 }
 

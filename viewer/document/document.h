@@ -93,7 +93,7 @@ public:
   void set_pose(const bindpose::Pose& pose, const QString& step, const QString& merge = {});
   void set_mode(int handle, int mode);
   void back_to_rest();
-  void set_key_poses(KeyPoses poses, const QString& step, const QString& merge = {});
+  void set_key_poses(bindpose::PoseShelf poses, const QString& step, const QString& merge = {});
 
   // ---- Weights ----
   /// What is bound now: the surface and the handles that set_bound() and set_preview() will be

@@ -154,7 +154,7 @@ public:
     this->read_handles(work);
     work.options = options_from_json(json_at(this->text_, "options"));
     work.key_poses =
-      std::make_shared<const KeyPoses>(key_poses_from_json(json_at(this->text_, "poses")));
+      std::make_shared<const PoseShelf>(key_poses_from_json(json_at(this->text_, "poses")));
     session.view = view_from_json(json_at(this->text_, "view"));
     const json& inputs = json_at(this->text_, "inputs");
     const json& companions = json_at(this->text_, "companions");
@@ -450,7 +450,7 @@ Status SessionFile::write(const QString& path, const Session& session)
   {
     pose.push_back(pose_to_json(of_handle));
   }
-  text["poses"] = work.key_poses ? key_poses_to_json(*work.key_poses) : json::array();
+  text["poses"] = work.key_poses ? key_poses_to_json(*work.key_poses) : json::object();
   text["options"] = options_to_json(work.options);
   text["view"] = { { "panel", session.view.panel },
     { "camera", session.view.camera ? camera_to_json(*session.view.camera) : json() } };

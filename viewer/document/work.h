@@ -3,6 +3,7 @@
 
 #include "document/options.h"
 #include "pose/pose.h"
+#include "posing/pose_shelf.h"
 
 #include "vtkImageData.h"
 #include "vtkPolyData.h"
@@ -24,15 +25,6 @@ struct Source
   QByteArray checksum; ///< SHA-256 of the file as it was read, in hex
 };
 
-/// A pose with a name, by the handles' names: other handles may come and go.
-struct KeyPose
-{
-  QString name;
-  double seconds = 0.0;
-  std::map<std::string, bindpose::HandlePose> handles;
-};
-using KeyPoses = std::vector<KeyPose>;
-
 /// Everything that a person has opened and made, as a value: copying it is cheap, because datasets
 /// are shared. Whoever holds a Work may not change a dataset in it; another state of the work has
 /// another object.
@@ -47,7 +39,7 @@ struct Work
   /// The handles that the columns of the weights belong to; null as long as nothing was bound.
   vtkSmartPointer<vtkPolyData> bound_handles;
   bindpose::Pose pose; ///< an entry a handle
-  std::shared_ptr<const KeyPoses> key_poses;
+  std::shared_ptr<const bindpose::PoseShelf> key_poses;
   vtkSmartPointer<vtkImageData> picture; ///< that the surface was cut out of; or null
   vtkSmartPointer<vtkImageData> volume;
   QString volume_name;

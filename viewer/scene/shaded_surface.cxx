@@ -1,7 +1,10 @@
 // vtkPolyDataNormals decides where to part vertices; an id array that it carries along tells which
-// input point each display point is. Normals are then sums of triangle normals weighted by area.
+// input point each display point is. Normals are then sums of triangle normals weighted by area:
+// each point gathers those of its triangles, in their order, so that all cores may work at once and
+// the bits are those of one.
 #include "scene/shaded_surface.h"
 
+#include "base/parallel.h"
 #include "scene/colours.h"
 
 #include "vtkActor.h"
@@ -17,6 +20,8 @@
 #include "vtkPolyDataNormals.h"
 #include "vtkProperty.h"
 #include "vtkTriangleFilter.h"
+
+#include <cmath>
 
 namespace bindpose
 {
@@ -74,6 +79,7 @@ ShadedSurface::ShadedSurface(vtkPolyData* surface, double feature_angle)
       this->triangles_(t, k) = corners->GetId(k);
     }
   }
+  this->find_triangles_of_points();
   // Own points and normals: they are about to be written to.
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
@@ -95,47 +101,89 @@ void ShadedSurface::move(PointsView points)
 {
   auto* places = vtkDoubleArray::SafeDownCast(this->display_->GetPoints()->GetData());
   double* to = places->GetPointer(0);
-  for (std::size_t v = 0; v < this->input_points_.size(); ++v)
-  {
-    const double* from = points.data() + 3 * this->input_points_[v];
-    to[3 * v] = from[0];
-    to[3 * v + 1] = from[1];
-    to[3 * v + 2] = from[2];
-  }
+  ExecutionContext context;
+  parallel_for(context, static_cast<Index>(this->input_points_.size()), 4096,
+    [&](Index begin, Index end)
+    {
+      for (Index v = begin; v < end; ++v)
+      {
+        const double* from = points.data() + 3 * this->input_points_[v];
+        to[3 * v] = from[0];
+        to[3 * v + 1] = from[1];
+        to[3 * v + 2] = from[2];
+      }
+    });
   this->update_normals();
   places->Modified();
   this->display_->GetPoints()->Modified();
   this->display_->Modified();
 }
 
+void ShadedSurface::find_triangles_of_points()
+{
+  const Index count = this->display_->GetNumberOfPoints();
+  this->first_triangle_.assign(static_cast<std::size_t>(count) + 1, 0);
+  for (Index k = 0; k < this->triangles_.size(); ++k)
+  {
+    ++this->first_triangle_[this->triangles_.data()[k] + 1];
+  }
+  for (Index v = 0; v < count; ++v)
+  {
+    this->first_triangle_[v + 1] += this->first_triangle_[v];
+  }
+  std::vector<Index> next(this->first_triangle_.begin(), this->first_triangle_.end() - 1);
+  this->triangles_of_points_.resize(static_cast<std::size_t>(this->triangles_.size()));
+  for (Index k = 0; k < this->triangles_.size(); ++k)
+  {
+    this->triangles_of_points_[next[this->triangles_.data()[k]]++] = k / 3;
+  }
+  this->triangle_normals_.resize(this->triangles_.rows(), 3);
+}
+
 void ShadedSurface::update_normals()
 {
   auto* places = vtkDoubleArray::SafeDownCast(this->display_->GetPoints()->GetData());
   auto* array = vtkFloatArray::SafeDownCast(this->display_->GetPointData()->GetNormals());
-  const Eigen::Map<const Points> points(places->GetPointer(0), places->GetNumberOfTuples(), 3);
-  Points sums = Points::Zero(points.rows(), 3);
-  for (Index t = 0; t < this->triangles_.rows(); ++t)
-  {
-    const auto corner = this->triangles_.row(t);
-    const Eigen::RowVector3d a = points.row(corner[0]);
-    const Eigen::RowVector3d b = points.row(corner[1]);
-    const Eigen::RowVector3d c = points.row(corner[2]);
-    const Eigen::RowVector3d normal = (b - a).cross(c - a);
-    for (int k = 0; k < 3; ++k)
+  const double* at = places->GetPointer(0);
+  double* normals = this->triangle_normals_.data();
+  ExecutionContext context;
+  parallel_for(context, this->triangles_.rows(), 4096,
+    [&](Index begin, Index end)
     {
-      sums.row(corner[k]) += normal;
-    }
-  }
+      const Index* corners = this->triangles_.data();
+      for (Index t = begin; t < end; ++t)
+      {
+        const double* a = at + 3 * corners[3 * t];
+        const double* b = at + 3 * corners[3 * t + 1];
+        const double* c = at + 3 * corners[3 * t + 2];
+        const double u[3] = { b[0] - a[0], b[1] - a[1], b[2] - a[2] };
+        const double w[3] = { c[0] - a[0], c[1] - a[1], c[2] - a[2] };
+        normals[3 * t] = u[1] * w[2] - u[2] * w[1];
+        normals[3 * t + 1] = u[2] * w[0] - u[0] * w[2];
+        normals[3 * t + 2] = u[0] * w[1] - u[1] * w[0];
+      }
+    });
   float* to = array->GetPointer(0);
-  for (Index v = 0; v < sums.rows(); ++v)
-  {
-    const double length = sums.row(v).norm();
-    for (int k = 0; k < 3; ++k)
+  parallel_for(context, places->GetNumberOfTuples(), 4096,
+    [&](Index begin, Index end)
     {
-      to[3 * v + k] =
-        length > 0.0 ? static_cast<float>(sums(v, k) / length) : (k == 2 ? 1.0F : 0.0F);
-    }
-  }
+      for (Index v = begin; v < end; ++v)
+      {
+        double x = 0.0, y = 0.0, z = 0.0;
+        for (Index k = this->first_triangle_[v]; k < this->first_triangle_[v + 1]; ++k)
+        {
+          const double* normal = normals + 3 * this->triangles_of_points_[k];
+          x += normal[0];
+          y += normal[1];
+          z += normal[2];
+        }
+        const double length = std::sqrt(x * x + y * y + z * z);
+        const double scale = length > 0.0 ? 1.0 / length : 0.0;
+        to[3 * v] = static_cast<float>(scale * x);
+        to[3 * v + 1] = static_cast<float>(scale * y);
+        to[3 * v + 2] = length > 0.0 ? static_cast<float>(scale * z) : 1.0F;
+      }
+    });
   array->Modified();
 }
 

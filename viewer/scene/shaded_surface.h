@@ -37,11 +37,15 @@ public:
   void move(PointsView points);
 
 private:
+  void find_triangles_of_points();
   void update_normals();
 
   vtkSmartPointer<vtkPolyData> display_;
   std::vector<Index> input_points_;
   Triangles triangles_;
+  std::vector<Index> first_triangle_; ///< of each point in triangles_of_points_, and the end
+  std::vector<Index> triangles_of_points_; ///< ascending for each point
+  Points triangle_normals_; ///< scratch
 };
 
 /// The house's material: soft, with a slight gloss.

@@ -208,7 +208,7 @@ int vtkHandleSetRepresentation::GetDragRefusal(vtkIdType handle)
     return IS_NO_HANDLE;
   }
   // At rest a handle has a place of its own, whatever its mode.
-  const bool free = place.is_free() && this->EditMode == POSE;
+  const bool free = place.is_free() && this->EditMode == POSE && !this->DragFree;
   return place.locked ? IS_LOCKED : free ? IS_FREE : DRAGGABLE;
 }
 
@@ -648,6 +648,7 @@ void vtkHandleSetRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "ShowHoverName: " << this->ShowHoverName << "\n";
   os << indent << "DrawOnTop: " << this->DrawOnTop << "\n";
   os << indent << "MoveDescendants: " << this->MoveDescendants << "\n";
+  os << indent << "DragFree: " << this->DragFree << "\n";
   const auto print_colour = [&](const char* name, const double c[3])
   { os << indent << name << ": (" << c[0] << ", " << c[1] << ", " << c[2] << ")\n"; };
   print_colour("FullColor", this->FullColor);

@@ -296,6 +296,14 @@ public:
   ///@}
 
   ///@{
+  /// Whether free handles can be dragged all the same: a body that moves is pulled by them and let
+  /// go. Default off.
+  vtkSetMacro(DragFree, vtkTypeBool);
+  vtkGetMacro(DragFree, vtkTypeBool);
+  vtkBooleanMacro(DragFree, vtkTypeBool);
+  ///@}
+
+  ///@{
   /// Colours by Mode (full: orange, position: blue, free: grey) and of the outline; the selected
   /// handle's outline has its own, with the outline's colour around it.
   vtkSetVector3Macro(FullColor, double);
@@ -464,6 +472,7 @@ private:
   vtkTypeBool ShowHoverName = 1;
   vtkTypeBool DrawOnTop = 1;
   vtkTypeBool MoveDescendants = 1;
+  vtkTypeBool DragFree = 0;
   double FullColor[3] = { 0.95, 0.58, 0.13 };
   double PositionColor[3] = { 0.20, 0.56, 0.86 };
   double FreeColor[3] = { 0.66, 0.66, 0.68 };

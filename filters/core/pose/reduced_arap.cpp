@@ -46,6 +46,31 @@ Status ReducedArap::deform(ExecutionContext& context, PointsView rest, Points& p
   return this->space_.skinning.linear_blend(context, rest, this->transforms_, posed);
 }
 
+Status ReducedArap::weights(ExecutionContext& context, Weights& weights) const
+{
+  // From the origin, a column whose transform is a step of one moves each vertex by its weight.
+  const Index columns = this->space_.columns;
+  const Points origin = Points::Zero(this->space_.skinning.vertex_count(), 3);
+  Points moved;
+  weights.resize(origin.rows(), columns);
+  for (Index first = 0; first < columns; first += 3)
+  {
+    std::vector<Affine> steps(static_cast<std::size_t>(columns), identity_affine());
+    const Index count = std::min<Index>(3, columns - first);
+    for (Index k = 0; k < count; ++k)
+    {
+      steps[static_cast<std::size_t>(first + k)](k, 3) = 1.0;
+    }
+    const Status status = this->space_.skinning.linear_blend(context, origin, steps, moved);
+    if (!status.ok())
+    {
+      return status;
+    }
+    weights.middleCols(first, count) = moved.leftCols(count);
+  }
+  return {};
+}
+
 Status ReducedArap::deform_normals(
   ExecutionContext& context, PointsView rest_normals, Points& posed_normals) const
 {

@@ -63,6 +63,9 @@ public:
   Status deform(ExecutionContext& context, PointsView rest, Points& posed) const;
   Status deform_normals(
     ExecutionContext& context, PointsView rest_normals, Points& posed_normals) const;
+  /// The weights that deform() blends with, #V x (handles and extra weights): to carry them to
+  /// other points of the shape, which then follow transforms() too.
+  Status weights(ExecutionContext& context, Weights& weights) const;
 
   /// Transforms of the last solve: the handles', then those of the extra weights (whose rest is
   /// the identity, too).

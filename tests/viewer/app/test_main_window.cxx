@@ -482,7 +482,7 @@ TEST_F(Window, WhatCannotBeDoneYetIsDisabledInTheMenus)
     return false;
   };
   const std::vector<const char*> later = { "Save shape", "Save pose", "Save picture", "Bind",
-    "Back to rest", "Linear", "Dual", "As rigid" };
+    "Back to rest", "Linear", "Dual", "Reduced", "Full" };
   EXPECT_TRUE(enabled("Open"));
   for (const char* text : later)
   {
@@ -514,6 +514,10 @@ TEST_F(Window, NoTextOfThePanelIsClipped)
     test::expect_unclipped_buttons(this->window.panel());
     for (QLabel* label : this->window.panel()->findChildren<QLabel*>())
     {
+      if (!label->isVisible())
+      {
+        continue;
+      }
       EXPECT_LE(label->heightForWidth(label->width()), label->height())
         << label->text().toStdString();
       EXPECT_GT(label->height(), 0);

@@ -1,5 +1,6 @@
-#include "cli/sequence_file.h"
+#include "scene/sequence_file.h"
 
+#include "file_kind.h"
 #include "io/text_scanner.h"
 
 #include "vtkNew.h"
@@ -11,8 +12,28 @@
 #include <cmath>
 #include <cstdio>
 
-namespace bindpose::cli
+namespace bindpose
 {
+
+namespace
+{
+std::string without_ending(const std::string& path)
+{
+  return path.substr(0, path.size() - file_extension(path).size() - 1);
+}
+} // namespace
+
+std::string numbered_file(const std::string& path, int frame)
+{
+  char number[16];
+  std::snprintf(number, sizeof(number), "_%04d.", frame);
+  return without_ending(path) + number + file_extension(path);
+}
+
+std::string collection_file(const std::string& path)
+{
+  return without_ending(path) + ".pvd";
+}
 
 std::string format_collection(const std::vector<std::string>& files, double rate)
 {
@@ -91,4 +112,4 @@ std::vector<std::size_t> evenly(std::size_t count, std::size_t most)
   return taken;
 }
 
-} // namespace bindpose::cli
+} // namespace bindpose

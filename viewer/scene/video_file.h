@@ -1,12 +1,12 @@
-#ifndef bindpose_cli_video_file_h
-#define bindpose_cli_video_file_h
+#ifndef bindpose_scene_video_file_h
+#define bindpose_scene_video_file_h
 
 #include "base/execution.h"
 #include "base/status.h"
 
 #include <string>
 
-namespace bindpose::cli
+namespace bindpose
 {
 
 /// Endings of moving pictures, which ffmpeg makes.
@@ -23,6 +23,6 @@ std::string frame_file(const std::string& folder, int frame);
 Status write_video(const std::string& folder, double frames_per_second, const std::string& path,
   ExecutionContext& context);
 
-} // namespace bindpose::cli
+} // namespace bindpose
 
 #endif

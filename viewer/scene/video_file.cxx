@@ -1,6 +1,6 @@
 // ffmpeg is a program of its own: it is found on the PATH, run on a folder of pictures, and killed
 // when the user cancels.
-#include "cli/video_file.h"
+#include "scene/video_file.h"
 
 #include "file_kind.h"
 #include "helper/child_process.h"
@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-namespace bindpose::cli
+namespace bindpose
 {
 
 namespace
@@ -95,4 +95,4 @@ Status write_video(const std::string& folder, double frames_per_second, const st
   return status;
 }
 
-} // namespace bindpose::cli
+} // namespace bindpose

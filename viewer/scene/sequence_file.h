@@ -1,12 +1,12 @@
-#ifndef bindpose_cli_sequence_file_h
-#define bindpose_cli_sequence_file_h
+#ifndef bindpose_scene_sequence_file_h
+#define bindpose_scene_sequence_file_h
 
 #include "base/status.h"
 
 #include <string>
 #include <vector>
 
-namespace bindpose::cli
+namespace bindpose
 {
 
 /// The frames of a sequence: files and when they are.
@@ -15,6 +15,11 @@ struct Sequence
   std::vector<std::string> files;
   std::vector<double> times; ///< seconds, one a file
 };
+
+/// OUT_0007.vtp for OUT.vtp: one frame of a sequence.
+std::string numbered_file(const std::string& path, int frame);
+/// OUT.pvd for OUT.vtp: the collection beside them.
+std::string collection_file(const std::string& path);
 
 /// ParaView's collection (.pvd) of files that stand beside it.
 std::string format_collection(const std::vector<std::string>& files, double frames_per_second);
@@ -30,6 +35,6 @@ double frames_per_second(const Sequence& sequence);
 /// them.
 std::vector<std::size_t> evenly(std::size_t count, std::size_t most);
 
-} // namespace bindpose::cli
+} // namespace bindpose
 
 #endif

@@ -1,0 +1,325 @@
+// Posers against the filters, which run the same kernels by another way: not one bit may differ.
+#include "posing/poser.h"
+#include "rigs.h"
+
+#include "vtkFullARAP.h"
+#include "vtkReducedARAP.h"
+#include "vtkSkinningDeformation.h"
+#include "vtkVariationalSurface.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+using test::beam;
+using test::Rig;
+using test::some_pose;
+
+namespace
+{
+Points points_of(vtkDataSet* data)
+{
+  return to_points(data).view();
+}
+
+/// What the filter makes of the rig in this pose.
+Points by_filter(vtkPoseAlgorithm* filter, const Rig& rig, const Pose& pose, vtkDataSet* mesh)
+{
+  vtkNew<vtkPolyData> handles;
+  handles->DeepCopy(rig.handles);
+  set_pose(handles, rig.cells, pose);
+  filter->SetInputData(0, mesh);
+  filter->SetInputData(1, handles);
+  filter->Update();
+  EXPECT_LE(filter->GetStatus(), vtkBindposeAlgorithm::NOT_CONVERGED) << filter->GetStatusMessage();
+  return points_of(filter->GetOutput());
+}
+
+Points by_poser(const Rig& rig, const Pose& pose, const PoseOptions& options)
+{
+  ExecutionContext context;
+  const auto poser = make_poser(options.method, rig.source());
+  Status status = poser->bind(context, options);
+  EXPECT_TRUE(status.usable()) << status.message;
+  Points posed;
+  status = poser->solve(context, pose, options, 0, posed);
+  EXPECT_TRUE(status.usable()) << status.message;
+  return posed;
+}
+
+PoseOptions with(PoseMethod method)
+{
+  PoseOptions options;
+  options.method = method;
+  return options;
+}
+} // namespace
+
+TEST(Poser, EverySkinningMethodGivesWhatTheFilterGives)
+{
+  const Rig rig = beam();
+  const Pose pose = some_pose(rig.list);
+  const std::pair<PoseMethod, int> methods[] = { { PoseMethod::linear_blend,
+                                                   vtkSkinningDeformation::LINEAR_BLEND },
+    { PoseMethod::dual_quaternion, vtkSkinningDeformation::DUAL_QUATERNION },
+    { PoseMethod::stretchable_bones, vtkSkinningDeformation::STRETCHABLE_BONES },
+    { PoseMethod::rotation_centres, vtkSkinningDeformation::CENTERS_OF_ROTATION } };
+  for (const auto& [method, of_filter] : methods)
+  {
+    for (const int edges : { 0, 1, 2 })
+    {
+      for (const bool single : { false, true })
+      {
+        vtkNew<vtkSkinningDeformation> filter;
+        filter->SetMethod(of_filter);
+        filter->SetPseudoEdges(edges);
+        filter->SetSinglePrecision(single);
+        PoseOptions options = with(method);
+        options.pseudo_edges = static_cast<PseudoEdgeChoice>(edges);
+        options.single_precision = single;
+        EXPECT_EQ(by_poser(rig, pose, options), by_filter(filter, rig, pose, rig.surface))
+          << to_string(method) << " edges " << edges << " single " << single;
+      }
+    }
+  }
+}
+
+TEST(Poser, GivenEndpointWeightsAreUsed)
+{
+  const Rig rig = beam();
+  Weights endpoints = Weights::Constant(rig.surface->GetNumberOfPoints(), 4, 0.25);
+  const Points without = by_poser(rig, some_pose(rig.list), with(PoseMethod::stretchable_bones));
+  rig.surface->GetPointData()->AddArray(to_weights_array("EndpointWeights", endpoints, rig.list));
+  vtkNew<vtkSkinningDeformation> filter;
+  filter->SetMethod(vtkSkinningDeformation::STRETCHABLE_BONES);
+  const Points posed = by_poser(rig, some_pose(rig.list), with(PoseMethod::stretchable_bones));
+  EXPECT_EQ(posed, by_filter(filter, rig, some_pose(rig.list), rig.surface));
+  EXPECT_NE(posed, without);
+}
+
+TEST(Poser, ReducedArapGivesWhatTheFilterGives)
+{
+  const Rig rig = beam();
+  Pose pose = some_pose(rig.list);
+  pose[1].mode = HandleMode::free;
+  pose[2].mode = HandleMode::position;
+  for (const Index extra : { 0, 7 })
+  {
+    vtkNew<vtkReducedARAP> filter;
+    filter->SetNumberOfExtraWeights(static_cast<int>(extra));
+    PoseOptions options = with(PoseMethod::reduced_arap);
+    options.extra_weights = extra;
+    EXPECT_EQ(by_poser(rig, pose, options), by_filter(filter, rig, pose, rig.surface));
+    // In tets: the surface's points are the first of the tets' here, so they go where these do.
+    vtkNew<vtkReducedARAP> in_tets;
+    in_tets->SetNumberOfExtraWeights(static_cast<int>(extra));
+    options.in_tets = true;
+    const Points all = by_filter(in_tets, rig, pose, rig.tets);
+    const Points surface = by_poser(rig, pose, options);
+    EXPECT_LT((surface - all.topRows(surface.rows())).cwiseAbs().maxCoeff(), 1e-12);
+  }
+}
+
+TEST(Poser, FullArapGivesWhatTheFilterGives)
+{
+  const Rig rig = beam();
+  const Pose pose = some_pose(rig.list, 0.3);
+  vtkNew<vtkFullARAP> filter;
+  EXPECT_EQ(
+    by_poser(rig, pose, with(PoseMethod::full_arap)), by_filter(filter, rig, pose, rig.surface));
+  vtkNew<vtkFullARAP> in_tets;
+  PoseOptions options = with(PoseMethod::full_arap);
+  options.in_tets = true;
+  const Points all = by_filter(in_tets, rig, pose, rig.tets);
+  const Points surface = by_poser(rig, pose, options);
+  EXPECT_EQ(surface, all.topRows(surface.rows()));
+}
+
+TEST(Poser, ASolveInSlicesIsTheFilterRunInSlices)
+{
+  const Rig rig = beam();
+  const Pose pose = some_pose(rig.list, 0.3);
+  ExecutionContext context;
+  const PoseOptions options = with(PoseMethod::full_arap);
+  const auto poser = make_poser(options.method, rig.source());
+  ASSERT_TRUE(poser->bind(context, options).usable());
+  vtkNew<vtkPolyData> handles;
+  handles->DeepCopy(rig.handles);
+  set_pose(handles, rig.cells, pose);
+  vtkNew<vtkFullARAP> filter;
+  filter->SetInputData(0, rig.surface);
+  filter->SetInputData(1, handles);
+  for (const int slice : { 2, 4, 8 })
+  {
+    Points posed;
+    ASSERT_TRUE(poser->solve(context, pose, options, slice, posed).usable());
+    filter->SetMaximumIterations(slice);
+    filter->Update();
+    EXPECT_EQ(posed, points_of(filter->GetOutput()));
+  }
+  EXPECT_EQ(filter->GetNumberOfBinds(), poser->binds());
+}
+
+TEST(Poser, VariationalSurfacesGiveWhatTheFilterGives)
+{
+  const Rig rig = beam();
+  const Pose pose = some_pose(rig.list, 0.3);
+  for (const int order : { 1, 2 })
+  {
+    vtkNew<vtkVariationalSurface> filter;
+    filter->SetOrder(order);
+    PoseOptions options = with(PoseMethod::variational);
+    options.order = order;
+    EXPECT_EQ(by_poser(rig, pose, options), by_filter(filter, rig, pose, rig.surface));
+  }
+}
+
+TEST(Poser, DragsDoNotBindAgain)
+{
+  const Rig rig = beam();
+  ExecutionContext context;
+  for (int method = 0; method < pose_method_count; ++method)
+  {
+    PoseOptions options = with(static_cast<PoseMethod>(method));
+    const auto poser = make_poser(options.method, rig.source());
+    ASSERT_TRUE(poser->bind(context, options).usable());
+    Points posed;
+    for (int drag = 0; drag < 5; ++drag)
+    {
+      ASSERT_TRUE(poser->bind(context, options).usable());
+      Pose pose = some_pose(rig.list, 0.1 * drag);
+      pose[2].mode = static_cast<HandleMode>(drag % 3);
+      ASSERT_TRUE(poser->solve(context, pose, options, 5, posed).usable()) << method;
+      // What is chosen at pose time needs no bind either.
+      options.drag_only = !options.drag_only;
+      options.iterations += 1;
+      options.budget_microseconds += 1.0;
+    }
+    EXPECT_EQ(poser->binds(), 1) << to_string(options.method);
+  }
+}
+
+TEST(Poser, SkinningMethodsShareTheirBind)
+{
+  const Rig rig = beam();
+  ExecutionContext context;
+  PoseOptions options;
+  const auto poser = make_poser(options.method, rig.source());
+  ASSERT_TRUE(poser->bind(context, options).usable());
+  for (const PoseMethod method : { PoseMethod::dual_quaternion, PoseMethod::stretchable_bones })
+  {
+    options.method = method;
+    EXPECT_TRUE(same_poser(PoseMethod::linear_blend, method));
+    EXPECT_TRUE(poser->is_bound(options));
+  }
+  options.method = PoseMethod::rotation_centres;
+  EXPECT_FALSE(poser->is_bound(options)); // the centres are missing
+  ASSERT_TRUE(poser->bind(context, options).usable());
+  EXPECT_EQ(poser->binds(), 2);
+  options.method = PoseMethod::linear_blend;
+  EXPECT_TRUE(poser->is_bound(options));
+}
+
+TEST(Poser, DragOnlyMakesPointsPositions)
+{
+  const Rig rig = beam();
+  PoseOptions options = with(PoseMethod::reduced_arap);
+  Pose turned = some_pose(rig.list);
+  turned[2] = turned[3] = HandlePose();
+  Pose moved = turned;
+  for (const std::size_t k : { 0, 1 })
+  {
+    moved[k].mode = HandleMode::position;
+  }
+  const Points wanted = by_poser(rig, moved, options);
+  options.drag_only = true;
+  const Points posed = by_poser(rig, turned, options);
+  EXPECT_EQ(posed, wanted);
+}
+
+TEST(Poser, WhatCannotBePosedIsSaid)
+{
+  Rig rig = beam();
+  ExecutionContext context;
+  Points posed;
+  PoseOptions options = with(PoseMethod::reduced_arap);
+  auto poser = make_poser(options.method, rig.source());
+  EXPECT_THAT(
+    poser->solve(context, Pose(4), options, 0, posed).message, testing::HasSubstr("bound"));
+  options.in_tets = true;
+  rig.tets = nullptr;
+  poser = make_poser(options.method, rig.source());
+  EXPECT_THAT(poser->bind(context, options).message, testing::HasSubstr("no tets"));
+  rig.surface->GetPointData()->RemoveArray("Weights");
+  options = with(PoseMethod::linear_blend);
+  poser = make_poser(options.method, rig.source());
+  EXPECT_THAT(poser->bind(context, options).message, testing::HasSubstr("bind first"));
+  options = with(PoseMethod::full_arap); // needs none
+  poser = make_poser(options.method, rig.source());
+  EXPECT_TRUE(poser->bind(context, options).usable());
+  EXPECT_THAT(
+    poser->solve(context, Pose(3), options, 0, posed).message, testing::HasSubstr("handles"));
+
+  // Stretchable bones without a bone are linear blending, and say so.
+  Rig points = beam();
+  for (Handle& handle : points.list)
+  {
+    handle.kind = HandleKind::point;
+    handle.tail = handle.head;
+  }
+  points.handles = to_polydata(points.list);
+  options = with(PoseMethod::stretchable_bones);
+  options.endpoints = EndpointMethod::bounded;
+  poser = make_poser(options.method, points.source());
+  ASSERT_TRUE(poser->bind(context, options).usable());
+  const Status status = poser->solve(context, Pose(4), options, 0, posed);
+  ASSERT_EQ(status.warnings.size(), 1U);
+  EXPECT_THAT(status.warnings[0], testing::HasSubstr("no handle is a bone"));
+}
+
+TEST(Poser, ABindIsCancelled)
+{
+  const Rig rig = beam();
+  ExecutionContext context;
+  context.request_cancel();
+  for (const PoseMethod method : { PoseMethod::rotation_centres, PoseMethod::reduced_arap })
+  {
+    PoseOptions options = with(method);
+    const auto poser = make_poser(method, rig.source());
+    EXPECT_EQ(poser->bind(context, options).code, StatusCode::cancelled);
+    EXPECT_FALSE(poser->is_bound(options));
+    ExecutionContext again;
+    EXPECT_TRUE(poser->bind(again, options).usable());
+  }
+}
+
+TEST(PoseOptions, AreTheSameAfterASession)
+{
+  PoseOptions options;
+  options.method = PoseMethod::variational;
+  options.single_precision = options.in_tets = options.drag_only = true;
+  options.pseudo_edges = PseudoEdgeChoice::automatic;
+  options.endpoints = EndpointMethod::joints;
+  options.energy = ArapEnergy::spokes;
+  options.extra_weights = 12;
+  options.extra_kind = ExtraWeights::eigenmodes;
+  options.iterations = 7;
+  options.budget_microseconds = 250.5;
+  options.order = 3;
+  options.boundary = PatchBoundary::tangent;
+  PoseOptions read;
+  const auto json = nlohmann::ordered_json::parse(to_json(options).dump());
+  ASSERT_TRUE(from_json(json, read).ok());
+  EXPECT_TRUE(read == options);
+
+  const PoseOptions before;
+  PoseOptions kept;
+  for (const char* broken : { "[]", R"({"method": "magic"})", R"({"extra_weights": 31})",
+         R"({"in_tets": 1})", R"({"method": "lbs", "order": "two"})" })
+  {
+    const Status status = from_json(nlohmann::ordered_json::parse(broken), kept);
+    EXPECT_EQ(status.code, StatusCode::invalid_input) << broken;
+    EXPECT_FALSE(status.message.empty());
+    EXPECT_TRUE(kept == before) << broken;
+  }
+}

@@ -1,0 +1,39 @@
+#ifndef handle_fields_h
+#define handle_fields_h
+
+#include "posing/pose_blend.h"
+
+#include <QWidget>
+
+#include <array>
+
+class QDoubleSpinBox;
+class QLabel;
+
+/// Typed values of the selected handle: where it goes, how it turns, its size, and of a bone its
+/// stretch and twist.
+class HandleFields : public QWidget
+{
+  Q_OBJECT
+
+public:
+  explicit HandleFields(QWidget* parent = nullptr);
+
+  /// Without values_chosen(). A field that is being typed in is left alone.
+  /// @param handle  null: none is selected
+  /// @param free  its place is for the solver to find
+  void show_values(const bindpose::Handle* handle, const bindpose::HandleValues& values, bool free);
+  bindpose::HandleValues values() const;
+  /// translate x y z, rotate x y z, scale, stretch, twist at head and tail.
+  QDoubleSpinBox* field(int which) const { return this->fields_[static_cast<std::size_t>(which)]; }
+
+Q_SIGNALS:
+  void values_chosen();
+
+private:
+  std::array<QDoubleSpinBox*, 10> fields_;
+  QWidget* bone_rows_;
+  QLabel* more_;
+};
+
+#endif

@@ -1,0 +1,103 @@
+#ifndef key_strip_h
+#define key_strip_h
+
+#include "posing/key_frames.h"
+
+#include <QFrame>
+
+class QDoubleSpinBox;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+class KeyTrack;
+
+/// Key frames below the picture: a track with a mark a key, which the mouse scrubs and moves keys
+/// on, and what plays, sets and exports them. It shows what it is told.
+class KeyStrip : public QFrame
+{
+  Q_OBJECT
+
+public:
+  explicit KeyStrip(QWidget* parent = nullptr);
+
+  void set_keys(const bindpose::KeyFrames& keys);
+  void set_time(double seconds);
+  void set_playing(bool playing);
+  void set_ready(bool ready);
+  /// Of an export; below 0: there is none.
+  void set_progress(double fraction);
+  double time() const { return this->time_; }
+  KeyTrack* track() const { return this->track_; }
+
+Q_SIGNALS:
+  void play_wanted(bool play);
+  void scrubbed(double seconds);
+  void scrub_ended();
+  void key_wanted();
+  void remove_wanted(int key);
+  void key_moved(int key, double seconds);
+  void loop_chosen(bool loop);
+  void smooth_chosen(bool smooth);
+  void rate_chosen(double frames_per_second);
+  void export_wanted();
+  void cancel_wanted();
+
+private:
+  void enable();
+
+  KeyTrack* track_;
+  QPushButton* play_;
+  QPushButton* add_;
+  QPushButton* remove_;
+  QPushButton* loop_;
+  QPushButton* smooth_;
+  QPushButton* export_;
+  QDoubleSpinBox* rate_;
+  QLabel* clock_;
+  QProgressBar* bar_;
+  bindpose::KeyFrames keys_;
+  double time_ = 0.0;
+  bool ready_ = false;
+  bool playing_ = false;
+};
+
+/// The track itself: seconds from left to right.
+class KeyTrack : public QWidget
+{
+  Q_OBJECT
+
+public:
+  explicit KeyTrack(QWidget* parent = nullptr);
+
+  void set_keys(const bindpose::KeyFrames& keys);
+  void set_time(double seconds);
+  /// Where a time is, in pixels from the left.
+  int pixel(double seconds) const;
+  QSize sizeHint() const override;
+
+Q_SIGNALS:
+  void scrubbed(double seconds);
+  void scrub_ended();
+  void key_moved(int key, double seconds);
+
+protected:
+  void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+
+private:
+  double length() const;
+  double seconds_at(int x) const;
+  int key_at(const QPoint& at) const;
+
+  bindpose::KeyFrames keys_;
+  double time_ = 0.0;
+  int dragged_ = -1; ///< key
+  double dragged_to_ = 0.0;
+  bool moved_ = false;
+  bool scrubbing_ = false;
+};
+
+#endif

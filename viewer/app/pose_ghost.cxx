@@ -1,0 +1,90 @@
+// Both halves have one camera: whoever turns one turns the other.
+#include "pose_ghost.h"
+
+#include "viewport.h"
+
+#include "scene/colours.h"
+#include "scene/shaded_surface.h"
+#include "scene/tile_actors.h"
+
+#include "vtkActor.h"
+#include "vtkPolyData.h"
+#include "vtkPolyDataMapper.h"
+#include "vtkProperty.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+
+PoseGhost::PoseGhost(Viewport* viewport) : viewport_(viewport)
+{
+  this->actor_->SetMapper(this->mapper_);
+  this->actor_->PickableOff();
+  this->mapper_->ScalarVisibilityOff();
+  bindpose::use_surface_material(this->actor_);
+  bindpose::add_lights(this->renderer_);
+  vtkRenderer* first = viewport->renderer();
+  this->renderer_->SetActiveCamera(first->GetActiveCamera());
+  this->renderer_->GradientBackgroundOn();
+  this->renderer_->SetBackground(first->GetBackground());
+  this->renderer_->SetBackground2(first->GetBackground2());
+  this->renderer_->SetViewport(0.5, 0.0, 1.0, 1.0);
+}
+
+PoseGhost::~PoseGhost() = default;
+
+void PoseGhost::set_surface(vtkPolyData* surface)
+{
+  this->shaded_ = surface ? std::make_unique<bindpose::ShadedSurface>(surface) : nullptr;
+  this->mapper_->SetInputData(surface ? this->shaded_->polydata() : nullptr);
+  this->update();
+}
+
+void PoseGhost::set_place(Place place)
+{
+  this->place_ = place;
+  this->update();
+}
+
+void PoseGhost::move(bindpose::PointsView points)
+{
+  if (this->shaded_ && this->place_ != hidden && points.rows() > 0)
+  {
+    this->shaded_->move(points);
+  }
+}
+
+void PoseGhost::update()
+{
+  const Place place = this->shaded_ ? this->place_ : hidden;
+  vtkRenderWindow* window = this->viewport_->renderWindow();
+  this->viewport_->renderer()->RemoveActor(this->actor_);
+  this->renderer_->RemoveActor(this->actor_);
+  vtkProperty* property = this->actor_->GetProperty();
+  const bindpose::Rgb& plain = bindpose::palette::surface;
+  if (place == over)
+  {
+    property->SetColor(0.20, 0.50, 0.76);
+    property->SetOpacity(0.38);
+    this->viewport_->renderer()->AddActor(this->actor_);
+  }
+  else if (place == beside)
+  {
+    property->SetColor(plain[0], plain[1], plain[2]);
+    property->SetOpacity(1.0);
+    this->renderer_->AddActor(this->actor_);
+  }
+  const bool beside_it = place == beside;
+  if (beside_it != this->in_window_)
+  {
+    this->in_window_ = beside_it;
+    if (beside_it)
+    {
+      window->AddRenderer(this->renderer_);
+    }
+    else
+    {
+      window->RemoveRenderer(this->renderer_);
+    }
+  }
+  this->viewport_->set_split(beside_it);
+  this->viewport_->set_ghosted(place == over);
+}

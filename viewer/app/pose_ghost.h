@@ -1,0 +1,54 @@
+#ifndef pose_ghost_h
+#define pose_ghost_h
+
+#include "base/mesh.h"
+
+#include "vtkNew.h"
+
+#include <memory>
+
+namespace bindpose
+{
+class ShadedSurface;
+}
+class Viewport;
+class vtkActor;
+class vtkPolyData;
+class vtkPolyDataMapper;
+class vtkRenderer;
+
+/// Another shape of the viewport's surface: see-through over it, or beside it in a half of its own
+/// that is seen from the same place.
+class PoseGhost
+{
+public:
+  enum Place
+  {
+    hidden,
+    over,
+    beside
+  };
+
+  explicit PoseGhost(Viewport* viewport);
+  ~PoseGhost();
+
+  /// The surface that has another shape; null: none.
+  void set_surface(vtkPolyData* surface);
+  void set_place(Place place);
+  Place place() const { return this->place_; }
+  void move(bindpose::PointsView points);
+  vtkRenderer* renderer() const { return this->renderer_; }
+
+private:
+  void update();
+
+  Viewport* viewport_;
+  Place place_ = hidden;
+  vtkNew<vtkPolyDataMapper> mapper_;
+  vtkNew<vtkActor> actor_;
+  vtkNew<vtkRenderer> renderer_; // of the half beside
+  std::unique_ptr<bindpose::ShadedSurface> shaded_;
+  bool in_window_ = false;
+};
+
+#endif

@@ -1,0 +1,44 @@
+#ifndef pose_list_h
+#define pose_list_h
+
+#include <QStringList>
+#include <QWidget>
+
+class QListWidget;
+class QPushButton;
+class QSlider;
+
+/// The poses that are kept: store, name (a double click), apply, blend, delete.
+class PoseList : public QWidget
+{
+  Q_OBJECT
+
+public:
+  explicit PoseList(QWidget* parent = nullptr);
+
+  void set_names(const QStringList& names);
+  int chosen() const;
+  void choose(int entry);
+  void set_ready(bool ready);
+
+Q_SIGNALS:
+  void store_wanted();
+  void apply_wanted(int entry);
+  void remove_wanted(int entry);
+  void renamed(int entry, const QString& name);
+  /// While the slider moves from the pose as it is (0) to the chosen one (1), and at its end.
+  void blended(int entry, double share);
+  void blend_ended();
+
+private:
+  void enable();
+
+  QListWidget* list_;
+  QPushButton* store_;
+  QPushButton* apply_;
+  QPushButton* remove_;
+  QSlider* slider_;
+  bool ready_ = false;
+};
+
+#endif

@@ -1,0 +1,535 @@
+#include "pose_panel.h"
+
+#include "panel_parts.h"
+#include "section.h"
+#include "value_row.h"
+
+#include <QButtonGroup>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QCoreApplication>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QSlider>
+#include <QVBoxLayout>
+
+#include <algorithm>
+#include <cmath>
+
+using bindpose::PoseMethod;
+using bindpose::PoseOptions;
+
+namespace
+{
+const struct
+{
+  PoseMethod method;
+  const char* button;
+  const char* name;
+  const char* purpose;
+} methods[] = {
+  { PoseMethod::linear_blend, QT_TRANSLATE_NOOP("PosePanel", "Linear"),
+    QT_TRANSLATE_NOOP("PosePanel", "Linear blend"),
+    QT_TRANSLATE_NOOP(
+      "PosePanel", "Blends the handles' motions. Fastest; strong twists grow thin.") },
+  { PoseMethod::dual_quaternion, QT_TRANSLATE_NOOP("PosePanel", "Dual q."),
+    QT_TRANSLATE_NOOP("PosePanel", "Dual quaternions"),
+    QT_TRANSLATE_NOOP("PosePanel", "Blends rigid motions. Twists stay thick; bends bulge.") },
+  { PoseMethod::stretchable_bones, QT_TRANSLATE_NOOP("PosePanel", "Stretch"),
+    QT_TRANSLATE_NOOP("PosePanel", "Stretchable bones"),
+    QT_TRANSLATE_NOOP(
+      "PosePanel", "Bones that stretch and twist along themselves, without bulging ends.") },
+  { PoseMethod::rotation_centres, QT_TRANSLATE_NOOP("PosePanel", "Centers"),
+    QT_TRANSLATE_NOOP("PosePanel", "Centers of rotation"),
+    QT_TRANSLATE_NOOP(
+      "PosePanel", "Every place turns about a center of its own: thick twists, no bulge.") },
+  { PoseMethod::reduced_arap, QT_TRANSLATE_NOOP("PosePanel", "ARAP"),
+    QT_TRANSLATE_NOOP("PosePanel", "Reduced ARAP"),
+    QT_TRANSLATE_NOOP("PosePanel",
+      "As rigid as possible: finds what handles leave open, in microseconds, by weights.") },
+  { PoseMethod::full_arap, QT_TRANSLATE_NOOP("PosePanel", "Full ARAP"),
+    QT_TRANSLATE_NOOP("PosePanel", "Full ARAP"),
+    QT_TRANSLATE_NOOP(
+      "PosePanel", "As rigid as possible, every vertex on its own. Needs no weights; slower.") },
+  { PoseMethod::variational, QT_TRANSLATE_NOOP("PosePanel", "Smooth"),
+    QT_TRANSLATE_NOOP("PosePanel", "Smooth surface"),
+    QT_TRANSLATE_NOOP(
+      "PosePanel", "The smoothest surface through what handles hold. Needs no weights.") },
+};
+
+QString translated(const char* text)
+{
+  return QCoreApplication::translate("PosePanel", text);
+}
+
+QComboBox* combo(QWidget* parent, const char* key, const QStringList& items)
+{
+  auto* box = new QComboBox(parent);
+  box->setObjectName(key);
+  box->addItems(items);
+  box->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  return box;
+}
+} // namespace
+
+QString method_name(PoseMethod method)
+{
+  return translated(std::find_if(std::begin(methods), std::end(methods),
+    [&](const auto& entry) {
+      return entry.method == method;
+    })->name);
+}
+
+QString method_purpose(PoseMethod method)
+{
+  return translated(std::find_if(std::begin(methods), std::end(methods),
+    [&](const auto& entry) {
+      return entry.method == method;
+    })->purpose);
+}
+
+PosePanel::PosePanel(QWidget* parent) : QWidget(parent)
+{
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(6);
+  this->add_methods(column);
+  this->add_options(column);
+  this->middle_ = new QVBoxLayout;
+  column->addLayout(this->middle_);
+  this->add_comparison(column);
+  this->add_motion(column);
+  this->show_options();
+  this->set_state({});
+}
+
+void PosePanel::add_methods(QVBoxLayout* column)
+{
+  column->addWidget(heading(tr("Pose"), this));
+  this->methods_ = new QButtonGroup(this);
+  this->methods_->setObjectName("pose.method");
+  QHBoxLayout* row = nullptr;
+  for (std::size_t k = 0; k < std::size(methods); ++k)
+  {
+    const bool first = k == 0 || k == 4;
+    const bool last = k == 3 || k + 1 == std::size(methods);
+    if (first)
+    {
+      row = new QHBoxLayout;
+      row->setSpacing(0);
+      column->addLayout(row);
+    }
+    QPushButton* segment = button(translated(methods[k].button), this);
+    segment->setObjectName("segment");
+    segment->setProperty("place", first ? "first" : last ? "last" : k == 1 ? "second" : "middle");
+    segment->setCheckable(true);
+    const auto number = static_cast<int>(methods[k].method);
+    segment->setToolTip(QString("%1 (%2)\n%3")
+                          .arg(method_name(methods[k].method))
+                          .arg(number + 1)
+                          .arg(method_purpose(methods[k].method)));
+    this->methods_->addButton(segment, number);
+    row->addWidget(segment, 1);
+  }
+  this->methods_->button(0)->setChecked(true);
+  this->note_ = new QLabel(this);
+  this->note_->setObjectName("note");
+  this->note_->setWordWrap(true);
+  this->note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  this->note_->setMinimumHeight(2 * this->note_->fontMetrics().lineSpacing() + 2);
+  column->addWidget(this->note_);
+  QObject::connect(this->methods_, &QButtonGroup::idClicked, this,
+    [this](int method)
+    {
+      this->show_options();
+      Q_EMIT this->method_chosen(method);
+    });
+
+  this->bind_row_ = new QWidget(this);
+  auto* bind = new QHBoxLayout(this->bind_row_);
+  bind->setContentsMargins(0, 0, 0, 0);
+  this->bar_ = new QProgressBar(this->bind_row_);
+  this->bar_->setRange(0, 1000);
+  this->bar_->setTextVisible(false);
+  this->cancel_ = button(tr("Stop"), this->bind_row_);
+  this->cancel_->setToolTip(tr("Stops what this method prepares; choose it again to go on"));
+  bind->addWidget(this->bar_, 1);
+  bind->addWidget(this->cancel_);
+  column->addWidget(this->bind_row_);
+  this->bind_row_->hide();
+  QObject::connect(this->cancel_, &QPushButton::clicked, this, &PosePanel::cancel_wanted);
+}
+
+/// A line with a name and a widget that chooses; shown for these methods only.
+QWidget* PosePanel::option(QVBoxLayout* column, const QString& name, QWidget* widget,
+  const QString& tip, std::vector<PoseMethod> of)
+{
+  QWidget* row = widget;
+  widget->setToolTip(tip);
+  if (!name.isEmpty())
+  {
+    row = new QWidget(this);
+    auto* line = new QHBoxLayout(row);
+    line->setContentsMargins(0, 0, 0, 0);
+    line->setSpacing(8);
+    auto* label = new QLabel(name, row);
+    label->setToolTip(tip);
+    line->addWidget(label);
+    line->addWidget(widget, 1);
+  }
+  column->addWidget(row);
+  if (!of.empty())
+  {
+    this->options_.push_back({ row, std::move(of) });
+  }
+  const auto changed = [this]
+  {
+    this->show_options();
+    Q_EMIT this->options_changed();
+  };
+  if (auto* box = qobject_cast<QComboBox*>(widget))
+  {
+    QObject::connect(box, QOverload<int>::of(&QComboBox::currentIndexChanged), this, changed);
+  }
+  else if (auto* check = qobject_cast<QCheckBox*>(widget))
+  {
+    QObject::connect(check, &QCheckBox::toggled, this, changed);
+  }
+  else if (auto* value = qobject_cast<ValueRow*>(widget))
+  {
+    QObject::connect(value, &ValueRow::value_chosen, this, changed);
+  }
+  return row;
+}
+
+void PosePanel::add_options(QVBoxLayout* column)
+{
+  const std::vector<PoseMethod> skinning = { PoseMethod::linear_blend, PoseMethod::dual_quaternion,
+    PoseMethod::stretchable_bones, PoseMethod::rotation_centres };
+  const std::vector<PoseMethod> rigid = { PoseMethod::reduced_arap, PoseMethod::full_arap };
+  const std::vector<PoseMethod> reduced = { PoseMethod::reduced_arap };
+  const std::vector<PoseMethod> smooth = { PoseMethod::variational };
+  const auto value = [this](const char* key, double lowest, double highest, double at)
+  {
+    auto* row = new ValueRow(this);
+    row->setObjectName(key);
+    row->set_range(lowest, highest);
+    row->set_value(at);
+    row->slider()->setMinimumWidth(50); // beside its name
+    return row;
+  };
+  const auto check = [this](const char* key, const QString& text)
+  {
+    auto* box = new QCheckBox(text, this);
+    box->setObjectName(key);
+    return box;
+  };
+
+  this->endpoints_ =
+    combo(this, "pose.endpoints", { tr("nearest place"), tr("joints"), tr("bounded") });
+  this->option(column, tr("Along bones"), this->endpoints_,
+    tr("Where a place is along a bone, from head to tail.\n"
+       "Nearest place: at once. Joints and bounded: follow the shape,\n"
+       "computed when they are chosen. The array EndpointWeights comes first."),
+    { PoseMethod::stretchable_bones });
+  this->pseudo_edges_ =
+    combo(this, "pose.pseudo_edges", { tr("nothing"), tr("drawn edges"), tr("automatic edges") });
+  this->pseudo_edges_->setCurrentIndex(1);
+  this->option(column, tr("Points turn by"), this->pseudo_edges_,
+    tr("Points that are only dragged turn as the edges between them do:\n"
+       "edges of the handle file, or automatic ones along the shape."),
+    skinning);
+  this->single_ = check("pose.single_precision", tr("Single precision"));
+  this->option(column, QString(), this->single_,
+    tr("Half the memory and twice the speed, right to a millionth of the shape"), skinning);
+
+  this->drag_only_ = check("pose.drag_only", tr("Drag only"));
+  this->option(column, QString(), this->drag_only_,
+    tr("Points are held where they are dragged to and turn by themselves"), rigid);
+  this->in_tets_ = check("pose.in_tets", tr("Keep the volume"));
+  this->option(column, QString(), this->in_tets_,
+    tr("The energy of the tets that the weights were solved in, instead of the surface's"), rigid);
+  this->energy_ = combo(
+    this, "pose.energy", { tr("automatic"), tr("spokes and rims"), tr("elements"), tr("spokes") });
+  this->option(column, tr("Rigid are"), this->energy_,
+    tr("What keeps its shape: the surroundings of each vertex (spokes and rims; spokes:\n"
+       "its edges only), or each triangle or tet (elements)"),
+    rigid);
+  this->extra_ = value("pose.extra_weights", 0.0, 30.0, 0.0);
+  this->extra_->field()->setDecimals(0);
+  this->option(column, tr("Extra weights"), this->extra_,
+    tr("Let the shape bend where no handle is; 15 is a good number"), reduced);
+  this->extra_kind_ = combo(this, "pose.extra_kind", { tr("bumps"), tr("eigenmodes") });
+  this->extra_kind_row_ = this->option(column, tr("These are"), this->extra_kind_,
+    tr("Bumps around places far apart, or the smoothest functions that vanish at handles"),
+    reduced);
+  this->iterations_ = value("pose.iterations", 1.0, 200.0, 100.0);
+  this->iterations_->field()->setDecimals(0);
+  this->option(column, tr("Iterations"), this->iterations_,
+    tr("At most so many a frame; it stops when it has converged"), reduced);
+  this->budget_ = value("pose.budget_us", 0.0, 5000.0, 0.0);
+  this->budget_->field()->setDecimals(0);
+  this->budget_->field()->setSpecialValueText(tr("no limit"));
+  this->option(column, tr("Budget, µs"), this->budget_,
+    tr("A frame's solve ends after so many microseconds; 0: no limit"), reduced);
+
+  this->order_ = combo(this, "pose.order", { tr("membrane"), tr("thin plate"), tr("smoother") });
+  this->order_->setCurrentIndex(1);
+  this->option(column, tr("Like a"), this->order_,
+    tr("Membrane: straight between what is held. Thin plate: tangents go on.\n"
+       "Smoother: curvatures, too."),
+    smooth);
+  this->boundary_ = combo(this, "pose.boundary", { tr("goes on"), tr("hinged"), tr("clamped") });
+  this->option(column, tr("At its edge"), this->boundary_,
+    tr("Goes on smoothly into what is held; held by its place alone;\n"
+       "held by place and slope"),
+    smooth);
+}
+
+void PosePanel::add_comparison(QVBoxLayout* column)
+{
+  auto* section = new Section(
+    tr("Compare"), tr("A second method's shape, over this one or beside it"), false, this);
+  column->addSpacing(4);
+  column->addWidget(section);
+  QStringList names = { tr("nothing") };
+  for (int k = 0; k < bindpose::pose_method_count; ++k)
+  {
+    names << method_name(static_cast<PoseMethod>(k));
+  }
+  this->compared_ = combo(this, "pose.compared", names);
+  auto* line = new QHBoxLayout;
+  line->addWidget(new QLabel(tr("With"), this));
+  line->addWidget(this->compared_, 1);
+  section->column()->addLayout(line);
+  this->place_row_ = new QWidget(this);
+  auto* places = new QVBoxLayout(this->place_row_);
+  places->setContentsMargins(0, 0, 0, 0);
+  this->place_ = add_segments(places, this->place_row_, { tr("Over it"), tr("Beside it") },
+    { tr("See-through, in blue, over the shape"),
+      tr("In a half of its own, seen from the same place") });
+  this->place_->setObjectName("pose.ghost");
+  this->difference_ = new QLabel(this->place_row_);
+  this->difference_->setObjectName("note");
+  this->difference_->setWordWrap(true);
+  this->difference_->setMinimumHeight(2 * this->difference_->fontMetrics().lineSpacing() + 2);
+  this->difference_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  places->addWidget(this->difference_);
+  section->column()->addWidget(this->place_row_);
+  this->place_row_->hide();
+  QObject::connect(this->compared_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+    [this](int index)
+    {
+      this->place_row_->setVisible(index > 0);
+      Q_EMIT this->comparison_changed();
+    });
+  QObject::connect(
+    this->place_, &QButtonGroup::idClicked, this, [this] { Q_EMIT this->comparison_changed(); });
+}
+
+void PosePanel::add_motion(QVBoxLayout* column)
+{
+  auto* section = new Section(tr("Motion"),
+    tr("The shape as a body with mass: what handles leave open swings and falls"), false, this);
+  column->addWidget(section);
+  this->moves_ = new QCheckBox(tr("Moves by itself"), this);
+  this->moves_->setObjectName("pose.moves");
+  this->moves_->setToolTip(tr("Handles lead, all else follows its inertia and gravity.\n"
+                              "A free handle can be pulled and let go."));
+  section->column()->addWidget(this->moves_);
+  this->motion_ = new QWidget(this);
+  auto* rows = new QVBoxLayout(this->motion_);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(6);
+  auto* buttons = new QHBoxLayout;
+  this->play_ = button(tr("Play"), this->motion_);
+  this->step_ = button(tr("Step"), this->motion_);
+  this->restart_ = button(tr("Restart"), this->motion_);
+  this->play_->setToolTip(tr("Lets time run, or stops it"));
+  this->step_->setToolTip(tr("One sixtieth of a second on"));
+  this->restart_->setToolTip(tr("Back to time 0, at rest where the handles are"));
+  for (QPushButton* each : { this->play_, this->step_, this->restart_ })
+  {
+    buttons->addWidget(each, 1);
+  }
+  rows->addLayout(buttons);
+  this->time_ = new QLabel(this->motion_);
+  this->time_->setObjectName("note");
+  rows->addWidget(this->time_);
+  const auto row =
+    [&](const char* key, const QString& name, double highest, double at, const QString& tip)
+  {
+    auto* value = new ValueRow(this->motion_);
+    value->setObjectName(key);
+    value->set_range(0.0, highest);
+    value->set_value(at);
+    value->slider()->setMinimumWidth(50);
+    value->setToolTip(tip);
+    auto* line = new QHBoxLayout;
+    line->setSpacing(8);
+    auto* label = new QLabel(name, this->motion_);
+    label->setToolTip(tip);
+    line->addWidget(label);
+    line->addWidget(value, 1);
+    rows->addLayout(line);
+    QObject::connect(value, &ValueRow::value_chosen, this, &PosePanel::body_changed);
+    return value;
+  };
+  const bindpose::BodyOptions usual;
+  this->gravity_ = row("motion.gravity", tr("Gravity"), 5.0, usual.gravity,
+    tr("How fast things fall: diagonals of the shape / s²"));
+  this->down_ = combo(this->motion_, "motion.down", { tr("-x"), tr("-y"), tr("-z") });
+  this->down_->setCurrentIndex(usual.down);
+  auto* line = new QHBoxLayout;
+  line->setSpacing(8);
+  line->addWidget(new QLabel(tr("Down is"), this->motion_));
+  line->addWidget(this->down_, 1);
+  rows->addLayout(line);
+  this->stiffness_ = row("motion.stiffness", tr("Stiffness"), 5.0, std::log10(usual.stiffness),
+    tr("Powers of ten: at 2 waves cross the shape ten times a second"));
+  this->damping_ = row("motion.damping", tr("Damping"), 20.0, usual.damping,
+    tr("What motion loses: a share per second"));
+  section->column()->addWidget(this->motion_);
+  this->motion_->hide();
+  QObject::connect(this->down_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+    [this] { Q_EMIT this->body_changed(); });
+  QObject::connect(this->moves_, &QCheckBox::toggled, this,
+    [this](bool moves)
+    {
+      this->motion_->setVisible(moves);
+      Q_EMIT this->moves_changed();
+    });
+  QObject::connect(this->play_, &QPushButton::clicked, this,
+    [this] { Q_EMIT this->play_wanted(this->play_->text() == tr("Play")); });
+  QObject::connect(this->step_, &QPushButton::clicked, this, &PosePanel::step_wanted);
+  QObject::connect(this->restart_, &QPushButton::clicked, this, &PosePanel::restart_wanted);
+}
+
+void PosePanel::insert(QWidget* widget)
+{
+  this->middle_->addWidget(widget);
+}
+
+PoseMethod PosePanel::method() const
+{
+  return static_cast<PoseMethod>(this->methods_->checkedId());
+}
+
+void PosePanel::show_options()
+{
+  this->note_->setText(method_purpose(this->method()));
+  for (const Option& option : this->options_)
+  {
+    option.row->setVisible(std::find(option.methods.begin(), option.methods.end(),
+                             this->method()) != option.methods.end());
+  }
+  this->extra_kind_row_->setVisible(
+    this->method() == PoseMethod::reduced_arap && this->extra_->value() >= 1.0);
+  this->endpoints_->setEnabled(this->state_.bones && !this->state_.endpoints);
+  this->in_tets_->setEnabled(this->state_.tets || this->in_tets_->isChecked());
+}
+
+PoseOptions PosePanel::options() const
+{
+  PoseOptions options;
+  options.method = this->method();
+  options.single_precision = this->single_->isChecked();
+  options.pseudo_edges =
+    static_cast<bindpose::PseudoEdgeChoice>(this->pseudo_edges_->currentIndex());
+  options.endpoints = static_cast<bindpose::EndpointMethod>(this->endpoints_->currentIndex());
+  options.energy = static_cast<bindpose::ArapEnergy>(this->energy_->currentIndex());
+  options.in_tets = this->in_tets_->isChecked() && this->state_.tets;
+  options.drag_only = this->drag_only_->isChecked();
+  options.extra_weights = std::lround(this->extra_->value());
+  options.extra_kind = static_cast<bindpose::ExtraWeights>(this->extra_kind_->currentIndex());
+  options.iterations = std::lround(this->iterations_->value());
+  options.budget_microseconds = std::round(this->budget_->value());
+  options.order = this->order_->currentIndex() + 1;
+  options.boundary = static_cast<bindpose::PatchBoundary>(this->boundary_->currentIndex());
+  return options;
+}
+
+void PosePanel::set_method(int method)
+{
+  this->methods_->button(method)->setChecked(true);
+  this->show_options();
+}
+
+int PosePanel::compared_method() const
+{
+  return this->compared_->currentIndex() - 1;
+}
+
+PoseGhost::Place PosePanel::ghost_place() const
+{
+  return this->compared_method() < 0 ? PoseGhost::hidden
+    : this->place_->checkedId() == 1 ? PoseGhost::beside
+                                     : PoseGhost::over;
+}
+
+bool PosePanel::moves() const
+{
+  return this->moves_->isChecked() && this->state_.bound;
+}
+
+bindpose::BodyOptions PosePanel::body_options() const
+{
+  bindpose::BodyOptions options;
+  options.gravity = this->gravity_->value();
+  options.down = this->down_->currentIndex();
+  options.stiffness = std::pow(10.0, this->stiffness_->value());
+  options.damping = this->damping_->value();
+  return options;
+}
+
+void PosePanel::set_state(const State& state)
+{
+  this->state_ = state;
+  for (QAbstractButton* each : this->methods_->buttons())
+  {
+    if (!state.ready)
+    {
+      each->clearFocus();
+    }
+    each->setEnabled(state.ready);
+  }
+  this->moves_->setEnabled(state.bound);
+  this->moves_->setToolTip(state.bound ? tr("Handles lead, all else follows its inertia and "
+                                            "gravity.\nA free handle can be pulled and let go.")
+                                       : tr("Bind first: it moves by weights"));
+  this->in_tets_->setToolTip(state.tets
+      ? tr("The energy of the tets that the weights were solved in, instead of the surface's")
+      : tr("There are no tets with weights: bind in a volume first"));
+  this->show_options();
+}
+
+void PosePanel::set_binding(bool binding)
+{
+  this->bar_->setValue(0);
+  this->bind_row_->setVisible(binding);
+}
+
+void PosePanel::set_progress(double fraction, const QString& phase)
+{
+  this->bar_->setValue(static_cast<int>(1000.0 * fraction));
+  this->bar_->setToolTip(phase);
+}
+
+void PosePanel::set_difference(const QString& text)
+{
+  this->difference_->setText(text);
+}
+
+void PosePanel::set_playing(bool playing)
+{
+  this->play_->setText(playing ? tr("Pause") : tr("Play"));
+  this->step_->setEnabled(!playing);
+}
+
+void PosePanel::set_time(const QString& text)
+{
+  this->time_->setText(text);
+}

@@ -1,0 +1,126 @@
+#ifndef pose_panel_h
+#define pose_panel_h
+
+#include "pose_ghost.h"
+#include "posing/body.h"
+#include "posing/pose_options.h"
+
+#include <QWidget>
+
+#include <vector>
+
+class QButtonGroup;
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+class QVBoxLayout;
+class Section;
+class ValueRow;
+
+/// How the shape follows its handles: the method, with the options of that method only; a second
+/// one to compare with; and the body that moves by itself. Widgets that choose options have their
+/// keys as object names. The panel holds what is chosen; what is done with it others do.
+class PosePanel : public QWidget
+{
+  Q_OBJECT
+
+public:
+  explicit PosePanel(QWidget* parent = nullptr);
+
+  /// Something of its own between the method's options and what is seldom needed.
+  void insert(QWidget* widget);
+  /// What is chosen.
+  bindpose::PoseOptions options() const;
+  void set_method(int method);
+  /// The method to compare with; -1: none.
+  int compared_method() const;
+  PoseGhost::Place ghost_place() const;
+  bool moves() const;
+  bindpose::BodyOptions body_options() const;
+
+  struct State
+  {
+    bool ready = false; ///< a surface and handles
+    bool bound = false; ///< weights
+    bool tets = false; ///< what weights were solved in
+    bool bones = false;
+    bool endpoints = false; ///< the array EndpointWeights
+  };
+  void set_state(const State& state);
+  /// A bind of the method itself, which has a bar of its own.
+  void set_binding(bool binding);
+  void set_progress(double fraction, const QString& phase);
+  void set_difference(const QString& text);
+  void set_playing(bool playing);
+  void set_time(const QString& text);
+
+Q_SIGNALS:
+  void method_chosen(int method);
+  void options_changed();
+  void comparison_changed();
+  void moves_changed();
+  void body_changed();
+  void play_wanted(bool play);
+  void step_wanted();
+  void restart_wanted();
+  void cancel_wanted();
+
+private:
+  void add_methods(QVBoxLayout* column);
+  void add_options(QVBoxLayout* column);
+  void add_comparison(QVBoxLayout* column);
+  void add_motion(QVBoxLayout* column);
+  QWidget* option(QVBoxLayout* column, const QString& name, QWidget* widget, const QString& tip,
+    std::vector<bindpose::PoseMethod> methods);
+  void show_options();
+  bindpose::PoseMethod method() const;
+
+  struct Option
+  {
+    QWidget* row;
+    std::vector<bindpose::PoseMethod> methods;
+  };
+  std::vector<Option> options_;
+  QVBoxLayout* middle_;
+  State state_;
+  QButtonGroup* methods_;
+  QLabel* note_;
+  QProgressBar* bar_;
+  QPushButton* cancel_;
+  QWidget* bind_row_;
+  QComboBox* pseudo_edges_;
+  QComboBox* endpoints_;
+  QCheckBox* single_;
+  QComboBox* energy_;
+  ValueRow* extra_;
+  QComboBox* extra_kind_;
+  QWidget* extra_kind_row_;
+  ValueRow* iterations_;
+  ValueRow* budget_;
+  QCheckBox* in_tets_;
+  QCheckBox* drag_only_;
+  QComboBox* order_;
+  QComboBox* boundary_;
+  QComboBox* compared_;
+  QButtonGroup* place_;
+  QWidget* place_row_;
+  QLabel* difference_;
+  QCheckBox* moves_;
+  QWidget* motion_;
+  QPushButton* play_;
+  QPushButton* step_;
+  QPushButton* restart_;
+  QLabel* time_;
+  ValueRow* gravity_;
+  QComboBox* down_;
+  ValueRow* stiffness_;
+  ValueRow* damping_;
+};
+
+/// The name of a method in menus and lists, and in a sentence what it is for.
+QString method_name(bindpose::PoseMethod method);
+QString method_purpose(bindpose::PoseMethod method);
+
+#endif

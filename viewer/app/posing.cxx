@@ -1,0 +1,901 @@
+#include "posing.h"
+
+#include "handle_fields.h"
+#include "key_strip.h"
+#include "panel_parts.h"
+#include "pose_ghost.h"
+#include "pose_list.h"
+#include "pose_panel.h"
+#include "sequence_export.h"
+#include "viewport.h"
+
+#include "conversion.h"
+#include "posing/pose_blend.h"
+
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkHandleSetRepresentation.h"
+#include "vtkHandleSetWidget.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+
+#include <QFileDialog>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstring>
+
+using namespace bindpose;
+
+namespace
+{
+constexpr int display_interval = 16; // milliseconds
+/// Steps that one picture may catch up; time that takes longer is left out.
+constexpr int most_steps = 4;
+/// Vertices times columns up to which a body is bound at once.
+constexpr Index bound_at_once = 20000;
+
+QString microseconds(double seconds)
+{
+  const double us = 1e6 * seconds;
+  return us < 1000.0 ? Posing::tr("%1 µs").arg(us, 0, 'f', us < 10.0 ? 1 : 0)
+                     : Posing::tr("%1 ms").arg(1e-3 * us, 0, 'f', us < 10000.0 ? 2 : 0);
+}
+} // namespace
+
+Posing::Posing(Viewport* viewport, const Panels& panels)
+  : QObject(viewport), viewport_(viewport), panels_(panels), main_(new Deformation(this)),
+    compared_(new Deformation(this)), ghost_(new PoseGhost(viewport)),
+    export_(new SequenceExport(viewport))
+{
+  this->connect_panel();
+  this->connect_strip();
+  this->connect_poses();
+  QObject::connect(this->main_, &Deformation::arrived, this,
+    [this]
+    {
+      this->show_difference();
+      this->follow_free_handles();
+      Q_EMIT this->moved();
+    });
+  QObject::connect(this->compared_, &Deformation::arrived, this,
+    [this]
+    {
+      this->show_difference();
+      Q_EMIT this->moved();
+    });
+  for (Deformation* each : { this->main_, this->compared_ })
+  {
+    QObject::connect(each, &Deformation::failed, this,
+      [this, each] { Q_EMIT this->failed(tr("Cannot pose: %1.").arg(each->error())); });
+    QObject::connect(each, &Deformation::binding_changed, this,
+      [this]
+      {
+        this->panels_.pose->set_binding(this->main_->is_binding() || this->compared_->is_binding());
+        Q_EMIT this->moved();
+      });
+    QObject::connect(
+      each, &Deformation::bind_progress, this->panels_.pose, &PosePanel::set_progress);
+  }
+  this->moving_.setTimerType(Qt::PreciseTimer);
+  this->moving_.setInterval(display_interval);
+  QObject::connect(&this->moving_, &QTimer::timeout, this, &Posing::body_tick);
+  this->playing_.setTimerType(Qt::PreciseTimer);
+  this->playing_.setInterval(display_interval);
+  QObject::connect(&this->playing_, &QTimer::timeout, this, &Posing::key_tick);
+  QObject::connect(&this->body_job_, &KernelJob::finished, this,
+    [this]
+    {
+      this->panels_.pose->set_binding(false);
+      const Status status = this->body_job_.status();
+      if (!status.usable() && status.code != StatusCode::cancelled)
+      {
+        Q_EMIT this->failed(tr("Cannot move: %1.").arg(QString::fromStdString(status.message)));
+      }
+      else if (this->panels_.pose->moves() &&
+        (!this->body_ || !this->body_->is_bound(this->panels_.pose->options())) && status.usable())
+      {
+        this->moves_changed(); // something else was chosen meanwhile
+      }
+      else if (status.usable())
+      {
+        this->start_body();
+      }
+    });
+  QObject::connect(
+    &this->body_job_, &KernelJob::progress, this->panels_.pose, &PosePanel::set_progress);
+  this->show_state();
+}
+
+Posing::~Posing() = default;
+
+// ---- What there is -----------------------------------------------------------------------------
+
+void Posing::set_data(
+  vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, bool use_weights)
+{
+  this->move_body(false);
+  this->play_keys(false);
+  this->body_job_.cancel();
+  this->body_.reset();
+  if (surface != this->surface_)
+  {
+    this->shape_ = nullptr;
+    this->ghost_->set_surface(surface);
+  }
+  this->surface_ = surface;
+  this->handles_ = handles;
+  this->source_.reset();
+  this->cells_.clear();
+  if (surface && handles)
+  {
+    vtkSmartPointer<vtkPolyData> read = surface;
+    if (!use_weights)
+    {
+      read = vtkSmartPointer<vtkPolyData>::New();
+      read->ShallowCopy(surface);
+      read->GetPointData()->RemoveArray("Weights");
+      read->GetPointData()->RemoveArray("EndpointWeights");
+    }
+    auto source = std::make_shared<PoseSource>();
+    const Status status = to_pose_source(read, use_weights ? tets : nullptr, handles, *source);
+    Handles list;
+    if (status.ok() && to_handles(handles, list, &this->cells_).ok())
+    {
+      this->source_ = std::move(source);
+    }
+    else if (!status.ok())
+    {
+      Q_EMIT this->failed(tr("Cannot pose: %1.").arg(QString::fromStdString(status.message)));
+    }
+  }
+  this->main_->set_source(this->source_);
+  this->compared_->set_source(this->source_);
+  this->main_->set_options(this->panels_.pose->options());
+  this->show_state();
+  this->moves_changed();
+  this->show_values();
+}
+
+bool Posing::has_weights() const
+{
+  return this->source_ && this->source_->has_weights();
+}
+
+void Posing::show_state()
+{
+  PosePanel::State state;
+  state.ready = this->source_ != nullptr;
+  state.bound = this->has_weights();
+  if (state.ready)
+  {
+    state.tets = this->source_->has_tets();
+    state.endpoints = this->source_->endpoints.rows() > 0;
+    state.bones = std::any_of(this->source_->handles.begin(), this->source_->handles.end(),
+      [](const Handle& handle) { return handle.kind == HandleKind::bone; });
+  }
+  this->panels_.pose->set_state(state);
+  this->panels_.poses->set_ready(state.ready);
+  this->panels_.strip->set_ready(state.ready);
+}
+
+Pose Posing::pose() const
+{
+  Pose pose;
+  if (this->source_)
+  {
+    to_pose(this->handles_, this->source_->handles, this->cells_, pose);
+  }
+  return pose;
+}
+
+// ---- The method --------------------------------------------------------------------------------
+
+void Posing::connect_panel()
+{
+  PosePanel* panel = this->panels_.pose;
+  QObject::connect(panel, &PosePanel::method_chosen, this, &Posing::options_changed);
+  QObject::connect(panel, &PosePanel::options_changed, this, &Posing::options_changed);
+  QObject::connect(panel, &PosePanel::comparison_changed, this, &Posing::comparison_changed);
+  QObject::connect(panel, &PosePanel::moves_changed, this, &Posing::moves_changed);
+  QObject::connect(panel, &PosePanel::play_wanted, this, &Posing::move_body);
+  QObject::connect(panel, &PosePanel::step_wanted, this, [this] { this->step_body(1); });
+  QObject::connect(panel, &PosePanel::restart_wanted, this, &Posing::start_body);
+  QObject::connect(panel, &PosePanel::cancel_wanted, this,
+    [this]
+    {
+      this->main_->cancel();
+      this->compared_->cancel();
+      this->body_job_.cancel();
+    });
+  QObject::connect(this->panels_.fields, &HandleFields::values_chosen, this, &Posing::values_typed);
+}
+
+void Posing::options_changed()
+{
+  this->main_->set_options(this->panels_.pose->options());
+  this->main_->bind(); // after a cancel
+  this->compared_->set_options(this->compared_options());
+  if (this->panels_.pose->moves() && this->body_ &&
+    !this->body_->is_bound(this->panels_.pose->options()))
+  {
+    this->moves_changed();
+  }
+  this->handles_moved();
+  Q_EMIT this->moved();
+}
+
+/// The second method has the first one's options.
+PoseOptions Posing::compared_options() const
+{
+  PoseOptions options = this->panels_.pose->options();
+  options.method = static_cast<PoseMethod>(std::max(0, this->panels_.pose->compared_method()));
+  return options;
+}
+
+void Posing::comparison_changed()
+{
+  this->ghost_->set_place(this->panels_.pose->ghost_place());
+  this->compared_->set_options(this->compared_options());
+  if (this->source_ && this->ghost_->place() != PoseGhost::hidden)
+  {
+    this->compared_->bind();
+    this->compared_->set_pose(this->pose());
+    if (!this->compared_->can_pose())
+    {
+      Q_EMIT this->failed(tr("%1 blends by weights: bind first.")
+                            .arg(method_name(this->compared_->options().method)));
+    }
+  }
+  this->show_difference();
+  Q_EMIT this->moved();
+}
+
+void Posing::handles_moved()
+{
+  if (!this->source_)
+  {
+    return;
+  }
+  const Pose pose = this->pose();
+  this->show_values();
+  if (!this->panels_.pose->moves())
+  {
+    this->main_->set_options(this->panels_.pose->options());
+    this->main_->set_pose(pose);
+    this->follow_free_handles();
+    if (!this->main_->error().isEmpty())
+    {
+      Q_EMIT this->failed(tr("Cannot pose: %1.").arg(this->main_->error()));
+    }
+  }
+  if (this->ghost_->place() != PoseGhost::hidden)
+  {
+    this->compared_->set_pose(pose);
+  }
+  this->show_difference();
+}
+
+void Posing::show_difference()
+{
+  if (this->ghost_->place() == PoseGhost::hidden || !this->source_)
+  {
+    return;
+  }
+  if (this->compared_->is_binding())
+  {
+    this->panels_.pose->set_difference(tr("Preparing the other method …"));
+    return;
+  }
+  const Points& a = this->panels_.pose->moves() ? this->body_points_ : this->main_->points();
+  const Points& b = this->compared_->points();
+  if (a.rows() != b.rows() || a.rows() == 0)
+  {
+    return;
+  }
+  const auto squares = (a - b).rowwise().squaredNorm();
+  const double diagonal = bounding_box(this->source_->points).diagonal();
+  const double largest = std::sqrt(squares.maxCoeff());
+  const double mean = std::sqrt(squares.mean());
+  this->panels_.pose->set_difference(
+    tr("Apart by at most %1 % of the diagonal,\nrms %2 %%3")
+      .arg(100.0 * largest / diagonal, 0, 'g', 3)
+      .arg(100.0 * mean / diagonal, 0, 'g', 3)
+      .arg(this->compared_->is_settled() && this->main_->is_settled() ? QString()
+                                                                      : tr("; still converging")));
+}
+
+/// Handles that are free stand where they were found, so that they can be seen and taken hold of.
+void Posing::follow_free_handles()
+{
+  const std::vector<Affine>* found = this->panels_.pose->moves()
+    ? (this->body_ && this->body_->has_started() ? &this->body_->transforms() : nullptr)
+    : this->main_->found();
+  vtkDataArray* transforms =
+    this->handles_ ? this->handles_->GetCellData()->GetArray("Transform") : nullptr;
+  vtkDataArray* modes = this->handles_ ? this->handles_->GetCellData()->GetArray("Mode") : nullptr;
+  if (!found || !transforms || !modes || found->size() < this->cells_.size())
+  {
+    return;
+  }
+  const vtkIdType held =
+    this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetActiveHandle();
+  for (std::size_t k = 0; k < this->cells_.size(); ++k)
+  {
+    const vtkIdType cell = this->cells_[k];
+    if (static_cast<int>(modes->GetComponent(cell, 0)) == static_cast<int>(HandleMode::free) &&
+      cell != held)
+    {
+      transforms->SetTuple(cell, (*found)[k].data());
+      transforms->Modified();
+    }
+  }
+}
+
+// ---- What is seen ------------------------------------------------------------------------------
+
+vtkPolyData* Posing::shape()
+{
+  if (!this->surface_)
+  {
+    return nullptr;
+  }
+  const bool moves = this->panels_.pose->moves() && this->body_points_.rows() > 0;
+  const Points& points = moves ? this->body_points_ : this->main_->points();
+  if (this->at_rest_ || points.rows() != this->surface_->GetNumberOfPoints() ||
+    !(this->can_pose() || moves))
+  {
+    return this->surface_;
+  }
+  if (!this->shape_)
+  {
+    this->shape_ = vtkSmartPointer<vtkPolyData>::New();
+    this->shape_->ShallowCopy(this->surface_);
+    this->shape_->GetPointData()->SetNormals(nullptr); // those of rest
+    this->shape_->SetPoints(to_vtk_points(points));
+    return this->shape_;
+  }
+  auto* places = vtkDoubleArray::SafeDownCast(this->shape_->GetPoints()->GetData());
+  std::memcpy(places->GetPointer(0), points.data(), sizeof(double) * points.size());
+  places->Modified();
+  this->shape_->GetPoints()->Modified();
+  return this->shape_;
+}
+
+void Posing::draw()
+{
+  if (!this->surface_)
+  {
+    return;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  vtkPolyData* shape = this->shape();
+  this->viewport_->move_surface(shape);
+  this->drawing_microseconds_ =
+    std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+  this->ghost_->move(this->compared_->points());
+}
+
+void Posing::look_at_rest(bool rest)
+{
+  if (this->at_rest_ != rest)
+  {
+    this->at_rest_ = rest;
+    this->viewport_->handle_widget()->SetEnabled(!rest && this->handles_);
+    Q_EMIT this->moved();
+  }
+}
+
+QString Posing::reading() const
+{
+  if (this->at_rest_)
+  {
+    return tr("The shape at rest. R shows the pose again.");
+  }
+  const bool moves = this->panels_.pose->moves() && this->body_ && this->body_->has_started();
+  if (this->main_->is_binding())
+  {
+    return tr("Preparing %1; the shape stays as it was meanwhile.")
+      .arg(method_name(this->main_->options().method));
+  }
+  const Status& status = moves ? this->body_status_ : this->main_->status();
+  const Report& report = status.report;
+  QStringList parts;
+  parts << (moves ? tr("Motion") : method_name(this->main_->options().method));
+  const double solve = report.number("seconds.solve", 0.0);
+  const auto iterations = static_cast<int>(report.number("iterations", 0.0));
+  if (iterations > 0 && solve > 0.0)
+  {
+    parts << tr("%1 iterations in %2, %3 each")
+               .arg(iterations)
+               .arg(microseconds(solve),
+                 microseconds(1e-6 * report.number("microseconds_per_iteration", 0.0)));
+  }
+  else if (solve > 0.0)
+  {
+    parts << tr("solved in %1").arg(microseconds(solve));
+  }
+  if (const double skin = report.number("seconds.skin", 0.0); skin > 0.0)
+  {
+    parts << tr("skin %1").arg(microseconds(skin));
+  }
+  parts << tr("normals %1").arg(microseconds(1e-6 * this->drawing_microseconds_));
+  parts << tr("upload %1").arg(microseconds(1e-6 * this->viewport_->upload_microseconds()));
+  if (this->viewport_->frames_per_second() > 0.0)
+  {
+    parts << tr("%1 fps").arg(this->viewport_->frames_per_second(), 0, 'f', 0);
+  }
+  if (report.find("energy"))
+  {
+    parts << tr("energy %1").arg(report.number("energy", 0.0), 0, 'g', 3);
+  }
+  if (iterations > 0)
+  {
+    parts << (status.code == StatusCode::not_converged
+        ? (moves || this->main_->is_settled() ? tr("NOT converged") : tr("still converging"))
+        : tr("converged"));
+  }
+  if (!status.warnings.empty())
+  {
+    parts << QString::fromStdString(status.warnings.front());
+  }
+  return parts.join(QStringLiteral("  ·  "));
+}
+
+// ---- The selected handle -----------------------------------------------------------------------
+
+void Posing::select_handle(int handle)
+{
+  this->selected_ = handle;
+  this->show_values();
+}
+
+void Posing::show_values()
+{
+  const Pose pose = this->pose();
+  if (this->selected_ < 0 || this->selected_ >= static_cast<int>(pose.size()))
+  {
+    this->panels_.fields->show_values(nullptr, {}, false);
+    return;
+  }
+  const auto k = static_cast<std::size_t>(this->selected_);
+  const Handle& handle = this->source_->handles[k];
+  this->panels_.fields->show_values(
+    &handle, values_of(handle, pose[k]), pose[k].mode == HandleMode::free);
+}
+
+void Posing::values_typed()
+{
+  Pose pose = this->pose();
+  if (this->selected_ < 0 || this->selected_ >= static_cast<int>(pose.size()))
+  {
+    return;
+  }
+  const auto k = static_cast<std::size_t>(this->selected_);
+  const Handle& handle = this->source_->handles[k];
+  pose[k] = with_values(handle, pose[k], this->panels_.fields->values());
+  this->change_pose(pose, tr("values of %1").arg(QString::fromStdString(handle.name)));
+}
+
+void Posing::change_pose(const Pose& pose, const QString& step)
+{
+  this->at_rest_ = false;
+  Q_EMIT this->pose_changed(pose);
+  if (!step.isEmpty())
+  {
+    Q_EMIT this->pose_done(step);
+  }
+}
+
+void Posing::drag_began()
+{
+  this->play_keys(false);
+}
+
+// ---- The body ----------------------------------------------------------------------------------
+
+void Posing::moves_changed()
+{
+  this->move_body(false);
+  this->body_points_.resize(0, 3);
+  this->viewport_->handle_widget()->GetHandleSetRepresentation()->SetDragFree(
+    this->panels_.pose->moves());
+  if (!this->panels_.pose->moves())
+  {
+    this->body_.reset();
+    this->handles_moved();
+    Q_EMIT this->moved();
+    return;
+  }
+  if (this->body_job_.is_running())
+  {
+    return; // it is looked at again when the job ends
+  }
+  const PoseOptions options = this->panels_.pose->options();
+  this->body_ = std::make_shared<Body>(this->source_);
+  if (this->source_->points.rows() * static_cast<Index>(this->source_->handles.size()) <
+      bound_at_once &&
+    !options.in_tets)
+  {
+    ExecutionContext context;
+    const Status status = this->body_->bind(context, options);
+    if (!status.usable())
+    {
+      Q_EMIT this->failed(tr("Cannot move: %1.").arg(QString::fromStdString(status.message)));
+      return;
+    }
+    this->start_body();
+    return;
+  }
+  this->panels_.pose->set_binding(true);
+  this->body_job_.start([body = this->body_, options](ExecutionContext& context)
+    { return body->bind(context, options); });
+}
+
+void Posing::start_body()
+{
+  if (!this->body_ || this->body_job_.is_running())
+  {
+    return;
+  }
+  ExecutionContext context;
+  this->body_status_ = this->body_->restart(context, this->pose(), this->body_points_);
+  if (!this->body_status_.usable())
+  {
+    Q_EMIT this->failed(
+      tr("Cannot move: %1.").arg(QString::fromStdString(this->body_status_.message)));
+  }
+  this->follow_free_handles();
+  this->show_time();
+  Q_EMIT this->moved();
+}
+
+void Posing::move_body(bool move)
+{
+  const bool can = this->body_ && this->body_->has_started() && this->panels_.pose->moves();
+  if (move && can)
+  {
+    this->play_keys(false);
+    this->body_clock_.start();
+    this->body_due_ = 0.0;
+    this->moving_.start();
+  }
+  else
+  {
+    this->moving_.stop(); // no timer, no work
+  }
+  this->panels_.pose->set_playing(this->moving_.isActive());
+}
+
+/// Real time in fixed steps. What could not be caught up is left out: the body is then slower than
+/// the clock, never coarser.
+void Posing::body_tick()
+{
+  const double step = 1.0 / this->panels_.pose->body_options().steps_per_second;
+  const double now = 1e-9 * static_cast<double>(this->body_clock_.nsecsElapsed());
+  const int due = static_cast<int>(std::floor((now - this->body_due_) / step));
+  if (due > 0)
+  {
+    this->body_due_ = due > most_steps ? now : this->body_due_ + due * step;
+    this->step_body(std::min(due, most_steps));
+  }
+}
+
+void Posing::step_body(int steps)
+{
+  if (!this->body_ || !this->body_->has_started() || this->body_job_.is_running())
+  {
+    return;
+  }
+  Pose pose = this->pose();
+  const vtkIdType held =
+    this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetActiveHandle();
+  for (std::size_t k = 0; k < pose.size(); ++k)
+  {
+    if (pose[k].mode == HandleMode::free)
+    {
+      if (this->cells_[k] == held)
+      {
+        pose[k].mode = HandleMode::position;
+      }
+      else
+      {
+        pose[k].transform = identity_affine(); // what was found says nothing
+      }
+    }
+  }
+  const BodyOptions options = this->panels_.pose->body_options();
+  for (int k = 0; k < steps; ++k)
+  {
+    ExecutionContext context;
+    const Status status = this->body_->step(context, pose, options, this->body_points_);
+    if (!status.usable())
+    {
+      this->move_body(false);
+      Q_EMIT this->failed(tr("Cannot move: %1.").arg(QString::fromStdString(status.message)));
+      return;
+    }
+    this->body_status_ = status;
+  }
+  this->follow_free_handles();
+  this->show_difference();
+  this->show_time();
+  Q_EMIT this->moved();
+}
+
+void Posing::show_time()
+{
+  this->panels_.pose->set_time(this->body_ && this->body_->has_started()
+      ? tr("Time %1 s%2")
+          .arg(this->body_->time(), 0, 'f', 2)
+          .arg(this->body_->run_is_whole() ? QString() : tr("; recorded up to 10 minutes"))
+      : QString());
+}
+
+// ---- Poses that are kept -----------------------------------------------------------------------
+
+void Posing::connect_poses()
+{
+  PoseList* list = this->panels_.poses;
+  QObject::connect(list, &PoseList::store_wanted, this,
+    [this]
+    {
+      this->shelf_.library.store(
+        tr("pose").toStdString(), NamedPose(this->source_->handles, this->pose()));
+      this->change_shelf(tr("store a pose"));
+      this->panels_.poses->choose(static_cast<int>(this->shelf_.library.entries().size()) - 1);
+    });
+  QObject::connect(list, &PoseList::apply_wanted, this,
+    [this](int entry)
+    {
+      const auto& kept = this->shelf_.library.entries()[static_cast<std::size_t>(entry)];
+      this->change_pose(kept.pose.of(this->source_->handles, this->pose()),
+        tr("apply %1").arg(QString::fromStdString(kept.name)));
+    });
+  QObject::connect(list, &PoseList::remove_wanted, this,
+    [this](int entry)
+    {
+      this->shelf_.library.remove(static_cast<std::size_t>(entry));
+      this->change_shelf(tr("delete a pose"));
+    });
+  QObject::connect(list, &PoseList::renamed, this,
+    [this](int entry, const QString& name)
+    {
+      if (!this->shelf_.library.rename(static_cast<std::size_t>(entry), name.toStdString()))
+      {
+        Q_EMIT this->failed(
+          name.isEmpty() ? tr("A pose needs a name.") : tr("Another pose has that name."));
+        this->show_shelf();
+        return;
+      }
+      this->change_shelf(tr("rename a pose"));
+    });
+  QObject::connect(list, &PoseList::blended, this,
+    [this](int entry, double share)
+    {
+      if (!this->source_ || entry < 0)
+      {
+        return;
+      }
+      if (this->blend_from_.empty())
+      {
+        this->blend_from_ = this->pose();
+      }
+      const Pose to = this->shelf_.library.entries()[static_cast<std::size_t>(entry)].pose.of(
+        this->source_->handles, this->blend_from_);
+      this->change_pose(blend(this->source_->handles, this->blend_from_, to, share), QString());
+    });
+  QObject::connect(list, &PoseList::blend_ended, this,
+    [this]
+    {
+      if (!this->blend_from_.empty())
+      {
+        this->blend_from_.clear();
+        Q_EMIT this->pose_done(tr("blend poses"));
+      }
+    });
+}
+
+void Posing::change_shelf(const QString& step)
+{
+  this->show_shelf();
+  Q_EMIT this->shelf_changed(step);
+}
+
+void Posing::show_shelf()
+{
+  QStringList names;
+  for (const PoseLibrary::Entry& entry : this->shelf_.library.entries())
+  {
+    names << QString::fromStdString(entry.name);
+  }
+  this->panels_.poses->set_names(names);
+  this->panels_.strip->set_keys(this->shelf_.keys);
+}
+
+void Posing::set_shelf(const PoseShelf& shelf)
+{
+  this->play_keys(false);
+  this->shelf_ = shelf;
+  this->show_shelf();
+}
+
+// ---- Key frames --------------------------------------------------------------------------------
+
+void Posing::connect_strip()
+{
+  KeyStrip* strip = this->panels_.strip;
+  QObject::connect(strip, &KeyStrip::play_wanted, this, &Posing::play_keys);
+  QObject::connect(strip, &KeyStrip::scrubbed, this, &Posing::scrub);
+  QObject::connect(strip, &KeyStrip::scrub_ended, this,
+    [this]
+    {
+      if (!this->shelf_.keys.keys().empty())
+      {
+        Q_EMIT this->pose_done(tr("go to %1 s").arg(this->key_time_, 0, 'f', 2));
+      }
+    });
+  QObject::connect(strip, &KeyStrip::key_wanted, this, &Posing::set_key);
+  QObject::connect(strip, &KeyStrip::remove_wanted, this,
+    [this](int key)
+    {
+      if (key >= 0)
+      {
+        this->shelf_.keys.remove(static_cast<std::size_t>(key));
+        this->change_shelf(tr("delete a key"));
+      }
+    });
+  QObject::connect(strip, &KeyStrip::key_moved, this,
+    [this](int key, double seconds)
+    {
+      const std::size_t at = this->shelf_.keys.move(static_cast<std::size_t>(key), seconds);
+      this->change_shelf(tr("move a key"));
+      this->key_time_ = this->shelf_.keys.keys()[at].time;
+      this->panels_.strip->set_time(this->key_time_);
+    });
+  QObject::connect(strip, &KeyStrip::loop_chosen, this,
+    [this](bool loop)
+    {
+      this->shelf_.keys.loop = loop;
+      this->change_shelf(tr("loop"));
+    });
+  QObject::connect(strip, &KeyStrip::smooth_chosen, this,
+    [this](bool smooth)
+    {
+      this->shelf_.keys.interpolation =
+        smooth ? KeyInterpolation::spline : KeyInterpolation::linear;
+      this->change_shelf(tr("ways between keys"));
+    });
+  QObject::connect(strip, &KeyStrip::rate_chosen, this,
+    [this](double rate)
+    {
+      this->shelf_.keys.frames_per_second = rate;
+      this->change_shelf(tr("frames a second"));
+    });
+  QObject::connect(strip, &KeyStrip::export_wanted, this, &Posing::ask_and_export);
+  QObject::connect(strip, &KeyStrip::cancel_wanted, this->export_, &SequenceExport::cancel);
+  QObject::connect(this->export_, &SequenceExport::progress, strip, &KeyStrip::set_progress);
+  QObject::connect(this->export_, &SequenceExport::finished, this, &Posing::export_finished);
+}
+
+void Posing::set_key()
+{
+  if (this->source_)
+  {
+    this->shelf_.keys.set(this->key_time_, NamedPose(this->source_->handles, this->pose()));
+    this->change_shelf(tr("set a key"));
+    this->panels_.strip->set_time(this->key_time_);
+  }
+}
+
+Pose Posing::key_pose(double seconds) const
+{
+  const int key = this->shelf_.keys.at(seconds);
+  return this->shelf_.keys.pose_at(
+    key >= 0 ? this->shelf_.keys.keys()[static_cast<std::size_t>(key)].time : seconds,
+    this->source_->handles, this->pose());
+}
+
+void Posing::scrub(double seconds)
+{
+  this->play_keys(false);
+  this->key_time_ = seconds;
+  this->panels_.strip->set_time(seconds);
+  if (this->source_ && !this->shelf_.keys.keys().empty())
+  {
+    this->change_pose(this->key_pose(seconds), QString());
+  }
+}
+
+void Posing::play_keys(bool play)
+{
+  const bool was = this->playing_.isActive();
+  const bool can = this->source_ && this->shelf_.keys.keys().size() > 1;
+  if (play && can && !was)
+  {
+    if (this->key_time_ >= this->shelf_.keys.duration())
+    {
+      this->key_time_ = 0.0;
+    }
+    this->key_clock_.start();
+    this->playing_.start();
+  }
+  else if (!play && was)
+  {
+    this->playing_.stop();
+    Q_EMIT this->pose_done(tr("play"));
+  }
+  this->panels_.strip->set_playing(this->playing_.isActive());
+}
+
+void Posing::key_tick()
+{
+  const double length = this->shelf_.keys.duration();
+  double time = this->key_time_ + 1e-9 * static_cast<double>(this->key_clock_.nsecsElapsed());
+  this->key_clock_.restart();
+  const bool ends = time >= length && !this->shelf_.keys.loop;
+  time = ends ? length : time >= length ? std::fmod(time, length) : time;
+  this->key_time_ = time;
+  this->panels_.strip->set_time(time);
+  this->change_pose(this->key_pose(time), QString());
+  if (ends)
+  {
+    this->play_keys(false);
+  }
+}
+
+// ---- Export ------------------------------------------------------------------------------------
+
+void Posing::ask_and_export()
+{
+  QFileDialog dialog(this->viewport_, tr("Export the animation"), QString(),
+    tr("Animations (%1)").arg(SequenceExport::patterns()));
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setDefaultSuffix("gif");
+  if (dialog.exec() == QDialog::Accepted)
+  {
+    this->export_to(dialog.selectedFiles().front());
+  }
+}
+
+void Posing::export_to(const QString& path)
+{
+  this->play_keys(false);
+  this->move_body(false);
+  const bool moves = this->panels_.pose->moves() && this->body_ && this->body_->has_started() &&
+    !this->body_->run().steps.empty();
+  if (!this->source_ || (!moves && this->shelf_.keys.keys().empty()))
+  {
+    Q_EMIT this->failed(tr("There is nothing to export yet: set a key first."));
+    return;
+  }
+  SequenceExport::Input input;
+  input.source = this->source_;
+  input.surface = this->surface_;
+  input.handles = vtkSmartPointer<vtkPolyData>::New();
+  input.handles->DeepCopy(this->handles_);
+  set_pose(input.handles, this->cells_, Pose(this->cells_.size()));
+  input.options = this->panels_.pose->options();
+  input.frames_per_second = this->shelf_.keys.frames_per_second;
+  if (moves)
+  {
+    input.run = this->body_->run();
+  }
+  else
+  {
+    input.poses = this->shelf_.keys.frames(this->source_->handles, this->pose());
+  }
+  this->export_->start(input, path);
+}
+
+void Posing::export_finished()
+{
+  this->panels_.strip->set_progress(-1.0);
+  if (!this->export_->error().isEmpty())
+  {
+    Q_EMIT this->failed(tr("Cannot export: %1.").arg(this->export_->error()));
+  }
+  Q_EMIT this->moved();
+}

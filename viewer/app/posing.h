@@ -1,0 +1,151 @@
+#ifndef posing_h
+#define posing_h
+
+#include "deformation.h"
+#include "posing/body.h"
+#include "posing/pose_shelf.h"
+
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <QElapsedTimer>
+#include <QObject>
+#include <QTimer>
+
+#include <memory>
+
+class HandleFields;
+class KeyStrip;
+class PoseGhost;
+class PoseList;
+class PosePanel;
+class SequenceExport;
+class Viewport;
+
+/// All posing of the window: the method at work and the one to compare with, the body that moves by
+/// itself, key frames that play, the poses that are kept, and what the panels say about it.
+///
+/// It reads the pose from the handle dataset, which the widget edits in place, and changes it only
+/// through pose_changed() and pose_done(), so that whoever keeps the history sees every change.
+class Posing : public QObject
+{
+  Q_OBJECT
+
+public:
+  struct Panels
+  {
+    PosePanel* pose;
+    HandleFields* fields;
+    PoseList* poses;
+    KeyStrip* strip;
+  };
+  Posing(Viewport* viewport, const Panels& panels);
+  ~Posing() override;
+
+  /// What there is to bend; null: nothing. Weights of the surface count when they are wanted.
+  void set_data(
+    vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, bool use_weights);
+  bool has_weights() const;
+  /// The method has what it needs.
+  bool can_pose() const { return this->main_->can_pose(); }
+
+  /// The handles' pose arrays are others now.
+  void handles_moved();
+  /// Another handle is selected; -1: none.
+  void select_handle(int handle);
+  /// A drag begins; what plays stops.
+  void drag_began();
+
+  /// As it is seen: posed, or at rest. The same object as long as the surface is.
+  vtkPolyData* shape();
+  /// Brings the viewport's surface and its ghost to the shape.
+  void draw();
+  /// The shape at rest, whatever the pose, until the next drag.
+  void look_at_rest(bool rest);
+  bool looks_at_rest() const { return this->at_rest_; }
+  /// What the last pose took and came to, in a line.
+  QString reading() const;
+
+  Deformation* deformation() const { return this->main_; }
+  Deformation* compared() const { return this->compared_; }
+  PoseGhost* ghost() const { return this->ghost_.get(); }
+  bindpose::Body* body() const { return this->body_.get(); }
+  bool is_moving() const { return this->moving_.isActive(); }
+  bool is_playing() const { return this->playing_.isActive(); }
+  void play_keys(bool play);
+  void move_body(bool move);
+  SequenceExport* sequence_export() const { return this->export_; }
+  void export_to(const QString& path);
+
+  const bindpose::PoseShelf& shelf() const { return this->shelf_; }
+  /// Another session's, or undo: shelf_changed() is not emitted.
+  void set_shelf(const bindpose::PoseShelf& shelf);
+
+Q_SIGNALS:
+  /// The handles shall be in this pose; it is not done yet.
+  void pose_changed(const bindpose::Pose& pose);
+  /// Since the first pose_changed() this has happened: a step of the history.
+  void pose_done(const QString& step);
+  void shelf_changed(const QString& step);
+  /// The shape is another one, or what is said of it: draw().
+  void moved();
+  void failed(const QString& sentence);
+
+private:
+  void connect_panel();
+  void connect_strip();
+  void connect_poses();
+  bindpose::Pose pose() const;
+  bindpose::PoseOptions compared_options() const;
+  void options_changed();
+  void comparison_changed();
+  void show_state();
+  void show_difference();
+  void follow_free_handles();
+  void values_typed();
+  void show_values();
+  void change_pose(const bindpose::Pose& pose, const QString& step);
+  void change_shelf(const QString& step);
+  void show_shelf();
+  void moves_changed();
+  void start_body();
+  void step_body(int steps);
+  void body_tick();
+  void show_time();
+  void key_tick();
+  void scrub(double seconds);
+  void set_key();
+  void ask_and_export();
+  void export_finished();
+  bindpose::Pose key_pose(double seconds) const;
+
+  Viewport* viewport_;
+  Panels panels_;
+  Deformation* main_;
+  Deformation* compared_;
+  std::unique_ptr<PoseGhost> ghost_;
+  SequenceExport* export_;
+  std::shared_ptr<const bindpose::PoseSource> source_;
+  vtkSmartPointer<vtkPolyData> surface_, handles_, shape_;
+  std::vector<bindpose::Index> cells_;
+  int selected_ = -1;
+  bool at_rest_ = false;
+  double drawing_microseconds_ = 0.0; ///< of draw(): points and normals
+
+  std::shared_ptr<bindpose::Body> body_;
+  bindpose::Points body_points_;
+  bindpose::Status body_status_;
+  QTimer moving_; ///< the body
+  QElapsedTimer body_clock_;
+  double body_due_ = 0.0; ///< seconds of the clock that have been stepped
+
+  bindpose::PoseShelf shelf_;
+  double key_time_ = 0.0;
+  QTimer playing_; ///< key frames
+  QElapsedTimer key_clock_;
+  bindpose::Pose blend_from_;
+  KernelJob body_job_; // last: it ends before what it works on
+};
+
+#endif

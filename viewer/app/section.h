@@ -1,0 +1,30 @@
+#ifndef section_h
+#define section_h
+
+#include <QWidget>
+
+class QPushButton;
+class QVBoxLayout;
+
+/// A heading that opens and closes what belongs to it.
+class Section : public QWidget
+{
+  Q_OBJECT
+
+public:
+  Section(const QString& title, const QString& tip, bool open, QWidget* parent = nullptr);
+
+  /// What belongs to it goes in here.
+  QVBoxLayout* column() const { return this->column_; }
+  QWidget* body() const { return this->body_; }
+  void set_open(bool open);
+  bool is_open() const;
+
+private:
+  QString title_;
+  QPushButton* header_;
+  QWidget* body_;
+  QVBoxLayout* column_;
+};
+
+#endif

@@ -1,0 +1,308 @@
+#include "sequence_export.h"
+
+#include "viewport.h"
+
+#include "document/opened_file.h"
+#include "file_kind.h"
+#include "helper/scratch_folder.h"
+#include "io/atomic_file.h"
+#include "pose/pose_file.h"
+#include "scene/sequence_file.h"
+#include "scene/video_file.h"
+
+#include "conversion.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
+#include "vtkDoubleArray.h"
+#include "vtkFieldData.h"
+#include "vtkGLTFSkinWriter.h"
+#include "vtkHandleSetWidget.h"
+#include "vtkMeshFileWriter.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkRenderWindow.h"
+
+#include <QApplication>
+#include <QFileInfo>
+#include <QImage>
+#include <QPainter>
+
+#include <deque>
+#include <fstream>
+
+using namespace bindpose;
+
+namespace
+{
+constexpr const char* mesh_endings = "vtp ply obj off stl";
+constexpr const char* rig_endings = "glb gltf";
+constexpr std::size_t most_tiles = 12;
+constexpr int tile_width = 400; // pixels
+
+Status write_text(const std::string& text, const std::string& path)
+{
+  AtomicFile file;
+  Status status = file.open(path, true);
+  if (status.ok())
+  {
+    std::ofstream(file.temporary()) << text;
+    status = file.commit();
+  }
+  return status;
+}
+
+Status cannot_write(const std::string& path)
+{
+  return Status::invalid_input(path + " cannot be written");
+}
+} // namespace
+
+SequenceExport::SequenceExport(Viewport* viewport) : QObject(viewport), viewport_(viewport)
+{
+  QObject::connect(&this->job_, &KernelJob::progress, this,
+    [this](double fraction) { Q_EMIT this->progress(0.7 * fraction); });
+  QObject::connect(&this->job_, &KernelJob::finished, this, &SequenceExport::frames_made);
+}
+
+SequenceExport::~SequenceExport() = default;
+
+QString SequenceExport::patterns()
+{
+  QString endings =
+    QString("json %1 %2 png %3").arg(mesh_endings).arg(rig_endings).arg(video_extensions);
+  return "*." + endings.replace(' ', " *.");
+}
+
+void SequenceExport::start(const Input& input, const QString& path)
+{
+  if (this->is_running())
+  {
+    return;
+  }
+  this->input_ = input;
+  this->path_ = path;
+  this->error_.clear();
+  this->said_.clear();
+  this->frames_ = std::make_shared<PosedFrames>();
+  this->frames_->frames_per_second = input.frames_per_second;
+  const std::string ending = file_extension(path.toStdString());
+  Status known = check_extension(path.toStdString(),
+    std::string("json png ") + mesh_endings + " " + rig_endings + " " + video_extensions);
+  if (known.ok() && is_listed(ending, video_extensions))
+  {
+    known = check_ffmpeg(); // now, not after the work
+  }
+  if (known.ok() && ending == "json" && input.run.start)
+  {
+    known = Status::invalid_input("a pose file holds key frames; a motion goes into datasets, glTF "
+                                  "or pictures");
+  }
+  if (!known.ok())
+  {
+    this->error_ = QString::fromStdString(known.message);
+    Q_EMIT this->finished();
+    return;
+  }
+  const bool poses_only = ending == "json";
+  Q_EMIT this->progress(0.0);
+  this->job_.start(
+    [frames = this->frames_, input, poses_only](ExecutionContext& context)
+    {
+      return poses_only   ? Status()
+        : input.run.start ? make_frames(context, input.source, input.options, input.run, *frames)
+                          : make_frames(context, input.source, input.options, input.poses, *frames);
+    });
+}
+
+void SequenceExport::frames_made()
+{
+  Status status = this->job_.status();
+  if (status.usable())
+  {
+    status = this->write();
+  }
+  if (!status.usable() && status.code != StatusCode::cancelled)
+  {
+    this->error_ = QString::fromStdString(status.message);
+  }
+  else if (status.code != StatusCode::cancelled)
+  {
+    this->said_ = tr("%1 frames in %2")
+                    .arg(this->frames_->points.empty() ? this->input_.poses.size()
+                                                       : this->frames_->points.size())
+                    .arg(QFileInfo(this->path_).fileName());
+  }
+  this->frames_.reset();
+  this->input_ = Input();
+  Q_EMIT this->finished();
+}
+
+Status SequenceExport::write()
+{
+  const std::string path = this->path_.toStdString();
+  const std::string ending = file_extension(path);
+  if (ending == "json")
+  {
+    std::string text;
+    const Status status = format_pose_file(
+      this->input_.poses, this->input_.frames_per_second, this->input_.source->handles, text);
+    return status.usable() ? write_text(text, path) : status;
+  }
+  return is_listed(ending, rig_endings) ? this->write_rig(path)
+    : is_listed(ending, mesh_endings)   ? this->write_datasets(path)
+    : ending == "png"                   ? this->write_strip(path)
+                                        : this->write_moving(path);
+}
+
+vtkSmartPointer<vtkPolyData> SequenceExport::posed(std::size_t frame) const
+{
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->ShallowCopy(this->input_.surface);
+  vtkNew<vtkFieldData> own;
+  own->ShallowCopy(this->input_.surface->GetFieldData());
+  result->SetFieldData(own);
+  result->SetPoints(to_vtk_points(this->frames_->points[frame]));
+  result->GetPointData()->SetNormals(nullptr); // those of rest
+  if (frame < this->frames_->transforms.size())
+  {
+    vtkNew<vtkDoubleArray> transforms;
+    transforms->SetName("HandleTransforms");
+    transforms->SetNumberOfComponents(12);
+    for (const Affine& transform : this->frames_->transforms[frame])
+    {
+      transforms->InsertNextTuple(transform.data());
+    }
+    own->AddArray(transforms);
+  }
+  return result;
+}
+
+Status SequenceExport::write_datasets(const std::string& path)
+{
+  const std::size_t count = this->frames_->points.size();
+  std::deque<AtomicFile> files(count);
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < count; ++k)
+  {
+    names.push_back(numbered_file(path, static_cast<int>(k)));
+    Status status = files[k].open(names[k], true);
+    if (status.ok())
+    {
+      status = write_shape(this->posed(k), files[k].temporary());
+    }
+    if (!status.ok())
+    {
+      return status;
+    }
+    Q_EMIT this->progress(0.7 + 0.3 * static_cast<double>(k) / static_cast<double>(count));
+  }
+  // There whole or not at all, and what it replaces stays until then.
+  for (AtomicFile& file : files)
+  {
+    const Status status = file.commit();
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  return write_text(
+    format_collection(names, this->frames_->frames_per_second), collection_file(path));
+}
+
+Status SequenceExport::write_rig(const std::string& path)
+{
+  vtkNew<vtkGLTFSkinWriter> writer;
+  vtkNew<vtkCallbackCommand> nothing; // it speaks through its status
+  nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  writer->AddObserver(vtkCommand::ErrorEvent, nothing);
+  writer->AddObserver(vtkCommand::WarningEvent, nothing);
+  const bool joints = !this->frames_->transforms.empty() && this->input_.source->has_weights();
+  writer->SetInputData(0, this->input_.surface);
+  if (this->input_.source->has_weights())
+  {
+    writer->SetHandlesData(this->input_.handles);
+  }
+  for (std::size_t k = 0; k < this->frames_->points.size(); ++k)
+  {
+    writer->AddFrameData(this->posed(k));
+  }
+  writer->SetFramesPerSecond(this->frames_->frames_per_second);
+  writer->SetAnimation(joints ? vtkGLTFSkinWriter::JOINTS : vtkGLTFSkinWriter::MORPH);
+  writer->SetFileName(path.c_str());
+  writer->OverwriteOn();
+  return writer->Write() == 1 ? Status() : Status::invalid_input(writer->GetStatusMessage());
+}
+
+QImage SequenceExport::picture(std::size_t frame)
+{
+  this->viewport_->move_surface(PointsView(this->frames_->points[frame]));
+  this->viewport_->renderWindow()->Render();
+  return this->viewport_->grabFramebuffer();
+}
+
+/// Tiles side by side, as square as can be, with at most a dozen frames, evenly taken.
+Status SequenceExport::write_strip(const std::string& path)
+{
+  vtkHandleSetWidget* handles = this->viewport_->handle_widget();
+  const bool shown = handles->GetEnabled();
+  handles->SetEnabled(false); // they stand where they are now
+  QImage strip;
+  const std::vector<std::size_t> taken = evenly(this->frames_->points.size(), most_tiles);
+  const int columns = static_cast<int>(std::min<std::size_t>(taken.size(), 4));
+  for (std::size_t k = 0; k < taken.size(); ++k)
+  {
+    const QImage tile = this->picture(taken[k]).scaledToWidth(tile_width, Qt::SmoothTransformation);
+    if (strip.isNull())
+    {
+      const int rows = (static_cast<int>(taken.size()) + columns - 1) / columns;
+      strip = QImage(columns * tile.width(), rows * tile.height(), QImage::Format_RGB32);
+      strip.fill(Qt::white);
+    }
+    const int at = static_cast<int>(k);
+    QPainter(&strip).drawImage(at % columns * tile.width(), at / columns * tile.height(), tile);
+  }
+  handles->SetEnabled(shown);
+  AtomicFile file;
+  Status status = file.open(path, true);
+  if (status.ok())
+  {
+    status = strip.save(QString::fromStdString(file.temporary()), "PNG") ? file.commit()
+                                                                         : cannot_write(path);
+  }
+  return status;
+}
+
+Status SequenceExport::write_moving(const std::string& path)
+{
+  const ScratchFolder folder("frames");
+  if (folder.path().empty())
+  {
+    return Status::failure(StatusCode::unavailable, folder.error());
+  }
+  vtkHandleSetWidget* handles = this->viewport_->handle_widget();
+  const bool shown = handles->GetEnabled();
+  handles->SetEnabled(false);
+  bool written = true;
+  const std::size_t count = this->frames_->points.size();
+  for (std::size_t k = 0; k < count && written; ++k)
+  {
+    written = this->picture(k).save(
+      QString::fromStdString(frame_file(folder.path(), static_cast<int>(k))), "PNG");
+    Q_EMIT this->progress(0.7 + 0.2 * static_cast<double>(k) / static_cast<double>(count));
+  }
+  handles->SetEnabled(shown);
+  if (!written)
+  {
+    return cannot_write(folder.path());
+  }
+  AtomicFile file;
+  Status status = file.open(path, true);
+  if (status.ok())
+  {
+    ExecutionContext context;
+    status =
+      write_video(folder.path(), this->frames_->frames_per_second, file.temporary(), context);
+  }
+  return status.ok() ? file.commit() : status;
+}

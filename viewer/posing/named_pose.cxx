@@ -1,0 +1,79 @@
+#include "posing/named_pose.h"
+
+#include "posing/json_fields.h"
+
+#include <map>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr const char* mode_words[] = { "full", "position", "free" };
+} // namespace
+
+NamedPose::NamedPose(const Handles& handles, Pose pose) : pose_(std::move(pose))
+{
+  for (const Handle& handle : handles)
+  {
+    this->names_.push_back(handle.name);
+  }
+}
+
+Pose NamedPose::of(const Handles& handles, const Pose& base) const
+{
+  std::map<std::string, std::size_t> at;
+  for (std::size_t k = 0; k < this->names_.size(); ++k)
+  {
+    at[this->names_[k]] = k;
+  }
+  Pose result = base;
+  for (std::size_t k = 0; k < handles.size() && k < result.size(); ++k)
+  {
+    const auto found = at.find(handles[k].name);
+    result[k] = found == at.end() ? result[k] : this->pose_[found->second];
+  }
+  return result;
+}
+
+Json to_json(const NamedPose& pose)
+{
+  Json result = Json::object();
+  for (std::size_t k = 0; k < pose.names_.size(); ++k)
+  {
+    const HandlePose& handle = pose.pose_[k];
+    result[pose.names_[k]] = { { "mode", mode_words[static_cast<int>(handle.mode)] },
+      { "transform", std::vector<double>(handle.transform.data(), handle.transform.data() + 12) },
+      { "stretch", handle.stretch },
+      { "twist", std::vector<double>{ handle.twist[0], handle.twist[1] } } };
+  }
+  return result;
+}
+
+Status from_json(const Json& json, NamedPose& pose)
+{
+  if (!json.is_object())
+  {
+    return Status::invalid_input("a pose of the session is no object with a handle a key");
+  }
+  NamedPose read;
+  for (const auto& [name, entry] : json.items())
+  {
+    HandlePose handle;
+    JsonFields fields(entry, "the pose of '" + name + "'");
+    fields.read("mode", handle.mode, mode_words);
+    fields.read("transform", handle.transform.data(), 12);
+    fields.read("stretch", handle.stretch, 1e-6, 1e6);
+    fields.read("twist", handle.twist.data(), 2);
+    if (!fields.status().ok())
+    {
+      return fields.status();
+    }
+    read.names_.push_back(name);
+    read.pose_.push_back(handle);
+  }
+  pose = std::move(read);
+  return {};
+}
+
+} // namespace bindpose

@@ -1,0 +1,41 @@
+#ifndef bindpose_posing_named_pose_h
+#define bindpose_posing_named_pose_h
+
+#include "pose/pose.h"
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+namespace bindpose
+{
+
+/// A pose that is kept: it knows its handles by their names, so that it still fits when handles
+/// were added, removed or put in another order.
+class NamedPose
+{
+public:
+  NamedPose() = default;
+  NamedPose(const Handles& handles, Pose pose);
+
+  /// The pose of these handles; those that it does not know stay as they are in `base`.
+  Pose of(const Handles& handles, const Pose& base) const;
+  bool empty() const { return this->names_.empty(); }
+
+private:
+  friend nlohmann::ordered_json to_json(const NamedPose& pose);
+  friend Status from_json(const nlohmann::ordered_json& json, NamedPose& pose);
+
+  std::vector<std::string> names_;
+  Pose pose_;
+};
+
+/// {NAME: {"mode": "full", "transform": [12 numbers, 3x4 row by row], "stretch": 1, "twist": [0,
+/// 0]}}: exact, what a pose file is not. What is missing is rest.
+nlohmann::ordered_json to_json(const NamedPose& pose);
+Status from_json(const nlohmann::ordered_json& json, NamedPose& pose);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,39 @@
+#ifndef bindpose_posing_pose_library_h
+#define bindpose_posing_pose_library_h
+
+#include "posing/named_pose.h"
+
+namespace bindpose
+{
+
+/// Poses that are kept by name, in the order in which they were stored.
+class PoseLibrary
+{
+public:
+  struct Entry
+  {
+    std::string name;
+    NamedPose pose;
+  };
+  const std::vector<Entry>& entries() const { return this->entries_; }
+
+  /// Adds it, under a name that nobody has: "pose" becomes "pose 2". Returns the name.
+  std::string store(const std::string& name, NamedPose pose);
+  /// False, and nothing happens, for an empty name and one that another has.
+  bool rename(std::size_t entry, const std::string& name);
+  void remove(std::size_t entry);
+  void clear() { this->entries_.clear(); }
+
+private:
+  bool is_taken(const std::string& name) const;
+
+  std::vector<Entry> entries_;
+};
+
+/// [{"name": …, "handles": {…}}, …]
+nlohmann::ordered_json to_json(const PoseLibrary& library);
+Status from_json(const nlohmann::ordered_json& json, PoseLibrary& library);
+
+} // namespace bindpose
+
+#endif

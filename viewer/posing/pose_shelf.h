@@ -1,0 +1,24 @@
+#ifndef bindpose_posing_pose_shelf_h
+#define bindpose_posing_pose_shelf_h
+
+#include "posing/key_frames.h"
+#include "posing/pose_library.h"
+
+namespace bindpose
+{
+
+/// All poses that are kept: a value, for sessions and for undo.
+struct PoseShelf
+{
+  PoseLibrary library;
+  KeyFrames keys;
+};
+
+/// {"library": […], "key_frames": {…}}
+nlohmann::ordered_json to_json(const PoseShelf& shelf);
+/// What is missing is empty. invalid_input leaves the shelf as it was.
+Status from_json(const nlohmann::ordered_json& json, PoseShelf& shelf);
+
+} // namespace bindpose
+
+#endif

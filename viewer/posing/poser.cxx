@@ -1,0 +1,84 @@
+#include "posing/poser.h"
+
+#include "posing/mesh_posers.h"
+#include "posing/reduced_poser.h"
+#include "posing/skinning_poser.h"
+
+namespace bindpose
+{
+
+Status Poser::bind(ExecutionContext& context, const PoseOptions& options)
+{
+  if (this->is_bound(options))
+  {
+    return {};
+  }
+  if (needs_weights(options.method) && !this->source().has_weights())
+  {
+    return Status::invalid_input("this method blends by weights: bind first");
+  }
+  const Status status = this->bind_missing(context, options);
+  this->binds_ += status.usable() ? 1 : 0;
+  return status;
+}
+
+Status Poser::solve(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
+  Index most_iterations, Points& posed)
+{
+  if (!this->is_bound(options))
+  {
+    return Status::invalid_input("nothing is bound yet");
+  }
+  Status status = check_pose(this->source().handles, pose);
+  if (status.ok())
+  {
+    status = this->pose(context, effective_pose(pose, this->source().handles, options), options,
+      most_iterations, posed);
+  }
+  return status;
+}
+
+std::unique_ptr<Poser> make_poser(PoseMethod method, std::shared_ptr<const PoseSource> source)
+{
+  switch (method)
+  {
+    case PoseMethod::reduced_arap:
+      return std::make_unique<ReducedPoser>(std::move(source));
+    case PoseMethod::full_arap:
+      return std::make_unique<FullPoser>(std::move(source));
+    case PoseMethod::variational:
+      return std::make_unique<VariationalPoser>(std::move(source));
+    default:
+      return std::make_unique<SkinningPoser>(std::move(source));
+  }
+}
+
+bool same_poser(PoseMethod a, PoseMethod b)
+{
+  return a == b || (is_skinning(a) && is_skinning(b));
+}
+
+Status check_tets(const PoseSource& source, const PoseOptions& options)
+{
+  return !options.in_tets || source.has_tets()
+    ? Status()
+    : Status::invalid_input("there are no tets with weights: bind in a volume first, or take the "
+                            "energy of the surface");
+}
+
+Pose effective_pose(const Pose& pose, const Handles& handles, const PoseOptions& options)
+{
+  Pose result = pose;
+  for (std::size_t k = 0; options.drag_only && !is_skinning(options.method) && k < pose.size(); ++k)
+  {
+    const bool point =
+      handles[k].kind == HandleKind::point || handles[k].kind == HandleKind::cage_vertex;
+    if (point && pose[k].mode == HandleMode::full)
+    {
+      result[k].mode = HandleMode::position;
+    }
+  }
+  return result;
+}
+
+} // namespace bindpose

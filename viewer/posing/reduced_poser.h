@@ -1,0 +1,41 @@
+#ifndef bindpose_posing_reduced_poser_h
+#define bindpose_posing_reduced_poser_h
+
+#include "pose/reduced_arap.h"
+#include "posing/poser.h"
+
+#include <optional>
+
+namespace bindpose
+{
+
+/// Reduced as-rigid-as-possible on the surface, or in the tets with the surface carried along: its
+/// points blend the same transforms by their own weights.
+class ReducedPoser : public Poser
+{
+public:
+  explicit ReducedPoser(std::shared_ptr<const PoseSource> source) : Poser(std::move(source)) {}
+  bool is_bound(const PoseOptions& options) const override;
+  const std::vector<Affine>* found() const override { return &this->arap_.transforms(); }
+
+protected:
+  Status bind_missing(ExecutionContext& context, const PoseOptions& options) override;
+  Status pose(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
+    Index most_iterations, Points& posed) override;
+
+private:
+  std::optional<PoseOptions> bound_;
+  ReducedArap arap_;
+  Skinning on_surface_; ///< in tets only: the surface by all columns
+};
+
+/// What the kernels of reduced as-rigid-as-possible need to know of the options.
+ReducedArapOptions reduced_options(const PoseOptions& options);
+/// The surface's weights by the columns of a space in the source's tets: its own, and extra weights
+/// carried from the tets' vertices.
+Status weights_on_surface(
+  ExecutionContext& context, const PoseSource& source, const Weights& in_tets, Weights& weights);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,42 @@
+#ifndef bindpose_posing_skinning_poser_h
+#define bindpose_posing_skinning_poser_h
+
+#include "pose/skinning.h"
+#include "posing/poser.h"
+
+#include <optional>
+
+namespace bindpose
+{
+
+/// Linear blend, dual quaternions, stretchable bones and centres of rotation: one set of sparse
+/// weights; centres, endpoint weights and automatic pseudo-edges are made when they are asked for
+/// first.
+class SkinningPoser : public Poser
+{
+public:
+  explicit SkinningPoser(std::shared_ptr<const PoseSource> source) : Poser(std::move(source)) {}
+  bool is_bound(const PoseOptions& options) const override;
+
+protected:
+  Status bind_missing(ExecutionContext& context, const PoseOptions& options) override;
+  Status pose(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
+    Index most_iterations, Points& posed) override;
+
+private:
+  bool has_endpoints(const PoseOptions& options) const;
+  Status make_endpoints(ExecutionContext& context, EndpointMethod method);
+
+  std::optional<bool> single_; ///< the precision that weights are bound in
+  Skinning skinning_;
+  Points pivots_;
+  Points centres_;
+  std::optional<EndpointMethod> endpoint_method_;
+  Weights endpoints_;
+  std::optional<PseudoEdges> automatic_edges_;
+  std::vector<Affine> transforms_;
+};
+
+} // namespace bindpose
+
+#endif

@@ -524,6 +524,33 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   EXPECT_TRUE(this->window.viewport()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
   const double* bounds = this->window.document()->surface()->GetBounds();
   EXPECT_NEAR(bounds[1] - bounds[0], 48, 2);
+  // It bends along: turned by 180 degrees about its middle, blue is on the left.
+  const auto middle_of_red = [&red](const QImage& image)
+  {
+    double sum = 0.0;
+    int number = 0;
+    for (int y = 0; y < image.height(); ++y)
+    {
+      for (int x = 0; x < image.width(); ++x)
+      {
+        sum += red(image.pixelColor(x, y)) ? x : 0;
+        number += red(image.pixelColor(x, y));
+      }
+    }
+    return sum / number;
+  };
+  this->folder.write("h.tgf", "1 31.5 23.5 0\n#\n");
+  this->drop(this->folder / "h.tgf");
+  const Index points = this->window.document()->surface()->GetNumberOfPoints();
+  ASSERT_TRUE(this->window.document()->set_weights(Weights::Ones(points, 1), "ones").ok());
+  Pose pose = this->window.document()->pose();
+  pose[0].transform << -1, 0, 0, 63, 0, -1, 0, 47, 0, 0, 1, 0;
+  this->window.document()->set_pose(pose, "turn");
+  EXPECT_GT(middle_of_red(this->picture()), middle_of_red(rest) + 100);
+  for (int step = 0; step < 3; ++step)
+  {
+    this->window.history()->undo();
+  }
   // The whole picture, when that is wanted.
   button_of(this->window.note_bar(), "Take the whole picture")->click();
   ASSERT_EQ(this->window.error(), "");

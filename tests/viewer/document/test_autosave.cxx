@@ -170,3 +170,35 @@ TEST(Autosaving, AFolderThatCannotBeWrittenIsToldAboutOnce)
   EXPECT_FALSE(autosave.save().ok());
   EXPECT_NE(told.indexOf("not being backed up"), -1) << told.toStdString();
 }
+
+/// 82,000 triangles and 20 handles, on the thread of the window: the numbers of the README.
+TEST(Autosaving, IsNotFelt)
+{
+  const test::Folder folder;
+  const TriangleMesh mesh = test::sphere(6);
+  Handles handles(20);
+  for (std::size_t k = 0; k < handles.size(); ++k)
+  {
+    handles[k].name = "p" + std::to_string(k);
+    handles[k].head = handles[k].tail = Vec3(std::cos(k), std::sin(k), 0.01 * k);
+  }
+  Document document;
+  ASSERT_TRUE(document.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball").ok());
+  ASSERT_TRUE(document.set_handles(to_polydata(handles), "handles").ok());
+  test::bind(document, 0.0);
+  const auto session = [&document]
+  {
+    Session result;
+    result.work = document.work();
+    return result;
+  };
+  Autosave autosave(session, QString::fromStdString(folder.path()));
+  ASSERT_TRUE(autosave.save().ok());
+  const double after_a_bind = autosave.milliseconds();
+  document.set_mode(0, 1);
+  ASSERT_TRUE(autosave.save().ok());
+  const double after_a_drag = autosave.milliseconds();
+  std::printf("autosave after a bind %.1f ms, after a drag %.1f ms\n", after_a_bind, after_a_drag);
+  EXPECT_LT(after_a_drag, 0.5 * after_a_bind); // weights are not written again
+  EXPECT_LT(after_a_bind, 5000.0);
+}

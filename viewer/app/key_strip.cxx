@@ -35,10 +35,10 @@ KeyStrip::KeyStrip(QWidget* parent) : QFrame(parent), track_(new KeyTrack(this))
 {
   this->setObjectName("strip");
   auto* rows = new QVBoxLayout(this);
-  rows->setContentsMargins(10, 6, 10, 6);
+  rows->setContentsMargins(6, 6, 6, 6);
   rows->setSpacing(4);
   auto* line = new QHBoxLayout;
-  line->setSpacing(6);
+  line->setSpacing(4);
   const auto add = [&](const QString& text, const QString& tip)
   {
     QPushButton* made = button(text, this);
@@ -47,13 +47,13 @@ KeyStrip::KeyStrip(QWidget* parent) : QFrame(parent), track_(new KeyTrack(this))
     return made;
   };
   this->play_ = add(tr("Play"), tr("Plays the key frames (space)"));
-  this->play_->setMinimumWidth(this->play_->fontMetrics().horizontalAdvance(tr("Pause")) + 28);
+  this->play_->setMinimumWidth(this->play_->fontMetrics().horizontalAdvance(tr("Pause")) + 26);
   this->loop_ = add(tr("Loop"), tr("Begins again at the end"));
   this->loop_->setObjectName("toggle");
   this->loop_->setCheckable(true);
   this->loop_->setChecked(true);
   this->clock_ = new QLabel(seconds_text(0.0), this);
-  this->clock_->setMinimumWidth(this->clock_->fontMetrics().horizontalAdvance("000.00 s"));
+  this->clock_->setMinimumWidth(this->clock_->fontMetrics().horizontalAdvance("00.00 s"));
   this->clock_->setAlignment(Qt::AlignCenter);
   line->addWidget(this->clock_);
   this->add_ = add(tr("Set key"), tr("Keeps the pose as it is, at this time (K)"));

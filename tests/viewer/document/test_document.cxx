@@ -154,11 +154,12 @@ TEST_F(Editing, EveryEditIsAStepThatUndoTakesBackBitByBit)
   this->check("keep a pose",
     [&]
     {
-      KeyPose pose;
-      pose.name = "wave";
-      pose.seconds = 0.1;
-      pose.handles["top"].stretch = 1.1;
-      d.set_key_poses({ pose }, "keep a pose");
+      Pose pose = d.pose();
+      pose[0].stretch = 1.1;
+      PoseShelf shelf;
+      shelf.library.store("wave", NamedPose(d.handles(), pose));
+      shelf.keys.set(0.1, NamedPose(d.handles(), pose));
+      d.set_key_poses(shelf, "keep a pose");
     });
   this->check("open other", [&] { ASSERT_TRUE(d.set_mesh(ball(), "other").ok()); });
   this->check("open handles again",
@@ -443,8 +444,12 @@ TEST(FuzzDocument, UndoOfEverythingIsTheBeginningAndRedoTheEnd)
           }
           break;
         default:
-          document.set_key_poses({ KeyPose{ "p", number(), {} } }, "keep");
+        {
+          PoseShelf shelf;
+          shelf.keys.set(std::abs(number()), NamedPose(document.handles(), document.pose()));
+          document.set_key_poses(shelf, "keep");
           break;
+        }
       }
       states.resize(document.history()->count() + 1);
       states[document.history()->index()] = fingerprint(document);

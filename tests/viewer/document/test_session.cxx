@@ -70,11 +70,10 @@ Work full_work()
   size->FillValue(0.1F);
   document.handle_data()->GetCellData()->AddArray(size);
   document.commit_handles("size");
-  KeyPose key;
-  key.name = "wave “hello”";
-  key.seconds = 1.0 / 7.0;
-  key.handles["top"] = pose[1];
-  document.set_key_poses({ key }, "keep");
+  PoseShelf shelf;
+  shelf.library.store("wave “hello”", NamedPose(document.handles(), pose));
+  shelf.keys.set(1.0 / 7.0, NamedPose(document.handles(), pose));
+  document.set_key_poses(shelf, "keep");
   document.set_option("pose.method", 2);
   document.set_option("tets.shrink", 1.0 / 3.0);
   document.set_option("weights.bands", false);

@@ -196,16 +196,7 @@ inline std::string fingerprint(const Work& work)
   print_data(out, work.handles, false);
   print_data(out, work.bound_handles, false);
   print_pose(out, work.pose);
-  for (const KeyPose& pose : work.key_poses ? *work.key_poses : KeyPoses())
-  {
-    out << pose.name.toStdString() << ' ';
-    print_bits(out, pose.seconds);
-    for (const auto& [name, of_handle] : pose.handles)
-    {
-      out << name << ' ';
-      print_pose(out, { of_handle });
-    }
-  }
+  out << (work.key_poses ? to_json(*work.key_poses).dump() : std::string()) << '\n';
   for (auto option = work.options.begin(); option != work.options.end(); ++option)
   {
     out << option.key().toStdString() << ' ' << option.value().toString().toStdString() << '\n';

@@ -26,7 +26,7 @@
  * nearly dependent are harmless.
  *
  * Report: method (the energy), counts (clusters, extra_weights among them), energy, iterations,
- * residual (share of the energy by which the last iteration lowered it),
+ * single_precision_iterations, residual (share of the energy by which the last one lowered it),
  * microseconds_per_iteration, constraint_residual (in diagonals), row_sum_error, seconds.bind,
  * seconds.solve, seconds.skin. Status NOT_CONVERGED, with an output, when MaximumIterations or
  * TimeBudget were not enough for Tolerance.

@@ -53,6 +53,9 @@ protected:
     this->handles = to_polydata(this->rig.handles);
     this->filter->SetInputData(0, this->tets);
     this->filter->SetInputData(1, this->handles);
+    // From other rotations the way to the least energy is another: what is left differs.
+    this->filter->SetTolerance(1e-12);
+    this->filter->SetMaximumIterations(1000);
     this->listener->listen(this->filter);
   }
 
@@ -98,6 +101,8 @@ protected:
     vtkNew<vtkReducedARAP> arap;
     arap->SetInputData(0, this->tets);
     arap->SetInputData(1, this->posed_handles(i));
+    arap->SetTolerance(1e-12);
+    arap->SetMaximumIterations(1000);
     arap->Update();
     return to_points(arap->vtkBindposeAlgorithm::GetOutput()).view();
   }

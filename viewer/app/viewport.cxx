@@ -403,8 +403,8 @@ void Viewport::reset_view()
   const bindpose::View view;
   const bindpose::Frame frame = bindpose::choose_frame(bindpose::bounding_box(points), view.up);
   vtkCamera* camera = this->renderer_->GetActiveCamera();
-  bindpose::fit_camera(camera, points, frame, view,
-    (this->split_ ? 0.5 : 1.0) * this->width() / this->height(), 0.12);
+  bindpose::fit_camera(
+    camera, points, frame, view, (this->split_ ? 0.5 : 1.0) * this->width() / this->height(), 0.12);
   camera->SetParallelProjection(this->picture_ != nullptr);
   // As large in a parallel view.
   camera->SetParallelScale(

@@ -97,8 +97,22 @@ void add_option(CLI::App& app, const Option& option, Arguments& arguments)
       help);
     parsed->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   }
-  parsed->type_name(option.value)->required(option.required);
+  parsed->type_name(option.value)->required(option.required && !option.unless[0]);
   add_check(parsed, option);
+}
+
+/// The first option that is required and not there; empty: none.
+std::string missing_option(const std::vector<Option>& options, const Arguments& arguments)
+{
+  for (const Option& option : options)
+  {
+    if (option.required && !arguments.has(option.key()) &&
+      !(option.unless[0] && arguments.has(option.unless)))
+    {
+      return option.name;
+    }
+  }
+  return "";
 }
 
 void fill_defaults(const std::vector<Option>& options, Arguments& arguments)
@@ -186,6 +200,13 @@ int parse_arguments(int argc, char** argv, Arguments& arguments)
   {
     if (arguments.verb == verb.name)
     {
+      const std::string missing = missing_option(verb.options, arguments);
+      if (!missing.empty())
+      {
+        std::cerr << "bindpose " << verb.name << ": " << missing << " is required (see bindpose "
+                  << verb.name << " --help)\n";
+        return 1;
+      }
       fill_defaults(verb.options, arguments);
     }
   }

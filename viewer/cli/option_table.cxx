@@ -227,10 +227,12 @@ const std::vector<Verb>& verbs()
       { { "MESH_WITH_WEIGHTS", "", Kind::text, "", "",
           "what the verb weights wrote; for full-arap, mls and variational any mesh", true },
         { "--handles", "HANDLES", Kind::text, "", "",
-          "handles: .tgf, .vtp, .glb or .gltf; all but --fair need them" },
+          "handles: .tgf, .vtp, .glb or .gltf; all but --fair need them", true, false, 0, "fair" },
         { "--pose", "POSE", Kind::text, "", "",
           "pose or sequence as .json, where numbers may be expressions in t, the time in seconds; "
-          "or a pose of libigl in a .dmat file, or the animation in a .glb or .gltf file" },
+          "or a pose of libigl in a .dmat file, or the animation in a .glb or .gltf file; all but "
+          "--fair need it",
+          true, false, 0, "fair" },
         { "--method", "METHOD", Kind::choice, "lbs",
           "lbs|dqs|stbs|cor|reduced-arap|full-arap|mls|variational",
           "linear blend, dual quaternions, stretchable and twistable bones (along the point array "
@@ -415,7 +417,7 @@ std::string row(const Option& option)
     text += choices;
   }
   text += " | ";
-  text += option.required ? "required" : option.fallback;
+  text += option.required && !option.unless[0] ? "required" : option.fallback;
   return text + " | " + option.help + " |\n";
 }
 

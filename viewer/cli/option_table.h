@@ -28,6 +28,7 @@ struct Option
   bool required = false;
   bool repeated = false; ///< takes one or more values
   int minimum = 0; ///< of an integer
+  const char* unless = ""; ///< the flag that makes a required option needless
 
   bool positional() const { return this->name[0] != '-'; }
   /// The name that Arguments knows it by: "grid", "output", "SURFACE".

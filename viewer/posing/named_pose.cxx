@@ -9,7 +9,7 @@ namespace bindpose
 
 namespace
 {
-constexpr const char* mode_words[] = { "full", "position", "free" };
+constexpr const char* mode_words[] = { "full", "position", "free", "tail", "ends" };
 } // namespace
 
 NamedPose::NamedPose(const Handles& handles, Pose pose) : pose_(std::move(pose))

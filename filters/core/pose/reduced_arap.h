@@ -49,7 +49,8 @@ public:
   using SolveOptions = ReducedSolveOptions;
 
   /// Finds the transforms of a pose, one entry a handle. not_converged when max_iterations or
-  /// the time budget were not enough; the result is usable. Report: energy, iterations, residual
+  /// the time budget were not enough; the result is usable. Report: energy, iterations,
+  /// single_precision_iterations (how many of them were), residual
   /// (share of the energy by which the last iteration lowered it), microseconds_per_iteration,
   /// constraint_residual (largest miss of a position, in diagonals). Warnings name position
   /// handles that are redundant and those that contradict each other (met in the least-squares

@@ -332,10 +332,14 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
       energies.resize(first);
       return false;
     }
-    progress.change = energy_before - energy;
-    can_see = noise == 0.0 || progress.change > noise;
-    progress.converged = limits.tolerance > 0.0 && can_see &&
-      progress.change <= limits.tolerance * std::max(energy, limits.least_energy);
+    // The first energy after another precision's last one says nothing about the fall.
+    if (iterations > 1 || !this->has_iterate_)
+    {
+      progress.change = energy_before - energy;
+      can_see = noise == 0.0 || progress.change > noise;
+      progress.converged = limits.tolerance > 0.0 && can_see &&
+        progress.change <= limits.tolerance * std::max(energy, limits.least_energy);
+    }
     progress.in_time = std::chrono::steady_clock::now() < limits.deadline;
     accelerated = anderson.next(this->plain_.data(), this->tried_.data());
     if (accelerated && anderson.reach() > farthest_reach<Scalar>)

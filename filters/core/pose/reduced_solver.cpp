@@ -438,7 +438,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   }
   status.report.set("energy", Report::Value(std::max(this->energies_.back(), 0.0)));
   status.report.set("iterations", Report::Value(std::int64_t(iterations)));
-  status.report.set("iterations.single_precision", Report::Value(std::int64_t(single_iterations)));
+  status.report.set("single_precision_iterations", Report::Value(std::int64_t(single_iterations)));
   if (iterations > 0)
   {
     status.report.set(

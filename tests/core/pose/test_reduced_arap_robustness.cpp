@@ -442,7 +442,7 @@ TEST(ReducedArapRobustness, MixedPrecisionComesToTheSameShape)
       const Status status =
         arap.solve(context, pose, { 1e-12, 1000, ReducedArap::Start::rest, 5, 0.0, mixed });
       ASSERT_TRUE(status.ok()) << status.message;
-      EXPECT_EQ(status.report.number("iterations.single_precision", -1.0) > 0.0, mixed);
+      EXPECT_EQ(status.report.number("single_precision_iterations", -1.0) > 0.0, mixed);
       ASSERT_TRUE(arap.deform(context, rig.mesh.points, shapes[mixed]).ok());
       energies[mixed] = arap.energies().back();
       for (const Eigen::Matrix3d& r : arap.rotations())

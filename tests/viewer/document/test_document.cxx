@@ -154,11 +154,11 @@ TEST_F(Editing, EveryEditIsAStepThatUndoTakesBackBitByBit)
   this->check("keep a pose",
     [&]
     {
-      Pose pose = d.pose();
+      Pose pose(3);
       pose[0].stretch = 1.1;
       PoseShelf shelf;
-      shelf.library.store("wave", NamedPose(d.handles(), pose));
-      shelf.keys.set(0.1, NamedPose(d.handles(), pose));
+      shelf.library.store("wave", NamedPose(three_handles(), pose));
+      shelf.keys.set(0.1, NamedPose(three_handles(), pose));
       d.set_key_poses(shelf, "keep a pose");
     });
   this->check("open other", [&] { ASSERT_TRUE(d.set_mesh(ball(), "other").ok()); });

@@ -317,7 +317,7 @@ TEST(Sessions, SchemaOneIsRead)
   "pose": [
     {"mode": "full", "transform": [1,0,0,0, 0,1,0,0, 0,0,1,0], "stretch": 1, "twist": [0, 0]},
     {"mode": "free", "transform": [1,0,0,2, 0,1,0,0, 0,0,1,0], "stretch": 1, "twist": [0, 0]}],
-  "poses": [],
+  "poses": {},
   "options": {"pose.method": 1, "of.another.version": "x"},
   "view": {"panel": 0, "camera": null}
 })");

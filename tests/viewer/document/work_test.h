@@ -196,7 +196,8 @@ inline std::string fingerprint(const Work& work)
   print_data(out, work.handles, false);
   print_data(out, work.bound_handles, false);
   print_pose(out, work.pose);
-  out << (work.key_poses ? to_json(*work.key_poses).dump() : std::string()) << '\n';
+  // In the order of their names, whatever order they were kept in.
+  out << nlohmann::json(to_json(work.key_poses ? *work.key_poses : PoseShelf())).dump() << '\n';
   for (auto option = work.options.begin(); option != work.options.end(); ++option)
   {
     out << option.key().toStdString() << ' ' << option.value().toString().toStdString() << '\n';

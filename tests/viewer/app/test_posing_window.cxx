@@ -536,6 +536,59 @@ TEST_F(PosingWindow, PosesAreStoredNamedAppliedAndBlended)
   EXPECT_TRUE(this->posing()->shelf().library.entries().empty());
 }
 
+TEST_F(PosingWindow, UndoTakesTheFirstKeptPoseBack)
+{
+  this->open();
+  this->find<QPushButton>("Store")->click();
+  auto* names = this->option<QListWidget>("poses");
+  ASSERT_EQ(names->count(), 1);
+  this->window.history()->undo();
+  EXPECT_TRUE(this->posing()->shelf().library.entries().empty());
+  EXPECT_EQ(names->count(), 0);
+  this->window.history()->redo();
+  EXPECT_EQ(names->count(), 1);
+}
+
+TEST_F(PosingWindow, BonesMayBeHeldByAnEnd)
+{
+  this->open();
+  this->choose(PoseMethod::reduced_arap);
+  const auto texts = [this]
+  {
+    QStringList all;
+    for (QListWidget* list : this->window.panel()->findChildren<QListWidget*>())
+    {
+      for (int k = 0; k < list->count(); ++k)
+      {
+        all << list->item(k)->text();
+      }
+    }
+    return all;
+  };
+  Pose pose(4);
+  pose[2].mode = HandleMode::tail;
+  pose[3].mode = HandleMode::ends;
+  this->put(pose);
+  EXPECT_EQ(this->window.error(), QString());
+  EXPECT_TRUE(texts().contains("lower   (tail)")) << texts().join(", ").toStdString();
+  EXPECT_TRUE(texts().contains("upper   (ends)"));
+  // They can be chosen for bones, and for these alone.
+  for (QComboBox* box : this->window.panel()->findChildren<QComboBox*>())
+  {
+    const int ends = box->findText("a bone's ends");
+    if (ends >= 0)
+    {
+      this->window.panel()->select_handle(3);
+      EXPECT_EQ(box->currentIndex(), ends);
+      EXPECT_TRUE(box->model()->flags(box->model()->index(ends, 0)) & Qt::ItemIsEnabled);
+      this->window.panel()->select_handle(0);
+      EXPECT_FALSE(box->model()->flags(box->model()->index(ends, 0)) & Qt::ItemIsEnabled);
+      return;
+    }
+  }
+  ADD_FAILURE() << "no choice of modes";
+}
+
 TEST_F(PosingWindow, KeyFramesPlayAndScrubThroughTheirKeys)
 {
   this->open();
@@ -694,21 +747,26 @@ TEST_F(PosingWindow, NoTextIsClipped)
   }
 }
 
-/// Pictures for people: BINDPOSE_PICTURES names a folder.
-TEST_F(PosingWindow, Pictures)
+/// What the window looks like in each of its states: none is empty or like the one before. For
+/// people BINDPOSE_PICTURES names a folder that the pictures go to.
+TEST_F(PosingWindow, EveryStateHasAPictureOfItsOwn)
 {
   const char* folder = std::getenv("BINDPOSE_PICTURES");
-  if (!folder)
-  {
-    GTEST_SKIP() << "set BINDPOSE_PICTURES to a folder for pictures of the window";
-  }
   this->open(5);
   this->window.panel()->select_handle(3);
+  QImage last;
   const auto save = [&](const char* name)
   {
     this->render();
     wait_for([] { return false; }, 0);
-    this->window.grab().save(QString("%1/%2.png").arg(folder).arg(name));
+    const QImage now = this->window.grab().toImage();
+    EXPECT_EQ(now.size(), this->window.size() * now.devicePixelRatio());
+    EXPECT_NE(now, last) << name;
+    last = now;
+    if (folder)
+    {
+      EXPECT_TRUE(now.save(QString("%1/%2.png").arg(folder).arg(name)));
+    }
   };
   Pose pose = this->bent();
   pose[1].mode = HandleMode::free;
@@ -743,7 +801,7 @@ TEST_F(PosingWindow, Pictures)
   save("poses");
 }
 
-/// A drag frame at the size of ANCHORS: printed part by part.
+/// A drag frame of a large shape, printed part by part.
 TEST_F(PosingWindow, ADragFrameOf86kTriangles)
 {
   Handles twenty;

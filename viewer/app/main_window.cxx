@@ -260,9 +260,10 @@ void MainWindow::document_changed(int parts)
       this->panel_->set_mode(static_cast<int>(k), static_cast<int>(pose[k].mode));
     }
   }
-  if ((parts & key_poses_part) && this->document_->work().key_poses)
+  if (parts & key_poses_part)
   {
-    this->posing_->set_shelf(*this->document_->work().key_poses);
+    const auto& kept = this->document_->work().key_poses;
+    this->posing_->set_shelf(kept ? *kept : PoseShelf());
   }
   this->update_title();
   this->offer_rebind();
@@ -314,13 +315,15 @@ void MainWindow::show_handles()
   }
   QStringList names;
   QList<int> modes;
+  QList<bool> bones;
   const Pose pose = this->document_->pose();
   for (std::size_t k = 0; k < pose.size(); ++k)
   {
     names << QString::fromStdString(this->document_->handles()[k].name);
     modes << static_cast<int>(pose[k].mode);
+    bones << (this->document_->handles()[k].kind == HandleKind::bone);
   }
-  this->panel_->set_handles(names, modes);
+  this->panel_->set_handles(names, modes, bones);
 }
 
 void MainWindow::show_volume()

@@ -15,14 +15,18 @@
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QSignalBlocker>
+#include <QStandardItemModel>
 #include <QVBoxLayout>
 
 #include <algorithm>
 
 namespace
 {
+/// In the order of bindpose::HandleMode.
 const char* const mode_names[] = { QT_TRANSLATE_NOOP("SidePanel", "full"),
-  QT_TRANSLATE_NOOP("SidePanel", "position"), QT_TRANSLATE_NOOP("SidePanel", "free") };
+  QT_TRANSLATE_NOOP("SidePanel", "position"), QT_TRANSLATE_NOOP("SidePanel", "free"),
+  QT_TRANSLATE_NOOP("SidePanel", "tail"), QT_TRANSLATE_NOOP("SidePanel", "ends") };
+constexpr int first_mode_of_bones = 3;
 
 /// A combo box that does not grow with its items: they may be handles of any name.
 QComboBox* combo(QWidget* parent)
@@ -120,6 +124,8 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   this->mode_->addItem(tr("full transform"));
   this->mode_->addItem(tr("position only"));
   this->mode_->addItem(tr("nothing (free)"));
+  this->mode_->addItem(tr("a bone's tail"));
+  this->mode_->addItem(tr("a bone's ends"));
   this->mode_->setToolTip(
     tr("What the selected handle fixes; as-rigid-as-possible (ARAP) finds the rest"));
   mode_row->addWidget(this->mode_, 1);
@@ -171,16 +177,18 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
         Q_EMIT this->mode_chosen(this->selected_handle(), mode);
       }
     });
-  this->set_handles({}, {});
+  this->set_handles({}, {}, {});
   this->set_state(false, false, false);
 }
 
-void SidePanel::set_handles(const QStringList& names, const QList<int>& modes)
+void SidePanel::set_handles(
+  const QStringList& names, const QList<int>& modes, const QList<bool>& bones)
 {
   const QSignalBlocker quiet(this->handles_);
   const QSignalBlocker quiet_too(this->shown_);
   this->names_ = names;
   this->modes_ = modes;
+  this->bones_ = bones;
   this->handles_->clear();
   this->shown_->clear();
   this->shown_->addItem(tr("Shaded surface"));
@@ -210,6 +218,11 @@ void SidePanel::show_mode(int handle)
   this->mode_label_->setEnabled(handle >= 0);
   this->mode_->setEnabled(handle >= 0);
   this->mode_->setCurrentIndex(handle >= 0 ? this->modes_[handle] : 0);
+  auto* items = qobject_cast<QStandardItemModel*>(this->mode_->model());
+  for (int mode = first_mode_of_bones; mode < this->mode_->count(); ++mode)
+  {
+    items->item(mode)->setEnabled(handle >= 0 && this->bones_[handle]);
+  }
 }
 
 void SidePanel::set_mode(int handle, int mode)

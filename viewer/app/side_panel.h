@@ -22,8 +22,9 @@ class SidePanel : public QFrame
 public:
   explicit SidePanel(QWidget* parent = nullptr);
 
-  /// Other handles: one line a handle: its name and mode (0 full, 1 position, 2 free).
-  void set_handles(const QStringList& names, const QList<int>& modes);
+  /// Other handles: one line a handle: its name, its mode (bindpose::HandleMode), and whether it is
+  /// a bone, which has modes of its own.
+  void set_handles(const QStringList& names, const QList<int>& modes, const QList<bool>& bones);
   void set_mode(int handle, int mode);
   void select_handle(int handle);
   int selected_handle() const;
@@ -73,6 +74,7 @@ private:
   PoseList* poses_;
   QStringList names_;
   QList<int> modes_;
+  QList<bool> bones_;
   bool stopping_ = false; // cancel was pressed, the bind has not ended yet
 };
 

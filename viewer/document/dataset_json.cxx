@@ -8,7 +8,9 @@
 #include "vtkNew.h"
 #include "vtkStringArray.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 using nlohmann::json;
@@ -293,16 +295,10 @@ bindpose::HandlePose pose_from_json(const json& value)
 {
   bindpose::HandlePose pose;
   const std::string mode = json_text(json_at(value, "mode"), "the mode of a handle");
-  bool known = false;
-  for (const auto candidate :
-    { bindpose::HandleMode::full, bindpose::HandleMode::position, bindpose::HandleMode::free })
-  {
-    if (mode == bindpose::to_string(candidate))
-    {
-      pose.mode = candidate;
-      known = true;
-    }
-  }
+  const auto& words = bindpose::handle_mode_words;
+  const auto* const word = std::find(std::begin(words), std::end(words), mode);
+  const bool known = word != std::end(words);
+  pose.mode = static_cast<bindpose::HandleMode>(known ? word - std::begin(words) : 0);
   const json& transform = json_at(value, "transform");
   const json& twist = json_at(value, "twist");
   if (!known || !transform.is_array() || transform.size() != 12 || !twist.is_array() ||

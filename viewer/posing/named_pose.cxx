@@ -7,11 +7,6 @@
 namespace bindpose
 {
 
-namespace
-{
-constexpr const char* mode_words[] = { "full", "position", "free", "tail", "ends" };
-} // namespace
-
 NamedPose::NamedPose(const Handles& handles, Pose pose) : pose_(std::move(pose))
 {
   for (const Handle& handle : handles)
@@ -42,7 +37,7 @@ Json to_json(const NamedPose& pose)
   for (std::size_t k = 0; k < pose.names_.size(); ++k)
   {
     const HandlePose& handle = pose.pose_[k];
-    result[pose.names_[k]] = { { "mode", mode_words[static_cast<int>(handle.mode)] },
+    result[pose.names_[k]] = { { "mode", to_string(handle.mode) },
       { "transform", std::vector<double>(handle.transform.data(), handle.transform.data() + 12) },
       { "stretch", handle.stretch },
       { "twist", std::vector<double>{ handle.twist[0], handle.twist[1] } } };
@@ -61,7 +56,7 @@ Status from_json(const Json& json, NamedPose& pose)
   {
     HandlePose handle;
     JsonFields fields(entry, "the pose of '" + name + "'");
-    fields.read("mode", handle.mode, mode_words);
+    fields.read("mode", handle.mode, handle_mode_words);
     fields.read("transform", handle.transform.data(), 12);
     fields.read("stretch", handle.stretch, 1e-6, 1e6);
     fields.read("twist", handle.twist.data(), 2);

@@ -45,7 +45,9 @@ void draw_handles(const ScreenView& view, const std::vector<HandlePlace>& places
       std::find(marks.selected.begin(), marks.selected.end(), cell) != marks.selected.end();
     const Colour base = place.colour
       ? Colour{ (*place.colour)[0], (*place.colour)[1], (*place.colour)[2] }
-      : look.modes[std::clamp(place.mode, 0, 2)];
+      : look.modes[place.is_free() ? 2
+            : place.mode > 0       ? 1
+                                   : 0];
     const Colour colour = hot ? lighter(base) : base;
     const Colour edge = selected ? look.selected : look.outline;
     const double growth = hot ? hot_growth : 1.0;

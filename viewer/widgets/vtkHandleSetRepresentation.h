@@ -304,8 +304,8 @@ public:
   ///@}
 
   ///@{
-  /// Colours by Mode (full: orange, position: blue, free: grey) and of the outline; the selected
-  /// handle's outline has its own, with the outline's colour around it.
+  /// Colours by Mode (full: orange, position and ends: blue, free: grey) and of the outline; the
+  /// selected handle's outline has its own, with the outline's colour around it.
   vtkSetVector3Macro(FullColor, double);
   vtkGetVector3Macro(FullColor, double);
   vtkSetVector3Macro(PositionColor, double);

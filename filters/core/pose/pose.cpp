@@ -9,20 +9,7 @@ namespace bindpose
 
 const char* to_string(HandleMode mode)
 {
-  switch (mode)
-  {
-    case HandleMode::position:
-      return "position";
-    case HandleMode::free:
-      return "free";
-    case HandleMode::tail:
-      return "tail";
-    case HandleMode::ends:
-      return "ends";
-    case HandleMode::full:
-      break;
-  }
-  return "full";
+  return handle_mode_words[static_cast<std::size_t>(mode)];
 }
 
 Vec3 posed_pivot(const Handle& handle, const HandlePose& pose)

@@ -18,7 +18,9 @@ enum class HandleMode : int
   ends = 4 ///< bones: where both ends go
 };
 
-/// "full", "position", "free", "tail", "ends".
+/// The words of the modes, in the order of their numbers.
+inline constexpr const char* handle_mode_words[] = { "full", "position", "free", "tail", "ends" };
+/// One of handle_mode_words.
 const char* to_string(HandleMode mode);
 
 /// x -> linear * x + translation as 3 x 4, rest to posed, absolute.

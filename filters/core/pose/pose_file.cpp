@@ -114,17 +114,18 @@ Eigen::Matrix<double, Size, 1> numbers(const Json& value, const std::string& whe
   return result;
 }
 
-std::string word(
-  const Json& value, const std::string& where, std::initializer_list<const char*> known)
+/// Which of some words it is.
+template <std::size_t Count>
+std::size_t word(const Json& value, const std::string& where, const char* const (&known)[Count])
 {
   std::string list;
-  for (const char* choice : known)
+  for (std::size_t k = 0; k < Count; ++k)
   {
-    if (value.is_string() && value.get<std::string>() == choice)
+    if (value.is_string() && value.get<std::string>() == known[k])
     {
-      return choice;
+      return k;
     }
-    list += (list.empty() ? "" : ", ") + std::string(choice);
+    list += (k > 0 ? ", " : "") + std::string(known[k]);
   }
   fail(where, " must be one of " + list);
 }
@@ -165,16 +166,11 @@ HandleEdit read_handle(const Json& value, const std::string& where, Index index,
     }
     if (key == "mode")
     {
-      const std::string mode = word(entry, at, { "full", "position", "free", "tail", "ends" });
-      edit.mode = mode == "free" ? HandleMode::free
-        : mode == "position"     ? HandleMode::position
-        : mode == "tail"         ? HandleMode::tail
-        : mode == "ends"         ? HandleMode::ends
-                                 : HandleMode::full;
+      edit.mode = static_cast<HandleMode>(word(entry, at, handle_mode_words));
       if (holds_tail(*edit.mode) && rest.kind != HandleKind::bone)
       {
         fail(at,
-          " is '" + mode + "', for bones, but the handle is a " +
+          " is '" + std::string(to_string(*edit.mode)) + "', for bones, but the handle is a " +
             std::string(to_string(rest.kind)));
       }
     }
@@ -192,7 +188,7 @@ HandleEdit read_handle(const Json& value, const std::string& where, Index index,
     }
     else if (key == "space")
     {
-      edit.parent_space = word(entry, at, { "world", "parent" }) == "parent";
+      edit.parent_space = word(entry, at, { "world", "parent" }) == 1;
     }
     else if (key == "head")
     {

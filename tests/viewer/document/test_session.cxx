@@ -299,6 +299,39 @@ TEST(Sessions, ThatCannotBeWrittenLeaveTheLastOne)
   EXPECT_EQ(folder.read("a.bindpose"), before);
 }
 
+TEST(Sessions, KeepEveryMode)
+{
+  const test::Folder folder;
+  for (int mode = 0; mode < 5; ++mode)
+  {
+    Document document;
+    test::open_bound(document);
+    Pose pose = document.pose();
+    for (std::size_t k = 0; k < pose.size(); ++k)
+    {
+      const bool bone = document.handles()[k].kind == HandleKind::bone;
+      pose[k].mode = bone ? static_cast<HandleMode>(mode) : HandleMode::free;
+    }
+    document.set_pose(pose, "pose");
+    PoseShelf shelf;
+    shelf.library.store("kept", NamedPose(document.handles(), pose));
+    document.set_key_poses(shelf, "keep");
+    Session session;
+    session.work = document.work();
+    const std::string path = folder / ("mode" + std::to_string(mode) + ".bindpose");
+    write(path, session);
+    const Work back = read(path).work;
+    const Pose kept =
+      back.key_poses->library.entries().front().pose.of(document.handles(), Pose(pose.size()));
+    ASSERT_EQ(back.pose.size(), pose.size());
+    for (std::size_t k = 0; k < pose.size(); ++k)
+    {
+      EXPECT_EQ(back.pose[k].mode, pose[k].mode) << mode;
+      EXPECT_EQ(kept[k].mode, pose[k].mode) << mode;
+    }
+  }
+}
+
 /// This text stands for all files that version 1 has written: it must be read for ever.
 TEST(Sessions, SchemaOneIsRead)
 {

@@ -1,7 +1,6 @@
 #include "posing/pose_blend.h"
 
-#include "pose/pose_file.h"
-#include "pose/rotation_fit.h"
+#include "pose/transform_parts.h"
 
 #include <cmath>
 
@@ -18,38 +17,21 @@ Eigen::Matrix3d turn(double degrees, const Vec3& axis)
 }
 } // namespace
 
-TransformParts parts_of(const Affine& transform, const Vec3& pivot)
-{
-  const Eigen::Matrix3d linear = transform.leftCols<3>();
-  TransformParts parts;
-  parts.translation = linear * pivot + transform.col(3) - pivot;
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  fit_rotation(linear.transpose(), rotation);
-  parts.rotation = Eigen::Quaterniond(rotation);
-  parts.shape = rotation.transpose() * linear;
-  return parts;
-}
-
-Affine affine_of(const TransformParts& parts, const Vec3& pivot)
-{
-  return affine_about(pivot, parts.rotation.toRotationMatrix() * parts.shape, parts.translation);
-}
-
 HandleValues values_of(const Handle& handle, const HandlePose& pose)
 {
   const TransformParts parts = parts_of(pose.transform, handle.head);
   HandleValues values;
   values.translate = parts.translation;
   // R = Rz Ry Rx: the turn about y shows in the last row.
-  const Eigen::Matrix3d r = parts.rotation.toRotationMatrix();
+  const Eigen::Matrix3d& r = parts.rotation;
   const double y = std::asin(std::fmax(-1.0, std::fmin(1.0, -r(2, 0))));
   const bool upright = std::abs(r(2, 0)) < 1.0 - 1e-12;
   const double x = upright ? std::atan2(r(2, 1), r(2, 2)) : std::atan2(-r(1, 2), r(1, 1));
   const double z = upright ? std::atan2(r(1, 0), r(0, 0)) : 0.0;
   values.degrees = Vec3(x, y, z) * 180.0 / pi;
-  values.scale = parts.shape.trace() / 3.0;
+  values.scale = parts.scale.trace() / 3.0;
   values.more =
-    (parts.shape - values.scale * Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-9;
+    (parts.scale - values.scale * Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-9;
   values.stretch = pose.stretch;
   values.twist = pose.twist;
   return values;
@@ -80,8 +62,10 @@ Pose blend(const Handles& handles, const Pose& a, const Pose& b, double share)
     const TransformParts to = parts_of(b[k].transform, pivot);
     TransformParts between;
     between.translation = (1.0 - share) * from.translation + share * to.translation;
-    between.rotation = from.rotation.slerp(share, to.rotation);
-    between.shape = (1.0 - share) * from.shape + share * to.shape;
+    between.rotation = Eigen::Quaterniond(from.rotation)
+                         .slerp(share, Eigen::Quaterniond(to.rotation))
+                         .toRotationMatrix();
+    between.scale = (1.0 - share) * from.scale + share * to.scale;
     if (a[k].transform != b[k].transform)
     {
       result[k].transform = affine_of(between, pivot);

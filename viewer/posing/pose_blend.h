@@ -24,17 +24,6 @@ HandleValues values_of(const Handle& handle, const HandlePose& pose);
 /// The pose with these values; its mode stays.
 HandlePose with_values(const Handle& handle, const HandlePose& pose, const HandleValues& values);
 
-/// A transform taken apart about a pivot c: x -> c + translation + rotation * shape * (x - c), with
-/// the nearest rotation and, where nothing is reflected, a symmetric shape (polar decomposition).
-struct TransformParts
-{
-  Vec3 translation = Vec3::Zero();
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-  Eigen::Matrix3d shape = Eigen::Matrix3d::Identity();
-};
-TransformParts parts_of(const Affine& transform, const Vec3& pivot);
-Affine affine_of(const TransformParts& parts, const Vec3& pivot);
-
 /// Between two poses: pivots go straight, rotations by the shorter arc (slerp), scale and shear,
 /// stretch and twist linearly. Modes are those of `a` up to share 1. Share 0 gives `a` and share 1
 /// `b`, to the bit.

@@ -1,8 +1,8 @@
-// A pose is split by the singular value decomposition L = U S V^T: the rotation is U V^T (with the
-// last column of U turned around when that would be a reflection), the scale V S V^T.
 #include "handle_poses.h"
 
-#include <Eigen/SVD>
+#include "pose/transform_parts.h"
+
+#include <Eigen/Geometry>
 
 #include <algorithm>
 
@@ -34,35 +34,6 @@ Matrix3d turn(const Vec3& axis, double degrees)
 }
 } // namespace
 
-PoseParts split_pose(const Affine& transform, const Vec3& pivot)
-{
-  const Matrix3d linear = transform.leftCols<3>();
-  PoseParts parts;
-  parts.translation = transform * pivot.homogeneous() - pivot;
-  if (linear != Matrix3d::Identity())
-  {
-    const Eigen::JacobiSVD<Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    Vec3 values = svd.singularValues();
-    Matrix3d u = svd.matrixU();
-    if (u.determinant() * svd.matrixV().determinant() < 0.0)
-    {
-      u.col(2) *= -1.0;
-      values[2] *= -1.0;
-    }
-    parts.rotation = u * svd.matrixV().transpose();
-    parts.scale = svd.matrixV() * values.asDiagonal() * svd.matrixV().transpose();
-  }
-  return parts;
-}
-
-Affine join_pose(const PoseParts& parts, const Vec3& pivot)
-{
-  Affine transform;
-  transform.leftCols<3>() = parts.rotation * parts.scale;
-  transform.col(3) = pivot + parts.translation - transform.leftCols<3>() * pivot;
-  return transform;
-}
-
 Matrix3d rest_axes(const HandlePlace& place)
 {
   Matrix3d axes = Matrix3d::Identity();
@@ -76,7 +47,7 @@ Matrix3d rest_axes(const HandlePlace& place)
 
 Matrix3d posed_axes(const HandlePlace& place)
 {
-  return split_pose(place.transform, place.rest_head).rotation * rest_axes(place);
+  return parts_of(place.transform, place.rest_head).rotation * rest_axes(place);
 }
 
 HandleGroup make_group(

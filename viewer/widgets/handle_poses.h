@@ -8,17 +8,6 @@
 namespace bindpose
 {
 
-/// A transform about a pivot c as x -> c + translation + rotation * scale * (x - c); the scale is
-/// symmetric, so this is the polar decomposition. A reflection is in the scale.
-struct PoseParts
-{
-  Vec3 translation = Vec3::Zero();
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Matrix3d scale = Eigen::Matrix3d::Identity();
-};
-PoseParts split_pose(const Affine& transform, const Vec3& pivot);
-Affine join_pose(const PoseParts& parts, const Vec3& pivot);
-
 /// A handle's own axes at rest, as columns: of a bone y along it; of all others the world's.
 Eigen::Matrix3d rest_axes(const HandlePlace& place);
 /// The same, turned with the pose.

@@ -1,5 +1,6 @@
 // Poses in numbers: each function splits the transform, replaces one part and joins it again.
 #include "handle_set_internals.h"
+#include "pose/transform_parts.h"
 
 #include "vtkMath.h"
 
@@ -56,7 +57,7 @@ bool vtkHandleSetRepresentation::SetHandleRotation(
   vtkIdType handle, const double axis[3], double degrees)
 {
   HandlePlace place = this->Internal->Data.place(handle);
-  bindpose::PoseParts parts = bindpose::split_pose(place.transform, place.rest_head);
+  bindpose::TransformParts parts = bindpose::parts_of(place.transform, place.rest_head);
   const double length = Vector3d(axis).norm();
   if (!(length > 0.0))
   {
@@ -64,14 +65,14 @@ bool vtkHandleSetRepresentation::SetHandleRotation(
   }
   parts.rotation = Eigen::AngleAxisd(vtkMath::RadiansFromDegrees(degrees), Vector3d(axis) / length)
                      .toRotationMatrix();
-  place.transform = bindpose::join_pose(parts, place.rest_head);
+  place.transform = bindpose::affine_of(parts, place.rest_head);
   return this->WriteHandle(handle, place);
 }
 
 bool vtkHandleSetRepresentation::SetHandleScale(vtkIdType handle, const double factors[3])
 {
   HandlePlace place = this->Internal->Data.place(handle);
-  bindpose::PoseParts parts = bindpose::split_pose(place.transform, place.rest_head);
+  bindpose::TransformParts parts = bindpose::parts_of(place.transform, place.rest_head);
   const Eigen::Matrix3d axes = bindpose::rest_axes(place);
   const Vector3d scale(factors);
   if ((scale.array() == 0.0).any())
@@ -83,7 +84,7 @@ bool vtkHandleSetRepresentation::SetHandleScale(vtkIdType handle, const double f
   {
     parts.scale = scale[0] * Eigen::Matrix3d::Identity(); // without round-off
   }
-  place.transform = bindpose::join_pose(parts, place.rest_head);
+  place.transform = bindpose::affine_of(parts, place.rest_head);
   return this->WriteHandle(handle, place);
 }
 
@@ -120,14 +121,14 @@ bool vtkHandleSetRepresentation::ResetHandle(vtkIdType handle)
 void vtkHandleSetRepresentation::GetHandleTranslation(vtkIdType handle, double translation[3])
 {
   const HandlePlace place = this->Internal->Data.place(handle);
-  const Vector3d moved = bindpose::split_pose(place.transform, place.rest_head).translation;
+  const Vector3d moved = bindpose::parts_of(place.transform, place.rest_head).translation;
   std::copy_n(moved.data(), 3, translation);
 }
 
 double vtkHandleSetRepresentation::GetHandleRotation(vtkIdType handle, double axis[3])
 {
   const HandlePlace place = this->Internal->Data.place(handle);
-  const Eigen::AngleAxisd turned(bindpose::split_pose(place.transform, place.rest_head).rotation);
+  const Eigen::AngleAxisd turned(bindpose::parts_of(place.transform, place.rest_head).rotation);
   std::copy_n(turned.axis().data(), 3, axis);
   return vtkMath::DegreesFromRadians(turned.angle());
 }
@@ -137,7 +138,7 @@ void vtkHandleSetRepresentation::GetHandleScale(vtkIdType handle, double factors
   const HandlePlace place = this->Internal->Data.place(handle);
   const Eigen::Matrix3d axes = bindpose::rest_axes(place);
   const Vector3d scale =
-    (axes.transpose() * bindpose::split_pose(place.transform, place.rest_head).scale * axes)
+    (axes.transpose() * bindpose::parts_of(place.transform, place.rest_head).scale * axes)
       .diagonal();
   std::copy_n(scale.data(), 3, factors);
 }

@@ -5,7 +5,7 @@
 #include "pose/pose_file.h"
 
 #include "base/number_text.h"
-#include "pose/rotation_fit.h"
+#include "pose/transform_parts.h"
 
 #include <nlohmann/json.hpp>
 
@@ -434,14 +434,6 @@ bool read_pose_times(const std::string& text, PoseTimes& times)
   return true;
 }
 
-Affine affine_about(const Vec3& pivot, const Eigen::Matrix3d& linear, const Vec3& translation)
-{
-  Affine result;
-  result.leftCols<3>() = linear;
-  result.col(3) = translation + (pivot - linear * pivot);
-  return result;
-}
-
 Eigen::Matrix3d minimal_arc(const Vec3& from, const Vec3& to)
 {
   const Vec3 a = from.stableNormalized();
@@ -530,10 +522,9 @@ Json list(const Eigen::VectorXd& values)
 Json format_handle(const HandlePose& posed, const Handle& rest, std::vector<std::string>& warnings)
 {
   const Eigen::Matrix3d linear = posed.transform.leftCols<3>();
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  fit_rotation(linear.transpose(), rotation);
-  double scale = (rotation.transpose() * linear).trace() / 3.0;
-  const double misfit = (linear - scale * rotation).norm();
+  const TransformParts parts = parts_of(posed.transform, rest.head);
+  double scale = parts.scale.trace() / 3.0;
+  const double misfit = (linear - scale * parts.rotation).norm();
   if (misfit > 1e-9 * linear.norm() || !(scale > 0.0))
   {
     warnings.push_back("the transform of handle '" + rest.name +
@@ -543,8 +534,8 @@ Json format_handle(const HandlePose& posed, const Handle& rest, std::vector<std:
   }
   Json entry;
   entry["mode"] = to_string(posed.mode);
-  entry["translate"] = list(posed.transform * rest.head.homogeneous() - rest.head);
-  const Eigen::AngleAxisd turn(rotation);
+  entry["translate"] = list(parts.translation);
+  const Eigen::AngleAxisd turn(parts.rotation);
   if (turn.angle() != 0.0)
   {
     entry["rotate"] = { { "axis", list(turn.axis()) },

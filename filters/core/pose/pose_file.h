@@ -92,9 +92,6 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
 /// Opposite directions: half a turn about an axis that depends on `from` only.
 Eigen::Matrix3d minimal_arc(const Vec3& from, const Vec3& to);
 
-/// The affine map x -> pivot + translation + linear * (x - pivot).
-Affine affine_about(const Vec3& pivot, const Eigen::Matrix3d& linear, const Vec3& translation);
-
 } // namespace bindpose
 
 #endif

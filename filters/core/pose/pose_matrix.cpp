@@ -2,7 +2,7 @@
 // rotations have only one.
 #include "pose/pose_matrix.h"
 
-#include "pose/pose_file.h"
+#include "pose/transform_parts.h"
 
 #include <Eigen/Geometry>
 

@@ -27,7 +27,7 @@ struct ReducedArapOptions
   /// Extra weights that widen the space of deformations; they vanish at handles.
   Index extra_weights = 0;
   ExtraWeights extra_kind = ExtraWeights::bumps;
-  SkinningOptions skinning; ///< how deform() keeps weights
+  SkinningOptions skinning = {}; ///< how deform() keeps weights
   /// Also projects the mass (ReducedSpace::mass): for dynamics.
   bool mass = false;
 };

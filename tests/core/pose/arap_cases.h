@@ -3,7 +3,7 @@
 
 // Poses that the tests of reduced ARAP share.
 
-#include "pose/pose_file.h"
+#include "pose/transform_parts.h"
 #include "pose/reduced_arap.h"
 #include "support/bars.h"
 #include "support/meshes.h"

@@ -1,5 +1,6 @@
 // Pose files: what they mean, what is refused, and that what is written is read back.
 #include "pose/pose_file.h"
+#include "pose/transform_parts.h"
 
 #include "support/handles.h"
 #include "support/meshes.h"

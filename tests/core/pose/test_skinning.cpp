@@ -2,6 +2,7 @@
 #include "pose/skinning.h"
 
 #include "pose/pose_file.h"
+#include "pose/transform_parts.h"
 #include "support/bars.h"
 #include "support/handles.h"
 #include "support/meshes.h"

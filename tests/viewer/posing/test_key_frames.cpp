@@ -5,6 +5,7 @@
 #include "rigs.h"
 
 #include "pose/pose_file.h"
+#include "pose/transform_parts.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,0 +1,36 @@
+// The rotation R that is nearest to L maximises tr(R L^T); where it does, R^T L is symmetric, for
+// otherwise a small turn would add to the trace.
+#include "pose/transform_parts.h"
+
+#include "pose/rotation_fit.h"
+
+namespace bindpose
+{
+
+Affine affine_about(const Vec3& pivot, const Eigen::Matrix3d& linear, const Vec3& translation)
+{
+  Affine result;
+  result.leftCols<3>() = linear;
+  result.col(3) = translation + (pivot - linear * pivot);
+  return result;
+}
+
+TransformParts parts_of(const Affine& transform, const Vec3& pivot)
+{
+  const Eigen::Matrix3d linear = transform.leftCols<3>();
+  TransformParts parts;
+  parts.translation = linear * pivot + transform.col(3) - pivot;
+  if (linear != Eigen::Matrix3d::Identity()) // which must come back without round-off
+  {
+    fit_rotation(linear.transpose(), parts.rotation);
+    parts.scale = parts.rotation.transpose() * linear;
+  }
+  return parts;
+}
+
+Affine affine_of(const TransformParts& parts, const Vec3& pivot)
+{
+  return affine_about(pivot, parts.rotation * parts.scale, parts.translation);
+}
+
+} // namespace bindpose

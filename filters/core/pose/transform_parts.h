@@ -1,0 +1,25 @@
+#ifndef bindpose_pose_transform_parts_h
+#define bindpose_pose_transform_parts_h
+
+#include "pose/pose.h"
+
+namespace bindpose
+{
+
+/// The affine map x -> pivot + translation + linear * (x - pivot).
+Affine affine_about(const Vec3& pivot, const Eigen::Matrix3d& linear, const Vec3& translation);
+
+/// A transform taken apart about a pivot c as x -> c + translation + rotation * scale * (x - c):
+/// the nearest rotation and a symmetric scale (polar decomposition). A reflection is in the scale.
+struct TransformParts
+{
+  Vec3 translation = Vec3::Zero();
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d scale = Eigen::Matrix3d::Identity();
+};
+TransformParts parts_of(const Affine& transform, const Vec3& pivot);
+Affine affine_of(const TransformParts& parts, const Vec3& pivot);
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,84 @@
+// Transforms taken apart and put together again, and against rotations and scales that are known.
+#include "pose/transform_parts.h"
+
+#include "support/meshes.h"
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+
+namespace
+{
+Vec3 random_vector(test::Random& random)
+{
+  return random.in_box(-Vec3::Ones(), Vec3::Ones());
+}
+
+Affine random_affine(test::Random& random)
+{
+  Affine transform;
+  for (int column = 0; column < 4; ++column)
+  {
+    transform.col(column) = random_vector(random);
+  }
+  return transform;
+}
+} // namespace
+
+TEST(TransformParts, ComeBackTogether)
+{
+  test::Random random(5);
+  for (int k = 0; k < 200; ++k)
+  {
+    const Affine transform = random_affine(random); // half of them reflect
+    const Vec3 pivot = random_vector(random);
+    const TransformParts parts = parts_of(transform, pivot);
+    EXPECT_LT((affine_of(parts, pivot) - transform).norm(), 1e-12);
+    EXPECT_LT(
+      (parts.rotation * parts.rotation.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+    EXPECT_NEAR(parts.rotation.determinant(), 1.0, 1e-12);
+    EXPECT_LT((parts.scale - parts.scale.transpose()).norm(), 1e-12);
+    EXPECT_LT((pivot + parts.translation - transform * pivot.homogeneous()).norm(), 1e-12);
+  }
+}
+
+TEST(TransformParts, AreTheRotationAndScaleThatMadeThem)
+{
+  test::Random random(6);
+  for (int k = 0; k < 100; ++k)
+  {
+    const Vec3 axis = random_vector(random).normalized();
+    const Eigen::Matrix3d rotation =
+      Eigen::AngleAxisd(random.uniform(-3.0, 3.0), axis).toRotationMatrix();
+    const Eigen::Matrix3d half =
+      Eigen::Matrix3d::NullaryExpr([&] { return random.uniform(-1, 1); });
+    const Eigen::Matrix3d scale = half * half.transpose() + 0.1 * Eigen::Matrix3d::Identity();
+    const Vec3 pivot = random_vector(random);
+    const TransformParts parts =
+      parts_of(affine_about(pivot, rotation * scale, Vec3(1, 2, 3)), pivot);
+    EXPECT_LT((parts.rotation - rotation).norm(), 1e-10);
+    EXPECT_LT((parts.scale - scale).norm(), 1e-10);
+    EXPECT_LT((parts.translation - Vec3(1, 2, 3)).norm(), 1e-12);
+  }
+}
+
+TEST(TransformParts, OfRestAndOfAMoveAreWithoutRoundOff)
+{
+  const Vec3 pivot(0.1, 0.7, -0.3);
+  const TransformParts parts = parts_of(identity_affine(), pivot);
+  EXPECT_EQ(parts.translation, Vec3::Zero());
+  EXPECT_EQ(parts.rotation, Eigen::Matrix3d::Identity());
+  EXPECT_EQ(parts.scale, Eigen::Matrix3d::Identity());
+  EXPECT_EQ(affine_of(parts, pivot), identity_affine());
+}
+
+TEST(TransformParts, OfAMirrorHaveItInTheScale)
+{
+  const Eigen::Matrix3d mirror = Vec3(1, 1, -1).asDiagonal();
+  const TransformParts parts =
+    parts_of(affine_about(Vec3::Zero(), mirror, Vec3::Zero()), Vec3::Zero());
+  EXPECT_NEAR(parts.rotation.determinant(), 1.0, 1e-12);
+  EXPECT_NEAR(parts.scale.determinant(), -1.0, 1e-12);
+  EXPECT_LT((parts.rotation * parts.scale - mirror).norm(), 1e-12);
+}

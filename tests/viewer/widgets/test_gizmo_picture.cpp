@@ -3,42 +3,16 @@
 #include "widget_stage.h"
 #include "widgets/gizmo.h"
 
-#include "vtkImageData.h"
 #include "vtkMath.h"
-#include "vtkPNGWriter.h"
 #include "vtkProperty.h"
-#include "vtkWindowToImageFilter.h"
 
 #include <chrono>
-#include <cstdlib>
 
 using namespace bindpose;
 using namespace bindpose::test;
 
 namespace
 {
-vtkSmartPointer<vtkImageData> picture(Stage& stage)
-{
-  stage.window->Render();
-  vtkNew<vtkWindowToImageFilter> grab;
-  grab->SetInput(stage.window);
-  grab->ReadFrontBufferOff();
-  grab->Update();
-  return grab->GetOutput();
-}
-
-// To be looked at: BINDPOSE_PICTURES names a folder.
-void keep(vtkImageData* image, const std::string& name)
-{
-  if (const char* folder = std::getenv("BINDPOSE_PICTURES"))
-  {
-    vtkNew<vtkPNGWriter> writer;
-    writer->SetInputData(image);
-    writer->SetFileName((std::string(folder) + "/" + name + ".png").c_str());
-    writer->Write();
-  }
-}
-
 Vec3 pixel_of(vtkImageData* image, const Eigen::Vector2d& at)
 {
   Vec3 colour;
@@ -98,7 +72,7 @@ TEST(GizmoPicture, EveryGizmoAtOneAndTwoPixels)
       for (const int scale : { 1, 2 })
       {
         PictureStage stage(bony ? arm : lone, gizmo, scale);
-        const auto image = picture(stage);
+        const auto image = stage.picture();
         keep(image, std::string(name) + (bony ? "-bone" : "-point") + "@" + std::to_string(scale));
         drawn[scale - 1] = drawn_pixels(image);
       }
@@ -111,10 +85,10 @@ TEST(GizmoPicture, EveryGizmoAtOneAndTwoPixels)
 TEST(GizmoPicture, WhatTheMouseIsOnIsLighterAndLarger)
 {
   PictureStage stage(lone, Widget::GIZMO_MOVE);
-  const auto before = picture(stage);
+  const auto before = stage.picture();
   const Eigen::Vector2d plate = stage.grip(Widget::MOVE_XY);
   stage.send(vtkCommand::MouseMoveEvent, plate);
-  const auto after = picture(stage);
+  const auto after = stage.picture();
   keep(after, "hover-plate");
   EXPECT_GT(pixel_of(after, plate).sum(), pixel_of(before, plate).sum() + 60.0);
   EXPECT_GT(drawn_pixels(after), drawn_pixels(before));
@@ -127,20 +101,20 @@ TEST(GizmoPicture, ADragShowsWhatItIsHeldTo)
   stage.send(vtkCommand::MouseMoveEvent, from);
   stage.send(vtkCommand::LeftButtonPressEvent, from);
   stage.send(vtkCommand::MouseMoveEvent, from + Eigen::Vector2d(45, 10));
-  keep(picture(stage), "drag-turn");
+  keep(stage.picture(), "drag-turn");
   stage.escape();
 
   PictureStage moving(lone, Widget::GIZMO_NONE);
-  const int ball = drawn_pixels(picture(moving));
+  const int ball = drawn_pixels(moving.picture());
   moving.key("g");
   moving.send(vtkCommand::MouseMoveEvent, Eigen::Vector2d(220, 230));
   moving.key("x");
-  const auto held = picture(moving);
+  const auto held = moving.picture();
   keep(held, "drag-axis");
   EXPECT_GT(drawn_pixels(held), ball + 300) << "a line along x through the whole window";
   moving.escape();
   moving.send(vtkCommand::MouseMoveEvent, Eigen::Vector2d(1, 1));
-  EXPECT_NEAR(drawn_pixels(picture(moving)), ball, 5);
+  EXPECT_NEAR(drawn_pixels(moving.picture()), ball, 5);
 }
 
 TEST(GizmoPicture, ManyHandlesAreTwoActors)
@@ -152,7 +126,7 @@ TEST(GizmoPicture, ManyHandlesAreTwoActors)
       point("p" + std::to_string(i), Vec3(0.1 * (i % 25) - 1.2, 0.12 * (i / 25) - 1.1, 0)));
   }
   PictureStage stage(handles, Widget::GIZMO_ALL);
-  keep(picture(stage), "many");
+  keep(stage.picture(), "many");
   EXPECT_EQ(stage.renderer->GetActors()->GetNumberOfItems(), 0)
     << "the representation draws by itself";
   EXPECT_EQ(stage.renderer->GetViewProps()->GetNumberOfItems(), 1);
@@ -200,13 +174,13 @@ TEST(GizmoPicture, AxesAreToldApartByAllEyes)
 TEST(GizmoPicture, EditModesShowWhatAClickWouldMake)
 {
   PictureStage stage(arm, Widget::GIZMO_ALL);
-  const auto posed = picture(stage);
+  const auto posed = stage.picture();
   stage.widget->SetEditMode(Widget::ADD_BONES);
-  const int rest = drawn_pixels(picture(stage));
+  const int rest = drawn_pixels(stage.picture());
   EXPECT_LT(rest, drawn_pixels(posed)) << "no gizmo";
   stage.press(stage.tail(0));
   stage.move(Vec3(0.3, 1.3, 0));
-  const auto drawing = picture(stage);
+  const auto drawing = stage.picture();
   keep(drawing, "add-bone");
   EXPECT_GT(drawn_pixels(drawing), rest + 400);
   stage.release(Vec3(0.3, 1.3, 0));
@@ -218,7 +192,7 @@ TEST(GizmoPicture, EditModesShowWhatAClickWouldMake)
   }
   stage.hold(false, true);
   stage.move(Vec3(-1.5, -1.2, 0));
-  keep(picture(stage), "add-cage-snapped");
+  keep(stage.picture(), "add-cage-snapped");
 }
 
 TEST(GizmoPicture, FiveHundredHandlesAreBuiltQuickly)

@@ -1,95 +1,40 @@
 // The brush on surfaces where distances are known: what a stroke labels, and what it leaves.
 #include "conversion.h"
+#include "offscreen_stage.h"
 #include "support/meshes.h"
 #include "vtkRegionBrushRepresentation.h"
 #include "vtkRegionBrushWidget.h"
 
 #include "vtkActor.h"
-#include "vtkCallbackCommand.h"
-#include "vtkCamera.h"
-#include "vtkCommand.h"
 #include "vtkDataArray.h"
-#include "vtkImageData.h"
-#include "vtkInteractorStyleTrackballCamera.h"
-#include "vtkNew.h"
-#include "vtkPNGWriter.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
-#include "vtkRenderWindow.h"
-#include "vtkRenderWindowInteractor.h"
-#include "vtkRenderer.h"
-#include "vtkWindowToImageFilter.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <cstdlib>
-#include <map>
 #include <sstream>
+#include <vector>
 
 using namespace bindpose;
+using test::pixel;
 
 namespace
 {
-constexpr double pixel = 0.0134; // as in widget_stage.h
-
-class BrushStage
+class BrushStage : public test::OffscreenStage
 {
 public:
   explicit BrushStage(const TriangleMesh& mesh) : surface(to_polydata(mesh.points, mesh.triangles))
   {
-    this->window->SetOffScreenRendering(1);
-    this->window->SetMultiSamples(0);
-    this->window->SetSize(400, 400);
-    this->window->AddRenderer(this->renderer);
-    this->interactor->SetRenderWindow(this->window);
-    this->interactor->SetInteractorStyle(this->style);
-    vtkCamera* camera = this->renderer->GetActiveCamera();
-    camera->SetPosition(0, 0, 10);
-    camera->SetFocalPoint(0, 0, 0);
-    camera->SetViewAngle(30);
-    camera->SetClippingRange(1, 20);
     this->widget->SetInteractor(this->interactor);
     this->widget->SetSurface(this->surface);
-    this->widget->On();
-    this->window->Render();
-    this->counter->SetClientData(this);
-    this->counter->SetCallback([](vtkObject*, unsigned long event, void* self, void*)
-      { ++static_cast<BrushStage*>(self)->events[event]; });
-    for (const unsigned long event :
+    this->put_on(this->widget,
       { vtkCommand::StartInteractionEvent, vtkCommand::InteractionEvent,
-        vtkCommand::EndInteractionEvent, vtkCommand::StateChangedEvent })
-    {
-      this->widget->AddObserver(event, this->counter);
-    }
+        vtkCommand::EndInteractionEvent, vtkCommand::StateChangedEvent });
   }
   vtkRegionBrushRepresentation* brush() { return this->widget->GetRegionBrushRepresentation(); }
-  void send(unsigned long event, const Vec3& world, bool control = false, bool shift = false)
-  {
-    this->renderer->SetWorldPoint(world[0], world[1], world[2], 1.0);
-    this->renderer->WorldToDisplay();
-    const double* at = this->renderer->GetDisplayPoint();
-    this->interactor->SetEventInformation(
-      static_cast<int>(std::lround(at[0])), static_cast<int>(std::lround(at[1])), control, shift);
-    this->interactor->InvokeEvent(event);
-  }
-  void stroke(const Vec3& from, const Vec3& to, int steps = 1, bool control = false)
-  {
-    this->send(vtkCommand::MouseMoveEvent, from, control);
-    this->send(vtkCommand::LeftButtonPressEvent, from, control);
-    for (int i = 1; i <= steps; ++i)
-    {
-      this->send(vtkCommand::MouseMoveEvent, from + (to - from) * i / steps, control);
-    }
-    this->send(vtkCommand::LeftButtonReleaseEvent, to, control);
-  }
-  void key(const char* name)
-  {
-    this->interactor->SetKeyEventInformation(0, 0, 0, 1, name);
-    this->interactor->InvokeEvent(vtkCommand::KeyPressEvent);
-  }
   double label(vtkIdType v)
   {
     return this->surface->GetPointData()->GetArray("RegionId")->GetComponent(v, 0);
@@ -105,13 +50,7 @@ public:
   }
 
   vtkSmartPointer<vtkPolyData> surface;
-  vtkNew<vtkRenderWindow> window;
-  vtkNew<vtkRenderer> renderer;
-  vtkNew<vtkRenderWindowInteractor> interactor;
-  vtkNew<vtkInteractorStyleTrackballCamera> style;
   vtkNew<vtkRegionBrushWidget> widget;
-  vtkNew<vtkCallbackCommand> counter;
-  std::map<unsigned long, int> events;
 };
 
 TriangleMesh flat()
@@ -129,9 +68,8 @@ TEST(RegionBrush, ADiscIsWhatLiesWithinTheRadius)
     stage.brush()->SetRadius(0.5);
     stage.brush()->SetRegionId(3);
     const Vec3 middle(0.3, -0.2, 0);
-    stage.send(vtkCommand::MouseMoveEvent, middle);
-    stage.send(vtkCommand::LeftButtonPressEvent, middle);
-    stage.send(vtkCommand::LeftButtonReleaseEvent, middle);
+    stage.press(middle);
+    stage.release(middle);
     int inside = 0;
     for (vtkIdType v = 0; v < stage.surface->GetNumberOfPoints(); ++v)
     {
@@ -154,7 +92,7 @@ TEST(RegionBrush, AFastStrokeHasNoGaps)
 {
   BrushStage stage(flat());
   stage.brush()->SetRadius(0.2);
-  stage.stroke(Vec3(-1.5, 0.5, 0), Vec3(1.5, 0.5, 0), 1); // one event for the whole way
+  stage.drag(Vec3(-1.5, 0.5, 0), Vec3(1.5, 0.5, 0), 1); // one event for the whole way
   for (vtkIdType v = 0; v < stage.surface->GetNumberOfPoints(); ++v)
   {
     const Vec3 p(stage.surface->GetPoint(v));
@@ -175,19 +113,19 @@ TEST(RegionBrush, CtrlErasesAndEscapeGivesEveryLabelBack)
 {
   BrushStage stage(flat());
   stage.brush()->SetRadius(0.5);
-  stage.stroke(Vec3(-1, 0, 0), Vec3(1, 0, 0));
+  stage.drag(Vec3(-1, 0, 0), Vec3(1, 0, 0), 1);
   const std::vector<double> painted = stage.labels();
   stage.brush()->SetRegionId(2);
-  stage.send(vtkCommand::MouseMoveEvent, Vec3(0, 0, 0));
-  stage.send(vtkCommand::LeftButtonPressEvent, Vec3(0, 0, 0));
-  stage.send(vtkCommand::MouseMoveEvent, Vec3(0.5, 0.5, 0));
+  stage.press(Vec3(0, 0, 0));
+  stage.move(Vec3(0.5, 0.5, 0));
   EXPECT_NE(stage.labels(), painted);
   stage.key("Escape");
   EXPECT_EQ(stage.labels(), painted);
   EXPECT_TRUE(stage.widget->GetCancelled());
   EXPECT_FALSE(stage.widget->IsPainting());
-  stage.send(vtkCommand::LeftButtonReleaseEvent, Vec3(0.5, 0.5, 0));
-  stage.stroke(Vec3(0, 0, 0), Vec3(0, 0, 0), 1, true);
+  stage.release(Vec3(0.5, 0.5, 0));
+  stage.hold(false, true);
+  stage.drag(Vec3(0, 0, 0), Vec3(0, 0, 0), 1);
   int erased = 0;
   for (std::size_t v = 0; v < painted.size(); ++v)
   {
@@ -198,7 +136,7 @@ TEST(RegionBrush, CtrlErasesAndEscapeGivesEveryLabelBack)
   EXPECT_EQ(erased, stage.brush()->GetNumberOfChangedPoints());
   EXPECT_GT(erased, 100);
   EXPECT_EQ(stage.widget->GetInteractionName(), "erase region");
-  stage.stroke(Vec3(0, 0, 0), Vec3(0, 0, 0), 1, true); // there is nothing left to erase
+  stage.drag(Vec3(0, 0, 0), Vec3(0, 0, 0), 1); // there is nothing left to erase
   EXPECT_TRUE(stage.widget->GetCancelled());
 }
 
@@ -210,7 +148,7 @@ TEST(RegionBrush, TheGeodesicBrushDoesNotReachThroughWalls)
     test::join(sheet, test::flipped(test::translated(sheet, Vec3(0, 0, -0.05))));
   BrushStage stage(both);
   stage.brush()->SetRadius(0.5);
-  stage.stroke(Vec3(0, 0, 0), Vec3(0, 0, 0));
+  stage.drag(Vec3(0, 0, 0), Vec3(0, 0, 0), 1);
   const vtkIdType half = stage.surface->GetNumberOfPoints() / 2;
   const auto count = [&](bool behind)
   {
@@ -224,7 +162,7 @@ TEST(RegionBrush, TheGeodesicBrushDoesNotReachThroughWalls)
   EXPECT_GT(count(false), 100);
   EXPECT_EQ(count(true), 0);
   stage.brush()->GeodesicOff();
-  stage.stroke(Vec3(0, 0, 0), Vec3(0, 0, 0));
+  stage.drag(Vec3(0, 0, 0), Vec3(0, 0, 0), 1);
   EXPECT_GT(count(true), 100) << "a ball does";
 }
 
@@ -233,22 +171,24 @@ TEST(RegionBrush, RadiusByKeysAndWheelAndTheCameraElsewhere)
   BrushStage stage(test::sphere(3));
   const double start = stage.brush()->GetDiscRadius();
   EXPECT_NEAR(start, std::sqrt(12.0) / 20.0, 0.01);
-  stage.send(vtkCommand::MouseMoveEvent, Vec3(0, 0, 0));
+  stage.move(Vec3(0, 0, 0));
   stage.key("bracketright");
   EXPECT_NEAR(stage.brush()->GetDiscRadius(), 1.15 * start, 1e-12);
   stage.key("bracketleft");
   EXPECT_NEAR(stage.brush()->GetDiscRadius(), start, 1e-12);
   const double away = stage.renderer->GetActiveCamera()->GetDistance();
-  stage.send(vtkCommand::MouseWheelForwardEvent, Vec3(0, 0, 0), false, true);
+  stage.hold(true);
+  stage.send(vtkCommand::MouseWheelForwardEvent, stage.display(Vec3(0, 0, 0)));
+  stage.hold(false);
   EXPECT_NEAR(stage.brush()->GetDiscRadius(), 1.15 * start, 1e-12);
   EXPECT_EQ(stage.renderer->GetActiveCamera()->GetDistance(), away);
-  stage.send(vtkCommand::MouseWheelForwardEvent, Vec3(0, 0, 0));
+  stage.send(vtkCommand::MouseWheelForwardEvent, stage.display(Vec3(0, 0, 0)));
   EXPECT_NEAR(stage.brush()->GetDiscRadius(), 1.15 * start, 1e-12);
   EXPECT_LT(stage.renderer->GetActiveCamera()->GetDistance(), away) << "the camera's wheel";
   EXPECT_EQ(stage.events[vtkCommand::StateChangedEvent], 3);
   // Beside the surface: the camera's.
   const Vec3 before(stage.renderer->GetActiveCamera()->GetPosition());
-  stage.stroke(Vec3(-1.7, 1.7, 0), Vec3(-1.2, 1.7, 0), 3);
+  stage.drag(Vec3(-1.7, 1.7, 0), Vec3(-1.2, 1.7, 0), 3);
   EXPECT_GT((Vec3(stage.renderer->GetActiveCamera()->GetPosition()) - before).norm(), 0.1);
   EXPECT_EQ(stage.events[vtkCommand::StartInteractionEvent], 0);
   EXPECT_EQ(stage.surface->GetPointData()->GetArray("RegionId"), nullptr);
@@ -261,7 +201,7 @@ TEST(RegionBrush, TakesNoSurfaceAndOddOnes)
   for (vtkPolyData* data : { static_cast<vtkPolyData*>(empty), static_cast<vtkPolyData*>(nullptr) })
   {
     stage.widget->SetSurface(data);
-    stage.stroke(Vec3(0, 0, 0), Vec3(0.3, 0, 0));
+    stage.drag(Vec3(0, 0, 0), Vec3(0.3, 0, 0), 1);
     stage.key("bracketright");
     stage.window->Render();
   }
@@ -283,8 +223,7 @@ TEST(RegionBrush, AHundredThousandTrianglesAtMouseRate)
   BrushStage stage(test::torus(400, 125, 1.2, 0.5)); // 100,000 triangles
   ASSERT_EQ(stage.surface->GetNumberOfCells(), 100000);
   const Vec3 ring(0, 1.2, 0.5);
-  stage.send(vtkCommand::MouseMoveEvent, ring); // builds the tree
-  stage.send(vtkCommand::LeftButtonPressEvent, ring);
+  stage.press(ring); // builds the tree
   double best = 1e9;
   for (int round = 0; round < 5; ++round)
   {
@@ -305,7 +244,7 @@ TEST(RegionBrush, AHundredThousandTrianglesAtMouseRate)
   std::printf("a move of the brush on 100,000 triangles: %.2f ms\n", best);
   EXPECT_LT(best, 8.0) << "mouse rate";
   EXPECT_GT(stage.brush()->GetNumberOfChangedPoints(), 1000);
-  stage.send(vtkCommand::LeftButtonReleaseEvent, ring);
+  stage.release(ring);
 }
 
 TEST(RegionBrush, TheDiscIsSeen)
@@ -321,26 +260,11 @@ TEST(RegionBrush, TheDiscIsSeen)
   stage.renderer->AddActor(actor);
   stage.renderer->SetBackground(0.93, 0.94, 0.95);
   stage.brush()->SetRadius(0.3);
-  stage.stroke(Vec3(-0.5, -0.2, 0), Vec3(0.4, 0.3, 0), 5);
-  const auto grab = [&]()
-  {
-    stage.window->Render();
-    vtkNew<vtkWindowToImageFilter> filter;
-    filter->SetInput(stage.window);
-    filter->ReadFrontBufferOff();
-    filter->Update();
-    return vtkSmartPointer<vtkImageData>(filter->GetOutput());
-  };
-  const auto with = grab();
-  if (const char* folder = std::getenv("BINDPOSE_PICTURES"))
-  {
-    vtkNew<vtkPNGWriter> writer;
-    writer->SetInputData(with);
-    writer->SetFileName((std::string(folder) + "/brush.png").c_str());
-    writer->Write();
-  }
-  stage.send(vtkCommand::MouseMoveEvent, Vec3(-2, -2, 0)); // away
-  const auto without = grab();
+  stage.drag(Vec3(-0.5, -0.2, 0), Vec3(0.4, 0.3, 0), 5);
+  const auto with = stage.picture();
+  test::keep(with, "brush");
+  stage.move(Vec3(-2, -2, 0)); // away
+  const auto without = stage.picture();
   int different = 0;
   for (int y = 0; y < 400; ++y)
   {

@@ -901,7 +901,7 @@ void MainWindow::export_as(const QString& what)
     return;
   }
   const Status status = what == "pose"
-    ? write_pose(this->document_->pose(), this->document_->handles(), path.toStdString())
+    ? write_poses({ this->document_->pose() }, this->document_->handles(), path.toStdString())
     : write_shape(this->shown(), path.toStdString());
   if (!status.ok())
   {

@@ -6,7 +6,6 @@
 #include "file_kind.h"
 #include "helper/scratch_folder.h"
 #include "io/atomic_file.h"
-#include "pose/pose_file.h"
 #include "scene/sequence_file.h"
 #include "scene/video_file.h"
 
@@ -29,7 +28,6 @@
 #include <QPainter>
 
 #include <deque>
-#include <fstream>
 
 using namespace bindpose;
 
@@ -39,18 +37,6 @@ constexpr const char* mesh_endings = "vtp ply obj off stl";
 constexpr const char* rig_endings = "glb gltf";
 constexpr std::size_t most_tiles = 12;
 constexpr int tile_width = 400; // pixels
-
-Status write_text(const std::string& text, const std::string& path)
-{
-  AtomicFile file;
-  Status status = file.open(path, true);
-  if (status.ok())
-  {
-    std::ofstream(file.temporary()) << text;
-    status = file.commit();
-  }
-  return status;
-}
 
 Status cannot_write(const std::string& path)
 {
@@ -144,10 +130,8 @@ Status SequenceExport::write()
   const std::string ending = file_extension(path);
   if (ending == "json")
   {
-    std::string text;
-    const Status status = format_pose_file(
-      this->input_.poses, this->input_.frames_per_second, this->input_.source->handles, text);
-    return status.usable() ? write_text(text, path) : status;
+    return write_poses(
+      this->input_.poses, this->input_.source->handles, path, this->input_.frames_per_second);
   }
   return is_listed(ending, rig_endings) ? this->write_rig(path)
     : is_listed(ending, mesh_endings)   ? this->write_datasets(path)
@@ -206,8 +190,8 @@ Status SequenceExport::write_datasets(const std::string& path)
       return status;
     }
   }
-  return write_text(
-    format_collection(names, this->frames_->frames_per_second), collection_file(path));
+  return write_whole_file(
+    collection_file(path), format_collection(names, this->frames_->frames_per_second), true);
 }
 
 Status SequenceExport::write_rig(const std::string& path)

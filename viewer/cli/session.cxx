@@ -331,16 +331,7 @@ bool Session::commit(AtomicFile& file)
 
 bool Session::write_text(const std::string& text, const std::string& path)
 {
-  AtomicFile file;
-  Status status = file.open(path, this->arguments_.has("overwrite"));
-  if (status.ok())
-  {
-    status = write_file(file.temporary(), text);
-  }
-  if (status.ok())
-  {
-    status = file.commit();
-  }
+  const Status status = write_whole_file(path, text, this->arguments_.has("overwrite"));
   return status.ok() || this->fail(status);
 }
 

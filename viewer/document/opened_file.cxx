@@ -22,8 +22,6 @@
 
 #include <QString>
 
-#include <fstream>
-
 using namespace bindpose;
 
 namespace
@@ -142,19 +140,18 @@ Status write_shape(vtkPolyData* shape, const std::string& path)
     : Status::invalid_input(writer->GetStatusMessage());
 }
 
-Status write_pose(const Pose& pose, const Handles& handles, const std::string& path)
+Status write_poses(const std::vector<Pose>& poses, const Handles& handles, const std::string& path,
+  double frames_per_second)
 {
   std::string text;
-  Status status = format_pose_file({ pose }, 24.0, handles, text);
-  AtomicFile file;
-  if (status.ok())
+  Status status = format_pose_file(poses, frames_per_second, handles, text);
+  if (status.usable())
   {
-    status = file.open(path, true);
-  }
-  if (status.ok())
-  {
-    std::ofstream(file.temporary()) << text;
-    status = file.commit();
+    const Status written = write_whole_file(path, text, true);
+    if (!written.ok())
+    {
+      return written;
+    }
   }
   return status;
 }

@@ -11,6 +11,7 @@
 #include "vtkSmartPointer.h"
 
 #include <string>
+#include <vector>
 
 // What a document is made of and gives out. Nothing goes to the terminal.
 
@@ -40,7 +41,8 @@ bindpose::Status make_shape(
 
 /// These replace the file that is there: the dialog has asked.
 bindpose::Status write_shape(vtkPolyData* shape, const std::string& path);
-bindpose::Status write_pose(
-  const bindpose::Pose& pose, const bindpose::Handles& handles, const std::string& path);
+/// A pose file of one pose or of a sequence; its warnings name what such a file cannot hold.
+bindpose::Status write_poses(const std::vector<bindpose::Pose>& poses,
+  const bindpose::Handles& handles, const std::string& path, double frames_per_second = 24.0);
 
 #endif

@@ -9,6 +9,7 @@
 
 #include "conversion.h"
 #include "io/atomic_file.h"
+#include "io/text_scanner.h"
 #include "scene/picture_file.h"
 
 #include "vtkNew.h"
@@ -21,8 +22,6 @@
 #include <QFile>
 #include <QFileInfo>
 #include <QRegularExpression>
-
-#include <fstream>
 
 #include <csignal>
 
@@ -464,14 +463,12 @@ Status SessionFile::write(const QString& path, const Session& session)
   {
     return status;
   }
-  std::ofstream stream(file.temporary());
-  stream << text.dump(1, ' ', false, json::error_handler_t::replace) << '\n';
-  stream.close();
-  if (!stream)
+  status =
+    write_file(file.temporary(), text.dump(1, ' ', false, json::error_handler_t::replace) + '\n');
+  if (status.ok())
   {
-    return Status::invalid_input("cannot write " + path.toStdString() + ": the disk is full");
+    status = file.commit_synced();
   }
-  status = file.commit_synced();
   if (status.ok())
   {
     remove_stale_companions(absolute, named);

@@ -2,6 +2,8 @@
 // and writers that look at the ending write it like the target.
 #include "io/atomic_file.h"
 
+#include "io/text_scanner.h"
+
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
@@ -192,6 +194,17 @@ void AtomicFile::discard_all()
     ::unlink(path.c_str());
   }
   files.paths.clear();
+}
+
+Status write_whole_file(const std::string& path, std::string_view content, bool overwrite)
+{
+  AtomicFile file;
+  Status status = file.open(path, overwrite);
+  if (status.ok())
+  {
+    status = write_file(file.temporary(), content);
+  }
+  return status.ok() ? file.commit() : status;
 }
 
 } // namespace bindpose

@@ -4,6 +4,7 @@
 #include "base/status.h"
 
 #include <string>
+#include <string_view>
 
 namespace bindpose
 {
@@ -60,6 +61,9 @@ private:
   std::string temporary_;
   bool overwrite_ = false;
 };
+
+/// A text as a file that appears whole or not at all.
+Status write_whole_file(const std::string& path, std::string_view content, bool overwrite);
 
 } // namespace bindpose
 

@@ -428,27 +428,27 @@ TEST_F(ReducedARAPFilter, ReflectionsAndCollapsedScalesAreNamedAndDestroyNothing
   vtkNew<vtkSkinningDeformation> linear, dual;
   dual->SetMethod(vtkSkinningDeformation::DUAL_QUATERNION);
   vtkNew<test::Listener> quiet;
-  for (vtkPoseAlgorithm* filter :
+  for (vtkPoseAlgorithm* algorithm :
     std::initializer_list<vtkPoseAlgorithm*>{ this->filter, linear, dual })
   {
-    filter->SetInputData(0, this->tets);
-    quiet->listen(filter);
+    algorithm->SetInputData(0, this->tets);
+    quiet->listen(algorithm);
     // A reflection, the same through a negative scale, a flat one, and nothing at all.
     for (const Vec3& scale :
       { Vec3(1, 1, -1), Vec3(-2, -2, -2), Vec3(1, 0, 1), Vec3(0, 0, 0), Vec3(2, 1, 0.5) })
     {
-      Pose pose(3);
-      pose[2].transform.leftCols<3>() = scale.asDiagonal();
-      pose[1].mode = filter == this->filter ? HandleMode::free : HandleMode::full;
+      Pose bent(3);
+      bent[2].transform.leftCols<3>() = scale.asDiagonal();
+      bent[1].mode = algorithm == this->filter ? HandleMode::free : HandleMode::full;
       vtkNew<vtkPolyData> posed;
       posed->ShallowCopy(this->handles);
-      set_pose(posed, cells, pose);
-      filter->SetInputData(1, posed);
+      set_pose(posed, cells, bent);
+      algorithm->SetInputData(1, posed);
       quiet->warnings.clear();
-      filter->Update();
-      EXPECT_TRUE(filter->GetStatus() == vtkBindposeAlgorithm::OK ||
-        filter->GetStatus() == vtkBindposeAlgorithm::NOT_CONVERGED);
-      const Points result = to_points(filter->GetOutput()).view();
+      algorithm->Update();
+      EXPECT_TRUE(algorithm->GetStatus() == vtkBindposeAlgorithm::OK ||
+        algorithm->GetStatus() == vtkBindposeAlgorithm::NOT_CONVERGED);
+      const Points result = to_points(algorithm->GetOutput()).view();
       ASSERT_EQ(result.rows(), this->rig.mesh.points.rows());
       EXPECT_TRUE(result.allFinite());
       EXPECT_LT(result.cwiseAbs().maxCoeff(), 100.0);

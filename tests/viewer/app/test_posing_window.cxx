@@ -556,11 +556,11 @@ TEST_F(PosingWindow, BonesMayBeHeldByAnEnd)
   const auto texts = [this]
   {
     QStringList all;
-    for (QListWidget* list : this->window.panel()->findChildren<QListWidget*>())
+    for (QListWidget* items : this->window.panel()->findChildren<QListWidget*>())
     {
-      for (int k = 0; k < list->count(); ++k)
+      for (int k = 0; k < items->count(); ++k)
       {
-        all << list->item(k)->text();
+        all << items->item(k)->text();
       }
     }
     return all;

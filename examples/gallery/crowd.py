@@ -35,7 +35,7 @@ def places(size):
     """Points that the instances stand at."""
     column, row = np.meshgrid(np.arange(SIDE), np.arange(SIDE))
     points = vtkPoints()
-    points.SetData(numpy_to_vtk(np.stack([column.ravel() * 0.8, 0 * row.ravel(), -row.ravel() * 0.75], axis=1) * size,
+    points.SetData(numpy_to_vtk(np.stack([column.ravel() * 0.72, 0 * row.ravel(), -row.ravel() * 0.8], axis=1) * size,
                                 deep=True))
     instances = vtkPolyData()
     instances.SetPoints(points)
@@ -78,11 +78,10 @@ def draw(options, crowd, labels):
     window.SetSize(1500, 1000)
     window.AddRenderer(renderer)
     renderer.ResetCamera()
-    renderer.GetActiveCamera().Elevation(42)
-    renderer.GetActiveCamera().Azimuth(-8)
-    renderer.GetActiveCamera().SetViewAngle(20)
+    renderer.GetActiveCamera().Elevation(36)
+    renderer.GetActiveCamera().SetViewAngle(18)
     renderer.ResetCamera()
-    renderer.GetActiveCamera().Zoom(1.3)
+    renderer.GetActiveCamera().Zoom(1.66)
     renderer.ResetCameraClippingRange()
     common.write_picture(window, options.picture)
 
@@ -132,7 +131,7 @@ def make(options):
     assert crowd.GetNumberOfBinds() == 1
     draw(options, crowd.GetOutput(), [
         (f"A hundred elephants of {mesh.GetNumberOfCells():,} triangles, each in a pose of its own", 955),
-        (f"on one thread {solve:.1f} ms to solve, {skin:.1f} ms to move all points", 20)])
+        (f"on one thread {solve:.1f} ms to solve, {skin:.1f} ms to move all points", 920)])
     return {
         "triangles": mesh.GetNumberOfCells(),
         "handles": len(names),

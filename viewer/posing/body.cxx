@@ -1,6 +1,5 @@
 #include "posing/body.h"
 
-#include "posing/json_fields.h"
 #include "posing/reduced_poser.h"
 
 #include <tuple>
@@ -49,29 +48,6 @@ ReducedDynamicsOptions kernel_options(const BodyOptions& options, double diagona
 bool operator==(const BodyOptions& a, const BodyOptions& b)
 {
   return tied(a) == tied(b);
-}
-
-Json to_json(const BodyOptions& options)
-{
-  return { { "gravity", options.gravity }, { "down", options.down },
-    { "stiffness", options.stiffness }, { "damping", options.damping },
-    { "steps_per_second", options.steps_per_second } };
-}
-
-Status from_json(const Json& json, BodyOptions& options)
-{
-  BodyOptions read = options;
-  JsonFields fields(json, "the options of dynamics");
-  fields.read("gravity", read.gravity, 0.0, 20.0);
-  fields.read("down", read.down, 0.0, 2.0);
-  fields.read("stiffness", read.stiffness, 1.0, 1e5);
-  fields.read("damping", read.damping, 0.0, 20.0);
-  fields.read("steps_per_second", read.steps_per_second, 1.0, 1000.0);
-  if (fields.status().ok())
-  {
-    options = read;
-  }
-  return fields.status();
 }
 
 bool Body::is_bound(const PoseOptions& options) const

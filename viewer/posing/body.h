@@ -24,9 +24,6 @@ struct BodyOptions
 };
 bool operator==(const BodyOptions& a, const BodyOptions& b);
 
-nlohmann::ordered_json to_json(const BodyOptions& options);
-Status from_json(const nlohmann::ordered_json& json, BodyOptions& options);
-
 /// A run as it was done: the pose that it began with, and pose and options of every step. Played
 /// again it gives the same bits.
 struct BodyRun

@@ -1,7 +1,5 @@
 #include "posing/pose_options.h"
 
-#include "posing/json_fields.h"
-
 #include <tuple>
 
 namespace bindpose
@@ -11,11 +9,6 @@ namespace
 {
 constexpr const char* method_words[] = { "lbs", "dqs", "reduced-arap", "stbs", "cor", "full-arap",
   "variational" };
-constexpr const char* edge_words[] = { "none", "given", "auto" };
-constexpr const char* endpoint_words[] = { "projection", "joints", "bounded" };
-constexpr const char* energy_words[] = { "auto", "spokes-and-rims", "elements", "spokes" };
-constexpr const char* extra_words[] = { "bumps", "eigenmodes" };
-constexpr const char* boundary_words[] = { "region", "curve", "tangent" };
 
 auto tied(const PoseOptions& o)
 {
@@ -78,46 +71,6 @@ bool same_bind(const PoseOptions& a, const PoseOptions& b)
 bool operator==(const PoseOptions& a, const PoseOptions& b)
 {
   return tied(a) == tied(b);
-}
-
-Json to_json(const PoseOptions& options)
-{
-  return { { "method", to_string(options.method) },
-    { "single_precision", options.single_precision },
-    { "pseudo_edges", edge_words[static_cast<int>(options.pseudo_edges)] },
-    { "pseudo_edge_stretch", options.pseudo_edge_stretch },
-    { "endpoints", endpoint_words[static_cast<int>(options.endpoints)] },
-    { "energy", energy_words[static_cast<int>(options.energy)] }, { "in_tets", options.in_tets },
-    { "drag_only", options.drag_only }, { "extra_weights", options.extra_weights },
-    { "extra_kind", extra_words[static_cast<int>(options.extra_kind)] },
-    { "iterations", options.iterations }, { "budget_us", options.budget_microseconds },
-    { "order", options.order },
-    { "boundary", boundary_words[static_cast<int>(options.boundary)] } };
-}
-
-Status from_json(const Json& json, PoseOptions& options)
-{
-  PoseOptions read = options;
-  JsonFields fields(json, "the pose options");
-  fields.read("method", read.method, method_words);
-  fields.read("single_precision", read.single_precision);
-  fields.read("pseudo_edges", read.pseudo_edges, edge_words);
-  fields.read("pseudo_edge_stretch", read.pseudo_edge_stretch);
-  fields.read("endpoints", read.endpoints, endpoint_words);
-  fields.read("energy", read.energy, energy_words);
-  fields.read("in_tets", read.in_tets);
-  fields.read("drag_only", read.drag_only);
-  fields.read("extra_weights", read.extra_weights, 0.0, 30.0);
-  fields.read("extra_kind", read.extra_kind, extra_words);
-  fields.read("iterations", read.iterations, 1.0, 1000.0);
-  fields.read("budget_us", read.budget_microseconds, 0.0, 1e6);
-  fields.read("order", read.order, 1.0, 3.0);
-  fields.read("boundary", read.boundary, boundary_words);
-  if (fields.status().ok())
-  {
-    options = read;
-  }
-  return fields.status();
 }
 
 } // namespace bindpose

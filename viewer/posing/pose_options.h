@@ -1,13 +1,10 @@
 #ifndef bindpose_posing_pose_options_h
 #define bindpose_posing_pose_options_h
 
-#include "base/status.h"
 #include "pose/arap_energy.h"
 #include "pose/endpoint_weights.h"
 #include "pose/polyharmonic.h"
 #include "pose/reduced_space.h"
-
-#include <nlohmann/json.hpp>
 
 namespace bindpose
 {
@@ -81,12 +78,6 @@ inline bool operator!=(const PoseOptions& a, const PoseOptions& b)
 {
   return !(a == b);
 }
-
-/// For session files: an object with a key an option; methods and choices by their words.
-nlohmann::ordered_json to_json(const PoseOptions& options);
-/// Keys that are missing leave what is there. invalid_input, naming the key, for what cannot be
-/// read; the options are then untouched.
-Status from_json(const nlohmann::ordered_json& json, PoseOptions& options);
 
 } // namespace bindpose
 

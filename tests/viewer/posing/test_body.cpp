@@ -137,12 +137,4 @@ TEST(Body, WhatCannotMoveIsSaid)
   EXPECT_NE(body.restart(context, Pose(4), posed).message, "");
   EXPECT_NE(body.step(context, Pose(4), {}, posed).message, "");
   EXPECT_NE(body.play(context, {}, [](std::size_t, const Points&) { return true; }).message, "");
-  BodyOptions options;
-  options.gravity = 3.0;
-  options.down = 2;
-  BodyOptions read;
-  EXPECT_TRUE(from_json(to_json(options), read).ok());
-  EXPECT_TRUE(read == options);
-  EXPECT_FALSE(from_json(nlohmann::ordered_json{ { "gravity", "much" } }, read).ok());
-  EXPECT_TRUE(read == options);
 }

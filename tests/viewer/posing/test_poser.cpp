@@ -292,34 +292,3 @@ TEST(Poser, ABindIsCancelled)
     EXPECT_TRUE(poser->bind(again, options).usable());
   }
 }
-
-TEST(PoseOptions, AreTheSameAfterASession)
-{
-  PoseOptions options;
-  options.method = PoseMethod::variational;
-  options.single_precision = options.in_tets = options.drag_only = true;
-  options.pseudo_edges = PseudoEdgeChoice::automatic;
-  options.endpoints = EndpointMethod::joints;
-  options.energy = ArapEnergy::spokes;
-  options.extra_weights = 12;
-  options.extra_kind = ExtraWeights::eigenmodes;
-  options.iterations = 7;
-  options.budget_microseconds = 250.5;
-  options.order = 3;
-  options.boundary = PatchBoundary::tangent;
-  PoseOptions read;
-  const auto json = nlohmann::ordered_json::parse(to_json(options).dump());
-  ASSERT_TRUE(from_json(json, read).ok());
-  EXPECT_TRUE(read == options);
-
-  const PoseOptions before;
-  PoseOptions kept;
-  for (const char* broken : { "[]", R"({"method": "magic"})", R"({"extra_weights": 31})",
-         R"({"in_tets": 1})", R"({"method": "lbs", "order": "two"})" })
-  {
-    const Status status = from_json(nlohmann::ordered_json::parse(broken), kept);
-    EXPECT_EQ(status.code, StatusCode::invalid_input) << broken;
-    EXPECT_FALSE(status.message.empty());
-    EXPECT_TRUE(kept == before) << broken;
-  }
-}

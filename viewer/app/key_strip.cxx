@@ -1,6 +1,7 @@
 #include "key_strip.h"
 
 #include "panel_parts.h"
+#include "style.h"
 
 #include <QDoubleSpinBox>
 #include <QHBoxLayout>
@@ -229,7 +230,7 @@ void KeyTrack::paintEvent(QPaintEvent* /*event*/)
   painter.setRenderHint(QPainter::Antialiasing);
   const bool on = this->isEnabled();
   const int middle = this->height() - this->fontMetrics().lineSpacing() / 2 - 6;
-  const QColor line(on ? "#c4c4be" : "#dededa"), ink(on ? "#66665f" : "#8f8f88");
+  const QColor line = shade(on ? "scroll" : "line"), ink = shade(on ? "note" : "off");
   painter.setPen(QPen(line, 2));
   painter.drawLine(margin, middle, this->width() - margin, middle);
   // As many numbers as there is room for.
@@ -266,18 +267,18 @@ void KeyTrack::paintEvent(QPaintEvent* /*event*/)
     const double time = held ? this->dragged_to_ : this->keys_.keys()[k].time;
     const int x = this->pixel(time);
     const bool here = std::abs(time - this->time_) < 5e-4;
-    painter.setPen(QPen(QColor("#7a4a08"), 1.2));
-    painter.setBrush(QColor(here || held ? "#f2941f" : "#f8d9ae"));
+    painter.setPen(QPen(shade("key_edge"), 1.2));
+    painter.setBrush(shade(here || held ? "key_now" : "key"));
     const QPoint diamond[4] = { { x, middle - 6 }, { x + 6, middle }, { x, middle + 6 },
       { x - 6, middle } };
     painter.drawPolygon(diamond, 4);
   }
   const int now = this->pixel(std::min(this->time_, this->length()));
-  painter.setPen(QPen(QColor(on ? "#2b6ca8" : "#d3dde6"), 2));
+  painter.setPen(QPen(shade(on ? "accent" : "accent_off"), 2));
   painter.drawLine(now, 2 + this->fontMetrics().lineSpacing(), now, this->height() - 1);
   if (this->hasFocus())
   {
-    painter.setPen(QPen(QColor("#2b6ca8"), 1));
+    painter.setPen(QPen(shade("accent"), 1));
     painter.setBrush(Qt::NoBrush);
     painter.drawRoundedRect(this->rect().adjusted(0, 0, -1, -1), 4, 4);
   }

@@ -24,8 +24,6 @@ PoseGhost::PoseGhost(Viewport* viewport) : viewport_(viewport)
   vtkRenderer* first = viewport->renderer();
   this->renderer_->SetActiveCamera(first->GetActiveCamera());
   this->renderer_->GradientBackgroundOn();
-  this->renderer_->SetBackground(first->GetBackground());
-  this->renderer_->SetBackground2(first->GetBackground2());
   this->renderer_->SetViewport(0.5, 0.0, 1.0, 1.0);
 }
 
@@ -72,6 +70,9 @@ void PoseGhost::update()
     property->SetOpacity(1.0);
     this->renderer_->AddActor(this->actor_);
   }
+  // The window may have turned dark since.
+  this->renderer_->SetBackground(this->viewport_->renderer()->GetBackground());
+  this->renderer_->SetBackground2(this->viewport_->renderer()->GetBackground2());
   const bool beside_it = place == beside;
   if (beside_it != this->in_window_)
   {

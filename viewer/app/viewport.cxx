@@ -1,5 +1,6 @@
 #include "viewport.h"
 
+#include "style.h"
 #include "timed_mapper.h"
 
 #include "scene/camera.h"
@@ -34,6 +35,7 @@
 #include "vtkWindowToImageFilter.h"
 
 #include <QApplication>
+#include <QEvent>
 
 #include <cmath>
 
@@ -88,10 +90,7 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   bindpose::use_surface_material(this->actor_);
   bindpose::add_lights(this->renderer_);
   this->renderer_->GradientBackgroundOn();
-  this->renderer_->SetBackground(bindpose::palette::gradient_bottom[0],
-    bindpose::palette::gradient_bottom[1], bindpose::palette::gradient_bottom[2]);
-  this->renderer_->SetBackground2(bindpose::palette::gradient_top[0],
-    bindpose::palette::gradient_top[1], bindpose::palette::gradient_top[2]);
+  this->use_appearance();
   this->window_->SetNumberOfLayers(2);
   this->legend_->SetLayer(1);
   this->legend_->InteractiveOff();
@@ -324,6 +323,26 @@ void Viewport::show_values(
   this->show_legend(weight_legend, this->has_values_ ? name : QString(), map);
 }
 
+void Viewport::use_appearance()
+{
+  using namespace bindpose::palette;
+  const bindpose::Rgb& below = is_dark() ? dark_gradient_bottom : gradient_bottom;
+  const bindpose::Rgb& above = is_dark() ? dark_gradient_top : gradient_top;
+  this->renderer_->SetBackground(below[0], below[1], below[2]);
+  this->renderer_->SetBackground2(above[0], above[1], above[2]);
+}
+
+void Viewport::changeEvent(QEvent* event)
+{
+  QVTKOpenGLNativeWidget::changeEvent(event);
+  if (event->type() == QEvent::PaletteChange)
+  {
+    this->use_appearance();
+    this->draw_legend();
+    this->refresh();
+  }
+}
+
 void Viewport::draw_legend()
 {
   this->legend_->RemoveAllViewProps();
@@ -339,7 +358,8 @@ void Viewport::draw_legend()
       ? static_cast<int>(240 * scale)
       : static_cast<int>((2.5 + 1.7 * map.texts.size()) * font);
     box.width = bindpose::legend_width(map, name.toStdString(), font);
-    bindpose::add_legend(this->legend_, map, name.toStdString(), box, font);
+    bindpose::add_legend(this->legend_, map, name.toStdString(), box, font,
+      is_dark() ? bindpose::palette::dark_text : bindpose::palette::text);
     box.x += box.width + 2 * font;
   };
   if (!this->column_name_.isEmpty() && !this->has_values_)

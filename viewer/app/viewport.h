@@ -105,8 +105,10 @@ public:
 
 protected:
   void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
 private:
+  void use_appearance();
   void draw_legend();
   void frame_drawn();
   void use_column();

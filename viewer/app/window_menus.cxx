@@ -6,12 +6,14 @@
 #include "main_window.h"
 #include "pose_panel.h"
 #include "posing.h"
+#include "style.h"
 #include "viewport.h"
 #include "volume_view.h"
 #include "window_sessions.h"
 
 #include <QAction>
 #include <QActionGroup>
+#include <QApplication>
 #include <QKeySequence>
 #include <QMenu>
 #include <QMenuBar>
@@ -107,6 +109,18 @@ void WindowMenus::add_view_menu()
     this->methods_->addAction(method);
   }
   this->show_method(0);
+  view->addSeparator();
+  QMenu* appearance = view->addMenu(tr("&Appearance"));
+  auto* looks = new QActionGroup(this);
+  for (const auto& [text, look] : { std::pair(tr("As the &desktop"), Appearance::system),
+         std::pair(tr("&Light"), Appearance::light), std::pair(tr("D&ark"), Appearance::dark) })
+  {
+    QAction* entry = this->add(
+      appearance, text, QKeySequence(), [look = look] { choose_appearance(*qApp, look); });
+    entry->setCheckable(true);
+    entry->setChecked(look == chosen_appearance());
+    looks->addAction(entry);
+  }
 }
 
 void WindowMenus::show_method(int method)

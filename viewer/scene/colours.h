@@ -27,6 +27,9 @@ constexpr Rgb text{ 0.16, 0.16, 0.18 }; ///< labels on a light background
 constexpr Rgb white{ 1.0, 1.0, 1.0 }; ///< paper
 constexpr Rgb gradient_top{ 0.90, 0.91, 0.93 }; ///< gradient background, above
 constexpr Rgb gradient_bottom{ 0.98, 0.98, 0.97 }; ///< and below
+constexpr Rgb dark_text{ 0.90, 0.90, 0.89 }; ///< labels on a dark background
+constexpr Rgb dark_gradient_top{ 0.20, 0.21, 0.23 };
+constexpr Rgb dark_gradient_bottom{ 0.13, 0.13, 0.14 };
 constexpr Rgb missing{ 0.62, 0.58, 0.60 }; ///< not a number
 } // namespace palette
 

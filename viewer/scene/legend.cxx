@@ -100,7 +100,7 @@ private:
 } // namespace
 
 void add_text(vtkRenderer* renderer, const std::string& text, double x, double y, int size,
-  TextAlign align, bool bold)
+  TextAlign align, bool bold, const Rgb& ink)
 {
   if (text.empty())
   {
@@ -112,7 +112,7 @@ void add_text(vtkRenderer* renderer, const std::string& text, double x, double y
   property->SetFontFamilyToArial();
   property->SetFontSize(size);
   property->SetBold(bold);
-  property->SetColor(palette::text[0], palette::text[1], palette::text[2]);
+  property->SetColor(ink[0], ink[1], ink[2]);
   property->SetVerticalJustificationToCentered();
   property->SetJustification(align == TextAlign::left ? VTK_TEXT_LEFT
       : align == TextAlign::center                    ? VTK_TEXT_CENTERED
@@ -134,7 +134,7 @@ int legend_width(const ColourMap& map, const std::string& name, int font_size)
 }
 
 void add_legend(vtkRenderer* renderer, const ColourMap& map, const std::string& name,
-  const PixelBox& box, int font_size)
+  const PixelBox& box, int font_size, const Rgb& ink)
 {
   const double name_height = 2.0 * font_size;
   const double bottom = box.y + 0.5 * font_size; // half a tick's text sticks out
@@ -142,14 +142,14 @@ void add_legend(vtkRenderer* renderer, const ColourMap& map, const std::string& 
   const double left = box.x;
   const double right = box.x + bar_width(font_size);
   const double line = std::max(1.0, std::round(font_size / 14.0));
-  add_text(
-    renderer, name, left, box.y + box.height - 0.5 * font_size, font_size, TextAlign::left, true);
+  add_text(renderer, name, left, box.y + box.height - 0.5 * font_size, font_size, TextAlign::left,
+    true, ink);
   if (map.ticks.empty())
   {
     return; // nothing to tell but that
   }
   FlatShapes shapes;
-  shapes.add_box(left - line, bottom - line, right + line, top + line, palette::line);
+  shapes.add_box(left - line, bottom - line, right + line, top + line, ink);
   const int count = static_cast<int>(map.table->GetNumberOfTableValues());
   for (int i = 0; i < count; ++i)
   {
@@ -165,8 +165,9 @@ void add_legend(vtkRenderer* renderer, const ColourMap& map, const std::string& 
   {
     const double tick = map.downwards ? map.lower + map.upper - map.ticks[i] : map.ticks[i];
     const double y = bottom + (top - bottom) * (tick - map.lower) / (map.upper - map.lower);
-    shapes.add_box(right, y - 0.5 * line, right + 0.3 * font_size, y + 0.5 * line, palette::line);
-    add_text(renderer, tick_text(map, i), right + 0.6 * font_size, y, font_size, TextAlign::left);
+    shapes.add_box(right, y - 0.5 * line, right + 0.3 * font_size, y + 0.5 * line, ink);
+    add_text(renderer, tick_text(map, i), right + 0.6 * font_size, y, font_size, TextAlign::left,
+      false, ink);
   }
   shapes.add_to(renderer);
 }

@@ -561,6 +561,49 @@ TEST_F(Window, ALongErrorDoesNotWidenTheWindow)
   EXPECT_LT(this->window.error().size(), 150);
 }
 
+TEST_F(Window, TurnsDarkAndLightAgain)
+{
+  this->open_bound();
+  this->window.panel()->show_column(1);
+  this->render();
+  const QImage light = this->window.grab().toImage();
+  choose_appearance(*qApp, Appearance::dark);
+  EXPECT_EQ(chosen_appearance(), Appearance::dark);
+  EXPECT_TRUE(is_dark());
+  this->render();
+  const QImage dark = this->window.grab().toImage();
+  if (const char* folder = std::getenv("BINDPOSE_PICTURES"))
+  {
+    EXPECT_TRUE(dark.save(QString(folder) + "/dark.png"));
+  }
+  // Panel, menu, view: each is dark; what is written on them is not.
+  const auto light_share = [](const QImage& image, const QRect& at)
+  {
+    int light_pixels = 0, all = 0;
+    for (int y = at.top(); y <= at.bottom(); ++y)
+    {
+      for (int x = at.left(); x <= at.right(); ++x, ++all)
+      {
+        light_pixels += qGray(image.pixel(x, y)) > 128;
+      }
+    }
+    return static_cast<double>(light_pixels) / all;
+  };
+  for (const QWidget* part : { static_cast<const QWidget*>(this->window.panel()),
+         static_cast<const QWidget*>(this->window.menuBar()),
+         static_cast<const QWidget*>(this->window.viewport()) })
+  {
+    const QRect at(part->mapTo(&this->window, QPoint()), part->size());
+    EXPECT_LT(light_share(dark, at), 0.3) << part->metaObject()->className();
+    EXPECT_GT(light_share(dark, at), 0.0005) << part->metaObject()->className();
+    EXPECT_GT(light_share(light, at), 0.7) << part->metaObject()->className();
+  }
+  choose_appearance(*qApp, Appearance::light);
+  EXPECT_FALSE(is_dark());
+  choose_appearance(*qApp, Appearance::system);
+  EXPECT_FALSE(is_dark()) << "the desktop of the tests is light";
+}
+
 int main(int argc, char** argv)
 {
   testing::InitGoogleTest(&argc, argv);

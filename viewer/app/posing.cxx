@@ -777,6 +777,7 @@ void Posing::connect_strip()
   QObject::connect(strip, &KeyStrip::export_wanted, this, &Posing::ask_and_export);
   QObject::connect(strip, &KeyStrip::cancel_wanted, this->export_, &SequenceExport::cancel);
   QObject::connect(this->export_, &SequenceExport::progress, strip, &KeyStrip::set_progress);
+  QObject::connect(this->export_, &SequenceExport::pictures_taken, this, &Posing::moved);
   QObject::connect(this->export_, &SequenceExport::finished, this, &Posing::export_finished);
 }
 
@@ -897,5 +898,4 @@ void Posing::export_finished()
   {
     Q_EMIT this->failed(tr("Cannot export: %1.").arg(this->export_->error()));
   }
-  Q_EMIT this->moved();
 }

@@ -28,6 +28,7 @@
 #include <QPainter>
 
 #include <deque>
+#include <memory>
 
 using namespace bindpose;
 
@@ -49,6 +50,10 @@ SequenceExport::SequenceExport(Viewport* viewport) : QObject(viewport), viewport
   QObject::connect(&this->job_, &KernelJob::progress, this,
     [this](double fraction) { Q_EMIT this->progress(0.7 * fraction); });
   QObject::connect(&this->job_, &KernelJob::finished, this, &SequenceExport::frames_made);
+  QObject::connect(&this->encoder_, &KernelJob::progress, this,
+    [this](double fraction) { Q_EMIT this->progress(0.9 + 0.1 * fraction); });
+  QObject::connect(
+    &this->encoder_, &KernelJob::finished, this, [this] { this->end(this->encoder_.status()); });
 }
 
 SequenceExport::~SequenceExport() = default;
@@ -58,6 +63,12 @@ QString SequenceExport::patterns()
   QString endings =
     QString("json %1 %2 png %3").arg(mesh_endings).arg(rig_endings).arg(video_extensions);
   return "*." + endings.replace(' ', " *.");
+}
+
+void SequenceExport::cancel()
+{
+  this->job_.cancel();
+  this->encoder_.cancel();
 }
 
 void SequenceExport::start(const Input& input, const QString& path)
@@ -107,7 +118,16 @@ void SequenceExport::frames_made()
   if (status.usable())
   {
     status = this->write();
+    Q_EMIT this->pictures_taken();
   }
+  if (!this->encoder_.is_running())
+  {
+    this->end(status);
+  }
+}
+
+void SequenceExport::end(const Status& status)
+{
   if (!status.usable() && status.code != StatusCode::cancelled)
   {
     this->error_ = QString::fromStdString(status.message);
@@ -259,10 +279,10 @@ Status SequenceExport::write_strip(const std::string& path)
 
 Status SequenceExport::write_moving(const std::string& path)
 {
-  const ScratchFolder folder("frames");
-  if (folder.path().empty())
+  const auto folder = std::make_shared<const ScratchFolder>("frames");
+  if (folder->path().empty())
   {
-    return Status::failure(StatusCode::unavailable, folder.error());
+    return Status::failure(StatusCode::unavailable, folder->error());
   }
   vtkHandleSetWidget* handles = this->viewport_->handle_widget();
   const bool shown = handles->GetEnabled();
@@ -272,21 +292,24 @@ Status SequenceExport::write_moving(const std::string& path)
   for (std::size_t k = 0; k < count && written; ++k)
   {
     written = this->picture(k).save(
-      QString::fromStdString(frame_file(folder.path(), static_cast<int>(k))), "PNG");
+      QString::fromStdString(frame_file(folder->path(), static_cast<int>(k))), "PNG");
     Q_EMIT this->progress(0.7 + 0.2 * static_cast<double>(k) / static_cast<double>(count));
   }
   handles->SetEnabled(shown);
   if (!written)
   {
-    return cannot_write(folder.path());
+    return cannot_write(folder->path());
   }
-  AtomicFile file;
-  Status status = file.open(path, true);
-  if (status.ok())
-  {
-    ExecutionContext context;
-    status =
-      write_video(folder.path(), this->frames_->frames_per_second, file.temporary(), context);
-  }
-  return status.ok() ? file.commit() : status;
+  this->encoder_.start(
+    [folder, path, frames_per_second = this->frames_->frames_per_second](ExecutionContext& context)
+    {
+      AtomicFile file;
+      Status status = file.open(path, true);
+      if (status.ok())
+      {
+        status = write_video(folder->path(), frames_per_second, file.temporary(), context);
+      }
+      return status.ok() ? file.commit() : status;
+    });
+  return {};
 }

@@ -14,9 +14,9 @@ class Viewport;
 
 /// Writes an animation by the ending of its name: .json is a pose file, mesh endings numbered
 /// datasets with a .pvd, .glb and .gltf an animated file, .png a strip of pictures, .gif, .webm,
-/// .mp4 and .apng a moving one (by ffmpeg). Frames are posed beside the window; pictures are taken
-/// of the viewport. Files appear whole or not at all, and replace those that are there: the dialog
-/// has asked.
+/// .mp4 and .apng a moving one (by ffmpeg). Frames are posed and films encoded beside the window;
+/// pictures are taken of the viewport. Files appear whole or not at all, and replace those that are
+/// there: the dialog has asked.
 class SequenceExport : public QObject
 {
   Q_OBJECT
@@ -38,8 +38,8 @@ public:
   /// Endings, for the dialog: "*.json *.vtp …".
   static QString patterns();
   void start(const Input& input, const QString& path);
-  void cancel() { this->job_.cancel(); }
-  bool is_running() const { return this->job_.is_running(); }
+  void cancel();
+  bool is_running() const { return this->job_.is_running() || this->encoder_.is_running(); }
   /// One sentence, or empty.
   const QString& error() const { return this->error_; }
   /// "24 frames in walk.gif"
@@ -47,7 +47,8 @@ public:
 
 Q_SIGNALS:
   void progress(double fraction);
-  /// The window's own shape has to be drawn again.
+  /// The viewport is free again: the window's own shape has to be drawn.
+  void pictures_taken();
   void finished();
 
 private:
@@ -56,7 +57,9 @@ private:
   bindpose::Status write_datasets(const std::string& path);
   bindpose::Status write_rig(const std::string& path);
   bindpose::Status write_strip(const std::string& path);
+  /// Begins to encode, or says why not.
   bindpose::Status write_moving(const std::string& path);
+  void end(const bindpose::Status& status);
   vtkSmartPointer<vtkPolyData> posed(std::size_t frame) const;
   QImage picture(std::size_t frame);
 
@@ -66,6 +69,7 @@ private:
   std::shared_ptr<bindpose::PosedFrames> frames_;
   QString error_;
   QString said_;
+  KernelJob encoder_;
   KernelJob job_; // last: it ends before what it works on
 };
 

@@ -698,6 +698,25 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
   if (check_ffmpeg().ok())
   {
     EXPECT_GT(std::filesystem::file_size(write("bow.gif")), 1000U);
+    // A film is encoded beside the window, and can be called off there; the shape is drawn as it
+    // is.
+    SequenceExport* film = this->posing()->sequence_export();
+    const std::string unwanted = folder / "unwanted.webm";
+    int taken = 0;
+    QObject listener;
+    QObject::connect(film, &SequenceExport::pictures_taken, &listener,
+      [film, &taken]
+      {
+        ++taken;
+        EXPECT_TRUE(film->is_running());
+        film->cancel();
+      });
+    this->posing()->export_to(QString::fromStdString(unwanted));
+    EXPECT_TRUE(wait_for([film] { return !film->is_running(); }));
+    EXPECT_EQ(taken, 1);
+    EXPECT_EQ(film->error(), QString());
+    EXPECT_FALSE(std::filesystem::exists(unwanted));
+    EXPECT_EQ(this->points(), posed);
   }
   // What cannot be written is said, and nothing is lost.
   this->posing()->export_to("/no/such/folder/bow.vtp");

@@ -611,6 +611,29 @@ vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles)
   return result;
 }
 
+Status to_layers(vtkPolyData* data, const Handles& handles, const std::vector<Index>& cells,
+  const std::string& name, Eigen::VectorXd& layers)
+{
+  layers = Eigen::VectorXd::Zero(static_cast<Index>(handles.size()));
+  vtkDataArray* given = data->GetCellData()->GetArray(name.c_str());
+  if (given && given->GetNumberOfComponents() != 1)
+  {
+    return Status::invalid_input("the handles' array '" + name + "' has " +
+      std::to_string(given->GetNumberOfComponents()) + " components, but a layer is one number");
+  }
+  for (std::size_t h = 0; given && h < handles.size(); ++h)
+  {
+    const double layer = given->GetComponent(cells[h], 0);
+    if (!std::isfinite(layer))
+    {
+      return Status::invalid_input(
+        "the layer of handle '" + handles[h].name + "' is not a finite number");
+    }
+    layers[static_cast<Index>(h)] = layer;
+  }
+  return {};
+}
+
 Status to_pose(
   vtkPolyData* data, const Handles& handles, const std::vector<Index>& cells, Pose& pose)
 {

@@ -129,6 +129,11 @@ BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkPolyData> to_polydata(const Handles& h
 BINDPOSEFILTERS_EXPORT Status to_pose(
   vtkPolyData* data, const Handles& handles, const std::vector<Index>& cells, Pose& pose);
 
+/// A cell array of one number a handle, 0 without it. invalid_input for one of several components
+/// and, naming the handle, for a number that is not finite.
+BINDPOSEFILTERS_EXPORT Status to_layers(vtkPolyData* data, const Handles& handles,
+  const std::vector<Index>& cells, const std::string& name, Eigen::VectorXd& layers);
+
 /// Writes a pose into the cell arrays of a handle dataset (fresh arrays; others stay shared).
 BINDPOSEFILTERS_EXPORT void set_pose(
   vtkPolyData* data, const std::vector<Index>& cells, const Pose& pose);

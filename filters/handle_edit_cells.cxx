@@ -195,6 +195,32 @@ Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<I
   return status;
 }
 
+namespace
+{
+/// Of one cell, in an array of one number a cell that is made, of zeros, when absent.
+template <typename Array>
+void set_number(vtkPolyData* data, const char* name, Index cell, double value)
+{
+  vtkDataArray* array = data->GetCellData()->GetArray(name);
+  const vtkIdType count = data->GetNumberOfCells();
+  if (!array || array->GetNumberOfTuples() != count)
+  {
+    vtkNew<Array> fresh;
+    fresh->SetName(name);
+    fresh->SetNumberOfTuples(count);
+    fresh->Fill(0.0);
+    data->GetCellData()->AddArray(fresh);
+    array = data->GetCellData()->GetArray(name);
+  }
+  if (cell >= 0 && cell < count)
+  {
+    array->SetComponent(cell, 0, value);
+    array->Modified();
+    data->Modified();
+  }
+}
+} // namespace
+
 void set_handle_colour(
   vtkPolyData* data, Index cell, const std::optional<std::array<double, 3>>& colour)
 {
@@ -210,23 +236,12 @@ void set_handle_colour(
 
 void set_handle_locked(vtkPolyData* data, Index cell, bool locked)
 {
-  vtkDataArray* array = data->GetCellData()->GetArray("Locked");
-  const vtkIdType count = data->GetNumberOfCells();
-  if (!array || array->GetNumberOfTuples() != count)
-  {
-    vtkNew<vtkIntArray> fresh;
-    fresh->SetName("Locked");
-    fresh->SetNumberOfTuples(count);
-    fresh->Fill(0.0);
-    data->GetCellData()->AddArray(fresh);
-    array = data->GetCellData()->GetArray("Locked");
-  }
-  if (cell >= 0 && cell < count)
-  {
-    array->SetComponent(cell, 0, locked ? 1.0 : 0.0);
-    array->Modified();
-    data->Modified();
-  }
+  set_number<vtkIntArray>(data, "Locked", cell, locked ? 1.0 : 0.0);
+}
+
+void set_handle_layer(vtkPolyData* data, Index cell, double layer)
+{
+  set_number<vtkDoubleArray>(data, "Layer", cell, layer);
 }
 
 } // namespace bindpose

@@ -40,6 +40,9 @@ BINDPOSEFILTERS_EXPORT void set_handle_colour(
 /// The cell array `Locked`: 1 for a handle that no hand moves. Made when absent.
 BINDPOSEFILTERS_EXPORT void set_handle_locked(vtkPolyData* data, Index cell, bool locked);
 
+/// The cell array `Layer`: what is larger is in front (vtkDepthOrder). Made when absent, of zeros.
+BINDPOSEFILTERS_EXPORT void set_handle_layer(vtkPolyData* data, Index cell, double layer);
+
 } // namespace bindpose
 
 #endif

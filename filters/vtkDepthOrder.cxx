@@ -53,25 +53,11 @@ Status vtkDepthOrder::Execute(
   {
     return status;
   }
-  const auto count = static_cast<Index>(weights.handles.size());
-  Eigen::VectorXd layers = Eigen::VectorXd::Zero(count);
-  if (vtkDataArray* given = handles->GetCellData()->GetArray(this->LayerArrayName.c_str()))
+  Eigen::VectorXd layers;
+  status = to_layers(handles, weights.handles, weights.cells, this->LayerArrayName, layers);
+  if (!status.ok())
   {
-    if (given->GetNumberOfComponents() != 1)
-    {
-      return Status::invalid_input("the handles' array '" + this->LayerArrayName + "' has " +
-        std::to_string(given->GetNumberOfComponents()) + " components, but a layer is one number");
-    }
-    for (Index j = 0; j < count; ++j)
-    {
-      const std::size_t handle = static_cast<std::size_t>(j);
-      layers[j] = given->GetComponent(weights.cells[handle], 0);
-      if (!std::isfinite(layers[j]))
-      {
-        return Status::invalid_input(
-          "the layer of handle '" + weights.handles[handle].name + "' is not a finite number");
-      }
-    }
+    return status;
   }
   DepthOrderOptions options;
   options.tie = this->Tie;
@@ -88,7 +74,7 @@ Status vtkDepthOrder::Execute(
   result->ShallowCopy(mesh);
   result->GetPointData()->AddArray(depth);
   status.report.set("counts.vertices", Report::Value(std::int64_t(mesh->GetNumberOfPoints())));
-  status.report.set("counts.handles", count);
+  status.report.set("counts.handles", layers.size());
   if (this->Displace)
   {
     Points points = to_points(mesh).view();

@@ -74,6 +74,7 @@ TEST(HandleEditCells, ArraysFollowTheirHandles)
   const auto data = handles();
   set_handle_colour(data, 2, std::array<double, 3>{ 1.0, 0.5, 0.0 });
   set_handle_locked(data, 1, true);
+  set_handle_layer(data, 2, -1.5);
   std::vector<Index> cell_of;
   std::vector<Index> added;
   ASSERT_TRUE(edit_handles(
@@ -87,6 +88,8 @@ TEST(HandleEditCells, ArraysFollowTheirHandles)
   EXPECT_THAT(cell_of, ElementsAre(0, 1, 3));
   EXPECT_THAT(added, ElementsAre(2));
   EXPECT_EQ(number(data, "Stretch", 0), 2.0);
+  EXPECT_EQ(number(data, "Layer", 3), -1.5);
+  EXPECT_EQ(number(data, "Layer", 2), 0.0);
   EXPECT_EQ(number(data, "Stretch", 1), 3.0);
   EXPECT_EQ(number(data, "Stretch", 2), 1.0) << "new ones are at rest";
   EXPECT_EQ(number(data, "Stretch", 3), 4.0);

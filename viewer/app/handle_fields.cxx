@@ -23,8 +23,6 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
     box->setKeyboardTracking(false); // a number counts when it is whole
     box->setAlignment(Qt::AlignRight);
     box->setMinimumWidth(box->fontMetrics().horizontalAdvance("-00.000") + 14);
-    QObject::connect(box, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
-      [this] { Q_EMIT this->values_chosen(); });
     return box;
   };
   auto* grid = new QGridLayout;
@@ -72,6 +70,24 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
     bone->addWidget(this->fields_[8 + k], 1, 1 + k);
   }
   rows->addWidget(this->bone_rows_);
+  for (QDoubleSpinBox* each : this->fields_)
+  {
+    QObject::connect(each, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+      [this] { Q_EMIT this->values_chosen(); });
+  }
+  this->layer_row_ = new QWidget(this);
+  auto* layer = new QGridLayout(this->layer_row_);
+  layer->setContentsMargins(0, 0, 0, 0);
+  layer->setHorizontalSpacing(4);
+  layer->setColumnStretch(2, 1);
+  label(layer, 0, tr("Layer"), tr("Where the shape overlaps itself, the larger layer is in front"));
+  this->layer_ = field(this->layer_row_, -1000.0, 1000.0, 1.0, 1);
+  this->layer_->setToolTip(tr("Layer: what is larger is in front"));
+  this->layer_->setAccessibleName(tr("Layer"));
+  layer->addWidget(this->layer_, 0, 1);
+  QObject::connect(this->layer_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
+    &HandleFields::layer_chosen);
+  rows->addWidget(this->layer_row_);
   this->more_ = new QLabel(tr("Has a shear or uneven scale besides."), this);
   this->more_->setObjectName("note");
   this->more_->setToolTip(tr("Typing a number takes it away"));
@@ -88,6 +104,7 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
     this->fields_[k]->setAccessibleName(tr(names[k]));
   }
   this->show_values(nullptr, {}, false);
+  this->show_layer({});
 }
 
 void HandleFields::show_values(const Handle* handle, const HandleValues& values, bool free)
@@ -107,6 +124,13 @@ void HandleFields::show_values(const Handle* handle, const HandleValues& values,
   }
   this->bone_rows_->setVisible(bone);
   this->more_->setVisible(handle && values.more);
+}
+
+void HandleFields::show_layer(const std::optional<double>& layer)
+{
+  const QSignalBlocker quiet(this->layer_);
+  this->layer_->setValue(layer.value_or(0.0));
+  this->layer_row_->setVisible(layer.has_value());
 }
 
 HandleValues HandleFields::values() const

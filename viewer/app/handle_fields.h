@@ -6,6 +6,7 @@
 #include <QWidget>
 
 #include <array>
+#include <optional>
 
 class QDoubleSpinBox;
 class QLabel;
@@ -23,16 +24,22 @@ public:
   /// @param handle  null: none is selected
   /// @param free  its place is for the solver to find
   void show_values(const bindpose::Handle* handle, const bindpose::HandleValues& values, bool free);
+  /// Of a shape in a plane; nothing: it is in none, or no handle is selected.
+  void show_layer(const std::optional<double>& layer);
   bindpose::HandleValues values() const;
   /// translate x y z, rotate x y z, scale, stretch, twist at head and tail.
   QDoubleSpinBox* field(int which) const { return this->fields_[static_cast<std::size_t>(which)]; }
+  QDoubleSpinBox* layer() const { return this->layer_; }
 
 Q_SIGNALS:
   void values_chosen();
+  void layer_chosen(double layer);
 
 private:
   std::array<QDoubleSpinBox*, 10> fields_;
   QWidget* bone_rows_;
+  QWidget* layer_row_;
+  QDoubleSpinBox* layer_;
   QLabel* more_;
 };
 

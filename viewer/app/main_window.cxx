@@ -58,10 +58,10 @@ QString short_name(const QString& path)
     ? name
     : name.left(longest / 2) + QStringLiteral("…") + name.right(longest / 2);
 }
-bool bounds_are_flat(vtkPolyData* surface)
+bool bounds_are_flat(vtkPolyData* surface, int axis)
 {
   const double* bounds = surface->GetBounds();
-  return bounds[0] == bounds[1] || bounds[2] == bounds[3] || bounds[4] == bounds[5];
+  return bounds[2 * axis] == bounds[2 * axis + 1];
 }
 } // namespace
 
@@ -293,7 +293,10 @@ void MainWindow::show_mesh()
   this->viewport_->set_surface(work.surface);
   this->viewport_->set_picture(work.picture);
   this->inspection_->set_surface(work.surface, work.mesh_tets);
-  const bool flat = work.surface && bounds_are_flat(work.surface);
+  const bool upright = work.surface && bounds_are_flat(work.surface, 2);
+  const bool flat = work.surface &&
+    (upright || bounds_are_flat(work.surface, 0) || bounds_are_flat(work.surface, 1));
+  this->posing_->set_flat(upright);
   if (work.surface && !flat)
   {
     this->inspection_->look_for_defects(); // of what lies in a plane the border is none
@@ -796,6 +799,8 @@ void MainWindow::connect_posing()
     [this](const QString& step) { this->document_->commit_pose(step); });
   QObject::connect(this->posing_, &Posing::shelf_changed, this->document_,
     [this](const QString& step) { this->document_->set_key_poses(this->posing_->shelf(), step); });
+  QObject::connect(this->posing_, &Posing::handles_changed, this->document_,
+    [this](const QString& step) { this->document_->commit_handles(step, step); });
 }
 
 void MainWindow::update_pose()

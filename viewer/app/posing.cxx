@@ -10,7 +10,9 @@
 #include "viewport.h"
 
 #include "conversion.h"
+#include "handle_edit_cells.h"
 #include "posing/pose_blend.h"
+#include "weights/depth_order.h"
 
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
@@ -151,6 +153,7 @@ void Posing::set_data(
       Q_EMIT this->failed(tr("Cannot pose: %1.").arg(QString::fromStdString(status.message)));
     }
   }
+  this->order_layers();
   this->main_->set_source(this->source_);
   this->compared_->set_source(this->source_);
   this->main_->set_options(this->panels_.pose->options());
@@ -211,6 +214,7 @@ void Posing::connect_panel()
       this->body_job_.cancel();
     });
   QObject::connect(this->panels_.fields, &HandleFields::values_chosen, this, &Posing::values_typed);
+  QObject::connect(this->panels_.fields, &HandleFields::layer_chosen, this, &Posing::layer_typed);
 }
 
 void Posing::options_changed()
@@ -458,12 +462,17 @@ void Posing::show_values()
   if (this->selected_ < 0 || this->selected_ >= static_cast<int>(pose.size()))
   {
     this->panels_.fields->show_values(nullptr, {}, false);
+    this->panels_.fields->show_layer({});
     return;
   }
   const auto k = static_cast<std::size_t>(this->selected_);
   const Handle& handle = this->source_->handles[k];
   this->panels_.fields->show_values(
     &handle, values_of(handle, pose[k]), pose[k].mode == HandleMode::free);
+  Eigen::VectorXd layers;
+  const bool layered = this->is_flat_ &&
+    to_layers(this->handles_, this->source_->handles, this->cells_, "Layer", layers).ok();
+  this->panels_.fields->show_layer(layered ? std::optional(layers[this->selected_]) : std::nullopt);
 }
 
 void Posing::values_typed()
@@ -477,6 +486,46 @@ void Posing::values_typed()
   const Handle& handle = this->source_->handles[k];
   pose[k] = with_values(handle, pose[k], this->panels_.fields->values());
   this->change_pose(pose, tr("values of %1").arg(QString::fromStdString(handle.name)));
+}
+
+void Posing::layer_typed(double layer)
+{
+  if (this->selected_ >= 0 && this->selected_ < static_cast<int>(this->cells_.size()))
+  {
+    const auto k = static_cast<std::size_t>(this->selected_);
+    set_handle_layer(this->handles_, this->cells_[k], layer);
+    Q_EMIT this->handles_changed(
+      tr("layer of %1").arg(QString::fromStdString(this->source_->handles[k].name)));
+  }
+}
+
+void Posing::order_layers()
+{
+  Eigen::VectorXd depths;
+  if (this->is_flat_ && this->source_ && this->source_->has_weights())
+  {
+    ExecutionContext context;
+    DepthOrder order;
+    Eigen::VectorXd layers;
+    Status status =
+      to_layers(this->handles_, this->source_->handles, this->cells_, "Layer", layers);
+    if (status.ok())
+    {
+      status = depth_order(this->source_->weights, layers, {}, context, order);
+    }
+    if (status.usable())
+    {
+      // Away from the eye: what is drawn on the shape stays in front of it.
+      const double layer = 1e-3 * bounding_box(this->source_->points).diagonal();
+      depths = layer * (order.front.array() - order.front.maxCoeff()).matrix();
+    }
+    else
+    {
+      Q_EMIT this->failed(
+        tr("Cannot order layers: %1.").arg(QString::fromStdString(status.message)));
+    }
+  }
+  this->viewport_->set_depths(depths);
 }
 
 void Posing::change_pose(const Pose& pose, const QString& step)

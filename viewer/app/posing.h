@@ -47,6 +47,9 @@ public:
   void set_data(
     vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, bool use_weights);
   bool has_weights() const;
+  /// The surface has one z: where a pose makes it overlap itself, its handles' layers say
+  /// what is in front. To be told before set_data().
+  void set_flat(bool flat) { this->is_flat_ = flat; }
   /// The method has what it needs.
   bool can_pose() const { return this->main_->can_pose(); }
 
@@ -88,6 +91,8 @@ Q_SIGNALS:
   /// Since the first pose_changed() this has happened: a step of the history.
   void pose_done(const QString& step);
   void shelf_changed(const QString& step);
+  /// The handles have other cell arrays now: a step of the history.
+  void handles_changed(const QString& step);
   /// The shape is another one, or what is said of it: draw().
   void moved();
   void failed(const QString& sentence);
@@ -104,6 +109,8 @@ private:
   void show_difference();
   void follow_free_handles();
   void values_typed();
+  void layer_typed(double layer);
+  void order_layers();
   void show_values();
   void change_pose(const bindpose::Pose& pose, const QString& step);
   void change_shelf(const QString& step);
@@ -130,6 +137,7 @@ private:
   vtkSmartPointer<vtkPolyData> surface_, handles_, shape_;
   std::vector<bindpose::Index> cells_;
   int selected_ = -1;
+  bool is_flat_ = false;
   bool at_rest_ = false;
   double drawing_microseconds_ = 0.0; ///< of draw(): points and normals
 

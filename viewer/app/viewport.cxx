@@ -112,6 +112,7 @@ void Viewport::set_surface(vtkPolyData* surface)
 {
   this->shaded_ = surface ? std::make_unique<bindpose::ShadedSurface>(surface) : nullptr;
   this->mapper_->SetInputData(surface ? this->shaded_->polydata() : nullptr);
+  this->depths_.resize(0);
   this->show_values(nullptr, true);
   this->set_surface_look(this->look_);
 }
@@ -200,18 +201,23 @@ void Viewport::set_also_shown(const bindpose::Box& box)
 
 void Viewport::move_surface(vtkPolyData* posed)
 {
-  if (this->shaded_)
-  {
-    this->shaded_->move(bindpose::to_points(posed).view());
-  }
+  this->move_surface(bindpose::to_points(posed).view());
 }
 
 void Viewport::move_surface(bindpose::PointsView points)
 {
-  if (this->shaded_)
+  if (!this->shaded_)
+  {
+    return;
+  }
+  if (this->depths_.size() != points.rows())
   {
     this->shaded_->move(points);
+    return;
   }
+  bindpose::Points drawn = points;
+  drawn.col(2) += this->depths_;
+  this->shaded_->move(drawn);
 }
 
 void Viewport::set_ghosted(bool ghosted)

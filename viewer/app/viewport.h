@@ -51,6 +51,9 @@ public:
   /// The same surface with its points elsewhere: a pose.
   void move_surface(vtkPolyData* posed);
   void move_surface(bindpose::PointsView points);
+  /// Of each point, what it is drawn off its place along z: in a plane, what is in front. Until
+  /// another surface comes; empty: nothing.
+  void set_depths(const Eigen::VectorXd& depths) { this->depths_ = depths; }
   /// Something see-through is drawn over the surface: both are then sorted by depth.
   void set_ghosted(bool ghosted);
   /// The left half only: something else is on the right.
@@ -120,6 +123,7 @@ private:
   vtkNew<vtkRenderer> legend_; // in front, to the left: the colour scale
   vtkNew<vtkHandleSetWidget> handles_;
   std::unique_ptr<bindpose::ShadedSurface> shaded_;
+  Eigen::VectorXd depths_;
   vtkSmartPointer<vtkImageData> picture_;
   std::vector<vtkSmartPointer<vtkActor>> curves_;
   vtkSmartPointer<vtkPolyData> curve_data_;

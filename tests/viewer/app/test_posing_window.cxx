@@ -20,6 +20,7 @@
 #include "scene/video_file.h"
 #include "weights_arrays.h"
 
+#include "vtkCamera.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkDoubleArray.h"
@@ -587,6 +588,63 @@ TEST_F(PosingWindow, BonesMayBeHeldByAnEnd)
     }
   }
   ADD_FAILURE() << "no choice of modes";
+}
+
+TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
+{
+  // A strip along x whose right half is folded over its left.
+  const TriangleMesh strip = test::translated(test::grid(40, 10, 2.0, 0.5), Vec3(-1, -0.25, 0));
+  const Handles ends = { test::point_handle("left", Vec3(-1, 0, 0)),
+    test::point_handle("right", Vec3(1, 0, 0)) };
+  Weights halves(strip.points.rows(), 2);
+  for (Index v = 0; v < strip.points.rows(); ++v)
+  {
+    const double right = std::clamp(5.0 * strip.points(v, 0) + 0.5, 0.0, 1.0);
+    halves.row(v) << 1.0 - right, right;
+  }
+  vtkSmartPointer<vtkPolyData> flat = to_polydata(strip.points, strip.triangles);
+  flat->GetPointData()->AddArray(to_weights_array("Weights", halves, ends));
+  ASSERT_TRUE(this->window.set_mesh(flat, "strip"));
+  ASSERT_TRUE(this->window.set_handles(to_polydata(ends), "ends"));
+  Pose folded(2);
+  folded[1].transform.leftCols<3>() = Eigen::AngleAxisd(EIGEN_PI, Vec3::UnitZ()).toRotationMatrix();
+  this->put(folded);
+  this->window.panel()->select_handle(1);
+  this->window.panel()->show_column(1);
+  this->render();
+  auto* fields = this->window.findChild<HandleFields*>();
+  EXPECT_TRUE(fields->layer()->isVisible());
+  // Seen from the front: where both halves are, the one in front has its colour.
+  vtkRenderer* renderer = this->window.viewport()->renderer();
+  const auto right_is_seen = [&]
+  {
+    EXPECT_TRUE(this->settle());
+    this->render();
+    vtkCamera* camera = renderer->GetActiveCamera();
+    camera->SetPosition(-0.5, 0, 5);
+    camera->SetFocalPoint(-0.5, 0, 0);
+    camera->SetViewUp(0, 1, 0);
+    renderer->ResetCameraClippingRange();
+    this->render();
+    const QImage seen = this->window.viewport()->grabFramebuffer();
+    const QColor middle = seen.pixelColor(seen.width() / 2, seen.height() / 2);
+    return middle.blue() > middle.red() + 20; // weight 1 is deep blue, 0 pale
+  };
+  EXPECT_TRUE(right_is_seen()) << "of equal layers the later handle is in front";
+  const Points posed = this->points();
+  fields->layer()->setValue(-1.0);
+  EXPECT_FALSE(right_is_seen());
+  EXPECT_EQ(this->points(), posed) << "only what is drawn is ordered";
+  EXPECT_EQ(this->window.history()->undoText(), "layer of right");
+  fields->layer()->setValue(2.0);
+  EXPECT_TRUE(right_is_seen());
+  this->window.history()->undo();
+  EXPECT_EQ(fields->layer()->value(), 0.0) << "both numbers are one step";
+  EXPECT_TRUE(right_is_seen());
+  // A session keeps them with the handles; of solids there are none.
+  this->open();
+  this->window.panel()->select_handle(1);
+  EXPECT_FALSE(fields->layer()->isVisible());
 }
 
 TEST_F(PosingWindow, KeyFramesPlayAndScrubThroughTheirKeys)

@@ -148,21 +148,8 @@ void vtkCrowdDeformation::SetSmallestWeight(double smallest)
 Status vtkCrowdDeformation::Bind(const PoseInput& input, ExecutionContext& context)
 {
   ReducedArapOptions options;
-  options.clusters = this->NumberOfClusters;
-  options.extra_weights = this->NumberOfExtraWeights;
-  options.extra_kind = static_cast<bindpose::ExtraWeights>(this->ExtraWeights);
   options.skinning.smallest_weight = this->SmallestWeight;
-  ArapElements elements;
-  const Status status = to_arap(input.mesh, this->Energy, elements, options.energy);
-  if (!status.ok())
-  {
-    return status;
-  }
-  Crowd& crowd = this->Internal->crowd;
-  return elements.volume ? crowd.bind(context, input.points, elements.tets.tets.view(),
-                             input.weights, input.handles, options)
-                         : crowd.bind(context, input.points, elements.surface.triangles.view(),
-                             input.weights, input.handles, options);
+  return bind_reduced(*this, this->Internal->crowd, input, context, options);
 }
 
 Status vtkCrowdDeformation::Execute(

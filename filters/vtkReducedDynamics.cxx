@@ -206,22 +206,8 @@ vtkTypeBool vtkReducedDynamics::ProcessRequest(
 
 Status vtkReducedDynamics::Bind(const PoseInput& input, ExecutionContext& context)
 {
-  ReducedArapOptions options;
-  options.clusters = this->NumberOfClusters;
-  options.extra_weights = this->NumberOfExtraWeights;
-  options.extra_kind = static_cast<bindpose::ExtraWeights>(this->ExtraWeights);
-  ArapElements elements;
-  const Status status = to_arap(input.mesh, this->Energy, elements, options.energy);
-  if (!status.ok())
-  {
-    return status;
-  }
   this->Internal->started = false;
-  ReducedDynamics& body = this->Internal->body;
-  return elements.volume ? body.bind(context, input.points, elements.tets.tets.view(),
-                             input.weights, input.handles, options)
-                         : body.bind(context, input.points, elements.surface.triangles.view(),
-                             input.weights, input.handles, options);
+  return bind_reduced(*this, this->Internal->body, input, context);
 }
 
 Status vtkReducedDynamics::Deform(

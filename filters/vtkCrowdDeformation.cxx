@@ -177,6 +177,7 @@ Status vtkCrowdDeformation::Execute(
     options.tolerance = this->Tolerance;
     options.max_iterations = this->MaximumIterations;
     options.anderson_window = this->AndersonWindow;
+    options.mixed_precision = this->MixedPrecision;
     options.start = this->WarmStart ? ReducedStart::last : ReducedStart::guess;
     status = crowd.solve(context, instances.poses, options);
     if (!status.usable())
@@ -271,6 +272,7 @@ void vtkCrowdDeformation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "AndersonWindow: " << this->AndersonWindow << "\n";
   os << indent << "WarmStart: " << (this->WarmStart ? "on" : "off") << "\n";
+  os << indent << "MixedPrecision: " << (this->MixedPrecision ? "on" : "off") << "\n";
   os << indent << "OutputType: " << (this->OutputType == APPENDED ? "appended" : "collection")
      << "\n";
 }

@@ -66,6 +66,7 @@ Status vtkReducedARAP::Deform(const PoseInput& input, ExecutionContext& context,
     options.max_iterations = this->MaximumIterations;
     options.budget_microseconds = this->TimeBudget;
     options.anderson_window = this->AndersonWindow;
+    options.mixed_precision = this->MixedPrecision;
     options.start = this->WarmStart ? ReducedArap::Start::last : ReducedArap::Start::guess;
     status = arap.solve(context, input.pose, options);
     if (!status.usable())
@@ -101,4 +102,5 @@ void vtkReducedARAP::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TimeBudget: " << this->TimeBudget << "\n";
   os << indent << "AndersonWindow: " << this->AndersonWindow << "\n";
   os << indent << "WarmStart: " << (this->WarmStart ? "on" : "off") << "\n";
+  os << indent << "MixedPrecision: " << (this->MixedPrecision ? "on" : "off") << "\n";
 }

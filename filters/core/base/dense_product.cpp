@@ -52,10 +52,10 @@ void add_product(
   const StridedMatrix& a, const StridedMatrix& b, double* c, Index c_stride, bool lower)
 {
   const Index column_tiles = tiles_of(b.cols, tile_cols);
-  std::vector<double> packed_b(
-    static_cast<std::size_t>(column_tiles * tile_cols * std::min(inner_block, a.cols)));
-  std::vector<double> packed_a(
-    static_cast<std::size_t>(tiles_of(row_block, tile_rows) * tile_rows * inner_block));
+  const Index deepest = std::min(inner_block, a.cols);
+  const Index row_tiles = tiles_of(std::min(row_block, a.rows), tile_rows);
+  std::vector<double> packed_b(static_cast<std::size_t>(column_tiles * tile_cols * deepest));
+  std::vector<double> packed_a(static_cast<std::size_t>(row_tiles * tile_rows * deepest));
   alignas(64) double sums[tile_rows * tile_cols];
   for (Index first = 0; first < a.cols; first += inner_block)
   {

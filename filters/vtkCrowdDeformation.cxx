@@ -148,21 +148,8 @@ void vtkCrowdDeformation::SetSmallestWeight(double smallest)
 Status vtkCrowdDeformation::Bind(const PoseInput& input, ExecutionContext& context)
 {
   ReducedArapOptions options;
-  options.clusters = this->NumberOfClusters;
-  options.extra_weights = this->NumberOfExtraWeights;
-  options.extra_kind = static_cast<bindpose::ExtraWeights>(this->ExtraWeights);
   options.skinning.smallest_weight = this->SmallestWeight;
-  ArapElements elements;
-  const Status status = to_arap(input.mesh, this->Energy, elements, options.energy);
-  if (!status.ok())
-  {
-    return status;
-  }
-  Crowd& crowd = this->Internal->crowd;
-  return elements.volume ? crowd.bind(context, input.points, elements.tets.tets.view(),
-                             input.weights, input.handles, options)
-                         : crowd.bind(context, input.points, elements.surface.triangles.view(),
-                             input.weights, input.handles, options);
+  return bind_reduced(*this, this->Internal->crowd, input, context, options);
 }
 
 Status vtkCrowdDeformation::Execute(
@@ -190,6 +177,7 @@ Status vtkCrowdDeformation::Execute(
     options.tolerance = this->Tolerance;
     options.max_iterations = this->MaximumIterations;
     options.anderson_window = this->AndersonWindow;
+    options.mixed_precision = this->MixedPrecision;
     options.start = this->WarmStart ? ReducedStart::last : ReducedStart::guess;
     status = crowd.solve(context, instances.poses, options);
     if (!status.usable())
@@ -284,6 +272,7 @@ void vtkCrowdDeformation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "AndersonWindow: " << this->AndersonWindow << "\n";
   os << indent << "WarmStart: " << (this->WarmStart ? "on" : "off") << "\n";
+  os << indent << "MixedPrecision: " << (this->MixedPrecision ? "on" : "off") << "\n";
   os << indent << "OutputType: " << (this->OutputType == APPENDED ? "appended" : "collection")
      << "\n";
 }

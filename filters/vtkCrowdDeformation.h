@@ -29,9 +29,10 @@
  * An instance begins with the rotations of its last pose (WarmStart): a crowd that moves needs few
  * iterations.
  *
- * Report: method, counts (instances, not_converged, clusters and more), iterations (of all),
- * row_sum_error, seconds.bind, seconds.solve, seconds.skin. Status NOT_CONVERGED, with an output,
- * when MaximumIterations were not enough for an instance. Errors name the instance.
+ * Report: method, counts (instances, not_converged, clusters and more), iterations and
+ * single_precision_iterations (of all), row_sum_error, seconds.bind, seconds.solve, seconds.skin.
+ * Status NOT_CONVERGED, with an output, when MaximumIterations were not enough for an instance.
+ * Errors name the instance.
  *
  * @sa vtkReducedARAP
  */
@@ -102,6 +103,13 @@ public:
   vtkBooleanMacro(WarmStart, bool);
   ///@}
 
+  ///@{
+  /// As vtkReducedARAP's. Default on.
+  vtkSetMacro(MixedPrecision, bool);
+  vtkGetMacro(MixedPrecision, bool);
+  vtkBooleanMacro(MixedPrecision, bool);
+  ///@}
+
   enum OutputTypes
   {
     COLLECTION = 0,
@@ -142,6 +150,7 @@ private:
   double Tolerance = 1e-6;
   int AndersonWindow = 5;
   bool WarmStart = true;
+  bool MixedPrecision = true;
   int OutputType = COLLECTION;
   struct Internals;
   std::unique_ptr<Internals> Internal;

@@ -52,21 +52,7 @@ void vtkReducedARAP::SetExtraWeights(int kind)
 
 Status vtkReducedARAP::Bind(const PoseInput& input, ExecutionContext& context)
 {
-  ReducedArapOptions options;
-  options.clusters = this->NumberOfClusters;
-  options.extra_weights = this->NumberOfExtraWeights;
-  options.extra_kind = static_cast<bindpose::ExtraWeights>(this->ExtraWeights);
-  ArapElements elements;
-  const Status status = to_arap(input.mesh, this->Energy, elements, options.energy);
-  if (!status.ok())
-  {
-    return status;
-  }
-  return elements.volume
-    ? this->Internal->arap.bind(
-        context, input.points, elements.tets.tets.view(), input.weights, input.handles, options)
-    : this->Internal->arap.bind(context, input.points, elements.surface.triangles.view(),
-        input.weights, input.handles, options);
+  return bind_reduced(*this, this->Internal->arap, input, context);
 }
 
 Status vtkReducedARAP::Deform(const PoseInput& input, ExecutionContext& context, PosedPoints& posed)
@@ -80,6 +66,7 @@ Status vtkReducedARAP::Deform(const PoseInput& input, ExecutionContext& context,
     options.max_iterations = this->MaximumIterations;
     options.budget_microseconds = this->TimeBudget;
     options.anderson_window = this->AndersonWindow;
+    options.mixed_precision = this->MixedPrecision;
     options.start = this->WarmStart ? ReducedArap::Start::last : ReducedArap::Start::guess;
     status = arap.solve(context, input.pose, options);
     if (!status.usable())
@@ -115,4 +102,5 @@ void vtkReducedARAP::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TimeBudget: " << this->TimeBudget << "\n";
   os << indent << "AndersonWindow: " << this->AndersonWindow << "\n";
   os << indent << "WarmStart: " << (this->WarmStart ? "on" : "off") << "\n";
+  os << indent << "MixedPrecision: " << (this->MixedPrecision ? "on" : "off") << "\n";
 }

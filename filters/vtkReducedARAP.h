@@ -138,6 +138,18 @@ public:
   vtkBooleanMacro(WarmStart, bool);
   ///@}
 
+  ///@{
+  /**
+   * Whether a solve iterates in single precision until its round-off hides whether the energy still
+   * falls, and in double precision from there, at least once (default on: an iteration takes a
+   * third of the time). Off: in double precision from the start. Both end at the same Tolerance;
+   * rest is at rest in both.
+   */
+  vtkSetMacro(MixedPrecision, bool);
+  vtkGetMacro(MixedPrecision, bool);
+  vtkBooleanMacro(MixedPrecision, bool);
+  ///@}
+
 protected:
   vtkReducedARAP();
   ~vtkReducedARAP() override;
@@ -161,6 +173,7 @@ private:
   double TimeBudget = 0.0;
   int AndersonWindow = 5;
   bool WarmStart = true;
+  bool MixedPrecision = true;
   struct Internals;
   std::unique_ptr<Internals> Internal;
 };

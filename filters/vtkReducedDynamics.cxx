@@ -112,6 +112,11 @@ void vtkReducedDynamics::SetTolerance(double tolerance)
   this->SetMotionParameter(this->Tolerance, tolerance);
 }
 
+void vtkReducedDynamics::SetMixedPrecision(bool mixed)
+{
+  this->SetMotionParameter(this->MixedPrecision, mixed);
+}
+
 void vtkReducedDynamics::SetInteractive(bool interactive)
 {
   this->SetMotionParameter(this->Interactive, interactive);
@@ -206,22 +211,8 @@ vtkTypeBool vtkReducedDynamics::ProcessRequest(
 
 Status vtkReducedDynamics::Bind(const PoseInput& input, ExecutionContext& context)
 {
-  ReducedArapOptions options;
-  options.clusters = this->NumberOfClusters;
-  options.extra_weights = this->NumberOfExtraWeights;
-  options.extra_kind = static_cast<bindpose::ExtraWeights>(this->ExtraWeights);
-  ArapElements elements;
-  const Status status = to_arap(input.mesh, this->Energy, elements, options.energy);
-  if (!status.ok())
-  {
-    return status;
-  }
   this->Internal->started = false;
-  ReducedDynamics& body = this->Internal->body;
-  return elements.volume ? body.bind(context, input.points, elements.tets.tets.view(),
-                             input.weights, input.handles, options)
-                         : body.bind(context, input.points, elements.surface.triangles.view(),
-                             input.weights, input.handles, options);
+  return bind_reduced(*this, this->Internal->body, input, context);
 }
 
 Status vtkReducedDynamics::Deform(
@@ -237,6 +228,7 @@ Status vtkReducedDynamics::Deform(
   options.damping = this->Damping;
   options.solve.tolerance = this->Tolerance;
   options.solve.max_iterations = this->MaximumIterations;
+  options.solve.mixed_precision = this->MixedPrecision;
   if (!state.started && state.next > 0)
   {
     state.more = true; // the bind is new, and these are not the handles of time 0
@@ -248,6 +240,7 @@ Status vtkReducedDynamics::Deform(
     {
       ReducedSolveOptions still;
       still.max_iterations = 1000;
+      still.mixed_precision = this->MixedPrecision;
       status = state.body.start(context, input.pose, still);
       const Status checked = check_options(options);
       status = checked.ok() ? status : checked;
@@ -298,5 +291,6 @@ void vtkReducedDynamics::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Damping: " << this->Damping << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
+  os << indent << "MixedPrecision: " << (this->MixedPrecision ? "on" : "off") << "\n";
   os << indent << "Interactive: " << (this->Interactive ? "on" : "off") << "\n";
 }

@@ -113,6 +113,13 @@ public:
   ///@}
 
   ///@{
+  /// As vtkReducedARAP's, of each step. Default on.
+  void SetMixedPrecision(bool mixed);
+  vtkGetMacro(MixedPrecision, bool);
+  vtkBooleanMacro(MixedPrecision, bool);
+  ///@}
+
+  ///@{
   /// One step at each execution, see above. Default off.
   void SetInteractive(bool interactive);
   vtkGetMacro(Interactive, bool);
@@ -166,6 +173,7 @@ private:
   double Damping = 0.0;
   int MaximumIterations = 50;
   double Tolerance = 1e-6;
+  bool MixedPrecision = true;
   bool Interactive = false;
   struct Internals;
   std::unique_ptr<Internals> Internal;

@@ -24,7 +24,8 @@ def _placement(place):
 
 
 def crowd(mesh, handles, poses, *, placements=None, weights=None, energy="auto", clusters=0, iterations=0,
-          tolerance=1e-6, extra_weights=0, extra_kind="bumps", appended=False, threads=0, progress=None):
+          tolerance=1e-6, mixed_precision=True, extra_weights=0, extra_kind="bumps", appended=False, threads=0,
+          progress=None):
     """Bend many instances of a mesh, each to a pose of its own, by reduced as-rigid-as-possible.
 
     The mesh is bound once; an instance costs its iterations and its points, in single precision.
@@ -37,7 +38,7 @@ def crowd(mesh, handles, poses, *, placements=None, weights=None, energy="auto",
         Dicts or files, see `deform`: an instance a pose, or a frame of ``{"frames": [...]}``.
     placements : sequence, optional
         Where each instance stands: translations, 3x4 or 4x4 matrices, applied to the posed mesh.
-    energy, iterations, tolerance, extra_weights, extra_kind
+    energy, iterations, tolerance, mixed_precision, extra_weights, extra_kind
         See `deform`, of reduced-arap.
     clusters : int
         Rotations fitted in an iteration; 0: four a handle.
@@ -86,6 +87,7 @@ def crowd(mesh, handles, poses, *, placements=None, weights=None, energy="auto",
     bender.SetNumberOfExtraWeights(int(extra_weights))
     bender.SetExtraWeights(getattr(filters.vtkReducedARAP, extra_kind.upper()))
     bender.SetTolerance(tolerance)
+    bender.SetMixedPrecision(bool(mixed_precision))
     if iterations:
         bender.SetMaximumIterations(int(iterations))
     bender.SetOutputType(bender.APPENDED if appended and is_dataset(mesh) else bender.COLLECTION)

@@ -519,6 +519,7 @@ def _make_deformation(method, energy, options):
             arap.SetMaximumIterations(int(options["iterations"]))
         if method == "reduced-arap":
             arap.SetTimeBudget(options["budget_us"])
+            arap.SetMixedPrecision(bool(options["mixed_precision"]))
             arap.SetNumberOfExtraWeights(int(options["extra_weights"]))
             arap.SetExtraWeights(getattr(arap, options["extra_kind"].upper()))
         return arap
@@ -560,7 +561,7 @@ def _make_poser(handles, pose):
 
 
 def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, energy="auto", iterations=0,
-           tolerance=1e-6, budget_us=0.0, extra_weights=0, extra_kind="bumps", times=None, order=2,
+           tolerance=1e-6, budget_us=0.0, mixed_precision=True, extra_weights=0, extra_kind="bumps", times=None, order=2,
            boundary="region", tangents="surroundings", pseudo_edges="given", pseudo_edge_stretch=False,
            single_precision=False, influences=0, smallest_weight=0.0, stretch_limit=2.0, stretch_array=False, threads=0, progress=None):
     """Bend a mesh with weights to a pose, or to a sequence of poses.
@@ -597,6 +598,9 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
     budget_us : float
         Of reduced-arap: microseconds for the iterations of a pose; 0: no limit. The report's ``iterations``,
         given as `iterations` with `tolerance` 0, repeat the result.
+    mixed_precision : bool
+        Of reduced-arap: iterate in single precision as far as that goes (the report's ``single_precision_iterations``),
+        then in double; False: in double from the start.
     extra_weights : int
         Of reduced-arap: weights beside the handles', which let the mesh bend where no handle is; 15 is a good
         number.
@@ -647,6 +651,7 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
     data, poser = _posed_handles(mesh, handles, pose, weights)
     bender = _make_deformation(method, energy, {
         "exponent": exponent, "iterations": iterations, "tolerance": tolerance, "budget_us": budget_us,
+        "mixed_precision": mixed_precision,
         "extra_weights": extra_weights, "extra_kind": extra_kind, "order": order, "boundary": boundary,
         "tangents": tangents, "pseudo_edges": pseudo_edges, "pseudo_edge_stretch": pseudo_edge_stretch,
         "single_precision": single_precision, "influences": influences, "smallest_weight": smallest_weight})
@@ -671,8 +676,8 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
 
 
 def dynamics(mesh, handles, pose, *, frames, time_step=1 / 24, weights=None, gravity=(0.0, 0.0, 0.0), damping=0.0,
-             stiffness=1000.0, density=1.0, energy="auto", extra_weights=0, extra_kind="bumps", threads=0,
-             progress=None):
+             stiffness=1000.0, density=1.0, energy="auto", extra_weights=0, extra_kind="bumps", mixed_precision=True,
+             threads=0, progress=None):
     """Move a mesh as a body with mass: what handles leave open swings and falls.
 
     Parameters
@@ -693,7 +698,7 @@ def dynamics(mesh, handles, pose, *, frames, time_step=1 / 24, weights=None, gra
     stiffness, density : float
         Energy of a strain of one, and mass, per volume (of surfaces per area). Waves run at
         sqrt(stiffness / density) lengths a second.
-    energy, extra_weights, extra_kind
+    energy, extra_weights, extra_kind, mixed_precision
         See `deform`, of reduced-arap.
     threads, progress
         See `winding_number`.
@@ -720,6 +725,7 @@ def dynamics(mesh, handles, pose, *, frames, time_step=1 / 24, weights=None, gra
     body.SetDamping(damping)
     body.SetStiffness(stiffness)
     body.SetDensity(density)
+    body.SetMixedPrecision(bool(mixed_precision))
     body.SetInputData(0, data)
     body.SetInputConnection(1, poser.GetOutputPort())
     body.SetNumberOfThreads(threads)

@@ -380,9 +380,9 @@ TEST_F(ReducedARAPFilter, PrintSelfNamesEveryParameter)
 {
   std::ostringstream text;
   this->filter->Print(text);
-  for (const char* word :
-    { "ArrayName: Weights", "NumberOfBinds: 0", "Energy: auto", "NumberOfClusters: 0",
-      "NumberOfExtraWeights: 0", "MaximumIterations: 100", "Tolerance: 1e-06", "WarmStart: on" })
+  for (const char* word : { "ArrayName: Weights", "NumberOfBinds: 0", "Energy: auto",
+         "NumberOfClusters: 0", "NumberOfExtraWeights: 0", "MaximumIterations: 100",
+         "Tolerance: 1e-06", "WarmStart: on", "MixedPrecision: on" })
   {
     EXPECT_THAT(text.str(), HasSubstr(word));
   }
@@ -405,6 +405,28 @@ TEST_F(ReducedARAPFilter, ATimeBudgetIsReportedAndReplayed)
   again->SetMaximumIterations(static_cast<int>(this->report("iterations")));
   again->Update();
   EXPECT_EQ(to_points(again->GetOutput()).view(), first);
+}
+
+TEST_F(ReducedARAPFilter, MixedPrecisionChangesTheWayNotTheResult)
+{
+  this->pose->SetPoseJSON(drag_right(1.0));
+  this->filter->SetTolerance(1e-12);
+  this->filter->SetMaximumIterations(1000);
+  this->filter->SetWarmStart(false);
+  this->filter->Update();
+  const Points mixed = this->output();
+  const double energy = this->report("energy");
+  EXPECT_GT(this->report("single_precision_iterations"), 0.0);
+  EXPECT_LT(this->report("single_precision_iterations"), this->report("iterations"));
+  this->filter->MixedPrecisionOff();
+  this->filter->Update();
+  EXPECT_EQ(this->report("single_precision_iterations"), 0.0);
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
+  EXPECT_NEAR(this->report("energy"), energy, 1e-9 * energy);
+  EXPECT_LT((this->output() - mixed).cwiseAbs().maxCoeff(), 1e-4);
+  this->filter->MixedPrecisionOn();
+  this->filter->Update();
+  EXPECT_EQ(this->output(), mixed);
 }
 
 TEST_F(ReducedARAPFilter, EigenmodesAreABindParameterAndLowerTheEnergy)

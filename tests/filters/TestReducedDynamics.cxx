@@ -148,6 +148,20 @@ TEST_F(ReducedDynamicsFilter, WhatChangesStartsAnew)
   EXPECT_EQ(this->filter->GetNumberOfBinds(), 2);
 }
 
+TEST_F(ReducedDynamicsFilter, MixedPrecisionChangesNoMotion)
+{
+  const Points mixed = at(this->filter, 0.3);
+  EXPECT_GT(this->report("single_precision_iterations"), 0.0);
+  this->filter->MixedPrecisionOff();
+  const Points in_double = at(this->filter, 0.3); // from the start
+  EXPECT_EQ(this->report("single_precision_iterations"), 0.0);
+  EXPECT_EQ(this->report("steps"), 15.0);
+  EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
+  EXPECT_LT((in_double - mixed).cwiseAbs().maxCoeff(), 1e-2);
+  this->filter->MixedPrecisionOn();
+  EXPECT_EQ(at(this->filter, 0.3), mixed);
+}
+
 TEST_F(ReducedDynamicsFilter, InteractiveStepsOnceAnUpdate)
 {
   this->filter->InteractiveOn();

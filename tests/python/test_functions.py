@@ -268,6 +268,25 @@ def test_single_precision_and_few_influences(method):
     assert few.report["dropped_share"] <= 0.2
 
 
+def test_mixed_precision():
+    handles = bindpose.handles(bones=BONES)
+    x = np.array(BAR[0])[:, 0] / 6
+    weights = np.stack([1 - x, x], axis=1)
+    pose = {"handles": {"b2": {"mode": "position", "translate": [0, 1, 0]}}}
+
+    def solved(mixed):
+        options = dict(weights=weights, tolerance=1e-12, iterations=1000, mixed_precision=mixed)
+        alone = bindpose.deform(BAR, handles, pose, method="reduced-arap", **options)
+        instance, = bindpose.crowd(BAR, handles, pose, **options)
+        step = bindpose.dynamics(BAR, handles, pose, frames=2, weights=weights, mixed_precision=mixed)[-1]
+        for posed in (alone, instance, step):
+            assert (posed.report["single_precision_iterations"] > 0) == mixed
+        return alone, instance
+
+    for mixed, plain in zip(solved(True), solved(False)):
+        assert mixed == pytest.approx(plain, abs=1e-5)
+
+
 def test_crowd():
     handles = bindpose.handles(bones=BONES)
     x = np.array(BAR[0])[:, 0] / 6

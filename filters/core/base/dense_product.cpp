@@ -3,7 +3,7 @@
 // the inner index in order, in blocks of a fixed size, whatever the instruction set.
 #include "base/dense_product.h"
 
-#include "base/simd.h"
+#include "base/packs.h"
 
 #include <algorithm>
 #include <vector>
@@ -19,7 +19,7 @@ constexpr Index inner_block = 256; ///< with tile_cols: 16 KiB, the first cache
 constexpr Index row_block = 96; ///< times inner_block: 192 KiB, the second cache
 
 /// Half a row of a tile: AVX2 has registers for twelve of them and what they are made from.
-typedef double Pack __attribute__((vector_size(32), aligned(8), may_alias));
+using Pack = PackOf<double>::Pack;
 
 /// sums = a b for tile_rows x inner packed column by column and inner x tile_cols row by row.
 BINDPOSE_SIMD_CLONES void multiply_tile(const double* a, const double* b, Index inner, double* sums)
@@ -27,19 +27,18 @@ BINDPOSE_SIMD_CLONES void multiply_tile(const double* a, const double* b, Index 
   Pack packs[tile_rows][2] = {};
   for (Index k = 0; k < inner; ++k)
   {
-    const Pack left = *reinterpret_cast<const Pack*>(b + k * tile_cols);
-    const Pack right = *reinterpret_cast<const Pack*>(b + k * tile_cols + tile_cols / 2);
+    const Pack left = pack_at(b + k * tile_cols);
+    const Pack right = pack_at(b + k * tile_cols + tile_cols / 2);
     for (Index i = 0; i < tile_rows; ++i)
     {
       packs[i][0] += a[k * tile_rows + i] * left;
       packs[i][1] += a[k * tile_rows + i] * right;
     }
   }
-  auto* out = reinterpret_cast<Pack*>(sums);
   for (Index i = 0; i < tile_rows; ++i)
   {
-    out[2 * i] = packs[i][0];
-    out[2 * i + 1] = packs[i][1];
+    pack_at(sums + i * tile_cols) = packs[i][0];
+    pack_at(sums + i * tile_cols + tile_cols / 2) = packs[i][1];
   }
 }
 
@@ -53,10 +52,10 @@ void add_product(
   const StridedMatrix& a, const StridedMatrix& b, double* c, Index c_stride, bool lower)
 {
   const Index column_tiles = tiles_of(b.cols, tile_cols);
-  std::vector<double> packed_b(
-    static_cast<std::size_t>(column_tiles * tile_cols * std::min(inner_block, a.cols)));
-  std::vector<double> packed_a(
-    static_cast<std::size_t>(tiles_of(row_block, tile_rows) * tile_rows * inner_block));
+  const Index deepest = std::min(inner_block, a.cols);
+  const Index row_tiles = tiles_of(std::min(row_block, a.rows), tile_rows);
+  std::vector<double> packed_b(static_cast<std::size_t>(column_tiles * tile_cols * deepest));
+  std::vector<double> packed_a(static_cast<std::size_t>(row_tiles * tile_rows * deepest));
   alignas(64) double sums[tile_rows * tile_cols];
   for (Index first = 0; first < a.cols; first += inner_block)
   {

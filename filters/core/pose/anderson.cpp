@@ -3,7 +3,7 @@
 // follows from its change, so that a step needs one inner product for each row and one more.
 #include "pose/anderson.h"
 
-#include "base/simd.h"
+#include "base/packs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +13,6 @@ namespace bindpose
 
 namespace
 {
-/// Half of a tile of 16 floats or 8 doubles: what AVX2 has registers for.
-template <typename Scalar>
-struct PackOf
-{
-  static constexpr Index half = 32 / sizeof(Scalar);
-  typedef Scalar Half __attribute__((vector_size(32), aligned(alignof(Scalar)), may_alias));
-};
-
 /// Of products scaled to ones on the diagonal: changes nearer to parallel than this share out
 /// evenly instead of cancelling in large numbers.
 template <typename Scalar>
@@ -56,21 +48,20 @@ template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE void extrapolate_of(Index count, Index rows, const double* shares,
   const Scalar* __restrict g, const Scalar* __restrict changes, Scalar* __restrict x)
 {
-  using Half = typename PackOf<Scalar>::Half;
-  constexpr Index half = PackOf<Scalar>::half;
+  using Pack = typename PackOf<Scalar>::Pack;
+  constexpr Index lanes = PackOf<Scalar>::lanes;
   Index i = 0;
-  for (; i + 2 * half <= count; i += 2 * half)
+  for (; i + 2 * lanes <= count; i += 2 * lanes)
   {
-    Half a = *reinterpret_cast<const Half*>(g + i);
-    Half b = *reinterpret_cast<const Half*>(g + i + half);
+    Pack a = pack_at(g + i), b = pack_at(g + i + lanes);
     for (Index r = 0; r < rows; ++r)
     {
       const auto share = static_cast<Scalar>(shares[r]);
-      a -= *reinterpret_cast<const Half*>(changes + r * count + i) * share;
-      b -= *reinterpret_cast<const Half*>(changes + r * count + i + half) * share;
+      a -= pack_at(changes + r * count + i) * share;
+      b -= pack_at(changes + r * count + i + lanes) * share;
     }
-    *reinterpret_cast<Half*>(x + i) = a;
-    *reinterpret_cast<Half*>(x + i + half) = b;
+    pack_at(x + i) = a;
+    pack_at(x + i + lanes) = b;
   }
   for (; i < count; ++i)
   {
@@ -86,29 +77,27 @@ BINDPOSE_ALWAYS_INLINE void extrapolate_of(Index count, Index rows, const double
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE double dot_of(Index count, const Scalar* a, const Scalar* b)
 {
-  using Half = typename PackOf<Scalar>::Half;
-  constexpr Index half = PackOf<Scalar>::half;
-  const auto at = [](const Scalar* from) -> const Half&
-  { return *reinterpret_cast<const Half*>(from); };
-  Half low[2] = {}, high[2] = {};
+  using Pack = typename PackOf<Scalar>::Pack;
+  constexpr Index lanes = PackOf<Scalar>::lanes;
+  Pack low[2] = {}, high[2] = {};
   Index i = 0;
-  for (; i + 4 * half <= count; i += 4 * half)
+  for (; i + 4 * lanes <= count; i += 4 * lanes)
   {
-    low[0] += at(a + i) * at(b + i);
-    high[0] += at(a + i + half) * at(b + i + half);
-    low[1] += at(a + i + 2 * half) * at(b + i + 2 * half);
-    high[1] += at(a + i + 3 * half) * at(b + i + 3 * half);
+    low[0] += pack_at(a + i) * pack_at(b + i);
+    high[0] += pack_at(a + i + lanes) * pack_at(b + i + lanes);
+    low[1] += pack_at(a + i + 2 * lanes) * pack_at(b + i + 2 * lanes);
+    high[1] += pack_at(a + i + 3 * lanes) * pack_at(b + i + 3 * lanes);
   }
-  for (; i + 2 * half <= count; i += 2 * half)
+  for (; i + 2 * lanes <= count; i += 2 * lanes)
   {
-    low[0] += at(a + i) * at(b + i);
-    high[0] += at(a + i + half) * at(b + i + half);
+    low[0] += pack_at(a + i) * pack_at(b + i);
+    high[0] += pack_at(a + i + lanes) * pack_at(b + i + lanes);
   }
-  const Half sums = (low[0] + low[1]) + (high[0] + high[1]);
+  const Pack sums = (low[0] + low[1]) + (high[0] + high[1]);
   double sum = 0.0;
-  for (Index k = 0; k < half / 2; ++k)
+  for (Index k = 0; k < lanes / 2; ++k)
   {
-    sum += double(sums[k]) + double(sums[k + half / 2]);
+    sum += double(sums[k]) + double(sums[k + lanes / 2]);
   }
   for (; i < count; ++i)
   {
@@ -151,8 +140,9 @@ BINDPOSE_SIMD_CLONES double packed_dot(Index count, const float* a, const float*
 
 template <typename Scalar>
 Anderson<Scalar>::Anderson(Index window, Index size, Index carried, Dot dot)
-  : window_(std::clamp<Index>(window, 0, largest_window)), size_(size), length_(size + carried),
-    dot_(std::move(dot)), products_(Eigen::MatrixXd::Zero(this->window_, this->window_)),
+  : window_(std::clamp<Index>(window, 0, largest_anderson_window)), size_(size),
+    length_(size + carried), dot_(std::move(dot)),
+    products_(Eigen::MatrixXd::Zero(this->window_, this->window_)),
     right_(Eigen::VectorXd::Zero(this->window_))
 {
   if (this->window_ > 0)
@@ -161,17 +151,17 @@ Anderson<Scalar>::Anderson(Index window, Index size, Index carried, Dot dot)
     this->changes_f_.resize(this->window_ * this->size_);
     this->last_g_.resize(this->length_);
     this->last_f_.resize(this->size_);
-    this->factor_.resize(largest_window * this->window_);
+    this->factor_.resize(largest_anderson_window * this->window_);
   }
 }
 
 /// The normal equations by Cholesky's method, in place. By hand, because a solve takes thousands of
 /// these five by five, and a library's call for any size costs more than an iteration's products.
 template <typename Scalar>
-bool Anderson<Scalar>::solve(Index count, std::array<double, largest_window>& shares)
+bool Anderson<Scalar>::solve(Index count, std::array<double, largest_anderson_window>& shares)
 {
   double* const l = this->factor_.data();
-  std::array<double, largest_window> scale;
+  std::array<double, largest_anderson_window> scale;
   bool good = true;
   for (Index i = 0; i < count; ++i)
   {
@@ -184,25 +174,25 @@ bool Anderson<Scalar>::solve(Index count, std::array<double, largest_window>& sh
       double entry = scale[i] * scale[j] * this->products_(i, j);
       for (Index k = 0; k < j; ++k)
       {
-        entry -= l[i * largest_window + k] * l[j * largest_window + k];
+        entry -= l[i * largest_anderson_window + k] * l[j * largest_anderson_window + k];
       }
-      entry *= l[j * largest_window + j];
-      l[i * largest_window + j] = entry;
+      entry *= l[j * largest_anderson_window + j];
+      l[i * largest_anderson_window + j] = entry;
       pivot -= entry * entry;
       right -= entry * shares[j];
     }
     good = good && pivot > 0.0;
     const double inverse = 1.0 / std::sqrt(pivot);
-    l[i * largest_window + i] = inverse; // the diagonal's reciprocals
+    l[i * largest_anderson_window + i] = inverse; // the diagonal's reciprocals
     shares[i] = right * inverse;
   }
   for (Index i = count - 1; i >= 0; --i)
   {
     for (Index k = i + 1; k < count; ++k)
     {
-      shares[i] -= l[k * largest_window + i] * shares[k];
+      shares[i] -= l[k * largest_anderson_window + i] * shares[k];
     }
-    shares[i] *= l[i * largest_window + i];
+    shares[i] *= l[i * largest_anderson_window + i];
   }
   for (Index i = 0; i < count; ++i)
   {
@@ -241,7 +231,7 @@ bool Anderson<Scalar>::next(const Scalar* g, Scalar* x)
   }
   this->right_[at] = this->dot_(change, this->last_f_.data());
 
-  std::array<double, largest_window> shares;
+  std::array<double, largest_anderson_window> shares;
   if (!this->solve(filled, shares))
   {
     return false;

@@ -31,11 +31,11 @@ template <typename Scalar>
 class Anderson
 {
 public:
-  static constexpr Index largest_window = largest_anderson_window;
   /// Inner product of two residuals.
   using Dot = std::function<double(const Scalar*, const Scalar*)>;
 
-  /// @param window iterates that are looked back on, 0 (no acceleration) to largest_window.
+  /// @param window iterates that are looked back on, 0 (no acceleration) to
+  /// largest_anderson_window.
   /// @param size of x; @param carried how many numbers follow it.
   Anderson(Index window, Index size, Index carried, Dot dot);
 
@@ -51,7 +51,7 @@ public:
   double reach() const { return this->reach_; }
 
 private:
-  bool solve(Index count, std::array<double, largest_window>& shares);
+  bool solve(Index count, std::array<double, largest_anderson_window>& shares);
 
   Index window_, size_, length_;
   Dot dot_;
@@ -61,7 +61,7 @@ private:
   AlignedVector<Scalar> last_g_, last_f_;
   Eigen::MatrixXd products_; ///< of the changes of the residual
   Eigen::VectorXd right_; ///< of each change with the last residual
-  std::vector<double> factor_; ///< rows of largest_window
+  std::vector<double> factor_; ///< rows of largest_anderson_window
 };
 
 /// Sum of a_i b_i in eight running sums, or sixteen of floats, whatever the processor: the same

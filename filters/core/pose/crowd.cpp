@@ -32,7 +32,7 @@ Status Crowd::solve(
   ExecutionContext& context, const std::vector<Pose>& poses, const ReducedSolveOptions& options)
 {
   Status all;
-  std::int64_t iterations = 0, not_converged = 0;
+  std::int64_t iterations = 0, single_iterations = 0, not_converged = 0;
   this->rotations_.resize(poses.size());
   this->transforms_.resize(poses.size());
   ReducedSpace::Rows d;
@@ -65,6 +65,8 @@ Status Crowd::solve(
     this->rotations_[i] = this->solver_.rotations();
     this->transforms_[i] = this->space_.transforms_of(d, poses[i]);
     iterations += static_cast<std::int64_t>(status.report.number("iterations", 0));
+    single_iterations +=
+      static_cast<std::int64_t>(status.report.number("single_precision_iterations", 0));
     if (status.code == StatusCode::not_converged)
     {
       not_converged += 1;
@@ -83,6 +85,7 @@ Status Crowd::solve(
   all.report.set("counts.instances", static_cast<std::int64_t>(poses.size()));
   all.report.set("counts.not_converged", not_converged);
   all.report.set("iterations", iterations);
+  all.report.set("single_precision_iterations", single_iterations);
   return all;
 }
 

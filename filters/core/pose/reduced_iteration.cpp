@@ -9,7 +9,7 @@
 // says nothing any more.
 #include "pose/reduced_iteration.h"
 
-#include "base/simd.h"
+#include "base/packs.h"
 #include "pose/rotation_fit.h"
 
 #include <algorithm>
@@ -29,39 +29,6 @@ template <typename Scalar>
 constexpr double farthest_reach = sizeof(Scalar) == 4 ? 3.0 : 1e4;
 
 constexpr Index columns_at_once = 4;
-
-/// Rows go in tiles of 16 floats or 8 doubles. A pack is half a tile: AVX2 has registers for it.
-template <typename Scalar>
-struct PackOf
-{
-  static constexpr Index lanes = 32 / sizeof(Scalar);
-  typedef Scalar Pack __attribute__((vector_size(32), aligned(alignof(Scalar)), may_alias));
-};
-
-template <typename Scalar>
-BINDPOSE_ALWAYS_INLINE auto& pack_at(Scalar* from)
-{
-  return *reinterpret_cast<typename PackOf<Scalar>::Pack*>(from);
-}
-
-template <typename Scalar>
-BINDPOSE_ALWAYS_INLINE const auto& pack_at(const Scalar* from)
-{
-  return *reinterpret_cast<const typename PackOf<Scalar>::Pack*>(from);
-}
-
-BINDPOSE_ALWAYS_INLINE float sum_of(const PackOf<float>::Pack& p)
-{
-  typedef float Four __attribute__((vector_size(16), aligned(4), may_alias));
-  const Four* const halves = reinterpret_cast<const Four*>(&p);
-  const Four sum = halves[0] + halves[1];
-  return (sum[0] + sum[2]) + (sum[1] + sum[3]);
-}
-
-BINDPOSE_ALWAYS_INLINE double sum_of(const PackOf<double>::Pack& p)
-{
-  return (p[0] + p[2]) + (p[1] + p[3]);
-}
 
 /// y_j = A^T q_j for two columns of A and j = 0, 1, 2.
 template <typename Scalar>
@@ -95,37 +62,6 @@ BINDPOSE_ALWAYS_INLINE void multiply_two(
   }
 }
 
-/// s_j += A y_j for four columns of A.
-template <typename Scalar>
-BINDPOSE_ALWAYS_INLINE void add_four(
-  Index rows, const Scalar* a, const Scalar* y, Index length, Scalar* s)
-{
-  constexpr Index lanes = PackOf<Scalar>::lanes;
-  using Pack = typename PackOf<Scalar>::Pack;
-  Scalar factors[columns_at_once][3];
-  for (Index c = 0; c < columns_at_once; ++c)
-  {
-    for (Index j = 0; j < 3; ++j)
-    {
-      factors[c][j] = y[j * length + c];
-    }
-  }
-  for (Index r = 0; r < rows; r += lanes)
-  {
-    Pack s0 = pack_at(s + r), s1 = pack_at(s + rows + r), s2 = pack_at(s + 2 * rows + r);
-    for (Index c = 0; c < columns_at_once; ++c)
-    {
-      const Pack entry = pack_at(a + c * rows + r);
-      s0 += entry * factors[c][0];
-      s1 += entry * factors[c][1];
-      s2 += entry * factors[c][2];
-    }
-    pack_at(s + r) = s0;
-    pack_at(s + rows + r) = s1;
-    pack_at(s + 2 * rows + r) = s2;
-  }
-}
-
 /// Y = C^T Q and S = S* + C Y.
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE void multiply_both(Index rows, Index columns, const Scalar* covariance,
@@ -137,7 +73,7 @@ BINDPOSE_ALWAYS_INLINE void multiply_both(Index rows, Index columns, const Scala
     const Scalar* const a = covariance + c * rows;
     multiply_two(rows, a, q, y + c, length);
     multiply_two(rows, a + 2 * rows, q, y + c + 2, length);
-    add_four(rows, a, y + c, length, s);
+    add_columns<columns_at_once>(rows, a, y + c, length, s);
   }
 }
 
@@ -161,7 +97,7 @@ BINDPOSE_ALWAYS_INLINE void multiply_once(Index rows, Index columns, const Scala
   std::copy_n(star, 3 * rows, s);
   for (Index c = 0; c < columns; c += columns_at_once)
   {
-    add_four(rows, covariance + c * rows, y + c, length, s);
+    add_columns<columns_at_once>(rows, covariance + c * rows, y + c, length, s);
   }
 }
 

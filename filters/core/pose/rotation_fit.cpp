@@ -233,15 +233,27 @@ void fit_carefully(const Eigen::Matrix3d& matrix, Eigen::Matrix3d& rotation)
   rotation = Eigen::Quaterniond(best[0], best[1], best[2], best[3]).toRotationMatrix();
 }
 
+/// `size` numbers of at most `lanes`, mostly all: then their count is known when this is compiled.
+template <int lanes, typename Scalar>
+BINDPOSE_ALWAYS_INLINE void copy_lanes(const Scalar* from, int size, Scalar* to)
+{
+  if (size == lanes)
+  {
+    std::copy_n(from, lanes, to);
+  }
+  else
+  {
+    std::copy_n(from, size, to);
+  }
+}
+
 /// What is written is R - I with `diagonal` added to its diagonal: 0, or 1 for R.
 template <typename Scalar>
 void fit_all(Index count, const MatrixPlanes<const Scalar>& s,
   const MatrixPlanes<Scalar>& rotations, Scalar diagonal)
 {
   constexpr int lanes = Fast<Scalar>::lanes;
-  Scalar in[9 * lanes];
-  Scalar out[9 * lanes];
-  Scalar slope[lanes];
+  alignas(64) Scalar in[9 * lanes], out[9 * lanes], slope[lanes];
   for (Index begin = 0; begin < count; begin += lanes)
   {
     const int size = static_cast<int>(std::min<Index>(lanes, count - begin));
@@ -251,23 +263,24 @@ void fit_all(Index count, const MatrixPlanes<const Scalar>& s,
     }
     for (int e = 0; e < 9; ++e)
     {
-      std::copy_n(s.at(e / 3, e % 3) + begin, size, in + e * lanes);
+      copy_lanes<lanes>(s.at(e / 3, e % 3) + begin, size, in + e * lanes);
     }
     fit_block(in, out, slope);
-    for (int e = 0; e < 9; e += 4)
+    for (int e = 0; e < 9 && diagonal != Scalar(0); e += 4)
     {
       for (int k = 0; k < lanes; ++k)
       {
         out[e * lanes + k] += diagonal;
       }
     }
-    bool trusted = true;
-    for (int k = 0; k < size; ++k)
+    std::fill(slope + size, slope + lanes, Scalar(1)); // what is not there needs no care
+    int trusted = 0;
+    for (int k = 0; k < lanes; ++k)
     {
-      trusted &= slope[k] > Fast<Scalar>::slope; // not a number goes the careful way
+      trusted += slope[k] > Fast<Scalar>::slope ? 1 : 0; // not a number goes the careful way
     }
     const double missing = 1.0 - diagonal;
-    for (int k = 0; !trusted && k < size; ++k)
+    for (int k = 0; trusted < lanes && k < size; ++k)
     {
       if (slope[k] > Fast<Scalar>::slope)
       {
@@ -289,7 +302,7 @@ void fit_all(Index count, const MatrixPlanes<const Scalar>& s,
     }
     for (int e = 0; e < 9; ++e)
     {
-      std::copy_n(out + e * lanes, size, rotations.at(e / 3, e % 3) + begin);
+      copy_lanes<lanes>(out + e * lanes, size, rotations.at(e / 3, e % 3) + begin);
     }
   }
 }

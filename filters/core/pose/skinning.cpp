@@ -6,6 +6,7 @@
 #include "pose/skinning.h"
 
 #include "base/parallel.h"
+#include "pose/bone_moves.h"
 #include "pose/rotation_fit.h"
 
 #include <algorithm>
@@ -104,16 +105,6 @@ Vec3 turned_normal(const Eigen::Matrix3d& linear, const Vec3& n)
   }
   const Eigen::Matrix3d scaled = linear * std::ldexp(1.0, -std::ilogb(largest));
   return unit_or(cofactors(scaled) * n, n);
-}
-
-/// By how much a bone's stretch and twist move a point at rest, at the endpoint weight e.
-Vec3 change_at(const BoneChange& bone, const Vec3& p, double e)
-{
-  const double angle = ((1.0 - e) * bone.twist[0] + e * bone.twist[1]) * EIGEN_PI / 180.0;
-  const Vec3 axis = bone.vector.stableNormalized();
-  const Vec3 arm = axis.cross(p - bone.head);
-  return std::sin(angle) * arm + (1.0 - std::cos(angle)) * axis.cross(arm) +
-    e * (bone.stretch - 1.0) * bone.vector;
 }
 
 /// A rigid motion as a dual quaternion: real part, dual part, each (x, y, z, w).
@@ -591,37 +582,30 @@ Status Skinning::linear_blend_normals(ExecutionContext& context, PointsView rest
   return done ? status : Status::cancelled();
 }
 
-/// What bones do along themselves, on top of posed.
 template <typename Scalar>
-bool Skinning::add_changes(ExecutionContext& context, PointsView rest,
+bool Skinning::blend_bones(ExecutionContext& context, PointsView rest,
   const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
   WeightsView endpoints, Points& posed) const
 {
   const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
+  constexpr Index lanes = WeightTiles<Scalar>::lanes;
+  const Vec3 centre = centre_of(rest);
+  const auto moves = displacements<Scalar>(transforms, centre);
+  const auto frames = bone_frames<Scalar>(bones, transforms, centre);
+  posed.resize(rest.rows(), 3);
   return parallel_for(context, rest.rows(), block_size,
     [&](Index begin, Index end)
     {
-      for (Index v = begin; v < end; ++v)
+      BlendedTile<Scalar, 12> blended;
+      TilePoints<Scalar> points, moved;
+      for (Index v = begin; v < end; v += lanes)
       {
-        const Vec3 p = rest.row(v);
-        const auto tile = static_cast<std::size_t>(tiles.tile_of(v));
-        for (Index k = tiles.start[tile]; k < tiles.start[tile + 1]; ++k)
-        {
-          const std::int32_t j = tiles.columns[static_cast<std::size_t>(k)];
-          const BoneChange& bone = bones[static_cast<std::size_t>(j)];
-          const auto w = static_cast<double>(
-            tiles.weights[static_cast<std::size_t>(tiles.weight_of(k, tiles.lane_of(v)))]);
-          if (w != 0.0 && bone.any())
-          {
-            const double given =
-              endpoints.size() > 0 ? endpoints(v, j) : std::numeric_limits<double>::quiet_NaN();
-            const double e =
-              std::isnan(given) ? projected_endpoint(p, bone.head, bone.vector) : given;
-            posed.row(v) += w *
-              (transforms[static_cast<std::size_t>(j)].leftCols<3>() * change_at(bone, p, e))
-                .transpose();
-          }
-        }
+        const Index count = std::min(lanes, end - v);
+        blend_tile(tiles, v / lanes, moves, nullptr, blended);
+        load_points(rest.data() + 3 * v, count, centre, points);
+        affine_moves(blended, points, moved);
+        add_bone_moves(tiles, frames, endpoints, v, count, points, moved);
+        store_moved(rest.data() + 3 * v, count, moved, posed.data() + 3 * v);
       }
     });
 }
@@ -643,16 +627,13 @@ Status Skinning::stretchable_bones(ExecutionContext& context, PointsView rest,
       std::to_string(endpoints.cols()) + " endpoint weights for " + std::to_string(rest.rows()) +
       " vertices and " + std::to_string(this->handles_) + " handles");
   }
-  status = status.ok() ? this->linear_blend(context, rest, transforms, posed) : status;
-  const bool any =
-    std::any_of(bones.begin(), bones.end(), [](const BoneChange& bone) { return bone.any(); });
-  if (!status.ok() || !any)
+  if (!status.ok())
   {
     return status;
   }
   const bool done = this->single_
-    ? this->add_changes<float>(context, rest, transforms, bones, endpoints, posed)
-    : this->add_changes<double>(context, rest, transforms, bones, endpoints, posed);
+    ? this->blend_bones<float>(context, rest, transforms, bones, endpoints, posed)
+    : this->blend_bones<double>(context, rest, transforms, bones, endpoints, posed);
   return done ? status : Status::cancelled();
 }
 

@@ -137,7 +137,7 @@ private:
   bool blend_about(ExecutionContext& context, PointsView rest,
     const std::vector<Affine>& transforms, const PointsView* centres, Points& posed) const;
   template <typename Scalar>
-  bool add_changes(ExecutionContext& context, PointsView rest,
+  bool blend_bones(ExecutionContext& context, PointsView rest,
     const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
     WeightsView endpoints, Points& posed) const;
 

@@ -54,3 +54,34 @@ TEST(DenseProduct, LowerHasTheLowerTriangle)
   EXPECT_EQ(
     Weights(c.triangularView<Eigen::Lower>()), Weights(expected.triangularView<Eigen::Lower>()));
 }
+
+TEST(DenseProduct, OfMatricesIsTheSumOfProductsAtOddSizes)
+{
+  // Of columns that lie one after the other, in matrices of their own and inside of larger ones.
+  for (const Index rows : { 1, 5, 7, 13, 97 })
+  {
+    for (const Index cols : { 1, 3, 9, 17 })
+    {
+      for (const Index inner : { 0, 1, 11, 257 })
+      {
+        const Eigen::MatrixXd a = (noise(rows + 3, inner + 2, 7) * 10.0).array().round();
+        const Eigen::MatrixXd b = (noise(inner + 5, cols + 1, 8) * 10.0).array().round();
+        Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(rows, cols);
+        for (Index i = 0; i < rows; ++i)
+        {
+          for (Index j = 0; j < cols; ++j)
+          {
+            for (Index k = 0; k < inner; ++k)
+            {
+              expected(i, j) += a(i + 2, k + 1) * b(k + 4, j);
+            }
+          }
+        }
+        const auto a_block = a.block(2, 1, rows, inner), b_block = b.block(4, 0, inner, cols);
+        EXPECT_EQ(dense_product(a_block, b_block), expected) << rows << " " << cols << " " << inner;
+        EXPECT_EQ(dense_product(Eigen::MatrixXd(a_block), Eigen::MatrixXd(b_block)), expected)
+          << rows << " " << cols << " " << inner;
+      }
+    }
+  }
+}

@@ -60,13 +60,67 @@ Affine transform(Random& random, double exponent)
   return t;
 }
 
+/// Some handles become bones, whose tails may be anywhere: in the shape, beside it, at one place.
+void make_bones(Random& random, const TetMesh& mesh, Handles& handles)
+{
+  const Box box = bounding_box(mesh.points);
+  const Vec3 meeting = random.in_box(box.lower, box.upper);
+  for (Handle& handle : handles)
+  {
+    if (chance(random, 0.5))
+    {
+      continue;
+    }
+    handle.kind = HandleKind::bone;
+    switch (random.below(4))
+    {
+      case 0:
+        handle.tail = meeting;
+        break;
+      case 1:
+        handle.tail = mesh.points.row(random.below(mesh.points.rows()));
+        break;
+      case 2: // short
+        handle.tail = handle.head + 1e-4 * random.in_box(-Vec3::Ones(), Vec3::Ones());
+        break;
+      default:
+        handle.tail = random.in_box(1.2 * box.lower, 1.2 * box.upper);
+        break;
+    }
+    const bool twice = std::any_of(handles.begin(), handles.end(),
+      [&](const Handle& other) { return other.head == handle.tail && other.tail == handle.head; });
+    if (twice)
+    {
+      handle.tail += Vec3(0.1, 0.2, 0.3); // no length, or another bone the other way round
+    }
+  }
+}
+
+/// Any mode that the handle can have, any transform, and for bones any stretch and twist.
+void pose_anyhow(Random& random, double exponent, const Handle& handle, HandlePose& pose)
+{
+  const bool bone = handle.kind == HandleKind::bone;
+  pose.mode = static_cast<HandleMode>(random.below(bone ? 5 : 3));
+  pose.transform = transform(random, exponent);
+  if (bone)
+  {
+    pose.stretch = chance(random, 0.5) ? 1.0
+      : chance(random, 0.2)            ? 0.0
+                                       : random.uniform(-1.0, 3.0);
+    pose.twist = chance(random, 0.5)
+      ? Eigen::Vector2d(0.0, 0.0)
+      : Eigen::Vector2d(random.uniform(-720.0, 720.0), random.uniform(-720.0, 720.0));
+  }
+}
+
 /// How much larger than rest a pose can make things.
 double size_of(const Pose& pose)
 {
   double size = 1.0;
   for (const HandlePose& handle : pose)
   {
-    size = std::max(size, handle.transform.cwiseAbs().maxCoeff());
+    size = std::max(
+      size, handle.transform.cwiseAbs().maxCoeff() * std::max(std::abs(handle.stretch), 1.0));
   }
   return size;
 }
@@ -118,20 +172,20 @@ const Rig& rig(Index which)
 
 TEST(FuzzPoses, Skinning)
 {
-  fuzz("poses through linear blending and dual quaternions", 3000,
+  fuzz("poses through linear blending, dual quaternions and bones", 3000,
     [](Random& random)
     {
-      const Rig& shape = rig(random.below(2));
+      Rig shape = rig(random.below(2));
+      make_bones(random, shape.mesh, shape.handles);
       const Points& rest = shape.mesh.points;
       const Weights weights = spoilt(random, shape.weights);
       const double exponent = chance(random, 0.2) ? 90.0 : 6.0;
       Pose pose(shape.handles.size());
-      for (HandlePose& handle : pose)
+      for (std::size_t h = 0; h < pose.size(); ++h)
       {
-        handle.mode = static_cast<HandleMode>(random.below(3));
-        handle.transform = transform(random, exponent);
+        pose_anyhow(random, exponent, shape.handles[h], pose[h]);
       }
-      if (chance(random, 0.1))
+      if (chance(random, 0.1) && !holds_tail(pose[0].mode))
       {
         pose.assign(pose.size(), pose[0]); // all alike
       }
@@ -186,6 +240,16 @@ TEST(FuzzPoses, Skinning)
           ASSERT_LE((quaternions.row(v).transpose() - expected).cwiseAbs().maxCoeff(), near);
         }
       }
+      const std::vector<BoneChange> bones = bone_changes(shape.handles, pose);
+      Points bent;
+      ASSERT_TRUE(skinning.stretchable_bones(one, rest, transforms, bones, Weights(), bent).ok());
+      ASSERT_TRUE(skinning.stretchable_bones(many, rest, transforms, bones, Weights(), again).ok());
+      EXPECT_EQ(bent, again);
+      ASSERT_TRUE(bent.allFinite());
+      if (std::none_of(bones.begin(), bones.end(), [](const BoneChange& b) { return b.any(); }))
+      {
+        EXPECT_EQ(bent, blended);
+      }
       if (rests)
       {
         EXPECT_EQ(blended, rest);
@@ -219,6 +283,7 @@ struct Case
   explicit Case(Random& random) : shape(rig(random.below(2)))
   {
     this->shape.weights = spoilt(random, this->shape.weights);
+    make_bones(random, this->shape.mesh, this->shape.handles);
     this->options.energy = static_cast<ArapEnergy>(random.below(3));
     this->options.clusters = random.below(3) == 0 ? 1000 : random.below(9);
     this->options.extra_weights = chance(random, 0.3) ? random.below(6) : 0;
@@ -268,12 +333,11 @@ TEST(FuzzPoses, ReducedArap)
       const Index length = 1 + random.below(8);
       for (Index step = 0; step < length; ++step)
       {
-        for (HandlePose& handle : pose)
+        for (std::size_t h = 0; h < pose.size(); ++h)
         {
           if (chance(random, 0.5))
           {
-            handle.mode = static_cast<HandleMode>(random.below(3));
-            handle.transform = transform(random, exponent);
+            pose_anyhow(random, exponent, shape.shape.handles[h], pose[h]);
           }
         }
         const ReducedArap::SolveOptions options = solve_options(random);
@@ -314,6 +378,7 @@ TEST(FuzzPoses, ReducedArap)
       for (HandlePose& handle : pose)
       {
         handle.transform = identity_affine();
+        handle.stretch = 1.0;
       }
       for (const auto start : { ReducedArap::Start::guess, ReducedArap::Start::rest })
       {
@@ -413,12 +478,11 @@ TEST(FuzzPoses, FullArap)
       const Index length = 1 + random.below(5);
       for (Index step = 0; step < length; ++step)
       {
-        for (HandlePose& handle : pose)
+        for (std::size_t h = 0; h < pose.size(); ++h)
         {
           if (chance(random, 0.5))
           {
-            handle.mode = static_cast<HandleMode>(random.below(3));
-            handle.transform = transform(random, exponent);
+            pose_anyhow(random, exponent, shape.handles[h], pose[h]);
           }
         }
         const FullArap::SolveOptions options{ chance(random, 0.5) ? 0.0 : 1e-6, random.below(25),
@@ -455,6 +519,7 @@ TEST(FuzzPoses, FullArap)
       for (HandlePose& handle : pose)
       {
         handle.transform = identity_affine();
+        handle.stretch = 1.0;
       }
       const double diagonal = bounding_box(shape.mesh.points).diagonal();
       for (const auto start : { FullArap::Start::guess, FullArap::Start::rest })

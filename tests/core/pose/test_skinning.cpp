@@ -416,6 +416,140 @@ TEST(StretchableBones, WithoutAChangeAreLinearBlendBitForBit)
   EXPECT_LT((there - moved(here, rigid)).cwiseAbs().maxCoeff(), 1e-12);
 }
 
+namespace
+{
+/// The definition, point by point and weight by weight.
+Points stretched_one_by_one(const Points& points, const Weights& weights,
+  const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
+  const Weights& endpoints)
+{
+  Points posed = points;
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    const Vec3 p = points.row(v);
+    Vec3 sum = Vec3::Zero();
+    for (Index j = 0; j < weights.cols(); ++j)
+    {
+      const BoneChange& bone = bones[static_cast<std::size_t>(j)];
+      double e = endpoints.size() > 0 ? endpoints(v, j) : std::nan("");
+      e = std::isnan(e) ? projected_endpoint(p, bone.head, bone.vector) : e;
+      const double angle = (1.0 - e) * bone.twist[0] + e * bone.twist[1];
+      Vec3 at = p;
+      if (bone.vector.norm() > 0.0)
+      {
+        at = bone.head +
+          Eigen::AngleAxisd(angle * EIGEN_PI / 180.0, bone.vector.normalized()) * (p - bone.head) +
+          e * (bone.stretch - 1.0) * bone.vector;
+      }
+      const Affine& t = transforms[static_cast<std::size_t>(j)];
+      sum += weights(v, j) * (t.leftCols<3>() * at + t.col(3) - p);
+    }
+    posed.row(v) += sum.transpose();
+  }
+  return posed;
+}
+} // namespace
+
+TEST(StretchableBones, AreTheirDefinitionInBothPrecisions)
+{
+  test::Random random(11);
+  const Vec3 ones = Vec3::Ones();
+  const auto between = [&](double lower, double upper) { return random.uniform(lower, upper); };
+  for (int trial = 0; trial < 60; ++trial)
+  {
+    const Index vertices = 1 + random.below(70), handles = 1 + random.below(6); // odd tiles
+    Points points(vertices, 3);
+    Weights weights(vertices, handles), painted(vertices, handles);
+    for (Index v = 0; v < vertices; ++v)
+    {
+      points.row(v) = (Vec3(3, -2, 1) + random.in_box(-2.0 * ones, 2.0 * ones)).transpose();
+      for (Index j = 0; j < handles; ++j)
+      {
+        weights(v, j) = random.below(2) == 0 ? 0.0 : between(0.0, 1.0);
+        painted(v, j) = random.below(2) == 0 ? std::nan("") : between(0.0, 1.0);
+      }
+    }
+    if (trial % 2 == 0)
+    {
+      painted.resize(0, 0);
+    }
+    std::vector<Affine> transforms;
+    std::vector<BoneChange> bones;
+    for (Index j = 0; j < handles; ++j)
+    {
+      transforms.push_back(turn(between(-180, 180), random.in_box(-ones, ones), ones));
+      transforms.back().leftCols<3>() *= between(0.5, 2.0);
+      BoneChange bone{ Vec3(3, -2, 1) + random.in_box(-ones, ones), random.in_box(-ones, ones) };
+      bone.stretch = random.below(3) == 0 ? 1.0 : between(-1.0, 3.0);
+      // None, up to a turn, whole and half turns, many turns.
+      const double sizes[] = { 0.0, 360.0, 180.0, 3600.0 };
+      const auto size = static_cast<std::size_t>(random.below(4));
+      for (double& angle : bone.twist.reshaped())
+      {
+        angle = size == 2 ? sizes[size] * static_cast<double>(random.below(9) - 4)
+                          : between(-1, 1) * sizes[size];
+      }
+      if (random.below(8) == 0)
+      {
+        bone.vector.setZero(); // no direction to change along
+      }
+      bones.push_back(bone);
+    }
+    const Points expected = stretched_one_by_one(points, weights, transforms, bones, painted);
+    EXPECT_LT(
+      (stretched(points, weights, transforms, bones, painted) - expected).cwiseAbs().maxCoeff(),
+      1e-12);
+    ExecutionContext context;
+    Skinning floats;
+    SkinningOptions options;
+    options.single_precision = true;
+    ASSERT_TRUE(floats.bind(context, weights, options).ok());
+    Points posed;
+    ASSERT_TRUE(floats.stretchable_bones(context, points, transforms, bones, painted, posed).ok());
+    EXPECT_LT((posed - expected).cwiseAbs().maxCoeff(), 2e-4); // ten turns in 2^-24 of one
+  }
+}
+
+TEST(StretchableBones, WholeTurnsAndLanesWithoutWeightChangeNothing)
+{
+  test::Random random(12);
+  const Vec3 ones = Vec3::Ones();
+  Points points(40, 3);
+  Weights weights = Weights::Ones(40, 2), ends = Weights::Ones(40, 2);
+  for (Index v = 0; v < 40; ++v)
+  {
+    points.row(v) = random.in_box(-ones, ones).transpose();
+    weights(v, v % 2) = 0.0;
+  }
+  std::vector<BoneChange> bones(2, unit_bone);
+  bones[0].twist = { 720.0, -1080.0 }; // where its endpoint weight is 1: three turns
+  bones[1].twist = { 0.0, 90.0 };
+  for (const bool single : { false, true })
+  {
+    ExecutionContext context;
+    Skinning skinning;
+    SkinningOptions options;
+    options.single_precision = single;
+    ASSERT_TRUE(skinning.bind(context, weights, options).ok());
+    Points posed;
+    const std::vector<Affine> still(2, identity_affine());
+    ASSERT_TRUE(skinning.stretchable_bones(context, points, still, bones, ends, posed).ok());
+    for (Index v = 0; v < 40; ++v)
+    {
+      EXPECT_EQ(posed.row(v) == points.row(v), weights(v, 0) == 1.0) << v;
+    }
+    // Twists beyond all measure turn by some angle, in finite numbers.
+    bones[1].twist = { -1e300, 1e200 };
+    ASSERT_TRUE(skinning.stretchable_bones(context, points, still, bones, Weights(), posed).ok());
+    ASSERT_TRUE(posed.allFinite());
+    EXPECT_LT((posed.rightCols(2).rowwise().norm() - points.rightCols(2).rowwise().norm())
+                .cwiseAbs()
+                .maxCoeff(),
+      1e-5);
+    bones[1].twist = { 0.0, 90.0 };
+  }
+}
+
 TEST(StretchableBones, TakeTheirTailsWhereThePoseFilePutsThem)
 {
   const Handles handles{ test::bone_handle("arm", Vec3(1, 2, 3), Vec3(2, 2, 3.5)) };

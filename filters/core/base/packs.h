@@ -1,0 +1,89 @@
+#ifndef bindpose_base_packs_h
+#define bindpose_base_packs_h
+
+#include "base/mesh.h"
+#include "base/simd.h"
+
+namespace bindpose
+{
+
+/// 8 floats or 4 doubles for BINDPOSE_SIMD_CLONES: what a register of AVX2 holds. With 64 bytes
+/// AVX-512 would have one operation instead of two, but on AVX2 GCC keeps such packs in memory.
+template <typename Scalar>
+struct PackOf
+{
+  static constexpr Index lanes = 32 / sizeof(Scalar);
+  typedef Scalar Pack __attribute__((vector_size(32), aligned(alignof(Scalar)), may_alias));
+};
+
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE auto& pack_at(Scalar* from)
+{
+  return *reinterpret_cast<typename PackOf<Scalar>::Pack*>(from);
+}
+
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE const auto& pack_at(const Scalar* from)
+{
+  return *reinterpret_cast<const typename PackOf<Scalar>::Pack*>(from);
+}
+
+BINDPOSE_ALWAYS_INLINE float sum_of(const PackOf<float>::Pack& p)
+{
+  typedef float Four __attribute__((vector_size(16), aligned(4), may_alias));
+  const Four* const halves = reinterpret_cast<const Four*>(&p);
+  const Four sum = halves[0] + halves[1];
+  return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+
+BINDPOSE_ALWAYS_INLINE double sum_of(const PackOf<double>::Pack& p)
+{
+  return (p[0] + p[2]) + (p[1] + p[3]);
+}
+
+/// y_j += A x_j, j = 0, 1, 2, for `count` columns of A, in their order.
+/// @param x_stride from x_j to x_j+1; the y_j are #rows long.
+template <Index count, typename Scalar>
+BINDPOSE_ALWAYS_INLINE void add_columns(
+  Index rows, const Scalar* a, const Scalar* x, Index x_stride, Scalar* y)
+{
+  constexpr Index lanes = PackOf<Scalar>::lanes;
+  using Pack = typename PackOf<Scalar>::Pack;
+  Scalar factors[count][3];
+  for (Index c = 0; c < count; ++c)
+  {
+    for (Index j = 0; j < 3; ++j)
+    {
+      factors[c][j] = x[j * x_stride + c];
+    }
+  }
+  const Index whole = rows / lanes * lanes;
+  for (Index r = 0; r < whole; r += lanes)
+  {
+    Pack y0 = pack_at(y + r), y1 = pack_at(y + rows + r), y2 = pack_at(y + 2 * rows + r);
+    for (Index c = 0; c < count; ++c)
+    {
+      const Pack entry = pack_at(a + c * rows + r);
+      y0 += entry * factors[c][0];
+      y1 += entry * factors[c][1];
+      y2 += entry * factors[c][2];
+    }
+    pack_at(y + r) = y0;
+    pack_at(y + rows + r) = y1;
+    pack_at(y + 2 * rows + r) = y2;
+  }
+  for (Index r = whole; r < rows; ++r)
+  {
+    for (Index c = 0; c < count; ++c)
+    {
+      for (Index j = 0; j < 3; ++j)
+      {
+        y[j * rows + r] += a[c * rows + r] * factors[c][j];
+      }
+    }
+  }
+}
+
+} // namespace bindpose
+
+#endif

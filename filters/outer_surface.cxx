@@ -1,5 +1,7 @@
 #include "outer_surface.h"
 
+#include "vtkDataSet.h"
+
 namespace bindpose
 {
 

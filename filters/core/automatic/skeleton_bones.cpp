@@ -417,12 +417,35 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   return piece;
 }
 
+/// A branch without what lies in the balls of its junctions: how the curve gets from limb to limb
+/// within the thickness is no bend.
+std::vector<Index> outside_of_junctions(const Graph& graph, const std::vector<Index>& path)
+{
+  std::vector<Index> kept{ path.front() };
+  const auto within = [&](Index v, Index end)
+  {
+    constexpr Index least = 3;
+    return graph.degree(end) >= least &&
+      (graph.place(v) - graph.place(end)).norm() <= graph.radius(end);
+  };
+  for (std::size_t i = 1; i + 1 < path.size(); ++i)
+  {
+    if (!within(path[i], path.front()) && !within(path[i], path.back()))
+    {
+      kept.push_back(path[i]);
+    }
+  }
+  kept.push_back(path.back());
+  return kept;
+}
+
 std::vector<Piece> split(const Graph& graph, double tolerance, double longest, Index most)
 {
   std::vector<Piece> pieces;
   for (const Branch& branch : graph.branches())
   {
-    pieces.push_back(make_piece(graph, branch.path, tolerance, longest));
+    pieces.push_back(
+      make_piece(graph, outside_of_junctions(graph, branch.path), tolerance, longest));
   }
   while (most == 0 || static_cast<Index>(pieces.size()) < most)
   {

@@ -105,7 +105,7 @@ public:
   ///@}
 
   ///@{
-  /// SKELETON: how far the curve may be from its bones, of the diagonal, 0.001 to 1; default 0.02.
+  /// SKELETON: how far the curve may be from its bones, of the diagonal, 0.001 to 1; default 0.03.
   vtkSetMacro(BoneTolerance, double);
   vtkGetMacro(BoneTolerance, double);
   ///@}
@@ -167,7 +167,7 @@ private:
   int Distance = ALONG_EDGES;
   bool PlaceInside = true;
   int MostBones = 0;
-  double BoneTolerance = 0.02;
+  double BoneTolerance = 0.03;
   double LongestBone = 0.0;
   double Prune = 1.0;
   int SkeletonTriangles = 10000;

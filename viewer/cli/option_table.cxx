@@ -133,7 +133,7 @@ const std::vector<Verb>& verbs()
           "of points: leave them on the surface, else they are moved into the middle of the "
           "shape" },
         { "--bones", "N", Kind::integer, "0", "", "bones at most; 0: any number", false, false, 0 },
-        { "--bone-tolerance", "FRACTION", Kind::number, "0.02", "",
+        { "--bone-tolerance", "FRACTION", Kind::number, "0.03", "",
           "how far the curve skeleton may be from its bones, of the diagonal, 0.001 to 1" },
         { "--longest-bone", "FRACTION", Kind::number, "0", "",
           "split longer bones, of the diagonal, at least 0.01; 0: straight ones stay whole" },

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 
 namespace bindpose
 {
@@ -117,22 +118,14 @@ Status make_points(const SortedSurface& surface, const SpreadPointsOptions& opti
 }
 
 /// How many joints are not within the shape, and how many bones leave it on their way.
-Status look_inside(
-  const TriangleMesh& solid, const SkeletonBones& bones, Status& told, ExecutionContext& context)
+void look_inside(
+  const SkeletonBones& bones, const std::function<bool(const Vec3&)>& inside, Status& told)
 {
-  WindingNumber winding;
-  Status status = winding.build(solid.points, solid.triangles, context);
-  if (!status.ok())
-  {
-    return status;
-  }
-  constexpr double half = 0.5;
   constexpr int pieces = 16;
-  const auto outside = [&](const Vec3& p) { return winding.evaluate_at(p) < half; };
   Index joints_outside = 0;
   for (Index j = 0; j < bones.joints.rows(); ++j)
   {
-    joints_outside += outside(bones.joints.row(j)) ? 1 : 0;
+    joints_outside += inside(bones.joints.row(j)) ? 0 : 1;
   }
   Index bones_outside = 0;
   for (const Handle& bone : bones.handles)
@@ -140,7 +133,7 @@ Status look_inside(
     for (int i = 1; i < pieces && bone.kind == HandleKind::bone; ++i)
     {
       const double t = static_cast<double>(i) / pieces;
-      if (outside((1.0 - t) * bone.head + t * bone.tail))
+      if (!inside((1.0 - t) * bone.head + t * bone.tail))
       {
         ++bones_outside;
         break;
@@ -155,7 +148,6 @@ Status look_inside(
       std::to_string(bones.joints.rows()) + " joints " + (joints_outside == 1 ? "is" : "are") +
       " outside of the shape");
   }
-  return {};
 }
 
 Status make_bones(const SortedSurface& surface, const AutomaticHandlesOptions& options,
@@ -174,9 +166,18 @@ Status make_bones(const SortedSurface& surface, const AutomaticHandlesOptions& o
     return status;
   }
   const Phase phase(context, "bones", 0.95, 1.0);
+  WindingNumber winding;
+  const Status built = winding.build(solid.points, solid.triangles, context);
+  if (!built.ok())
+  {
+    return built;
+  }
+  constexpr double half = 0.5;
+  SkeletonBonesOptions to_bones = options.bones;
+  to_bones.inside = [&winding](const Vec3& p) { return winding.evaluate_at(p) >= half; };
   SkeletonBones bones;
   const double diagonal = bounding_box(solid.points, solid.triangles).diagonal();
-  Status simplified = skeleton_bones(skeleton, diagonal, options.bones, bones);
+  Status simplified = skeleton_bones(skeleton, diagonal, to_bones, bones);
   if (!simplified.ok())
   {
     return simplified;
@@ -189,9 +190,9 @@ Status make_bones(const SortedSurface& surface, const AutomaticHandlesOptions& o
   status.report.set("counts.cut_cycles", bones.cut_cycles);
   status.report.set("counts.pruned_branches", bones.pruned_branches);
   status.report.set("counts.merged_branches", bones.merged_branches);
-  const Status looked = look_inside(solid, bones, status, context);
+  look_inside(bones, to_bones.inside, status);
   handles = std::move(bones.handles);
-  return looked.ok() ? status : looked;
+  return status;
 }
 } // namespace
 

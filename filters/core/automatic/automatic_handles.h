@@ -22,7 +22,7 @@ struct AutomaticHandlesOptions
 {
   AutomaticMethod method = AutomaticMethod::skeleton;
   CurveSkeletonOptions skeleton; ///< of method skeleton
-  SkeletonBonesOptions bones; ///< of method skeleton
+  SkeletonBonesOptions bones; ///< of method skeleton; its `inside` is set
   SpreadPointsOptions points; ///< of method points
 };
 

@@ -28,9 +28,9 @@ struct Branch
 class Graph
 {
 public:
-  explicit Graph(const CurveSkeleton& skeleton)
+  Graph(const CurveSkeleton& skeleton, const std::function<bool(const Vec3&)>& inside)
     : next_(static_cast<std::size_t>(skeleton.points.rows())), alive_(next_.size(), 1),
-      held_(next_.size(), 0), skeleton_(skeleton)
+      held_(next_.size(), 0), skeleton_(skeleton), inside_(inside)
   {
     for (Index v = 0; v < skeleton.points.rows(); ++v)
     {
@@ -45,6 +45,20 @@ public:
   }
 
   Index size() const { return static_cast<Index>(this->next_.size()); }
+  bool holds(const Vec3& p) const { return !this->inside_ || this->inside_(p); }
+  bool leaves(const Vec3& head, const Vec3& tail) const
+  {
+    constexpr int pieces = 16;
+    for (int i = 1; i < pieces; ++i)
+    {
+      const double t = static_cast<double>(i) / pieces;
+      if (!this->holds((1.0 - t) * head + t * tail))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
   const Vec3& place(Index v) const { return this->places_[v]; }
   double radius(Index v) const { return this->radii_[v]; }
   Index part(Index v) const { return this->skeleton_.part_of[v]; }
@@ -196,8 +210,15 @@ public:
     const Index a = this->held(branch.path.back()) ? branch.path.back() : branch.path.front();
     const Index b = a == branch.path.front() ? branch.path.back() : branch.path.front();
     const std::set<Index> others = this->next_[b];
-    const Vec3 place =
-      this->held(a) ? this->place(a) : Vec3(0.5 * (this->place(a) + this->place(b)));
+    Vec3 place = 0.5 * (this->place(a) + this->place(b));
+    if (!this->holds(place))
+    {
+      place = this->place(branch.path[branch.path.size() / 2]);
+    }
+    if (this->held(a) || !this->holds(place))
+    {
+      place = this->place(a);
+    }
     for (const Index v : branch.path)
     {
       if (v != a)
@@ -260,6 +281,7 @@ private:
   std::vector<Vec3> places_;
   std::vector<double> radii_;
   const CurveSkeleton& skeleton_;
+  const std::function<bool(const Vec3&)>& inside_;
 };
 
 /// Length of a branch in half thicknesses of where it begins: below 1 it does not get out of the
@@ -402,6 +424,12 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   }
   piece.need = farthest / tolerance;
   piece.at = bend;
+  constexpr double slight = 0.25;
+  if (piece.need <= 1.0 && piece.need > slight && graph.holds(graph.place(piece.path[bend])) &&
+    graph.leaves(head, head + chord))
+  {
+    piece.need += 1.0;
+  }
   if (longest > 0.0 && length / longest > std::max(piece.need, 1.0))
   {
     piece.need = length / longest;
@@ -576,7 +604,7 @@ Status skeleton_bones(const CurveSkeleton& skeleton, double diagonal,
   {
     return status;
   }
-  Graph graph(skeleton);
+  Graph graph(skeleton, options.inside);
   const auto parts = static_cast<Index>(skeleton.centroids.size());
   for (Index part = 0; part < parts; ++part)
   {

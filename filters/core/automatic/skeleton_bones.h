@@ -4,13 +4,15 @@
 #include "automatic/curve_skeleton.h"
 #include "weights/handles.h"
 
+#include <functional>
+
 namespace bindpose
 {
 
 struct SkeletonBonesOptions
 {
   /// How far the curve may be from its bones, as a fraction of the shape's diagonal, 0.001 … 1.
-  double tolerance = 0.02;
+  double tolerance = 0.03;
   /// Longer bones are split, as a fraction of the diagonal, 0.01 … ; 0: straight ones stay whole.
   double longest_bone = 0.0;
   /// At most, >= 0; 0: any number. A component keeps at least one.
@@ -18,6 +20,9 @@ struct SkeletonBonesOptions
   /// Branches that are shorter than this times half of the thickness where they begin are no limbs,
   /// 0 … 10; junctions that are nearer to each other are one.
   double prune = 1.0;
+  /// Whether a point is within the shape; thread-safe. When given, bones that leave the shape are
+  /// split where they bend by a quarter of the tolerance, and merged junctions stay within it.
+  std::function<bool(const Vec3&)> inside;
 };
 
 struct SkeletonBones
@@ -42,7 +47,8 @@ struct SkeletonBones
 ///    goes on with the limbs that reach least far out.
 /// 3. The piece that is farthest from its bone, or longest, is split, until tolerance and
 ///    longest_bone are kept or there are most_bones (Douglas and Peucker, 1973, in the order of
-///    need). What lies in the ball of a junction is no bend.
+///    need). What lies in the ball of a junction is no bend. A bone that
+///    leaves the shape is split, too, where that can help.
 /// 4. The root of a component without cycles is its joint nearest to the centroid. Bones lead away
 ///    from it: a bone's parent is the one whose tail is its head; several bones may begin at a
 ///    root, and have no parent. Parents come before children.

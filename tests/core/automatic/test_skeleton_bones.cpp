@@ -210,6 +210,24 @@ TEST(SkeletonBones, AreWithinTheToleranceOfTheCurve)
   EXPECT_GE(static_cast<double>(fewer), M_PI / (2.0 * std::acos(1.0 - 0.01)));
 }
 
+TEST(SkeletonBones, StayWithinTheShape)
+{
+  // A knee of 0.1, less than the tolerance, in a shape that follows it closely.
+  Drawing drawing;
+  drawing.centroids = { Vec3::Zero() };
+  drawing.line(drawing.line(drawing.point(Vec3::Zero()), Vec3(1.0, 0.1, 0.0)), Vec3(2.0, 0.0, 0.0));
+  SkeletonBonesOptions options;
+  options.tolerance = 0.2;
+  EXPECT_EQ(run(drawing, options).handles.size(), 1u);
+  options.inside = [](const Vec3& p)
+  { return std::abs(p.y() - 0.1 * (1.0 - std::abs(p.x() - 1.0))) < 0.05; };
+  const SkeletonBones bones = run(drawing, options);
+  ASSERT_EQ(bones.handles.size(), 2u);
+  EXPECT_EQ(bones.handles[0].tail, Vec3(1.0, 0.1, 0.0));
+  options.most_bones = 1;
+  EXPECT_EQ(run(drawing, options).handles.size(), 1u);
+}
+
 TEST(SkeletonBones, AreAtMostAsManyAsAskedFor)
 {
   SkeletonBonesOptions options;

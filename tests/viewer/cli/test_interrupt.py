@@ -15,6 +15,7 @@ from driver import PROGRAM
 LONG = {
     "winding": ["--grid", "1200", "-o", "out.vti"],
     "tetrahedralize": ["-o", "out.vtu"],
+    "handles": ["--skeleton-triangles", "300000", "-o", "out.vtp"],
     "weights": ["--handles", "auto:40", "-o", "out.vtp"],
 }
 

@@ -16,6 +16,7 @@
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -58,8 +59,10 @@ TEST_F(AutomaticBones, BindWithoutAHand)
   vtkNew<vtkAutomaticHandles> filter;
   filter->SetInputData(surface());
   filter->SetLongestBone(0.3);
+  const TetMesh box = long_box();
+  const auto tets = to_unstructured_grid(box.points, box.tets);
   vtkNew<vtkBoundedBiharmonicWeights> weights;
-  weights->SetInputData(surface());
+  weights->SetInputData(tets);
   weights->SetInputConnection(1, filter->GetOutputPort());
   weights->Update();
   ASSERT_EQ(filter->GetStatus(), vtkAutomaticHandles::OK) << filter->GetStatusMessage();

@@ -203,6 +203,23 @@ public:
     }
   }
 
+  /// Removes what is outside of the shape at a branch's free ends, but for one piece.
+  void trim(const Branch& branch)
+  {
+    std::vector<Index> path = branch.path;
+    constexpr std::size_t least = 2;
+    for (int end = 0; end < 2; ++end)
+    {
+      std::reverse(path.begin(), path.end());
+      while (path.size() > least && this->degree(path.back()) == 1 && !this->held(path.back()) &&
+        !this->holds(this->place(path.back())))
+      {
+        this->remove(path.back());
+        path.pop_back();
+      }
+    }
+  }
+
   /// Makes a branch between junctions one point in its middle.
   void contract(const Branch& branch)
   {
@@ -402,8 +419,11 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   const double squared = chord.squaredNorm();
   double length = 0.0;
   std::vector<double> along{ 0.0 };
+  constexpr double slight = 0.25; // of the tolerance
   double farthest = 0.0;
+  double farthest_inside = slight * tolerance;
   std::size_t bend = 0;
+  std::size_t bend_inside = 0;
   for (std::size_t i = 1; i < piece.path.size(); ++i)
   {
     const Vec3 p = graph.place(piece.path[i]);
@@ -417,16 +437,20 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
       farthest = distance;
       bend = i;
     }
+    if (distance > farthest_inside && graph.holds(p))
+    {
+      farthest_inside = distance;
+      bend_inside = i;
+    }
   }
   if (piece.path.size() < 3)
   {
     return piece; // nothing to split at
   }
   piece.need = farthest / tolerance;
-  piece.at = bend;
-  constexpr double slight = 0.25;
-  if (piece.need <= 1.0 && piece.need > slight && graph.holds(graph.place(piece.path[bend])) &&
-    graph.leaves(head, head + chord))
+  // A joint should be within the shape.
+  piece.at = bend_inside > 0 ? bend_inside : bend;
+  if (piece.need <= 1.0 && bend_inside > 0 && graph.leaves(head, head + chord))
   {
     piece.need += 1.0;
   }
@@ -621,6 +645,10 @@ Status skeleton_bones(const CurveSkeleton& skeleton, double diagonal,
       point.name = "p" + std::to_string(bones.handles.size() + 1);
       bones.handles.push_back(std::move(point));
     }
+  }
+  for (const Branch& branch : graph.branches())
+  {
+    graph.trim(branch);
   }
   const std::vector<Piece> pieces =
     split(graph, options.tolerance * diagonal, options.longest_bone * diagonal, options.most_bones);

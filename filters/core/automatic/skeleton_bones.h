@@ -21,7 +21,7 @@ struct SkeletonBonesOptions
   /// 0 … 10; junctions that are nearer to each other are one.
   double prune = 1.0;
   /// Whether a point is within the shape; thread-safe. When given, bones that leave the shape are
-  /// split where they bend by a quarter of the tolerance, and merged junctions stay within it.
+  /// split where they bend by a quarter of the tolerance, and joints stay within it where they can.
   std::function<bool(const Vec3&)> inside;
 };
 
@@ -48,7 +48,8 @@ struct SkeletonBones
 /// 3. The piece that is farthest from its bone, or longest, is split, until tolerance and
 ///    longest_bone are kept or there are most_bones (Douglas and Peucker, 1973, in the order of
 ///    need). What lies in the ball of a junction is no bend. A bone that
-///    leaves the shape is split, too, where that can help.
+///    leaves the shape is split, too, where that can help; a joint is outside only where the curve
+///    has nothing inside to put it at.
 /// 4. The root of a component without cycles is its joint nearest to the centroid. Bones lead away
 ///    from it: a bone's parent is the one whose tail is its head; several bones may begin at a
 ///    root, and have no parent. Parents come before children.

@@ -228,6 +228,25 @@ TEST(SkeletonBones, StayWithinTheShape)
   EXPECT_EQ(run(drawing, options).handles.size(), 1u);
 }
 
+TEST(SkeletonBones, PutJointsWhereTheCurveIsInside)
+{
+  // A hook whose corner and tip are outside.
+  Drawing drawing;
+  drawing.centroids = { Vec3::Zero() };
+  drawing.line(
+    drawing.line(drawing.point(Vec3::Zero()), Vec3(1.0, 0.0, 0.0), 20), Vec3(1.0, 1.0, 0.0), 20);
+  SkeletonBonesOptions options;
+  options.inside = [](const Vec3& p)
+  { return (p - Vec3(1.0, 0.0, 0.0)).norm() > 0.08 && p.y() < 0.92; };
+  const SkeletonBones bones = run(drawing, options);
+  expect_tree(bones);
+  for (Index j = 0; j < bones.joints.rows(); ++j)
+  {
+    EXPECT_TRUE(options.inside(bones.joints.row(j))) << bones.joints.row(j);
+  }
+  EXPECT_NEAR(bones.joints.col(1).maxCoeff(), 0.9, 1e-12);
+}
+
 TEST(SkeletonBones, AreAtMostAsManyAsAskedFor)
 {
   SkeletonBonesOptions options;

@@ -420,10 +420,7 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   double length = 0.0;
   std::vector<double> along{ 0.0 };
   constexpr double slight = 0.25; // of the tolerance
-  double farthest = 0.0;
-  double farthest_inside = slight * tolerance;
-  std::size_t bend = 0;
-  std::size_t bend_inside = 0;
+  double farthest = slight * tolerance;
   for (std::size_t i = 1; i < piece.path.size(); ++i)
   {
     const Vec3 p = graph.place(piece.path[i]);
@@ -432,36 +429,35 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
     const double t =
       squared > 0.0 ? std::min(std::max((p - head).dot(chord) / squared, 0.0), 1.0) : 0.0;
     const double distance = (p - head - t * chord).norm();
-    if (distance > farthest)
+    // A joint must be within the shape.
+    if (distance > farthest && graph.holds(p))
     {
       farthest = distance;
-      bend = i;
-    }
-    if (distance > farthest_inside && graph.holds(p))
-    {
-      farthest_inside = distance;
-      bend_inside = i;
+      piece.at = i;
     }
   }
   if (piece.path.size() < 3)
   {
     return piece; // nothing to split at
   }
-  piece.need = farthest / tolerance;
-  // A joint should be within the shape.
-  piece.at = bend_inside > 0 ? bend_inside : bend;
-  if (piece.need <= 1.0 && bend_inside > 0 && graph.leaves(head, head + chord))
+  if (piece.at > 0)
   {
-    piece.need += 1.0;
+    piece.need = farthest / tolerance;
+    if (piece.need <= 1.0 && graph.leaves(head, head + chord))
+    {
+      piece.need += 1.0;
+    }
   }
   if (longest > 0.0 && length / longest > std::max(piece.need, 1.0))
   {
-    piece.need = length / longest;
-    piece.at = 1;
+    double from_middle = infinite;
     for (std::size_t i = 1; i + 1 < along.size(); ++i)
     {
-      if (std::abs(along[i] - 0.5 * length) < std::abs(along[piece.at] - 0.5 * length))
+      const double distance = std::abs(along[i] - 0.5 * length);
+      if (distance < from_middle && graph.holds(graph.place(piece.path[i])))
       {
+        from_middle = distance;
+        piece.need = length / longest;
         piece.at = i;
       }
     }

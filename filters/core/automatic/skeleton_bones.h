@@ -47,9 +47,8 @@ struct SkeletonBones
 ///    goes on with the limbs that reach least far out.
 /// 3. The piece that is farthest from its bone, or longest, is split, until tolerance and
 ///    longest_bone are kept or there are most_bones (Douglas and Peucker, 1973, in the order of
-///    need). What lies in the ball of a junction is no bend. A bone that
-///    leaves the shape is split, too, where that can help; a joint is outside only where the curve
-///    has nothing inside to put it at.
+///    need). What lies in the ball of a junction is no bend. A bone that leaves the shape is split,
+///    too, where that can help; all are split at points within the shape only.
 /// 4. The root of a component without cycles is its joint nearest to the centroid. Bones lead away
 ///    from it: a bone's parent is the one whose tail is its head; several bones may begin at a
 ///    root, and have no parent. Parents come before children.

@@ -167,7 +167,7 @@ Status make_bones(const SortedSurface& surface, const AutomaticHandlesOptions& o
   }
   const Phase phase(context, "bones", 0.95, 1.0);
   WindingNumber winding;
-  const Status built = winding.build(solid.points, solid.triangles, context);
+  Status built = winding.build(solid.points, solid.triangles, context);
   if (!built.ok())
   {
     return built;

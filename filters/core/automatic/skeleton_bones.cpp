@@ -414,7 +414,7 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
 {
   Piece piece;
   piece.path = std::move(path);
-  const Vec3 head = graph.place(piece.path.front());
+  const Vec3& head = graph.place(piece.path.front());
   const Vec3 chord = graph.place(piece.path.back()) - head;
   const double squared = chord.squaredNorm();
   double length = 0.0;
@@ -423,7 +423,7 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   double farthest = slight * tolerance;
   for (std::size_t i = 1; i < piece.path.size(); ++i)
   {
-    const Vec3 p = graph.place(piece.path[i]);
+    const Vec3& p = graph.place(piece.path[i]);
     length += (p - graph.place(piece.path[i - 1])).norm();
     along.push_back(length);
     const double t =

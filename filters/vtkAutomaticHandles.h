@@ -32,8 +32,8 @@
  * nothing; POINTS: fewer different vertices than NumberOfPoints. UNAVAILABLE: SKELETON without the
  * helper, or of an unclean surface too thin to be filled. INTERNAL_ERROR: the helper failed, or ran
  * out of time or memory.
- * Cost: SKELETON 2 s for 6,000 clean triangles, 7 s for 90,000; POINTS a shortest-path pass a
- * point.
+ * Cost, on one core: SKELETON 1.2 s for 6,000 clean triangles, 3.5 s for 90,000, 3.4 s for 4,500
+ * full of holes; POINTS a shortest-path pass a point, 50 of 45,000 vertices 0.4 s.
  *
  * @par Thanks:
  * Tagliasacchi, Alhashim, Olson, Zhang, "Mean Curvature Skeletons", Computer Graphics Forum 31(5),

@@ -57,7 +57,9 @@ def make(options):
     bones = found(armadillo, numbers, "armadillo", skeleton_triangles=triangles)
     others = found(elephant, numbers, "elephant with holes", skeleton_triangles=triangles)
 
-    weighted = bindpose.weights(armadillo, bones, domain="embedding", resolution=20 if options.small else 0)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", bindpose.BindposeWarning)  # toes and fingers are finer than the lattice
+        weighted = bindpose.weights(armadillo, bones, domain="embedding", resolution=20 if options.small else 0)
     sums = point_array(weighted, "Weights").sum(axis=1)
     numbers["armadillo: largest error of a row sum"] = float(np.abs(sums - 1).max())
     posed = bindpose.deform(weighted, bones, bent(bones, 20.0))

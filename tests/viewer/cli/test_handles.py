@@ -1,7 +1,12 @@
 """bindpose handles: handles of a shape without a hand."""
 
+import pathlib
+
 import pytest
-import shapes
+from driver import PROGRAM
+
+needs_helper = pytest.mark.skipif(not (pathlib.Path(PROGRAM).parent / "bindpose-mesher").exists(),
+                                  reason="built without bindpose-mesher")
 
 
 def bar(folder, name="bar.off", length=8, missing=0):
@@ -19,6 +24,7 @@ def bar(folder, name="bar.off", length=8, missing=0):
     folder.write(name, f"OFF\n{len(points)} {len(triangles)} 0\n" + "\n".join(lines) + "\n")
 
 
+@needs_helper
 @pytest.mark.parametrize("missing", [0, 2])
 def test_skeleton(folder, missing):
     bar(folder, missing=missing)
@@ -38,6 +44,7 @@ def test_skeleton(folder, missing):
     assert "b2" in text
 
 
+@needs_helper
 def test_bones_at_most(folder):
     bar(folder)
     words = ("handles", "bar.off", "--longest-bone", "0.1", "--bones", "3", "-o", "bones.vtp", "--report", "-")
@@ -55,6 +62,7 @@ def test_points(folder):
     assert (folder / "on.tgf").read_text().startswith("1 ")
 
 
+@needs_helper
 def test_weights_of_a_skeleton(folder):
     bar(folder)
     report = folder.run("weights", "bar.off", "--handles", "skeleton:1", "-o", "w.vtp", "--report", "-").is_good().report

@@ -15,9 +15,10 @@ from driver import PROGRAM
 LONG = {
     "winding": ["--grid", "1200", "-o", "out.vti"],
     "tetrahedralize": ["-o", "out.vtu"],
-    "handles": ["--skeleton-triangles", "300000", "-o", "out.vtp"],
     "weights": ["--handles", "auto:40", "-o", "out.vtp"],
 }
+if (pathlib.Path(PROGRAM).parent / "bindpose-mesher").exists():
+    LONG["handles"] = ["--skeleton-triangles", "300000", "-o", "out.vtp"]
 
 
 def wait_until_at_work(process):

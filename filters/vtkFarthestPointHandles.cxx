@@ -3,6 +3,7 @@
 
 #include "base/execution.h"
 #include "conversion.h"
+#include "outer_surface.h"
 #include "weights/farthest_points.h"
 
 #include "vtkInformation.h"
@@ -28,19 +29,8 @@ bindpose::Status vtkFarthestPointHandles::Execute(
   vtkInformationVector** input, vtkInformationVector* output, bindpose::ExecutionContext& context)
 {
   bindpose::Phase phase(context, "choose");
-  vtkDataSet* data = vtkDataSet::GetData(input[0]);
   bindpose::SurfaceInput surface;
-  bindpose::TetInput tets;
-  bindpose::Status status;
-  if (bindpose::to_tets(data, tets).ok())
-  {
-    surface.points = tets.points;
-    surface.triangles.own(bindpose::boundary_triangles(tets.tets.view()));
-  }
-  else
-  {
-    status = bindpose::to_surface(data, surface);
-  }
+  bindpose::Status status = bindpose::to_outer_surface(vtkDataSet::GetData(input[0]), surface);
   std::vector<bindpose::Index> chosen;
   if (status.ok())
   {

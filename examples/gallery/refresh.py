@@ -30,7 +30,8 @@ SCRIPTS = ("../01_inside_outside.py", "open_crossing_flipped.py", "boundary_and_
            "candy_wrapper.py", "bent_elbow.py", "stretch_and_twist.py", "dragged_points.py",
            "handle_modes.py", "drag_only.py", "disjoint_skeleton.py", "four_energies.py", "rotation_clusters.py",
            "surface_and_volume.py", "tether.py", "full_and_reduced.py", "extra_weights.py", "crowd.py", "jello.py", "procedural.py",
-           "orders_and_boundaries.py", "torus_and_tubes.py", "rig_in_a_file.py")
+           "orders_and_boundaries.py", "torus_and_tubes.py", "rig_in_a_file.py",
+           "automatic_handles.py")
 
 
 def shrink(source, target):

@@ -38,7 +38,7 @@ from .errors import (
 from .fairing import fair
 from .files import Rig, read, read_handles, read_rig, write, write_rig
 from .functions import contains, deform, dynamics, planar_shape, tetrahedralize, weights, winding_number
-from .handle_sets import farthest_point_handles, handles
+from .handle_sets import automatic_handles, farthest_point_handles, handles
 from .meshes import Array, PlanarShape, Tets
 from .running import report, run
 from .smoothing import monotone_smoothing

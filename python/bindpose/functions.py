@@ -373,8 +373,8 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
     mesh : vtkDataSet or (vertices, elements)
         A surface or tets.
     handles : vtkPolyData, str or path-like
-        A handle dataset (see `bindpose.handles`), a .tgf or .vtp file, or "auto:N" for N points
-        spread over the surface.
+        A handle dataset (see `bindpose.handles`), a .tgf or .vtp file, "auto:N" for N points
+        spread over the surface, or "skeleton:N" for at most N bones in it (`automatic_handles`).
     method : {"bounded-biharmonic", "monotone", "harmonic", "biharmonic", "triharmonic", \
               "graph-biharmonic", "linear-subspace", "inverse-distance", "smoothed-harmonic", "bone-heat"}
         All but the first two are to compare with: see ``vtkUnconstrainedWeights``.

@@ -5,7 +5,7 @@ import pytest
 from running import EXAMPLES, is_refused, numbers_of, script
 
 GALLERY = EXAMPLES / "gallery"
-NAMES = ["amount_of_insideness", "bent_elbow", "boundary_and_parts", "candy_wrapper", "closing_holes", "colours_of_handles",
+NAMES = ["amount_of_insideness", "automatic_handles", "bent_elbow", "boundary_and_parts", "candy_wrapper", "closing_holes", "colours_of_handles",
          "cost_of_a_point", "cost_of_weights", "crowd", "cut_out_cartoon", "defect_classes", "disjoint_skeleton", "drag_only",
          "dragged_points", "extra_weights", "four_energies", "full_and_reduced", "growth", "handle_modes",
          "hull_segmentation", "image_rectangle", "jello", "jump_and_harmonic", "limbs_in_front", "mesh_independence",
@@ -469,3 +469,13 @@ def test_cost_of_weights(tmp_path):
         assert all(np.less(numbers[f"4 handles, {part}: seconds a handle"], numbers["4 handles, whole: seconds a handle"]))
     for peak, estimate in zip(numbers["MiB at the peak"], numbers["MiB estimated"]):
         assert 0.8 < estimate / peak < 1.4
+
+
+def test_automatic_handles(tmp_path):
+    numbers = numbers_of("gallery/automatic_handles.py", tmp_path)
+    assert numbers["armadillo: bones"] >= 9 and numbers["armadillo: junctions"] >= 2  # limbs, head, tail, spine
+    assert numbers["armadillo: cut cycles"] == 0 and numbers["elephant with holes: bones"] >= 6
+    assert numbers["armadillo: joints outside"] == 0
+    assert numbers["armadillo: largest error of a row sum"] <= 1e-9
+    assert numbers["points inside"] == 16
+    assert numbers["points on the surface: distance by covering radius"] >= 1 - 1e-12

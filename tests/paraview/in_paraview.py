@@ -15,7 +15,7 @@ from paraview.simple import *  # noqa: F403  LoadPlugin adds the plugin's functi
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
 FILTERS = (
-    "WindingNumberField PlanarShape TetrahedralizeSurface FarthestPointHandles BoundedBiharmonicWeights MonotoneWeights "
+    "WindingNumberField PlanarShape TetrahedralizeSurface AutomaticHandles FarthestPointHandles BoundedBiharmonicWeights MonotoneWeights "
     "MonotoneSmoothing UnconstrainedWeights TransferWeights BoneEndpointWeights PoseHandles WeightedColors DepthOrder CutAlongBones SkinningDeformation "
     "MovingLeastSquaresWarp ReducedARAP ReducedDynamics FullARAP VariationalSurface"
 ).split()
@@ -126,6 +126,7 @@ def deformation():
 
     handles = FarthestPointHandles(Input=tets, NumberOfHandles=5)
     assert fetch(handles).GetNumberOfCells() == 5
+    assert fetch(AutomaticHandles(Input=tets, Method="Points", NumberOfPoints=6)).GetNumberOfCells() == 6
     smooth = {}
     for name in ("BoundedBiharmonicWeights", "MonotoneWeights", "UnconstrainedWeights"):
         smooth[name] = globals()[name](Input=tets, Handles=handles)

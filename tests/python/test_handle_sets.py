@@ -47,3 +47,30 @@ def test_farthest_points():
     assert data.GetBounds() == (-1, 1, -1, 1, -1, 1)
     with pytest.raises(bindpose.InvalidInput, match="only 8"):
         bindpose.farthest_point_handles(shapes.cube(), 9)
+
+
+def test_automatic_points():
+    data = bindpose.automatic_handles(shapes.cube(), points=5)
+    assert [name for name, _parent in names_and_parents(data)] == ["p1", "p2", "p3", "p4", "p5"]
+    assert all(abs(bound) < 1 for bound in data.GetBounds())
+    assert bindpose.report(data)["counts"]["points_inside"] == 5
+    corners = bindpose.automatic_handles(shapes.cube(), points=2, place_inside=False, distance="straight")
+    assert corners.GetBounds() == (-1, 1, -1, 1, -1, 1)
+    with pytest.raises(bindpose.InvalidInput, match="only 8"):
+        bindpose.automatic_handles(shapes.cube(), points=9)
+    with pytest.raises(bindpose.InvalidInput, match="along-edges"):
+        bindpose.automatic_handles(shapes.cube(), points=2, distance="far")
+
+
+def test_automatic_bones():
+    points, triangles = shapes.bar()
+    try:
+        data = bindpose.automatic_handles((points, triangles), most_bones=3, longest_bone=0.1)
+    except bindpose.Unavailable:
+        pytest.skip("built without bindpose-mesher")
+    assert sorted(name for name, _parent in names_and_parents(data)) == ["b1", "b2", "b3"]
+    assert bindpose.report(data)["counts"]["joints_outside"] == 0
+    bound = bindpose.weights((points, triangles), "skeleton:1")
+    assert len(bound) == len(points) and np.allclose(bound, 1)
+    with pytest.raises(bindpose.InvalidInput, match="how many"):
+        bindpose.weights((points, triangles), "skeleton:none")

@@ -77,7 +77,7 @@ def test_classes_are_at_package_level():
                  "vtkSkinningDeformation", "vtkReducedARAP", "vtkReducedDynamics", "vtkFullARAP",
                  "vtkVariationalSurface", "vtkMovingLeastSquaresWarp", "vtkWeightedColors",
                  "vtkDepthOrder", "vtkCutAlongBones", "vtkMonotoneSmoothing", "vtkMeshFileReader", "vtkMeshFileWriter",
-                 "vtkHandleFileReader", "vtkFarthestPointHandles", "vtkHandleSetWidget",
+                 "vtkHandleFileReader", "vtkAutomaticHandles", "vtkFarthestPointHandles", "vtkHandleSetWidget",
                  "vtkRegionBrushWidget", "vtkBoneEndpointWeights"):
         assert hasattr(bindpose, name)
         assert name in str(getattr(bindpose, name)())

@@ -17,7 +17,9 @@ const std::vector<Verb>& verbs()
   static const Option surface{ "SURFACE", "", Kind::text, "", "",
     "surface: obj, off, ply, stl, vtp, vtk or mesh", true };
   static const Option handles{ "--handles", "HANDLES", Kind::text, "", "",
-    "handles: .tgf, .vtp, or auto[:N] for N (8) points spread over the surface", true };
+    "handles: .tgf, .vtp, auto[:N] for N (8) points spread over the surface, or skeleton[:N] for "
+    "(at most N) bones along the curve skeleton of what it encloses",
+    true };
   static const std::vector<Verb> table{
     { "info", "say what a file holds",
       { { "FILE", "", Kind::text, "", "", "any mesh, volume or handle file", true },
@@ -118,6 +120,36 @@ const std::vector<Verb>& verbs()
           "handles, .tgf or .vtp: points become points of the mesh, bones rows of edges" },
         { "-o,--output", "OUT", Kind::text, "", "",
           ".vtp or .vtk: triangles with texture coordinates TCoords", true } } },
+    { "handles", "handles without a hand: bones along the curve skeleton, or points",
+      { { "MESH", "", Kind::text, "", "",
+          "surface, however unclean, or tets as .vtu, .vtk or .mesh", true },
+        { "--points", "N", Kind::integer, "", "",
+          "N points spread over the shape, each the farthest from all before it, instead of bones; "
+          "every component gets its share",
+          false, false, 1 },
+        { "--distance", "HOW", Kind::choice, "along-edges", "along-edges|straight",
+          "of points: along the surface's edges, or through space" },
+        { "--on-surface", "", Kind::flag, "", "",
+          "of points: leave them on the surface, else they are moved into the middle of the "
+          "shape" },
+        { "--bones", "N", Kind::integer, "0", "", "bones at most; 0: any number", false, false, 0 },
+        { "--bone-tolerance", "FRACTION", Kind::number, "0.03", "",
+          "how far the curve skeleton may be from its bones, of the diagonal, 0.001 to 1" },
+        { "--longest-bone", "FRACTION", Kind::number, "0", "",
+          "split longer bones, of the diagonal, at least 0.01; 0: straight ones stay whole" },
+        { "--prune", "NUMBER", Kind::number, "1", "",
+          "branches shorter than this times half of the thickness where they begin are no limbs, 0 "
+          "to 10" },
+        { "--skeleton-triangles", "N", Kind::integer, "10000", "",
+          "about as many even triangles are contracted to the curve skeleton, 100 to 1000000",
+          false, false, 0 },
+        { "--winding-threshold", "NUMBER", Kind::number, "0.5", "",
+          "inside is where the winding number is at least this" },
+        { "--time-limit", "SECONDS", Kind::number, "120", "", "for the helper process" },
+        { "--memory-limit", "MIB", Kind::integer, "0", "",
+          "address space of the helper process; 0: no limit", false, false, 0 },
+        { "-o,--output", "OUT", Kind::text, "", "",
+          ".vtp, .vtk or .tgf (which keeps no names of bones)", true } } },
     { "weights", "smooth weights, one function a handle",
       { { "MESH", "", Kind::text, "", "", "surface, or tets as .vtu, .vtk or .mesh", true },
         handles,

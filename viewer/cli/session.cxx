@@ -6,6 +6,7 @@
 #include "io/report_json.h"
 #include "io/text_scanner.h"
 #include "report_field_data.h"
+#include "vtkAutomaticHandles.h"
 #include "vtkBindposeAlgorithm.h"
 #include "vtkFarthestPointHandles.h"
 #include "vtkGLTFSkinWriter.h"
@@ -214,7 +215,9 @@ vtkSmartPointer<vtkDataSet> Session::read_any(const std::string& path)
 
 vtkSmartPointer<vtkPolyData> Session::read_handles(const std::string& value, vtkDataSet* surface)
 {
-  if ((value != "auto" && !starts_with(value, "auto:")) || !surface)
+  const std::size_t colon = value.find(':');
+  const std::string word = value.substr(0, colon);
+  if ((word != "auto" && word != "skeleton") || !surface)
   {
     vtkNew<vtkHandleFileReader> reader;
     reader->SetFileName(value.c_str());
@@ -222,11 +225,22 @@ vtkSmartPointer<vtkPolyData> Session::read_handles(const std::string& value, vtk
       ? vtkPolyData::SafeDownCast(reader->GetOutput())
       : nullptr;
   }
-  Index count = 8;
-  if (value != "auto" && (!parse_index(value.substr(5), count) || count < 1 || count > 100000))
+  Index count = word == "auto" ? 8 : 0;
+  if (colon != std::string::npos &&
+    (!parse_index(value.substr(colon + 1), count) || count < 1 || count > 100000))
   {
-    this->invalid("--handles " + value + ": behind auto: stands how many, from 1 to 100000");
+    this->invalid(
+      "--handles " + value + ": behind " + word + ": stands how many, from 1 to 100000");
     return nullptr;
+  }
+  if (word == "skeleton")
+  {
+    vtkNew<vtkAutomaticHandles> bones;
+    bones->SetInputData(surface);
+    bones->SetMostBones(static_cast<int>(count));
+    return this->run(bones, "handles", 0.0, 0.0, Merge::nothing)
+      ? vtkPolyData::SafeDownCast(bones->GetOutput())
+      : nullptr;
   }
   vtkNew<vtkFarthestPointHandles> handles;
   handles->SetInputData(surface);

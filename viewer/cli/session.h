@@ -60,7 +60,8 @@ public:
   vtkSmartPointer<vtkDataSet> read(const std::string& path);
   /// The same for handle files (.tgf), too.
   vtkSmartPointer<vtkDataSet> read_any(const std::string& path);
-  /// The value of --handles: a file, or auto[:N] points on the surface; null when it fails.
+  /// The value of --handles: a file, auto[:N] points on the surface, skeleton[:N] bones in it; null
+  /// when it fails.
   vtkSmartPointer<vtkPolyData> read_handles(const std::string& value, vtkDataSet* surface);
 
   /// The report can be written.

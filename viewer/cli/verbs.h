@@ -11,6 +11,7 @@ void run_info(Session& session);
 void run_winding(Session& session);
 void run_tetrahedralize(Session& session);
 void run_outline(Session& session);
+void run_handles(Session& session);
 void run_weights(Session& session);
 void run_smooth(Session& session);
 void run_deform(Session& session);

@@ -94,6 +94,20 @@ struct WrapJobOptions
 /// @return empty, or why it gave up.
 std::string wrap(MesherData& data, const WrapJobOptions& options);
 
+struct SkeletonJobOptions
+{
+  double triangles = 1e4; ///< about as many are contracted, of all components
+  double smallest_part = 1e-3; ///< components with less of the largest one's volume are left out
+  Index iteration_limit = 500; ///< of each component
+};
+
+/// The curve skeleton of what closed components enclose, as points and segments, by CGAL's mean
+/// curvature flow: a curve through the middle of each, in pieces much shorter than bones, connected
+/// as the component is, with a cycle for each of its tunnels; one point of a ball. Reports parts,
+/// open, hollow and crumbs (components that were left out: not closed, turned inwards, too small),
+/// triangles (that were contracted), iterations. @return empty, or why it gave up.
+std::string skeleton(MesherData& data, const SkeletonJobOptions& options);
+
 } // namespace bindpose
 
 #endif

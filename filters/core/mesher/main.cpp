@@ -117,8 +117,15 @@ std::string run(const std::string& job, const std::map<std::string, std::string>
     return bindpose::wrap(
       data, { number(options, "--alpha", 0.0), number(options, "--offset", 0.0) });
   }
+  if (job == "skeleton")
+  {
+    bindpose::SkeletonJobOptions skeleton;
+    skeleton.triangles = number(options, "--triangles", skeleton.triangles);
+    skeleton.smallest_part = number(options, "--smallest-part", skeleton.smallest_part);
+    return bindpose::skeleton(data, skeleton);
+  }
   return "unknown job '" + job +
-    "' (refine, tetgen, delaunay, arrange, fill-plane, remesh or wrap)";
+    "' (refine, tetgen, delaunay, arrange, fill-plane, remesh, skeleton or wrap)";
 }
 } // namespace
 

@@ -17,6 +17,8 @@ LONG = {
     "tetrahedralize": ["-o", "out.vtu"],
     "weights": ["--handles", "auto:40", "-o", "out.vtp"],
 }
+if (pathlib.Path(PROGRAM).parent / "bindpose-mesher").exists():
+    LONG["handles"] = ["--skeleton-triangles", "300000", "-o", "out.vtp"]
 
 
 def wait_until_at_work(process):

@@ -2,7 +2,7 @@
 
 import pytest
 
-VERBS = ["info", "winding", "tetrahedralize", "weights", "deform", "render", "view"]
+VERBS = ["info", "winding", "tetrahedralize", "handles", "weights", "deform", "render", "view"]
 
 
 def test_help_lists_all_verbs(folder):
@@ -35,6 +35,7 @@ def test_each_verb_has_help(folder, verb):
     (["winding", "a.off", "-o", "b.vti", "--method", "guess"], "'guess' is none of auto|exact"),
     (["winding", "a.off", "-o", "b.vti", "--method", "auto", "--method", "exact"], "--method"),
     (["tetrahedralize", "a.off", "-o", "b.vtu", "--winding-threshold", "nan"], "no finite number"),
+    (["handles", "a.off", "-o", "b.vtp", "--points", "0"], "at least 1"),
     (["weights", "a.off", "-o", "b.vtp"], "--handles is required"),
     (["deform", "a.vtp", "--handles", "h.tgf", "-o", "b.vtp"], "--pose is required"),
 ])

@@ -1,0 +1,242 @@
+// Sorts the surface by coordinates, so that nothing depends on the order in which it is stored, and
+// hands it on; then looks at whether the bones are where they should be.
+#include "automatic/automatic_handles.h"
+
+#include "winding/winding_number.h"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+namespace bindpose
+{
+
+const char* to_string(AutomaticMethod method)
+{
+  return method == AutomaticMethod::points ? "points" : "skeleton";
+}
+
+namespace
+{
+/// Vertices by coordinates, each place once, those that no triangle uses left out; triangles by
+/// vertices, the lowest first.
+struct SortedSurface
+{
+  Points points;
+  Triangles triangles;
+  std::vector<Index> original; ///< the lowest id among the equal ones
+};
+
+SortedSurface sorted(PointsView points, TrianglesView triangles)
+{
+  std::vector<char> used(static_cast<std::size_t>(points.rows()), 0);
+  for (Index k = 0; k < triangles.size(); ++k)
+  {
+    used[triangles.data()[k]] = 1;
+  }
+  std::vector<Index> order;
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    if (used[v])
+    {
+      order.push_back(v);
+    }
+  }
+  const auto compare = [&](Index a, Index b)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      if (points(a, k) != points(b, k))
+      {
+        return points(a, k) < points(b, k) ? -1 : 1;
+      }
+    }
+    return 0;
+  };
+  std::sort(order.begin(), order.end(),
+    [&](Index a, Index b)
+    {
+      const int by_place = compare(a, b);
+      return by_place != 0 ? by_place < 0 : a < b;
+    });
+  SortedSurface surface;
+  std::vector<Index> number(static_cast<std::size_t>(points.rows()), -1);
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    if (i == 0 || compare(order[i - 1], order[i]) != 0)
+    {
+      surface.original.push_back(order[i]);
+    }
+    number[order[i]] = static_cast<Index>(surface.original.size()) - 1;
+  }
+  surface.points.resize(static_cast<Index>(surface.original.size()), 3);
+  for (std::size_t i = 0; i < surface.original.size(); ++i)
+  {
+    surface.points.row(static_cast<Index>(i)) = points.row(surface.original[i]);
+  }
+  std::vector<std::array<Index, 3>> faces;
+  for (Index f = 0; f < triangles.rows(); ++f)
+  {
+    std::array<Index, 3> face{ number[triangles(f, 0)], number[triangles(f, 1)],
+      number[triangles(f, 2)] };
+    std::rotate(face.begin(), std::min_element(face.begin(), face.end()), face.end());
+    faces.push_back(face);
+  }
+  std::sort(faces.begin(), faces.end());
+  surface.triangles.resize(static_cast<Index>(faces.size()), 3);
+  for (std::size_t f = 0; f < faces.size(); ++f)
+  {
+    surface.triangles.row(static_cast<Index>(f)) << faces[f][0], faces[f][1], faces[f][2];
+  }
+  return surface;
+}
+
+Status make_points(const SortedSurface& surface, const SpreadPointsOptions& options,
+  Handles& handles, ExecutionContext& context)
+{
+  SpreadPoints spread;
+  Status status = spread_points(surface.points, surface.triangles, options, spread, context);
+  if (!status.ok())
+  {
+    return status;
+  }
+  std::vector<Index> vertices;
+  for (Index i = 0; i < spread.places.rows(); ++i)
+  {
+    Handle handle;
+    handle.head = handle.tail = spread.places.row(i);
+    handle.name = "p" + std::to_string(i + 1);
+    handles.push_back(std::move(handle));
+    vertices.push_back(surface.original[spread.vertices[i]]);
+  }
+  status.report.set("counts.components", spread.components);
+  status.report.set("counts.served_components", spread.served);
+  status.report.set("counts.points_inside", spread.inside);
+  status.report.set("distance", to_string(options.distance));
+  status.report.set("handles[].vertex", vertices);
+  return status;
+}
+
+/// How many joints are not within the shape, and how many bones leave it on their way.
+void look_inside(
+  const SkeletonBones& bones, const std::function<bool(const Vec3&)>& inside, Status& told)
+{
+  constexpr int pieces = 16;
+  Index joints_outside = 0;
+  for (Index j = 0; j < bones.joints.rows(); ++j)
+  {
+    joints_outside += inside(bones.joints.row(j)) ? 0 : 1;
+  }
+  Index bones_outside = 0;
+  for (const Handle& bone : bones.handles)
+  {
+    for (int i = 1; i < pieces && bone.kind == HandleKind::bone; ++i)
+    {
+      const double t = static_cast<double>(i) / pieces;
+      if (!inside((1.0 - t) * bone.head + t * bone.tail))
+      {
+        ++bones_outside;
+        break;
+      }
+    }
+  }
+  told.report.set("counts.joints_outside", joints_outside);
+  told.report.set("counts.bones_outside", bones_outside);
+  if (joints_outside > 0)
+  {
+    told.warnings.push_back(std::to_string(joints_outside) + " of " +
+      std::to_string(bones.joints.rows()) + " joints " + (joints_outside == 1 ? "is" : "are") +
+      " outside of the shape");
+  }
+}
+
+Status make_bones(const SortedSurface& surface, const AutomaticHandlesOptions& options,
+  Handles& handles, ExecutionContext& context)
+{
+  CurveSkeleton skeleton;
+  TriangleMesh solid;
+  Status status;
+  {
+    const Phase phase(context, "skeleton", 0.0, 0.95);
+    status =
+      curve_skeleton(surface.points, surface.triangles, options.skeleton, skeleton, solid, context);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  const Phase phase(context, "bones", 0.95, 1.0);
+  WindingNumber winding;
+  Status built = winding.build(solid.points, solid.triangles, context);
+  if (!built.ok())
+  {
+    return built;
+  }
+  constexpr double half = 0.5;
+  SkeletonBonesOptions to_bones = options.bones;
+  to_bones.inside = [&winding](const Vec3& p) { return winding.evaluate_at(p) >= half; };
+  SkeletonBones bones;
+  const double diagonal = bounding_box(solid.points, solid.triangles).diagonal();
+  Status simplified = skeleton_bones(skeleton, diagonal, to_bones, bones);
+  if (!simplified.ok())
+  {
+    return simplified;
+  }
+  status.warnings.insert(
+    status.warnings.end(), simplified.warnings.begin(), simplified.warnings.end());
+  status.report.set("counts.skeleton_points", skeleton.points.rows());
+  status.report.set("counts.joints", bones.joints.rows());
+  status.report.set("counts.junctions", bones.junctions);
+  status.report.set("counts.cut_cycles", bones.cut_cycles);
+  status.report.set("counts.pruned_branches", bones.pruned_branches);
+  status.report.set("counts.merged_branches", bones.merged_branches);
+  look_inside(bones, to_bones.inside, status);
+  handles = std::move(bones.handles);
+  return status;
+}
+} // namespace
+
+Status automatic_handles(PointsView points, TrianglesView triangles,
+  const AutomaticHandlesOptions& options, Handles& handles, ExecutionContext& context)
+{
+  handles.clear();
+  Status status = check_mesh(points, triangles);
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (triangles.rows() == 0)
+  {
+    return Status::invalid_input("the surface has no triangles");
+  }
+  const SortedSurface surface = sorted(points, triangles);
+  status = options.method == AutomaticMethod::points
+    ? make_points(surface, options.points, handles, context)
+    : make_bones(surface, options, handles, context);
+  if (status.ok())
+  {
+    const Status checked = check_handles(handles);
+    if (!checked.ok())
+    {
+      status = checked;
+    }
+  }
+  if (!status.ok())
+  {
+    handles.clear();
+    return status;
+  }
+  std::vector<std::string> names, kinds;
+  for (const Handle& handle : handles)
+  {
+    names.push_back(handle.name);
+    kinds.emplace_back(to_string(handle.kind));
+  }
+  status.report.set("method", to_string(options.method));
+  status.report.set("counts.handles", static_cast<Index>(handles.size()));
+  status.report.set("handles[].name", names);
+  status.report.set("handles[].kind", kinds);
+  return status;
+}
+
+} // namespace bindpose

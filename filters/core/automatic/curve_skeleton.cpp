@@ -1,0 +1,291 @@
+// The helper contracts (mesher/skeleton_job.cpp) in a frame around the origin. Here the closed
+// surface that it needs is found, and its result checked and measured: how far each point of the
+// skeleton is from the surface, which component it is in, and where that has its centroid.
+#include "automatic/curve_skeleton.h"
+
+#include "base/number_text.h"
+#include "helper/child_process.h"
+#include "helper/mesher_process.h"
+#include "inside/tetrahedralize.h"
+#include "surface/surface_repair.h"
+#include "surface/triangle_tree.h"
+#include "surface/unit_frame.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <set>
+
+namespace bindpose
+{
+
+namespace
+{
+Status check_options(const CurveSkeletonOptions& options)
+{
+  constexpr Index least = 100;
+  constexpr Index most = 1000000;
+  if (options.triangles < least || options.triangles > most)
+  {
+    return Status::invalid_input(
+      "skeleton_triangles must be from 100 to 1000000, not " + std::to_string(options.triangles));
+  }
+  return check_limits(options.time_limit, options.memory_limit);
+}
+
+/// A closed surface of what the given one encloses, without its hollows filled.
+Status close_surface(PointsView points, TrianglesView triangles,
+  const CurveSkeletonOptions& options, TriangleMesh& solid, ExecutionContext& context)
+{
+  RepairedSurface repaired;
+  Status status = repair_surface(points, triangles, RepairOptions(), repaired, context);
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (context.cancelled())
+  {
+    return Status::cancelled();
+  }
+  if (repaired.clean() && repaired.found.nonmanifold_edges == 0 && repaired.triangles.rows() > 0)
+  {
+    status.report.set("surface", "clean");
+    solid.points = std::move(repaired.points);
+    solid.triangles = std::move(repaired.triangles);
+    return status;
+  }
+  TetrahedralizeOptions tetrahedra;
+  tetrahedra.method = TetMethod::remesh;
+  tetrahedra.winding_threshold = options.winding_threshold;
+  tetrahedra.time_limit = options.time_limit;
+  tetrahedra.memory_limit = options.memory_limit;
+  TetrahedralizeResult tets;
+  status = tetrahedralize(points, triangles, tetrahedra, tets, context);
+  if (!status.ok())
+  {
+    return status;
+  }
+  status.report.set("surface", "remeshed");
+  solid.points = std::move(tets.mesh.points);
+  solid.triangles = boundary_triangles(tets.mesh.tets);
+  return status;
+}
+
+/// A solid component with what its mass needs.
+struct Solid
+{
+  Triangles triangles;
+  Vec3 centroid = Vec3::Zero();
+};
+
+/// The centroid of what closed triangles enclose: that of cones from a point of their own.
+Vec3 centroid_of_mass(PointsView points, TrianglesView triangles)
+{
+  const Vec3 apex = points.row(triangles(0, 0));
+  Vec3 moment = Vec3::Zero();
+  double volume = 0.0;
+  for (Index f = 0; f < triangles.rows(); ++f)
+  {
+    const Vec3 a = points.row(triangles(f, 0)).transpose() - apex;
+    const Vec3 b = points.row(triangles(f, 1)).transpose() - apex;
+    const Vec3 c = points.row(triangles(f, 2)).transpose() - apex;
+    const double cone = a.dot(b.cross(c));
+    volume += cone;
+    moment += cone * (a + b + c) / 4.0;
+  }
+  return volume != 0.0 ? Vec3(apex + moment / volume) : apex;
+}
+
+/// Components that enclose something, hollows left out.
+std::vector<Solid> solids_of(const TriangleMesh& surface)
+{
+  const Components components =
+    connected_components(surface.points.rows(), TrianglesView(surface.triangles));
+  std::vector<std::vector<Index>> faces(static_cast<std::size_t>(components.count));
+  for (Index f = 0; f < surface.triangles.rows(); ++f)
+  {
+    faces[components.of_vertex[surface.triangles(f, 0)]].push_back(f);
+  }
+  std::vector<Solid> solids;
+  for (const std::vector<Index>& list : faces)
+  {
+    Solid solid;
+    solid.triangles.resize(static_cast<Index>(list.size()), 3);
+    for (std::size_t i = 0; i < list.size(); ++i)
+    {
+      solid.triangles.row(static_cast<Index>(i)) = surface.triangles.row(list[i]);
+    }
+    if (signed_volume(surface.points, solid.triangles) > 0.0)
+    {
+      solid.centroid = centroid_of_mass(surface.points, solid.triangles);
+      solids.push_back(std::move(solid));
+    }
+  }
+  return solids;
+}
+
+/// Components of the skeleton, numbered by their first points.
+std::vector<Index> parts_of(const CurveSkeleton& skeleton, Index& count)
+{
+  std::vector<std::vector<Index>> next(static_cast<std::size_t>(skeleton.points.rows()));
+  for (Index s = 0; s < skeleton.segments.rows(); ++s)
+  {
+    next[skeleton.segments(s, 0)].push_back(skeleton.segments(s, 1));
+    next[skeleton.segments(s, 1)].push_back(skeleton.segments(s, 0));
+  }
+  std::vector<Index> part(next.size(), -1);
+  count = 0;
+  for (std::size_t first = 0; first < next.size(); ++first)
+  {
+    if (part[first] >= 0)
+    {
+      continue;
+    }
+    std::vector<Index> open{ static_cast<Index>(first) };
+    part[first] = count;
+    while (!open.empty())
+    {
+      const Index v = open.back();
+      open.pop_back();
+      for (const Index w : next[v])
+      {
+        if (part[w] < 0)
+        {
+          part[w] = count;
+          open.push_back(w);
+        }
+      }
+    }
+    ++count;
+  }
+  return part;
+}
+
+/// radii, part_of and centroids: each part belongs to the solid that its widest point is nearest
+/// to.
+void measure(const TriangleMesh& surface, CurveSkeleton& skeleton)
+{
+  const double any = std::numeric_limits<double>::infinity();
+  const TriangleTree tree(surface.points, surface.triangles);
+  skeleton.radii.resize(skeleton.points.rows());
+  for (Index v = 0; v < skeleton.points.rows(); ++v)
+  {
+    skeleton.radii[v] = tree.distance(skeleton.points.row(v), any);
+  }
+  Index count = 0;
+  skeleton.part_of = parts_of(skeleton, count);
+  std::vector<Index> widest(static_cast<std::size_t>(count), -1);
+  for (Index v = 0; v < skeleton.points.rows(); ++v)
+  {
+    Index& w = widest[skeleton.part_of[v]];
+    w = w < 0 || skeleton.radii[v] > skeleton.radii[w] ? v : w;
+  }
+  std::vector<double> nearest(widest.size(), any);
+  skeleton.centroids.assign(widest.size(), Vec3::Zero());
+  for (const Solid& solid : solids_of(surface))
+  {
+    const TriangleTree own(surface.points, solid.triangles);
+    for (std::size_t part = 0; part < widest.size(); ++part)
+    {
+      const double distance = own.distance(skeleton.points.row(widest[part]), any);
+      if (distance < nearest[part])
+      {
+        nearest[part] = distance;
+        skeleton.centroids[part] = solid.centroid;
+      }
+    }
+  }
+}
+
+/// Each pair of points once, none with itself.
+Segments tidy(const Segments& segments)
+{
+  std::set<std::array<Index, 2>> pairs;
+  for (Index s = 0; s < segments.rows(); ++s)
+  {
+    const Index a = segments(s, 0);
+    const Index b = segments(s, 1);
+    if (a != b)
+    {
+      pairs.insert({ std::min(a, b), std::max(a, b) });
+    }
+  }
+  Segments result(static_cast<Index>(pairs.size()), 2);
+  Index s = 0;
+  for (const std::array<Index, 2>& pair : pairs)
+  {
+    result.row(s++) << pair[0], pair[1];
+  }
+  return result;
+}
+} // namespace
+
+Status curve_skeleton(PointsView points, TrianglesView triangles,
+  const CurveSkeletonOptions& options, CurveSkeleton& skeleton, TriangleMesh& solid,
+  ExecutionContext& context)
+{
+  skeleton = CurveSkeleton();
+  solid = TriangleMesh();
+  Status status = check_options(options);
+  if (status.ok())
+  {
+    status = check_frame(points, triangles);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  const double start = context.elapsed_seconds();
+  {
+    const Phase phase(context, "close", 0.0, 0.3);
+    status = close_surface(points, triangles, options, solid, context);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  const UnitFrame frame(bounding_box(solid.points, solid.triangles));
+  MesherRequest request;
+  request.arguments = { "skeleton", "--triangles", std::to_string(options.triangles) };
+  constexpr double least_seconds = 1.0;
+  request.time_limit =
+    std::max(options.time_limit - (context.elapsed_seconds() - start), least_seconds);
+  request.memory_limit = options.memory_limit;
+  MesherAnswer answer;
+  Status contracted;
+  {
+    const Phase phase(context, "contract", 0.3, 0.95);
+    MesherData data;
+    data.points = frame.into(solid.points);
+    data.triangles = solid.triangles;
+    contracted = run_mesher(request, data, answer, context);
+  }
+  if (!contracted.ok())
+  {
+    return contracted;
+  }
+  if (answer.data.points.rows() == 0)
+  {
+    return Status::failure(StatusCode::internal_error, "the skeleton is empty");
+  }
+  const Phase phase(context, "measure", 0.95, 1.0);
+  skeleton.points = frame.back(answer.data.points);
+  skeleton.segments = tidy(answer.data.segments);
+  measure(solid, skeleton);
+  const auto told = [&](const char* key)
+  { return static_cast<Index>(answer.report.number(key, 0.0)); };
+  const Index left_out = told("crumbs") + told("open");
+  status.report.set("counts.parts", told("parts"));
+  status.report.set("counts.contracted_triangles", told("triangles"));
+  status.report.set("counts.iterations", told("iterations"));
+  status.report.set("counts.left_out_parts", left_out);
+  if (left_out > 0)
+  {
+    status.warnings.push_back(std::to_string(left_out) +
+      (left_out == 1 ? " component has" : " components have") +
+      " no skeleton: too small beside the largest one, or not closed");
+  }
+  return status;
+}
+
+} // namespace bindpose

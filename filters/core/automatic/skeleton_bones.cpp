@@ -1,0 +1,666 @@
+// A graph of places with neighbours. Cutting, pruning and contracting only ever remove vertices and
+// edges, so that what is left of a component is connected, and after the cuts a tree. Branches are
+// read off anew after each step: skeletons have some thousand points and a few dozen branches.
+#include "automatic/skeleton_bones.h"
+
+#include "base/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+#include <set>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// From joint to joint, all points between them included.
+struct Branch
+{
+  std::vector<Index> path;
+  double length = 0.0;
+};
+
+class Graph
+{
+public:
+  Graph(const CurveSkeleton& skeleton, const std::function<bool(const Vec3&)>& inside)
+    : next_(static_cast<std::size_t>(skeleton.points.rows())), alive_(next_.size(), 1),
+      held_(next_.size(), 0), skeleton_(skeleton), inside_(inside)
+  {
+    for (Index v = 0; v < skeleton.points.rows(); ++v)
+    {
+      this->places_.push_back(skeleton.points.row(v));
+      this->radii_.push_back(skeleton.radii[v]);
+    }
+    for (Index s = 0; s < skeleton.segments.rows(); ++s)
+    {
+      this->next_[skeleton.segments(s, 0)].insert(skeleton.segments(s, 1));
+      this->next_[skeleton.segments(s, 1)].insert(skeleton.segments(s, 0));
+    }
+  }
+
+  Index size() const { return static_cast<Index>(this->next_.size()); }
+  bool holds(const Vec3& p) const { return !this->inside_ || this->inside_(p); }
+  bool leaves(const Vec3& head, const Vec3& tail) const
+  {
+    constexpr int pieces = 16;
+    for (int i = 1; i < pieces; ++i)
+    {
+      const double t = static_cast<double>(i) / pieces;
+      if (!this->holds((1.0 - t) * head + t * tail))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+  const Vec3& place(Index v) const { return this->places_[v]; }
+  double radius(Index v) const { return this->radii_[v]; }
+  Index part(Index v) const { return this->skeleton_.part_of[v]; }
+  const Vec3& centroid(Index part) const { return this->skeleton_.centroids[part]; }
+  bool alive(Index v) const { return this->alive_[v] != 0; }
+  bool held(Index v) const { return this->held_[v] != 0; }
+  Index degree(Index v) const { return static_cast<Index>(this->next_[v].size()); }
+  bool joint(Index v) const { return this->alive(v) && (this->degree(v) != 2 || this->held(v)); }
+
+  /// Of the vertices that are joints (or, where none is, of all), the one nearest to the centroid.
+  Index nearest_joint(Index part) const
+  {
+    Index best = -1;
+    double least = infinite;
+    for (const bool joints_only : { true, false })
+    {
+      for (Index v = 0; v < this->size() && (joints_only || best < 0); ++v)
+      {
+        const double distance = (this->place(v) - this->centroid(part)).norm();
+        if (this->part(v) == part && this->alive(v) && (!joints_only || this->joint(v)) &&
+          distance < least)
+        {
+          least = distance;
+          best = v;
+        }
+      }
+      if (best >= 0)
+      {
+        break;
+      }
+    }
+    return best;
+  }
+
+  /// Keeps a tree of shortest ways from a held root where there are cycles. @return how many.
+  Index cut_cycles(Index part)
+  {
+    Index vertices = 0;
+    Index ends = 0;
+    for (Index v = 0; v < this->size(); ++v)
+    {
+      if (this->part(v) == part)
+      {
+        ++vertices;
+        ends += this->degree(v);
+      }
+    }
+    const Index cycles = ends / 2 - vertices + 1;
+    if (cycles <= 0)
+    {
+      return 0;
+    }
+    const Index root = this->nearest_joint(part);
+    this->held_[root] = 1;
+    std::vector<double> distance(this->next_.size(), infinite);
+    std::vector<Index> from(this->next_.size(), -1);
+    std::set<std::pair<double, Index>> open{ { 0.0, root } };
+    distance[root] = 0.0;
+    while (!open.empty())
+    {
+      const Index v = open.begin()->second;
+      open.erase(open.begin());
+      for (const Index w : this->next_[v])
+      {
+        const double way = distance[v] + (this->place(v) - this->place(w)).norm();
+        if (way < distance[w])
+        {
+          open.erase({ distance[w], w });
+          distance[w] = way;
+          from[w] = v;
+          open.insert({ way, w });
+        }
+      }
+    }
+    for (Index v = 0; v < this->size(); ++v)
+    {
+      if (this->part(v) != part)
+      {
+        continue;
+      }
+      const std::set<Index> old = this->next_[v];
+      for (const Index w : old)
+      {
+        if (from[w] != v && from[v] != w)
+        {
+          this->disconnect(v, w);
+        }
+      }
+    }
+    return cycles;
+  }
+
+  std::vector<Branch> branches() const
+  {
+    std::vector<Branch> all;
+    for (Index v = 0; v < this->size(); ++v)
+    {
+      if (!this->joint(v))
+      {
+        continue;
+      }
+      for (const Index first : this->next_[v])
+      {
+        Branch branch;
+        branch.path = { v };
+        Index before = v;
+        Index at = first;
+        for (;;)
+        {
+          branch.path.push_back(at);
+          branch.length += (this->place(at) - this->place(before)).norm();
+          if (this->joint(at))
+          {
+            break;
+          }
+          const std::set<Index>& ways = this->next_[at];
+          const Index on = *ways.begin() == before ? *ways.rbegin() : *ways.begin();
+          before = at;
+          at = on;
+        }
+        // Each is met from both its ends.
+        if (branch.path.front() < branch.path.back())
+        {
+          all.push_back(std::move(branch));
+        }
+      }
+    }
+    return all;
+  }
+
+  /// Removes a branch but for its junction, path.back() or path.front().
+  void prune(const Branch& branch)
+  {
+    const bool keep_front = this->degree(branch.path.front()) > 1;
+    const std::size_t kept = keep_front ? 0 : branch.path.size() - 1;
+    for (std::size_t i = 0; i < branch.path.size(); ++i)
+    {
+      if (i != kept)
+      {
+        this->remove(branch.path[i]);
+      }
+    }
+  }
+
+  /// Removes what is outside of the shape at a branch's free ends, but for one piece.
+  void trim(const Branch& branch)
+  {
+    std::vector<Index> path = branch.path;
+    constexpr std::size_t least = 2;
+    for (int end = 0; end < 2; ++end)
+    {
+      std::reverse(path.begin(), path.end());
+      while (path.size() > least && this->degree(path.back()) == 1 && !this->held(path.back()) &&
+        !this->holds(this->place(path.back())))
+      {
+        this->remove(path.back());
+        path.pop_back();
+      }
+    }
+  }
+
+  /// Makes a branch between junctions one point in its middle.
+  void contract(const Branch& branch)
+  {
+    // A root stays where it is.
+    const Index a = this->held(branch.path.back()) ? branch.path.back() : branch.path.front();
+    const Index b = a == branch.path.front() ? branch.path.back() : branch.path.front();
+    const std::set<Index> others = this->next_[b];
+    Vec3 place = 0.5 * (this->place(a) + this->place(b));
+    if (!this->holds(place))
+    {
+      place = this->place(branch.path[branch.path.size() / 2]);
+    }
+    if (this->held(a) || !this->holds(place))
+    {
+      place = this->place(a);
+    }
+    for (const Index v : branch.path)
+    {
+      if (v != a)
+      {
+        this->remove(v);
+      }
+    }
+    for (const Index w : others)
+    {
+      if (this->alive(w) && w != a)
+      {
+        this->next_[a].insert(w);
+        this->next_[w].insert(a);
+      }
+    }
+    this->places_[a] = place;
+    this->radii_[a] = std::max(this->radii_[a], this->radii_[b]);
+  }
+
+  /// Leaves one vertex of a component, its widest.
+  void collapse(Index part)
+  {
+    Index widest = -1;
+    for (Index v = 0; v < this->size(); ++v)
+    {
+      if (this->alive(v) && this->part(v) == part &&
+        (widest < 0 || this->radius(v) > this->radius(widest)))
+      {
+        widest = v;
+      }
+    }
+    for (Index v = 0; v < this->size(); ++v)
+    {
+      if (this->alive(v) && this->part(v) == part && v != widest)
+      {
+        this->remove(v);
+      }
+    }
+  }
+
+private:
+  void disconnect(Index v, Index w)
+  {
+    this->next_[v].erase(w);
+    this->next_[w].erase(v);
+  }
+  void remove(Index v)
+  {
+    const std::set<Index> old = this->next_[v];
+    for (const Index w : old)
+    {
+      this->disconnect(v, w);
+    }
+    this->alive_[v] = 0;
+  }
+
+  std::vector<std::set<Index>> next_;
+  std::vector<char> alive_;
+  std::vector<char> held_; ///< roots: joints, whatever their degree
+  std::vector<Vec3> places_;
+  std::vector<double> radii_;
+  const CurveSkeleton& skeleton_;
+  const std::function<bool(const Vec3&)>& inside_;
+};
+
+/// Length of a branch in half thicknesses of where it begins: below 1 it does not get out of the
+/// ball there. Infinite for one that must stay.
+double reach(const Graph& graph, const Branch& branch, bool& inner)
+{
+  const Index a = branch.path.front();
+  const Index b = branch.path.back();
+  inner = graph.degree(a) > 1 && graph.degree(b) > 1;
+  const Index junction = graph.degree(a) > 1 ? a : b;
+  constexpr Index least = 3;
+  double thickness = graph.radius(junction);
+  if (inner)
+  {
+    if (graph.degree(a) < least || graph.degree(b) < least)
+    {
+      return infinite; // a root within a branch
+    }
+    thickness = std::max(graph.radius(a), graph.radius(b));
+  }
+  else if (graph.degree(junction) < least)
+  {
+    return infinite;
+  }
+  return thickness > 0.0 ? branch.length / thickness : infinite;
+}
+
+/// Balls: components whose whole curve is within their thickness.
+void collapse_balls(Graph& graph, Index parts, double prune)
+{
+  std::vector<double> length(static_cast<std::size_t>(parts), 0.0);
+  std::vector<double> radius(length.size(), 0.0);
+  for (const Branch& branch : graph.branches())
+  {
+    const Index part = graph.part(branch.path.front());
+    length[part] += branch.length;
+    for (const Index v : branch.path)
+    {
+      radius[part] = std::max(radius[part], graph.radius(v));
+    }
+  }
+  for (Index part = 0; part < parts; ++part)
+  {
+    if (length[part] <= prune * radius[part])
+    {
+      graph.collapse(part);
+    }
+  }
+}
+
+/// Prunes and contracts what is short, then what is too much.
+void simplify(Graph& graph, const SkeletonBonesOptions& options, SkeletonBones& result)
+{
+  for (;;)
+  {
+    const std::vector<Branch> branches = graph.branches();
+    const Branch* least = nullptr;
+    const Branch* least_limb = nullptr;
+    double score = infinite;
+    double limb_score = infinite;
+    bool least_inner = false;
+    for (const Branch& branch : branches)
+    {
+      bool inner = false;
+      const double r = reach(graph, branch, inner);
+      if (r < score)
+      {
+        score = r;
+        least = &branch;
+        least_inner = inner;
+      }
+      if (!inner && r < limb_score)
+      {
+        limb_score = r;
+        least_limb = &branch;
+      }
+    }
+    if (least && score < options.prune)
+    {
+      if (least_inner)
+      {
+        graph.contract(*least);
+        ++result.merged_branches;
+      }
+      else
+      {
+        graph.prune(*least);
+        ++result.pruned_branches;
+      }
+    }
+    else if (options.most_bones > 0 && least_limb &&
+      static_cast<Index>(branches.size()) > options.most_bones)
+    {
+      graph.prune(*least_limb);
+      ++result.pruned_branches;
+    }
+    else
+    {
+      return;
+    }
+  }
+}
+
+/// A piece of a branch that one bone stands for.
+struct Piece
+{
+  std::vector<Index> path;
+  double need = 0.0; ///< to be split: above 1 a bound is not kept
+  std::size_t at = 0; ///< where in the path it would be
+};
+
+Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, double longest)
+{
+  Piece piece;
+  piece.path = std::move(path);
+  const Vec3& head = graph.place(piece.path.front());
+  const Vec3 chord = graph.place(piece.path.back()) - head;
+  const double squared = chord.squaredNorm();
+  double length = 0.0;
+  std::vector<double> along{ 0.0 };
+  constexpr double slight = 0.25; // of the tolerance
+  double farthest = slight * tolerance;
+  for (std::size_t i = 1; i < piece.path.size(); ++i)
+  {
+    const Vec3& p = graph.place(piece.path[i]);
+    length += (p - graph.place(piece.path[i - 1])).norm();
+    along.push_back(length);
+    const double t =
+      squared > 0.0 ? std::min(std::max((p - head).dot(chord) / squared, 0.0), 1.0) : 0.0;
+    const double distance = (p - head - t * chord).norm();
+    // A joint must be within the shape.
+    if (distance > farthest && graph.holds(p))
+    {
+      farthest = distance;
+      piece.at = i;
+    }
+  }
+  if (piece.path.size() < 3)
+  {
+    return piece; // nothing to split at
+  }
+  if (piece.at > 0)
+  {
+    piece.need = farthest / tolerance;
+    if (piece.need <= 1.0 && graph.leaves(head, head + chord))
+    {
+      piece.need += 1.0;
+    }
+  }
+  if (longest > 0.0 && length / longest > std::max(piece.need, 1.0))
+  {
+    double from_middle = infinite;
+    for (std::size_t i = 1; i + 1 < along.size(); ++i)
+    {
+      const double distance = std::abs(along[i] - 0.5 * length);
+      if (distance < from_middle && graph.holds(graph.place(piece.path[i])))
+      {
+        from_middle = distance;
+        piece.need = length / longest;
+        piece.at = i;
+      }
+    }
+  }
+  return piece;
+}
+
+/// A branch without what lies in the balls of its junctions: how the curve gets from limb to limb
+/// within the thickness is no bend.
+std::vector<Index> outside_of_junctions(const Graph& graph, const std::vector<Index>& path)
+{
+  std::vector<Index> kept{ path.front() };
+  const auto within = [&](Index v, Index end)
+  {
+    constexpr Index least = 3;
+    return graph.degree(end) >= least &&
+      (graph.place(v) - graph.place(end)).norm() <= graph.radius(end);
+  };
+  for (std::size_t i = 1; i + 1 < path.size(); ++i)
+  {
+    if (!within(path[i], path.front()) && !within(path[i], path.back()))
+    {
+      kept.push_back(path[i]);
+    }
+  }
+  kept.push_back(path.back());
+  return kept;
+}
+
+std::vector<Piece> split(const Graph& graph, double tolerance, double longest, Index most)
+{
+  std::vector<Piece> pieces;
+  for (const Branch& branch : graph.branches())
+  {
+    pieces.push_back(
+      make_piece(graph, outside_of_junctions(graph, branch.path), tolerance, longest));
+  }
+  while (most == 0 || static_cast<Index>(pieces.size()) < most)
+  {
+    const auto neediest = std::max_element(
+      pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.need < b.need; });
+    if (neediest == pieces.end() || neediest->need <= 1.0)
+    {
+      break;
+    }
+    const std::vector<Index> path = neediest->path;
+    const auto at = path.begin() + static_cast<std::ptrdiff_t>(neediest->at);
+    *neediest = make_piece(graph, { path.begin(), at + 1 }, tolerance, longest);
+    pieces.push_back(make_piece(graph, { at, path.end() }, tolerance, longest));
+  }
+  return pieces;
+}
+
+/// Bones away from the roots, parents first.
+void orient(
+  const Graph& graph, Index parts, const std::vector<Piece>& pieces, SkeletonBones& result)
+{
+  std::vector<std::vector<Index>> at(static_cast<std::size_t>(graph.size())); // pieces of a joint
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+  {
+    at[pieces[i].path.front()].push_back(static_cast<Index>(i));
+    at[pieces[i].path.back()].push_back(static_cast<Index>(i));
+  }
+  std::vector<Index> joint_of(at.size(), -1);
+  std::vector<Vec3> joints;
+  const auto add_joint = [&](Index v)
+  {
+    joint_of[v] = static_cast<Index>(joints.size());
+    joints.push_back(graph.place(v));
+    result.junctions += at[v].size() >= 3 ? 1 : 0;
+  };
+  Index bones = 0;
+  std::vector<char> done(pieces.size(), 0);
+  for (Index part = 0; part < parts; ++part)
+  {
+    Index root = -1;
+    for (Index v = 0; v < graph.size(); ++v)
+    {
+      // Of components with cycles the root is held; of others it is the joint nearest by.
+      const auto distance = [&](Index w)
+      { return graph.held(w) ? -1.0 : (graph.place(w) - graph.centroid(part)).norm(); };
+      if (graph.part(v) == part && !at[v].empty() && (root < 0 || distance(v) < distance(root)))
+      {
+        root = v;
+      }
+    }
+    if (root < 0)
+    {
+      continue;
+    }
+    add_joint(root);
+    result.roots.push_back(joint_of[root]);
+    std::queue<std::pair<Index, Index>> open; // a joint, and the handle that leads to it
+    open.push({ root, -1 });
+    while (!open.empty())
+    {
+      const auto [head, parent] = open.front();
+      open.pop();
+      for (const Index i : at[head])
+      {
+        if (done[i])
+        {
+          continue;
+        }
+        done[i] = 1;
+        const Piece& piece = pieces[i];
+        const Index tail = piece.path.front() == head ? piece.path.back() : piece.path.front();
+        add_joint(tail);
+        Handle bone;
+        bone.kind = HandleKind::bone;
+        bone.name = "b" + std::to_string(++bones);
+        bone.head = graph.place(head);
+        bone.tail = graph.place(tail);
+        bone.parent = parent;
+        open.push({ tail, static_cast<Index>(result.handles.size()) });
+        result.handles.push_back(std::move(bone));
+      }
+    }
+  }
+  result.joints.resize(static_cast<Index>(joints.size()), 3);
+  for (std::size_t j = 0; j < joints.size(); ++j)
+  {
+    result.joints.row(static_cast<Index>(j)) = joints[j].transpose();
+  }
+}
+
+Status check_options(const SkeletonBonesOptions& options)
+{
+  const auto bad = [](const char* name, const char* range, double value)
+  {
+    return Status::invalid_input(
+      std::string(name) + " must be " + range + ", not " + short_number(value));
+  };
+  constexpr double least_tolerance = 1e-3;
+  constexpr double least_bone = 0.01;
+  constexpr double most_prune = 10.0;
+  if (!(options.tolerance >= least_tolerance && options.tolerance <= 1.0))
+  {
+    return bad("bone_tolerance", "from 0.001 to 1", options.tolerance);
+  }
+  if (!(options.longest_bone == 0.0 || options.longest_bone >= least_bone) ||
+    !std::isfinite(options.longest_bone))
+  {
+    return bad("longest_bone", "0 or at least 0.01", options.longest_bone);
+  }
+  if (options.most_bones < 0)
+  {
+    return bad("most_bones", "at least 0", static_cast<double>(options.most_bones));
+  }
+  if (!(options.prune >= 0.0 && options.prune <= most_prune))
+  {
+    return bad("prune", "from 0 to 10", options.prune);
+  }
+  return {};
+}
+} // namespace
+
+Status skeleton_bones(const CurveSkeleton& skeleton, double diagonal,
+  const SkeletonBonesOptions& options, SkeletonBones& bones)
+{
+  bones = SkeletonBones();
+  Status status = check_options(options);
+  if (!status.ok())
+  {
+    return status;
+  }
+  Graph graph(skeleton, options.inside);
+  const auto parts = static_cast<Index>(skeleton.centroids.size());
+  for (Index part = 0; part < parts; ++part)
+  {
+    bones.cut_cycles += graph.cut_cycles(part);
+  }
+  simplify(graph, options, bones);
+  collapse_balls(graph, parts, options.prune);
+  for (Index v = 0; v < graph.size(); ++v)
+  {
+    if (graph.alive(v) && graph.degree(v) == 0)
+    {
+      Handle point;
+      point.head = point.tail = graph.place(v);
+      point.name = "p" + std::to_string(bones.handles.size() + 1);
+      bones.handles.push_back(std::move(point));
+    }
+  }
+  for (const Branch& branch : graph.branches())
+  {
+    graph.trim(branch);
+  }
+  const std::vector<Piece> pieces =
+    split(graph, options.tolerance * diagonal, options.longest_bone * diagonal, options.most_bones);
+  orient(graph, parts, pieces, bones);
+  if (bones.cut_cycles > 0)
+  {
+    status.warnings.push_back(std::to_string(bones.cut_cycles) +
+      (bones.cut_cycles == 1 ? " cycle of the skeleton was" : " cycles of the skeleton were") +
+      " cut where farthest from the root: a bone has one parent");
+  }
+  if (options.most_bones > 0 && static_cast<Index>(pieces.size()) > options.most_bones)
+  {
+    status.warnings.push_back("there are " + std::to_string(pieces.size()) + " bones, more than " +
+      std::to_string(options.most_bones) + ": no component goes without");
+  }
+  return status;
+}
+
+} // namespace bindpose

@@ -1,0 +1,423 @@
+// Keeps, for each vertex, the distance to the nearest chosen point of its component; the next point
+// is where that is largest. Along edges a new point only changes what is nearer to it than to all
+// others: Dijkstra's algorithm from there, which stops where it brings nothing.
+#include "automatic/spread_points.h"
+
+#include "base/number_text.h"
+#include "surface/surface_probe.h"
+#include "winding/winding_number.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <queue>
+
+namespace bindpose
+{
+
+const char* to_string(PointDistance distance)
+{
+  return distance == PointDistance::straight ? "straight" : "along-edges";
+}
+
+namespace
+{
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// The lowest id of the vertices with the same coordinates; its own for one that is not finite.
+std::vector<Index> lowest_equal(PointsView points)
+{
+  std::map<std::array<double, 3>, Index> ids;
+  std::vector<Index> lowest(static_cast<std::size_t>(points.rows()));
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    // + 0.0: minus zero is zero.
+    const std::array<double, 3> place{ points(v, 0) + 0.0, points(v, 1) + 0.0, points(v, 2) + 0.0 };
+    lowest[v] = points.row(v).allFinite() ? ids.emplace(place, v).first->second : v;
+  }
+  return lowest;
+}
+
+struct Component
+{
+  std::vector<Index> vertices;
+  double area = 0.0;
+  Index points = 0;
+  bool full = false; ///< every vertex is chosen
+};
+
+class Spread
+{
+public:
+  Spread(PointsView points, TrianglesView triangles, const SpreadPointsOptions& options,
+    ExecutionContext& context)
+    : points_(points), triangles_(triangles), options_(options), context_(context)
+  {
+  }
+
+  Status build()
+  {
+    this->find_components();
+    this->distance_.assign(static_cast<std::size_t>(this->points_.rows()), infinite);
+    if (this->options_.distance == PointDistance::along_edges)
+    {
+      this->find_neighbours();
+    }
+    if (!this->options_.inside)
+    {
+      return {};
+    }
+    this->find_normals();
+    this->diagonal_ = bounding_box(this->points_, this->triangles_).diagonal();
+    return this->winding_.build(this->points_, this->triangles_, this->context_);
+  }
+
+  Status choose(SpreadPoints& result)
+  {
+    result.components = static_cast<Index>(this->components_.size());
+    const SurfaceProbe probe(this->points_, this->triangles_);
+    std::vector<Vec3> places;
+    for (Index n = 0; n < this->options_.count; ++n)
+    {
+      this->context_.progress(static_cast<double>(n) / static_cast<double>(this->options_.count));
+      Index vertex = -1;
+      Component* component = nullptr;
+      while (vertex < 0)
+      {
+        component = this->next_component();
+        if (!component)
+        {
+          return Status::invalid_input("the surface has only " + std::to_string(n) +
+            " different vertices, fewer than the " + std::to_string(this->options_.count) +
+            " points asked for");
+        }
+        vertex = this->farthest(*component);
+        component->full = vertex < 0;
+      }
+      ++component->points;
+      result.served += component->points == 1 ? 1 : 0;
+      Vec3 place = this->points_.row(vertex);
+      std::vector<std::pair<double, Index>> near{ { 0.0, vertex } };
+      double depth = 0.0;
+      if (this->options_.inside && this->move_inside(probe, vertex, places, place, depth))
+      {
+        ++result.inside;
+        this->add_vertices_near(*component, place, 2.0 * depth, near);
+      }
+      if (!this->update(*component, place, std::move(near)))
+      {
+        return Status::cancelled();
+      }
+      places.push_back(place);
+      result.vertices.push_back(vertex);
+    }
+    result.places.resize(static_cast<Index>(places.size()), 3);
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      result.places.row(static_cast<Index>(i)) = places[i].transpose();
+    }
+    return {};
+  }
+
+private:
+  void find_components()
+  {
+    this->weld_ = lowest_equal(this->points_);
+    this->welded_ = this->triangles_;
+    for (Index k = 0; k < this->welded_.size(); ++k)
+    {
+      this->welded_.data()[k] = this->weld_[this->welded_.data()[k]];
+    }
+    const Components parts =
+      connected_components(this->points_.rows(), TrianglesView(this->welded_));
+    this->components_.resize(static_cast<std::size_t>(parts.count));
+    for (Index v = 0; v < this->points_.rows(); ++v)
+    {
+      if (parts.of_vertex[v] >= 0)
+      {
+        this->components_[parts.of_vertex[v]].vertices.push_back(v);
+      }
+    }
+    for (Index f = 0; f < this->welded_.rows(); ++f)
+    {
+      const Vec3 a = this->points_.row(this->welded_(f, 0));
+      const Vec3 b = this->points_.row(this->welded_(f, 1));
+      const Vec3 c = this->points_.row(this->welded_(f, 2));
+      this->components_[parts.of_vertex[this->welded_(f, 0)]].area +=
+        0.5 * (b - a).cross(c - a).norm();
+    }
+    for (const Component& component : this->components_)
+    {
+      this->largest_area_ = std::max(this->largest_area_, component.area);
+    }
+  }
+
+  void find_neighbours()
+  {
+    this->neighbours_.resize(static_cast<std::size_t>(this->points_.rows()));
+    for (const Edge& edge : mesh_edges(this->welded_))
+    {
+      this->neighbours_[edge.a].push_back(edge.b);
+      this->neighbours_[edge.b].push_back(edge.a);
+    }
+  }
+
+  void find_normals()
+  {
+    this->normals_ = Points::Zero(this->points_.rows(), 3);
+    for (Index f = 0; f < this->welded_.rows(); ++f)
+    {
+      const Vec3 a = this->points_.row(this->welded_(f, 0));
+      const Vec3 b = this->points_.row(this->welded_(f, 1));
+      const Vec3 c = this->points_.row(this->welded_(f, 2));
+      const Vec3 normal = (b - a).cross(c - a);
+      for (int k = 0; k < 3; ++k)
+      {
+        this->normals_.row(this->welded_(f, k)) += normal.transpose();
+      }
+    }
+  }
+
+  /// Whose turn it is: one each for those that are not crumbs, then by area. Null: all are full.
+  Component* next_component()
+  {
+    constexpr double crumb = 0.01;
+    Component* best = nullptr;
+    double most = -1.0;
+    bool best_first = false;
+    for (Component& component : this->components_)
+    {
+      if (component.full)
+      {
+        continue;
+      }
+      const bool first = component.points == 0 && component.area >= crumb * this->largest_area_;
+      const double share = component.area / static_cast<double>(component.points + 1);
+      if ((first && !best_first) || (first == best_first && share > most))
+      {
+        best = &component;
+        most = share;
+        best_first = first;
+      }
+    }
+    return best;
+  }
+
+  /// The vertex of a component farthest from its points, -1 when it has no other.
+  Index farthest(const Component& component) const
+  {
+    Vec3 centroid = Vec3::Zero();
+    const bool first = component.points == 0;
+    for (const Index v : component.vertices)
+    {
+      if (first)
+      {
+        centroid +=
+          this->points_.row(v).transpose() / static_cast<double>(component.vertices.size());
+      }
+    }
+    Index best = -1;
+    double most = first ? -1.0 : 0.0;
+    for (const Index v : component.vertices)
+    {
+      const double distance =
+        first ? (this->points_.row(v).transpose() - centroid).norm() : this->distance_[v];
+      if (distance > most)
+      {
+        most = distance;
+        best = v;
+      }
+    }
+    return best;
+  }
+
+  bool holds(const Vec3& p) const
+  {
+    return this->winding_.evaluate_at(p) >= this->options_.winding_threshold;
+  }
+
+  /// Into the middle of the shape, but not on a place that is taken.
+  bool move_inside(const SurfaceProbe& probe, Index vertex, const std::vector<Vec3>& taken,
+    Vec3& place, double& depth) const
+  {
+    constexpr double near = 1e-5; // of the diagonal
+    const Vec3 from = place;
+    Vec3 way = -this->normals_.row(vertex).transpose();
+    if (!(way.norm() > 0.0))
+    {
+      return false;
+    }
+    way.normalize();
+    const double step = near * this->diagonal_;
+    if (!this->holds(from + step * way))
+    {
+      way = -way; // inside out there
+      if (!this->holds(from + step * way))
+      {
+        return false;
+      }
+    }
+    // To where the inside ends.
+    const Vec3 origin = from + step * way;
+    double end = this->diagonal_;
+    double last = 0.0;
+    for (const SurfaceProbe::Hit& hit : probe.hits(origin, way))
+    {
+      if (!this->holds(origin + 0.5 * (last + hit.distance) * way))
+      {
+        break;
+      }
+      last = end = hit.distance;
+    }
+    const auto depth_at = [&](double t)
+    {
+      const Vec3 p = origin + t * way;
+      Vec3 nearest = p;
+      probe.nearest(p, nearest);
+      return (p - nearest).norm();
+    };
+    constexpr int steps = 64;
+    constexpr double least_gain = 0.3;
+    const double h = 0.5 * end / steps;
+    double best = h;
+    depth = depth_at(h);
+    for (int i = 2; i <= steps; ++i)
+    {
+      const double deeper = depth_at(i * h);
+      if (deeper - depth < least_gain * h)
+      {
+        break;
+      }
+      best = i * h;
+      depth = deeper;
+    }
+    const Vec3 inner = origin + best * way;
+    constexpr double same = 1e-6;
+    const bool free = std::none_of(taken.begin(), taken.end(),
+      [&](const Vec3& other) { return (other - inner).norm() <= same * this->diagonal_; });
+    if (!free || !this->holds(inner))
+    {
+      return false;
+    }
+    place = inner;
+    return true;
+  }
+
+  void add_vertices_near(const Component& component, const Vec3& place, double reach,
+    std::vector<std::pair<double, Index>>& near) const
+  {
+    for (const Index v : component.vertices)
+    {
+      const double distance = (this->points_.row(v).transpose() - place).norm();
+      if (distance <= reach)
+      {
+        near.emplace_back(distance, v);
+      }
+    }
+  }
+
+  /// Takes a new point into account. @return false when cancelled.
+  bool update(
+    const Component& component, const Vec3& place, std::vector<std::pair<double, Index>> near)
+  {
+    if (this->options_.distance == PointDistance::straight)
+    {
+      for (const Index v : component.vertices)
+      {
+        this->distance_[v] =
+          std::min(this->distance_[v], (this->points_.row(v).transpose() - place).norm());
+      }
+      this->distance_[near.front().second] = 0.0;
+      return !this->context_.cancelled();
+    }
+    using Entry = std::pair<double, Index>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+    const auto bring = [&](double distance, Index v)
+    {
+      if (distance < this->distance_[v])
+      {
+        this->distance_[v] = distance;
+        open.emplace(distance, v);
+      }
+    };
+    for (const auto& [distance, v] : near)
+    {
+      bring(distance, v);
+    }
+    constexpr Index seldom = 4096;
+    for (Index count = 1; !open.empty(); ++count)
+    {
+      if (count % seldom == 0 && this->context_.cancelled())
+      {
+        return false;
+      }
+      const auto [distance, v] = open.top();
+      open.pop();
+      if (distance > this->distance_[v])
+      {
+        continue;
+      }
+      for (const Index w : this->neighbours_[v])
+      {
+        bring(distance + (this->points_.row(v) - this->points_.row(w)).norm(), w);
+      }
+    }
+    return !this->context_.cancelled();
+  }
+
+  PointsView points_;
+  TrianglesView triangles_;
+  const SpreadPointsOptions& options_;
+  ExecutionContext& context_;
+  std::vector<Index> weld_;
+  Triangles welded_;
+  std::vector<Component> components_;
+  double largest_area_ = 0.0;
+  double diagonal_ = 0.0;
+  std::vector<std::vector<Index>> neighbours_;
+  Points normals_;
+  std::vector<double> distance_;
+  WindingNumber winding_;
+};
+} // namespace
+
+Status spread_points(PointsView points, TrianglesView triangles, const SpreadPointsOptions& options,
+  SpreadPoints& result, ExecutionContext& context)
+{
+  result = SpreadPoints();
+  if (options.count < 1)
+  {
+    return Status::invalid_input(
+      "at least one point must be asked for, not " + std::to_string(options.count));
+  }
+  if (!(options.winding_threshold > 0.0) || !std::isfinite(options.winding_threshold))
+  {
+    return Status::invalid_input(
+      "winding_threshold must be positive, not " + short_number(options.winding_threshold));
+  }
+  Status status = check_mesh(points, triangles);
+  if (!status.ok())
+  {
+    return status;
+  }
+  Spread spread(points, triangles, options, context);
+  {
+    const Phase phase(context, "build", 0.0, 0.3);
+    status = spread.build();
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  const Phase phase(context, "choose", 0.3, 1.0);
+  status = spread.choose(result);
+  if (!status.ok())
+  {
+    result = SpreadPoints();
+  }
+  return status;
+}
+
+} // namespace bindpose

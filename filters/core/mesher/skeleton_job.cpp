@@ -1,0 +1,230 @@
+// Curve skeletons by mean curvature flow (Tagliasacchi, Alhashim, Olson, Zhang, Mean Curvature
+// Skeletons, Computer Graphics Forum 31(5), 2012) by CGAL, one closed component at a time.
+//
+// 1. The triangles become closed manifold meshes: where more than two meet at an edge, the sheets
+//    are parted. Hollows (components of negative volume) are left out: they have no inside.
+// 2. Each component is brought to even triangles, some thousands: the flow solves a linear system
+//    of its vertices in every step, and what is coarse has no vertices to contract along.
+// 3. The flow contracts the surface, pulled to its medial axis, short edges collapse, flat
+//    triangles split, and vertices that cannot shrink further stay, until the area hardly changes.
+// 4. What is left is as thin as a thread; edges collapse until no triangle is left.
+#include "mesher/jobs.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Mean_curvature_flow_skeletonization.h>
+#include <CGAL/Polygon_mesh_processing/connected_components.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Polygon_mesh_processing/stitch_borders.h>
+#include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Count_stop_predicate.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_cost.h>
+#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/LindstromTurk_placement.h>
+#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
+#include <CGAL/boost/graph/Face_filtered_graph.h>
+#include <CGAL/boost/graph/copy_face_graph.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace bindpose
+{
+
+namespace
+{
+namespace pmp = CGAL::Polygon_mesh_processing;
+namespace simplification = CGAL::Surface_mesh_simplification;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
+using Flow = CGAL::Mean_curvature_flow_skeletonization<Mesh>;
+
+Mesh to_manifold(const MesherData& data)
+{
+  std::vector<Kernel::Point_3> points;
+  for (Index v = 0; v < data.points.rows(); ++v)
+  {
+    points.emplace_back(data.points(v, 0), data.points(v, 1), data.points(v, 2));
+  }
+  std::vector<std::array<std::size_t, 3>> triangles;
+  for (Index f = 0; f < data.triangles.rows(); ++f)
+  {
+    triangles.push_back({ static_cast<std::size_t>(data.triangles(f, 0)),
+      static_cast<std::size_t>(data.triangles(f, 1)),
+      static_cast<std::size_t>(data.triangles(f, 2)) });
+  }
+  // Sheets are cut apart where they are not manifold, and each sewn up again.
+  pmp::orient_polygon_soup(points, triangles);
+  Mesh mesh;
+  pmp::polygon_soup_to_polygon_mesh(points, triangles, mesh);
+  pmp::stitch_borders(mesh);
+  return mesh;
+}
+
+/// The closed components, the largest first.
+struct Part
+{
+  Mesh mesh;
+  double volume = 0.0;
+};
+
+std::vector<Part> closed_parts(const Mesh& mesh, Index& open, Index& hollow)
+{
+  std::vector<std::size_t> component(mesh.number_of_faces());
+  auto map = boost::make_iterator_property_map(
+    component.begin(), get(boost::face_index, mesh), component.front());
+  const std::size_t count = pmp::connected_components(mesh, map);
+  std::vector<Part> parts;
+  for (std::size_t c = 0; c < count; ++c)
+  {
+    Part part;
+    CGAL::copy_face_graph(CGAL::Face_filtered_graph<Mesh>(mesh, c, map), part.mesh);
+    if (!CGAL::is_closed(part.mesh))
+    {
+      ++open;
+      continue;
+    }
+    part.volume = CGAL::to_double(pmp::volume(part.mesh));
+    if (part.volume > 0.0)
+    {
+      parts.push_back(std::move(part));
+    }
+    else
+    {
+      ++hollow;
+    }
+  }
+  std::stable_sort(
+    parts.begin(), parts.end(), [](const Part& a, const Part& b) { return a.volume > b.volume; });
+  return parts;
+}
+
+/// Even triangles, about as many as wanted.
+void even_out(Mesh& mesh, double triangles)
+{
+  constexpr double edges_per_triangle = 1.5;
+  if (static_cast<double>(mesh.number_of_faces()) > triangles)
+  {
+    const simplification::Count_stop_predicate<Mesh> stop(
+      static_cast<std::size_t>(edges_per_triangle * triangles));
+    simplification::edge_collapse(mesh, stop,
+      CGAL::parameters::get_cost(simplification::LindstromTurk_cost<Mesh>())
+        .get_placement(simplification::LindstromTurk_placement<Mesh>()));
+    mesh.collect_garbage();
+  }
+  // Of an equilateral triangle with that share of the area.
+  const double edge =
+    std::sqrt(4.0 / std::sqrt(3.0) * CGAL::to_double(pmp::area(mesh)) / triangles);
+  pmp::isotropic_remeshing(mesh.faces(), edge, mesh, CGAL::parameters::number_of_iterations(2));
+  mesh.collect_garbage();
+}
+
+/// The skeleton of a closed mesh, appended.
+void contract(const Mesh& mesh, const SkeletonJobOptions& options, double begin, double end,
+  Index& iterations, std::vector<Vec3>& points, std::vector<std::array<Index, 2>>& segments)
+{
+  Flow flow(mesh);
+  const double whole = CGAL::to_double(pmp::area(mesh));
+  double last = whole;
+  double furthest = 0.0;
+  for (Index i = 0; i < options.iteration_limit; ++i)
+  {
+    flow.contract_geometry();
+    flow.collapse_edges();
+    flow.split_faces();
+    flow.detect_degeneracies();
+    ++iterations;
+    const double area = CGAL::to_double(pmp::area(flow.meso_skeleton()));
+    const double change = std::abs(last - area) / whole;
+    last = area;
+    if (!(change >= flow.area_variation_factor()))
+    {
+      break;
+    }
+    // The change falls about as a power of the step.
+    furthest =
+      std::max(furthest, std::log(std::min(change, 1.0)) / std::log(flow.area_variation_factor()));
+    tell_progress(begin + (end - begin) * std::min(furthest, 1.0));
+  }
+  Flow::Skeleton skeleton;
+  flow.convert_to_skeleton(skeleton);
+  const Index first = static_cast<Index>(points.size());
+  for (const auto v : CGAL::make_range(boost::vertices(skeleton)))
+  {
+    const Kernel::Point_3& p = skeleton[v].point;
+    points.emplace_back(p.x(), p.y(), p.z());
+  }
+  for (const auto e : CGAL::make_range(boost::edges(skeleton)))
+  {
+    segments.push_back({ first + static_cast<Index>(boost::source(e, skeleton)),
+      first + static_cast<Index>(boost::target(e, skeleton)) });
+  }
+}
+} // namespace
+
+std::string skeleton(MesherData& data, const SkeletonJobOptions& options)
+{
+  const Mesh mesh = to_manifold(data);
+  if (mesh.number_of_faces() == 0)
+  {
+    return "the surface has no triangles";
+  }
+  Index open = 0;
+  Index hollow = 0;
+  std::vector<Part> parts = closed_parts(mesh, open, hollow);
+  if (parts.empty())
+  {
+    return "the surface has no closed component with an inside";
+  }
+  Index crumbs = 0;
+  while (parts.back().volume < options.smallest_part * parts.front().volume)
+  {
+    parts.pop_back();
+    ++crumbs;
+  }
+  double area = 0.0;
+  for (const Part& part : parts)
+  {
+    area += CGAL::to_double(pmp::area(part.mesh));
+  }
+  std::vector<Vec3> points;
+  std::vector<std::array<Index, 2>> segments;
+  Index iterations = 0;
+  Index triangles = 0;
+  double done = 0.0;
+  for (Part& part : parts)
+  {
+    const double share = CGAL::to_double(pmp::area(part.mesh)) / area;
+    // A small component has a shape, too.
+    constexpr double least = 1000.0;
+    even_out(part.mesh, std::max(least, share * options.triangles));
+    triangles += static_cast<Index>(part.mesh.number_of_faces());
+    constexpr double evened = 0.2;
+    tell_progress(done + evened * share);
+    contract(part.mesh, options, done + evened * share, done + share, iterations, points, segments);
+    done += share;
+  }
+  data = MesherData();
+  data.points.resize(static_cast<Index>(points.size()), 3);
+  data.segments.resize(static_cast<Index>(segments.size()), 2);
+  for (std::size_t i = 0; i < points.size(); ++i)
+  {
+    data.points.row(static_cast<Index>(i)) = points[i].transpose();
+  }
+  for (std::size_t i = 0; i < segments.size(); ++i)
+  {
+    data.segments.row(static_cast<Index>(i)) << segments[i][0], segments[i][1];
+  }
+  tell_report("parts", static_cast<double>(parts.size()));
+  tell_report("open", static_cast<double>(open));
+  tell_report("hollow", static_cast<double>(hollow));
+  tell_report("crumbs", static_cast<double>(crumbs));
+  tell_report("triangles", static_cast<double>(triangles));
+  tell_report("iterations", static_cast<double>(iterations));
+  return {};
+}
+
+} // namespace bindpose

@@ -1,0 +1,234 @@
+// Curve skeletons by the helper: in the middle of shapes whose middle is known.
+#include "automatic/curve_skeleton.h"
+
+#include "core/automatic/blocks.h"
+#include "support/cancel_later.h"
+#include "support/environment.h"
+#include "support/meshes.h"
+#include "support/needs_mesher.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace bindpose;
+using test::Block;
+using test::Environment;
+using testing::HasSubstr;
+
+namespace
+{
+class CurveSkeletonTest : public test::NeedsMesher
+{
+};
+
+Status run(const TriangleMesh& mesh, CurveSkeleton& skeleton, TriangleMesh& solid)
+{
+  ExecutionContext context;
+  return curve_skeleton(
+    mesh.points, mesh.triangles, CurveSkeletonOptions(), skeleton, solid, context);
+}
+
+CurveSkeleton run(const TriangleMesh& mesh, const std::string& surface = "clean")
+{
+  CurveSkeleton skeleton;
+  TriangleMesh solid;
+  const Status status = run(mesh, skeleton, solid);
+  EXPECT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(status.report.text("surface"), surface);
+  EXPECT_EQ(skeleton.radii.size(), skeleton.points.rows());
+  EXPECT_EQ(static_cast<Index>(skeleton.part_of.size()), skeleton.points.rows());
+  return skeleton;
+}
+
+std::vector<Index> degrees(const CurveSkeleton& skeleton)
+{
+  std::vector<Index> degree(static_cast<std::size_t>(skeleton.points.rows()), 0);
+  for (Index k = 0; k < skeleton.segments.size(); ++k)
+  {
+    ++degree[skeleton.segments.data()[k]];
+  }
+  return degree;
+}
+
+TriangleMesh bar(int length)
+{
+  return test::star({ { 1, 0, 0 } }, length - 1);
+}
+
+/// Segments - points + components.
+Index cycles(const CurveSkeleton& skeleton)
+{
+  return skeleton.segments.rows() - skeleton.points.rows() +
+    static_cast<Index>(skeleton.centroids.size());
+}
+} // namespace
+
+TEST_F(CurveSkeletonTest, OfABarIsItsAxis)
+{
+  const CurveSkeleton skeleton = run(bar(8));
+  const std::vector<Index> degree = degrees(skeleton);
+  EXPECT_EQ(std::count(degree.begin(), degree.end(), 1), 2);
+  EXPECT_EQ(
+    std::count(degree.begin(), degree.end(), 2), static_cast<std::ptrdiff_t>(degree.size()) - 2);
+  for (Index v = 0; v < skeleton.points.rows(); ++v)
+  {
+    EXPECT_NEAR(skeleton.points(v, 1), 0.5, 0.03);
+    EXPECT_NEAR(skeleton.points(v, 2), 0.5, 0.03);
+    EXPECT_NEAR(skeleton.radii[v], 0.5, 0.05);
+  }
+  // To about half a thickness of the ends.
+  EXPECT_LT(skeleton.points.col(0).minCoeff(), 0.7);
+  EXPECT_GT(skeleton.points.col(0).maxCoeff(), 7.3);
+  ASSERT_EQ(skeleton.centroids.size(), 1u);
+  EXPECT_LT((skeleton.centroids[0] - Vec3(4.0, 0.5, 0.5)).norm(), 1e-12);
+}
+
+TEST_F(CurveSkeletonTest, OfATorusIsARing)
+{
+  const CurveSkeleton skeleton = run(test::torus(60, 24, 1.0, 0.3));
+  EXPECT_EQ(cycles(skeleton), 1);
+  for (Index v = 0; v < skeleton.points.rows(); ++v)
+  {
+    EXPECT_NEAR(std::hypot(skeleton.points(v, 0), skeleton.points(v, 1)), 1.0, 0.03);
+    EXPECT_NEAR(skeleton.points(v, 2), 0.0, 0.03);
+  }
+}
+
+TEST_F(CurveSkeletonTest, OfCrossingBarsIsThatOfTheirUnion)
+{
+  TriangleMesh second = bar(9);
+  second.points = second.points.rowwise() - Eigen::RowVector3d(4.0, 0.0, 0.0);
+  second.points.col(0).swap(second.points.col(1));
+  second.triangles.col(0).swap(second.triangles.col(1)); // a mirror image turns them inside out
+  second.points.col(0).array() += 4.07;
+  second.points.col(2).array() += 0.03; // nothing coplanar
+  const CurveSkeleton skeleton = run(test::join(bar(9), second), "remeshed");
+  EXPECT_EQ(skeleton.centroids.size(), 1u);
+  EXPECT_EQ(cycles(skeleton), 0);
+  const std::vector<Index> degree = degrees(skeleton);
+  EXPECT_EQ(std::count(degree.begin(), degree.end(), 1), 4);
+}
+
+TEST_F(CurveSkeletonTest, OfAnOpenBarIsNearItsAxis)
+{
+  // Without one of its ends.
+  TriangleMesh open = bar(8);
+  Triangles kept(0, 3);
+  for (Index f = 0; f < open.triangles.rows(); ++f)
+  {
+    const bool end = open.points(open.triangles(f, 0), 0) == 8.0 &&
+      open.points(open.triangles(f, 1), 0) == 8.0 && open.points(open.triangles(f, 2), 0) == 8.0;
+    if (!end)
+    {
+      kept.conservativeResize(kept.rows() + 1, 3);
+      kept.row(kept.rows() - 1) = open.triangles.row(f);
+    }
+  }
+  open.triangles = kept;
+  const CurveSkeleton skeleton = run(open, "remeshed");
+  EXPECT_EQ(cycles(skeleton), 0);
+  for (Index v = 0; v < skeleton.points.rows(); ++v)
+  {
+    EXPECT_NEAR(skeleton.points(v, 1), 0.5, 0.1);
+    EXPECT_NEAR(skeleton.points(v, 2), 0.5, 0.1);
+  }
+  EXPECT_LT(skeleton.points.col(0).minCoeff(), 0.7);
+  EXPECT_GT(skeleton.points.col(0).maxCoeff(), 7.0);
+}
+
+TEST_F(CurveSkeletonTest, OfABallIsAPointAndHollowsAreFilled)
+{
+  const TriangleMesh shell = test::join(test::sphere(3), test::flipped(test::sphere(2, 0.4)));
+  const CurveSkeleton skeleton = run(shell);
+  ASSERT_EQ(skeleton.centroids.size(), 1u);
+  for (Index v = 0; v < skeleton.points.rows(); ++v)
+  {
+    EXPECT_LT(skeleton.points.row(v).norm(), 0.1);
+  }
+}
+
+TEST_F(CurveSkeletonTest, ComponentsHaveTheirOwnAndCrumbsNone)
+{
+  TriangleMesh mesh = test::join(bar(8), test::translated(bar(5), Vec3(0.0, 4.0, 0.0)));
+  mesh = test::join(mesh, test::sphere(1, 0.05, Vec3(0.0, 0.0, 4.0)));
+  CurveSkeleton skeleton;
+  TriangleMesh solid;
+  const Status status = run(mesh, skeleton, solid);
+  ASSERT_TRUE(status.ok()) << status.message;
+  ASSERT_EQ(skeleton.centroids.size(), 2u);
+  EXPECT_EQ(status.report.number("counts.left_out_parts", 0.0), 1.0);
+  ASSERT_EQ(status.warnings.size(), 1u);
+  EXPECT_THAT(status.warnings[0], HasSubstr("1 component has no skeleton"));
+  const Vec3 expected[] = { Vec3(4.0, 0.5, 0.5), Vec3(2.5, 4.5, 0.5) };
+  for (Index v = 0; v < skeleton.points.rows(); ++v)
+  {
+    const bool second = skeleton.points(v, 1) > 2.0;
+    EXPECT_LT((skeleton.centroids[skeleton.part_of[v]] - expected[second]).norm(), 1e-9);
+  }
+}
+
+TEST_F(CurveSkeletonTest, MovesAndGrowsWithTheShape)
+{
+  const TriangleMesh mesh = bar(8);
+  const CurveSkeleton here = run(mesh);
+  TriangleMesh moved = mesh;
+  moved.points *= 1024.0;
+  moved.points.col(1).array() += 4096.0;
+  const CurveSkeleton there = run(moved);
+  EXPECT_NEAR(there.points.col(0).minCoeff(), 1024.0 * here.points.col(0).minCoeff(), 5.0);
+  EXPECT_NEAR(there.points.col(0).maxCoeff(), 1024.0 * here.points.col(0).maxCoeff(), 5.0);
+  EXPECT_NEAR(there.points.col(1).mean(), 4608.0, 5.0);
+}
+
+TEST_F(CurveSkeletonTest, BadInputIsOneSentence)
+{
+  CurveSkeleton skeleton;
+  TriangleMesh solid;
+  const auto message = [&](const TriangleMesh& mesh)
+  {
+    const Status status = run(mesh, skeleton, solid);
+    EXPECT_EQ(status.code, StatusCode::invalid_input);
+    EXPECT_EQ(skeleton.points.rows(), 0);
+    EXPECT_EQ(status.message.find('\n'), std::string::npos);
+    return status.message;
+  };
+  EXPECT_THAT(message(TriangleMesh()), HasSubstr("no triangles"));
+  EXPECT_THAT(message(test::grid(4, 4)), HasSubstr("flat"));
+  TriangleMesh mesh = bar(4);
+  mesh.points(3, 1) = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(message(mesh), HasSubstr("finite"));
+  ExecutionContext context;
+  CurveSkeletonOptions options;
+  options.triangles = 10;
+  mesh = bar(4);
+  EXPECT_THAT(
+    curve_skeleton(mesh.points, mesh.triangles, options, skeleton, solid, context).message,
+    HasSubstr("skeleton_triangles"));
+}
+
+TEST_F(CurveSkeletonTest, CanBeCancelledWhileItContracts)
+{
+  const TriangleMesh mesh = test::torus(200, 100, 1.0, 0.3);
+  CurveSkeletonOptions options;
+  options.triangles = 100000;
+  CurveSkeleton skeleton;
+  TriangleMesh solid;
+  ExecutionContext context;
+  test::CancelLater user(context, 1500);
+  const Status status =
+    curve_skeleton(mesh.points, mesh.triangles, options, skeleton, solid, context);
+  EXPECT_LT(user.waited(), 0.5);
+  EXPECT_EQ(status.code, StatusCode::cancelled);
+}
+
+TEST(CurveSkeleton, WithoutTheHelperItSaysSo)
+{
+  const Environment none("BINDPOSE_MESHER", "/nowhere/bindpose-mesher");
+  CurveSkeleton skeleton;
+  TriangleMesh solid;
+  const Status status = run(bar(4), skeleton, solid);
+  EXPECT_EQ(status.code, StatusCode::unavailable);
+}

@@ -1,0 +1,421 @@
+// Curves of known shape become the bones that can be told beforehand.
+#include "automatic/skeleton_bones.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace bindpose;
+using testing::HasSubstr;
+
+namespace
+{
+/// Draws curves and notes what they are in.
+struct Drawing
+{
+  std::vector<Vec3> points;
+  std::vector<std::array<Index, 2>> segments;
+  std::vector<double> radii;
+  std::vector<Index> parts;
+  std::vector<Vec3> centroids;
+
+  Index point(const Vec3& p, double radius = 0.05)
+  {
+    this->points.push_back(p);
+    this->radii.push_back(radius);
+    this->parts.push_back(static_cast<Index>(this->centroids.size()) - 1);
+    return static_cast<Index>(this->points.size()) - 1;
+  }
+  /// From a point that is there to p in pieces. @return the last point.
+  Index line(Index from, const Vec3& p, int pieces = 10)
+  {
+    const Vec3 head = this->points[from];
+    const double radius = this->radii[from];
+    for (int i = 1; i <= pieces; ++i)
+    {
+      const Index to = this->point(head + (p - head) * i / pieces, radius);
+      this->segments.push_back({ i == 1 ? from : to - 1, to });
+    }
+    return static_cast<Index>(this->points.size()) - 1;
+  }
+  CurveSkeleton skeleton() const
+  {
+    CurveSkeleton result;
+    result.points.resize(static_cast<Index>(this->points.size()), 3);
+    result.radii.resize(result.points.rows());
+    for (Index v = 0; v < result.points.rows(); ++v)
+    {
+      result.points.row(v) = this->points[v].transpose();
+      result.radii[v] = this->radii[v];
+    }
+    result.segments.resize(static_cast<Index>(this->segments.size()), 2);
+    for (Index s = 0; s < result.segments.rows(); ++s)
+    {
+      result.segments.row(s) << this->segments[s][0], this->segments[s][1];
+    }
+    result.part_of = this->parts;
+    result.centroids = this->centroids;
+    return result;
+  }
+};
+
+SkeletonBones run(const Drawing& drawing, const SkeletonBonesOptions& options = {})
+{
+  SkeletonBones bones;
+  const Status status = skeleton_bones(drawing.skeleton(), 1.0, options, bones);
+  EXPECT_TRUE(status.ok()) << status.message;
+  EXPECT_TRUE(check_handles(bones.handles).ok()) << check_handles(bones.handles).message;
+  return bones;
+}
+
+/// A bone's parent ends where it begins and comes before it; those without begin at a root.
+void expect_tree(const SkeletonBones& bones)
+{
+  for (std::size_t i = 0; i < bones.handles.size(); ++i)
+  {
+    const Handle& bone = bones.handles[i];
+    if (bone.kind != HandleKind::bone)
+    {
+      continue;
+    }
+    if (bone.parent >= 0)
+    {
+      EXPECT_LT(bone.parent, static_cast<Index>(i));
+      EXPECT_EQ(bones.handles[bone.parent].tail, bone.head) << bone.name;
+      continue;
+    }
+    bool at_root = false;
+    for (const Index root : bones.roots)
+    {
+      at_root = at_root || bone.head == Vec3(bones.joints.row(root));
+    }
+    EXPECT_TRUE(at_root) << bone.name;
+  }
+}
+
+double distance_to(const Vec3& p, const Handle& bone)
+{
+  const Vec3 d = bone.tail - bone.head;
+  const double t = std::min(std::max((p - bone.head).dot(d) / d.squaredNorm(), 0.0), 1.0);
+  return (p - bone.head - t * d).norm();
+}
+
+double distance_to(const Vec3& p, const Handles& bones)
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (const Handle& bone : bones)
+  {
+    least = std::min(least, distance_to(p, bone));
+  }
+  return least;
+}
+
+Drawing half_circle()
+{
+  Drawing drawing;
+  drawing.centroids = { Vec3(0.0, 1.0, 0.0) };
+  Index last = -1;
+  for (int i = 0; i <= 200; ++i)
+  {
+    const double a = M_PI * i / 200;
+    const Index next = drawing.point(Vec3(std::cos(a), std::sin(a), 0.0));
+    if (last >= 0)
+    {
+      drawing.segments.push_back({ last, next });
+    }
+    last = next;
+  }
+  return drawing;
+}
+
+/// Arms from the origin in the plane.
+Drawing arms(const std::vector<Vec3>& ends, double radius = 0.05)
+{
+  Drawing drawing;
+  drawing.centroids = { Vec3::Zero() };
+  const Index centre = drawing.point(Vec3::Zero(), radius);
+  for (const Vec3& end : ends)
+  {
+    drawing.line(centre, end);
+  }
+  return drawing;
+}
+} // namespace
+
+TEST(SkeletonBones, AStraightCurveIsOneBone)
+{
+  Drawing drawing;
+  drawing.centroids = { Vec3(0.2, 0.0, 0.0) };
+  drawing.line(drawing.point(Vec3::Zero()), Vec3(1.0, 0.0, 0.0), 40);
+  const SkeletonBones bones = run(drawing);
+  ASSERT_EQ(bones.handles.size(), 1u);
+  EXPECT_EQ(bones.handles[0].name, "b1");
+  EXPECT_EQ(bones.handles[0].head, Vec3(0.0, 0.0, 0.0)); // nearer to the centroid
+  EXPECT_EQ(bones.handles[0].tail, Vec3(1.0, 0.0, 0.0));
+  EXPECT_EQ(bones.handles[0].parent, -1);
+  EXPECT_EQ(bones.junctions, 0);
+}
+
+TEST(SkeletonBones, LongBonesAreHalved)
+{
+  Drawing drawing;
+  drawing.centroids = { Vec3(0.0, 0.0, 0.0) };
+  drawing.line(drawing.point(Vec3::Zero()), Vec3(1.0, 0.0, 0.0), 40);
+  SkeletonBonesOptions options;
+  options.longest_bone = 0.3;
+  const SkeletonBones bones = run(drawing, options);
+  ASSERT_EQ(bones.handles.size(), 4u);
+  for (Index i = 0; i < 4; ++i)
+  {
+    EXPECT_NEAR((bones.handles[i].tail - bones.handles[i].head).norm(), 0.25, 1e-12);
+    EXPECT_EQ(bones.handles[i].parent, i - 1);
+  }
+  expect_tree(bones);
+}
+
+TEST(SkeletonBones, AnElbowIsAJoint)
+{
+  Drawing drawing;
+  drawing.centroids = { Vec3(0.5, 0.0, 0.0) };
+  drawing.line(drawing.line(drawing.point(Vec3::Zero()), Vec3(0.5, 0.0, 0.0)), Vec3(0.5, 0.5, 0.0));
+  const SkeletonBones bones = run(drawing);
+  ASSERT_EQ(bones.handles.size(), 2u);
+  // Both begin at the elbow, the root.
+  EXPECT_EQ(bones.handles[0].head, Vec3(0.5, 0.0, 0.0));
+  EXPECT_EQ(bones.handles[1].head, Vec3(0.5, 0.0, 0.0));
+  EXPECT_EQ(bones.handles[0].parent, -1);
+  EXPECT_EQ(bones.handles[1].parent, -1);
+}
+
+TEST(SkeletonBones, AreWithinTheToleranceOfTheCurve)
+{
+  const Drawing drawing = half_circle();
+  std::size_t fewer = 0;
+  for (const double tolerance : { 0.2, 0.05, 0.01 })
+  {
+    SkeletonBonesOptions options;
+    options.tolerance = tolerance;
+    const SkeletonBones bones = run(drawing, options);
+    expect_tree(bones);
+    EXPECT_GT(bones.handles.size(), fewer);
+    fewer = bones.handles.size();
+    for (const Vec3& p : drawing.points)
+    {
+      EXPECT_LE(distance_to(p, bones.handles), tolerance * (1.0 + 1e-12));
+    }
+  }
+  // A chord of a unit circle with sagitta s spans the angle 2 acos(1 - s).
+  EXPECT_GE(static_cast<double>(fewer), M_PI / (2.0 * std::acos(1.0 - 0.01)));
+}
+
+TEST(SkeletonBones, StayWithinTheShape)
+{
+  // A knee of 0.1, less than the tolerance, in a shape that follows it closely.
+  Drawing drawing;
+  drawing.centroids = { Vec3::Zero() };
+  drawing.line(drawing.line(drawing.point(Vec3::Zero()), Vec3(1.0, 0.1, 0.0)), Vec3(2.0, 0.0, 0.0));
+  SkeletonBonesOptions options;
+  options.tolerance = 0.2;
+  EXPECT_EQ(run(drawing, options).handles.size(), 1u);
+  options.inside = [](const Vec3& p)
+  { return std::abs(p.y() - 0.1 * (1.0 - std::abs(p.x() - 1.0))) < 0.05; };
+  const SkeletonBones bones = run(drawing, options);
+  ASSERT_EQ(bones.handles.size(), 2u);
+  EXPECT_EQ(bones.handles[0].tail, Vec3(1.0, 0.1, 0.0));
+  options.most_bones = 1;
+  EXPECT_EQ(run(drawing, options).handles.size(), 1u);
+}
+
+TEST(SkeletonBones, PutJointsWhereTheCurveIsInside)
+{
+  // A hook whose corner and tip are outside.
+  Drawing drawing;
+  drawing.centroids = { Vec3::Zero() };
+  drawing.line(
+    drawing.line(drawing.point(Vec3::Zero()), Vec3(1.0, 0.0, 0.0), 20), Vec3(1.0, 1.0, 0.0), 20);
+  SkeletonBonesOptions options;
+  options.inside = [](const Vec3& p)
+  { return (p - Vec3(1.0, 0.0, 0.0)).norm() > 0.08 && p.y() < 0.92; };
+  const SkeletonBones bones = run(drawing, options);
+  expect_tree(bones);
+  for (Index j = 0; j < bones.joints.rows(); ++j)
+  {
+    EXPECT_TRUE(options.inside(bones.joints.row(j))) << bones.joints.row(j);
+  }
+  EXPECT_NEAR(bones.joints.col(1).maxCoeff(), 0.9, 1e-12);
+}
+
+TEST(SkeletonBones, AreAtMostAsManyAsAskedFor)
+{
+  SkeletonBonesOptions options;
+  options.tolerance = 0.001;
+  for (const Index most : { 1, 2, 3, 7 })
+  {
+    options.most_bones = most;
+    EXPECT_EQ(run(half_circle(), options).handles.size(), static_cast<std::size_t>(most));
+  }
+  // The shortest limbs go first.
+  const Drawing drawing =
+    arms({ { 1, 0, 0 }, { 0, 0.9, 0 }, { -0.8, 0, 0 }, { 0, -0.3, 0 }, { 0, 0, 0.2 } });
+  options.most_bones = 3;
+  const SkeletonBones bones = run(drawing, options);
+  ASSERT_EQ(bones.handles.size(), 3u);
+  EXPECT_EQ(bones.pruned_branches, 2);
+  for (const Handle& bone : bones.handles)
+  {
+    EXPECT_GE(bone.tail.norm(), 0.8);
+    EXPECT_EQ(bone.head, Vec3::Zero());
+  }
+}
+
+TEST(SkeletonBones, ACrossHasOneJunction)
+{
+  const SkeletonBones bones = run(arms({ { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 } }));
+  EXPECT_EQ(bones.handles.size(), 4u);
+  EXPECT_EQ(bones.junctions, 1);
+  EXPECT_EQ(bones.joints.rows(), 5);
+  ASSERT_EQ(bones.roots.size(), 1u);
+  EXPECT_EQ(Vec3(bones.joints.row(bones.roots[0])), Vec3::Zero());
+  expect_tree(bones);
+}
+
+TEST(SkeletonBones, JunctionsWithinTheThicknessAreOne)
+{
+  Drawing drawing;
+  drawing.centroids = { Vec3::Zero() };
+  const Index left = drawing.point(Vec3(-0.02, 0.0, 0.0), 0.1);
+  const Index right = drawing.line(left, Vec3(0.02, 0.0, 0.0), 4);
+  drawing.line(left, Vec3(-1.0, 0.0, 0.0));
+  drawing.line(left, Vec3(0.0, 1.0, 0.0));
+  drawing.line(right, Vec3(1.0, 0.0, 0.0));
+  drawing.line(right, Vec3(0.0, -1.0, 0.0));
+  const SkeletonBones bones = run(drawing);
+  EXPECT_EQ(bones.merged_branches, 1);
+  EXPECT_EQ(bones.junctions, 1);
+  ASSERT_EQ(bones.handles.size(), 4u);
+  for (const Handle& bone : bones.handles)
+  {
+    EXPECT_LT(bone.head.norm(), 1e-15);
+  }
+  SkeletonBonesOptions options;
+  options.prune = 0.3; // 0.04 is beyond 0.3 * 0.1
+  EXPECT_EQ(run(drawing, options).junctions, 2);
+}
+
+TEST(SkeletonBones, BranchesWithinTheThicknessArePruned)
+{
+  const Drawing drawing = arms({ { 1, 0, 0 }, { -1, 0, 0 }, { 0, 0.19, 0 }, { 0, 0, 0.21 } }, 0.2);
+  const SkeletonBones bones = run(drawing);
+  EXPECT_EQ(bones.pruned_branches, 1);
+  ASSERT_EQ(bones.handles.size(), 3u);
+  for (const Handle& bone : bones.handles)
+  {
+    EXPECT_EQ(bone.tail.y(), 0.0);
+  }
+  SkeletonBonesOptions options;
+  options.prune = 0.0;
+  EXPECT_EQ(run(drawing, options).handles.size(), 4u);
+}
+
+TEST(SkeletonBones, ARingIsCutOnceOppositeItsRoot)
+{
+  Drawing drawing;
+  drawing.centroids = { Vec3(0.01, 0.0, 0.0) };
+  constexpr int count = 100;
+  for (int i = 0; i < count; ++i)
+  {
+    const double a = 2.0 * M_PI * i / count;
+    drawing.point(Vec3(std::cos(a), std::sin(a), 0.0));
+    drawing.segments.push_back({ i, (i + 1) % count });
+  }
+  const SkeletonBones bones = run(drawing);
+  EXPECT_EQ(bones.cut_cycles, 1);
+  ASSERT_EQ(bones.roots.size(), 1u);
+  EXPECT_EQ(Vec3(bones.joints.row(bones.roots[0])), Vec3(1.0, 0.0, 0.0));
+  expect_tree(bones);
+  EXPECT_EQ(bones.joints.rows(), static_cast<Index>(bones.handles.size()) + 1); // a tree
+  EXPECT_EQ(bones.junctions, 0);
+  // Two ends, a segment apart at (-1, 0, 0).
+  int ends = 0;
+  for (const Handle& bone : bones.handles)
+  {
+    ends += (bone.tail - Vec3(-1.0, 0.0, 0.0)).norm() <= 2.0 * M_PI / count ? 1 : 0;
+  }
+  EXPECT_EQ(ends, 2);
+  SkeletonBones told;
+  const Status status = skeleton_bones(drawing.skeleton(), 1.0, SkeletonBonesOptions(), told);
+  ASSERT_EQ(status.warnings.size(), 1u);
+  EXPECT_THAT(status.warnings[0], HasSubstr("1 cycle"));
+}
+
+TEST(SkeletonBones, ARingWithATailIsRootedAtItsJunction)
+{
+  Drawing drawing;
+  drawing.centroids = { Vec3(0.0, 0.0, 0.0) };
+  constexpr int count = 60;
+  for (int i = 0; i < count; ++i)
+  {
+    const double a = 2.0 * M_PI * i / count;
+    drawing.point(Vec3(std::cos(a), std::sin(a), 0.0));
+    drawing.segments.push_back({ i, (i + 1) % count });
+  }
+  drawing.line(0, Vec3(3.0, 0.0, 0.0));
+  const SkeletonBones bones = run(drawing);
+  EXPECT_EQ(bones.cut_cycles, 1);
+  EXPECT_EQ(bones.junctions, 1);
+  EXPECT_EQ(Vec3(bones.joints.row(bones.roots[0])), Vec3(1.0, 0.0, 0.0));
+  expect_tree(bones);
+}
+
+TEST(SkeletonBones, BallsArePointsAndComponentsHaveRootsOfTheirOwn)
+{
+  Drawing drawing;
+  drawing.centroids = { Vec3(0.0, 0.0, 5.0) };
+  drawing.point(Vec3(0.0, 0.0, 5.0), 1.0);
+  drawing.centroids.emplace_back(0.0, 0.0, -5.0);
+  drawing.line(drawing.point(Vec3(0.0, 0.0, -5.0), 1.0), Vec3(0.4, 0.0, -5.0)); // short
+  drawing.centroids.emplace_back(Vec3::Zero());
+  drawing.line(drawing.point(Vec3::Zero()), Vec3(1.0, 0.0, 0.0));
+  drawing.centroids.emplace_back(0.0, 3.0, 0.0);
+  drawing.line(drawing.point(Vec3(0.0, 3.0, 0.0)), Vec3(1.0, 3.0, 0.0));
+  SkeletonBonesOptions options;
+  options.most_bones = 1;
+  SkeletonBones bones;
+  const Status status = skeleton_bones(drawing.skeleton(), 1.0, options, bones);
+  ASSERT_TRUE(status.ok());
+  ASSERT_EQ(bones.handles.size(), 4u);
+  EXPECT_EQ(bones.handles[0].name, "p1");
+  EXPECT_EQ(bones.handles[0].kind, HandleKind::point);
+  EXPECT_EQ(bones.handles[1].name, "p2");
+  EXPECT_EQ(bones.handles[2].name, "b1");
+  EXPECT_EQ(bones.handles[3].name, "b2");
+  EXPECT_EQ(bones.roots.size(), 2u);
+  ASSERT_EQ(status.warnings.size(), 1u);
+  EXPECT_THAT(status.warnings[0], HasSubstr("2 bones, more than 1"));
+}
+
+TEST(SkeletonBones, OptionsOutOfRangeAreNamed)
+{
+  const Drawing drawing = half_circle();
+  const auto message = [&](const SkeletonBonesOptions& options)
+  {
+    SkeletonBones bones;
+    const Status status = skeleton_bones(drawing.skeleton(), 1.0, options, bones);
+    EXPECT_EQ(status.code, StatusCode::invalid_input);
+    return status.message;
+  };
+  SkeletonBonesOptions options;
+  options.tolerance = 0.0;
+  EXPECT_THAT(message(options), HasSubstr("bone_tolerance"));
+  options = {};
+  options.longest_bone = std::nan("");
+  EXPECT_THAT(message(options), HasSubstr("longest_bone"));
+  options = {};
+  options.most_bones = -1;
+  EXPECT_THAT(message(options), HasSubstr("most_bones"));
+  options = {};
+  options.prune = 11.0;
+  EXPECT_THAT(message(options), HasSubstr("prune"));
+}

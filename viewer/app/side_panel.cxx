@@ -186,6 +186,9 @@ void SidePanel::set_handles(
 {
   const QSignalBlocker quiet(this->handles_);
   const QSignalBlocker quiet_too(this->shown_);
+  const QString shown = this->shown_column() >= 0 && this->shown_column() < this->names_.size()
+    ? this->names_[this->shown_column()]
+    : QString();
   this->names_ = names;
   this->modes_ = modes;
   this->bones_ = bones;
@@ -202,6 +205,7 @@ void SidePanel::set_handles(
     this->shown_->setItemData(handle + 1, names[handle], Qt::ToolTipRole);
     this->set_mode(handle, modes[handle]);
   }
+  this->shown_->setCurrentIndex(shown.isEmpty() ? 0 : names.indexOf(shown) + 1);
   this->show_mode(-1);
 }
 

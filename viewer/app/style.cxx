@@ -47,6 +47,18 @@ QPushButton#section { border: none; border-top: 1px solid #e6e6e2; border-radius
 QPushButton#section:hover { color: #1f1f1d; }
 QPushButton#section:focus { border: none; border-top: 2px solid #2b6ca8; padding: 6px 0 3px 0; }
 QPushButton#toggle:checked { background: #d8e5f1; border-color: #2b6ca8; }
+QFrame#tools { background: #fbfbfa; border: none; border-bottom: 1px solid #dededa; }
+QFrame#tools QToolButton { border: 1px solid transparent; border-radius: 5px; padding: 3px 6px; }
+QFrame#tools QToolButton:hover { border-color: #cfcfca; background: #ffffff; }
+QFrame#tools QToolButton:checked { background: #2b6ca8; border-color: #2b6ca8; color: #ffffff; }
+QFrame#tools QToolButton:checked:disabled { background: #d3dde6; border-color: #d3dde6; color: #71869a; }
+QFrame#tools QToolButton:disabled { color: #a8a8a2; }
+QFrame#tools QToolButton:focus { border: 2px solid #12324f; padding: 2px 5px; }
+QFrame#mode { background: rgba(251, 251, 250, 235); border: 1px solid #dededa; border-radius: 7px; }
+QLabel#nothing { background: rgba(251, 251, 250, 225); border: 1px solid #dededa; border-radius: 7px; padding: 9px 14px; color: #4c4c48; }
+QTableWidget#sheet { background: #ffffff; border: 1px solid #dededa; border-radius: 5px; }
+QLineEdit { background: #ffffff; border: 1px solid #cfcfca; border-radius: 5px; padding: 4px 8px; }
+QLineEdit:focus { border-color: #2b6ca8; }
 QScrollArea#scroll { background: transparent; border: none; }
 QWidget#scrolled { background: #fbfbfa; }
 QFrame#strip { background: #fbfbfa; border: none; border-top: 1px solid #dededa; }

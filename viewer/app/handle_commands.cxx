@@ -232,6 +232,10 @@ void HandleCommands::set_colour(const std::optional<QColor>& colour)
     rgb = { colour->redF(), colour->greenF(), colour->blueF() };
   }
   this->editing_->stop();
+  if (!rgb && !this->document_->editable_handles()->GetCellData()->GetArray("Color"))
+  {
+    return; // none has a colour of its own
+  }
   for (const int handle : selected)
   {
     set_handle_colour(

@@ -56,16 +56,15 @@ HandleEditing::HandleEditing(
   this->bar_ = new ModeBar(this->inside_, viewport);
   this->nothing_ = new QLabel(viewport);
   this->nothing_->setObjectName("nothing");
-  this->nothing_->setWordWrap(true);
   this->nothing_->setAlignment(Qt::AlignCenter);
   this->nothing_->setAttribute(Qt::WA_TransparentForMouseEvents);
   this->nothing_->setText(
-    tr("<b>No handles yet.</b> A adds points, B bones, C a cage, P paints regions; or open a file "
-       "of handles. Then bind, and drag them. <b>?</b> shows all keys."));
+    tr("<b>No handles yet.</b> Press A to add points, B bones, C a cage, P to paint regions,<br>"
+       "or open a file of handles. Then bind, and drag them. ? shows all keys."));
   if (auto* over = qobject_cast<QBoxLayout*>(viewport->layout()))
   {
     over->insertWidget(0, this->bar_, 0, Qt::AlignLeft | Qt::AlignTop);
-    over->addWidget(this->nothing_);
+    over->addWidget(this->nothing_, 0, Qt::AlignHCenter | Qt::AlignBottom);
   }
   QObject::connect(this->bar_, &ModeBar::done_wanted, this, [this] { this->set_mode(pose); });
   QObject::connect(this->bar_, &ModeBar::end_cage_wanted, this,
@@ -402,7 +401,8 @@ void HandleEditing::select(const std::vector<int>& handles)
   this->show_selection();
 }
 
-/// In the picture, by the names.
+/// In the picture, by the names. Those that are not there now may come back, by a redo: their names
+/// are kept until something else is selected.
 void HandleEditing::show_selection()
 {
   const Handles& handles = this->document_->handles();
@@ -418,7 +418,7 @@ void HandleEditing::show_selection()
       }
     }
   }
-  this->selection_changed();
+  this->tell_selection();
   this->viewport_->refresh();
 }
 
@@ -435,6 +435,11 @@ void HandleEditing::remember_selection()
 void HandleEditing::selection_changed()
 {
   this->remember_selection();
+  this->tell_selection();
+}
+
+void HandleEditing::tell_selection()
+{
   const std::vector<int> selected = this->selected();
   const int last = selected.empty() ? -1 : selected.back();
   this->follows_ = true;
@@ -523,9 +528,14 @@ bool HandleEditing::commit(const QString& step, vtkDataArray* labels)
 bool HandleEditing::rename(int handle, const QString& name)
 {
   this->stop();
+  const std::string before = this->document_->handles()[handle].name;
   this->is_committing_ = true;
   const Status status = this->document_->rename_handle(handle, name);
   this->is_committing_ = false;
+  if (status.ok() && this->drawn()->IsSelected(this->document_->handle_cells()[handle]))
+  {
+    this->names_.push_back(before); // when it is undone
+  }
   if (!status.ok())
   {
     Q_EMIT this->refused(capital(QString::fromStdString(status.message)) + ".");

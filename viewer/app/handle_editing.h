@@ -116,6 +116,7 @@ private:
   void list_chosen(int handle);
   void show_selection();
   void remember_selection();
+  void tell_selection();
   void show_state();
   QString drag_sentence() const;
   QString refusal() const;

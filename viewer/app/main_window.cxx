@@ -841,7 +841,7 @@ void MainWindow::update_panel()
   this->panels_->volume()->set_has_surface(surface);
   this->update_surface_look();
   this->empty_->setVisible(this->is_empty());
-  this->strip_->setVisible(ready);
+  this->strip_->setVisible(surface); // so that the picture stays when the first handle comes
   this->menus_->update();
 }
 

@@ -222,10 +222,10 @@ void RegionPainting::stroke_ended()
 {
   if (!this->viewport_->brush_widget()->GetCancelled())
   {
-    QString step = QString::fromStdString(this->viewport_->brush_widget()->GetInteractionName());
-    if (this->keep_stroke(step))
+    std::string region = this->region_;
+    if (this->keep_stroke(region))
     {
-      Q_EMIT this->painted(this->region());
+      Q_EMIT this->painted(QString::fromStdString(region));
     }
   }
   this->show_labels();
@@ -233,9 +233,10 @@ void RegionPainting::stroke_ended()
 }
 
 /// Handles follow the labels: one that is painted first gets a handle, those of which nothing is
-/// left lose theirs.
-bool RegionPainting::keep_stroke(QString& step)
+/// left lose theirs. The next stroke goes on with the region.
+bool RegionPainting::keep_stroke(std::string& region)
 {
+  QString step = QString::fromStdString(this->viewport_->brush_widget()->GetInteractionName());
   const int label = this->brush()->GetRegionId();
   const std::set<int> before =
     labels_in(this->document_->work().surface->GetPointData()->GetArray("RegionId"));
@@ -294,7 +295,7 @@ bool RegionPainting::keep_stroke(QString& step)
   }
   if (status.ok())
   {
-    this->region_ = paints ? name : this->region_;
+    region = paints ? name : region;
     status = this->document_->commit_regions(this->labels(), step);
   }
   else

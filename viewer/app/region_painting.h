@@ -50,7 +50,7 @@ private:
   void stroke_began();
   void stroke_goes_on();
   void stroke_ended();
-  bool keep_stroke(QString& step);
+  bool keep_stroke(std::string& region);
   void show_labels();
   void radius_changed();
 

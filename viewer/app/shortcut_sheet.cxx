@@ -61,7 +61,8 @@ ShortcutSheet::ShortcutSheet(QWidget* parent) : QDialog(parent)
       this->table_->setItem(row, 1, what);
     }
   }
-  this->table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
+  this->table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Fixed);
+  this->table_->setColumnWidth(0, 38 * this->fontMetrics().averageCharWidth());
   this->table_->horizontalHeader()->setSectionResizeMode(1, QHeaderView::Stretch);
   this->table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   rows->addWidget(this->table_);

@@ -58,9 +58,9 @@ HandleEditing::HandleEditing(
   this->nothing_->setObjectName("nothing");
   this->nothing_->setAlignment(Qt::AlignCenter);
   this->nothing_->setAttribute(Qt::WA_TransparentForMouseEvents);
-  this->nothing_->setText(
-    tr("<b>No handles yet.</b> Press A to add points, B bones, C a cage, P to paint regions,<br>"
-       "or open a file of handles. Then bind, and drag them. ? shows all keys."));
+  this->nothing_->setText(tr("<b>No handles yet.</b> Press A to add points, B bones,<br>"
+                             "C a cage, P to paint regions, or open a file of handles.<br>"
+                             "Then bind, and drag them. ? shows all keys."));
   if (auto* over = qobject_cast<QBoxLayout*>(viewport->layout()))
   {
     over->insertWidget(0, this->bar_, 0, Qt::AlignLeft | Qt::AlignTop);
@@ -238,6 +238,7 @@ void HandleEditing::set_mode(int mode)
   }
   this->show_state();
   this->viewport_->refresh();
+  Q_EMIT this->mode_changed(mode);
 }
 
 void HandleEditing::step_back()

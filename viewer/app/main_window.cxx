@@ -227,6 +227,24 @@ void MainWindow::connect_handles()
   QObject::connect(
     this->editing_, &HandleEditing::sentence_changed, this, &MainWindow::update_hint);
   QObject::connect(this->editing_, &HandleEditing::refused, this, &MainWindow::show_error);
+  // Regions have the colours of the surface to themselves.
+  QObject::connect(this->editing_, &HandleEditing::mode_changed, this,
+    [this](int mode)
+    {
+      if (mode == HandleEditing::paint_regions)
+      {
+        this->panels_->show_panel(PanelColumn::bind_and_pose);
+      }
+    });
+  QObject::connect(this->panels_, &PanelColumn::panel_shown, this,
+    [this](int panel)
+    {
+      if (panel != PanelColumn::bind_and_pose &&
+        this->editing_->mode() == HandleEditing::paint_regions)
+      {
+        this->editing_->set_mode(HandleEditing::pose);
+      }
+    });
   QObject::connect(this->editing_, &HandleEditing::handle_selected, this,
     [this](int handle)
     {

@@ -925,8 +925,22 @@ TEST_F(HandleWindow, TheSheetTellsTheKeysThatThereAre)
   }
 }
 
+TEST_F(HandleWindow, RegionsAndWeightsAreNotShownAtOnce)
+{
+  this->open_bound();
+  this->window.panels()->show_panel(PanelColumn::weights);
+  const QImage weights = this->picture();
+  this->editing()->set_mode(HandleEditing::paint_regions);
+  EXPECT_EQ(this->window.panels()->shown_panel(), PanelColumn::bind_and_pose);
+  this->window.panels()->show_panel(PanelColumn::weights);
+  EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
+  EXPECT_EQ(this->picture(), weights);
+}
+
 TEST_F(HandleWindow, NothingIsClippedInASmallWindow)
 {
+  this->open_mesh();
+  this->resize(QSize(900, 600)); // with what is said without handles
   this->open_bound();
   for (const QSize& size : { QSize(900, 600), QSize(1280, 800) })
   {
@@ -1020,6 +1034,8 @@ TEST_F(HandleWindow, EveryModeHasAPictureOfItsOwn)
     this->key(key);
     save(name);
   }
+  this->key(Qt::Key_E);
+  this->render();
   const QPoint ring = this->grip(Drawn::TURN_Y);
   this->press(ring, ring + QPoint(60, 40));
   save("drag");

@@ -5,7 +5,6 @@ class QWidget;
 
 // What the menu Help shows.
 
-void show_mouse_and_keys(QWidget* window);
 void show_about(QWidget* window);
 
 #endif

@@ -4,7 +4,9 @@
 #include "document/opened_file.h"
 #include "document/recent_files.h"
 #include "document/work_inputs.h"
+#include "edit_tools.h"
 #include "error_bar.h"
+#include "handle_editing.h"
 #include "inspection.h"
 #include "key_strip.h"
 #include "notice_bar.h"
@@ -79,7 +81,8 @@ MainWindow::MainWindow(QWidget* parent)
   this->connect_volume();
   this->connect_handles();
   this->connect_posing();
-  QObject::connect(this->document_, &Document::about_to_change, this, &MainWindow::stop_drag);
+  QObject::connect(
+    this->document_, &Document::about_to_change, this->editing_, &HandleEditing::stop);
   QObject::connect(this->document_, &Document::changed, this, &MainWindow::document_changed);
   // Whether all is saved is known after a step, not while it is made.
   QObject::connect(this->history(), &QUndoStack::indexChanged, this, &MainWindow::update_title);
@@ -128,9 +131,10 @@ void MainWindow::make_layout()
   this->empty_->setAlignment(Qt::AlignCenter);
   this->empty_->setWordWrap(true);
   this->empty_->setAttribute(Qt::WA_TransparentForMouseEvents);
-  this->empty_->setText(tr("<p style='font-size:15pt'>Open a mesh, or drop one here</p>"
-                           "<p>Then open handles (.tgf or .vtp), bind, and drag them.</p>"
-                           "<p>A volume of winding numbers (.vti) is shown sliced.</p>"));
+  this->empty_->setText(
+    tr("<p style='font-size:15pt'>Open a mesh, or drop one here</p>"
+       "<p>Then add handles or open some (.tgf or .vtp), bind, and drag them.</p>"
+       "<p>A volume of winding numbers (.vti) is shown sliced.</p>"));
   over->addWidget(this->empty_);
   this->panels_ = new PanelColumn(centre);
   this->panel_ = this->panels_->side();
@@ -139,6 +143,8 @@ void MainWindow::make_layout()
   rows->addWidget(this->strip_);
   this->posing_ = new Posing(this->viewport_,
     { this->panel_->pose(), this->panel_->fields(), this->panel_->poses(), this->strip_ });
+  this->editing_ = new HandleEditing(this->document_, this->viewport_, this->posing_, this->panel_);
+  rows->insertWidget(rows->indexOf(this->viewport_), this->editing_->tools());
   columns->addLayout(rows, 1);
   columns->addWidget(this->panels_);
   this->setCentralWidget(centre);
@@ -184,14 +190,6 @@ void MainWindow::connect_panel()
   QObject::connect(this->panel_, &SidePanel::mode_chosen, this, &MainWindow::set_mode);
   QObject::connect(this->panel_, &SidePanel::rest_wanted, this, &MainWindow::back_to_rest);
   QObject::connect(this->panel_, &SidePanel::column_chosen, this, &MainWindow::show_column);
-  QObject::connect(this->panel_, &SidePanel::handle_chosen, this,
-    [this](int handle)
-    {
-      auto* drawn = this->viewport_->handle_widget()->GetHandleSetRepresentation();
-      drawn->SetSelectedHandle(handle < 0 ? -1 : this->document_->handle_cells()[handle]);
-      this->posing_->select_handle(handle);
-      this->viewport_->refresh();
-    });
 }
 
 void MainWindow::connect_volume()
@@ -225,11 +223,37 @@ void MainWindow::connect_volume()
 
 void MainWindow::connect_handles()
 {
-  vtkHandleSetWidget* widget = this->viewport_->handle_widget();
-  widget->AddObserver(vtkCommand::SelectionChangedEvent, this, &MainWindow::selection_changed);
-  widget->AddObserver(vtkCommand::StartInteractionEvent, this, &MainWindow::drag_began);
-  widget->AddObserver(vtkCommand::InteractionEvent, this, &MainWindow::update_pose);
-  widget->AddObserver(vtkCommand::EndInteractionEvent, this, &MainWindow::drag_ended);
+  QObject::connect(this->editing_, &HandleEditing::moved, this, &MainWindow::update_pose);
+  QObject::connect(
+    this->editing_, &HandleEditing::sentence_changed, this, &MainWindow::update_hint);
+  QObject::connect(this->editing_, &HandleEditing::refused, this, &MainWindow::show_error);
+  // Regions have the colours of the surface to themselves.
+  QObject::connect(this->editing_, &HandleEditing::mode_changed, this,
+    [this](int mode)
+    {
+      if (mode == HandleEditing::paint_regions)
+      {
+        this->panels_->show_panel(PanelColumn::bind_and_pose);
+      }
+    });
+  QObject::connect(this->panels_, &PanelColumn::panel_shown, this,
+    [this](int panel)
+    {
+      if (panel != PanelColumn::bind_and_pose &&
+        this->editing_->mode() == HandleEditing::paint_regions)
+      {
+        this->editing_->set_mode(HandleEditing::pose);
+      }
+    });
+  QObject::connect(this->editing_, &HandleEditing::handle_selected, this,
+    [this](int handle)
+    {
+      this->posing_->select_handle(handle);
+      if (this->is_bound())
+      {
+        this->weights_->choose_column(handle);
+      }
+    });
 }
 
 // ---- What the document has become --------------------------------------------------------------
@@ -260,11 +284,18 @@ void MainWindow::document_changed(int parts)
       this->panel_->set_mode(static_cast<int>(k), static_cast<int>(pose[k].mode));
     }
   }
+  if (parts & (mesh_part | handles_part))
+  {
+    // Without handles the first ones can be added.
+    this->viewport_->set_handles(this->document_->editable_handles(),
+      this->document_->surface() || this->document_->handle_data());
+  }
   if (parts & key_poses_part)
   {
     const auto& kept = this->document_->work().key_poses;
     this->posing_->set_shelf(kept ? *kept : PoseShelf());
   }
+  this->editing_->document_changed(parts);
   this->update_title();
   this->offer_rebind();
   if (parts & ~(options_part | key_poses_part | sources_part))
@@ -311,7 +342,6 @@ void MainWindow::show_mesh()
 
 void MainWindow::show_handles()
 {
-  this->viewport_->set_handles(this->document_->handle_data());
   if (!this->document_->surface())
   {
     this->viewport_->reset_view();
@@ -721,40 +751,6 @@ void MainWindow::bind_finished()
 
 // ---- Posing ------------------------------------------------------------------------------------
 
-void MainWindow::stop_drag()
-{
-  this->viewport_->handle_widget()->CancelDrag();
-}
-
-void MainWindow::selection_changed()
-{
-  const int handle = this->document_->handle_of_cell(
-    this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetSelectedHandle());
-  this->panel_->select_handle(handle);
-  this->posing_->select_handle(handle);
-  if (this->is_bound())
-  {
-    this->weights_->choose_column(handle);
-  }
-}
-
-void MainWindow::drag_began()
-{
-  this->posing_->drag_began();
-  this->dragged_ = this->document_->handle_of_cell(
-    this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetActiveHandle());
-}
-
-void MainWindow::drag_ended()
-{
-  if (!this->viewport_->handle_widget()->GetCancelled() && this->dragged_ >= 0)
-  {
-    this->document_->commit_pose(
-      tr("move %1").arg(QString::fromStdString(this->document_->handles()[this->dragged_].name)));
-  }
-  this->dragged_ = -1;
-}
-
 void MainWindow::set_method(int method)
 {
   this->document_->set_option("pose.method", method);
@@ -816,7 +812,7 @@ void MainWindow::draw_pose()
   const bool volume_only = this->volume_view_->volume() && !(rest && handles);
   QString reading = volume_only ? tr("Drag the slice to move it, elsewhere to turn the view.")
     : !rest                     ? tr("Open a mesh (Ctrl+O) or drop one here.")
-    : !handles                  ? tr("Open handles (.tgf or .vtp) to bind and pose.")
+    : !handles                  ? tr("Add handles (?: all keys), or open some (.tgf or .vtp).")
     : this->is_binding()        ? tr("Binding; the view can be turned meanwhile.")
                                 : tr("Bind (Ctrl+B), then drag the handles.");
   if (this->posing_->can_pose())
@@ -833,8 +829,17 @@ void MainWindow::draw_pose()
     this->posing_->draw();
     this->weights_->move_surface(this->shown());
   }
-  this->hint_->setText(reading);
+  this->hint_text_ = reading;
+  this->update_hint();
   this->viewport_->refresh();
+}
+
+/// What the hand does comes before what the pose took.
+void MainWindow::update_hint()
+{
+  const QString said = this->editing_->sentence();
+  this->hint_->setText(said.isEmpty() ? this->hint_text_ : said);
+  this->hint_->setStyleSheet(this->editing_->is_warning() ? "color: #7c1f14" : "");
 }
 
 void MainWindow::update_panel()
@@ -859,7 +864,7 @@ void MainWindow::update_panel()
   this->panels_->volume()->set_has_surface(surface);
   this->update_surface_look();
   this->empty_->setVisible(this->is_empty());
-  this->strip_->setVisible(ready);
+  this->strip_->setVisible(surface); // so that the picture stays when the first handle comes
   this->menus_->update();
 }
 

@@ -13,6 +13,7 @@ class QLabel;
 class QUndoStack;
 class Document;
 class ErrorBar;
+class HandleEditing;
 class Inspection;
 class KeyStrip;
 class NoticeBar;
@@ -78,6 +79,7 @@ public:
   Inspection* inspection() const { return this->inspection_; }
   WeightInspection* weights() const { return this->weights_; }
   Posing* posing() const { return this->posing_; }
+  HandleEditing* editing() const { return this->editing_; }
   KeyStrip* strip() const { return this->strip_; }
   /// What is under the mouse on the slice, as the status bar shows it.
   QString reading() const;
@@ -122,10 +124,7 @@ private:
   bool open_file(const QString& path);
   bool open_picture(vtkImageData* picture, const QString& name, const Source& source, bool whole);
   bool say(const QString& name, const bindpose::Status& status);
-  void stop_drag();
-  void selection_changed();
-  void drag_began();
-  void drag_ended();
+  void update_hint();
 
   Document* document_;
   Viewport* viewport_ = nullptr;
@@ -133,6 +132,7 @@ private:
   Inspection* inspection_ = nullptr;
   WeightInspection* weights_ = nullptr;
   Posing* posing_ = nullptr;
+  HandleEditing* editing_ = nullptr;
   KeyStrip* strip_ = nullptr; // below the picture
   PanelColumn* panels_ = nullptr;
   SidePanel* panel_ = nullptr; // one of them
@@ -148,7 +148,7 @@ private:
   QLabel* empty_ = nullptr; // in the middle of the picture as long as nothing is open
   BindJob* job_ = nullptr;
   vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport has
-  int dragged_ = -1;
+  QString hint_text_; // in the status line, unless the hand does something
   QString rebind_reason_; // that was offered
 };
 

@@ -348,8 +348,8 @@ vtkPolyData* Posing::shape()
   }
   const bool moves = this->panels_.pose->moves() && this->body_points_.rows() > 0;
   const Points& points = moves ? this->body_points_ : this->main_->points();
-  if (this->at_rest_ || points.rows() != this->surface_->GetNumberOfPoints() ||
-    !(this->can_pose() || moves))
+  if (this->at_rest_ || this->edits_at_rest_ ||
+    points.rows() != this->surface_->GetNumberOfPoints() || !(this->can_pose() || moves))
   {
     return this->surface_;
   }
@@ -387,7 +387,19 @@ void Posing::look_at_rest(bool rest)
   if (this->at_rest_ != rest)
   {
     this->at_rest_ = rest;
-    this->viewport_->handle_widget()->SetEnabled(!rest && this->handles_);
+    this->viewport_->handle_widget()->SetEnabled(!rest && (this->handles_ || this->surface_));
+    Q_EMIT this->moved();
+  }
+}
+
+void Posing::edit_at_rest(bool edits)
+{
+  this->look_at_rest(false);
+  if (this->edits_at_rest_ != edits)
+  {
+    this->edits_at_rest_ = edits;
+    this->play_keys(false);
+    this->move_body(false);
     Q_EMIT this->moved();
   }
 }
@@ -396,7 +408,7 @@ QString Posing::reading() const
 {
   if (this->at_rest_)
   {
-    return tr("The shape at rest. R shows the pose again.");
+    return tr("The shape at rest. T shows the pose again.");
   }
   const bool moves = this->panels_.pose->moves() && this->body_ && this->body_->has_started();
   if (this->main_->is_binding())
@@ -530,7 +542,7 @@ void Posing::order_layers()
 
 void Posing::change_pose(const Pose& pose, const QString& step)
 {
-  this->at_rest_ = false;
+  this->look_at_rest(false);
   Q_EMIT this->pose_changed(pose);
   if (!step.isEmpty())
   {

@@ -67,6 +67,8 @@ public:
   /// The shape at rest, whatever the pose, until the next drag.
   void look_at_rest(bool rest);
   bool looks_at_rest() const { return this->at_rest_; }
+  /// The same while rest handles are edited: they can be taken hold of.
+  void edit_at_rest(bool edits);
   /// What the last pose took and came to, in a line.
   QString reading() const;
 
@@ -139,6 +141,7 @@ private:
   int selected_ = -1;
   bool is_flat_ = false;
   bool at_rest_ = false;
+  bool edits_at_rest_ = false;
   double drawing_microseconds_ = 0.0; ///< of draw(): points and normals
 
   std::shared_ptr<bindpose::Body> body_;

@@ -22,12 +22,13 @@ class SidePanel : public QFrame
 public:
   explicit SidePanel(QWidget* parent = nullptr);
 
-  /// Other handles: one line a handle: its name, its mode (bindpose::HandleMode), and whether it is
-  /// a bone, which has modes of its own.
+  /// Other handles, of which the column that is shown is kept by its name: one line a handle: its
+  /// name, its mode (bindpose::HandleMode), and whether it is a bone, which has modes of its own.
   void set_handles(const QStringList& names, const QList<int>& modes, const QList<bool>& bones);
   void set_mode(int handle, int mode);
   void select_handle(int handle);
   int selected_handle() const;
+  QListWidget* handle_list() const { return this->handles_; }
 
   /// Ready: a surface and handles are there. Bound: weights are there.
   void set_state(bool ready, bool binding, bool bound);

@@ -105,6 +105,18 @@ QPushButton#section { border: none; border-top: 1px solid @faint; border-radius:
 QPushButton#section:hover { color: @ink; }
 QPushButton#section:focus { border: none; border-top: 2px solid @accent; padding: 6px 0 3px 0; }
 QPushButton#toggle:checked { background: @picked; border-color: @accent; }
+QFrame#tools { background: @panel; border: none; border-bottom: 1px solid @line; }
+QFrame#tools QToolButton { border: 1px solid transparent; border-radius: 5px; padding: 3px 6px; }
+QFrame#tools QToolButton:hover { border-color: @edge; background: @field; }
+QFrame#tools QToolButton:checked { background: @accent; border-color: @accent; color: @on_accent; }
+QFrame#tools QToolButton:checked:disabled { background: @accent_off; border-color: @accent_off; color: @accent_off_ink; }
+QFrame#tools QToolButton:disabled { color: @off; }
+QFrame#tools QToolButton:focus { border: 2px solid @accent_ring; padding: 2px 5px; }
+QFrame#mode { background: @panel; border: 1px solid @line; border-radius: 7px; }
+QLabel#nothing { background: @panel; border: 1px solid @line; border-radius: 7px; padding: 9px 14px; color: @status; }
+QTableWidget#sheet { background: @field; border: 1px solid @line; border-radius: 5px; }
+QLineEdit { background: @field; border: 1px solid @edge; border-radius: 5px; padding: 4px 8px; }
+QLineEdit:focus { border-color: @accent; }
 QScrollArea#scroll { background: transparent; border: none; }
 QWidget#scrolled { background: @panel; }
 QFrame#strip { background: @panel; border: none; border-top: 1px solid @line; }

@@ -29,6 +29,8 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
+#include "vtkRegionBrushRepresentation.h"
+#include "vtkRegionBrushWidget.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
 #include "vtkTexture.h"
@@ -98,14 +100,17 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->window_->AddRenderer(this->legend_);
   this->handles_->SetInteractor(this->interactor());
   this->handles_->CreateDefaultRepresentation();
+  this->brush_->SetInteractor(this->interactor());
+  this->brush_->CreateDefaultRepresentation();
   this->since_start_.start();
   this->renderer_->AddObserver(vtkCommand::EndEvent, this, &Viewport::frame_drawn);
 }
 
 Viewport::~Viewport()
 {
-  // The widget observes the interactor, which the base class is about to delete.
+  // The widgets observe the interactor, which the base class is about to delete.
   this->handles_->SetInteractor(nullptr);
+  this->brush_->SetInteractor(nullptr);
 }
 
 void Viewport::set_surface(vtkPolyData* surface)
@@ -382,6 +387,7 @@ void Viewport::resizeEvent(QResizeEvent* event)
 {
   QVTKOpenGLNativeWidget::resizeEvent(event);
   this->handles_->GetHandleSetRepresentation()->SetPixelScale(this->devicePixelRatioF());
+  this->brush_->GetRegionBrushRepresentation()->SetPixelScale(this->devicePixelRatioF());
   this->draw_legend();
 }
 
@@ -438,6 +444,13 @@ void Viewport::reset_view()
   this->renderer_->ResetCameraClippingRange();
 }
 
+QPoint Viewport::to_vtk(const QPoint& place) const
+{
+  const double scale = this->devicePixelRatioF();
+  return { static_cast<int>(scale * place.x()),
+    static_cast<int>(scale * (this->height() - 1 - place.y())) };
+}
+
 void Viewport::ray_at(int x, int y, bindpose::Vec3& from, bindpose::Vec3& along) const
 {
   const auto world = [&](double depth)
@@ -451,10 +464,10 @@ void Viewport::ray_at(int x, int y, bindpose::Vec3& from, bindpose::Vec3& along)
   along = (world(1.0) - from).normalized();
 }
 
-void Viewport::set_handles(vtkPolyData* handles)
+void Viewport::set_handles(vtkPolyData* handles, bool used)
 {
   this->handles_->SetHandles(handles);
-  this->handles_->SetEnabled(handles != nullptr);
+  this->handles_->SetEnabled(used);
 }
 
 void Viewport::refresh()

@@ -25,6 +25,7 @@ class vtkGenericOpenGLRenderWindow;
 class vtkHandleSetWidget;
 class vtkImageData;
 class vtkPolyData;
+class vtkRegionBrushWidget;
 class TimedMapper;
 class vtkRenderer;
 
@@ -62,7 +63,8 @@ public:
   double upload_microseconds() const;
   /// Pictures a second, while they follow each other within half a second; else 0.
   double frames_per_second() const;
-  void set_handles(vtkPolyData* handles);
+  /// Handles that the mouse moves and edits; the widget is on while `used`.
+  void set_handles(vtkPolyData* handles, bool used);
   /// Column of the array Weights, named on the scalar bar; -1: plain shading.
   void show_column(int column, const QString& name);
   /// Numbers of the points or cells of drawn() as colours instead of the column's, named on the
@@ -100,6 +102,9 @@ public:
   bool save_picture(const QString& path);
 
   vtkHandleSetWidget* handle_widget() const { return this->handles_; }
+  vtkRegionBrushWidget* brush_widget() const { return this->brush_; }
+  /// A place of Qt's in VTK's pixels, from the lower left.
+  QPoint to_vtk(const QPoint& place) const;
   /// The places that a pixel of VTK's (from the lower left) shows: from the near clipping plane on,
   /// along a unit vector.
   void ray_at(int x, int y, bindpose::Vec3& from, bindpose::Vec3& along) const;
@@ -122,6 +127,7 @@ private:
   vtkNew<vtkActor> actor_;
   vtkNew<vtkRenderer> legend_; // in front, to the left: the colour scale
   vtkNew<vtkHandleSetWidget> handles_;
+  vtkNew<vtkRegionBrushWidget> brush_;
   std::unique_ptr<bindpose::ShadedSurface> shaded_;
   Eigen::VectorXd depths_;
   vtkSmartPointer<vtkImageData> picture_;

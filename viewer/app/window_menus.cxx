@@ -3,12 +3,15 @@
 #include "document/document.h"
 #include "help_boxes.h"
 #include "key_strip.h"
+#include "handle_editing.h"
 #include "main_window.h"
 #include "pose_panel.h"
 #include "posing.h"
 #include "style.h"
 #include "viewport.h"
+#include "shortcut_sheet.h"
 #include "volume_view.h"
+#include "window_keys.h"
 #include "window_sessions.h"
 
 #include <QAction>
@@ -19,22 +22,36 @@
 #include <QMenuBar>
 #include <QUndoStack>
 
+namespace
+{
+QList<QKeySequence> shortcuts(const char* name)
+{
+  QList<QKeySequence> result;
+  for (const QString& keys :
+    QString::fromStdString(bindpose::keys_of(name)).split(", ", Qt::SkipEmptyParts))
+  {
+    result << QKeySequence(keys);
+  }
+  return result;
+}
+} // namespace
+
 WindowMenus::WindowMenus(MainWindow* window) : QObject(window), window_(window)
 {
   this->add_file_menu();
   this->add_edit_menu();
+  window->editing()->fill_menu(window->menuBar()->addMenu(tr("H&andles")));
   this->add_view_menu();
   QMenu* help = window->menuBar()->addMenu(tr("&Help"));
-  this->add(help, tr("&Mouse and keys"), QKeySequence(Qt::Key_F1),
-    [window] { show_mouse_and_keys(window); });
-  this->add(help, tr("&About Bindpose"), QKeySequence(), [window] { show_about(window); });
+  this->add(help, tr("&Mouse and keys"), "keys", [window] { (new ShortcutSheet(window))->show(); });
+  this->add(help, tr("&About Bindpose"), "", [window] { show_about(window); });
 }
 
 template <typename Action>
-QAction* WindowMenus::add(QMenu* menu, const QString& text, const QKeySequence& keys, Action action)
+QAction* WindowMenus::add(QMenu* menu, const QString& text, const char* name, Action action)
 {
   QAction* entry = menu->addAction(text);
-  entry->setShortcut(keys);
+  entry->setShortcuts(shortcuts(name));
   QObject::connect(entry, &QAction::triggered, this->window_, action);
   return entry;
 }
@@ -43,25 +60,25 @@ void WindowMenus::add_file_menu()
 {
   MainWindow* window = this->window_;
   QMenu* file = window->menuBar()->addMenu(tr("&File"));
-  this->add(file, tr("&Open…"), QKeySequence::Open, [window] { window->choose_and_open(); });
+  this->add(file, tr("&Open…"), "open", [window] { window->choose_and_open(); });
   QMenu* recent = file->addMenu(tr("Open &recent"));
   recent->setToolTipsVisible(true);
   QObject::connect(recent, &QMenu::aboutToShow, this,
     [window, recent] { window->sessions()->fill_recent(recent); });
   file->addSeparator();
-  this->save_ = this->add(
-    file, tr("&Save session"), QKeySequence::Save, [window] { window->sessions()->save(); });
-  this->save_as_ = this->add(file, tr("Save session &as…"),
-    QKeySequence(Qt::CTRL + Qt::SHIFT + Qt::Key_S), [window] { window->sessions()->save_as(); });
+  this->save_ =
+    this->add(file, tr("&Save session"), "save", [window] { window->sessions()->save(); });
+  this->save_as_ = this->add(
+    file, tr("Save session &as…"), "save_as", [window] { window->sessions()->save_as(); });
   file->addSeparator();
-  this->save_shape_ = this->add(
-    file, tr("Save s&hape as…"), QKeySequence(), [window] { window->export_as("shape"); });
+  this->save_shape_ =
+    this->add(file, tr("Save s&hape as…"), "", [window] { window->export_as("shape"); });
   this->save_pose_ =
-    this->add(file, tr("Save &pose as…"), QKeySequence(), [window] { window->export_as("pose"); });
-  this->save_picture_ = this->add(
-    file, tr("Save p&icture as…"), QKeySequence(), [window] { window->export_as("picture"); });
+    this->add(file, tr("Save &pose as…"), "", [window] { window->export_as("pose"); });
+  this->save_picture_ =
+    this->add(file, tr("Save p&icture as…"), "", [window] { window->export_as("picture"); });
   file->addSeparator();
-  this->add(file, tr("&Quit"), QKeySequence::Quit, [window] { window->close(); });
+  this->add(file, tr("&Quit"), "quit", [window] { window->close(); });
 }
 
 void WindowMenus::add_edit_menu()
@@ -69,42 +86,40 @@ void WindowMenus::add_edit_menu()
   MainWindow* window = this->window_;
   QMenu* edit = window->menuBar()->addMenu(tr("&Edit"));
   QAction* undo = window->history()->createUndoAction(this, tr("&Undo"));
-  undo->setShortcut(QKeySequence::Undo);
+  undo->setShortcuts(shortcuts("undo"));
   QAction* redo = window->history()->createRedoAction(this, tr("&Redo"));
-  redo->setShortcuts(
-    { QKeySequence(Qt::CTRL + Qt::SHIFT + Qt::Key_Z), QKeySequence(Qt::CTRL + Qt::Key_Y) });
+  redo->setShortcuts(shortcuts("redo"));
   edit->addAction(undo);
   edit->addAction(redo);
   edit->addSeparator();
-  this->bind_ =
-    this->add(edit, tr("&Bind"), QKeySequence(Qt::CTRL + Qt::Key_B), [window] { window->bind(); });
-  this->rest_pose_ = this->add(edit, tr("Back to &rest"), QKeySequence(Qt::CTRL + Qt::Key_R),
-    [window] { window->document()->back_to_rest(); });
+  this->bind_ = this->add(edit, tr("&Bind"), "bind", [window] { window->bind(); });
+  this->rest_pose_ = this->add(
+    edit, tr("Back to &rest"), "rest_pose", [window] { window->document()->back_to_rest(); });
 }
 
 void WindowMenus::add_view_menu()
 {
   MainWindow* window = this->window_;
   QMenu* view = window->menuBar()->addMenu(tr("&View"));
-  this->add(view, tr("&Whole shape"), QKeySequence(Qt::Key_Home),
+  this->add(view, tr("&Whole shape"), "whole_shape",
     [window]
     {
       window->viewport()->reset_view();
       window->viewport()->refresh();
     });
   view->addSeparator();
-  this->add(view, tr("&Rest or posed"), QKeySequence(Qt::Key_R),
+  this->add(view, tr("&Rest or posed"), "look_at_rest",
     [window] { window->posing()->look_at_rest(!window->posing()->looks_at_rest()); });
-  this->add(view, tr("&Play or pause"), QKeySequence(Qt::Key_Space),
+  this->add(view, tr("&Play or pause"), "play",
     [window] { window->posing()->play_keys(!window->posing()->is_playing()); });
-  this->add(view, tr("&Set a key"), QKeySequence(Qt::Key_K),
-    [window] { Q_EMIT window->strip()->key_wanted(); });
+  this->add(view, tr("&Set a key"), "set_key", [window] { Q_EMIT window->strip()->key_wanted(); });
   view->addSeparator();
   this->methods_ = new QActionGroup(this);
   for (int k = 0; k < bindpose::pose_method_count; ++k)
   {
-    QAction* method = this->add(view, method_name(static_cast<bindpose::PoseMethod>(k)),
-      QKeySequence(Qt::Key_1 + k), [window, k] { window->set_method(k); });
+    QAction* method = this->add(view, method_name(static_cast<bindpose::PoseMethod>(k)), "",
+      [window, k] { window->set_method(k); });
+    method->setShortcut(QKeySequence(Qt::Key_1 + k));
     method->setCheckable(true);
     this->methods_->addAction(method);
   }

@@ -6,10 +6,9 @@
 class MainWindow;
 class QAction;
 class QActionGroup;
-class QKeySequence;
 class QMenu;
 
-/// The menus of the window, and what of them can be chosen now.
+/// The menus of the window, and what of them can be chosen now. Keys are those of window_keys.h.
 class WindowMenus : public QObject
 {
   Q_OBJECT
@@ -23,7 +22,7 @@ public:
 
 private:
   template <typename Action>
-  QAction* add(QMenu* menu, const QString& text, const QKeySequence& keys, Action action);
+  QAction* add(QMenu* menu, const QString& text, const char* name, Action action);
   void add_file_menu();
   void add_edit_menu();
   void add_view_menu();

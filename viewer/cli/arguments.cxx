@@ -164,6 +164,9 @@ int parse_arguments(int argc, char** argv, Arguments& arguments)
   app.add_subcommand("option-table", "the table of all options as Markdown")
     ->group("")
     ->callback([&arguments]() { arguments.verb = "option-table"; });
+  app.add_subcommand("key-table", "the table of the window's keys as Markdown")
+    ->group("")
+    ->callback([&arguments]() { arguments.verb = "key-table"; });
   if (argc < 2)
   {
     std::cerr << "bindpose: there is no verb (see bindpose --help)\n";

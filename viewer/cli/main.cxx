@@ -2,6 +2,7 @@
 // 0 done, 1 usage, 2 bad input, 3 not converged, 4 cancelled, 5 internal.
 #include "cli/arguments.h"
 #include "cli/interrupt.h"
+#include "cli/key_table.h"
 #include "cli/option_table.h"
 #include "cli/session.h"
 #include "cli/verbs.h"
@@ -72,6 +73,11 @@ int main(int argc, char** argv)
   if (arguments.verb == "option-table")
   {
     std::cout << option_table_markdown();
+    return 0;
+  }
+  if (arguments.verb == "key-table")
+  {
+    std::cout << key_table_markdown();
     return 0;
   }
   Session session(arguments);

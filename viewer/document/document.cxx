@@ -7,6 +7,7 @@
 #include "document/work_inputs.h"
 
 #include "conversion.h"
+#include "handle_edit_cells.h"
 
 #include "vtkPointData.h"
 
@@ -32,6 +33,44 @@ vtkDataArray* weights_of(vtkPolyData* surface)
   return surface ? surface->GetPointData()->GetArray("Weights") : nullptr;
 }
 
+/// The labels that the weights were solved for, where others were painted since.
+const char* const bound_labels = "BoundRegionId";
+
+vtkDataArray* labels_of(vtkPolyData* surface)
+{
+  return surface ? surface->GetPointData()->GetArray("RegionId") : nullptr;
+}
+
+/// Labels under another name; without any as many zeros as `like` has.
+vtkSmartPointer<vtkDataArray> copy_of_labels(
+  vtkDataArray* labels, vtkDataArray* like, const char* name)
+{
+  auto copy = vtkSmartPointer<vtkDataArray>::Take(like->NewInstance());
+  if (labels)
+  {
+    copy->DeepCopy(labels);
+  }
+  else
+  {
+    copy->SetNumberOfTuples(like->GetNumberOfTuples());
+    copy->Fill(0.0);
+  }
+  copy->SetName(name);
+  return copy;
+}
+
+bool same_labels(vtkDataArray* a, vtkDataArray* b)
+{
+  const vtkIdType count = a ? a->GetNumberOfTuples() : b ? b->GetNumberOfTuples() : 0;
+  for (vtkIdType v = 0; v < count && a != b; ++v)
+  {
+    if ((a ? a->GetComponent(v, 0) : 0.0) != (b ? b->GetComponent(v, 0) : 0.0))
+    {
+      return false;
+    }
+  }
+  return true;
+}
 } // namespace
 
 Document::Document(QObject* parent)
@@ -102,8 +141,14 @@ QString Document::rebind_reason() const
   {
     return {};
   }
-  return weights_of(this->surface_) ? this->columns_.reason()
-                                    : tr("The mesh is another than the one that was bound.");
+  if (!weights_of(this->surface_))
+  {
+    return tr("The mesh is another than the one that was bound.");
+  }
+  const QString reason = this->columns_.reason();
+  vtkDataArray* solved = this->work_.surface->GetPointData()->GetArray(bound_labels);
+  const bool painted = solved && !same_labels(solved, labels_of(this->work_.surface));
+  return reason.isEmpty() && painted ? tr("Regions were painted since the bind.") : reason;
 }
 
 // ---- Steps -------------------------------------------------------------------------------------
@@ -280,11 +325,11 @@ void Document::set_curves(vtkPolyData* curves, const QString& name, const Source
 
 // ---- Handles and pose --------------------------------------------------------------------------
 
-Status Document::commit_handles(const QString& step, const QString& merge)
+/// What handle_data() holds as handles and pose of a work; what cannot be used is taken back.
+Status Document::take_live(Work& work)
 {
-  Work after = this->work_;
-  after.handles = nullptr;
-  after.pose.clear();
+  work.handles = nullptr;
+  work.pose.clear();
   if (this->live_->GetNumberOfCells() > 0)
   {
     Handles handles;
@@ -292,17 +337,81 @@ Status Document::commit_handles(const QString& step, const QString& merge)
     Status status = to_handles(this->live_, handles, &cells);
     if (status.ok())
     {
-      status = to_pose(this->live_, handles, cells, after.pose);
+      status = to_pose(this->live_, handles, cells, work.pose);
     }
     if (!status.ok())
     {
       this->revert_handles();
       return status;
     }
-    after.handles = copy_of(this->live_);
+    work.handles = copy_of(this->live_);
   }
-  this->push(step, after, merge, Live::is_there);
   return {};
+}
+
+Status Document::commit_handles(const QString& step, const QString& merge)
+{
+  Work after = this->work_;
+  Status status = this->take_live(after);
+  if (status.ok())
+  {
+    this->push(step, after, merge, Live::is_there);
+  }
+  return status;
+}
+
+Status Document::commit_regions(vtkDataArray* labels, const QString& step)
+{
+  if (!this->work_.surface ||
+    labels->GetNumberOfTuples() != this->work_.surface->GetNumberOfPoints())
+  {
+    this->revert_handles();
+    return Status::invalid_input("regions are painted on the mesh's own vertices");
+  }
+  Work after = this->work_;
+  Status status = this->take_live(after);
+  if (status.ok())
+  {
+    after.surface = vtkSmartPointer<vtkPolyData>::New();
+    after.surface->ShallowCopy(this->work_.surface);
+    vtkPointData* arrays = after.surface->GetPointData();
+    if (arrays->GetArray("Weights") && !arrays->GetArray(bound_labels))
+    {
+      arrays->AddArray(copy_of_labels(labels_of(this->work_.surface), labels, bound_labels));
+    }
+    arrays->AddArray(copy_of_labels(labels, labels, "RegionId"));
+    after.made_here = true;
+    this->push(step, after, {}, Live::is_there);
+  }
+  return status;
+}
+
+Status Document::rename_handle(int handle, const QString& name)
+{
+  Q_EMIT this->about_to_change();
+  const std::string from = this->handles_[handle].name;
+  const std::string to = name.toStdString();
+  Status status = edit_handles(this->live_,
+    [&](const Handles& before, EditedHandles& after)
+    { return bindpose::rename_handle(before, handle, to, after); });
+  Work after = this->work_;
+  if (status.ok())
+  {
+    status = this->take_live(after);
+  }
+  if (!status.ok() || from == to)
+  {
+    return status;
+  }
+  if (after.key_poses)
+  {
+    PoseShelf poses = *after.key_poses;
+    poses.library.rename_handle(from, to);
+    poses.keys.rename_handle(from, to);
+    after.key_poses = std::make_shared<const PoseShelf>(std::move(poses));
+  }
+  this->push(tr("rename %1").arg(QString::fromStdString(from)), after, {}, Live::is_there);
+  return status;
 }
 
 void Document::commit_pose(const QString& step, const QString& merge)
@@ -382,6 +491,14 @@ bool Document::set_bound(vtkPolyData* surface, vtkUnstructuredGrid* tets)
   }
   Work after = this->work_;
   after.surface = surface;
+  surface->GetPointData()->RemoveArray(bound_labels);
+  // What was painted during the bind is not in it.
+  vtkDataArray* now = labels_of(this->work_.surface);
+  if (now && !same_labels(now, labels_of(surface)))
+  {
+    surface->GetPointData()->AddArray(copy_of_labels(labels_of(surface), now, bound_labels));
+    surface->GetPointData()->AddArray(now);
+  }
   after.weighted_tets = tets;
   after.made_here = true;
   after.bound_handles = this->binding_.handle_data;

@@ -10,6 +10,7 @@
 
 #include <vector>
 
+class vtkDataArray;
 class vtkDataSet;
 
 /// What a window keeps: surface, handles, weights, pose, options and where they came from, with
@@ -84,6 +85,12 @@ public:
   /// status that is not ok the handles cannot be used, and the change is taken back. All cells
   /// gone: there are no handles any more.
   bindpose::Status commit_handles(const QString& step, const QString& merge = {});
+  /// The same when regions were painted, too: `labels`, one a vertex of the surface, become its
+  /// point array RegionId.
+  bindpose::Status commit_regions(vtkDataArray* labels, const QString& step);
+  /// Another name for a handle, in the poses that are kept, too. invalid_input, one sentence, for a
+  /// name that is empty or another handle's.
+  bindpose::Status rename_handle(int handle, const QString& name);
   /// The same when only pose arrays were changed.
   void commit_pose(const QString& step, const QString& merge = {});
   /// Back to the last step, to the last bit.
@@ -142,6 +149,7 @@ private:
     Live live = Live::to_be_written);
   void become(const Work& work, Live live);
   void arrange();
+  bindpose::Status take_live(Work& work);
 
   Work work_;
   Work saved_;

@@ -87,6 +87,14 @@ void KeyFrames::remove(std::size_t key)
   }
 }
 
+void KeyFrames::rename_handle(const std::string& from, const std::string& to)
+{
+  for (Key& key : this->keys_)
+  {
+    key.pose.rename(from, to);
+  }
+}
+
 Pose KeyFrames::pose_at(double time, const Handles& handles, const Pose& base) const
 {
   if (this->keys_.empty())

@@ -33,6 +33,7 @@ public:
   std::size_t move(std::size_t key, double time);
   void remove(std::size_t key);
   void clear() { this->keys_.clear(); }
+  void rename_handle(const std::string& from, const std::string& to);
   /// The key at a time, -1 for none.
   int at(double time) const;
 

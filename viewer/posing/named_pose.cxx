@@ -2,6 +2,7 @@
 
 #include "posing/json_fields.h"
 
+#include <algorithm>
 #include <map>
 
 namespace bindpose
@@ -29,6 +30,25 @@ Pose NamedPose::of(const Handles& handles, const Pose& base) const
     result[k] = found == at.end() ? result[k] : this->pose_[found->second];
   }
   return result;
+}
+
+void NamedPose::rename(const std::string& from, const std::string& to)
+{
+  const auto found = std::find(this->names_.begin(), this->names_.end(), from);
+  if (found == this->names_.end() || from == to)
+  {
+    return;
+  }
+  const auto renamed = found - this->names_.begin();
+  *found = to;
+  for (auto k = static_cast<std::ptrdiff_t>(this->names_.size()) - 1; k >= 0; --k)
+  {
+    if (k != renamed && this->names_[static_cast<std::size_t>(k)] == to)
+    {
+      this->names_.erase(this->names_.begin() + k);
+      this->pose_.erase(this->pose_.begin() + k);
+    }
+  }
 }
 
 Json to_json(const NamedPose& pose)

@@ -22,6 +22,8 @@ public:
   /// The pose of these handles; those that it does not know stay as they are in `base`.
   Pose of(const Handles& handles, const Pose& base) const;
   bool empty() const { return this->names_.empty(); }
+  /// The handle has another name now. What the pose knows of a handle that had it before goes.
+  void rename(const std::string& from, const std::string& to);
 
 private:
   friend nlohmann::ordered_json to_json(const NamedPose& pose);

@@ -51,6 +51,14 @@ void PoseLibrary::remove(std::size_t entry)
   }
 }
 
+void PoseLibrary::rename_handle(const std::string& from, const std::string& to)
+{
+  for (Entry& entry : this->entries_)
+  {
+    entry.pose.rename(from, to);
+  }
+}
+
 Json to_json(const PoseLibrary& library)
 {
   Json result = Json::array();

@@ -23,6 +23,7 @@ public:
   bool rename(std::size_t entry, const std::string& name);
   void remove(std::size_t entry);
   void clear() { this->entries_.clear(); }
+  void rename_handle(const std::string& from, const std::string& to);
 
 private:
   bool is_taken(const std::string& name) const;

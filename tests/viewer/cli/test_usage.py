@@ -9,7 +9,7 @@ def test_help_lists_all_verbs(folder):
     run = folder.run("--help").is_good()
     for verb in VERBS:
         assert f"\n  {verb} " in run.out
-    assert "option-table" not in run.out
+    assert "option-table" not in run.out and "key-table" not in run.out
     assert folder.run("--version").is_good().out.startswith("bindpose 0.")
 
 

@@ -196,6 +196,87 @@ TEST_F(Editing, WhatChangesNothingIsNoStep)
   EXPECT_EQ(this->document.history()->count(), steps);
 }
 
+TEST_F(Editing, ARenamedHandleKeepsItsPoses)
+{
+  open_bound(this->document);
+  Document& d = this->document;
+  Pose kept(3);
+  kept[0].stretch = 1.1;
+  PoseShelf shelf;
+  shelf.library.store("wave", NamedPose(d.handles(), kept));
+  shelf.keys.set(0.1, NamedPose(d.handles(), kept));
+  d.set_key_poses(shelf, "keep a pose");
+  const std::string name = d.handles()[0].name;
+  const QString step = "rename " + QString::fromStdString(name);
+  this->check(step.toUtf8(), [&] { ASSERT_TRUE(d.rename_handle(0, "foot").ok()); });
+  EXPECT_EQ(d.handles()[0].name, "foot");
+  EXPECT_TRUE(d.is_bound());
+  EXPECT_EQ(d.work().key_poses->library.entries()[0].pose.of(d.handles(), Pose(3))[0].stretch, 1.1);
+  EXPECT_EQ(d.work().key_poses->keys.pose_at(0.1, d.handles(), Pose(3))[0].stretch, 1.1);
+  const std::string before = fingerprint(d);
+  const int steps = d.history()->count();
+  for (const char* bad : { "", "top" })
+  {
+    EXPECT_FALSE(d.rename_handle(0, bad).ok());
+    EXPECT_EQ(fingerprint(d), before);
+  }
+  EXPECT_TRUE(d.rename_handle(0, "foot").ok());
+  EXPECT_EQ(d.history()->count(), steps);
+}
+
+TEST_F(Editing, PaintedRegionsAreAStepAndARebindIsOffered)
+{
+  open_bound(this->document);
+  Document& d = this->document;
+  const vtkIdType count = d.surface()->GetNumberOfPoints();
+  vtkNew<vtkIntArray> labels;
+  labels->SetNumberOfTuples(count);
+  labels->Fill(0);
+  labels->SetValue(3, 1);
+  const auto with_region = [&]
+  {
+    Handles more = three_handles();
+    more.resize(4);
+    more[3].name = "r1";
+    more[3].kind = HandleKind::region;
+    more[3].region_id = 1;
+    more[3].head = more[3].tail = Vec3(0.3, 0.2, 0.1);
+    this->replace_live(more);
+  };
+  this->check("paint region r1",
+    [&]
+    {
+      with_region();
+      ASSERT_TRUE(d.commit_regions(labels, "paint region r1").ok());
+    });
+  EXPECT_TRUE(d.is_bound());
+  EXPECT_FALSE(d.rebind_reason().isEmpty()); // a new handle
+  test::bind(d, 2.0);
+  EXPECT_TRUE(d.rebind_reason().isEmpty());
+  labels->SetValue(4, 1);
+  this->check(
+    "paint region r1", [&] { ASSERT_TRUE(d.commit_regions(labels, "paint region r1").ok()); });
+  EXPECT_TRUE(d.rebind_reason().contains("painted")); // the handles are the same
+  d.history()->undo();
+  EXPECT_TRUE(d.rebind_reason().isEmpty());
+  d.history()->redo();
+  test::bind(d, 3.0);
+  EXPECT_TRUE(d.rebind_reason().isEmpty());
+  // What is painted during a bind stays painted, and is not in the weights.
+  d.begin_bind();
+  const auto bound = test::with_weights(d.work().surface, d.bound_handles(), 4.0);
+  labels->SetValue(5, 1);
+  ASSERT_TRUE(d.commit_regions(labels, "paint region r1").ok());
+  ASSERT_TRUE(d.set_bound(bound, nullptr));
+  EXPECT_EQ(d.surface()->GetPointData()->GetArray("RegionId")->GetComponent(5, 0), 1.0);
+  EXPECT_TRUE(d.rebind_reason().contains("painted"));
+  // Labels of another mesh.
+  labels->SetNumberOfTuples(count + 1);
+  const std::string before = fingerprint(d);
+  EXPECT_FALSE(d.commit_regions(labels, "paint").ok());
+  EXPECT_EQ(fingerprint(d), before);
+}
+
 TEST_F(Editing, OptionsTakeOnlyWhatTheyCanHave)
 {
   const Options before = this->document.work().options;

@@ -1,0 +1,131 @@
+#ifndef window_keys_h
+#define window_keys_h
+
+#include "widgets/handle_bindings.h"
+
+#include <array>
+#include <cstring>
+#include <string>
+#include <vector>
+
+// All keys and buttons of the window in one table: actions take their shortcuts from it, the
+// shortcut sheet and `bindpose key-table` show it together with the bindings of the widgets. No Qt:
+// the program has it without the window, too.
+
+namespace bindpose
+{
+
+struct WindowKey
+{
+  const char* action; ///< by which the window finds its keys; "" for rows for people only
+  const char* when; ///< heading in the sheet
+  const char* input; ///< as people read it, and as QKeySequence does; several with ", " between
+  const char* text; ///< what it does
+};
+
+constexpr std::array<WindowKey, 43> window_keys{ {
+  { "open", "anywhere", "Ctrl+O", "Open files" },
+  { "save", "anywhere", "Ctrl+S", "Save the session" },
+  { "save_as", "anywhere", "Ctrl+Shift+S", "Save the session under another name" },
+  { "undo", "anywhere", "Ctrl+Z", "Undo" },
+  { "redo", "anywhere", "Ctrl+Shift+Z, Ctrl+Y", "Redo" },
+  { "bind", "anywhere", "Ctrl+B", "Bind" },
+  { "rest_pose", "anywhere", "Ctrl+R", "Take all handles back to rest" },
+  { "", "anywhere", "1 … 7",
+    "Way to pose: linear, dual quaternions, reduced ARAP, stretchable bones, centers of rotation, "
+    "full ARAP, smooth surface" },
+  { "play", "anywhere", "Space", "Play key frames, or pause" },
+  { "set_key", "anywhere", "K", "Set a key frame" },
+  { "keys", "anywhere", "?, F1", "This sheet" },
+  { "quit", "anywhere", "Ctrl+Q", "Quit" },
+
+  { "", "view", "Left button away from handles, drag",
+    "Turn the view; of a picture: move it; on a slice or cut: move that" },
+  { "", "view", "Shift + left button, middle button, drag", "Move the view" },
+  { "", "view", "Wheel, right button, drag", "Zoom" },
+  { "whole_shape", "view", "Home", "Show the whole shape" },
+  { "look_at_rest", "view", "T", "The shape at rest, and back to the pose" },
+
+  { "gizmo.none", "tools", "Q", "Drag handles by themselves, without a gizmo" },
+  { "gizmo.move", "tools", "W", "Gizmo that moves: arrows and plates" },
+  { "gizmo.turn", "tools", "E", "Gizmo that turns: rings" },
+  { "gizmo.scale", "tools", "D", "Gizmo that scales: boxes" },
+  { "gizmo.all", "tools", "F", "Gizmo that does all; of a bone stretch and twist, too" },
+  { "gizmo.local", "tools", "L", "Gizmo and axes X, Y, Z of the handle, or of the world" },
+  { "mode.pose", "tools", "Esc", "Back to posing" },
+  { "mode.rest", "tools", "M", "Move rest places" },
+  { "mode.points", "tools", "A", "Add points" },
+  { "mode.bones", "tools", "B", "Add bones" },
+  { "mode.cage", "tools", "C", "Add a cage" },
+  { "mode.regions", "tools", "P", "Paint regions" },
+  { "inside", "tools", "I", "Place points and bones inside the shape, or on its surface" },
+
+  { "", "handles", "Right button on a handle", "What can be done with it" },
+  { "select_all", "handles", "Ctrl+A", "Select all handles" },
+  { "rename", "handles", "F2", "Rename" },
+  { "colour", "handles", "Ctrl+K", "Recolour" },
+  { "lock", "handles", "Ctrl+L", "Lock, or unlock: no hand moves it" },
+  { "delete", "handles", "Delete", "Delete" },
+  { "mirror.x", "handles", "Ctrl+M", "Mirror to the other side, left to right" },
+  { "snap", "handles", "Ctrl+T", "Snap to the surface" },
+  { "cage_edge", "handles", "Ctrl+E", "Join two cage vertices by an edge, or part them" },
+  { "reset", "handles", "Ctrl+0", "Reset: back to rest" },
+  { "fixes.full", "handles", "Alt+1", "Fixes its full transform" },
+  { "fixes.position", "handles", "Alt+2", "Fixes its position only" },
+  { "fixes.free", "handles", "Alt+3", "Fixes nothing" },
+} };
+
+/// Of an action, as in the table; empty for none.
+inline std::string keys_of(const char* action)
+{
+  for (const WindowKey& key : window_keys)
+  {
+    if (std::strcmp(key.action, action) == 0)
+    {
+      return key.input;
+    }
+  }
+  return "";
+}
+
+struct KeyGroup
+{
+  std::string when;
+  /// Input and what it does.
+  std::vector<std::pair<std::string, std::string>> rows;
+};
+
+/// The window's and the widgets', by when they apply, in the order in which they are read.
+inline std::vector<KeyGroup> all_keys()
+{
+  std::vector<KeyGroup> groups;
+  const auto add = [&groups](const char* when, const char* input, const char* text)
+  {
+    for (KeyGroup& group : groups)
+    {
+      if (group.when == when)
+      {
+        group.rows.emplace_back(input, text);
+        return;
+      }
+    }
+    groups.push_back({ when, { { input, text } } });
+  };
+  for (const WindowKey& key : window_keys)
+  {
+    add(key.when, key.input, key.text);
+  }
+  for (const HandleBinding& binding : handle_bindings)
+  {
+    add(binding.when, binding.input, binding.text);
+  }
+  for (const BrushBinding& binding : brush_bindings)
+  {
+    add(binding.when, binding.input, binding.text);
+  }
+  return groups;
+}
+
+} // namespace bindpose
+
+#endif

@@ -15,7 +15,33 @@
 #include <QKeySequence>
 #include <QMenu>
 #include <QMenuBar>
+#include <QRegularExpression>
 #include <QUndoStack>
+
+namespace
+{
+QString word_of(QString text)
+{
+  static const QRegularExpression other("[^a-z0-9]+");
+  text = text.remove('&').toLower().replace(other, "_");
+  return text.endsWith('_') ? text.chopped(1) : text;
+}
+
+/// Entries get object names, for tours and tests: of the menu and their text, "edit.bind".
+void name_actions(const QMenuBar* bar)
+{
+  for (const QAction* menu : bar->actions())
+  {
+    for (QAction* entry : menu->menu()->actions())
+    {
+      if (entry->objectName().isEmpty() && !entry->isSeparator() && !entry->menu())
+      {
+        entry->setObjectName(word_of(menu->text()) + '.' + word_of(entry->text()));
+      }
+    }
+  }
+}
+} // namespace
 
 WindowMenus::WindowMenus(MainWindow* window) : QObject(window), window_(window)
 {
@@ -26,6 +52,7 @@ WindowMenus::WindowMenus(MainWindow* window) : QObject(window), window_(window)
   this->add(help, tr("&Mouse and keys"), QKeySequence(Qt::Key_F1),
     [window] { show_mouse_and_keys(window); });
   this->add(help, tr("&About Bindpose"), QKeySequence(), [window] { show_about(window); });
+  name_actions(window->menuBar());
 }
 
 template <typename Action>

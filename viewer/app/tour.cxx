@@ -27,6 +27,7 @@ enum class About
   text,
   place,
   wait,
+  seconds,
   size
 };
 
@@ -51,6 +52,7 @@ const VerbInfo verb_table[] = {
   { TourVerb::release, "release", About::place, "button held" },
   { TourVerb::drag, "drag", About::place, "to moves button held" },
   { TourVerb::wheel, "wheel", About::place, "turns held" },
+  { TourVerb::scrub, "scrub", About::seconds, "" },
   { TourVerb::key, "key", About::text, "" },
   { TourVerb::resize, "resize", About::size, "" },
   { TourVerb::wait, "wait", About::wait, "" },
@@ -214,7 +216,7 @@ Status read_about(const Json& value, About about, const std::string& who, TourSt
       return {};
     }
     default:
-      if (value.is_string() && (value == "bind" || value == "idle"))
+      if (about == About::wait && value.is_string() && (value == "bind" || value == "idle"))
       {
         step.text = value.get<std::string>();
         return {};
@@ -224,7 +226,9 @@ Status read_about(const Json& value, About about, const std::string& who, TourSt
         step.seconds = value.get<double>();
         return {};
       }
-      return Status::invalid_input(who + ": it waits for \"bind\", \"idle\" or 0 to 3600 seconds");
+      return Status::invalid_input(who +
+        (about == About::wait ? ": it waits for \"bind\", \"idle\" or 0 to 3600 seconds"
+                              : ": it takes 0 to 3600 seconds"));
   }
 }
 

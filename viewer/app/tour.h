@@ -36,6 +36,7 @@ enum class TourVerb
   release,
   drag,
   wheel,
+  scrub, ///< the key frames' time to so many seconds, by the mouse
   key, ///< as menus write it: "Ctrl+Z", "Esc"
   resize,
   wait, ///< for "bind", "idle", or so many seconds
@@ -75,7 +76,7 @@ struct TourStep
   bool shift = false, ctrl = false, alt = false;
   double turns = 0.0; ///< of the wheel, away from the person
 
-  double seconds = -1.0; ///< to wait
+  double seconds = -1.0; ///< to wait, or to scrub to
   std::array<int, 2> size{ 0, 0 }; ///< to resize to
   bool of_view = false; ///< the picture alone, not the whole window
   int width = 0; ///< of a screenshot, smaller than it is; 0: as it is

@@ -225,6 +225,9 @@ QString TourPlayer::perform(const TourStep& step)
       return this->hand_.show_panel(word);
     case TourVerb::select:
       return this->hand_.select(word);
+    case TourVerb::scrub:
+      this->hand_.scrub(step.seconds);
+      return {};
     case TourVerb::key:
       return this->hand_.press_key(word);
     case TourVerb::resize:

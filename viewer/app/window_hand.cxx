@@ -2,6 +2,7 @@
 
 #include "document/document.h"
 #include "inspection.h"
+#include "key_strip.h"
 #include "main_window.h"
 #include "panel_column.h"
 #include "pose_ghost.h"
@@ -116,6 +117,19 @@ void WindowHand::wheel(const QPoint& at, double turns, Qt::KeyboardModifiers hel
   QWheelEvent event(at, viewport->mapToGlobal(at), QPoint(), angle, this->buttons_, held,
     Qt::NoScrollPhase, false);
   QApplication::sendEvent(viewport, &event);
+}
+
+void WindowHand::scrub(double seconds)
+{
+  KeyTrack* track = this->window_->strip()->track();
+  const QPoint at(track->pixel(seconds), track->height() / 2);
+  for (const QEvent::Type type : { QEvent::MouseButtonPress, QEvent::MouseButtonRelease })
+  {
+    const bool down = type == QEvent::MouseButtonPress;
+    QMouseEvent event(type, at, track->mapToGlobal(at), Qt::LeftButton,
+      down ? Qt::LeftButton : Qt::NoButton, Qt::NoModifier);
+    QApplication::sendEvent(track, &event);
+  }
 }
 
 // ---- Keys and menus ----------------------------------------------------------------------------

@@ -129,7 +129,7 @@ def main():
     write_off(DATA / "figure.off", points, triangles)
     write_tgf(DATA / "figure.tgf", POINTS, [SPINE])
     paper_doll(DATA / "doll.png")
-    for words in (["winding", "figure.off", "--grid", "40", "--float", "-o", "figure_winding.vti"],
+    for words in (["winding", "figure.off", "--grid", "72", "--float", "-o", "figure_winding.vti"],
                   ["tetrahedralize", "figure.off", "--method", "cdt", "--interior-edge", "0.06", "-o", "figure_tets.vtu"],
                   ["weights", "figure.off", "--handles", "figure.tgf", "--raw", "-o", "figure_weights.vtp"],
                   ["info", "figure.off"]):

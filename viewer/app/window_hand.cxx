@@ -119,8 +119,18 @@ void WindowHand::wheel(const QPoint& at, double turns, Qt::KeyboardModifiers hel
   QApplication::sendEvent(viewport, &event);
 }
 
+void WindowHand::leave()
+{
+  if (this->buttons_ == Qt::NoButton) // else the picture keeps it
+  {
+    QEvent event(QEvent::Leave);
+    QApplication::sendEvent(this->window_->viewport(), &event);
+  }
+}
+
 void WindowHand::scrub(double seconds)
 {
+  this->leave();
   KeyTrack* track = this->window_->strip()->track();
   const QPoint at(track->pixel(seconds), track->height() / 2);
   for (const QEvent::Type type : { QEvent::MouseButtonPress, QEvent::MouseButtonRelease })
@@ -208,6 +218,7 @@ QString WindowHand::trigger(const QString& name)
 
 QString WindowHand::push(const QString& text)
 {
+  this->leave();
   bool seen = false;
   for (QAbstractButton* each : this->window_->findChildren<QAbstractButton*>())
   {
@@ -234,6 +245,7 @@ QString WindowHand::push(const QString& text)
 
 QString WindowHand::choose(const QString& key, const QVariant& value)
 {
+  this->leave();
   const OptionInfo* option = find_option(key);
   if (!option)
   {
@@ -306,6 +318,7 @@ const QStringList& WindowHand::panel_names()
 
 QString WindowHand::show_panel(const QString& name)
 {
+  this->leave();
   const int panel = panel_names().indexOf(name);
   if (panel < 0)
   {
@@ -319,6 +332,7 @@ QString WindowHand::show_panel(const QString& name)
 
 QString WindowHand::select(const QString& handle)
 {
+  this->leave();
   const Handles& handles = this->window_->document()->handles();
   for (std::size_t k = 0; k < handles.size(); ++k)
   {

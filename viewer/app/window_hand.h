@@ -30,6 +30,8 @@ public:
   void release(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
   void double_click(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
   void wheel(const QPoint& at, double turns, Qt::KeyboardModifiers held = {});
+  /// The mouse is elsewhere; as it is for whatever is not on the picture.
+  void leave();
   /// The mouse on the key frames' track.
   void scrub(double seconds);
   /// Buttons that are held.

@@ -52,7 +52,8 @@ Outcome play(const std::string& tour, const std::string& folder, const QStringLi
   outcome.code = program.exitStatus() == QProcess::NormalExit ? program.exitCode() : -1;
   for (const QByteArray& line : program.readAllStandardError().split('\n'))
   {
-    if (!line.isEmpty() && !line.startsWith("QStandardPaths"))
+    // What Qt says about displays without a window manager is not ours.
+    if (!line.isEmpty() && !line.startsWith("QStandardPaths") && !line.startsWith("qt.qpa"))
     {
       outcome.error += QString::fromUtf8(line) + '\n';
     }
@@ -215,8 +216,8 @@ TEST(FailedTours, EndWithASentenceThatNamesTheStep)
     "bindpose view: tour 'wrong', step 2 (check 'triangles'): it is 1554, not 3.0");
   EXPECT_EQ(code, 2);
   EXPECT_EQ(failure(R"({"open": "no_such.off"})"),
-    "bindpose view: tour 'wrong', step 1 (open 'no_such.off'): no_such.off: cannot open "
-    "no_such.off: No such file or directory");
+    "bindpose view: tour 'wrong', step 1 (open 'no_such.off'): cannot open no_such.off: "
+    "No such file or directory");
   EXPECT_EQ(failure(R"({"action": "edit.bind"})"),
     "bindpose view: tour 'wrong', step 1 (action 'edit.bind'): the entry of the menus 'edit.bind' "
     "is disabled");

@@ -45,6 +45,7 @@ const VerbInfo verb_table[] = {
   { TourVerb::option, "option", About::text, "value" },
   { TourVerb::panel, "panel", About::text, "" },
   { TourVerb::select, "select", About::text, "" },
+  { TourVerb::mode, "mode", About::text, "" },
   { TourVerb::click, "click", About::place, "button held" },
   { TourVerb::double_click, "double_click", About::place, "button held" },
   { TourVerb::press, "press", About::place, "button held" },

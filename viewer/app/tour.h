@@ -29,6 +29,7 @@ enum class TourVerb
   option, ///< by its key (document/options.h)
   panel, ///< right of the picture: pose, weights, tets or volume
   select, ///< a handle, in the list
+  mode, ///< of the selected handle: full, position, free, tail or ends
   click,
   double_click,
   press,

@@ -228,6 +228,8 @@ QString TourPlayer::perform(const TourStep& step)
     case TourVerb::scrub:
       this->hand_.scrub(step.seconds);
       return {};
+    case TourVerb::mode:
+      return this->hand_.set_mode(word);
     case TourVerb::key:
       return this->hand_.press_key(word);
     case TourVerb::resize:

@@ -30,6 +30,7 @@
 #include <QKeySequence>
 #include <QMenuBar>
 #include <QMouseEvent>
+#include <QScrollArea>
 #include <QTimer>
 #include <QWheelEvent>
 
@@ -214,6 +215,22 @@ QString WindowHand::trigger(const QString& name)
   return {};
 }
 
+namespace
+{
+/// Who uses something has scrolled to it, and sees a little of what comes after it.
+void scroll_to(QWidget* widget)
+{
+  for (QWidget* each = widget; each; each = each->parentWidget())
+  {
+    if (auto* area = qobject_cast<QScrollArea*>(each))
+    {
+      constexpr int after = 90; // pixels
+      area->ensureWidgetVisible(widget, 0, after);
+    }
+  }
+}
+} // namespace
+
 // ---- Panels ------------------------------------------------------------------------------------
 
 QString WindowHand::push(const QString& text)
@@ -236,6 +253,8 @@ QString WindowHand::push(const QString& text)
     if (each->isEnabled())
     {
       each->click();
+      QApplication::processEvents(); // what has opened has a place now
+      scroll_to(each);
       return {};
     }
   }
@@ -257,13 +276,14 @@ QString WindowHand::choose(const QString& key, const QVariant& value)
     return QObject::tr("the option '%1' cannot be %2").arg(key, value.toString());
   }
   QObject* found = this->window_->panels()->findChild<QObject*>(key);
-  const auto* widget = qobject_cast<QWidget*>(found);
+  auto* widget = qobject_cast<QWidget*>(found);
   const QString disabled = QObject::tr("the option '%1' is disabled").arg(key);
   const QString missing = QObject::tr("the option '%1' has no choice %2").arg(key, value.toString());
   if (widget && !widget->isEnabled())
   {
     return disabled;
   }
+  scroll_to(widget);
   if (auto* box = qobject_cast<QCheckBox*>(found))
   {
     if (box->isChecked() != checked.toBool())
@@ -343,6 +363,27 @@ QString WindowHand::select(const QString& handle)
     }
   }
   return QObject::tr("there is no handle '%1'").arg(handle);
+}
+
+QString WindowHand::set_mode(const QString& mode)
+{
+  this->leave();
+  const int handle = this->window_->panel()->selected_handle();
+  if (handle < 0)
+  {
+    return QObject::tr("no handle is selected");
+  }
+  const auto& words = handle_mode_words;
+  const auto* found = std::find(std::begin(words), std::end(words), mode.toStdString());
+  const auto number = static_cast<int>(found - std::begin(words));
+  const bool of_bones = number >= static_cast<int>(HandleMode::tail);
+  const Handle& selected = this->window_->document()->handles()[static_cast<std::size_t>(handle)];
+  if (found == std::end(words) || (of_bones && selected.kind != HandleKind::bone))
+  {
+    return QObject::tr("'%1' is no mode of this handle").arg(mode);
+  }
+  this->window_->set_mode(handle, number);
+  return {};
 }
 
 // ---- Waiting -----------------------------------------------------------------------------------

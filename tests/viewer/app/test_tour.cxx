@@ -57,6 +57,7 @@ TEST(Tour, EveryVerbIsRead)
       {"wait": "bind"}, {"wait": "idle"}, {"wait": 0.25},
       {"film": "turn", "of": "view", "width": 400}, {"film": "end"},
       {"screenshot": "one", "of": "view"}, {"screenshot": "two", "width": 320},
+      {"mode": "free"},
       {"check": "energy", "is": 0.5, "tolerance": 1e-3},
       {"check": "handle.top", "is": [0, 1, 2]},
       {"check": "undo", "is": "bind"},
@@ -69,7 +70,7 @@ TEST(Tour, EveryVerbIsRead)
   EXPECT_EQ(tour.name, "all");
   EXPECT_EQ(tour.size, (std::array<int, 2>{ 900, 600 }));
   EXPECT_EQ(tour.seconds, 12.5);
-  ASSERT_EQ(tour.steps.size(), 31u);
+  ASSERT_EQ(tour.steps.size(), 32u);
   const auto& s = tour.steps;
   EXPECT_EQ(s[0].text, "a.off");
   EXPECT_EQ(s[0].say, "Open it.");
@@ -93,11 +94,12 @@ TEST(Tour, EveryVerbIsRead)
   EXPECT_TRUE(s[20].of_view);
   EXPECT_EQ(s[23].width, 320);
   EXPECT_FALSE(s[23].of_view);
-  EXPECT_EQ(s[24].tolerance, 1e-3);
-  EXPECT_EQ(s[25].wanted.size(), 3u);
-  EXPECT_TRUE(s[26].wants_text);
-  EXPECT_EQ(s[28].relation, TourRelation::at_least);
-  EXPECT_EQ(s[30].relation, TourRelation::as_at);
+  EXPECT_EQ(s[24].text, "free");
+  EXPECT_EQ(s[25].tolerance, 1e-3);
+  EXPECT_EQ(s[26].wanted.size(), 3u);
+  EXPECT_TRUE(s[27].wants_text);
+  EXPECT_EQ(s[29].relation, TourRelation::at_least);
+  EXPECT_EQ(s[31].relation, TourRelation::as_at);
   for (const TourStep& step : s)
   {
     EXPECT_NE(to_string(step.verb), nullptr);

@@ -224,7 +224,7 @@ void scroll_to(QWidget* widget)
   {
     if (auto* area = qobject_cast<QScrollArea*>(each))
     {
-      constexpr int after = 90; // pixels
+      constexpr int after = 150; // pixels
       area->ensureWidgetVisible(widget, 0, after);
     }
   }

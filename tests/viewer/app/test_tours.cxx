@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 using namespace bindpose;
 
@@ -179,8 +180,39 @@ INSTANTIATE_TEST_SUITE_P(Examples, Tours,
     TourCase{ "tets", { "whole", "cut", "crinkle", "other_side" } },
     TourCase{ "weights", { "territories", "left_hand", "smooth" } },
     TourCase{ "compare", { "over", "beside" } }, TourCase{ "keys", { "waving", "between" } },
-    TourCase{ "picture", { "flat", "bent" } }, TourCase{ "undo", { "start", "one", "three" } }),
+    TourCase{ "picture", { "flat", "bent" } }, TourCase{ "undo", { "start", "one", "three" } },
+    TourCase{ "idle", {} }, TourCase{ "tutorial", {}, "elephant-with-holes.off" }),
   [](const testing::TestParamInfo<TourCase>& tour) { return std::string(tour.param.name); });
+
+/// What the tutorial tells is what its tour says and does, and its pictures are there.
+TEST(Tutorial, TellsWhatItsTourDoes)
+{
+  std::ifstream file(BINDPOSE_TOURS "/tutorial.json");
+  const Json tour = Json::parse(file);
+  const std::string folder = BINDPOSE_TOURS "/../../viewer/";
+  std::ifstream page_file(folder + "tutorial.md");
+  const std::string page(
+    (std::istreambuf_iterator<char>(page_file)), std::istreambuf_iterator<char>());
+  std::size_t at = 0; // in this order
+  int said = 0;
+  for (const Json& step : tour["steps"])
+  {
+    if (step.contains("say"))
+    {
+      ++said;
+      at = page.find(step["say"].get<std::string>(), at);
+      ASSERT_NE(at, std::string::npos) << step["say"] << "; run examples/tours/make_pictures.py";
+    }
+    if (step.contains("screenshot"))
+    {
+      const std::string picture = "pictures/" + step["screenshot"].get<std::string>() + ".png";
+      at = page.find(picture, at);
+      ASSERT_NE(at, std::string::npos) << picture;
+      EXPECT_FALSE(QImage(QString::fromStdString(folder + picture)).isNull()) << picture;
+    }
+  }
+  EXPECT_GE(said, 9);
+}
 
 // ---- What goes wrong ---------------------------------------------------------------------------
 

@@ -161,9 +161,9 @@ Status read_wanted(const Json& json, const std::string& who, TourStep& step)
 Status read_check(const Json& json, const std::string& who, TourStep& step)
 {
   int relations = 0;
-  for (const auto& [word, relation] : { std::pair("is", TourRelation::is),
-         std::pair("at_least", TourRelation::at_least), std::pair("at_most", TourRelation::at_most),
-         std::pair("as_at", TourRelation::as_at) })
+  for (const auto& [word, relation] :
+    { std::pair("is", TourRelation::is), std::pair("at_least", TourRelation::at_least),
+      std::pair("at_most", TourRelation::at_most), std::pair("as_at", TourRelation::as_at) })
   {
     if (json.contains(word))
     {
@@ -424,8 +424,7 @@ Status parse_tour(const std::string& text, Tour& tour)
   if (head.contains("size"))
   {
     TourStep size;
-    const Status status =
-      read_about(head["size"], About::size, "the head of the tour", size);
+    const Status status = read_about(head["size"], About::size, "the head of the tour", size);
     if (!status.ok())
     {
       return status;

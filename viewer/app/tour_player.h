@@ -25,8 +25,8 @@ struct TourRequest
 };
 
 /// Plays a tour in a window, as a person would, and says where it goes wrong: a step that cannot be
-/// done, a picture with nothing in it, a check that misses, a dialog that nobody answers, too long a
-/// time. Everything runs in the window's own event loop.
+/// done, a picture with nothing in it, a check that misses, a dialog that nobody answers, too long
+/// a time. Everything runs in the window's own event loop.
 class TourPlayer
 {
 public:
@@ -68,7 +68,7 @@ private:
   QElapsedTimer clock_;
   double seconds_ = 0.0;
   double last_seconds_ = 0.0, last_cpu_seconds_ = 0.0; ///< of the last step
-  double first_picture_ = -1.0;
+  double first_picture_ = -1.0, first_picture_cpu_ = 0.0;
   bindpose::TourStep film_; ///< its text is empty when there is none
   int frames_ = 0;
   nlohmann::ordered_json record_;

@@ -332,11 +332,24 @@ double seconds_since_start()
       ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
-double cpu_seconds()
+namespace
+{
+double seconds_of(clockid_t clock)
 {
   timespec used{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &used);
+  clock_gettime(clock, &used);
   return static_cast<double>(used.tv_sec) + 1e-9 * static_cast<double>(used.tv_nsec);
+}
+} // namespace
+
+double cpu_seconds()
+{
+  return seconds_of(CLOCK_PROCESS_CPUTIME_ID);
+}
+
+double own_cpu_seconds()
+{
+  return seconds_of(CLOCK_THREAD_CPUTIME_ID);
 }
 
 } // namespace bindpose

@@ -18,8 +18,9 @@ double distance(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b
 
 /// Seconds since this process was started; below 0 where that is not known.
 double seconds_since_start();
-/// Of all threads of this process.
+/// Of all threads of this process, or of the one that calls.
 double cpu_seconds();
+double own_cpu_seconds();
 
 } // namespace bindpose
 

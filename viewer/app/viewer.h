@@ -10,8 +10,8 @@
 /// Returns the program's exit code. Needs a display.
 int run_viewer(const std::vector<std::string>& files);
 
-/// The same with a tour in place of a person. Recent files and recovered work of whoever runs it are
-/// neither looked at nor changed.
+/// The same with a tour in place of a person. Recent files and recovered work of whoever runs it
+/// are neither looked at nor changed.
 bindpose::Status play_tour(const std::vector<std::string>& files, const TourRequest& request);
 
 #endif

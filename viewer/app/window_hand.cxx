@@ -115,8 +115,8 @@ void WindowHand::wheel(const QPoint& at, double turns, Qt::KeyboardModifiers hel
   Viewport* viewport = this->window_->viewport();
   constexpr int notch = 120; // eighths of a degree
   const QPoint angle(0, static_cast<int>(std::lround(notch * turns)));
-  QWheelEvent event(at, viewport->mapToGlobal(at), QPoint(), angle, this->buttons_, held,
-    Qt::NoScrollPhase, false);
+  QWheelEvent event(
+    at, viewport->mapToGlobal(at), QPoint(), angle, this->buttons_, held, Qt::NoScrollPhase, false);
   QApplication::sendEvent(viewport, &event);
 }
 
@@ -156,7 +156,8 @@ QString WindowHand::press_key(const QString& keys)
   const int key = sequence[0] & ~static_cast<int>(Qt::KeyboardModifierMask);
   QWidget* focus = QApplication::focusWidget();
   focus = focus ? focus : this->window_->viewport();
-  const bool letter = key >= Qt::Key_Space && key <= Qt::Key_AsciiTilde && !(held & Qt::ControlModifier);
+  const bool letter =
+    key >= Qt::Key_Space && key <= Qt::Key_AsciiTilde && !(held & Qt::ControlModifier);
   const QString text = letter
     ? (held & Qt::ShiftModifier ? QString(QChar(key)) : QString(QChar(key)).toLower())
     : QString();
@@ -278,7 +279,8 @@ QString WindowHand::choose(const QString& key, const QVariant& value)
   QObject* found = this->window_->panels()->findChild<QObject*>(key);
   auto* widget = qobject_cast<QWidget*>(found);
   const QString disabled = QObject::tr("the option '%1' is disabled").arg(key);
-  const QString missing = QObject::tr("the option '%1' has no choice %2").arg(key, value.toString());
+  const QString missing =
+    QObject::tr("the option '%1' has no choice %2").arg(key, value.toString());
   if (widget && !widget->isEnabled())
   {
     return disabled;
@@ -342,7 +344,8 @@ QString WindowHand::show_panel(const QString& name)
   const int panel = panel_names().indexOf(name);
   if (panel < 0)
   {
-    return QObject::tr("there is no panel '%1': it is one of %2").arg(name, panel_names().join(", "));
+    return QObject::tr("there is no panel '%1': it is one of %2")
+      .arg(name, panel_names().join(", "));
   }
   this->window_->panels()->show_panel(panel);
   return this->window_->panels()->shown_panel() == panel

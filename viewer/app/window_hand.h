@@ -67,8 +67,8 @@ private:
 /// Nothing runs beside the window, nothing plays, and the shape is that of the pose.
 bool is_idle(const MainWindow* window);
 
-/// Lets the event loop run until the condition holds, which is looked at after every event and every
-/// few milliseconds; false when so many seconds have passed without.
+/// Lets the event loop run until the condition holds, which is looked at after every event and
+/// every few milliseconds; false when so many seconds have passed without.
 bool wait_until(const std::function<bool()>& condition, double seconds);
 
 #endif

@@ -376,10 +376,12 @@ const std::vector<Verb>& verbs()
       { { "FILE", "", Kind::text, "", "",
           "meshes, handles, weights, pictures, volumes, curves, sessions", false, true },
         { "--play", "TOUR", Kind::text, "", "",
-          "do the steps of this tour (.json) in place of a person, check what it says, and end; the "
+          "do the steps of this tour (.json) in place of a person, check what it says, and end; "
+          "the "
           "window may be on a display that nobody looks at" },
         { "--screenshot-dir", "FOLDER", Kind::text, "", "",
-          "of --play: write the tour's pictures and tour.json, the numbers at each, here; without it "
+          "of --play: write the tour's pictures and tour.json, the numbers at each, here; without "
+          "it "
           "the tour only checks" },
         { "--time-limit", "SECONDS", Kind::number, "0", "",
           "of --play: it may take so long; 0: what the tour says" } } },

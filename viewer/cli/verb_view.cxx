@@ -1,5 +1,5 @@
-// bindpose view FILE…: the window of viewer/app, when it was built; with --play a tour in place of a
-// person, which needs no display that anybody looks at.
+// bindpose view FILE…: the window of viewer/app, when it was built; with --play a tour in place of
+// a person, which needs no display that anybody looks at.
 #include "cli/interrupt.h"
 #include "cli/session.h"
 #include "cli/under_xvfb.h"

@@ -69,7 +69,8 @@ QPoint Monkey::anywhere()
   QPoint at = this->hand_.place(this->number(-0.05, 1.05), this->number(-0.05, 1.05));
   if (!handles.empty() && this->pick(2) == 0)
   {
-    const auto& name = handles[static_cast<std::size_t>(this->pick(static_cast<int>(handles.size())))].name;
+    const auto& name =
+      handles[static_cast<std::size_t>(this->pick(static_cast<int>(handles.size())))].name;
     this->hand_.place_of(QString::fromStdString(name), this->pick(2), at);
     at += QPoint(this->pick(5) - 2, this->pick(5) - 2);
   }

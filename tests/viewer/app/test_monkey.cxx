@@ -41,8 +41,7 @@ QString data(const char* name)
 bool is_finite(const Pose& pose)
 {
   return std::all_of(pose.begin(), pose.end(),
-    [](const HandlePose& each)
-    {
+    [](const HandlePose& each) {
       return each.transform.allFinite() && std::isfinite(each.stretch) && each.twist.allFinite();
     });
 }

@@ -111,17 +111,16 @@ TEST(Tour, AMistakeIsOneSentenceThatNamesTheStep)
   EXPECT_EQ(refusal(R"({"opne": "a"})"), "step 1 has no verb: \"opne\" is none");
   EXPECT_EQ(refusal(R"({"wait": 1}, 7)"), "step 2 is no object");
   EXPECT_EQ(refusal("{}"), "step 1 is empty");
-  EXPECT_EQ(refusal(R"({"open": "a", "key": "B"})"),
-    "step 1 has two verbs, \"open\" and \"key\"");
+  EXPECT_EQ(refusal(R"({"open": "a", "key": "B"})"), "step 1 has two verbs, \"open\" and \"key\"");
   EXPECT_EQ(refusal(R"({"open": 3})"), "step 1 (open): the verb needs a text");
-  EXPECT_EQ(refusal(R"({"open": "a", "button": "left"})"),
-    "step 1 (open): the verb has no \"button\"");
+  EXPECT_EQ(
+    refusal(R"({"open": "a", "button": "left"})"), "step 1 (open): the verb has no \"button\"");
   EXPECT_EQ(refusal(R"({"wait": 0}, {"wait": "lunch"})"),
     "step 2 (wait): it waits for \"bind\", \"idle\" or 0 to 3600 seconds");
   EXPECT_EQ(refusal(R"({"click": [1]})"),
     "step 1 (click): a place of the view is two shares of its size, [0.5, 0.5]");
-  EXPECT_EQ(refusal(R"({"click": {"handle": "a", "of": 1}})"),
-    "step 1 (click): a place has no \"of\"");
+  EXPECT_EQ(
+    refusal(R"({"click": {"handle": "a", "of": 1}})"), "step 1 (click): a place has no \"of\"");
   EXPECT_EQ(refusal(R"({"click": [0, 0], "button": "fourth"})"),
     "step 1 (click): \"button\" must be one of left, middle, right");
   EXPECT_EQ(refusal(R"({"click": [0, 0], "held": "hat"})"),
@@ -145,8 +144,8 @@ TEST(Tour, AMistakeIsOneSentenceThatNamesTheStep)
     "step 2 (screenshot): there is another \"a\" before it");
   EXPECT_EQ(refusal(R"({"film": "a"})"), "the film has no end");
   EXPECT_EQ(refusal(R"({"film": "end"})"), "step 1 (film): there is no film to end");
-  EXPECT_EQ(refusal(R"({"resize": [10, 10]})"),
-    "step 1 (resize): a size is two numbers from 200 to 8000");
+  EXPECT_EQ(
+    refusal(R"({"resize": [10, 10]})"), "step 1 (resize): a size is two numbers from 200 to 8000");
   EXPECT_EQ(refusal(""), "\"steps\" must be a list of 1 to 10000 steps");
 }
 
@@ -161,8 +160,8 @@ TEST(Tour, AnotherFileIsRefused)
     "the schema of the tour is 2; this program reads 1");
   EXPECT_EQ(parse_tour(R"({"tour": {"schema": 1, "speed": 2}, "steps": []})", tour).message,
     "the head of a tour has no \"speed\"");
-  EXPECT_EQ(parse_tour(R"({"tour": {"schema": 1}, "stops": []})", tour).message,
-    "a tour has no \"stops\"");
+  EXPECT_EQ(
+    parse_tour(R"({"tour": {"schema": 1}, "stops": []})", tour).message, "a tour has no \"stops\"");
   EXPECT_EQ(read_tour("/no/such.json", tour).message, "tour '/no/such.json' cannot be read");
 
   const test::Folder folder;

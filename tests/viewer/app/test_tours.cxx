@@ -1,5 +1,5 @@
-// The tours of examples/tours, played by the program: every check of theirs holds, and their pictures
-// of the view are those in tours/, made small, where that says more than numbers do.
+// The tours of examples/tours, played by the program: every check of theirs holds, and their
+// pictures of the view are those in tours/, made small, where that says more than numbers do.
 #include "support/demo_meshes.h"
 #include "support/files.h"
 

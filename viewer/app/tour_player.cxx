@@ -67,6 +67,30 @@ QString text(const Json& value)
   return QString::fromStdString(value.dump());
 }
 
+/// Keeps out what comes from the display: its mouse may happen to be over the window.
+class HandsOff : public QObject
+{
+public:
+  bool eventFilter(QObject* /*object*/, QEvent* event) override
+  {
+    switch (event->type())
+    {
+      case QEvent::MouseButtonPress:
+      case QEvent::MouseButtonRelease:
+      case QEvent::MouseButtonDblClick:
+      case QEvent::MouseMove:
+      case QEvent::Wheel:
+      case QEvent::Enter:
+      case QEvent::Leave:
+      case QEvent::KeyPress:
+      case QEvent::KeyRelease:
+        return event->spontaneous();
+      default:
+        return false;
+    }
+  }
+};
+
 void wait_seconds(double seconds)
 {
   QEventLoop loop; // sleeps in between
@@ -76,8 +100,10 @@ void wait_seconds(double seconds)
 } // namespace
 
 TourPlayer::TourPlayer(MainWindow* window, const Tour& tour, const std::string& folder)
-  : window_(window), tour_(tour), tour_folder_(folder), hand_(window)
+  : window_(window), tour_(tour), tour_folder_(folder), hand_(window),
+    hands_off_(std::make_unique<HandsOff>())
 {
+  QApplication::instance()->installEventFilter(this->hands_off_.get());
   QObject::connect(window->viewport(), &QOpenGLWidget::frameSwapped, &this->context_,
     [this]
     {

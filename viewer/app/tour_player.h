@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include <functional>
+#include <memory>
 #include <string>
 
 class MainWindow;
@@ -27,6 +28,7 @@ struct TourRequest
 /// Plays a tour in a window, as a person would, and says where it goes wrong: a step that cannot be
 /// done, a picture with nothing in it, a check that misses, a dialog that nobody answers, too long
 /// a time. Everything runs in the window's own event loop.
+/// What the display's mouse and keyboard do meanwhile does not count; the window can be closed.
 class TourPlayer
 {
 public:
@@ -73,6 +75,7 @@ private:
   int frames_ = 0;
   nlohmann::ordered_json record_;
   QObject context_; ///< of connections
+  std::unique_ptr<QObject> hands_off_; ///< of the display's own mouse and keyboard
 };
 
 #endif

@@ -2,9 +2,9 @@
 # What is too long for tests/run.sh: sanitizers, the build without GPL and AGPL parts and OpenVDB, naming on all
 # files, the quickstart, every surface of libcgal-demo and every made horror through the mesher, weights of twenty
 # surfaces with their certificates, a thousand random unclean surfaces, two million poses, a million triangles, the
-# plugin in ParaView.
+# plugin in ParaView, a monkey in the window under sanitizers.
 # Ends with a summary.
-# usage: tests/nightly.sh [asan|permissive|tidy|quickstart|surfaces|weights|fuzz|drags|million|paraview …]   (default: all)
+# usage: tests/nightly.sh [asan|permissive|tidy|quickstart|surfaces|weights|fuzz|drags|million|paraview|monkey …]   (default: all)
 set -uo pipefail
 program=nightly.sh
 install=yes
@@ -87,8 +87,17 @@ paraview()
   "$root/tests/paraview.sh"
 }
 
+monkey()
+( # ten minutes of random events; BINDPOSE_MONKEY_SEED picks others
+  cmake --preset asan -S "$root" -DBINDPOSE_WITH_QT=ON &&
+    ninja -C "$root/build-asan" bindpose-mesher bindpose_app_tests || return 1
+  export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
+  export BINDPOSE_MONKEY_SECONDS=${BINDPOSE_MONKEY_SECONDS:-600}
+  under_xvfb "$root/build-asan/bin/bindpose_app_tests" --gtest_filter='Monkey.*'
+)
+
 parts=("$@")
-[ $# -gt 0 ] || parts=(asan permissive tidy quickstart surfaces weights fuzz drags million paraview)
+[ $# -gt 0 ] || parts=(asan permissive tidy quickstart surfaces weights fuzz drags million paraview monkey)
 for name in "${parts[@]}"; do
   part "$name" "$name"
 done

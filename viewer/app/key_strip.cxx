@@ -255,8 +255,13 @@ void KeyTrack::paintEvent(QPaintEvent* /*event*/)
     painter.setPen(ink);
     const QRect below(margin + 20, middle - this->fontMetrics().lineSpacing() / 2 - 1,
       this->width() - 2 * margin - 20, this->fontMetrics().lineSpacing() + 2);
-    const QString hint = tr("Pose the shape, then Set key; move in time, pose again, set another.");
-    const int width = this->fontMetrics().horizontalAdvance(hint) + 12;
+    QString hint = tr("Pose the shape, then Set key; move in time, pose again, set another.");
+    int width = this->fontMetrics().horizontalAdvance(hint) + 12;
+    if (width > below.width())
+    {
+      hint = tr("Pose the shape, then Set key.");
+      width = this->fontMetrics().horizontalAdvance(hint) + 12;
+    }
     const QRect plate(below.left(), below.top(), std::min(width, below.width()), below.height());
     painter.fillRect(plate, this->palette().window());
     painter.drawText(plate, Qt::AlignCenter, hint);

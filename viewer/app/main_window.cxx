@@ -60,6 +60,14 @@ QString short_name(const QString& path)
     ? name
     : name.left(longest / 2) + QStringLiteral("…") + name.right(longest / 2);
 }
+/// How exact the weights are, where that is known; the panel of weights says it column by column.
+QString certificate_note(vtkPolyData* surface)
+{
+  vtkDataArray* gaps = surface->GetFieldData()->GetArray("WeightsRelativeGap");
+  return gaps && gaps->GetNumberOfTuples() > 0
+    ? MainWindow::tr("Bound, certified to %1.").arg(gaps->GetRange()[1], 0, 'e', 1)
+    : MainWindow::tr("Bound with the mesh's weights.");
+}
 bool bounds_are_flat(vtkPolyData* surface, int axis)
 {
   const double* bounds = surface->GetBounds();
@@ -855,7 +863,7 @@ void MainWindow::update_panel()
   this->panel_->show_column(bound && column < columns ? column : -1);
   this->show_column(this->panel_->shown_column());
   this->panel_->set_note(binding ? tr("Starting …")
-      : bound                    ? tr("Bound with the mesh's weights.")
+      : bound                    ? certificate_note(this->document_->surface())
       : ready                    ? tr("Not bound yet.")
       : !surface && !handles     ? tr("Needs a mesh and handles.")
       : surface                  ? tr("Needs handles.")

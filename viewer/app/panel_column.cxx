@@ -101,9 +101,11 @@ void PanelColumn::show_panel(int panel)
     panel = bind_and_pose; // of a session that had something else open
   }
   this->buttons_->button(panel)->setChecked(true);
-  this->side_->setVisible(panel == bind_and_pose);
-  this->weight_->setVisible(panel == weights);
-  this->tet_->setVisible(panel == tets);
-  this->volume_->setVisible(panel == volume_slice);
+  QFrame* const panels[] = { this->side_, this->weight_, this->tet_, this->volume_ };
+  for (QFrame* each : panels)
+  {
+    each->setVisible(false); // first: the window grows where two must fit for a moment
+  }
+  panels[panel]->setVisible(true);
   Q_EMIT this->panel_shown(panel);
 }

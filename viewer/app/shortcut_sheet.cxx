@@ -1,5 +1,6 @@
 #include "shortcut_sheet.h"
 
+#include "style.h"
 #include "window_keys.h"
 
 #include <QHeaderView>

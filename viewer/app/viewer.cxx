@@ -5,28 +5,82 @@
 #include "window_sessions.h"
 
 #include <QApplication>
+#include <QFileInfo>
 #include <QSurfaceFormat>
+#include <QTemporaryDir>
 #include <QVTKOpenGLNativeWidget.h>
 
-int run_viewer(const std::vector<std::string>& files)
+namespace
 {
-  // Qt wants these before the application.
-  QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
-  QApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
-  QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
-  int argc = 1;
-  char name[] = "bindpose";
-  char* argv[] = { name, nullptr };
-  QApplication application(argc, argv);
-  QApplication::setApplicationName("bindpose"); // of the folder that recovered work is in
-  QApplication::setApplicationDisplayName("Bindpose");
-  apply_style(application);
-  MainWindow window;
-  window.show();
-  window.sessions()->offer_recovery();
+/// The application as the window wants it.
+class Application
+{
+public:
+  Application()
+  {
+    QApplication::setApplicationName("bindpose"); // of the folder that recovered work is in
+    QApplication::setApplicationDisplayName("Bindpose");
+    apply_style(this->application_);
+  }
+
+private:
+  /// Qt wants these before the application.
+  static int prepare()
+  {
+    QApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
+    QApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
+    QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
+    return 1;
+  }
+  int argc_ = prepare();
+  char name_[9] = "bindpose";
+  char* argv_[2] = { name_, nullptr };
+  QApplication application_{ argc_, argv_ };
+};
+
+void open_all(MainWindow& window, const std::vector<std::string>& files)
+{
   for (const std::string& file : files)
   {
     window.open(QString::fromLocal8Bit(file.c_str()));
   }
+}
+} // namespace
+
+int run_viewer(const std::vector<std::string>& files)
+{
+  const Application application;
+  MainWindow window;
+  window.show();
+  window.sessions()->offer_recovery();
+  open_all(window, files);
   return QApplication::exec();
+}
+
+bindpose::Status play_tour(const std::vector<std::string>& files, const TourRequest& request)
+{
+  bindpose::Tour tour;
+  const bindpose::Status status = read_tour(request.path, tour);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const QTemporaryDir own;
+  for (const char* variable : { "XDG_CONFIG_HOME", "XDG_DATA_HOME" })
+  {
+    qputenv(variable, own.path().toLocal8Bit());
+  }
+  QApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
+  const Application application;
+  MainWindow window;
+  window.resize(tour.size[0], tour.size[1]);
+  TourPlayer player(
+    &window, tour, QFileInfo(QString::fromStdString(request.path)).path().toStdString());
+  window.show();
+  open_all(window, files);
+  if (!files.empty() && !window.error().isEmpty())
+  {
+    return bindpose::Status::invalid_input(window.error().toStdString());
+  }
+  return player.play(request);
 }

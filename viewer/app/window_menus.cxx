@@ -20,6 +20,7 @@
 #include <QKeySequence>
 #include <QMenu>
 #include <QMenuBar>
+#include <QRegularExpression>
 #include <QUndoStack>
 
 namespace
@@ -34,6 +35,28 @@ QList<QKeySequence> shortcuts(const char* name)
   }
   return result;
 }
+
+QString word_of(QString text)
+{
+  static const QRegularExpression other("[^a-z0-9]+");
+  text = text.remove('&').toLower().replace(other, "_");
+  return text.endsWith('_') ? text.chopped(1) : text;
+}
+
+/// Entries get object names, for tours and tests: of the menu and their text, "edit.bind".
+void name_actions(const QMenuBar* bar)
+{
+  for (const QAction* menu : bar->actions())
+  {
+    for (QAction* entry : menu->menu()->actions())
+    {
+      if (entry->objectName().isEmpty() && !entry->isSeparator() && !entry->menu())
+      {
+        entry->setObjectName(word_of(menu->text()) + '.' + word_of(entry->text()));
+      }
+    }
+  }
+}
 } // namespace
 
 WindowMenus::WindowMenus(MainWindow* window) : QObject(window), window_(window)
@@ -45,6 +68,7 @@ WindowMenus::WindowMenus(MainWindow* window) : QObject(window), window_(window)
   QMenu* help = window->menuBar()->addMenu(tr("&Help"));
   this->add(help, tr("&Mouse and keys"), "keys", [window] { (new ShortcutSheet(window))->show(); });
   this->add(help, tr("&About Bindpose"), "", [window] { show_about(window); });
+  name_actions(window->menuBar());
 }
 
 template <typename Action>
@@ -131,7 +155,7 @@ void WindowMenus::add_view_menu()
          std::pair(tr("&Light"), Appearance::light), std::pair(tr("D&ark"), Appearance::dark) })
   {
     QAction* entry = this->add(
-      appearance, text, QKeySequence(), [look = look] { choose_appearance(*qApp, look); });
+      appearance, text, "", [look = look] { choose_appearance(*qApp, look); });
     entry->setCheckable(true);
     entry->setChecked(look == chosen_appearance());
     looks->addAction(entry);

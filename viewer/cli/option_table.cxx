@@ -406,7 +406,17 @@ const std::vector<Verb>& verbs()
         { "--title", "TEXT", Kind::text, "", "", "above the picture" } } },
     { "view", "window to look at datasets and volumes and to drag handles",
       { { "FILE", "", Kind::text, "", "",
-        "meshes, handles, weights, pictures, volumes, curves, sessions", false, true } } },
+          "meshes, handles, weights, pictures, volumes, curves, sessions", false, true },
+        { "--play", "TOUR", Kind::text, "", "",
+          "do the steps of this tour (.json) in place of a person, check what it says, and end; "
+          "the "
+          "window may be on a display that nobody looks at" },
+        { "--screenshot-dir", "FOLDER", Kind::text, "", "",
+          "of --play: write the tour's pictures and tour.json, the numbers at each, here; without "
+          "it "
+          "the tour only checks" },
+        { "--time-limit", "SECONDS", Kind::number, "0", "",
+          "of --play: it may take so long; 0: what the tour says" } } },
   };
   return table;
 }

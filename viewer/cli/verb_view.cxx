@@ -1,6 +1,8 @@
-// bindpose view FILE…: the window of viewer/app, when it was built.
+// bindpose view FILE…: the window of viewer/app, when it was built; with --play a tour in place of
+// a person, which needs no display that anybody looks at.
 #include "cli/interrupt.h"
 #include "cli/session.h"
+#include "cli/under_xvfb.h"
 #include "cli/verbs.h"
 
 #include "file_kind.h"
@@ -16,11 +18,41 @@
 namespace bindpose::cli
 {
 
+#ifdef BINDPOSE_HAS_QT
+namespace
+{
+/// --screenshot-dir and --time-limit are about --play.
+bool tour_request(Session& session, TourRequest& request)
+{
+  const Arguments& arguments = session.arguments();
+  request.path = arguments.text("play");
+  request.folder = arguments.text("screenshot-dir");
+  request.seconds = arguments.number("time-limit");
+  request.overwrite = arguments.has("overwrite");
+  if (!(request.seconds >= 0.0))
+  {
+    return session.invalid("--time-limit must be 0 or more seconds");
+  }
+  return !request.path.empty() || request.folder.empty() ||
+    session.invalid("--screenshot-dir is where --play puts its pictures: name a tour by --play");
+}
+} // namespace
+#endif
+
 void run_view(Session& session)
 {
 #ifdef BINDPOSE_HAS_QT
+  TourRequest request;
+  if (!tour_request(session, request))
+  {
+    return;
+  }
   if (!can_render())
   {
+    if (!request.path.empty())
+    {
+      run_again_under_xvfb(session.arguments().words);
+    }
     session.fail(Status::failure(StatusCode::unavailable,
       "there is no display to open a window on: DISPLAY is not set or its X server does not "
       "answer; for pictures without one there is: bindpose render"));
@@ -38,7 +70,11 @@ void run_view(Session& session)
     }
   }
   release_interrupts();
-  if (run_viewer(session.arguments().list("FILE")) != 0)
+  if (!request.path.empty())
+  {
+    session.fail(play_tour(session.arguments().list("FILE"), request));
+  }
+  else if (run_viewer(session.arguments().list("FILE")) != 0)
   {
     session.fail(Status::failure(StatusCode::internal_error, "the window ended with an error"));
   }

@@ -130,11 +130,9 @@ public:
 private:
   static std::string text(double number)
   {
-    const std::string digits = std::to_string(number);
-    return digits.substr(0,
-      digits.find_last_not_of(".0") == std::string::npos ? 1
-        : digits.find('.') == std::string::npos          ? digits.size()
-                                                         : digits.find_last_not_of('0') + 1);
+    std::string digits = std::to_string(number); // six places
+    digits.erase(digits.find_last_not_of('0') + 1);
+    return digits.back() == '.' ? digits.substr(0, digits.size() - 1) : digits;
   }
   const Json* find(const char* key)
   {

@@ -4,6 +4,7 @@
 #include "window_test.h"
 
 #include "main_window.h"
+#include "panel_column.h"
 #include "side_panel.h"
 #include "style.h"
 #include "viewport.h"
@@ -523,6 +524,20 @@ TEST_F(Window, NoTextOfThePanelIsClipped)
       EXPECT_GT(label->height(), 0);
     }
     EXPECT_GT(this->window.panel()->findChild<QListWidget*>()->height(), 60);
+  }
+}
+
+TEST_F(Window, ChoosingPanelsKeepsTheSize)
+{
+  this->window.resize(1100, 700);
+  this->open_bound();
+  for (const int panel : { PanelColumn::tets, PanelColumn::bind_and_pose, PanelColumn::weights,
+         PanelColumn::tets, PanelColumn::weights, PanelColumn::bind_and_pose })
+  {
+    this->window.panels()->show_panel(panel);
+    QApplication::processEvents();
+    EXPECT_EQ(this->window.panels()->shown_panel(), panel);
+    EXPECT_EQ(this->window.size(), QSize(1100, 700)) << "panel " << panel;
   }
 }
 

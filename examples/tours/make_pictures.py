@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""Plays tours for the documentation: the tutorial of the window with its pictures, and the film of README.md.
+
+usage: make_pictures.py PROGRAM [--film]    (the program bindpose; the film needs ffmpeg)
+
+viewer/tutorial.md is made of what tutorial.json says step by step; a test holds one against the other and replays it.
+"""
+
+import json
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+TOURS = pathlib.Path(__file__).resolve().parent
+ROOT = TOURS.parent.parent
+sys.path.insert(0, str(TOURS.parent))
+import quickstart  # noqa: E402  the demo mesh
+
+PAGE = ROOT / "viewer" / "tutorial.md"
+PICTURES = ROOT / "viewer" / "pictures"
+FILM = ROOT / "examples" / "pictures" / "bend.gif"
+HEAD = """# Five minutes with the window
+
+Every step and every picture here is one of the tour [tutorial.json](../examples/tours/tutorial.json), which a test
+replays with its checks. To watch it on your own display, in the folder that holds the Debian package libcgal-demo's
+`elephant-with-holes.off`:
+
+    bindpose view --play examples/tours/tutorial.json
+
+"""
+
+
+def page(tour):
+    """The tutorial's text: what the steps say, with the pictures where they are taken."""
+    text = HEAD
+    number = 0
+    for step in tour["steps"]:
+        if "say" in step and not step["say"].startswith("*Show"):
+            number += 1
+            text += f"{number}. {step['say']}\n\n"
+        elif "say" in step:
+            text += f"   {step['say']}\n\n"
+        if "screenshot" in step:
+            name = step["screenshot"]
+            text += f"   ![{name.replace('_', ' ')}](pictures/{name}.png)\n\n"
+    return text.rstrip() + "\n"
+
+
+def play(program, name, mesh_folder, output):
+    subprocess.run([program, "view", "--play", TOURS / f"{name}.json", "--screenshot-dir", output, "--overwrite"],
+                   cwd=mesh_folder, check=True)
+
+
+def make_film(frames):
+    """A GIF of the frames, with colours of its own."""
+    words = ["ffmpeg", "-v", "error", "-y", "-framerate", "12", "-i", frames / "bend_%04d.png", "-filter_complex",
+             "tpad=stop_mode=clone:stop_duration=0.8,split[a][b];[a]palettegen=max_colors=96:stats_mode=diff[p];"
+             "[b][p]paletteuse=dither=none:diff_mode=rectangle", FILM]
+    subprocess.run(words, check=True)
+
+
+def main():
+    words = [word for word in sys.argv[1:] if word != "--film"]
+    if len(words) != 1:
+        sys.exit(__doc__)
+    program = pathlib.Path(words[0]).resolve()
+    with tempfile.TemporaryDirectory() as scratch:
+        scratch = pathlib.Path(scratch)
+        mesh_folder = quickstart.demo_mesh(scratch / "meshes").parent
+        if "--film" in sys.argv:
+            play(program, "film", mesh_folder, scratch / "film")
+            make_film(scratch / "film")
+            return
+        play(program, "tutorial", mesh_folder, scratch / "tutorial")
+        PICTURES.mkdir(exist_ok=True)
+        for picture in sorted((scratch / "tutorial").glob("*.png")):
+            shutil.copy(picture, PICTURES)
+    PAGE.write_text(page(json.loads((TOURS / "tutorial.json").read_text())))
+
+
+if __name__ == "__main__":
+    main()

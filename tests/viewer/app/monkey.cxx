@@ -1,0 +1,342 @@
+#include "monkey.h"
+
+#include "document/document.h"
+#include "inspection.h"
+#include "main_window.h"
+#include "pose_panel.h"
+#include "posing.h"
+#include "sequence_export.h"
+#include "side_panel.h"
+#include "viewport.h"
+#include "weight_inspection.h"
+
+#include <QAbstractButton>
+#include <QAction>
+#include <QApplication>
+#include <QDialog>
+#include <QTimer>
+#include <QUndoStack>
+
+namespace bindpose::test
+{
+
+namespace
+{
+/// The window would ask where to, or go.
+bool is_left_alone(const QString& name)
+{
+  return name == "file.quit" || name == "file.open" || name.startsWith("file.save");
+}
+} // namespace
+
+Monkey::Monkey(MainWindow* window, unsigned seed, std::vector<QString> files)
+  : window_(window), hand_(window), random_(seed), files_(std::move(files))
+{
+}
+
+double Monkey::number(double lowest, double highest)
+{
+  const double share = static_cast<double>(this->random_()) / 4294967295.0;
+  return lowest + share * (highest - lowest);
+}
+
+void Monkey::note(const std::string& kind, const QString& what)
+{
+  ++this->events_;
+  ++this->counts_[kind];
+  this->last_.push_back(kind + " " + what.toStdString());
+  constexpr std::size_t most = 60;
+  if (this->last_.size() > most)
+  {
+    this->last_.erase(this->last_.begin());
+  }
+}
+
+std::string Monkey::story() const
+{
+  std::string story;
+  for (const std::string& event : this->last_)
+  {
+    story += "  " + event + '\n';
+  }
+  return story;
+}
+
+/// A place of the picture, now and then one outside; every other time a handle.
+QPoint Monkey::anywhere()
+{
+  const Handles& handles = this->window_->document()->handles();
+  QPoint at = this->hand_.place(this->number(-0.05, 1.05), this->number(-0.05, 1.05));
+  if (!handles.empty() && this->pick(2) == 0)
+  {
+    const auto& name =
+      handles[static_cast<std::size_t>(this->pick(static_cast<int>(handles.size())))].name;
+    this->hand_.place_of(QString::fromStdString(name), this->pick(2), at);
+    at += QPoint(this->pick(5) - 2, this->pick(5) - 2);
+  }
+  return at;
+}
+
+Qt::MouseButton Monkey::any_button()
+{
+  const int which = this->pick(10);
+  return which < 8 ? Qt::LeftButton : which == 8 ? Qt::RightButton : Qt::MiddleButton;
+}
+
+Qt::KeyboardModifiers Monkey::any_held()
+{
+  const int which = this->pick(12);
+  return which == 0 ? Qt::ShiftModifier
+    : which == 1    ? Qt::ControlModifier
+    : which == 2    ? Qt::AltModifier
+                    : Qt::NoModifier;
+}
+
+void Monkey::drag()
+{
+  const QPoint from = this->anywhere();
+  const QPoint by(this->pick(241) - 120, this->pick(241) - 120);
+  const Qt::MouseButton button = this->any_button();
+  const Qt::KeyboardModifiers held = this->any_held();
+  const int moves = 1 + this->pick(6);
+  this->note("drag", QString("%1 %2 by %3 %4").arg(from.x()).arg(from.y()).arg(by.x()).arg(by.y()));
+  this->hand_.move(from, held);
+  this->hand_.press(from, button, held);
+  for (int k = 1; k <= moves; ++k)
+  {
+    this->hand_.move(from + by * k / moves, held);
+    QApplication::processEvents();
+    if (this->pick(25) == 0)
+    {
+      this->any_key(); // in the middle of it
+    }
+  }
+  if (this->pick(12) != 0) // else the button stays down for a while
+  {
+    this->hand_.release(from + by, button, held);
+  }
+}
+
+void Monkey::any_key()
+{
+  static const char* const keys[] = { "Esc", "Return", "Tab", "Backspace", "Delete", "Home", "Left",
+    "Right", "Up", "Down", "Space", "1", "2", "3", "4", "5", "6", "7", "8", "9", "0", ".", "-", "G",
+    "R", "S", "X", "Y", "Z", "K", "W", "E", "P", "Q", "A", "D", "Shift+X", "Shift+Y", "Shift+Tab",
+    "Ctrl+Z", "Ctrl+Y", "Ctrl+Shift+Z", "Ctrl+B", "Ctrl+R", "Ctrl+A", "F2", "PgUp", "PgDown" };
+  const char* key = keys[this->pick(static_cast<int>(std::size(keys)))];
+  this->note("key", key);
+  this->hand_.press_key(key);
+}
+
+void Monkey::any_action()
+{
+  const QStringList names = this->hand_.actions();
+  const QString name = names.isEmpty() ? QString() : names[this->pick(names.size())];
+  if (!is_left_alone(name))
+  {
+    this->note("action", name);
+    this->hand_.trigger(name);
+  }
+}
+
+void Monkey::any_option()
+{
+  const OptionInfo& option =
+    option_table()[static_cast<std::size_t>(this->pick(static_cast<int>(option_table().size())))];
+  QVariant value = this->pick(2) == 0;
+  if (option.initial.type() == QVariant::Int)
+  {
+    value = this->pick(8);
+  }
+  else if (option.initial.type() == QVariant::Double)
+  {
+    value = this->number(std::max(option.lowest, -2.0), std::min(option.highest, 200.0));
+  }
+  this->note("option", QString("%1 %2").arg(option.key, value.toString()));
+  this->hand_.choose(option.key, value);
+}
+
+/// Any that is seen, if it does not ask for a file.
+void Monkey::any_button_of_panels()
+{
+  QStringList texts;
+  for (const QAbstractButton* each : this->window_->findChildren<QAbstractButton*>())
+  {
+    QString text = each->text();
+    while (!text.isEmpty() && !text[0].isLetterOrNumber())
+    {
+      text.remove(0, 1);
+    }
+    if (each->isVisible() && each->isEnabled() && !text.isEmpty() &&
+      !text.endsWith(QStringLiteral("…")) && !text.startsWith("Locate"))
+    {
+      texts << text;
+    }
+  }
+  if (!texts.isEmpty())
+  {
+    const QString text = texts[this->pick(texts.size())];
+    this->note("push", text);
+    this->hand_.push(text);
+  }
+}
+
+void Monkey::act()
+{
+  const Document* document = this->window_->document();
+  switch (this->pick(28))
+  {
+    case 0:
+    case 1:
+    case 2:
+    case 3:
+    case 4:
+    case 5:
+      this->drag();
+      break;
+    case 6:
+    case 7:
+    {
+      const QPoint at = this->anywhere();
+      this->note("click", QString("%1 %2").arg(at.x()).arg(at.y()));
+      const Qt::MouseButton button = this->any_button();
+      this->hand_.move(at);
+      this->hand_.press(at, button, this->any_held());
+      this->hand_.release(at, button);
+      break;
+    }
+    case 8:
+    {
+      const QPoint at = this->anywhere();
+      this->note("double click", QString("%1 %2").arg(at.x()).arg(at.y()));
+      this->hand_.double_click(at, Qt::LeftButton);
+      break;
+    }
+    case 9:
+      this->note("wheel", QString());
+      this->hand_.wheel(this->anywhere(), this->number(-3.0, 3.0));
+      break;
+    case 10:
+    case 11:
+      this->note("release", QString());
+      for (const Qt::MouseButton button : { Qt::LeftButton, Qt::RightButton, Qt::MiddleButton })
+      {
+        if (this->hand_.buttons() & button)
+        {
+          this->hand_.release(this->anywhere(), button);
+        }
+      }
+      break;
+    case 12:
+    case 13:
+    case 14:
+      this->any_key();
+      break;
+    case 15:
+    case 16:
+      this->any_action();
+      break;
+    case 17:
+    case 18:
+    case 19:
+      this->any_option();
+      break;
+    case 20:
+      this->note("panel", QString());
+      this->hand_.show_panel(
+        WindowHand::panel_names()[this->pick(WindowHand::panel_names().size())]);
+      break;
+    case 21:
+      this->any_button_of_panels();
+      break;
+    case 22:
+      this->note("bind", QString());
+      this->pick(3) == 0 ? this->window_->cancel_bind() : this->window_->bind();
+      break;
+    case 23:
+      for (int steps = this->pick(6); steps >= 0; --steps)
+      {
+        this->note("undo, redo", QString());
+        this->hand_.trigger(this->pick(3) == 0 ? "edit.redo" : "edit.undo");
+      }
+      break;
+    case 24:
+    {
+      const QSize size(640 + this->pick(300), 480 + this->pick(200)); // software draws slowly
+      this->note("resize", QString("%1 x %2").arg(size.width()).arg(size.height()));
+      this->window_->resize(size);
+      break;
+    }
+    case 25:
+    {
+      const QString& file =
+        this->files_[static_cast<std::size_t>(this->pick(static_cast<int>(this->files_.size())))];
+      if (this->pick(3) == 0)
+      {
+        this->note("open", file);
+        this->window_->open(file);
+      }
+      break;
+    }
+    case 26:
+    {
+      const int handles = static_cast<int>(document->handles().size());
+      if (handles > 0)
+      {
+        const int handle = this->pick(handles);
+        this->note("select, mode", QString::number(handle));
+        this->window_->panel()->select_handle(handle);
+        if (this->pick(2) == 0)
+        {
+          this->window_->set_mode(handle, this->pick(3));
+        }
+      }
+      break;
+    }
+    default:
+      this->note("scrub", QString());
+      this->hand_.scrub(this->number(0.0, 2.0));
+  }
+}
+
+void Monkey::play(int events)
+{
+  QTimer watch; // runs in a dialog's own event loop, too
+  QObject::connect(&watch, &QTimer::timeout, &watch,
+    []
+    {
+      for (QWidget* over : { QApplication::activeModalWidget(), QApplication::activePopupWidget() })
+      {
+        if (over)
+        {
+          over->close();
+        }
+      }
+    });
+  watch.start(30);
+  for (int k = 0; k < events; ++k)
+  {
+    this->act();
+    QApplication::processEvents();
+  }
+}
+
+void Monkey::rest()
+{
+  for (const Qt::MouseButton button : { Qt::LeftButton, Qt::RightButton, Qt::MiddleButton })
+  {
+    if (this->hand_.buttons() & button)
+    {
+      this->hand_.release(this->hand_.place(0.5, 0.5), button);
+    }
+  }
+  this->hand_.press_key("Esc"); // of drags without a button
+  this->window_->cancel_bind();
+  this->window_->inspection()->cancel();
+  this->window_->weights()->cancel();
+  this->window_->posing()->play_keys(false);
+  this->window_->posing()->move_body(false);
+  this->window_->posing()->sequence_export()->cancel();
+}
+
+} // namespace bindpose::test

@@ -1,0 +1,199 @@
+// A window that is played with at random stays sound: it answers, every number in it is finite, no
+// dialog is left open, and undo of everything is where it began, to the last bit.
+#include "monkey.h"
+
+#include "main_window.h"
+#include "viewport.h"
+
+#include "viewer/document/work_test.h"
+#include "support/sanitized.h"
+
+#include "vtkHandleSetWidget.h"
+#include "vtkRenderWindow.h"
+
+#include <QApplication>
+#include <QElapsedTimer>
+#include <QUndoStack>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+
+using namespace bindpose;
+using test::fingerprint;
+
+namespace
+{
+/// Of the environment, or the default.
+double setting(const char* name, double otherwise)
+{
+  const char* text = std::getenv(name);
+  return text ? std::atof(text) : otherwise;
+}
+
+QString data(const char* name)
+{
+  return QString(BINDPOSE_TOURS) + "/data/" + name;
+}
+
+bool is_finite(const Pose& pose)
+{
+  return std::all_of(pose.begin(), pose.end(),
+    [](const HandlePose& each) {
+      return each.transform.allFinite() && std::isfinite(each.stretch) && each.twist.allFinite();
+    });
+}
+
+bool is_finite(vtkPolyData* data)
+{
+  return !data || to_points(data).view().allFinite();
+}
+
+/// Without what was found for free handles, which is no work of a person.
+Pose fixed(Pose pose)
+{
+  for (HandlePose& each : pose)
+  {
+    if (each.mode == HandleMode::free)
+    {
+      each.transform = identity_affine();
+    }
+  }
+  return pose;
+}
+
+/// Of what a person has made. Options are another matter: what the program chose survives undo.
+std::string fingerprint_without_options(const Document& document)
+{
+  Work work = document.work();
+  work.options.clear();
+  return fingerprint(work);
+}
+
+/// What must hold whenever the window rests.
+void check_window(MainWindow& window)
+{
+  const Document& document = *window.document();
+  EXPECT_TRUE(is_finite(document.pose()));
+  EXPECT_TRUE(is_finite(document.work().pose));
+  EXPECT_TRUE(is_finite(document.handle_data()));
+  EXPECT_TRUE(is_finite(window.shown()));
+  EXPECT_EQ(document.pose().size(), document.handles().size());
+  EXPECT_TRUE(same_pose(fixed(document.pose()), fixed(document.work().pose)))
+    << "a pose that is in no step";
+  EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
+  EXPECT_FALSE(window.viewport()->handle_widget()->IsDragging());
+  EXPECT_TRUE(window.isVisible());
+}
+
+/// What is other in another work, for a sentence.
+std::string other_parts(const Work& a, const Work& b)
+{
+  std::string text;
+  const std::pair<int, const char*> parts[] = { { mesh_part, "mesh" }, { weights_part, "weights" },
+    { handles_part, "handles" }, { pose_part, "pose" }, { key_poses_part, "key poses" },
+    { volume_part, "volume" }, { curves_part, "curves" }, { sources_part, "sources" } };
+  for (const auto& [part, name] : parts)
+  {
+    text += differences(a, b) & part ? std::string(" ") + name : "";
+  }
+  return text;
+}
+
+std::string steps_of(const QUndoStack* history)
+{
+  std::string text;
+  for (int k = 0; k < history->count(); ++k)
+  {
+    text += (k == history->index() ? " | " : ", ") + history->text(k).toStdString();
+  }
+  return text;
+}
+
+/// All the way back and all the way forth again, bit by bit.
+void check_history(MainWindow& window, const std::string& beginning)
+{
+  QUndoStack* history = window.history();
+  SCOPED_TRACE("steps" + steps_of(history));
+  const Work work = window.document()->work();
+  const std::string now = fingerprint_without_options(*window.document());
+  const int index = history->index();
+  history->setIndex(0);
+  EXPECT_EQ(fingerprint_without_options(*window.document()), beginning) << "undo of everything";
+  history->setIndex(index);
+  EXPECT_EQ(fingerprint_without_options(*window.document()), now)
+    << "redo of everything:" << other_parts(work, window.document()->work());
+}
+} // namespace
+
+/// BINDPOSE_MONKEY_SECONDS and BINDPOSE_MONKEY_SEED say how long and which; 60 seconds without.
+TEST(Monkey, AWindowThatIsPlayedWithStaysSound)
+{
+  const double seconds = setting("BINDPOSE_MONKEY_SECONDS", 60.0);
+  const auto first = static_cast<unsigned>(setting("BINDPOSE_MONKEY_SEED", 1.0));
+  const std::vector<QString> files{ data("figure.off"), data("figure.tgf"),
+    data("figure_weights.vtp"), data("figure_tets.vtu"), data("figure_winding.vti"),
+    data("doll.png"), data("doll.tgf"), data("no_such.off") };
+  long long events = 0;
+  int bursts = 0, steps = 0;
+  double slowest = 0.0;
+  std::map<std::string, long long> counts;
+  QElapsedTimer clock;
+  clock.start();
+  unsigned seed = first;
+  for (; 1e-3 * static_cast<double>(clock.elapsed()) < seconds && !testing::Test::HasFailure();
+       ++seed)
+  {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    MainWindow window;
+    window.resize(720, 560);
+    window.show();
+    QApplication::setActiveWindow(&window);
+    QApplication::processEvents();
+    if (seed % 4 != 0) // else it begins with nothing
+    {
+      ASSERT_TRUE(window.open(data("figure_weights.vtp")));
+      ASSERT_TRUE(window.open(data("figure.tgf")));
+    }
+    window.history()->clear();
+    const std::string beginning = fingerprint_without_options(*window.document());
+    test::Monkey monkey(&window, seed, files);
+    for (int burst = 0; burst < 6 && !testing::Test::HasFailure() &&
+         1e-3 * static_cast<double>(clock.elapsed()) < seconds;
+         ++burst)
+    {
+      monkey.play(50);
+      monkey.rest();
+      EXPECT_TRUE(wait_until([&] { return is_idle(&window); }, 60.0)) << "it never rests";
+      QElapsedTimer answer; // a frame and all that waits
+      answer.start();
+      QApplication::processEvents();
+      window.viewport()->renderWindow()->Render();
+      slowest = std::max(slowest, 1e-3 * static_cast<double>(answer.elapsed()));
+      check_window(window);
+      check_history(window, beginning);
+      ++bursts;
+      steps = std::max(steps, window.history()->count());
+      if (testing::Test::HasFailure())
+      {
+        std::printf("seed %u, after:\n%s", seed, monkey.story().c_str());
+      }
+    }
+    events += monkey.events();
+    for (const auto& [kind, count] : monkey.counts())
+    {
+      counts[kind] += count;
+    }
+  }
+  std::printf("%lld events in %d bursts, seeds %u to %u, %.0f s; the longest history %d steps, the "
+              "slowest answer %.2f s\n",
+    events, bursts, first, seed - 1, 1e-3 * static_cast<double>(clock.elapsed()), steps, slowest);
+  for (const auto& [kind, count] : counts)
+  {
+    std::printf("  %-14s %lld\n", kind.c_str(), count);
+  }
+  EXPECT_GT(events, 100);
+  EXPECT_LT(slowest, test::sanitized ? 20.0 : 5.0);
+}

@@ -1,0 +1,290 @@
+// The tours of examples/tours, played by the program: every check of theirs holds, and their
+// pictures of the view are those in tours/, made small, where that says more than numbers do.
+#include "support/demo_meshes.h"
+#include "support/files.h"
+
+#include <nlohmann/json.hpp>
+
+#include <QByteArray>
+#include <QImage>
+#include <QProcess>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+using namespace bindpose;
+
+namespace
+{
+using Json = nlohmann::json;
+
+constexpr int small_width = 200;
+constexpr int level = 24; // of 255 in a channel: more than another driver's smoothing
+constexpr double most_different = 0.01; // share of the pixels
+
+struct Outcome
+{
+  int code = -1;
+  QString error; ///< what was said
+  Json record;
+  double seconds = 0.0;
+};
+
+/// Plays a tour by the program, its pictures into the folder.
+Outcome play(const std::string& tour, const std::string& folder, const QStringList& more = {},
+  const std::string& from = {})
+{
+  QProcess program;
+  if (!from.empty())
+  {
+    program.setWorkingDirectory(QString::fromStdString(from));
+  }
+  program.start(BINDPOSE_PROGRAM,
+    QStringList{ "view", "--play", QString::fromStdString(tour), "--screenshot-dir",
+      QString::fromStdString(folder) } +
+      more);
+  Outcome outcome;
+  EXPECT_TRUE(program.waitForFinished(110000));
+  outcome.code = program.exitStatus() == QProcess::NormalExit ? program.exitCode() : -1;
+  for (const QByteArray& line : program.readAllStandardError().split('\n'))
+  {
+    // What Qt says about displays without a window manager, and with windows side by side, is not
+    // ours.
+    const bool of_qt = line.startsWith("QStandardPaths") || line.startsWith("qt.qpa") ||
+      line.startsWith("QGestureManager");
+    if (!line.isEmpty() && !of_qt)
+    {
+      outcome.error += QString::fromUtf8(line) + '\n';
+    }
+  }
+  if (std::filesystem::exists(folder + "/tour.json"))
+  {
+    std::ifstream file(folder + "/tour.json");
+    outcome.record = Json::parse(file, nullptr, false);
+    outcome.seconds = outcome.record.value("seconds", 0.0);
+  }
+  return outcome;
+}
+
+QImage made_small(const QImage& picture)
+{
+  return picture.convertToFormat(QImage::Format_RGB32)
+    .scaledToWidth(small_width, Qt::SmoothTransformation);
+}
+
+/// Share of the pixels that differ by more than the level; 1 for other sizes.
+double difference(const QImage& a, const QImage& b)
+{
+  if (a.size() != b.size())
+  {
+    return 1.0;
+  }
+  long long different = 0;
+  for (int y = 0; y < a.height(); ++y)
+  {
+    for (int x = 0; x < a.width(); ++x)
+    {
+      const QColor p = a.pixelColor(x, y), q = b.pixelColor(x, y);
+      different += std::max({ std::abs(p.red() - q.red()), std::abs(p.green() - q.green()),
+                     std::abs(p.blue() - q.blue()) }) > level;
+    }
+  }
+  return static_cast<double>(different) / (static_cast<double>(a.width()) * a.height());
+}
+
+/// BINDPOSE_BLESS=tours makes what was drawn the reference.
+void expect_reference(const QImage& drawn, const std::string& name)
+{
+  const QString path = QString::fromStdString(BINDPOSE_TOUR_PICTURES + ("/" + name + ".png"));
+  const char* bless = std::getenv("BINDPOSE_BLESS");
+  const QImage small = made_small(drawn);
+  if (bless && std::string(bless) == "tours")
+  {
+    ASSERT_FALSE(testing::Test::HasFailure()) << "a picture of a failed tour is not blessed";
+    ASSERT_TRUE(small.save(path)) << path.toStdString();
+    return;
+  }
+  const QImage reference = QImage(path).convertToFormat(QImage::Format_RGB32);
+  ASSERT_FALSE(reference.isNull()) << "there is no " << path.toStdString()
+                                   << "; look at the tour's picture, then bless it "
+                                      "(tests/README.md)";
+  const double share = difference(small, reference);
+  std::printf("%s: %.2f %% of the pixels differ\n", name.c_str(), 100.0 * share);
+  if (share > most_different)
+  {
+    const QString actual =
+      QString::fromStdString(BINDPOSE_TOUR_OUTPUT + ("/" + name + ".actual.png"));
+    small.save(actual);
+    ADD_FAILURE() << "the picture has changed: compare " << path.toStdString() << " with "
+                  << actual.toStdString();
+  }
+}
+
+struct TourCase
+{
+  const char* name;
+  std::vector<const char*> pictures; ///< that are compared
+  const char* needs = nullptr; ///< a mesh of libcgal-demo
+};
+
+std::ostream& operator<<(std::ostream& out, const TourCase& tour)
+{
+  return out << tour.name;
+}
+
+class Tours : public testing::TestWithParam<TourCase>
+{
+};
+} // namespace
+
+TEST_P(Tours, Play)
+{
+  const TourCase& tour = GetParam();
+  const test::Folder folder;
+  const std::string path = std::string(BINDPOSE_TOURS) + "/" + tour.name + ".json";
+  std::string from = folder.path();
+  if (tour.needs)
+  {
+    const std::string mesh = test::demo_mesh_path(tour.needs);
+    ASSERT_FALSE(mesh.empty()) << "install the package libcgal-demo";
+    from = std::filesystem::path(mesh).parent_path().string();
+  }
+  const std::string pictures = folder / "pictures";
+  const Outcome outcome = play(path, pictures, {}, from);
+  EXPECT_EQ(outcome.code, 0) << outcome.error.toStdString();
+  EXPECT_TRUE(outcome.error.isEmpty()) << outcome.error.toStdString();
+  ASSERT_TRUE(outcome.record.is_object());
+  EXPECT_EQ(outcome.record["passed"], true);
+  std::printf("%s: %d steps, %.1f s, first picture %.2f s after the start\n", tour.name,
+    static_cast<int>(outcome.record["steps"].size()), outcome.seconds,
+    outcome.record.value("first_picture_seconds", -1.0));
+  for (const auto& [name, shot] : outcome.record["screenshots"].items())
+  {
+    const QImage picture(QString::fromStdString(pictures + "/" + name + ".png"));
+    EXPECT_EQ(picture.width(), shot["width"]) << name;
+    EXPECT_GT(shot["drawn_share"], 0.005) << name;
+    EXPECT_EQ(shot["values"].value("shape.finite", true), true) << name;
+  }
+  for (const char* name : tour.pictures)
+  {
+    expect_reference(QImage(QString::fromStdString(pictures + "/" + name + ".png")),
+      std::string(tour.name) + "_" + name);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Examples, Tours,
+  testing::Values(TourCase{ "bend", { "opened", "bent" } },
+    TourCase{ "volume", { "slice", "across", "isosurface" } },
+    TourCase{ "tets", { "whole", "cut", "crinkle", "other_side" } },
+    TourCase{ "weights", { "territories", "left_hand", "smooth" } },
+    TourCase{ "compare", { "over", "beside" } }, TourCase{ "keys", { "waving", "between" } },
+    TourCase{ "picture", { "flat", "bent" } }, TourCase{ "undo", { "start", "one", "three" } },
+    TourCase{ "idle", {} }, TourCase{ "tutorial", {}, "elephant-with-holes.off" }),
+  [](const testing::TestParamInfo<TourCase>& tour) { return std::string(tour.param.name); });
+
+/// What the tutorial tells is what its tour says and does, and its pictures are there.
+TEST(Tutorial, TellsWhatItsTourDoes)
+{
+  std::ifstream file(BINDPOSE_TOURS "/tutorial.json");
+  const Json tour = Json::parse(file);
+  const std::string folder = BINDPOSE_TOURS "/../../viewer/";
+  std::ifstream page_file(folder + "tutorial.md");
+  const std::string page(
+    (std::istreambuf_iterator<char>(page_file)), std::istreambuf_iterator<char>());
+  std::size_t at = 0; // in this order
+  int said = 0;
+  for (const Json& step : tour["steps"])
+  {
+    if (step.contains("say"))
+    {
+      ++said;
+      at = page.find(step["say"].get<std::string>(), at);
+      ASSERT_NE(at, std::string::npos) << step["say"] << "; run examples/tours/make_pictures.py";
+    }
+    if (step.contains("screenshot"))
+    {
+      const std::string picture = "pictures/" + step["screenshot"].get<std::string>() + ".png";
+      at = page.find(picture, at);
+      ASSERT_NE(at, std::string::npos) << picture;
+      EXPECT_FALSE(QImage(QString::fromStdString(folder + picture)).isNull()) << picture;
+    }
+  }
+  EXPECT_GE(said, 9);
+}
+
+// ---- What goes wrong ---------------------------------------------------------------------------
+
+namespace
+{
+/// The sentence of a tour with these steps, which fails.
+std::string failure(const std::string& steps, int* code = nullptr, const QStringList& more = {})
+{
+  const test::Folder folder;
+  const std::string tour = folder.write(
+    "wrong.json", R"({"tour": {"schema": 1, "size": [800, 600]}, "steps": [)" + steps + "]}");
+  const Outcome outcome = play(tour, folder / "pictures", more, BINDPOSE_TOURS);
+  EXPECT_NE(outcome.code, 0);
+  EXPECT_EQ(outcome.error.count('\n'), 1) << outcome.error.toStdString();
+  if (code)
+  {
+    *code = outcome.code;
+  }
+  if (outcome.record.is_object())
+  {
+    EXPECT_EQ(outcome.record["passed"], false);
+    EXPECT_NE(outcome.error.toStdString().find(outcome.record["message"].get<std::string>()),
+      std::string::npos);
+  }
+  return outcome.error.trimmed().toStdString();
+}
+} // namespace
+
+TEST(FailedTours, EndWithASentenceThatNamesTheStep)
+{
+  int code = 0;
+  EXPECT_EQ(failure(R"({"open": "data/figure.off"}, {"check": "triangles", "is": 3})", &code),
+    "bindpose view: tour 'wrong', step 2 (check 'triangles'): it is 1554, not 3.0");
+  EXPECT_EQ(code, 2);
+  EXPECT_EQ(failure(R"({"open": "no_such.off"})"),
+    "bindpose view: tour 'wrong', step 1 (open 'no_such.off'): cannot open no_such.off: "
+    "No such file or directory");
+  EXPECT_EQ(failure(R"({"action": "edit.bind"})"),
+    "bindpose view: tour 'wrong', step 1 (action 'edit.bind'): the entry of the menus 'edit.bind' "
+    "is disabled");
+  EXPECT_EQ(failure(R"({"action": "file.open"})"),
+    "bindpose view: tour 'wrong', step 1 (action 'file.open'): it opened the dialog 'Open', which "
+    "waits");
+  EXPECT_EQ(failure(R"({"click": {"handle": "nose"}})"),
+    "bindpose view: tour 'wrong', step 1 (click): there is no handle 'nose'");
+  EXPECT_EQ(failure(R"({"option": "pose.methd", "value": 1})"),
+    "bindpose view: tour 'wrong', step 1 (option 'pose.methd'): there is no option 'pose.methd'");
+  // Looking the other way there is nothing.
+  EXPECT_EQ(failure(R"({"open": "data/figure.off"}, {"drag": [0.5, 0.5], "to": [0.9, 0.5],
+    "button": "middle"}, {"drag": [0.1, 0.5], "to": [0.9, 0.5], "button": "middle"},
+    {"drag": [0.1, 0.5], "to": [0.9, 0.5], "button": "middle"}, {"screenshot": "gone"})"),
+    "bindpose view: tour 'wrong', step 5 (screenshot 'gone'): the picture is empty");
+}
+
+TEST(FailedTours, ATimeLimitEndsThem)
+{
+  EXPECT_EQ(failure(R"({"wait": 60})", nullptr, { "--time-limit", "1" }),
+    "bindpose view: tour 'wrong', step 1 (wait): the tour has taken more than 1 s");
+}
+
+TEST(FailedTours, NothingIsReplacedUnasked)
+{
+  const test::Folder folder;
+  const std::string tour = folder.write("t.json",
+    R"({"tour": {"schema": 1}, "steps": [{"open": "data/figure.off"}, {"screenshot": "one"}]})");
+  const std::string pictures = folder / "pictures";
+  ASSERT_EQ(play(tour, pictures, {}, BINDPOSE_TOURS).code, 0);
+  const Outcome again = play(tour, pictures, {}, BINDPOSE_TOURS);
+  EXPECT_EQ(again.code, 2);
+  EXPECT_NE(again.error.indexOf("exists"), -1) << again.error.toStdString();
+  EXPECT_EQ(play(tour, pictures, { "--overwrite" }, BINDPOSE_TOURS).code, 0);
+}

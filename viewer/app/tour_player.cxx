@@ -1,0 +1,525 @@
+#include "tour_player.h"
+
+#include "main_window.h"
+#include "tour_values.h"
+#include "viewport.h"
+
+#include "io/atomic_file.h"
+
+#include "vtkRenderWindow.h"
+
+#include <QAbstractButton>
+#include <QApplication>
+#include <QDialog>
+#include <QDir>
+#include <QEventLoop>
+#include <QFileInfo>
+#include <QTimer>
+
+#include <algorithm>
+#include <fstream>
+
+using namespace bindpose;
+
+namespace
+{
+using Json = nlohmann::ordered_json;
+
+constexpr double film_rate = 20.0; // frames a second of what moves by itself
+constexpr int drawn_level = 12; // of 255: more than the background differs along a row
+
+Qt::MouseButton button_of(const TourStep& step)
+{
+  return step.button == TourButton::left ? Qt::LeftButton
+    : step.button == TourButton::middle  ? Qt::MiddleButton
+                                         : Qt::RightButton;
+}
+
+Qt::KeyboardModifiers held_in(const TourStep& step)
+{
+  Qt::KeyboardModifiers held;
+  held.setFlag(Qt::ShiftModifier, step.shift);
+  held.setFlag(Qt::ControlModifier, step.ctrl);
+  held.setFlag(Qt::AltModifier, step.alt);
+  return held;
+}
+
+/// How much of the picture is not its background, which is of one colour along each row.
+double drawn_share(const QImage& picture)
+{
+  long long drawn = 0;
+  for (int y = 0; y < picture.height(); ++y)
+  {
+    const QRgb back = picture.pixel(picture.width() - 1, y);
+    for (int x = 0; x < picture.width(); ++x)
+    {
+      const QRgb here = picture.pixel(x, y);
+      drawn += std::max({ std::abs(qRed(here) - qRed(back)), std::abs(qGreen(here) - qGreen(back)),
+                 std::abs(qBlue(here) - qBlue(back)) }) > drawn_level;
+    }
+  }
+  const double all = static_cast<double>(picture.width()) * picture.height();
+  return all > 0.0 ? static_cast<double>(drawn) / all : 0.0;
+}
+
+QString text(const Json& value)
+{
+  return QString::fromStdString(value.dump());
+}
+
+/// Keeps out what comes from the display: its mouse may happen to be over the window.
+class HandsOff : public QObject
+{
+public:
+  bool eventFilter(QObject* /*object*/, QEvent* event) override
+  {
+    switch (event->type())
+    {
+      case QEvent::MouseButtonPress:
+      case QEvent::MouseButtonRelease:
+      case QEvent::MouseButtonDblClick:
+      case QEvent::MouseMove:
+      case QEvent::Wheel:
+      case QEvent::Enter:
+      case QEvent::Leave:
+      case QEvent::KeyPress:
+      case QEvent::KeyRelease:
+        return event->spontaneous();
+      default:
+        return false;
+    }
+  }
+};
+
+void wait_seconds(double seconds)
+{
+  QEventLoop loop; // sleeps in between
+  QTimer::singleShot(static_cast<int>(1e3 * seconds), Qt::PreciseTimer, &loop, &QEventLoop::quit);
+  loop.exec();
+}
+} // namespace
+
+TourPlayer::TourPlayer(MainWindow* window, const Tour& tour, const std::string& folder)
+  : window_(window), tour_(tour), tour_folder_(folder), hand_(window),
+    hands_off_(std::make_unique<HandsOff>())
+{
+  QApplication::instance()->installEventFilter(this->hands_off_.get());
+  QObject::connect(window->viewport(), &QOpenGLWidget::frameSwapped, &this->context_,
+    [this]
+    {
+      if (this->first_picture_ < 0.0 && !this->window_->is_empty())
+      {
+        this->first_picture_ = seconds_since_start();
+        this->first_picture_cpu_ = own_cpu_seconds();
+      }
+    });
+}
+
+Status TourPlayer::play(const TourRequest& request)
+{
+  this->folder_ = request.folder;
+  this->overwrite_ = request.overwrite;
+  this->seconds_ = request.seconds > 0.0 ? request.seconds : this->tour_.seconds;
+  this->record_ = { { "tour", { { "schema", 1 }, { "name", this->tour_.name } } },
+    { "steps", Json::array() }, { "screenshots", Json::object() } };
+  Status status;
+  if (!this->folder_.empty())
+  {
+    if (!QDir().mkpath(QString::fromStdString(this->folder_)))
+    {
+      return Status::invalid_input("folder '" + this->folder_ + "' cannot be made");
+    }
+    for (const TourStep& step : this->tour_.steps)
+    {
+      AtomicFile file; // asked before the work, not after
+      const bool names_file = step.verb == TourVerb::screenshot;
+      status = file.open(
+        this->folder_ + "/" + (names_file ? step.text + ".png" : "tour.json"), this->overwrite_);
+      if (!status.ok())
+      {
+        return status;
+      }
+    }
+  }
+  this->clock_.start();
+  QApplication::setActiveWindow(this->window_); // no window manager does it under Xvfb
+  this->let_draw();
+  for (std::size_t k = 0; k < this->tour_.steps.size() && status.ok(); ++k)
+  {
+    const TourStep& step = this->tour_.steps[k];
+    const double begin = 1e-9 * static_cast<double>(this->clock_.nsecsElapsed());
+    const double cpu_begin = cpu_seconds();
+    QString sentence = this->answer_dialogs([&] { return this->perform(step); });
+    this->let_draw();
+    const double seconds = 1e-9 * static_cast<double>(this->clock_.nsecsElapsed()) - begin;
+    const double cpu = cpu_seconds() - cpu_begin;
+    if (sentence.isEmpty() && this->left() <= 0.0)
+    {
+      sentence = QString("the tour has taken more than %1 s").arg(this->seconds_);
+    }
+    if (step.verb != TourVerb::check)
+    {
+      this->last_seconds_ = seconds;
+      this->last_cpu_seconds_ = cpu;
+    }
+    this->record_["steps"].push_back({ { "step", k + 1 }, { "verb", to_string(step.verb) },
+      { "about", step.text }, { "seconds", seconds }, { "cpu_seconds", cpu } });
+    if (!sentence.isEmpty())
+    {
+      const std::string about = step.text.empty() ? "" : " '" + step.text + "'";
+      status =
+        Status::invalid_input("tour '" + this->tour_.name + "', step " + std::to_string(k + 1) +
+          " (" + to_string(step.verb) + about + "): " + sentence.toStdString());
+    }
+  }
+  this->record_["passed"] = status.ok();
+  this->record_["message"] = status.message;
+  this->record_["seconds"] = 1e-3 * static_cast<double>(this->clock_.elapsed());
+  if (this->first_picture_ >= 0.0)
+  {
+    this->record_["first_picture_seconds"] = this->first_picture_;
+    // Of the window's thread: what it would take if nobody else used the machine.
+    this->record_["first_picture_cpu_seconds"] = this->first_picture_cpu_;
+  }
+  const Status written = this->write_record(request);
+  return status.ok() ? written : status;
+}
+
+Status TourPlayer::write_record(const TourRequest& request) const
+{
+  if (request.folder.empty())
+  {
+    return {};
+  }
+  AtomicFile file;
+  Status status = file.open(request.folder + "/tour.json", request.overwrite);
+  if (status.ok())
+  {
+    // Names may hold bytes that are no text.
+    std::ofstream(file.temporary())
+      << this->record_.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
+    status = file.commit();
+  }
+  return status;
+}
+
+double TourPlayer::left() const
+{
+  return this->seconds_ - 1e-3 * static_cast<double>(this->clock_.elapsed());
+}
+
+/// What has been asked for is drawn, and nothing more is waited for.
+void TourPlayer::let_draw()
+{
+  for (int round = 0; round < 3; ++round) // a change, the picture that it asks for, its swap
+  {
+    QApplication::processEvents();
+  }
+}
+
+/// A dialog waits for a person, and there is none: it is closed and told.
+QString TourPlayer::answer_dialogs(const std::function<QString()>& what)
+{
+  QString title;
+  QTimer watch; // runs in a dialog's own event loop, too
+  QObject::connect(&watch, &QTimer::timeout, &watch,
+    [&title]
+    {
+      if (QWidget* dialog = QApplication::activeModalWidget())
+      {
+        title = dialog->windowTitle();
+        title = title.isEmpty() ? QString("without a title") : QString("'%1'").arg(title);
+        dialog->close();
+      }
+    });
+  watch.start(50);
+  const QString sentence = what();
+  return title.isEmpty() ? sentence : QString("it opened the dialog %1, which waits").arg(title);
+}
+
+QString TourPlayer::perform(const TourStep& step)
+{
+  const QString word = QString::fromStdString(step.text);
+  switch (step.verb)
+  {
+    case TourVerb::open:
+      return this->open(step.text);
+    case TourVerb::action:
+      return this->hand_.trigger(word);
+    case TourVerb::push:
+      return this->hand_.push(word);
+    case TourVerb::option:
+      return this->choose(step);
+    case TourVerb::panel:
+      return this->hand_.show_panel(word);
+    case TourVerb::select:
+      return this->hand_.select(word);
+    case TourVerb::scrub:
+      this->hand_.scrub(step.seconds);
+      return {};
+    case TourVerb::mode:
+      return this->hand_.set_mode(word);
+    case TourVerb::key:
+      return this->hand_.press_key(word);
+    case TourVerb::resize:
+      this->window_->resize(step.size[0], step.size[1]);
+      this->let_draw();
+      return this->window_->width() == step.size[0] && this->window_->height() == step.size[1]
+        ? QString()
+        : QString("the window became %1 x %2")
+            .arg(this->window_->width())
+            .arg(this->window_->height());
+    case TourVerb::wait:
+      return this->wait(step);
+    case TourVerb::film:
+      this->film_ = step.text == "end" ? TourStep() : step;
+      this->frames_ = 0;
+      return {};
+    case TourVerb::screenshot:
+      return this->screenshot(step);
+    case TourVerb::check:
+      return this->check(step);
+    default:
+      return this->use_mouse(step);
+  }
+}
+
+// ---- What a person does ------------------------------------------------------------------------
+
+QString TourPlayer::open(const std::string& file)
+{
+  const QString name = QString::fromStdString(file);
+  const QString beside = QDir(QString::fromStdString(this->tour_folder_)).filePath(name);
+  const QString before = this->window_->error();
+  if (!this->window_->open(QFileInfo::exists(beside) ? beside : name))
+  {
+    const QString error = this->window_->error();
+    return error.isEmpty() || error == before ? QString("it cannot be opened") : error;
+  }
+  return {};
+}
+
+QString TourPlayer::choose(const TourStep& step)
+{
+  if (step.wants_text || step.wanted.size() != 1)
+  {
+    return QString("the value of an option is a number, true or false");
+  }
+  return this->hand_.choose(QString::fromStdString(step.text),
+    step.wants_truth ? QVariant(step.wanted[0] != 0.0) : QVariant(step.wanted[0]));
+}
+
+QString TourPlayer::find(const TourPlace& place, QPoint& at) const
+{
+  if (place.handle.empty())
+  {
+    at = this->hand_.place(place.at[0], place.at[1]);
+    return {};
+  }
+  const QString sentence =
+    this->hand_.place_of(QString::fromStdString(place.handle), place.along, at);
+  at += QPoint(static_cast<int>(place.at[0]), static_cast<int>(place.at[1]));
+  return sentence;
+}
+
+QString TourPlayer::use_mouse(const TourStep& step)
+{
+  const Qt::MouseButton button = button_of(step);
+  const Qt::KeyboardModifiers held = held_in(step);
+  QPoint at, to;
+  QString sentence = this->find(step.place, at);
+  if (sentence.isEmpty() && step.verb == TourVerb::drag)
+  {
+    sentence = this->find(step.to, to);
+  }
+  if (!sentence.isEmpty())
+  {
+    return sentence;
+  }
+  const auto move = [&](const QPoint& place)
+  {
+    this->hand_.move(place, held);
+    this->let_draw();
+    return this->film_frame();
+  };
+  switch (step.verb)
+  {
+    case TourVerb::press:
+      this->hand_.move(at, held); // the mouse comes from somewhere
+      this->hand_.press(at, button, held);
+      return {};
+    case TourVerb::move:
+      return move(at);
+    case TourVerb::release:
+      this->hand_.release(at, button, held);
+      return {};
+    case TourVerb::click:
+      this->hand_.move(at, held);
+      this->hand_.press(at, button, held);
+      this->let_draw();
+      this->hand_.release(at, button, held);
+      return {};
+    case TourVerb::double_click:
+      this->hand_.move(at, held);
+      this->hand_.double_click(at, button, held);
+      return {};
+    case TourVerb::wheel:
+      this->hand_.wheel(at, step.turns, held);
+      return this->film_frame();
+    default:
+      this->hand_.move(at, held);
+      this->let_draw();
+      this->hand_.press(at, button, held);
+      for (int k = 1; k <= step.moves && sentence.isEmpty(); ++k)
+      {
+        sentence = move(at + (to - at) * k / step.moves);
+      }
+      this->hand_.release(to, button, held);
+      return sentence;
+  }
+}
+
+QString TourPlayer::wait(const TourStep& step)
+{
+  if (step.text == "bind")
+  {
+    return wait_until([this] { return !this->window_->is_binding(); }, this->left())
+      ? QString()
+      : QString("the bind has not ended in time");
+  }
+  if (step.text == "idle")
+  {
+    return wait_until([this] { return is_idle(this->window_); }, this->left())
+      ? QString()
+      : QString("the window was busy until the tour's time was over");
+  }
+  const double seconds = std::min(step.seconds, std::max(0.0, this->left()));
+  if (this->film_.text.empty())
+  {
+    wait_seconds(seconds);
+    return {};
+  }
+  QElapsedTimer clock;
+  clock.start();
+  QString sentence;
+  for (int frame = 1; frame <= seconds * film_rate && sentence.isEmpty(); ++frame)
+  {
+    const double due = frame / film_rate - 1e-3 * static_cast<double>(clock.elapsed());
+    wait_seconds(std::max(0.0, due));
+    sentence = this->film_frame();
+  }
+  return sentence;
+}
+
+// ---- What is seen ------------------------------------------------------------------------------
+
+Json TourPlayer::values() const
+{
+  Json values = tour_values(this->window_);
+  values["step.seconds"] = this->last_seconds_;
+  values["step.cpu_share"] =
+    this->last_seconds_ > 0.0 ? this->last_cpu_seconds_ / this->last_seconds_ : 0.0;
+  if (this->first_picture_ >= 0.0)
+  {
+    values["first_picture.seconds"] = this->first_picture_;
+  }
+  return values;
+}
+
+QString TourPlayer::check(const TourStep& step)
+{
+  const Json values = this->values();
+  const auto found = values.find(step.text);
+  if (found == values.end())
+  {
+    return QString("there is no such value now");
+  }
+  Json wanted = step.wants_truth ? Json(step.wanted[0] != 0.0)
+    : step.wants_text            ? Json(step.wanted_text)
+    : step.wanted.size() == 1    ? Json(step.wanted[0])
+                                 : Json(step.wanted);
+  QString where;
+  if (step.relation == TourRelation::as_at)
+  {
+    const Json& then = this->record_["screenshots"][step.wanted_text]["values"];
+    if (!then.contains(step.text))
+    {
+      return QString("there was no such value at '%1'")
+        .arg(QString::fromStdString(step.wanted_text));
+    }
+    wanted = then[step.text];
+    where = QString(" as at '%1'").arg(QString::fromStdString(step.wanted_text));
+  }
+  if (step.relation == TourRelation::at_least || step.relation == TourRelation::at_most)
+  {
+    const bool least = step.relation == TourRelation::at_least;
+    const double limit = step.wanted[0];
+    const double value = found->is_number() ? found->get<double>() : std::nan("");
+    const bool kept = least ? value >= limit : value <= limit;
+    return kept
+      ? QString()
+      : QString("it is %1, not at %2 %3").arg(text(*found), least ? "least" : "most").arg(limit);
+  }
+  if (distance(*found, wanted) <= step.tolerance)
+  {
+    return {};
+  }
+  const QString within =
+    step.tolerance > 0.0 ? QString(" within %1").arg(step.tolerance) : QString();
+  return QString("it is %1, not %2%3%4").arg(text(*found), text(wanted), where, within);
+}
+
+QImage TourPlayer::grab(bool of_view, int width)
+{
+  this->let_draw();
+  Viewport* viewport = this->window_->viewport();
+  viewport->renderWindow()->Render();
+  QApplication::processEvents();
+  const QImage picture = of_view ? viewport->grabFramebuffer() : this->window_->grab().toImage();
+  const QImage plain = picture.convertToFormat(QImage::Format_RGB32);
+  return width > 0 && width < plain.width() ? plain.scaledToWidth(width, Qt::SmoothTransformation)
+                                            : plain;
+}
+
+QString TourPlayer::write(const QImage& picture, const std::string& name)
+{
+  if (this->folder_.empty())
+  {
+    return {};
+  }
+  AtomicFile file;
+  Status status = file.open(this->folder_ + "/" + name, this->overwrite_);
+  if (status.ok())
+  {
+    status = picture.save(QString::fromStdString(file.temporary()), "PNG")
+      ? file.commit()
+      : Status::invalid_input("'" + name + "' cannot be written");
+  }
+  return QString::fromStdString(status.message);
+}
+
+QString TourPlayer::screenshot(const TourStep& step)
+{
+  const QImage picture = this->grab(step.of_view, step.width);
+  const double drawn = drawn_share(this->window_->viewport()->grabFramebuffer());
+  if (picture.isNull() || (drawn == 0.0 && !this->window_->is_empty()))
+  {
+    return QString("the picture is empty");
+  }
+  this->record_["screenshots"][step.text] = { { "file", step.text + ".png" },
+    { "width", picture.width() }, { "height", picture.height() }, { "drawn_share", drawn },
+    { "values", this->values() } };
+  return this->write(picture, step.text + ".png");
+}
+
+QString TourPlayer::film_frame()
+{
+  if (this->film_.text.empty() || this->folder_.empty())
+  {
+    return {};
+  }
+  const QString number = QString("%1").arg(this->frames_++, 4, 10, QChar('0'));
+  this->record_["films"][this->film_.text] = this->frames_;
+  return this->write(this->grab(this->film_.of_view, this->film_.width),
+    this->film_.text + "_" + number.toStdString() + ".png");
+}

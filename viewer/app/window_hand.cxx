@@ -1,0 +1,431 @@
+#include "window_hand.h"
+
+#include "document/document.h"
+#include "inspection.h"
+#include "key_strip.h"
+#include "main_window.h"
+#include "panel_column.h"
+#include "pose_ghost.h"
+#include "pose_panel.h"
+#include "posing.h"
+#include "sequence_export.h"
+#include "side_panel.h"
+#include "value_row.h"
+#include "viewport.h"
+#include "weight_inspection.h"
+
+#include "vtkHandleSetRepresentation.h"
+#include "vtkHandleSetWidget.h"
+#include "vtkRenderer.h"
+
+#include <QAbstractButton>
+#include <QAction>
+#include <QApplication>
+#include <QButtonGroup>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QElapsedTimer>
+#include <QEventLoop>
+#include <QKeyEvent>
+#include <QKeySequence>
+#include <QMenuBar>
+#include <QMouseEvent>
+#include <QScrollArea>
+#include <QTimer>
+#include <QWheelEvent>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace bindpose;
+
+// ---- The mouse ---------------------------------------------------------------------------------
+
+QPoint WindowHand::place(double x, double y) const
+{
+  const Viewport* viewport = this->window_->viewport();
+  return { static_cast<int>(std::lround(x * (viewport->width() - 1))),
+    static_cast<int>(std::lround(y * (viewport->height() - 1))) };
+}
+
+QString WindowHand::place_of(const QString& handle, double along, QPoint& at) const
+{
+  const Document* document = this->window_->document();
+  const Handles& handles = document->handles();
+  const auto found = std::find_if(handles.begin(), handles.end(),
+    [name = handle.toStdString()](const Handle& each) { return each.name == name; });
+  if (found == handles.end())
+  {
+    return QObject::tr("there is no handle '%1'").arg(handle);
+  }
+  Viewport* viewport = this->window_->viewport();
+  auto* drawn = viewport->handle_widget()->GetHandleSetRepresentation();
+  const Index cell = document->handle_cells()[static_cast<std::size_t>(found - handles.begin())];
+  Vec3 head, tail;
+  drawn->GetPosedHead(cell, head.data());
+  drawn->GetPosedTail(cell, tail.data());
+  const Vec3 place = head + along * (tail - head);
+  vtkRenderer* renderer = viewport->renderer();
+  renderer->SetWorldPoint(place.x(), place.y(), place.z(), 1.0);
+  renderer->WorldToDisplay();
+  const double* pixel = renderer->GetDisplayPoint();
+  const double scale = viewport->devicePixelRatioF();
+  at = { static_cast<int>(std::floor(pixel[0] / scale)),
+    viewport->height() - 1 - static_cast<int>(std::floor(pixel[1] / scale)) };
+  return {};
+}
+
+void WindowHand::send(QEvent::Type type, const QPoint& at, Qt::MouseButton button,
+  Qt::MouseButtons held, Qt::KeyboardModifiers keys)
+{
+  Viewport* viewport = this->window_->viewport();
+  QMouseEvent event(type, at, viewport->mapToGlobal(at), button, held, keys);
+  QApplication::sendEvent(viewport, &event);
+}
+
+void WindowHand::press(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held)
+{
+  this->window_->viewport()->setFocus(Qt::MouseFocusReason); // as a click does
+  this->buttons_ |= button;
+  this->send(QEvent::MouseButtonPress, at, button, this->buttons_, held);
+}
+
+void WindowHand::move(const QPoint& at, Qt::KeyboardModifiers held)
+{
+  this->send(QEvent::MouseMove, at, Qt::NoButton, this->buttons_, held);
+}
+
+void WindowHand::release(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held)
+{
+  this->buttons_ &= ~Qt::MouseButtons(button);
+  this->send(QEvent::MouseButtonRelease, at, button, this->buttons_, held);
+}
+
+void WindowHand::double_click(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held)
+{
+  this->press(at, button, held);
+  this->release(at, button, held);
+  this->buttons_ |= button;
+  this->send(QEvent::MouseButtonDblClick, at, button, this->buttons_, held);
+  this->release(at, button, held);
+}
+
+void WindowHand::wheel(const QPoint& at, double turns, Qt::KeyboardModifiers held)
+{
+  Viewport* viewport = this->window_->viewport();
+  constexpr int notch = 120; // eighths of a degree
+  const QPoint angle(0, static_cast<int>(std::lround(notch * turns)));
+  QWheelEvent event(
+    at, viewport->mapToGlobal(at), QPoint(), angle, this->buttons_, held, Qt::NoScrollPhase, false);
+  QApplication::sendEvent(viewport, &event);
+}
+
+void WindowHand::leave()
+{
+  if (this->buttons_ == Qt::NoButton) // else the picture keeps it
+  {
+    QEvent event(QEvent::Leave);
+    QApplication::sendEvent(this->window_->viewport(), &event);
+  }
+}
+
+void WindowHand::scrub(double seconds)
+{
+  this->leave();
+  KeyTrack* track = this->window_->strip()->track();
+  const QPoint at(track->pixel(seconds), track->height() / 2);
+  for (const QEvent::Type type : { QEvent::MouseButtonPress, QEvent::MouseButtonRelease })
+  {
+    const bool down = type == QEvent::MouseButtonPress;
+    QMouseEvent event(type, at, track->mapToGlobal(at), Qt::LeftButton,
+      down ? Qt::LeftButton : Qt::NoButton, Qt::NoModifier);
+    QApplication::sendEvent(track, &event);
+  }
+}
+
+// ---- Keys and menus ----------------------------------------------------------------------------
+
+QString WindowHand::press_key(const QString& keys)
+{
+  const QKeySequence sequence = QKeySequence::fromString(keys, QKeySequence::PortableText);
+  if (sequence.count() != 1 || (sequence[0] & ~Qt::KeyboardModifierMask) == Qt::Key_unknown)
+  {
+    return QObject::tr("'%1' is no key").arg(keys);
+  }
+  const auto held = Qt::KeyboardModifiers(sequence[0] & Qt::KeyboardModifierMask);
+  const int key = sequence[0] & ~static_cast<int>(Qt::KeyboardModifierMask);
+  QWidget* focus = QApplication::focusWidget();
+  focus = focus ? focus : this->window_->viewport();
+  const bool letter =
+    key >= Qt::Key_Space && key <= Qt::Key_AsciiTilde && !(held & Qt::ControlModifier);
+  const QString text = letter
+    ? (held & Qt::ShiftModifier ? QString(QChar(key)) : QString(QChar(key)).toLower())
+    : QString();
+  // As Qt does it: a field that is being typed in comes before the menus' shortcuts.
+  QKeyEvent first(QEvent::ShortcutOverride, key, held, text);
+  first.ignore();
+  QApplication::sendEvent(focus, &first);
+  if (!first.isAccepted())
+  {
+    for (QAction* each : this->window_->findChildren<QAction*>())
+    {
+      if (each->isEnabled() && each->shortcuts().contains(sequence))
+      {
+        each->trigger();
+        return {};
+      }
+    }
+  }
+  QKeyEvent press(QEvent::KeyPress, key, held, text);
+  QApplication::sendEvent(focus, &press);
+  QKeyEvent release(QEvent::KeyRelease, key, held, text);
+  QApplication::sendEvent(focus, &release);
+  return {};
+}
+
+QStringList WindowHand::actions() const
+{
+  QStringList names;
+  for (const QAction* each : this->window_->findChildren<QAction*>())
+  {
+    if (!each->objectName().isEmpty() && !each->menu())
+    {
+      names << each->objectName();
+    }
+  }
+  return names;
+}
+
+QAction* WindowHand::action(const QString& name) const
+{
+  return name.isEmpty() ? nullptr : this->window_->findChild<QAction*>(name);
+}
+
+QString WindowHand::trigger(const QString& name)
+{
+  QAction* found = this->action(name);
+  if (!found)
+  {
+    return QObject::tr("there is no entry of the menus '%1'").arg(name);
+  }
+  if (!found->isEnabled())
+  {
+    return QObject::tr("the entry of the menus '%1' is disabled").arg(name);
+  }
+  found->trigger();
+  return {};
+}
+
+namespace
+{
+/// Who uses something has scrolled to it, and sees a little of what comes after it.
+void scroll_to(QWidget* widget)
+{
+  for (QWidget* each = widget; each; each = each->parentWidget())
+  {
+    if (auto* area = qobject_cast<QScrollArea*>(each))
+    {
+      constexpr int after = 150; // pixels
+      area->ensureWidgetVisible(widget, 0, after);
+    }
+  }
+}
+} // namespace
+
+// ---- Panels ------------------------------------------------------------------------------------
+
+QString WindowHand::push(const QString& text)
+{
+  this->leave();
+  bool seen = false;
+  for (QAbstractButton* each : this->window_->findChildren<QAbstractButton*>())
+  {
+    QString name = each->text();
+    name.remove('&');
+    while (!name.isEmpty() && !name[0].isLetterOrNumber())
+    {
+      name.remove(0, 1); // of a section that folds
+    }
+    if (name != text || !each->isVisible())
+    {
+      continue;
+    }
+    seen = true;
+    if (each->isEnabled())
+    {
+      each->click();
+      QApplication::processEvents(); // what has opened has a place now
+      scroll_to(each);
+      return {};
+    }
+  }
+  return seen ? QObject::tr("the button '%1' is disabled").arg(text)
+              : QObject::tr("no button '%1' is seen").arg(text);
+}
+
+QString WindowHand::choose(const QString& key, const QVariant& value)
+{
+  this->leave();
+  const OptionInfo* option = find_option(key);
+  if (!option)
+  {
+    return QObject::tr("there is no option '%1'").arg(key);
+  }
+  const QVariant checked = checked_option(*option, value);
+  if (!checked.isValid())
+  {
+    return QObject::tr("the option '%1' cannot be %2").arg(key, value.toString());
+  }
+  QObject* found = this->window_->panels()->findChild<QObject*>(key);
+  auto* widget = qobject_cast<QWidget*>(found);
+  const QString disabled = QObject::tr("the option '%1' is disabled").arg(key);
+  const QString missing =
+    QObject::tr("the option '%1' has no choice %2").arg(key, value.toString());
+  if (widget && !widget->isEnabled())
+  {
+    return disabled;
+  }
+  scroll_to(widget);
+  if (auto* box = qobject_cast<QCheckBox*>(found))
+  {
+    if (box->isChecked() != checked.toBool())
+    {
+      box->click();
+    }
+  }
+  else if (auto* list = qobject_cast<QComboBox*>(found))
+  {
+    if (checked.toInt() >= list->count())
+    {
+      return missing;
+    }
+    if (!(list->model()->flags(list->model()->index(checked.toInt(), list->modelColumn())) &
+          Qt::ItemIsEnabled))
+    {
+      return disabled;
+    }
+    list->setCurrentIndex(checked.toInt());
+    Q_EMIT list->activated(checked.toInt());
+  }
+  else if (auto* group = qobject_cast<QButtonGroup*>(found))
+  {
+    QAbstractButton* button = group->button(checked.toInt());
+    if (!button)
+    {
+      return missing;
+    }
+    if (!button->isEnabled())
+    {
+      return disabled;
+    }
+    button->click();
+  }
+  else if (auto* row = qobject_cast<ValueRow*>(found))
+  {
+    row->set_value(checked.toDouble());
+    Q_EMIT row->value_chosen(row->value());
+  }
+  else
+  {
+    return QObject::tr("the option '%1' is in no panel").arg(key);
+  }
+  return {};
+}
+
+const QStringList& WindowHand::panel_names()
+{
+  static const QStringList names{ "pose", "weights", "tets", "volume" }; // as in PanelColumn
+  return names;
+}
+
+QString WindowHand::show_panel(const QString& name)
+{
+  this->leave();
+  const int panel = panel_names().indexOf(name);
+  if (panel < 0)
+  {
+    return QObject::tr("there is no panel '%1': it is one of %2")
+      .arg(name, panel_names().join(", "));
+  }
+  this->window_->panels()->show_panel(panel);
+  return this->window_->panels()->shown_panel() == panel
+    ? QString()
+    : QObject::tr("the panel '%1' cannot be chosen").arg(name);
+}
+
+QString WindowHand::select(const QString& handle)
+{
+  this->leave();
+  const Handles& handles = this->window_->document()->handles();
+  for (std::size_t k = 0; k < handles.size(); ++k)
+  {
+    if (QString::fromStdString(handles[k].name) == handle)
+    {
+      this->window_->panel()->select_handle(static_cast<int>(k));
+      return {};
+    }
+  }
+  return QObject::tr("there is no handle '%1'").arg(handle);
+}
+
+QString WindowHand::set_mode(const QString& mode)
+{
+  this->leave();
+  const int handle = this->window_->panel()->selected_handle();
+  if (handle < 0)
+  {
+    return QObject::tr("no handle is selected");
+  }
+  const auto& words = handle_mode_words;
+  const auto* found = std::find(std::begin(words), std::end(words), mode.toStdString());
+  const auto number = static_cast<int>(found - std::begin(words));
+  const bool of_bones = number >= static_cast<int>(HandleMode::tail);
+  const Handle& selected = this->window_->document()->handles()[static_cast<std::size_t>(handle)];
+  if (found == std::end(words) || (of_bones && selected.kind != HandleKind::bone))
+  {
+    return QObject::tr("'%1' is no mode of this handle").arg(mode);
+  }
+  this->window_->set_mode(handle, number);
+  return {};
+}
+
+// ---- Waiting -----------------------------------------------------------------------------------
+
+namespace
+{
+bool is_busy(Deformation* deformation)
+{
+  return deformation->is_binding() ||
+    (deformation->can_pose() && !deformation->is_settled() && !deformation->is_cancelled() &&
+      deformation->error().isEmpty());
+}
+} // namespace
+
+bool is_idle(const MainWindow* window)
+{
+  const Posing* posing = window->posing();
+  const bool moves = window->panel()->pose()->moves();
+  const bool compares = posing->ghost()->place() != PoseGhost::hidden;
+  return !window->is_binding() && !window->inspection()->is_busy() &&
+    !window->weights()->is_busy() && !posing->is_playing() && !posing->is_moving() &&
+    !posing->sequence_export()->is_running() && (moves || !is_busy(posing->deformation())) &&
+    (!moves || !posing->body() || posing->body()->has_started()) &&
+    (!compares || !is_busy(posing->compared()));
+}
+
+bool wait_until(const std::function<bool()>& condition, double seconds)
+{
+  QElapsedTimer clock;
+  clock.start();
+  QTimer wake; // what is waited for may have no event of its own
+  wake.start(5);
+  while (!condition())
+  {
+    if (1e-3 * static_cast<double>(clock.elapsed()) >= seconds)
+    {
+      return false;
+    }
+    QApplication::processEvents(QEventLoop::AllEvents | QEventLoop::WaitForMoreEvents);
+  }
+  return true;
+}

@@ -1,0 +1,57 @@
+#include "cli/under_xvfb.h"
+
+#include <cstdlib>
+
+#include <unistd.h>
+
+namespace bindpose::cli
+{
+
+namespace
+{
+constexpr const char* under_xvfb = "BINDPOSE_UNDER_XVFB";
+
+bool on_path(const std::string& program)
+{
+  const char* path = std::getenv("PATH");
+  std::string folders = path ? path : "";
+  folders += ':';
+  for (std::size_t begin = 0, end = 0; (end = folders.find(':', begin)) != std::string::npos;
+       begin = end + 1)
+  {
+    const std::string file = folders.substr(begin, end - begin) + "/" + program;
+    if (access(file.c_str(), X_OK) == 0)
+    {
+      return true;
+    }
+  }
+  return false;
+}
+} // namespace
+
+void run_again_under_xvfb(const std::vector<std::string>& command_line)
+{
+  if (std::getenv(under_xvfb) || !on_path("xvfb-run") || !on_path("Xvfb"))
+  {
+    return;
+  }
+  setenv(under_xvfb, "1", 1);
+  char self[4096];
+  const ssize_t length = readlink("/proc/self/exe", self, sizeof(self) - 1);
+  if (length <= 0)
+  {
+    return;
+  }
+  self[length] = 0;
+  std::vector<std::string> words{ "xvfb-run", "-a", "-s", "-screen 0 1280x1024x24", self };
+  words.insert(words.end(), command_line.begin(), command_line.end());
+  std::vector<char*> argv;
+  for (std::string& word : words)
+  {
+    argv.push_back(word.data());
+  }
+  argv.push_back(nullptr);
+  execvp(argv[0], argv.data());
+}
+
+} // namespace bindpose::cli

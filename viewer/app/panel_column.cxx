@@ -101,9 +101,15 @@ void PanelColumn::show_panel(int panel)
     panel = bind_and_pose; // of a session that had something else open
   }
   this->buttons_->button(panel)->setChecked(true);
-  this->side_->setVisible(panel == bind_and_pose);
-  this->weight_->setVisible(panel == weights);
-  this->tet_->setVisible(panel == tets);
-  this->volume_->setVisible(panel == volume_slice);
+  // First all others go: two at once would need a higher window, which would stay so.
+  QWidget* const all[] = { this->side_, this->weight_, this->tet_, this->volume_ };
+  for (QWidget* each : all)
+  {
+    if (each != all[panel])
+    {
+      each->hide();
+    }
+  }
+  all[panel]->show();
   Q_EMIT this->panel_shown(panel);
 }

@@ -221,6 +221,7 @@ void HandleEditing::set_mode(int mode)
   this->stop();
   this->warning_.clear();
   this->mode_ = mode;
+  Q_EMIT this->mode_changed(mode);
   // Regions are painted over handles at rest.
   this->posing_->edit_at_rest(mode != pose);
   this->widget()->SetEditMode(mode == paint_regions ? move_rest : mode);
@@ -238,7 +239,6 @@ void HandleEditing::set_mode(int mode)
   }
   this->show_state();
   this->viewport_->refresh();
-  Q_EMIT this->mode_changed(mode);
 }
 
 void HandleEditing::step_back()

@@ -93,6 +93,7 @@ public:
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 Q_SIGNALS:
+  /// Before anything of the mode is shown.
   void mode_changed(int mode);
   void sentence_changed();
   /// Poses or rest places have changed under the mouse.

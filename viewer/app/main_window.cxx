@@ -153,6 +153,16 @@ void MainWindow::make_layout()
     { this->panel_->pose(), this->panel_->fields(), this->panel_->poses(), this->strip_ });
   this->editing_ = new HandleEditing(this->document_, this->viewport_, this->posing_, this->panel_);
   rows->insertWidget(rows->indexOf(this->viewport_), this->editing_->tools());
+  // Before another panel shows its own colours.
+  QObject::connect(this->panels_, &PanelColumn::panel_shown, this,
+    [this](int panel)
+    {
+      if (panel != PanelColumn::bind_and_pose &&
+        this->editing_->mode() == HandleEditing::paint_regions)
+      {
+        this->editing_->set_mode(HandleEditing::pose);
+      }
+    });
   columns->addLayout(rows, 1);
   columns->addWidget(this->panels_);
   this->setCentralWidget(centre);
@@ -242,15 +252,6 @@ void MainWindow::connect_handles()
       if (mode == HandleEditing::paint_regions)
       {
         this->panels_->show_panel(PanelColumn::bind_and_pose);
-      }
-    });
-  QObject::connect(this->panels_, &PanelColumn::panel_shown, this,
-    [this](int panel)
-    {
-      if (panel != PanelColumn::bind_and_pose &&
-        this->editing_->mode() == HandleEditing::paint_regions)
-      {
-        this->editing_->set_mode(HandleEditing::pose);
       }
     });
   QObject::connect(this->editing_, &HandleEditing::handle_selected, this,

@@ -930,10 +930,12 @@ TEST_F(HandleWindow, RegionsAndWeightsAreNotShownAtOnce)
   this->open_bound();
   this->window.panels()->show_panel(PanelColumn::weights);
   const QImage weights = this->picture();
+  const QSize size = this->window.size();
   this->editing()->set_mode(HandleEditing::paint_regions);
   EXPECT_EQ(this->window.panels()->shown_panel(), PanelColumn::bind_and_pose);
   this->window.panels()->show_panel(PanelColumn::weights);
   EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
+  EXPECT_EQ(this->window.size(), size); // two panels are never there at once
   EXPECT_EQ(this->picture(), weights);
 }
 

@@ -155,7 +155,8 @@ QString Document::rebind_reason() const
 
 void Document::push(const QString& step, const Work& after, const QString& merge, Live live)
 {
-  if (differences(this->work_, after) == 0)
+  // What views do because of undo or redo is no step: it would delete the one that is being redone.
+  if (this->in_history_ || differences(this->work_, after) == 0)
   {
     return;
   }

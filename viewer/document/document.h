@@ -170,6 +170,7 @@ private:
   };
   Binding binding_;
   int merges_ = 0;
+  bool in_history_ = false; ///< undo or redo is under way
 };
 
 #endif

@@ -12,7 +12,9 @@ void Edit::undo()
   Q_EMIT this->document_->about_to_change();
   Work work = this->document_->work();
   apply_edit(this->after_, this->before_, work);
+  this->document_->in_history_ = true;
   this->document_->become(work, Document::Live::to_be_written);
+  this->document_->in_history_ = false;
 }
 
 void Edit::redo()
@@ -23,7 +25,9 @@ void Edit::redo()
   }
   Work work = this->document_->work();
   apply_edit(this->before_, this->after_, work);
+  this->document_->in_history_ = this->done_;
   this->document_->become(work, this->done_ ? Document::Live::to_be_written : this->live_);
+  this->document_->in_history_ = false;
   this->done_ = true;
 }
 

@@ -2,6 +2,7 @@
 #include "unclipped.h"
 #include "window_test.h"
 
+#include "document/document.h"
 #include "handle_fields.h"
 #include "key_strip.h"
 #include "pose_list.h"
@@ -876,6 +877,26 @@ TEST_F(PosingWindow, EveryStateHasAPictureOfItsOwn)
   this->find<QPushButton>(QString::fromUtf8("▸  Poses"))->click();
   this->find<QPushButton>("Store")->click();
   save("poses");
+}
+
+/// A drag that a key began goes on without a button. Whatever else poses the shape ends it: its Esc
+/// would bring back what was before both.
+TEST_F(PosingWindow, AScrubEndsADragWithoutAButton)
+{
+  this->open();
+  Q_EMIT this->strip()->key_wanted();
+  this->put(this->bent());
+  vtkHandleSetWidget* widget = this->window.viewport()->handle_widget();
+  widget->GetHandleSetRepresentation()->SetSelectedHandle(0);
+  ASSERT_TRUE(widget->StartDrag(vtkHandleSetRepresentation::GIZMO_MOVE));
+  ASSERT_TRUE(widget->IsDragging());
+  Q_EMIT this->strip()->scrubbed(0.0);
+  EXPECT_FALSE(widget->IsDragging());
+  Q_EMIT this->strip()->scrub_ended();
+  widget->CancelDrag();
+  const Document* document = this->window.document();
+  EXPECT_TRUE(same_pose(document->pose(), document->work().pose));
+  EXPECT_TRUE(same_pose(document->pose(), Pose(4)));
 }
 
 /// A drag frame of a large shape, printed part by part.

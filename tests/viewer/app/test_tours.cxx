@@ -217,6 +217,31 @@ TEST(Tutorial, TellsWhatItsTourDoes)
   EXPECT_GE(said, 9);
 }
 
+TEST(Films, HaveAPictureForEveryMove)
+{
+  const test::Folder folder;
+  const std::string tour = folder.write("t.json",
+    R"({"tour": {"schema": 1, "size": [800, 600]}, "steps": [
+      {"open": "data/figure.off"}, {"move": [0.5, 0.5]},
+      {"film": "turn", "of": "view", "width": 120},
+      {"drag": [0.1, 0.5], "to": [0.4, 0.5], "moves": 3},
+      {"film": "end"}, {"move": [0.2, 0.5]}]})");
+  const std::string pictures = folder / "pictures";
+  const Outcome outcome = play(tour, pictures, {}, BINDPOSE_TOURS);
+  ASSERT_EQ(outcome.code, 0) << outcome.error.toStdString();
+  EXPECT_EQ(outcome.record["films"]["turn"], 3);
+  QImage last;
+  for (int frame = 0; frame < 3; ++frame)
+  {
+    const QImage picture(
+      QString::fromStdString(pictures + "/turn_000" + std::to_string(frame) + ".png"));
+    EXPECT_EQ(picture.width(), 120);
+    EXPECT_NE(picture, last); // the view turns
+    last = picture;
+  }
+  EXPECT_FALSE(std::filesystem::exists(pictures + "/turn_0003.png"));
+}
+
 // ---- What goes wrong ---------------------------------------------------------------------------
 
 namespace

@@ -329,6 +329,33 @@ TEST_F(Editing, WhatTheProgramChoseSurvivesUndo)
   EXPECT_TRUE(this->document.option("weights.bands").toBool());
 }
 
+TEST_F(Editing, WhatAViewDoesDuringUndoAndRedoIsNoStep)
+{
+  Document& d = this->document;
+  open_bound(d);
+  d.set_option("tets.shrink", 0.5);
+  d.end_merge();
+  d.set_mode(0, 1);
+  d.set_option("weights.isolines", false);
+  const int steps = d.history()->count();
+  int calls = 0;
+  QObject::connect(&d, &Document::changed, &d,
+    [&d, &calls]
+    {
+      d.set_option("pose.method", ++calls % 3); // as a widget that follows with a value of its own
+      d.set_option("tets.shrink", 0.9);
+    });
+  d.history()->setIndex(0);
+  d.history()->setIndex(steps); // a step on the way would delete the one that is being redone
+  d.history()->undo();
+  d.history()->redo();
+  EXPECT_GT(calls, steps);
+  EXPECT_EQ(d.history()->count(), steps);
+  EXPECT_EQ(d.history()->index(), steps);
+  EXPECT_EQ(d.number("pose.method"), 0);
+  EXPECT_EQ(d.option("tets.shrink").toDouble(), 0.5);
+}
+
 TEST_F(Editing, AnEditThatCannotBeUsedIsTakenBack)
 {
   open_bound(this->document);

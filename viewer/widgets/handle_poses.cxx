@@ -85,7 +85,7 @@ HandleGroup make_group(
 }
 
 std::vector<HandleData::CellPose> moved_poses(const std::vector<HandlePlace>& places,
-  const HandleGroup& group, const Affine3d& motion, const BoneChange& change)
+  const HandleGroup& group, const Affine3d& motion, const GrabbedChange& change)
 {
   std::vector<HandleData::CellPose> poses = group.start;
   if (group.cells.empty())

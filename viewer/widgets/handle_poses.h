@@ -25,7 +25,7 @@ HandleGroup make_group(
   const std::vector<HandlePlace>& places, const std::vector<vtkIdType>& grabbed, bool descend);
 
 /// What happens to the first grabbed handle of a group, beyond the motion of all.
-struct BoneChange
+struct GrabbedChange
 {
   double factor = 1.0; ///< of its length
   Eigen::Vector2d twist = Eigen::Vector2d::Zero(); ///< degrees added at head and tail
@@ -37,7 +37,7 @@ struct BoneChange
 /// not turn. Of a longer bone the followers go with the tail; of one twisted at the tail they turn
 /// about it.
 std::vector<HandleData::CellPose> moved_poses(const std::vector<HandlePlace>& places,
-  const HandleGroup& group, const Eigen::Affine3d& motion, const BoneChange& change = {});
+  const HandleGroup& group, const Eigen::Affine3d& motion, const GrabbedChange& change = {});
 
 } // namespace bindpose
 

@@ -112,7 +112,7 @@ PoseDrag::PoseDrag(const ScreenView& view, std::vector<HandlePlace> places, int 
 std::vector<HandleData::CellPose> PoseDrag::poses()
 {
   const DragMotion result = this->drag_.motion();
-  BoneChange change;
+  GrabbedChange change;
   change.factor = result.factor;
   change.to_arrays = this->settings_.bone_arrays;
   Eigen::Affine3d motion = result.motion;

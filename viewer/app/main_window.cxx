@@ -13,7 +13,9 @@
 #include "option_links.h"
 #include "panel_column.h"
 #include "posing.h"
+#include "shape_handles.h"
 #include "side_panel.h"
+#include "style.h"
 #include "viewport.h"
 #include "volume_panel.h"
 #include "volume_view.h"
@@ -153,6 +155,8 @@ void MainWindow::make_layout()
     { this->panel_->pose(), this->panel_->fields(), this->panel_->poses(), this->strip_ });
   this->editing_ = new HandleEditing(this->document_, this->viewport_, this->posing_, this->panel_);
   rows->insertWidget(rows->indexOf(this->viewport_), this->editing_->tools());
+  this->shape_handles_ = new ShapeHandles(this->document_, this->note_bar_, this);
+  QObject::connect(this->shape_handles_, &ShapeHandles::failed, this, &MainWindow::show_error);
   // Before another panel shows its own colours.
   QObject::connect(this->panels_, &PanelColumn::panel_shown, this,
     [this](int panel)
@@ -793,7 +797,8 @@ void MainWindow::connect_posing()
   QObject::connect(this->posing_, &Posing::pose_changed, this,
     [this](const Pose& pose)
     {
-      this->stop_drag(); // one without a button may go on: its Esc would bring the pose before back
+      this->editing_
+        ->stop(); // one without a button may go on: its Esc would bring the pose before back
       set_pose(this->document_->handle_data(), this->document_->handle_cells(), pose);
       for (std::size_t k = 0; k < pose.size(); ++k)
       {
@@ -849,7 +854,8 @@ void MainWindow::update_hint()
 {
   const QString said = this->editing_->sentence();
   this->hint_->setText(said.isEmpty() ? this->hint_text_ : said);
-  this->hint_->setStyleSheet(this->editing_->is_warning() ? "color: #7c1f14" : "");
+  this->hint_->setStyleSheet(
+    this->editing_->is_warning() ? "color: " + shade("error_ink").name() : QString());
 }
 
 void MainWindow::update_panel()

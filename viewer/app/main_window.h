@@ -14,6 +14,7 @@ class QUndoStack;
 class Document;
 class ErrorBar;
 class HandleEditing;
+class ShapeHandles;
 class Inspection;
 class KeyStrip;
 class NoticeBar;
@@ -80,6 +81,7 @@ public:
   WeightInspection* weights() const { return this->weights_; }
   Posing* posing() const { return this->posing_; }
   HandleEditing* editing() const { return this->editing_; }
+  ShapeHandles* shape_handles() const { return this->shape_handles_; }
   KeyStrip* strip() const { return this->strip_; }
   /// What is under the mouse on the slice, as the status bar shows it.
   QString reading() const;
@@ -133,6 +135,7 @@ private:
   WeightInspection* weights_ = nullptr;
   Posing* posing_ = nullptr;
   HandleEditing* editing_ = nullptr;
+  ShapeHandles* shape_handles_ = nullptr;
   KeyStrip* strip_ = nullptr; // below the picture
   PanelColumn* panels_ = nullptr;
   SidePanel* panel_ = nullptr; // one of them

@@ -7,6 +7,7 @@
 #include "main_window.h"
 #include "pose_panel.h"
 #include "posing.h"
+#include "shape_handles.h"
 #include "style.h"
 #include "viewport.h"
 #include "shortcut_sheet.h"
@@ -63,7 +64,10 @@ WindowMenus::WindowMenus(MainWindow* window) : QObject(window), window_(window)
 {
   this->add_file_menu();
   this->add_edit_menu();
-  window->editing()->fill_menu(window->menuBar()->addMenu(tr("H&andles")));
+  QMenu* handles = window->menuBar()->addMenu(tr("H&andles"));
+  window->editing()->fill_menu(handles);
+  handles->addSeparator();
+  window->shape_handles()->fill_menu(handles);
   this->add_view_menu();
   QMenu* help = window->menuBar()->addMenu(tr("&Help"));
   this->add(help, tr("&Mouse and keys"), "keys", [window] { (new ShortcutSheet(window))->show(); });
@@ -179,4 +183,5 @@ void WindowMenus::update()
   this->bind_->setEnabled(ready && !this->window_->is_binding());
   this->rest_pose_->setEnabled(document->is_bound());
   this->methods_->setEnabled(ready);
+  this->window_->shape_handles()->update();
 }

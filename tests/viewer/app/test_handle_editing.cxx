@@ -9,6 +9,7 @@
 #include "handle_editing.h"
 #include "notice_bar.h"
 #include "posing.h"
+#include "shape_handles.h"
 #include "shortcut_sheet.h"
 #include "side_panel.h"
 #include "window_keys.h"
@@ -253,6 +254,45 @@ protected:
 } // namespace
 
 // ---- Adding ------------------------------------------------------------------------------------
+
+TEST_F(HandleWindow, HandlesComeFromTheShape)
+{
+  this->open_mesh();
+  ShapeHandles* makes = this->window.shape_handles();
+  const auto wait = [makes] { return wait_for([makes] { return !makes->is_running(); }); };
+  makes->start(AutomaticMethod::points, 5);
+  EXPECT_TRUE(makes->is_running());
+  EXPECT_FALSE(this->window.note_bar()->sentence().isEmpty());
+  ASSERT_TRUE(wait());
+  EXPECT_EQ(this->window.error(), QString());
+  EXPECT_EQ(this->window.note_bar()->sentence(), QString());
+  EXPECT_EQ(this->names(), QStringList({ "p1", "p2", "p3", "p4", "p5" }));
+  EXPECT_EQ(this->history()->undoText(), "points spread over it");
+  for (const Handle& each : this->document()->handles())
+  {
+    EXPECT_LT((each.head.array() / Vec3(0.4, 0.4, 1.0).array()).matrix().norm(), 1.0) << "inside";
+  }
+  // What is there stays when the next is called off.
+  makes->start(AutomaticMethod::points, 7);
+  makes->cancel();
+  ASSERT_TRUE(wait());
+  EXPECT_EQ(this->names().size(), 5);
+  EXPECT_EQ(this->window.error(), QString());
+  makes->start(AutomaticMethod::points, 1000000);
+  ASSERT_TRUE(wait());
+  EXPECT_TRUE(this->window.error().contains("No handles")) << this->window.error().toStdString();
+  EXPECT_EQ(this->names().size(), 5);
+  this->history()->undo();
+  EXPECT_TRUE(this->names().isEmpty());
+  makes->start(AutomaticMethod::skeleton, 0);
+  ASSERT_TRUE(wait());
+  ASSERT_FALSE(this->names().isEmpty());
+  for (const Handle& each : this->document()->handles())
+  {
+    EXPECT_LT(each.head.head<2>().norm(), 0.1) << "the pole's middle";
+    EXPECT_LT(each.tail.head<2>().norm(), 0.1);
+  }
+}
 
 TEST_F(HandleWindow, PointsAreAddedToAMeshWithoutHandlesAndBound)
 {

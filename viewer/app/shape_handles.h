@@ -1,0 +1,51 @@
+#ifndef shape_handles_h
+#define shape_handles_h
+
+#include "kernel_job.h"
+
+#include "automatic/automatic_handles.h"
+
+#include <QObject>
+
+class Document;
+class NoticeBar;
+class QMenu;
+class QWidget;
+
+/// Handles that follow from the shape, made beside the window: bones along its curve skeleton, or
+/// points spread over it. They take the place of those that are there, as one step of the document.
+class ShapeHandles : public QObject
+{
+  Q_OBJECT
+
+public:
+  /// The bar says what is being made, and can call it off.
+  ShapeHandles(Document* document, NoticeBar* bar, QWidget* window);
+
+  void fill_menu(QMenu* menu);
+  /// What can be chosen depends on whether there is a surface.
+  void update();
+
+  /// @param count points, or the most bones; 0: as many as the shape needs
+  void start(bindpose::AutomaticMethod method, bindpose::Index count);
+  void cancel() { this->job_.cancel(); }
+  bool is_running() const { return this->job_.is_running(); }
+
+Q_SIGNALS:
+  void failed(const QString& sentence);
+
+private:
+  void ask_for_count();
+  void finish();
+
+  Document* document_;
+  NoticeBar* bar_;
+  QWidget* window_;
+  QMenu* menu_ = nullptr;
+  QString step_;
+  std::shared_ptr<bindpose::Handles> made_;
+  const void* surface_ = nullptr; ///< that they are made for
+  KernelJob job_; // last: it ends before what it works on
+};
+
+#endif

@@ -183,7 +183,8 @@ QIcon tool_icon(const char* action)
     icon.addPixmap(drawn(drawing->second, shade("ink"), scale), QIcon::Normal, QIcon::Off);
     icon.addPixmap(drawn(drawing->second, shade("on_accent"), scale), QIcon::Normal, QIcon::On);
     icon.addPixmap(drawn(drawing->second, shade("off"), scale), QIcon::Disabled, QIcon::Off);
-    icon.addPixmap(drawn(drawing->second, shade("accent_off_ink"), scale), QIcon::Disabled, QIcon::On);
+    icon.addPixmap(
+      drawn(drawing->second, shade("accent_off_ink"), scale), QIcon::Disabled, QIcon::On);
   }
   return icon;
 }

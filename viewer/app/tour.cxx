@@ -402,7 +402,7 @@ Status parse_tour(const std::string& text, Tour& tour)
   const Json& head = json["tour"];
   for (const auto& [key, value] : head.items())
   {
-    if (!has_word("schema name size seconds", key))
+    if (!has_word("schema name size view seconds", key))
     {
       return Status::invalid_input("the head of a tour has no \"" + key + "\"");
     }
@@ -421,15 +421,18 @@ Status parse_tour(const std::string& text, Tour& tour)
     return Status::invalid_input("the schema of the tour is " + std::to_string(found) +
       "; this program reads " + std::to_string(schema));
   }
-  if (head.contains("size"))
+  for (const auto& [key, size] : { std::pair("size", &tour.size), { "view", &tour.view } })
   {
-    TourStep size;
-    const Status status = read_about(head["size"], About::size, "the head of the tour", size);
-    if (!status.ok())
+    if (head.contains(key))
     {
-      return status;
+      TourStep read;
+      const Status status = read_about(head[key], About::size, "the head of the tour", read);
+      if (!status.ok())
+      {
+        return status;
+      }
+      *size = read.size;
     }
-    tour.size = size.size;
   }
   if (!json.contains("steps") || !json["steps"].is_array() || json["steps"].empty() ||
     json["steps"].size() > most_steps)

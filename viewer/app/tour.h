@@ -94,6 +94,8 @@ struct Tour
 {
   std::string name;
   std::array<int, 2> size{ 1280, 800 }; ///< of the window
+  /// Of the picture in it, which the window is resized for, whatever the fonts; 0: as it comes.
+  std::array<int, 2> view{ 0, 0 };
   double seconds = 300.0; ///< it may take at most
   std::vector<TourStep> steps;
 };

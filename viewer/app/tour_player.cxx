@@ -144,6 +144,7 @@ Status TourPlayer::play(const TourRequest& request)
   this->clock_.start();
   QApplication::setActiveWindow(this->window_); // no window manager does it under Xvfb
   this->let_draw();
+  this->fit_view();
   for (std::size_t k = 0; k < this->tour_.steps.size() && status.ok(); ++k)
   {
     const TourStep& step = this->tour_.steps[k];
@@ -151,6 +152,10 @@ Status TourPlayer::play(const TourRequest& request)
     const double cpu_begin = cpu_seconds();
     QString sentence = this->answer_dialogs([&] { return this->perform(step); });
     this->let_draw();
+    if (sentence.isEmpty())
+    {
+      sentence = this->fit_view();
+    }
     const double seconds = 1e-9 * static_cast<double>(this->clock_.nsecsElapsed()) - begin;
     const double cpu = cpu_seconds() - cpu_begin;
     if (sentence.isEmpty() && this->left() <= 0.0)
@@ -496,6 +501,25 @@ QString TourPlayer::write(const QImage& picture, const std::string& name)
       : Status::invalid_input("'" + name + "' cannot be written");
   }
   return QString::fromStdString(status.message);
+}
+
+/// What stands around the picture is as large as the fonts make it, and comes and goes.
+QString TourPlayer::fit_view()
+{
+  const QSize wanted(this->tour_.view[0], this->tour_.view[1]);
+  if (wanted.width() == 0)
+  {
+    return {};
+  }
+  const auto missing = [&] { return wanted - this->window_->viewport()->size(); };
+  for (int tries = 0; tries < 3 && missing() != QSize(0, 0); ++tries)
+  {
+    this->window_->resize(this->window_->size() + missing());
+    this->let_draw();
+  }
+  const QSize now = this->window_->viewport()->size();
+  return now == wanted ? QString()
+                       : QString("the view became %1 x %2").arg(now.width()).arg(now.height());
 }
 
 QString TourPlayer::screenshot(const TourStep& step)

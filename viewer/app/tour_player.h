@@ -58,6 +58,7 @@ private:
   nlohmann::ordered_json values() const;
   QImage grab(bool of_view, int width);
   void let_draw();
+  QString fit_view();
   double left() const;
   bindpose::Status write_record(const TourRequest& request) const;
 

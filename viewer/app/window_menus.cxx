@@ -158,8 +158,8 @@ void WindowMenus::add_view_menu()
   for (const auto& [text, look] : { std::pair(tr("As the &desktop"), Appearance::system),
          std::pair(tr("&Light"), Appearance::light), std::pair(tr("D&ark"), Appearance::dark) })
   {
-    QAction* entry = this->add(
-      appearance, text, "", [look = look] { choose_appearance(*qApp, look); });
+    QAction* entry =
+      this->add(appearance, text, "", [look = look] { choose_appearance(*qApp, look); });
     entry->setCheckable(true);
     entry->setChecked(look == chosen_appearance());
     looks->addAction(entry);

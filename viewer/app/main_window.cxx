@@ -933,6 +933,10 @@ void MainWindow::export_as(const QString& what)
   {
     this->show_error(QString::fromStdString(status.message));
   }
+  else if (!status.warnings.empty()) // what such a file cannot hold
+  {
+    this->note_bar_->offer(QString::fromStdString(status.warnings.front()) + '.', {}, tr("Close"));
+  }
 }
 
 void MainWindow::show_error(const QString& sentence)

@@ -161,6 +161,14 @@ TEST(Tour, AnotherFileIsRefused)
   EXPECT_EQ(parse_tour(R"({"tour": {"schema": 1, "speed": 2}, "steps": []})", tour).message,
     "the head of a tour has no \"speed\"");
   EXPECT_EQ(
+    parse_tour(R"({"tour": {"schema": 1, "view": [760, 10]}, "steps": [{"wait": 0}]})", tour)
+      .message,
+    "the head of the tour: a size is two numbers from 200 to 8000");
+  ASSERT_TRUE(
+    parse_tour(R"({"tour": {"schema": 1, "view": [760, 560]}, "steps": [{"wait": 0}]})", tour)
+      .ok());
+  EXPECT_EQ(tour.view, (std::array<int, 2>{ 760, 560 }));
+  EXPECT_EQ(
     parse_tour(R"({"tour": {"schema": 1}, "stops": []})", tour).message, "a tour has no \"stops\"");
   EXPECT_EQ(read_tour("/no/such.json", tour).message, "tour '/no/such.json' cannot be read");
 

@@ -1,10 +1,12 @@
 // Sessions come back to the last bit, on this machine and on another; broken ones give a sentence.
 #include "work_test.h"
 
+#include "document/opened_file.h"
 #include "document/session.h"
 #include "document/work_inputs.h"
 
 #include "support/files.h"
+#include "support/handles.h"
 
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
@@ -455,4 +457,18 @@ TEST(Sessions, BrokenOnesGiveOneSentence)
       Session result;
       return read_session("/no/such/file.bindpose", result).ok();
     }());
+}
+
+TEST(PoseFiles, OfTheWindowSayWhatTheyCannotHold)
+{
+  const test::Folder folder;
+  const Handles handles = { test::point_handle("hand", Vec3(1, 0, 0)) };
+  Pose pose(1);
+  EXPECT_TRUE(write_poses({ pose }, handles, folder / "plain.json").warnings.empty());
+  pose[0].transform(0, 1) = 0.5; // a shear
+  const Status status = write_poses({ pose }, handles, folder / "sheared.json");
+  EXPECT_TRUE(status.ok());
+  ASSERT_EQ(status.warnings.size(), 1U);
+  EXPECT_NE(status.warnings[0].find("'hand'"), std::string::npos);
+  EXPECT_FALSE(write_poses({ pose }, handles, "/no/such/folder/pose.json").ok());
 }

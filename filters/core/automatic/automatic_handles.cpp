@@ -2,6 +2,7 @@
 // hands it on; then looks at whether the bones are where they should be.
 #include "automatic/automatic_handles.h"
 
+#include "surface/vertex_order.h"
 #include "winding/winding_number.h"
 
 #include <algorithm>
@@ -34,36 +35,12 @@ SortedSurface sorted(PointsView points, TrianglesView triangles)
   {
     used[triangles.data()[k]] = 1;
   }
-  std::vector<Index> order;
-  for (Index v = 0; v < points.rows(); ++v)
-  {
-    if (used[v])
-    {
-      order.push_back(v);
-    }
-  }
-  const auto compare = [&](Index a, Index b)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      if (points(a, k) != points(b, k))
-      {
-        return points(a, k) < points(b, k) ? -1 : 1;
-      }
-    }
-    return 0;
-  };
-  std::sort(order.begin(), order.end(),
-    [&](Index a, Index b)
-    {
-      const int by_place = compare(a, b);
-      return by_place != 0 ? by_place < 0 : a < b;
-    });
+  const std::vector<Index> order = order_by_place(points, used);
   SortedSurface surface;
   std::vector<Index> number(static_cast<std::size_t>(points.rows()), -1);
   for (std::size_t i = 0; i < order.size(); ++i)
   {
-    if (i == 0 || compare(order[i - 1], order[i]) != 0)
+    if (i == 0 || !same_place(points, order[i - 1], order[i]))
     {
       surface.original.push_back(order[i]);
     }

@@ -9,6 +9,7 @@
 //    triangles split, and vertices that cannot shrink further stay, until the area hardly changes.
 // 4. What is left is as thin as a thread; edges collapse until no triangle is left.
 #include "mesher/jobs.h"
+#include "mesher/triangle_soup.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Mean_curvature_flow_skeletonization.h>
@@ -44,22 +45,11 @@ using Flow = CGAL::Mean_curvature_flow_skeletonization<Mesh>;
 
 Mesh to_manifold(const MesherData& data)
 {
-  std::vector<Kernel::Point_3> points;
-  for (Index v = 0; v < data.points.rows(); ++v)
-  {
-    points.emplace_back(data.points(v, 0), data.points(v, 1), data.points(v, 2));
-  }
-  std::vector<std::array<std::size_t, 3>> triangles;
-  for (Index f = 0; f < data.triangles.rows(); ++f)
-  {
-    triangles.push_back({ static_cast<std::size_t>(data.triangles(f, 0)),
-      static_cast<std::size_t>(data.triangles(f, 1)),
-      static_cast<std::size_t>(data.triangles(f, 2)) });
-  }
+  TriangleSoup<Kernel::Point_3> soup(data);
   // Sheets are cut apart where they are not manifold, and each sewn up again.
-  pmp::orient_polygon_soup(points, triangles);
+  pmp::orient_polygon_soup(soup.points, soup.triangles);
   Mesh mesh;
-  pmp::polygon_soup_to_polygon_mesh(points, triangles, mesh);
+  pmp::polygon_soup_to_polygon_mesh(soup.points, soup.triangles, mesh);
   pmp::stitch_borders(mesh);
   return mesh;
 }

@@ -4,6 +4,7 @@
 // it touches the surface; then a vertex is added at the distance `offset` from it. It asks for
 // nothing but distances to triangles, so it ends for any of them, and what is left is closed.
 #include "mesher/jobs.h"
+#include "mesher/triangle_soup.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Surface_mesh.h>
@@ -46,25 +47,14 @@ private:
 
 std::string wrap(MesherData& data, const WrapJobOptions& options)
 {
-  std::vector<Kernel::Point_3> points;
-  for (Index v = 0; v < data.points.rows(); ++v)
-  {
-    points.emplace_back(data.points(v, 0), data.points(v, 1), data.points(v, 2));
-  }
-  std::vector<std::array<std::size_t, 3>> triangles;
-  for (Index f = 0; f < data.triangles.rows(); ++f)
-  {
-    triangles.push_back({ static_cast<std::size_t>(data.triangles(f, 0)),
-      static_cast<std::size_t>(data.triangles(f, 1)),
-      static_cast<std::size_t>(data.triangles(f, 2)) });
-  }
+  const TriangleSoup<Kernel::Point_3> soup(data);
   if (!(options.alpha > 0.0) || !(options.offset > 0.0))
   {
     return "alpha and offset must be positive";
   }
   Progress progress(surface_area(data.points, data.triangles) / (options.alpha * options.alpha));
   Mesh mesh;
-  CGAL::alpha_wrap_3(points, triangles, options.alpha, options.offset, mesh,
+  CGAL::alpha_wrap_3(soup.points, soup.triangles, options.alpha, options.offset, mesh,
     CGAL::parameters::default_values(), CGAL::parameters::visitor(std::ref(progress)));
 
   data = MesherData();

@@ -9,9 +9,10 @@
 #include "surface/surface_repair.h"
 
 #include "base/disjoint_sets.h"
-#include "surface/triangle_predicates.h"
 #include "base/triangle_sides.h"
+#include "surface/triangle_predicates.h"
 #include "surface/triangle_tree.h"
+#include "surface/vertex_order.h"
 
 #include <algorithm>
 #include <array>
@@ -35,36 +36,12 @@ Key sorted_key(TrianglesView triangles, Index t)
 /// For every vertex the lowest id with the same coordinates; unused vertices keep their own.
 std::vector<Index> weld_map(const Points& points, const std::vector<char>& used)
 {
-  std::vector<Index> order;
-  for (Index v = 0; v < points.rows(); ++v)
-  {
-    if (used[v])
-    {
-      order.push_back(v);
-    }
-  }
-  const auto compare = [&](Index a, Index b)
-  {
-    for (int k = 0; k < 3; ++k)
-    {
-      if (points(a, k) != points(b, k))
-      {
-        return points(a, k) < points(b, k) ? -1 : 1;
-      }
-    }
-    return 0;
-  };
-  std::sort(order.begin(), order.end(),
-    [&](Index a, Index b)
-    {
-      const int c = compare(a, b);
-      return c != 0 ? c < 0 : a < b;
-    });
+  const std::vector<Index> order = order_by_place(points, used);
   std::vector<Index> map(static_cast<std::size_t>(points.rows()));
   std::iota(map.begin(), map.end(), Index(0));
   for (std::size_t i = 1; i < order.size(); ++i)
   {
-    if (compare(order[i - 1], order[i]) == 0)
+    if (same_place(points, order[i - 1], order[i]))
     {
       map[order[i]] = map[order[i - 1]];
     }

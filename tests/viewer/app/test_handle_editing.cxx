@@ -29,7 +29,6 @@
 #include <QAction>
 #include <QCheckBox>
 #include <QContextMenuEvent>
-#include <QElapsedTimer>
 #include <QInputDialog>
 #include <QLabel>
 #include <QLineEdit>
@@ -50,22 +49,11 @@
 #include <sstream>
 
 using namespace bindpose;
+using test::wait_for;
 using Drawn = vtkHandleSetRepresentation;
 
 namespace
 {
-template <typename Condition>
-bool wait_for(const Condition& condition, int seconds = 60)
-{
-  QElapsedTimer clock;
-  clock.start();
-  while (!condition() && clock.elapsed() < 1000 * seconds)
-  {
-    QApplication::processEvents(QEventLoop::AllEvents, 20);
-  }
-  return condition();
-}
-
 class HandleWindow : public test::WindowTest
 {
 protected:

@@ -44,6 +44,7 @@
 
 using namespace bindpose;
 using test::two_points;
+using test::wait_for;
 
 namespace
 {
@@ -100,19 +101,6 @@ int blue_pixels(const QImage& image)
     }
   }
   return count;
-}
-
-/// Lets the event loop run until the condition holds; false after some seconds without.
-template <typename Condition>
-bool wait_for(const Condition& condition, int seconds = 60)
-{
-  QElapsedTimer clock;
-  clock.start();
-  while (!condition() && clock.elapsed() < 1000 * seconds)
-  {
-    QApplication::processEvents(QEventLoop::AllEvents, 20);
-  }
-  return condition();
 }
 
 class Window : public testing::Test

@@ -54,21 +54,10 @@
 #include <filesystem>
 
 using namespace bindpose;
+using test::wait_for;
 
 namespace
 {
-template <typename Condition>
-bool wait_for(const Condition& condition, int seconds = 60)
-{
-  QElapsedTimer clock;
-  clock.start();
-  while (!condition() && clock.elapsed() < 1000 * seconds)
-  {
-    QApplication::processEvents(QEventLoop::AllEvents, 20);
-  }
-  return condition();
-}
-
 /// A pole along z with bones along it and points at its sides, with weights.
 TriangleMesh pole(int levels)
 {

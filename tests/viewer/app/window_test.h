@@ -14,6 +14,7 @@
 #include "vtkRenderer.h"
 
 #include <QApplication>
+#include <QElapsedTimer>
 #include <QImage>
 #include <QMouseEvent>
 
@@ -23,6 +24,19 @@
 
 namespace bindpose::test
 {
+
+/// Lets the event loop run until the condition holds; false after some seconds without.
+template <typename Condition>
+bool wait_for(const Condition& condition, int seconds = 60)
+{
+  QElapsedTimer clock;
+  clock.start();
+  while (!condition() && clock.elapsed() < 1000 * seconds)
+  {
+    QApplication::processEvents(QEventLoop::AllEvents, 20);
+  }
+  return condition();
+}
 
 /// Handles at both ends of a shape along z from -1 to 1.
 inline vtkSmartPointer<vtkPolyData> two_points()

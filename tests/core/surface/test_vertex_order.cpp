@@ -1,0 +1,26 @@
+// Vertices by their coordinates.
+#include "surface/vertex_order.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+using testing::ElementsAre;
+
+TEST(VertexOrder, IsByCoordinatesThenById)
+{
+  Points points(6, 3);
+  points << 1, 0, 0, /**/ 0, 2, 1, /**/ 0, 2, 0, /**/ 1, 0, 0, /**/ -1, 9, 9, /**/ 0, 1, 5;
+  EXPECT_THAT(order_by_place(points, { 1, 1, 1, 1, 0, 1 }), ElementsAre(5, 2, 1, 0, 3));
+  EXPECT_TRUE(same_place(points, 0, 3));
+  EXPECT_FALSE(same_place(points, 1, 2));
+  EXPECT_TRUE(order_by_place(points, std::vector<char>(6, 0)).empty());
+}
+
+TEST(VertexOrder, TakesNoDifferenceBetweenZeros)
+{
+  Points points(2, 3);
+  points << 0.0, 1, 1, /**/ -0.0, 1, 1;
+  EXPECT_TRUE(same_place(points, 0, 1));
+  EXPECT_THAT(order_by_place(points, { 1, 1 }), ElementsAre(0, 1));
+}

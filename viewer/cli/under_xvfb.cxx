@@ -1,5 +1,7 @@
 #include "cli/under_xvfb.h"
 
+#include "helper/child_process.h"
+
 #include <cstdlib>
 
 #include <unistd.h>
@@ -10,28 +12,11 @@ namespace bindpose::cli
 namespace
 {
 constexpr const char* under_xvfb = "BINDPOSE_UNDER_XVFB";
-
-bool on_path(const std::string& program)
-{
-  const char* path = std::getenv("PATH");
-  std::string folders = path ? path : "";
-  folders += ':';
-  for (std::size_t begin = 0, end = 0; (end = folders.find(':', begin)) != std::string::npos;
-       begin = end + 1)
-  {
-    const std::string file = folders.substr(begin, end - begin) + "/" + program;
-    if (access(file.c_str(), X_OK) == 0)
-    {
-      return true;
-    }
-  }
-  return false;
-}
 } // namespace
 
 void run_again_under_xvfb(const std::vector<std::string>& command_line)
 {
-  if (std::getenv(under_xvfb) || !on_path("xvfb-run") || !on_path("Xvfb"))
+  if (std::getenv(under_xvfb) || find_on_path("xvfb-run").empty() || find_on_path("Xvfb").empty())
   {
     return;
   }

@@ -6,7 +6,6 @@
 #include "helper/child_process.h"
 
 #include <cstdio>
-#include <cstdlib>
 
 namespace bindpose
 {
@@ -14,23 +13,6 @@ namespace bindpose
 namespace
 {
 constexpr double time_limit = 3600.0; // seconds
-
-std::string find_ffmpeg()
-{
-  const char* path = std::getenv("PATH");
-  std::string folders = path ? path : "";
-  folders += ':';
-  for (std::size_t begin = 0, end = 0; (end = folders.find(':', begin)) != std::string::npos;
-       begin = end + 1)
-  {
-    const std::string file = folders.substr(begin, end - begin) + "/ffmpeg";
-    if (executable_file(file))
-    {
-      return file;
-    }
-  }
-  return {};
-}
 
 /// What ffmpeg needs to know of a kind of file.
 std::vector<std::string> codec_of(const std::string& ending)
@@ -55,7 +37,7 @@ std::vector<std::string> codec_of(const std::string& ending)
 
 Status check_ffmpeg()
 {
-  return find_ffmpeg().empty()
+  return find_on_path("ffmpeg").empty()
     ? Status::failure(StatusCode::unavailable,
         "moving pictures are made by ffmpeg, which is not on the PATH (on Debian: apt-get install "
         "ffmpeg); a .png file shows the frames side by side without it")
@@ -76,7 +58,7 @@ Status write_video(const std::string& folder, double frames_per_second, const st
   std::snprintf(rate, sizeof(rate), "%.9g", frames_per_second);
   ChildRequest request;
   request.name = "ffmpeg";
-  request.path = find_ffmpeg();
+  request.path = find_on_path("ffmpeg");
   request.arguments = { "-nostdin", "-loglevel", "error", "-y", "-framerate", rate, "-i",
     folder + "/%06d.png" };
   const std::vector<std::string> codec = codec_of(file_extension(path));

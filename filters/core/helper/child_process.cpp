@@ -8,8 +8,10 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 
 #include <fcntl.h>
 #include <poll.h>
@@ -233,6 +235,21 @@ bool executable_file(const std::string& path)
 {
   std::error_code none;
   return std::filesystem::is_regular_file(path, none) && ::access(path.c_str(), X_OK) == 0;
+}
+
+std::string find_on_path(const std::string& program)
+{
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');)
+  {
+    std::string file = (folder.empty() ? "." : folder) + "/" + program;
+    if (executable_file(file))
+    {
+      return file;
+    }
+  }
+  return {};
 }
 
 Status check_limits(double time_limit, Index memory_limit)

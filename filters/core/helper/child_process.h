@@ -55,6 +55,9 @@ std::string memory_words(Index memory_limit);
 /// True for a file that may be executed.
 bool executable_file(const std::string& path);
 
+/// The file of a program that stands in one of the folders of PATH; empty without one.
+std::string find_on_path(const std::string& program);
+
 /// A file descriptor that closes itself.
 class FileDescriptor
 {

@@ -12,7 +12,6 @@
 #include "io/off.h"
 
 #include <cstdlib>
-#include <sstream>
 
 namespace bindpose
 {
@@ -109,21 +108,8 @@ std::string find_ftetwild()
   {
     return executable_file(chosen) ? std::string(chosen) : std::string();
   }
-  const char* path = std::getenv("PATH");
-  for (const char* name : { "FloatTetwild_bin", "ftetwild" })
-  {
-    std::istringstream folders(path ? path : "");
-    std::string folder;
-    while (std::getline(folders, folder, ':'))
-    {
-      std::string file = (folder.empty() ? "." : folder) + "/" + name;
-      if (executable_file(file))
-      {
-        return file;
-      }
-    }
-  }
-  return {};
+  const std::string installed = find_on_path("FloatTetwild_bin");
+  return installed.empty() ? find_on_path("ftetwild") : installed;
 }
 
 Status run_ftetwild(PointsView points, TrianglesView triangles, const FtetwildOptions& options,

@@ -5,13 +5,12 @@
 
 #include "base/number_text.h"
 #include "surface/surface_probe.h"
+#include "surface/vertex_order.h"
 #include "winding/winding_number.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <queue>
 
 namespace bindpose
@@ -25,20 +24,6 @@ const char* to_string(PointDistance distance)
 namespace
 {
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-/// The lowest id of the vertices with the same coordinates; its own for one that is not finite.
-std::vector<Index> lowest_equal(PointsView points)
-{
-  std::map<std::array<double, 3>, Index> ids;
-  std::vector<Index> lowest(static_cast<std::size_t>(points.rows()));
-  for (Index v = 0; v < points.rows(); ++v)
-  {
-    // + 0.0: minus zero is zero.
-    const std::array<double, 3> place{ points(v, 0) + 0.0, points(v, 1) + 0.0, points(v, 2) + 0.0 };
-    lowest[v] = points.row(v).allFinite() ? ids.emplace(place, v).first->second : v;
-  }
-  return lowest;
-}
 
 struct Component
 {
@@ -124,11 +109,17 @@ public:
 private:
   void find_components()
   {
-    this->weld_ = lowest_equal(this->points_);
+    // Of all vertices, used or not, but those that are nowhere.
+    std::vector<char> finite(static_cast<std::size_t>(this->points_.rows()));
+    for (Index v = 0; v < this->points_.rows(); ++v)
+    {
+      finite[static_cast<std::size_t>(v)] = this->points_.row(v).allFinite();
+    }
+    const std::vector<Index> weld = lowest_at_place(this->points_, finite);
     this->welded_ = this->triangles_;
     for (Index k = 0; k < this->welded_.size(); ++k)
     {
-      this->welded_.data()[k] = this->weld_[this->welded_.data()[k]];
+      this->welded_.data()[k] = weld[this->welded_.data()[k]];
     }
     const Components parts =
       connected_components(this->points_.rows(), TrianglesView(this->welded_));
@@ -371,7 +362,6 @@ private:
   TrianglesView triangles_;
   const SpreadPointsOptions& options_;
   ExecutionContext& context_;
-  std::vector<Index> weld_;
   Triangles welded_;
   std::vector<Component> components_;
   double largest_area_ = 0.0;

@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 namespace bindpose
 {
@@ -31,22 +30,6 @@ Key sorted_key(TrianglesView triangles, Index t)
   Key key{ triangles(t, 0), triangles(t, 1), triangles(t, 2) };
   std::sort(key.begin(), key.end());
   return key;
-}
-
-/// For every vertex the lowest id with the same coordinates; unused vertices keep their own.
-std::vector<Index> weld_map(const Points& points, const std::vector<char>& used)
-{
-  const std::vector<Index> order = order_by_place(points, used);
-  std::vector<Index> map(static_cast<std::size_t>(points.rows()));
-  std::iota(map.begin(), map.end(), Index(0));
-  for (std::size_t i = 1; i < order.size(); ++i)
-  {
-    if (same_place(points, order[i - 1], order[i]))
-    {
-      map[order[i]] = map[order[i - 1]];
-    }
-  }
-  return map;
 }
 
 void snap_points(Points& points, const std::vector<char>& used, double fraction)
@@ -398,7 +381,7 @@ void weld_and_drop(PointsView points, TrianglesView triangles, const RepairOptio
   {
     snap_points(moved, used, options.snap);
   }
-  const std::vector<Index> weld = weld_map(moved, used);
+  const std::vector<Index> weld = lowest_at_place(moved, used);
   for (Index v = 0; v < points.rows(); ++v)
   {
     found.unreferenced_vertices += !used[v];

@@ -1,6 +1,7 @@
 #include "surface/vertex_order.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace bindpose
 {
@@ -43,6 +44,21 @@ std::vector<Index> order_by_place(const PointsView& points, const std::vector<ch
       return by_place != 0 ? by_place < 0 : a < b;
     });
   return order;
+}
+
+std::vector<Index> lowest_at_place(const PointsView& points, const std::vector<char>& used)
+{
+  const std::vector<Index> order = order_by_place(points, used);
+  std::vector<Index> lowest(static_cast<std::size_t>(points.rows()));
+  std::iota(lowest.begin(), lowest.end(), Index(0));
+  for (std::size_t i = 1; i < order.size(); ++i)
+  {
+    if (same_place(points, order[i - 1], order[i]))
+    {
+      lowest[order[i]] = lowest[order[i - 1]];
+    }
+  }
+  return lowest;
 }
 
 } // namespace bindpose

@@ -15,6 +15,8 @@ TEST(VertexOrder, IsByCoordinatesThenById)
   EXPECT_TRUE(same_place(points, 0, 3));
   EXPECT_FALSE(same_place(points, 1, 2));
   EXPECT_TRUE(order_by_place(points, std::vector<char>(6, 0)).empty());
+  EXPECT_THAT(lowest_at_place(points, std::vector<char>(6, 1)), ElementsAre(0, 1, 2, 0, 4, 5));
+  EXPECT_THAT(lowest_at_place(points, { 0, 1, 1, 1, 1, 1 }), ElementsAre(0, 1, 2, 3, 4, 5));
 }
 
 TEST(VertexOrder, TakesNoDifferenceBetweenZeros)

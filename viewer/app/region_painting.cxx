@@ -349,15 +349,17 @@ void RegionPainting::show_labels()
     vtkIdType size = 0;
     const vtkIdType* corners = nullptr;
     cells->GetCurrentCell(size, corners);
-    std::map<int, int> votes;
-    for (vtkIdType k = 0; k < size; ++k)
-    {
-      ++votes[label_at(labels, vertices[static_cast<std::size_t>(corners[k])])];
-    }
+    const auto label_of = [&](vtkIdType k)
+    { return label_at(labels, vertices[static_cast<std::size_t>(corners[k])]); };
     int label = 0;
-    for (const auto& [its, count] : votes)
+    for (vtkIdType k = 0; k < size && label == 0; ++k)
     {
-      label = 2 * count > size ? its : label;
+      vtkIdType votes = 0;
+      for (vtkIdType other = 0; other < size; ++other)
+      {
+        votes += label_of(other) == label_of(k);
+      }
+      label = 2 * votes > size ? label_of(k) : 0;
     }
     of_cell.push_back(label == 0 ? -1 : category_of[label]);
     if (of_cell.back() >= 0)

@@ -25,6 +25,15 @@ using namespace bindpose;
 
 namespace
 {
+constexpr HandleMode all_modes[] = { HandleMode::full, HandleMode::position, HandleMode::free,
+  HandleMode::tail, HandleMode::ends };
+
+/// Of the action that lets handles fix that.
+std::string name_of(HandleMode mode)
+{
+  return std::string("fixes.") + to_string(mode);
+}
+
 /// Numbers of handles as the kernels take them.
 std::vector<Index> to_list(const std::vector<int>& handles)
 {
@@ -83,14 +92,12 @@ void HandleCommands::make_actions()
     this->mirror_->addAction(this->add(
       std::string("mirror.") + "xyz"[axis], axes[axis], [this, axis] { this->mirror(axis); }));
   }
-  const std::pair<const char*, QString> modes[] = { { "fixes.full", tr("&Full transform") },
-    { "fixes.position", tr("&Position only") }, { "fixes.free", tr("&Nothing (free)") },
-    { "fixes.tail", tr("A bone's &tail") }, { "fixes.ends", tr("A bone's &ends") } };
-  int mode = 0;
-  for (const auto& [name, text] : modes)
+  const QString modes[] = { tr("&Full transform"), tr("&Position only"), tr("&Nothing (free)"),
+    tr("A bone's &tail"), tr("A bone's &ends") };
+  for (const HandleMode mode : all_modes)
   {
-    const auto its = static_cast<HandleMode>(mode++);
-    QAction* action = this->add(name, text, [this, its] { this->fix(its); });
+    QAction* action =
+      this->add(name_of(mode), modes[static_cast<int>(mode)], [this, mode] { this->fix(mode); });
     action->setCheckable(true);
     this->fixes_->addAction(action);
   }
@@ -142,19 +149,16 @@ void HandleCommands::update()
   this->action("snap")->setEnabled(some && this->document_->surface());
   this->action("cage_edge")->setEnabled(selected.size() == 2 && all(HandleKind::cage_vertex));
   this->action("select_all")->setEnabled(!handles.empty());
-  this->action("fixes.tail")->setEnabled(some && all(HandleKind::bone));
-  this->action("fixes.ends")->setEnabled(some && all(HandleKind::bone));
   this->action("lock")->setChecked(some &&
     std::all_of(selected.begin(), selected.end(), [this](int k) { return this->is_locked(k); }));
-  const char* const modes[] = { "fixes.full", "fixes.position", "fixes.free", "fixes.tail",
-    "fixes.ends" };
   const Pose pose = this->document_->pose();
-  for (int mode = 0; mode < 5; ++mode)
+  for (const HandleMode mode : all_modes)
   {
-    this->action(modes[mode])
-      ->setChecked(some &&
-        std::all_of(selected.begin(), selected.end(),
-          [&](int k) { return static_cast<int>(pose[static_cast<std::size_t>(k)].mode) == mode; }));
+    QAction* action = this->action(name_of(mode));
+    action->setEnabled(some && (!holds_tail(mode) || all(HandleKind::bone)));
+    action->setChecked(some &&
+      std::all_of(selected.begin(), selected.end(),
+        [&](int k) { return pose[static_cast<std::size_t>(k)].mode == mode; }));
   }
 }
 

@@ -6,6 +6,7 @@
 #include "document/document.h"
 #include "edit_tools.h"
 #include "handle_commands.h"
+#include "panel_parts.h"
 #include "posing.h"
 #include "region_painting.h"
 #include "side_panel.h"
@@ -35,12 +36,6 @@ using namespace bindpose;
 namespace
 {
 using Drawn = vtkHandleSetRepresentation;
-
-/// Without a text after it, a step says what it is about.
-QString capital(QString text)
-{
-  return text.isEmpty() ? text : text.replace(0, 1, text[0].toUpper());
-}
 } // namespace
 
 HandleEditing::HandleEditing(
@@ -99,8 +94,14 @@ HandleEditing::HandleEditing(
         this->commands_->menu()->popup(list->viewport()->mapToGlobal(at));
       }
     });
-  // Poses that are typed or played are looked at.
-  QObject::connect(posing, &Posing::pose_changed, this, [this] { this->set_mode(pose); });
+  // Poses that are typed or played are looked at. A drag without a button may go on: its Esc would
+  // bring the pose before back.
+  QObject::connect(posing, &Posing::pose_changed, this,
+    [this]
+    {
+      this->stop();
+      this->set_mode(pose);
+    });
   QObject::connect(document, &Document::option_changed, this,
     [this](const QString& key)
     {
@@ -491,7 +492,7 @@ bool HandleEditing::edit(const QString& step, const HandleListEdit& edit, vtkDat
   const Status status = edit_handles(this->document_->editable_handles(), edit, &cell_of, &added);
   if (!status.ok())
   {
-    Q_EMIT this->refused(capital(QString::fromStdString(status.message)) + ".");
+    this->refuse(status);
     return false;
   }
   std::vector<vtkIdType> selected(added.begin(), added.end());
@@ -512,6 +513,11 @@ bool HandleEditing::edit(const QString& step, const HandleListEdit& edit, vtkDat
   return this->commit(step, labels);
 }
 
+void HandleEditing::refuse(const Status& status)
+{
+  Q_EMIT this->refused(capital(QString::fromStdString(status.message)) + ".");
+}
+
 bool HandleEditing::commit(const QString& step, vtkDataArray* labels)
 {
   this->is_committing_ = true;
@@ -521,7 +527,7 @@ bool HandleEditing::commit(const QString& step, vtkDataArray* labels)
   if (!status.ok())
   {
     this->show_selection();
-    Q_EMIT this->refused(capital(QString::fromStdString(status.message)) + ".");
+    this->refuse(status);
   }
   return status.ok();
 }
@@ -539,7 +545,7 @@ bool HandleEditing::rename(int handle, const QString& name)
   }
   if (!status.ok())
   {
-    Q_EMIT this->refused(capital(QString::fromStdString(status.message)) + ".");
+    this->refuse(status);
   }
   return status.ok();
 }

@@ -108,6 +108,7 @@ private:
   void connect_widget();
   vtkHandleSetWidget* widget() const;
   vtkHandleSetRepresentation* drawn() const;
+  void refuse(const bindpose::Status& status);
   void drag_began();
   void drag_went_on();
   void drag_ended();

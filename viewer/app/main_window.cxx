@@ -797,8 +797,6 @@ void MainWindow::connect_posing()
   QObject::connect(this->posing_, &Posing::pose_changed, this,
     [this](const Pose& pose)
     {
-      this->editing_
-        ->stop(); // one without a button may go on: its Esc would bring the pose before back
       set_pose(this->document_->handle_data(), this->document_->handle_cells(), pose);
       for (std::size_t k = 0; k < pose.size(); ++k)
       {

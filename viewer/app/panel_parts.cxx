@@ -59,6 +59,11 @@ QButtonGroup* add_orientations(QBoxLayout* column, QWidget* parent)
   return group;
 }
 
+QString capital(const QString& text)
+{
+  return text.left(1).toUpper() + text.mid(1);
+}
+
 QString sentence_of(const QString& phase)
 {
   static const struct

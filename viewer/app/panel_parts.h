@@ -20,6 +20,8 @@ QButtonGroup* add_segments(
   QBoxLayout* column, QWidget* parent, const QStringList& names, const QStringList& tips);
 /// A row of buttons X, Y, Z and Free, whose ids are PlaneHandle's orientations; Z is pressed.
 QButtonGroup* add_orientations(QBoxLayout* column, QWidget* parent);
+/// With a capital letter, as a sentence or a heading begins.
+QString capital(const QString& text);
 /// What a phase of the kernels does, in words.
 QString sentence_of(const QString& phase);
 

@@ -1,5 +1,6 @@
 #include "shortcut_sheet.h"
 
+#include "panel_parts.h"
 #include "style.h"
 #include "window_keys.h"
 
@@ -9,15 +10,6 @@
 #include <QVBoxLayout>
 
 #include <algorithm>
-
-namespace
-{
-QString capital(const std::string& text)
-{
-  const QString result = QString::fromStdString(text);
-  return result.left(1).toUpper() + result.mid(1);
-}
-} // namespace
 
 ShortcutSheet::ShortcutSheet(QWidget* parent) : QDialog(parent)
 {
@@ -44,7 +36,7 @@ ShortcutSheet::ShortcutSheet(QWidget* parent) : QDialog(parent)
   {
     const int heading = this->table_->rowCount();
     this->table_->insertRow(heading);
-    auto* title = new QTableWidgetItem(capital(group.when));
+    auto* title = new QTableWidgetItem(capital(QString::fromStdString(group.when)));
     title->setFont(bold);
     title->setForeground(shade("accent"));
     this->table_->setItem(heading, 0, title);

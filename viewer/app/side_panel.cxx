@@ -6,6 +6,8 @@
 #include "pose_panel.h"
 #include "section.h"
 
+#include "pose/pose.h"
+
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -22,12 +24,6 @@
 
 namespace
 {
-/// In the order of bindpose::HandleMode.
-const char* const mode_names[] = { QT_TRANSLATE_NOOP("SidePanel", "full"),
-  QT_TRANSLATE_NOOP("SidePanel", "position"), QT_TRANSLATE_NOOP("SidePanel", "free"),
-  QT_TRANSLATE_NOOP("SidePanel", "tail"), QT_TRANSLATE_NOOP("SidePanel", "ends") };
-constexpr int first_mode_of_bones = 3;
-
 /// A combo box that does not grow with its items: they may be handles of any name.
 QComboBox* combo(QWidget* parent)
 {
@@ -223,9 +219,10 @@ void SidePanel::show_mode(int handle)
   this->mode_->setEnabled(handle >= 0);
   this->mode_->setCurrentIndex(handle >= 0 ? this->modes_[handle] : 0);
   auto* items = qobject_cast<QStandardItemModel*>(this->mode_->model());
-  for (int mode = first_mode_of_bones; mode < this->mode_->count(); ++mode)
+  for (int mode = 0; mode < this->mode_->count(); ++mode)
   {
-    items->item(mode)->setEnabled(handle >= 0 && this->bones_[handle]);
+    const bool of_bones = bindpose::holds_tail(static_cast<bindpose::HandleMode>(mode));
+    items->item(mode)->setEnabled(!of_bones || (handle >= 0 && this->bones_[handle]));
   }
 }
 
@@ -233,8 +230,9 @@ void SidePanel::set_mode(int handle, int mode)
 {
   this->modes_[handle] = mode;
   QListWidgetItem* item = this->handles_->item(handle);
-  item->setText(mode == 0 ? this->names_[handle]
-                          : QString("%1   (%2)").arg(this->names_[handle], tr(mode_names[mode])));
+  item->setText(mode == 0
+      ? this->names_[handle]
+      : QString("%1   (%2)").arg(this->names_[handle], tr(bindpose::handle_mode_words[mode])));
   if (handle == this->selected_handle())
   {
     this->show_mode(handle);

@@ -17,7 +17,6 @@
 #include <QTimer>
 
 #include <algorithm>
-#include <fstream>
 
 using namespace bindpose;
 
@@ -196,16 +195,9 @@ Status TourPlayer::write_record(const TourRequest& request) const
   {
     return {};
   }
-  AtomicFile file;
-  Status status = file.open(request.folder + "/tour.json", request.overwrite);
-  if (status.ok())
-  {
-    // Names may hold bytes that are no text.
-    std::ofstream(file.temporary())
-      << this->record_.dump(2, ' ', false, Json::error_handler_t::replace) << '\n';
-    status = file.commit();
-  }
-  return status;
+  // Names may hold bytes that are no text.
+  return write_whole_file(request.folder + "/tour.json",
+    this->record_.dump(2, ' ', false, Json::error_handler_t::replace) + '\n', request.overwrite);
 }
 
 double TourPlayer::left() const

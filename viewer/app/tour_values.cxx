@@ -6,7 +6,6 @@
 #include "main_window.h"
 #include "notice_bar.h"
 #include "panel_column.h"
-#include "window_hand.h"
 #include "pose_ghost.h"
 #include "pose_panel.h"
 #include "posing.h"
@@ -14,19 +13,18 @@
 #include "viewport.h"
 #include "volume_view.h"
 #include "weight_inspection.h"
+#include "window_hand.h"
 
 #include "conversion.h"
 #include "scene/volume.h"
 
 #include "vtkCamera.h"
-#include "vtkCell.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkHandleSetRepresentation.h"
 #include "vtkHandleSetWidget.h"
 #include "vtkPointData.h"
 #include "vtkRenderer.h"
-#include "vtkTriangle.h"
 
 #include <QApplication>
 #include <QUndoStack>
@@ -50,26 +48,6 @@ using Json = nlohmann::ordered_json;
 Json to_json(const Vec3& place)
 {
   return { place.x(), place.y(), place.z() };
-}
-
-double area_of(vtkPolyData* surface)
-{
-  double area = 0.0;
-  for (vtkIdType cell = 0; cell < surface->GetNumberOfCells(); ++cell)
-  {
-    vtkIdType size = 0;
-    const vtkIdType* corners = nullptr;
-    surface->GetCellPoints(cell, size, corners);
-    for (vtkIdType k = 2; k < size; ++k)
-    {
-      double a[3], b[3], c[3];
-      surface->GetPoint(corners[0], a);
-      surface->GetPoint(corners[k - 1], b);
-      surface->GetPoint(corners[k], c);
-      area += vtkTriangle::TriangleArea(a, b, c);
-    }
-  }
-  return area;
 }
 
 /// Of two shapes with the same points.
@@ -220,7 +198,7 @@ void add_weights(Json& values, MainWindow* window)
     if (view->is_sliced())
     {
       values["weights.slice_position"] = view->plane()->position();
-      values["weights.slice_area"] = view->slice() ? area_of(view->slice()) : 0.0;
+      values["weights.slice_area"] = view->slice() ? surface_area(view->slice()) : 0.0;
     }
   }
 }
@@ -238,7 +216,7 @@ void add_volume(Json& values, MainWindow* window)
   values["slice.position"] = view->position();
   values["slice.normal"] = to_json(view->slice_normal());
   values["isosurface.level"] = view->level();
-  values["isosurface.area"] = area_of(view->isosurface());
+  values["isosurface.area"] = surface_area(view->isosurface());
 }
 
 void add_tets(Json& values, MainWindow* window)

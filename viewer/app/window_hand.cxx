@@ -48,19 +48,24 @@ QPoint WindowHand::place(double x, double y) const
     static_cast<int>(std::lround(y * (viewport->height() - 1))) };
 }
 
-QString WindowHand::place_of(const QString& handle, double along, QPoint& at) const
+int WindowHand::number_of(const QString& handle) const
 {
-  const Document* document = this->window_->document();
-  const Handles& handles = document->handles();
+  const Handles& handles = this->window_->document()->handles();
   const auto found = std::find_if(handles.begin(), handles.end(),
     [name = handle.toStdString()](const Handle& each) { return each.name == name; });
-  if (found == handles.end())
+  return found == handles.end() ? -1 : static_cast<int>(found - handles.begin());
+}
+
+QString WindowHand::place_of(const QString& handle, double along, QPoint& at) const
+{
+  const int number = this->number_of(handle);
+  if (number < 0)
   {
     return QObject::tr("there is no handle '%1'").arg(handle);
   }
   Viewport* viewport = this->window_->viewport();
   auto* drawn = viewport->handle_widget()->GetHandleSetRepresentation();
-  const Index cell = document->handle_cells()[static_cast<std::size_t>(found - handles.begin())];
+  const Index cell = this->window_->document()->handle_cells()[static_cast<std::size_t>(number)];
   Vec3 head, tail;
   drawn->GetPosedHead(cell, head.data());
   drawn->GetPosedTail(cell, tail.data());
@@ -356,16 +361,13 @@ QString WindowHand::show_panel(const QString& name)
 QString WindowHand::select(const QString& handle)
 {
   this->leave();
-  const Handles& handles = this->window_->document()->handles();
-  for (std::size_t k = 0; k < handles.size(); ++k)
+  const int number = this->number_of(handle);
+  if (number < 0)
   {
-    if (QString::fromStdString(handles[k].name) == handle)
-    {
-      this->window_->panel()->select_handle(static_cast<int>(k));
-      return {};
-    }
+    return QObject::tr("there is no handle '%1'").arg(handle);
   }
-  return QObject::tr("there is no handle '%1'").arg(handle);
+  this->window_->panel()->select_handle(number);
+  return {};
 }
 
 QString WindowHand::set_mode(const QString& mode)
@@ -379,9 +381,9 @@ QString WindowHand::set_mode(const QString& mode)
   const auto& words = handle_mode_words;
   const auto* found = std::find(std::begin(words), std::end(words), mode.toStdString());
   const auto number = static_cast<int>(found - std::begin(words));
-  const bool of_bones = number >= static_cast<int>(HandleMode::tail);
   const Handle& selected = this->window_->document()->handles()[static_cast<std::size_t>(handle)];
-  if (found == std::end(words) || (of_bones && selected.kind != HandleKind::bone))
+  if (found == std::end(words) ||
+    (holds_tail(static_cast<HandleMode>(number)) && selected.kind != HandleKind::bone))
   {
     return QObject::tr("'%1' is no mode of this handle").arg(mode);
   }

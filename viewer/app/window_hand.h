@@ -57,6 +57,7 @@ public:
   QAction* action(const QString& name) const;
 
 private:
+  int number_of(const QString& handle) const; ///< -1: there is none
   void send(QEvent::Type type, const QPoint& at, Qt::MouseButton button, Qt::MouseButtons held,
     Qt::KeyboardModifiers keys);
 

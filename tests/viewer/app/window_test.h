@@ -6,6 +6,7 @@
 #include "main_window.h"
 #include "panel_column.h"
 #include "viewport.h"
+#include "window_hand.h"
 
 #include "conversion.h"
 
@@ -14,7 +15,6 @@
 #include "vtkRenderer.h"
 
 #include <QApplication>
-#include <QElapsedTimer>
 #include <QImage>
 #include <QMouseEvent>
 
@@ -25,17 +25,11 @@
 namespace bindpose::test
 {
 
-/// Lets the event loop run until the condition holds; false after some seconds without.
+/// wait_until(), with a minute's patience.
 template <typename Condition>
 bool wait_for(const Condition& condition, int seconds = 60)
 {
-  QElapsedTimer clock;
-  clock.start();
-  while (!condition() && clock.elapsed() < 1000 * seconds)
-  {
-    QApplication::processEvents(QEventLoop::AllEvents, 20);
-  }
-  return condition();
+  return wait_until(condition, seconds);
 }
 
 /// Handles at both ends of a shape along z from -1 to 1.

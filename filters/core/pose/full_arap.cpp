@@ -9,8 +9,13 @@
 // Anderson acceleration looks at both steps as a function g of D whose fixed point is sought. All
 // iterates meet the constraints, so the extrapolated ones do. One is taken if its energy, with the
 // rotations that fit it, is no higher than that of the plain g(D).
+//
+// No step of exact numbers raises the energy. Where handles' constraints nearly depend on each
+// other the global step is only as good as their condition: once it raises the energy by more than
+// rounding does, the points before it are kept and the iterations end.
 #include "pose/full_arap.h"
 
+#include "base/number_text.h"
 #include "base/parallel.h"
 #include "pose/anderson.h"
 #include "pose/pivot_rotation.h"
@@ -27,6 +32,8 @@ namespace
 {
 /// Below this share of the rest energy an energy counts as zero for the tolerance.
 constexpr double nothing_bends = 1e-6;
+/// A rise of the energy by less than this share of its terms is rounding.
+constexpr double rounding = 1e-12;
 /// Items of a block; their number fixes the bits, not the threads.
 constexpr Index groups_at_once = 512;
 constexpr Index vertices_at_once = 1024;
@@ -264,14 +271,13 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
     this->start_rotations(pose);
   }
   this->warm_ = false; // until this solve is through
+  double terms = 0.0; // what the last energy after a global step is the small difference of
   const auto energy_after_global = [&](const Rows& g)
   {
-    double work = 0.0;
-    if (n > 0)
-    {
-      work = dot(context, 3 * n, this->force_.data(), g.data());
-    }
-    return this->quadratic(context, g) - work - this->rest_turned_;
+    const double bent = this->quadratic(context, g);
+    const double work = n > 0 ? dot(context, 3 * n, this->force_.data(), g.data()) : 0.0;
+    terms = std::abs(bent) + std::abs(work) + std::abs(this->rest_turned_);
+    return bent - work - this->rest_turned_;
   };
   Rows g, d; // the plain iterate and the one that is tried
   if (!this->global_step(context, g))
@@ -285,7 +291,7 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
     [&](const double* a, const double* b) { return dot(context, 3 * n, a, b); });
   Index iterations = 0;
   bool converged = false, accelerated = false;
-  double change = 0.0;
+  double change = 0.0, rise = 0.0;
   const auto start = std::chrono::steady_clock::now();
   while (iterations < options.max_iterations && !converged)
   {
@@ -307,8 +313,15 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
     {
       return Status::cancelled();
     }
-    this->energies_.push_back(energy_after_global(g));
+    const double energy_after = energy_after_global(g);
     ++iterations;
+    if (energy_after > energy + rounding * terms)
+    {
+      rise = energy_after - energy;
+      g.swap(d);
+      break;
+    }
+    this->energies_.push_back(energy_after);
     change = energy_before - this->energies_.back();
     converged = options.tolerance > 0.0 &&
       change <= options.tolerance * std::max(this->energies_.back(), floor);
@@ -346,12 +359,20 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   {
     status.report.set("constraint_residual", residual);
   }
+  const std::string energy = short_number(this->energies_.back());
+  if (rise > 0.0)
+  {
+    status.warnings.push_back("iteration " + std::to_string(iterations) + " raised the energy by " +
+      short_number(rise) + " of " + energy +
+      ", for what holds the handles nearly depends on each other: the points before it are kept");
+    converged = rise <= options.tolerance * std::max(this->energies_.back(), floor);
+  }
   if (options.tolerance > 0.0 && !converged && options.max_iterations > 0)
   {
     status.code = StatusCode::not_converged;
-    status.message = "the energy still fell by " + std::to_string(change) + " of " +
-      std::to_string(this->energies_.back()) + " in the last of " + std::to_string(iterations) +
-      " iterations";
+    status.message = "the energy still " + std::string(rise > 0.0 ? "rose" : "fell") + " by " +
+      short_number(std::abs(rise > 0.0 ? rise : change)) + " of " + energy + " in the last of " +
+      std::to_string(iterations) + " iterations";
   }
   return status;
 }

@@ -76,7 +76,9 @@ public:
   };
 
   /// Finds the vertices of a pose, one entry a handle. not_converged when max_iterations were not
-  /// enough; the result is usable. Report: energy, iterations, microseconds_per_iteration,
+  /// enough, or when an iteration raised the energy by more than the tolerance (what holds the
+  /// handles nearly depends on each other; the points before it are kept, a warning says so); the
+  /// result is usable. Report: energy, iterations, microseconds_per_iteration,
   /// constraint_residual (largest miss of what handles hold, in diagonals), counts.constrained
   /// (vertices and points held). Warnings name position handles that are redundant and handles that
   /// contradict each other.

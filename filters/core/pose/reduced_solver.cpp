@@ -26,6 +26,7 @@
 
 #include "base/dense_cholesky.h"
 #include "base/dense_product.h"
+#include "base/number_text.h"
 #include "base/thin_product.h"
 #include "pose/pivot_rotation.h"
 #include "pose/rotation_fit.h"
@@ -453,8 +454,8 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   if (options.tolerance > 0.0 && !progress.converged && options.max_iterations > 0)
   {
     status.code = StatusCode::not_converged;
-    status.message = "the energy still fell by " + std::to_string(change) + " of " +
-      std::to_string(this->energies_.back()) + " in the last of " + std::to_string(iterations) +
+    status.message = "the energy still fell by " + short_number(change) + " of " +
+      short_number(this->energies_.back()) + " in the last of " + std::to_string(iterations) +
       " iterations" + (progress.in_time ? "" : ", when the time budget was spent");
   }
   return status;

@@ -327,4 +327,26 @@ Status read_gltf(const std::string& path, GltfData& data)
   return status;
 }
 
+Status GltfFile::read(const std::string& path, vtkMTimeType modified)
+{
+  std::error_code missing, unknown;
+  const auto written = std::filesystem::last_write_time(path, missing);
+  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
+  if (!missing && !unknown && path == this->path_ && modified == this->modified_ &&
+    written == this->written_ && size == this->size_)
+  {
+    return this->status_;
+  }
+  this->path_.clear();
+  this->status_ = read_gltf(path, this->data_);
+  if (this->status_.ok())
+  {
+    this->path_ = path;
+    this->modified_ = modified;
+    this->written_ = written;
+    this->size_ = size;
+  }
+  return this->status_;
+}
+
 } // namespace bindpose

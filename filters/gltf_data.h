@@ -4,6 +4,8 @@
 #include "conversion.h"
 #include "io/gltf_skin.h"
 
+#include <cstdint>
+#include <filesystem>
 #include <string>
 
 namespace bindpose
@@ -30,6 +32,24 @@ struct GltfData
 
 /// Reads a file; see vtkGLTFSkinReader.
 Status read_gltf(const std::string& path, GltfData& data);
+
+/// A file for a filter that is asked for frame by frame: read anew when the filter was modified or
+/// the file has changed.
+class GltfFile
+{
+public:
+  Status read(const std::string& path, vtkMTimeType modified);
+  /// What the last read() found; nobody may change it.
+  const GltfData& data() const { return this->data_; }
+
+private:
+  std::string path_; ///< empty: nothing was read
+  vtkMTimeType modified_ = 0;
+  std::filesystem::file_time_type written_;
+  std::uintmax_t size_ = 0;
+  Status status_;
+  GltfData data_;
+};
 
 } // namespace bindpose
 

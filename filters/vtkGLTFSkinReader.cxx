@@ -3,6 +3,7 @@
 
 #include "base/execution.h"
 #include "file_kind.h"
+#include "frame_times.h"
 #include "gltf_data.h"
 #include "pose/pose_file.h"
 
@@ -11,11 +12,18 @@
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
+#include <numeric>
+
 using namespace bindpose;
 
 vtkStandardNewMacro(vtkGLTFSkinReader);
 
-vtkGLTFSkinReader::vtkGLTFSkinReader()
+struct vtkGLTFSkinReader::Internals
+{
+  GltfFile file;
+};
+
+vtkGLTFSkinReader::vtkGLTFSkinReader() : Internal(std::make_unique<Internals>())
 {
   this->SetNumberOfInputPorts(0);
   this->SetNumberOfOutputPorts(2);
@@ -32,6 +40,25 @@ int vtkGLTFSkinReader::FillOutputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
+int vtkGLTFSkinReader::RequestInformation(
+  vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
+{
+  int frames = 0;
+  // What is wrong with the file, Execute() says.
+  if (this->Frame < 0 && this->FileName &&
+    check_extension(this->FileName, GetFileExtensions()).ok() &&
+    this->Internal->file.read(this->FileName, this->GetMTime()).ok())
+  {
+    frames = static_cast<int>(this->Internal->file.data().poses.size());
+  }
+  for (int port = 0; port < 2; ++port)
+  {
+    offer_frames(
+      output->GetInformationObject(port), frames, this->Internal->file.data().frames_per_second);
+  }
+  return 1;
+}
+
 Status vtkGLTFSkinReader::Execute(
   vtkInformationVector**, vtkInformationVector* output, ExecutionContext& context)
 {
@@ -40,16 +67,16 @@ Status vtkGLTFSkinReader::Execute(
   this->NumberOfFrames = 0;
   this->FramesPerSecond = 0.0;
   this->PoseJSON.clear();
-  GltfData data;
   Status status = check_extension(path, GetFileExtensions());
   if (status.ok())
   {
-    status = read_gltf(path, data);
+    status = this->Internal->file.read(path, this->GetMTime());
   }
   if (!status.ok())
   {
     return status;
   }
+  const GltfData& data = this->Internal->file.data();
   const auto frames = static_cast<int>(data.poses.size());
   if (this->Frame < -1 || this->Frame >= frames)
   {
@@ -67,19 +94,29 @@ Status vtkGLTFSkinReader::Execute(
       status.warnings.push_back("its animation is no pose file: " + formatted.message);
     }
   }
-  if (this->Frame >= 0)
-  {
-    std::vector<Index> cells(data.handle_list.size());
-    for (std::size_t h = 0; h < cells.size(); ++h)
-    {
-      cells[h] = static_cast<Index>(h);
-    }
-    set_pose(data.handles, cells, data.poses[this->Frame]);
-  }
   this->NumberOfFrames = frames;
   this->FramesPerSecond = frames > 0 ? data.frames_per_second : 0.0;
-  vtkPolyData::GetData(output, 0)->ShallowCopy(data.mesh);
-  vtkPolyData::GetData(output, 1)->ShallowCopy(data.handles);
+  auto* mesh = vtkPolyData::GetData(output, 0);
+  auto* handles = vtkPolyData::GetData(output, 1);
+  mesh->ShallowCopy(data.mesh);
+  handles->ShallowCopy(data.handles);
+  int frame = this->Frame;
+  for (int port = 0; port < 2; ++port) // the handles' time counts; the mesh is the same at all
+  {
+    double time = 0.0;
+    if (asked_time(output->GetInformationObject(port), time))
+    {
+      frame = frame_at(time, frames, data.frames_per_second);
+      vtkDataObject* result = port == 0 ? mesh : handles;
+      result->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
+    }
+  }
+  if (frame >= 0)
+  {
+    std::vector<Index> cells(data.handle_list.size());
+    std::iota(cells.begin(), cells.end(), Index(0));
+    set_pose(handles, cells, data.poses[frame]);
+  }
   std::vector<std::string> names;
   std::vector<std::string> kinds;
   for (const Handle& handle : data.handle_list)

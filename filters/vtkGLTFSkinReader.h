@@ -19,6 +19,11 @@
  * a second; as GetPoseJSON(), which vtkPoseHandles takes, or frame by frame with Frame. A pose file
  * has no word for uneven scales and shears: a warning names handles that have some.
  *
+ * **Time.** With an animation and Frame -1 the reader is a source of time: it offers the times of
+ * the frames, and who asks for a time gets the handles of the frame that is on then. The mesh is
+ * the same at all times, so filters behind it keep their bind. The file is read anew when it has
+ * changed.
+ *
  * Not read: morph targets (a warning counts them), pictures, materials, cameras. Compressed meshes
  * are an error.
  *
@@ -37,6 +42,7 @@
 
 #include "BindposeFiltersModule.h" // for export macro
 #include "vtkBindposeAlgorithm.h"
+#include <memory> // for std::unique_ptr
 
 class BINDPOSEFILTERS_EXPORT vtkGLTFSkinReader : public vtkBindposeAlgorithm
 {
@@ -52,8 +58,8 @@ public:
   ///@}
 
   ///@{
-  /// Frame of the animation that the handles stand in, from 0; -1 (default): as the nodes stand. A
-  /// frame that is not there is an error.
+  /// Frame of the animation that the handles stand in, from 0; -1 (default): that of the time which
+  /// is asked for, or as the nodes stand. A frame that is not there is an error.
   vtkSetMacro(Frame, int);
   vtkGetMacro(Frame, int);
   ///@}
@@ -74,6 +80,8 @@ protected:
   ~vtkGLTFSkinReader() override;
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestInformation(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
     bindpose::ExecutionContext& context) override;
 
@@ -81,6 +89,9 @@ private:
   vtkGLTFSkinReader(const vtkGLTFSkinReader&) = delete;
   void operator=(const vtkGLTFSkinReader&) = delete;
 
+  struct Internals;
+
+  const std::unique_ptr<Internals> Internal;
   char* FileName = nullptr;
   int Frame = -1;
   int NumberOfFrames = 0;

@@ -6,6 +6,7 @@
 #include "conversion.h"
 #include "expression_parser.h"
 #include "file_kind.h"
+#include "frame_times.h"
 #include "gltf_data.h"
 #include "io/dmat.h"
 #include "pose/pose_file.h"
@@ -17,9 +18,7 @@
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
-#include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <sstream>
@@ -29,7 +28,12 @@ using SDDP = vtkStreamingDemandDrivenPipeline;
 
 vtkStandardNewMacro(vtkPoseHandles);
 
-vtkPoseHandles::vtkPoseHandles() = default;
+struct vtkPoseHandles::Internals
+{
+  GltfFile gltf;
+};
+
+vtkPoseHandles::vtkPoseHandles() : Internal(std::make_unique<Internals>()) {}
 
 vtkPoseHandles::~vtkPoseHandles()
 {
@@ -86,28 +90,29 @@ int vtkPoseHandles::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
 {
   vtkInformation* info = output->GetInformationObject(0);
-  info->Remove(SDDP::TIME_STEPS());
-  info->Remove(SDDP::TIME_RANGE());
+  offer_no_time(info);
+  // What is wrong with the file or the text, Execute() says.
+  if (this->IsFrom("glb gltf"))
+  {
+    if (this->Internal->gltf.read(this->FileName, this->GetMTime()).ok())
+    {
+      const GltfData& data = this->Internal->gltf.data();
+      offer_frames(info, static_cast<int>(data.poses.size()), data.frames_per_second);
+    }
+    return 1;
+  }
   std::string text, source;
   PoseTimes times;
-  // What is wrong with the text, Execute() says.
-  if (this->IsFrom("glb gltf dmat") || !this->ReadText(text, source).ok() ||
-    !read_pose_times(text, times) || (times.frames < 2 && !times.has_expressions))
+  if (this->IsFrom("dmat") || !this->ReadText(text, source).ok() || !read_pose_times(text, times))
   {
     return 1;
   }
-  double range[2] = { 0.0, this->EndTime };
-  if (times.frames > 1)
+  offer_frames(info, static_cast<int>(times.frames), times.frames_per_second);
+  if (times.frames < 2 && times.has_expressions)
   {
-    std::vector<double> steps;
-    for (Index frame = 0; frame < times.frames; ++frame)
-    {
-      steps.push_back(static_cast<double>(frame) / times.frames_per_second);
-    }
-    range[1] = steps.back();
-    info->Set(SDDP::TIME_STEPS(), steps.data(), static_cast<int>(steps.size()));
+    const double range[2] = { 0.0, this->EndTime };
+    info->Set(SDDP::TIME_RANGE(), range, 2);
   }
-  info->Set(SDDP::TIME_RANGE(), range, 2);
   return 1;
 }
 
@@ -131,8 +136,8 @@ Status vtkPoseHandles::Execute(
   }
 
   vtkInformation* info = output->GetInformationObject(0);
-  const bool timed = info->Has(SDDP::UPDATE_TIME_STEP()) && info->Has(SDDP::TIME_RANGE());
-  const double time = timed ? info->Get(SDDP::UPDATE_TIME_STEP()) : this->Time;
+  double time = this->Time;
+  const bool timed = asked_time(info, time);
   this->NumberOfFrames = 1;
   this->Sequence = false;
   this->FramesPerSecond = PoseSequence().frames_per_second;
@@ -141,7 +146,7 @@ Status vtkPoseHandles::Execute(
   std::string text, source;
   status = from_text       ? this->ReadText(text, source)
     : this->IsFrom("dmat") ? this->TakeDMAT(handles, pose)
-                           : this->TakeGLTF(handles, pose);
+                           : this->TakeGLTF(handles, timed ? &time : nullptr, pose);
   if (!status.ok())
   {
     return status;
@@ -164,13 +169,8 @@ Status vtkPoseHandles::Execute(
     this->FramesPerSecond = sequence.frames_per_second;
     this->Sequence = sequence.sequence;
     this->HasExpressions = sequence.has_expressions;
-    int frame = this->Frame;
-    if (timed)
-    {
-      // The frame that is on; times of frames may be off by round-off.
-      frame = static_cast<int>(std::floor(std::clamp(
-        time * this->FramesPerSecond + 1e-6, 0.0, static_cast<double>(this->NumberOfFrames - 1))));
-    }
+    const int frame =
+      timed ? frame_at(time, this->NumberOfFrames, this->FramesPerSecond) : this->Frame;
     if (frame < 0 || frame >= this->NumberOfFrames)
     {
       return Status::invalid_input(source + "there is no frame " + std::to_string(frame) +
@@ -210,39 +210,43 @@ Status vtkPoseHandles::TakeDMAT(const Handles& handles, Pose& pose)
         std::to_string(this->Frame) + ", only 1 (counted from 0)");
 }
 
-/// The frame's transforms, by name; handles that are no joints keep their pose.
-Status vtkPoseHandles::TakeGLTF(const Handles& handles, Pose& pose)
+/// The transforms of the frame that is on at the time, or of Frame, by name; handles that are no
+/// joints keep their pose.
+Status vtkPoseHandles::TakeGLTF(const Handles& handles, const double* time, Pose& pose)
 {
   const std::string path = this->FileName;
-  GltfData data;
-  Status status = read_gltf(path, data);
+  Status status = this->Internal->gltf.read(path, this->GetMTime());
   if (!status.ok())
   {
     return status;
   }
-  std::vector<Pose> frames = data.poses;
-  if (frames.empty())
+  const GltfData& data = this->Internal->gltf.data();
+  std::vector<Pose> standing; // of the nodes, without an animation
+  if (data.poses.empty())
   {
     std::vector<Index> cells;
     Handles joints;
-    frames.resize(1);
+    standing.resize(1);
     status = to_handles(data.handles, joints, &cells);
     if (status.ok())
     {
-      status = to_pose(data.handles, joints, cells, frames[0]);
+      status = to_pose(data.handles, joints, cells, standing[0]);
     }
     if (!status.ok())
     {
       return Status::invalid_input(path + " has no skin, so there is no pose");
     }
   }
+  const std::vector<Pose>& frames = data.poses.empty() ? standing : data.poses;
   this->NumberOfFrames = static_cast<int>(frames.size());
   this->Sequence = !data.poses.empty();
   this->FramesPerSecond = data.frames_per_second;
-  if (this->Frame < 0 || this->Frame >= this->NumberOfFrames)
+  const int frame =
+    time ? frame_at(*time, this->NumberOfFrames, this->FramesPerSecond) : this->Frame;
+  if (frame < 0 || frame >= this->NumberOfFrames)
   {
-    return Status::invalid_input(path + ": there is no frame " + std::to_string(this->Frame) +
-      ", only " + std::to_string(this->NumberOfFrames) + " (counted from 0)");
+    return Status::invalid_input(path + ": there is no frame " + std::to_string(frame) + ", only " +
+      std::to_string(this->NumberOfFrames) + " (counted from 0)");
   }
   std::size_t known = 0;
   for (std::size_t h = 0; h < handles.size(); ++h)
@@ -252,7 +256,7 @@ Status vtkPoseHandles::TakeGLTF(const Handles& handles, Pose& pose)
       if (data.handle_list[j].name == handles[h].name)
       {
         pose[h].mode = HandleMode::full;
-        pose[h].transform = frames[this->Frame][j].transform;
+        pose[h].transform = frames[frame][j].transform;
         known += 1;
       }
     }

@@ -14,9 +14,9 @@
  * "translate": ["0.2 * sin(6.28 * t)", 0, 0] (vtkExprTkFunctionParser; its functions and
  * constants). In a sequence t is the frame's own time, its number / fps.
  *
- * **Time.** The filter is a source of time: a sequence offers the times of its frames, expressions
- * the range from 0 to EndTime. Who asks for a time gets the frame that is on then, or the
- * expressions' values; who asks for none, Frame and Time.
+ * **Time.** The filter is a source of time: a sequence or the animation of a glTF file offers the
+ * times of its frames, expressions the range from 0 to EndTime. Who asks for a time gets the frame
+ * that is on then, or the expressions' values; who asks for none, Frame and Time.
  *
  * A handle with pivot c moves x -> c + translate + R S (x - c), absolute; "space": "parent" applies
  * the parent's transform afterwards. Errors: a broken file, an unknown handle, an expression that
@@ -37,6 +37,7 @@
 
 #include "BindposeFiltersModule.h" // for export macro
 #include "vtkBindposeAlgorithm.h"
+#include <memory> // for std::unique_ptr
 #include <vector> // for std::vector
 
 namespace bindpose
@@ -59,9 +60,8 @@ public:
   ///@}
 
   ///@{
-  /// The pose as a file (.json, .dmat; .glb and .gltf for their animation), read anew at each
-  /// execution;
-  /// when set, PoseJSON is not used.
+  /// The pose as a file (.json, .dmat; .glb and .gltf for their animation), read anew when the
+  /// filter is updated; when set, PoseJSON is not used.
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}
@@ -110,16 +110,18 @@ private:
   vtkPoseHandles(const vtkPoseHandles&) = delete;
   void operator=(const vtkPoseHandles&) = delete;
 
-  bindpose::Status TakeGLTF(
-    const std::vector<bindpose::Handle>& handles, std::vector<bindpose::HandlePose>& pose);
+  struct Internals;
 
-  std::string PoseJSON;
-  char* FileName = nullptr;
+  bindpose::Status TakeGLTF(const std::vector<bindpose::Handle>& handles, const double* time,
+    std::vector<bindpose::HandlePose>& pose);
   bindpose::Status TakeDMAT(
     const std::vector<bindpose::Handle>& handles, std::vector<bindpose::HandlePose>& pose);
   bool IsFrom(const char* endings) const;
   bindpose::Status ReadText(std::string& text, std::string& source);
 
+  const std::unique_ptr<Internals> Internal;
+  std::string PoseJSON;
+  char* FileName = nullptr;
   int Frame = 0;
   double Time = 0.0;
   double EndTime = 10.0;

@@ -18,9 +18,11 @@
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
 #include "vtkFloatArray.h"
+#include "vtkInformation.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkUnsignedCharArray.h"
 #include "vtkUnstructuredGrid.h"
 
@@ -133,6 +135,7 @@ protected:
     EXPECT_TRUE(to_pose(this->Mine(1), handles, cells, pose).ok());
     return pose;
   }
+  void ExpectTheTimesOfTheFrames(const std::vector<Points>& expected);
   void Refuses(const char* word)
   {
     EXPECT_EQ(this->Writer->Write(), 0);
@@ -233,6 +236,44 @@ TEST_F(GLTFSkin, TetsAreTheirBoundary)
   }
 }
 
+/// The reader and a pose from its file, asked for times in any order: 12 frames a second.
+void GLTFSkin::ExpectTheTimesOfTheFrames(const std::vector<Points>& expected)
+{
+  vtkNew<vtkPoseHandles> posed;
+  posed->SetInputData(0, this->Handles);
+  posed->SetFileName((this->Folder / "rig.glb").c_str());
+  vtkNew<vtkSkinningDeformation> by_reader, by_pose;
+  by_reader->SetInputConnection(0, this->Reader->GetOutputPort(0));
+  by_reader->SetInputConnection(1, this->Reader->GetOutputPort(1));
+  by_pose->SetInputData(0, this->Mesh);
+  by_pose->SetInputConnection(1, posed->GetOutputPort());
+  for (vtkSkinningDeformation* skinning : { by_reader.Get(), by_pose.Get() })
+  {
+    skinning->UpdateInformation();
+    vtkInformation* info = skinning->GetOutputInformation(0);
+    ASSERT_EQ(info->Length(vtkStreamingDemandDrivenPipeline::TIME_STEPS()), 3);
+    EXPECT_DOUBLE_EQ(info->Get(vtkStreamingDemandDrivenPipeline::TIME_STEPS())[2], 2.0 / 12.0);
+    const std::vector<std::pair<double, std::size_t>> frames{ { 0.0, 0 }, { 2.0 / 12.0, 2 },
+      { 1.0 / 12.0, 1 }, { 1.9 / 12.0, 1 }, { 9.0, 2 }, { -1.0, 0 } };
+    for (const auto& [time, frame] : frames)
+    {
+      skinning->UpdateTimeStep(time);
+      EXPECT_LT(
+        (to_points(skinning->GetOutput()).view() - expected[frame]).cwiseAbs().maxCoeff(), 3e-6)
+        << time;
+    }
+  }
+  // Of a frame that was chosen there is one time only.
+  this->Reader->SetFrame(1);
+  this->Reader->UpdateInformation();
+  for (const int port : { 0, 1 })
+  {
+    EXPECT_FALSE(this->Reader->GetOutputInformation(port)->Has(
+      vtkStreamingDemandDrivenPipeline::TIME_STEPS()));
+  }
+  this->Reader->SetFrame(-1);
+}
+
 TEST_F(GLTFSkin, PosesAndAnimationsAreThoseOfLinearBlendSkinning)
 {
   const std::string path = this->Folder.write("pose.json", R"({"fps": 12, "frames": [
@@ -295,6 +336,7 @@ TEST_F(GLTFSkin, PosesAndAnimationsAreThoseOfLinearBlendSkinning)
       EXPECT_LT((to_points(own->GetOutput()).view() - expected[k]).cwiseAbs().maxCoeff(), 3e-6);
     }
     this->Reader->SetFrame(-1);
+    this->ExpectTheTimesOfTheFrames(expected);
   }
   // Without a sequence the joints stand as the handles do.
   this->Writer->SetPoseFileName(nullptr);

@@ -1,0 +1,56 @@
+// Frames of a sequence as times of a pipeline: frame k is on from k / fps to (k + 1) / fps.
+#include "frame_times.h"
+
+#include "vtkInformation.h"
+#include "vtkStreamingDemandDrivenPipeline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace bindpose
+{
+
+using SDDP = vtkStreamingDemandDrivenPipeline;
+
+void offer_frames(vtkInformation* output, int frames, double frames_per_second)
+{
+  offer_no_time(output);
+  if (frames < 2)
+  {
+    return;
+  }
+  std::vector<double> times;
+  for (int frame = 0; frame < frames; ++frame)
+  {
+    times.push_back(static_cast<double>(frame) / frames_per_second);
+  }
+  const double range[2] = { times.front(), times.back() };
+  output->Set(SDDP::TIME_STEPS(), times.data(), frames);
+  output->Set(SDDP::TIME_RANGE(), range, 2);
+}
+
+void offer_no_time(vtkInformation* output)
+{
+  output->Remove(SDDP::TIME_STEPS());
+  output->Remove(SDDP::TIME_RANGE());
+}
+
+bool asked_time(vtkInformation* output, double& time)
+{
+  const bool asked = output->Has(SDDP::UPDATE_TIME_STEP()) && output->Has(SDDP::TIME_RANGE());
+  if (asked)
+  {
+    time = output->Get(SDDP::UPDATE_TIME_STEP());
+  }
+  return asked;
+}
+
+int frame_at(double time, int frames, double frames_per_second)
+{
+  // Times of frames may be off by round-off.
+  return static_cast<int>(std::floor(
+    std::clamp(time * frames_per_second + 1e-6, 0.0, static_cast<double>(frames - 1))));
+}
+
+} // namespace bindpose

@@ -4,6 +4,7 @@
 #include "tour.h"
 
 #include "posing/json_fields.h"
+#include "widgets/gizmo.h"
 
 #include <algorithm>
 #include <fstream>
@@ -106,14 +107,16 @@ Status read_place(const Json& json, const std::string& who, TourPlace& place)
       ? Status()
       : Status::invalid_input(who + ": a place of the view is two shares of its size, [0.5, 0.5]");
   }
-  if (!json.is_object() || !json.contains("handle"))
+  const bool of_gizmo = json.is_object() && json.contains("gizmo");
+  if (!of_gizmo && (!json.is_object() || !json.contains("handle")))
   {
-    return Status::invalid_input(
-      who + ": a place is [0.5, 0.5] or {\"handle\": \"NAME\", \"offset\": [0, 0]}");
+    return Status::invalid_input(who +
+      ": a place is [0.5, 0.5], {\"handle\": \"NAME\", \"offset\": [0, 0]} or {\"gizmo\": "
+      "\"move_x\", \"offset\": [0, 0]}");
   }
   for (const auto& [key, value] : json.items())
   {
-    if (!has_word("handle along offset", key))
+    if (!has_word(of_gizmo ? "gizmo offset" : "handle along offset", key))
     {
       return Status::invalid_input(who + ": a place has no \"" + key + "\"");
     }
@@ -122,11 +125,23 @@ Status read_place(const Json& json, const std::string& who, TourPlace& place)
   fields.read("handle", place.handle);
   fields.read("along", place.along, -any, any);
   fields.read("offset", place.at.data(), 2);
-  if (fields.status().ok() && place.handle.empty())
+  std::string part;
+  fields.read("gizmo", part);
+  if (!fields.status().ok())
   {
-    return Status::invalid_input(who + ": a place needs the name of a handle");
+    return fields.status();
   }
-  return fields.status();
+  for (const GizmoPartWord& each : gizmo_part_words)
+  {
+    place.gizmo_part = part == each.word ? each.part : place.gizmo_part;
+  }
+  if (of_gizmo && place.gizmo_part == no_part)
+  {
+    return Status::invalid_input(who + ": the gizmo has no part \"" + part + "\"");
+  }
+  return !of_gizmo && place.handle.empty()
+    ? Status::invalid_input(who + ": a place needs the name of a handle")
+    : Status();
 }
 
 /// What an option becomes, or what a check wants: a number, numbers, a word, or true or false.

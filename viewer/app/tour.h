@@ -15,8 +15,11 @@ struct TourPlace
 {
   std::string handle; ///< empty: a place of the view
   double along = 0.0; ///< of a bone, from its head (0) to its tail (1)
-  /// Of the view: from its upper left corner, in shares of its width and height. Of a handle: this
-  /// many pixels to the right of it and below it.
+  /// Where a part of the selected handle's gizmo is best grabbed: one of bindpose::GizmoPart;
+  /// 0: none is meant.
+  int gizmo_part = 0;
+  /// Of the view: from its upper left corner, in shares of its width and height. Of a handle and of
+  /// the gizmo: this many pixels to the right of it and below it.
   std::array<double, 2> at{ 0.0, 0.0 };
 };
 

@@ -3,6 +3,7 @@
 #include "main_window.h"
 #include "tour_values.h"
 #include "viewport.h"
+#include "widgets/gizmo.h"
 
 #include "io/atomic_file.h"
 
@@ -308,13 +309,15 @@ QString TourPlayer::choose(const TourStep& step)
 
 QString TourPlayer::find(const TourPlace& place, QPoint& at) const
 {
-  if (place.handle.empty())
+  const bool of_gizmo = place.gizmo_part != no_part;
+  if (place.handle.empty() && !of_gizmo)
   {
     at = this->hand_.place(place.at[0], place.at[1]);
     return {};
   }
-  const QString sentence =
-    this->hand_.place_of(QString::fromStdString(place.handle), place.along, at);
+  const QString sentence = of_gizmo
+    ? this->hand_.place_of_gizmo(place.gizmo_part, at)
+    : this->hand_.place_of(QString::fromStdString(place.handle), place.along, at);
   at += QPoint(static_cast<int>(place.at[0]), static_cast<int>(place.at[1]));
   return sentence;
 }

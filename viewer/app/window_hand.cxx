@@ -73,11 +73,28 @@ QString WindowHand::place_of(const QString& handle, double along, QPoint& at) co
   vtkRenderer* renderer = viewport->renderer();
   renderer->SetWorldPoint(place.x(), place.y(), place.z(), 1.0);
   renderer->WorldToDisplay();
-  const double* pixel = renderer->GetDisplayPoint();
-  const double scale = viewport->devicePixelRatioF();
-  at = { static_cast<int>(std::floor(pixel[0] / scale)),
-    viewport->height() - 1 - static_cast<int>(std::floor(pixel[1] / scale)) };
+  at = this->from_display(renderer->GetDisplayPoint());
   return {};
+}
+
+QString WindowHand::place_of_gizmo(int part, QPoint& at) const
+{
+  auto* drawn = this->window_->viewport()->handle_widget()->GetHandleSetRepresentation();
+  double pixel[2] = { 0.0, 0.0 };
+  if (!drawn->GetGizmoGrip(part, pixel))
+  {
+    return QObject::tr("that part of the gizmo is not seen");
+  }
+  at = this->from_display(pixel);
+  return {};
+}
+
+QPoint WindowHand::from_display(const double* pixel) const
+{
+  const Viewport* viewport = this->window_->viewport();
+  const double scale = viewport->devicePixelRatioF();
+  return { static_cast<int>(std::floor(pixel[0] / scale)),
+    viewport->height() - 1 - static_cast<int>(std::floor(pixel[1] / scale)) };
 }
 
 void WindowHand::send(QEvent::Type type, const QPoint& at, Qt::MouseButton button,

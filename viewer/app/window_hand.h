@@ -25,6 +25,8 @@ public:
   QPoint place(double x, double y) const; ///< of shares of its width and height
   /// Where a posed handle is: between its head (0) and its tail (1). A sentence without one.
   QString place_of(const QString& handle, double along, QPoint& at) const;
+  /// Where a part of the selected handle's gizmo is best grabbed. A sentence where it is not seen.
+  QString place_of_gizmo(int part, QPoint& at) const;
   void press(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
   void move(const QPoint& at, Qt::KeyboardModifiers held = {});
   void release(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
@@ -58,6 +60,7 @@ public:
 
 private:
   int number_of(const QString& handle) const; ///< -1: there is none
+  QPoint from_display(const double* pixel) const;
   void send(QEvent::Type type, const QPoint& at, Qt::MouseButton button, Qt::MouseButtons held,
     Qt::KeyboardModifiers keys);
 

@@ -44,6 +44,19 @@ enum GizmoPart : int
   twist_tail
 };
 
+/// The words for them, in tours.
+struct GizmoPartWord
+{
+  const char* word;
+  GizmoPart part;
+};
+constexpr GizmoPartWord gizmo_part_words[] = { { "move_x", move_x }, { "move_y", move_y },
+  { "move_z", move_z }, { "move_yz", move_yz }, { "move_zx", move_zx }, { "move_xy", move_xy },
+  { "turn_x", turn_x }, { "turn_y", turn_y }, { "turn_z", turn_z }, { "turn_view", turn_view },
+  { "scale_x", scale_x }, { "scale_y", scale_y }, { "scale_z", scale_z },
+  { "scale_all", scale_all }, { "stretch", stretch_bone }, { "twist_head", twist_head },
+  { "twist_tail", twist_tail } };
+
 struct GizmoSetup
 {
   GizmoKind kind = GizmoKind::all;

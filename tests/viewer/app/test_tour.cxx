@@ -121,6 +121,10 @@ TEST(Tour, AMistakeIsOneSentenceThatNamesTheStep)
     "step 1 (click): a place of the view is two shares of its size, [0.5, 0.5]");
   EXPECT_EQ(
     refusal(R"({"click": {"handle": "a", "of": 1}})"), "step 1 (click): a place has no \"of\"");
+  EXPECT_EQ(refusal(R"({"click": {"gizmo": "move_w"}})"),
+    "step 1 (click): the gizmo has no part \"move_w\"");
+  EXPECT_EQ(refusal(R"({"click": {"gizmo": "move_x", "along": 1}})"),
+    "step 1 (click): a place has no \"along\"");
   EXPECT_EQ(refusal(R"({"click": [0, 0], "button": "fourth"})"),
     "step 1 (click): \"button\" must be one of left, middle, right");
   EXPECT_EQ(refusal(R"({"click": [0, 0], "held": "hat"})"),

@@ -385,10 +385,23 @@ void Viewport::draw_legend()
 
 void Viewport::resizeEvent(QResizeEvent* event)
 {
+  this->resizing_ = true;
   QVTKOpenGLNativeWidget::resizeEvent(event);
+  this->resizing_ = false;
+  this->update();
   this->handles_->GetHandleSetRepresentation()->SetPixelScale(this->devicePixelRatioF());
   this->brush_->GetRegionBrushRepresentation()->SetPixelScale(this->devicePixelRatioF());
   this->draw_legend();
+}
+
+/// Qt paints within every resize, and a window that is being laid out resizes its picture several
+/// times: the one that counts is painted when the window itself is.
+void Viewport::paintGL()
+{
+  if (!this->resizing_)
+  {
+    QVTKOpenGLNativeWidget::paintGL();
+  }
 }
 
 void Viewport::reset_view()

@@ -113,6 +113,7 @@ public:
 
 protected:
   void resizeEvent(QResizeEvent* event) override;
+  void paintGL() override;
   void changeEvent(QEvent* event) override;
 
 private:
@@ -144,6 +145,7 @@ private:
   QElapsedTimer since_start_;
   double last_drawn_ = -1e9, frame_seconds_ = 0.0; // smoothed
   bool refresh_pending_ = false;
+  bool resizing_ = false;
   QTimer settle_; // after a drag
 };
 

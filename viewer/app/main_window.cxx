@@ -757,7 +757,7 @@ void MainWindow::bind_finished()
   {
     return;
   }
-  this->sessions_->autosave()->save();
+  this->sessions_->autosave()->begin_save();
   const Report& report = result.status.report;
   this->panel_->set_note(result.status.ok()
       ? tr("Bound in %1 s, certified to %2.")

@@ -73,7 +73,8 @@ QString counts_of(vtkPolyData* defects)
 } // namespace
 
 Inspection::Inspection(Viewport* viewport, TetPanel* panel)
-  : QObject(viewport), panel_(panel), tets_(new TetView(viewport)), defects_(viewport)
+  : QObject(viewport), viewport_(viewport), panel_(panel), tets_(new TetView(viewport)),
+    defects_(viewport)
 {
   QObject::connect(panel, &TetPanel::make_wanted, this, &Inspection::make_tets);
   QObject::connect(panel, &TetPanel::cancel_wanted, this, [this] { this->tet_job_.cancel(); });
@@ -96,6 +97,7 @@ Inspection::Inspection(Viewport* viewport, TetPanel* panel)
   QObject::connect(&this->tet_job_, &KernelJob::progress, panel, &TetPanel::set_progress);
   QObject::connect(&this->tet_job_, &KernelJob::finished, this, &Inspection::tets_finished);
   QObject::connect(&this->defect_job_, &KernelJob::finished, this, &Inspection::defects_finished);
+  QObject::connect(viewport, &QOpenGLWidget::frameSwapped, this, &Inspection::picture_drawn);
 }
 
 void Inspection::set_active(bool active)
@@ -262,7 +264,21 @@ void Inspection::update_defects()
 void Inspection::look_for_defects()
 {
   this->looking_ = this->surface_ != nullptr;
-  this->start_looking();
+  // The picture comes first: it needs all cores where nothing but them draws.
+  this->waiting_ = this->looking_ && this->viewport_->isVisible();
+  if (!this->waiting_)
+  {
+    this->start_looking();
+  }
+}
+
+void Inspection::picture_drawn()
+{
+  if (this->waiting_)
+  {
+    this->waiting_ = false;
+    this->start_looking();
+  }
 }
 
 void Inspection::show_defects()

@@ -27,10 +27,13 @@ public:
   void set_active(bool active);
   void make_tets(int method); ///< of TetPanel
   void cancel();
-  /// Beside the window; defects_found() tells when there are some.
+  /// Beside the window, once the surface has been drawn; defects_found() tells when there are some.
   void look_for_defects();
   void show_defects();
-  bool is_busy() const { return this->tet_job_.is_running() || this->defect_job_.is_running(); }
+  bool is_busy() const
+  {
+    return this->tet_job_.is_running() || this->defect_job_.is_running() || this->waiting_;
+  }
   /// How the surface is to be drawn (of Viewport): tets take its place, defects shine through it.
   int surface_look() const;
 
@@ -49,16 +52,19 @@ private:
   void defects_finished();
   void update_defects();
   void start_looking();
+  void picture_drawn();
   void choose_colours(int colours);
   void show_position();
   void update_panel();
 
+  Viewport* viewport_;
   TetPanel* panel_;
   TetView* tets_;
   DefectView defects_;
   vtkSmartPointer<vtkPolyData> surface_;
   bool active_ = false;
   bool looking_ = false; // for defects, to tell about them
+  bool waiting_ = false; // with that, for the first picture of the surface
   int colours_ = 0; // of TetPanel, those that are shown
   std::shared_ptr<vtkSmartPointer<vtkUnstructuredGrid>> made_tets_;
   std::shared_ptr<vtkSmartPointer<vtkPolyData>> made_defects_;

@@ -477,9 +477,19 @@ bool MainWindow::say(const QString& name, const Status& status)
 
 bool MainWindow::open(const QString& path)
 {
+  return this->open_and_note(path, nullptr);
+}
+
+bool MainWindow::open(const QString& path, const OpenedFile& file)
+{
+  return this->open_and_note(path, &file);
+}
+
+bool MainWindow::open_and_note(const QString& path, const OpenedFile* read)
+{
   // To look at a file is no change that could be lost.
   const bool unchanged = !this->document_->is_changed(true) && this->sessions_->path().isEmpty();
-  const bool done = this->open_file(path);
+  const bool done = this->open_file(path, read);
   if (done)
   {
     RecentFiles::add(path);
@@ -492,16 +502,16 @@ bool MainWindow::open(const QString& path)
   return done;
 }
 
-bool MainWindow::open_file(const QString& path)
+bool MainWindow::open_file(const QString& path, const OpenedFile* read)
 {
   const QString name = short_name(path);
-  OpenedFile file;
   if (path.endsWith(QString(".") + session_ending, Qt::CaseInsensitive))
   {
     this->error_bar_->hide();
     return this->sessions_->open(path);
   }
-  const Status status = read_file(path.toStdString(), file);
+  OpenedFile here;
+  const Status status = read ? Status() : read_file(path.toStdString(), here);
   if (!status.ok())
   {
     // The readers name the whole path; here the name says enough.
@@ -509,7 +519,8 @@ bool MainWindow::open_file(const QString& path)
       QString::fromStdString(status.message).replace(path, name), path);
     return false;
   }
-  const Source source = source_of(path);
+  const OpenedFile& file = read ? *read : here;
+  const Source source{ QFileInfo(path).absoluteFilePath(), file.checksum.get() };
   switch (file.kind)
   {
     case OpenedFile::Kind::handles:
@@ -746,7 +757,7 @@ void MainWindow::bind_finished()
   {
     return;
   }
-  this->sessions_->autosave()->save();
+  this->sessions_->autosave()->begin_save();
   const Report& report = result.status.report;
   this->panel_->set_note(result.status.ok()
       ? tr("Bound in %1 s, certified to %2.")

@@ -38,16 +38,24 @@ private:
   QApplication application_{ argc_, argv_ };
 };
 
-void open_all(MainWindow& window, const std::vector<std::string>& files)
+void open_all(MainWindow& window, const std::vector<FirstFile>& files)
 {
-  for (const std::string& file : files)
+  for (const FirstFile& file : files)
   {
-    window.open(QString::fromLocal8Bit(file.c_str()));
+    const QString path = QString::fromLocal8Bit(file.path.c_str());
+    if (file.data)
+    {
+      window.open(path, *file.data);
+    }
+    else
+    {
+      window.open(path);
+    }
   }
 }
 } // namespace
 
-int run_viewer(const std::vector<std::string>& files)
+int run_viewer(const std::vector<FirstFile>& files)
 {
   const Application application;
   MainWindow window;
@@ -57,7 +65,7 @@ int run_viewer(const std::vector<std::string>& files)
   return QApplication::exec();
 }
 
-bindpose::Status play_tour(const std::vector<std::string>& files, const TourRequest& request)
+bindpose::Status play_tour(const std::vector<FirstFile>& files, const TourRequest& request)
 {
   bindpose::Tour tour;
   const bindpose::Status status = read_tour(request.path, tour);

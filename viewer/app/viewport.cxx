@@ -38,11 +38,16 @@
 
 #include <QApplication>
 #include <QEvent>
+#include <QOpenGLContext>
+#include <QOpenGLFunctions>
 
 #include <cmath>
+#include <utility>
 
 namespace
 {
+constexpr int smooth_samples = 4; // a pixel
+
 /// Trackball camera without VTK's letter keys: 'e' would end the program, 'w' draw wires.
 class CameraStyle : public vtkInteractorStyleTrackballCamera
 {
@@ -71,7 +76,7 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
 {
   this->setRenderWindow(this->window_.Get());
   this->window_->AddRenderer(this->renderer_);
-  this->window_->SetMultiSamples(4);
+  this->window_->SetMultiSamples(smooth_samples);
   this->setMinimumSize(320, 240);
   this->settle_.setSingleShot(true);
   this->settle_.setInterval(250);
@@ -102,6 +107,9 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->handles_->CreateDefaultRepresentation();
   this->brush_->SetInteractor(this->interactor());
   this->brush_->CreateDefaultRepresentation();
+  // What widgets and camera ask for during one event is one picture, after it.
+  this->interactor()->EnableRenderOff();
+  this->interactor()->AddObserver(vtkCommand::RenderEvent, this, &Viewport::render_wanted);
   this->since_start_.start();
   this->renderer_->AddObserver(vtkCommand::EndEvent, this, &Viewport::frame_drawn);
 }
@@ -118,6 +126,7 @@ void Viewport::set_surface(vtkPolyData* surface)
   this->shaded_ = surface ? std::make_unique<bindpose::ShadedSurface>(surface) : nullptr;
   this->mapper_->SetInputData(surface ? this->shaded_->polydata() : nullptr);
   this->depths_.resize(0);
+  this->first_picture_ = true;
   this->show_values(nullptr, true);
   this->set_surface_look(this->look_);
 }
@@ -140,7 +149,7 @@ void Viewport::set_surface_look(int look)
   this->renderer_->SetUseDepthPeeling(sorts);
   this->renderer_->SetMaximumNumberOfPeels(6);
   this->renderer_->SetUseFXAA(sorts);
-  this->window_->SetMultiSamples(sorts ? 0 : 4);
+  this->window_->SetMultiSamples(sorts ? 0 : smooth_samples);
   this->refresh();
 }
 
@@ -385,10 +394,43 @@ void Viewport::draw_legend()
 
 void Viewport::resizeEvent(QResizeEvent* event)
 {
+  this->resizing_ = true;
   QVTKOpenGLNativeWidget::resizeEvent(event);
+  this->resizing_ = false;
+  this->update();
   this->handles_->GetHandleSetRepresentation()->SetPixelScale(this->devicePixelRatioF());
   this->brush_->GetRegionBrushRepresentation()->SetPixelScale(this->devicePixelRatioF());
   this->draw_legend();
+}
+
+void Viewport::initializeGL()
+{
+  QVTKOpenGLNativeWidget::initializeGL();
+  const auto* name =
+    reinterpret_cast<const char*>(this->context()->functions()->glGetString(GL_RENDERER));
+  const QString renderer = QString::fromLatin1(name ? name : "");
+  this->draws_on_processor_ = renderer.contains("llvmpipe") || renderer.contains("softpipe") ||
+    renderer.contains("Software") || renderer.contains("SWR");
+}
+
+/// Qt paints within every resize, and a window that is being laid out resizes its picture several
+/// times: the one that counts is painted when the window itself is.
+void Viewport::paintGL()
+{
+  if (!this->resizing_)
+  {
+    this->interactor()->EnableRenderOn();
+    QVTKOpenGLNativeWidget::paintGL();
+    this->interactor()->EnableRenderOff();
+  }
+}
+
+void Viewport::render_wanted()
+{
+  if (!this->interactor()->GetEnableRender()) // else it is being painted
+  {
+    this->refresh();
+  }
 }
 
 void Viewport::reset_view()
@@ -486,8 +528,13 @@ void Viewport::refresh()
       const bool dragging = QApplication::mouseButtons() != Qt::NoButton;
       this->window_->SetDesiredUpdateRate(dragging ? this->interactor()->GetDesiredUpdateRate()
                                                    : this->interactor()->GetStillUpdateRate());
+      const int samples = this->window_->GetMultiSamples();
+      const bool coarse = this->draws_on_processor_ && samples > 0 &&
+        (dragging || std::exchange(this->first_picture_, false));
+      this->window_->SetMultiSamples(coarse ? 0 : samples);
       this->window_->Render();
-      if (dragging)
+      this->window_->SetMultiSamples(samples); // of whoever draws without asking here
+      if (dragging || coarse)
       {
         this->settle_.start();
       }

@@ -96,7 +96,9 @@ public:
   void set_also_shown(const bindpose::Box& box);
   /// Looks at everything from the side that shows most of it.
   void reset_view();
-  /// Draws soon; many calls, one picture.
+  /// Draws soon; many calls, one picture. Where the processor draws, what moves and the first
+  /// picture of a surface are drawn without smooth edges, in a fifth of the time, and a quarter of
+  /// a second later with them.
   void refresh();
   /// Writes what is seen.
   bool save_picture(const QString& path);
@@ -113,12 +115,15 @@ public:
 
 protected:
   void resizeEvent(QResizeEvent* event) override;
+  void initializeGL() override;
+  void paintGL() override;
   void changeEvent(QEvent* event) override;
 
 private:
   void use_appearance();
   void draw_legend();
   void frame_drawn();
+  void render_wanted();
   void use_column();
 
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
@@ -144,6 +149,9 @@ private:
   QElapsedTimer since_start_;
   double last_drawn_ = -1e9, frame_seconds_ = 0.0; // smoothed
   bool refresh_pending_ = false;
+  bool resizing_ = false;
+  bool draws_on_processor_ = false;
+  bool first_picture_ = false; // of another surface
   QTimer settle_; // after a drag
 };
 

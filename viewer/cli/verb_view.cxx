@@ -9,8 +9,6 @@
 #include "scene/display.h"
 #include "scene/picture_file.h"
 
-#include "vtkDataSet.h"
-
 #ifdef BINDPOSE_HAS_QT
 #include "viewer.h"
 #endif
@@ -36,6 +34,28 @@ bool tour_request(Session& session, TourRequest& request)
   return !request.path.empty() || request.folder.empty() ||
     session.invalid("--screenshot-dir is where --play puts its pictures: name a tour by --play");
 }
+
+/// What is wrong with a file is said here, in the words of all verbs, before a window opens.
+bool read_files(Session& session, std::vector<FirstFile>& files)
+{
+  for (const std::string& path : session.arguments().list("FILE"))
+  {
+    files.push_back({ path, std::nullopt });
+    // What only the window reads it speaks about itself.
+    if (is_picture_file(path) || is_listed(file_extension(path), "dmat bindpose"))
+    {
+      continue;
+    }
+    const Status status = read_file(path, files.back().data.emplace(),
+      [&session](vtkBindposeAlgorithm* reader)
+      { return session.try_run(reader, "read", 0.0, 0.0, Merge::nothing); });
+    if (!status.ok())
+    {
+      return session.fail(status);
+    }
+  }
+  return true;
+}
 } // namespace
 #endif
 
@@ -58,23 +78,17 @@ void run_view(Session& session)
       "answer; for pictures without one there is: bindpose render"));
     return;
   }
-  for (const std::string& file : session.arguments().list("FILE"))
+  std::vector<FirstFile> files;
+  if (!read_files(session, files))
   {
-    // What only the window reads it speaks about itself.
-    const bool of_window =
-      is_picture_file(file) || is_listed(file_extension(file), "dmat bindpose");
-    if (!of_window &&
-      !session.read_any(file)) // said here, in the words of all verbs, before a window opens
-    {
-      return;
-    }
+    return;
   }
   release_interrupts();
   if (!request.path.empty())
   {
-    session.fail(play_tour(session.arguments().list("FILE"), request));
+    session.fail(play_tour(files, request));
   }
-  else if (run_viewer(session.arguments().list("FILE")) != 0)
+  else if (run_viewer(files) != 0)
   {
     session.fail(Status::failure(StatusCode::internal_error, "the window ended with an error"));
   }

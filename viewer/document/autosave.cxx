@@ -33,11 +33,16 @@ Autosave::Autosave(MakeSession make_session, const QString& root, QObject* paren
 {
   this->timer_.setSingleShot(true);
   this->timer_.setInterval(static_cast<int>(1000.0 * interval()));
-  QObject::connect(&this->timer_, &QTimer::timeout, this, &Autosave::save);
+  QObject::connect(&this->timer_, &QTimer::timeout, this, &Autosave::begin_save);
 }
 
 Autosave::~Autosave()
 {
+  this->next_ = nullptr; // what is being written would go at once
+  if (this->is_saving())
+  {
+    this->writer_.join();
+  }
   if (!this->folder_.isEmpty())
   {
     this->lock_->unlock();
@@ -90,21 +95,91 @@ bool Autosave::make_folder()
   return !this->folder_.isEmpty();
 }
 
-Status Autosave::save()
+void Autosave::begin_save()
 {
   QElapsedTimer clock;
   clock.start();
   this->timer_.stop();
-  const Status status = this->make_folder()
-    ? this->file_.write(this->path(), this->make_session_())
-    : Status::invalid_input("cannot write to " + this->root_.toStdString());
+  if (this->make_folder())
+  {
+    this->next_ = SessionFile::prepare(this->path(), this->make_session_());
+    if (!this->is_saving())
+    {
+      this->start_writer();
+    }
+  }
+  else
+  {
+    this->end_with(Status::invalid_input("cannot write to " + this->root_.toStdString()));
+  }
   this->milliseconds_ = 1e-6 * static_cast<double>(clock.nsecsElapsed());
+}
+
+void Autosave::start_writer()
+{
+  this->writing_ = std::move(this->next_);
+  this->writer_ = std::thread(
+    [this, round = ++this->round_]
+    {
+      QElapsedTimer clock;
+      clock.start();
+      try
+      {
+        this->written_ = this->file_.write(*this->writing_);
+      }
+      catch (const std::exception& error)
+      {
+        this->written_ = Status::failure(StatusCode::internal_error, error.what());
+      }
+      this->writing_milliseconds_ = 1e-6 * static_cast<double>(clock.nsecsElapsed());
+      QMetaObject::invokeMethod(
+        this,
+        [this, round]
+        {
+          if (this->is_saving() && round == this->round_) // else wait() was there before
+          {
+            this->end_writer();
+          }
+        },
+        Qt::QueuedConnection);
+    });
+}
+
+void Autosave::end_writer()
+{
+  this->writer_.join();
+  this->writing_ = nullptr;
+  const Status status = this->written_;
+  if (this->next_)
+  {
+    this->start_writer();
+  }
+  this->end_with(status);
+}
+
+void Autosave::end_with(const Status& status)
+{
+  this->status_ = status;
   if (!status.ok())
   {
     Q_EMIT this->failed(
       tr("The work is not being backed up: %1.").arg(QString::fromStdString(status.message)));
   }
-  return status;
+}
+
+Status Autosave::wait()
+{
+  while (this->is_saving())
+  {
+    this->end_writer();
+  }
+  return this->status_;
+}
+
+Status Autosave::save()
+{
+  this->begin_save();
+  return this->wait();
 }
 
 // ---- After a crash -----------------------------------------------------------------------------

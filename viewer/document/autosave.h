@@ -9,6 +9,7 @@
 
 #include <functional>
 #include <memory>
+#include <thread>
 #include <vector>
 
 class QLockFile;
@@ -16,6 +17,9 @@ class QLockFile;
 /// Keeps a copy of the work in a folder of this process, against crashes: at most a minute after
 /// something has changed, and at once when it is told to. The folder goes when the process ends as
 /// it should. Nothing happens while nothing changes.
+///
+/// Files are written on a thread of their own: what is copied are shared datasets that nobody
+/// changes. One copy at a time; what is asked for meanwhile follows it. The end waits for it.
 class Autosave : public QObject
 {
   Q_OBJECT
@@ -35,18 +39,28 @@ public:
 
   /// Something has changed.
   void note_change();
-  /// A copy of what is now.
+  /// A copy of what is now, begun. The caller goes on; failed() tells when it cannot be written.
+  void begin_save();
+  /// A copy of what is now, on the disk.
   bindpose::Status save();
+  bool is_saving() const { return this->writer_.joinable(); }
+  /// Until what was begun is on the disk; how the last copy went.
+  bindpose::Status wait();
   /// The session file of this process; empty as long as nothing was saved.
   QString path() const;
-  /// How long the last copy took, milliseconds.
+  /// Milliseconds that the last begin_save() took on the caller's thread.
   double milliseconds() const { return this->milliseconds_; }
+  /// Milliseconds that the last copy took to write.
+  double writing_milliseconds() const { return this->writing_milliseconds_; }
 
 Q_SIGNALS:
   void failed(const QString& sentence);
 
 private:
   bool make_folder();
+  void start_writer();
+  void end_writer();
+  void end_with(const bindpose::Status& status);
 
   MakeSession make_session_;
   QString root_;
@@ -55,6 +69,12 @@ private:
   SessionFile file_;
   QTimer timer_;
   double milliseconds_ = 0.0;
+  double writing_milliseconds_ = 0.0;
+  std::thread writer_;
+  int round_ = 0; // of the writer
+  std::shared_ptr<const SessionFile::Prepared> writing_, next_; // dropped on this thread
+  bindpose::Status written_; // by the writer; read after it has ended
+  bindpose::Status status_; // of the last copy
 };
 
 /// What a process that has died left in the recovery folder. As long as this exists no other

@@ -1,5 +1,7 @@
 #include "document/opened_file.h"
 
+#include "document/work_inputs.h"
+
 #include "file_kind.h"
 #include "io/atomic_file.h"
 #include "io/dmat.h"
@@ -41,28 +43,38 @@ bool looks_like_handles(vtkDataSet* data)
   return polydata && polydata->GetNumberOfPolys() + polydata->GetNumberOfStrips() == 0;
 }
 
+Status update(vtkBindposeAlgorithm* reader)
+{
+  reader->Update();
+  return reader->GetStatus() == vtkBindposeAlgorithm::OK
+    ? Status()
+    : Status::invalid_input(reader->GetStatusMessage());
+}
+
 template <typename Reader>
-Status read_with(Reader* reader, const std::string& path, OpenedFile& file)
+Status read_with(Reader* reader, const std::string& path, const RunReader& run, OpenedFile& file)
 {
   quiet(reader);
   reader->SetFileName(path.c_str());
-  reader->Update();
-  if (reader->GetStatus() != vtkBindposeAlgorithm::OK)
+  Status status = run ? run(reader) : update(reader);
+  if (status.ok())
   {
-    return Status::invalid_input(reader->GetStatusMessage());
+    file.data = vtkDataSet::SafeDownCast(reader->GetOutput());
   }
-  file.data = vtkDataSet::SafeDownCast(reader->GetOutput());
-  return {};
+  return status;
 }
 } // namespace
 
-Status read_file(const std::string& path, OpenedFile& file)
+Status read_file(const std::string& path, OpenedFile& file, const RunReader& run)
 {
+  // Beside the reading: of a large mesh it takes as long.
+  file.checksum = std::async(
+    std::launch::async, [name = QString::fromStdString(path)] { return checksum_of(name); });
   if (QString::fromStdString(path).endsWith(".tgf", Qt::CaseInsensitive))
   {
     vtkNew<vtkHandleFileReader> reader;
     file.kind = OpenedFile::Kind::handles;
-    return read_with(reader.Get(), path, file);
+    return read_with(reader.Get(), path, run, file);
   }
   if (file_extension(path) == "dmat")
   {
@@ -80,7 +92,7 @@ Status read_file(const std::string& path, OpenedFile& file)
   if (is_listed(file_extension(path), vtkGLTFSkinReader::GetFileExtensions()))
   {
     vtkNew<vtkGLTFSkinReader> reader;
-    const Status status = read_with(reader.Get(), path, file);
+    const Status status = read_with(reader.Get(), path, run, file);
     auto* handles = vtkPolyData::SafeDownCast(reader->GetOutputDataObject(1));
     if (status.ok() && handles->GetNumberOfCells() > 0)
     {
@@ -89,7 +101,7 @@ Status read_file(const std::string& path, OpenedFile& file)
     return status;
   }
   vtkNew<vtkMeshFileReader> reader;
-  Status status = read_with(reader.Get(), path, file);
+  Status status = read_with(reader.Get(), path, run, file);
   if (!status.ok())
   {
     return status;

@@ -10,8 +10,14 @@
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 
+#include <QByteArray>
+
+#include <functional>
+#include <future>
 #include <string>
 #include <vector>
+
+class vtkBindposeAlgorithm;
 
 // What a document is made of and gives out. Nothing goes to the terminal.
 
@@ -31,8 +37,13 @@ struct OpenedFile
   vtkSmartPointer<vtkDataSet> data;
   vtkSmartPointer<vtkPolyData> handles; ///< of a mesh: those of its skin, in glTF files
   bindpose::Weights weights;
+  std::shared_future<QByteArray> checksum; ///< SHA-256 of the file in hex; empty: it went away
 };
-bindpose::Status read_file(const std::string& path, OpenedFile& file);
+/// Brings a reader up to date; not ok: why it could not.
+using RunReader = std::function<bindpose::Status(vtkBindposeAlgorithm*)>;
+/// With `run` for those who show progress or can be interrupted; pictures and weights need none.
+bindpose::Status read_file(
+  const std::string& path, OpenedFile& file, const RunReader& run = nullptr);
 
 /// What a picture shows, as triangles with texture coordinates (vtkPlanarShape): cut out by its
 /// alpha, or the whole rectangle where it is opaque or where that is asked for.

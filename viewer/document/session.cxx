@@ -4,6 +4,7 @@
 #include "document/session.h"
 
 #include "document/dataset_json.h"
+#include "document/dataset_view.h"
 #include "document/opened_file.h"
 #include "document/work_inputs.h"
 
@@ -375,8 +376,10 @@ Status SessionFile::write_companion(
   {
     return status;
   }
-  const bool written = is_tets ? write_xml<vtkXMLUnstructuredGridWriter>(data, file.temporary())
-                               : write_xml<vtkXMLPolyDataWriter>(data, file.temporary());
+  const vtkSmartPointer<vtkDataSet> view = view_of(data); // the window may be using the data
+  const bool written = view &&
+    (is_tets ? write_xml<vtkXMLUnstructuredGridWriter>(view, file.temporary())
+             : write_xml<vtkXMLPolyDataWriter>(view, file.temporary()));
   const QString temporary = QString::fromStdString(file.temporary());
   const QByteArray checksum = written ? checksum_of(temporary) : QByteArray();
   if (checksum.isEmpty())
@@ -394,12 +397,22 @@ Status SessionFile::write_companion(
   return status;
 }
 
-Status SessionFile::write(const QString& path, const Session& session)
+struct SessionFile::Prepared
+{
+  QString path; // absolute
+  json text; // all but the companions
+  vtkSmartPointer<vtkPolyData> surface; // these two no input holds; or null
+  vtkSmartPointer<vtkUnstructuredGrid> tets;
+};
+
+std::shared_ptr<const SessionFile::Prepared> SessionFile::prepare(
+  const QString& path, const Session& session)
 {
   const Work& work = session.work;
   const QDir folder(QFileInfo(path).absolutePath());
-  const QString absolute = QFileInfo(path).absoluteFilePath();
-  json text;
+  auto prepared = std::make_shared<Prepared>();
+  prepared->path = QFileInfo(path).absoluteFilePath();
+  json& text = prepared->text;
   text["bindpose"] = { { "schema", session_schema } };
   text["name"] = work.name.toStdString();
   json& inputs = text["inputs"] = json::object();
@@ -414,31 +427,10 @@ Status SessionFile::write(const QString& path, const Session& session)
       inputs[role] = source_to_json(*source, folder);
     }
   }
-  json& companions = text["companions"] = json::object();
-  QStringList named;
-  const auto add = [&](const char* role, vtkDataSet* data, Companion& companion)
-  {
-    Status status = this->write_companion(absolute, role, data, companion);
-    if (status.ok())
-    {
-      named << companion.name;
-      companions[role] = { { "path", companion.name.toStdString() },
-        { "sha256", companion.checksum.toStdString() } };
-    }
-    return status;
-  };
-  Status status;
   if (work.surface && work.made_here)
   {
-    status = add("surface", work.surface, this->surface_);
-    if (status.ok() && work.weighted_tets)
-    {
-      status = add("tets", work.weighted_tets, this->tets_);
-    }
-  }
-  if (!status.ok())
-  {
-    return status;
+    prepared->surface = work.surface;
+    prepared->tets = work.weighted_tets;
   }
   text["handles"] = work.handles ? handles_to_json(work.handles) : json();
   text["bound_handles"] = !work.bound_handles ? json()
@@ -457,8 +449,45 @@ Status SessionFile::write(const QString& path, const Session& session)
   {
     text["saved_as"] = session.saved_as.toStdString();
   }
+  return prepared;
+}
+
+Status SessionFile::write(const QString& path, const Session& session)
+{
+  return this->write(*prepare(path, session));
+}
+
+Status SessionFile::write(const Prepared& prepared)
+{
+  json text = prepared.text;
+  json& companions = text["companions"] = json::object();
+  QStringList named;
+  const auto add = [&](const char* role, vtkDataSet* data, Companion& companion)
+  {
+    Status status = this->write_companion(prepared.path, role, data, companion);
+    if (status.ok())
+    {
+      named << companion.name;
+      companions[role] = { { "path", companion.name.toStdString() },
+        { "sha256", companion.checksum.toStdString() } };
+    }
+    return status;
+  };
+  Status status;
+  if (prepared.surface)
+  {
+    status = add("surface", prepared.surface, this->surface_);
+    if (status.ok() && prepared.tets)
+    {
+      status = add("tets", prepared.tets, this->tets_);
+    }
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
   AtomicFile file;
-  status = file.open(absolute.toStdString(), true);
+  status = file.open(prepared.path.toStdString(), true);
   if (!status.ok())
   {
     return status;
@@ -471,7 +500,7 @@ Status SessionFile::write(const QString& path, const Session& session)
   }
   if (status.ok())
   {
-    remove_stale_companions(absolute, named);
+    remove_stale_companions(prepared.path, named);
   }
   return status;
 }

@@ -7,6 +7,7 @@
 #include <QStringList>
 
 #include <array>
+#include <memory>
 #include <optional>
 
 /// From where a window looks; no part of the work.
@@ -48,10 +49,16 @@ struct Session
 /// Nothing is ever half-written: companions are on the disk before the session that names them
 /// takes the place of the last one, in one step, and only then those that nobody names any more
 /// go. A process that is killed anywhere leaves the last session or the new one.
+///
+/// To write beside the window: prepare() on its thread, which takes no time, then write() on
+/// another; what was prepared is dropped on the first again.
 class SessionFile
 {
 public:
+  struct Prepared; ///< a session as text, and its datasets, which nobody changes
+  static std::shared_ptr<const Prepared> prepare(const QString& path, const Session& session);
   /// Writes the session; companions that this object has written there already stay as they are.
+  bindpose::Status write(const Prepared& prepared);
   bindpose::Status write(const QString& path, const Session& session);
 
 private:

@@ -13,7 +13,6 @@
 
 #include <QCryptographicHash>
 #include <QFile>
-#include <QFileInfo>
 
 using namespace bindpose;
 
@@ -159,9 +158,4 @@ QByteArray checksum_of(const QString& path)
     return {};
   }
   return hash.result().toHex();
-}
-
-Source source_of(const QString& path)
-{
-  return { QFileInfo(path).absoluteFilePath(), checksum_of(path) };
 }

@@ -20,6 +20,5 @@ bindpose::Status use_weights(const bindpose::Weights& weights, const QString& na
 
 /// SHA-256 in hex; empty when the file cannot be read.
 QByteArray checksum_of(const QString& path);
-Source source_of(const QString& path);
 
 #endif

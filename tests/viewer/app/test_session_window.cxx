@@ -322,6 +322,7 @@ TEST_F(SessionWindow, ABindIsOneStepAndIsBackedUpAtOnce)
   }
   ASSERT_TRUE(this->window.is_bound());
   EXPECT_EQ(this->window.history()->undoText(), "bind");
+  ASSERT_TRUE(this->window.sessions()->autosave()->wait().ok());
   Session backup;
   ASSERT_TRUE(read_session(this->window.sessions()->autosave()->path(), backup).ok());
   EXPECT_TRUE(backup.work.surface->GetPointData()->HasArray("Weights"));

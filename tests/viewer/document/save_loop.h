@@ -8,6 +8,8 @@
 #include "document/autosave.h"
 
 #include <QCoreApplication>
+#include <QDateTime>
+#include <QTimer>
 
 #include <cstdio>
 
@@ -55,6 +57,30 @@ inline int autosave_for_ever(const char* root)
   session.saved_as = "/somewhere/else.bindpose";
   Autosave autosave([&session] { return session; }, root);
   autosave.note_change();
+  return QCoreApplication::exec();
+}
+
+inline double seconds_now()
+{
+  return 1e-3 * static_cast<double>(QDateTime::currentMSecsSinceEpoch() % (1LL << 40));
+}
+
+/// Changes the work every 20 ms, a number of which says when, with an autosave in the folder.
+inline int change_for_ever(const char* root)
+{
+  Session session;
+  session.work = state_of_work(1);
+  Autosave autosave([&session] { return session; }, root);
+  QTimer changes;
+  QObject::connect(&changes, &QTimer::timeout,
+    [&]
+    {
+      session.work.pose[0].stretch = seconds_now();
+      autosave.note_change();
+    });
+  changes.start(20);
+  std::puts("begun");
+  std::fflush(stdout);
   return QCoreApplication::exec();
 }
 

@@ -586,6 +586,10 @@ int main(int argc, char** argv)
   {
     return test::autosave_for_ever(argv[2]);
   }
+  if (argc == 3 && std::string(argv[1]) == "--change-for-ever")
+  {
+    return test::change_for_ever(argv[2]);
+  }
   testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();
 }

@@ -95,7 +95,7 @@ Session with_file(const test::Folder& folder)
   corner.triangles.resize(4, 3);
   corner.triangles << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
   document.set_mesh(
-    to_polydata(corner.points, corner.triangles), "corner.off", source_of(text(mesh)));
+    to_polydata(corner.points, corner.triangles), "corner.off", Source{ text(mesh), checksum_of(text(mesh)) });
   document.set_handles(to_polydata(test::three_handles()), "handles");
   Session session;
   session.work = document.work();
@@ -166,7 +166,7 @@ TEST(Sessions, AnotherFolderOpensTheSameWork)
   std::filesystem::create_directories(folder / "here/meshes");
   const std::string mesh = folder.write("here/meshes/corner.off", mesh_text);
   Session session = with_file(folder);
-  session.work.mesh_source = source_of(text(mesh));
+  session.work.mesh_source = Source{ text(mesh), checksum_of(text(mesh)) };
   write(folder / "here/work.bindpose", session);
   EXPECT_THAT(folder.read("here/work.bindpose"), HasSubstr("\"meshes/corner.off\""));
   EXPECT_THAT(folder.read("here/work.bindpose"), Not(HasSubstr(folder.path())));

@@ -82,13 +82,9 @@ Inspection::Inspection(Viewport* viewport, TetPanel* panel)
     panel, &TetPanel::tets_wanted, this, [this] { this->set_active(this->active_); });
   QObject::connect(panel, &TetPanel::cut_wanted, this->tets_, &TetView::set_cut);
   QObject::connect(panel, &TetPanel::other_side_wanted, this->tets_, &TetView::set_other_side);
-  QObject::connect(panel, &TetPanel::orientation_chosen, this,
-    [this](int orientation)
-    {
-      this->tets_->set_orientation(orientation);
-      this->show_position();
-    });
-  QObject::connect(panel, &TetPanel::position_chosen, this->tets_, &TetView::set_position);
+  PlaneHandle* plane = this->tets_->plane();
+  QObject::connect(panel, &TetPanel::orientation_chosen, plane, &PlaneHandle::set_orientation);
+  QObject::connect(panel, &TetPanel::position_chosen, plane, &PlaneHandle::set_position);
   QObject::connect(panel, &TetPanel::shrink_chosen, this->tets_, &TetView::set_shrink);
   QObject::connect(panel, &TetPanel::colours_chosen, this, &Inspection::choose_colours);
   QObject::connect(panel, &TetPanel::defects_wanted, this, &Inspection::update_defects);

@@ -12,6 +12,7 @@
 #include "notice_bar.h"
 #include "option_links.h"
 #include "panel_column.h"
+#include "plane_options.h"
 #include "posing.h"
 #include "shape_handles.h"
 #include "side_panel.h"
@@ -86,6 +87,9 @@ MainWindow::MainWindow(QWidget* parent)
   this->make_inspections();
   this->menus_ = new WindowMenus(this);
   this->links_ = new OptionLinks(this->document_, this->panels_);
+  tie_plane(this->links_, this->document_, "volume", this->volume_view_->plane());
+  tie_plane(this->links_, this->document_, "tets", this->inspection_->tet_view()->plane());
+  tie_plane(this->links_, this->document_, "weights", this->weights_->view()->plane());
   this->sessions_ = new WindowSessions(this, this->links_, this->recovery_bar_, this->note_bar_);
   this->connect_panel();
   this->connect_volume();
@@ -219,7 +223,9 @@ void MainWindow::connect_volume()
   VolumePanel* panel = this->panels_->volume();
   VolumeView* view = this->volume_view_;
   QObject::connect(panel, &VolumePanel::slice_wanted, view, &VolumeView::show_slice);
-  QObject::connect(panel, &VolumePanel::position_chosen, view, &VolumeView::set_position);
+  QObject::connect(
+    panel, &VolumePanel::orientation_chosen, view->plane(), &PlaneHandle::set_orientation);
+  QObject::connect(panel, &VolumePanel::position_chosen, view->plane(), &PlaneHandle::set_position);
   QObject::connect(panel, &VolumePanel::isosurface_wanted, view, &VolumeView::show_isosurface);
   QObject::connect(panel, &VolumePanel::level_chosen, view, &VolumeView::set_level);
   QObject::connect(panel, &VolumePanel::cloud_wanted, view, &VolumeView::show_cloud);
@@ -231,12 +237,6 @@ void MainWindow::connect_volume()
     const auto [lowest, highest] = view->positions();
     panel->set_position(view->position(), lowest, highest);
   };
-  QObject::connect(panel, &VolumePanel::orientation_chosen, view,
-    [view, show_position](int orientation)
-    {
-      view->set_orientation(orientation);
-      show_position();
-    });
   QObject::connect(view, &VolumeView::slice_moved, panel, show_position);
   QObject::connect(view, &VolumeView::volume_changed, panel, show_position);
   QObject::connect(view, &VolumeView::area_changed, panel, &VolumePanel::set_area);

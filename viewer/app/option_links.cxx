@@ -1,4 +1,5 @@
-// Only signals of a person's choice make steps: clicked, activated, value_chosen.
+// Only signals of a person's choice make steps: clicked, activated, value_chosen; and not those
+// that widgets give while they are set to what the document has.
 #include "option_links.h"
 
 #include "document/document.h"
@@ -20,25 +21,28 @@ OptionLinks::OptionLinks(Document* document, QWidget* root) : QObject(root), doc
     const auto tell = [this, key] { this->chosen(key); };
     if (auto* box = qobject_cast<QCheckBox*>(found))
     {
-      this->links_[key] = { [box] { return box->isChecked(); },
-        [box](const QVariant& value) { box->setChecked(value.toBool()); } };
+      this->tie(
+        key, [box] { return box->isChecked(); },
+        [box](const QVariant& value) { box->setChecked(value.toBool()); });
       QObject::connect(box, &QCheckBox::clicked, this, tell);
     }
     else if (auto* list = qobject_cast<QComboBox*>(found))
     {
-      this->links_[key] = { [list] { return list->currentIndex(); },
+      this->tie(
+        key, [list] { return list->currentIndex(); },
         [list](const QVariant& value)
         {
           if (value.toInt() < list->count())
           {
             list->setCurrentIndex(value.toInt());
           }
-        } };
+        });
       QObject::connect(list, QOverload<int>::of(&QComboBox::activated), this, tell);
     }
     else if (auto* group = qobject_cast<QButtonGroup*>(found))
     {
-      this->links_[key] = { [group] { return group->checkedId(); },
+      this->tie(
+        key, [group] { return group->checkedId(); },
         [group](const QVariant& value)
         {
           if (QAbstractButton* button = group->button(value.toInt()))
@@ -46,17 +50,14 @@ OptionLinks::OptionLinks(Document* document, QWidget* root) : QObject(root), doc
             button->setChecked(true);
             Q_EMIT group->idClicked(value.toInt());
           }
-        } };
+        });
       QObject::connect(group, &QButtonGroup::idClicked, this, tell);
     }
     else if (auto* row = qobject_cast<ValueRow*>(found))
     {
-      this->links_[key] = { [row] { return row->value(); },
-        [row](const QVariant& value)
-        {
-          row->set_value(value.toDouble());
-          Q_EMIT row->value_chosen(value.toDouble());
-        } };
+      this->tie(
+        key, [row] { return row->value(); },
+        [row](const QVariant& value) { row->choose(value.toDouble()); });
       QObject::connect(row, &ValueRow::value_chosen, this, tell);
       QObject::connect(
         row->slider(), &QSlider::sliderReleased, this, [this] { this->document_->end_merge(); });
@@ -65,11 +66,25 @@ OptionLinks::OptionLinks(Document* document, QWidget* root) : QObject(root), doc
   QObject::connect(document, &Document::option_changed, this, &OptionLinks::option_changed);
 }
 
-void OptionLinks::note_all(const QString& but)
+void OptionLinks::tie(const QString& key, const std::function<QVariant()>& value,
+  const std::function<void(const QVariant&)>& set)
+{
+  this->links_[key] = { value, set, {} };
+}
+
+void OptionLinks::join(const QStringList& keys)
+{
+  for (const QString& key : keys)
+  {
+    this->links_[key].together = keys;
+  }
+}
+
+void OptionLinks::note_all_but(const QStringList& keys)
 {
   for (const auto& [key, link] : this->links_)
   {
-    if (key != but)
+    if (!keys.contains(key))
     {
       this->document_->note_option(key, link.value());
     }
@@ -78,8 +93,19 @@ void OptionLinks::note_all(const QString& but)
 
 void OptionLinks::chosen(const QString& key)
 {
-  this->note_all(key);
-  this->document_->set_option(key, this->links_[key].value());
+  if (this->follows_)
+  {
+    return;
+  }
+  const QStringList& together = this->links_[key].together;
+  const QStringList keys = together.isEmpty() ? QStringList{ key } : together;
+  this->note_all_but(keys);
+  Options values;
+  for (const QString& each : keys)
+  {
+    values[each] = this->links_[each].value();
+  }
+  this->document_->set_options(values, key);
 }
 
 void OptionLinks::option_changed(const QString& key, const QVariant& value)
@@ -87,6 +113,8 @@ void OptionLinks::option_changed(const QString& key, const QVariant& value)
   const auto link = this->links_.find(key);
   if (link != this->links_.end() && link->second.value() != value)
   {
+    this->follows_ = true;
     link->second.set(value);
+    this->follows_ = false;
   }
 }

@@ -14,6 +14,8 @@
 #include "vtkRenderer.h"
 #include "vtkWidgetEventTranslator.h"
 
+#include <QKeyEvent>
+
 #include <algorithm>
 #include <cmath>
 
@@ -57,6 +59,8 @@ PlaneHandle::PlaneHandle(Viewport* viewport, QObject* parent) : QObject(parent),
   }
   this->widget_->AddObserver(vtkCommand::StartInteractionEvent, this, &PlaneHandle::widget_caught);
   this->widget_->AddObserver(vtkCommand::InteractionEvent, this, &PlaneHandle::widget_moved);
+  this->widget_->AddObserver(vtkCommand::EndInteractionEvent, this, &PlaneHandle::widget_let_go);
+  viewport->installEventFilter(this);
 }
 
 PlaneHandle::~PlaneHandle()
@@ -66,6 +70,7 @@ PlaneHandle::~PlaneHandle()
 
 void PlaneHandle::set_box(const bindpose::Box& box)
 {
+  this->cancel();
   this->box_ = box;
   if (!box.empty())
   {
@@ -76,9 +81,8 @@ void PlaneHandle::set_box(const bindpose::Box& box)
       bounds[2 * axis + 1] = box.upper[axis];
     }
     this->plane_->PlaceWidget(bounds);
-    this->origin_ = box.center();
   }
-  this->place_widget();
+  this->go_to_place();
 }
 
 void PlaneHandle::draw_box(bool drawn)
@@ -88,23 +92,75 @@ void PlaneHandle::draw_box(bool drawn)
 
 void PlaneHandle::show(bool shown)
 {
+  if (!shown)
+  {
+    this->cancel();
+  }
   this->shown_ = shown;
   this->place_widget();
 }
 
 void PlaneHandle::set_orientation(int orientation)
 {
-  this->orientation_ = orientation;
+  this->cancel();
+  this->state_.orientation = orientation;
   if (orientation != free_plane)
   {
-    this->normal_ = Vec3::Unit(orientation);
+    this->state_.free_normal = Vec3::Unit(orientation);
   }
-  this->place_widget();
+  this->go_to_place();
+  Q_EMIT this->moved();
+}
+
+void PlaneHandle::set_free_normal(const Vec3& normal)
+{
+  this->cancel();
+  this->state_.free_normal = normal;
+  if (this->state_.orientation == free_plane)
+  {
+    this->go_to_place();
+    Q_EMIT this->moved();
+  }
+}
+
+void PlaneHandle::set_place(double place)
+{
+  this->cancel();
+  this->state_.place = place;
+  this->go_to_place();
+  Q_EMIT this->moved();
 }
 
 void PlaneHandle::set_position(double position)
 {
-  this->origin_ += (position - this->position()) * this->normal_;
+  this->cancel();
+  this->state_.place = this->place_of(position);
+  this->state_.origin += (position - this->position()) * this->normal();
+  this->place_widget();
+  Q_EMIT this->moved();
+}
+
+Vec3 PlaneHandle::normal() const
+{
+  return this->state_.orientation == free_plane ? this->state_.free_normal
+                                                : Vec3(Vec3::Unit(this->state_.orientation));
+}
+
+double PlaneHandle::place_of(double position) const
+{
+  const auto [first, last] = this->positions();
+  return last > first ? std::clamp((position - first) / (last - first), 0.0, 1.0)
+                      : this->state_.place;
+}
+
+/// Its arrow stands where the middle of the box is nearest.
+void PlaneHandle::go_to_place()
+{
+  const auto [first, last] = this->positions();
+  const Vec3 middle = this->box_.empty() ? Vec3(Vec3::Zero()) : this->box_.center();
+  const Vec3 normal = this->normal();
+  const double position = first + this->state_.place * (last - first);
+  this->state_.origin = middle + (position - middle.dot(normal)) * normal;
   this->place_widget();
 }
 
@@ -115,12 +171,13 @@ std::pair<double, double> PlaneHandle::positions() const
     return { 0.0, 1.0 };
   }
   std::pair<double, double> range{ 1e300, -1e300 };
+  const Vec3 normal = this->normal();
   const Vec3 ends[2] = { this->box_.lower, this->box_.upper };
   for (int corner = 0; corner < 8; ++corner)
   {
     const Vec3 place(ends[corner & 1].x(), ends[corner >> 1 & 1].y(), ends[corner >> 2 & 1].z());
-    range.first = std::min(range.first, place.dot(this->normal_));
-    range.second = std::max(range.second, place.dot(this->normal_));
+    range.first = std::min(range.first, place.dot(normal));
+    range.second = std::max(range.second, place.dot(normal));
   }
   return range;
 }
@@ -128,17 +185,20 @@ std::pair<double, double> PlaneHandle::positions() const
 /// The widget stands where the plane is, and can be turned only when that is wanted.
 void PlaneHandle::place_widget()
 {
-  const bool turns = this->orientation_ == free_plane;
-  this->plane_->SetNormalToXAxis(this->orientation_ == x_axis);
-  this->plane_->SetNormalToYAxis(this->orientation_ == y_axis);
-  this->plane_->SetNormalToZAxis(this->orientation_ == z_axis);
-  this->plane_->SetNormal(this->normal_.data());
-  this->plane_->SetOrigin(this->origin_.data());
+  const int orientation = this->state_.orientation;
+  const bool turns = orientation == free_plane;
+  this->plane_->SetNormalToXAxis(orientation == x_axis);
+  this->plane_->SetNormalToYAxis(orientation == y_axis);
+  this->plane_->SetNormalToZAxis(orientation == z_axis);
+  this->plane_->SetNormal(this->normal().data());
+  this->plane_->SetOrigin(this->state_.origin.data());
   const bindpose::Rgb arrow{ 0.17, 0.42, 0.66 }; // the window's accent
   colour(this->plane_->GetNormalProperty(), arrow, turns ? 1.0 : 0.0);
   colour(this->plane_->GetSelectedNormalProperty(), bindpose::palette::line, turns ? 1.0 : 0.0);
   this->widget_->SetEnabled(this->shown_ && !this->box_.empty());
 }
+
+// ---- The mouse ---------------------------------------------------------------------------------
 
 void PlaneHandle::mouse_ray(Vec3& from, Vec3& along) const
 {
@@ -149,13 +209,16 @@ void PlaneHandle::mouse_ray(Vec3& from, Vec3& along) const
 
 void PlaneHandle::widget_caught()
 {
+  this->before_ = this->state_;
+  this->dragged_ = true;
+  const Vec3 normal = this->normal();
   Vec3 from;
   Vec3 along;
   this->mouse_ray(from, along);
-  const double slope = along.dot(this->normal_);
+  const double slope = along.dot(normal);
   this->grip_ = std::abs(slope) > 1e-6
-    ? Vec3(from + (this->position() - from.dot(this->normal_)) / slope * along)
-    : this->origin_;
+    ? Vec3(from + (this->position() - from.dot(normal)) / slope * along)
+    : this->state_.origin;
 }
 
 /// The widget pushes its plane by the mouse's way along the normal as the picture shows it, which
@@ -166,26 +229,71 @@ void PlaneHandle::widget_moved()
   const bool pushed =
     this->plane_->GetInteractionState() == vtkImplicitPlaneRepresentation::Pushing;
   const double before = this->position();
-  this->plane_->GetOrigin(this->origin_.data());
-  this->plane_->GetNormal(this->normal_.data());
+  this->plane_->GetOrigin(this->state_.origin.data());
+  if (this->state_.orientation == free_plane)
+  {
+    this->plane_->GetNormal(this->state_.free_normal.data());
+  }
+  const Vec3 normal = this->normal();
+  const auto [first, last] = this->positions();
+  double position = this->position();
   if (pushed)
   {
     Vec3 from;
     Vec3 along;
     this->mouse_ray(from, along);
-    const double slope = along.dot(this->normal_);
+    const double slope = along.dot(normal);
     const double steep = 1.0 - slope * slope;
-    double position = this->position();
     if (steep > 0.01) // else the normal is seen as a point: the widget's way is as good as any
     {
       const Vec3 gap = from - this->grip_;
-      position =
-        this->grip_.dot(this->normal_) + (gap.dot(this->normal_) - gap.dot(along) * slope) / steep;
+      position = this->grip_.dot(normal) + (gap.dot(normal) - gap.dot(along) * slope) / steep;
     }
-    const auto [first, last] = this->positions();
-    position = std::isfinite(position) ? std::clamp(position, first, last) : before;
-    this->origin_ += (position - this->position()) * this->normal_;
-    this->plane_->SetOrigin(this->origin_.data());
   }
+  position = std::isfinite(position) ? std::clamp(position, first, last) : before;
+  this->state_.origin += (position - this->position()) * normal;
+  this->state_.place = this->place_of(position);
+  this->plane_->SetOrigin(this->state_.origin.data());
   Q_EMIT this->moved();
+}
+
+void PlaneHandle::widget_let_go()
+{
+  if (!this->dragged_)
+  {
+    return; // it was taken back
+  }
+  this->dragged_ = false;
+  const bool turned = this->state_.free_normal != this->before_.free_normal;
+  if (turned || this->state_.place != this->before_.place)
+  {
+    Q_EMIT this->dragged(turned);
+  }
+}
+
+void PlaneHandle::cancel()
+{
+  if (this->dragged_)
+  {
+    this->dragged_ = false;
+    this->state_ = this->before_;
+    this->viewport_->interactor()->LeftButtonReleaseEvent(); // the widget is not told otherwise
+    this->place_widget();
+    Q_EMIT this->moved();
+  }
+}
+
+bool PlaneHandle::eventFilter(QObject* watched, QEvent* event)
+{
+  const bool key = event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress;
+  if (key && this->dragged_ && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape)
+  {
+    if (event->type() == QEvent::KeyPress)
+    {
+      this->cancel();
+    }
+    event->accept(); // as a shortcut it would leave an edit mode
+    return true;
+  }
+  return QObject::eventFilter(watched, event);
 }

@@ -97,6 +97,8 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->orientations_ = add_orientations(column, this);
   this->orientations_->setObjectName("tets.orientation");
   this->position_ = new ValueRow(this);
+  this->position_->setObjectName("tets.place");
+  this->position_->tell_shares();
   this->position_->setToolTip(tr("Where the plane lies along its normal; the mouse drags it, too"));
   column->addWidget(this->position_);
   this->other_side_ = new QCheckBox(tr("Keep the other side"), this);

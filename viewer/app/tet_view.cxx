@@ -103,18 +103,6 @@ void TetView::set_other_side(bool other)
   this->update();
 }
 
-void TetView::set_orientation(int orientation)
-{
-  this->plane_->set_orientation(orientation);
-  this->update();
-}
-
-void TetView::set_position(double position)
-{
-  this->plane_->set_position(position);
-  this->update();
-}
-
 void TetView::set_shrink(double factor)
 {
   this->shrink_ = factor;

@@ -31,7 +31,8 @@ class TetView : public QObject
 public:
   explicit TetView(Viewport* viewport);
 
-  /// Tets as bindpose::to_tets() accepts them; null: none. The plane goes through their middle.
+  /// Tets as bindpose::to_tets() accepts them; null: none. The plane keeps its share of
+  /// the way through them.
   bindpose::Status set_tets(vtkUnstructuredGrid* tets);
   vtkUnstructuredGrid* tets() const { return this->grid_; }
 
@@ -40,8 +41,6 @@ public:
   void set_cut(bool cut);
   /// The other half stays.
   void set_other_side(bool other);
-  void set_orientation(int orientation); ///< of PlaneHandle
-  void set_position(double position);
   PlaneHandle* plane() const { return this->plane_; }
   /// Size of each tet, of its own, in (0, 1].
   void set_shrink(double factor);
@@ -53,7 +52,7 @@ public:
   double milliseconds() const { return this->milliseconds_; }
 
 Q_SIGNALS:
-  /// The mouse has moved or turned the plane.
+  /// The plane is elsewhere, whoever has moved it.
   void plane_moved();
   void count_changed(qlonglong shown, qlonglong all);
 

@@ -94,6 +94,13 @@ void add_options(Json& values, const Document* document)
     {
       json = value.toBool();
     }
+    else if (value.type() == QVariant::List)
+    {
+      for (const QVariant& number : value.toList())
+      {
+        json.push_back(number.toDouble());
+      }
+    }
     else
     {
       json = value.toDouble();

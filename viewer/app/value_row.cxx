@@ -62,12 +62,22 @@ void ValueRow::set_value(double value)
   const QSignalBlocker quiet_too(this->slider_);
   this->field_->setValue(value);
   const double span = this->field_->maximum() - this->field_->minimum();
-  this->slider_->setValue(span > 0.0
-      ? static_cast<int>(std::lround(steps * (value - this->field_->minimum()) / span))
-      : 0);
+  if (!this->slider_->isSliderDown()) // else it stays under the mouse
+  {
+    this->slider_->setValue(span > 0.0
+        ? static_cast<int>(std::lround(steps * (value - this->field_->minimum()) / span))
+        : 0);
+  }
 }
 
 double ValueRow::value() const
 {
   return this->field_->value();
+}
+
+void ValueRow::choose(double option)
+{
+  const double span = this->field_->maximum() - this->field_->minimum();
+  this->set_value(this->tells_shares_ ? this->field_->minimum() + option * span : option);
+  Q_EMIT this->value_chosen(this->value());
 }

@@ -18,6 +18,11 @@ public:
   /// Without value_chosen().
   void set_value(double value);
   double value() const;
+  /// The option of its name is how far the number is through the range, from 0 to 1, and not the
+  /// number itself.
+  void tell_shares() { this->tells_shares_ = true; }
+  /// As a person does who wants the option to be this.
+  void choose(double option);
   QSlider* slider() const { return this->slider_; }
   QDoubleSpinBox* field() const { return this->field_; }
 
@@ -28,6 +33,7 @@ Q_SIGNALS:
 private:
   QSlider* slider_;
   QDoubleSpinBox* field_;
+  bool tells_shares_ = false;
 };
 
 #endif

@@ -29,6 +29,8 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   this->orientations_ = add_orientations(column, this);
   this->orientations_->setObjectName("volume.orientation");
   this->position_ = new ValueRow(this);
+  this->position_->setObjectName("volume.place");
+  this->position_->tell_shares();
   this->position_->setToolTip(tr("Where the slice lies along its normal; the mouse drags it, too"));
   column->addWidget(this->position_);
 

@@ -121,18 +121,6 @@ void VolumeView::show_slice(bool shown)
   this->update_slice();
 }
 
-void VolumeView::set_orientation(int orientation)
-{
-  this->plane_->set_orientation(orientation);
-  this->update_slice();
-}
-
-void VolumeView::set_position(double position)
-{
-  this->plane_->set_position(position);
-  this->update_slice();
-}
-
 void VolumeView::update_slice()
 {
   const bool shown = this->image_ && this->slice_shown_;

@@ -26,14 +26,12 @@ public:
   explicit VolumeView(Viewport* viewport);
 
   /// An image that bindpose::check_volume() accepts, with its smallest and largest value; null:
-  /// none. Starts with a slice through the middle.
+  /// none. The slice keeps its share of the way through.
   void set_volume(vtkImageData* image, double lowest, double highest);
   vtkImageData* volume() const { return this->image_; }
 
   void show_slice(bool shown);
-  void set_orientation(int orientation); ///< of PlaneHandle
-  /// Moves the slice along its normal to this place: its coordinate for an axis.
-  void set_position(double position);
+  PlaneHandle* plane() const { return this->plane_; }
   double position() const { return this->plane_->position(); }
   /// Smallest and largest position at which the slice meets the volume.
   std::pair<double, double> positions() const { return this->plane_->positions(); }
@@ -54,7 +52,7 @@ public:
 
 Q_SIGNALS:
   void volume_changed();
-  /// The mouse has moved or turned the slice.
+  /// The slice is elsewhere, whoever has moved it.
   void slice_moved();
   /// What lies under the mouse: "x y z: w = 0.734", or empty.
   void reading_changed(const QString& reading);

@@ -88,13 +88,9 @@ WeightInspection::WeightInspection(Viewport* viewport, WeightPanel* panel, MakeI
   QObject::connect(panel, &WeightPanel::look_changed, this, &WeightInspection::update);
   QObject::connect(panel, &WeightPanel::comparison_wanted, this, &WeightInspection::compare);
   QObject::connect(panel, &WeightPanel::cancel_wanted, this, &WeightInspection::cancel);
-  QObject::connect(panel, &WeightPanel::orientation_chosen, this,
-    [this](int orientation)
-    {
-      this->view_->set_orientation(orientation);
-      this->show_position();
-    });
-  QObject::connect(panel, &WeightPanel::position_chosen, this->view_, &WeightView::set_position);
+  PlaneHandle* plane = this->view_->plane();
+  QObject::connect(panel, &WeightPanel::orientation_chosen, plane, &PlaneHandle::set_orientation);
+  QObject::connect(panel, &WeightPanel::position_chosen, plane, &PlaneHandle::set_position);
   QObject::connect(this->view_, &WeightView::plane_moved, this, &WeightInspection::show_position);
   QObject::connect(&this->job_, &BindJob::progress, panel, &WeightPanel::set_progress);
   QObject::connect(&this->job_, &BindJob::finished, this, &WeightInspection::comparison_finished);

@@ -163,6 +163,8 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   this->orientations_ = add_orientations(column, this);
   this->orientations_->setObjectName("weights.orientation");
   this->position_ = new ValueRow(this);
+  this->position_->setObjectName("weights.place");
+  this->position_->tell_shares();
   this->position_->setToolTip(tr("Where the slice lies along its normal; the mouse drags it, too"));
   column->addWidget(this->position_);
   column->addStretch(1);

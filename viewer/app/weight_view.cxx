@@ -187,18 +187,6 @@ void WeightView::draw_isolines(int part, vtkPolyData* data)
   this->viewport_->refresh();
 }
 
-void WeightView::set_orientation(int orientation)
-{
-  this->plane_->set_orientation(orientation);
-  this->update_slice();
-}
-
-void WeightView::set_position(double position)
-{
-  this->plane_->set_position(position);
-  this->update_slice();
-}
-
 void WeightView::update_slice()
 {
   const bool shown = this->is_sliced() && this->volume_values_;

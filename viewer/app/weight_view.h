@@ -44,8 +44,6 @@ public:
   bool is_sliced() const { return this->shown_ && this->options_.slice; }
 
   PlaneHandle* plane() const { return this->plane_; }
-  void set_orientation(int orientation); ///< of PlaneHandle
-  void set_position(double position);
 
   /// Numbers of what is shown; see render_to_png().
   const bindpose::Report& numbers() const { return this->colouring_.numbers; }
@@ -56,7 +54,7 @@ public:
   vtkPolyData* isolines() const { return this->isolines_[0]; }
 
 Q_SIGNALS:
-  /// The mouse has moved or turned the plane.
+  /// The plane is elsewhere, whoever has moved it.
   void plane_moved();
 
 private:

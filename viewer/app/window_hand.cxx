@@ -344,8 +344,7 @@ QString WindowHand::choose(const QString& key, const QVariant& value)
   }
   else if (auto* row = qobject_cast<ValueRow*>(found))
   {
-    row->set_value(checked.toDouble());
-    Q_EMIT row->value_chosen(row->value());
+    row->choose(checked.toDouble());
   }
   else
   {

@@ -40,7 +40,7 @@ constexpr std::array<WindowKey, 43> window_keys{ {
   { "quit", "anywhere", "Ctrl+Q", "Quit" },
 
   { "", "view", "Left button away from handles, drag",
-    "Turn the view; of a picture: move it; on a slice or cut: move that" },
+    "Turn the view; of a picture: move it; on a slice or cut: move that (Esc: back)" },
   { "", "view", "Shift + left button, middle button, drag", "Move the view" },
   { "", "view", "Wheel, right button, drag", "Zoom" },
   { "whole_shape", "view", "Home", "Show the whole shape" },

@@ -350,6 +350,12 @@ json options_to_json(const Options& options)
       case QVariant::Int:
         value = option.value().toInt();
         break;
+      case QVariant::List:
+        for (const QVariant& number : option.value().toList())
+        {
+          value.push_back(number.toDouble());
+        }
+        break;
       default:
         value = option.value().toDouble();
         break;
@@ -357,6 +363,28 @@ json options_to_json(const Options& options)
   }
   return result;
 }
+
+namespace
+{
+/// Invalid for what no option is.
+QVariant value_from_json(const json& value)
+{
+  if (value.is_boolean())
+  {
+    return value.get<bool>();
+  }
+  if (value.is_array())
+  {
+    QVariantList list;
+    for (const json& item : value)
+    {
+      list << value_from_json(item);
+    }
+    return list;
+  }
+  return value.is_number() ? QVariant(value.get<double>()) : QVariant();
+}
+} // namespace
 
 Options options_from_json(const json& value)
 {
@@ -372,10 +400,7 @@ Options options_from_json(const json& value)
     {
       continue; // of another version of the program
     }
-    const QVariant checked = checked_option(*option,
-      item.is_boolean()    ? QVariant(item.get<bool>())
-        : item.is_number() ? QVariant(item.get<double>())
-                           : QVariant());
+    const QVariant checked = checked_option(*option, value_from_json(item));
     if (!checked.isValid())
     {
       throw SessionError("the option '" + key + "' has a value that it cannot have");

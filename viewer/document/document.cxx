@@ -533,14 +533,25 @@ void Document::drop_preview()
 
 void Document::set_option(const QString& key, const QVariant& value)
 {
-  const OptionInfo* option = find_option(key);
-  const QVariant checked = option ? checked_option(*option, value) : QVariant();
-  if (checked.isValid() && checked != this->option(key))
+  this->set_options({ { key, value } }, key);
+}
+
+void Document::set_options(const Options& values, const QString& key)
+{
+  Work after = this->work_;
+  for (auto value = values.begin(); value != values.end(); ++value)
   {
-    Work after = this->work_;
-    after.options[key] = checked;
-    const bool moves = option->initial.type() == QVariant::Double;
-    this->push(tr(option->step), after, moves ? key : QString());
+    const OptionInfo* option = find_option(value.key());
+    const QVariant checked = option ? checked_option(*option, value.value()) : QVariant();
+    if (checked.isValid())
+    {
+      after.options[value.key()] = checked;
+    }
+  }
+  if (const OptionInfo* named = find_option(key))
+  {
+    const bool moves = named->initial.type() == QVariant::Double;
+    this->push(tr(named->step), after, moves ? key : QString());
   }
 }
 

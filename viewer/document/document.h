@@ -120,6 +120,8 @@ public:
   /// One step; of an option whose number is moved continuously the steps merge, until another step
   /// or end_merge(). What the table (options.h) does not allow is left.
   void set_option(const QString& key, const QVariant& value);
+  /// One step of several that go together, named like the option `key`.
+  void set_options(const Options& values, const QString& key);
   /// What the program itself chose: kept, but no step.
   void note_option(const QString& key, const QVariant& value);
   /// The next step begins anew, whatever it could be merged with.

@@ -9,6 +9,29 @@ namespace
 {
 constexpr double any = std::numeric_limits<double>::max();
 constexpr double columns = 1e6;
+const QVariant z_axis = QVariantList{ 0.0, 0.0, 1.0 };
+
+/// Three finite numbers of length one, to the digits that a person would write.
+QVariant checked_direction(const QVariant& value)
+{
+  const QVariantList given = value.toList();
+  QVariantList direction;
+  double square = 0.0;
+  for (const QVariant& each : given)
+  {
+    bool is_number = false;
+    const double number = each.type() == QVariant::Bool ? 0.0 : each.toDouble(&is_number);
+    if (!is_number)
+    {
+      return {};
+    }
+    square += number * number;
+    direction << number;
+  }
+  constexpr double least_digits = 1e-6;
+  return direction.size() == 3 && std::abs(square - 1.0) <= least_digits ? QVariant(direction)
+                                                                         : QVariant();
+}
 } // namespace
 
 const std::vector<OptionInfo>& option_table()
@@ -45,16 +68,22 @@ const std::vector<OptionInfo>& option_table()
     { "weights.compare_with", QT_TRANSLATE_NOOP("Document", "method to compare with"), 1, 0, 63 },
     { "weights.slice", QT_TRANSLATE_NOOP("Document", "slice of weights"), false },
     { "weights.orientation", QT_TRANSLATE_NOOP("Document", "slice of weights turned"), 2, 0, 3 },
+    { "weights.place", QT_TRANSLATE_NOOP("Document", "move the slice of weights"), 0.5, 0.0, 1.0 },
+    { "weights.normal", QT_TRANSLATE_NOOP("Document", "turn the slice of weights"), z_axis },
     { "tets.method", QT_TRANSLATE_NOOP("Document", "way to make tets"), 0, 0, 63 },
     { "tets.shown", QT_TRANSLATE_NOOP("Document", "tets shown"), false },
     { "tets.colours", QT_TRANSLATE_NOOP("Document", "colours of tets"), 0, 0, 15 },
     { "tets.cut", QT_TRANSLATE_NOOP("Document", "cut"), true },
     { "tets.other_side", QT_TRANSLATE_NOOP("Document", "side of the cut"), false },
     { "tets.orientation", QT_TRANSLATE_NOOP("Document", "cut turned"), 2, 0, 3 },
+    { "tets.place", QT_TRANSLATE_NOOP("Document", "move the cut"), 0.5, 0.0, 1.0 },
+    { "tets.normal", QT_TRANSLATE_NOOP("Document", "turn the cut"), z_axis },
     { "tets.shrink", QT_TRANSLATE_NOOP("Document", "size of each tet"), 1.0, 0.1, 1.0 },
     { "defects.shown", QT_TRANSLATE_NOOP("Document", "defects"), false },
     { "volume.slice", QT_TRANSLATE_NOOP("Document", "slice"), true },
     { "volume.orientation", QT_TRANSLATE_NOOP("Document", "slice turned"), 2, 0, 3 },
+    { "volume.place", QT_TRANSLATE_NOOP("Document", "move the slice"), 0.5, 0.0, 1.0 },
+    { "volume.normal", QT_TRANSLATE_NOOP("Document", "turn the slice"), z_axis },
     { "volume.isosurface", QT_TRANSLATE_NOOP("Document", "isosurface"), false },
     { "volume.level", QT_TRANSLATE_NOOP("Document", "level of the isosurface"), 0.5, -any, any },
     { "volume.cloud", QT_TRANSLATE_NOOP("Document", "cloud"), false },
@@ -90,6 +119,10 @@ QVariant checked_option(const OptionInfo& option, const QVariant& value)
   if (option.initial.type() == QVariant::Bool)
   {
     return value.type() == QVariant::Bool ? value : QVariant();
+  }
+  if (option.initial.type() == QVariant::List)
+  {
+    return checked_direction(value);
   }
   bool is_number = false;
   const double number = value.type() == QVariant::Bool ? 0.0 : value.toDouble(&is_number);

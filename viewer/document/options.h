@@ -8,7 +8,7 @@
 #include <vector>
 
 /// What can be chosen and is kept, with undo and in sessions. The type is that of `initial`: bool,
-/// int or double.
+/// int, double, or a direction: a list of three doubles of length one.
 struct OptionInfo
 {
   const char* key; ///< in session files, and the object name of the widget that chooses it
@@ -18,8 +18,8 @@ struct OptionInfo
   double highest = 1.0;
 };
 
-/// All of them. A new option is a row here, and a widget with the key as its object name
-/// (option_links.h).
+/// All of them. A new option is a row here, and a widget with the key as its object name, or what
+/// else holds it (option_links.h).
 const std::vector<OptionInfo>& option_table();
 /// Null for an unknown key.
 const OptionInfo* find_option(const QString& key);

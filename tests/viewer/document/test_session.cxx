@@ -363,6 +363,8 @@ TEST(Sessions, SchemaOneIsRead)
   EXPECT_EQ(session.work.pose[1].transform(0, 3), 2.0);
   EXPECT_EQ(session.work.options["pose.method"].toInt(), 1);
   EXPECT_EQ(session.work.options["tets.shrink"].toDouble(), 1.0);
+  EXPECT_EQ(session.work.options["volume.place"].toDouble(), 0.5);
+  EXPECT_EQ(session.work.options["volume.normal"], QVariant(QVariantList{ 0.0, 0.0, 1.0 }));
 }
 
 TEST(Sessions, BrokenOnesGiveOneSentence)
@@ -450,6 +452,13 @@ TEST(Sessions, BrokenOnesGiveOneSentence)
   refused(with("/handles/cell_arrays/0/values", json::array()), "an array too short");
   refused(with("/options/tets.shrink", 7), "an option out of range");
   refused(with("/options/pose.method", "best"), "an option of another type");
+  refused(with("/options/volume.place", 1.5), "a place beyond the end");
+  refused(with("/options/volume.place", json()), "a place that is not finite");
+  refused(with("/options/volume.normal", { 0, 0, 2 }), "a direction that is too long");
+  refused(with("/options/volume.normal", { 0, 0, 0 }), "no direction");
+  refused(with("/options/volume.normal", { 0, 1 }), "a direction in a plane");
+  refused(with("/options/volume.normal", { 0, "up", 1 }), "a direction in words");
+  refused(with("/options/volume.normal", 1), "a number for a direction");
   refused(with("/view/camera/angle", 0), "a camera that sees nothing");
   EXPECT_FALSE(
     [&]

@@ -1,0 +1,361 @@
+// The three planes that the mouse drags, the slice of a volume, the cut through tets and the slice
+// of weights: a drag of one is a step of the history, Esc takes it back, and sessions keep it.
+#include "window_test.h"
+
+#include "document/document.h"
+#include "inspection.h"
+#include "plane_handle.h"
+#include "tet_panel.h"
+#include "value_row.h"
+#include "volume_panel.h"
+#include "volume_view.h"
+#include "weight_inspection.h"
+#include "weight_panel.h"
+#include "window_sessions.h"
+
+#include "support/demo_meshes.h"
+#include "support/files.h"
+#include "support/meshes.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+#include "vtkUnstructuredGrid.h"
+#include "vtkXMLImageDataWriter.h"
+#include "vtkXMLUnstructuredGridWriter.h"
+
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+#include <QPushButton>
+#include <QSlider>
+#include <QUndoStack>
+
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+#include <fstream>
+
+using namespace bindpose;
+
+namespace
+{
+struct PlaneCase
+{
+  const char* name; ///< its options begin like this
+  int panel;
+  const char* move; ///< names of steps
+  const char* turn;
+  const char* axis;
+};
+
+std::ostream& operator<<(std::ostream& stream, const PlaneCase& plane)
+{
+  return stream << plane.name;
+}
+
+/// A box from -1 to 1 of tets, with weights linear along z.
+vtkSmartPointer<vtkUnstructuredGrid> box()
+{
+  const TetMesh mesh = test::tet_box(4, 4, 4, Vec3(-1, -1, -1), Vec3(1, 1, 1));
+  auto grid = to_unstructured_grid(mesh.points, mesh.tets);
+  vtkNew<vtkDoubleArray> weights;
+  weights->SetName("Weights");
+  weights->SetNumberOfComponents(2);
+  for (vtkIdType v = 0; v < grid->GetNumberOfPoints(); ++v)
+  {
+    const double up = 0.5 * (1.0 + grid->GetPoint(v)[2]);
+    weights->InsertNextTuple2(1.0 - up, up);
+  }
+  grid->GetPointData()->AddArray(weights);
+  return grid;
+}
+
+/// The same box of samples.
+vtkSmartPointer<vtkImageData> samples()
+{
+  auto image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(21, 21, 21);
+  image->SetSpacing(0.1, 0.1, 0.1);
+  image->SetOrigin(-1.0, -1.0, -1.0);
+  vtkNew<vtkDoubleArray> values;
+  values->SetName("WindingNumber");
+  for (vtkIdType i = 0; i < image->GetNumberOfPoints(); ++i)
+  {
+    values->InsertNextValue(1.2 - Vec3(image->GetPoint(i)).norm());
+  }
+  image->GetPointData()->AddArray(values);
+  return image;
+}
+
+template <typename Writer>
+void write_with(vtkDataSet* data, const std::string& path)
+{
+  vtkNew<Writer> writer;
+  writer->SetInputData(data);
+  writer->SetFileName(path.c_str());
+  ASSERT_EQ(writer->Write(), 1) << path;
+}
+
+PlaneHandle* plane_of(MainWindow& window, const std::string& name)
+{
+  return name == "volume" ? window.volume_view()->plane()
+    : name == "tets"      ? window.inspection()->tet_view()->plane()
+                          : window.weights()->view()->plane();
+}
+
+class PlaneWindow : public test::WindowTest, public testing::WithParamInterface<PlaneCase>
+{
+protected:
+  void SetUp() override
+  {
+    if (std::string(GetParam().name) == "volume")
+    {
+      write_with<vtkXMLImageDataWriter>(samples(), this->folder / "box.vti");
+      this->open("box.vti");
+    }
+    else
+    {
+      write_with<vtkXMLUnstructuredGridWriter>(box(), this->folder / "box.vtu");
+      this->open("box.vtu");
+    }
+    this->window.panels()->show_panel(GetParam().panel);
+    this->render();
+    const std::string name = GetParam().name;
+    if (name == "weights")
+    {
+      this->find<QCheckBox>("Slice through the volume")->click();
+      this->render();
+    }
+    this->begin = this->window.history()->index();
+  }
+
+  void open(const char* file)
+  {
+    ASSERT_TRUE(this->window.open(QString::fromStdString(this->folder / file)))
+      << this->window.error().toStdString();
+  }
+  PlaneHandle* plane() { return plane_of(this->window, GetParam().name); }
+  QString key(const char* of) { return QString("%1.%2").arg(GetParam().name, of); }
+  QVariant option(const char* of) { return this->window.document()->option(this->key(of)); }
+  ValueRow* row() { return this->window.panels()->findChild<ValueRow*>(this->key("place")); }
+  int steps() { return this->window.history()->index() - this->begin; }
+  std::string undo_text() { return this->window.history()->undoText().toStdString(); }
+  void undo() { this->hand.trigger("edit.undo"); }
+  void redo() { this->hand.trigger("edit.redo"); }
+
+  /// A drag of a plane across z, that does not end.
+  void begin_drag(double from, double to)
+  {
+    const QPoint start = this->pixel(Vec3(0.4, 0.3, from));
+    const QPoint end = this->pixel(Vec3(0.4, 0.3, to));
+    this->hand.move(start);
+    QApplication::processEvents();
+    this->hand.press(start, Qt::LeftButton);
+    for (int k = 1; k <= 4; ++k)
+    {
+      this->hand.move(start + (end - start) * k / 4);
+      QApplication::processEvents();
+    }
+    this->last = end;
+  }
+  void end_drag()
+  {
+    this->hand.release(this->last, Qt::LeftButton);
+    this->render();
+  }
+  /// The arrow of a free plane, by so many pixels.
+  void turn(const QPoint& by)
+  {
+    const Vec3 tip = this->plane()->origin() + 0.3 * std::sqrt(12.0) * this->plane()->normal();
+    this->drag(this->pixel(tip), this->pixel(tip) + by);
+  }
+  void expect_place(double position, const char* when)
+  {
+    EXPECT_NEAR(this->plane()->position(), position, 1e-9) << when;
+    EXPECT_NEAR(this->row()->value(), position, 0.002) << when;
+    EXPECT_NEAR(this->option("place").toDouble(), this->plane()->kept_place(), 0.0) << when;
+  }
+
+  test::Folder folder;
+  WindowHand hand{ &this->window };
+  QPoint last;
+  int begin = 0;
+};
+} // namespace
+
+INSTANTIATE_TEST_SUITE_P(All, PlaneWindow,
+  testing::Values(PlaneCase{ "volume", PanelColumn::volume_slice, "move the slice",
+                    "turn the slice", "slice turned" },
+    PlaneCase{ "tets", PanelColumn::tets, "move the cut", "turn the cut", "cut turned" },
+    PlaneCase{ "weights", PanelColumn::weights, "move the slice of weights",
+      "turn the slice of weights", "slice of weights turned" }),
+  [](const auto& each) { return std::string(each.param.name); });
+
+TEST_P(PlaneWindow, ADragIsOneStepAndUndoTakesItBack)
+{
+  this->expect_place(0.0, "at first");
+  const QImage at_first = this->picture();
+  this->begin_drag(0.0, 0.4);
+  EXPECT_EQ(this->steps(), 0) << "the drag still goes on";
+  EXPECT_EQ(this->option("place").toDouble(), 0.5) << "the drag still goes on";
+  this->end_drag();
+  ASSERT_EQ(this->steps(), 1);
+  EXPECT_EQ(this->undo_text(), GetParam().move);
+  const double moved = this->plane()->position();
+  EXPECT_NEAR(moved, 0.4, 0.08);
+  EXPECT_NEAR(this->option("place").toDouble(), 0.5 * (1.0 + moved), 1e-12);
+  const QImage then = this->picture();
+  EXPECT_NE(then, at_first);
+  this->begin_drag(moved, -0.3);
+  this->end_drag();
+  ASSERT_EQ(this->steps(), 2) << "another drag is another step";
+  EXPECT_NEAR(this->plane()->position(), -0.3, 0.08);
+  this->undo();
+  this->expect_place(moved, "the second drag is undone");
+  this->hand.move(QPoint(2, 2)); // nothing is under the mouse
+  EXPECT_EQ(this->picture(), then);
+  this->undo();
+  this->expect_place(0.0, "both are");
+  this->redo();
+  this->expect_place(moved, "the first is done again");
+  EXPECT_EQ(this->picture(), then);
+}
+
+TEST_P(PlaneWindow, EscDuringADragTakesItBack)
+{
+  this->row()->field()->setValue(0.2);
+  this->render();
+  ASSERT_EQ(this->steps(), 1);
+  this->begin_drag(0.2, 0.6);
+  EXPECT_GT(this->plane()->position(), 0.4);
+  EXPECT_EQ(this->hand.press_key("Esc"), QString());
+  this->expect_place(0.2, "Esc");
+  EXPECT_FALSE(this->plane()->is_dragged());
+  this->hand.move(this->last + QPoint(40, 40)); // the button is still down
+  this->end_drag();
+  this->expect_place(0.2, "the button is let go");
+  EXPECT_EQ(this->steps(), 1);
+  // So does undo, which takes the step before back, too.
+  this->begin_drag(0.2, 0.6);
+  this->undo();
+  this->end_drag();
+  this->expect_place(0.0, "undo");
+  EXPECT_EQ(this->steps(), 0);
+  EXPECT_EQ(this->window.history()->count(), this->begin + 1) << "the step can be done again";
+  // And who saves in the middle of a drag saves what was before it.
+  this->begin_drag(0.0, 0.5);
+  ASSERT_TRUE(
+    this->window.sessions()->write(QString::fromStdString(this->folder / "half.bindpose")));
+  EXPECT_EQ(this->option("place").toDouble(), 0.5);
+  this->end_drag();
+  EXPECT_EQ(this->undo_text(), GetParam().move);
+  EXPECT_NEAR(this->plane()->position(), 0.5, 0.08);
+}
+
+TEST_P(PlaneWindow, TheSliderIsOneStepUntilItIsLetGo)
+{
+  QSlider* slider = this->row()->slider();
+  for (const int end : { 700, 300 })
+  {
+    slider->setSliderDown(true);
+    for (int at = 500; at != end; at += end > 500 ? 50 : -50)
+    {
+      slider->setValue(at + (end > 500 ? 50 : -50));
+      EXPECT_EQ(slider->value(), at + (end > 500 ? 50 : -50)) << "it stays under the mouse";
+    }
+    slider->setSliderDown(false);
+    this->expect_place(-1.0 + 0.002 * end, "slider");
+  }
+  EXPECT_EQ(this->steps(), 2);
+  EXPECT_EQ(this->undo_text(), GetParam().move);
+  this->undo();
+  this->expect_place(0.4, "undo");
+  EXPECT_EQ(slider->value(), 700);
+  this->undo();
+  this->expect_place(0.0, "undo of all");
+  // A tour says the share.
+  EXPECT_EQ(this->hand.choose(this->key("place"), 0.25), QString());
+  this->expect_place(-0.5, "a tour");
+}
+
+TEST_P(PlaneWindow, AFreePlaneIsTurnedInOneStep)
+{
+  EXPECT_EQ(this->hand.choose(this->key("orientation"), PlaneHandle::x_axis), QString());
+  EXPECT_EQ(this->undo_text(), GetParam().axis);
+  this->row()->field()->setValue(0.1);
+  EXPECT_EQ(this->hand.choose(this->key("orientation"), PlaneHandle::free_plane), QString());
+  EXPECT_EQ(this->plane()->normal(), Vec3(1, 0, 0)) << "it begins where the axis was";
+  EXPECT_NEAR(this->plane()->position(), 0.1, 1e-9);
+  EXPECT_EQ(this->hand.choose(this->key("orientation"), PlaneHandle::z_axis), QString());
+  EXPECT_EQ(this->hand.choose(this->key("orientation"), PlaneHandle::free_plane), QString());
+  this->render();
+  const int before = this->steps();
+  this->turn({ 70, 30 });
+  const Vec3 turned = this->plane()->normal();
+  const double moved = this->plane()->position();
+  ASSERT_LT(turned.z(), 0.99);
+  ASSERT_EQ(this->steps(), before + 1);
+  EXPECT_EQ(this->undo_text(), GetParam().turn);
+  const QVariantList kept = this->option("normal").toList();
+  ASSERT_EQ(kept.size(), 3);
+  for (int k = 0; k < 3; ++k)
+  {
+    EXPECT_EQ(kept[k].toDouble(), turned[k]);
+  }
+  // An axis, and back by undo: the free plane is as it was turned to.
+  EXPECT_EQ(this->hand.choose(this->key("orientation"), PlaneHandle::y_axis), QString());
+  EXPECT_EQ(this->plane()->normal(), Vec3(0, 1, 0));
+  this->undo();
+  EXPECT_EQ(this->plane()->normal(), turned);
+  this->expect_place(moved, "undo of an axis");
+  this->undo();
+  EXPECT_EQ(this->plane()->normal(), Vec3(0, 0, 1));
+  EXPECT_EQ(this->plane()->orientation(), PlaneHandle::free_plane);
+  this->redo();
+  EXPECT_EQ(this->plane()->normal(), turned);
+  this->expect_place(moved, "redo of the turn");
+  this->redo();
+  EXPECT_EQ(this->plane()->normal(), Vec3(0, 1, 0));
+  for (int k = 0; k < 7; ++k)
+  {
+    this->undo();
+  }
+  EXPECT_EQ(this->plane()->orientation(), PlaneHandle::z_axis);
+  this->expect_place(0.0, "undo of all");
+}
+
+TEST_P(PlaneWindow, SessionsKeepThePlane)
+{
+  EXPECT_EQ(this->hand.choose(this->key("orientation"), PlaneHandle::free_plane), QString());
+  this->render();
+  this->turn({ 70, 30 });
+  this->row()->field()->setValue(0.3);
+  const Vec3 turned = this->plane()->normal();
+  ASSERT_LT(turned.z(), 0.99);
+  const std::string path = this->folder / "work.bindpose";
+  ASSERT_TRUE(this->window.sessions()->write(QString::fromStdString(path)));
+  {
+    MainWindow other;
+    other.show();
+    ASSERT_TRUE(other.open(QString::fromStdString(path))) << other.error().toStdString();
+    PlaneHandle* plane = plane_of(other, GetParam().name);
+    EXPECT_EQ(plane->orientation(), PlaneHandle::free_plane);
+    EXPECT_EQ(plane->normal(), turned);
+    EXPECT_NEAR(plane->position(), 0.3, 1e-9);
+    EXPECT_NEAR(other.panels()->findChild<ValueRow*>(this->key("place"))->value(), 0.3, 0.002);
+    EXPECT_EQ(other.history()->count(), 0) << "to open a session is no step";
+    EXPECT_FALSE(other.isWindowModified());
+  }
+  // One from before there were such options: the plane is as in a new window.
+  std::ifstream file(path);
+  nlohmann::json old = nlohmann::json::parse(file);
+  for (const char* of : { "place", "normal", "orientation" })
+  {
+    ASSERT_EQ(old["options"].erase(this->key(of).toStdString()), 1u);
+  }
+  this->folder.write("old.bindpose", old.dump());
+  ASSERT_TRUE(this->window.open(QString::fromStdString(this->folder / "old.bindpose")))
+    << this->window.error().toStdString();
+  EXPECT_EQ(this->plane()->orientation(), PlaneHandle::z_axis);
+  this->expect_place(0.0, "an old session");
+}

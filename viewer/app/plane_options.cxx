@@ -1,0 +1,39 @@
+#include "plane_options.h"
+
+#include "document/document.h"
+#include "option_links.h"
+#include "plane_handle.h"
+
+using bindpose::Vec3;
+
+void tie_plane(OptionLinks* links, Document* document, const QString& name, PlaneHandle* plane)
+{
+  const QString place = name + ".place";
+  const QString normal = name + ".normal";
+  // As they are kept: sessions are saved in the middle of drags, too.
+  links->tie(
+    place, [plane] { return plane->kept_place(); },
+    [plane](const QVariant& value) { plane->set_place(value.toDouble()); });
+  links->tie(
+    normal,
+    [plane]
+    {
+      const Vec3 direction = plane->kept_free_normal();
+      return QVariantList{ direction.x(), direction.y(), direction.z() };
+    },
+    [plane](const QVariant& value)
+    {
+      const QVariantList list = value.toList();
+      plane->set_free_normal({ list[0].toDouble(), list[1].toDouble(), list[2].toDouble() });
+    });
+  // Who chooses an axis gives the free plane another normal, and who turns it another place.
+  links->join({ name + ".orientation", place, normal });
+  QObject::connect(plane, &PlaneHandle::dragged, links,
+    [links, document, place, normal](bool turned)
+    {
+      document->end_merge();
+      links->chosen(turned ? normal : place);
+      document->end_merge();
+    });
+  QObject::connect(document, &Document::about_to_change, plane, &PlaneHandle::cancel);
+}

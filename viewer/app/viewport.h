@@ -6,6 +6,7 @@
 #include <QVTKOpenGLNativeWidget.h>
 
 #include "base/mesh.h"
+#include "base/status.h"
 #include "scene/colours.h"
 
 #include "vtkNew.h"
@@ -98,8 +99,12 @@ public:
   void reset_view();
   /// Draws soon; many calls, one picture.
   void refresh();
-  /// Writes what is seen.
-  bool save_picture(const QString& path);
+  /// What is seen in `scale` times as many pixels each way, 1 to 8: lines, points, text and scalar
+  /// bars grow along. With a transparent background there is nothing where nothing is drawn.
+  bindpose::Status take_picture(
+    int scale, bool transparent, vtkSmartPointer<vtkImageData>& picture);
+  /// In pixels, of such a picture.
+  QSize picture_size(int scale) const;
 
   vtkHandleSetWidget* handle_widget() const { return this->handles_; }
   vtkRegionBrushWidget* brush_widget() const { return this->brush_; }
@@ -120,6 +125,8 @@ private:
   void draw_legend();
   void frame_drawn();
   void use_column();
+  double pixel_scale() const;
+  void set_pixel_scale();
 
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<vtkRenderer> renderer_;
@@ -143,6 +150,7 @@ private:
   bool split_ = false;
   QElapsedTimer since_start_;
   double last_drawn_ = -1e9, frame_seconds_ = 0.0; // smoothed
+  double picture_scale_ = 1.0; // pixels of a picture that is being taken, for each of the window
   bool refresh_pending_ = false;
   QTimer settle_; // after a drag
 };

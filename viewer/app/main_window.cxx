@@ -12,6 +12,7 @@
 #include "notice_bar.h"
 #include "option_links.h"
 #include "panel_column.h"
+#include "picture_dialog.h"
 #include "plane_options.h"
 #include "posing.h"
 #include "shape_handles.h"
@@ -26,6 +27,7 @@
 
 #include "conversion.h"
 #include "handle_geometry.h"
+#include "scene/picture.h"
 #include "scene/volume.h"
 
 #include "vtkCommand.h"
@@ -916,6 +918,11 @@ void MainWindow::show_column(int column)
 
 void MainWindow::export_as(const QString& what)
 {
+  PictureDialog picture(this->viewport_, this);
+  if (what == "picture" && picture.exec() != QDialog::Accepted)
+  {
+    return;
+  }
   const QString kinds = what == "shape" ? tr("Shapes (*.vtp *.ply *.obj *.off *.stl)")
     : what == "pose"                    ? tr("Poses (*.json)")
                                         : tr("Pictures (*.png)");
@@ -929,10 +936,7 @@ void MainWindow::export_as(const QString& what)
   const QString path = dialog.selectedFiles().front();
   if (what == "picture")
   {
-    if (!this->viewport_->save_picture(path))
-    {
-      this->show_error(tr("%1 cannot be written.").arg(path));
-    }
+    this->save_picture(path, picture.scale(), picture.is_transparent());
     return;
   }
   const Status status = what == "pose"
@@ -946,6 +950,19 @@ void MainWindow::export_as(const QString& what)
   {
     this->note_bar_->offer(QString::fromStdString(status.warnings.front()) + '.', {}, tr("Close"));
   }
+}
+
+bool MainWindow::save_picture(const QString& path, int scale, bool transparent)
+{
+  QApplication::setOverrideCursor(Qt::WaitCursor); // a large one takes seconds
+  vtkSmartPointer<vtkImageData> picture;
+  Status status = this->viewport_->take_picture(scale, transparent, picture);
+  if (status.ok())
+  {
+    status = write_png(picture, path.toStdString(), true);
+  }
+  QApplication::restoreOverrideCursor();
+  return this->say(QString(), status);
 }
 
 void MainWindow::show_error(const QString& sentence)

@@ -63,6 +63,9 @@ public:
   void choose_and_open();
   /// Asks where to write the "shape", the "pose" or the "picture".
   void export_as(const QString& what);
+  /// Writes what is seen, as Viewport::take_picture() has it (.png), in place of what was there;
+  /// false with a sentence in the error bar.
+  bool save_picture(const QString& path, int scale, bool transparent);
 
   void bind();
   void cancel_bind();

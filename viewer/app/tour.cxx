@@ -4,6 +4,7 @@
 #include "tour.h"
 
 #include "posing/json_fields.h"
+#include "scene/window_picture.h"
 #include "widgets/gizmo.h"
 
 #include <algorithm>
@@ -59,7 +60,7 @@ const VerbInfo verb_table[] = {
   { TourVerb::resize, "resize", About::size, "" },
   { TourVerb::wait, "wait", About::wait, "" },
   { TourVerb::film, "film", About::text, "of width" },
-  { TourVerb::screenshot, "screenshot", About::text, "of width" },
+  { TourVerb::screenshot, "screenshot", About::text, "of width scale transparent" },
   { TourVerb::check, "check", About::text, "is at_least at_most as_at tolerance" },
 };
 
@@ -304,9 +305,15 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
   fields.read("width", step.width, 16, 8000);
   const char* const parts[] = { "window", "view" };
   fields.read("of", step.of_view, parts);
+  fields.read("scale", step.scale, 1, largest_scale_factor);
+  fields.read("transparent", step.transparent);
   if (!fields.status().ok())
   {
     return fields.status();
+  }
+  if (!step.of_view && (step.scale > 1 || step.transparent))
+  {
+    return Status::invalid_input(who + ": \"scale\" and \"transparent\" are of pictures of the view");
   }
   if (json.contains("held"))
   {

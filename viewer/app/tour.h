@@ -84,6 +84,8 @@ struct TourStep
   std::array<int, 2> size{ 0, 0 }; ///< to resize to
   bool of_view = false; ///< the picture alone, not the whole window
   int width = 0; ///< of a screenshot, smaller than it is; 0: as it is
+  int scale = 1; ///< of a screenshot of the view: so many times as many pixels each way
+  bool transparent = false; ///< the same: its background
 
   TourRelation relation = TourRelation::is;
   std::string wanted_text; ///< a word, or the screenshot of as_at

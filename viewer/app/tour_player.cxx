@@ -7,6 +7,7 @@
 
 #include "io/atomic_file.h"
 
+#include "vtkImageData.h"
 #include "vtkRenderWindow.h"
 
 #include <QAbstractButton>
@@ -42,6 +43,16 @@ Qt::KeyboardModifiers held_in(const TourStep& step)
   held.setFlag(Qt::ControlModifier, step.ctrl);
   held.setFlag(Qt::AltModifier, step.alt);
   return held;
+}
+
+/// With alpha, if it has any.
+QImage to_image(vtkImageData* picture)
+{
+  const int* size = picture->GetDimensions();
+  const int components = picture->GetNumberOfScalarComponents();
+  return QImage(static_cast<const uchar*>(picture->GetScalarPointer()), size[0], size[1],
+    components * size[0], components == 4 ? QImage::Format_RGBA8888 : QImage::Format_RGB888)
+    .mirrored();
 }
 
 /// How much of the picture is not its background, which is of one colour along each row.
@@ -519,7 +530,21 @@ QString TourPlayer::fit_view()
 
 QString TourPlayer::screenshot(const TourStep& step)
 {
-  const QImage picture = this->grab(step.of_view, step.width);
+  QImage picture = this->grab(step.of_view, step.width);
+  if (step.scale > 1 || step.transparent)
+  {
+    vtkSmartPointer<vtkImageData> taken;
+    const Status status =
+      this->window_->viewport()->take_picture(step.scale, step.transparent, taken);
+    if (!status.ok())
+    {
+      return QString::fromStdString(status.message);
+    }
+    picture = to_image(taken);
+    picture = step.width > 0 && step.width < picture.width()
+      ? picture.scaledToWidth(step.width, Qt::SmoothTransformation)
+      : picture;
+  }
   const double drawn = drawn_share(this->window_->viewport()->grabFramebuffer());
   if (picture.isNull() || (drawn == 0.0 && !this->window_->is_empty()))
   {

@@ -10,6 +10,7 @@
 #include "scene/legend.h"
 #include "scene/shaded_surface.h"
 #include "scene/tile_actors.h"
+#include "scene/window_picture.h"
 
 #include "conversion.h"
 
@@ -25,7 +26,6 @@
 #include "vtkImageData.h"
 #include "vtkMath.h"
 #include "vtkObjectFactory.h"
-#include "vtkPNGWriter.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
@@ -33,8 +33,8 @@
 #include "vtkRegionBrushWidget.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
+#include "vtkRendererCollection.h"
 #include "vtkTexture.h"
-#include "vtkWindowToImageFilter.h"
 
 #include <QApplication>
 #include <QEvent>
@@ -70,6 +70,15 @@ public:
   bool Flat = false; ///< in front of a plane: it is moved, not turned
 };
 vtkStandardNewMacro(CameraStyle);
+
+void use_appearance_of(vtkRenderer* renderer)
+{
+  using namespace bindpose::palette;
+  const bindpose::Rgb& below = is_dark() ? dark_gradient_bottom : gradient_bottom;
+  const bindpose::Rgb& above = is_dark() ? dark_gradient_top : gradient_top;
+  renderer->SetBackground(below[0], below[1], below[2]);
+  renderer->SetBackground2(above[0], above[1], above[2]);
+}
 } // namespace
 
 Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
@@ -345,11 +354,7 @@ void Viewport::show_values(
 
 void Viewport::use_appearance()
 {
-  using namespace bindpose::palette;
-  const bindpose::Rgb& below = is_dark() ? dark_gradient_bottom : gradient_bottom;
-  const bindpose::Rgb& above = is_dark() ? dark_gradient_top : gradient_top;
-  this->renderer_->SetBackground(below[0], below[1], below[2]);
-  this->renderer_->SetBackground2(above[0], above[1], above[2]);
+  use_appearance_of(this->renderer_);
 }
 
 void Viewport::changeEvent(QEvent* event)
@@ -366,7 +371,7 @@ void Viewport::changeEvent(QEvent* event)
 void Viewport::draw_legend()
 {
   this->legend_->RemoveAllViewProps();
-  const double scale = this->devicePixelRatioF();
+  const double scale = this->pixel_scale();
   const int font = static_cast<int>(13 * scale);
   bindpose::PixelBox box;
   box.x = static_cast<int>(20 * scale);
@@ -398,9 +403,7 @@ void Viewport::resizeEvent(QResizeEvent* event)
   QVTKOpenGLNativeWidget::resizeEvent(event);
   this->resizing_ = false;
   this->update();
-  this->handles_->GetHandleSetRepresentation()->SetPixelScale(this->devicePixelRatioF());
-  this->brush_->GetRegionBrushRepresentation()->SetPixelScale(this->devicePixelRatioF());
-  this->draw_legend();
+  this->set_pixel_scale();
 }
 
 void Viewport::initializeGL()
@@ -541,15 +544,71 @@ void Viewport::refresh()
     });
 }
 
-bool Viewport::save_picture(const QString& path)
+// ---- Pictures ----------------------------------------------------------------------------------
+
+QSize Viewport::picture_size(int scale) const
 {
+  const int* size = this->window_->GetSize();
+  return scale * QSize(size[0], size[1]);
+}
+
+/// Of what is drawn in pixels.
+double Viewport::pixel_scale() const
+{
+  return this->picture_scale_ * this->devicePixelRatioF();
+}
+
+void Viewport::set_pixel_scale()
+{
+  this->handles_->GetHandleSetRepresentation()->SetPixelScale(this->pixel_scale());
+  this->brush_->GetRegionBrushRepresentation()->SetPixelScale(this->pixel_scale());
+  this->draw_legend();
+}
+
+bindpose::Status Viewport::take_picture(
+  int scale, bool transparent, vtkSmartPointer<vtkImageData>& picture)
+{
+  const QSize size = this->picture_size(scale);
+  bindpose::WindowPicture wanted;
+  wanted.width = size.width();
+  wanted.height = size.height();
+  wanted.transparent = transparent;
+  this->window_->Render(); // what has changed since the last time
+  // Of the renderers that clear what is below them: their backgrounds.
+  std::vector<vtkRenderer*> grounds;
+  vtkRendererCollection* renderers = this->window_->GetRenderers();
+  renderers->InitTraversal();
+  while (vtkRenderer* renderer = renderers->GetNextItem())
+  {
+    if (renderer->GetGradientBackground())
+    {
+      grounds.push_back(renderer);
+    }
+  }
+  const bool smoothed = this->renderer_->GetUseFXAA();
+  for (vtkRenderer* renderer : transparent ? grounds : std::vector<vtkRenderer*>())
+  {
+    renderer->GradientBackgroundOff();
+    renderer->SetBackground(0.0, 0.0, 0.0);
+    renderer->SetBackgroundAlpha(0.0);
+  }
+  this->renderer_->UseFXAAOff(); // samples are averaged; it would smear the edges of what is clear
+  this->picture_scale_ = scale * wanted.samples;
+  this->set_pixel_scale();
+  bindpose::Status status;
+  {
+    const bindpose::ScaledLines lines(this->window_, this->picture_scale_);
+    status = bindpose::draw_in_tiles(this->window_, wanted, picture);
+  }
+  this->picture_scale_ = 1.0;
+  this->set_pixel_scale();
+  this->renderer_->SetUseFXAA(smoothed);
+  for (vtkRenderer* renderer : transparent ? grounds : std::vector<vtkRenderer*>())
+  {
+    renderer->GradientBackgroundOn();
+    renderer->SetBackgroundAlpha(1.0);
+    use_appearance_of(renderer);
+  }
   this->window_->Render();
-  vtkNew<vtkWindowToImageFilter> grab;
-  grab->SetInput(this->window_);
-  grab->ReadFrontBufferOff();
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(grab->GetOutputPort());
-  writer->SetFileName(path.toStdString().c_str());
-  writer->Write();
-  return writer->GetErrorCode() == 0;
+  return status;
 }

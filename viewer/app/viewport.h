@@ -6,6 +6,7 @@
 #include <QVTKOpenGLNativeWidget.h>
 
 #include "base/mesh.h"
+#include "base/status.h"
 #include "scene/colours.h"
 
 #include "vtkNew.h"
@@ -100,8 +101,12 @@ public:
   /// picture of a surface are drawn without smooth edges, in a fifth of the time, and a quarter of
   /// a second later with them.
   void refresh();
-  /// Writes what is seen.
-  bool save_picture(const QString& path);
+  /// What is seen in `scale` times as many pixels each way, 1 to 8: lines, points, text and scalar
+  /// bars grow along. With a transparent background there is nothing where nothing is drawn.
+  bindpose::Status take_picture(
+    int scale, bool transparent, vtkSmartPointer<vtkImageData>& picture);
+  /// In pixels, of such a picture.
+  QSize picture_size(int scale) const;
 
   vtkHandleSetWidget* handle_widget() const { return this->handles_; }
   vtkRegionBrushWidget* brush_widget() const { return this->brush_; }
@@ -125,6 +130,8 @@ private:
   void frame_drawn();
   void render_wanted();
   void use_column();
+  double pixel_scale() const;
+  void set_pixel_scale();
 
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<vtkRenderer> renderer_;
@@ -148,6 +155,7 @@ private:
   bool split_ = false;
   QElapsedTimer since_start_;
   double last_drawn_ = -1e9, frame_seconds_ = 0.0; // smoothed
+  double picture_scale_ = 1.0; // pixels of a picture that is being taken, for each of the window
   bool refresh_pending_ = false;
   bool resizing_ = false;
   bool draws_on_processor_ = false;

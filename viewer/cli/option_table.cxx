@@ -381,6 +381,11 @@ const std::vector<Verb>& verbs()
         { "--labels", "TEXT,…", Kind::text, "", "",
           "written below the tiles, in their order, with commas between" },
         { "--size", "WxH", Kind::text, "1200x900", "", "pixels of the whole picture" },
+        { "--scale", "FACTOR", Kind::integer, "1", "",
+          "1 to 8: the same picture in so many times as many pixels each way; lines, points, text "
+          "and legends grow along" },
+        { "--transparent", "", Kind::flag, "", "",
+          "transparent background, in a .png: nothing where nothing is drawn" },
         { "--up", "AXIS", Kind::choice, "auto", "auto|x|y|z", "axis that points up; auto is y" },
         { "--azimuth", "DEGREES", Kind::number, "0", "", "look from farther to the right" },
         { "--elevation", "DEGREES", Kind::number, "0", "", "look from higher up" },

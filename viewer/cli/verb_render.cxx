@@ -155,6 +155,7 @@ bool read_options(Session& session, PictureOptions& options)
   }
   options.volume = arguments.has("volume");
   options.columns = arguments.integer("columns");
+  options.scale = arguments.integer("scale");
   options.title = arguments.text("title");
   options.edges = arguments.has("edges");
   options.handle_names = arguments.has("handle-names");
@@ -324,6 +325,15 @@ void run_render(Session& session)
     !read_options(session, options) || !list_files(session, moving, files, times, rate))
   {
     return;
+  }
+  if (arguments.has("transparent"))
+  {
+    if (moving)
+    {
+      session.invalid("--transparent: only a .png has a transparent background");
+      return;
+    }
+    options.background = Background::transparent;
   }
   if (const Status status = check_ffmpeg(); moving && !status.ok())
   {

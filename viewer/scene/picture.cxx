@@ -1,6 +1,6 @@
 // Three layers: the background over the whole window; one renderer per tile, all with the same
-// camera; text and legend on top. Drawn larger than asked for and averaged down, because the
-// driver's antialiasing smooths neither isolines nor colour bands.
+// camera; text and legend on top. Drawn larger than asked for, in tiles, and averaged down, because
+// the driver's antialiasing smooths neither isolines nor colour bands.
 #include "scene/picture.h"
 
 #include "base/number_text.h"
@@ -12,6 +12,7 @@
 #include "scene/legend.h"
 #include "scene/tile_actors.h"
 #include "scene/volume.h"
+#include "scene/window_picture.h"
 
 #include "vtkCamera.h"
 #include "vtkDataSet.h"
@@ -24,7 +25,6 @@
 #include "vtkPolyData.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
-#include "vtkUnsignedCharArray.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +57,17 @@ Status check_options(const std::vector<Tile>& tiles, const PictureOptions& optio
   {
     return Status::invalid_input("a picture is 16 to 8192 pixels wide and high, not " +
       std::to_string(options.width) + " x " + std::to_string(options.height));
+  }
+  if (!in(options.scale, 1, largest_scale_factor))
+  {
+    return Status::invalid_input("the scale factor of a picture is 1 to " +
+      std::to_string(largest_scale_factor) + ", not " + std::to_string(options.scale));
+  }
+  const Status size = check_picture_size(
+    std::int64_t(options.width) * options.scale, std::int64_t(options.height) * options.scale);
+  if (!size.ok())
+  {
+    return size;
   }
   if (!in(options.supersampling, 1, 4))
   {
@@ -316,7 +327,7 @@ int place_legends(std::vector<Legend>& legends, int width, int top, Layout& layo
 Layout make_layout(const std::vector<Tile>& tiles, const PictureOptions& options,
   std::vector<Legend>& legends, double shape_aspect)
 {
-  const int scale = options.supersampling;
+  const int scale = options.supersampling * options.scale;
   const int width = options.width * scale;
   const int height = options.height * scale;
   Layout layout;
@@ -354,52 +365,6 @@ Layout make_layout(const std::vector<Tile>& tiles, const PictureOptions& options
     layout.tiles.push_back(box);
   }
   return layout;
-}
-
-// Averages scale x scale pixels. Drawing over nothing leaves colours multiplied by their opacity;
-// files hold them plain.
-vtkSmartPointer<vtkImageData> average_down(
-  vtkUnsignedCharArray* pixels, int width, int height, int scale, bool transparent)
-{
-  const int components = transparent ? 4 : 3;
-  auto image = vtkSmartPointer<vtkImageData>::New();
-  image->SetDimensions(width, height, 1);
-  image->AllocateScalars(VTK_UNSIGNED_CHAR, components);
-  auto* to = static_cast<unsigned char*>(image->GetScalarPointer());
-  const unsigned char* from = pixels->GetPointer(0);
-  const int stride = width * scale;
-  for (int y = 0; y < height; ++y)
-  {
-    for (int x = 0; x < width; ++x)
-    {
-      int sums[4] = { 0, 0, 0, 0 };
-      for (int j = 0; j < scale; ++j)
-      {
-        for (int i = 0; i < scale; ++i)
-        {
-          const unsigned char* p =
-            from + 4 * (static_cast<std::size_t>(y * scale + j) * stride + x * scale + i);
-          for (int k = 0; k < 4; ++k)
-          {
-            sums[k] += p[k];
-          }
-        }
-      }
-      const int samples = scale * scale;
-      for (int k = 0; k < 3; ++k)
-      {
-        const int whole = transparent ? sums[3] : 255 * samples;
-        *to++ = whole > 0
-          ? static_cast<unsigned char>(std::min(255, (255 * sums[k] + whole / 2) / whole))
-          : 0;
-      }
-      if (transparent)
-      {
-        *to++ = static_cast<unsigned char>((sums[3] + samples / 2) / samples);
-      }
-    }
-  }
-  return image;
 }
 
 Eigen::Matrix4d world_to_pixel(vtkCamera* camera, const PixelBox& box, double scale)
@@ -538,7 +503,8 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     legends.back().name = legends.back().map.texts.empty() ? "No extrema" : "Extrema";
   }
   const Layout layout = make_layout(tiles, options, legends, shape_aspect);
-  const int scale = options.supersampling;
+  const int samples = options.supersampling;
+  const int scale = samples * options.scale;
   const int width = options.width * scale;
   const int height = options.height * scale;
 
@@ -546,8 +512,7 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
   window->SetOffScreenRendering(1);
   window->SetAlphaBitPlanes(1);
   // The driver cannot sort see-through surfaces by depth with several samples a pixel.
-  window->SetMultiSamples(scale > 1 && !sorts_by_depth(tiles, options) ? 4 : 0);
-  window->SetSize(width, height);
+  window->SetMultiSamples(samples > 1 && !sorts_by_depth(tiles, options) ? 4 : 0);
   window->SetNumberOfLayers(3);
 
   vtkNew<vtkRenderer> paper;
@@ -591,11 +556,11 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     if (geometry)
     {
       PictureGeometry::TileView view;
-      view.world_to_pixel = world_to_pixel(camera, box, scale);
-      view.x = box.x / scale;
-      view.y = box.y / scale;
-      view.width = box.width / scale;
-      view.height = box.height / scale;
+      view.world_to_pixel = world_to_pixel(camera, box, samples);
+      view.x = box.x / samples;
+      view.y = box.y / samples;
+      view.width = box.width / samples;
+      view.height = box.height / samples;
       geometry->tiles.resize(i);
       geometry->tiles.push_back(view);
     }
@@ -618,17 +583,19 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     add_legend(writing, legends[i].map, legends[i].name, layout.legends[i], layout.font);
   }
 
-  window->Render();
-  vtkNew<vtkUnsignedCharArray> pixels;
-  window->GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, pixels);
-  if (pixels->GetNumberOfTuples() != static_cast<vtkIdType>(width) * height)
+  WindowPicture picture;
+  picture.width = options.width * options.scale;
+  picture.height = options.height * options.scale;
+  picture.samples = samples;
+  picture.transparent = transparent;
+  const Status drawn = draw_in_tiles(window, picture, image);
+  if (!drawn.ok())
   {
-    return Status::failure(StatusCode::internal_error, "the picture could not be read back");
+    return drawn;
   }
-  image = average_down(pixels, options.width, options.height, scale, transparent);
 
-  status.report.set("picture.width", options.width);
-  status.report.set("picture.height", options.height);
+  status.report.set("picture.width", picture.width);
+  status.report.set("picture.height", picture.height);
   status.report.set("picture.tiles", static_cast<int>(tiles.size()));
   if (shown.tets > 0)
   {

@@ -71,6 +71,9 @@ struct PictureOptions
 {
   int width = 1200; ///< pixels, 16 to 8192
   int height = 900;
+  /// The same picture in so many times as many pixels each way, 1 to 8: lines, points, text and
+  /// legends grow along. See check_picture_size().
+  int scale = 1;
   /// Point or cell array that gives the colours. Empty: none, but for an image volume
   /// WindingNumber or else its first array.
   std::string array;

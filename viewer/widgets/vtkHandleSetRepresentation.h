@@ -266,7 +266,7 @@ public:
   ///@}
   ///@{
   /// Factor on all pixel measures and on the font size. Default 1, range 0.1 to 16.
-  vtkSetClampMacro(PixelScale, double, 0.1, 16.0);
+  vtkSetClampMacro(PixelScale, double, 0.1, 64.0);
   vtkGetMacro(PixelScale, double);
   ///@}
   ///@{

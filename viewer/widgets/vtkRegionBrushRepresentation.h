@@ -74,7 +74,7 @@ public:
   ///@}
   ///@{
   /// Factor on the width of the disc's outline. Default 1, range 0.1 to 16.
-  vtkSetClampMacro(PixelScale, double, 0.1, 16.0);
+  vtkSetClampMacro(PixelScale, double, 0.1, 64.0);
   vtkGetMacro(PixelScale, double);
   ///@}
   ///@{

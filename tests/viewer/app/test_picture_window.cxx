@@ -1,0 +1,276 @@
+// Pictures of the view as they are saved: their sizes, that they show what is seen, and that those
+// with a transparent background, put over any colour, are what would have been drawn on it.
+#include "unclipped.h"
+#include "window_test.h"
+
+#include "picture_dialog.h"
+
+#include "document/document.h"
+#include "document/user_settings.h"
+#include "scene/window_picture.h"
+
+#include "support/files.h"
+#include "support/meshes.h"
+
+#include "vtkCamera.h"
+#include "vtkImageData.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QPushButton>
+#include <QSettings>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+using namespace bindpose;
+
+namespace
+{
+QColor pixel_of(vtkImageData* picture, int x, int y)
+{
+  const auto* p = static_cast<const unsigned char*>(
+    picture->GetScalarPointer(x, picture->GetDimensions()[1] - 1 - y, 0));
+  return { p[0], p[1], p[2], picture->GetNumberOfScalarComponents() == 4 ? p[3] : 255 };
+}
+
+QImage image_of(vtkImageData* picture)
+{
+  QImage image(
+    picture->GetDimensions()[0], picture->GetDimensions()[1], QImage::Format_ARGB32);
+  for (int y = 0; y < image.height(); ++y)
+  {
+    for (int x = 0; x < image.width(); ++x)
+    {
+      image.setPixelColor(x, y, pixel_of(picture, x, y));
+    }
+  }
+  return image;
+}
+
+int distance(const QColor& a, const QColor& b)
+{
+  return std::max({ std::abs(a.red() - b.red()), std::abs(a.green() - b.green()),
+    std::abs(a.blue() - b.blue()) });
+}
+
+double share_apart(const QImage& a, const QImage& b, int level)
+{
+  EXPECT_EQ(a.size(), b.size());
+  int apart = 0;
+  for (int y = 0; y < a.height(); ++y)
+  {
+    for (int x = 0; x < a.width(); ++x)
+    {
+      apart += distance(a.pixelColor(x, y), b.pixelColor(x, y)) > level;
+    }
+  }
+  return static_cast<double>(apart) / (a.width() * a.height());
+}
+
+/// What a picture is over a colour.
+QColor over(const QColor& pixel, const Rgb& ground)
+{
+  const double alpha = pixel.alphaF();
+  const auto mixed = [alpha](int value, double below)
+  { return static_cast<int>(std::lround(alpha * value + (1.0 - alpha) * 255.0 * below)); };
+  return { mixed(pixel.red(), ground[0]), mixed(pixel.green(), ground[1]),
+    mixed(pixel.blue(), ground[2]) };
+}
+
+class PictureWindow : public test::WindowTest
+{
+protected:
+  /// A ball with two handles and the isolines and scalar bar of one's weights.
+  void open_weighted()
+  {
+    const TriangleMesh ball = test::sphere(4);
+    ASSERT_TRUE(this->window.set_mesh(to_polydata(ball.points, ball.triangles), "ball"));
+    ASSERT_TRUE(this->window.set_handles(test::two_points(), "points"));
+    Weights weights(ball.points.rows(), 2);
+    weights.col(1) = 0.5 * (ball.points.col(2).array() + 1.0);
+    weights.col(0) = 1.0 - weights.col(1).array();
+    ASSERT_TRUE(this->window.document()->set_weights(weights, "heights").ok());
+    this->window.panels()->show_panel(PanelColumn::weights);
+    this->resize({ 900, 640 });
+  }
+
+  vtkSmartPointer<vtkImageData> take(int scale, bool transparent)
+  {
+    vtkSmartPointer<vtkImageData> picture;
+    const Status status = this->window.viewport()->take_picture(scale, transparent, picture);
+    EXPECT_TRUE(status.ok()) << status.message;
+    return picture;
+  }
+
+  /// The transparent picture put over plain colours is the opaque picture on such a ground, at every
+  /// pixel: half covered edges, see-through things and letters, too.
+  void expect_right_over_any_colour(int scale)
+  {
+    const auto clear = this->take(scale, true);
+    ASSERT_EQ(clear->GetNumberOfScalarComponents(), 4);
+    vtkRenderer* renderer = this->window.viewport()->renderer();
+    const Rgb grounds[] = { { 1.0, 1.0, 1.0 }, { 0.0, 0.0, 0.0 }, { 0.8, 0.2, 0.6 } };
+    int part = 0; // covered
+    for (const Rgb& ground : grounds)
+    {
+      renderer->GradientBackgroundOff();
+      renderer->SetBackground(ground[0], ground[1], ground[2]);
+      const auto drawn = this->take(scale, false);
+      renderer->GradientBackgroundOn();
+      const int* size = drawn->GetDimensions();
+      int worst = 0;
+      for (int y = 0; y < size[1]; ++y)
+      {
+        for (int x = 0; x < size[0]; ++x)
+        {
+          const QColor pixel = pixel_of(clear, x, y);
+          part += pixel.alpha() > 30 && pixel.alpha() < 225;
+          worst = std::max(worst, distance(over(pixel, ground), pixel_of(drawn, x, y)));
+        }
+      }
+      EXPECT_LE(worst, 4) << "of 255, over " << ground[0] << " " << ground[1] << " " << ground[2];
+    }
+    EXPECT_GT(part, 500) << "edges are partly covered";
+    // Nothing where nothing is, everything in the middle of the shape.
+    EXPECT_EQ(pixel_of(clear, clear->GetDimensions()[0] - 4, 4).alpha(), 0);
+  }
+};
+} // namespace
+
+TEST_F(PictureWindow, IsSoManyTimesAsLarge)
+{
+  this->open_weighted();
+  const int* size = this->window.viewport()->renderWindow()->GetSize();
+  for (const int scale : { 1, 3 })
+  {
+    const auto picture = this->take(scale, false);
+    EXPECT_EQ(picture->GetDimensions()[0], scale * size[0]);
+    EXPECT_EQ(picture->GetDimensions()[1], scale * size[1]);
+    EXPECT_EQ(picture->GetNumberOfScalarComponents(), 3);
+    EXPECT_EQ(this->window.viewport()->picture_size(scale), scale * QSize(size[0], size[1]));
+  }
+}
+
+TEST_F(PictureWindow, OfEveryScaleIsWhatIsSeenOnlyFiner)
+{
+  this->open_weighted();
+  const QImage seen = this->picture().convertToFormat(QImage::Format_ARGB32);
+  for (const int scale : { 1, 2, 5 }) // the last in several tiles
+  {
+    const QImage taken = image_of(this->take(scale, false));
+    const QImage small =
+      taken.scaled(seen.size(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+    // Edges of letters and lines fall on other pixels; in all else they are the same.
+    EXPECT_LT(share_apart(small, seen, 24), 0.02) << scale;
+    EXPECT_LT(share_apart(small, seen, 80), 0.004) << scale;
+    // Lines and letters are as thick: as much of the picture is dark.
+    const auto ink = [](const QColor& c) { return c.lightness() < 70 && c.saturation() < 60; };
+    EXPECT_NEAR(count(taken, ink) / static_cast<double>(scale * scale), count(seen, ink),
+      0.35 * count(seen, ink))
+      << scale;
+  }
+}
+
+TEST_F(PictureWindow, LeavesTheWindowAsItWas)
+{
+  this->open_weighted();
+  vtkCamera* camera = this->window.viewport()->renderer()->GetActiveCamera();
+  const QImage before = this->picture();
+  const Vec3 from(camera->GetPosition());
+  this->take(5, true);
+  EXPECT_EQ(this->window.viewport()->renderer()->GetActiveCamera(), camera);
+  EXPECT_EQ(Vec3(camera->GetPosition()), from);
+  EXPECT_EQ(this->picture(), before);
+}
+
+TEST_F(PictureWindow, HasNoFringeWhereItIsTransparent)
+{
+  this->open_weighted();
+  this->expect_right_over_any_colour(1);
+  this->expect_right_over_any_colour(2);
+  const auto clear = this->take(2, true);
+  const QPoint middle = 2 * this->pixel(Vec3(0, 0, 0));
+  EXPECT_EQ(pixel_of(clear, middle.x(), middle.y()).alpha(), 255);
+}
+
+TEST_F(PictureWindow, KeepsSeeThroughThingsSeeThrough)
+{
+  this->open_weighted();
+  this->window.viewport()->set_surface_look(Viewport::see_through);
+  this->expect_right_over_any_colour(1);
+  const auto clear = this->take(1, true);
+  const QPoint beside = this->pixel(Vec3(0.4, 0.3, 0));
+  EXPECT_GT(pixel_of(clear, beside.x(), beside.y()).alpha(), 60);
+  EXPECT_LT(pixel_of(clear, beside.x(), beside.y()).alpha(), 200);
+}
+
+TEST_F(PictureWindow, IsWrittenWithItsAlpha)
+{
+  this->open_weighted();
+  const test::Folder folder;
+  const QString path = QString::fromStdString(folder / "ball.png");
+  ASSERT_TRUE(this->window.save_picture(path, 2, true));
+  const QImage read(path);
+  EXPECT_TRUE(read.hasAlphaChannel());
+  EXPECT_EQ(read.size(), this->window.viewport()->picture_size(2));
+  EXPECT_EQ(qAlpha(read.pixel(read.width() - 3, 3)), 0);
+  ASSERT_TRUE(this->window.save_picture(path, 1, false));
+  EXPECT_FALSE(QImage(path).hasAlphaChannel());
+  EXPECT_FALSE(this->window.save_picture("/no/such/folder/ball.png", 1, false));
+  EXPECT_EQ(this->window.error().count('\n'), 0);
+  EXPECT_FALSE(this->window.error().isEmpty());
+}
+
+TEST_F(PictureWindow, TheDialogTellsTheSizeAndRemembers)
+{
+  this->open_weighted();
+  const QSize size = this->window.viewport()->picture_size(1);
+  {
+    PictureDialog dialog(this->window.viewport(), &this->window);
+    dialog.show();
+    QApplication::processEvents();
+    EXPECT_EQ(dialog.scale(), 1);
+    EXPECT_FALSE(dialog.is_transparent());
+    auto* scale = dialog.findChild<QComboBox*>();
+    ASSERT_EQ(scale->count(), 8);
+    for (int factor = 1; factor <= 8; ++factor)
+    {
+      scale->setCurrentIndex(factor - 1);
+      EXPECT_EQ(dialog.size_note(),
+        QString("%L1 × %L2 pixels").arg(factor * size.width()).arg(factor * size.height()));
+    }
+    test::expect_unclipped_buttons(&dialog);
+    test::expect_unclipped_items(&dialog);
+    scale->setCurrentIndex(3);
+    dialog.findChild<QCheckBox*>()->setChecked(true);
+    if (const char* folder = std::getenv("BINDPOSE_PICTURES"))
+    {
+      QApplication::processEvents();
+      EXPECT_TRUE(dialog.grab().save(QString(folder) + "/picture_dialog.png"));
+    }
+    dialog.reject(); // nothing is kept
+  }
+  {
+    PictureDialog dialog(this->window.viewport(), &this->window);
+    EXPECT_EQ(dialog.scale(), 1);
+    dialog.findChild<QComboBox*>()->setCurrentIndex(3);
+    dialog.findChild<QCheckBox*>()->setChecked(true);
+    dialog.accept();
+  }
+  PictureDialog dialog(this->window.viewport(), &this->window);
+  EXPECT_EQ(dialog.scale(), 4);
+  EXPECT_TRUE(dialog.is_transparent());
+  user_settings()->remove("picture");
+}
+
+TEST(PictureSize, WhatIsTooLargeIsOneSentence)
+{
+  EXPECT_TRUE(check_picture_size(32767, 8192).ok());
+  EXPECT_TRUE(check_picture_size(16384, 16384).ok());
+  EXPECT_EQ(check_picture_size(40000, 10).message,
+    "a picture of 40000 x 10 pixels is too large: at most 32767 wide and high, and 268 million in "
+    "all");
+  EXPECT_FALSE(check_picture_size(20000, 20000).ok());
+}

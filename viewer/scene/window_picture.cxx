@@ -1,0 +1,324 @@
+// A tile shows the part of each renderer's view that lies in it: the viewport becomes that part in
+// the tile, and a copy of the camera looks at nothing else, by a narrower angle off its middle. What
+// is drawn in pixels of the window (2D actors) is moved along. Tiles overlap by a margin that is cut
+// off, because a wide line that runs just outside a tile is not drawn in it.
+#include "scene/window_picture.h"
+
+#include "vtkActor.h"
+#include "vtkActor2D.h"
+#include "vtkActor2DCollection.h"
+#include "vtkActorCollection.h"
+#include "vtkCamera.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
+#include "vtkPropCollection.h"
+#include "vtkProperty.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkRendererCollection.h"
+#include "vtkUnsignedCharArray.h"
+#include "vtkWidgetRepresentation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <set>
+#include <string>
+
+namespace bindpose
+{
+namespace
+{
+/// Samples: of a tile with its margins, which any graphics can draw, and of a margin.
+constexpr int tile_size = 3072;
+constexpr int tile_margin = 160;
+
+constexpr std::int64_t most_across = 32767;
+constexpr std::int64_t most_pixels = std::int64_t(1) << 28;
+
+struct Rect
+{
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+Rect common_part(const Rect& a, const Rect& b)
+{
+  Rect both;
+  both.x = std::max(a.x, b.x);
+  both.y = std::max(a.y, b.y);
+  both.width = std::min(a.x + a.width, b.x + b.width) - both.x;
+  both.height = std::min(a.y + a.height, b.y + b.height) - both.y;
+  return both;
+}
+
+/// Shows parts of a renderer's view; as long as it lives.
+class TiledRenderer
+{
+public:
+  TiledRenderer(vtkRenderer* renderer, int width, int height)
+    : renderer_(renderer), camera_(renderer->GetActiveCamera()), drawn_(renderer->GetDraw())
+  {
+    renderer->GetViewport(this->viewport_.data());
+    renderer->GetBackground(this->below_.data());
+    renderer->GetBackground2(this->above_.data());
+    const auto at = [](double share, int size) { return static_cast<int>(std::lround(share * size)); };
+    this->whole_.x = at(this->viewport_[0], width);
+    this->whole_.y = at(this->viewport_[1], height);
+    this->whole_.width = at(this->viewport_[2], width) - this->whole_.x;
+    this->whole_.height = at(this->viewport_[3], height) - this->whole_.y;
+    vtkActor2DCollection* flat = renderer->GetActors2D();
+    flat->InitTraversal();
+    while (vtkActor2D* actor = flat->GetNextActor2D())
+    {
+      this->flat_.push_back({ actor, { actor->GetPosition()[0], actor->GetPosition()[1] } });
+    }
+  }
+
+  ~TiledRenderer()
+  {
+    this->renderer_->SetViewport(this->viewport_.data());
+    this->renderer_->SetActiveCamera(this->camera_);
+    this->renderer_->SetDraw(this->drawn_);
+    this->renderer_->SetBackground(this->below_.data());
+    this->renderer_->SetBackground2(this->above_.data());
+    for (const auto& [actor, place] : this->flat_)
+    {
+      actor->SetPosition(place[0], place[1]);
+    }
+  }
+  TiledRenderer(const TiledRenderer&) = delete;
+  TiledRenderer& operator=(const TiledRenderer&) = delete;
+
+  void show(const Rect& tile)
+  {
+    const Rect part = common_part(this->whole_, tile);
+    const bool seen = part.width > 0 && part.height > 0;
+    this->renderer_->SetDraw(seen ? this->drawn_ : 0);
+    if (!seen)
+    {
+      return;
+    }
+    this->renderer_->SetViewport(static_cast<double>(part.x - tile.x) / tile.width,
+      static_cast<double>(part.y - tile.y) / tile.height,
+      static_cast<double>(part.x + part.width - tile.x) / tile.width,
+      static_cast<double>(part.y + part.height - tile.y) / tile.height);
+    if (this->renderer_->GetGradientBackground()) // of the part what the whole has there
+    {
+      const double low = static_cast<double>(part.y - this->whole_.y) / this->whole_.height;
+      const double high = low + static_cast<double>(part.height) / this->whole_.height;
+      this->renderer_->SetBackground(this->ground(low).data());
+      this->renderer_->SetBackground2(this->ground(high).data());
+    }
+    vtkNew<vtkCamera> camera;
+    camera->DeepCopy(this->camera_);
+    const double share = static_cast<double>(part.height) / this->whole_.height;
+    camera->SetParallelScale(share * this->camera_->GetParallelScale());
+    const double half = std::tan(0.5 * vtkMath::RadiansFromDegrees(this->camera_->GetViewAngle()));
+    camera->SetViewAngle(2.0 * vtkMath::DegreesFromRadians(std::atan(share * half)));
+    // From the middle of the view to that of the part, in halves of the part.
+    camera->SetWindowCenter(
+      (2.0 * (part.x - this->whole_.x) + part.width - this->whole_.width) / part.width,
+      (2.0 * (part.y - this->whole_.y) + part.height - this->whole_.height) / part.height);
+    this->renderer_->SetActiveCamera(camera);
+    for (const auto& [actor, place] : this->flat_)
+    {
+      actor->SetPosition(
+        place[0] - (part.x - this->whole_.x), place[1] - (part.y - this->whole_.y));
+    }
+  }
+
+private:
+  using Colour = std::array<double, 3>;
+  Colour ground(double height) const
+  {
+    Colour colour{};
+    for (std::size_t k = 0; k < 3; ++k)
+    {
+      colour[k] = (1.0 - height) * this->below_[k] + height * this->above_[k];
+    }
+    return colour;
+  }
+
+  vtkSmartPointer<vtkRenderer> renderer_;
+  vtkSmartPointer<vtkCamera> camera_;
+  int drawn_;
+  Colour below_{}, above_{}; // background
+  std::array<double, 4> viewport_{};
+  Rect whole_; // of the picture
+  std::vector<std::pair<vtkSmartPointer<vtkActor2D>, std::array<double, 2>>> flat_;
+};
+
+/// Averages samples x samples pixels of a tile into a part of the image. Drawing over nothing leaves
+/// colours multiplied by their opacity; files hold them plain.
+void average_down(vtkUnsignedCharArray* pixels, const Rect& tile, const Rect& part, int samples,
+  bool transparent, vtkImageData* image)
+{
+  const unsigned char* from = pixels->GetPointer(0);
+  const int count = samples * samples;
+  const int stop_x = (part.x + part.width) / samples;
+  const int stop_y = (part.y + part.height) / samples;
+  for (int y = part.y / samples; y < stop_y; ++y)
+  {
+    auto* to = static_cast<unsigned char*>(image->GetScalarPointer(part.x / samples, y, 0));
+    for (int x = part.x / samples; x < stop_x; ++x)
+    {
+      int sums[4] = { 0, 0, 0, 0 };
+      for (int j = 0; j < samples; ++j)
+      {
+        const std::size_t row = static_cast<std::size_t>(y * samples + j - tile.y) * tile.width;
+        const unsigned char* p = from + 4 * (row + x * samples - tile.x);
+        for (int i = 0; i < samples; ++i, p += 4)
+        {
+          for (int k = 0; k < 4; ++k)
+          {
+            sums[k] += p[k];
+          }
+        }
+      }
+      for (int k = 0; k < 3; ++k)
+      {
+        const int whole = transparent ? sums[3] : 255 * count;
+        *to++ = whole > 0
+          ? static_cast<unsigned char>(std::min(255, (255 * sums[k] + whole / 2) / whole))
+          : 0;
+      }
+      if (transparent)
+      {
+        *to++ = static_cast<unsigned char>((sums[3] + count / 2) / count);
+      }
+    }
+  }
+}
+
+/// Where tiles begin and how long they are without their margins: one when it fits.
+int core_length(int length, int samples)
+{
+  return length <= tile_size ? length : (tile_size - 2 * tile_margin) / samples * samples;
+}
+
+Rect with_margins(const Rect& core, int width, int height)
+{
+  Rect tile;
+  tile.x = std::max(0, core.x - tile_margin);
+  tile.y = std::max(0, core.y - tile_margin);
+  tile.width = std::min(width, core.x + core.width + tile_margin) - tile.x;
+  tile.height = std::min(height, core.y + core.height + tile_margin) - tile.y;
+  return tile;
+}
+} // namespace
+
+Status check_picture_size(std::int64_t width, std::int64_t height)
+{
+  if (width > most_across || height > most_across || width * height > most_pixels)
+  {
+    return Status::invalid_input("a picture of " + std::to_string(width) + " x " +
+      std::to_string(height) + " pixels is too large: at most " + std::to_string(most_across) +
+      " wide and high, and " + std::to_string(most_pixels / 1000000) + " million in all");
+  }
+  return {};
+}
+
+Status draw_in_tiles(
+  vtkRenderWindow* window, const WindowPicture& picture, vtkSmartPointer<vtkImageData>& image)
+{
+  Status status = check_picture_size(picture.width, picture.height);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const int samples = picture.samples;
+  const int width = picture.width * samples;
+  const int height = picture.height * samples;
+  image = vtkSmartPointer<vtkImageData>::New();
+  image->SetDimensions(picture.width, picture.height, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, picture.transparent ? 4 : 3);
+
+  const std::array<int, 2> size{ window->GetSize()[0], window->GetSize()[1] };
+  std::vector<std::unique_ptr<TiledRenderer>> renderers;
+  vtkRendererCollection* all = window->GetRenderers();
+  all->InitTraversal();
+  while (vtkRenderer* renderer = all->GetNextItem())
+  {
+    renderers.push_back(std::make_unique<TiledRenderer>(renderer, width, height));
+  }
+  const bool one = width <= tile_size && height <= tile_size;
+  Rect core;
+  vtkNew<vtkUnsignedCharArray> pixels;
+  for (core.y = 0; core.y < height && status.ok(); core.y += core.height)
+  {
+    core.height = std::min(core_length(height, samples), height - core.y);
+    for (core.x = 0; core.x < width && status.ok(); core.x += core.width)
+    {
+      core.width = std::min(core_length(width, samples), width - core.x);
+      const Rect tile = one ? core : with_margins(core, width, height);
+      window->SetSize(tile.width, tile.height);
+      for (const auto& renderer : renderers)
+      {
+        if (!one)
+        {
+          renderer->show(tile);
+        }
+      }
+      window->Render();
+      window->GetRGBACharPixelData(0, 0, tile.width - 1, tile.height - 1, 0, pixels);
+      if (pixels->GetNumberOfTuples() != static_cast<vtkIdType>(tile.width) * tile.height)
+      {
+        status =
+          Status::failure(StatusCode::internal_error, "the picture could not be read back");
+        break;
+      }
+      average_down(pixels, tile, core, samples, picture.transparent, image);
+    }
+  }
+  renderers.clear();
+  window->SetSize(size[0], size[1]);
+  return status;
+}
+
+ScaledLines::ScaledLines(vtkRenderWindow* window, double factor)
+{
+  std::set<vtkProperty*> seen;
+  vtkRendererCollection* renderers = window->GetRenderers();
+  renderers->InitTraversal();
+  while (vtkRenderer* renderer = renderers->GetNextItem())
+  {
+    vtkActorCollection* actors = renderer->GetActors();
+    actors->InitTraversal();
+    while (vtkActor* actor = actors->GetNextActor())
+    {
+      vtkProperty* property = actor->GetProperty();
+      if (seen.insert(property).second)
+      {
+        this->widths_.push_back({ property, property->GetLineWidth(), property->GetPointSize() });
+        property->SetLineWidth(static_cast<float>(factor * property->GetLineWidth()));
+        property->SetPointSize(static_cast<float>(factor * property->GetPointSize()));
+      }
+    }
+    vtkPropCollection* props = renderer->GetViewProps();
+    props->InitTraversal();
+    while (vtkProp* prop = props->GetNextProp())
+    {
+      if (auto* widget = vtkWidgetRepresentation::SafeDownCast(prop))
+      {
+        this->handles_.emplace_back(widget, widget->GetHandleSize());
+        widget->SetHandleSize(factor * widget->GetHandleSize());
+      }
+    }
+  }
+}
+
+ScaledLines::~ScaledLines()
+{
+  for (const Widths& each : this->widths_)
+  {
+    each.property->SetLineWidth(each.line);
+    each.property->SetPointSize(each.point);
+  }
+  for (const auto& [widget, size] : this->handles_)
+  {
+    widget->SetHandleSize(size);
+  }
+}
+
+} // namespace bindpose

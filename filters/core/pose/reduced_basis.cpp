@@ -19,7 +19,7 @@
 //  - The triangular factor of G^T is well-conditioned, and u's share in the constraints not small.
 #include "pose/reduced_basis.h"
 
-#include "base/dense_product.h"
+#include "base/blas_product.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
@@ -52,7 +52,7 @@ Reflections::Reflections(const Eigen::MatrixXd& packed, const Eigen::VectorXd& f
 {
   this->v_.triangularView<Eigen::StrictlyUpper>().setZero();
   this->v_.diagonal().setOnes();
-  const Eigen::MatrixXd products = dense_product(this->v_.transpose(), this->v_);
+  const Eigen::MatrixXd products = blas_product(this->v_.transpose(), this->v_);
   for (Index k = 0; k < rank; ++k)
   {
     const double factor = factors[k];
@@ -61,17 +61,19 @@ Reflections::Reflections(const Eigen::MatrixXd& packed, const Eigen::VectorXd& f
       (-factor * products.col(k).head(k));
   }
   this->tail_ =
-    dense_product(this->t_, this->v_.bottomRows(this->v_.rows() - rank).transpose());
+    blas_product(this->t_, this->v_.bottomRows(this->v_.rows() - rank).transpose());
 }
 
 Eigen::MatrixXd Reflections::times_tail(const Eigen::MatrixXd& m) const
 {
-  return m.rightCols(this->tail_.cols()) - dense_product(dense_product(m, this->v_), this->tail_);
+  Eigen::MatrixXd product = m.rightCols(this->tail_.cols());
+  subtract_blas_product(blas_product(m, this->v_), this->tail_, product);
+  return product;
 }
 
 Eigen::MatrixXd Reflections::tail() const
 {
-  Eigen::MatrixXd z = -dense_product(this->v_, this->tail_);
+  Eigen::MatrixXd z = -blas_product(this->v_, this->tail_);
   z.bottomRows(this->tail_.cols()).diagonal().array() += 1.0;
   return z;
 }
@@ -195,7 +197,7 @@ bool ReducedBasis::make_quickly(const ReducedSpace& space, const Eigen::MatrixXd
   if (asked > 0)
   {
     DenseCholesky positions;
-    if (!positions.factor(dense_product(a.topRows(asked), a.topRows(asked).transpose())) ||
+    if (!positions.factor(blas_product(a.topRows(asked), a.topRows(asked).transpose())) ||
       !(positions.reciprocal_condition() > beyond_doubt))
     {
       return false;
@@ -310,8 +312,8 @@ void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixX
       const Index seen = (eigen.eigenvalues().array() > energy_rank * largest).count(); // the last
       const Eigen::MatrixXd directions = eigen.eigenvectors().rightCols(seen) *
         eigen.eigenvalues().tail(seen).cwiseSqrt().cwiseInverse().asDiagonal();
-      this->basis_ = dense_product(free_space, directions);
-      covariance = dense_product(covariance, directions);
+      this->basis_ = blas_product(free_space, directions);
+      covariance = blas_product(covariance, directions);
     }
   }
   this->particular_ = scale.asDiagonal() * this->particular_;

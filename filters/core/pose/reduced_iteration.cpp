@@ -123,21 +123,27 @@ template <typename Scalar>
 void ReducedIteration<Scalar>::set_matrix(const Eigen::MatrixXd& covariance, double unit)
 {
   constexpr Index tile = 2 * PackOf<Scalar>::lanes;
-  this->clusters_ = covariance.rows() / 3;
+  const Index used = covariance.rows();
+  this->clusters_ = used / 3;
   this->columns_ = covariance.cols();
-  this->rows_ = padded(covariance.rows(), tile);
+  this->rows_ = padded(used, tile);
   this->length_ = padded(this->columns_, tile);
   this->unit_ = unit;
-  this->covariance_.assign(
-    static_cast<std::size_t>(this->rows_ * padded(this->columns_, columns_at_once)), Scalar(0));
-  for (Index c = 0; c < this->columns_; ++c)
+  // What was there before is not zeroed first: this is a large part of a change of modes.
+  this->covariance_.resize(
+    static_cast<std::size_t>(this->rows_ * padded(this->columns_, columns_at_once)));
+  Scalar* to = this->covariance_.data();
+  const double factor = 1.0 / unit;
+  for (Index c = 0; c < this->columns_; ++c, to += this->rows_)
   {
-    for (Index r = 0; r < covariance.rows(); ++r)
+    const double* const from = covariance.data() + c * used;
+    for (Index r = 0; r < used; ++r)
     {
-      this->covariance_[static_cast<std::size_t>(c * this->rows_ + r)] =
-        static_cast<Scalar>(covariance(r, c) / unit);
+      to[r] = static_cast<Scalar>(factor * from[r]);
     }
+    std::fill(to + used, to + this->rows_, Scalar(0));
   }
+  std::fill(to, this->covariance_.data() + this->covariance_.size(), Scalar(0));
   const auto size = static_cast<std::size_t>(3 * this->rows_);
   this->star_.assign(size, Scalar(0));
   this->turns_.assign(size, Scalar(0));

@@ -23,14 +23,15 @@ namespace
 {
 /// C = factor A B + kept C
 void multiply(double factor, const Eigen::Ref<const Eigen::MatrixXd>& a,
-  const Eigen::Ref<const Eigen::MatrixXd>& b, double kept, Eigen::MatrixXd& c)
+  const Eigen::Ref<const Eigen::MatrixXd>& b, double kept, Eigen::Ref<Eigen::MatrixXd> c)
 {
   const SerialBlas serial;
   const int rows = static_cast<int>(a.rows()), inner = static_cast<int>(a.cols()),
             cols = static_cast<int>(b.cols()), a_stride = static_cast<int>(a.outerStride()),
-            b_stride = static_cast<int>(b.outerStride());
+            b_stride = static_cast<int>(b.outerStride()),
+            stride = static_cast<int>(c.outerStride());
   dgemm_("N", "N", &rows, &cols, &inner, &factor, a.data(), &a_stride, b.data(), &b_stride, &kept,
-    c.data(), &rows);
+    c.data(), &stride);
 }
 } // namespace
 
@@ -47,7 +48,7 @@ Eigen::MatrixXd blas_product(
 }
 
 void subtract_blas_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
-  const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::MatrixXd& c)
+  const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> c)
 {
   if (a.size() > 0 && b.size() > 0)
   {
@@ -62,7 +63,7 @@ Eigen::MatrixXd blas_product(
 }
 
 void subtract_blas_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
-  const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::MatrixXd& c)
+  const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> c)
 {
   c -= dense_product(a, b);
 }

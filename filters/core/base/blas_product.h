@@ -14,7 +14,7 @@ Eigen::MatrixXd blas_product(
 
 /// C -= A B
 void subtract_blas_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
-  const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::MatrixXd& c);
+  const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> c);
 
 } // namespace bindpose
 

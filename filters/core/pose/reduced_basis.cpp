@@ -39,7 +39,7 @@ constexpr double position_rank = 1e-9;
 /// What the quick way takes for well-conditioned: reciprocal conditions of A A^T and of R.
 constexpr double beyond_doubt = 1e-6;
 /// From this many constraints on, as a share of the unknowns, the sturdy way is quicker.
-constexpr Index unknowns_per_constraint = 3;
+constexpr Index unknowns_per_constraint = 4;
 
 double norm_of_rows(const Eigen::MatrixXd& m)
 {
@@ -60,14 +60,19 @@ Reflections::Reflections(const Eigen::MatrixXd& packed, const Eigen::VectorXd& f
     this->t_.col(k).head(k) = this->t_.topLeftCorner(k, k).triangularView<Eigen::Upper>() *
       (-factor * products.col(k).head(k));
   }
-  this->tail_ =
-    blas_product(this->t_, this->v_.bottomRows(this->v_.rows() - rank).transpose());
+  this->tail_ = blas_product(this->t_, this->v_.bottomRows(this->v_.rows() - rank).transpose());
+}
+
+void Reflections::times_tail(const Eigen::MatrixXd& m, Eigen::Ref<Eigen::MatrixXd> product) const
+{
+  product = m.rightCols(this->tail_.cols());
+  subtract_blas_product(blas_product(m, this->v_), this->tail_, product);
 }
 
 Eigen::MatrixXd Reflections::times_tail(const Eigen::MatrixXd& m) const
 {
-  Eigen::MatrixXd product = m.rightCols(this->tail_.cols());
-  subtract_blas_product(blas_product(m, this->v_), this->tail_, product);
+  Eigen::MatrixXd product(m.rows(), this->tail_.cols());
+  this->times_tail(m, product);
   return product;
 }
 
@@ -80,8 +85,7 @@ Eigen::MatrixXd Reflections::tail() const
 
 Coordinates Reflections::turned(const Coordinates& x) const
 {
-  return x -
-    thin_product(this->v_, thin_product(this->t_, transposed_thin_product(this->v_, x)));
+  return x - thin_product(this->v_, thin_product(this->t_, transposed_thin_product(this->v_, x)));
 }
 
 Coordinates Reflections::turned_back(const Coordinates& x) const
@@ -91,11 +95,11 @@ Coordinates Reflections::turned_back(const Coordinates& x) const
 }
 
 void ReducedBasis::make(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
-  const std::vector<Index>& open, const Eigen::MatrixXd& held, Eigen::MatrixXd& covariance)
+  const std::vector<Index>& open, const Eigen::MatrixXd& held)
 {
-  if (!this->make_quickly(space, stiffness, open, held, covariance))
+  if (!this->make_quickly(space, stiffness, open, held))
   {
-    this->make_sturdily(space, stiffness, open, held, covariance);
+    this->make_sturdily(space, stiffness, open, held);
   }
 }
 
@@ -110,8 +114,11 @@ void ReducedBasis::factor_whole(const ReducedSpace& space, const Eigen::MatrixXd
       whole.rows.push_back(i);
     }
   }
-  // The unknown that a translation moves most is the one to leave out.
-  const auto shift_of = [&](Index i) { return i % 4 == 3 ? 1.0 / space.basis_scale[i] : 0.0; };
+  // Handles' weights sum to one, extra weights are added to them. The unknown that a translation
+  // moves most is the one to leave out.
+  const auto handles = static_cast<Index>(space.handles.size());
+  const auto shift_of = [&](Index i)
+  { return i % 4 == 3 && i < 4 * handles ? 1.0 / space.basis_scale[i] : 0.0; };
   const auto largest = std::max_element(whole.rows.begin(), whole.rows.end(),
     [&](Index a, Index b) { return shift_of(a) < shift_of(b); });
   if (largest == whole.rows.end() || shift_of(*largest) == 0.0)
@@ -157,7 +164,7 @@ void ReducedBasis::factor_whole(const ReducedSpace& space, const Eigen::MatrixXd
 }
 
 bool ReducedBasis::make_quickly(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
-  const std::vector<Index>& open, const Eigen::MatrixXd& held, Eigen::MatrixXd& covariance)
+  const std::vector<Index>& open, const Eigen::MatrixXd& held)
 {
   const Index all = stiffness.rows(), asked = held.rows();
   if (unknowns_per_constraint * (asked + all - static_cast<Index>(open.size())) > all)
@@ -184,15 +191,14 @@ bool ReducedBasis::make_quickly(const ReducedSpace& space, const Eigen::MatrixXd
   for (Index q = 0; q < static_cast<Index>(whole.rows.size()); ++q)
   {
     (is_open[static_cast<std::size_t>(whole.rows[static_cast<std::size_t>(q)])] ? this->reached_
-                                                                               : given)
+                                                                                : given)
       .push_back(q);
   }
   const auto count = asked + static_cast<Index>(given.size());
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(count, static_cast<Index>(whole.rows.size()));
   for (const Index q : this->reached_)
   {
-    a.col(q).head(asked) =
-      whole.scale[q] * held.col(whole.rows[static_cast<std::size_t>(q)]);
+    a.col(q).head(asked) = whole.scale[q] * held.col(whole.rows[static_cast<std::size_t>(q)]);
   }
   if (asked > 0)
   {
@@ -230,15 +236,15 @@ bool ReducedBasis::make_quickly(const ReducedSpace& space, const Eigen::MatrixXd
   const Eigen::MatrixXd r = qr.matrixQR().topRows(rank).triangularView<Eigen::Upper>();
   this->inverse_ = Eigen::MatrixXd::Identity(rank, rank);
   r.transpose().triangularView<Eigen::Lower>().solveInPlace(this->inverse_);
-  if (rank > 0 && !(beyond_doubt * norm_of_rows(r.transpose()) * norm_of_rows(this->inverse_) < 1.0))
+  if (rank > 0 &&
+    !(beyond_doubt * norm_of_rows(r.transpose()) * norm_of_rows(this->inverse_) < 1.0))
   {
     return false;
   }
   this->reflections_ = Reflections(qr.matrixQR(), qr.hCoeffs(), rank);
-  covariance = this->reflections_.times_tail(whole.covariance);
 
   this->quick_ = true;
-  this->size_ = all;
+  this->coordinates_ = unknowns - rank;
   this->open_ = open;
   this->constraints_ = count;
   this->redundant_.clear();
@@ -248,17 +254,16 @@ bool ReducedBasis::make_quickly(const ReducedSpace& space, const Eigen::MatrixXd
 }
 
 void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
-  const std::vector<Index>& open, const Eigen::MatrixXd& held, Eigen::MatrixXd& covariance)
+  const std::vector<Index>& open, const Eigen::MatrixXd& held)
 {
   this->quick_ = false;
-  this->size_ = stiffness.rows();
   this->open_ = open;
   this->redundant_.clear();
   // Unknowns in units in which a column of M has size one; an empty column drops out.
   const auto size = static_cast<Index>(open.size()), asked = held.rows();
   const Eigen::VectorXd scale = space.basis_scale(open);
   Eigen::MatrixXd reduced = scale.asDiagonal() * stiffness(open, open) * scale.asDiagonal();
-  covariance = space.covariance(Eigen::all, open) * scale.asDiagonal();
+  Eigen::MatrixXd covariance = space.covariance(Eigen::all, open) * scale.asDiagonal();
 
   // Positions: D = particular b + Z z with rows Z = 0; Z is the tail of the orthogonal factor.
   this->particular_ = Eigen::MatrixXd::Zero(size, asked);
@@ -318,96 +323,144 @@ void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixX
   }
   this->particular_ = scale.asDiagonal() * this->particular_;
   this->basis_ = scale.asDiagonal() * this->basis_;
+  this->covariance_ = std::move(covariance);
+  this->coordinates_ = this->basis_.cols();
 }
 
-Coordinates ReducedBasis::spread(const Coordinates& z, const Eigen::RowVector3d& first) const
+void ReducedBasis::take_covariance(Eigen::Ref<Eigen::MatrixXd> covariance)
 {
-  const Whole& whole = this->whole_;
-  const Coordinates in_units = thin_product(whole.directions, z);
-  Coordinates d = Coordinates::Zero(this->size_, 3);
-  const bool shifts = whole.shift.size() > 0;
-  const Eigen::RowVector3d t =
-    shifts ? Eigen::RowVector3d((first - this->lever_.transpose() * z) / this->rho_)
-           : Eigen::RowVector3d::Zero();
-  for (const Index q : this->reached_)
+  if (this->quick_)
   {
-    auto row = d.row(whole.rows[static_cast<std::size_t>(q)]);
-    if (q < in_units.rows())
-    {
-      row = in_units.row(q);
-    }
-    if (shifts)
-    {
-      row += whole.shift[q] * t;
-    }
-    row *= whole.scale[q];
+    this->reflections_.times_tail(this->whole_.covariance, covariance);
   }
-  return d;
+  else
+  {
+    covariance = this->covariance_;
+    this->covariance_.resize(0, 0);
+  }
 }
 
-Coordinates ReducedBasis::meet(const Coordinates& missing) const
+void ReducedBasis::add_open(const Coordinates& change, Coordinates& d) const
+{
+  for (Index r = 0; r < change.rows(); ++r)
+  {
+    d.row(this->open_[static_cast<std::size_t>(r)]) += change.row(r);
+  }
+}
+
+ReducedBasis::Unturned ReducedBasis::unturned_sturdily(const ReducedSpace& space,
+  const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
+  const Coordinates& missing) const
+{
+  // The positions met, then the given blocks, that and the load answered.
+  Unturned result;
+  result.given = given;
+  Coordinates& star = result.given;
+  this->add_open(thin_product(this->particular_, missing), star);
+  const Coordinates bent = thin_product(stiffness, star);
+  const Coordinates force = bent - load;
+  const Coordinates answer = transposed_thin_product(this->basis_, force(this->open_, Eigen::all));
+  // The answer takes half its square from the energy: H is the identity for it.
+  result.energy = 0.5 * (star.array() * bent.array()).sum() - (star.array() * load.array()).sum() -
+    0.5 * answer.squaredNorm();
+  this->add_open(-thin_product(this->basis_, answer), star);
+  result.covariance = thin_product(space.covariance, star);
+  return result;
+}
+
+Eigen::RowVector3d ReducedBasis::shift_of(
+  const Coordinates& z, const Eigen::RowVector3d& first) const
+{
+  return (first - this->lever_.transpose() * z) / this->rho_;
+}
+
+ReducedBasis::Unturned ReducedBasis::unturned(const ReducedSpace& space,
+  const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
+  const Coordinates& missing) const
 {
   if (!this->quick_)
   {
-    return this->scattered(thin_product(this->particular_, missing));
+    return this->unturned_sturdily(space, stiffness, load, given, missing);
   }
+  // z = Q (what constraints ask for, what answers the given blocks and the load): the first part
+  // is at right angles to what B spans, and costs no answer.
+  const Whole& whole = this->whole_;
+  const Index unknowns = whole.directions.rows(), rank = this->reflections_.rank();
+  const bool shifts = rank < this->constraints_;
+  Unturned result;
+  result.given = given;
   Coordinates wanted = Coordinates::Zero(this->constraints_, 3);
   wanted.topRows(missing.rows()) = missing;
-  Eigen::RowVector3d first = Eigen::RowVector3d::Zero();
-  const Index rank = this->reflections_.rank();
-  if (rank < this->constraints_)
+  if (shifts)
   {
     wanted -= this->mirror_ * (this->mirror_.transpose() * wanted).eval();
-    first = wanted.row(0);
+    result.first = wanted.row(0);
   }
-  Coordinates z = Coordinates::Zero(this->whole_.directions.rows(), 3);
-  z.topRows(rank) = thin_product(this->inverse_, wanted.bottomRows(rank));
-  return this->spread(this->reflections_.turned(z), first);
-}
+  result.z = Coordinates::Zero(unknowns, 3);
+  result.z.topRows(rank) = thin_product(this->inverse_, wanted.bottomRows(rank));
 
-Coordinates ReducedBasis::times(const Coordinates& y) const
-{
-  if (!this->quick_)
+  const bool is_given = !given.isZero(0.0);
+  if (!is_given && load.isZero(0.0))
   {
-    return this->scattered(thin_product(this->basis_, y));
+    result.z = this->reflections_.turned(result.z);
+    result.energy = 0.5 * result.z.squaredNorm();
+    result.covariance = thin_product(whole.covariance, result.z);
+    return result;
   }
-  Coordinates z = Coordinates::Zero(this->whole_.directions.rows(), 3);
-  z.bottomRows(y.rows()) = y;
-  return this->spread(this->reflections_.turned(z), Eigen::RowVector3d::Zero());
-}
-
-Coordinates ReducedBasis::transposed_times(const Coordinates& force) const
-{
-  if (!this->quick_)
-  {
-    Coordinates open_force(static_cast<Index>(this->open_.size()), 3);
-    for (Index r = 0; r < open_force.rows(); ++r)
-    {
-      open_force.row(r) = force.row(this->open_[static_cast<std::size_t>(r)]);
-    }
-    return transposed_thin_product(this->basis_, open_force);
-  }
-  const Whole& whole = this->whole_;
-  Coordinates in_units = Coordinates::Zero(static_cast<Index>(whole.rows.size()), 3);
+  const Coordinates bent = thin_product(stiffness, given);
+  Coordinates force = Coordinates::Zero(static_cast<Index>(whole.rows.size()), 3);
   for (const Index q : this->reached_)
   {
-    in_units.row(q) = whole.scale[q] * force.row(whole.rows[static_cast<std::size_t>(q)]);
+    const Index row = whole.rows[static_cast<std::size_t>(q)];
+    force.row(q) = whole.scale[q] * (bent.row(row) - load.row(row));
   }
-  const Index unknowns = whole.directions.rows();
-  Coordinates z = transposed_thin_product(whole.directions, in_units.topRows(unknowns));
-  if (whole.shift.size() > 0)
+  const Coordinates pull = transposed_thin_product(whole.directions, force.topRows(unknowns));
+  Coordinates open_pull = pull;
+  Eigen::RowVector3d shift_pull = Eigen::RowVector3d::Zero();
+  if (shifts)
   {
-    z -= this->lever_ * ((whole.shift.transpose() * in_units) / this->rho_).eval();
+    shift_pull = whole.shift.transpose() * force;
+    open_pull -= this->lever_ * (shift_pull / this->rho_);
   }
-  return this->reflections_.turned_back(z).bottomRows(unknowns - this->reflections_.rank());
+  const Index open = unknowns - rank;
+  result.z.bottomRows(open) = -this->reflections_.turned_back(open_pull).bottomRows(open);
+  result.z = this->reflections_.turned(result.z);
+  result.energy = 0.5 * (given.array() * bent.array()).sum() -
+    (given.array() * load.array()).sum() + (pull.array() * result.z.array()).sum() +
+    0.5 * result.z.squaredNorm();
+  if (shifts)
+  {
+    result.energy += shift_pull.dot(this->shift_of(result.z, result.first));
+  }
+  result.covariance = thin_product(whole.covariance, result.z);
+  if (is_given)
+  {
+    result.covariance += thin_product(space.covariance, given);
+  }
+  return result;
 }
 
-Coordinates ReducedBasis::scattered(const Coordinates& open_rows) const
+Coordinates ReducedBasis::displacement(const Unturned& from, const Coordinates& y) const
 {
-  Coordinates d = Coordinates::Zero(this->size_, 3);
-  for (Index r = 0; r < open_rows.rows(); ++r)
+  Coordinates d = from.given;
+  if (!this->quick_)
   {
-    d.row(this->open_[static_cast<std::size_t>(r)]) = open_rows.row(r);
+    this->add_open(thin_product(this->basis_, y), d);
+    return d;
+  }
+  const Whole& whole = this->whole_;
+  Coordinates z = Coordinates::Zero(whole.directions.rows(), 3);
+  z.bottomRows(y.rows()) = y;
+  z = from.z + this->reflections_.turned(z);
+  Coordinates in_units = Coordinates::Zero(static_cast<Index>(whole.rows.size()), 3);
+  in_units.topRows(z.rows()) = thin_product(whole.directions, z);
+  if (whole.shift.size() > 0)
+  {
+    in_units += whole.shift * this->shift_of(z, from.first);
+  }
+  for (const Index q : this->reached_)
+  {
+    d.row(whole.rows[static_cast<std::size_t>(q)]) += whole.scale[q] * in_units.row(q);
   }
   return d;
 }

@@ -86,19 +86,19 @@ void ReducedSolver::factor(
     }
   }
   this->position_rows_ = space.pivot_rows(this->positions_, Eigen::all);
-  Eigen::MatrixXd covariance;
-  this->basis_.make(space, stiffness, open, this->position_rows_, covariance);
+  this->basis_.make(space, stiffness, open, this->position_rows_);
   this->redundant_.clear();
   for (const Index r : this->basis_.redundant())
   {
     this->redundant_.push_back(this->positions_[static_cast<std::size_t>(r)] % handles);
   }
-  this->iteration_.set_matrix(covariance, 1.0);
+  this->basis_.take_covariance(
+    this->iteration_.matrix(space.groups.count, this->basis_.coordinates()));
   const double unit = std::sqrt(space.rest_energy);
   this->has_single_ = std::isnormal(unit);
   if (this->has_single_)
   {
-    this->single_iteration_.set_matrix(covariance, unit);
+    this->single_iteration_.set_matrix(this->iteration_, unit);
   }
 }
 
@@ -169,28 +169,16 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
       : posed_tail(rest, pose[handle]) - rest.tail;
     wanted.row(r) = move.transpose();
   }
-  // D*: the positions met, then the given blocks, that and the load answered with Q = 0.
-  Rows star = d;
-  if (asked > 0)
-  {
-    star += this->basis_.meet(wanted - thin_product(this->position_rows_, d));
-  }
-  const Rows bent = thin_product(quadratic.stiffness, star);
-  const Rows answer = this->basis_.transposed_times(bent - quadratic.load);
-  // The answer takes half its square from the energy: H is the identity for it.
-  const double star_energy = quadratic.constant + 0.5 * (star.array() * bent.array()).sum() -
-    (star.array() * quadratic.load.array()).sum() - 0.5 * answer.squaredNorm();
-  star -= this->basis_.times(answer);
+  const ReducedBasis::Unturned star = this->basis_.unturned(
+    space, quadratic.stiffness, quadratic.load, d, wanted - thin_product(this->position_rows_, d));
+  const double star_energy = quadratic.constant + star.energy;
   std::vector<double> star_covariance = space.rest_covariance;
+  for (Index e = 0; e < 9; ++e)
   {
-    const Rows given = thin_product(space.covariance, star);
-    for (Index e = 0; e < 9; ++e)
+    for (Index k = 0; k < clusters; ++k)
     {
-      for (Index k = 0; k < clusters; ++k)
-      {
-        star_covariance[static_cast<std::size_t>(e * stride + k)] +=
-          given(e / 3 * clusters + k, e % 3);
-      }
+      star_covariance[static_cast<std::size_t>(e * stride + k)] +=
+        star.covariance(e / 3 * clusters + k, e % 3);
     }
   }
 
@@ -252,7 +240,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   const double change = progress.change;
   this->warm_ = true;
 
-  d = star + this->basis_.times(this->iteration_.coordinates());
+  d = this->basis_.displacement(star, this->iteration_.coordinates());
   double residual = 0.0;
   std::vector<Index> contradicting;
   if (asked > 0)

@@ -7,13 +7,22 @@ namespace bindpose
 
 namespace
 {
+BINDPOSE_ALWAYS_INLINE bool any_of_four(const double* x)
+{
+  return x[0] != 0.0 || x[1] != 0.0 || x[2] != 0.0 || x[3] != 0.0;
+}
+
 BINDPOSE_SIMD_CLONES void multiply(
   Index rows, Index cols, const double* a, const double* x, double* y)
 {
   Index c = 0;
   for (; c + 4 <= cols; c += 4)
   {
-    add_columns<4>(rows, a + c * rows, x + c, cols, y);
+    // Given blocks, those of full handles, are zero everywhere else.
+    if (any_of_four(x + c) || any_of_four(x + cols + c) || any_of_four(x + 2 * cols + c))
+    {
+      add_columns<4>(rows, a + c * rows, x + c, cols, y);
+    }
   }
   for (; c < cols; ++c)
   {

@@ -120,28 +120,54 @@ Index padded(Index count, Index to)
 } // namespace
 
 template <typename Scalar>
-void ReducedIteration<Scalar>::set_matrix(const Eigen::MatrixXd& covariance, double unit)
+void ReducedIteration<Scalar>::set_size(Index clusters, Index columns)
 {
   constexpr Index tile = 2 * PackOf<Scalar>::lanes;
-  this->clusters_ = covariance.rows() / 3;
-  this->columns_ = covariance.cols();
-  this->rows_ = padded(covariance.rows(), tile);
-  this->length_ = padded(this->columns_, tile);
-  this->unit_ = unit;
-  this->covariance_.assign(
-    static_cast<std::size_t>(this->rows_ * padded(this->columns_, columns_at_once)), Scalar(0));
-  for (Index c = 0; c < this->columns_; ++c)
+  this->clusters_ = clusters;
+  this->columns_ = columns;
+  this->rows_ = padded(3 * clusters, tile);
+  this->length_ = padded(columns, tile);
+  // Not zeroed as a whole: of a change of modes that would be a large part.
+  this->covariance_.resize(
+    static_cast<std::size_t>(this->rows_ * padded(columns, columns_at_once)));
+  Scalar* to = this->covariance_.data() + 3 * clusters;
+  for (Index c = 0; c < columns; ++c, to += this->rows_)
   {
-    for (Index r = 0; r < covariance.rows(); ++r)
-    {
-      this->covariance_[static_cast<std::size_t>(c * this->rows_ + r)] =
-        static_cast<Scalar>(covariance(r, c) / unit);
-    }
+    std::fill_n(to, this->rows_ - 3 * clusters, Scalar(0));
   }
+  std::fill(this->covariance_.begin() + static_cast<std::ptrdiff_t>(this->rows_ * columns),
+    this->covariance_.end(), Scalar(0));
   const auto size = static_cast<std::size_t>(3 * this->rows_);
   this->star_.assign(size, Scalar(0));
   this->turns_.assign(size, Scalar(0));
   this->plain_.assign(size + static_cast<std::size_t>(3 * this->length_), Scalar(0));
+}
+
+template <typename Scalar>
+typename ReducedIteration<Scalar>::Columns ReducedIteration<Scalar>::matrix(
+  Index clusters, Index columns)
+{
+  this->set_size(clusters, columns);
+  this->unit_ = 1.0;
+  return { this->covariance_.data(), 3 * clusters, columns, Eigen::OuterStride<>(this->rows_) };
+}
+
+template <typename Scalar>
+template <typename Other>
+void ReducedIteration<Scalar>::set_matrix(const ReducedIteration<Other>& from, double unit)
+{
+  this->set_size(from.clusters_, from.columns_);
+  this->unit_ = unit;
+  const double factor = from.unit_ / unit;
+  for (Index c = 0; c < this->columns_; ++c)
+  {
+    const Other* const column = from.covariance_.data() + c * from.rows_;
+    Scalar* const to = this->covariance_.data() + c * this->rows_;
+    for (Index r = 0; r < 3 * this->clusters_; ++r)
+    {
+      to[r] = static_cast<Scalar>(factor * column[r]);
+    }
+  }
 }
 
 template <typename Scalar>
@@ -314,6 +340,7 @@ Coordinates ReducedIteration<Scalar>::coordinates() const
 
 template class ReducedIteration<float>;
 template class ReducedIteration<double>;
+template void ReducedIteration<float>::set_matrix(const ReducedIteration<double>&, double);
 template void ReducedIteration<double>::go_on(const ReducedIteration<float>&);
 
 } // namespace bindpose

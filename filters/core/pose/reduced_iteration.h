@@ -45,9 +45,15 @@ template <typename Scalar>
 class ReducedIteration
 {
 public:
-  /// C: entry (i, column) of cluster k in row i #clusters + k.
+  using Columns =
+    Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>, 0, Eigen::OuterStride<>>;
+
+  /// C, to be filled: entry (i, column) of cluster k in row i #clusters + k.
+  Columns matrix(Index clusters, Index columns);
+  /// Takes another one's.
   /// @param unit what C is divided by.
-  void set_matrix(const Eigen::MatrixXd& covariance, double unit);
+  template <typename Other>
+  void set_matrix(const ReducedIteration<Other>& from, double unit);
 
   /// S* and rotations in planes of `stride`: entry (i, j) of matrix k at (3 i + j) stride + k.
   void begin(Index stride, const std::vector<double>& star, const std::vector<double>& rotations);
@@ -71,6 +77,7 @@ public:
 private:
   template <typename Other>
   friend class ReducedIteration;
+  void set_size(Index clusters, Index columns);
   void set_star(Index stride, const std::vector<double>& star);
   double local_step(AlignedVector<Scalar>& iterate);
   double global_step(AlignedVector<Scalar>& iterate);

@@ -19,20 +19,13 @@
 // an extrapolated Y costs no product. It is taken if its energy, with the rotations that fit it, is
 // no higher than that of the plain Y. The last iterate is a plain one.
 //
-// Ranks are decided where the matrices are small: positions by a pivoted QR, the rest by a
-// Cholesky factor that gives way to an eigenvalue decomposition when it finds itself
-// ill-conditioned. What neither energy nor constraints see stays at rest.
+// B is made in reduced_basis.cpp. What neither energy nor constraints see stays at rest.
 #include "pose/reduced_solver.h"
 
-#include "base/dense_cholesky.h"
-#include "base/dense_product.h"
 #include "base/number_text.h"
 #include "base/thin_product.h"
 #include "pose/pivot_rotation.h"
 #include "pose/rotation_fit.h"
-
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
 
 #include <chrono>
 #include <cmath>
@@ -44,10 +37,6 @@ namespace
 {
 using Rows = ReducedSpace::Rows;
 
-/// Directions below this share of the largest eigenvalue count as seen by no energy.
-constexpr double energy_rank = 1e-12;
-/// Positions below this share of the largest pivot count as redundant.
-constexpr double position_rank = 1e-9;
 /// A position missed by more than this share of the diagonal contradicts others.
 constexpr double contradiction = 1e-9;
 /// Below this share of the rest energy an energy counts as zero for the tolerance.
@@ -55,48 +44,6 @@ constexpr double nothing_bends = 1e-6;
 
 /// Energies this share of the rest energy apart are equal but for round-off.
 constexpr double same_energy = 1e-15;
-
-/// The columns that follow the first `rank` of the orthogonal factor of a QR decomposition, as
-/// I - V T V^T with the reflections in V (Schreiber and Van Loan 1989).
-class OrthogonalTail
-{
-public:
-  OrthogonalTail(const Eigen::ColPivHouseholderQR<Eigen::MatrixXd>& qr, Index rank)
-    : rank_(rank), v_(qr.matrixQR().leftCols(rank)), t_(Eigen::MatrixXd::Zero(rank, rank))
-  {
-    this->v_.triangularView<Eigen::StrictlyUpper>().setZero();
-    this->v_.diagonal().setOnes();
-    const Eigen::MatrixXd products = this->v_.transpose() * this->v_;
-    for (Index k = 0; k < rank; ++k)
-    {
-      const double factor = qr.hCoeffs()[k];
-      this->t_(k, k) = factor;
-      this->t_.col(k).head(k) = this->t_.topLeftCorner(k, k) * (-factor * products.col(k).head(k));
-    }
-  }
-
-  /// M Z
-  Eigen::MatrixXd times(const Eigen::MatrixXd& m) const
-  {
-    const Index count = m.cols() - this->rank_;
-    return m.rightCols(count) -
-      dense_product(dense_product(dense_product(m, this->v_), this->t_),
-        this->v_.bottomRows(count).transpose());
-  }
-  /// Z
-  Eigen::MatrixXd matrix() const
-  {
-    const Index count = this->v_.rows() - this->rank_;
-    Eigen::MatrixXd z =
-      -dense_product(this->v_, dense_product(this->t_, this->v_.bottomRows(count).transpose()));
-    z.bottomRows(count).diagonal().array() += 1.0;
-    return z;
-  }
-
-private:
-  Index rank_;
-  Eigen::MatrixXd v_, t_;
-};
 } // namespace
 
 void ReducedSolver::reset()
@@ -114,131 +61,45 @@ void ReducedSolver::factor(
   const ReducedSpace& space, const Eigen::MatrixXd& stiffness, const Pose& pose)
 {
   this->modes_ = modes_of(pose);
-  this->open_.clear();
   this->positions_.clear();
-  this->redundant_.clear();
-  for (Index h = 0; h < static_cast<Index>(pose.size()); ++h)
+  const auto handles = static_cast<Index>(pose.size());
+  std::vector<Index> open;
+  for (Index h = 0; h < handles; ++h)
   {
-    if (holds_pivot(pose[static_cast<std::size_t>(h)].mode))
+    const HandleMode mode = this->modes_[static_cast<std::size_t>(h)];
+    if (holds_pivot(mode))
     {
       this->positions_.push_back(h);
     }
-    if (holds_tail(pose[static_cast<std::size_t>(h)].mode))
+    if (holds_tail(mode))
     {
-      this->positions_.push_back(h + static_cast<Index>(pose.size()));
+      this->positions_.push_back(h + handles);
     }
   }
   for (Index j = 0; j < space.columns; ++j)
   {
-    if (j >= static_cast<Index>(pose.size()) ||
-      this->modes_[static_cast<std::size_t>(j)] != HandleMode::full)
+    if (j >= handles || this->modes_[static_cast<std::size_t>(j)] != HandleMode::full)
     {
       for (Index a = 0; a < 4; ++a)
       {
-        this->open_.push_back(4 * j + a);
+        open.push_back(4 * j + a);
       }
     }
   }
-  const auto size = static_cast<Index>(this->open_.size());
-  const auto asked = static_cast<Index>(this->positions_.size());
-  Eigen::MatrixXd open_stiffness(size, size), rows(asked, size);
-  for (Index c = 0; c < size; ++c)
+  this->position_rows_ = space.pivot_rows(this->positions_, Eigen::all);
+  this->basis_.make(space, stiffness, open, this->position_rows_);
+  this->redundant_.clear();
+  for (const Index r : this->basis_.redundant())
   {
-    // Unknowns in units in which a column of M has size one; an empty column drops out.
-    const Index from = this->open_[static_cast<std::size_t>(c)];
-    const double scale = space.basis_scale[from];
-    for (Index r = 0; r < size; ++r)
-    {
-      const Index row = this->open_[static_cast<std::size_t>(r)];
-      open_stiffness(r, c) = scale * space.basis_scale[row] * stiffness(row, from);
-    }
-    for (Index r = 0; r < asked; ++r)
-    {
-      rows(r, c) = scale * space.pivot_rows(this->positions_[static_cast<std::size_t>(r)], from);
-    }
+    this->redundant_.push_back(this->positions_[static_cast<std::size_t>(r)] % handles);
   }
-
-  // Positions: D = particular b + Z z with rows Z = 0; Z is the tail of the orthogonal factor,
-  // which is kept as reflections.
-  this->particular_ = Eigen::MatrixXd::Zero(size, asked);
-  Eigen::MatrixXd covariance(space.covariance.rows(), size);
-  for (Index c = 0; c < size; ++c)
-  {
-    const Index from = this->open_[static_cast<std::size_t>(c)];
-    covariance.col(c) = space.basis_scale[from] * space.covariance.col(from);
-  }
-  Eigen::MatrixXd reduced = std::move(open_stiffness), free_space;
-  Index rank = 0;
-  if (asked > 0 && size > 0)
-  {
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(size, asked);
-    qr.setThreshold(position_rank);
-    qr.compute(rows.transpose());
-    rank = qr.rank();
-    for (Index r = rank; r < asked; ++r)
-    {
-      this->redundant_.push_back(
-        this->positions_[static_cast<std::size_t>(qr.colsPermutation().indices()[r])] %
-        static_cast<Index>(pose.size()));
-    }
-    if (rank > 0)
-    {
-      Eigen::MatrixXd range = Eigen::MatrixXd::Identity(size, rank);
-      range.applyOnTheLeft(qr.householderQ());
-      const Eigen::MatrixXd met = rows * range; // full column rank
-      this->particular_ =
-        range * met.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(asked, asked));
-      const OrthogonalTail tail(qr, rank);
-      free_space = tail.matrix();
-      covariance = tail.times(covariance);
-      reduced = tail.times(tail.times(reduced).transpose()); // H is symmetric
-    }
-  }
-  if (rank == 0)
-  {
-    free_space = Eigen::MatrixXd::Identity(size, size);
-  }
-  // B = Z L^-T, C = K B; in single precision that would do for C, but not for directions that are
-  // nearly the same.
-  this->basis_.resize(size, 0);
-  if (reduced.rows() > 0)
-  {
-    DenseCholesky cholesky;
-    if (cholesky.factor(reduced) && cholesky.reciprocal_condition() > 1e3 * energy_rank)
-    {
-      this->basis_ = std::move(free_space);
-      cholesky.solve_right(this->basis_);
-      cholesky.solve_right(covariance);
-    }
-    else
-    {
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduced);
-      const double largest = std::max(eigen.eigenvalues().maxCoeff(), 0.0);
-      const Index seen = (eigen.eigenvalues().array() > energy_rank * largest).count(); // the last
-      const Eigen::MatrixXd directions = eigen.eigenvectors().rightCols(seen) *
-        eigen.eigenvalues().tail(seen).cwiseSqrt().cwiseInverse().asDiagonal();
-      this->basis_ = dense_product(free_space, directions);
-      covariance = dense_product(covariance, directions);
-    }
-  }
-  for (Index r = 0; r < size; ++r)
-  {
-    const double scale = space.basis_scale[this->open_[static_cast<std::size_t>(r)]];
-    this->particular_.row(r) *= scale;
-    this->basis_.row(r) *= scale;
-  }
-  this->position_rows_.resize(asked, 4 * space.columns);
-  for (Index r = 0; r < asked; ++r)
-  {
-    this->position_rows_.row(r) =
-      space.pivot_rows.row(this->positions_[static_cast<std::size_t>(r)]);
-  }
-  this->iteration_.set_matrix(covariance, 1.0);
+  this->basis_.take_covariance(
+    this->iteration_.matrix(space.groups.count, this->basis_.coordinates()));
   const double unit = std::sqrt(space.rest_energy);
   this->has_single_ = std::isnormal(unit);
   if (this->has_single_)
   {
-    this->single_iteration_.set_matrix(covariance, unit);
+    this->single_iteration_.set_matrix(this->iteration_, unit);
   }
 }
 
@@ -287,7 +148,6 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   }
 
   // What this pose gives: blocks of full handles, targets of positions.
-  const auto size = static_cast<Index>(this->open_.size());
   const Index clusters = space.groups.count, stride = space.stride;
   d = Rows::Zero(4 * space.columns, 3);
   for (std::size_t h = 0; h < pose.size(); ++h)
@@ -310,43 +170,16 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
       : posed_tail(rest, pose[handle]) - rest.tail;
     wanted.row(r) = move.transpose();
   }
-  // D*: the positions met, then the given blocks, that and the load answered with Q = 0.
-  Rows star = d;
-  if (asked > 0)
-  {
-    const Rows met =
-      thin_product(this->particular_, wanted - thin_product(this->position_rows_, d));
-    for (Index r = 0; r < size; ++r)
-    {
-      star.row(this->open_[static_cast<std::size_t>(r)]) = met.row(r);
-    }
-  }
-  const Rows bent = thin_product(quadratic.stiffness, star);
-  Rows open_force(size, 3);
-  for (Index r = 0; r < size; ++r)
-  {
-    const Index row = this->open_[static_cast<std::size_t>(r)];
-    open_force.row(r) = bent.row(row) - quadratic.load.row(row);
-  }
-  const Rows answer = transposed_thin_product(this->basis_, open_force);
-  // The answer takes half its square from the energy: H is the identity for it.
-  const double star_energy = quadratic.constant + 0.5 * (star.array() * bent.array()).sum() -
-    (star.array() * quadratic.load.array()).sum() - 0.5 * answer.squaredNorm();
-  const Rows answered = thin_product(this->basis_, answer);
-  for (Index r = 0; r < size; ++r)
-  {
-    star.row(this->open_[static_cast<std::size_t>(r)]) -= answered.row(r);
-  }
+  const ReducedBasis::Unturned star = this->basis_.unturned(
+    space, quadratic.stiffness, quadratic.load, d, wanted - thin_product(this->position_rows_, d));
+  const double star_energy = quadratic.constant + star.energy;
   std::vector<double> star_covariance = space.rest_covariance;
+  for (Index e = 0; e < 9; ++e)
   {
-    const Rows given = thin_product(space.covariance, star);
-    for (Index e = 0; e < 9; ++e)
+    for (Index k = 0; k < clusters; ++k)
     {
-      for (Index k = 0; k < clusters; ++k)
-      {
-        star_covariance[static_cast<std::size_t>(e * stride + k)] +=
-          given(e / 3 * clusters + k, e % 3);
-      }
+      star_covariance[static_cast<std::size_t>(e * stride + k)] +=
+        star.covariance(e / 3 * clusters + k, e % 3);
     }
   }
 
@@ -408,12 +241,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   const double change = progress.change;
   this->warm_ = true;
 
-  const Rows best = thin_product(this->basis_, this->iteration_.coordinates());
-  for (Index r = 0; r < size; ++r)
-  {
-    const Index row = this->open_[static_cast<std::size_t>(r)];
-    d.row(row) = star.row(row) + best.row(r);
-  }
+  d = this->basis_.displacement(star, this->iteration_.coordinates());
   double residual = 0.0;
   std::vector<Index> contradicting;
   if (asked > 0)

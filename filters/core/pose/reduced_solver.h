@@ -1,6 +1,7 @@
 #ifndef bindpose_pose_reduced_solver_h
 #define bindpose_pose_reduced_solver_h
 
+#include "pose/reduced_basis.h"
 #include "pose/reduced_iteration.h"
 #include "pose/reduced_space.h"
 
@@ -69,12 +70,10 @@ private:
 
   // ---- per choice of modes
   std::vector<HandleMode> modes_;
-  std::vector<Index> open_; ///< open unknowns: rows of D
   std::vector<Index> positions_; ///< pivots and tails that are held: rows of pivot_rows
   std::vector<Index> redundant_;
-  Eigen::MatrixXd position_rows_; ///< positions x 4 columns: displacement of their pivots
-  Eigen::MatrixXd particular_; ///< open x positions: least change that meets the positions
-  Eigen::MatrixXd basis_; ///< open x coordinates: B with B^T H B = I that keeps positions met
+  Eigen::MatrixXd position_rows_; ///< positions x 4 #columns: their displacements
+  ReducedBasis basis_; ///< B and what goes with it
   ReducedIteration<double> iteration_; ///< with C = K M B
   ReducedIteration<float> single_iteration_; ///< where single precision can hold C
   bool has_single_ = false;

@@ -447,18 +447,16 @@ bool Skinning::blend_affine(ExecutionContext& context, PointsView rest,
     [&](Index begin, Index end)
     {
       BlendedTile<Scalar, 12> blended;
-      TilePoints<Scalar> points, moved;
       for (Index v = begin; v < end; v += lanes)
       {
         const Index count = std::min(lanes, end - v);
-        blend_tile(tiles, v / lanes, moves, nullptr, blended);
         if (!normals)
         {
-          load_points(rest.data() + 3 * v, count, centre, points);
-          affine_moves(blended, points, moved);
-          store_moved(rest.data() + 3 * v, count, moved, posed.data() + 3 * v);
+          blend_points_of_tile(
+            tiles, v / lanes, moves, centre, rest.data() + 3 * v, count, posed.data() + 3 * v);
           continue;
         }
+        blend_tile(tiles, v / lanes, moves, nullptr, blended);
         for (Index i = 0; i < count; ++i)
         {
           const Eigen::Matrix3d linear =

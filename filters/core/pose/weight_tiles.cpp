@@ -194,6 +194,23 @@ BINDPOSE_ALWAYS_INLINE void store_any(
   const double* rest, Index count, const Scalar* moves, double* posed)
 {
   constexpr Index lanes = WeightTiles<Scalar>::lanes;
+  if (count == lanes)
+  {
+    // First into the order of memory, then all numbers alike.
+    alignas(64) Scalar line[3 * lanes];
+#pragma GCC unroll 16
+    for (Index i = 0; i < lanes; ++i)
+    {
+      line[3 * i] = moves[i];
+      line[3 * i + 1] = moves[lanes + i];
+      line[3 * i + 2] = moves[2 * lanes + i];
+    }
+    for (Index i = 0; i < 3 * lanes; ++i)
+    {
+      posed[i] = rest[i] + static_cast<double>(line[i]);
+    }
+    return;
+  }
   for (Index i = 0; i < count; ++i)
   {
     for (int c = 0; c < 3; ++c)
@@ -204,42 +221,53 @@ BINDPOSE_ALWAYS_INLINE void store_any(
 }
 
 // What follows is what is compiled for several instruction sets: templates cannot be.
-#define BINDPOSE_OF_SCALAR(Scalar)                                                             \
-  BINDPOSE_SIMD_CLONES void blend_12(const std::int32_t* columns, const Scalar* weights,       \
-    Index count, const Scalar* values, Scalar* blended)                                        \
-  {                                                                                            \
-    blend_any<12, Scalar>(columns, weights, count, values, nullptr, 0, nullptr, blended);      \
-  }                                                                                            \
-  BINDPOSE_SIMD_CLONES void blend_8(const std::int32_t* columns, const Scalar* weights,        \
-    Index count, const Scalar* values, Scalar* blended)                                        \
-  {                                                                                            \
-    blend_any<8, Scalar>(columns, weights, count, values, nullptr, 0, nullptr, blended);       \
-  }                                                                                            \
-  BINDPOSE_SIMD_CLONES void blend_signed_8(const std::int32_t* columns, const Scalar* weights, \
-    Index count, const Scalar* values, const Bit<Scalar>* signs, Index handles,                \
-    const std::int32_t* references, Scalar* blended)                                           \
-  {                                                                                            \
-    const TileReferences<Scalar> of_tile(references);                                          \
-    blend_any<8, Scalar>(columns, weights, count, values, signs, handles, &of_tile, blended);  \
-  }                                                                                            \
-  BINDPOSE_SIMD_CLONES void load(                                                              \
-    const double* rest, Index count, const double* centre, Scalar* points)                     \
-  {                                                                                            \
-    load_any(rest, count, centre, points);                                                     \
-  }                                                                                            \
-  BINDPOSE_SIMD_CLONES void affine(const Scalar* blended, const Scalar* points, Scalar* moves) \
-  {                                                                                            \
-    affine_any(blended, points, moves);                                                        \
-  }                                                                                            \
-  BINDPOSE_SIMD_CLONES void dual(                                                              \
-    const Scalar* blended, const Scalar* points, Scalar smallest, Scalar* moves)               \
-  {                                                                                            \
-    dual_any(blended, points, smallest, moves);                                                \
-  }                                                                                            \
-  BINDPOSE_SIMD_CLONES void store(                                                             \
-    const double* rest, Index count, const Scalar* moves, double* posed)                       \
-  {                                                                                            \
-    store_any(rest, count, moves, posed);                                                      \
+#define BINDPOSE_OF_SCALAR(Scalar)                                                               \
+  BINDPOSE_SIMD_CLONES void blend_12(const std::int32_t* columns, const Scalar* weights,         \
+    Index count, const Scalar* values, Scalar* blended)                                          \
+  {                                                                                              \
+    blend_any<12, Scalar>(columns, weights, count, values, nullptr, 0, nullptr, blended);        \
+  }                                                                                              \
+  BINDPOSE_SIMD_CLONES void blend_8(const std::int32_t* columns, const Scalar* weights,          \
+    Index count, const Scalar* values, Scalar* blended)                                          \
+  {                                                                                              \
+    blend_any<8, Scalar>(columns, weights, count, values, nullptr, 0, nullptr, blended);         \
+  }                                                                                              \
+  BINDPOSE_SIMD_CLONES void blend_signed_8(const std::int32_t* columns, const Scalar* weights,   \
+    Index count, const Scalar* values, const Bit<Scalar>* signs, Index handles,                  \
+    const std::int32_t* references, Scalar* blended)                                             \
+  {                                                                                              \
+    const TileReferences<Scalar> of_tile(references);                                            \
+    blend_any<8, Scalar>(columns, weights, count, values, signs, handles, &of_tile, blended);    \
+  }                                                                                              \
+  BINDPOSE_SIMD_CLONES void load(                                                                \
+    const double* rest, Index count, const double* centre, Scalar* points)                       \
+  {                                                                                              \
+    load_any(rest, count, centre, points);                                                       \
+  }                                                                                              \
+  BINDPOSE_SIMD_CLONES void affine(const Scalar* blended, const Scalar* points, Scalar* moves)   \
+  {                                                                                              \
+    affine_any(blended, points, moves);                                                          \
+  }                                                                                              \
+  BINDPOSE_SIMD_CLONES void dual(                                                                \
+    const Scalar* blended, const Scalar* points, Scalar smallest, Scalar* moves)                 \
+  {                                                                                              \
+    dual_any(blended, points, smallest, moves);                                                  \
+  }                                                                                              \
+  BINDPOSE_SIMD_CLONES void store(                                                               \
+    const double* rest, Index count, const Scalar* moves, double* posed)                         \
+  {                                                                                              \
+    store_any(rest, count, moves, posed);                                                        \
+  }                                                                                              \
+  BINDPOSE_SIMD_CLONES void blend_points(const std::int32_t* columns, const Scalar* weights,     \
+    Index count, const Scalar* values, const double* centre, const double* rest, Index vertices, \
+    double* posed)                                                                               \
+  {                                                                                              \
+    constexpr Index lanes = WeightTiles<Scalar>::lanes;                                          \
+    alignas(64) Scalar blended[12 * lanes], points[3 * lanes], moves[3 * lanes];                 \
+    blend_any<12, Scalar>(columns, weights, count, values, nullptr, 0, nullptr, blended);        \
+    load_any(rest, vertices, centre, points);                                                    \
+    affine_any<Scalar>(blended, points, moves);                                                  \
+    store_any(rest, vertices, moves, posed);                                                     \
   }
 
 BINDPOSE_OF_SCALAR(float)
@@ -340,6 +368,18 @@ void store_moved(const double* rest, Index count, const TilePoints<Scalar>& move
   store(rest, count, &moves.at[0][0], posed);
 }
 
+template <typename Scalar>
+void blend_points_of_tile(const WeightTiles<Scalar>& weights, Index tile,
+  const BlendValues<Scalar, 12>& values, const Vec3& centre, const double* rest, Index count,
+  double* posed)
+{
+  const Index begin = weights.start[static_cast<std::size_t>(tile)];
+  const Index columns = weights.start[static_cast<std::size_t>(tile) + 1] - begin;
+  blend_points(weights.columns.data() + begin,
+    weights.weights.data() + begin * WeightTiles<Scalar>::lanes, columns, values.values.data(),
+    centre.data(), rest, count, posed);
+}
+
 void pose_tile(const WeightTiles<float>& weights, Index tile, const BlendValues<float, 12>& values,
   const TilePoints<float>& points, const TilePoints<float>& rest, Index count, float* posed)
 {
@@ -360,7 +400,9 @@ void pose_tile(const WeightTiles<float>& weights, Index tile, const BlendValues<
     const BlendedTile<Scalar, 12>&, const TilePoints<Scalar>&, TilePoints<Scalar>&);          \
   template void dual_quaternion_moves(                                                        \
     const BlendedTile<Scalar, 8>&, const TilePoints<Scalar>&, TilePoints<Scalar>&);           \
-  template void store_moved(const double*, Index, const TilePoints<Scalar>&, double*);
+  template void store_moved(const double*, Index, const TilePoints<Scalar>&, double*);        \
+  template void blend_points_of_tile(const WeightTiles<Scalar>&, Index,                       \
+    const BlendValues<Scalar, 12>&, const Vec3&, const double*, Index, double*);
 BINDPOSE_INSTANTIATE(float)
 BINDPOSE_INSTANTIATE(double)
 #undef BINDPOSE_INSTANTIATE

@@ -83,6 +83,12 @@ void dual_quaternion_moves(const BlendedTile<Scalar, 8>& blended, const TilePoin
 template <typename Scalar>
 void store_moved(const double* rest, Index count, const TilePoints<Scalar>& moves, double* posed);
 
+/// blend_tile, load_points, affine_moves and store_moved in one.
+template <typename Scalar>
+void blend_points_of_tile(const WeightTiles<Scalar>& weights, Index tile,
+  const BlendValues<Scalar, 12>& values, const Vec3& centre, const double* rest, Index count,
+  double* posed);
+
 /// blend_tile, affine_moves and posed = rest + moves for the first `count` vertices, in one.
 void pose_tile(const WeightTiles<float>& weights, Index tile, const BlendValues<float, 12>& values,
   const TilePoints<float>& points, const TilePoints<float>& rest, Index count, float* posed);

@@ -117,7 +117,7 @@ QLabel#nothing { background: @panel; border: 1px solid @line; border-radius: 7px
 QTableWidget#sheet { background: @field; border: 1px solid @line; border-radius: 5px; }
 QLineEdit { background: @field; border: 1px solid @edge; border-radius: 5px; padding: 4px 8px; }
 QLineEdit:focus { border-color: @accent; }
-QScrollArea#scroll { background: transparent; border: none; }
+QScrollArea#scroll { background: transparent; border: none; border-top: 1px solid @faint; }
 QWidget#scrolled { background: @panel; }
 QFrame#strip { background: @panel; border: none; border-top: 1px solid @line; }
 QComboBox { background: @field; border: 1px solid @edge; border-radius: 5px; padding: 4px 8px; }

@@ -287,8 +287,8 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
   fields.read("turns", step.turns, -100.0, 100.0);
   fields.read("tolerance", step.tolerance, 0.0, any);
   fields.read("width", step.width, 16, 8000);
-  const char* const parts[] = { "window", "view" };
-  fields.read("of", step.of_view, parts);
+  const char* const parts[] = { "window", "view", "dialog" };
+  fields.read("of", step.part, parts);
   if (!fields.status().ok())
   {
     return fields.status();

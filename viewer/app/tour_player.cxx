@@ -466,13 +466,21 @@ QString TourPlayer::check(const TourStep& step)
   return QString("it is %1, not %2%3%4").arg(text(*found), text(wanted), where, within);
 }
 
-QImage TourPlayer::grab(bool of_view, int width)
+QImage TourPlayer::grab(TourPart part, int width)
 {
+  QWidget* dialog = nullptr;
+  for (auto* candidate : this->window_->findChildren<QDialog*>())
+  {
+    dialog = candidate->isVisible() ? candidate : dialog;
+  }
   this->let_draw();
   Viewport* viewport = this->window_->viewport();
   viewport->renderWindow()->Render();
   QApplication::processEvents();
-  const QImage picture = of_view ? viewport->grabFramebuffer() : this->window_->grab().toImage();
+  const QImage picture = part == TourPart::view ? viewport->grabFramebuffer()
+    : part == TourPart::window                  ? this->window_->grab().toImage()
+    : dialog                                    ? dialog->grab().toImage()
+                                                : QImage();
   const QImage plain = picture.convertToFormat(QImage::Format_RGB32);
   return width > 0 && width < plain.width() ? plain.scaledToWidth(width, Qt::SmoothTransformation)
                                             : plain;
@@ -516,7 +524,7 @@ QString TourPlayer::fit_view()
 
 QString TourPlayer::screenshot(const TourStep& step)
 {
-  const QImage picture = this->grab(step.of_view, step.width);
+  const QImage picture = this->grab(step.part, step.width);
   const double drawn = drawn_share(this->window_->viewport()->grabFramebuffer());
   if (picture.isNull() || (drawn == 0.0 && !this->window_->is_empty()))
   {
@@ -536,6 +544,6 @@ QString TourPlayer::film_frame()
   }
   const QString number = QString("%1").arg(this->frames_++, 4, 10, QChar('0'));
   this->record_["films"][this->film_.text] = this->frames_;
-  return this->write(this->grab(this->film_.of_view, this->film_.width),
+  return this->write(this->grab(this->film_.part, this->film_.width),
     this->film_.text + "_" + number.toStdString() + ".png");
 }

@@ -24,7 +24,7 @@ sys.path.insert(0, str(TOURS.parent))
 import quickstart  # noqa: E402  the demo mesh
 
 PICTURES = ROOT / "viewer" / "pictures"
-SIZE = [420, 380]
+SIZE = [540, 460]
 
 
 def read_off(path):

@@ -30,7 +30,7 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         scratch = pathlib.Path(scratch)
         shutil.copytree(TOURS / "data", scratch / "data")
-        for look in ("light", "dark"):
+        for look in ("dark", "light"):
             for name, size, scale in SIZES:
                 tour["tour"]["size"] = size
                 tour["steps"] = [{"action": f"view.appearance.{look}"}, *steps]

@@ -5,6 +5,7 @@
 #include "document/recent_files.h"
 #include "document/work_inputs.h"
 #include "edit_tools.h"
+#include "elided_label.h"
 #include "error_bar.h"
 #include "handle_editing.h"
 #include "inspection.h"
@@ -176,7 +177,7 @@ void MainWindow::make_layout()
   columns->addLayout(rows, 1);
   columns->addWidget(this->panels_);
   this->setCentralWidget(centre);
-  this->hint_ = new QLabel(this);
+  this->hint_ = new ElidedLabel(this);
   this->statusBar()->addWidget(this->hint_, 1);
   this->hint_->setContentsMargins(12, 3, 12, 4);
   this->reading_ = new QLabel(this);

@@ -12,6 +12,7 @@
 class QLabel;
 class QUndoStack;
 class Document;
+class ElidedLabel;
 class ErrorBar;
 struct OpenedFile;
 class HandleEditing;
@@ -89,6 +90,8 @@ public:
   HandleEditing* editing() const { return this->editing_; }
   ShapeHandles* shape_handles() const { return this->shape_handles_; }
   KeyStrip* strip() const { return this->strip_; }
+  /// The line at the bottom, which says what the hand does or what the last pose took.
+  const ElidedLabel* hint() const { return this->hint_; }
   /// What is under the mouse on the slice, as the status bar shows it.
   QString reading() const;
   /// The sentence in the error bar; empty when it is hidden.
@@ -153,7 +156,7 @@ private:
   NoticeBar* recovery_bar_ = nullptr;
   NoticeBar* note_bar_ = nullptr;
   NoticeBar* rebind_bar_ = nullptr;
-  QLabel* hint_ = nullptr;
+  ElidedLabel* hint_ = nullptr;
   QLabel* reading_ = nullptr;
   QLabel* empty_ = nullptr; // in the middle of the picture as long as nothing is open
   BindJob* job_ = nullptr;

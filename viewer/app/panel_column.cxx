@@ -66,16 +66,23 @@ void PanelColumn::set_open(bool volume, bool shape, bool surface)
   const bool open[] = { shape, surface, surface, volume };
   this->choice_->setVisible(shape + surface + volume > 1);
   const auto buttons = this->buttons_->buttons();
-  int last = -1;
+  QList<QAbstractButton*> row;
   for (int k = 0; k < panel_count; ++k)
   {
     buttons[k]->setVisible(open[k]);
-    buttons[k]->setProperty("place", last < 0 ? "first" : "middle");
-    last = open[k] ? k : last;
+    if (open[k])
+    {
+      row << buttons[k];
+    }
   }
-  if (last >= 0)
+  for (int k = 0; k < row.size(); ++k)
   {
-    buttons[last]->setProperty("place", "last");
+    // One line between two: only the last but one has a right one, next to the last's none.
+    row[k]->setProperty("place",
+      k == 0                  ? "first"
+        : k + 1 == row.size() ? "last"
+        : k + 2 == row.size() ? "middle"
+                              : "second");
   }
   for (QAbstractButton* each : buttons)
   {

@@ -301,6 +301,8 @@ void PosePanel::add_comparison(QVBoxLayout* column)
     names << method_name(static_cast<PoseMethod>(k));
   }
   this->compared_ = combo(this, "pose.compared", names);
+  this->compared_->setToolTip(
+    tr("Another method for the same pose, see-through, to see where they differ"));
   auto* line = new QHBoxLayout;
   line->addWidget(new QLabel(tr("With"), this));
   line->addWidget(this->compared_, 1);
@@ -382,6 +384,7 @@ void PosePanel::add_motion(QVBoxLayout* column)
   this->gravity_ = row("motion.gravity", tr("Gravity"), 5.0, usual.gravity,
     tr("How fast things fall: diagonals of the shape / s²"));
   this->down_ = combo(this->motion_, "motion.down", { tr("-x"), tr("-y"), tr("-z") });
+  this->down_->setToolTip(tr("Where gravity pulls: along this axis of the world"));
   this->down_->setCurrentIndex(usual.down);
   auto* line = new QHBoxLayout;
   line->setSpacing(8);

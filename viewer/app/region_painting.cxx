@@ -377,6 +377,10 @@ void RegionPainting::show_labels()
   ColourMap map = category_map(categories);
   const Rgb& plain = palette::surface;
   map.table->SetNanColor(plain[0], plain[1], plain[2], 1.0);
-  this->viewport_->show_values(values, false, tr("Regions"), shortened(map, 12));
+  const bool any = std::any_of(categories.begin(), categories.end(),
+    [](const Category& category) { return category.count > 0; });
+  // Without one a legend would be a title with nothing below it.
+  this->viewport_->show_values(
+    any ? values.Get() : nullptr, false, any ? tr("Regions") : QString(), shortened(map, 12));
   this->viewport_->refresh();
 }

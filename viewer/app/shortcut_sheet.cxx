@@ -38,7 +38,7 @@ ShortcutSheet::ShortcutSheet(QWidget* parent) : QDialog(parent)
     this->table_->insertRow(heading);
     auto* title = new QTableWidgetItem(capital(QString::fromStdString(group.when)));
     title->setFont(bold);
-    title->setForeground(shade("accent"));
+    title->setForeground(shade(is_dark() ? "accent_ring" : "accent"));
     this->table_->setItem(heading, 0, title);
     this->table_->setSpan(heading, 0, 1, 2);
     for (const auto& [input, text] : group.rows)

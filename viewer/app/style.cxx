@@ -114,10 +114,11 @@ QFrame#tools QToolButton:disabled { color: @off; }
 QFrame#tools QToolButton:focus { border: 2px solid @accent_ring; padding: 2px 5px; }
 QFrame#mode { background: @panel; border: 1px solid @line; border-radius: 7px; }
 QLabel#nothing { background: @panel; border: 1px solid @line; border-radius: 7px; padding: 9px 14px; color: @status; }
-QTableWidget#sheet { background: @field; border: 1px solid @line; border-radius: 5px; }
+QTableWidget#sheet { background: @field; border: 1px solid @line; border-radius: 5px; padding: 4px 8px; }
+QTableWidget#sheet::item { padding: 2px 0; }
 QLineEdit { background: @field; border: 1px solid @edge; border-radius: 5px; padding: 4px 8px; }
 QLineEdit:focus { border-color: @accent; }
-QScrollArea#scroll { background: transparent; border: none; }
+QScrollArea#scroll { background: transparent; border: none; border-top: 1px solid @faint; padding-top: 6px; }
 QWidget#scrolled { background: @panel; }
 QFrame#strip { background: @panel; border: none; border-top: 1px solid @line; }
 QComboBox { background: @field; border: 1px solid @edge; border-radius: 5px; padding: 4px 8px; }

@@ -73,6 +73,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
 
   this->tets_ = new QCheckBox(tr("Show the tets"), this);
   this->tets_->setObjectName("tets.shown");
+  this->tets_->setToolTip(tr("The tets (tetrahedra) in place of the surface, at rest"));
   column->addWidget(this->tets_);
   this->colours_ = new QComboBox(this);
   this->colours_->setObjectName("tets.colours");
@@ -93,6 +94,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->cut_ = new QCheckBox(tr("Cut them open"), this);
   this->cut_->setChecked(true);
   this->cut_->setObjectName("tets.cut");
+  this->cut_->setToolTip(tr("Leaves out whole tets in front of a plane, which the mouse drags"));
   column->addWidget(this->cut_);
   this->orientations_ = add_orientations(column, this);
   this->orientations_->setObjectName("tets.orientation");
@@ -103,6 +105,8 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->position_);
   this->other_side_ = new QCheckBox(tr("Keep the other side"), this);
   this->other_side_->setObjectName("tets.other_side");
+  this->other_side_->setToolTip(
+    tr("What lies in front of the plane, in place of what lies behind it"));
   column->addWidget(this->other_side_);
   this->count_ = note();
   keep_place(this->count_);

@@ -303,15 +303,15 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
   fields.read("turns", step.turns, -100.0, 100.0);
   fields.read("tolerance", step.tolerance, 0.0, any);
   fields.read("width", step.width, 16, 8000);
-  const char* const parts[] = { "window", "view" };
-  fields.read("of", step.of_view, parts);
+  const char* const parts[] = { "window", "view", "dialog" };
+  fields.read("of", step.part, parts);
   fields.read("scale", step.scale, 1, largest_scale_factor);
   fields.read("transparent", step.transparent);
   if (!fields.status().ok())
   {
     return fields.status();
   }
-  if (!step.of_view && (step.scale > 1 || step.transparent))
+  if (step.part != TourPart::view && (step.scale > 1 || step.transparent))
   {
     return Status::invalid_input(who + ": \"scale\" and \"transparent\" are of pictures of the view");
   }

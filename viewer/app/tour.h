@@ -67,6 +67,13 @@ enum class TourRelation
   as_at ///< as it was at a screenshot before
 };
 
+enum class TourPart
+{
+  window,
+  view, ///< the picture in it
+  dialog ///< what stands in front of it and lets it go on
+};
+
 struct TourStep
 {
   TourVerb verb = TourVerb::wait;
@@ -82,7 +89,7 @@ struct TourStep
 
   double seconds = -1.0; ///< to wait, or to scrub to
   std::array<int, 2> size{ 0, 0 }; ///< to resize to
-  bool of_view = false; ///< the picture alone, not the whole window
+  TourPart part = TourPart::window; ///< that a picture is of
   int width = 0; ///< of a screenshot, smaller than it is; 0: as it is
   int scale = 1; ///< of a screenshot of the view: so many times as many pixels each way
   bool transparent = false; ///< the same: its background

@@ -480,13 +480,21 @@ QString TourPlayer::check(const TourStep& step)
   return QString("it is %1, not %2%3%4").arg(text(*found), text(wanted), where, within);
 }
 
-QImage TourPlayer::grab(bool of_view, int width)
+QImage TourPlayer::grab(TourPart part, int width)
 {
+  QWidget* dialog = nullptr;
+  for (auto* candidate : this->window_->findChildren<QDialog*>())
+  {
+    dialog = candidate->isVisible() ? candidate : dialog;
+  }
   this->let_draw();
   Viewport* viewport = this->window_->viewport();
   viewport->renderWindow()->Render();
   QApplication::processEvents();
-  const QImage picture = of_view ? viewport->grabFramebuffer() : this->window_->grab().toImage();
+  const QImage picture = part == TourPart::view ? viewport->grabFramebuffer()
+    : part == TourPart::window                  ? this->window_->grab().toImage()
+    : dialog                                    ? dialog->grab().toImage()
+                                                : QImage();
   const QImage plain = picture.convertToFormat(QImage::Format_RGB32);
   return width > 0 && width < plain.width() ? plain.scaledToWidth(width, Qt::SmoothTransformation)
                                             : plain;
@@ -530,7 +538,7 @@ QString TourPlayer::fit_view()
 
 QString TourPlayer::screenshot(const TourStep& step)
 {
-  QImage picture = this->grab(step.of_view, step.width);
+  QImage picture = this->grab(step.part, step.width);
   if (step.scale > 1 || step.transparent)
   {
     vtkSmartPointer<vtkImageData> taken;
@@ -564,6 +572,6 @@ QString TourPlayer::film_frame()
   }
   const QString number = QString("%1").arg(this->frames_++, 4, 10, QChar('0'));
   this->record_["films"][this->film_.text] = this->frames_;
-  return this->write(this->grab(this->film_.of_view, this->film_.width),
+  return this->write(this->grab(this->film_.part, this->film_.width),
     this->film_.text + "_" + number.toStdString() + ".png");
 }

@@ -56,7 +56,7 @@ private:
   QString film_frame();
   QString write(const QImage& picture, const std::string& name);
   nlohmann::ordered_json values() const;
-  QImage grab(bool of_view, int width);
+  QImage grab(bindpose::TourPart part, int width);
   void let_draw();
   QString fit_view();
   double left() const;

@@ -399,6 +399,9 @@ void Viewport::draw_legend()
 
 void Viewport::resizeEvent(QResizeEvent* event)
 {
+  // VTK would make texts larger by the dots an inch, too; here all sizes are in Qt's pixels.
+  constexpr double text_dpi = 72.0;
+  this->setUnscaledDPI(static_cast<int>(std::lround(text_dpi / this->devicePixelRatioF())));
   this->resizing_ = true;
   QVTKOpenGLNativeWidget::resizeEvent(event);
   this->resizing_ = false;

@@ -25,6 +25,7 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   this->slice_ = new QCheckBox(tr("Show the slice"), this);
   this->slice_->setChecked(true);
   this->slice_->setObjectName("volume.slice");
+  this->slice_->setToolTip(tr("Winding numbers on a plane, which the mouse drags"));
   column->addWidget(this->slice_);
   this->orientations_ = add_orientations(column, this);
   this->orientations_->setObjectName("volume.orientation");
@@ -38,6 +39,8 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->addWidget(heading(tr("Isosurface"), this));
   this->isosurface_ = new QCheckBox(tr("Show where w is"), this);
   this->isosurface_->setObjectName("volume.isosurface");
+  this->isosurface_->setToolTip(
+    tr("The surface where the winding number w (1 inside, 0 outside) is this"));
   column->addWidget(this->isosurface_);
   this->level_ = new ValueRow(this);
   this->level_->setObjectName("volume.level");
@@ -60,6 +63,7 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->surface_heading_);
   this->surface_ = new QComboBox(this);
   this->surface_->setObjectName("volume.surface_look");
+  this->surface_->setToolTip(tr("How the surface is drawn around the slice"));
   this->surface_->addItem(tr("Solid"));
   this->surface_->addItem(tr("See-through"));
   this->surface_->addItem(tr("Edges only"));

@@ -44,17 +44,21 @@ QString word_of(QString text)
   return text.endsWith('_') ? text.chopped(1) : text;
 }
 
-/// Entries get object names, for tours and tests: of the menu and their text, "edit.bind".
-void name_actions(const QMenuBar* bar)
+/// Entries get object names, for tours and tests: of the menus and their text, "edit.bind",
+/// "view.appearance.dark".
+void name_actions(const QList<QAction*>& entries, const QString& menu)
 {
-  for (const QAction* menu : bar->actions())
+  for (QAction* entry : entries)
   {
-    for (QAction* entry : menu->menu()->actions())
+    const QString name =
+      menu.isEmpty() ? word_of(entry->text()) : menu + '.' + word_of(entry->text());
+    if (entry->menu())
     {
-      if (entry->objectName().isEmpty() && !entry->isSeparator() && !entry->menu())
-      {
-        entry->setObjectName(word_of(menu->text()) + '.' + word_of(entry->text()));
-      }
+      name_actions(entry->menu()->actions(), name);
+    }
+    else if (entry->objectName().isEmpty() && !entry->isSeparator())
+    {
+      entry->setObjectName(name);
     }
   }
 }
@@ -72,7 +76,7 @@ WindowMenus::WindowMenus(MainWindow* window) : QObject(window), window_(window)
   QMenu* help = window->menuBar()->addMenu(tr("&Help"));
   this->add(help, tr("&Mouse and keys"), "keys", [window] { (new ShortcutSheet(window))->show(); });
   this->add(help, tr("&About Bindpose"), "", [window] { show_about(window); });
-  name_actions(window->menuBar());
+  name_actions(window->menuBar()->actions(), QString());
 }
 
 template <typename Action>

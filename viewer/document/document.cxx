@@ -143,7 +143,7 @@ QString Document::rebind_reason() const
   }
   if (!weights_of(this->surface_))
   {
-    return tr("The mesh is another than the one that was bound.");
+    return tr("This mesh is not the one that was bound.");
   }
   const QString reason = this->columns_.reason();
   vtkDataArray* solved = this->work_.surface->GetPointData()->GetArray(bound_labels);

@@ -91,9 +91,9 @@ TEST(Tour, EveryVerbIsRead)
   EXPECT_EQ(s[16].size, (std::array<int, 2>{ 1000, 700 }));
   EXPECT_EQ(s[17].text, "bind");
   EXPECT_EQ(s[19].seconds, 0.25);
-  EXPECT_TRUE(s[20].of_view);
+  EXPECT_EQ(s[20].part, TourPart::view);
   EXPECT_EQ(s[23].width, 320);
-  EXPECT_FALSE(s[23].of_view);
+  EXPECT_EQ(s[23].part, TourPart::window);
   EXPECT_EQ(s[24].text, "free");
   EXPECT_EQ(s[25].tolerance, 1e-3);
   EXPECT_EQ(s[26].wanted.size(), 3u);

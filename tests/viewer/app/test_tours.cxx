@@ -184,11 +184,30 @@ INSTANTIATE_TEST_SUITE_P(Examples, Tours,
     TourCase{ "weights", { "territories", "left_hand", "smooth" } },
     TourCase{ "compare", { "over", "beside" } }, TourCase{ "keys", { "waving", "between" } },
     TourCase{ "gizmo", { "moved", "turned" } }, TourCase{ "picture", { "flat", "bent" } },
-    TourCase{ "undo", { "start", "one", "three" } }, TourCase{ "idle", {} },
+    TourCase{ "undo", { "start", "one", "three" } }, TourCase{ "idle", {} }, TourCase{ "panels", {} },
     TourCase{ "tutorial", {}, "elephant-with-holes.off" }),
   [](const testing::TestParamInfo<TourCase>& tour) { return std::string(tour.param.name); });
 
 /// What the tutorial tells is what its tour says and does, and its pictures are there.
+/// With twice the pixels everything is finer and nothing larger: the legend, with its words, too.
+TEST(Scaled, ALegendIsAsLargeAtTwiceThePixels)
+{
+  const test::Folder folder;
+  qputenv("QT_SCALE_FACTOR", "2");
+  const Outcome outcome = play(BINDPOSE_TOURS "/weights.json", folder / "out");
+  qunsetenv("QT_SCALE_FACTOR");
+  ASSERT_EQ(outcome.code, 0) << outcome.error.toStdString();
+  const QImage picture(QString::fromStdString(folder / "out/left_hand.png"));
+  EXPECT_EQ(picture.size(), QSize(2 * 760, 2 * 560));
+  const QImage reference(BINDPOSE_TOUR_PICTURES "/weights_left_hand.png");
+  const QRect legend(
+    0, reference.height() / 2, reference.width() / 4, reference.height() - reference.height() / 2);
+  const double share =
+    difference(made_small(picture).copy(legend), made_small(reference).copy(legend));
+  std::printf("legend at twice the pixels: %.2f %% of the pixels differ\n", 100.0 * share);
+  EXPECT_LT(share, 0.05);
+}
+
 TEST(Tutorial, TellsWhatItsTourDoes)
 {
   std::ifstream file(BINDPOSE_TOURS "/tutorial.json");

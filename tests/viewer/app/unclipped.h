@@ -27,11 +27,15 @@ inline void expect_unclipped_buttons(const QWidget* in)
   }
 }
 
-/// The items of the lists that drop down, when they are chosen.
+/// The items of the lists that drop down and are seen, when they are chosen.
 inline void expect_unclipped_items(const QWidget* in)
 {
   for (const QComboBox* box : in->findChildren<QComboBox*>())
   {
+    if (!box->isVisible())
+    {
+      continue; // it was not laid out
+    }
     QStyleOptionComboBox option;
     option.initFrom(box);
     option.editable = false;

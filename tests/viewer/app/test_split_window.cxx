@@ -195,7 +195,7 @@ TEST_F(SplitWindow, AZoomStaysAndAShiftedShapeComesBack)
   this->camera()->Dolly(0.5);
   vtkCamera* camera = this->camera();
   const Vec3 right = Vec3(camera->GetDirectionOfProjection()).cross(Vec3(camera->GetViewUp()));
-  const Vec3 by = -0.25 * camera->GetDistance() * right;
+  const Vec3 by = -0.2 * camera->GetDistance() * right;
   camera->SetFocalPoint((Vec3(camera->GetFocalPoint()) + by).eval().data());
   camera->SetPosition((Vec3(camera->GetPosition()) + by).eval().data());
   ASSERT_LT(this->extent_left(), 1.0);
@@ -234,7 +234,7 @@ TEST_F(SplitWindow, HandlesAreTakenHoldOfInTheLeftHalfAlone)
   EXPECT_GT((this->posing()->compared()->points() - before).cwiseAbs().maxCoeff(), 0.1)
     << "the other method has the same pose";
   // A handle that lies beyond the border is not caught in the other half, where it is not drawn.
-  this->camera()->Dolly(6.0);
+  this->camera()->Dolly(2.0);
   this->left()->ResetCameraClippingRange();
   this->render();
   ASSERT_EQ(this->hand.place_of("right", 0.0, now), QString());

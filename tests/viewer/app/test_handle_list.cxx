@@ -11,6 +11,7 @@
 
 #include "support/meshes.h"
 
+#include "vtkDoubleArray.h"
 #include "vtkHandleSetRepresentation.h"
 #include "vtkHandleSetWidget.h"
 #include "vtkPointData.h"

@@ -14,6 +14,7 @@
 #include "support/meshes.h"
 
 #include "vtkCamera.h"
+#include "vtkDoubleArray.h"
 #include "vtkHandleSetRepresentation.h"
 #include "vtkHandleSetWidget.h"
 #include "vtkPointData.h"

@@ -159,7 +159,7 @@ TEST_F(SplitWindow, AnotherSizeAndAnotherViewKeepBothInTheirHalves)
 {
   this->compare();
   this->beside();
-  for (const QSize& size : { QSize(800, 740), QSize(1270, 640), QSize(1100, 700) })
+  for (const QSize& size : { QSize(900, 740), QSize(1270, 640), QSize(1100, 700) })
   {
     this->resize(size);
     this->expect_both_in_view("resized");

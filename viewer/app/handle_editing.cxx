@@ -82,15 +82,18 @@ HandleEditing::HandleEditing(
                                       : std::vector<std::string>{ region.toStdString() };
       this->show_selection();
     });
-  QObject::connect(panel, &SidePanel::handle_chosen, this, &HandleEditing::list_chosen);
+  QObject::connect(panel, &SidePanel::handles_chosen, this, &HandleEditing::list_chosen);
   panel->handle_list()->setContextMenuPolicy(Qt::CustomContextMenu);
   QObject::connect(panel->handle_list(), &QWidget::customContextMenuRequested, this,
     [this](const QPoint& at)
     {
       QListWidget* list = this->panel_->handle_list();
-      if (list->itemAt(at))
+      if (QListWidgetItem* item = list->itemAt(at))
       {
-        list->setCurrentItem(list->itemAt(at));
+        if (!item->isSelected())
+        {
+          list->setCurrentItem(item);
+        }
         this->commands_->menu()->popup(list->viewport()->mapToGlobal(at));
       }
     });
@@ -445,7 +448,7 @@ void HandleEditing::tell_selection()
   const std::vector<int> selected = this->selected();
   const int last = selected.empty() ? -1 : selected.back();
   this->follows_ = true;
-  this->panel_->select_handle(last);
+  this->panel_->select_handles(selected);
   this->follows_ = false;
   if (this->mode_ == paint_regions)
   {
@@ -456,11 +459,11 @@ void HandleEditing::tell_selection()
   Q_EMIT this->sentence_changed();
 }
 
-void HandleEditing::list_chosen(int handle)
+void HandleEditing::list_chosen()
 {
   if (!this->follows_)
   {
-    this->select(handle < 0 ? std::vector<int>() : std::vector<int>{ handle });
+    this->select(this->panel_->selected_handles());
   }
 }
 

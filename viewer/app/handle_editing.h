@@ -116,7 +116,7 @@ private:
   void warned(vtkObject* caller, unsigned long event, void* sentence);
   void selection_changed();
   void mode_left();
-  void list_chosen(int handle);
+  void list_chosen();
   void show_selection();
   void remember_selection();
   void tell_selection();

@@ -6,6 +6,8 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 using namespace bindpose;
 
 HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
@@ -25,6 +27,9 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
     box->setMinimumWidth(box->fontMetrics().horizontalAdvance("-00.000") + 14);
     return box;
   };
+  this->count_ = new QLabel(this);
+  this->count_->setObjectName("note");
+  rows->addWidget(this->count_);
   auto* grid = new QGridLayout;
   grid->setHorizontalSpacing(4);
   grid->setVerticalSpacing(4);
@@ -105,6 +110,7 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
   }
   this->show_values(nullptr, {}, false);
   this->show_layer({});
+  this->show_count(QString(), 0);
 }
 
 void HandleFields::show_values(const Handle* handle, const HandleValues& values, bool free)
@@ -124,6 +130,16 @@ void HandleFields::show_values(const Handle* handle, const HandleValues& values,
   }
   this->bone_rows_->setVisible(bone);
   this->more_->setVisible(handle && values.more);
+}
+
+void HandleFields::show_count(const QString& name, int count)
+{
+  const QString words = tr("%1 selected; the values of %2:").arg(count);
+  const int room = this->width() - this->fontMetrics().horizontalAdvance(words.arg(QString()));
+  this->count_->setText(
+    words.arg(this->fontMetrics().elidedText(name, Qt::ElideMiddle, std::max(room, 60))));
+  this->count_->setToolTip(name);
+  this->count_->setVisible(count > 1);
 }
 
 void HandleFields::show_layer(const std::optional<double>& layer)

@@ -26,6 +26,8 @@ public:
   void show_values(const bindpose::Handle* handle, const bindpose::HandleValues& values, bool free);
   /// Of a shape in a plane; nothing: it is in none, or no handle is selected.
   void show_layer(const std::optional<double>& layer);
+  /// Whose values these are, where several handles are selected.
+  void show_count(const QString& name, int count);
   bindpose::HandleValues values() const;
   /// translate x y z, rotate x y z, scale, stretch, twist at head and tail.
   QDoubleSpinBox* field(int which) const { return this->fields_[static_cast<std::size_t>(which)]; }
@@ -36,6 +38,7 @@ Q_SIGNALS:
   void layer_chosen(double layer);
 
 private:
+  QLabel* count_;
   std::array<QDoubleSpinBox*, 10> fields_;
   QWidget* bone_rows_;
   QWidget* layer_row_;

@@ -7,6 +7,7 @@
 #include "edit_tools.h"
 #include "elided_label.h"
 #include "error_bar.h"
+#include "handle_commands.h"
 #include "handle_editing.h"
 #include "inspection.h"
 #include "key_strip.h"
@@ -216,7 +217,8 @@ void MainWindow::connect_panel()
   QObject::connect(this->panel_, &SidePanel::bind_wanted, this, &MainWindow::bind);
   QObject::connect(this->panel_, &SidePanel::cancel_wanted, this, &MainWindow::cancel_bind);
   QObject::connect(this->panel_, &SidePanel::method_chosen, this, &MainWindow::set_method);
-  QObject::connect(this->panel_, &SidePanel::mode_chosen, this, &MainWindow::set_mode);
+  QObject::connect(this->panel_, &SidePanel::mode_chosen, this,
+    [this](int mode) { this->editing_->commands()->fix(static_cast<HandleMode>(mode)); });
   QObject::connect(this->panel_, &SidePanel::rest_wanted, this, &MainWindow::back_to_rest);
   QObject::connect(this->panel_, &SidePanel::column_chosen, this, &MainWindow::show_column);
 }
@@ -264,7 +266,7 @@ void MainWindow::connect_handles()
   QObject::connect(this->editing_, &HandleEditing::handle_selected, this,
     [this](int handle)
     {
-      this->posing_->select_handle(handle);
+      this->posing_->select_handles(this->editing_->selected());
       if (this->is_bound())
       {
         this->weights_->choose_column(handle);
@@ -291,6 +293,10 @@ void MainWindow::document_changed(int parts)
   if (parts & (mesh_part | weights_part | handles_part))
   {
     this->connect_weights();
+  }
+  else if (parts & handle_looks_part)
+  {
+    this->posing_->layers_changed(); // nothing is bound anew
   }
   if (parts & pose_part)
   {

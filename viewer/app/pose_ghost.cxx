@@ -8,6 +8,8 @@
 #include "scene/tile_actors.h"
 
 #include "vtkActor.h"
+#include "vtkBoundingBox.h"
+#include "vtkCommand.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
@@ -25,6 +27,10 @@ PoseGhost::PoseGhost(Viewport* viewport) : viewport_(viewport)
   this->renderer_->SetActiveCamera(first->GetActiveCamera());
   this->renderer_->GradientBackgroundOn();
   this->renderer_->SetViewport(0.5, 0.0, 1.0, 1.0);
+  for (vtkRenderer* half : { first, this->renderer_.Get() })
+  {
+    half->AddObserver(vtkCommand::ResetCameraClippingRangeEvent, this, &PoseGhost::clipped);
+  }
 }
 
 PoseGhost::~PoseGhost() = default;
@@ -36,9 +42,10 @@ void PoseGhost::set_surface(vtkPolyData* surface)
   this->update();
 }
 
-void PoseGhost::set_place(Place place)
+void PoseGhost::set_place(Place place, bindpose::PointsView points)
 {
   this->place_ = place;
+  this->move(points); // before the view is fitted to it
   this->update();
 }
 
@@ -70,9 +77,6 @@ void PoseGhost::update()
     property->SetOpacity(1.0);
     this->renderer_->AddActor(this->actor_);
   }
-  // The window may have turned dark since.
-  this->renderer_->SetBackground(this->viewport_->renderer()->GetBackground());
-  this->renderer_->SetBackground2(this->viewport_->renderer()->GetBackground2());
   const bool beside_it = place == beside;
   if (beside_it != this->in_window_)
   {
@@ -86,6 +90,31 @@ void PoseGhost::update()
       window->RemoveRenderer(this->renderer_);
     }
   }
-  this->viewport_->set_split(beside_it);
+  this->viewport_->set_split(
+    beside_it ? this->renderer_.Get() : nullptr, beside_it ? this->shaded_->polydata() : nullptr);
   this->viewport_->set_ghosted(place == over);
+}
+
+/// One half has clipped what it shows; the other may show more.
+void PoseGhost::clipped()
+{
+  if (this->place_ != beside || this->clips_)
+  {
+    return;
+  }
+  this->clips_ = true;
+  vtkBoundingBox both;
+  for (vtkRenderer* half : { this->viewport_->renderer(), this->renderer_.Get() })
+  {
+    double bounds[6];
+    half->ComputeVisiblePropBounds(bounds);
+    both.AddBounds(bounds);
+  }
+  if (both.IsValid())
+  {
+    double bounds[6];
+    both.GetBounds(bounds);
+    this->renderer_->ResetCameraClippingRange(bounds);
+  }
+  this->clips_ = false;
 }

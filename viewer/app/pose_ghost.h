@@ -34,13 +34,15 @@ public:
 
   /// The surface that has another shape; null: none.
   void set_surface(vtkPolyData* surface);
-  void set_place(Place place);
+  /// With the shape that is to be seen there; no points: the last one.
+  void set_place(Place place, bindpose::PointsView points);
   Place place() const { return this->place_; }
   void move(bindpose::PointsView points);
   vtkRenderer* renderer() const { return this->renderer_; }
 
 private:
   void update();
+  void clipped();
 
   Viewport* viewport_;
   Place place_ = hidden;
@@ -49,6 +51,7 @@ private:
   vtkNew<vtkRenderer> renderer_; // of the half beside
   std::unique_ptr<bindpose::ShadedSurface> shaded_;
   bool in_window_ = false;
+  bool clips_ = false; // for both halves
 };
 
 #endif

@@ -241,9 +241,9 @@ PoseOptions Posing::compared_options() const
 
 void Posing::comparison_changed()
 {
-  this->ghost_->set_place(this->panels_.pose->ghost_place());
+  const PoseGhost::Place place = this->panels_.pose->ghost_place();
   this->compared_->set_options(this->compared_options());
-  if (this->source_ && this->ghost_->place() != PoseGhost::hidden)
+  if (this->source_ && place != PoseGhost::hidden)
   {
     this->compared_->bind();
     this->compared_->set_pose(this->pose());
@@ -253,6 +253,10 @@ void Posing::comparison_changed()
                             .arg(method_name(this->compared_->options().method)));
     }
   }
+  const Points& other = this->compared_->points();
+  const Points none(0, 3);
+  const bool fits = this->surface_ && other.rows() == this->surface_->GetNumberOfPoints();
+  this->ghost_->set_place(place, fits ? other : none);
   this->show_difference();
   Q_EMIT this->moved();
 }
@@ -284,6 +288,8 @@ void Posing::handles_moved()
 
 void Posing::show_difference()
 {
+  this->viewport_->name_halves(
+    method_name(this->main_->options().method), method_name(this->compared_->options().method));
   if (this->ghost_->place() == PoseGhost::hidden || !this->source_)
   {
     return;
@@ -462,9 +468,10 @@ QString Posing::reading() const
 
 // ---- The selected handle -----------------------------------------------------------------------
 
-void Posing::select_handle(int handle)
+void Posing::select_handles(const std::vector<int>& handles)
 {
-  this->selected_ = handle;
+  this->selected_ = handles.empty() ? -1 : handles.front();
+  this->selected_count_ = static_cast<int>(handles.size());
   this->show_values();
 }
 
@@ -475,12 +482,14 @@ void Posing::show_values()
   {
     this->panels_.fields->show_values(nullptr, {}, false);
     this->panels_.fields->show_layer({});
+    this->panels_.fields->show_count(QString(), 0);
     return;
   }
   const auto k = static_cast<std::size_t>(this->selected_);
   const Handle& handle = this->source_->handles[k];
   this->panels_.fields->show_values(
     &handle, values_of(handle, pose[k]), pose[k].mode == HandleMode::free);
+  this->panels_.fields->show_count(QString::fromStdString(handle.name), this->selected_count_);
   Eigen::VectorXd layers;
   const bool layered = this->is_flat_ &&
     to_layers(this->handles_, this->source_->handles, this->cells_, "Layer", layers).ok();
@@ -509,6 +518,12 @@ void Posing::layer_typed(double layer)
     Q_EMIT this->handles_changed(
       tr("layer of %1").arg(QString::fromStdString(this->source_->handles[k].name)));
   }
+}
+
+void Posing::layers_changed()
+{
+  this->order_layers();
+  this->show_values();
 }
 
 void Posing::order_layers()

@@ -55,8 +55,10 @@ public:
 
   /// The handles' pose arrays are others now.
   void handles_moved();
-  /// Another handle is selected; -1: none.
-  void select_handle(int handle);
+  /// The handles have other layers now.
+  void layers_changed();
+  /// Others are selected; the values of the first can be seen and typed.
+  void select_handles(const std::vector<int>& handles);
   /// A drag begins; what plays stops.
   void drag_began();
 
@@ -138,7 +140,8 @@ private:
   std::shared_ptr<const bindpose::PoseSource> source_;
   vtkSmartPointer<vtkPolyData> surface_, handles_, shape_;
   std::vector<bindpose::Index> cells_;
-  int selected_ = -1;
+  int selected_ = -1; ///< the first of
+  int selected_count_ = 0;
   bool is_flat_ = false;
   bool at_rest_ = false;
   bool edits_at_rest_ = false;

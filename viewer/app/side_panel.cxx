@@ -8,6 +8,7 @@
 
 #include "pose/pose.h"
 
+#include <QApplication>
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -111,6 +112,7 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   this->handles_ = new QListWidget(handles);
   this->handles_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   this->handles_->setTextElideMode(Qt::ElideMiddle);
+  this->handles_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   this->handles_->setFixedHeight(6 * this->handles_->fontMetrics().lineSpacing());
   list->addWidget(this->handles_);
   auto* mode_row = new QHBoxLayout;
@@ -158,19 +160,20 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   QObject::connect(this->handles_, &QListWidget::currentRowChanged, this,
     [this](int handle)
     {
-      if (handle >= 0)
+      if (handle >= 0 && this->handles_->selectedItems().isEmpty() &&
+        QApplication::mouseButtons() == Qt::NoButton)
       {
         this->handles_->item(handle)->setSelected(true); // the keyboard's first step does not
       }
-      this->show_mode(handle);
-      Q_EMIT this->handle_chosen(handle);
     });
+  QObject::connect(
+    this->handles_, &QListWidget::itemSelectionChanged, this, &SidePanel::list_changed);
   QObject::connect(this->mode_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     [this](int mode)
     {
-      if (this->selected_handle() >= 0)
+      if (!this->selected_.empty())
       {
-        Q_EMIT this->mode_chosen(this->selected_handle(), mode);
+        Q_EMIT this->mode_chosen(mode);
       }
     });
   this->set_handles({}, {}, {});
@@ -189,6 +192,7 @@ void SidePanel::set_handles(
   this->modes_ = modes;
   this->bones_ = bones;
   this->handles_->clear();
+  this->selected_.clear();
   this->shown_->clear();
   this->shown_->addItem(tr("Shaded surface"));
   for (int handle = 0; handle < names.size(); ++handle)
@@ -202,7 +206,7 @@ void SidePanel::set_handles(
     this->set_mode(handle, modes[handle]);
   }
   this->shown_->setCurrentIndex(shown.isEmpty() ? 0 : names.indexOf(shown) + 1);
-  this->show_mode(-1);
+  this->show_mode();
 }
 
 /// Pixels that a handle's name may take in the combo box, after the words before it.
@@ -212,9 +216,13 @@ int SidePanel::room_for_names() const
   return field - this->fontMetrics().horizontalAdvance(tr("Weights of %1").arg(QString()));
 }
 
-void SidePanel::show_mode(int handle)
+/// Of the first one selected; what can be chosen is what all of them can fix.
+void SidePanel::show_mode()
 {
   const QSignalBlocker quiet(this->mode_);
+  const int handle = this->selected_handle();
+  const bool bones = std::all_of(
+    this->selected_.begin(), this->selected_.end(), [this](int k) { return this->bones_[k]; });
   this->mode_label_->setEnabled(handle >= 0);
   this->mode_->setEnabled(handle >= 0);
   this->mode_->setCurrentIndex(handle >= 0 ? this->modes_[handle] : 0);
@@ -222,7 +230,7 @@ void SidePanel::show_mode(int handle)
   for (int mode = 0; mode < this->mode_->count(); ++mode)
   {
     const bool of_bones = bindpose::holds_tail(static_cast<bindpose::HandleMode>(mode));
-    items->item(mode)->setEnabled(!of_bones || (handle >= 0 && this->bones_[handle]));
+    items->item(mode)->setEnabled(!of_bones || (handle >= 0 && bones));
   }
 }
 
@@ -235,18 +243,51 @@ void SidePanel::set_mode(int handle, int mode)
       : QString("%1   (%2)").arg(this->names_[handle], tr(bindpose::handle_mode_words[mode])));
   if (handle == this->selected_handle())
   {
-    this->show_mode(handle);
+    this->show_mode();
   }
 }
 
 void SidePanel::select_handle(int handle)
 {
-  this->handles_->setCurrentRow(handle);
+  this->select_handles(handle < 0 ? std::vector<int>() : std::vector<int>{ handle });
 }
 
-int SidePanel::selected_handle() const
+void SidePanel::select_handles(const std::vector<int>& handles)
 {
-  return this->handles_->currentRow();
+  if (handles == this->selected_)
+  {
+    return;
+  }
+  const QSignalBlocker quiet(this->handles_);
+  this->handles_->setCurrentRow(
+    handles.empty() ? -1 : handles.back(), QItemSelectionModel::NoUpdate);
+  this->handles_->clearSelection();
+  for (const int handle : handles)
+  {
+    this->handles_->item(handle)->setSelected(true);
+  }
+  this->selected_ = handles;
+  this->show_mode();
+  Q_EMIT this->handles_chosen();
+}
+
+/// The list tells which are selected, not in which order.
+void SidePanel::list_changed()
+{
+  const auto is_gone = [this](int k) { return !this->handles_->item(k)->isSelected(); };
+  this->selected_.erase(
+    std::remove_if(this->selected_.begin(), this->selected_.end(), is_gone), this->selected_.end());
+  for (int k = 0; k < this->handles_->count(); ++k)
+  {
+    const bool known =
+      std::find(this->selected_.begin(), this->selected_.end(), k) != this->selected_.end();
+    if (!known && !is_gone(k))
+    {
+      this->selected_.push_back(k);
+    }
+  }
+  this->show_mode();
+  Q_EMIT this->handles_chosen();
 }
 
 void SidePanel::set_state(bool ready, bool binding, bool bound)

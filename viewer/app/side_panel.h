@@ -4,6 +4,8 @@
 #include <QFrame>
 #include <QStringList>
 
+#include <vector>
+
 class QComboBox;
 class QLabel;
 class QListWidget;
@@ -26,8 +28,13 @@ public:
   /// name, its mode (bindpose::HandleMode), and whether it is a bone, which has modes of its own.
   void set_handles(const QStringList& names, const QList<int>& modes, const QList<bool>& bones);
   void set_mode(int handle, int mode);
+  /// It alone; -1: none.
   void select_handle(int handle);
-  int selected_handle() const;
+  void select_handles(const std::vector<int>& handles);
+  /// Those that are selected in the list, the last one selected at the end.
+  const std::vector<int>& selected_handles() const { return this->selected_; }
+  /// The first of them, of which the values are shown; -1: none.
+  int selected_handle() const { return this->selected_.empty() ? -1 : this->selected_.front(); }
   QListWidget* handle_list() const { return this->handles_; }
 
   /// Ready: a surface and handles are there. Bound: weights are there.
@@ -52,13 +59,16 @@ Q_SIGNALS:
   void cancel_wanted();
   void column_chosen(int column);
   void method_chosen(int method);
-  void handle_chosen(int handle);
-  void mode_chosen(int handle, int mode);
+  /// Others are selected.
+  void handles_chosen();
+  /// For all that are selected.
+  void mode_chosen(int mode);
   void rest_wanted();
 
 private:
   int room_for_names() const;
-  void show_mode(int handle);
+  void list_changed();
+  void show_mode();
 
   QListWidget* handles_;
   QLabel* mode_label_;
@@ -76,6 +86,7 @@ private:
   QStringList names_;
   QList<int> modes_;
   QList<bool> bones_;
+  std::vector<int> selected_;
   bool stopping_ = false; // cancel was pressed, the bind has not ended yet
 };
 

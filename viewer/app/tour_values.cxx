@@ -116,6 +116,7 @@ void add_handles(Json& values, MainWindow* window)
   const Handles& handles = document->handles();
   values["selected"] =
     selected >= 0 && selected < static_cast<int>(handles.size()) ? handles[selected].name : "";
+  values["selected.count"] = static_cast<int>(window->panel()->selected_handles().size());
   const Pose pose = document->pose();
   for (std::size_t k = 0; k < handles.size(); ++k)
   {

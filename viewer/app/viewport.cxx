@@ -34,12 +34,15 @@
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
 #include "vtkRendererCollection.h"
+#include "vtkTextActor.h"
+#include "vtkTextProperty.h"
 #include "vtkTexture.h"
 
 #include <QApplication>
 #include <QEvent>
 #include <QOpenGLContext>
 #include <QOpenGLFunctions>
+#include <QResizeEvent>
 
 #include <cmath>
 #include <utility>
@@ -114,6 +117,9 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->window_->AddRenderer(this->legend_);
   this->handles_->SetInteractor(this->interactor());
   this->handles_->CreateDefaultRepresentation();
+  // They are in this renderer, wherever the mouse is when they are turned on.
+  this->handles_->SetDefaultRenderer(this->renderer_);
+  this->brush_->SetDefaultRenderer(this->renderer_);
   this->brush_->SetInteractor(this->interactor());
   this->brush_->CreateDefaultRepresentation();
   // What widgets and camera ask for during one event is one picture, after it.
@@ -249,11 +255,49 @@ void Viewport::set_ghosted(bool ghosted)
   this->set_surface_look(this->look_);
 }
 
-void Viewport::set_split(bool split)
+void Viewport::set_split(vtkRenderer* beside, vtkPolyData* shape)
 {
-  this->split_ = split;
-  this->renderer_->SetViewport(0.0, 0.0, split ? 0.5 : 1.0, 1.0);
+  const double before = this->aspect_of(this->size());
+  this->shape_beside_ = shape;
+  if (beside != this->beside_)
+  {
+    this->beside_ = beside;
+    this->renderer_->SetViewport(0.0, 0.0, beside ? 0.5 : 1.0, 1.0);
+    this->use_appearance();
+    this->draw_legend();
+    this->keep_in_view(before);
+  }
   this->refresh();
+}
+
+void Viewport::name_halves(const QString& left, const QString& right)
+{
+  if (left != this->left_name_ || right != this->right_name_)
+  {
+    this->left_name_ = left;
+    this->right_name_ = right;
+    this->draw_legend();
+    this->refresh();
+  }
+}
+
+/// Of the half that the surface has, or of the whole.
+double Viewport::aspect_of(const QSize& size) const
+{
+  return (this->beside_ ? 0.5 : 1.0) * size.width() / std::max(size.height(), 1);
+}
+
+void Viewport::keep_in_view(double aspect_before)
+{
+  const std::vector<bindpose::Vec3> places = this->places_to_see();
+  if (!places.empty())
+  {
+    const Eigen::Map<const bindpose::Points> points(
+      places.front().data(), static_cast<bindpose::Index>(places.size()), 3);
+    bindpose::keep_in_view(
+      this->renderer_->GetActiveCamera(), points, aspect_before, this->aspect_of(this->size()));
+    this->renderer_->ResetCameraClippingRange();
+  }
 }
 
 double Viewport::upload_microseconds() const
@@ -354,7 +398,13 @@ void Viewport::show_values(
 
 void Viewport::use_appearance()
 {
-  use_appearance_of(this->renderer_);
+  for (vtkRenderer* renderer : { this->renderer_.Get(), this->beside_ })
+  {
+    if (renderer)
+    {
+      use_appearance_of(renderer);
+    }
+  }
 }
 
 void Viewport::changeEvent(QEvent* event)
@@ -395,6 +445,26 @@ void Viewport::draw_legend()
   {
     add(legend.second, legend.first);
   }
+  if (this->beside_)
+  {
+    this->name_half(0.25, this->left_name_);
+    this->name_half(0.75, this->right_name_);
+  }
+}
+
+/// Below what it has, where it is in nobody's way.
+void Viewport::name_half(double middle, const QString& name)
+{
+  const double scale = this->pixel_scale();
+  vtkNew<vtkTextActor> text;
+  text->SetInput(name.toUtf8().constData());
+  vtkTextProperty* font = text->GetTextProperty();
+  font->SetFontSize(static_cast<int>(14 * scale));
+  font->SetJustificationToCentered();
+  const bindpose::Rgb& colour = is_dark() ? bindpose::palette::dark_text : bindpose::palette::text;
+  font->SetColor(colour[0], colour[1], colour[2]);
+  text->SetPosition(std::round(middle * scale * this->width()), std::round(14 * scale));
+  this->legend_->AddViewProp(text);
 }
 
 void Viewport::resizeEvent(QResizeEvent* event)
@@ -406,6 +476,10 @@ void Viewport::resizeEvent(QResizeEvent* event)
   QVTKOpenGLNativeWidget::resizeEvent(event);
   this->resizing_ = false;
   this->update();
+  if (this->beside_ && event->oldSize().isValid())
+  {
+    this->keep_in_view(this->aspect_of(event->oldSize()));
+  }
   this->set_pixel_scale();
 }
 
@@ -439,12 +513,13 @@ void Viewport::render_wanted()
   }
 }
 
-void Viewport::reset_view()
+/// Of everything that the view is about.
+std::vector<bindpose::Vec3> Viewport::places_to_see() const
 {
   // The widget's handles count when there is nothing else.
   std::vector<vtkPolyData*> shown;
-  for (vtkPolyData* candidate :
-    { this->shaded_ ? this->shaded_->polydata() : nullptr, this->curve_data_.Get() })
+  for (vtkPolyData* candidate : { this->shaded_ ? this->shaded_->polydata() : nullptr,
+         this->curve_data_.Get(), this->beside_ ? this->shape_beside_.Get() : nullptr })
   {
     if (candidate && candidate->GetNumberOfPoints() > 0)
     {
@@ -474,6 +549,12 @@ void Viewport::reset_view()
         ends[corner & 1].x(), ends[corner >> 1 & 1].y(), ends[corner >> 2 & 1].z());
     }
   }
+  return places;
+}
+
+void Viewport::reset_view()
+{
+  const std::vector<bindpose::Vec3> places = this->places_to_see();
   if (places.empty())
   {
     return;
@@ -483,8 +564,7 @@ void Viewport::reset_view()
   const bindpose::View view;
   const bindpose::Frame frame = bindpose::choose_frame(bindpose::bounding_box(points), view.up);
   vtkCamera* camera = this->renderer_->GetActiveCamera();
-  bindpose::fit_camera(
-    camera, points, frame, view, (this->split_ ? 0.5 : 1.0) * this->width() / this->height(), 0.12);
+  bindpose::fit_camera(camera, points, frame, view, this->aspect_of(this->size()), 0.12);
   camera->SetParallelProjection(this->picture_ != nullptr);
   // As large in a parallel view.
   camera->SetParallelScale(

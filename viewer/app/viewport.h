@@ -58,8 +58,12 @@ public:
   void set_depths(const Eigen::VectorXd& depths) { this->depths_ = depths; }
   /// Something see-through is drawn over the surface: both are then sorted by depth.
   void set_ghosted(bool ghosted);
-  /// The left half only: something else is on the right.
-  void set_split(bool split);
+  /// The left half only: another renderer with the same camera has the right one, with a shape that
+  /// is kept in view, too. Null, null: the whole. What was seen whole is so in the half.
+  void set_split(vtkRenderer* beside, vtkPolyData* shape);
+  bool is_split() const { return this->beside_ != nullptr; }
+  /// What is said above the halves.
+  void name_halves(const QString& left, const QString& right);
   /// Of the last drawn change of points: what it took to bring them to the graphics card.
   double upload_microseconds() const;
   /// Pictures a second, while they follow each other within half a second; else 0.
@@ -127,6 +131,10 @@ protected:
 private:
   void use_appearance();
   void draw_legend();
+  void name_half(double middle, const QString& name);
+  double aspect_of(const QSize& size) const;
+  std::vector<bindpose::Vec3> places_to_see() const;
+  void keep_in_view(double aspect_before);
   void frame_drawn();
   void render_wanted();
   void use_column();
@@ -152,7 +160,9 @@ private:
   std::map<LegendPlace, std::pair<QString, bindpose::ColourMap>> legends_;
   int look_ = solid;
   bool ghosted_ = false;
-  bool split_ = false;
+  vtkRenderer* beside_ = nullptr; // in the right half; null: the view is whole
+  vtkSmartPointer<vtkPolyData> shape_beside_;
+  QString left_name_, right_name_;
   QElapsedTimer since_start_;
   double last_drawn_ = -1e9, frame_seconds_ = 0.0; // smoothed
   double picture_scale_ = 1.0; // pixels of a picture that is being taken, for each of the window

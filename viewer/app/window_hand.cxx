@@ -1,6 +1,8 @@
 #include "window_hand.h"
 
 #include "document/document.h"
+#include "handle_commands.h"
+#include "handle_editing.h"
 #include "inspection.h"
 #include "key_strip.h"
 #include "main_window.h"
@@ -389,21 +391,23 @@ QString WindowHand::select(const QString& handle)
 QString WindowHand::set_mode(const QString& mode)
 {
   this->leave();
-  const int handle = this->window_->panel()->selected_handle();
-  if (handle < 0)
+  const std::vector<int> selected = this->window_->panel()->selected_handles();
+  if (selected.empty())
   {
     return QObject::tr("no handle is selected");
   }
   const auto& words = handle_mode_words;
   const auto* found = std::find(std::begin(words), std::end(words), mode.toStdString());
   const auto number = static_cast<int>(found - std::begin(words));
-  const Handle& selected = this->window_->document()->handles()[static_cast<std::size_t>(handle)];
-  if (found == std::end(words) ||
-    (holds_tail(static_cast<HandleMode>(number)) && selected.kind != HandleKind::bone))
+  const Handles& handles = this->window_->document()->handles();
+  const bool bones = std::all_of(selected.begin(), selected.end(),
+    [&](int handle) { return handles[static_cast<std::size_t>(handle)].kind == HandleKind::bone; });
+  if (found == std::end(words) || (holds_tail(static_cast<HandleMode>(number)) && !bones))
   {
-    return QObject::tr("'%1' is no mode of this handle").arg(mode);
+    return selected.size() > 1 ? QObject::tr("'%1' is no mode of these handles").arg(mode)
+                               : QObject::tr("'%1' is no mode of this handle").arg(mode);
   }
-  this->window_->set_mode(handle, number);
+  this->window_->editing()->commands()->fix(static_cast<HandleMode>(number));
   return {};
 }
 

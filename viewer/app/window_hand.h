@@ -50,7 +50,7 @@ public:
   QString choose(const QString& option, const QVariant& value);
   QString show_panel(const QString& name);
   QString select(const QString& handle);
-  /// What the selected handle fixes: a word of bindpose::handle_mode_words.
+  /// What the selected handles fix: a word of bindpose::handle_mode_words.
   QString set_mode(const QString& mode);
   static const QStringList& panel_names();
 

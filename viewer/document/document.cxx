@@ -173,7 +173,7 @@ void Document::become(const Work& work, Live live)
   {
     this->preview_ = nullptr;
   }
-  if (parts & handles_part)
+  if (parts & (handles_part | handle_looks_part))
   {
     if (live == Live::to_be_written)
     {
@@ -193,7 +193,8 @@ void Document::become(const Work& work, Live live)
       to_handles(work.handles, this->handles_, &this->cells_);
     }
   }
-  if (parts & (handles_part | pose_part) && work.handles && live == Live::to_be_written)
+  if (parts & (handles_part | handle_looks_part | pose_part) && work.handles &&
+    live == Live::to_be_written)
   {
     bindpose::set_pose(this->live_, this->cells_, work.pose);
   }

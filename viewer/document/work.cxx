@@ -1,6 +1,12 @@
 #include "document/work.h"
 
+#include "vtkAbstractArray.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkVariant.h"
+
 #include <algorithm>
+#include <iterator>
 
 namespace
 {
@@ -26,6 +32,58 @@ void take(const Source& before, const Source& after, Source& now)
   }
 }
 
+bool same_values(vtkAbstractArray* a, vtkAbstractArray* b)
+{
+  bool same = a && b && a->GetDataType() == b->GetDataType() &&
+    a->GetNumberOfComponents() == b->GetNumberOfComponents() &&
+    a->GetNumberOfTuples() == b->GetNumberOfTuples();
+  for (vtkIdType i = 0; same && i < a->GetNumberOfValues(); ++i)
+  {
+    same = a->GetVariantValue(i) == b->GetVariantValue(i);
+  }
+  return same;
+}
+
+bool same_cells(vtkCellArray* a, vtkCellArray* b)
+{
+  return same_values(a->GetOffsetsArray(), b->GetOffsetsArray()) &&
+    same_values(a->GetConnectivityArray(), b->GetConnectivityArray());
+}
+
+/// What of handles neither bends a shape nor is counted as theirs: how they look, and their pose.
+bool is_look(const char* array)
+{
+  static const char* const looks[] = { "Layer", "Color", "Locked", "Transform", "Mode", "Stretch",
+    "Twist" };
+  return std::any_of(std::begin(looks), std::end(looks),
+    [array](const char* look) { return std::string(look) == array; });
+}
+
+/// Each array of one that is no look is one of the other.
+bool has_arrays_of(vtkPolyData* a, vtkPolyData* b)
+{
+  vtkCellData* arrays = b->GetCellData();
+  for (int k = 0; k < arrays->GetNumberOfArrays(); ++k)
+  {
+    const char* name = arrays->GetArrayName(k);
+    if (!name ||
+      (!is_look(name) &&
+        !same_values(a->GetCellData()->GetAbstractArray(name), arrays->GetAbstractArray(k))))
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// Handles that differ in how they look alone.
+bool only_look_different(vtkPolyData* a, vtkPolyData* b)
+{
+  return a && b && a->GetPoints() && b->GetPoints() &&
+    same_values(a->GetPoints()->GetData(), b->GetPoints()->GetData()) &&
+    same_cells(a->GetVerts(), b->GetVerts()) && same_cells(a->GetLines(), b->GetLines()) &&
+    same_cells(a->GetPolys(), b->GetPolys()) && has_arrays_of(a, b) && has_arrays_of(b, a);
+}
 } // namespace
 
 bool same_mesh(vtkPolyData* a, vtkPolyData* b)
@@ -56,7 +114,10 @@ int differences(const Work& a, const Work& b)
   const bool weights = a.surface == b.surface && a.weighted_tets == b.weighted_tets &&
     a.bound_handles == b.bound_handles;
   return (mesh ? 0 : mesh_part) | (weights ? 0 : weights_part) |
-    (a.handles == b.handles ? 0 : handles_part) | (same_pose(a.pose, b.pose) ? 0 : pose_part) |
+    (a.handles == b.handles                         ? 0
+        : only_look_different(a.handles, b.handles) ? handle_looks_part
+                                                    : handles_part) |
+    (same_pose(a.pose, b.pose) ? 0 : pose_part) |
     (a.key_poses == b.key_poses ? 0 : key_poses_part) |
     (a.options == b.options ? 0 : options_part) | (a.volume == b.volume ? 0 : volume_part) |
     (a.curves == b.curves ? 0 : curves_part) | (same_sources ? 0 : sources_part);

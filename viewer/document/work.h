@@ -59,7 +59,8 @@ enum WorkPart : int
   options_part = 32,
   volume_part = 64,
   curves_part = 128,
-  sources_part = 256
+  sources_part = 256,
+  handle_looks_part = 512 ///< of the handles at rest layers, colours and locks alone: bends nothing
 };
 int differences(const Work& a, const Work& b);
 

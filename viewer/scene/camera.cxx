@@ -61,17 +61,23 @@ Vec3 view_direction(const Frame& frame, const View& view)
   return std::cos(e) * (std::cos(a) * front + std::sin(a) * right) + std::sin(e) * up;
 }
 
-void fit_camera(vtkCamera* camera, PointsView points, const Frame& frame, const View& view,
-  double aspect, double margin)
+namespace
 {
-  const Vec3 back = view_direction(frame, view);
-  const Vec3 forward = -back;
-  const Vec3 right = forward.cross(Vec3::Unit(frame.up)).normalized();
-  const Vec3 up = right.cross(forward);
+/// As View has it, and which way is up in the picture.
+struct Axes
+{
+  Vec3 forward, right, up;
+};
+
+/// Along the axes, from where all points are seen as large as they can be.
+void fit_along(vtkCamera* camera, PointsView points, const Axes& axes, double angle, double aspect,
+  double margin)
+{
+  const auto& [forward, right, up] = axes;
   const Box box = bounding_box(points);
   const Vec3 center = box.center();
   const double free = 1.0 - 2.0 * margin;
-  const double ty = std::tan(0.5 * view_angle * pi / 180.0);
+  const double ty = std::tan(0.5 * angle * pi / 180.0);
   const double tx = ty * aspect;
   double high[4] = { -1e300, -1e300, -1e300, -1e300 }; // right, left, up, down
   double near_point = 1e300;
@@ -99,15 +105,90 @@ void fit_camera(vtkCamera* camera, PointsView points, const Frame& frame, const 
     center + 0.5 * (high[0] - high[1]) * right + 0.5 * (high[2] - high[3]) * up + depth * forward;
   const Vec3 focus = place + (middle - depth) * forward;
 
-  camera->ParallelProjectionOff();
-  // Zoom by the angle: the perspective stays, and the camera never enters the shape.
-  camera->SetViewAngle(2.0 * std::atan(ty / view.zoom) * 180.0 / pi);
   camera->SetPosition(place.data());
   camera->SetFocalPoint(focus.data());
   camera->SetViewUp(up.data());
   const double slack = 0.1 * std::max(far_point - near_point, smallest);
   const double far_plane = far_point - depth + slack;
   camera->SetClippingRange(std::max(near_point - depth - slack, 1e-3 * far_plane), far_plane);
+}
+
+/// Whether all points lie within the picture.
+bool sees_all(vtkCamera* camera, PointsView points, const Axes& axes, double aspect)
+{
+  const Vec3 eye(camera->GetPosition());
+  const bool parallel = camera->GetParallelProjection() != 0;
+  const double ty = std::tan(0.5 * camera->GetViewAngle() * pi / 180.0);
+  for (Index i = 0; i < points.rows(); ++i)
+  {
+    const Vec3 p = points.row(i).transpose() - eye;
+    const double half = parallel ? camera->GetParallelScale() : ty * p.dot(axes.forward);
+    if (std::abs(p.dot(axes.up)) > half || std::abs(p.dot(axes.right)) > half * aspect)
+    {
+      return false;
+    }
+  }
+  return true;
+}
+
+/// How far from the points' middle, or at which scale, all of them are seen.
+double least_size(vtkCamera* camera, PointsView points, const Axes& axes, double aspect)
+{
+  const Vec3 center = bounding_box(points).center();
+  const bool parallel = camera->GetParallelProjection() != 0;
+  const double ty = std::tan(0.5 * camera->GetViewAngle() * pi / 180.0);
+  double size = 0.0;
+  for (Index i = 0; i < points.rows(); ++i)
+  {
+    const Vec3 p = points.row(i).transpose() - center;
+    const double half = std::max(std::abs(p.dot(axes.up)), std::abs(p.dot(axes.right)) / aspect);
+    size = std::max(size, parallel ? half : half / ty - p.dot(axes.forward));
+  }
+  return size;
+}
+} // namespace
+
+void fit_camera(vtkCamera* camera, PointsView points, const Frame& frame, const View& view,
+  double aspect, double margin)
+{
+  Axes axes;
+  axes.forward = -view_direction(frame, view);
+  axes.right = axes.forward.cross(Vec3::Unit(frame.up)).normalized();
+  axes.up = axes.right.cross(axes.forward);
+  camera->ParallelProjectionOff();
+  fit_along(camera, points, axes, view_angle, aspect, margin);
+  // Zoom by the angle: the perspective stays, and the camera never enters the shape.
+  const double ty = std::tan(0.5 * view_angle * pi / 180.0);
+  camera->SetViewAngle(2.0 * std::atan(ty / view.zoom) * 180.0 / pi);
+}
+
+void keep_in_view(vtkCamera* camera, PointsView points, double aspect_before, double aspect)
+{
+  if (points.rows() == 0 || !(aspect_before > 0.0) || !(aspect > 0.0) || aspect == aspect_before)
+  {
+    return;
+  }
+  Axes axes;
+  axes.forward = Vec3(camera->GetDirectionOfProjection());
+  axes.right = axes.forward.cross(Vec3(camera->GetViewUp())).normalized();
+  axes.up = axes.right.cross(axes.forward);
+  const bool seen = sees_all(camera, points, axes, aspect_before);
+  const double before = least_size(camera, points, axes, aspect_before);
+  const double after = least_size(camera, points, axes, aspect);
+  if (before > 0.0 && after > 0.0)
+  {
+    const Vec3 focus(camera->GetFocalPoint());
+    const Vec3 place = focus + after / before * (Vec3(camera->GetPosition()) - focus);
+    camera->SetPosition(place.data());
+    camera->SetParallelScale(after / before * camera->GetParallelScale());
+  }
+  if (seen && !sees_all(camera, points, axes, aspect))
+  {
+    constexpr double margin = 0.04;
+    fit_along(camera, points, axes, camera->GetViewAngle(), aspect, margin);
+    camera->SetParallelScale(
+      camera->GetDistance() * std::tan(0.5 * camera->GetViewAngle() * pi / 180.0));
+  }
 }
 
 } // namespace bindpose

@@ -47,6 +47,11 @@ Vec3 view_direction(const Frame& frame, const View& view);
 void fit_camera(vtkCamera* camera, PointsView points, const Frame& frame, const View& view,
   double aspect, double margin = 0.04);
 
+/// The view has another width / height now: the camera goes nearer or farther along its sight, so
+/// that the points take as much of the view as they did. What was seen whole is seen whole, if need
+/// be in the middle.
+void keep_in_view(vtkCamera* camera, PointsView points, double aspect_before, double aspect);
+
 } // namespace bindpose
 
 #endif

@@ -631,6 +631,17 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   this->window.history()->undo();
   EXPECT_EQ(fields->layer()->value(), 0.0) << "both numbers are one step";
   EXPECT_TRUE(right_is_seen());
+  // Nothing is bound anew for it: a body that moves goes on.
+  this->option<QCheckBox>("pose.moves")->setChecked(true);
+  const Body* body = this->posing()->body();
+  ASSERT_NE(body, nullptr);
+  fields->layer()->setValue(-1.0);
+  EXPECT_EQ(this->window.history()->undoText(), "layer of right");
+  EXPECT_EQ(this->posing()->body(), body);
+  this->window.history()->undo();
+  EXPECT_EQ(fields->layer()->value(), 0.0);
+  EXPECT_EQ(this->posing()->body(), body);
+  this->option<QCheckBox>("pose.moves")->setChecked(false);
   // A session keeps them with the handles; of solids there are none.
   this->open();
   this->window.panel()->select_handle(1);

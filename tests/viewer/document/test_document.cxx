@@ -4,6 +4,8 @@
 #include "document/autosave.h"
 #include "save_loop.h"
 
+#include "handle_edit_cells.h"
+
 #include "vtkCellData.h"
 #include "vtkIntArray.h"
 #include "vtkUnsignedCharArray.h"
@@ -354,6 +356,38 @@ TEST_F(Editing, WhatAViewDoesDuringUndoAndRedoIsNoStep)
   EXPECT_EQ(d.history()->index(), steps);
   EXPECT_EQ(d.number("pose.method"), 0);
   EXPECT_EQ(d.option("tets.shrink").toDouble(), 0.5);
+}
+
+TEST_F(Editing, LayersColoursAndLocksAreHowHandlesLook)
+{
+  test::open_bound(this->document);
+  int parts = 0;
+  QObject::connect(&this->document, &Document::changed, [&](int changed) { parts |= changed; });
+  const auto expect_looks = [&](const char* when)
+  {
+    EXPECT_EQ(parts, handle_looks_part) << when;
+    parts = 0;
+  };
+  const Work before = this->document.work();
+  set_handle_layer(this->document.handle_data(), this->document.handle_cells()[1], 2.0);
+  ASSERT_TRUE(this->document.commit_handles("layer").ok());
+  expect_looks("layer");
+  set_handle_locked(this->document.handle_data(), this->document.handle_cells()[0], true);
+  ASSERT_TRUE(this->document.commit_handles("lock").ok());
+  expect_looks("lock");
+  this->document.history()->undo();
+  expect_looks("undo");
+  vtkDataArray* layers = this->document.handle_data()->GetCellData()->GetArray("Layer");
+  ASSERT_NE(layers, nullptr);
+  EXPECT_EQ(layers->GetComponent(this->document.handle_cells()[1], 0), 2.0);
+  this->document.history()->undo();
+  expect_looks("undo of all");
+  EXPECT_EQ(fingerprint(this->document.work()), fingerprint(before));
+  EXPECT_FALSE(this->document.handle_data()->GetCellData()->HasArray("Layer"));
+  // A place and a name are no looks.
+  this->rename(0, "foot");
+  ASSERT_TRUE(this->document.commit_handles("rename").ok());
+  EXPECT_TRUE(parts & handles_part);
 }
 
 TEST_F(Editing, AnEditThatCannotBeUsedIsTakenBack)

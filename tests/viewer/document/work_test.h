@@ -200,7 +200,10 @@ inline std::string fingerprint(const Work& work)
   out << nlohmann::json(to_json(work.key_poses ? *work.key_poses : PoseShelf())).dump() << '\n';
   for (auto option = work.options.begin(); option != work.options.end(); ++option)
   {
-    out << option.key().toStdString() << ' ' << option.value().toString().toStdString() << '\n';
+    const bool list = option.value().type() == QVariant::List;
+    const QString value =
+      list ? option.value().toStringList().join(' ') : option.value().toString();
+    out << option.key().toStdString() << ' ' << value.toStdString() << '\n';
   }
   for (const Source* source : { &work.mesh_source, &work.handle_source, &work.picture_source,
          &work.volume_source, &work.curve_source })

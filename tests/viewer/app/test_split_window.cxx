@@ -1,0 +1,245 @@
+// Two methods side by side: each shape lies in its half, as large as it was in the whole, from one
+// place; handles are those of the left half.
+#include "window_test.h"
+
+#include "document/document.h"
+#include "handle_editing.h"
+#include "pose_ghost.h"
+#include "pose_panel.h"
+#include "posing.h"
+#include "side_panel.h"
+
+#include "weights_arrays.h"
+
+#include "support/meshes.h"
+
+#include "vtkCamera.h"
+#include "vtkDoubleArray.h"
+#include "vtkHandleSetRepresentation.h"
+#include "vtkHandleSetWidget.h"
+#include "vtkPointData.h"
+
+#include <QUndoStack>
+
+#include <cmath>
+
+using namespace bindpose;
+
+namespace
+{
+class SplitWindow : public test::WindowTest
+{
+protected:
+  /// An ellipsoid, long along x, with a point at each end.
+  void SetUp() override
+  {
+    this->resize({ 1100, 700 });
+    Handles handles(2);
+    handles[0].name = "left";
+    handles[0].head = handles[0].tail = Vec3(-1.8, 0, 0);
+    handles[1].name = "right";
+    handles[1].head = handles[1].tail = Vec3(1.8, 0, 0);
+    TriangleMesh mesh = test::sphere(3);
+    Weights weights(mesh.points.rows(), 2);
+    weights.col(1) = 0.5 * (1.0 + mesh.points.col(0).array()).matrix();
+    weights.col(0) = 1.0 - weights.col(1).array();
+    mesh.points.col(0) *= 2.0;
+    mesh.points.col(1) *= 0.5;
+    mesh.points.col(2) *= 0.5;
+    const auto data = to_polydata(mesh.points, mesh.triangles);
+    data->GetPointData()->AddArray(to_weights_array("Weights", weights, handles));
+    ASSERT_TRUE(this->window.set_mesh(data, "cigar"));
+    ASSERT_TRUE(this->window.set_handles(to_polydata(handles), "handles"));
+    ASSERT_TRUE(this->window.is_bound());
+    this->render();
+  }
+
+  Posing* posing() { return this->window.posing(); }
+  vtkRenderer* left() { return this->window.viewport()->renderer(); }
+  vtkRenderer* right() { return this->posing()->ghost()->renderer(); }
+  vtkCamera* camera() { return this->left()->GetActiveCamera(); }
+  void choose(const char* option, int value)
+  {
+    ASSERT_EQ(this->hand.choose(option, value), QString()) << option;
+    this->render();
+  }
+  void compare()
+  {
+    this->choose("pose.compared", 1 + static_cast<int>(PoseMethod::dual_quaternion));
+  }
+  void beside() { this->choose("pose.ghost", 1); }
+
+  /// The largest coordinate of the shape in the view of a renderer, which goes from -1 to 1.
+  static double extent(vtkRenderer* renderer, PointsView points)
+  {
+    double largest = 0.0;
+    for (Index v = 0; v < points.rows(); ++v)
+    {
+      renderer->SetWorldPoint(points(v, 0), points(v, 1), points(v, 2), 1.0);
+      renderer->WorldToView();
+      const double* view = renderer->GetViewPoint();
+      largest = std::max({ largest, std::abs(view[0]), std::abs(view[1]) });
+    }
+    return largest;
+  }
+  double extent_left() { return extent(this->left(), to_points(this->window.shown()).view()); }
+  double extent_right() { return extent(this->right(), this->posing()->compared()->points()); }
+  /// Both lie in their halves, and use them.
+  void expect_both_in_view(const char* when)
+  {
+    const double first = this->extent_left();
+    const double second = this->extent_right();
+    EXPECT_LT(std::max(first, second), 1.0) << when;
+    EXPECT_GT(std::max(first, second), 0.65) << when;
+    EXPECT_EQ(this->right()->GetActiveCamera(), this->camera()) << when;
+    // Nothing of either is clipped away.
+    double range[2];
+    this->camera()->GetClippingRange(range);
+    const Vec3 eye(this->camera()->GetPosition());
+    const Vec3 sight(this->camera()->GetDirectionOfProjection());
+    for (const Points& points :
+      { Points(to_points(this->window.shown()).view()), this->posing()->compared()->points() })
+    {
+      const Eigen::VectorXd depths = (points.rowwise() - eye.transpose()) * sight;
+      EXPECT_GT(depths.minCoeff(), range[0]) << when;
+      EXPECT_LT(depths.maxCoeff(), range[1]) << when;
+    }
+  }
+  /// Pixels that are none of the background's, in the columns from one share of the width to
+  /// another.
+  int drawn(double from, double to)
+  {
+    const QImage image = this->picture();
+    int count = 0;
+    for (int y = 0; y < image.height() - 60; ++y) // above the names
+    {
+      const QColor empty = image.pixelColor(1, y);
+      for (int x = static_cast<int>(from * image.width()); x < to * image.width(); ++x)
+      {
+        count += std::abs(image.pixelColor(x, y).blue() - empty.blue()) > 12;
+      }
+    }
+    return count;
+  }
+
+  WindowHand hand{ &this->window };
+};
+} // namespace
+
+TEST_F(SplitWindow, EachShapeFitsIntoItsHalf)
+{
+  const double whole = this->extent_left();
+  ASSERT_GT(whole, 0.6);
+  const Vec3 before(this->camera()->GetPosition());
+  const Vec3 sight(this->camera()->GetDirectionOfProjection());
+  this->compare();
+  this->beside();
+  ASSERT_TRUE(this->window.viewport()->is_split());
+  this->expect_both_in_view("beside");
+  EXPECT_NEAR(this->extent_left(), whole, 0.12) << "as much of the half as of the whole";
+  EXPECT_LT((Vec3(this->camera()->GetDirectionOfProjection()) - sight).norm(), 1e-9);
+  // Nothing goes over the border between them, and both are there, equally large.
+  EXPECT_EQ(this->drawn(0.498, 0.502), 0);
+  const int left = this->drawn(0.0, 0.5);
+  const int right = this->drawn(0.5, 1.0);
+  EXPECT_GT(left, 2000);
+  EXPECT_NEAR(left, right, 0.15 * left); // handles stand before the left one
+  // Back to one picture: what was seen before.
+  this->hand.trigger("edit.undo");
+  this->render();
+  EXPECT_FALSE(this->window.viewport()->is_split());
+  EXPECT_LT((Vec3(this->camera()->GetPosition()) - before).norm(), 1e-6);
+  this->hand.trigger("edit.redo");
+  this->render();
+  EXPECT_TRUE(this->window.viewport()->is_split());
+  this->expect_both_in_view("redo");
+}
+
+TEST_F(SplitWindow, AnotherSizeAndAnotherViewKeepBothInTheirHalves)
+{
+  this->compare();
+  this->beside();
+  for (const QSize& size : { QSize(900, 740), QSize(1270, 640), QSize(1100, 700) })
+  {
+    this->resize(size);
+    this->expect_both_in_view("resized");
+  }
+  // A turn in the right half turns both.
+  const Vec3 sight(this->camera()->GetDirectionOfProjection());
+  this->drag(this->hand.place(0.9, 0.1), this->hand.place(0.8, 0.15));
+  EXPECT_GT((Vec3(this->camera()->GetDirectionOfProjection()) - sight).norm(), 0.05);
+  EXPECT_EQ(this->right()->GetActiveCamera(), this->camera());
+  this->hand.press_key("Home");
+  this->render();
+  this->expect_both_in_view("home");
+  // One that comes out of its half by its pose is there again after Home, wherever it is.
+  Pose pose(2);
+  pose[1].transform.col(3) = Vec3(1.5, 0, 3.0);
+  this->window.document()->set_pose(pose, "far");
+  this->hand.press_key("Home");
+  this->render();
+  this->expect_both_in_view("far");
+}
+
+TEST_F(SplitWindow, AZoomStaysAndAShiftedShapeComesBack)
+{
+  // Zoomed in to a detail: so it is beside, by as much.
+  this->compare();
+  this->camera()->Dolly(3.0);
+  const double detail = this->extent_left();
+  this->beside();
+  EXPECT_GT(this->extent_left(), 0.6 * detail);
+  this->choose("pose.ghost", 0);
+  EXPECT_NEAR(this->extent_left(), detail, 1e-6 * detail);
+  // Moved to the side, but seen whole: then it is seen whole beside, too.
+  this->window.viewport()->reset_view();
+  this->camera()->Dolly(0.5);
+  vtkCamera* camera = this->camera();
+  const Vec3 right = Vec3(camera->GetDirectionOfProjection()).cross(Vec3(camera->GetViewUp()));
+  const Vec3 by = -0.2 * camera->GetDistance() * right;
+  camera->SetFocalPoint((Vec3(camera->GetFocalPoint()) + by).eval().data());
+  camera->SetPosition((Vec3(camera->GetPosition()) + by).eval().data());
+  ASSERT_LT(this->extent_left(), 1.0);
+  this->beside();
+  EXPECT_LT(this->extent_left(), 1.0);
+  EXPECT_LT(this->extent_right(), 1.0);
+}
+
+TEST_F(SplitWindow, HandlesAreTakenHoldOfInTheLeftHalfAlone)
+{
+  this->compare();
+  this->beside();
+  QPoint at;
+  ASSERT_EQ(this->hand.place_of("right", 0.0, at), QString());
+  const int half = this->window.viewport()->width() / 2;
+  ASSERT_LT(at.x(), half);
+  auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
+  // At the same place of the right half there is none.
+  this->hover(at + QPoint(half, 0));
+  EXPECT_LT(drawn->GetHoveredHandle(), 0);
+  // The widget is turned off and on while the mouse is in the right half.
+  this->hand.press_key("T");
+  this->hand.press_key("T");
+  this->render();
+  this->hover(at);
+  ASSERT_GE(drawn->GetHoveredHandle(), 0);
+  const Points before = this->posing()->compared()->points();
+  const int steps = this->window.history()->index();
+  this->drag(at, at + QPoint(-20, -60));
+  EXPECT_EQ(this->window.history()->undoText(), "move right");
+  EXPECT_EQ(this->window.history()->index(), steps + 1);
+  QPoint now;
+  ASSERT_EQ(this->hand.place_of("right", 0.0, now), QString());
+  EXPECT_NEAR(now.x(), at.x() - 20, 2);
+  EXPECT_NEAR(now.y(), at.y() - 60, 2);
+  EXPECT_GT((this->posing()->compared()->points() - before).cwiseAbs().maxCoeff(), 0.1)
+    << "the other method has the same pose";
+  // A handle that lies beyond the border is not caught in the other half, where it is not drawn.
+  this->camera()->Dolly(2.0);
+  this->left()->ResetCameraClippingRange();
+  this->render();
+  ASSERT_EQ(this->hand.place_of("right", 0.0, now), QString());
+  ASSERT_GT(now.x(), half);
+  this->hover(now);
+  EXPECT_LT(drawn->GetHoveredHandle(), 0);
+}

@@ -31,6 +31,7 @@ public:
   vtkImageData* volume() const { return this->image_; }
 
   void show_slice(bool shown);
+  bool is_slice_shown() const { return this->slice_shown_; }
   void set_orientation(int orientation); ///< of PlaneHandle
   /// Moves the slice along its normal to this place: its coordinate for an axis.
   void set_position(double position);
@@ -47,23 +48,16 @@ public:
   vtkPolyData* isosurface() const { return this->isosurface_; }
 
   void show_cloud(bool shown);
-
-  /// Place and winding number that the slice shows at a pixel of VTK's (from the lower left);
-  /// false where there is no slice or something solid stands before it.
-  bool read_at(int x, int y, bindpose::Vec3& place, double& value) const;
+  bool is_cloud_shown() const { return this->cloud_shown_; }
 
 Q_SIGNALS:
   void volume_changed();
   /// The mouse has moved or turned the slice.
   void slice_moved();
-  /// What lies under the mouse: "x y z: w = 0.734", or empty.
-  void reading_changed(const QString& reading);
   /// Of the isosurface that is shown; 0 when the level is not reached.
   void area_changed(double area);
 
 private:
-  void mouse_moved();
-  void mouse_left();
   void update_slice();
   void update_isosurface();
 

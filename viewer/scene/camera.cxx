@@ -6,6 +6,8 @@
 
 #include "vtkCamera.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 
@@ -108,6 +110,69 @@ void fit_camera(vtkCamera* camera, PointsView points, const Frame& frame, const 
   const double slack = 0.1 * std::max(far_point - near_point, smallest);
   const double far_plane = far_point - depth + slack;
   camera->SetClippingRange(std::max(near_point - depth - slack, 1e-3 * far_plane), far_plane);
+}
+
+bool find_plane(PointsView points, Vec3& normal)
+{
+  const Box box = bounding_box(points);
+  const double diagonal = box.diagonal();
+  if (points.rows() < 3 || !(diagonal > 0.0) || !points.allFinite())
+  {
+    return false;
+  }
+  const Points apart = points.rowwise() - box.center().transpose();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
+    apart.transpose() * apart / (diagonal * diagonal * static_cast<double>(points.rows())));
+  constexpr double flat = 1e-6;
+  normal = axes.eigenvectors().col(0);
+  // The side that the default view would see.
+  const Vec3 axis_order(normal.z(), normal.x(), -normal.y());
+  for (const double component : { axis_order[0], axis_order[1], axis_order[2] })
+  {
+    if (std::abs(component) > flat)
+    {
+      normal *= component < 0.0 ? -1.0 : 1.0;
+      break;
+    }
+  }
+  for (int k = 0; k < 3; ++k) // planes along the axes are so to the last bit
+  {
+    normal[k] = std::abs(normal[k]) < 1e-12 ? 0.0 : normal[k];
+  }
+  normal.normalize();
+  return (apart * normal).array().abs().maxCoeff() <= flat * diagonal &&
+    std::sqrt(std::max(0.0, axes.eigenvalues()[1])) > flat;
+}
+
+void fit_parallel_camera(
+  vtkCamera* camera, PointsView points, const Vec3& normal, double aspect, double margin)
+{
+  const Vec3 vertical = std::abs(normal.y()) > 0.999 ? Vec3::UnitZ() : Vec3::UnitY();
+  const Vec3 up = (vertical - vertical.dot(normal) * normal).normalized();
+  const Vec3 right = up.cross(normal);
+  Box box; // right, up, towards the eye
+  for (Index i = 0; i < points.rows(); ++i)
+  {
+    const Vec3 p = points.row(i);
+    box.add(Vec3(p.dot(right), p.dot(up), p.dot(normal)));
+  }
+  const Vec3 size = box.size();
+  const double free = 1.0 - 2.0 * margin;
+  const double smallest = std::max(0.5 * box.diagonal(), 1e-6);
+  const Vec3 center = box.center();
+  const Vec3 focus = center.x() * right + center.y() * up + center.z() * normal;
+  // As far away as a perspective view would be: who turns it on sees the same.
+  const double scale =
+    std::max({ 0.5 * size.y() / free, 0.5 * size.x() / (free * aspect), 1e-3 * smallest });
+  const double distance = scale / std::tan(0.5 * view_angle * pi / 180.0);
+  const Vec3 place = focus + distance * normal;
+  camera->ParallelProjectionOn();
+  camera->SetParallelScale(scale);
+  camera->SetViewAngle(view_angle);
+  camera->SetPosition(place.data());
+  camera->SetFocalPoint(focus.data());
+  camera->SetViewUp(up.data());
+  camera->SetClippingRange(1e-2 * distance, 2.0 * distance + size.z());
 }
 
 } // namespace bindpose

@@ -47,6 +47,17 @@ Vec3 view_direction(const Frame& frame, const View& view);
 void fit_camera(vtkCamera* camera, PointsView points, const Frame& frame, const View& view,
   double aspect, double margin = 0.04);
 
+/// Whether all points lie in a plane, within a millionth of their box's diagonal; then its unit
+/// normal, on the side from which it is looked at: that of +z, or of +x, or of -y, as the default
+/// view is. Points on a line lie in no one plane.
+bool find_plane(PointsView points, Vec3& normal);
+
+/// A parallel view of a plane, straight from the side that its normal points to, with y up (z where
+/// the plane is level): all points lie within the picture, as large as they can be with a margin on
+/// each side.
+void fit_parallel_camera(
+  vtkCamera* camera, PointsView points, const Vec3& normal, double aspect, double margin = 0.04);
+
 } // namespace bindpose
 
 #endif

@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(Examples, Tours,
     TourCase{ "tets", { "whole", "cut", "crinkle", "other_side" } },
     TourCase{ "weights", { "territories", "left_hand", "smooth" } },
     TourCase{ "compare", { "over", "beside" } }, TourCase{ "keys", { "waving", "between" } },
-    TourCase{ "picture", { "flat", "bent" } }, TourCase{ "undo", { "start", "one", "three" } },
+    TourCase{ "picture", { "flat", "bent", "over_picture" } }, TourCase{ "planar", { "posed" } }, TourCase{ "undo", { "start", "one", "three" } },
     TourCase{ "idle", {} }, TourCase{ "tutorial", {}, "elephant-with-holes.off" }),
   [](const testing::TestParamInfo<TourCase>& tour) { return std::string(tour.param.name); });
 

@@ -20,16 +20,17 @@
 #include "vtkCamera.h"
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
-#include "vtkCommand.h"
 #include "vtkHandleSetWidget.h"
 #include "vtkIdList.h"
 #include "vtkMath.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
-#include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
 #include "vtkStringArray.h"
 
+#include <QEvent>
 #include <QLabel>
+#include <QMouseEvent>
 
 #include <algorithm>
 #include <chrono>
@@ -147,46 +148,41 @@ Probe::Probe(const Views& views)
   this->label_->setObjectName("reading");
   this->label_->setAttribute(Qt::WA_TransparentForMouseEvents);
   this->label_->hide();
-  // Before the widgets, which may end the event.
-  vtkRenderWindowInteractor* mouse = views.viewport->interactor();
-  mouse->AddObserver(vtkCommand::MouseMoveEvent, this, &Probe::mouse_moved, 1.0F);
-  mouse->AddObserver(vtkCommand::LeaveEvent, this, &Probe::clear, 1.0F);
-  for (const unsigned long press : { vtkCommand::LeftButtonPressEvent,
-         vtkCommand::MiddleButtonPressEvent, vtkCommand::RightButtonPressEvent })
-  {
-    mouse->AddObserver(press, this, &Probe::button_pressed, 1.0F);
-  }
-  for (const unsigned long release : { vtkCommand::LeftButtonReleaseEvent,
-         vtkCommand::MiddleButtonReleaseEvent, vtkCommand::RightButtonReleaseEvent })
-  {
-    mouse->AddObserver(release, this, &Probe::button_released, 1.0F);
-  }
+  // As Qt tells it: a widget of VTK that is being dragged keeps its events to itself.
+  views.viewport->installEventFilter(this);
 }
 
 // ---- The mouse ---------------------------------------------------------------------------------
 
-void Probe::button_pressed()
+bool Probe::eventFilter(QObject* watched, QEvent* event)
 {
-  ++this->held_;
-  this->clear();
+  switch (event->type())
+  {
+    case QEvent::MouseMove:
+      this->mouse_moved(*static_cast<QMouseEvent*>(event));
+      break;
+    case QEvent::MouseButtonPress:
+    case QEvent::Leave:
+    case QEvent::Resize:
+      this->clear();
+      break;
+    default:
+      break;
+  }
+  return QObject::eventFilter(watched, event);
 }
 
-void Probe::button_released()
+void Probe::mouse_moved(const QMouseEvent& event)
 {
-  this->held_ = std::max(0, this->held_ - 1);
-}
-
-void Probe::mouse_moved()
-{
-  if (this->held_ > 0 || this->views_.viewport->handle_widget()->IsDragging())
+  if (event.buttons() != Qt::NoButton || this->views_.viewport->handle_widget()->IsDragging())
   {
     this->clear();
     return;
   }
   const auto start = std::chrono::steady_clock::now();
-  int pixel[2];
-  this->views_.viewport->interactor()->GetEventPosition(pixel);
-  this->say(this->read_at(pixel[0], pixel[1]));
+  const QPoint pixel = this->views_.viewport->to_vtk(event.pos());
+  this->say(this->read_at(pixel.x(), pixel.y()));
+  this->make_way(event.pos());
   this->milliseconds_ =
     std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
@@ -201,7 +197,6 @@ QString Probe::reading() const
   return this->lines_.join(QStringLiteral("  ·  "));
 }
 
-/// In the lower right corner, or the upper one when the mouse is there.
 void Probe::say(const QStringList& lines)
 {
   if (lines != this->lines_)
@@ -211,21 +206,17 @@ void Probe::say(const QStringList& lines)
     this->label_->adjustSize();
   }
   this->label_->setVisible(!lines.isEmpty());
-  if (lines.isEmpty())
+}
+
+/// The label is in the lower right corner, or in the upper one when the mouse is there.
+void Probe::make_way(const QPoint& mouse)
+{
+  const QRect room = this->views_.viewport->rect().adjusted(margin, margin, -margin, -margin);
+  QRect place(QPoint(), this->label_->size());
+  place.moveBottomRight(room.bottomRight());
+  if (place.adjusted(-2 * margin, -2 * margin, margin, margin).contains(mouse))
   {
-    return;
-  }
-  const Viewport* viewport = this->views_.viewport;
-  const QSize size = this->label_->size();
-  QRect place(QPoint(viewport->width() - size.width() - margin, viewport->height() - size.height() - margin), size);
-  int pixel[2];
-  this->views_.viewport->interactor()->GetEventPosition(pixel);
-  const double scale = viewport->devicePixelRatioF();
-  const QPoint mouse(
-    static_cast<int>(pixel[0] / scale), viewport->height() - 1 - static_cast<int>(pixel[1] / scale));
-  if (place.adjusted(-3 * margin, -3 * margin, 0, 0).contains(mouse))
-  {
-    place.moveTop(margin);
+    place.moveTop(room.top());
   }
   this->label_->move(place.topLeft());
 }

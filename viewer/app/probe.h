@@ -12,6 +12,7 @@
 class DefectView;
 class Posing;
 class QLabel;
+class QMouseEvent;
 class TetView;
 class Viewport;
 class VolumeView;
@@ -51,6 +52,8 @@ public:
   /// What the last move took.
   double milliseconds() const { return this->milliseconds_; }
 
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
 private:
   /// A thing that the ray meets, and what there is to say about it.
   struct Found
@@ -69,15 +72,13 @@ private:
   QStringList weights(vtkPolyData* shape, const bindpose::SightHit& hit) const;
   QString difference(const bindpose::SightHit& hit) const;
 
-  void mouse_moved();
-  void button_pressed();
-  void button_released();
+  void mouse_moved(const QMouseEvent& event);
   void say(const QStringList& lines);
+  void make_way(const QPoint& mouse);
 
   Views views_;
   QLabel* label_;
   QStringList lines_;
-  int held_ = 0; // buttons
   double milliseconds_ = 0.0;
 };
 

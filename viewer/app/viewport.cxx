@@ -32,7 +32,6 @@
 #include "vtkRegionBrushWidget.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
-#include "vtkRendererCollection.h"
 #include "vtkTexture.h"
 
 #include <QApplication>
@@ -63,15 +62,6 @@ public:
   bool Flat = false; ///< in front of a plane: it is moved, not turned
 };
 vtkStandardNewMacro(CameraStyle);
-
-void use_appearance_of(vtkRenderer* renderer)
-{
-  using namespace bindpose::palette;
-  const bindpose::Rgb& below = is_dark() ? dark_gradient_bottom : gradient_bottom;
-  const bindpose::Rgb& above = is_dark() ? dark_gradient_top : gradient_top;
-  renderer->SetBackground(below[0], below[1], below[2]);
-  renderer->SetBackground2(above[0], above[1], above[2]);
-}
 } // namespace
 
 Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
@@ -396,7 +386,11 @@ void Viewport::show_values(
 
 void Viewport::use_appearance()
 {
-  use_appearance_of(this->renderer_);
+  using namespace bindpose::palette;
+  const bindpose::Rgb& below = is_dark() ? dark_gradient_bottom : gradient_bottom;
+  const bindpose::Rgb& above = is_dark() ? dark_gradient_top : gradient_top;
+  this->renderer_->SetBackground(below[0], below[1], below[2]);
+  this->renderer_->SetBackground2(above[0], above[1], above[2]);
 }
 
 void Viewport::changeEvent(QEvent* event)
@@ -580,25 +574,8 @@ bindpose::Status Viewport::take_picture(
   wanted.height = size.height();
   wanted.transparent = transparent;
   this->window_->Render(); // what has changed since the last time
-  // Of the renderers that clear what is below them: their backgrounds.
-  std::vector<vtkRenderer*> grounds;
-  vtkRendererCollection* renderers = this->window_->GetRenderers();
-  renderers->InitTraversal();
-  while (vtkRenderer* renderer = renderers->GetNextItem())
-  {
-    if (renderer->GetGradientBackground())
-    {
-      grounds.push_back(renderer);
-    }
-  }
   const bool smoothed = this->renderer_->GetUseFXAA();
-  for (vtkRenderer* renderer : transparent ? grounds : std::vector<vtkRenderer*>())
-  {
-    renderer->GradientBackgroundOff();
-    renderer->SetBackground(0.0, 0.0, 0.0);
-    renderer->SetBackgroundAlpha(0.0);
-  }
-  this->renderer_->UseFXAAOff(); // samples are averaged; it would smear the edges of what is clear
+  this->renderer_->UseFXAAOff(); // samples are averaged
   this->picture_scale_ = scale * wanted.samples;
   this->set_pixel_scale();
   bindpose::Status status;
@@ -609,12 +586,6 @@ bindpose::Status Viewport::take_picture(
   this->picture_scale_ = 1.0;
   this->set_pixel_scale();
   this->renderer_->SetUseFXAA(smoothed);
-  for (vtkRenderer* renderer : transparent ? grounds : std::vector<vtkRenderer*>())
-  {
-    renderer->GradientBackgroundOn();
-    renderer->SetBackgroundAlpha(1.0);
-    use_appearance_of(renderer);
-  }
   this->window_->Render();
   return status;
 }

@@ -168,7 +168,8 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->comparison_);
 
   column->addSpacing(10);
-  column->addWidget(heading(tr("Inside"), this));
+  this->inside_ = heading(tr("Inside"), this);
+  column->addWidget(this->inside_);
   this->slice_ = box(tr("Slice through the volume"),
     tr("Shows the weights on a plane inside, in the shape at rest; the mouse drags the plane"));
   this->slice_->setObjectName("weights.slice");
@@ -246,6 +247,15 @@ void WeightPanel::set_facts(const Facts& facts)
   }
   this->compare_->setText(facts.compared ? tr("Compare again") : tr("Compare"));
   this->tint_row_->setVisible(facts.has_picture);
+  for (QWidget* inside : { static_cast<QWidget*>(this->inside_),
+         static_cast<QWidget*>(this->slice_), static_cast<QWidget*>(this->position_) })
+  {
+    inside->setVisible(!facts.has_picture); // a picture has none
+  }
+  for (QAbstractButton* orientation : this->orientations_->buttons())
+  {
+    orientation->setVisible(!facts.has_picture);
+  }
   this->cancel_->setVisible(facts.comparing);
   this->bar_->setVisible(facts.comparing);
   if (!facts.comparing)

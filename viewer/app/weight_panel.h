@@ -105,6 +105,7 @@ private:
   QPushButton* cancel_;
   QProgressBar* bar_;
   QLabel* comparison_;
+  QLabel* inside_;
   QCheckBox* slice_;
   QButtonGroup* orientations_;
   ValueRow* position_;

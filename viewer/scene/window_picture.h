@@ -29,7 +29,7 @@ struct WindowPicture
   int width = 0, height = 0; ///< pixels
   /// Pixels are averages of this many samples in each direction.
   int samples = 2;
-  /// Every renderer's background is to be clear already; gives RGBA, not premultiplied, else RGB.
+  /// No background: RGBA, not premultiplied, instead of RGB. Everything is drawn twice.
   bool transparent = false;
 };
 

@@ -87,7 +87,8 @@ public:
   Probe* probe() const { return this->probe_; }
   /// The shape lies in a plane, so that it can be looked at in 2D.
   bool is_planar() const { return this->plane_.has_value(); }
-  /// The 2D mode, which every planar shape begins in; or views that can be turned. The camera stays.
+  /// The 2D mode, which every planar shape begins in; or views that can be turned. The camera
+  /// stays.
   void set_flat_view(bool flat);
   WeightInspection* weights() const { return this->weights_; }
   Posing* posing() const { return this->posing_; }

@@ -48,9 +48,9 @@ public:
   void set_data(
     vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, bool use_weights);
   bool has_weights() const;
-  /// The surface lies in a plane across this, which points to the eye: where a pose makes it overlap
-  /// itself, its handles' layers say what is in front. To be told before set_data(). Nothing: it
-  /// lies in none.
+  /// The surface lies in a plane across this, which points to the eye: where a pose makes it
+  /// overlap itself, its handles' layers say what is in front. To be told before set_data().
+  /// Nothing: it lies in none.
   void set_plane(const std::optional<bindpose::Vec3>& normal) { this->plane_ = normal; }
   /// The method has what it needs.
   bool can_pose() const { return this->main_->can_pose(); }

@@ -1,5 +1,5 @@
-// Each kind of thing is asked where the ray of the mouse's pixel meets it first; the nearest speaks.
-// Nothing is kept between moves but the text.
+// Each kind of thing is asked where the ray of the mouse's pixel meets it first; the nearest
+// speaks. Nothing is kept between moves but the text.
 #include "probe.h"
 
 #include "defect_view.h"
@@ -51,7 +51,8 @@ QString number(double value)
 
 QString place_words(const Vec3& place)
 {
-  return Probe::tr("x %1   y %2   z %3").arg(number(place.x()), number(place.y()), number(place.z()));
+  return Probe::tr("x %1   y %2   z %3")
+    .arg(number(place.x()), number(place.y()), number(place.z()));
 }
 
 /// Of a class its name, of anything else the number.
@@ -208,15 +209,27 @@ void Probe::say(const QStringList& lines)
   this->label_->setVisible(!lines.isEmpty());
 }
 
-/// The label is in the lower right corner, or in the upper one when the mouse is there.
+/// The label is in the upper right corner, or in the lower one when the mouse or something else is
+/// there.
 void Probe::make_way(const QPoint& mouse)
 {
-  const QRect room = this->views_.viewport->rect().adjusted(margin, margin, -margin, -margin);
+  const Viewport* viewport = this->views_.viewport;
+  const QRect room = viewport->rect().adjusted(margin, margin, -margin, -margin);
   QRect place(QPoint(), this->label_->size());
-  place.moveBottomRight(room.bottomRight());
-  if (place.adjusted(-2 * margin, -2 * margin, margin, margin).contains(mouse))
+  const auto is_free = [&]
   {
-    place.moveTop(room.top());
+    const QRect around = place.adjusted(-2 * margin, -margin, margin, 2 * margin);
+    const auto others = viewport->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly);
+    return !around.contains(mouse) &&
+      std::none_of(others.begin(), others.end(),
+        [&](const QWidget* other) {
+          return other != this->label_ && other->isVisible() && other->geometry().intersects(place);
+        });
+  };
+  place.moveTopRight(room.topRight());
+  if (!is_free())
+  {
+    place.moveBottomRight(room.bottomRight());
   }
   this->label_->move(place.topLeft());
 }
@@ -239,10 +252,9 @@ QStringList Probe::read_at(int x, int y)
   const Maybe surface = this->surface(ray, other);
   const QString defect = other ? QString() : this->defect(ray);
   Maybe first = look == Viewport::solid ? surface : Maybe();
-  for (const Maybe& each : other
-      ? std::vector<Maybe>()
-      : std::vector<Maybe>{ this->tets(ray), this->weight_slice(ray), this->winding_slice(ray),
-          this->isosurface(ray) })
+  for (const Maybe& each : other ? std::vector<Maybe>()
+                                 : std::vector<Maybe>{ this->tets(ray), this->weight_slice(ray),
+                                     this->winding_slice(ray), this->isosurface(ray) })
   {
     if (each && (!first || each->distance < first->distance))
     {
@@ -364,8 +376,8 @@ QString Probe::difference(const SightHit& hit) const
   Vec3 apart = Vec3::Zero();
   for (int k = 0; k < 3; ++k)
   {
-    const Index vertex = shaded->input_points()[static_cast<std::size_t>(
-      shaded->triangles()(hit.element, k))];
+    const Index vertex =
+      shaded->input_points()[static_cast<std::size_t>(shaded->triangles()(hit.element, k))];
     apart += hit.shares[k] * (a.row(vertex) - b.row(vertex)).transpose();
   }
   const double diagonal = posing->rest_diagonal();
@@ -510,8 +522,7 @@ QString Probe::defect(const SightRay& ray) const
   vtkCamera* camera = renderer->GetActiveCamera();
   const double height = std::max(renderer->GetSize()[1], 1);
   const bool parallel = camera->GetParallelProjection() != 0;
-  const double slope = 2.0 * near_enough *
-    this->views_.viewport->devicePixelRatioF() *
+  const double slope = 2.0 * near_enough * this->views_.viewport->devicePixelRatioF() *
     (parallel ? camera->GetParallelScale()
               : std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()))) /
     height;
@@ -546,7 +557,8 @@ QString Probe::defect(const SightRay& ray) const
       }
       else
       {
-        const auto area = [](const Vec3& p, const Vec3& q) { return p.x() * q.y() - p.y() * q.x(); };
+        const auto area = [](const Vec3& p, const Vec3& q)
+        { return p.x() * q.y() - p.y() * q.x(); };
         const double u = area(b, c), v = area(c, a), w = area(a, b);
         met = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
         depth = std::min({ a.z(), b.z(), c.z() });
@@ -560,7 +572,8 @@ QString Probe::defect(const SightRay& ray) const
       }
     }
   }
-  auto* names = vtkStringArray::SafeDownCast(defects->GetCellData()->GetAbstractArray("DefectName"));
+  auto* names =
+    vtkStringArray::SafeDownCast(defects->GetCellData()->GetAbstractArray("DefectName"));
   vtkDataArray* original = defects->GetPointData()->GetArray("OriginalPointIds");
   if (best < 0 || !names || !original)
   {
@@ -573,7 +586,6 @@ QString Probe::defect(const SightRay& ray) const
     vertices << QString::number(static_cast<qlonglong>(original->GetComponent(ids->GetId(k), 0)));
   }
   const QString name = QString::fromStdString(names->GetValue(best)).replace('_', ' ');
-  return ids->GetNumberOfIds() == 1
-    ? tr("Defect: %1, vertex %2").arg(name, vertices.first())
-    : tr("Defect: %1, vertices %2").arg(name, vertices.join(", "));
+  return ids->GetNumberOfIds() == 1 ? tr("Defect: %1, vertex %2").arg(name, vertices.first())
+                                    : tr("Defect: %1, vertices %2").arg(name, vertices.join(", "));
 }

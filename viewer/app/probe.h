@@ -19,11 +19,12 @@ class VolumeView;
 class WeightView;
 class vtkPolyData;
 
-/// What lies under the mouse, with names and numbers, on a small label in the corner of the picture:
-/// of the surface its triangle, vertex and coordinates, the weight that is shown, the handle that is
-/// the strongest there, a defect, and how far another method's shape is; of tets, slices, isosurface
-/// and cloud what they show. What is seen in front is read; what is see-through counts only where
-/// nothing solid is. Computed for moves of the mouse only, and not while a button is held.
+/// What lies under the mouse, with names and numbers, on a small label in a corner of the picture:
+/// of the surface its triangle, vertex and coordinates, the weight that is shown, the handle that
+/// is the strongest there, a defect, and how far another method's shape is; of tets, slices,
+/// isosurface and cloud what they show. What is seen in front is read; what is see-through counts
+/// only where nothing solid is. Computed for moves of the mouse only, and not while a button is
+/// held.
 class Probe : public QObject
 {
   Q_OBJECT

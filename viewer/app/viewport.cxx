@@ -37,7 +37,6 @@
 #include <QApplication>
 #include <QEvent>
 
-
 namespace
 {
 /// Trackball camera without VTK's letter keys: 'e' would end the program, 'w' draw wires.

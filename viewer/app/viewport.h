@@ -89,7 +89,8 @@ public:
   void set_surface_look(int look);
   int surface_look() const { return this->look_; }
   bool is_split() const { return this->split_; }
-  /// What the surface shows, by its texture coordinates; colours of weights lie over it. Null: none.
+  /// What the surface shows, by its texture coordinates; colours of weights lie over it. Null:
+  /// none.
   void set_picture(vtkImageData* picture);
   bool has_picture() const { return this->picture_ != nullptr; }
   /// How much of the colours is seen over a picture, 0 (only the picture) to 1 (only they).
@@ -163,7 +164,7 @@ private:
   // Over a picture: the same surface again, in the colours of its numbers.
   vtkNew<vtkPolyDataMapper> tint_mapper_;
   vtkNew<vtkActor> tint_actor_;
-  double tint_ = 0.6;
+  double tint_ = 0.5;
   vtkSmartPointer<vtkImageData> picture_;
   std::vector<vtkSmartPointer<vtkActor>> curves_;
   vtkSmartPointer<vtkPolyData> curve_data_;

@@ -132,7 +132,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   this->tint_->setToolTip(
     tr("How much of the colours is seen: 0 the picture alone, 1 the colours alone; isolines stay"));
   this->tint_->set_range(0.0, 1.0);
-  this->tint_->set_value(0.6);
+  this->tint_->set_value(0.5);
   tint->addWidget(this->tint_);
   column->addWidget(this->tint_row_);
 

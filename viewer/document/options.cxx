@@ -45,7 +45,7 @@ const std::vector<OptionInfo>& option_table()
     { "weights.compare_with", QT_TRANSLATE_NOOP("Document", "method to compare with"), 1, 0, 63 },
     { "weights.slice", QT_TRANSLATE_NOOP("Document", "slice of weights"), false },
     { "weights.orientation", QT_TRANSLATE_NOOP("Document", "slice of weights turned"), 2, 0, 3 },
-    { "weights.over_picture", QT_TRANSLATE_NOOP("Document", "colours over the picture"), 0.6, 0.0,
+    { "weights.over_picture", QT_TRANSLATE_NOOP("Document", "colours over the picture"), 0.5, 0.0,
       1.0 },
     { "tets.method", QT_TRANSLATE_NOOP("Document", "way to make tets"), 0, 0, 63 },
     { "tets.shown", QT_TRANSLATE_NOOP("Document", "tets shown"), false },

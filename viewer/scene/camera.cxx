@@ -120,7 +120,8 @@ bool find_plane(PointsView points, Vec3& normal)
   {
     return false;
   }
-  const Points apart = points.rowwise() - box.center().transpose();
+  const Eigen::RowVector3d middle = points.colwise().mean(); // in the plane, as the box's is not
+  const Points apart = points.rowwise() - middle;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
     apart.transpose() * apart / (diagonal * diagonal * static_cast<double>(points.rows())));
   constexpr double flat = 1e-6;

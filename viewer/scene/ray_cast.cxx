@@ -1,6 +1,6 @@
 // Seen along the ray a triangle is met when the origin lies in it: three signs of areas. Triangles
-// that share an edge compute its area from the same numbers, with the other sign, so that one of the
-// two has it.
+// that share an edge compute its area from the same numbers, with the other sign, so that one of
+// the two has it.
 #include "scene/ray_cast.h"
 
 #include <algorithm>

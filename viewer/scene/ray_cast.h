@@ -15,8 +15,8 @@ struct SightRay
   Vec3 direction = Vec3::UnitZ(); ///< unit
 };
 
-/// Points as a ray sees them: two coordinates across it, in which it is the origin, and the distance
-/// along it.
+/// Points as a ray sees them: two coordinates across it, in which it is the origin, and the
+/// distance along it.
 Points seen_along(const SightRay& ray, PointsView points);
 
 /// Where a ray first meets something.
@@ -27,11 +27,11 @@ struct SightHit
   Vec3 shares = Vec3::Zero(); ///< of a triangle's corners; of tets nothing
 };
 
-/// The first triangle that a ray meets, from either side; false when it meets none. Nothing is built
-/// beforehand, so that the shape may be another one each time: every point and every triangle is
-/// looked at once, 100,000 triangles in 0.4 ms. A ray slips through no edge that triangles share.
-bool first_triangle(
-  const SightRay& ray, PointsView points, TrianglesView triangles, SightHit& hit);
+/// The first triangle that a ray meets, from either side; false when it meets none. Nothing is
+/// built beforehand, so that the shape may be another one each time: every point and every triangle
+/// is looked at once, 100,000 triangles in 0.4 ms. A ray slips through no edge that triangles
+/// share.
+bool first_triangle(const SightRay& ray, PointsView points, TrianglesView triangles, SightHit& hit);
 
 /// The first of the wanted tets (#T, 1 for those) that a ray enters, each drawn towards its middle
 /// to this size of its own. 100,000 tets in about a millisecond.

@@ -1,11 +1,11 @@
 // A tile shows the part of each renderer's view that lies in it: the viewport becomes that part in
-// the tile, and a copy of the camera looks at nothing else, by a narrower angle off its middle. What
-// is drawn in pixels of the window (2D actors) is moved along. Tiles overlap by a margin that is cut
-// off, because a wide line that runs just outside a tile is not drawn in it.
+// the tile, and a copy of the camera looks at nothing else, by a narrower angle off its middle.
+// What is drawn in pixels of the window (2D actors) is moved along. Tiles overlap by a margin that
+// is cut off, because a wide line that runs just outside a tile is not drawn in it.
 //
 // A transparent picture is drawn over black and over white, and solved for colour and opacity: that
-// is right for whatever is drawn over the ground in whatever way, where the framebuffer's own alpha is
-// that of some ways only (not of surfaces that are sorted by depth).
+// is right for whatever is drawn over the ground in whatever way, where the framebuffer's own alpha
+// is that of some ways only (not of surfaces that are sorted by depth).
 #include "scene/window_picture.h"
 
 #include "vtkActor.h"
@@ -67,7 +67,8 @@ public:
     renderer->GetBackground(this->below_.data());
     renderer->GetBackground2(this->above_.data());
     this->gradient_ = renderer->GetGradientBackground();
-    const auto at = [](double share, int size) { return static_cast<int>(std::lround(share * size)); };
+    const auto at = [](double share, int size)
+    { return static_cast<int>(std::lround(share * size)); };
     this->whole_.x = at(this->viewport_[0], width);
     this->whole_.y = at(this->viewport_[1], height);
     this->whole_.width = at(this->viewport_[2], width) - this->whole_.x;
@@ -170,8 +171,7 @@ private:
 using Samples = vtkSmartPointer<vtkUnsignedCharArray>;
 
 /// Averages of red, green and blue over the samples of a pixel, 0 to 255.
-std::array<double, 3> average(
-  const Samples& pixels, const Rect& tile, int x, int y, int samples)
+std::array<double, 3> average(const Samples& pixels, const Rect& tile, int x, int y, int samples)
 {
   std::array<int, 3> sums{};
   for (int j = 0; j < samples; ++j)
@@ -194,8 +194,8 @@ std::array<double, 3> average(
 
 /// The pixels of a part of the image from a tile's samples over white and, of transparent pictures,
 /// over black: how much of the ground is seen tells how clear they are.
-void fill_image(const Samples& on_white, const Samples& on_black, const Rect& tile, const Rect& part,
-  int samples, vtkImageData* image)
+void fill_image(const Samples& on_white, const Samples& on_black, const Rect& tile,
+  const Rect& part, int samples, vtkImageData* image)
 {
   const auto byte = [](double value)
   { return static_cast<unsigned char>(std::clamp(std::lround(value), 0L, 255L)); };

@@ -37,8 +37,7 @@ QColor pixel_of(vtkImageData* picture, int x, int y)
 
 QImage image_of(vtkImageData* picture)
 {
-  QImage image(
-    picture->GetDimensions()[0], picture->GetDimensions()[1], QImage::Format_ARGB32);
+  QImage image(picture->GetDimensions()[0], picture->GetDimensions()[1], QImage::Format_ARGB32);
   for (int y = 0; y < image.height(); ++y)
   {
     for (int x = 0; x < image.width(); ++x)
@@ -69,8 +68,8 @@ double share_apart(const QImage& a, const QImage& b, int level)
   return static_cast<double>(apart) / (a.width() * a.height());
 }
 
-/// How much darker than the background beside them the letters and lines at the scalar bar are, over
-/// all pixels: twice as thick ones are twice as much.
+/// How much darker than the background beside them the letters and lines at the scalar bar are,
+/// over all pixels: twice as thick ones are twice as much.
 double ink(const QImage& image)
 {
   double sum = 0.0;
@@ -121,8 +120,8 @@ protected:
     return picture;
   }
 
-  /// The transparent picture put over plain colours is the opaque picture on such a ground, at every
-  /// pixel: half covered edges, see-through things and letters, too.
+  /// The transparent picture put over plain colours is the opaque picture on such a ground, at
+  /// every pixel: half covered edges, see-through things and letters, too.
   void expect_right_over_any_colour(int scale)
   {
     const auto clear = this->take(scale, true);
@@ -177,8 +176,7 @@ TEST_F(PictureWindow, OfEveryScaleIsWhatIsSeenOnlyFiner)
   for (const int scale : { 1, 2, 5 }) // the last in several tiles
   {
     const QImage taken = image_of(this->take(scale, false));
-    const QImage small =
-      taken.scaled(seen.size(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
+    const QImage small = taken.scaled(seen.size(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
     // Edges of letters and lines fall on other pixels; in all else they are the same.
     EXPECT_LT(share_apart(small, seen, 24), 0.02) << scale;
     EXPECT_LT(share_apart(small, seen, 80), 0.004) << scale;

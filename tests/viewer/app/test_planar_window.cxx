@@ -1,4 +1,5 @@
-// The 2D mode: pictures and shapes that lie in a plane, whichever it is, and weights over a picture.
+// The 2D mode: pictures and shapes that lie in a plane, whichever it is, and weights over a
+// picture.
 #include "window_test.h"
 
 #include "notice_bar.h"
@@ -74,6 +75,10 @@ TEST(Plane, IsFoundWhateverItIs)
   EXPECT_LT((normal - Vec3(0, -1, 0)).norm(), 1e-9);
   ASSERT_TRUE(find_plane(Points(square * tilted.transpose()), normal));
   EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);
+  Points lopsided = square; // the middle of its box lies in no plane of its own
+  lopsided.col(1) += square.col(0).cwiseAbs2();
+  ASSERT_TRUE(find_plane(Points(lopsided * tilted.transpose()), normal));
+  EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);
   // Single precision, as files have it, is near enough; a shape is none; nor is a line.
   const Points rounded = Points(1e4 * square * tilted.transpose()).cast<float>().cast<double>();
   EXPECT_TRUE(find_plane(rounded, normal));
@@ -107,9 +112,10 @@ TEST_F(PlanarWindow, AShapeInAPlaneIsSeenFromInFrontWithoutPerspective)
     const QRect view = this->window.viewport()->rect();
     EXPECT_TRUE(view.contains(seen));
     EXPECT_LE((seen.center() - view.center()).manhattanLength(), 3);
-    EXPECT_GT(std::max(1.0 * seen.width() / view.width(), 1.0 * seen.height() / view.height()), 0.7);
-    EXPECT_TRUE(this->window.note_bar()->sentence().isEmpty() ||
-      !this->window.note_bar()->isVisible())
+    EXPECT_GT(
+      std::max(1.0 * seen.width() / view.width(), 1.0 * seen.height() / view.height()), 0.7);
+    EXPECT_TRUE(
+      this->window.note_bar()->sentence().isEmpty() || !this->window.note_bar()->isVisible())
       << "the border of a rectangle is no defect";
   }
 }
@@ -178,8 +184,8 @@ TEST_F(PlanarWindow, ATiltedPlaneIsBoundPosedInItselfAndLayered)
   double least = 1e300, most = -1e300;
   for (vtkIdType v = 0; v < drawn->GetNumberOfPoints(); ++v)
   {
-    const Vec3 off =
-      Vec3(drawn->GetPoint(v)) - Vec3(this->window.shown()->GetPoint(from[static_cast<std::size_t>(v)]));
+    const Vec3 off = Vec3(drawn->GetPoint(v)) -
+      Vec3(this->window.shown()->GetPoint(from[static_cast<std::size_t>(v)]));
     EXPECT_LT((off - off.dot(normal) * normal).norm(), 1e-9);
     least = std::min(least, off.dot(normal));
     most = std::max(most, off.dot(normal));
@@ -212,8 +218,9 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
   EXPECT_EQ(this->window.history()->undoText(), "colours over the picture");
   const Rgb band = colour_of(weight_map(), 0.35);
   int covered = 0, wrong = 0;
-  const auto channel = [](const QColor& c, int k)
-  { return k == 0 ? c.red() : k == 1 ? c.green() : c.blue(); };
+  const auto channel = [](const QColor& c, int k) {
+    return k == 0 ? c.red() : k == 1 ? c.green() : c.blue();
+  };
   for (int y = 0; y < both.height(); ++y)
   {
     for (int x = 200; x < both.width(); ++x) // right of the scalar bar

@@ -183,8 +183,9 @@ INSTANTIATE_TEST_SUITE_P(Examples, Tours,
     TourCase{ "tets", { "whole", "cut", "crinkle", "other_side" } },
     TourCase{ "weights", { "territories", "left_hand", "smooth" } },
     TourCase{ "compare", { "over", "beside" } }, TourCase{ "keys", { "waving", "between" } },
-    TourCase{ "picture", { "flat", "bent", "over_picture" } }, TourCase{ "planar", { "posed" } }, TourCase{ "undo", { "start", "one", "three" } },
-    TourCase{ "idle", {} }, TourCase{ "tutorial", {}, "elephant-with-holes.off" }),
+    TourCase{ "picture", { "flat", "bent", "over_picture" } }, TourCase{ "planar", { "posed" } },
+    TourCase{ "undo", { "start", "one", "three" } }, TourCase{ "idle", {} },
+    TourCase{ "tutorial", {}, "elephant-with-holes.off" }),
   [](const testing::TestParamInfo<TourCase>& tour) { return std::string(tour.param.name); });
 
 /// What the tutorial tells is what its tour says and does, and its pictures are there.

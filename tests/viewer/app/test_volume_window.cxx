@@ -239,7 +239,8 @@ TEST_F(VolumeWindow, TheLevelsSliderGivesTheSphereOfThatLevel)
   const std::string reading = this->reading_at(Vec3(0.2, 0.1, 0)).toStdString();
   Vec3 place;
   double level = 0.0;
-  ASSERT_EQ(std::sscanf(reading.c_str(), "Isosurface: winding number w = %lf", &level), 1) << reading;
+  ASSERT_EQ(std::sscanf(reading.c_str(), "Isosurface: winding number w = %lf", &level), 1)
+    << reading;
   ASSERT_EQ(
     std::sscanf(place_in(reading), "x %lf y %lf z %lf", &place.x(), &place.y(), &place.z()), 3)
     << reading;

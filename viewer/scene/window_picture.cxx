@@ -327,7 +327,10 @@ Status draw_in_tiles(
     }
   }
   renderers.clear();
-  window->SetSize(size[0], size[1]);
+  if (size[0] > 0 && size[1] > 0) // one that was never shown has none
+  {
+    window->SetSize(size[0], size[1]);
+  }
   return status;
 }
 

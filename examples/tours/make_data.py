@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Makes the shapes that the tours open: a little man of balls and capsules, his handles, the winding numbers around
-him, his tets, and a paper doll in a picture. They are kept in data/; run this after a change of the formats.
+him, his tets, a paper doll in a picture, and a leaf in a tilted plane. They are kept in data/; run this after a change of the formats.
 
 usage: make_data.py PROGRAM    (the program bindpose)
 """
@@ -119,6 +119,30 @@ def paper_doll(path):
               [tuple(tuple(round(v) for v in pixel(place)) for place in SPINE)])
 
 
+def leaf(folder):
+    """A flat shape that lies in no plane of the axes, to twelve digits."""
+    along, across = 25, 9
+    u, v = numpy.meshgrid(numpy.linspace(-1, 1, along), numpy.linspace(-1, 1, across), indexing="ij")
+    flat = numpy.stack([u, (0.05 + 0.4 * (1 - u**2)) * v + 0.12 * u**2, 0 * u], axis=-1).reshape(-1, 3)
+    axis, angle = numpy.array([1, 0.4, 0.2]) / numpy.linalg.norm([1, 0.4, 0.2]), math.radians(35)
+    cross = numpy.array([[0, -axis[2], axis[1]], [axis[2], 0, -axis[0]], [-axis[1], axis[0], 0]])
+    turn = numpy.eye(3) + math.sin(angle) * cross + (1 - math.cos(angle)) * cross @ cross
+    points = flat @ turn.T
+    triangles = []
+    for i in range(along - 1):
+        for j in range(across - 1):
+            a, b, c, d = i * across + j, (i + 1) * across + j, (i + 1) * across + j + 1, i * across + j + 1
+            triangles += [(a, b, c), (a, c, d)]
+    lines = [f"OFF\n{len(points)} {len(triangles)} 0"]
+    lines += [" ".join(f"{x:.12f}" for x in point) for point in points]
+    lines += ["3 " + " ".join(map(str, triangle)) for triangle in triangles]
+    (folder / "leaf.off").write_text("\n".join(lines) + "\n")
+    middle = across // 2
+    places = {"stalk": points[middle], "middle": points[along // 2 * across + middle], "tip": points[(along - 1) * across + middle]}
+    lines = [f"{k} {' '.join(f'{x:.12f}' for x in place)} {name}" for k, (name, place) in enumerate(places.items(), 1)]
+    (folder / "leaf.tgf").write_text("\n".join([*lines, "#"]) + "\n")
+
+
 def main():
     if len(sys.argv) != 2:
         sys.exit(__doc__)
@@ -129,6 +153,7 @@ def main():
     write_off(DATA / "figure.off", points, triangles)
     write_tgf(DATA / "figure.tgf", POINTS, [SPINE])
     paper_doll(DATA / "doll.png")
+    leaf(DATA)
     for words in (["winding", "figure.off", "--grid", "72", "--float", "-o", "figure_winding.vti"],
                   ["tetrahedralize", "figure.off", "--method", "cdt", "--interior-edge", "0.06", "-o", "figure_tets.vtu"],
                   ["weights", "figure.off", "--handles", "figure.tgf", "--raw", "-o", "figure_weights.vtp"],

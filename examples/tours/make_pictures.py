@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Plays tours for the documentation: the tutorial of the window with its pictures, and the film of README.md.
 
+Of the tour picture.json the weights over the picture are taken, too.
+
 usage: make_pictures.py PROGRAM [--film]    (the program bindpose; the film needs ffmpeg)
 
 viewer/tutorial.md is made of what tutorial.json says step by step; a test holds one against the other and replays it.
@@ -74,8 +76,9 @@ def main():
             make_film(scratch / "film")
             return
         play(program, "tutorial", mesh_folder, scratch / "tutorial")
+        play(program, "picture", mesh_folder, scratch / "picture")
         PICTURES.mkdir(exist_ok=True)
-        for picture in sorted((scratch / "tutorial").glob("*.png")):
+        for picture in [*sorted((scratch / "tutorial").glob("*.png")), scratch / "picture" / "over_picture.png"]:
             shutil.copy(picture, PICTURES)
     PAGE.write_text(page(json.loads((TOURS / "tutorial.json").read_text())))
 

@@ -17,6 +17,7 @@
 #include "picture_dialog.h"
 #include "plane_options.h"
 #include "posing.h"
+#include "probe.h"
 #include "shape_handles.h"
 #include "side_panel.h"
 #include "style.h"
@@ -29,6 +30,7 @@
 
 #include "conversion.h"
 #include "handle_geometry.h"
+#include "scene/camera.h"
 #include "scene/picture.h"
 #include "scene/volume.h"
 
@@ -74,11 +76,6 @@ QString certificate_note(vtkPolyData* surface)
   return gaps && gaps->GetNumberOfTuples() > 0
     ? MainWindow::tr("Bound, certified to %1.").arg(gaps->GetRange()[1], 0, 'e', 1)
     : MainWindow::tr("Bound with the mesh's weights.");
-}
-bool bounds_are_flat(vtkPolyData* surface, int axis)
-{
-  const double* bounds = surface->GetBounds();
-  return bounds[2 * axis] == bounds[2 * axis + 1];
 }
 } // namespace
 
@@ -181,9 +178,6 @@ void MainWindow::make_layout()
   this->hint_ = new ElidedLabel(this);
   this->statusBar()->addWidget(this->hint_, 1);
   this->hint_->setContentsMargins(12, 3, 12, 4);
-  this->reading_ = new QLabel(this);
-  this->reading_->setContentsMargins(12, 3, 12, 4);
-  this->statusBar()->addPermanentWidget(this->reading_);
   this->statusBar()->setSizeGripEnabled(false);
 }
 
@@ -204,6 +198,9 @@ void MainWindow::make_inspections()
       this->update_pose(); // a slice lies in the shape at rest
     });
   QObject::connect(this->weights_, &WeightInspection::failed, this, &MainWindow::show_error);
+  this->probe_ = new Probe({ this->viewport_, this->volume_view_, this->inspection_->tet_view(),
+    this->weights_->view(), &this->inspection_->defect_view(), this->posing_,
+    [this] { return this->document_->surface() ? this->seen() : nullptr; } });
   QObject::connect(this->panels_, &PanelColumn::panel_shown, this->inspection_,
     [this](int panel)
     {
@@ -245,7 +242,6 @@ void MainWindow::connect_volume()
   QObject::connect(view, &VolumeView::slice_moved, panel, show_position);
   QObject::connect(view, &VolumeView::volume_changed, panel, show_position);
   QObject::connect(view, &VolumeView::area_changed, panel, &VolumePanel::set_area);
-  QObject::connect(view, &VolumeView::reading_changed, this->reading_, &QLabel::setText);
 }
 
 void MainWindow::connect_handles()
@@ -346,11 +342,13 @@ void MainWindow::show_mesh()
   this->viewport_->set_surface(work.surface);
   this->viewport_->set_picture(work.picture);
   this->inspection_->set_surface(work.surface, work.mesh_tets);
-  const bool upright = work.surface && bounds_are_flat(work.surface, 2);
-  const bool flat = work.surface &&
-    (upright || bounds_are_flat(work.surface, 0) || bounds_are_flat(work.surface, 1));
-  this->posing_->set_flat(upright);
-  if (work.surface && !flat)
+  Vec3 normal;
+  const bool planar = work.surface && find_plane(to_points(work.surface).view(), normal);
+  this->plane_ = planar ? std::optional(normal) : std::nullopt;
+  this->flat_wanted_ = true;
+  this->update_plane();
+  this->posing_->set_plane(this->plane_);
+  if (work.surface && !planar)
   {
     this->inspection_->look_for_defects(); // of what lies in a plane the border is none
   }
@@ -360,6 +358,20 @@ void MainWindow::show_mesh()
     this->viewport_->set_curves(has_lines ? work.surface.Get() : nullptr);
   }
   this->viewport_->reset_view();
+}
+
+/// What surrounds a volume is no picture.
+void MainWindow::update_plane()
+{
+  const bool flat = this->flat_wanted_ && !this->document_->work().volume;
+  this->viewport_->set_plane(flat ? this->plane_ : std::nullopt);
+}
+
+void MainWindow::set_flat_view(bool flat)
+{
+  this->flat_wanted_ = flat;
+  this->update_plane();
+  this->menus_->update();
 }
 
 void MainWindow::show_handles()
@@ -403,6 +415,7 @@ void MainWindow::show_volume()
     this->volume_view_->set_level(this->panels_->volume()->level());
   }
   this->volume_view_->set_volume(work.volume, lowest, highest);
+  this->update_plane();
   if (work.volume)
   {
     this->panels_->set_open(true, !this->is_empty() && work.surface, work.surface);
@@ -805,6 +818,12 @@ bool MainWindow::is_bound() const
   return this->posing_->has_weights();
 }
 
+/// As it is drawn: slices of weights lie in the shape at rest.
+vtkPolyData* MainWindow::seen() const
+{
+  return this->weights_->wants_rest() ? this->document_->surface() : this->shown();
+}
+
 vtkPolyData* MainWindow::shown() const
 {
   return this->posing_->shape();
@@ -862,6 +881,7 @@ void MainWindow::draw_pose()
     this->posing_->draw();
     this->weights_->move_surface(this->shown());
   }
+  this->probe_->clear();
   this->hint_text_ = reading;
   this->update_hint();
   this->viewport_->refresh();
@@ -979,7 +999,7 @@ void MainWindow::show_error(const QString& sentence)
 
 QString MainWindow::reading() const
 {
-  return this->reading_->text();
+  return this->probe_->reading();
 }
 
 QString MainWindow::error() const

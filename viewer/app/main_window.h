@@ -9,6 +9,8 @@
 
 #include <QMainWindow>
 
+#include <optional>
+
 class QLabel;
 class QUndoStack;
 class Document;
@@ -23,6 +25,7 @@ class NoticeBar;
 class OptionLinks;
 class PanelColumn;
 class Posing;
+class Probe;
 class SidePanel;
 class Viewport;
 class VolumeView;
@@ -85,6 +88,12 @@ public:
   PanelColumn* panels() const { return this->panels_; }
   VolumeView* volume_view() const { return this->volume_view_; }
   Inspection* inspection() const { return this->inspection_; }
+  Probe* probe() const { return this->probe_; }
+  /// The shape lies in a plane, so that it can be looked at in 2D.
+  bool is_planar() const { return this->plane_.has_value(); }
+  /// The 2D mode, which every planar shape begins in; or views that can be turned. The camera
+  /// stays.
+  void set_flat_view(bool flat);
   WeightInspection* weights() const { return this->weights_; }
   Posing* posing() const { return this->posing_; }
   HandleEditing* editing() const { return this->editing_; }
@@ -92,7 +101,7 @@ public:
   KeyStrip* strip() const { return this->strip_; }
   /// The line at the bottom, which says what the hand does or what the last pose took.
   const ElidedLabel* hint() const { return this->hint_; }
-  /// What is under the mouse on the slice, as the status bar shows it.
+  /// What is under the mouse, as the label in the picture says it, in one line.
   QString reading() const;
   /// The sentence in the error bar; empty when it is hidden.
   QString error() const;
@@ -120,6 +129,8 @@ private:
   void show_handles();
   void show_volume();
   void connect_weights();
+  void update_plane();
+  vtkPolyData* seen() const;
   void update_surface_look();
   void offer_rebind();
   void offer_defects(const QString& counts);
@@ -143,6 +154,9 @@ private:
   VolumeView* volume_view_ = nullptr;
   Inspection* inspection_ = nullptr;
   WeightInspection* weights_ = nullptr;
+  Probe* probe_ = nullptr;
+  std::optional<bindpose::Vec3> plane_; // its normal, of the shape at rest
+  bool flat_wanted_ = true;
   Posing* posing_ = nullptr;
   HandleEditing* editing_ = nullptr;
   ShapeHandles* shape_handles_ = nullptr;
@@ -157,7 +171,6 @@ private:
   NoticeBar* note_bar_ = nullptr;
   NoticeBar* rebind_bar_ = nullptr;
   ElidedLabel* hint_ = nullptr;
-  QLabel* reading_ = nullptr;
   QLabel* empty_ = nullptr; // in the middle of the picture as long as nothing is open
   BindJob* job_ = nullptr;
   vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport has

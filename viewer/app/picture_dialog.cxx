@@ -55,6 +55,7 @@ PictureDialog::PictureDialog(Viewport* viewport, QWidget* parent)
   auto* cancel = button(tr("Cancel"), this);
   this->save_->setObjectName("primary");
   this->save_->setDefault(true);
+  buttons->setSpacing(8);
   buttons->addStretch(1);
   buttons->addWidget(cancel);
   buttons->addWidget(this->save_);
@@ -91,9 +92,8 @@ void PictureDialog::update_size()
   const QSize size = this->viewport_->picture_size(this->scale());
   const bindpose::Status status = bindpose::check_picture_size(size.width(), size.height());
   this->save_->setEnabled(status.ok());
-  this->size_->setText(status.ok()
-      ? tr("%L1 × %L2 pixels").arg(size.width()).arg(size.height())
-      : capital(QString::fromStdString(status.message)) + '.');
+  this->size_->setText(status.ok() ? tr("%L1 × %L2 pixels").arg(size.width()).arg(size.height())
+                                   : capital(QString::fromStdString(status.message)) + '.');
 }
 
 void PictureDialog::accept()

@@ -39,6 +39,8 @@ public:
   Place place() const { return this->place_; }
   void move(bindpose::PointsView points);
   vtkRenderer* renderer() const { return this->renderer_; }
+  /// As drawn; null without a surface.
+  const bindpose::ShadedSurface* shaded() const { return this->shaded_.get(); }
 
 private:
   void update();

@@ -299,7 +299,7 @@ void Posing::show_difference()
     this->panels_.pose->set_difference(tr("Preparing the other method …"));
     return;
   }
-  const Points& a = this->panels_.pose->moves() ? this->body_points_ : this->main_->points();
+  const Points& a = this->points();
   const Points& b = this->compared_->points();
   if (a.rows() != b.rows() || a.rows() == 0)
   {
@@ -342,6 +342,11 @@ void Posing::follow_free_handles()
       transforms->Modified();
     }
   }
+}
+
+const Points& Posing::points() const
+{
+  return this->panels_.pose->moves() ? this->body_points_ : this->main_->points();
 }
 
 // ---- What is seen ------------------------------------------------------------------------------
@@ -491,7 +496,7 @@ void Posing::show_values()
     &handle, values_of(handle, pose[k]), pose[k].mode == HandleMode::free);
   this->panels_.fields->show_count(QString::fromStdString(handle.name), this->selected_count_);
   Eigen::VectorXd layers;
-  const bool layered = this->is_flat_ &&
+  const bool layered = this->plane_ &&
     to_layers(this->handles_, this->source_->handles, this->cells_, "Layer", layers).ok();
   this->panels_.fields->show_layer(layered ? std::optional(layers[this->selected_]) : std::nullopt);
 }
@@ -529,7 +534,7 @@ void Posing::layers_changed()
 void Posing::order_layers()
 {
   Eigen::VectorXd depths;
-  if (this->is_flat_ && this->source_ && this->source_->has_weights())
+  if (this->plane_ && this->source_ && this->source_->has_weights())
   {
     ExecutionContext context;
     DepthOrder order;
@@ -552,7 +557,7 @@ void Posing::order_layers()
         tr("Cannot order layers: %1.").arg(QString::fromStdString(status.message)));
     }
   }
-  this->viewport_->set_depths(depths);
+  this->viewport_->set_depths(depths, this->plane_.value_or(Vec3::UnitZ()));
 }
 
 void Posing::change_pose(const Pose& pose, const QString& step)

@@ -14,6 +14,7 @@
 #include <QTimer>
 
 #include <memory>
+#include <optional>
 
 class HandleFields;
 class KeyStrip;
@@ -47,9 +48,10 @@ public:
   void set_data(
     vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, bool use_weights);
   bool has_weights() const;
-  /// The surface has one z: where a pose makes it overlap itself, its handles' layers say
-  /// what is in front. To be told before set_data().
-  void set_flat(bool flat) { this->is_flat_ = flat; }
+  /// The surface lies in a plane across this, which points to the eye: where a pose makes it
+  /// overlap itself, its handles' layers say what is in front. To be told before set_data().
+  /// Nothing: it lies in none.
+  void set_plane(const std::optional<bindpose::Vec3>& normal) { this->plane_ = normal; }
   /// The method has what it needs.
   bool can_pose() const { return this->main_->can_pose(); }
 
@@ -76,6 +78,10 @@ public:
 
   Deformation* deformation() const { return this->main_; }
   Deformation* compared() const { return this->compared_; }
+  /// Of the shape that the method at work gives, whether or not it is what is looked at.
+  const bindpose::Points& points() const;
+  /// Of the box around the shape at rest.
+  double rest_diagonal() const { return this->surface_ ? this->surface_->GetLength() : 0.0; }
   PoseGhost* ghost() const { return this->ghost_.get(); }
   bindpose::Body* body() const { return this->body_.get(); }
   bool is_moving() const { return this->moving_.isActive(); }
@@ -142,7 +148,7 @@ private:
   std::vector<bindpose::Index> cells_;
   int selected_ = -1; ///< the first of
   int selected_count_ = 0;
-  bool is_flat_ = false;
+  std::optional<bindpose::Vec3> plane_;
   bool at_rest_ = false;
   bool edits_at_rest_ = false;
   double drawing_microseconds_ = 0.0; ///< of draw(): points and normals

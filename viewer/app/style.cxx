@@ -114,6 +114,7 @@ QFrame#tools QToolButton:disabled { color: @off; }
 QFrame#tools QToolButton:focus { border: 2px solid @accent_ring; padding: 2px 5px; }
 QFrame#mode { background: @panel; border: 1px solid @line; border-radius: 7px; }
 QLabel#nothing { background: @panel; border: 1px solid @line; border-radius: 7px; padding: 9px 14px; color: @status; }
+QLabel#reading { background: @panel; border: 1px solid @line; border-radius: 5px; padding: 4px 9px; color: @status; }
 QTableWidget#sheet { background: @field; border: 1px solid @line; border-radius: 5px; padding: 4px 8px; }
 QTableWidget#sheet::item { padding: 2px 0; }
 QLineEdit { background: @field; border: 1px solid @edge; border-radius: 5px; padding: 4px 8px; }

@@ -47,6 +47,14 @@ public:
   /// Nothing: plain. Fails, and leaves the colours as they are, when the tets have no such thing.
   bindpose::Status set_colours(std::optional<bindpose::ColourBy> by);
 
+  /// What is drawn, and how: of the tets those that the cut leaves.
+  const bindpose::TetInput& input() const { return this->input_; }
+  const std::vector<char>& kept() const { return this->cut_.kept(); }
+  double shrink() const { return this->shrink_; }
+  /// A number a tet, null when they are plain.
+  vtkDoubleArray* values() const { return this->values_; }
+  const bindpose::Colouring& colouring() const { return this->colouring_; }
+
   bindpose::Index shown_count() const { return this->is_shown() ? this->cut_.kept_count() : 0; }
   /// What the last change of plane or size took, without the drawing.
   double milliseconds() const { return this->milliseconds_; }

@@ -313,7 +313,8 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
   }
   if (step.part != TourPart::view && (step.scale > 1 || step.transparent))
   {
-    return Status::invalid_input(who + ": \"scale\" and \"transparent\" are of pictures of the view");
+    return Status::invalid_input(
+      who + ": \"scale\" and \"transparent\" are of pictures of the view");
   }
   if (json.contains("held"))
   {

@@ -24,7 +24,6 @@
 #include "vtkHandleSetWidget.h"
 #include "vtkInteractorStyleTrackballCamera.h"
 #include "vtkImageData.h"
-#include "vtkMath.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
@@ -73,15 +72,6 @@ public:
   bool Flat = false; ///< in front of a plane: it is moved, not turned
 };
 vtkStandardNewMacro(CameraStyle);
-
-void use_appearance_of(vtkRenderer* renderer)
-{
-  using namespace bindpose::palette;
-  const bindpose::Rgb& below = is_dark() ? dark_gradient_bottom : gradient_bottom;
-  const bindpose::Rgb& above = is_dark() ? dark_gradient_top : gradient_top;
-  renderer->SetBackground(below[0], below[1], below[2]);
-  renderer->SetBackground2(above[0], above[1], above[2]);
-}
 } // namespace
 
 Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
@@ -99,13 +89,24 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->actor_->SetMapper(this->mapper_);
   this->actor_->VisibilityOff();
   this->renderer_->AddActor(this->actor_);
-  this->mapper_->ScalarVisibilityOff();
-  this->mapper_->SetScalarModeToUsePointFieldData();
-  this->mapper_->SetColorModeToMapScalars();
-  this->mapper_->InterpolateScalarsBeforeMappingOn(); // crisp bands, whatever the triangles
-  this->mapper_->UseLookupTableScalarRangeOn();
   const bindpose::ColourMap map = bindpose::weight_map();
-  this->mapper_->SetLookupTable(map.table);
+  for (vtkPolyDataMapper* mapper :
+    { static_cast<vtkPolyDataMapper*>(this->mapper_), this->tint_mapper_.Get() })
+  {
+    mapper->ScalarVisibilityOff();
+    mapper->SetScalarModeToUsePointFieldData();
+    mapper->SetColorModeToMapScalars();
+    mapper->InterpolateScalarsBeforeMappingOn(); // crisp bands, whatever the triangles
+    mapper->UseLookupTableScalarRangeOn();
+    mapper->SetLookupTable(map.table);
+  }
+  this->tint_actor_->SetMapper(this->tint_mapper_);
+  this->tint_actor_->VisibilityOff();
+  this->tint_actor_->PickableOff();
+  this->tint_actor_->GetProperty()->LightingOff();
+  // It lies in the picture and must win against it, as isolines must against both.
+  this->tint_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(-1.0, -1.0);
+  this->renderer_->AddActor(this->tint_actor_);
   bindpose::use_surface_material(this->actor_);
   bindpose::add_lights(this->renderer_);
   this->renderer_->GradientBackgroundOn();
@@ -139,7 +140,11 @@ Viewport::~Viewport()
 void Viewport::set_surface(vtkPolyData* surface)
 {
   this->shaded_ = surface ? std::make_unique<bindpose::ShadedSurface>(surface) : nullptr;
-  this->mapper_->SetInputData(surface ? this->shaded_->polydata() : nullptr);
+  for (vtkPolyDataMapper* mapper :
+    { static_cast<vtkPolyDataMapper*>(this->mapper_), this->tint_mapper_.Get() })
+  {
+    mapper->SetInputData(surface ? this->shaded_->polydata() : nullptr);
+  }
   this->depths_.resize(0);
   this->first_picture_ = true;
   this->show_values(nullptr, true);
@@ -159,6 +164,7 @@ void Viewport::set_surface_look(int look)
     : this->picture_                               ? white
                                                    : bindpose::palette::surface;
   property->SetColor(colour[0], colour[1], colour[2]);
+  this->show_tint();
   // The driver cannot sort see-through triangles by depth with several samples a pixel.
   const bool sorts = (look == see_through || this->ghosted_) && this->shaded_;
   this->renderer_->SetUseDepthPeeling(sorts);
@@ -171,8 +177,6 @@ void Viewport::set_surface_look(int look)
 void Viewport::set_picture(vtkImageData* picture)
 {
   this->picture_ = picture;
-  CameraStyle::SafeDownCast(this->interactor()->GetInteractorStyle())->Flat = picture != nullptr;
-  this->renderer_->GetActiveCamera()->SetParallelProjection(picture != nullptr);
   vtkSmartPointer<vtkTexture> texture;
   if (picture)
   {
@@ -184,7 +188,42 @@ void Viewport::set_picture(vtkImageData* picture)
   }
   this->actor_->SetTexture(texture);
   this->actor_->SetForceOpaque(picture != nullptr); // cut out already: nothing to sort
+  this->mapper_->ScalarVisibilityOff();
+  this->tint_mapper_->ScalarVisibilityOff();
+  if (!this->has_values_)
+  {
+    this->use_column();
+  }
   this->set_surface_look(this->look_);
+}
+
+void Viewport::set_tint(double share)
+{
+  this->tint_ = share;
+  this->show_tint();
+  this->refresh();
+}
+
+/// Colours of numbers are the surface's own, but over a picture.
+vtkPolyDataMapper* Viewport::value_mapper() const
+{
+  return this->picture_ ? this->tint_mapper_.Get()
+                        : static_cast<vtkPolyDataMapper*>(this->mapper_.Get());
+}
+
+void Viewport::show_tint()
+{
+  this->tint_actor_->SetVisibility(this->picture_ && this->shaded_ && this->look_ == solid &&
+    this->tint_ > 0.0 && this->tint_mapper_->GetScalarVisibility());
+  // Clear of itself: what lies behind the picture's front is hidden by that, so nothing is sorted.
+  this->tint_actor_->GetProperty()->SetOpacity(this->tint_);
+}
+
+void Viewport::set_plane(const std::optional<bindpose::Vec3>& normal)
+{
+  this->plane_ = normal;
+  CameraStyle::SafeDownCast(this->interactor()->GetInteractorStyle())->Flat = normal.has_value();
+  this->renderer_->GetActiveCamera()->SetParallelProjection(normal.has_value());
 }
 
 void Viewport::set_curves(vtkPolyData* curves)
@@ -245,7 +284,7 @@ void Viewport::move_surface(bindpose::PointsView points)
     return;
   }
   bindpose::Points drawn = points;
-  drawn.col(2) += this->depths_;
+  drawn += this->depths_ * this->towards_.transpose();
   this->shaded_->move(drawn);
 }
 
@@ -334,18 +373,20 @@ void Viewport::show_column(int column, const QString& name)
 
 void Viewport::use_column()
 {
-  this->mapper_->SetScalarVisibility(this->column_ >= 0);
+  vtkPolyDataMapper* mapper = this->value_mapper();
+  mapper->SetScalarVisibility(this->column_ >= 0);
   if (this->column_ >= 0)
   {
-    this->mapper_->SetScalarModeToUsePointFieldData();
-    this->mapper_->InterpolateScalarsBeforeMappingOn();
-    this->mapper_->SetLookupTable(bindpose::weight_map().table);
-    this->mapper_->SelectColorArray("Weights");
-    this->mapper_->SetArrayComponent(this->column_);
+    mapper->SetScalarModeToUsePointFieldData();
+    mapper->InterpolateScalarsBeforeMappingOn();
+    mapper->SetLookupTable(bindpose::weight_map().table);
+    mapper->SelectColorArray("Weights");
+    mapper->SetArrayComponent(this->column_);
     // The mapper's component counts only when it maps through the table's component mode.
-    this->mapper_->GetLookupTable()->SetVectorModeToComponent();
-    this->mapper_->GetLookupTable()->SetVectorComponent(this->column_);
+    mapper->GetLookupTable()->SetVectorModeToComponent();
+    mapper->GetLookupTable()->SetVectorComponent(this->column_);
   }
+  this->show_tint();
 }
 
 vtkPolyData* Viewport::drawn() const
@@ -362,10 +403,11 @@ const std::vector<bindpose::Index>& Viewport::drawn_points() const
 void Viewport::show_values(
   vtkDoubleArray* values, bool on_points, const QString& name, const bindpose::ColourMap& map)
 {
+  vtkPolyDataMapper* mapper = this->value_mapper();
   this->has_values_ = this->shaded_ && !name.isEmpty();
   if (this->has_values_ && !values)
   {
-    this->mapper_->ScalarVisibilityOff();
+    mapper->ScalarVisibilityOff();
   }
   else if (this->has_values_)
   {
@@ -376,23 +418,24 @@ void Viewport::show_values(
     if (on_points)
     {
       drawn->GetPointData()->AddArray(values);
-      this->mapper_->SetScalarModeToUsePointFieldData();
+      mapper->SetScalarModeToUsePointFieldData();
     }
     else
     {
       drawn->GetCellData()->AddArray(values);
-      this->mapper_->SetScalarModeToUseCellFieldData();
+      mapper->SetScalarModeToUseCellFieldData();
     }
-    this->mapper_->SetInterpolateScalarsBeforeMapping(on_points);
-    this->mapper_->SetLookupTable(map.table);
-    this->mapper_->SelectColorArray(bindpose::colour_array_name);
-    this->mapper_->SetArrayComponent(0);
-    this->mapper_->ScalarVisibilityOn();
+    mapper->SetInterpolateScalarsBeforeMapping(on_points);
+    mapper->SetLookupTable(map.table);
+    mapper->SelectColorArray(bindpose::colour_array_name);
+    mapper->SetArrayComponent(0);
+    mapper->ScalarVisibilityOn();
   }
   else
   {
     this->use_column();
   }
+  this->show_tint();
   this->show_legend(weight_legend, this->has_values_ ? name : QString(), map);
 }
 
@@ -561,14 +604,17 @@ void Viewport::reset_view()
   }
   const Eigen::Map<const bindpose::Points> points(
     places.front().data(), static_cast<bindpose::Index>(places.size()), 3);
+  vtkCamera* camera = this->renderer_->GetActiveCamera();
+  const double aspect = this->aspect_of(this->size());
+  if (this->plane_)
+  {
+    bindpose::fit_parallel_camera(camera, points, *this->plane_, aspect, 0.12);
+    this->renderer_->ResetCameraClippingRange();
+    return;
+  }
   const bindpose::View view;
   const bindpose::Frame frame = bindpose::choose_frame(bindpose::bounding_box(points), view.up);
-  vtkCamera* camera = this->renderer_->GetActiveCamera();
-  bindpose::fit_camera(camera, points, frame, view, this->aspect_of(this->size()), 0.12);
-  camera->SetParallelProjection(this->picture_ != nullptr);
-  // As large in a parallel view.
-  camera->SetParallelScale(
-    camera->GetDistance() * std::tan(vtkMath::RadiansFromDegrees(0.5 * camera->GetViewAngle())));
+  bindpose::fit_camera(camera, points, frame, view, aspect, 0.12);
   this->renderer_->ResetCameraClippingRange();
 }
 
@@ -657,25 +703,8 @@ bindpose::Status Viewport::take_picture(
   wanted.height = size.height();
   wanted.transparent = transparent;
   this->window_->Render(); // what has changed since the last time
-  // Of the renderers that clear what is below them: their backgrounds.
-  std::vector<vtkRenderer*> grounds;
-  vtkRendererCollection* renderers = this->window_->GetRenderers();
-  renderers->InitTraversal();
-  while (vtkRenderer* renderer = renderers->GetNextItem())
-  {
-    if (renderer->GetGradientBackground())
-    {
-      grounds.push_back(renderer);
-    }
-  }
   const bool smoothed = this->renderer_->GetUseFXAA();
-  for (vtkRenderer* renderer : transparent ? grounds : std::vector<vtkRenderer*>())
-  {
-    renderer->GradientBackgroundOff();
-    renderer->SetBackground(0.0, 0.0, 0.0);
-    renderer->SetBackgroundAlpha(0.0);
-  }
-  this->renderer_->UseFXAAOff(); // samples are averaged; it would smear the edges of what is clear
+  this->renderer_->UseFXAAOff(); // samples are averaged
   this->picture_scale_ = scale * wanted.samples;
   this->set_pixel_scale();
   bindpose::Status status;
@@ -686,12 +715,6 @@ bindpose::Status Viewport::take_picture(
   this->picture_scale_ = 1.0;
   this->set_pixel_scale();
   this->renderer_->SetUseFXAA(smoothed);
-  for (vtkRenderer* renderer : transparent ? grounds : std::vector<vtkRenderer*>())
-  {
-    renderer->GradientBackgroundOn();
-    renderer->SetBackgroundAlpha(1.0);
-    use_appearance_of(renderer);
-  }
   this->window_->Render();
   return status;
 }

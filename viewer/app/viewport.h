@@ -10,10 +10,12 @@
 #include "scene/colours.h"
 
 #include "vtkNew.h"
+#include "vtkPolyDataMapper.h"
 #include "vtkSmartPointer.h"
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace bindpose
@@ -53,9 +55,13 @@ public:
   /// The same surface with its points elsewhere: a pose.
   void move_surface(vtkPolyData* posed);
   void move_surface(bindpose::PointsView points);
-  /// Of each point, what it is drawn off its place along z: in a plane, what is in front. Until
-  /// another surface comes; empty: nothing.
-  void set_depths(const Eigen::VectorXd& depths) { this->depths_ = depths; }
+  /// Of each point, what it is drawn off its place along a unit vector to the eye: in a plane, what
+  /// is in front. Until another surface comes; empty: nothing.
+  void set_depths(const Eigen::VectorXd& depths, const bindpose::Vec3& towards)
+  {
+    this->depths_ = depths;
+    this->towards_ = towards;
+  }
   /// Something see-through is drawn over the surface: both are then sorted by depth.
   void set_ghosted(bool ghosted);
   /// The left half only: another renderer with the same camera has the right one, with a shape that
@@ -77,14 +83,28 @@ public:
   /// has none.
   void show_values(vtkDoubleArray* values, bool on_points, const QString& name = QString(),
     const bindpose::ColourMap& map = {});
+  /// -1: none.
+  int shown_column() const { return this->column_; }
   /// The surface as drawn, with the arrays that it came with; null without one.
   vtkPolyData* drawn() const;
+  const bindpose::ShadedSurface* shaded() const { return this->shaded_.get(); }
   /// For each point of drawn() that of the surface.
   const std::vector<bindpose::Index>& drawn_points() const;
   void set_surface_look(int look);
-  /// What the surface shows, by its texture coordinates, and the 2D mode: the view is parallel and
-  /// stays in front of the plane; dragging moves it. Null: neither.
+  int surface_look() const { return this->look_; }
+  bool is_split() const { return this->split_; }
+  /// What the surface shows, by its texture coordinates; colours of weights lie over it. Null:
+  /// none.
   void set_picture(vtkImageData* picture);
+  bool has_picture() const { return this->picture_ != nullptr; }
+  /// How much of the colours is seen over a picture, 0 (only the picture) to 1 (only they).
+  void set_tint(double share);
+  double tint() const { return this->tint_; }
+  /// The 2D mode: the view is parallel and stays in front of a plane across this unit vector, which
+  /// points to the eye; dragging moves it. Nothing: views can be turned. The camera stays until
+  /// reset_view().
+  void set_plane(const std::optional<bindpose::Vec3>& normal);
+  bool is_flat() const { return this->plane_.has_value(); }
   /// Lines, drawn as tubes; null: none.
   void set_curves(vtkPolyData* curves);
   /// Legends beside the column's, each in its place; with an empty name none.
@@ -138,6 +158,8 @@ private:
   void frame_drawn();
   void render_wanted();
   void use_column();
+  vtkPolyDataMapper* value_mapper() const;
+  void show_tint();
   double pixel_scale() const;
   void set_pixel_scale();
 
@@ -150,6 +172,12 @@ private:
   vtkNew<vtkRegionBrushWidget> brush_;
   std::unique_ptr<bindpose::ShadedSurface> shaded_;
   Eigen::VectorXd depths_;
+  bindpose::Vec3 towards_ = bindpose::Vec3::UnitZ();
+  std::optional<bindpose::Vec3> plane_;
+  // Over a picture: the same surface again, in the colours of its numbers.
+  vtkNew<vtkPolyDataMapper> tint_mapper_;
+  vtkNew<vtkActor> tint_actor_;
+  double tint_ = 0.5;
   vtkSmartPointer<vtkImageData> picture_;
   std::vector<vtkSmartPointer<vtkActor>> curves_;
   vtkSmartPointer<vtkPolyData> curve_data_;

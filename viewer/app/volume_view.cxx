@@ -9,13 +9,10 @@
 #include "scene/volume_rendering.h"
 
 #include "vtkActor.h"
-#include "vtkCommand.h"
 #include "vtkContourFilter.h"
 #include "vtkLookupTable.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
-#include "vtkRenderWindow.h"
-#include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
 #include "vtkVolume.h"
 
@@ -74,9 +71,6 @@ VolumeView::VolumeView(Viewport* viewport)
       this->update_slice();
       Q_EMIT this->slice_moved();
     });
-  viewport->interactor()->AddObserver(
-    vtkCommand::MouseMoveEvent, this, &VolumeView::mouse_moved, 1.0F);
-  viewport->interactor()->AddObserver(vtkCommand::LeaveEvent, this, &VolumeView::mouse_left, 1.0F);
 }
 
 void VolumeView::set_volume(vtkImageData* image, double lowest, double highest)
@@ -104,7 +98,6 @@ void VolumeView::set_volume(vtkImageData* image, double lowest, double highest)
   else
   {
     this->viewport_->set_also_shown(bindpose::Box());
-    this->mouse_left();
   }
   this->show_slice(this->slice_shown_);
   this->update_isosurface();
@@ -192,57 +185,4 @@ void VolumeView::show_cloud(bool shown)
     this->cloud_->SetVisibility(shown);
   }
   this->viewport_->refresh();
-}
-
-// ---- Reading -----------------------------------------------------------------------------------
-
-bool VolumeView::read_at(int x, int y, Vec3& place, double& value) const
-{
-  if (!this->image_ || !this->slice_shown_)
-  {
-    return false;
-  }
-  Vec3 from;
-  Vec3 along;
-  this->viewport_->ray_at(x, y, from, along);
-  const double slope = along.dot(this->slice_normal());
-  if (std::abs(slope) < 1e-9)
-  {
-    return false; // seen edge-on
-  }
-  const double way = (this->position() - from.dot(this->slice_normal())) / slope;
-  place = from + way * along;
-  if (way < 0.0 || !bindpose::value_at(this->image_, array_name, place, value))
-  {
-    return false;
-  }
-  vtkRenderer* renderer = this->viewport_->renderer();
-  renderer->SetDisplayPoint(x + 0.5, y + 0.5, renderer->GetZ(x, y));
-  renderer->DisplayToWorld();
-  const Vec3 seen = Eigen::Map<const Eigen::Vector4d>(renderer->GetWorldPoint()).hnormalized();
-  return way - (seen - from).dot(along) < 0.005 * this->image_->GetLength();
-}
-
-void VolumeView::mouse_moved()
-{
-  if (!this->image_)
-  {
-    return;
-  }
-  int at[2];
-  this->viewport_->interactor()->GetEventPosition(at);
-  Vec3 place;
-  double value = 0.0;
-  Q_EMIT this->reading_changed(this->read_at(at[0], at[1], place, value)
-      ? QString("%1  %2  %3:  w = %4")
-          .arg(place.x(), 0, 'g', 4)
-          .arg(place.y(), 0, 'g', 4)
-          .arg(place.z(), 0, 'g', 4)
-          .arg(value, 0, 'f', 3)
-      : QString());
-}
-
-void VolumeView::mouse_left()
-{
-  Q_EMIT this->reading_changed(QString());
 }

@@ -32,6 +32,7 @@ public:
 
   void show_slice(bool shown);
   PlaneHandle* plane() const { return this->plane_; }
+  bool is_slice_shown() const { return this->slice_shown_; }
   double position() const { return this->plane_->position(); }
   /// Smallest and largest position at which the slice meets the volume.
   std::pair<double, double> positions() const { return this->plane_->positions(); }
@@ -45,23 +46,16 @@ public:
   vtkPolyData* isosurface() const { return this->isosurface_; }
 
   void show_cloud(bool shown);
-
-  /// Place and winding number that the slice shows at a pixel of VTK's (from the lower left);
-  /// false where there is no slice or something solid stands before it.
-  bool read_at(int x, int y, bindpose::Vec3& place, double& value) const;
+  bool is_cloud_shown() const { return this->cloud_shown_; }
 
 Q_SIGNALS:
   void volume_changed();
   /// The slice is elsewhere, whoever has moved it.
   void slice_moved();
-  /// What lies under the mouse: "x y z: w = 0.734", or empty.
-  void reading_changed(const QString& reading);
   /// Of the isosurface that is shown; 0 when the level is not reached.
   void area_changed(double area);
 
 private:
-  void mouse_moved();
-  void mouse_left();
   void update_slice();
   void update_isosurface();
 

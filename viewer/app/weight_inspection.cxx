@@ -82,10 +82,11 @@ vtkSmartPointer<vtkUnstructuredGrid> make_weighted_tets(
 }
 
 WeightInspection::WeightInspection(Viewport* viewport, WeightPanel* panel, MakeInput make_input)
-  : QObject(viewport), panel_(panel), view_(new WeightView(viewport)),
+  : QObject(viewport), viewport_(viewport), panel_(panel), view_(new WeightView(viewport)),
     make_input_(std::move(make_input))
 {
   QObject::connect(panel, &WeightPanel::look_changed, this, &WeightInspection::update);
+  QObject::connect(panel, &WeightPanel::tint_chosen, viewport, &Viewport::set_tint);
   QObject::connect(panel, &WeightPanel::comparison_wanted, this, &WeightInspection::compare);
   QObject::connect(panel, &WeightPanel::cancel_wanted, this, &WeightInspection::cancel);
   PlaneHandle* plane = this->view_->plane();
@@ -144,6 +145,7 @@ void WeightInspection::update_facts()
   facts.has_raw = has_numbers(this->surface_, "RawWeights");
   facts.has_handles = this->has_handles_;
   facts.has_volume = this->volume_ != nullptr;
+  facts.has_picture = this->viewport_->has_picture();
   facts.comparing = this->job_.is_running();
   facts.compared = this->compared_ != nullptr;
   this->panel_->set_facts(facts);

@@ -54,6 +54,7 @@ private:
   void show_position();
   QString certificate(int column) const;
 
+  Viewport* viewport_;
   WeightPanel* panel_;
   WeightView* view_;
   MakeInput make_input_;

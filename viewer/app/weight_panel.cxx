@@ -122,6 +122,19 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->extrema_);
   this->extrema_note_ = note(1);
   column->addWidget(this->extrema_note_);
+  this->tint_row_ = new QWidget(this);
+  auto* tint = new QVBoxLayout(this->tint_row_);
+  tint->setContentsMargins(0, 0, 0, 0);
+  tint->setSpacing(4);
+  tint->addWidget(new QLabel(tr("Colours over the picture"), this->tint_row_));
+  this->tint_ = new ValueRow(this->tint_row_);
+  this->tint_->setObjectName("weights.over_picture");
+  this->tint_->setToolTip(
+    tr("How much of the colours is seen: 0 the picture alone, 1 the colours alone; isolines stay"));
+  this->tint_->set_range(0.0, 1.0);
+  this->tint_->set_value(0.5);
+  tint->addWidget(this->tint_);
+  column->addWidget(this->tint_row_);
 
   column->addSpacing(10);
   column->addWidget(heading(tr("Other method"), this));
@@ -155,7 +168,8 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->comparison_);
 
   column->addSpacing(10);
-  column->addWidget(heading(tr("Inside"), this));
+  this->inside_ = heading(tr("Inside"), this);
+  column->addWidget(this->inside_);
   this->slice_ = box(tr("Slice through the volume"),
     tr("Shows the weights on a plane inside, in the shape at rest; the mouse drags the plane"));
   this->slice_->setObjectName("weights.slice");
@@ -186,6 +200,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   QObject::connect(
     this->orientations_, &QButtonGroup::idClicked, this, &WeightPanel::orientation_chosen);
   QObject::connect(this->position_, &ValueRow::value_chosen, this, &WeightPanel::position_chosen);
+  QObject::connect(this->tint_, &ValueRow::value_chosen, this, &WeightPanel::tint_chosen);
   this->set_columns({});
   this->set_facts({});
 }
@@ -233,6 +248,16 @@ void WeightPanel::set_facts(const Facts& facts)
     this->raw_->button(0)->setChecked(true);
   }
   this->compare_->setText(facts.compared ? tr("Compare again") : tr("Compare"));
+  this->tint_row_->setVisible(facts.has_picture);
+  for (QWidget* inside : { static_cast<QWidget*>(this->inside_),
+         static_cast<QWidget*>(this->slice_), static_cast<QWidget*>(this->position_) })
+  {
+    inside->setVisible(!facts.has_picture); // a picture has none
+  }
+  for (QAbstractButton* orientation : this->orientations_->buttons())
+  {
+    orientation->setVisible(!facts.has_picture);
+  }
   this->cancel_->setVisible(facts.comparing);
   this->bar_->setVisible(facts.comparing);
   if (!facts.comparing)

@@ -51,6 +51,7 @@ public:
     bool has_raw = false;
     bool has_handles = false; ///< those of the columns, to solve with another method
     bool has_volume = false;
+    bool has_picture = false; ///< that the colours lie over
     bool comparing = false;
     bool compared = false;
   };
@@ -75,6 +76,8 @@ public:
   bool slice() const;
 
 Q_SIGNALS:
+  /// How much of the colours is seen over the picture, 0 to 1.
+  void tint_chosen(double share);
   /// Any of what the getters tell.
   void look_changed();
   /// A method, by its place in compared_methods().
@@ -95,11 +98,14 @@ private:
   QCheckBox* isolines_;
   QCheckBox* extrema_;
   QLabel* extrema_note_;
+  QWidget* tint_row_; ///< of pictures
+  ValueRow* tint_;
   QComboBox* method_;
   QPushButton* compare_;
   QPushButton* cancel_;
   QProgressBar* bar_;
   QLabel* comparison_;
+  QLabel* inside_;
   QCheckBox* slice_;
   QButtonGroup* orientations_;
   ValueRow* position_;

@@ -45,6 +45,7 @@ public:
 
   PlaneHandle* plane() const { return this->plane_; }
 
+  const bindpose::Colouring& colouring() const { return this->colouring_; }
   /// Numbers of what is shown; see render_to_png().
   const bindpose::Report& numbers() const { return this->colouring_.numbers; }
   /// Of the surface, or of all tets while they are sliced: then the surface is plain.

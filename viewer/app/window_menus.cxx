@@ -139,6 +139,14 @@ void WindowMenus::add_view_menu()
       window->viewport()->reset_view();
       window->viewport()->refresh();
     });
+  this->flat_view_ = this->add(view, tr("&2D view"), "",
+    [window]
+    {
+      window->set_flat_view(!window->viewport()->is_flat());
+      window->viewport()->reset_view();
+      window->viewport()->refresh();
+    });
+  this->flat_view_->setCheckable(true);
   view->addSeparator();
   this->add(view, tr("&Rest or posed"), "look_at_rest",
     [window] { window->posing()->look_at_rest(!window->posing()->looks_at_rest()); });
@@ -187,5 +195,7 @@ void WindowMenus::update()
   this->bind_->setEnabled(ready && !this->window_->is_binding());
   this->rest_pose_->setEnabled(document->is_bound());
   this->methods_->setEnabled(ready);
+  this->flat_view_->setEnabled(this->window_->is_planar() && !document->work().volume);
+  this->flat_view_->setChecked(this->window_->viewport()->is_flat());
   this->window_->shape_handles()->update();
 }

@@ -33,6 +33,7 @@ private:
   QAction* save_shape_ = nullptr;
   QAction* save_pose_ = nullptr;
   QAction* save_picture_ = nullptr;
+  QAction* flat_view_ = nullptr;
   QAction* bind_ = nullptr;
   QAction* rest_pose_ = nullptr;
   QActionGroup* methods_ = nullptr;

@@ -74,6 +74,10 @@ void WindowSessions::show(const Session& session)
     camera->SetViewUp(kept.up.data());
     camera->SetViewAngle(kept.angle);
     camera->SetParallelScale(kept.scale);
+    if (!kept.parallel)
+    {
+      this->window_->set_flat_view(false);
+    }
     camera->SetParallelProjection(kept.parallel);
     renderer->ResetCameraClippingRange();
   }

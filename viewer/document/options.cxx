@@ -70,6 +70,8 @@ const std::vector<OptionInfo>& option_table()
     { "weights.orientation", QT_TRANSLATE_NOOP("Document", "slice of weights turned"), 2, 0, 3 },
     { "weights.place", QT_TRANSLATE_NOOP("Document", "move the slice of weights"), 0.5, 0.0, 1.0 },
     { "weights.normal", QT_TRANSLATE_NOOP("Document", "turn the slice of weights"), z_axis },
+    { "weights.over_picture", QT_TRANSLATE_NOOP("Document", "colours over the picture"), 0.5, 0.0,
+      1.0 },
     { "tets.method", QT_TRANSLATE_NOOP("Document", "way to make tets"), 0, 0, 63 },
     { "tets.shown", QT_TRANSLATE_NOOP("Document", "tets shown"), false },
     { "tets.colours", QT_TRANSLATE_NOOP("Document", "colours of tets"), 0, 0, 15 },

@@ -6,6 +6,8 @@
 
 #include "vtkCamera.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 
@@ -189,6 +191,70 @@ void keep_in_view(vtkCamera* camera, PointsView points, double aspect_before, do
     camera->SetParallelScale(
       camera->GetDistance() * std::tan(0.5 * camera->GetViewAngle() * pi / 180.0));
   }
+}
+
+bool find_plane(PointsView points, Vec3& normal)
+{
+  const Box box = bounding_box(points);
+  const double diagonal = box.diagonal();
+  if (points.rows() < 3 || !(diagonal > 0.0) || !points.allFinite())
+  {
+    return false;
+  }
+  const Eigen::RowVector3d middle = points.colwise().mean(); // in the plane, as the box's is not
+  const Points apart = points.rowwise() - middle;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
+    apart.transpose() * apart / (diagonal * diagonal * static_cast<double>(points.rows())));
+  constexpr double flat = 1e-6;
+  normal = axes.eigenvectors().col(0);
+  // The side that the default view would see.
+  const Vec3 axis_order(normal.z(), normal.x(), -normal.y());
+  for (const double component : { axis_order[0], axis_order[1], axis_order[2] })
+  {
+    if (std::abs(component) > flat)
+    {
+      normal *= component < 0.0 ? -1.0 : 1.0;
+      break;
+    }
+  }
+  for (int k = 0; k < 3; ++k) // planes along the axes are so to the last bit
+  {
+    normal[k] = std::abs(normal[k]) < 1e-12 ? 0.0 : normal[k];
+  }
+  normal.normalize();
+  return (apart * normal).array().abs().maxCoeff() <= flat * diagonal &&
+    std::sqrt(std::max(0.0, axes.eigenvalues()[1])) > flat;
+}
+
+void fit_parallel_camera(
+  vtkCamera* camera, PointsView points, const Vec3& normal, double aspect, double margin)
+{
+  const Vec3 vertical = std::abs(normal.y()) > 0.999 ? Vec3::UnitZ() : Vec3::UnitY();
+  const Vec3 up = (vertical - vertical.dot(normal) * normal).normalized();
+  const Vec3 right = up.cross(normal);
+  Box box; // right, up, towards the eye
+  for (Index i = 0; i < points.rows(); ++i)
+  {
+    const Vec3 p = points.row(i);
+    box.add(Vec3(p.dot(right), p.dot(up), p.dot(normal)));
+  }
+  const Vec3 size = box.size();
+  const double free = 1.0 - 2.0 * margin;
+  const double smallest = std::max(0.5 * box.diagonal(), 1e-6);
+  const Vec3 center = box.center();
+  const Vec3 focus = center.x() * right + center.y() * up + center.z() * normal;
+  // As far away as a perspective view would be: who turns it on sees the same.
+  const double scale =
+    std::max({ 0.5 * size.y() / free, 0.5 * size.x() / (free * aspect), 1e-3 * smallest });
+  const double distance = scale / std::tan(0.5 * view_angle * pi / 180.0);
+  const Vec3 place = focus + distance * normal;
+  camera->ParallelProjectionOn();
+  camera->SetParallelScale(scale);
+  camera->SetViewAngle(view_angle);
+  camera->SetPosition(place.data());
+  camera->SetFocalPoint(focus.data());
+  camera->SetViewUp(up.data());
+  camera->SetClippingRange(1e-2 * distance, 2.0 * distance + size.z());
 }
 
 } // namespace bindpose

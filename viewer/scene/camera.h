@@ -52,6 +52,17 @@ void fit_camera(vtkCamera* camera, PointsView points, const Frame& frame, const 
 /// be in the middle.
 void keep_in_view(vtkCamera* camera, PointsView points, double aspect_before, double aspect);
 
+/// Whether all points lie in a plane, within a millionth of their box's diagonal; then its unit
+/// normal, on the side from which it is looked at: that of +z, or of +x, or of -y, as the default
+/// view is. Points on a line lie in no one plane.
+bool find_plane(PointsView points, Vec3& normal);
+
+/// A parallel view of a plane, straight from the side that its normal points to, with y up (z where
+/// the plane is level): all points lie within the picture, as large as they can be with a margin on
+/// each side.
+void fit_parallel_camera(
+  vtkCamera* camera, PointsView points, const Vec3& normal, double aspect, double margin = 0.04);
+
 } // namespace bindpose
 
 #endif

@@ -519,11 +519,8 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
   paper->SetLayer(0);
   const bool transparent = options.background == Background::transparent;
   const bool gradient = options.background == Background::gradient;
-  const Rgb lower = transparent ? Rgb{ 0, 0, 0 }
-    : gradient                  ? palette::gradient_bottom
-                                : palette::white;
+  const Rgb lower = gradient ? palette::gradient_bottom : palette::white;
   paper->SetBackground(lower[0], lower[1], lower[2]);
-  paper->SetBackgroundAlpha(transparent ? 0.0 : 1.0);
   paper->SetGradientBackground(gradient);
   paper->SetBackground2(
     palette::gradient_top[0], palette::gradient_top[1], palette::gradient_top[2]);

@@ -31,6 +31,8 @@ public:
   vtkPolyData* polydata() const { return this->display_; }
   /// For each point of polydata() the point of the input.
   const std::vector<Index>& input_points() const { return this->input_points_; }
+  /// Of points of polydata().
+  TrianglesView triangles() const { return this->triangles_; }
 
   /// New places for the input's points, #V x 3, in the input's order. O(#V + #F); marks
   /// polydata() modified.

@@ -1,7 +1,11 @@
 // A tile shows the part of each renderer's view that lies in it: the viewport becomes that part in
-// the tile, and a copy of the camera looks at nothing else, by a narrower angle off its middle. What
-// is drawn in pixels of the window (2D actors) is moved along. Tiles overlap by a margin that is cut
-// off, because a wide line that runs just outside a tile is not drawn in it.
+// the tile, and a copy of the camera looks at nothing else, by a narrower angle off its middle.
+// What is drawn in pixels of the window (2D actors) is moved along. Tiles overlap by a margin that
+// is cut off, because a wide line that runs just outside a tile is not drawn in it.
+//
+// A transparent picture is drawn over black and over white, and solved for colour and opacity: that
+// is right for whatever is drawn over the ground in whatever way, where the framebuffer's own alpha
+// is that of some ways only (not of surfaces that are sorted by depth).
 #include "scene/window_picture.h"
 
 #include "vtkActor.h"
@@ -62,7 +66,9 @@ public:
     renderer->GetViewport(this->viewport_.data());
     renderer->GetBackground(this->below_.data());
     renderer->GetBackground2(this->above_.data());
-    const auto at = [](double share, int size) { return static_cast<int>(std::lround(share * size)); };
+    this->gradient_ = renderer->GetGradientBackground();
+    const auto at = [](double share, int size)
+    { return static_cast<int>(std::lround(share * size)); };
     this->whole_.x = at(this->viewport_[0], width);
     this->whole_.y = at(this->viewport_[1], height);
     this->whole_.width = at(this->viewport_[2], width) - this->whole_.x;
@@ -82,6 +88,7 @@ public:
     this->renderer_->SetDraw(this->drawn_);
     this->renderer_->SetBackground(this->below_.data());
     this->renderer_->SetBackground2(this->above_.data());
+    this->renderer_->SetGradientBackground(this->gradient_);
     for (const auto& [actor, place] : this->flat_)
     {
       actor->SetPosition(place[0], place[1]);
@@ -128,6 +135,16 @@ public:
     }
   }
 
+  /// Grey, where it is the lowest renderer, behind which there is nothing.
+  void set_ground(double level)
+  {
+    if (this->renderer_->GetLayer() == 0)
+    {
+      this->renderer_->GradientBackgroundOff();
+      this->renderer_->SetBackground(level, level, level);
+    }
+  }
+
 private:
   using Colour = std::array<double, 3>;
   Colour ground(double height) const
@@ -144,18 +161,44 @@ private:
   vtkSmartPointer<vtkCamera> camera_;
   int drawn_;
   Colour below_{}, above_{}; // background
+  bool gradient_ = false;
   std::array<double, 4> viewport_{};
   Rect whole_; // of the picture
   std::vector<std::pair<vtkSmartPointer<vtkActor2D>, std::array<double, 2>>> flat_;
 };
 
-/// Averages samples x samples pixels of a tile into a part of the image. Drawing over nothing leaves
-/// colours multiplied by their opacity; files hold them plain.
-void average_down(vtkUnsignedCharArray* pixels, const Rect& tile, const Rect& part, int samples,
-  bool transparent, vtkImageData* image)
+/// A tile's samples, four bytes each.
+using Samples = vtkSmartPointer<vtkUnsignedCharArray>;
+
+/// Averages of red, green and blue over the samples of a pixel, 0 to 255.
+std::array<double, 3> average(const Samples& pixels, const Rect& tile, int x, int y, int samples)
 {
-  const unsigned char* from = pixels->GetPointer(0);
-  const int count = samples * samples;
+  std::array<int, 3> sums{};
+  for (int j = 0; j < samples; ++j)
+  {
+    const std::size_t row = static_cast<std::size_t>(y * samples + j - tile.y) * tile.width;
+    const unsigned char* p = pixels->GetPointer(0) + 4 * (row + x * samples - tile.x);
+    for (int i = 0; i < samples; ++i, p += 4)
+    {
+      for (std::size_t k = 0; k < 3; ++k)
+      {
+        sums[k] += p[k];
+      }
+    }
+  }
+  std::array<double, 3> mean{};
+  std::transform(sums.begin(), sums.end(), mean.begin(),
+    [samples](int sum) { return static_cast<double>(sum) / (samples * samples); });
+  return mean;
+}
+
+/// The pixels of a part of the image from a tile's samples over white and, of transparent pictures,
+/// over black: how much of the ground is seen tells how clear they are.
+void fill_image(const Samples& on_white, const Samples& on_black, const Rect& tile,
+  const Rect& part, int samples, vtkImageData* image)
+{
+  const auto byte = [](double value)
+  { return static_cast<unsigned char>(std::clamp(std::lround(value), 0L, 255L)); };
   const int stop_x = (part.x + part.width) / samples;
   const int stop_y = (part.y + part.height) / samples;
   for (int y = part.y / samples; y < stop_y; ++y)
@@ -163,32 +206,35 @@ void average_down(vtkUnsignedCharArray* pixels, const Rect& tile, const Rect& pa
     auto* to = static_cast<unsigned char*>(image->GetScalarPointer(part.x / samples, y, 0));
     for (int x = part.x / samples; x < stop_x; ++x)
     {
-      int sums[4] = { 0, 0, 0, 0 };
-      for (int j = 0; j < samples; ++j)
+      const std::array<double, 3> white = average(on_white, tile, x, y, samples);
+      if (!on_black)
       {
-        const std::size_t row = static_cast<std::size_t>(y * samples + j - tile.y) * tile.width;
-        const unsigned char* p = from + 4 * (row + x * samples - tile.x);
-        for (int i = 0; i < samples; ++i, p += 4)
-        {
-          for (int k = 0; k < 4; ++k)
-          {
-            sums[k] += p[k];
-          }
-        }
+        to = std::transform(white.begin(), white.end(), to, byte);
+        continue;
       }
-      for (int k = 0; k < 3; ++k)
+      const std::array<double, 3> black = average(on_black, tile, x, y, samples);
+      double seen = 0.0; // of the ground
+      for (std::size_t k = 0; k < 3; ++k)
       {
-        const int whole = transparent ? sums[3] : 255 * count;
-        *to++ = whole > 0
-          ? static_cast<unsigned char>(std::min(255, (255 * sums[k] + whole / 2) / whole))
-          : 0;
+        seen += (white[k] - black[k]) / (3.0 * 255.0);
       }
-      if (transparent)
-      {
-        *to++ = static_cast<unsigned char>((sums[3] + count / 2) / count);
-      }
+      const double opacity = 1.0 - seen;
+      const bool clear = opacity < 1.5 / 255.0; // all but: planes that are there to be caught
+      to = std::transform(black.begin(), black.end(), to,
+        [&](double value) { return clear ? byte(0.0) : byte(value / opacity); });
+      *to++ = clear ? byte(0.0) : byte(255.0 * opacity);
     }
   }
+}
+
+Status read_samples(vtkRenderWindow* window, const Rect& tile, Samples& pixels)
+{
+  pixels = Samples::New();
+  window->Render();
+  window->GetRGBACharPixelData(0, 0, tile.width - 1, tile.height - 1, 0, pixels);
+  return pixels->GetNumberOfTuples() == static_cast<vtkIdType>(tile.width) * tile.height
+    ? Status()
+    : Status::failure(StatusCode::internal_error, "the picture could not be read back");
 }
 
 /// Where tiles begin and how long they are without their margins: one when it fits.
@@ -244,7 +290,6 @@ Status draw_in_tiles(
   }
   const bool one = width <= tile_size && height <= tile_size;
   Rect core;
-  vtkNew<vtkUnsignedCharArray> pixels;
   for (core.y = 0; core.y < height && status.ok(); core.y += core.height)
   {
     core.height = std::min(core_length(height, samples), height - core.y);
@@ -260,19 +305,32 @@ Status draw_in_tiles(
           renderer->show(tile);
         }
       }
-      window->Render();
-      window->GetRGBACharPixelData(0, 0, tile.width - 1, tile.height - 1, 0, pixels);
-      if (pixels->GetNumberOfTuples() != static_cast<vtkIdType>(tile.width) * tile.height)
+      Samples on_black;
+      if (picture.transparent)
       {
-        status =
-          Status::failure(StatusCode::internal_error, "the picture could not be read back");
-        break;
+        for (const auto& renderer : renderers)
+        {
+          renderer->set_ground(0.0);
+        }
+        status = read_samples(window, tile, on_black);
+        for (const auto& renderer : renderers)
+        {
+          renderer->set_ground(1.0);
+        }
       }
-      average_down(pixels, tile, core, samples, picture.transparent, image);
+      Samples seen;
+      status = status.ok() ? read_samples(window, tile, seen) : status;
+      if (status.ok())
+      {
+        fill_image(seen, on_black, tile, core, samples, image);
+      }
     }
   }
   renderers.clear();
-  window->SetSize(size[0], size[1]);
+  if (size[0] > 0 && size[1] > 0) // one that was never shown has none
+  {
+    window->SetSize(size[0], size[1]);
+  }
   return status;
 }
 

@@ -17,8 +17,8 @@ class vtkWidgetRepresentation;
 namespace bindpose
 {
 
-/// invalid_input, one sentence, for a picture of more than 32,767 pixels wide or high or 268 million
-/// (2^28, a gigabyte with alpha) in all.
+/// invalid_input, one sentence, for a picture of more than 32,767 pixels wide or high or 268
+/// million (2^28, a gigabyte with alpha) in all.
 Status check_picture_size(std::int64_t width, std::int64_t height);
 
 /// Of a picture that is written.
@@ -29,16 +29,16 @@ struct WindowPicture
   int width = 0, height = 0; ///< pixels
   /// Pixels are averages of this many samples in each direction.
   int samples = 2;
-  /// Every renderer's background is to be clear already; gives RGBA, not premultiplied, else RGB.
+  /// No background: RGBA, not premultiplied, instead of RGB. Everything is drawn twice.
   bool transparent = false;
 };
 
 /// What a window shows, as large as wanted, whatever the largest framebuffer: in tiles, each of
 /// which is a part of every renderer's view, so that the memory of the graphics is that of a tile.
 /// Sizes in pixels (of lines, text) are those of the samples. The window's size, cameras and
-/// viewports are as before when it returns; it is not drawn with them again. internal_error when the
-/// driver gives no pixels. Perspective and parallel cameras; 2D actors stand in coordinates of the
-/// viewport.
+/// viewports are as before when it returns; it is not drawn with them again. internal_error when
+/// the driver gives no pixels. Perspective and parallel cameras; 2D actors stand in coordinates of
+/// the viewport.
 Status draw_in_tiles(
   vtkRenderWindow* window, const WindowPicture& picture, vtkSmartPointer<vtkImageData>& image);
 

@@ -127,6 +127,13 @@ protected:
   }
 };
 
+/// The coordinates of what is read.
+const char* place_in(const std::string& reading)
+{
+  const std::size_t begin = reading.find("  x ");
+  return begin == std::string::npos ? "" : reading.c_str() + begin + 2;
+}
+
 bool is_green(const QColor& c)
 {
   return c.green() > c.red() + 40 && c.green() > c.blue() + 10;
@@ -169,7 +176,8 @@ TEST_F(VolumeWindow, TheMouseDragsTheSliceAndTheStatusBarReadsTheField)
     double y = 0;
     double z = 0;
     double w = 0;
-    ASSERT_EQ(std::sscanf(reading.c_str(), "%lf %lf %lf: w = %lf", &x, &y, &z, &w), 4) << reading;
+    ASSERT_EQ(std::sscanf(reading.c_str(), "Slice: winding number w = %lf", &w), 1) << reading;
+    ASSERT_EQ(std::sscanf(place_in(reading), "x %lf y %lf z %lf", &x, &y, &z), 3) << reading;
     EXPECT_NEAR(z, this->view()->position(), 1e-3);
     EXPECT_NEAR(x, place.x(), 0.1);
     EXPECT_NEAR(w, cone(Vec3(x, y, z)), 0.005);
@@ -226,11 +234,19 @@ TEST_F(VolumeWindow, TheLevelsSliderGivesTheSphereOfThatLevel)
   }
   this->row(1)->field()->setValue(0.5);
   EXPECT_NEAR(surface_area(this->view()->isosurface()), 4.0 * pi, 0.01 * 4.0 * pi);
-  // Before the slice stands the isosurface: nothing is read there, but beside it.
+  // Before the slice stands the isosurface: it is read there, on its sphere; the slice beside it.
   this->render();
-  this->hover(this->pixel(Vec3(0.2, 0.1, 0)));
-  EXPECT_EQ(this->window.reading(), QString());
-  EXPECT_NE(this->reading_at(Vec3(1.4, 1.4, 0)), QString());
+  const std::string reading = this->reading_at(Vec3(0.2, 0.1, 0)).toStdString();
+  Vec3 place;
+  double level = 0.0;
+  ASSERT_EQ(std::sscanf(reading.c_str(), "Isosurface: winding number w = %lf", &level), 1)
+    << reading;
+  ASSERT_EQ(
+    std::sscanf(place_in(reading), "x %lf y %lf z %lf", &place.x(), &place.y(), &place.z()), 3)
+    << reading;
+  EXPECT_NEAR(level, 0.5, 1e-9);
+  EXPECT_NEAR(place.norm(), 1.0, 0.01);
+  EXPECT_NE(this->reading_at(Vec3(1.4, 1.4, 0)).indexOf("Slice"), -1);
   this->find<QCheckBox>("Show where w is")->setChecked(false);
   EXPECT_EQ(this->view()->isosurface()->GetNumberOfPolys(), 0);
 }
@@ -245,6 +261,9 @@ TEST_F(VolumeWindow, ACloudIsClearWhereTheWindingNumberIsZero)
   const QPoint inside = this->pixel(Vec3(0, 0, 0));
   const QPoint outside = this->pixel(Vec3(1.1, 1.1, 0));
   EXPECT_GT(std::abs(before.pixelColor(inside).blue() - after.pixelColor(inside).blue()), 20);
+  EXPECT_EQ(this->reading_at(Vec3(0, 0, 0)),
+    "Cloud: winding number from 0.000 to 1.000 along the line of sight");
+  EXPECT_EQ(this->reading_at(Vec3(1.2, 0.1, 0)).left(32), "Cloud: winding number from 0.000");
   EXPECT_EQ(before.pixelColor(outside), after.pixelColor(outside));
   this->find<QCheckBox>("Show as a cloud")->setChecked(false);
   EXPECT_EQ(this->picture().pixelColor(inside), before.pixelColor(inside));
@@ -277,8 +296,7 @@ TEST_F(VolumeWindow, ASurfaceAlongWithAVolumeIsSeeThrough)
   EXPECT_EQ(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
   EXPECT_EQ(
     this->window.viewport()->surface_actor()->GetProperty()->GetRepresentation(), VTK_SURFACE);
-  this->hover(this->pixel(Vec3(0.3, 0.1, 0)));
-  EXPECT_EQ(this->window.reading(), QString());
+  EXPECT_EQ(this->reading_at(Vec3(0.3, 0.1, 0)).left(8), "Triangle");
 }
 
 TEST_F(VolumeWindow, BoundaryCurvesAreDrawnAndAreNoBones)

@@ -43,6 +43,22 @@ def test_labels(folder):
     folder.run("render", "bar.off", "--labels", "a,b", "-o", "m.png").is_refused("--labels", "2 labels for 1 tile")
 
 
+def test_a_scale_factor_and_a_transparent_background(folder):
+    """The same picture in three times as many pixels each way, and with alpha (colour type 6 of PNG, else 2)."""
+    folder.off("bar.off", shapes.bar())
+    run = folder.run("render", "bar.off", "--size", "160x120", "--scale", "3", "--transparent", "-o", "b.png",
+                     "--report", "-").is_good()
+    assert size_of(folder / "b.png") == (480, 360)
+    assert (run.report["picture"]["width"], run.report["picture"]["height"]) == (480, 360)
+    assert (folder / "b.png").read_bytes()[25] == 6
+    folder.run("render", "bar.off", "--size", "160x120", "-o", "c.png").is_good()
+    assert (folder / "c.png").read_bytes()[25] == 2
+    folder.run("render", "bar.off", "--scale", "9", "-o", "d.png").is_refused("scale factor", "1 to 8, not 9")
+    folder.run("render", "bar.off", "--size", "8000x8000", "--scale", "8", "-o", "d.png").is_refused(
+        "64000 x 64000 pixels is too large")
+    folder.run("render", "bar.off", "--transparent", "-o", "d.gif").is_refused("--transparent")
+
+
 def test_without_a_display_or_xvfb_it_names_the_package(folder):
     """VTK would end the process: the program must not let it come to that."""
     folder.off("sphere.off", shapes.sphere(8, 4))

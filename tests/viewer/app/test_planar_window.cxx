@@ -1,0 +1,287 @@
+// The 2D mode: pictures and shapes that lie in a plane, whichever it is, and weights over a
+// picture.
+#include "window_test.h"
+
+#include "notice_bar.h"
+#include "posing.h"
+
+#include "document/document.h"
+#include "handle_edit_cells.h"
+#include "scene/camera.h"
+#include "scene/colours.h"
+
+#include "support/meshes.h"
+
+#include "vtkCamera.h"
+#include "vtkHandleSetWidget.h"
+#include "vtkPointData.h"
+
+#include <QAction>
+
+#include <cmath>
+#include <cstdlib>
+
+using namespace bindpose;
+
+namespace
+{
+class PlanarWindow : public test::WindowTest
+{
+protected:
+  /// A rectangle, turned and moved; its middle is at `center`.
+  void open(const Eigen::Matrix3d& turn, const Vec3& center = Vec3(1, 2, 3))
+  {
+    this->mesh = test::grid(16, 8, 2.0, 1.0);
+    this->mesh.points =
+      ((this->mesh.points.rowwise() - Eigen::RowVector3d(1.0, 0.5, 0.0)) * turn.transpose())
+        .rowwise() +
+      center.transpose();
+    ASSERT_TRUE(
+      this->window.set_mesh(to_polydata(this->mesh.points, this->mesh.triangles), "rectangle"));
+    this->resize({ 1000, 700 });
+  }
+  vtkCamera* camera() { return this->window.viewport()->renderer()->GetActiveCamera(); }
+  Vec3 sight() { return Vec3(this->camera()->GetDirectionOfProjection()); }
+  QAction* entry() { return WindowHand(&this->window).action("view.2d_view"); }
+  void choose(const char* option, const QVariant& value)
+  {
+    const QString refused = WindowHand(&this->window).choose(option, value);
+    EXPECT_TRUE(refused.isEmpty()) << refused.toStdString();
+    this->render();
+  }
+
+  TriangleMesh mesh;
+};
+
+Eigen::Matrix3d turned(double degrees, const Vec3& axis)
+{
+  return Eigen::AngleAxisd(degrees * M_PI / 180.0, axis.normalized()).toRotationMatrix();
+}
+
+const Eigen::Matrix3d tilted = turned(35.0, Vec3(1.0, 0.4, 0.2));
+} // namespace
+
+TEST(Plane, IsFoundWhateverItIs)
+{
+  const Points square = test::grid(5, 5).points;
+  Vec3 normal;
+  ASSERT_TRUE(find_plane(square, normal));
+  EXPECT_EQ(normal, Vec3(0, 0, 1));
+  ASSERT_TRUE(find_plane(Points(square * turned(180.0, Vec3::UnitX()).transpose()), normal));
+  EXPECT_LT((normal - Vec3(0, 0, 1)).norm(), 1e-9) << "looked at from +z, whichever way it faces";
+  ASSERT_TRUE(find_plane(Points(square * turned(90.0, Vec3::UnitY()).transpose()), normal));
+  EXPECT_LT((normal - Vec3(1, 0, 0)).norm(), 1e-9);
+  ASSERT_TRUE(find_plane(Points(square * turned(90.0, Vec3::UnitX()).transpose()), normal));
+  EXPECT_LT((normal - Vec3(0, -1, 0)).norm(), 1e-9);
+  ASSERT_TRUE(find_plane(Points(square * tilted.transpose()), normal));
+  EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);
+  Points lopsided = square; // the middle of its box lies in no plane of its own
+  lopsided.col(1) += square.col(0).cwiseAbs2();
+  ASSERT_TRUE(find_plane(Points(lopsided * tilted.transpose()), normal));
+  EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);
+  // Single precision, as files have it, is near enough; a shape is none; nor is a line.
+  const Points rounded = Points(1e4 * square * tilted.transpose()).cast<float>().cast<double>();
+  EXPECT_TRUE(find_plane(rounded, normal));
+  EXPECT_FALSE(find_plane(test::sphere(2).points, normal));
+  Points bent = square;
+  bent(7, 2) = 1e-4;
+  EXPECT_FALSE(find_plane(bent, normal));
+  EXPECT_FALSE(find_plane(Points(square.col(0) * Eigen::RowVector3d(1, 2, 3)), normal));
+}
+
+TEST_F(PlanarWindow, AShapeInAPlaneIsSeenFromInFrontWithoutPerspective)
+{
+  for (const auto& [turn, normal, up] :
+    { std::tuple(Eigen::Matrix3d(Eigen::Matrix3d::Identity()), Vec3(0, 0, 1), Vec3(0, 1, 0)),
+      std::tuple(turned(90.0, Vec3::UnitY()), Vec3(1, 0, 0), Vec3(0, 1, 0)),
+      std::tuple(turned(90.0, Vec3::UnitX()), Vec3(0, -1, 0), Vec3(0, 0, 1)),
+      std::tuple(tilted, Vec3(tilted.col(2)),
+        Vec3((Vec3::UnitY() - tilted(1, 2) * tilted.col(2)).normalized())) })
+  {
+    this->open(turn);
+    EXPECT_TRUE(this->window.viewport()->is_flat());
+    EXPECT_TRUE(this->camera()->GetParallelProjection() != 0);
+    EXPECT_LT((this->sight() + normal).norm(), 1e-9) << normal.transpose();
+    EXPECT_LT((Vec3(this->camera()->GetViewUp()) - up).norm(), 1e-9) << normal.transpose();
+    // All of it, in the middle of the picture and large.
+    QRect seen;
+    for (Index v = 0; v < this->mesh.points.rows(); ++v)
+    {
+      seen |= QRect(this->pixel(this->mesh.points.row(v)), QSize(1, 1));
+    }
+    const QRect view = this->window.viewport()->rect();
+    EXPECT_TRUE(view.contains(seen));
+    EXPECT_LE((seen.center() - view.center()).manhattanLength(), 3);
+    EXPECT_GT(
+      std::max(1.0 * seen.width() / view.width(), 1.0 * seen.height() / view.height()), 0.7);
+    EXPECT_TRUE(
+      this->window.note_bar()->sentence().isEmpty() || !this->window.note_bar()->isVisible())
+      << "the border of a rectangle is no defect";
+  }
+}
+
+TEST_F(PlanarWindow, DraggingMovesItAndTheMenuLetsItBeTurned)
+{
+  this->open(tilted);
+  const Vec3 sight = this->sight();
+  const QPoint at = this->window.viewport()->rect().center();
+  const Vec3 middle(1, 2, 3);
+  const QPoint before = this->pixel(middle);
+  this->drag(at, at + QPoint(60, 25));
+  EXPECT_LT((this->sight() - sight).norm(), 1e-9);
+  EXPECT_LE((this->pixel(middle) - before - QPoint(60, 25)).manhattanLength(), 3);
+  // Out of the 2D mode, and back.
+  ASSERT_TRUE(this->entry()->isEnabled());
+  EXPECT_TRUE(this->entry()->isChecked());
+  this->entry()->trigger();
+  this->render();
+  EXPECT_FALSE(this->window.viewport()->is_flat());
+  EXPECT_FALSE(this->entry()->isChecked());
+  EXPECT_FALSE(this->camera()->GetParallelProjection() != 0);
+  const Vec3 turned_from = this->sight();
+  this->drag(at, at + QPoint(60, 25));
+  EXPECT_GT((this->sight() - turned_from).norm(), 0.05);
+  this->entry()->trigger();
+  this->render();
+  EXPECT_TRUE(this->window.viewport()->is_flat());
+  EXPECT_LT((this->sight() + tilted.col(2)).norm(), 1e-9);
+  // A ball has no such view.
+  const TriangleMesh ball = test::sphere(3);
+  ASSERT_TRUE(this->window.set_mesh(to_polydata(ball.points, ball.triangles), "ball"));
+  EXPECT_FALSE(this->window.viewport()->is_flat());
+  EXPECT_FALSE(this->entry()->isEnabled());
+  EXPECT_FALSE(this->camera()->GetParallelProjection() != 0);
+}
+
+TEST_F(PlanarWindow, ATiltedPlaneIsBoundPosedInItselfAndLayered)
+{
+  this->open(tilted);
+  Handles handles(2);
+  handles[0].name = "left";
+  handles[0].head = handles[0].tail = Vec3(1, 2, 3) - 0.9 * tilted.col(0);
+  handles[1].name = "right";
+  handles[1].head = handles[1].tail = Vec3(1, 2, 3) + 0.9 * tilted.col(0);
+  ASSERT_TRUE(this->window.set_handles(to_polydata(handles), "points"));
+  this->window.bind();
+  ASSERT_TRUE(test::wait_for([this] { return !this->window.is_binding(); }));
+  ASSERT_EQ(this->window.error(), QString());
+  ASSERT_TRUE(this->window.is_bound());
+  // The mouse moves the handle within the plane.
+  const QPoint at = this->pixel(handles[1].head);
+  this->render();
+  this->drag(at, at + QPoint(-40, -60));
+  const Points posed = to_points(this->window.shown()).view();
+  EXPECT_GT((posed - this->mesh.points).rowwise().norm().maxCoeff(), 0.05);
+  const Vec3 normal = tilted.col(2);
+  EXPECT_LT(((posed.rowwise() - Eigen::RowVector3d(1, 2, 3)) * normal).cwiseAbs().maxCoeff(), 1e-9);
+  // Layers move what is drawn along the normal, and nothing else.
+  set_handle_layer(
+    this->window.document()->handle_data(), this->window.document()->handle_cells()[1], 3.0);
+  this->window.document()->commit_handles("layer", "layer");
+  this->render();
+  vtkPolyData* drawn = this->window.viewport()->drawn();
+  const auto& from = this->window.viewport()->drawn_points();
+  double least = 1e300, most = -1e300;
+  for (vtkIdType v = 0; v < drawn->GetNumberOfPoints(); ++v)
+  {
+    const Vec3 off = Vec3(drawn->GetPoint(v)) -
+      Vec3(this->window.shown()->GetPoint(from[static_cast<std::size_t>(v)]));
+    EXPECT_LT((off - off.dot(normal) * normal).norm(), 1e-9);
+    least = std::min(least, off.dot(normal));
+    most = std::max(most, off.dot(normal));
+  }
+  EXPECT_GT(most - least, 1e-4);
+}
+
+TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
+{
+  ASSERT_TRUE(this->window.open(QString(BINDPOSE_TOURS) + "/data/doll.png"));
+  ASSERT_TRUE(this->window.open(QString(BINDPOSE_TOURS) + "/data/doll.tgf"));
+  ASSERT_TRUE(this->window.viewport()->is_flat());
+  this->window.viewport()->handle_widget()->SetEnabled(false);
+  const Index points = this->window.document()->surface()->GetNumberOfPoints();
+  const auto columns = static_cast<Index>(this->window.document()->handles().size());
+  // The same weight everywhere: one colour, no isoline.
+  Weights weights = Weights::Constant(points, columns, 0.65 / (columns - 1));
+  weights.col(0).setConstant(0.35);
+  ASSERT_TRUE(this->window.document()->set_weights(weights, "even").ok());
+  this->window.viewport()->handle_widget()->SetEnabled(false);
+  this->window.panels()->show_panel(PanelColumn::weights);
+  this->resize({ 1000, 700 });
+  this->choose("weights.column", 1);
+  this->choose("weights.over_picture", 0.0);
+  const QImage picture = this->picture();
+  this->choose("weights.over_picture", 1.0);
+  const QImage colours = this->picture();
+  this->choose("weights.over_picture", 0.5);
+  const QImage both = this->picture();
+  EXPECT_EQ(this->window.history()->undoText(), "colours over the picture");
+  const Rgb band = colour_of(weight_map(), 0.35);
+  int covered = 0, wrong = 0;
+  const auto channel = [](const QColor& c, int k) {
+    return k == 0 ? c.red() : k == 1 ? c.green() : c.blue();
+  };
+  for (int y = 0; y < both.height(); ++y)
+  {
+    for (int x = 200; x < both.width(); ++x) // right of the scalar bar
+    {
+      const QColor c = colours.pixelColor(x, y);
+      const bool inside = std::abs(c.red() - 255.0 * band[0]) < 3 &&
+        std::abs(c.green() - 255.0 * band[1]) < 3 && std::abs(c.blue() - 255.0 * band[2]) < 3;
+      covered += inside;
+      for (int k = 0; inside && k < 3; ++k)
+      {
+        wrong += std::abs(channel(both.pixelColor(x, y), k) -
+                   0.5 * (channel(picture.pixelColor(x, y), k) + channel(c, k))) > 3.0;
+      }
+    }
+  }
+  EXPECT_GT(covered, 20000);
+  EXPECT_EQ(wrong, 0);
+  // The picture alone is the picture: as without any column.
+  this->window.panels()->show_panel(PanelColumn::bind_and_pose);
+  this->choose("show.column", 0);
+  const QImage plain = this->picture();
+  int apart = 0;
+  for (int y = 0; y < plain.height(); ++y)
+  {
+    for (int x = 200; x < plain.width(); ++x)
+    {
+      apart += plain.pixel(x, y) != picture.pixel(x, y);
+    }
+  }
+  EXPECT_EQ(apart, 0);
+}
+
+TEST_F(PlanarWindow, IsolinesStayOnTopOfThePicture)
+{
+  ASSERT_TRUE(this->window.open(QString(BINDPOSE_TOURS) + "/data/doll.png"));
+  ASSERT_TRUE(this->window.open(QString(BINDPOSE_TOURS) + "/data/doll.tgf"));
+  const auto rest = to_points(this->window.document()->surface());
+  const auto columns = static_cast<Index>(this->window.document()->handles().size());
+  Weights weights = Weights::Zero(rest.view().rows(), columns);
+  const double low = rest.view().col(1).minCoeff();
+  const double high = rest.view().col(1).maxCoeff();
+  weights.col(1) = (rest.view().col(1).array() - low) / (high - low);
+  weights.col(0) = 1.0 - weights.col(1).array();
+  ASSERT_TRUE(this->window.document()->set_weights(weights, "heights").ok());
+  this->window.panels()->show_panel(PanelColumn::weights);
+  this->resize({ 1000, 700 });
+  this->choose("weights.column", 2);
+  this->window.viewport()->handle_widget()->SetEnabled(false);
+  for (const double share : { 0.0, 0.6, 1.0 })
+  {
+    this->choose("weights.over_picture", share);
+    this->choose("weights.isolines", true);
+    const QImage with = this->picture();
+    if (const char* folder = std::getenv("BINDPOSE_PICTURES"))
+    {
+      EXPECT_TRUE(with.save(QString(folder) + QString("/over_%1.png").arg(share)));
+    }
+    this->choose("weights.isolines", false);
+    const QImage without = this->picture();
+    EXPECT_GT(count(with, [](const QColor& c) { return c.lightness() < 60; }),
+      count(without, [](const QColor& c) { return c.lightness() < 60; }) + 200)
+      << share;
+  }
+}

@@ -1,0 +1,591 @@
+// Each kind of thing is asked where the ray of the mouse's pixel meets it first; the nearest
+// speaks. Nothing is kept between moves but the text.
+#include "probe.h"
+
+#include "defect_view.h"
+#include "pose_ghost.h"
+#include "pose_panel.h"
+#include "posing.h"
+#include "tet_view.h"
+#include "viewport.h"
+#include "volume_view.h"
+#include "weight_view.h"
+
+#include "conversion.h"
+#include "inside/tet_quality.h"
+#include "scene/colouring.h"
+#include "scene/shaded_surface.h"
+#include "scene/volume.h"
+
+#include "vtkCamera.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkHandleSetWidget.h"
+#include "vtkIdList.h"
+#include "vtkMath.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkRenderer.h"
+#include "vtkStringArray.h"
+
+#include <QEvent>
+#include <QLabel>
+#include <QMouseEvent>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+using namespace bindpose;
+
+namespace
+{
+constexpr const char* winding_name = "WindingNumber";
+constexpr double near_enough = 6.0; // pixels from the edge or dot of a defect
+constexpr int margin = 10; // pixels around the label
+
+QString number(double value)
+{
+  return QString::number(value, 'g', 4);
+}
+
+QString place_words(const Vec3& place)
+{
+  return Probe::tr("x %1   y %2   z %3")
+    .arg(number(place.x()), number(place.y()), number(place.z()));
+}
+
+/// Of a class its name, of anything else the number.
+QString value_words(const Colouring& colouring, double value)
+{
+  const std::vector<double> shown = category_values(colouring.categories);
+  for (std::size_t k = 0; k < shown.size(); ++k)
+  {
+    if (shown[k] == value)
+    {
+      return QString::fromStdString(colouring.categories[k].name);
+    }
+  }
+  return std::isnan(value) ? Probe::tr("none") : QString::number(value, 'f', 3);
+}
+
+QString named_value(const Colouring& colouring, double value)
+{
+  const QString name = QString::fromStdString(colouring.legend_name());
+  return name == "Min. angle (°)" ? QString() // said of every tet
+                                  : Probe::tr("%1: %2").arg(name, value_words(colouring, value));
+}
+
+/// The array that is shown in colours, linear in a triangle's corners or one for all of it.
+std::optional<double> shown_value(vtkPolyData* data, const Index* corners, const SightHit& hit)
+{
+  if (vtkDataArray* array = data->GetPointData()->GetArray(colour_array_name))
+  {
+    double value = 0.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      value += hit.shares[k] * array->GetComponent(corners[k], 0);
+    }
+    return value;
+  }
+  vtkDataArray* array = data->GetCellData()->GetArray(colour_array_name);
+  return array && hit.element < array->GetNumberOfTuples()
+    ? std::optional(array->GetComponent(hit.element, 0))
+    : std::nullopt;
+}
+
+/// Where along the ray it is within a box.
+bool stretch_in(const SightRay& ray, const double* bounds, double& from, double& to)
+{
+  from = 0.0;
+  to = 1e300;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    double a = (bounds[2 * axis] - ray.origin[axis]) / ray.direction[axis];
+    double b = (bounds[2 * axis + 1] - ray.origin[axis]) / ray.direction[axis];
+    if (std::isnan(a) || std::isnan(b))
+    {
+      continue; // along a side
+    }
+    from = std::max(from, std::min(a, b));
+    to = std::min(to, std::max(a, b));
+  }
+  return from < to;
+}
+
+Vec3 at(const SightRay& ray, double distance)
+{
+  return ray.origin + distance * ray.direction;
+}
+
+/// Calls what(distance, value) along a ray through a volume, twice for each of its samples, until
+/// that is false.
+template <typename What>
+void walk(const SightRay& ray, vtkImageData* image, const What& what)
+{
+  double from = 0.0;
+  double to = 0.0;
+  if (!stretch_in(ray, image->GetBounds(), from, to))
+  {
+    return;
+  }
+  const int* size = image->GetDimensions();
+  const int steps = 2 * std::max({ size[0], size[1], size[2] });
+  for (int k = 0; k <= steps; ++k)
+  {
+    const double distance = from + (to - from) * (k + 1e-6) / (steps + 2e-6);
+    double value = 0.0;
+    if (value_at(image, winding_name, at(ray, distance), value) && !what(distance, value))
+    {
+      return;
+    }
+  }
+}
+} // namespace
+
+Probe::Probe(const Views& views)
+  : QObject(views.viewport), views_(views), label_(new QLabel(views.viewport))
+{
+  this->label_->setObjectName("reading");
+  this->label_->setAttribute(Qt::WA_TransparentForMouseEvents);
+  this->label_->hide();
+  // As Qt tells it: a widget of VTK that is being dragged keeps its events to itself.
+  views.viewport->installEventFilter(this);
+}
+
+// ---- The mouse ---------------------------------------------------------------------------------
+
+bool Probe::eventFilter(QObject* watched, QEvent* event)
+{
+  switch (event->type())
+  {
+    case QEvent::MouseMove:
+      this->mouse_moved(*static_cast<QMouseEvent*>(event));
+      break;
+    case QEvent::MouseButtonPress:
+    case QEvent::Leave:
+    case QEvent::Resize:
+      this->clear();
+      break;
+    default:
+      break;
+  }
+  return QObject::eventFilter(watched, event);
+}
+
+void Probe::mouse_moved(const QMouseEvent& event)
+{
+  if (event.buttons() != Qt::NoButton || this->views_.viewport->handle_widget()->IsDragging())
+  {
+    this->clear();
+    return;
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const QPoint pixel = this->views_.viewport->to_vtk(event.pos());
+  this->say(this->read_at(pixel.x(), pixel.y()));
+  this->make_way(event.pos());
+  this->milliseconds_ =
+    std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+void Probe::clear()
+{
+  this->say({});
+}
+
+QString Probe::reading() const
+{
+  return this->lines_.join(QStringLiteral("  ·  "));
+}
+
+void Probe::say(const QStringList& lines)
+{
+  if (lines != this->lines_)
+  {
+    this->lines_ = lines;
+    this->label_->setText(lines.join('\n'));
+    this->label_->adjustSize();
+  }
+  this->label_->setVisible(!lines.isEmpty());
+}
+
+/// The label is in the upper right corner, or in the lower one when the mouse or something else is
+/// there.
+void Probe::make_way(const QPoint& mouse)
+{
+  const Viewport* viewport = this->views_.viewport;
+  const QRect room = viewport->rect().adjusted(margin, margin, -margin, -margin);
+  QRect place(QPoint(), this->label_->size());
+  const auto is_free = [&]
+  {
+    const QRect around = place.adjusted(-2 * margin, -margin, margin, 2 * margin);
+    const auto others = viewport->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly);
+    return !around.contains(mouse) &&
+      std::none_of(others.begin(), others.end(),
+        [&](const QWidget* other) {
+          return other != this->label_ && other->isVisible() && other->geometry().intersects(place);
+        });
+  };
+  place.moveTopRight(room.topRight());
+  if (!is_free())
+  {
+    place.moveBottomRight(room.bottomRight());
+  }
+  this->label_->move(place.topLeft());
+}
+
+// ---- What is there -----------------------------------------------------------------------------
+
+QStringList Probe::read_at(int x, int y)
+{
+  Viewport* viewport = this->views_.viewport;
+  const int width = viewport->picture_size(1).width();
+  // Beside each other both halves have one camera.
+  const bool other = viewport->is_split() && 2 * x >= width;
+  SightRay ray;
+  viewport->ray_at(other ? x - width / 2 : x, y, ray.origin, ray.direction);
+  if (!ray.origin.allFinite() || !ray.direction.allFinite())
+  {
+    return {};
+  }
+  const int look = viewport->surface_look();
+  const Maybe surface = this->surface(ray, other);
+  const QString defect = other ? QString() : this->defect(ray);
+  Maybe first = look == Viewport::solid ? surface : Maybe();
+  for (const Maybe& each : other ? std::vector<Maybe>()
+                                 : std::vector<Maybe>{ this->tets(ray), this->weight_slice(ray),
+                                     this->winding_slice(ray), this->isosurface(ray) })
+  {
+    if (each && (!first || each->distance < first->distance))
+    {
+      first = each;
+    }
+  }
+  first = first || other ? first : this->cloud(ray);
+  first = first ? first : look == Viewport::hidden ? Maybe() : surface;
+  QStringList lines = first ? first->lines : QStringList();
+  if (!defect.isEmpty())
+  {
+    lines.prepend(defect);
+  }
+  lines.removeAll(QString());
+  return lines;
+}
+
+Probe::Maybe Probe::surface(const SightRay& ray, bool other) const
+{
+  const ShadedSurface* shaded =
+    other ? this->views_.posing->ghost()->shaded() : this->views_.viewport->shaded();
+  vtkPolyData* shape = this->views_.surface();
+  SightHit hit;
+  if (!shaded || !shape ||
+    !first_triangle(ray, to_points(shaded->polydata()).view(), shaded->triangles(), hit))
+  {
+    return {};
+  }
+  Found found;
+  found.distance = hit.distance;
+  // In the surface's own points, as the layers of a picture do not move them.
+  const Vec3 seen = at(ray, hit.distance);
+  Vec3 place = Vec3::Zero();
+  Index nearest = -1;
+  double least = 1e300;
+  for (int k = 0; k < 3; ++k)
+  {
+    const Index drawn = shaded->triangles()(hit.element, k);
+    const Index vertex = shaded->input_points()[static_cast<std::size_t>(drawn)];
+    place += hit.shares[k] * Vec3(shape->GetPoint(vertex));
+    const double distance = (Vec3(shaded->polydata()->GetPoint(drawn)) - seen).norm();
+    nearest = distance < least ? vertex : nearest;
+    least = std::min(least, distance);
+  }
+  if (other)
+  {
+    place = seen;
+    found.lines << method_name(this->views_.posing->compared()->options().method);
+  }
+  found.lines << tr("Triangle %1, vertex %2").arg(hit.element).arg(nearest) << place_words(place);
+  found.lines << this->weights(shape, hit) << this->difference(hit);
+  return found;
+}
+
+/// The number that is shown in colours, and the handle that is the strongest.
+QStringList Probe::weights(vtkPolyData* shape, const SightHit& hit) const
+{
+  const ShadedSurface* shaded = this->views_.viewport->shaded();
+  vtkDataArray* array = shape->GetPointData()->GetArray("Weights");
+  if (!array || array->GetNumberOfComponents() == 0 || !shaded ||
+    hit.element >= shaded->triangles().rows())
+  {
+    return {};
+  }
+  QStringList lines;
+  const Index* corners = shaded->triangles().data() + 3 * hit.element;
+  Index vertices[3];
+  for (int k = 0; k < 3; ++k)
+  {
+    vertices[k] = shaded->input_points()[static_cast<std::size_t>(corners[k])];
+  }
+  const auto weight = [&](int column)
+  {
+    double value = 0.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      value += hit.shares[k] * array->GetComponent(vertices[k], column);
+    }
+    return value;
+  };
+  const auto name = [array](int column)
+  {
+    const char* its = array->GetComponentName(column);
+    return its && *its ? QString::fromUtf8(its) : QString::number(column);
+  };
+  const WeightView* view = this->views_.weights;
+  const int column = this->views_.viewport->shown_column();
+  if (view->is_shown() && !view->is_sliced())
+  {
+    if (const auto value = shown_value(shaded->polydata(), corners, hit))
+    {
+      lines << named_value(view->colouring(), *value);
+    }
+  }
+  else if (column >= 0 && column < array->GetNumberOfComponents())
+  {
+    lines << tr("Weight of %1: %2").arg(name(column)).arg(weight(column), 0, 'f', 3);
+  }
+  int largest = 0;
+  for (int k = 1; k < array->GetNumberOfComponents(); ++k)
+  {
+    largest = weight(k) > weight(largest) ? k : largest;
+  }
+  return lines << tr("Strongest handle: %1, %2").arg(name(largest)).arg(weight(largest), 0, 'f', 3);
+}
+
+/// Between the shape and that of the method it is compared with.
+QString Probe::difference(const SightHit& hit) const
+{
+  const Posing* posing = this->views_.posing;
+  const ShadedSurface* shaded = this->views_.viewport->shaded();
+  const Points& a = posing->points();
+  const Points& b = posing->compared()->points();
+  if (posing->ghost()->place() == PoseGhost::hidden || !shaded || a.rows() != b.rows() ||
+    a.rows() == 0 || posing->looks_at_rest() || posing->compared()->is_binding())
+  {
+    return {};
+  }
+  Vec3 apart = Vec3::Zero();
+  for (int k = 0; k < 3; ++k)
+  {
+    const Index vertex =
+      shaded->input_points()[static_cast<std::size_t>(shaded->triangles()(hit.element, k))];
+    apart += hit.shares[k] * (a.row(vertex) - b.row(vertex)).transpose();
+  }
+  const double diagonal = posing->rest_diagonal();
+  return tr("Apart by %1 units, %2 % of the diagonal")
+    .arg(apart.norm(), 0, 'g', 3)
+    .arg(100.0 * apart.norm() / diagonal, 0, 'g', 3);
+}
+
+Probe::Maybe Probe::tets(const SightRay& ray) const
+{
+  const TetView* view = this->views_.tets;
+  SightHit hit;
+  if (!view->is_shown())
+  {
+    return {};
+  }
+  const PointsView points = view->input().points.view();
+  const TetsView tets = view->input().tets.view();
+  if (!first_tet(ray, points, tets, view->kept(), view->shrink(), hit))
+  {
+    return {};
+  }
+  const auto corner = [&](int k) { return Vec3(points.row(tets(hit.element, k))); };
+  Found found;
+  found.distance = hit.distance;
+  found.lines << tr("Tet %1: smallest angle %2°")
+                   .arg(hit.element)
+                   .arg(min_dihedral_angle(corner(0), corner(1), corner(2), corner(3)), 0, 'f', 1);
+  if (view->values())
+  {
+    found.lines << named_value(view->colouring(), view->values()->GetValue(hit.element));
+  }
+  found.lines << place_words(at(ray, hit.distance));
+  return found;
+}
+
+Probe::Maybe Probe::weight_slice(const SightRay& ray) const
+{
+  const WeightView* view = this->views_.weights;
+  SurfaceInput slice;
+  SightHit hit;
+  if (!view->is_sliced() || view->slice()->GetNumberOfCells() == 0 ||
+    !to_surface(view->slice(), slice).ok() ||
+    !first_triangle(ray, slice.points.view(), slice.triangles.view(), hit))
+  {
+    return {};
+  }
+  const auto value =
+    shown_value(view->slice(), slice.triangles.view().data() + 3 * hit.element, hit);
+  Found found;
+  found.distance = hit.distance;
+  found.lines << tr("Slice") << (value ? named_value(view->colouring(), *value) : QString())
+              << place_words(at(ray, hit.distance));
+  return found;
+}
+
+Probe::Maybe Probe::winding_slice(const SightRay& ray) const
+{
+  const VolumeView* view = this->views_.volume;
+  const double slope = ray.direction.dot(view->slice_normal());
+  if (!view->volume() || !view->is_slice_shown() || std::abs(slope) < 1e-9)
+  {
+    return {}; // or seen edge-on
+  }
+  Found found;
+  found.distance = (view->position() - ray.origin.dot(view->slice_normal())) / slope;
+  const Vec3 place = at(ray, found.distance);
+  double value = 0.0;
+  if (found.distance < 0.0 || !value_at(view->volume(), winding_name, place, value))
+  {
+    return {};
+  }
+  found.lines << tr("Slice: winding number w = %1").arg(value, 0, 'f', 3) << place_words(place);
+  return found;
+}
+
+/// By the field, whose first crossing of the level along the ray is what is drawn.
+Probe::Maybe Probe::isosurface(const SightRay& ray) const
+{
+  const VolumeView* view = this->views_.volume;
+  if (!view->volume() || view->isosurface()->GetNumberOfCells() == 0)
+  {
+    return {};
+  }
+  Maybe found;
+  const double level = view->level();
+  std::optional<std::pair<double, double>> before;
+  walk(ray, view->volume(),
+    [&](double distance, double value)
+    {
+      if (before && (before->second < level) != (value < level))
+      {
+        const double share = (level - before->second) / (value - before->second);
+        found = Found();
+        found->distance = before->first + share * (distance - before->first);
+        found->lines << tr("Isosurface: winding number w = %1").arg(level, 0, 'f', 3)
+                     << place_words(at(ray, found->distance));
+        return false;
+      }
+      before = { distance, value };
+      return true;
+    });
+  return found;
+}
+
+Probe::Maybe Probe::cloud(const SightRay& ray) const
+{
+  const VolumeView* view = this->views_.volume;
+  if (!view->volume() || !view->is_cloud_shown())
+  {
+    return {};
+  }
+  double lowest = 1e300;
+  double highest = -1e300;
+  walk(ray, view->volume(),
+    [&](double, double value)
+    {
+      lowest = std::min(lowest, value);
+      highest = std::max(highest, value);
+      return true;
+    });
+  if (lowest > highest)
+  {
+    return {};
+  }
+  Found found;
+  found.lines << tr("Cloud: winding number from %1 to %2 along the line of sight")
+                   .arg(lowest, 0, 'f', 3)
+                   .arg(highest, 0, 'f', 3);
+  return found;
+}
+
+/// A dot or edge a few pixels away, else a face under the mouse; what is nearer first.
+QString Probe::defect(const SightRay& ray) const
+{
+  vtkPolyData* defects = this->views_.defects->defects();
+  if (!this->views_.defects->is_shown() || defects->GetNumberOfCells() == 0)
+  {
+    return {};
+  }
+  vtkRenderer* renderer = this->views_.viewport->renderer();
+  vtkCamera* camera = renderer->GetActiveCamera();
+  const double height = std::max(renderer->GetSize()[1], 1);
+  const bool parallel = camera->GetParallelProjection() != 0;
+  const double slope = 2.0 * near_enough * this->views_.viewport->devicePixelRatioF() *
+    (parallel ? camera->GetParallelScale()
+              : std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()))) /
+    height;
+  const double eye = (ray.origin - Vec3(camera->GetPosition())).norm();
+  const Points seen = seen_along(ray, to_points(defects).view());
+  const auto reach = [&](double depth) { return parallel ? slope : slope * (eye + depth); };
+  Index best = -1;
+  int best_kind = 4; // corners
+  double best_depth = 1e300;
+  Index cell = 0;
+  vtkNew<vtkIdList> ids;
+  for (vtkCellArray* cells : { defects->GetVerts(), defects->GetLines(), defects->GetPolys() })
+  {
+    for (vtkIdType k = 0; k < cells->GetNumberOfCells(); ++k, ++cell)
+    {
+      cells->GetCellAtId(k, ids);
+      const auto corners = static_cast<int>(ids->GetNumberOfIds());
+      const Vec3 a = seen.row(ids->GetId(0));
+      const Vec3 b = seen.row(ids->GetId(corners > 1 ? 1 : 0));
+      const Vec3 c = seen.row(ids->GetId(corners > 2 ? 2 : 0));
+      bool met = false;
+      double depth = a.z();
+      if (corners < 3)
+      {
+        const Vec3 way = b - a;
+        const double length = way.head<2>().squaredNorm();
+        const double share =
+          length > 0.0 ? std::clamp(-a.head<2>().dot(way.head<2>()) / length, 0.0, 1.0) : 0.0;
+        const Vec3 near = a + share * way;
+        depth = near.z();
+        met = depth > 0.0 && near.head<2>().norm() < reach(depth);
+      }
+      else
+      {
+        const auto area = [](const Vec3& p, const Vec3& q)
+        { return p.x() * q.y() - p.y() * q.x(); };
+        const double u = area(b, c), v = area(c, a), w = area(a, b);
+        met = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
+        depth = std::min({ a.z(), b.z(), c.z() });
+      }
+      const int kind = corners < 3 ? 1 : 3;
+      if (met && std::make_pair(kind, depth) < std::make_pair(best_kind, best_depth))
+      {
+        best = cell;
+        best_kind = kind;
+        best_depth = depth;
+      }
+    }
+  }
+  auto* names =
+    vtkStringArray::SafeDownCast(defects->GetCellData()->GetAbstractArray("DefectName"));
+  vtkDataArray* original = defects->GetPointData()->GetArray("OriginalPointIds");
+  if (best < 0 || !names || !original)
+  {
+    return {};
+  }
+  defects->GetCellPoints(best, ids);
+  QStringList vertices;
+  for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
+  {
+    vertices << QString::number(static_cast<qlonglong>(original->GetComponent(ids->GetId(k), 0)));
+  }
+  const QString name = QString::fromStdString(names->GetValue(best)).replace('_', ' ');
+  return ids->GetNumberOfIds() == 1 ? tr("Defect: %1, vertex %2").arg(name, vertices.first())
+                                    : tr("Defect: %1, vertices %2").arg(name, vertices.join(", "));
+}

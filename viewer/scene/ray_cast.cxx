@@ -1,0 +1,114 @@
+// Seen along the ray a triangle is met when the origin lies in it: three signs of areas. Triangles
+// that share an edge compute its area from the same numbers, with the other sign, so that one of
+// the two has it.
+#include "scene/ray_cast.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace bindpose
+{
+namespace
+{
+/// Twice the area of the origin and two points.
+double area(const double* a, const double* b)
+{
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+/// Whether a triangle of seen points is met, and where.
+bool meets(const double* a, const double* b, const double* c, Vec3& shares, double& distance)
+{
+  const double u = area(b, c);
+  const double v = area(c, a);
+  const double w = area(a, b);
+  const bool inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
+  const double whole = u + v + w;
+  if (!inside || whole == 0.0)
+  {
+    return false;
+  }
+  shares = Vec3(u, v, w) / whole;
+  distance = shares[0] * a[2] + shares[1] * b[2] + shares[2] * c[2];
+  return distance >= 0.0;
+}
+} // namespace
+
+Points seen_along(const SightRay& ray, PointsView points)
+{
+  const Vec3 across = ray.direction.unitOrthogonal();
+  Eigen::Matrix3d axes;
+  axes << across, ray.direction.cross(across), ray.direction;
+  Points seen(points.rows(), 3);
+  seen.noalias() = (points.rowwise() - ray.origin.transpose()) * axes;
+  return seen;
+}
+
+bool first_triangle(const SightRay& ray, PointsView points, TrianglesView triangles, SightHit& hit)
+{
+  const Points seen = seen_along(ray, points);
+  hit.element = -1;
+  hit.distance = std::numeric_limits<double>::infinity();
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    const Index* corners = triangles.data() + 3 * t;
+    Vec3 shares;
+    double distance = 0.0;
+    if (meets(seen.data() + 3 * corners[0], seen.data() + 3 * corners[1],
+          seen.data() + 3 * corners[2], shares, distance) &&
+      distance < hit.distance)
+    {
+      hit = { distance, t, shares };
+    }
+  }
+  return hit.element >= 0;
+}
+
+bool first_tet(const SightRay& ray, PointsView points, TetsView tets,
+  const std::vector<char>& wanted, double size, SightHit& hit)
+{
+  const Points seen = seen_along(ray, points);
+  hit.element = -1;
+  hit.distance = std::numeric_limits<double>::infinity();
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    if (!wanted[static_cast<std::size_t>(t)])
+    {
+      continue;
+    }
+    const Index* corners = tets.data() + 4 * t;
+    const double* p[4] = { seen.data() + 3 * corners[0], seen.data() + 3 * corners[1],
+      seen.data() + 3 * corners[2], seen.data() + 3 * corners[3] };
+    const auto beside = [&p](int axis)
+    {
+      const auto [low, high] = std::minmax({ p[0][axis], p[1][axis], p[2][axis], p[3][axis] });
+      return low > 0.0 || high < 0.0;
+    };
+    if (beside(0) || beside(1))
+    {
+      continue; // what is drawn smaller lies within
+    }
+    Eigen::Matrix<double, 3, 4> own;
+    for (int k = 0; k < 4; ++k)
+    {
+      own.col(k) = Eigen::Map<const Vec3>(p[k]);
+    }
+    const Vec3 middle = own.rowwise().mean();
+    own = (size * (own.colwise() - middle)).colwise() + middle;
+    for (int k = 0; k < 4; ++k)
+    {
+      Vec3 shares;
+      double distance = 0.0;
+      if (meets(own.col(k).data(), own.col((k + 1) % 4).data(), own.col((k + 2) % 4).data(), shares,
+            distance) &&
+        distance < hit.distance)
+      {
+        hit = { distance, t, Vec3::Zero() };
+      }
+    }
+  }
+  return hit.element >= 0;
+}
+
+} // namespace bindpose

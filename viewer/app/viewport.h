@@ -68,7 +68,7 @@ public:
   /// is kept in view, too. Null, null: the whole. What was seen whole is so in the half.
   void set_split(vtkRenderer* beside, vtkPolyData* shape);
   bool is_split() const { return this->beside_ != nullptr; }
-  /// What is said above the halves.
+  /// What is said below the halves.
   void name_halves(const QString& left, const QString& right);
   /// Of the last drawn change of points: what it took to bring them to the graphics card.
   double upload_microseconds() const;

@@ -49,8 +49,8 @@ bool asked_time(vtkInformation* output, double& time)
 int frame_at(double time, int frames, double frames_per_second)
 {
   // Times of frames may be off by round-off.
-  return static_cast<int>(std::floor(
-    std::clamp(time * frames_per_second + 1e-6, 0.0, static_cast<double>(frames - 1))));
+  return static_cast<int>(
+    std::floor(std::clamp(time * frames_per_second + 1e-6, 0.0, static_cast<double>(frames - 1))));
 }
 
 } // namespace bindpose

@@ -32,7 +32,6 @@
 #include "vtkRegionBrushWidget.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkRenderer.h"
-#include "vtkRendererCollection.h"
 #include "vtkTextActor.h"
 #include "vtkTextProperty.h"
 #include "vtkTexture.h"
@@ -441,11 +440,15 @@ void Viewport::show_values(
 
 void Viewport::use_appearance()
 {
+  using namespace bindpose::palette;
+  const bindpose::Rgb& below = is_dark() ? dark_gradient_bottom : gradient_bottom;
+  const bindpose::Rgb& above = is_dark() ? dark_gradient_top : gradient_top;
   for (vtkRenderer* renderer : { this->renderer_.Get(), this->beside_ })
   {
     if (renderer)
     {
-      use_appearance_of(renderer);
+      renderer->SetBackground(below[0], below[1], below[2]);
+      renderer->SetBackground2(above[0], above[1], above[2]);
     }
   }
 }

@@ -92,7 +92,6 @@ public:
   const std::vector<bindpose::Index>& drawn_points() const;
   void set_surface_look(int look);
   int surface_look() const { return this->look_; }
-  bool is_split() const { return this->split_; }
   /// What the surface shows, by its texture coordinates; colours of weights lie over it. Null:
   /// none.
   void set_picture(vtkImageData* picture);

@@ -185,8 +185,8 @@ INSTANTIATE_TEST_SUITE_P(Examples, Tours,
     TourCase{ "compare", { "over", "beside" } }, TourCase{ "keys", { "waving", "between" } },
     TourCase{ "gizmo", { "moved", "turned" } },
     TourCase{ "picture", { "flat", "bent", "over_picture" } }, TourCase{ "planar", { "posed" } },
-    TourCase{ "undo", { "start", "one", "three" } }, TourCase{ "idle", {} }, TourCase{ "panels", {} },
-    TourCase{ "tutorial", {}, "elephant-with-holes.off" }),
+    TourCase{ "undo", { "start", "one", "three" } }, TourCase{ "idle", {} },
+    TourCase{ "panels", {} }, TourCase{ "tutorial", {}, "elephant-with-holes.off" }),
   [](const testing::TestParamInfo<TourCase>& tour) { return std::string(tour.param.name); });
 
 /// What the tutorial tells is what its tour says and does, and its pictures are there.

@@ -94,8 +94,8 @@ Session with_file(const test::Folder& folder)
   corner.points(1, 0) = corner.points(2, 1) = corner.points(3, 2) = 1.0;
   corner.triangles.resize(4, 3);
   corner.triangles << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
-  document.set_mesh(
-    to_polydata(corner.points, corner.triangles), "corner.off", Source{ text(mesh), checksum_of(text(mesh)) });
+  document.set_mesh(to_polydata(corner.points, corner.triangles), "corner.off",
+    Source{ text(mesh), checksum_of(text(mesh)) });
   document.set_handles(to_polydata(test::three_handles()), "handles");
   Session session;
   session.work = document.work();

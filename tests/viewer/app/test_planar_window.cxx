@@ -212,10 +212,10 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
   this->choose("weights.over_picture", 0.0);
   const QImage picture = this->picture();
   this->choose("weights.over_picture", 1.0);
+  EXPECT_EQ(this->window.history()->undoText(), "colours over the picture");
   const QImage colours = this->picture();
   this->choose("weights.over_picture", 0.5);
   const QImage both = this->picture();
-  EXPECT_EQ(this->window.history()->undoText(), "colours over the picture");
   const Rgb band = colour_of(weight_map(), 0.35);
   int covered = 0, wrong = 0;
   const auto channel = [](const QColor& c, int k) {

@@ -167,7 +167,10 @@ TEST_P(Tours, Play)
   {
     const QImage picture(QString::fromStdString(pictures + "/" + name + ".png"));
     EXPECT_EQ(picture.width(), shot["width"]) << name;
-    EXPECT_GT(shot["drawn_share"], 0.005) << name;
+    if (shot["values"].value("points", 0) > 0) // else nothing is open
+    {
+      EXPECT_GT(shot["drawn_share"], 0.005) << name;
+    }
     EXPECT_EQ(shot["values"].value("shape.finite", true), true) << name;
   }
   for (const char* name : tour.pictures)

@@ -187,30 +187,52 @@ inline std::string digest(const std::string& text)
     .toStdString();
 }
 
-/// Of a work, as it is kept.
-inline std::string fingerprint(const Work& work)
+/// Of a work, as it is kept: a digest of each of its parts.
+inline std::map<std::string, std::string> fingerprints(const Work& work)
 {
-  std::ostringstream out;
-  out << work.name.toStdString() << '\n';
-  print_data(out, work.surface);
-  print_data(out, work.handles, false);
-  print_data(out, work.bound_handles, false);
-  print_pose(out, work.pose);
+  std::map<std::string, std::string> parts;
+  const auto add = [&parts](const std::string& name, const auto& print)
+  {
+    std::ostringstream out;
+    print(out);
+    parts[name] = digest(out.str());
+  };
+  add("name", [&](std::ostream& out) { out << work.name.toStdString(); });
+  add("surface", [&](std::ostream& out) { print_data(out, work.surface); });
+  add("handles", [&](std::ostream& out) { print_data(out, work.handles, false); });
+  add("bound handles", [&](std::ostream& out) { print_data(out, work.bound_handles, false); });
+  add("pose", [&](std::ostream& out) { print_pose(out, work.pose); });
   // In the order of their names, whatever order they were kept in.
-  out << nlohmann::json(to_json(work.key_poses ? *work.key_poses : PoseShelf())).dump() << '\n';
+  add("key poses",
+    [&](std::ostream& out)
+    { out << nlohmann::json(to_json(work.key_poses ? *work.key_poses : PoseShelf())).dump(); });
   for (auto option = work.options.begin(); option != work.options.end(); ++option)
   {
     const bool list = option.value().type() == QVariant::List;
     const QString value =
       list ? option.value().toStringList().join(' ') : option.value().toString();
-    out << option.key().toStdString() << ' ' << value.toStdString() << '\n';
+    parts["option " + option.key().toStdString()] = value.toStdString();
   }
-  for (const Source* source : { &work.mesh_source, &work.handle_source, &work.picture_source,
-         &work.volume_source, &work.curve_source })
+  add("sources",
+    [&](std::ostream& out)
+    {
+      for (const Source* source : { &work.mesh_source, &work.handle_source, &work.picture_source,
+             &work.volume_source, &work.curve_source })
+      {
+        out << source->path.toStdString() << ' ' << source->checksum.toStdString() << '\n';
+      }
+    });
+  return parts;
+}
+
+inline std::string fingerprint(const Work& work)
+{
+  std::string text;
+  for (const auto& [name, part] : fingerprints(work))
   {
-    out << source->path.toStdString() << ' ' << source->checksum.toStdString() << '\n';
+    text += name + ' ' + part + '\n';
   }
-  return digest(out.str());
+  return digest(text);
 }
 
 /// Of a document: what is kept, and what the widget sees of it.

@@ -24,9 +24,10 @@ part()
   summary+=("$(printf '%-12s %5d s  %s' "$name" $((SECONDS - start)) "$verdict")")
 }
 
+# -noreset: the server would refuse who comes while it starts anew, after the last client has left.
 under_xvfb()
 {
-  xvfb-run -a -s "-screen 0 1280x1024x24" "$@"
+  xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" "$@"
 }
 
 asan()

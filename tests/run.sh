@@ -35,9 +35,10 @@ done
 install_packages "$build_packages $test_packages"
 build -DBINDPOSE_BUILD_TESTS=ON
 
+# -noreset: the server would refuse who comes while it starts anew, after the last client has left.
 under_xvfb()
 {
-  xvfb-run -a -s "-screen 0 1280x1024x24" "$@"
+  xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" "$@"
 }
 
 if [ -n "$bless" ]; then

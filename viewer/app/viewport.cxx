@@ -42,12 +42,22 @@
 #include <QOpenGLFunctions>
 #include <QResizeEvent>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace
 {
 constexpr int smooth_samples = 4; // a pixel
+
+bool same_place(vtkCamera* a, vtkCamera* b)
+{
+  const auto same = [](const double* x, const double* y) { return std::equal(x, x + 3, y); };
+  return same(a->GetPosition(), b->GetPosition()) && same(a->GetFocalPoint(), b->GetFocalPoint()) &&
+    same(a->GetViewUp(), b->GetViewUp()) && a->GetParallelScale() == b->GetParallelScale() &&
+    a->GetViewAngle() == b->GetViewAngle() &&
+    a->GetParallelProjection() == b->GetParallelProjection();
+}
 
 /// Trackball camera without VTK's letter keys: 'e' would end the program, 'w' draw wires.
 class CameraStyle : public vtkInteractorStyleTrackballCamera
@@ -303,7 +313,19 @@ void Viewport::set_split(vtkRenderer* beside, vtkPolyData* shape)
     this->renderer_->SetViewport(0.0, 0.0, beside ? 0.5 : 1.0, 1.0);
     this->use_appearance();
     this->draw_legend();
-    this->keep_in_view(before);
+    // Who has only looked at both comes back to where they were.
+    vtkCamera* camera = this->renderer_->GetActiveCamera();
+    if (!beside && same_place(camera, this->split_camera_))
+    {
+      camera->DeepCopy(this->whole_camera_);
+      this->renderer_->ResetCameraClippingRange();
+    }
+    else
+    {
+      this->whole_camera_->DeepCopy(camera);
+      this->keep_in_view(before);
+      this->split_camera_->DeepCopy(camera);
+    }
   }
   this->refresh();
 }

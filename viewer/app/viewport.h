@@ -23,6 +23,7 @@ namespace bindpose
 class ShadedSurface;
 }
 class vtkActor;
+class vtkCamera;
 class vtkDoubleArray;
 class vtkGenericOpenGLRenderWindow;
 class vtkHandleSetWidget;
@@ -167,6 +168,7 @@ private:
   vtkNew<TimedMapper> mapper_;
   vtkNew<vtkActor> actor_;
   vtkNew<vtkRenderer> legend_; // in front, to the left: the colour scale
+  vtkNew<vtkCamera> whole_camera_, split_camera_; // when the view was halved: before, and after
   vtkNew<vtkHandleSetWidget> handles_;
   vtkNew<vtkRegionBrushWidget> brush_;
   std::unique_ptr<bindpose::ShadedSurface> shaded_;

@@ -87,15 +87,6 @@ vtkSmartPointer<vtkImageData> samples()
   return image;
 }
 
-template <typename Writer>
-void write_with(vtkDataSet* data, const std::string& path)
-{
-  vtkNew<Writer> writer;
-  writer->SetInputData(data);
-  writer->SetFileName(path.c_str());
-  ASSERT_EQ(writer->Write(), 1) << path;
-}
-
 PlaneHandle* plane_of(MainWindow& window, const std::string& name)
 {
   return name == "volume" ? window.volume_view()->plane()
@@ -110,12 +101,12 @@ protected:
   {
     if (std::string(GetParam().name) == "volume")
     {
-      write_with<vtkXMLImageDataWriter>(samples(), this->folder / "box.vti");
+      test::write_with<vtkXMLImageDataWriter>(samples(), this->folder / "box.vti");
       this->open("box.vti");
     }
     else
     {
-      write_with<vtkXMLUnstructuredGridWriter>(box(), this->folder / "box.vtu");
+      test::write_with<vtkXMLUnstructuredGridWriter>(box(), this->folder / "box.vtu");
       this->open("box.vtu");
     }
     this->window.panels()->show_panel(GetParam().panel);

@@ -72,15 +72,6 @@ vtkSmartPointer<vtkPolyData> column(bool weights)
   return data;
 }
 
-template <typename Writer>
-void write_with(vtkDataSet* data, const std::string& path)
-{
-  vtkNew<Writer> writer;
-  writer->SetInputData(data);
-  writer->SetFileName(path.c_str());
-  ASSERT_EQ(writer->Write(), 1) << path;
-}
-
 void write_mesh(vtkPolyData* mesh, const std::string& path)
 {
   vtkNew<vtkMeshFileWriter> writer;
@@ -105,8 +96,8 @@ protected:
   /// Mesh with weights and handles from files.
   void open_files()
   {
-    write_with<vtkXMLPolyDataWriter>(column(true), this->folder / "column.vtp");
-    write_with<vtkXMLPolyDataWriter>(two_points(), this->folder / "points.vtp");
+    test::write_with<vtkXMLPolyDataWriter>(column(true), this->folder / "column.vtp");
+    test::write_with<vtkXMLPolyDataWriter>(two_points(), this->folder / "points.vtp");
     ASSERT_TRUE(this->window.open(text(this->folder / "column.vtp")));
     ASSERT_TRUE(this->window.open(text(this->folder / "points.vtp")));
     ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
@@ -362,8 +353,8 @@ TEST_F(SessionWindow, ARebindIsOfferedAndPosingGoesOn)
 
 TEST_F(SessionWindow, AKilledProgramsWorkIsOfferedAndRestored)
 {
-  write_with<vtkXMLPolyDataWriter>(column(true), this->folder / "column.vtp");
-  write_with<vtkXMLPolyDataWriter>(two_points(), this->folder / "points.vtp");
+  test::write_with<vtkXMLPolyDataWriter>(column(true), this->folder / "column.vtp");
+  test::write_with<vtkXMLPolyDataWriter>(two_points(), this->folder / "points.vtp");
   QProcess program;
   QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
   environment.insert("BINDPOSE_AUTOSAVE_SECONDS", "0.3");

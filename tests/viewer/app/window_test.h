@@ -10,6 +10,7 @@
 
 #include "conversion.h"
 
+#include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
@@ -21,6 +22,7 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <string>
 
 namespace bindpose::test
 {
@@ -30,6 +32,15 @@ template <typename Condition>
 bool wait_for(const Condition& condition, int seconds = 60)
 {
   return wait_until(condition, seconds);
+}
+
+template <typename Writer>
+void write_with(vtkDataSet* data, const std::string& path)
+{
+  vtkNew<Writer> writer;
+  writer->SetInputData(data);
+  writer->SetFileName(path.c_str());
+  ASSERT_EQ(writer->Write(), 1) << path;
 }
 
 /// Handles at both ends of a shape along z from -1 to 1.

@@ -101,14 +101,18 @@ void check_window(MainWindow& window)
 /// What is other now, for a sentence.
 std::string other_parts(const Fingerprints& before, const Fingerprints& now)
 {
-  std::string text;
-  for (const auto& [name, part] : before)
+  const auto part_of = [](const Fingerprints& all, const std::string& name)
   {
-    const auto found = now.find(name);
-    text += found == now.end() || found->second != part ? "  " + name : "";
-    text += name.rfind("option", 0) == 0 && found != now.end() && found->second != part
-      ? ": " + part + " to " + found->second
-      : "";
+    const auto found = all.find(name);
+    return found == all.end() ? std::string("nothing") : found->second;
+  };
+  Fingerprints all = before;
+  all.insert(now.begin(), now.end());
+  std::string text;
+  for (const auto& [name, part] : all)
+  {
+    const std::string was = part_of(before, name), is = part_of(now, name);
+    text += was != is ? "  " + name + ": " + was + " to " + is : "";
   }
   return text;
 }

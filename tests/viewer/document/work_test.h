@@ -164,6 +164,7 @@ inline void print_data(std::ostream& out, vtkPolyData* data, bool pose_arrays = 
   out << '\n';
 }
 
+/// Minus zero is zero, as for same_pose().
 inline void print_pose(std::ostream& out, const Pose& pose)
 {
   for (const HandlePose& handle : pose)
@@ -171,11 +172,11 @@ inline void print_pose(std::ostream& out, const Pose& pose)
     out << static_cast<int>(handle.mode) << ' ';
     for (int k = 0; k < 12; ++k)
     {
-      print_bits(out, handle.transform.data()[k]);
+      print_bits(out, handle.transform.data()[k] + 0.0);
     }
     print_bits(out, handle.stretch);
-    print_bits(out, handle.twist[0]);
-    print_bits(out, handle.twist[1]);
+    print_bits(out, handle.twist[0] + 0.0);
+    print_bits(out, handle.twist[1] + 0.0);
     out << '\n';
   }
 }

@@ -6,34 +6,32 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 namespace bindpose
 {
 
 using SDDP = vtkStreamingDemandDrivenPipeline;
 
-void offer_frames(vtkInformation* output, int frames, double frames_per_second)
-{
-  offer_no_time(output);
-  if (frames < 2)
-  {
-    return;
-  }
-  std::vector<double> times;
-  for (int frame = 0; frame < frames; ++frame)
-  {
-    times.push_back(static_cast<double>(frame) / frames_per_second);
-  }
-  const double range[2] = { times.front(), times.back() };
-  output->Set(SDDP::TIME_STEPS(), times.data(), frames);
-  output->Set(SDDP::TIME_RANGE(), range, 2);
-}
-
-void offer_no_time(vtkInformation* output)
+void offer_times(vtkInformation* output, const std::vector<double>& times)
 {
   output->Remove(SDDP::TIME_STEPS());
   output->Remove(SDDP::TIME_RANGE());
+  if (!times.empty())
+  {
+    const double range[2] = { times.front(), times.back() };
+    output->Set(SDDP::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
+    output->Set(SDDP::TIME_RANGE(), range, 2);
+  }
+}
+
+void offer_frames(vtkInformation* output, int frames, double frames_per_second)
+{
+  std::vector<double> times;
+  for (int frame = 0; frames > 1 && frame < frames; ++frame)
+  {
+    times.push_back(static_cast<double>(frame) / frames_per_second);
+  }
+  offer_times(output, times);
 }
 
 bool asked_time(vtkInformation* output, double& time)

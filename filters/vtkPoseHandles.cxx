@@ -90,7 +90,7 @@ int vtkPoseHandles::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
 {
   vtkInformation* info = output->GetInformationObject(0);
-  offer_no_time(info);
+  offer_times(info, {});
   // What is wrong with the file or the text, Execute() says.
   if (this->IsFrom("glb gltf"))
   {

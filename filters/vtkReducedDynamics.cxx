@@ -8,6 +8,7 @@
 #include "vtkReducedDynamics.h"
 
 #include "arap_input.h"
+#include "frame_times.h"
 #include "pose/reduced_dynamics.h"
 #include "pose_input.h"
 #include "vtkReducedARAP.h"
@@ -132,20 +133,13 @@ int vtkReducedDynamics::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
 {
   vtkInformation* info = output->GetInformationObject(0);
-  if (this->Interactive || !(this->TimeStep > 0.0))
-  {
-    info->Remove(SDDP::TIME_STEPS());
-    info->Remove(SDDP::TIME_RANGE());
-    return 1;
-  }
   std::vector<double> times;
-  for (int step = 0; step <= this->NumberOfSteps; ++step)
+  const bool timed = !this->Interactive && this->TimeStep > 0.0;
+  for (int step = 0; timed && step <= this->NumberOfSteps; ++step)
   {
     times.push_back(step * this->TimeStep);
   }
-  const double range[2] = { times.front(), times.back() };
-  info->Set(SDDP::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
-  info->Set(SDDP::TIME_RANGE(), range, 2);
+  offer_times(info, times);
   return 1;
 }
 

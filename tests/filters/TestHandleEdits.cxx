@@ -134,7 +134,7 @@ TEST(HandleEditCells, FromNothingAndBackToNothing)
   vtkNew<vtkPolyData> data;
   ASSERT_TRUE(edit_handles(data,
     [](const Handles& before, EditedHandles& after) {
-      return add_handle(before, make("a", HandleKind::point, Vec3(1, 2, 3), Vec3()), after);
+      return add_handle(before, make("a", HandleKind::point, Vec3(1, 2, 3), Vec3::Zero()), after);
     }).ok());
   Handles list;
   ASSERT_TRUE(to_handles(data, list).ok());

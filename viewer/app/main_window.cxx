@@ -497,17 +497,7 @@ bool MainWindow::say(const QString& name, const Status& status)
   return status.ok();
 }
 
-bool MainWindow::open(const QString& path)
-{
-  return this->open_and_note(path, nullptr);
-}
-
-bool MainWindow::open(const QString& path, const OpenedFile& file)
-{
-  return this->open_and_note(path, &file);
-}
-
-bool MainWindow::open_and_note(const QString& path, const OpenedFile* read)
+bool MainWindow::open(const QString& path, const OpenedFile* read)
 {
   // To look at a file is no change that could be lost.
   const bool unchanged = !this->document_->is_changed(true) && this->sessions_->path().isEmpty();

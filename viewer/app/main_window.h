@@ -55,9 +55,8 @@ public:
 
   /// Opens a mesh, handles, weights, a picture, a volume, curves or a session, whichever it is.
   /// False, with a sentence in the error bar, when it cannot be used; what was open stays.
-  bool open(const QString& path);
-  /// The same with a file that is already read.
-  bool open(const QString& path, const OpenedFile& file);
+  /// `read`: what the file holds, if it is already read.
+  bool open(const QString& path, const OpenedFile* read = nullptr);
   bool set_mesh(vtkDataSet* mesh, const QString& name, const Source& source = {});
   bool set_handles(vtkPolyData* handles, const QString& name, const Source& source = {});
   bool set_volume(vtkImageData* volume, const QString& name, const Source& source = {});
@@ -144,7 +143,6 @@ private:
   void preview_arrived(const bindpose::Weights& weights);
   void bind_finished();
   bool open_file(const QString& path, const OpenedFile* read);
-  bool open_and_note(const QString& path, const OpenedFile* read);
   bool open_picture(vtkImageData* picture, const QString& name, const Source& source, bool whole);
   bool say(const QString& name, const bindpose::Status& status);
   void update_hint();

@@ -557,10 +557,8 @@ QString Probe::defect(const SightRay& ray) const
       }
       else
       {
-        const auto area = [](const Vec3& p, const Vec3& q)
-        { return p.x() * q.y() - p.y() * q.x(); };
-        const double u = area(b, c), v = area(c, a), w = area(a, b);
-        met = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
+        Vec3 areas;
+        met = surrounds_ray(a.data(), b.data(), c.data(), areas);
         depth = std::min({ a.z(), b.z(), c.z() });
       }
       const int kind = corners < 3 ? 1 : 3;

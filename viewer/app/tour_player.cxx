@@ -55,6 +55,14 @@ QImage to_image(vtkImageData* picture)
     .mirrored();
 }
 
+/// Made smaller where it is wider; 0: as it is.
+QImage at_most(const QImage& picture, int width)
+{
+  return width > 0 && width < picture.width()
+    ? picture.scaledToWidth(width, Qt::SmoothTransformation)
+    : picture;
+}
+
 /// How much of the picture is not its background, which is of one colour along each row.
 double drawn_share(const QImage& picture)
 {
@@ -495,9 +503,7 @@ QImage TourPlayer::grab(TourPart part, int width)
     : part == TourPart::window                  ? this->window_->grab().toImage()
     : dialog                                    ? dialog->grab().toImage()
                                                 : QImage();
-  const QImage plain = picture.convertToFormat(QImage::Format_RGB32);
-  return width > 0 && width < plain.width() ? plain.scaledToWidth(width, Qt::SmoothTransformation)
-                                            : plain;
+  return at_most(picture.convertToFormat(QImage::Format_RGB32), width);
 }
 
 QString TourPlayer::write(const QImage& picture, const std::string& name)
@@ -538,8 +544,12 @@ QString TourPlayer::fit_view()
 
 QString TourPlayer::screenshot(const TourStep& step)
 {
-  QImage picture = this->grab(step.part, step.width);
-  if (step.scale > 1 || step.transparent)
+  QImage picture;
+  if (step.scale == 1 && !step.transparent)
+  {
+    picture = this->grab(step.part, step.width);
+  }
+  else
   {
     vtkSmartPointer<vtkImageData> taken;
     const Status status =
@@ -548,10 +558,7 @@ QString TourPlayer::screenshot(const TourStep& step)
     {
       return QString::fromStdString(status.message);
     }
-    picture = to_image(taken);
-    picture = step.width > 0 && step.width < picture.width()
-      ? picture.scaledToWidth(step.width, Qt::SmoothTransformation)
-      : picture;
+    picture = at_most(to_image(taken), step.width);
   }
   const double drawn = drawn_share(this->window_->viewport()->grabFramebuffer());
   if (picture.isNull() || (drawn == 0.0 && !this->window_->is_empty()))

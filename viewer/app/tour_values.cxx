@@ -1,5 +1,6 @@
 #include "tour_values.h"
 
+#include "document/dataset_json.h"
 #include "document/document.h"
 #include "inspection.h"
 #include "key_strip.h"
@@ -86,25 +87,10 @@ void add_work(Json& values, MainWindow* window)
 
 void add_options(Json& values, const Document* document)
 {
-  for (const OptionInfo& option : option_table())
+  const nlohmann::json options = options_to_json(document->work().options);
+  for (const auto& [key, value] : options.items())
   {
-    const QVariant value = document->option(option.key);
-    Json& json = values[std::string("option.") + option.key];
-    if (value.type() == QVariant::Bool)
-    {
-      json = value.toBool();
-    }
-    else if (value.type() == QVariant::List)
-    {
-      for (const QVariant& number : value.toList())
-      {
-        json.push_back(number.toDouble());
-      }
-    }
-    else
-    {
-      json = value.toDouble();
-    }
+    values["option." + key] = value;
   }
 }
 

@@ -42,15 +42,7 @@ void open_all(MainWindow& window, const std::vector<FirstFile>& files)
 {
   for (const FirstFile& file : files)
   {
-    const QString path = QString::fromLocal8Bit(file.path.c_str());
-    if (file.data)
-    {
-      window.open(path, *file.data);
-    }
-    else
-    {
-      window.open(path);
-    }
+    window.open(QString::fromLocal8Bit(file.path.c_str()), file.data ? &*file.data : nullptr);
   }
 }
 } // namespace

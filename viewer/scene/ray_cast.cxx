@@ -20,20 +20,24 @@ double area(const double* a, const double* b)
 /// Whether a triangle of seen points is met, and where.
 bool meets(const double* a, const double* b, const double* c, Vec3& shares, double& distance)
 {
-  const double u = area(b, c);
-  const double v = area(c, a);
-  const double w = area(a, b);
-  const bool inside = (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
-  const double whole = u + v + w;
+  Vec3 areas;
+  const bool inside = surrounds_ray(a, b, c, areas);
+  const double whole = areas[0] + areas[1] + areas[2];
   if (!inside || whole == 0.0)
   {
     return false;
   }
-  shares = Vec3(u, v, w) / whole;
+  shares = areas / whole;
   distance = shares[0] * a[2] + shares[1] * b[2] + shares[2] * c[2];
   return distance >= 0.0;
 }
 } // namespace
+
+bool surrounds_ray(const double* a, const double* b, const double* c, Vec3& areas)
+{
+  areas = Vec3(area(b, c), area(c, a), area(a, b));
+  return (areas.array() >= 0.0).all() || (areas.array() <= 0.0).all();
+}
 
 Points seen_along(const SightRay& ray, PointsView points)
 {

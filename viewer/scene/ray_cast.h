@@ -19,6 +19,10 @@ struct SightRay
 /// distance along it.
 Points seen_along(const SightRay& ray, PointsView points);
 
+/// Whether the ray goes through a triangle of seen points, before or behind its origin, and twice
+/// the signed areas that it makes with the sides opposite of them.
+bool surrounds_ray(const double* a, const double* b, const double* c, Vec3& areas);
+
 /// Where a ray first meets something.
 struct SightHit
 {

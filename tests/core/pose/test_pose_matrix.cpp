@@ -46,11 +46,11 @@ TEST(PoseMatrix, TransformsAreTransposedOneBelowTheOther)
       Eigen::RowVectorXd row(d + 1);
       row << p.head(d).transpose(), 1.0;
       const Eigen::RowVectorXd expected = row * matrix.middleRows(h * (d + 1), d + 1);
-      const Vec3 moved = pose[h].transform * p.homogeneous();
-      EXPECT_LT((moved.head(d).transpose() - expected).norm(), 1e-15);
+      const Eigen::RowVectorXd moved = (pose[h].transform * p.homogeneous()).transpose();
+      EXPECT_LT((moved.head(d) - expected).norm(), 1e-15);
       if (d == 2)
       {
-        EXPECT_EQ(moved.z(), p.z());
+        EXPECT_EQ(moved[2], p.z());
       }
     }
   }

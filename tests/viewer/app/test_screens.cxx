@@ -162,7 +162,7 @@ TEST_F(Screens, AFileThatIsReadIsNotReadAgain)
   ASSERT_TRUE(read_file(path, file).ok());
   file.checksum.wait();
   std::filesystem::remove(path);
-  ASSERT_TRUE(this->window.open(QString::fromStdString(path), file))
+  ASSERT_TRUE(this->window.open(QString::fromStdString(path), &file))
     << this->window.error().toStdString();
   EXPECT_EQ(this->window.document()->surface()->GetNumberOfPolys(), 20 * 16);
   EXPECT_EQ(this->window.document()->work().mesh_source.checksum.size(), 64);

@@ -189,6 +189,13 @@ void open_large(Document& document)
   test::bind(document, 0.0);
 }
 
+void make_large(Session& session)
+{
+  Document document;
+  ASSERT_NO_FATAL_FAILURE(open_large(document));
+  session.work = document.work();
+}
+
 /// Says what was told.
 QString listen(Autosave& autosave, QString& told)
 {
@@ -225,10 +232,8 @@ TEST(Autosaving, IsNotFelt)
 TEST(Autosaving, WhatIsAskedForDuringACopyFollowsItAndTheLastStateIsKept)
 {
   const test::Folder folder;
-  Document document;
-  ASSERT_NO_FATAL_FAILURE(open_large(document));
   Session session;
-  session.work = document.work();
+  ASSERT_NO_FATAL_FAILURE(make_large(session));
   Autosave autosave([&session] { return session; }, QString::fromStdString(folder.path()));
   autosave.begin_save();
   EXPECT_TRUE(autosave.is_saving());
@@ -252,10 +257,8 @@ TEST(Autosaving, WhatIsAskedForDuringACopyFollowsItAndTheLastStateIsKept)
 TEST(Autosaving, TheEndWaitsForWhatIsBeingWrittenAndLeavesNothing)
 {
   const test::Folder folder;
-  Document document;
-  ASSERT_NO_FATAL_FAILURE(open_large(document));
   Session session;
-  session.work = document.work();
+  ASSERT_NO_FATAL_FAILURE(make_large(session));
   {
     Autosave autosave([&session] { return session; }, QString::fromStdString(folder.path()));
     autosave.begin_save();

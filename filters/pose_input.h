@@ -2,6 +2,7 @@
 #define pose_input_h
 
 #include "conversion.h"
+#include "pose/arap_energy.h"
 #include "vtkPoseAlgorithm.h"
 
 /// What vtkBindAlgorithm hands to its subclasses.
@@ -22,6 +23,9 @@ struct vtkPoseAlgorithm::PosedPoints
   bindpose::Points points;
   /// One a handle, as used; empty: none are attached to the output.
   std::vector<bindpose::Affine> transforms;
+  /// Those that the energy was measured against, of whoever wants them attached; else empty.
+  const bindpose::RotationGroups* groups = nullptr;
+  std::vector<Eigen::Matrix3d> rotations;
 };
 
 #endif

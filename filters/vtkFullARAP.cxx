@@ -70,8 +70,14 @@ Status vtkFullARAP::Deform(const PoseInput& input, ExecutionContext& context, Po
   options.max_iterations = this->MaximumIterations;
   options.start = this->WarmStart ? FullArap::Start::last : FullArap::Start::guess;
   options.anderson_window = this->AndersonWindow;
-  const Status status = this->Internal->arap.solve(context, input.pose, options);
-  posed.points = this->Internal->arap.posed();
+  FullArap& arap = this->Internal->arap;
+  const Status status = arap.solve(context, input.pose, options);
+  posed.points = arap.posed();
+  if (this->RotationArrays && status.usable())
+  {
+    posed.groups = &arap.groups();
+    posed.rotations = arap.rotations();
+  }
   return status;
 }
 
@@ -84,4 +90,5 @@ void vtkFullARAP::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "AndersonWindow: " << this->AndersonWindow << "\n";
   os << indent << "WarmStart: " << (this->WarmStart ? "on" : "off") << "\n";
+  os << indent << "RotationArrays: " << (this->RotationArrays ? "on" : "off") << "\n";
 }

@@ -105,6 +105,17 @@ public:
   vtkBooleanMacro(WarmStart, bool);
   ///@}
 
+  ///@{
+  /**
+   * Whether the output gets the point arrays `RotationCluster`, the number of the rotation that a
+   * vertex follows, and `Rotation`, its axis times its angle in degrees, 0 to 180: see
+   * vtkReducedARAP. Default off.
+   */
+  vtkSetMacro(RotationArrays, bool);
+  vtkGetMacro(RotationArrays, bool);
+  vtkBooleanMacro(RotationArrays, bool);
+  ///@}
+
 protected:
   vtkFullARAP();
   ~vtkFullARAP() override;
@@ -125,6 +136,7 @@ private:
   double Tolerance = 1e-6;
   int AndersonWindow = 5;
   bool WarmStart = true;
+  bool RotationArrays = false;
   struct Internals;
   std::unique_ptr<Internals> Internal;
 };

@@ -5,6 +5,7 @@
 #include "base/execution.h"
 #include "pose_elements.h"
 #include "pose_input.h"
+#include "rotation_arrays.h"
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -18,10 +19,11 @@
 
 using namespace bindpose;
 
-struct vtkPoseAlgorithm::Elements
+struct vtkPoseAlgorithm::BindParts
 {
-  std::optional<PoseElements> of_bind;
+  std::optional<PoseElements> elements;
   RestElements rest;
+  vtkSmartPointer<vtkIntArray> clusters;
 };
 
 namespace
@@ -53,7 +55,7 @@ vtkSmartPointer<vtkDataArray> to_normals(const Points& normals, vtkDataArray* li
 }
 } // namespace
 
-vtkPoseAlgorithm::vtkPoseAlgorithm() : Measured(new Elements) {}
+vtkPoseAlgorithm::vtkPoseAlgorithm() : OfBind(new BindParts) {}
 
 vtkPoseAlgorithm::~vtkPoseAlgorithm() = default;
 
@@ -69,7 +71,7 @@ Status vtkPoseAlgorithm::Execute(
   }
   if (this->GetNumberOfBinds() != binds)
   {
-    this->Measured->of_bind.reset();
+    *this->OfBind = BindParts();
   }
   const PoseInput& pose_input = this->GetPoseInput();
   vtkPointSet* mesh = pose_input.mesh;
@@ -85,6 +87,10 @@ Status vtkPoseAlgorithm::Execute(
   if (!posed.transforms.empty())
   {
     result->GetFieldData()->AddArray(to_array(posed.transforms));
+  }
+  if (!posed.rotations.empty())
+  {
+    add_rotations(*posed.groups, posed.rotations, this->OfBind->clusters, result->GetPointData());
   }
   auto* polydata = vtkPolyData::SafeDownCast(result);
   if (vtkDataArray* rest = polydata ? polydata->GetPointData()->GetNormals() : nullptr)
@@ -102,13 +108,13 @@ Status vtkPoseAlgorithm::Execute(
   if (this->StretchLimit != 0.0)
   {
     Phase phase(context, "stretch", 1.0, 1.0);
-    if (!this->Measured->of_bind)
+    if (!this->OfBind->elements)
     {
-      this->Measured->of_bind = to_pose_elements(mesh);
-      this->Measured->rest = to_rest_elements(*this->Measured->of_bind, pose_input.points);
+      this->OfBind->elements = to_pose_elements(mesh);
+      this->OfBind->rest = to_rest_elements(*this->OfBind->elements, pose_input.points);
     }
     stretch = measure_stretch(context, { this->StretchLimit, this->StretchArray },
-      *this->Measured->of_bind, this->Measured->rest, posed.points, result);
+      *this->OfBind->elements, this->OfBind->rest, posed.points, result);
     if (!stretch.ok())
     {
       return stretch;

@@ -73,8 +73,8 @@ private:
 
   double StretchLimit = 2.0;
   bool StretchArray = false;
-  struct Elements;
-  std::unique_ptr<Elements> Measured; ///< of the last bind, once they are asked for
+  struct BindParts;
+  std::unique_ptr<BindParts> OfBind; ///< what is the same for all poses of a bind, once asked for
 };
 
 #endif

@@ -78,6 +78,11 @@ Status vtkReducedARAP::Deform(const PoseInput& input, ExecutionContext& context,
   const Status moved = arap.deform(context, input.points, posed.points);
   posed.transforms.assign(
     arap.transforms().begin(), arap.transforms().begin() + input.weights.cols());
+  if (this->RotationArrays)
+  {
+    posed.groups = &arap.groups();
+    posed.rotations = arap.rotations();
+  }
   return moved.ok() ? status : moved;
 }
 
@@ -103,4 +108,5 @@ void vtkReducedARAP::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "AndersonWindow: " << this->AndersonWindow << "\n";
   os << indent << "WarmStart: " << (this->WarmStart ? "on" : "off") << "\n";
   os << indent << "MixedPrecision: " << (this->MixedPrecision ? "on" : "off") << "\n";
+  os << indent << "RotationArrays: " << (this->RotationArrays ? "on" : "off") << "\n";
 }

@@ -150,6 +150,17 @@ public:
   vtkBooleanMacro(MixedPrecision, bool);
   ///@}
 
+  ///@{
+  /**
+   * Whether the output gets the point arrays `RotationCluster`, the number of the rotation that a
+   * vertex follows, and `Rotation`, its axis times its angle in degrees, 0 to 180: of rotations of
+   * elements the one that most of its elements have, -1 and 0 where it has none. Default off.
+   */
+  vtkSetMacro(RotationArrays, bool);
+  vtkGetMacro(RotationArrays, bool);
+  vtkBooleanMacro(RotationArrays, bool);
+  ///@}
+
 protected:
   vtkReducedARAP();
   ~vtkReducedARAP() override;
@@ -174,6 +185,7 @@ private:
   int AndersonWindow = 5;
   bool WarmStart = true;
   bool MixedPrecision = true;
+  bool RotationArrays = false;
   struct Internals;
   std::unique_ptr<Internals> Internal;
 };

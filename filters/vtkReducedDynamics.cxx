@@ -256,6 +256,11 @@ Status vtkReducedDynamics::Deform(
   const Status moved = state.body.deform(context, input.points, posed.points);
   posed.transforms.assign(
     state.body.transforms().begin(), state.body.transforms().begin() + input.weights.cols());
+  if (this->RotationArrays)
+  {
+    posed.groups = &state.body.groups();
+    posed.rotations = state.body.rotations();
+  }
   return moved.ok() ? status : moved;
 }
 
@@ -287,4 +292,5 @@ void vtkReducedDynamics::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "MixedPrecision: " << (this->MixedPrecision ? "on" : "off") << "\n";
   os << indent << "Interactive: " << (this->Interactive ? "on" : "off") << "\n";
+  os << indent << "RotationArrays: " << (this->RotationArrays ? "on" : "off") << "\n";
 }

@@ -126,6 +126,17 @@ public:
   vtkBooleanMacro(Interactive, bool);
   ///@}
 
+  ///@{
+  /**
+   * Whether the output gets the point arrays `RotationCluster`, the number of the rotation that a
+   * vertex follows, and `Rotation`, its axis times its angle in degrees, 0 to 180: see
+   * vtkReducedARAP. Default off.
+   */
+  vtkSetMacro(RotationArrays, bool);
+  vtkGetMacro(RotationArrays, bool);
+  vtkBooleanMacro(RotationArrays, bool);
+  ///@}
+
   /// The next execution begins at time 0.
   void Restart();
 
@@ -175,6 +186,7 @@ private:
   double Tolerance = 1e-6;
   bool MixedPrecision = true;
   bool Interactive = false;
+  bool RotationArrays = false;
   struct Internals;
   std::unique_ptr<Internals> Internal;
 };

@@ -26,7 +26,7 @@ def make(options):
     times, found, files = [], [], []
     for count in counts:
         posed = posing.posed(bindpose.vtkReducedARAP(), weighted, handles, pose, NumberOfClusters=count,
-                             MaximumIterations=5000, Tolerance=1e-8)
+                             MaximumIterations=5000, Tolerance=1e-8, RotationArrays=True)
         report = bindpose.report(posed)
         times.append(report["microseconds_per_iteration"])
         found.append((posed, report["counts"]["clusters"]))
@@ -36,7 +36,7 @@ def make(options):
     shown = files[:4]
     labels = [f"{rotations} rotation{'s' * (rotations > 1)}: {away:.1%} from {found[-1][1]}: {time:.3g} µs"
               for (_, rotations), away, time in zip(found, apart, times)]
-    common.render(options, *shown, "--columns", 2, "--size", "1300x1000", "--edges", "--up", "z", "--azimuth", -35,
+    common.render(options, *shown, "--columns", 2, "--size", "1300x1000", "--color", "rotation-cluster", "--up", "z", "--azimuth", -35,
                   "--elevation", 15, "--section", "none", "--labels", ",".join(labels[:4]),
                   "--title", "As many rotations as handles need")
     return {"clusters": [rotations for _, rotations in found], "microseconds an iteration": times,

@@ -563,7 +563,8 @@ def _make_poser(handles, pose):
 def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, energy="auto", iterations=0,
            tolerance=1e-6, budget_us=0.0, mixed_precision=True, extra_weights=0, extra_kind="bumps", times=None, order=2,
            boundary="region", tangents="surroundings", pseudo_edges="given", pseudo_edge_stretch=False,
-           single_precision=False, influences=0, smallest_weight=0.0, stretch_limit=2.0, stretch_array=False, threads=0, progress=None):
+           single_precision=False, influences=0, smallest_weight=0.0, stretch_limit=2.0, stretch_array=False,
+           rotation_arrays=False, threads=0, progress=None):
     """Bend a mesh with weights to a pose, or to a sequence of poses.
 
     Parameters
@@ -630,6 +631,9 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
     stretch_array : bool
         For a dataset: add the cell array ``Stretch``, the largest and the smallest stretch of each cell, the smallest
         below 0 where it is inside out.
+    rotation_arrays : bool
+        Of reduced-arap and full-arap, for a dataset: add the point arrays ``RotationCluster``, the number of the
+        rotation that a vertex follows, and ``Rotation``, its axis times its angle in degrees.
     threads, progress
         See `winding_number`.
 
@@ -659,6 +663,8 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
     bender.SetInputConnection(1, poser.GetOutputPort())
     bender.SetStretchLimit(stretch_limit)
     bender.SetStretchArray(stretch_array)
+    if method in ("reduced-arap", "full-arap"):
+        bender.SetRotationArrays(rotation_arrays)
     bender.SetNumberOfThreads(threads)
     results = []
     run(poser)
@@ -677,7 +683,7 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
 
 def dynamics(mesh, handles, pose, *, frames, time_step=1 / 24, weights=None, gravity=(0.0, 0.0, 0.0), damping=0.0,
              stiffness=1000.0, density=1.0, energy="auto", extra_weights=0, extra_kind="bumps", mixed_precision=True,
-             threads=0, progress=None):
+             rotation_arrays=False, threads=0, progress=None):
     """Move a mesh as a body with mass: what handles leave open swings and falls.
 
     Parameters
@@ -698,7 +704,7 @@ def dynamics(mesh, handles, pose, *, frames, time_step=1 / 24, weights=None, gra
     stiffness, density : float
         Energy of a strain of one, and mass, per volume (of surfaces per area). Waves run at
         sqrt(stiffness / density) lengths a second.
-    energy, extra_weights, extra_kind, mixed_precision
+    energy, extra_weights, extra_kind, mixed_precision, rotation_arrays
         See `deform`, of reduced-arap.
     threads, progress
         See `winding_number`.
@@ -726,6 +732,7 @@ def dynamics(mesh, handles, pose, *, frames, time_step=1 / 24, weights=None, gra
     body.SetStiffness(stiffness)
     body.SetDensity(density)
     body.SetMixedPrecision(bool(mixed_precision))
+    body.SetRotationArrays(rotation_arrays)
     body.SetInputData(0, data)
     body.SetInputConnection(1, poser.GetOutputPort())
     body.SetNumberOfThreads(threads)

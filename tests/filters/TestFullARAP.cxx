@@ -99,6 +99,28 @@ TEST_F(FullARAPFilter, HandlesHaveTheirTransformsOnTetsAndSurfaces)
   }
 }
 
+TEST_F(FullARAPFilter, RotationArraysTellWhatEachVertexIsTurnedBy)
+{
+  this->pose->SetPoseJSON(R"({"handles": {
+    "left": {"rotate": {"axis": [0, 0, 1], "degrees": 40}}, "middle": {"mode": "free"},
+    "right": {"mode": "free"}}})"); // the whole bar follows
+  this->filter->RotationArraysOn();
+  this->filter->SetMaximumIterations(10000);
+  this->filter->SetTolerance(0.0);
+  for (const int energy : { vtkFullARAP::TETRAHEDRA, vtkFullARAP::SPOKES_AND_RIMS })
+  {
+    this->filter->SetEnergy(energy);
+    this->filter->Update();
+    vtkDataArray* turns = this->filter->GetOutput()->GetPointData()->GetArray("Rotation");
+    ASSERT_NE(turns, nullptr);
+    ASSERT_TRUE(this->filter->GetOutput()->GetPointData()->HasArray("RotationCluster"));
+    for (vtkIdType v = 0; v < turns->GetNumberOfTuples(); ++v)
+    {
+      EXPECT_LT((Vec3(turns->GetTuple3(v)) - Vec3(0, 0, 40)).norm(), 1e-4) << v;
+    }
+  }
+}
+
 TEST_F(FullARAPFilter, DragsBindOnceAndBindParametersBindAgain)
 {
   for (int k = 0; k < 10; ++k)

@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 
 using namespace bindpose;
 using testing::HasSubstr;
@@ -239,6 +240,48 @@ TEST_F(ReducedARAPFilter, AllFullEqualsTheSkinningFilter)
   EXPECT_EQ(this->output(), to_points(skinning->GetOutput()).view());
 }
 
+TEST_F(ReducedARAPFilter, RotationArraysTellWhatEachVertexIsTurnedBy)
+{
+  const char* turned = R"({"handles": {
+    "left": {"rotate": {"axis": [0, 0, 1], "degrees": 50}, "space": "world"},
+    "middle": {"mode": "free"}, "right": {"mode": "free"}}})";
+  this->pose->SetPoseJSON(turned);
+  this->filter->Update();
+  EXPECT_FALSE(this->filter->GetOutput()->GetPointData()->HasArray("RotationCluster"));
+  EXPECT_FALSE(this->filter->GetOutput()->GetPointData()->HasArray("Rotation"));
+  this->filter->RotationArraysOn();
+  this->filter->SetMaximumIterations(10000);
+  this->filter->SetTolerance(0.0);
+  for (const int energy : { vtkReducedARAP::TETRAHEDRA, vtkReducedARAP::SPOKES_AND_RIMS })
+  {
+    this->filter->SetEnergy(energy);
+    this->filter->Update();
+    vtkDataSet* posed = this->filter->GetOutput();
+    vtkDataArray* clusters = posed->GetPointData()->GetArray("RotationCluster");
+    ASSERT_NE(clusters, nullptr);
+    ASSERT_EQ(clusters->GetNumberOfTuples(), posed->GetNumberOfPoints());
+    std::set<int> seen;
+    for (vtkIdType v = 0; v < posed->GetNumberOfPoints(); ++v)
+    {
+      seen.insert(static_cast<int>(clusters->GetComponent(v, 0)));
+      // The whole bar follows the one handle that is fixed.
+      const Vec3 turn(posed->GetPointData()->GetArray("Rotation")->GetTuple3(v));
+      EXPECT_LT((turn - Vec3(0, 0, 50)).norm(), 1e-4) << v;
+    }
+    EXPECT_EQ(*seen.begin(), 0);
+    EXPECT_LE(*seen.rbegin(), this->report("counts.clusters") - 1);
+    EXPECT_GT(seen.size(), 4u);
+    // The same object for another pose, and another for another bind.
+    this->pose->SetPoseJSON(drag_right(0.5));
+    this->filter->Update();
+    EXPECT_EQ(this->filter->GetOutput()->GetPointData()->GetArray("RotationCluster"), clusters);
+    this->pose->SetPoseJSON(turned);
+    this->filter->SetNumberOfClusters(this->filter->GetNumberOfClusters() + 5);
+    this->filter->Update();
+    EXPECT_NE(this->filter->GetOutput()->GetPointData()->GetArray("RotationCluster"), clusters);
+  }
+}
+
 TEST_F(ReducedARAPFilter, SurfacesBendToo)
 {
   this->filter->SetInputData(0, this->surface);
@@ -382,7 +425,7 @@ TEST_F(ReducedARAPFilter, PrintSelfNamesEveryParameter)
   this->filter->Print(text);
   for (const char* word : { "ArrayName: Weights", "NumberOfBinds: 0", "Energy: auto",
          "NumberOfClusters: 0", "NumberOfExtraWeights: 0", "MaximumIterations: 100",
-         "Tolerance: 1e-06", "WarmStart: on", "MixedPrecision: on" })
+         "Tolerance: 1e-06", "WarmStart: on", "MixedPrecision: on", "RotationArrays: off" })
   {
     EXPECT_THAT(text.str(), HasSubstr(word));
   }

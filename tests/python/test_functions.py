@@ -219,6 +219,21 @@ def test_deform_is_the_programs(tmp_path, method):
     assert np.array_equal(points_of(mesh), np.array(BAR[0]))  # the caller's stays as it is
 
 
+def test_rotations_are_arrays_of_datasets():
+    mesh = to_dataset(BAR)
+    x = np.array(BAR[0])[:, 0] / 6
+    add_point_array(mesh, "Weights", np.stack([1 - x, x], axis=1), ["b1", "b2"])
+    pose = {"handles": {"b1": {"rotate": {"axis": [1, 0, 0], "degrees": 25}}, "b2": {"mode": "free"}}}
+    handles = bindpose.handles(bones=BONES)
+    options = {"rotation_arrays": True, "tolerance": 0, "iterations": 5000}
+    posed = [bindpose.deform(mesh, handles, pose, method=method, **options) for method in ("reduced-arap", "full-arap")]
+    posed += bindpose.dynamics(mesh, handles, pose, frames=1, rotation_arrays=True)
+    for each in posed:
+        turns = vtk_to_numpy(each.GetPointData().GetArray("Rotation"))
+        assert turns == pytest.approx(np.tile([25, 0, 0], (len(BAR[0]), 1)), abs=0.05)
+        assert vtk_to_numpy(each.GetPointData().GetArray("RotationCluster")).min() == 0
+
+
 def test_sequences_are_lists():
     handles = bindpose.handles(bones=BONES)
     x = np.array(BAR[0])[:, 0] / 6

@@ -344,6 +344,10 @@ const std::vector<Verb>& verbs()
         { "--stretch-array", "", Kind::flag, "", "",
           "write the cell array Stretch: the largest and the smallest stretch of each cell, the "
           "smallest below 0 where it is inside out" },
+        { "--rotation-arrays", "", Kind::flag, "", "",
+          "of reduced-arap, full-arap and --dynamics: write the point arrays RotationCluster, the "
+          "number of the rotation that a vertex follows, and Rotation, its axis times its angle in "
+          "degrees" },
         { "-o,--output", "OUT", Kind::text, "", "",
           "mesh file; a sequence gives OUT_0000, OUT_0001, … and OUT.pvd; .glb or .gltf: the rest "
           "mesh with its joints, posed or animated, in one file",
@@ -362,10 +366,11 @@ const std::vector<Verb>& verbs()
           "frames a second of moving pictures; else those of the sequence, or 24" },
         { "--array", "NAME", Kind::text, "", "", "colour by this array" },
         { "--color", "WHAT", Kind::choice, "array",
-          "array|winding-number|label|quality|rung|handle|row-sum",
+          "array|winding-number|label|quality|rung|handle|row-sum|rotation-cluster|rotation",
           "colour by --array, or tets by their winding number, by what the segmentation decided, "
           "by their smallest dihedral angle, or by the method that made them; meshes with weights "
-          "by the handle with the greatest weight, or by the sums of RawWeights (weights --raw)" },
+          "by the handle with the greatest weight, or by the sums of RawWeights (weights --raw); "
+          "posed ones by which rotation they follow, or by its angle (deform --rotation-arrays)" },
         { "--component", "NAME", Kind::text, "", "", "component of the array, by name or number" },
         { "--minus", "FILE", Kind::text, "", "",
           "show the array minus that of this file, which has as many points; without --array: "

@@ -47,6 +47,7 @@ vtkSmartPointer<Filter> make_arap(const Arguments& arguments)
   auto arap = vtkSmartPointer<Filter>::New();
   arap->SetEnergy(energy_of(arguments.text("energy")));
   arap->SetTolerance(arguments.number("tolerance"));
+  arap->SetRotationArrays(arguments.has("rotation-arrays"));
   if (arguments.integer("iterations") > 0)
   {
     arap->SetMaximumIterations(arguments.integer("iterations"));

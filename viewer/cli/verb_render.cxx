@@ -104,6 +104,8 @@ ColourBy colour_by(const std::string& word)
     : word == "rung"              ? ColourBy::rung
     : word == "handle"            ? ColourBy::handle
     : word == "row-sum"           ? ColourBy::row_sum
+    : word == "rotation-cluster"  ? ColourBy::rotation_cluster
+    : word == "rotation"          ? ColourBy::rotation
                                   : ColourBy::array;
 }
 

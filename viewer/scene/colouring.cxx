@@ -4,6 +4,7 @@
 
 #include "conversion.h"
 #include "inside/tet_quality.h"
+#include "scene/rotation_colours.h"
 
 #include "vtkCellData.h"
 #include "vtkContourFilter.h"
@@ -343,6 +344,51 @@ Status choose_handle_colouring(
   return {};
 }
 
+// The same of clusters.
+vtkSmartPointer<vtkDoubleArray> cluster_values(vtkDataSet* data, const Colouring& colouring)
+{
+  const auto values = clusters_of_cells(data);
+  if (!values)
+  {
+    return nullptr;
+  }
+  values->SetName(colour_array_name);
+  const std::vector<double> shown = category_values(colouring.categories);
+  for (vtkIdType cell = 0; cell < values->GetNumberOfValues(); ++cell)
+  {
+    const double cluster = values->GetValue(cell);
+    values->SetValue(cell,
+      cluster < 0.0 ? std::numeric_limits<double>::quiet_NaN()
+                    : shown[static_cast<std::size_t>(cluster)]);
+  }
+  return values;
+}
+
+Status choose_cluster_colouring(
+  const std::vector<Tile>& tiles, const PictureOptions& options, Colouring& colouring)
+{
+  if (options.range[0] <= options.range[1])
+  {
+    return Status::invalid_input("colours by rotation cluster have no range");
+  }
+  std::vector<vtkDataSet*> datasets;
+  for (const Tile& tile : tiles)
+  {
+    datasets.push_back(tile.data);
+  }
+  const Status status = check_clusters(datasets);
+  if (!status.ok())
+  {
+    return status;
+  }
+  colouring.categories = cluster_categories(datasets);
+  colouring.kind = Colouring::Kind::other;
+  colouring.map = category_map(colouring.categories);
+  colouring.map.ticks.clear(); // they have no names
+  colouring.map.texts.clear();
+  return {};
+}
+
 // Bands of a tenth, or the same range without bands, and the isolines between.
 void choose_weight_map(
   const PictureOptions& options, double lower, double upper, Colouring& colouring)
@@ -460,6 +506,12 @@ std::string Colouring::legend_name() const
       return "Handle";
     case ColourBy::row_sum:
       return "Row sum";
+    case ColourBy::rotation_cluster:
+      return std::to_string(std::count_if(this->categories.begin(), this->categories.end(),
+               [](const Category& category) { return category.count > 0; })) +
+        " rotation clusters";
+    case ColourBy::rotation:
+      return "Rotation (°)";
     case ColourBy::array:
     case ColourBy::winding_number:
       break;
@@ -483,6 +535,11 @@ vtkSmartPointer<vtkDoubleArray> colour_values(
   {
     on_points = false;
     return handle_values(data, colouring);
+  }
+  if (colouring.by == ColourBy::rotation_cluster)
+  {
+    on_points = false;
+    return cluster_values(data, colouring);
   }
   const FoundArray found = find_array(data, colouring.array);
   const int component = found.array ? find_component(found.array, colouring) : no_component;
@@ -538,7 +595,13 @@ Status choose_colouring(
     {
       return choose_handle_colouring(tiles, options, colouring);
     }
-    colouring.array = colouring.by == ColourBy::row_sum ? "RawWeights" : "WindingNumber";
+    if (colouring.by == ColourBy::rotation_cluster)
+    {
+      return choose_cluster_colouring(tiles, options, colouring);
+    }
+    colouring.array = colouring.by == ColourBy::row_sum ? "RawWeights"
+      : colouring.by == ColourBy::rotation              ? "Rotation"
+                                                        : "WindingNumber";
   }
   for (const Tile& tile : tiles)
   {
@@ -605,6 +668,11 @@ Status choose_colouring(
     return Status::invalid_input(
       "there is no array 'RawWeights'; bindpose weights --raw writes it");
   }
+  if (!sample && colouring.by == ColourBy::rotation)
+  {
+    return Status::invalid_input(
+      "there is no array 'Rotation'; bindpose deform --rotation-arrays writes it");
+  }
   if (!sample)
   {
     const std::string there = list_words(array_names(tiles));
@@ -656,8 +724,11 @@ Status choose_colouring(
   }
   else
   {
+    const bool angles = colouring.by == ColourBy::rotation;
+    const double from = angles ? 0.0 : lower;
+    const double to = angles ? angle_scale(upper) : upper;
     colouring.map =
-      sequential_map(given ? options.range[0] : lower, given ? options.range[1] : upper, 0);
+      sequential_map(given ? options.range[0] : from, given ? options.range[1] : to, 0);
   }
   return Status();
 }

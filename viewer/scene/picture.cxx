@@ -485,7 +485,8 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     (size[across] + 1e-9 * size.norm() + 1e-300) / (size[frame.up] + 1e-9 * size.norm() + 1e-300),
     0.2, 5.0);
   std::vector<Legend> legends;
-  if (options.legend && colouring.kind != Colouring::Kind::none)
+  const bool tells = !colouring.map.ticks.empty(); // clusters have no names
+  if (options.legend && colouring.kind != Colouring::Kind::none && tells)
   {
     legends.push_back({ make_legend_map(options, colouring.map), colouring.legend_name() });
   }

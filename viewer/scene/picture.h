@@ -50,7 +50,9 @@ enum class ColourBy
   quality, ///< tets: the smallest dihedral angle, degrees
   rung, ///< tets: the method that made them, by the field data Method
   handle, ///< cells of meshes: the handle whose Weights are the greatest there, by name
-  row_sum ///< the sum of each point's RawWeights
+  row_sum, ///< the sum of each point's RawWeights
+  rotation_cluster, ///< cells: the rotation that most of their points follow (RotationCluster)
+  rotation ///< the angle of each point's Rotation
 };
 
 /// A plane in space.

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
+#include <vector>
 
 namespace bindpose
 {
@@ -64,6 +66,60 @@ Shares<Corners> shares_of(const Elements& elements, Index e, const RotationGroup
   return shares;
 }
 
+/// The value that occurs most, the lowest of equals. Sorts them.
+template <typename Iterator>
+Index most_frequent(Iterator begin, Iterator end)
+{
+  std::sort(begin, end);
+  Index best = *begin;
+  std::ptrdiff_t most = 0;
+  for (Iterator run = begin; run != end;)
+  {
+    const Iterator next = std::upper_bound(run, end, *run);
+    if (next - run > most)
+    {
+      most = next - run;
+      best = *run;
+    }
+    run = next;
+  }
+  return best;
+}
+
+/// For each vertex the label that most of its elements have; -1 where there are none.
+template <typename Elements>
+std::vector<Index> labels_around(
+  const Elements& elements, const std::vector<Index>& of_element, std::size_t vertices)
+{
+  std::vector<Index> begin(vertices + 2, 0); // of each vertex in labels, two places late
+  for (Index e = 0; e < elements.rows(); ++e)
+  {
+    for (Index k = 0; k < elements.cols(); ++k)
+    {
+      begin[static_cast<std::size_t>(elements(e, k)) + 2] += 1;
+    }
+  }
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<Index> labels(static_cast<std::size_t>(elements.size()));
+  for (Index e = 0; e < elements.rows(); ++e)
+  {
+    for (Index k = 0; k < elements.cols(); ++k)
+    {
+      labels[begin[static_cast<std::size_t>(elements(e, k)) + 1]++] =
+        of_element[static_cast<std::size_t>(e)];
+    }
+  }
+  std::vector<Index> of_vertex(vertices, -1);
+  for (std::size_t v = 0; v < vertices; ++v)
+  {
+    if (begin[v] < begin[v + 1])
+    {
+      of_vertex[v] = most_frequent(labels.begin() + begin[v], labels.begin() + begin[v + 1]);
+    }
+  }
+  return of_vertex;
+}
+
 template <typename Elements, int Corners>
 RotationGroups make_groups(
   ArapEnergy energy, const Elements& elements, Index count, std::vector<Index> vertex_labels)
@@ -86,25 +142,14 @@ RotationGroups make_groups(
     {
       labels[k] = groups.of_vertex[static_cast<std::size_t>(elements(e, k))];
     }
-    std::sort(labels.begin(), labels.end());
-    Index best = labels[0];
-    std::ptrdiff_t most = 0;
-    for (const Index label : labels)
-    {
-      const std::ptrdiff_t votes = std::count(labels.begin(), labels.end(), label);
-      if (votes > most)
-      {
-        most = votes;
-        best = label;
-      }
-    }
-    Index& name = fresh[static_cast<std::size_t>(best)];
+    Index& name = fresh[static_cast<std::size_t>(most_frequent(labels.begin(), labels.end()))];
     if (name < 0)
     {
       name = groups.count++;
     }
     groups.of_element[static_cast<std::size_t>(e)] = name;
   }
+  groups.of_vertex = labels_around(elements, groups.of_element, groups.of_vertex.size());
   return groups;
 }
 

@@ -49,8 +49,10 @@ struct RotationGroups
 {
   ArapEnergy energy = ArapEnergy::spokes_and_rims;
   Index count = 0;
-  std::vector<Index> of_vertex; ///< #V, used by spokes and by spokes and rims
-  std::vector<Index> of_element; ///< #elements, used by elements
+  /// #V: whose rotation a vertex follows; of elements, that of most of its elements (the lowest of
+  /// equals), -1 where it has none.
+  std::vector<Index> of_vertex;
+  std::vector<Index> of_element; ///< #elements; empty for the energies of vertices
 };
 
 /// Groups from labels of the vertices; an element takes the label that most of its vertices have

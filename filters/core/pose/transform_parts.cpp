@@ -4,6 +4,8 @@
 
 #include "pose/rotation_fit.h"
 
+#include <Eigen/Geometry>
+
 namespace bindpose
 {
 
@@ -31,6 +33,12 @@ TransformParts parts_of(const Affine& transform, const Vec3& pivot)
 Affine affine_of(const TransformParts& parts, const Vec3& pivot)
 {
   return affine_about(pivot, parts.rotation * parts.scale, parts.translation);
+}
+
+Vec3 rotation_vector(const Eigen::Matrix3d& rotation)
+{
+  const Eigen::AngleAxisd turn(rotation);
+  return turn.angle() * (180.0 / EIGEN_PI) * turn.axis();
 }
 
 } // namespace bindpose

@@ -20,6 +20,9 @@ struct TransformParts
 TransformParts parts_of(const Affine& transform, const Vec3& pivot);
 Affine affine_of(const TransformParts& parts, const Vec3& pivot);
 
+/// The axis of a rotation times its angle in degrees, 0 to 180.
+Vec3 rotation_vector(const Eigen::Matrix3d& rotation);
+
 } // namespace bindpose
 
 #endif

@@ -200,6 +200,8 @@ TEST(ArapEnergy, ElementsTakeTheLabelOfMostVertices)
   // 3 of 4 in label 3; 1 1 3 0: label 1; 1 0 0 0: label 0. Names by first appearance.
   EXPECT_EQ(groups.of_element, (std::vector<Index>{ 0, 1, 2 }));
   EXPECT_EQ(groups.count, 3);
+  // Vertices follow most of their elements, the lowest of equals.
+  EXPECT_EQ(groups.of_vertex, (std::vector<Index>{ 0, 0, 0, 0, 1, 1, 2, 2 }));
   EXPECT_STREQ(to_string(ArapEnergy::elements, true), "tetrahedra");
   EXPECT_STREQ(to_string(ArapEnergy::elements, false), "triangles");
   EXPECT_STREQ(to_string(ArapEnergy::spokes_and_rims, true), "spokes_and_rims");

@@ -26,6 +26,22 @@ Affine random_affine(test::Random& random)
 }
 } // namespace
 
+TEST(TransformParts, ARotationVectorIsTheAxisTimesTheAngle)
+{
+  test::Random random(3);
+  for (const double degrees : { 0.0, 1e-6, 30.0, 90.0, 179.0, 180.0 })
+  {
+    const Vec3 axis = random_vector(random).normalized();
+    const Vec3 vector =
+      rotation_vector(Eigen::AngleAxisd(degrees * EIGEN_PI / 180.0, axis).toRotationMatrix());
+    EXPECT_NEAR(vector.norm(), degrees, 1e-6);
+    // Of a half turn either direction is the axis.
+    EXPECT_LT(std::min((vector - degrees * axis).norm(),
+                degrees < 180.0 ? 1e9 : (vector + degrees * axis).norm()),
+      1e-6);
+  }
+}
+
 TEST(TransformParts, ComeBackTogether)
 {
   test::Random random(5);

@@ -293,3 +293,26 @@ def test_what_is_stretched_is_in_the_report_and_a_cell_array(bar):
     assert report["counts"]["stretched_elements"] == 0
     report = deform(bar, longer, "--report", "-", "--overwrite", "--stretch-limit", 0).is_good().report
     assert "largest_stretch" not in report
+
+
+def test_rotations_are_arrays_that_render_colours_by(bar):
+    """The bar follows its first bone, which turns by 40 degrees, while the second is free."""
+    turn = {"handles": {"b1": {"rotate": {"axis": [0, 0, 1], "degrees": 40}}, "b2": {"mode": "free"}}}
+    for method, more in (("reduced-arap", []), ("full-arap", ["--iterations", 10000, "--tolerance", 0])):
+        deform(bar, turn, "--overwrite", "--rotation-arrays", *more, method=method)
+        data = bindpose.read(bar / "out.vtp").GetPointData()
+        assert numpy_support.vtk_to_numpy(data.GetArray("Rotation")) == pytest.approx(
+            np.tile([0, 0, 40], (len(bar.points), 1)), abs=0.05)
+    deform(bar, turn, "--overwrite", "--rotation-arrays", method="reduced-arap").is_good()
+    clusters = numpy_support.vtk_to_numpy(bindpose.read(bar / "out.vtp").GetPointData().GetArray("RotationCluster"))
+    picture = bar.run("render", "out.vtp", "--color", "rotation-cluster", "--size", "200x150", "-o", "c.png",
+                      "--report", "-").is_good().report["picture"]
+    assert sum(colour["count"] for colour in picture["colours"]) == bindpose.read(bar / "out.vtp").GetNumberOfCells()
+    assert {int(colour["name"]) for colour in picture["colours"]} <= set(clusters)
+    picture = bar.run("render", "out.vtp", "--color", "rotation", "--size", "200x150", "-o", "r.png",
+                      "--report", "-").is_good().report["picture"]
+    assert picture["array"] == "Rotation" and picture["range"] == [0, 45]
+    deform(bar, turn, "--overwrite", method="reduced-arap").is_good()
+    assert not bindpose.read(bar / "out.vtp").GetPointData().HasArray("Rotation")
+    deform(bar, turn, "--overwrite", "--dynamics", "--frames", 2, "--rotation-arrays", output="moved.vtp").is_good()
+    assert bindpose.read(bar / "moved_0001.vtp").GetPointData().HasArray("RotationCluster")

@@ -309,6 +309,10 @@ def test_differences(folder):
     ("nan.vtp", ["--extrema", "--array", "Heat"], "'Heat' holds one that is not"),
     ("w.vtp", ["--color", "row-sum"], "weights --raw"),
     ("raw.vtp", ["--color", "row-sum", "--range", "2,3"], "row sums holds 1"),
+    ("w.vtp", ["--color", "rotation-cluster"], "deform --rotation-arrays"),
+    ("turned.vtp", ["--color", "rotation-cluster", "--range", "0,1"], "no range"),
+    ("turned.vtp", ["--color", "rotation-cluster"], "'RotationCluster' of point 2 is 2e+09"),
+    ("w.vtp", ["--color", "rotation"], "deform --rotation-arrays"),
     ("w.vtp", ["--minus", "none.vtp"], "none.vtp"),
     ("w.vtp", ["--minus", "five.vtp"], "5 points, the dataset has 4"),
     ("w.vtp", ["--minus", "plain.vtp"], "no point array 'Weights'"),
@@ -322,5 +326,6 @@ def test_what_cannot_be_inspected(folder, file, words, sentence):
     folder.write("raw.vtp", square([("RawWeights", ["a", "b"], two[2])]))
     folder.write("five.vtp", square([("Weights", ["a", "b"], two[2] + " 1 0")], points=5))
     folder.write("plain.vtp", square([]))
+    folder.write("turned.vtp", square([("RotationCluster", ["c"], "0 1 2e9 0")]))
     folder.write("nan.vtp", square([("Weights", ["a"], "1 1 1 1"), ("Heat", ["h"], "0 1 nan 2")]))
     folder.run("render", file, "-o", "s.png", *words).is_refused(sentence)

@@ -118,12 +118,21 @@ void Deformation::bind()
   this->advance();
 }
 
-const std::vector<Affine>* Deformation::found()
+/// The poser at work has solved this pose, and does nothing beside the window.
+bool Deformation::is_found() const
 {
   return this->can_pose() && this->settled_ && this->error_.isEmpty() &&
-      !is_slow(this->options_.method)
-    ? this->poser()->found()
-    : nullptr;
+    !is_slow(this->options_.method);
+}
+
+const std::vector<Affine>* Deformation::found()
+{
+  return this->is_found() ? this->poser()->found() : nullptr;
+}
+
+const PoseRotations* Deformation::rotations()
+{
+  return this->is_found() ? this->poser()->rotations() : nullptr;
 }
 
 Index Deformation::binds() const

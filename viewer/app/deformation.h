@@ -44,6 +44,8 @@ public:
   const bindpose::Status& status() const { return this->status_; }
   /// The transforms that a fast method found for these points; null where it finds none.
   const std::vector<bindpose::Affine>* found();
+  /// And what it turned them by.
+  const bindpose::PoseRotations* rotations();
   bool is_binding() const { return this->binding_; }
   /// The points are those of the pose, and nothing will better them.
   bool is_settled() const { return this->settled_; }
@@ -64,6 +66,7 @@ Q_SIGNALS:
   void failed();
 
 private:
+  bool is_found() const;
   std::shared_ptr<bindpose::Poser> poser();
   void advance();
   void bind_beside(const std::shared_ptr<bindpose::Poser>& poser);

@@ -18,6 +18,7 @@
 #include "plane_options.h"
 #include "posing.h"
 #include "probe.h"
+#include "rotation_view.h"
 #include "shape_handles.h"
 #include "side_panel.h"
 #include "style.h"
@@ -198,14 +199,21 @@ void MainWindow::make_inspections()
       this->update_pose(); // a slice lies in the shape at rest
     });
   QObject::connect(this->weights_, &WeightInspection::failed, this, &MainWindow::show_error);
-  this->probe_ = new Probe({ this->viewport_, this->volume_view_, this->inspection_->tet_view(),
-    this->weights_->view(), &this->inspection_->defect_view(), this->posing_,
-    [this] { return this->document_->surface() ? this->seen() : nullptr; } });
+  this->rotations_ =
+    std::make_unique<RotationView>(this->viewport_, this->panels_->side()->pose(), this->posing_);
+  this->probe_ = new Probe(
+    { this->viewport_, this->volume_view_, this->inspection_->tet_view(), this->weights_->view(),
+      &this->inspection_->defect_view(), this->posing_, this->rotations_.get(),
+      [this] { return this->document_->surface() ? this->seen() : nullptr; } });
   QObject::connect(this->panels_, &PanelColumn::panel_shown, this->inspection_,
     [this](int panel)
     {
+      // Who leaves takes its colours along, then who comes shows its own.
+      const bool poses = panel == PanelColumn::bind_and_pose;
+      this->rotations_->set_active(this->rotations_->is_active() && poses);
       this->inspection_->set_active(panel == PanelColumn::tets);
       this->weights_->set_active(panel == PanelColumn::weights);
+      this->rotations_->set_active(poses);
     });
 }
 
@@ -871,6 +879,7 @@ void MainWindow::draw_pose()
     this->posing_->draw();
     this->weights_->move_surface(this->shown());
   }
+  this->rotations_->update();
   this->probe_->clear();
   this->hint_text_ = reading;
   this->update_hint();

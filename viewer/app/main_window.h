@@ -26,6 +26,7 @@ class OptionLinks;
 class PanelColumn;
 class Posing;
 class Probe;
+class RotationView;
 class SidePanel;
 class Viewport;
 class VolumeView;
@@ -84,6 +85,7 @@ public:
   vtkPolyData* shown() const;
   Viewport* viewport() const { return this->viewport_; }
   SidePanel* panel() const { return this->panel_; }
+  RotationView* rotations() const { return this->rotations_.get(); }
   PanelColumn* panels() const { return this->panels_; }
   VolumeView* volume_view() const { return this->volume_view_; }
   Inspection* inspection() const { return this->inspection_; }
@@ -160,6 +162,7 @@ private:
   ShapeHandles* shape_handles_ = nullptr;
   KeyStrip* strip_ = nullptr; // below the picture
   PanelColumn* panels_ = nullptr;
+  std::unique_ptr<RotationView> rotations_;
   SidePanel* panel_ = nullptr; // one of them
   OptionLinks* links_ = nullptr;
   WindowMenus* menus_ = nullptr;

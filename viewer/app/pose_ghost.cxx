@@ -15,6 +15,7 @@
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"
+#include "vtkTexture.h"
 
 PoseGhost::PoseGhost(Viewport* viewport) : viewport_(viewport)
 {
@@ -53,8 +54,24 @@ void PoseGhost::move(bindpose::PointsView points)
 {
   if (this->shaded_ && this->place_ != hidden && points.rows() > 0)
   {
-    this->shaded_->move(points);
+    if (this->place_ == beside)
+    {
+      this->use_picture();
+    }
+    this->viewport_->move_shape(*this->shaded_, points);
   }
+}
+
+/// Beside the shape it looks like that: with its picture, if it has one.
+void PoseGhost::use_picture()
+{
+  vtkTexture* picture = this->viewport_->surface_actor()->GetTexture();
+  const bindpose::Rgb& colour = picture ? bindpose::palette::white : bindpose::palette::surface;
+  vtkProperty* property = this->actor_->GetProperty();
+  property->SetColor(colour[0], colour[1], colour[2]);
+  property->SetLighting(!picture);
+  this->actor_->SetTexture(picture);
+  this->actor_->SetForceOpaque(picture != nullptr);
 }
 
 void PoseGhost::update()
@@ -64,17 +81,19 @@ void PoseGhost::update()
   this->viewport_->renderer()->RemoveActor(this->actor_);
   this->renderer_->RemoveActor(this->actor_);
   vtkProperty* property = this->actor_->GetProperty();
-  const bindpose::Rgb& plain = bindpose::palette::surface;
   if (place == over)
   {
     property->SetColor(0.20, 0.50, 0.76);
     property->SetOpacity(0.38);
+    property->LightingOn();
+    this->actor_->SetTexture(nullptr);
+    this->actor_->ForceOpaqueOff();
     this->viewport_->renderer()->AddActor(this->actor_);
   }
   else if (place == beside)
   {
-    property->SetColor(plain[0], plain[1], plain[2]);
     property->SetOpacity(1.0);
+    this->use_picture();
     this->renderer_->AddActor(this->actor_);
   }
   const bool beside_it = place == beside;

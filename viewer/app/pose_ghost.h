@@ -44,6 +44,7 @@ public:
 
 private:
   void update();
+  void use_picture();
   void clipped();
 
   Viewport* viewport_;

@@ -276,6 +276,13 @@ void PosePanel::add_options(QVBoxLayout* column)
   this->option(column, tr("Budget, µs"), this->budget_,
     tr("A frame's solve ends after so many microseconds; 0: no limit"), reduced);
 
+  this->rotations_ =
+    combo(this, "pose.rotations", { tr("not shown"), tr("clusters"), tr("angles") });
+  this->option(column, tr("Rotations"), this->rotations_,
+    tr("Colours of what the shape is turned by: clusters of places with similar weights that\n"
+       "share a rotation, or how far each of them is turned"),
+    reduced);
+
   this->order_ = combo(this, "pose.order", { tr("membrane"), tr("thin plate"), tr("smoother") });
   this->order_->setCurrentIndex(1);
   this->option(column, tr("Like a"), this->order_,
@@ -428,11 +435,13 @@ void PosePanel::show_options()
   {
     option.row->setVisible(std::find(option.methods.begin(), option.methods.end(),
                              this->method()) != option.methods.end());
+    option.row->setEnabled(this->state_.ready);
   }
   this->extra_kind_row_->setVisible(
     this->method() == PoseMethod::reduced_arap && this->extra_->value() >= 1.0);
   this->endpoints_->setEnabled(this->state_.bones && !this->state_.endpoints);
-  this->in_tets_->setEnabled(this->state_.tets || this->in_tets_->isChecked());
+  this->in_tets_->setEnabled(
+    this->state_.ready && (this->state_.tets || this->in_tets_->isChecked()));
 }
 
 PoseOptions PosePanel::options() const
@@ -476,6 +485,13 @@ PoseGhost::Place PosePanel::ghost_place() const
 bool PosePanel::moves() const
 {
   return this->moves_->isChecked() && this->state_.bound;
+}
+
+PosePanel::Rotations PosePanel::shown_rotations() const
+{
+  return this->method() == PoseMethod::reduced_arap
+    ? static_cast<Rotations>(this->rotations_->currentIndex())
+    : no_rotations;
 }
 
 bindpose::BodyOptions PosePanel::body_options() const

@@ -38,6 +38,14 @@ public:
   int compared_method() const;
   PoseGhost::Place ghost_place() const;
   bool moves() const;
+  /// What is seen of the method's rotations, in colours.
+  enum Rotations
+  {
+    no_rotations,
+    clusters,
+    angles
+  };
+  Rotations shown_rotations() const;
   bindpose::BodyOptions body_options() const;
 
   struct State
@@ -101,6 +109,7 @@ private:
   ValueRow* budget_;
   QCheckBox* in_tets_;
   QCheckBox* drag_only_;
+  QComboBox* rotations_;
   QComboBox* order_;
   QComboBox* boundary_;
   QComboBox* compared_;

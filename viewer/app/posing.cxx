@@ -158,6 +158,7 @@ void Posing::set_data(
   this->compared_->set_source(this->source_);
   this->main_->set_options(this->panels_.pose->options());
   this->show_state();
+  this->show_comparison();
   this->moves_changed();
   this->show_values();
 }
@@ -241,24 +242,32 @@ PoseOptions Posing::compared_options() const
 
 void Posing::comparison_changed()
 {
-  const PoseGhost::Place place = this->panels_.pose->ghost_place();
+  this->show_comparison();
+  if (this->source_ && this->panels_.pose->ghost_place() != PoseGhost::hidden &&
+    !this->compared_->can_pose())
+  {
+    Q_EMIT this->failed(
+      tr("%1 blends by weights: bind first.").arg(method_name(this->compared_->options().method)));
+  }
+  Q_EMIT this->moved();
+}
+
+/// The other method's shape where the panel wants it, as soon as there can be one.
+void Posing::show_comparison()
+{
+  const PoseGhost::Place wanted = this->panels_.pose->ghost_place();
   this->compared_->set_options(this->compared_options());
-  if (this->source_ && place != PoseGhost::hidden)
+  const bool can = this->compared_->can_pose();
+  if (can && wanted != PoseGhost::hidden)
   {
     this->compared_->bind();
     this->compared_->set_pose(this->pose());
-    if (!this->compared_->can_pose())
-    {
-      Q_EMIT this->failed(tr("%1 blends by weights: bind first.")
-                            .arg(method_name(this->compared_->options().method)));
-    }
   }
   const Points& other = this->compared_->points();
   const Points none(0, 3);
   const bool fits = this->surface_ && other.rows() == this->surface_->GetNumberOfPoints();
-  this->ghost_->set_place(place, fits ? other : none);
+  this->ghost_->set_place(can ? wanted : PoseGhost::hidden, fits ? other : none);
   this->show_difference();
-  Q_EMIT this->moved();
 }
 
 void Posing::handles_moved()
@@ -290,8 +299,9 @@ void Posing::show_difference()
 {
   this->viewport_->name_halves(
     method_name(this->main_->options().method), method_name(this->compared_->options().method));
-  if (this->ghost_->place() == PoseGhost::hidden || !this->source_)
+  if (this->ghost_->place() == PoseGhost::hidden)
   {
+    this->panels_.pose->set_difference(tr("Bind first: it blends by weights."));
     return;
   }
   if (this->compared_->is_binding())
@@ -347,6 +357,13 @@ void Posing::follow_free_handles()
 const Points& Posing::points() const
 {
   return this->panels_.pose->moves() ? this->body_points_ : this->main_->points();
+}
+
+const PoseRotations* Posing::rotations()
+{
+  return !this->panels_.pose->moves() ? this->main_->rotations()
+    : this->body_                     ? this->body_->rotations()
+                                      : nullptr;
 }
 
 // ---- What is seen ------------------------------------------------------------------------------

@@ -80,6 +80,8 @@ public:
   Deformation* compared() const { return this->compared_; }
   /// Of the shape that the method at work gives, whether or not it is what is looked at.
   const bindpose::Points& points() const;
+  /// What that shape is turned by; null where the method fits no rotations.
+  const bindpose::PoseRotations* rotations();
   /// Of the box around the shape at rest.
   double rest_diagonal() const { return this->surface_ ? this->surface_->GetLength() : 0.0; }
   PoseGhost* ghost() const { return this->ghost_.get(); }
@@ -115,6 +117,7 @@ private:
   bindpose::PoseOptions compared_options() const;
   void options_changed();
   void comparison_changed();
+  void show_comparison();
   void show_state();
   void show_difference();
   void follow_free_handles();

@@ -6,6 +6,7 @@
 #include "pose_ghost.h"
 #include "pose_panel.h"
 #include "posing.h"
+#include "rotation_view.h"
 #include "tet_view.h"
 #include "viewport.h"
 #include "volume_view.h"
@@ -306,6 +307,7 @@ Probe::Maybe Probe::surface(const SightRay& ray, bool other) const
   }
   found.lines << tr("Triangle %1, vertex %2").arg(hit.element).arg(nearest) << place_words(place);
   found.lines << this->weights(shape, hit) << this->difference(hit);
+  found.lines << (other ? QString() : this->views_.rotations->reading(nearest));
   return found;
 }
 

@@ -11,6 +11,7 @@
 
 class DefectView;
 class Posing;
+class RotationView;
 class QLabel;
 class QMouseEvent;
 class TetView;
@@ -38,6 +39,7 @@ public:
     WeightView* weights;
     const DefectView* defects;
     Posing* posing;
+    const RotationView* rotations;
     /// The surface as it is shown, posed or at rest; null without one.
     std::function<vtkPolyData*()> surface;
   };

@@ -381,6 +381,6 @@ void RegionPainting::show_labels()
     [](const Category& category) { return category.count > 0; });
   // Without one a legend would be a title with nothing below it.
   this->viewport_->show_values(
-    any ? values.Get() : nullptr, false, any ? tr("Regions") : QString(), shortened(map, 12));
+    any ? values.Get() : nullptr, false, any ? tr("Regions") : QString(), map);
   this->viewport_->refresh();
 }

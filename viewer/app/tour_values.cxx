@@ -17,6 +17,7 @@
 #include "window_hand.h"
 
 #include "conversion.h"
+#include "pose/transform_parts.h"
 #include "scene/volume.h"
 
 #include "vtkCamera.h"
@@ -147,6 +148,16 @@ void add_shape(Json& values, MainWindow* window)
     {
       values[key] = status.report.number(key, 0.0);
     }
+  }
+  if (const PoseRotations* found = posing->rotations())
+  {
+    double largest = 0.0;
+    for (const Eigen::Matrix3d& rotation : found->rotations)
+    {
+      largest = std::max(largest, rotation_vector(rotation).norm());
+    }
+    values["rotations"] = static_cast<int>(found->rotations.size());
+    values["rotations.largest"] = largest;
   }
   if (posing->ghost()->place() != PoseGhost::hidden)
   {

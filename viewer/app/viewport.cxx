@@ -4,6 +4,7 @@
 #include "timed_mapper.h"
 
 #include "scene/camera.h"
+#include "scene/categories.h"
 #include "scene/colouring.h"
 #include "scene/colours.h"
 #include "scene/curves.h"
@@ -119,7 +120,6 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   bindpose::use_surface_material(this->actor_);
   bindpose::add_lights(this->renderer_);
   this->renderer_->GradientBackgroundOn();
-  this->use_appearance();
   this->window_->SetNumberOfLayers(2);
   this->legend_->SetLayer(1);
   this->legend_->InteractiveOff();
@@ -127,6 +127,7 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->window_->AddRenderer(this->legend_);
   this->handles_->SetInteractor(this->interactor());
   this->handles_->CreateDefaultRepresentation();
+  this->use_appearance();
   // They are in this renderer, wherever the mouse is when they are turned on.
   this->handles_->SetDefaultRenderer(this->renderer_);
   this->brush_->SetDefaultRenderer(this->renderer_);
@@ -283,18 +284,22 @@ void Viewport::move_surface(vtkPolyData* posed)
 
 void Viewport::move_surface(bindpose::PointsView points)
 {
-  if (!this->shaded_)
+  if (this->shaded_)
   {
-    return;
+    this->move_shape(*this->shaded_, points);
   }
+}
+
+void Viewport::move_shape(bindpose::ShadedSurface& shape, bindpose::PointsView points) const
+{
   if (this->depths_.size() != points.rows())
   {
-    this->shaded_->move(points);
+    shape.move(points);
     return;
   }
   bindpose::Points drawn = points;
   drawn += this->depths_ * this->towards_.transpose();
-  this->shaded_->move(drawn);
+  shape.move(drawn);
 }
 
 void Viewport::set_ghosted(bool ghosted)
@@ -460,6 +465,14 @@ void Viewport::show_values(
   this->show_legend(weight_legend, this->has_values_ ? name : QString(), map);
 }
 
+bool Viewport::shows(vtkDoubleArray* values) const
+{
+  vtkPolyData* drawn = this->drawn();
+  return values && drawn && this->has_values_ &&
+    (drawn->GetPointData()->GetArray(bindpose::colour_array_name) == values ||
+      drawn->GetCellData()->GetArray(bindpose::colour_array_name) == values);
+}
+
 void Viewport::use_appearance()
 {
   using namespace bindpose::palette;
@@ -473,6 +486,11 @@ void Viewport::use_appearance()
       renderer->SetBackground2(above[0], above[1], above[2]);
     }
   }
+  const bindpose::Rgb& ink = is_dark() ? dark_text : text;
+  const bindpose::Rgb& plate = is_dark() ? dark_gradient_bottom : white;
+  vtkTextProperty* name = this->handles_->GetHandleSetRepresentation()->GetLabelTextProperty();
+  name->SetColor(ink[0], ink[1], ink[2]);
+  name->SetBackgroundColor(plate[0], plate[1], plate[2]);
 }
 
 void Viewport::changeEvent(QEvent* event)
@@ -494,12 +512,16 @@ void Viewport::draw_legend()
   bindpose::PixelBox box;
   box.x = static_cast<int>(20 * scale);
   box.y = static_cast<int>(24 * scale);
-  const auto add = [&](const bindpose::ColourMap& map, const QString& name)
+  // A legend of words is as high as its lines; those that find no room are counted.
+  constexpr double line = 1.7, around = 2.5; // of the font's size
+  const double room = scale * this->height() - 2 * box.y;
+  const int most = std::max(2, static_cast<int>((room / font - around) / line));
+  const auto add = [&](const bindpose::ColourMap& all, const QString& name)
   {
-    // A legend of words is as high as its lines.
+    const bindpose::ColourMap map = bindpose::shortened(all, most);
     box.height = map.texts.empty() && !map.ticks.empty()
       ? static_cast<int>(240 * scale)
-      : static_cast<int>((2.5 + 1.7 * map.texts.size()) * font);
+      : static_cast<int>((around + line * static_cast<double>(map.texts.size())) * font);
     box.width = bindpose::legend_width(map, name.toStdString(), font);
     bindpose::add_legend(this->legend_, map, name.toStdString(), box, font,
       is_dark() ? bindpose::palette::dark_text : bindpose::palette::text);

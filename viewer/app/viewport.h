@@ -56,6 +56,8 @@ public:
   /// The same surface with its points elsewhere: a pose.
   void move_surface(vtkPolyData* posed);
   void move_surface(bindpose::PointsView points);
+  /// The same of another shape of that surface.
+  void move_shape(bindpose::ShadedSurface& shape, bindpose::PointsView points) const;
   /// Of each point, what it is drawn off its place along a unit vector to the eye: in a plane, what
   /// is in front. Until another surface comes; empty: nothing.
   void set_depths(const Eigen::VectorXd& depths, const bindpose::Vec3& towards)
@@ -84,6 +86,8 @@ public:
   /// has none.
   void show_values(vtkDoubleArray* values, bool on_points, const QString& name = QString(),
     const bindpose::ColourMap& map = {});
+  /// Whether these numbers are the colours.
+  bool shows(vtkDoubleArray* values) const;
   /// -1: none.
   int shown_column() const { return this->column_; }
   /// The surface as drawn, with the arrays that it came with; null without one.

@@ -49,6 +49,7 @@ const std::vector<OptionInfo>& option_table()
     { "pose.extra_kind", QT_TRANSLATE_NOOP("Document", "kind of extra weights"), 0, 0, 1 },
     { "pose.iterations", QT_TRANSLATE_NOOP("Document", "iterations"), 100.0, 1.0, 200.0 },
     { "pose.budget_us", QT_TRANSLATE_NOOP("Document", "time of a solve"), 0.0, 0.0, 5000.0 },
+    { "pose.rotations", QT_TRANSLATE_NOOP("Document", "rotations shown"), 0, 0, 2 },
     { "pose.order", QT_TRANSLATE_NOOP("Document", "order of the surface"), 1, 0, 2 },
     { "pose.boundary", QT_TRANSLATE_NOOP("Document", "edge of the surface"), 0, 0, 2 },
     { "pose.compared", QT_TRANSLATE_NOOP("Document", "comparison"), 0, 0, 31 },

@@ -66,6 +66,7 @@ Status Body::bind(ExecutionContext& context, const PoseOptions& options)
   }
   const PoseSource& source = *this->source_;
   this->bound_.reset();
+  this->rotations_ = PoseRotations();
   this->run_ = BodyRun();
   if (!source.has_weights())
   {
@@ -101,6 +102,21 @@ Status Body::bind(ExecutionContext& context, const PoseOptions& options)
     this->binds_ += 1;
   }
   return status;
+}
+
+const PoseRotations* Body::rotations()
+{
+  if (!this->bound_ || !this->has_started())
+  {
+    return nullptr;
+  }
+  if (!this->rotations_.of_point)
+  {
+    this->rotations_.of_point =
+      groups_on_surface(*this->source_, this->body_.groups(), this->bound_->in_tets);
+  }
+  this->rotations_.rotations = this->body_.rotations();
+  return &this->rotations_;
 }
 
 Status Body::move_surface(ExecutionContext& context, Points& posed) const

@@ -65,6 +65,8 @@ public:
   bool run_is_whole() const { return this->whole_; }
   /// One a handle: where the body has taken those that are not full.
   const std::vector<Affine>& transforms() const { return this->body_.transforms(); }
+  /// What it is turned by; null before it has started.
+  const PoseRotations* rotations();
 
   /// Plays a run from its start; each of its poses in turn, the first without motion.
   /// @param seen  false from it ends the play
@@ -77,6 +79,7 @@ private:
   std::shared_ptr<const PoseSource> source_;
   std::optional<PoseOptions> bound_;
   ReducedDynamics body_;
+  PoseRotations rotations_; ///< as they were last asked for
   Skinning on_surface_; ///< in tets only
   BodyRun run_;
   bool whole_ = true;

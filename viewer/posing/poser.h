@@ -10,6 +10,15 @@
 namespace bindpose
 {
 
+/// What a method turns the shape by.
+struct PoseRotations
+{
+  /// Which rotation each point of the surface follows, -1 for none; another object for another
+  /// bind.
+  std::shared_ptr<const std::vector<Index>> of_point;
+  std::vector<Eigen::Matrix3d> rotations;
+};
+
 /// One method at work on one source, by the kernels: binds once, poses many times, and gives what
 /// the filter of that method gives, to the bit. Either call may be made on any thread, one at a
 /// time.
@@ -31,6 +40,8 @@ public:
     Index most_iterations, Points& posed);
   /// After a solve: the transforms that were found, one a handle or more; null where none are.
   virtual const std::vector<Affine>* found() const { return nullptr; }
+  /// After a solve: the rotations that its energy was measured against; null where it fits none.
+  virtual const PoseRotations* rotations() { return nullptr; }
   /// How often something was bound.
   Index binds() const { return this->binds_; }
 

@@ -1,5 +1,6 @@
 #include "posing/reduced_poser.h"
 
+#include "posing/tet_anchors.h"
 #include "weights/transfer.h"
 
 namespace bindpose
@@ -29,6 +30,37 @@ Status weights_on_surface(
   return status;
 }
 
+std::shared_ptr<const std::vector<Index>> groups_on_surface(
+  const PoseSource& source, const RotationGroups& groups, bool in_tets)
+{
+  if (!in_tets)
+  {
+    return std::make_shared<const std::vector<Index>>(groups.of_vertex);
+  }
+  std::vector<Index> of_point =
+    TetAnchors(source.points, source.tet_points, source.tets).nearest_vertices();
+  for (Index& each : of_point)
+  {
+    each = groups.of_vertex[static_cast<std::size_t>(each)];
+  }
+  return std::make_shared<const std::vector<Index>>(std::move(of_point));
+}
+
+const PoseRotations* ReducedPoser::rotations()
+{
+  if (!this->bound_)
+  {
+    return nullptr;
+  }
+  if (!this->rotations_.of_point)
+  {
+    this->rotations_.of_point =
+      groups_on_surface(this->source(), this->arap_.groups(), this->bound_->in_tets);
+  }
+  this->rotations_.rotations = this->arap_.rotations();
+  return &this->rotations_;
+}
+
 bool ReducedPoser::is_bound(const PoseOptions& options) const
 {
   return this->bound_ && same_bind(*this->bound_, options);
@@ -38,6 +70,7 @@ Status ReducedPoser::bind_missing(ExecutionContext& context, const PoseOptions& 
 {
   const PoseSource& source = this->source();
   this->bound_.reset();
+  this->rotations_ = PoseRotations();
   Status status = check_tets(source, options);
   if (!status.ok())
   {

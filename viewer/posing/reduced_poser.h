@@ -17,6 +17,7 @@ public:
   explicit ReducedPoser(std::shared_ptr<const PoseSource> source) : Poser(std::move(source)) {}
   bool is_bound(const PoseOptions& options) const override;
   const std::vector<Affine>* found() const override { return &this->arap_.transforms(); }
+  const PoseRotations* rotations() override;
 
 protected:
   Status bind_missing(ExecutionContext& context, const PoseOptions& options) override;
@@ -26,8 +27,14 @@ protected:
 private:
   std::optional<PoseOptions> bound_;
   ReducedArap arap_;
+  PoseRotations rotations_; ///< as they were last asked for
   Skinning on_surface_; ///< in tets only: the surface by all columns
 };
+
+/// Which group each point of the surface follows: its own, or in tets that of the vertex nearest to
+/// it in its tet.
+std::shared_ptr<const std::vector<Index>> groups_on_surface(
+  const PoseSource& source, const RotationGroups& groups, bool in_tets);
 
 /// What the kernels of reduced as-rigid-as-possible need to know of the options.
 ReducedArapOptions reduced_options(const PoseOptions& options);

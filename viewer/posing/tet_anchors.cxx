@@ -2,6 +2,8 @@
 
 #include "weights/simplex_locator.h"
 
+#include <algorithm>
+
 namespace bindpose
 {
 
@@ -28,6 +30,17 @@ TetAnchors::TetAnchors(PointsView surface, PointsView tet_points, TetsView tets)
     }
     this->anchors_.push_back(anchor);
   }
+}
+
+std::vector<Index> TetAnchors::nearest_vertices() const
+{
+  std::vector<Index> nearest;
+  for (const Anchor& anchor : this->anchors_)
+  {
+    const auto* largest = std::max_element(anchor.shares.begin(), anchor.shares.end());
+    nearest.push_back(anchor.vertices[static_cast<std::size_t>(largest - anchor.shares.begin())]);
+  }
+  return nearest;
 }
 
 void TetAnchors::move(

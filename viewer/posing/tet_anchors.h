@@ -17,6 +17,9 @@ public:
   TetAnchors() = default;
   TetAnchors(PointsView surface, PointsView tet_points, TetsView tets);
 
+  /// Of each of the surface's points the vertex of its tet that has the greatest share in it.
+  std::vector<Index> nearest_vertices() const;
+
   /// The surface's points when the tets' are moved.
   void move(PointsView surface, PointsView tet_points, PointsView moved, Points& posed) const;
 

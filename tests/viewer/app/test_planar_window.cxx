@@ -18,6 +18,7 @@
 
 #include <QAction>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
@@ -60,34 +61,6 @@ Eigen::Matrix3d turned(double degrees, const Vec3& axis)
 
 const Eigen::Matrix3d tilted = turned(35.0, Vec3(1.0, 0.4, 0.2));
 } // namespace
-
-TEST(Plane, IsFoundWhateverItIs)
-{
-  const Points square = test::grid(5, 5).points;
-  Vec3 normal;
-  ASSERT_TRUE(find_plane(square, normal));
-  EXPECT_EQ(normal, Vec3(0, 0, 1));
-  ASSERT_TRUE(find_plane(Points(square * turned(180.0, Vec3::UnitX()).transpose()), normal));
-  EXPECT_LT((normal - Vec3(0, 0, 1)).norm(), 1e-9) << "looked at from +z, whichever way it faces";
-  ASSERT_TRUE(find_plane(Points(square * turned(90.0, Vec3::UnitY()).transpose()), normal));
-  EXPECT_LT((normal - Vec3(1, 0, 0)).norm(), 1e-9);
-  ASSERT_TRUE(find_plane(Points(square * turned(90.0, Vec3::UnitX()).transpose()), normal));
-  EXPECT_LT((normal - Vec3(0, -1, 0)).norm(), 1e-9);
-  ASSERT_TRUE(find_plane(Points(square * tilted.transpose()), normal));
-  EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);
-  Points lopsided = square; // the middle of its box lies in no plane of its own
-  lopsided.col(1) += square.col(0).cwiseAbs2();
-  ASSERT_TRUE(find_plane(Points(lopsided * tilted.transpose()), normal));
-  EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);
-  // Single precision, as files have it, is near enough; a shape is none; nor is a line.
-  const Points rounded = Points(1e4 * square * tilted.transpose()).cast<float>().cast<double>();
-  EXPECT_TRUE(find_plane(rounded, normal));
-  EXPECT_FALSE(find_plane(test::sphere(2).points, normal));
-  Points bent = square;
-  bent(7, 2) = 1e-4;
-  EXPECT_FALSE(find_plane(bent, normal));
-  EXPECT_FALSE(find_plane(Points(square.col(0) * Eigen::RowVector3d(1, 2, 3)), normal));
-}
 
 TEST_F(PlanarWindow, AShapeInAPlaneIsSeenFromInFrontWithoutPerspective)
 {
@@ -251,6 +224,38 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
     }
   }
   EXPECT_EQ(apart, 0);
+}
+
+TEST_F(PlanarWindow, BesideEachOtherBothShapesHaveThePicture)
+{
+  ASSERT_TRUE(this->window.open(QString(BINDPOSE_TOURS) + "/data/doll.png"));
+  ASSERT_TRUE(this->window.open(QString(BINDPOSE_TOURS) + "/data/doll.tgf"));
+  const Index points = this->window.document()->surface()->GetNumberOfPoints();
+  const auto columns = static_cast<Index>(this->window.document()->handles().size());
+  const Weights even = Weights::Constant(points, columns, 1.0 / static_cast<double>(columns));
+  ASSERT_TRUE(this->window.document()->set_weights(even, "even").ok());
+  this->resize({ 1100, 700 });
+  this->choose("pose.compared", 2);
+  this->choose("pose.ghost", 1);
+  this->window.viewport()->handle_widget()->SetEnabled(false);
+  const QImage seen = this->picture();
+  const int half = seen.width() / 2, below = seen.height() - 60; // the names are there
+  int coloured = 0, apart = 0;
+  for (int y = 0; y < below; ++y)
+  {
+    for (int x = 0; x < half; ++x)
+    {
+      const QColor a = seen.pixelColor(x, y), b = seen.pixelColor(x + half, y);
+      coloured += b.saturation() > 60;
+      apart += std::max({ std::abs(a.red() - b.red()), std::abs(a.green() - b.green()),
+                 std::abs(a.blue() - b.blue()) }) > 24;
+    }
+  }
+  EXPECT_GT(coloured, 5000);
+  EXPECT_LT(apart, coloured / 10); // at rest both are the same; of an odd width half a pixel off
+  // See-through over the shape it is blue again.
+  this->choose("pose.ghost", 0);
+  EXPECT_GT(count(this->picture(), [](const QColor& c) { return c.blue() > c.red() + 20; }), 3000);
 }
 
 TEST_F(PlanarWindow, IsolinesStayOnTopOfThePicture)

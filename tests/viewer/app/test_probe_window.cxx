@@ -221,6 +221,26 @@ TEST_F(ProbeWindow, WeightsAreReadWithTheStrongestHandle)
   EXPECT_NE(this->read(Vec3(0.3, 0.2, 0.7)).find("Strongest handle: top"), std::string::npos);
 }
 
+TEST_F(ProbeWindow, RotationsAreReadWithTheirCluster)
+{
+  this->open_ball();
+  this->weigh();
+  const Vec3 place(0.3, 0.2, 0.7);
+  EXPECT_EQ(this->read(place).find("otation"), std::string::npos);
+  this->window.set_method(static_cast<int>(PoseMethod::reduced_arap));
+  this->choose("pose.rotations", 1);
+  const PoseRotations* found = this->window.posing()->rotations();
+  ASSERT_NE(found, nullptr);
+  const std::string text = this->read(place);
+  SurfaceReading reading;
+  ASSERT_TRUE(parse(text, reading)) << text;
+  const auto cluster = (*found->of_point)[static_cast<std::size_t>(reading.vertex)];
+  EXPECT_NE(text.find("Rotation cluster " + std::to_string(cluster) + " of " +
+              std::to_string(found->rotations.size()) + ": 0.0°"),
+    std::string::npos)
+    << text;
+}
+
 TEST_F(ProbeWindow, TheDifferenceOfTwoMethodsIsReadInUnitsAndShares)
 {
   this->open_ball();

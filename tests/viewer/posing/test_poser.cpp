@@ -2,6 +2,8 @@
 #include "posing/poser.h"
 #include "rigs.h"
 
+#include "pose/transform_parts.h"
+
 #include "vtkFullARAP.h"
 #include "vtkReducedARAP.h"
 #include "vtkSkinningDeformation.h"
@@ -118,6 +120,45 @@ TEST(Poser, ReducedArapGivesWhatTheFilterGives)
     const Points surface = by_poser(rig, pose, options);
     EXPECT_LT((surface - all.topRows(surface.rows())).cwiseAbs().maxCoeff(), 1e-12);
   }
+}
+
+TEST(Poser, RotationsAreTheFilters)
+{
+  const Rig rig = beam();
+  Pose pose = some_pose(rig.list);
+  pose[1].mode = HandleMode::free;
+  for (const bool in_tets : { false, true })
+  {
+    vtkNew<vtkReducedARAP> filter;
+    filter->RotationArraysOn();
+    const Points all = by_filter(
+      filter, rig, pose, in_tets ? static_cast<vtkDataSet*>(rig.tets) : rig.surface.Get());
+    vtkPointData* arrays = filter->GetOutput()->GetPointData();
+    PoseOptions options = with(PoseMethod::reduced_arap);
+    options.in_tets = in_tets;
+    ExecutionContext context;
+    const auto poser = make_poser(options.method, rig.source());
+    EXPECT_EQ(poser->rotations(), nullptr); // nothing is bound yet
+    ASSERT_TRUE(poser->bind(context, options).usable());
+    Points posed;
+    ASSERT_TRUE(poser->solve(context, pose, options, 0, posed).usable());
+    const PoseRotations* found = poser->rotations();
+    ASSERT_NE(found, nullptr);
+    ASSERT_EQ(static_cast<Index>(found->of_point->size()), posed.rows());
+    for (Index v = 0; v < posed.rows(); ++v)
+    {
+      const Index cluster = (*found->of_point)[static_cast<std::size_t>(v)];
+      // In tets the surface's points are the first of the tets' here.
+      EXPECT_EQ(
+        static_cast<double>(cluster), arrays->GetArray("RotationCluster")->GetComponent(v, 0));
+      EXPECT_EQ(rotation_vector(found->rotations[static_cast<std::size_t>(cluster)]),
+        Vec3(arrays->GetArray("Rotation")->GetTuple3(v)));
+    }
+    const auto clusters = found->of_point;
+    ASSERT_TRUE(poser->solve(context, Pose(4), options, 0, posed).usable());
+    EXPECT_EQ(poser->rotations()->of_point, clusters); // of the bind
+  }
+  EXPECT_EQ(make_poser(PoseMethod::linear_blend, rig.source())->rotations(), nullptr);
 }
 
 TEST(Poser, FullArapGivesWhatTheFilterGives)

@@ -6,6 +6,7 @@
 #include "vtkMatrix4x4.h"
 #include "vtkNew.h"
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -37,6 +38,13 @@ Points random_points(Index count, const Vec3& lower, const Vec3& upper)
   }
   return points;
 }
+
+Eigen::Matrix3d turned(double degrees, const Vec3& axis)
+{
+  return Eigen::AngleAxisd(degrees * EIGEN_PI / 180.0, axis.normalized()).toRotationMatrix();
+}
+
+const Eigen::Matrix3d tilted = turned(35.0, Vec3(1.0, 0.4, 0.2));
 } // namespace
 
 TEST(Camera, FitsTightlyFromEverywhereWithoutClipping)
@@ -105,4 +113,85 @@ TEST(Camera, ZoomEnlargesAndAPointIsNoTrouble)
   const Points one = random_points(1, Vec3(5, 5, 5), Vec3(6, 6, 6));
   fit_camera(camera, one, choose_frame(bounding_box(one), "auto"), View(), 1.0);
   EXPECT_LT(project(camera, 1.0, one).cwiseAbs().maxCoeff(), 1.0);
+}
+
+TEST(Camera, AnotherShapeOfTheViewKeepsAllInItFromTheSameSide)
+{
+  const Points points = random_points(200, Vec3(-1.0, -3.0, 10.0), Vec3(2.0, 1.0, 11.0));
+  const Frame frame = choose_frame(bounding_box(points), "auto");
+  for (const bool parallel : { false, true })
+  {
+    for (const double before : { 0.6, 1.0, 2.0 })
+    {
+      for (const double after : { 0.5, 1.0, 1.9 })
+      {
+        View view;
+        view.azimuth = 20.0;
+        vtkNew<vtkCamera> camera;
+        fit_camera(camera, points, frame, view, before, 0.1);
+        if (parallel)
+        {
+          camera->ParallelProjectionOn();
+          camera->SetParallelScale(
+            camera->GetDistance() * std::tan(0.5 * camera->GetViewAngle() * EIGEN_PI / 180.0));
+        }
+        const Vec3 sight(camera->GetDirectionOfProjection()), up(camera->GetViewUp());
+        const auto extent = [&](double aspect)
+        { return project(camera, aspect, points).leftCols<2>().cwiseAbs().maxCoeff(); };
+        const double taken = extent(before);
+        ASSERT_LE(taken, 1.0);
+        keep_in_view(camera, points, before, after);
+        EXPECT_LE(extent(after), 1.0) << before << " to " << after;
+        EXPECT_GT(extent(after), 0.8 * taken) << before << " to " << after;
+        EXPECT_LT((Vec3(camera->GetDirectionOfProjection()) - sight).norm(), 1e-9);
+        EXPECT_LT((Vec3(camera->GetViewUp()) - up).norm(), 1e-9);
+      }
+    }
+  }
+}
+
+TEST(Camera, WhoLooksAtAPartGoesOnLookingAtIt)
+{
+  const Points points = test::sphere(3).points;
+  vtkNew<vtkCamera> camera;
+  fit_camera(camera, points, choose_frame(bounding_box(points), "auto"), View(), 2.0);
+  const Vec3 focus(0.2, 0.3, 0.4);
+  camera->SetFocalPoint(focus.data());
+  camera->SetPosition(Vec3(focus + Vec3(0.5, -0.6, 0.3)).data()); // within the shape's reach
+  keep_in_view(camera, points, 2.0, 1.0);
+  EXPECT_EQ(Vec3(camera->GetFocalPoint()), focus);
+  EXPECT_GT(project(camera, 1.0, points).leftCols<2>().cwiseAbs().maxCoeff(), 1.0);
+  // Nothing to show and the same view change nothing.
+  const Vec3 place(camera->GetPosition());
+  keep_in_view(camera, points, 1.0, 1.0);
+  keep_in_view(camera, Points(0, 3), 1.0, 2.0);
+  EXPECT_EQ(Vec3(camera->GetPosition()), place);
+}
+
+TEST(Plane, IsFoundWhateverItIs)
+{
+  const Points square = test::grid(5, 5).points;
+  Vec3 normal;
+  ASSERT_TRUE(find_plane(square, normal));
+  EXPECT_EQ(normal, Vec3(0, 0, 1));
+  ASSERT_TRUE(find_plane(Points(square * turned(180.0, Vec3::UnitX()).transpose()), normal));
+  EXPECT_LT((normal - Vec3(0, 0, 1)).norm(), 1e-9) << "looked at from +z, whichever way it faces";
+  ASSERT_TRUE(find_plane(Points(square * turned(90.0, Vec3::UnitY()).transpose()), normal));
+  EXPECT_LT((normal - Vec3(1, 0, 0)).norm(), 1e-9);
+  ASSERT_TRUE(find_plane(Points(square * turned(90.0, Vec3::UnitX()).transpose()), normal));
+  EXPECT_LT((normal - Vec3(0, -1, 0)).norm(), 1e-9);
+  ASSERT_TRUE(find_plane(Points(square * tilted.transpose()), normal));
+  EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);
+  Points lopsided = square; // the middle of its box lies in no plane of its own
+  lopsided.col(1) += square.col(0).cwiseAbs2();
+  ASSERT_TRUE(find_plane(Points(lopsided * tilted.transpose()), normal));
+  EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);
+  // Single precision, as files have it, is near enough; a shape is none; nor is a line.
+  const Points rounded = Points(1e4 * square * tilted.transpose()).cast<float>().cast<double>();
+  EXPECT_TRUE(find_plane(rounded, normal));
+  EXPECT_FALSE(find_plane(test::sphere(2).points, normal));
+  Points bent = square;
+  bent(7, 2) = 1e-4;
+  EXPECT_FALSE(find_plane(bent, normal));
+  EXPECT_FALSE(find_plane(Points(square.col(0) * Eigen::RowVector3d(1, 2, 3)), normal));
 }

@@ -366,6 +366,16 @@ void RestElements::take(PointsView rest, const Elements& elements)
   }
 }
 
+RestElements::RestElements(PointsView rest, TetsView tets)
+{
+  this->take(rest, tets);
+}
+
+RestElements::RestElements(PointsView rest, TrianglesView triangles)
+{
+  this->take(rest, triangles);
+}
+
 Status RestElements::stretch(ExecutionContext& context, const ElementStretchOptions& options,
   PointsView posed, ElementStretch& stretch) const
 {

@@ -49,8 +49,8 @@ class RestElements
 {
 public:
   RestElements() = default;
-  RestElements(PointsView rest, TetsView tets) { this->take(rest, tets); }
-  RestElements(PointsView rest, TrianglesView triangles) { this->take(rest, triangles); }
+  RestElements(PointsView rest, TetsView tets);
+  RestElements(PointsView rest, TrianglesView triangles);
 
   Status stretch(ExecutionContext& context, const ElementStretchOptions& options, PointsView posed,
     ElementStretch& stretch) const;

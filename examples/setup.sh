@@ -35,6 +35,8 @@ libgtest-dev:C++_tests
 libgmock-dev:C++_tests
 libbenchmark-dev:benchmarks
 python3-pytest:Python_tests
+openbox:the_window_among_others
+xdotool:keys_and_mouse_for_it
 libopenvdb-tools:vdb_print_reads_.vdb_files_back
 clang-format-14:the_format_check
 clang-tidy-14:the_naming_check

@@ -1,0 +1,236 @@
+"""The window among others, under a window manager: keys, menus, dialogs and the mouse come from the X server as a
+person's would, and what happened is read from the sessions that are saved."""
+
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import time
+
+import pytest
+
+PROGRAM = os.environ["BINDPOSE_PROGRAM"]
+DATA = pathlib.Path(__file__).resolve().parents[3] / "examples" / "tours" / "data"
+SECONDS = 60  # patience, of a busy machine
+
+
+def wait_for(condition, what):
+    """What the condition gives as soon as it is true."""
+    end = time.monotonic() + SECONDS
+    while time.monotonic() < end:
+        found = condition()
+        if found:
+            return found
+        time.sleep(0.05)
+    raise AssertionError(f"{what}: not after {SECONDS} s")
+
+
+class Desktop:
+    """An X server with a window manager, and whatever runs on it."""
+
+    def __init__(self, home):
+        self.home = home
+        self.running = []
+        read, write = os.pipe()
+        self.start("Xvfb", "-displayfd", str(write), "-screen", "0", "1400x1000x24", "-noreset", pass_fds=[write])
+        os.close(write)
+        with os.fdopen(read) as told:
+            self.display = ":" + told.readline().strip()
+        self.start("openbox")
+        wait_for(lambda: self.tool("getactivewindow", check=False) is not None and self.is_managed(), "a window manager")
+
+    def environment(self):
+        base = {key: value for key, value in os.environ.items() if not key.startswith(("XDG_", "QT_", "WAYLAND"))}
+        return {**base, "DISPLAY": getattr(self, "display", ""), "HOME": str(self.home), "XDG_RUNTIME_DIR": str(self.home),
+                "BINDPOSE_AUTOSAVE_SECONDS": "0.2"}
+
+    def start(self, *words, **more):
+        process = subprocess.Popen(words, env=self.environment(), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                   **more)
+        self.running.append(process)
+        return process
+
+    def tool(self, *words, check=True):
+        """What xdotool says."""
+        done = subprocess.run(["xdotool", *map(str, words)], env=self.environment(), capture_output=True, text=True,
+                              check=False)
+        assert not check or done.returncode == 0, f"xdotool {words}: {done.stderr}"
+        return done.stdout.strip()
+
+    def is_managed(self):
+        """Whether somebody manages windows: it says what it supports on the root window."""
+        return subprocess.run(["xdotool", "get_num_desktops"], env=self.environment(), capture_output=True,
+                              check=False).returncode == 0
+
+    def window(self, name):
+        """The window whose title holds this expression, in front; None without one."""
+        found = self.tool("search", "--onlyvisible", "--name", name, check=False).split()
+        return found[-1] if found else None
+
+    def wait_for_window(self, name):
+        window = wait_for(lambda: self.window(name), f"a window '{name}'")
+        self.activate(window)
+        return window
+
+    def activate(self, window):
+        """What is typed from now on is for this window."""
+        def is_active():
+            self.tool("windowactivate", window, check=False)
+            return self.tool("getwindowfocus", check=False) == window
+        wait_for(is_active, "the focus")
+
+    def keys(self, *keys):
+        for key in keys:
+            self.tool("key", "--clearmodifiers", key)
+            time.sleep(0.05)
+
+    def end(self):
+        for process in reversed(self.running):
+            process.kill()
+            process.wait()
+
+
+@pytest.fixture
+def desktop(tmp_path):
+    there = Desktop(tmp_path)
+    yield there
+    there.end()
+
+
+class App:
+    """The program with a bound figure, in the middle of the desktop."""
+
+    def __init__(self, desktop, *files):
+        self.desktop = desktop
+        self.process = desktop.start(PROGRAM, "view", *map(str, files))
+        self.window = desktop.wait_for_window("Bindpose")
+        wait_for(lambda: self.title() != "Bindpose" or not files, "an opened file")
+
+    def title(self):
+        return self.desktop.tool("getwindowname", self.window)
+
+    def mouse(self, x, y, *more):
+        """Moves it to a pixel of the window."""
+        self.desktop.tool("mousemove", "--window", self.window, x, y, *more)
+
+    def activate(self):
+        self.desktop.activate(self.window)
+
+    def save_as(self, path):
+        """By its dialog, which asks for a name."""
+        self.desktop.keys("ctrl+shift+s")
+        dialog = self.desktop.wait_for_window("Save the session")
+        self.desktop.keys("ctrl+a")
+        self.desktop.tool("type", "--delay", "5", str(path))
+        self.desktop.keys("Return")
+        wait_for(lambda: not self.desktop.window("Save the session"), "the dialog's end")
+        assert dialog
+        return self.saved(path)
+
+    def saved(self, path):
+        return wait_for(lambda: path.exists() and json.loads(path.read_text()), f"{path}")
+
+    def save(self, path):
+        """Again, over what was saved."""
+        before = path.stat().st_mtime_ns
+        self.desktop.keys("ctrl+s")
+        wait_for(lambda: path.stat().st_mtime_ns != before, "the session, saved again")
+        return self.saved(path)
+
+
+def translations(session):
+    """How far each handle is moved, three numbers."""
+    return [[handle["transform"][k] for k in (3, 7, 11)] for handle in session["pose"]]
+
+
+def move_all(desktop, app, *keys):
+    """All handles are taken by a key; then the mouse goes up and to the right, then these keys."""
+    app.activate()
+    app.mouse(300, 250)
+    desktop.keys("ctrl+a", "g")
+    for step in range(1, 6):
+        time.sleep(0.1)  # as a hand does
+        app.mouse(300 + 8 * step, 250 - 4 * step)
+    time.sleep(0.1)
+    desktop.keys(*keys)
+
+
+def test_keys_dialogs_undo_and_escape(desktop, tmp_path):
+    app = App(desktop, DATA / "figure_weights.vtp", DATA / "figure.tgf")
+    assert "figure" in app.title()
+    path = tmp_path / "work.bindpose"
+    rest = app.save_as(path)
+    assert all(move == [0, 0, 0] for move in translations(rest))
+    # Typed: 0.25 along x, for all at once.
+    move_all(desktop, app, "x", "0", "period", "2", "5", "Return")
+    moved = translations(app.save(path))
+    assert all(move == pytest.approx([0.25, 0, 0]) for move in moved), moved
+    # Esc in the middle of a drag gives back what was before it, to the bit.
+    move_all(desktop, app, "Escape")
+    desktop.keys("k")  # a change, so that there is something to save
+    assert translations(app.save(path)) == moved
+    desktop.keys("ctrl+z", "ctrl+z")
+    assert translations(app.save(path)) == translations(rest)
+    desktop.keys("ctrl+shift+z")
+    assert translations(app.save(path)) == moved
+    # By the mouse alone, some of all three.
+    move_all(desktop, app, "Return")
+    assert translations(app.save(path)) != moved
+
+
+def test_menus_and_the_window_manager(desktop, tmp_path):
+    app = App(desktop, DATA / "figure_weights.vtp", DATA / "figure.tgf")
+    path = tmp_path / "work.bindpose"
+    assert app.save_as(path)["options"]["show.outlines"] is True
+    app.activate()
+    desktop.keys("alt+v", "o")
+    assert app.save(path)["options"]["show.outlines"] is False
+    # Sizes are the window manager's to give; the work stays.
+    desktop.tool("windowsize", "--sync", app.window, 900, 700)
+    geometry = wait_for(lambda: "Geometry: 900x700" in desktop.tool("getwindowgeometry", app.window), "another size")
+    assert geometry
+    # Its closing asks about what is not saved: Esc keeps the window, then it is discarded.
+    app.activate()
+    desktop.keys("k")
+    wait_for(lambda: "*" in app.title(), "a mark of what is not saved")
+    desktop.keys("alt+F4")
+    desktop.wait_for_window("^Bindpose$")
+    desktop.keys("Escape")
+    wait_for(lambda: not desktop.window("^Bindpose$"), "the question's end")
+    assert app.process.poll() is None
+    app.activate()
+    app.save(path)
+    app.activate()
+    desktop.keys("alt+F4")
+    wait_for(lambda: app.process.poll() is not None, "the program's end")
+    assert app.process.returncode == 0
+
+
+def test_a_killed_window_leaves_its_work_to_the_next(desktop, tmp_path):
+    app = App(desktop, DATA / "figure_weights.vtp", DATA / "figure.tgf")
+    move_all(desktop, app, "x", "0", "period", "5", "Return")
+    recovery = tmp_path / ".local" / "share" / "bindpose" / "recovery"
+
+    def kept():
+        for file in recovery.glob("*/*.bindpose"):
+            session = json.loads(file.read_text())
+            if all(move == pytest.approx([0.5, 0, 0]) for move in translations(session)):
+                return file
+        return None
+
+    copy = wait_for(kept, "a copy of the work")
+    app.process.send_signal(signal.SIGKILL)
+    app.process.wait()
+    assert kept() == copy
+    after = App(desktop)
+    after.activate()
+    # "Restore" is the first of the bar's buttons from the left.
+    for x in range(600, 950, 12):
+        after.mouse(x, 46, "click", 1)
+        time.sleep(0.5)
+        if "figure" in after.title():
+            break
+    wait_for(lambda: "figure" in after.title(), "the work of the one before")
+    restored = translations(after.save_as(tmp_path / "restored.bindpose"))
+    assert all(move == pytest.approx([0.5, 0, 0]) for move in restored), restored

@@ -41,10 +41,11 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
     auto* name = new QLabel(text, this);
     name->setToolTip(tip);
     in->addWidget(name, row, 0);
+    return name;
   };
-  label(grid, 0, tr("Move"), tr("From rest, along x, y and z"));
-  label(grid, 1, tr("Turn °"), tr("About x, then y, then z, through the handle's place"));
-  label(grid, 2, tr("Scale"), tr("1 is the size at rest"));
+  this->names_ = { label(grid, 0, tr("Move"), tr("From rest, along x, y and z")),
+    label(grid, 1, tr("Turn °"), tr("About x, then y, then z, through the handle's place")),
+    label(grid, 2, tr("Scale"), tr("1 is the size at rest")) };
   for (int k = 0; k < 3; ++k)
   {
     this->fields_[k] = field(this, -1e6, 1e6, 0.01, 3);
@@ -127,6 +128,10 @@ void HandleFields::show_values(const Handle* handle, const HandleValues& values,
       this->fields_[k]->setValue(numbers[k]);
     }
     this->fields_[k]->setEnabled(handle && !free);
+  }
+  for (QLabel* name : this->names_)
+  {
+    name->setEnabled(handle && !free);
   }
   this->bone_rows_->setVisible(bone);
   this->more_->setVisible(handle && values.more);

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
 class QDoubleSpinBox;
 class QLabel;
@@ -44,6 +45,7 @@ private:
   QWidget* layer_row_;
   QDoubleSpinBox* layer_;
   QLabel* more_;
+  std::vector<QLabel*> names_; ///< of fields that are always there
 };
 
 #endif

@@ -89,6 +89,14 @@ MainWindow::MainWindow(QWidget* parent)
   this->make_inspections();
   this->menus_ = new WindowMenus(this);
   this->links_ = new OptionLinks(this->document_, this->panels_);
+  this->links_->tie(
+    "show.outlines", [this] { return this->viewport_->has_outlines(); },
+    [this](const QVariant& value)
+    {
+      this->viewport_->show_outlines(value.toBool());
+      this->draw_pose();
+      this->menus_->update();
+    });
   tie_plane(this->links_, this->document_, "volume", this->volume_view_->plane());
   tie_plane(this->links_, this->document_, "tets", this->inspection_->tet_view()->plane());
   tie_plane(this->links_, this->document_, "weights", this->weights_->view()->plane());
@@ -919,6 +927,14 @@ void MainWindow::update_panel()
   this->empty_->setVisible(this->is_empty());
   this->strip_->setVisible(surface); // so that the picture stays when the first handle comes
   this->menus_->update();
+}
+
+void MainWindow::show_outlines(bool shown)
+{
+  this->viewport_->show_outlines(shown);
+  this->draw_pose(); // beside it, too
+  this->menus_->update();
+  this->links_->chosen("show.outlines");
 }
 
 /// Tets take the surface's place, and defects shine through it; else a volume decides.

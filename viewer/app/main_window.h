@@ -95,6 +95,8 @@ public:
   /// The 2D mode, which every planar shape begins in; or views that can be turned. The camera
   /// stays.
   void set_flat_view(bool flat);
+  /// A step of the history.
+  void show_outlines(bool shown);
   WeightInspection* weights() const { return this->weights_; }
   Posing* posing() const { return this->posing_; }
   HandleEditing* editing() const { return this->editing_; }

@@ -4,6 +4,7 @@
 #include "viewport.h"
 
 #include "scene/colours.h"
+#include "scene/outline.h"
 #include "scene/shaded_surface.h"
 #include "scene/tile_actors.h"
 
@@ -26,6 +27,7 @@ PoseGhost::PoseGhost(Viewport* viewport) : viewport_(viewport)
   bindpose::add_lights(this->renderer_);
   vtkRenderer* first = viewport->renderer();
   this->renderer_->SetActiveCamera(first->GetActiveCamera());
+  this->outline_ = std::make_unique<bindpose::Outline>(this->renderer_);
   this->renderer_->GradientBackgroundOn();
   this->renderer_->SetViewport(0.5, 0.0, 1.0, 1.0);
   for (vtkRenderer* half : { first, this->renderer_.Get() })
@@ -39,6 +41,7 @@ PoseGhost::~PoseGhost() = default;
 void PoseGhost::set_surface(vtkPolyData* surface)
 {
   this->shaded_ = surface ? std::make_unique<bindpose::ShadedSurface>(surface) : nullptr;
+  this->outline_->set_shape(this->shaded_.get());
   this->mapper_->SetInputData(surface ? this->shaded_->polydata() : nullptr);
   this->update();
 }
@@ -56,14 +59,14 @@ void PoseGhost::move(bindpose::PointsView points)
   {
     if (this->place_ == beside)
     {
-      this->use_picture();
+      this->look_as_beside();
     }
     this->viewport_->move_shape(*this->shaded_, points);
   }
 }
 
-/// Beside the shape it looks like that: with its picture, if it has one.
-void PoseGhost::use_picture()
+/// Beside the shape it looks like that: with its outlines, or its picture if it has one.
+void PoseGhost::look_as_beside()
 {
   vtkTexture* picture = this->viewport_->surface_actor()->GetTexture();
   const bindpose::Rgb& colour = picture ? bindpose::palette::white : bindpose::palette::surface;
@@ -72,6 +75,8 @@ void PoseGhost::use_picture()
   property->SetLighting(!picture);
   this->actor_->SetTexture(picture);
   this->actor_->SetForceOpaque(picture != nullptr);
+  this->outline_->show(this->viewport_->has_outlines() && !picture,
+    bindpose::outline_width * this->viewport_->devicePixelRatioF());
 }
 
 void PoseGhost::update()
@@ -93,7 +98,7 @@ void PoseGhost::update()
   else if (place == beside)
   {
     property->SetOpacity(1.0);
-    this->use_picture();
+    this->look_as_beside();
     this->renderer_->AddActor(this->actor_);
   }
   const bool beside_it = place == beside;

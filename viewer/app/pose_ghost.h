@@ -9,6 +9,7 @@
 
 namespace bindpose
 {
+class Outline;
 class ShadedSurface;
 }
 class Viewport;
@@ -44,7 +45,7 @@ public:
 
 private:
   void update();
-  void use_picture();
+  void look_as_beside();
   void clipped();
 
   Viewport* viewport_;
@@ -53,6 +54,7 @@ private:
   vtkNew<vtkActor> actor_;
   vtkNew<vtkRenderer> renderer_; // of the half beside
   std::unique_ptr<bindpose::ShadedSurface> shaded_;
+  std::unique_ptr<bindpose::Outline> outline_; ///< beside
   bool in_window_ = false;
   bool clips_ = false; // for both halves
 };

@@ -9,6 +9,7 @@
 #include "scene/colours.h"
 #include "scene/curves.h"
 #include "scene/legend.h"
+#include "scene/outline.h"
 #include "scene/shaded_surface.h"
 #include "scene/tile_actors.h"
 #include "scene/window_picture.h"
@@ -99,6 +100,7 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->actor_->SetMapper(this->mapper_);
   this->actor_->VisibilityOff();
   this->renderer_->AddActor(this->actor_);
+  this->outline_ = std::make_unique<bindpose::Outline>(this->renderer_);
   const bindpose::ColourMap map = bindpose::weight_map();
   for (vtkPolyDataMapper* mapper :
     { static_cast<vtkPolyDataMapper*>(this->mapper_), this->tint_mapper_.Get() })
@@ -155,6 +157,7 @@ void Viewport::set_surface(vtkPolyData* surface)
   {
     mapper->SetInputData(surface ? this->shaded_->polydata() : nullptr);
   }
+  this->outline_->set_shape(this->shaded_.get());
   this->depths_.resize(0);
   this->first_picture_ = true;
   this->show_values(nullptr, true);
@@ -174,6 +177,8 @@ void Viewport::set_surface_look(int look)
     : this->picture_                               ? white
                                                    : bindpose::palette::surface;
   property->SetColor(colour[0], colour[1], colour[2]);
+  this->outline_->show(this->outlines_ && !this->picture_ && (look == solid || look == see_through),
+    bindpose::outline_width * this->devicePixelRatioF());
   this->show_tint();
   // The driver cannot sort see-through triangles by depth with several samples a pixel.
   const bool sorts = (look == see_through || this->ghosted_) && this->shaded_;
@@ -182,6 +187,12 @@ void Viewport::set_surface_look(int look)
   this->renderer_->SetUseFXAA(sorts);
   this->window_->SetMultiSamples(sorts ? 0 : smooth_samples);
   this->refresh();
+}
+
+void Viewport::show_outlines(bool shown)
+{
+  this->outlines_ = shown;
+  this->set_surface_look(this->look_);
 }
 
 void Viewport::set_picture(vtkImageData* picture)

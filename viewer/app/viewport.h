@@ -20,6 +20,7 @@
 
 namespace bindpose
 {
+class Outline;
 class ShadedSurface;
 }
 class vtkActor;
@@ -97,6 +98,10 @@ public:
   const std::vector<bindpose::Index>& drawn_points() const;
   void set_surface_look(int look);
   int surface_look() const { return this->look_; }
+  /// Lines where it turns away from the eye; of pictures none.
+  void show_outlines(bool shown);
+  bool has_outlines() const { return this->outlines_; }
+  const bindpose::Outline* outline() const { return this->outline_.get(); }
   /// What the surface shows, by its texture coordinates; colours of weights lie over it. Null:
   /// none.
   void set_picture(vtkImageData* picture);
@@ -176,6 +181,8 @@ private:
   vtkNew<vtkHandleSetWidget> handles_;
   vtkNew<vtkRegionBrushWidget> brush_;
   std::unique_ptr<bindpose::ShadedSurface> shaded_;
+  std::unique_ptr<bindpose::Outline> outline_;
+  bool outlines_ = true;
   Eigen::VectorXd depths_;
   bindpose::Vec3 towards_ = bindpose::Vec3::UnitZ();
   std::optional<bindpose::Vec3> plane_;

@@ -147,6 +147,10 @@ void WindowMenus::add_view_menu()
       window->viewport()->refresh();
     });
   this->flat_view_->setCheckable(true);
+  this->outlines_ = this->add(view, tr("&Outlines"), "",
+    [window] { window->show_outlines(!window->viewport()->has_outlines()); });
+  this->outlines_->setCheckable(true);
+  this->outlines_->setToolTip(tr("Lines where the shape turns away"));
   view->addSeparator();
   this->add(view, tr("&Rest or posed"), "look_at_rest",
     [window] { window->posing()->look_at_rest(!window->posing()->looks_at_rest()); });
@@ -197,5 +201,6 @@ void WindowMenus::update()
   this->methods_->setEnabled(ready);
   this->flat_view_->setEnabled(this->window_->is_planar() && !document->work().volume);
   this->flat_view_->setChecked(this->window_->viewport()->is_flat());
+  this->outlines_->setChecked(this->window_->viewport()->has_outlines());
   this->window_->shape_handles()->update();
 }

@@ -34,6 +34,7 @@ private:
   QAction* save_pose_ = nullptr;
   QAction* save_picture_ = nullptr;
   QAction* flat_view_ = nullptr;
+  QAction* outlines_ = nullptr;
   QAction* bind_ = nullptr;
   QAction* rest_pose_ = nullptr;
   QActionGroup* methods_ = nullptr;

@@ -60,6 +60,7 @@ const std::vector<OptionInfo>& option_table()
     { "motion.stiffness", QT_TRANSLATE_NOOP("Document", "stiffness"), 2.0, 0.0, 5.0 },
     { "motion.damping", QT_TRANSLATE_NOOP("Document", "damping"), 0.5, 0.0, 20.0 },
     { "show.column", QT_TRANSLATE_NOOP("Document", "what is shown"), 0, 0, columns },
+    { "show.outlines", QT_TRANSLATE_NOOP("Document", "outlines"), true },
     { "weights.column", QT_TRANSLATE_NOOP("Document", "handle looked at"), 0, 0, columns },
     { "weights.bands", QT_TRANSLATE_NOOP("Document", "bands"), true },
     { "weights.isolines", QT_TRANSLATE_NOOP("Document", "isolines"), true },

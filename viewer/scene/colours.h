@@ -21,7 +21,8 @@ constexpr Rgb surface{ 0.83, 0.80, 0.76 }; ///< a shape without data: warm grey
 constexpr Rgb cut{ 0.52, 0.74, 0.75 }; ///< tets that a cut lays open
 constexpr Rgb cut_edges{ 0.17, 0.30, 0.33 }; ///< their edges
 constexpr Rgb curve{ 0.05, 0.46, 0.32 }; ///< boundary curves: green, which no map holds
-constexpr Rgb line{ 0.16, 0.16, 0.18 }; ///< isolines, outlines
+constexpr Rgb line{ 0.16, 0.16, 0.18 }; ///< isolines, frames
+constexpr Rgb outline{ 0.24, 0.23, 0.22 }; ///< where a shape turns away
 constexpr Rgb edges{ 0.44, 0.42, 0.40 }; ///< triangle edges of a surface
 constexpr Rgb text{ 0.16, 0.16, 0.18 }; ///< labels on a light background
 constexpr Rgb white{ 1.0, 1.0, 1.0 }; ///< paper

@@ -327,7 +327,7 @@ void MainWindow::document_changed(int parts)
   if (parts & key_poses_part)
   {
     const auto& kept = this->document_->work().key_poses;
-    this->posing_->set_shelf(kept ? *kept : PoseShelf());
+    this->posing_->keeper()->set_shelf(kept ? *kept : PoseShelf());
   }
   this->editing_->document_changed(parts);
   this->update_title();

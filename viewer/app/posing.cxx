@@ -4,7 +4,7 @@
 #include "key_strip.h"
 #include "panel_parts.h"
 #include "pose_ghost.h"
-#include "pose_list.h"
+#include "pose_keeper.h"
 #include "pose_panel.h"
 #include "sequence_export.h"
 #include "viewport.h"
@@ -50,11 +50,12 @@ QString microseconds(double seconds)
 Posing::Posing(Viewport* viewport, const Panels& panels)
   : QObject(viewport), viewport_(viewport), panels_(panels), main_(new Deformation(this)),
     compared_(new Deformation(this)), ghost_(new PoseGhost(viewport)),
+    keeper_(new PoseKeeper(
+      panels.poses, panels.strip, [this] { return this->pose(); }, this)),
     export_(new SequenceExport(viewport))
 {
   this->connect_panel();
-  this->connect_strip();
-  this->connect_poses();
+  this->connect_keeper();
   QObject::connect(this->main_, &Deformation::arrived, this,
     [this]
     {
@@ -84,9 +85,6 @@ Posing::Posing(Viewport* viewport, const Panels& panels)
   this->moving_.setTimerType(Qt::PreciseTimer);
   this->moving_.setInterval(display_interval);
   QObject::connect(&this->moving_, &QTimer::timeout, this, &Posing::body_tick);
-  this->playing_.setTimerType(Qt::PreciseTimer);
-  this->playing_.setInterval(display_interval);
-  QObject::connect(&this->playing_, &QTimer::timeout, this, &Posing::key_tick);
   QObject::connect(&this->body_job_, &KernelJob::finished, this,
     [this]
     {
@@ -119,7 +117,7 @@ void Posing::set_data(
   vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, bool use_weights)
 {
   this->move_body(false);
-  this->play_keys(false);
+  this->keeper_->play(false);
   this->body_job_.cancel();
   this->body_.reset();
   if (surface != this->surface_)
@@ -181,8 +179,9 @@ void Posing::show_state()
       [](const Handle& handle) { return handle.kind == HandleKind::bone; });
   }
   this->panels_.pose->set_state(state);
-  this->panels_.poses->set_ready(state.ready);
-  this->panels_.strip->set_ready(state.ready);
+  this->keeper_->set_handles(this->source_
+      ? std::shared_ptr<const Handles>(this->source_, &this->source_->handles)
+      : nullptr);
 }
 
 Pose Posing::pose() const
@@ -216,6 +215,20 @@ void Posing::connect_panel()
     });
   QObject::connect(this->panels_.fields, &HandleFields::values_chosen, this, &Posing::values_typed);
   QObject::connect(this->panels_.fields, &HandleFields::layer_chosen, this, &Posing::layer_typed);
+}
+
+void Posing::connect_keeper()
+{
+  QObject::connect(this->keeper_, &PoseKeeper::pose_wanted, this, &Posing::change_pose);
+  QObject::connect(this->keeper_, &PoseKeeper::pose_done, this, &Posing::pose_done);
+  QObject::connect(this->keeper_, &PoseKeeper::shelf_changed, this, &Posing::shelf_changed);
+  QObject::connect(this->keeper_, &PoseKeeper::failed, this, &Posing::failed);
+  KeyStrip* strip = this->panels_.strip;
+  QObject::connect(strip, &KeyStrip::export_wanted, this, &Posing::ask_and_export);
+  QObject::connect(strip, &KeyStrip::cancel_wanted, this->export_, &SequenceExport::cancel);
+  QObject::connect(this->export_, &SequenceExport::progress, strip, &KeyStrip::set_progress);
+  QObject::connect(this->export_, &SequenceExport::pictures_taken, this, &Posing::moved);
+  QObject::connect(this->export_, &SequenceExport::finished, this, &Posing::export_finished);
 }
 
 void Posing::options_changed()
@@ -426,7 +439,7 @@ void Posing::edit_at_rest(bool edits)
   if (this->edits_at_rest_ != edits)
   {
     this->edits_at_rest_ = edits;
-    this->play_keys(false);
+    this->keeper_->play(false);
     this->move_body(false);
     Q_EMIT this->moved();
   }
@@ -589,7 +602,7 @@ void Posing::change_pose(const Pose& pose, const QString& step)
 
 void Posing::drag_began()
 {
-  this->play_keys(false);
+  this->keeper_->play(false);
 }
 
 // ---- The body ----------------------------------------------------------------------------------
@@ -655,7 +668,7 @@ void Posing::move_body(bool move)
   const bool can = this->body_ && this->body_->has_started() && this->panels_.pose->moves();
   if (move && can)
   {
-    this->play_keys(false);
+    this->keeper_->play(false);
     this->body_clock_.start();
     this->body_due_ = 0.0;
     this->moving_.start();
@@ -732,219 +745,6 @@ void Posing::show_time()
       : QString());
 }
 
-// ---- Poses that are kept -----------------------------------------------------------------------
-
-void Posing::connect_poses()
-{
-  PoseList* list = this->panels_.poses;
-  QObject::connect(list, &PoseList::store_wanted, this,
-    [this]
-    {
-      this->shelf_.library.store(
-        tr("pose").toStdString(), NamedPose(this->source_->handles, this->pose()));
-      this->change_shelf(tr("store a pose"));
-      this->panels_.poses->choose(static_cast<int>(this->shelf_.library.entries().size()) - 1);
-    });
-  QObject::connect(list, &PoseList::apply_wanted, this,
-    [this](int entry)
-    {
-      const auto& kept = this->shelf_.library.entries()[static_cast<std::size_t>(entry)];
-      this->change_pose(kept.pose.of(this->source_->handles, this->pose()),
-        tr("apply %1").arg(QString::fromStdString(kept.name)));
-    });
-  QObject::connect(list, &PoseList::remove_wanted, this,
-    [this](int entry)
-    {
-      this->shelf_.library.remove(static_cast<std::size_t>(entry));
-      this->change_shelf(tr("delete a pose"));
-    });
-  QObject::connect(list, &PoseList::renamed, this,
-    [this](int entry, const QString& name)
-    {
-      if (!this->shelf_.library.rename(static_cast<std::size_t>(entry), name.toStdString()))
-      {
-        Q_EMIT this->failed(
-          name.isEmpty() ? tr("A pose needs a name.") : tr("Another pose has that name."));
-        this->show_shelf();
-        return;
-      }
-      this->change_shelf(tr("rename a pose"));
-    });
-  QObject::connect(list, &PoseList::blended, this,
-    [this](int entry, double share)
-    {
-      if (!this->source_ || entry < 0)
-      {
-        return;
-      }
-      if (this->blend_from_.empty())
-      {
-        this->blend_from_ = this->pose();
-      }
-      const Pose to = this->shelf_.library.entries()[static_cast<std::size_t>(entry)].pose.of(
-        this->source_->handles, this->blend_from_);
-      this->change_pose(blend(this->source_->handles, this->blend_from_, to, share), QString());
-    });
-  QObject::connect(list, &PoseList::blend_ended, this,
-    [this]
-    {
-      if (!this->blend_from_.empty())
-      {
-        this->blend_from_.clear();
-        Q_EMIT this->pose_done(tr("blend poses"));
-      }
-    });
-}
-
-void Posing::change_shelf(const QString& step)
-{
-  this->show_shelf();
-  Q_EMIT this->shelf_changed(step);
-}
-
-void Posing::show_shelf()
-{
-  QStringList names;
-  for (const PoseLibrary::Entry& entry : this->shelf_.library.entries())
-  {
-    names << QString::fromStdString(entry.name);
-  }
-  this->panels_.poses->set_names(names);
-  this->panels_.strip->set_keys(this->shelf_.keys);
-}
-
-void Posing::set_shelf(const PoseShelf& shelf)
-{
-  this->play_keys(false);
-  this->shelf_ = shelf;
-  this->show_shelf();
-}
-
-// ---- Key frames --------------------------------------------------------------------------------
-
-void Posing::connect_strip()
-{
-  KeyStrip* strip = this->panels_.strip;
-  QObject::connect(strip, &KeyStrip::play_wanted, this, &Posing::play_keys);
-  QObject::connect(strip, &KeyStrip::scrubbed, this, &Posing::scrub);
-  QObject::connect(strip, &KeyStrip::scrub_ended, this,
-    [this]
-    {
-      if (!this->shelf_.keys.keys().empty())
-      {
-        Q_EMIT this->pose_done(tr("go to %1 s").arg(this->key_time_, 0, 'f', 2));
-      }
-    });
-  QObject::connect(strip, &KeyStrip::key_wanted, this, &Posing::set_key);
-  QObject::connect(strip, &KeyStrip::remove_wanted, this,
-    [this](int key)
-    {
-      if (key >= 0)
-      {
-        this->shelf_.keys.remove(static_cast<std::size_t>(key));
-        this->change_shelf(tr("delete a key"));
-      }
-    });
-  QObject::connect(strip, &KeyStrip::key_moved, this,
-    [this](int key, double seconds)
-    {
-      const std::size_t at = this->shelf_.keys.move(static_cast<std::size_t>(key), seconds);
-      this->change_shelf(tr("move a key"));
-      this->key_time_ = this->shelf_.keys.keys()[at].time;
-      this->panels_.strip->set_time(this->key_time_);
-    });
-  QObject::connect(strip, &KeyStrip::loop_chosen, this,
-    [this](bool loop)
-    {
-      this->shelf_.keys.loop = loop;
-      this->change_shelf(tr("loop"));
-    });
-  QObject::connect(strip, &KeyStrip::smooth_chosen, this,
-    [this](bool smooth)
-    {
-      this->shelf_.keys.interpolation =
-        smooth ? KeyInterpolation::spline : KeyInterpolation::linear;
-      this->change_shelf(tr("ways between keys"));
-    });
-  QObject::connect(strip, &KeyStrip::rate_chosen, this,
-    [this](double rate)
-    {
-      this->shelf_.keys.frames_per_second = rate;
-      this->change_shelf(tr("frames a second"));
-    });
-  QObject::connect(strip, &KeyStrip::export_wanted, this, &Posing::ask_and_export);
-  QObject::connect(strip, &KeyStrip::cancel_wanted, this->export_, &SequenceExport::cancel);
-  QObject::connect(this->export_, &SequenceExport::progress, strip, &KeyStrip::set_progress);
-  QObject::connect(this->export_, &SequenceExport::pictures_taken, this, &Posing::moved);
-  QObject::connect(this->export_, &SequenceExport::finished, this, &Posing::export_finished);
-}
-
-void Posing::set_key()
-{
-  if (this->source_)
-  {
-    this->shelf_.keys.set(this->key_time_, NamedPose(this->source_->handles, this->pose()));
-    this->change_shelf(tr("set a key"));
-    this->panels_.strip->set_time(this->key_time_);
-  }
-}
-
-Pose Posing::key_pose(double seconds) const
-{
-  const int key = this->shelf_.keys.at(seconds);
-  return this->shelf_.keys.pose_at(
-    key >= 0 ? this->shelf_.keys.keys()[static_cast<std::size_t>(key)].time : seconds,
-    this->source_->handles, this->pose());
-}
-
-void Posing::scrub(double seconds)
-{
-  this->play_keys(false);
-  this->key_time_ = seconds;
-  this->panels_.strip->set_time(seconds);
-  if (this->source_ && !this->shelf_.keys.keys().empty())
-  {
-    this->change_pose(this->key_pose(seconds), QString());
-  }
-}
-
-void Posing::play_keys(bool play)
-{
-  const bool was = this->playing_.isActive();
-  const bool can = this->source_ && this->shelf_.keys.keys().size() > 1;
-  if (play && can && !was)
-  {
-    if (this->key_time_ >= this->shelf_.keys.duration())
-    {
-      this->key_time_ = 0.0;
-    }
-    this->key_clock_.start();
-    this->playing_.start();
-  }
-  else if (!play && was)
-  {
-    this->playing_.stop();
-    Q_EMIT this->pose_done(tr("play"));
-  }
-  this->panels_.strip->set_playing(this->playing_.isActive());
-}
-
-void Posing::key_tick()
-{
-  const double length = this->shelf_.keys.duration();
-  double time = this->key_time_ + 1e-9 * static_cast<double>(this->key_clock_.nsecsElapsed());
-  this->key_clock_.restart();
-  const bool ends = time >= length && !this->shelf_.keys.loop;
-  time = ends ? length : time >= length ? std::fmod(time, length) : time;
-  this->key_time_ = time;
-  this->panels_.strip->set_time(time);
-  this->change_pose(this->key_pose(time), QString());
-  if (ends)
-  {
-    this->play_keys(false);
-  }
-}
-
 // ---- Export ------------------------------------------------------------------------------------
 
 void Posing::ask_and_export()
@@ -961,11 +761,11 @@ void Posing::ask_and_export()
 
 void Posing::export_to(const QString& path)
 {
-  this->play_keys(false);
+  this->keeper_->play(false);
   this->move_body(false);
   const bool moves = this->panels_.pose->moves() && this->body_ && this->body_->has_started() &&
     !this->body_->run().steps.empty();
-  if (!this->source_ || (!moves && this->shelf_.keys.keys().empty()))
+  if (!this->source_ || (!moves && this->shelf().keys.keys().empty()))
   {
     Q_EMIT this->failed(tr("There is nothing to export yet: set a key first."));
     return;
@@ -977,14 +777,14 @@ void Posing::export_to(const QString& path)
   input.handles->DeepCopy(this->handles_);
   set_pose(input.handles, this->cells_, Pose(this->cells_.size()));
   input.options = this->panels_.pose->options();
-  input.frames_per_second = this->shelf_.keys.frames_per_second;
+  input.frames_per_second = this->shelf().keys.frames_per_second;
   if (moves)
   {
     input.run = this->body_->run();
   }
   else
   {
-    input.poses = this->shelf_.keys.frames(this->source_->handles, this->pose());
+    input.poses = this->shelf().keys.frames(this->source_->handles, this->pose());
   }
   this->export_->start(input, path);
 }

@@ -2,8 +2,8 @@
 #define posing_h
 
 #include "deformation.h"
+#include "pose_keeper.h"
 #include "posing/body.h"
-#include "posing/pose_shelf.h"
 
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -87,15 +87,12 @@ public:
   PoseGhost* ghost() const { return this->ghost_.get(); }
   bindpose::Body* body() const { return this->body_.get(); }
   bool is_moving() const { return this->moving_.isActive(); }
-  bool is_playing() const { return this->playing_.isActive(); }
-  void play_keys(bool play);
+  PoseKeeper* keeper() const { return this->keeper_; }
   void move_body(bool move);
   SequenceExport* sequence_export() const { return this->export_; }
   void export_to(const QString& path);
 
-  const bindpose::PoseShelf& shelf() const { return this->shelf_; }
-  /// Another session's, or undo: shelf_changed() is not emitted.
-  void set_shelf(const bindpose::PoseShelf& shelf);
+  const bindpose::PoseShelf& shelf() const { return this->keeper_->shelf(); }
 
 Q_SIGNALS:
   /// The handles shall be in this pose; it is not done yet.
@@ -111,8 +108,7 @@ Q_SIGNALS:
 
 private:
   void connect_panel();
-  void connect_strip();
-  void connect_poses();
+  void connect_keeper();
   bindpose::Pose pose() const;
   bindpose::PoseOptions compared_options() const;
   void options_changed();
@@ -126,25 +122,20 @@ private:
   void order_layers();
   void show_values();
   void change_pose(const bindpose::Pose& pose, const QString& step);
-  void change_shelf(const QString& step);
-  void show_shelf();
   void moves_changed();
   void start_body();
   void step_body(int steps);
   void body_tick();
   void show_time();
-  void key_tick();
-  void scrub(double seconds);
-  void set_key();
   void ask_and_export();
   void export_finished();
-  bindpose::Pose key_pose(double seconds) const;
 
   Viewport* viewport_;
   Panels panels_;
   Deformation* main_;
   Deformation* compared_;
   std::unique_ptr<PoseGhost> ghost_;
+  PoseKeeper* keeper_;
   SequenceExport* export_;
   std::shared_ptr<const bindpose::PoseSource> source_;
   vtkSmartPointer<vtkPolyData> surface_, handles_, shape_;
@@ -163,11 +154,6 @@ private:
   QElapsedTimer body_clock_;
   double body_due_ = 0.0; ///< seconds of the clock that have been stepped
 
-  bindpose::PoseShelf shelf_;
-  double key_time_ = 0.0;
-  QTimer playing_; ///< key frames
-  QElapsedTimer key_clock_;
-  bindpose::Pose blend_from_;
   KernelJob body_job_; // last: it ends before what it works on
 };
 

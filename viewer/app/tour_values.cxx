@@ -241,7 +241,7 @@ void add_keys(Json& values, MainWindow* window)
   values["keys"] = static_cast<int>(shelf.keys.keys().size());
   values["keys.seconds"] = shelf.keys.duration();
   values["keys.time"] = window->strip()->time();
-  values["keys.playing"] = window->posing()->is_playing();
+  values["keys.playing"] = window->posing()->keeper()->is_playing();
   values["poses"] = static_cast<int>(shelf.library.entries().size());
 }
 

@@ -429,7 +429,7 @@ bool is_idle(const MainWindow* window)
   const bool moves = window->panel()->pose()->moves();
   const bool compares = posing->ghost()->place() != PoseGhost::hidden;
   return !window->is_binding() && !window->inspection()->is_busy() &&
-    !window->weights()->is_busy() && !posing->is_playing() && !posing->is_moving() &&
+    !window->weights()->is_busy() && !posing->keeper()->is_playing() && !posing->is_moving() &&
     !posing->sequence_export()->is_running() && (moves || !is_busy(posing->deformation())) &&
     (!moves || !posing->body() || posing->body()->has_started()) &&
     (!compares || !is_busy(posing->compared()));

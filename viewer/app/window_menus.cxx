@@ -155,7 +155,7 @@ void WindowMenus::add_view_menu()
   this->add(view, tr("&Rest or posed"), "look_at_rest",
     [window] { window->posing()->look_at_rest(!window->posing()->looks_at_rest()); });
   this->add(view, tr("&Play or pause"), "play",
-    [window] { window->posing()->play_keys(!window->posing()->is_playing()); });
+    [window] { window->posing()->keeper()->play(!window->posing()->keeper()->is_playing()); });
   this->add(view, tr("&Set a key"), "set_key", [window] { Q_EMIT window->strip()->key_wanted(); });
   view->addSeparator();
   this->methods_ = new QActionGroup(this);

@@ -334,7 +334,7 @@ void Monkey::rest()
   this->window_->cancel_bind();
   this->window_->inspection()->cancel();
   this->window_->weights()->cancel();
-  this->window_->posing()->play_keys(false);
+  this->window_->posing()->keeper()->play(false);
   this->window_->posing()->move_body(false);
   this->window_->posing()->sequence_export()->cancel();
 }

@@ -794,19 +794,19 @@ TEST_F(PosingWindow, KeyFramesPlayAndScrubThroughTheirKeys)
   Q_EMIT strip->scrub_ended();
   // It plays, stops at its end without loop, and nothing goes on afterwards.
   Q_EMIT strip->loop_chosen(false);
-  this->posing()->play_keys(true);
-  EXPECT_TRUE(this->posing()->is_playing());
-  ASSERT_TRUE(wait_for([this] { return !this->posing()->is_playing(); }, 20));
+  this->posing()->keeper()->play(true);
+  EXPECT_TRUE(this->posing()->keeper()->is_playing());
+  ASSERT_TRUE(wait_for([this] { return !this->posing()->keeper()->is_playing(); }, 20));
   EXPECT_EQ(this->points(), posed);
   // With loop until it is stopped; a drag stops it.
   Q_EMIT strip->loop_chosen(true);
-  this->posing()->play_keys(true);
+  this->posing()->keeper()->play(true);
   QElapsedTimer clock;
   clock.start();
   wait_for([&] { return clock.elapsed() > 700; });
-  EXPECT_TRUE(this->posing()->is_playing());
+  EXPECT_TRUE(this->posing()->keeper()->is_playing());
   this->drag_handle(1, { 20, 10 });
-  EXPECT_FALSE(this->posing()->is_playing());
+  EXPECT_FALSE(this->posing()->keeper()->is_playing());
   // A key is dragged to another time by the mouse.
   this->render();
   KeyTrack* track = strip->track();

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plays tours for the documentation: the tutorial of the window with its pictures, and the film of README.md.
 
-Of the tour picture.json the weights over the picture are taken, too.
+Of the tour picture.json the weights over the picture are taken, too, and of rotations.json the clusters and the angles.
 
 usage: make_pictures.py PROGRAM [--film]    (the program bindpose; the film needs ffmpeg)
 
@@ -77,8 +77,10 @@ def main():
             return
         play(program, "tutorial", mesh_folder, scratch / "tutorial")
         play(program, "picture", mesh_folder, scratch / "picture")
+        play(program, "rotations", mesh_folder, scratch / "rotations")
         PICTURES.mkdir(exist_ok=True)
-        for picture in [*sorted((scratch / "tutorial").glob("*.png")), scratch / "picture" / "over_picture.png"]:
+        for picture in [*sorted((scratch / "tutorial").glob("*.png")), scratch / "picture" / "over_picture.png",
+                        scratch / "rotations" / "clusters.png", scratch / "rotations" / "angles.png"]:
             shutil.copy(picture, PICTURES)
     PAGE.write_text(page(json.loads((TOURS / "tutorial.json").read_text())))
 

@@ -91,7 +91,7 @@ BINDPOSE_ALWAYS_INLINE double decay(double u)
   p = p * r + 0.5;
   p = p * r + 1.0;
   p = p * r + 1.0;
-  std::int64_t bits;
+  std::uint64_t bits; // unsigned: what is shifted out is not missed
   std::memcpy(&bits, &shifted, sizeof(bits));
   bits = (bits + 1023) << 52; // 2^whole
   double scale;

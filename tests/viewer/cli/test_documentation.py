@@ -1,8 +1,11 @@
-"""The tables of options and keys in viewer/README.md are the program's own."""
+"""The tables of options and keys in viewer/README.md are the program's own, and no page links to what is not there."""
 
 import pathlib
+import re
 
 import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
 
 
 @pytest.mark.parametrize("verb, end", [
@@ -11,10 +14,22 @@ import pytest
 ])
 def test_readme_is_in_step(folder, verb, end):
     table = folder.run(verb).is_good().out
-    readme = pathlib.Path(__file__).resolve().parents[3] / "viewer" / "README.md"
-    text = readme.read_text()
+    text = (ROOT / "viewer" / "README.md").read_text()
     begin = f"<!-- bindpose {verb} -->\n"
     assert begin in text and end in text
     documented = text.split(begin)[1].split(end)[0]
     assert documented.strip() == table.strip(), (
         f"viewer/README.md is out of step; put the output of 'bindpose {verb}' between its marks")
+
+
+def pages():
+    """Every page of the project: beside the sources, not in what is built."""
+    folders = ("examples", "filters", "python", "tests", "viewer")
+    return sorted([*ROOT.glob("*.md"), *(page for folder in folders for page in (ROOT / folder).rglob("*.md"))])
+
+
+@pytest.mark.parametrize("page", pages(), ids=lambda page: str(page.relative_to(ROOT)))
+def test_what_a_page_links_to_is_there(page):
+    links = re.findall(r"\]\(([^)#\s]+)(?:#[^)]*)?\)", page.read_text())
+    missing = [link for link in links if "://" not in link and not (page.parent / link).exists()]
+    assert not missing

@@ -22,7 +22,7 @@ namespace bindpose
 {
 class Outline;
 class ShadedSurface;
-}
+} // namespace bindpose
 class vtkActor;
 class vtkCamera;
 class vtkDoubleArray;

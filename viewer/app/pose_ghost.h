@@ -11,7 +11,7 @@ namespace bindpose
 {
 class Outline;
 class ShadedSurface;
-}
+} // namespace bindpose
 class Viewport;
 class vtkActor;
 class vtkPolyData;

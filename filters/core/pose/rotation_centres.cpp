@@ -234,7 +234,7 @@ template <typename Elements>
 Status find_centres(ExecutionContext& context, const RotationCentresOptions& options,
   PointsView points, const Elements& elements, WeightsView weights, Points& centres)
 {
-  const Status valid = check(options, points, weights);
+  Status valid = check(options, points, weights);
   if (!valid.ok())
   {
     return valid;

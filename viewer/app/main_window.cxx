@@ -121,7 +121,9 @@ MainWindow::MainWindow(QWidget* parent)
 
 MainWindow::~MainWindow()
 {
-  this->document_->disconnect(this); // it ends after the views
+  // Both end after the views, and tell what they do until then.
+  this->document_->disconnect(this);
+  this->history()->disconnect(this);
 }
 
 QUndoStack* MainWindow::history() const

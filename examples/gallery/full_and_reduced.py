@@ -5,8 +5,8 @@ A bump, a bend by 120° and a twist by 135°, from left to right; above with red
 weights, below with full. They minimise the same energy under the same handles: full has more freedom and gets lower,
 reduced takes microseconds an iteration, whatever the mesh.
 
-Numbers, reduced and full: the energy; iterations and microseconds each; the sharpest fold between neighbouring
-triangles, in degrees; the root mean square of the vertices' differences, of the shape's diagonal.
+Numbers, reduced and full: the energy; iterations and microseconds each (the least of three); the sharpest fold between
+neighbouring triangles, in degrees; the root mean square of the vertices' differences, of the shape's diagonal.
 """
 
 import itertools
@@ -48,13 +48,15 @@ def make(options):
         weighted = bindpose.weights(to_dataset(mesh), handles, domain="surface" if surface else "auto")
         posed = {}
         for method in METHODS:
-            posed[method] = bend(method, weighted, handles, pose)
+            tries = [bend(method, weighted, handles, pose) for _ in range(3)]
+            posed[method] = tries[0]
             report = bindpose.report(posed[method])
             files[method].append(f"{name}-{method}.{'vtp' if surface else 'vtu'}")
             bindpose.write(posed[method], options.scratch / files[method][-1])
             numbers[f"{name}, {method}, energy"] = report["energy"]
             numbers[f"{name}, {method}, iterations"] = report["iterations"]
-            numbers[f"{name}, {method}, microseconds"] = report["microseconds_per_iteration"]
+            numbers[f"{name}, {method}, microseconds"] = min(
+                bindpose.report(each)["microseconds_per_iteration"] for each in tries)
             if surface:
                 numbers[f"{name}, {method}, sharpest fold"] = posing.sharpest_fold(points_of(posed[method]), mesh[1])
         numbers[f"{name}, apart"] = posing.rms_apart(mesh[0], posed["reduced"], posed["full"])

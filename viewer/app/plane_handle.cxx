@@ -134,9 +134,15 @@ void PlaneHandle::set_place(double place)
 void PlaneHandle::set_position(double position)
 {
   this->cancel();
-  this->state_.place = this->place_of(position);
-  this->state_.origin += (position - this->position()) * this->normal();
-  this->place_widget();
+  // Who only gives back where it is does not change the share by round-off.
+  constexpr double round_off = 1e-12;
+  const double place = this->place_of(position);
+  if (std::abs(place - this->state_.place) > round_off)
+  {
+    this->state_.place = place;
+    this->state_.origin += (position - this->position()) * this->normal();
+    this->place_widget();
+  }
   Q_EMIT this->moved();
 }
 

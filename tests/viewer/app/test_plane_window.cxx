@@ -182,6 +182,29 @@ INSTANTIATE_TEST_SUITE_P(All, PlaneWindow,
       "turn the slice of weights", "slice of weights turned" }),
   [](const auto& each) { return std::string(each.param.name); });
 
+TEST(PlaneShare, IsNotWornAwayByPositionsGivenBack)
+{
+  MainWindow window;
+  PlaneHandle* plane = window.weights()->view()->plane();
+  test::Random random(11);
+  for (int k = 0; k < 200; ++k)
+  {
+    const Vec3 lower = random.in_box(Vec3::Constant(-3.0), Vec3::Constant(3.0));
+    Box box;
+    box.add(lower);
+    box.add(lower + random.in_box(Vec3::Constant(0.01), Vec3::Constant(5.0)));
+    plane->set_box(box);
+    plane->set_orientation(k % 3);
+    const double place = 0.1 * (k % 11);
+    plane->set_place(place);
+    plane->set_position(plane->position());
+    EXPECT_EQ(plane->kept_place(), place) << k;
+    const auto [first, last] = plane->positions();
+    plane->set_position(first + 0.3 * (last - first));
+    EXPECT_NEAR(plane->kept_place(), 0.3, 1e-12);
+  }
+}
+
 TEST_P(PlaneWindow, ADragIsOneStepAndUndoTakesItBack)
 {
   this->expect_place(0.0, "at first");

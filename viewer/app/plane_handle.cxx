@@ -23,8 +23,6 @@ using bindpose::Vec3;
 
 namespace
 {
-constexpr double round_off = 1e-12; ///< of a share of the way
-
 void colour(vtkProperty* property, const bindpose::Rgb& rgb, double opacity)
 {
   property->SetColor(rgb[0], rgb[1], rgb[2]);
@@ -137,6 +135,7 @@ void PlaneHandle::set_position(double position)
 {
   this->cancel();
   // Who only gives back where it is does not change the share by round-off.
+  constexpr double round_off = 1e-12;
   const double place = this->place_of(position);
   if (std::abs(place - this->state_.place) > round_off)
   {
@@ -272,10 +271,6 @@ void PlaneHandle::widget_let_go()
   }
   this->dragged_ = false;
   const bool turned = this->state_.free_normal != this->before_.free_normal;
-  if (std::abs(this->state_.place - this->before_.place) <= round_off)
-  {
-    this->state_.place = this->before_.place; // it came back, by another way
-  }
   if (turned || this->state_.place != this->before_.place)
   {
     Q_EMIT this->dragged(turned);

@@ -560,7 +560,8 @@ void Document::note_option(const QString& key, const QVariant& value)
 {
   const OptionInfo* option = find_option(key);
   const QVariant checked = option ? checked_option(*option, value) : QVariant();
-  if (checked.isValid())
+  // What differs by round-off makes no step, so none could take it back: what was stays.
+  if (checked.isValid() && checked != this->work_.options.value(key))
   {
     this->work_.options[key] = checked;
   }

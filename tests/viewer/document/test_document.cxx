@@ -331,6 +331,20 @@ TEST_F(Editing, WhatTheProgramChoseSurvivesUndo)
   EXPECT_TRUE(this->document.option("weights.bands").toBool());
 }
 
+TEST_F(Editing, WhatIsNotedOfAnEqualNumberLeavesItsBits)
+{
+  this->document.set_option("weights.place", 0.25);
+  const QVariant before = this->document.option("weights.place");
+  const double worn = 0.25 + 4e-16; // what a panel gives back may be so
+  ASSERT_NE(worn, before.toDouble());
+  this->document.set_option("weights.place", worn);
+  this->document.note_option("weights.place", worn);
+  EXPECT_EQ(this->document.history()->count(), 1);
+  EXPECT_EQ(this->document.option("weights.place").toDouble(), before.toDouble());
+  this->document.note_option("weights.place", 0.26); // but one that differs is taken
+  EXPECT_EQ(this->document.option("weights.place").toDouble(), 0.26);
+}
+
 TEST_F(Editing, WhatAViewDoesDuringUndoAndRedoIsNoStep)
 {
   Document& d = this->document;

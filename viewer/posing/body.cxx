@@ -110,12 +110,8 @@ const PoseRotations* Body::rotations()
   {
     return nullptr;
   }
-  if (!this->rotations_.of_point)
-  {
-    this->rotations_.of_point =
-      groups_on_surface(*this->source_, this->body_.groups(), this->bound_->in_tets);
-  }
-  this->rotations_.rotations = this->body_.rotations();
+  take_rotations(*this->source_, this->body_.groups(), this->body_.rotations(),
+    this->bound_->in_tets, this->rotations_);
   return &this->rotations_;
 }
 

@@ -30,12 +30,14 @@ Status weights_on_surface(
   return status;
 }
 
-std::shared_ptr<const std::vector<Index>> groups_on_surface(
+namespace
+{
+std::vector<Index> groups_on_surface(
   const PoseSource& source, const RotationGroups& groups, bool in_tets)
 {
   if (!in_tets)
   {
-    return std::make_shared<const std::vector<Index>>(groups.of_vertex);
+    return groups.of_vertex;
   }
   std::vector<Index> of_point =
     TetAnchors(source.points, source.tet_points, source.tets).nearest_vertices();
@@ -43,7 +45,19 @@ std::shared_ptr<const std::vector<Index>> groups_on_surface(
   {
     each = groups.of_vertex[static_cast<std::size_t>(each)];
   }
-  return std::make_shared<const std::vector<Index>>(std::move(of_point));
+  return of_point;
+}
+} // namespace
+
+void take_rotations(const PoseSource& source, const RotationGroups& groups,
+  const std::vector<Eigen::Matrix3d>& rotations, bool in_tets, PoseRotations& taken)
+{
+  if (!taken.of_point)
+  {
+    taken.of_point =
+      std::make_shared<const std::vector<Index>>(groups_on_surface(source, groups, in_tets));
+  }
+  taken.rotations = rotations;
 }
 
 const PoseRotations* ReducedPoser::rotations()
@@ -52,12 +66,8 @@ const PoseRotations* ReducedPoser::rotations()
   {
     return nullptr;
   }
-  if (!this->rotations_.of_point)
-  {
-    this->rotations_.of_point =
-      groups_on_surface(this->source(), this->arap_.groups(), this->bound_->in_tets);
-  }
-  this->rotations_.rotations = this->arap_.rotations();
+  take_rotations(this->source(), this->arap_.groups(), this->arap_.rotations(),
+    this->bound_->in_tets, this->rotations_);
   return &this->rotations_;
 }
 

@@ -69,18 +69,21 @@ const std::vector<Category>& extremum_categories()
   return table;
 }
 
+Rgb handle_colour(std::size_t column)
+{
+  static const Colors colours = categorical_colors(16);
+  const auto at = static_cast<Index>(column % handle_colours);
+  const double shade = at < 16 ? 1.0 : 0.55;
+  const auto its = colours.row(at < 16 ? at : at - 16);
+  return { shade * its[0], shade * its[1], shade * its[2] };
+}
+
 std::vector<Category> handle_categories(const std::vector<std::string>& names)
 {
-  constexpr Index different = 24;
-  const Colors colours = categorical_colors(16);
   std::vector<Category> categories;
   for (std::size_t j = 0; j < names.size(); ++j)
   {
-    const Index at = static_cast<Index>(j) % different;
-    const double shade = at < 16 ? 1.0 : 0.55;
-    const auto its = colours.row(at < 16 ? at : at - 16);
-    categories.push_back(
-      { static_cast<int>(j), names[j], { shade * its[0], shade * its[1], shade * its[2] } });
+    categories.push_back({ static_cast<int>(j), names[j], handle_colour(j) });
   }
   return categories;
 }

@@ -34,9 +34,12 @@ const std::vector<Category>& defect_categories();
 
 /// Local extrema, minima before maxima: sky blue and vermilion, which every eye tells apart.
 const std::vector<Category>& extremum_categories();
-/// Handles by their names, in the order of their columns. Twenty-four colours: those that
-/// vtkWeightedColors gives to handles without one, their lighter ones, their darker ones; then
-/// again.
+/// Colours of handles that differ: those that vtkWeightedColors gives to handles without one, their
+/// lighter ones, their darker ones.
+constexpr std::size_t handle_colours = 24;
+/// The colour of the handle of a column; after the last comes the first again.
+Rgb handle_colour(std::size_t column);
+/// Handles by their names, in the order of their columns.
 std::vector<Category> handle_categories(const std::vector<std::string>& names);
 
 /// How many cells have each label. invalid_input when there is no such cell array or a value is

@@ -262,6 +262,18 @@ vtkSmartPointer<vtkDoubleArray> strongest_columns(vtkDataSet* data)
   return strongest;
 }
 
+/// Takes numbers of categories for what the table has for them; negative ones have no colour.
+void look_up(vtkDoubleArray* numbers, const std::vector<double>& table)
+{
+  for (vtkIdType i = 0; i < numbers->GetNumberOfValues(); ++i)
+  {
+    const double number = numbers->GetValue(i);
+    numbers->SetValue(i,
+      number < 0.0 ? std::numeric_limits<double>::quiet_NaN()
+                   : table[static_cast<std::size_t>(number)]);
+  }
+}
+
 // The same as the table's values.
 vtkSmartPointer<vtkDoubleArray> handle_values(vtkDataSet* data, const Colouring& colouring)
 {
@@ -280,13 +292,7 @@ vtkSmartPointer<vtkDoubleArray> handle_values(vtkDataSet* data, const Colouring&
       [&](const Category& category) { return category.name == name; });
     values.push_back(shown[static_cast<std::size_t>(its - colouring.categories.begin())]);
   }
-  for (vtkIdType cell = 0; cell < columns->GetNumberOfValues(); ++cell)
-  {
-    const double column = columns->GetValue(cell);
-    columns->SetValue(cell,
-      column < 0.0 ? std::numeric_limits<double>::quiet_NaN()
-                   : values[static_cast<std::size_t>(column)]);
-  }
+  look_up(columns, values);
   return columns;
 }
 
@@ -353,14 +359,7 @@ vtkSmartPointer<vtkDoubleArray> cluster_values(vtkDataSet* data, const Colouring
     return nullptr;
   }
   values->SetName(colour_array_name);
-  const std::vector<double> shown = category_values(colouring.categories);
-  for (vtkIdType cell = 0; cell < values->GetNumberOfValues(); ++cell)
-  {
-    const double cluster = values->GetValue(cell);
-    values->SetValue(cell,
-      cluster < 0.0 ? std::numeric_limits<double>::quiet_NaN()
-                    : shown[static_cast<std::size_t>(cluster)]);
-  }
+  look_up(values, category_values(colouring.categories));
   return values;
 }
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 class vtkActor;
-class vtkCamera;
 class vtkPolyDataMapper;
 class vtkRenderer;
 

@@ -2,6 +2,7 @@
 // free colour at its own number, so that all colours are used about equally often.
 #include "scene/rotation_colours.h"
 
+#include "base/most_frequent.h"
 #include "base/number_text.h"
 
 #include "vtkDataSet.h"
@@ -24,21 +25,54 @@ vtkDataArray* cluster_array(vtkDataSet* data)
   return data ? data->GetPointData()->GetArray("RotationCluster") : nullptr;
 }
 
-/// The clusters of a cell's points, ascending, with those that follow none left out.
-void clusters_of_points(
-  vtkDataSet* data, vtkDataArray* array, vtkIdType cell, vtkIdList* ids, std::vector<int>& clusters)
+/// Tells each cell in turn the cluster that most of its points follow, the lowest of equals, and
+/// those of all its points, ascending; -1 and nothing for a cell whose points follow none.
+template <typename Cell>
+void for_each_cell(vtkDataSet* data, const Cell& each)
 {
-  data->GetCellPoints(cell, ids);
-  clusters.clear();
-  for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
+  vtkDataArray* array = cluster_array(data);
+  vtkNew<vtkIdList> ids;
+  std::vector<int> clusters;
+  for (vtkIdType cell = 0; array && cell < data->GetNumberOfCells(); ++cell)
   {
-    const int cluster = static_cast<int>(array->GetComponent(ids->GetId(k), 0));
-    if (cluster >= 0)
+    data->GetCellPoints(cell, ids);
+    clusters.clear();
+    for (vtkIdType k = 0; k < ids->GetNumberOfIds(); ++k)
     {
-      clusters.push_back(cluster);
+      const int cluster = static_cast<int>(array->GetComponent(ids->GetId(k), 0));
+      if (cluster >= 0)
+      {
+        clusters.push_back(cluster);
+      }
     }
+    const int its = clusters.empty() ? -1 : most_frequent(clusters.begin(), clusters.end());
+    each(cell, its, clusters);
   }
-  std::sort(clusters.begin(), clusters.end());
+}
+
+using Pairs = std::set<std::pair<int, int>>; // higher, lower
+
+/// A colour of handles for each cluster, another one than those of the lower that it touches.
+std::vector<std::size_t> deal_colours(std::size_t clusters, const Pairs& touching)
+{
+  std::vector<std::size_t> colours;
+  for (std::size_t k = 0; k < clusters; ++k)
+  {
+    std::vector<char> taken(handle_colours, 0);
+    const int number = static_cast<int>(k);
+    for (auto pair = touching.lower_bound({ number, 0 });
+         pair != touching.end() && pair->first == number; ++pair)
+    {
+      taken[colours[static_cast<std::size_t>(pair->second)]] = 1;
+    }
+    std::size_t colour = k % handle_colours;
+    for (std::size_t tried = 0; taken[colour] && tried < handle_colours; ++tried)
+    {
+      colour = (colour + 1) % handle_colours;
+    }
+    colours.push_back(colour);
+  }
+  return colours;
 }
 } // namespace
 
@@ -69,85 +103,47 @@ Status check_clusters(const std::vector<vtkDataSet*>& datasets)
 
 vtkSmartPointer<vtkDoubleArray> clusters_of_cells(vtkDataSet* data)
 {
-  vtkDataArray* array = cluster_array(data);
-  if (!array)
+  if (!cluster_array(data))
   {
     return nullptr;
   }
   auto result = vtkSmartPointer<vtkDoubleArray>::New();
   result->SetNumberOfValues(data->GetNumberOfCells());
-  vtkNew<vtkIdList> ids;
-  std::vector<int> clusters;
-  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
-  {
-    clusters_of_points(data, array, cell, ids, clusters);
-    int best = -1;
-    std::ptrdiff_t most = 0;
-    for (const int cluster : clusters)
-    {
-      const std::ptrdiff_t votes = std::count(clusters.begin(), clusters.end(), cluster);
-      best = votes > most ? cluster : best;
-      most = std::max(most, votes);
-    }
-    result->SetValue(cell, best);
-  }
+  for_each_cell(data,
+    [&](vtkIdType cell, int cluster, const std::vector<int>&) { result->SetValue(cell, cluster); });
   return result;
 }
 
 std::vector<Category> cluster_categories(const std::vector<vtkDataSet*>& datasets)
 {
   std::vector<Index> counts;
-  std::set<std::pair<int, int>> touching; // higher, lower
+  Pairs touching;
   for (vtkDataSet* data : datasets)
   {
-    const auto of_cells = clusters_of_cells(data);
-    vtkNew<vtkIdList> ids;
-    std::vector<int> clusters;
-    for (vtkIdType cell = 0; of_cells && cell < data->GetNumberOfCells(); ++cell)
-    {
-      clusters_of_points(data, cluster_array(data), cell, ids, clusters);
-      if (clusters.empty())
+    for_each_cell(data,
+      [&](vtkIdType, int cluster, const std::vector<int>& around)
       {
-        continue;
-      }
-      counts.resize(std::max(counts.size(), static_cast<std::size_t>(clusters.back()) + 1), 0);
-      ++counts[static_cast<std::size_t>(of_cells->GetValue(cell))];
-      for (std::size_t a = 0; a < clusters.size(); ++a)
-      {
-        for (std::size_t b = 0; clusters[b] < clusters[a]; ++b)
+        if (cluster < 0)
         {
-          touching.emplace(clusters[a], clusters[b]);
+          return;
         }
-      }
-    }
+        counts.resize(std::max(counts.size(), static_cast<std::size_t>(around.back()) + 1), 0);
+        ++counts[static_cast<std::size_t>(cluster)];
+        for (const int higher : around)
+        {
+          for (std::size_t b = 0; around[b] < higher; ++b)
+          {
+            touching.emplace(higher, around[b]);
+          }
+        }
+      });
   }
-  std::vector<std::string> names;
+  std::vector<Category> categories;
+  const std::vector<std::size_t> colours = deal_colours(counts.size(), touching);
   for (std::size_t k = 0; k < counts.size(); ++k)
   {
-    names.push_back(std::to_string(k));
-  }
-  constexpr std::size_t different = 24; // colours of handles
-  std::vector<Category> categories = handle_categories(names);
-  const std::vector<Category> colours =
-    handle_categories(std::vector<std::string>(different, std::string()));
-  std::vector<std::size_t> colour_of(names.size());
-  for (std::size_t k = 0; k < names.size(); ++k)
-  {
-    std::vector<char> taken(different, 0);
-    const int number = static_cast<int>(k);
-    for (auto pair = touching.lower_bound({ number, 0 });
-         pair != touching.end() && pair->first == number; ++pair)
-    {
-      taken[colour_of[static_cast<std::size_t>(pair->second)]] = 1;
-    }
-    std::size_t colour = k % different;
-    for (std::size_t tried = 0; taken[colour] && tried < different; ++tried)
-    {
-      colour = (colour + 1) % different;
-    }
-    colour_of[k] = colour;
-    categories[k].colour = colours[colour].colour;
-    categories[k].count = counts[k];
+    categories.push_back(
+      { static_cast<int>(k), std::to_string(k), handle_colour(colours[k]), counts[k] });
   }
   return categories;
 }

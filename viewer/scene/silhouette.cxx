@@ -2,39 +2,21 @@
 // each other. Where more than two meet, each is compared with the next.
 #include "scene/silhouette.h"
 
+#include "surface/vertex_order.h"
+
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 namespace bindpose
 {
 
-namespace
-{
-/// For each point the number of its place.
-std::vector<Index> places_of(PointsView points)
-{
-  std::vector<Index> order(static_cast<std::size_t>(points.rows()));
-  std::iota(order.begin(), order.end(), Index(0));
-  const auto key = [&](Index v) { return std::array{ points(v, 0), points(v, 1), points(v, 2) }; };
-  std::sort(order.begin(), order.end(), [&](Index a, Index b) { return key(a) < key(b); });
-  std::vector<Index> place(order.size());
-  Index next = -1;
-  for (std::size_t k = 0; k < order.size(); ++k)
-  {
-    next += k == 0 || key(order[k]) != key(order[k - 1]);
-    place[static_cast<std::size_t>(order[k])] = next;
-  }
-  return place;
-}
-} // namespace
-
 Silhouette::Silhouette(PointsView points, TrianglesView triangles) : triangles_(triangles)
 {
-  const std::vector<Index> place = places_of(points);
+  const std::vector<char> all(static_cast<std::size_t>(points.rows()), 1);
+  const std::vector<Index> place = lowest_at_place(points, all);
   struct Half
   {
-    Index low, high; ///< places
+    Index low, high; ///< lowest points at the places of its ends
     Index triangle;
     Edge points;
     bool upwards;

@@ -5,6 +5,8 @@
 // matrix has for them, half for the group of either end.
 #include "pose/arap_energy.h"
 
+#include "base/most_frequent.h"
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -64,26 +66,6 @@ Shares<Corners> shares_of(const Elements& elements, Index e, const RotationGroup
     shares.add(groups.of_vertex[static_cast<std::size_t>(elements(e, k))], 1.0 / Corners);
   }
   return shares;
-}
-
-/// The value that occurs most, the lowest of equals. Sorts them.
-template <typename Iterator>
-Index most_frequent(Iterator begin, Iterator end)
-{
-  std::sort(begin, end);
-  Index best = *begin;
-  std::ptrdiff_t most = 0;
-  for (Iterator run = begin; run != end;)
-  {
-    const Iterator next = std::upper_bound(run, end, *run);
-    if (next - run > most)
-    {
-      most = next - run;
-      best = *run;
-    }
-    run = next;
-  }
-  return best;
 }
 
 /// For each vertex the label that most of its elements have; -1 where there are none.

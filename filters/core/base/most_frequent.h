@@ -1,0 +1,33 @@
+#ifndef bindpose_base_most_frequent_h
+#define bindpose_base_most_frequent_h
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+
+namespace bindpose
+{
+
+/// The value that occurs most, the lowest of equals. Sorts them; there must be one.
+template <typename Iterator>
+typename std::iterator_traits<Iterator>::value_type most_frequent(Iterator begin, Iterator end)
+{
+  std::sort(begin, end);
+  auto best = *begin;
+  std::ptrdiff_t most = 0;
+  for (Iterator run = begin; run != end;)
+  {
+    const Iterator next = std::upper_bound(run, end, *run);
+    if (next - run > most)
+    {
+      most = next - run;
+      best = *run;
+    }
+    run = next;
+  }
+  return best;
+}
+
+} // namespace bindpose
+
+#endif

@@ -91,12 +91,7 @@ MainWindow::MainWindow(QWidget* parent)
   this->links_ = new OptionLinks(this->document_, this->panels_);
   this->links_->tie(
     "show.outlines", [this] { return this->viewport_->has_outlines(); },
-    [this](const QVariant& value)
-    {
-      this->viewport_->show_outlines(value.toBool());
-      this->draw_pose();
-      this->menus_->update();
-    });
+    [this](const QVariant& value) { this->show_outlines(value.toBool()); });
   tie_plane(this->links_, this->document_, "volume", this->volume_view_->plane());
   tie_plane(this->links_, this->document_, "tets", this->inspection_->tet_view()->plane());
   tie_plane(this->links_, this->document_, "weights", this->weights_->view()->plane());
@@ -220,10 +215,16 @@ void MainWindow::make_inspections()
     {
       // Who leaves takes its colours along, then who comes shows its own.
       const bool poses = panel == PanelColumn::bind_and_pose;
-      this->rotations_->set_active(this->rotations_->is_active() && poses);
+      if (!poses)
+      {
+        this->rotations_->set_active(false);
+      }
       this->inspection_->set_active(panel == PanelColumn::tets);
       this->weights_->set_active(panel == PanelColumn::weights);
-      this->rotations_->set_active(poses);
+      if (poses)
+      {
+        this->rotations_->set_active(true);
+      }
     });
 }
 

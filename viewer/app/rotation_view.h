@@ -27,7 +27,6 @@ public:
 
   /// Whether the panel is there; else others say what the surface is coloured by.
   void set_active(bool active);
-  bool is_active() const { return this->active_; }
   /// The pose, the method, the surface or what is asked for is another one.
   void update();
   /// At a point of the surface; empty when nothing is shown.

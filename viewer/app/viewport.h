@@ -101,7 +101,6 @@ public:
   /// Lines where it turns away from the eye; of pictures none.
   void show_outlines(bool shown);
   bool has_outlines() const { return this->outlines_; }
-  const bindpose::Outline* outline() const { return this->outline_.get(); }
   /// What the surface shows, by its texture coordinates; colours of weights lie over it. Null:
   /// none.
   void set_picture(vtkImageData* picture);

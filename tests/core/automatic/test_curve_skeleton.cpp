@@ -6,6 +6,7 @@
 #include "support/environment.h"
 #include "support/meshes.h"
 #include "support/needs_mesher.h"
+#include "support/sanitized.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -70,10 +71,13 @@ TEST_F(CurveSkeletonTest, OfABarIsItsAxis)
 {
   const CurveSkeleton skeleton = run(bar(8));
   const std::vector<Index> degree = degrees(skeleton);
-  // One path; round-off may leave spurs of a segment, which lie on the axis, too.
+  // One path. In a build with sanitizers round-off leaves spurs of a segment, which lie on the
+  // axis, too.
   const auto inner = std::count(degree.begin(), degree.end(), 2);
-  EXPECT_GE(inner, static_cast<std::ptrdiff_t>(degree.size()) - 6);
+  const std::ptrdiff_t spurs = test::sanitized ? 2 : 0;
+  EXPECT_GE(inner, static_cast<std::ptrdiff_t>(degree.size()) - 2 - 2 * spurs);
   EXPECT_GE(std::count(degree.begin(), degree.end(), 1), 2);
+  EXPECT_LE(std::count(degree.begin(), degree.end(), 1), 2 + spurs);
   for (Index v = 0; v < skeleton.points.rows(); ++v)
   {
     EXPECT_NEAR(skeleton.points(v, 1), 0.5, 0.03);

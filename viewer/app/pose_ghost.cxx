@@ -40,15 +40,36 @@ PoseGhost::~PoseGhost() = default;
 
 void PoseGhost::set_surface(vtkPolyData* surface)
 {
-  this->shaded_ = surface ? std::make_unique<bindpose::ShadedSurface>(surface) : nullptr;
-  this->outline_->set_shape(this->shaded_.get());
-  this->mapper_->SetInputData(surface ? this->shaded_->polydata() : nullptr);
+  this->surface_ = surface;
+  if (surface && this->shaded_ && this->shaded_->is_of(surface))
+  {
+    this->shaded_->take(surface);
+  }
+  else
+  {
+    this->mapper_->SetInputData(nullptr);
+    this->outline_->set_shape(nullptr);
+    this->shaded_ = nullptr;
+    this->make_shape();
+  }
   this->update();
+}
+
+/// Only what is seen costs time.
+void PoseGhost::make_shape()
+{
+  if (this->surface_ && !this->shaded_ && this->place_ != hidden)
+  {
+    this->shaded_ = std::make_unique<bindpose::ShadedSurface>(this->surface_);
+    this->mapper_->SetInputData(this->shaded_->polydata());
+    this->outline_->set_shape(this->shaded_.get());
+  }
 }
 
 void PoseGhost::set_place(Place place, bindpose::PointsView points)
 {
   this->place_ = place;
+  this->make_shape();
   this->move(points); // before the view is fitted to it
   this->update();
 }

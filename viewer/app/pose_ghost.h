@@ -4,6 +4,8 @@
 #include "base/mesh.h"
 
 #include "vtkNew.h"
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
 
 #include <memory>
 
@@ -14,7 +16,6 @@ class ShadedSurface;
 } // namespace bindpose
 class Viewport;
 class vtkActor;
-class vtkPolyData;
 class vtkPolyDataMapper;
 class vtkRenderer;
 
@@ -40,10 +41,11 @@ public:
   Place place() const { return this->place_; }
   void move(bindpose::PointsView points);
   vtkRenderer* renderer() const { return this->renderer_; }
-  /// As drawn; null without a surface.
+  /// As drawn; null before it was seen.
   const bindpose::ShadedSurface* shaded() const { return this->shaded_.get(); }
 
 private:
+  void make_shape();
   void update();
   void look_as_beside();
   void clipped();
@@ -53,6 +55,7 @@ private:
   vtkNew<vtkPolyDataMapper> mapper_;
   vtkNew<vtkActor> actor_;
   vtkNew<vtkRenderer> renderer_; // of the half beside
+  vtkSmartPointer<vtkPolyData> surface_;
   std::unique_ptr<bindpose::ShadedSurface> shaded_;
   std::unique_ptr<bindpose::Outline> outline_; ///< beside
   bool in_window_ = false;

@@ -151,13 +151,20 @@ Viewport::~Viewport()
 
 void Viewport::set_surface(vtkPolyData* surface)
 {
-  this->shaded_ = surface ? std::make_unique<bindpose::ShadedSurface>(surface) : nullptr;
-  for (vtkPolyDataMapper* mapper :
-    { static_cast<vtkPolyDataMapper*>(this->mapper_), this->tint_mapper_.Get() })
+  if (surface && this->shaded_ && this->shaded_->is_of(surface))
   {
-    mapper->SetInputData(surface ? this->shaded_->polydata() : nullptr);
+    this->shaded_->take(surface);
   }
-  this->outline_->set_shape(this->shaded_.get());
+  else
+  {
+    this->shaded_ = surface ? std::make_unique<bindpose::ShadedSurface>(surface) : nullptr;
+    for (vtkPolyDataMapper* mapper :
+      { static_cast<vtkPolyDataMapper*>(this->mapper_), this->tint_mapper_.Get() })
+    {
+      mapper->SetInputData(surface ? this->shaded_->polydata() : nullptr);
+    }
+    this->outline_->set_shape(this->shaded_.get());
+  }
   this->depths_.resize(0);
   this->first_picture_ = true;
   this->show_values(nullptr, true);

@@ -1,16 +1,17 @@
-// vtkPolyDataNormals decides where to part vertices; an id array that it carries along tells which
-// input point each display point is. Normals are then sums of triangle normals weighted by area:
-// each point gathers those of its triangles, in their order, so that all cores may work at once and
-// the bits are those of one.
+// vtkPolyDataNormals decides where to part vertices; id arrays that it carries along tell which
+// input point each display point is, and of which input cell each triangle. Normals are then sums
+// of triangle normals weighted by area: each point gathers those of its triangles, in their order,
+// so that all cores may work at once and the bits are those of one.
 #include "scene/shaded_surface.h"
 
 #include "base/parallel.h"
+#include "conversion.h"
 #include "scene/colours.h"
 
 #include "vtkActor.h"
 #include "vtkCellArray.h"
+#include "vtkCellData.h"
 #include "vtkDoubleArray.h"
-#include "vtkFloatArray.h"
 #include "vtkIdList.h"
 #include "vtkIdTypeArray.h"
 #include "vtkNew.h"
@@ -21,26 +22,71 @@
 #include "vtkProperty.h"
 #include "vtkTriangleFilter.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace bindpose
 {
 
-ShadedSurface::ShadedSurface(vtkPolyData* surface, double feature_angle)
+namespace
 {
-  constexpr const char* id_name = "bindpose.InputPoint";
-  vtkNew<vtkPolyData> input;
-  input->ShallowCopy(surface);
-  input->GetPointData()->SetNormals(nullptr); // ours follow the shape; a file's do not
-  vtkNew<vtkIdTypeArray> ids;
-  ids->SetName(id_name);
-  ids->SetNumberOfValues(input->GetNumberOfPoints());
-  for (vtkIdType v = 0; v < input->GetNumberOfPoints(); ++v)
-  {
-    ids->SetValue(v, v);
-  }
-  input->GetPointData()->AddArray(ids);
+constexpr const char* id_name = "bindpose.Input";
 
+vtkSmartPointer<vtkIdTypeArray> make_ids(vtkIdType count)
+{
+  auto ids = vtkSmartPointer<vtkIdTypeArray>::New();
+  ids->SetName(id_name);
+  ids->SetNumberOfValues(count);
+  std::iota(ids->GetPointer(0), ids->GetPointer(0) + count, vtkIdType(0));
+  return ids;
+}
+
+/// What has become of the ids.
+std::vector<Index> carried_ids(vtkDataSetAttributes* data, vtkIdType count)
+{
+  std::vector<Index> result(static_cast<std::size_t>(count));
+  if (auto* ids = vtkIdTypeArray::SafeDownCast(data->GetArray(id_name)))
+  {
+    std::copy_n(ids->GetPointer(0), count, result.begin());
+  }
+  return result;
+}
+
+/// All arrays of one, the tuples with these ids in their order.
+void gather(vtkDataSetAttributes* from, const std::vector<Index>& ids, vtkDataSetAttributes* to)
+{
+  bool all = static_cast<vtkIdType>(ids.size()) == from->GetNumberOfTuples();
+  for (std::size_t k = 0; all && k < ids.size(); ++k)
+  {
+    all = ids[k] == static_cast<Index>(k);
+  }
+  if (all)
+  {
+    to->ShallowCopy(from);
+    return;
+  }
+  const auto count = static_cast<vtkIdType>(ids.size());
+  vtkNew<vtkIdList> source, target;
+  source->SetNumberOfIds(count);
+  target->SetNumberOfIds(count);
+  std::copy(ids.begin(), ids.end(), source->GetPointer(0));
+  std::iota(target->GetPointer(0), target->GetPointer(0) + count, vtkIdType(0));
+  to->Initialize();
+  to->CopyAllOn();
+  to->CopyAllocate(from, count);
+  to->CopyData(from, source, target);
+}
+} // namespace
+
+ShadedSurface::ShadedSurface(vtkPolyData* surface, double feature_angle)
+  : input_(vtkSmartPointer<vtkPolyData>::New()), display_(vtkSmartPointer<vtkPolyData>::New())
+{
+  this->input_->CopyStructure(surface);
+  vtkNew<vtkPolyData> input;
+  input->CopyStructure(surface);
+  input->GetPointData()->AddArray(make_ids(input->GetNumberOfPoints()));
+  input->GetCellData()->AddArray(make_ids(input->GetNumberOfCells()));
   vtkNew<vtkTriangleFilter> triangles;
   triangles->SetInputData(input);
   triangles->PassVertsOff();
@@ -56,19 +102,11 @@ ShadedSurface::ShadedSurface(vtkPolyData* surface, double feature_angle)
   normals->SetOutputPointsPrecision(vtkAlgorithm::DOUBLE_PRECISION);
   normals->Update();
 
-  this->display_ = vtkSmartPointer<vtkPolyData>::New();
-  this->display_->ShallowCopy(normals->GetOutput());
-  const vtkIdType count = this->display_->GetNumberOfPoints();
-  this->input_points_.resize(static_cast<std::size_t>(count));
-  if (auto* carried =
-        vtkIdTypeArray::SafeDownCast(this->display_->GetPointData()->GetArray(id_name)))
-  {
-    for (vtkIdType v = 0; v < count; ++v)
-    {
-      this->input_points_[v] = carried->GetValue(v);
-    }
-  }
-  this->display_->GetPointData()->RemoveArray(id_name);
+  vtkPolyData* parted = normals->GetOutput();
+  const vtkIdType count = parted->GetNumberOfPoints();
+  this->display_->CopyStructure(parted);
+  this->input_points_ = carried_ids(parted->GetPointData(), count);
+  this->input_cells_ = carried_ids(parted->GetCellData(), parted->GetNumberOfCells());
   this->triangles_.resize(this->display_->GetNumberOfPolys(), 3);
   vtkNew<vtkIdList> corners;
   for (Index t = 0; t < this->triangles_.rows(); ++t)
@@ -84,17 +122,30 @@ ShadedSurface::ShadedSurface(vtkPolyData* surface, double feature_angle)
   vtkNew<vtkPoints> points;
   points->SetDataTypeToDouble();
   points->SetNumberOfPoints(count);
-  for (vtkIdType v = 0; v < count; ++v)
-  {
-    points->SetPoint(v, this->display_->GetPoint(v));
-  }
   this->display_->SetPoints(points);
-  vtkNew<vtkFloatArray> own_normals;
-  own_normals->SetName("Normals");
-  own_normals->SetNumberOfComponents(3);
-  own_normals->SetNumberOfTuples(count);
-  this->display_->GetPointData()->SetNormals(own_normals);
-  this->update_normals();
+  this->normals_->SetName("Normals");
+  this->normals_->SetNumberOfComponents(3);
+  this->normals_->SetNumberOfTuples(count);
+  this->take(surface);
+}
+
+bool ShadedSurface::is_of(vtkPolyData* surface) const
+{
+  return surface->GetPoints() == this->input_->GetPoints() &&
+    surface->GetVerts() == this->input_->GetVerts() &&
+    surface->GetLines() == this->input_->GetLines() &&
+    surface->GetPolys() == this->input_->GetPolys() &&
+    surface->GetStrips() == this->input_->GetStrips();
+}
+
+void ShadedSurface::take(vtkPolyData* surface)
+{
+  vtkPointData* data = this->display_->GetPointData();
+  gather(surface->GetPointData(), this->input_points_, data);
+  gather(surface->GetCellData(), this->input_cells_, this->display_->GetCellData());
+  data->SetNormals(nullptr); // ours follow the shape; a file's do not
+  data->SetNormals(this->normals_);
+  this->move(to_points(surface).view());
 }
 
 void ShadedSurface::move(PointsView points)
@@ -143,7 +194,6 @@ void ShadedSurface::find_triangles_of_points()
 void ShadedSurface::update_normals()
 {
   auto* places = vtkDoubleArray::SafeDownCast(this->display_->GetPoints()->GetData());
-  auto* array = vtkFloatArray::SafeDownCast(this->display_->GetPointData()->GetNormals());
   const double* at = places->GetPointer(0);
   double* normals = this->triangle_normals_.data();
   ExecutionContext context;
@@ -163,7 +213,7 @@ void ShadedSurface::update_normals()
         normals[3 * t + 2] = u[0] * w[1] - u[1] * w[0];
       }
     });
-  float* to = array->GetPointer(0);
+  float* to = this->normals_->GetPointer(0);
   parallel_for(context, places->GetNumberOfTuples(), 4096,
     [&](Index begin, Index end)
     {
@@ -184,7 +234,7 @@ void ShadedSurface::update_normals()
         to[3 * v + 2] = length > 0.0 ? static_cast<float>(scale * z) : 1.0F;
       }
     });
-  array->Modified();
+  this->normals_->Modified();
 }
 
 void use_surface_material(vtkActor* actor)

@@ -3,6 +3,8 @@
 
 #include "base/mesh.h"
 
+#include "vtkFloatArray.h"
+#include "vtkNew.h"
 #include "vtkSmartPointer.h"
 
 #include <vector>
@@ -27,6 +29,12 @@ public:
   ///   common edge is drawn sharp; in (0, 180]
   explicit ShadedSurface(vtkPolyData* surface, double feature_angle = 50.0);
 
+  /// Whether another surface has the same points and cells, so that this one may carry its arrays.
+  bool is_of(vtkPolyData* surface) const;
+  /// Goes back to where that surface's points are, with its point and cell arrays in place of those
+  /// carried until now. It must be of it.
+  void take(vtkPolyData* surface);
+
   /// What to draw: points, normals, and the input's point and cell arrays carried along.
   vtkPolyData* polydata() const { return this->display_; }
   /// For each point of polydata() the point of the input.
@@ -42,12 +50,15 @@ private:
   void find_triangles_of_points();
   void update_normals();
 
+  vtkSmartPointer<vtkPolyData> input_; ///< its points and cells only
   vtkSmartPointer<vtkPolyData> display_;
   std::vector<Index> input_points_;
+  std::vector<Index> input_cells_; ///< of each triangle
   Triangles triangles_;
   std::vector<Index> first_triangle_; ///< of each point in triangles_of_points_, and the end
   std::vector<Index> triangles_of_points_; ///< ascending for each point
   Points triangle_normals_; ///< scratch
+  vtkNew<vtkFloatArray> normals_; ///< of the points drawn
 };
 
 /// The house's material: soft, with a slight gloss.

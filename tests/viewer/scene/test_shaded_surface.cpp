@@ -3,7 +3,13 @@
 #include "scene/shaded_surface.h"
 #include "support/meshes.h"
 
+#include "vtkCellData.h"
+#include "vtkCleanPolyData.h"
+#include "vtkCubeSource.h"
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
+#include "vtkIdList.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
@@ -63,6 +69,102 @@ TEST(ShadedSurface, MovesAsTheInputDoes)
     surface.polydata()->GetPointData()->GetNormals()->GetTuple(v, n.data());
     EXPECT_LT((n - turn * before[v]).norm(), 1e-5);
   }
+}
+
+namespace
+{
+/// A box of quads, its sides numbered, with numbers at the corners.
+vtkSmartPointer<vtkPolyData> numbered_box(double first)
+{
+  vtkNew<vtkCubeSource> source;
+  source->Update();
+  vtkNew<vtkCleanPolyData> joined; // sharp edges part it again
+  joined->SetInputConnection(source->GetOutputPort());
+  joined->Update();
+  auto box = vtkSmartPointer<vtkPolyData>::New();
+  box->CopyStructure(joined->GetOutput());
+  vtkNew<vtkDoubleArray> heights, sides;
+  heights->SetName("Heights");
+  for (vtkIdType v = 0; v < box->GetNumberOfPoints(); ++v)
+  {
+    heights->InsertNextValue(first + static_cast<double>(v));
+  }
+  sides->SetName("Sides");
+  for (vtkIdType c = 0; c < box->GetNumberOfCells(); ++c)
+  {
+    sides->InsertNextValue(first + static_cast<double>(c));
+  }
+  box->GetPointData()->AddArray(heights);
+  box->GetCellData()->AddArray(sides);
+  return box;
+}
+
+double at(vtkDataSetAttributes* data, const char* name, vtkIdType i)
+{
+  return data->GetArray(name)->GetComponent(i, 0);
+}
+} // namespace
+
+TEST(ShadedSurface, CarriesArraysOfPointsAndCells)
+{
+  const auto box = numbered_box(10.0);
+  const ShadedSurface shaded(box);
+  vtkPolyData* drawn = shaded.polydata();
+  ASSERT_EQ(drawn->GetNumberOfPoints(), 24);
+  ASSERT_EQ(drawn->GetNumberOfPolys(), 12);
+  for (vtkIdType v = 0; v < 24; ++v)
+  {
+    EXPECT_EQ(at(drawn->GetPointData(), "Heights", v), 10.0 + shaded.input_points()[v]);
+  }
+  for (Index t = 0; t < 12; ++t)
+  {
+    // The side whose four corners the triangle's are among.
+    vtkNew<vtkIdList> corners;
+    const auto side = static_cast<vtkIdType>(at(drawn->GetCellData(), "Sides", t) - 10.0);
+    box->GetCellPoints(side, corners);
+    for (int k = 0; k < 3; ++k)
+    {
+      EXPECT_GE(corners->IsId(shaded.input_points()[shaded.triangles()(t, k)]), 0);
+    }
+  }
+}
+
+TEST(ShadedSurface, TakesOtherArraysOfTheSameMeshAndGoesBackToRest)
+{
+  const auto box = numbered_box(10.0);
+  ShadedSurface shaded(box);
+  const ShadedSurface untouched(box);
+  const auto other = vtkSmartPointer<vtkPolyData>::New();
+  other->CopyStructure(box);
+  other->GetPointData()->ShallowCopy(numbered_box(50.0)->GetPointData());
+  EXPECT_TRUE(shaded.is_of(other));
+  EXPECT_FALSE(shaded.is_of(numbered_box(10.0))) << "equal, but not the same";
+  const Points larger = 2.0 * to_points(box).view();
+  shaded.move(larger);
+  shaded.take(other);
+  vtkPolyData* drawn = shaded.polydata();
+  EXPECT_FALSE(drawn->GetCellData()->HasArray("Sides"));
+  for (vtkIdType v = 0; v < drawn->GetNumberOfPoints(); ++v)
+  {
+    EXPECT_EQ(at(drawn->GetPointData(), "Heights", v), 50.0 + shaded.input_points()[v]);
+    EXPECT_EQ(Vec3(drawn->GetPoint(v)), Vec3(untouched.polydata()->GetPoint(v)));
+    EXPECT_EQ(Vec3(drawn->GetPointData()->GetNormals()->GetTuple3(v)),
+      Vec3(untouched.polydata()->GetPointData()->GetNormals()->GetTuple3(v)));
+  }
+}
+
+TEST(ShadedSurface, SharesArraysWhereNoPointIsDoubled)
+{
+  const TriangleMesh sphere = test::sphere(3);
+  const auto surface = to_polydata(sphere.points, sphere.triangles);
+  vtkNew<vtkDoubleArray> heights;
+  heights->SetName("Heights");
+  heights->SetNumberOfValues(surface->GetNumberOfPoints());
+  heights->Fill(1.0);
+  surface->GetPointData()->AddArray(heights);
+  const ShadedSurface shaded(surface);
+  EXPECT_EQ(shaded.polydata()->GetPointData()->GetArray("Heights"), heights);
+  EXPECT_FALSE(surface->GetPointData()->HasArray("Normals")) << "the input stays as it is";
 }
 
 TEST(ShadedSurface, DegenerateTrianglesAndNothingAreHarmless)

@@ -1,9 +1,9 @@
 #include "main_window.h"
 
+#include "binding.h"
 #include "document/document.h"
 #include "document/opened_file.h"
 #include "document/recent_files.h"
-#include "document/work_inputs.h"
 #include "edit_tools.h"
 #include "elided_label.h"
 #include "error_bar.h"
@@ -35,14 +35,10 @@
 #include "scene/picture.h"
 #include "scene/volume.h"
 
-#include "vtkCommand.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
-#include "vtkHandleSetRepresentation.h"
-#include "vtkHandleSetWidget.h"
 #include "vtkImageData.h"
 #include "vtkMeshFileReader.h"
-#include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <QApplication>
@@ -80,8 +76,7 @@ QString certificate_note(vtkPolyData* surface)
 }
 } // namespace
 
-MainWindow::MainWindow(QWidget* parent)
-  : QMainWindow(parent), document_(new Document(this)), job_(new BindJob(this))
+MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Document(this))
 {
   this->setAcceptDrops(true);
   this->resize(1280, 800);
@@ -106,9 +101,6 @@ MainWindow::MainWindow(QWidget* parent)
   // Whether all is saved is known after a step, not while it is made.
   QObject::connect(this->history(), &QUndoStack::indexChanged, this, &MainWindow::update_title);
   QObject::connect(this->document_, &Document::option_changed, this, &MainWindow::option_changed);
-  QObject::connect(this->job_, &BindJob::progress, this->panel_, &SidePanel::set_progress);
-  QObject::connect(this->job_, &BindJob::preview, this, &MainWindow::preview_arrived);
-  QObject::connect(this->job_, &BindJob::finished, this, &MainWindow::bind_finished);
   this->update_title();
   this->update_panel();
   this->update_pose();
@@ -166,6 +158,7 @@ void MainWindow::make_layout()
     { this->panel_->pose(), this->panel_->fields(), this->panel_->poses(), this->strip_ });
   this->editing_ = new HandleEditing(this->document_, this->viewport_, this->posing_, this->panel_);
   rows->insertWidget(rows->indexOf(this->viewport_), this->editing_->tools());
+  this->binding_ = new Binding(this->document_, this->panel_, this->rebind_bar_, this);
   this->shape_handles_ = new ShapeHandles(this->document_, this->note_bar_, this);
   QObject::connect(this->shape_handles_, &ShapeHandles::failed, this, &MainWindow::show_error);
   // Before another panel shows its own colours.
@@ -196,7 +189,7 @@ void MainWindow::make_inspections()
   QObject::connect(this->inspection_, &Inspection::failed, this, &MainWindow::show_error);
   QObject::connect(this->inspection_, &Inspection::defects_found, this, &MainWindow::offer_defects);
   this->weights_ = new WeightInspection(this->viewport_, this->panels_->weight(),
-    [this](BindInput& input) { return this->is_bound() && this->make_bind_input(input); });
+    [this](BindInput& input) { return this->is_bound() && this->binding_->make_input(input); });
   QObject::connect(this->weights_, &WeightInspection::surface_look_changed, this,
     [this]
     {
@@ -230,8 +223,21 @@ void MainWindow::make_inspections()
 
 void MainWindow::connect_panel()
 {
-  QObject::connect(this->panel_, &SidePanel::bind_wanted, this, &MainWindow::bind);
-  QObject::connect(this->panel_, &SidePanel::cancel_wanted, this, &MainWindow::cancel_bind);
+  QObject::connect(this->panel_, &SidePanel::bind_wanted, this->binding_, &Binding::start);
+  QObject::connect(this->panel_, &SidePanel::cancel_wanted, this->binding_, &Binding::cancel);
+  QObject::connect(this->binding_, &Binding::changed, this,
+    [this]
+    {
+      if (this->binding_->is_running())
+      {
+        this->error_bar_->hide(); // it is about what was before
+      }
+      this->update_panel();
+      this->update_pose();
+    });
+  QObject::connect(this->binding_, &Binding::failed, this, &MainWindow::show_error);
+  QObject::connect(
+    this->binding_, &Binding::bound, this->sessions_->autosave(), &Autosave::begin_save);
   QObject::connect(this->panel_, &SidePanel::method_chosen, this, &MainWindow::set_method);
   QObject::connect(this->panel_, &SidePanel::mode_chosen, this,
     [this](int mode) { this->editing_->commands()->fix(static_cast<HandleMode>(mode)); });
@@ -334,7 +340,7 @@ void MainWindow::document_changed(int parts)
   }
   this->editing_->document_changed(parts);
   this->update_title();
-  this->offer_rebind();
+  this->binding_->offer_again();
   if (parts & ~(options_part | key_poses_part | sources_part))
   {
     this->update_panel();
@@ -356,7 +362,7 @@ void MainWindow::show_mesh()
 {
   this->note_bar_->hide(); // it is about the last one
   const Work& work = this->document_->work();
-  this->cancel_bind();
+  this->binding_->cancel();
   this->drawn_ = work.surface;
   this->viewport_->set_surface(work.surface);
   this->viewport_->set_picture(work.picture);
@@ -482,22 +488,6 @@ void MainWindow::offer_defects(const QString& counts)
     tr("Close"));
 }
 
-/// Offered, never forced: what is bound stays usable meanwhile (BoundColumns).
-void MainWindow::offer_rebind()
-{
-  const QString reason = this->is_binding() ? QString() : this->document_->rebind_reason();
-  if (reason != this->rebind_reason_)
-  {
-    this->rebind_reason_ = reason;
-    this->rebind_bar_->hide();
-    if (!reason.isEmpty())
-    {
-      this->rebind_bar_->offer(
-        reason, { { tr("Bind again"), [this] { this->bind(); } } }, tr("Later"));
-    }
-  }
-}
-
 bool MainWindow::is_empty() const
 {
   const Work& work = this->document_->work();
@@ -610,7 +600,7 @@ bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name, const Source& s
 bool MainWindow::set_handles(vtkPolyData* handles, const QString& name, const Source& source)
 {
   this->error_bar_->hide();
-  this->cancel_bind();
+  this->binding_->cancel();
   return this->say(name, this->document_->set_handles(handles, name, source));
 }
 
@@ -674,134 +664,6 @@ void MainWindow::dropEvent(QDropEvent* event)
 void MainWindow::closeEvent(QCloseEvent* event)
 {
   event->setAccepted(this->sessions_->may_go());
-}
-
-// ---- Binding -----------------------------------------------------------------------------------
-
-void MainWindow::bind()
-{
-  BindInput input;
-  if (!this->document_->surface() || !this->document_->handle_data() || this->is_binding())
-  {
-    return;
-  }
-  this->error_bar_->hide();
-  if (!this->make_bind_input(input))
-  {
-    return;
-  }
-  input.method = this->panel_->monotone() ? BindMethod::monotone : BindMethod::bounded;
-  this->document_->begin_bind();
-  this->job_->start(std::move(input));
-  this->offer_rebind();
-  this->update_panel();
-  this->update_pose();
-}
-
-/// What the kernels need of surface and handles; false, with a sentence, when they cannot be used.
-bool MainWindow::make_bind_input(BindInput& input)
-{
-  SurfaceInput surface;
-  HandleGeometry geometry;
-  vtkPolyData* surface_data = this->document_->surface();
-  Status status = to_surface(surface_data, surface);
-  if (status.ok())
-  {
-    status = to_handle_geometry(this->document_->handle_data(), geometry);
-  }
-  if (!status.ok())
-  {
-    this->show_error(tr("Cannot bind: %1.").arg(QString::fromStdString(status.message)));
-    return false;
-  }
-  input.surface.points = surface.points.view();
-  input.surface.triangles = surface.triangles.view();
-  input.handles = this->document_->handles();
-  input.handle_places = to_handle_places(geometry);
-  if (vtkDataArray* regions = this->document_->surface()->GetPointData()->GetArray("RegionId"))
-  {
-    for (vtkIdType v = 0; v < regions->GetNumberOfTuples(); ++v)
-    {
-      input.region_of_vertex.push_back(static_cast<Index>(regions->GetComponent(v, 0)));
-    }
-  }
-  return true;
-}
-
-void MainWindow::cancel_bind()
-{
-  this->job_->cancel();
-}
-
-/// The surface that is being bound, with the weights; null when they are not its own.
-vtkSmartPointer<vtkPolyData> MainWindow::with_weights(const BindResult& result) const
-{
-  vtkPolyData* surface = this->document_->work().surface;
-  const Handles& handles = this->document_->bound_handles();
-  if (!surface || result.weights.rows() != surface->GetNumberOfPoints() ||
-    result.weights.cols() != static_cast<Index>(handles.size()))
-  {
-    return nullptr; // another mesh was opened while this one was being bound
-  }
-  auto bound = vtkSmartPointer<vtkPolyData>::New();
-  bound->ShallowCopy(surface);
-  vtkNew<vtkFieldData> own; // the copy shares what it was made from
-  own->ShallowCopy(surface->GetFieldData());
-  bound->SetFieldData(own);
-  add_weights(result, handles, bound);
-  return bound;
-}
-
-void MainWindow::preview_arrived(const Weights& weights)
-{
-  BindResult preview;
-  preview.weights = weights;
-  const auto bound = this->is_binding() ? this->with_weights(preview) : nullptr;
-  if (bound && this->document_->set_preview(bound))
-  {
-    this->panel_->set_note(tr("A preview to pose with; exact weights follow …"));
-  }
-}
-
-void MainWindow::bind_finished()
-{
-  const BindResult& result = this->job_->result();
-  this->document_->drop_preview();
-  this->offer_rebind();
-  this->update_panel();
-  this->update_pose();
-  if (result.status.code == StatusCode::cancelled)
-  {
-    this->panel_->set_note(
-      this->is_bound() ? tr("Cancelled; the weights stay as they were.") : tr("Cancelled."));
-    return;
-  }
-  if (!result.status.usable())
-  {
-    this->show_error(tr("Cannot bind: %1.").arg(QString::fromStdString(result.status.message)));
-    return;
-  }
-  const auto bound = this->with_weights(result);
-  if (!bound ||
-    !this->document_->set_bound(
-      bound, make_weighted_tets(result, this->document_->bound_handles())))
-  {
-    return;
-  }
-  this->sessions_->autosave()->begin_save();
-  const Report& report = result.status.report;
-  this->panel_->set_note(result.status.ok()
-      ? tr("Bound in %1 s, certified to %2.")
-          .arg(report.number("seconds.total", 0.0), 0, 'f', 1)
-          .arg(report.number("relative_gap", 0.0), 0, 'e', 1)
-      : tr("Not converged: gap %1, residual %2.")
-          .arg(report.number("relative_gap", 0.0), 0, 'e', 1)
-          .arg(report.number("kkt_residual", 0.0), 0, 'e', 1));
-  if (!result.status.warnings.empty())
-  {
-    this->show_error(
-      tr("Bound, but: %1.").arg(QString::fromStdString(result.status.warnings.front())));
-  }
 }
 
 // ---- Posing ------------------------------------------------------------------------------------
@@ -871,11 +733,11 @@ void MainWindow::draw_pose()
   vtkPolyData* rest = this->document_->surface();
   const bool handles = this->document_->handle_data();
   const bool volume_only = this->volume_view_->volume() && !(rest && handles);
-  QString reading = volume_only ? tr("Drag the slice to move it, elsewhere to turn the view.")
-    : !rest                     ? tr("Open a mesh (Ctrl+O) or drop one here.")
-    : !handles                  ? tr("Add handles (?: all keys), or open some (.tgf or .vtp).")
-    : this->is_binding()        ? tr("Binding; the view can be turned meanwhile.")
-                                : tr("Bind (Ctrl+B), then drag the handles.");
+  QString reading = volume_only    ? tr("Drag the slice to move it, elsewhere to turn the view.")
+    : !rest                        ? tr("Open a mesh (Ctrl+O) or drop one here.")
+    : !handles                     ? tr("Add handles (?: all keys), or open some (.tgf or .vtp).")
+    : this->binding_->is_running() ? tr("Binding; the view can be turned meanwhile.")
+                                   : tr("Bind (Ctrl+B), then drag the handles.");
   if (this->posing_->can_pose())
   {
     reading = this->posing_->reading();
@@ -911,7 +773,7 @@ void MainWindow::update_panel()
   const bool surface = this->document_->surface();
   const bool handles = this->document_->handle_data();
   const bool ready = surface && handles;
-  const bool binding = this->is_binding();
+  const bool binding = this->binding_->is_running();
   const bool bound = this->is_bound();
   this->panel_->set_state(ready, binding, bound);
   const int column = this->panel_->shown_column();

@@ -1,7 +1,6 @@
 #ifndef main_window_h
 #define main_window_h
 
-#include "bind_job.h"
 #include "document/work.h"
 
 #include "vtkPolyData.h"
@@ -13,6 +12,7 @@
 
 class QLabel;
 class QUndoStack;
+class Binding;
 class Document;
 class ElidedLabel;
 class ErrorBar;
@@ -71,9 +71,6 @@ public:
   /// false with a sentence in the error bar.
   bool save_picture(const QString& path, int scale, bool transparent);
 
-  void bind();
-  void cancel_bind();
-  bool is_binding() const { return this->job_->is_running(); }
   bool is_bound() const;
   void set_method(int method);
   void set_mode(int handle, int mode);
@@ -99,6 +96,7 @@ public:
   void show_outlines(bool shown);
   WeightInspection* weights() const { return this->weights_; }
   Posing* posing() const { return this->posing_; }
+  Binding* binding() const { return this->binding_; }
   HandleEditing* editing() const { return this->editing_; }
   ShapeHandles* shape_handles() const { return this->shape_handles_; }
   KeyStrip* strip() const { return this->strip_; }
@@ -135,17 +133,12 @@ private:
   void update_plane();
   vtkPolyData* seen() const;
   void update_surface_look();
-  void offer_rebind();
   void offer_defects(const QString& counts);
   void connect_posing();
   void update_pose();
   void draw_pose();
   void update_panel();
   void show_column(int column);
-  bool make_bind_input(BindInput& input);
-  vtkSmartPointer<vtkPolyData> with_weights(const BindResult& result) const;
-  void preview_arrived(const bindpose::Weights& weights);
-  void bind_finished();
   bool open_file(const QString& path, const OpenedFile* read);
   bool open_picture(vtkImageData* picture, const QString& name, const Source& source, bool whole);
   bool say(const QString& name, const bindpose::Status& status);
@@ -161,6 +154,7 @@ private:
   bool flat_wanted_ = true;
   Posing* posing_ = nullptr;
   HandleEditing* editing_ = nullptr;
+  Binding* binding_ = nullptr;
   ShapeHandles* shape_handles_ = nullptr;
   KeyStrip* strip_ = nullptr; // below the picture
   PanelColumn* panels_ = nullptr;
@@ -175,10 +169,8 @@ private:
   NoticeBar* rebind_bar_ = nullptr;
   ElidedLabel* hint_ = nullptr;
   QLabel* empty_ = nullptr; // in the middle of the picture as long as nothing is open
-  BindJob* job_ = nullptr;
   vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport has
   QString hint_text_; // in the status line, unless the hand does something
-  QString rebind_reason_; // that was offered
 };
 
 #endif

@@ -1,5 +1,6 @@
 #include "posing.h"
 
+#include "body_motion.h"
 #include "handle_fields.h"
 #include "key_strip.h"
 #include "panel_parts.h"
@@ -33,12 +34,6 @@ using namespace bindpose;
 
 namespace
 {
-constexpr int display_interval = 16; // milliseconds
-/// Steps that one picture may catch up; time that takes longer is left out.
-constexpr int most_steps = 4;
-/// Vertices times columns up to which a body is bound at once.
-constexpr Index bound_at_once = 20000;
-
 QString microseconds(double seconds)
 {
   const double us = 1e6 * seconds;
@@ -52,6 +47,9 @@ Posing::Posing(Viewport* viewport, const Panels& panels)
     compared_(new Deformation(this)), ghost_(new PoseGhost(viewport)),
     keeper_(new PoseKeeper(
       panels.poses, panels.strip, [this] { return this->pose(); }, this)),
+    motion_(new BodyMotion(
+      panels.pose, [this](bool for_step) { return for_step ? this->holding_pose() : this->pose(); },
+      this)),
     export_(new SequenceExport(viewport))
 {
   this->connect_panel();
@@ -82,30 +80,16 @@ Posing::Posing(Viewport* viewport, const Panels& panels)
     QObject::connect(
       each, &Deformation::bind_progress, this->panels_.pose, &PosePanel::set_progress);
   }
-  this->moving_.setTimerType(Qt::PreciseTimer);
-  this->moving_.setInterval(display_interval);
-  QObject::connect(&this->moving_, &QTimer::timeout, this, &Posing::body_tick);
-  QObject::connect(&this->body_job_, &KernelJob::finished, this,
+  QObject::connect(this->motion_, &BodyMotion::moved, this,
     [this]
     {
-      this->panels_.pose->set_binding(false);
-      const Status status = this->body_job_.status();
-      if (!status.usable() && status.code != StatusCode::cancelled)
-      {
-        Q_EMIT this->failed(tr("Cannot move: %1.").arg(QString::fromStdString(status.message)));
-      }
-      else if (this->panels_.pose->moves() &&
-        (!this->body_ || !this->body_->is_bound(this->panels_.pose->options())) && status.usable())
-      {
-        this->moves_changed(); // something else was chosen meanwhile
-      }
-      else if (status.usable())
-      {
-        this->start_body();
-      }
+      this->follow_free_handles();
+      this->show_difference();
+      Q_EMIT this->moved();
     });
   QObject::connect(
-    &this->body_job_, &KernelJob::progress, this->panels_.pose, &PosePanel::set_progress);
+    this->motion_, &BodyMotion::played, this, [this] { this->keeper_->play(false); });
+  QObject::connect(this->motion_, &BodyMotion::failed, this, &Posing::failed);
   this->show_state();
 }
 
@@ -116,10 +100,7 @@ Posing::~Posing() = default;
 void Posing::set_data(
   vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, bool use_weights)
 {
-  this->move_body(false);
   this->keeper_->play(false);
-  this->body_job_.cancel();
-  this->body_.reset();
   if (surface != this->surface_)
   {
     this->shape_ = nullptr;
@@ -154,6 +135,7 @@ void Posing::set_data(
   this->order_layers();
   this->main_->set_source(this->source_);
   this->compared_->set_source(this->source_);
+  this->motion_->set_source(this->source_);
   this->main_->set_options(this->panels_.pose->options());
   this->show_state();
   this->show_comparison();
@@ -203,15 +185,12 @@ void Posing::connect_panel()
   QObject::connect(panel, &PosePanel::options_changed, this, &Posing::options_changed);
   QObject::connect(panel, &PosePanel::comparison_changed, this, &Posing::comparison_changed);
   QObject::connect(panel, &PosePanel::moves_changed, this, &Posing::moves_changed);
-  QObject::connect(panel, &PosePanel::play_wanted, this, &Posing::move_body);
-  QObject::connect(panel, &PosePanel::step_wanted, this, [this] { this->step_body(1); });
-  QObject::connect(panel, &PosePanel::restart_wanted, this, &Posing::start_body);
   QObject::connect(panel, &PosePanel::cancel_wanted, this,
     [this]
     {
       this->main_->cancel();
       this->compared_->cancel();
-      this->body_job_.cancel();
+      this->motion_->cancel_bind();
     });
   QObject::connect(this->panels_.fields, &HandleFields::values_chosen, this, &Posing::values_typed);
   QObject::connect(this->panels_.fields, &HandleFields::layer_chosen, this, &Posing::layer_typed);
@@ -236,11 +215,7 @@ void Posing::options_changed()
   this->main_->set_options(this->panels_.pose->options());
   this->main_->bind(); // after a cancel
   this->compared_->set_options(this->compared_options());
-  if (this->panels_.pose->moves() && this->body_ &&
-    !this->body_->is_bound(this->panels_.pose->options()))
-  {
-    this->moves_changed();
-  }
+  this->motion_->options_changed();
   this->handles_moved();
   Q_EMIT this->moved();
 }
@@ -344,7 +319,7 @@ void Posing::show_difference()
 void Posing::follow_free_handles()
 {
   const std::vector<Affine>* found = this->panels_.pose->moves()
-    ? (this->body_ && this->body_->has_started() ? &this->body_->transforms() : nullptr)
+    ? (this->motion_->has_started() ? &this->motion_->body()->transforms() : nullptr)
     : this->main_->found();
   vtkDataArray* transforms =
     this->handles_ ? this->handles_->GetCellData()->GetArray("Transform") : nullptr;
@@ -369,13 +344,13 @@ void Posing::follow_free_handles()
 
 const Points& Posing::points() const
 {
-  return this->panels_.pose->moves() ? this->body_points_ : this->main_->points();
+  return this->panels_.pose->moves() ? this->motion_->points() : this->main_->points();
 }
 
 const PoseRotations* Posing::rotations()
 {
   return !this->panels_.pose->moves() ? this->main_->rotations()
-    : this->body_                     ? this->body_->rotations()
+    : this->motion_->has_started()    ? this->motion_->body()->rotations()
                                       : nullptr;
 }
 
@@ -387,8 +362,8 @@ vtkPolyData* Posing::shape()
   {
     return nullptr;
   }
-  const bool moves = this->panels_.pose->moves() && this->body_points_.rows() > 0;
-  const Points& points = moves ? this->body_points_ : this->main_->points();
+  const bool moves = this->panels_.pose->moves() && this->motion_->points().rows() > 0;
+  const Points& points = moves ? this->motion_->points() : this->main_->points();
   if (this->at_rest_ || this->edits_at_rest_ ||
     points.rows() != this->surface_->GetNumberOfPoints() || !(this->can_pose() || moves))
   {
@@ -440,7 +415,7 @@ void Posing::edit_at_rest(bool edits)
   {
     this->edits_at_rest_ = edits;
     this->keeper_->play(false);
-    this->move_body(false);
+    this->motion_->play(false);
     Q_EMIT this->moved();
   }
 }
@@ -451,13 +426,13 @@ QString Posing::reading() const
   {
     return tr("The shape at rest. T shows the pose again.");
   }
-  const bool moves = this->panels_.pose->moves() && this->body_ && this->body_->has_started();
+  const bool moves = this->panels_.pose->moves() && this->motion_->has_started();
   if (this->main_->is_binding())
   {
     return tr("Preparing %1; the shape stays as it was meanwhile.")
       .arg(method_name(this->main_->options().method));
   }
-  const Status& status = moves ? this->body_status_ : this->main_->status();
+  const Status& status = moves ? this->motion_->status() : this->main_->status();
   const Report& report = status.report;
   QStringList parts;
   parts << (moves ? tr("Motion") : method_name(this->main_->options().method));
@@ -607,99 +582,9 @@ void Posing::drag_began()
 
 // ---- The body ----------------------------------------------------------------------------------
 
-void Posing::moves_changed()
+/// What holds the body: the pose, but a free handle only while it is in the hand.
+Pose Posing::holding_pose() const
 {
-  this->move_body(false);
-  this->body_points_.resize(0, 3);
-  this->viewport_->handle_widget()->GetHandleSetRepresentation()->SetDragFree(
-    this->panels_.pose->moves());
-  if (!this->panels_.pose->moves())
-  {
-    this->body_.reset();
-    this->handles_moved();
-    Q_EMIT this->moved();
-    return;
-  }
-  if (this->body_job_.is_running())
-  {
-    return; // it is looked at again when the job ends
-  }
-  const PoseOptions options = this->panels_.pose->options();
-  this->body_ = std::make_shared<Body>(this->source_);
-  if (this->source_->points.rows() * static_cast<Index>(this->source_->handles.size()) <
-      bound_at_once &&
-    !options.in_tets)
-  {
-    ExecutionContext context;
-    const Status status = this->body_->bind(context, options);
-    if (!status.usable())
-    {
-      Q_EMIT this->failed(tr("Cannot move: %1.").arg(QString::fromStdString(status.message)));
-      return;
-    }
-    this->start_body();
-    return;
-  }
-  this->panels_.pose->set_binding(true);
-  this->body_job_.start([body = this->body_, options](ExecutionContext& context)
-    { return body->bind(context, options); });
-}
-
-void Posing::start_body()
-{
-  if (!this->body_ || this->body_job_.is_running())
-  {
-    return;
-  }
-  ExecutionContext context;
-  this->body_status_ = this->body_->restart(context, this->pose(), this->body_points_);
-  if (!this->body_status_.usable())
-  {
-    Q_EMIT this->failed(
-      tr("Cannot move: %1.").arg(QString::fromStdString(this->body_status_.message)));
-  }
-  this->follow_free_handles();
-  this->show_time();
-  Q_EMIT this->moved();
-}
-
-void Posing::move_body(bool move)
-{
-  const bool can = this->body_ && this->body_->has_started() && this->panels_.pose->moves();
-  if (move && can)
-  {
-    this->keeper_->play(false);
-    this->body_clock_.start();
-    this->body_due_ = 0.0;
-    this->moving_.start();
-  }
-  else
-  {
-    this->moving_.stop(); // no timer, no work
-  }
-  this->panels_.pose->set_playing(this->moving_.isActive());
-}
-
-/// Real time in fixed steps. What could not be caught up is left out: the body is then slower than
-/// the clock, never coarser.
-void Posing::body_tick()
-{
-  const double step = 1.0 / this->panels_.pose->body_options().steps_per_second;
-  const double now = 1e-9 * static_cast<double>(this->body_clock_.nsecsElapsed());
-  const int due = static_cast<int>(std::floor((now - this->body_due_) / step));
-  if (due > 0)
-  {
-    this->body_due_ = due > most_steps ? now : this->body_due_ + due * step;
-    this->step_body(std::min(due, most_steps));
-  }
-}
-
-void Posing::step_body(int steps)
-{
-  if (!this->body_ || !this->body_->has_started() || this->body_job_.is_running())
-  {
-    return;
-  }
   Pose pose = this->pose();
   const vtkIdType held =
     this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetActiveHandle();
@@ -717,32 +602,23 @@ void Posing::step_body(int steps)
       }
     }
   }
-  const BodyOptions options = this->panels_.pose->body_options();
-  for (int k = 0; k < steps; ++k)
-  {
-    ExecutionContext context;
-    const Status status = this->body_->step(context, pose, options, this->body_points_);
-    if (!status.usable())
-    {
-      this->move_body(false);
-      Q_EMIT this->failed(tr("Cannot move: %1.").arg(QString::fromStdString(status.message)));
-      return;
-    }
-    this->body_status_ = status;
-  }
-  this->follow_free_handles();
-  this->show_difference();
-  this->show_time();
-  Q_EMIT this->moved();
+  return pose;
 }
 
-void Posing::show_time()
+void Posing::moves_changed()
 {
-  this->panels_.pose->set_time(this->body_ && this->body_->has_started()
-      ? tr("Time %1 s%2")
-          .arg(this->body_->time(), 0, 'f', 2)
-          .arg(this->body_->run_is_whole() ? QString() : tr("; recorded up to 10 minutes"))
-      : QString());
+  const bool moves = this->panels_.pose->moves();
+  this->viewport_->handle_widget()->GetHandleSetRepresentation()->SetDragFree(moves);
+  if (moves)
+  {
+    this->motion_->begin();
+  }
+  else
+  {
+    this->motion_->end();
+    this->handles_moved();
+    Q_EMIT this->moved();
+  }
 }
 
 // ---- Export ------------------------------------------------------------------------------------
@@ -762,9 +638,9 @@ void Posing::ask_and_export()
 void Posing::export_to(const QString& path)
 {
   this->keeper_->play(false);
-  this->move_body(false);
-  const bool moves = this->panels_.pose->moves() && this->body_ && this->body_->has_started() &&
-    !this->body_->run().steps.empty();
+  this->motion_->play(false);
+  const bool moves = this->panels_.pose->moves() && this->motion_->has_started() &&
+    !this->motion_->body()->run().steps.empty();
   if (!this->source_ || (!moves && this->shelf().keys.keys().empty()))
   {
     Q_EMIT this->failed(tr("There is nothing to export yet: set a key first."));
@@ -780,7 +656,7 @@ void Posing::export_to(const QString& path)
   input.frames_per_second = this->shelf().keys.frames_per_second;
   if (moves)
   {
-    input.run = this->body_->run();
+    input.run = this->motion_->body()->run();
   }
   else
   {

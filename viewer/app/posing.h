@@ -3,19 +3,17 @@
 
 #include "deformation.h"
 #include "pose_keeper.h"
-#include "posing/body.h"
 
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
 #include "vtkUnstructuredGrid.h"
 
-#include <QElapsedTimer>
 #include <QObject>
-#include <QTimer>
 
 #include <memory>
 #include <optional>
 
+class BodyMotion;
 class HandleFields;
 class KeyStrip;
 class PoseGhost;
@@ -85,10 +83,8 @@ public:
   /// Of the box around the shape at rest.
   double rest_diagonal() const { return this->surface_ ? this->surface_->GetLength() : 0.0; }
   PoseGhost* ghost() const { return this->ghost_.get(); }
-  bindpose::Body* body() const { return this->body_.get(); }
-  bool is_moving() const { return this->moving_.isActive(); }
+  BodyMotion* motion() const { return this->motion_; }
   PoseKeeper* keeper() const { return this->keeper_; }
-  void move_body(bool move);
   SequenceExport* sequence_export() const { return this->export_; }
   void export_to(const QString& path);
 
@@ -122,11 +118,8 @@ private:
   void order_layers();
   void show_values();
   void change_pose(const bindpose::Pose& pose, const QString& step);
+  bindpose::Pose holding_pose() const;
   void moves_changed();
-  void start_body();
-  void step_body(int steps);
-  void body_tick();
-  void show_time();
   void ask_and_export();
   void export_finished();
 
@@ -136,6 +129,7 @@ private:
   Deformation* compared_;
   std::unique_ptr<PoseGhost> ghost_;
   PoseKeeper* keeper_;
+  BodyMotion* motion_;
   SequenceExport* export_;
   std::shared_ptr<const bindpose::PoseSource> source_;
   vtkSmartPointer<vtkPolyData> surface_, handles_, shape_;
@@ -146,15 +140,6 @@ private:
   bool at_rest_ = false;
   bool edits_at_rest_ = false;
   double drawing_microseconds_ = 0.0; ///< of draw(): points and normals
-
-  std::shared_ptr<bindpose::Body> body_;
-  bindpose::Points body_points_;
-  bindpose::Status body_status_;
-  QTimer moving_; ///< the body
-  QElapsedTimer body_clock_;
-  double body_due_ = 0.0; ///< seconds of the clock that have been stepped
-
-  KernelJob body_job_; // last: it ends before what it works on
 };
 
 #endif

@@ -1,5 +1,6 @@
 #include "tour_player.h"
 
+#include "binding.h"
 #include "main_window.h"
 #include "tour_values.h"
 #include "viewport.h"
@@ -402,7 +403,7 @@ QString TourPlayer::wait(const TourStep& step)
 {
   if (step.text == "bind")
   {
-    return wait_until([this] { return !this->window_->is_binding(); }, this->left())
+    return wait_until([this] { return !this->window_->binding()->is_running(); }, this->left())
       ? QString()
       : QString("the bind has not ended in time");
   }

@@ -1,5 +1,7 @@
 #include "tour_values.h"
 
+#include "binding.h"
+#include "body_motion.h"
 #include "document/dataset_json.h"
 #include "document/document.h"
 #include "inspection.h"
@@ -72,7 +74,7 @@ void add_work(Json& values, MainWindow* window)
   values["points"] = work.surface ? work.surface->GetNumberOfPoints() : 0;
   values["handles"] = static_cast<int>(document->handles().size());
   values["bound"] = window->is_bound();
-  values["binding"] = window->is_binding();
+  values["binding"] = window->binding()->is_running();
   values["idle"] = is_idle(window);
   values["panel"] = WindowHand::panel_names().value(window->panels()->shown_panel()).toStdString();
   values["steps"] = window->history()->index();
@@ -164,9 +166,9 @@ void add_shape(Json& values, MainWindow* window)
     values["compared"] = to_string(posing->compared()->options().method);
     add_distance(values, "difference", posed.view(), posing->compared()->points());
   }
-  if (posing->body() && posing->body()->has_started())
+  if (posing->motion()->has_started())
   {
-    values["body.seconds"] = posing->body()->time();
+    values["body.seconds"] = posing->motion()->body()->time();
   }
 }
 

@@ -1,5 +1,7 @@
 #include "window_hand.h"
 
+#include "binding.h"
+#include "body_motion.h"
 #include "document/document.h"
 #include "handle_commands.h"
 #include "handle_editing.h"
@@ -428,10 +430,11 @@ bool is_idle(const MainWindow* window)
   const Posing* posing = window->posing();
   const bool moves = window->panel()->pose()->moves();
   const bool compares = posing->ghost()->place() != PoseGhost::hidden;
-  return !window->is_binding() && !window->inspection()->is_busy() &&
-    !window->weights()->is_busy() && !posing->keeper()->is_playing() && !posing->is_moving() &&
-    !posing->sequence_export()->is_running() && (moves || !is_busy(posing->deformation())) &&
-    (!moves || !posing->body() || posing->body()->has_started()) &&
+  return !window->binding()->is_running() && !window->inspection()->is_busy() &&
+    !window->weights()->is_busy() && !posing->keeper()->is_playing() &&
+    !posing->motion()->is_playing() && !posing->sequence_export()->is_running() &&
+    (moves || !is_busy(posing->deformation())) &&
+    (!moves || !posing->motion()->body() || posing->motion()->has_started()) &&
     (!compares || !is_busy(posing->compared()));
 }
 

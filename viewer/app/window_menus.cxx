@@ -1,5 +1,6 @@
 #include "window_menus.h"
 
+#include "binding.h"
 #include "document/document.h"
 #include "handle_editing.h"
 #include "help_boxes.h"
@@ -124,7 +125,7 @@ void WindowMenus::add_edit_menu()
   edit->addAction(undo);
   edit->addAction(redo);
   edit->addSeparator();
-  this->bind_ = this->add(edit, tr("&Bind"), "bind", [window] { window->bind(); });
+  this->bind_ = this->add(edit, tr("&Bind"), "bind", [window] { window->binding()->start(); });
   this->rest_pose_ = this->add(
     edit, tr("Back to &rest"), "rest_pose", [window] { window->document()->back_to_rest(); });
 }
@@ -196,7 +197,7 @@ void WindowMenus::update()
   this->save_shape_->setEnabled(document->surface());
   this->save_picture_->setEnabled(!this->window_->is_empty());
   this->save_pose_->setEnabled(document->handle_data());
-  this->bind_->setEnabled(ready && !this->window_->is_binding());
+  this->bind_->setEnabled(ready && !this->window_->binding()->is_running());
   this->rest_pose_->setEnabled(document->is_bound());
   this->methods_->setEnabled(ready);
   this->flat_view_->setEnabled(this->window_->is_planar() && !document->work().volume);

@@ -1,5 +1,6 @@
 #include "window_sessions.h"
 
+#include "binding.h"
 #include "document/document.h"
 #include "document/recent_files.h"
 #include "main_window.h"
@@ -61,7 +62,7 @@ Session WindowSessions::session() const
 
 void WindowSessions::show(const Session& session)
 {
-  this->window_->cancel_bind();
+  this->window_->binding()->cancel();
   this->window_->document()->replace(session.work);
   this->window_->panels()->show_panel(session.view.panel);
   if (session.view.camera)

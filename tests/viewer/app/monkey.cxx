@@ -1,5 +1,7 @@
 #include "monkey.h"
 
+#include "binding.h"
+#include "body_motion.h"
 #include "document/document.h"
 #include "inspection.h"
 #include "main_window.h"
@@ -251,7 +253,7 @@ void Monkey::act()
       break;
     case 22:
       this->note("bind", QString());
-      this->pick(3) == 0 ? this->window_->cancel_bind() : this->window_->bind();
+      this->pick(3) == 0 ? this->window_->binding()->cancel() : this->window_->binding()->start();
       break;
     case 23:
       for (int steps = this->pick(6); steps >= 0; --steps)
@@ -331,11 +333,11 @@ void Monkey::rest()
     }
   }
   this->hand_.press_key("Esc"); // of drags without a button
-  this->window_->cancel_bind();
+  this->window_->binding()->cancel();
   this->window_->inspection()->cancel();
   this->window_->weights()->cancel();
   this->window_->posing()->keeper()->play(false);
-  this->window_->posing()->move_body(false);
+  this->window_->posing()->motion()->play(false);
   this->window_->posing()->sequence_export()->cancel();
 }
 

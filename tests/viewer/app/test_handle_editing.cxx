@@ -1,5 +1,6 @@
 // Handles by hand: real mouse and key events of Qt on the picture, what they make of the document,
 // and that undo and redo give back the same bits.
+#include "binding.h"
 #include "unclipped.h"
 #include "window_test.h"
 
@@ -308,8 +309,8 @@ TEST_F(HandleWindow, PointsAreAddedToAMeshWithoutHandlesAndBound)
   EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
   // Offered, not done: then the handles bend the shape.
   EXPECT_FALSE(this->window.is_bound());
-  this->window.bind();
-  ASSERT_TRUE(wait_for([this] { return !this->window.is_binding(); }));
+  this->window.binding()->start();
+  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
   ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
   this->render();
   const Points rest = this->points();
@@ -1054,8 +1055,8 @@ TEST_F(HandleWindow, EveryModeHasAPictureOfItsOwn)
   this->hover(this->pixel(this->handle("p1").head));
   save("rest");
   this->key(Qt::Key_Escape);
-  this->window.bind();
-  ASSERT_TRUE(wait_for([this] { return !this->window.is_binding(); }));
+  this->window.binding()->start();
+  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
   this->editing()->select({ this->number("b2") });
   const std::pair<Qt::Key, const char*> gizmos[] = { { Qt::Key_W, "move" }, { Qt::Key_E, "turn" },
     { Qt::Key_D, "scale" }, { Qt::Key_F, "all" } };

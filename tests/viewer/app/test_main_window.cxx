@@ -1,5 +1,6 @@
 // The window as a person uses it: open, bind, drag, undo, cancel. Drags are synthetic events on the
 // interactor; what is asserted is where vertices are.
+#include "binding.h"
 #include "unclipped.h"
 #include "window_test.h"
 
@@ -268,9 +269,9 @@ TEST_F(Window, BindsOffTheUiThreadWithProgress)
       last = fraction;
       ++steps;
     });
-  this->window.bind();
-  EXPECT_TRUE(this->window.is_binding());
-  ASSERT_TRUE(wait_for([this] { return !this->window.is_binding(); }));
+  this->window.binding()->start();
+  EXPECT_TRUE(this->window.binding()->is_running());
+  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
   EXPECT_EQ(this->window.error(), QString());
   ASSERT_TRUE(this->window.is_bound());
   EXPECT_EQ(backward, "");
@@ -286,12 +287,12 @@ TEST_F(Window, ACancelledBindLeavesEverythingAsItWas)
   TriangleMesh mesh = test::sphere(5);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
-  this->window.bind();
+  this->window.binding()->start();
   wait_for([] { return false; }, 1);
   QElapsedTimer clock;
   clock.start();
-  this->window.cancel_bind();
-  ASSERT_TRUE(wait_for([this] { return !this->window.is_binding(); }));
+  this->window.binding()->cancel();
+  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
   EXPECT_LT(clock.elapsed(), 5000);
   EXPECT_FALSE(this->window.is_bound());
   EXPECT_EQ(this->window.error(), QString());
@@ -302,20 +303,20 @@ TEST_F(Window, APreviewIsThereToPoseWithBeforeTheBindEnds)
   TriangleMesh mesh = test::sphere(5);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
-  this->window.bind();
+  this->window.binding()->start();
   ASSERT_TRUE(wait_for([this] { return this->window.is_bound(); }));
-  EXPECT_TRUE(this->window.is_binding());
-  ASSERT_TRUE(wait_for([this] { return !this->window.is_binding(); }));
+  EXPECT_TRUE(this->window.binding()->is_running());
+  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
   EXPECT_TRUE(this->window.is_bound());
 
   // Cancelled after its preview, a bind leaves what was there before: here, nothing.
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
   EXPECT_FALSE(this->window.is_bound());
-  this->window.bind();
+  this->window.binding()->start();
   ASSERT_TRUE(wait_for([this] { return this->window.is_bound(); }));
-  ASSERT_TRUE(this->window.is_binding());
-  this->window.cancel_bind();
-  ASSERT_TRUE(wait_for([this] { return !this->window.is_binding(); }));
+  ASSERT_TRUE(this->window.binding()->is_running());
+  this->window.binding()->cancel();
+  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
   EXPECT_FALSE(this->window.is_bound());
   EXPECT_EQ(this->window.error(), QString());
 }
@@ -395,9 +396,9 @@ TEST_F(Window, ABindKeepsTheSelectedHandle)
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "column"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
   this->window.panel()->select_handle(1);
-  this->window.bind();
+  this->window.binding()->start();
   EXPECT_EQ(this->window.panel()->selected_handle(), 1);
-  ASSERT_TRUE(wait_for([this] { return !this->window.is_binding(); }));
+  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
   EXPECT_EQ(this->window.panel()->selected_handle(), 1);
   auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
   EXPECT_EQ(drawn->GetSelectedHandle(), 1);
@@ -422,7 +423,7 @@ TEST_F(Window, TheKeyboardBindsAndCancelsWithoutChoosingAHandle)
   }
   EXPECT_EQ(focused(), "Cancel");
   qobject_cast<QPushButton*>(QApplication::focusWidget())->click();
-  ASSERT_TRUE(wait_for([this] { return !this->window.is_binding(); }));
+  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
   EXPECT_EQ(focused(), "Bind");
   EXPECT_EQ(this->window.panel()->selected_handle(), -1);
 }

@@ -1,5 +1,6 @@
 // The 2D mode: pictures and shapes that lie in a plane, whichever it is, and weights over a
 // picture.
+#include "binding.h"
 #include "window_test.h"
 
 #include "notice_bar.h"
@@ -135,8 +136,8 @@ TEST_F(PlanarWindow, ATiltedPlaneIsBoundPosedInItselfAndLayered)
   handles[1].name = "right";
   handles[1].head = handles[1].tail = Vec3(1, 2, 3) + 0.9 * tilted.col(0);
   ASSERT_TRUE(this->window.set_handles(to_polydata(handles), "points"));
-  this->window.bind();
-  ASSERT_TRUE(test::wait_for([this] { return !this->window.is_binding(); }));
+  this->window.binding()->start();
+  ASSERT_TRUE(test::wait_for([this] { return !this->window.binding()->is_running(); }));
   ASSERT_EQ(this->window.error(), QString());
   ASSERT_TRUE(this->window.is_bound());
   // The mouse moves the handle within the plane.

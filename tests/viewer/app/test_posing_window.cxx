@@ -1,4 +1,5 @@
 // Posing in the window: every method live, comparisons, motion, kept poses and key frames, exports.
+#include "body_motion.h"
 #include "unclipped.h"
 #include "window_test.h"
 
@@ -451,8 +452,7 @@ TEST_F(PosingWindow, ABodyThatMovesShowsItsOwnRotations)
   this->put(this->bent());
   this->option<QComboBox>("pose.rotations")->setCurrentIndex(2);
   this->option<QCheckBox>("pose.moves")->setChecked(true);
-  ASSERT_TRUE(
-    wait_for([this] { return this->posing()->body() && this->posing()->body()->has_started(); }));
+  ASSERT_TRUE(wait_for([this] { return this->posing()->motion()->has_started(); }));
   const PoseRotations* found = this->posing()->rotations();
   ASSERT_NE(found, nullptr);
   this->render();
@@ -464,6 +464,22 @@ TEST_F(PosingWindow, ABodyThatMovesShowsItsOwnRotations)
     const auto k = static_cast<std::size_t>((*found->of_point)[static_cast<std::size_t>(v)]);
     EXPECT_EQ(angles->GetComponent(v, 0), rotation_vector(found->rotations[k]).norm());
   }
+}
+
+TEST_F(PosingWindow, ABodyOfAnotherShapeFollowsTheOneThatWasBeingBound)
+{
+  this->open(5); // too large to be bound at once
+  this->option<QCheckBox>("pose.moves")->setChecked(true);
+  BodyMotion* motion = this->posing()->motion();
+  ASSERT_FALSE(motion->has_started());
+  const TriangleMesh other = pole(4);
+  const auto second = to_polydata(other.points, other.triangles);
+  second->GetPointData()->AddArray(
+    to_weights_array("Weights", weights_of(other.points, this->list), this->list));
+  ASSERT_TRUE(this->window.set_mesh(second, "second"));
+  ASSERT_TRUE(this->option<QCheckBox>("pose.moves")->isChecked());
+  ASSERT_TRUE(wait_for([motion] { return motion->has_started(); }));
+  EXPECT_EQ(motion->points().rows(), other.points.rows());
 }
 
 TEST_F(PosingWindow, TheReadingSaysWhenASolveFallsShort)
@@ -537,7 +553,7 @@ TEST_F(PosingWindow, TheBodyMovesPausesAndReplaysBitByBit)
   pose[0].mode = pose[1].mode = pose[3].mode = HandleMode::free;
   this->put(pose);
   this->option<QCheckBox>("pose.moves")->setChecked(true);
-  Body* body = this->posing()->body();
+  Body* body = this->posing()->motion()->body();
   ASSERT_NE(body, nullptr);
   ASSERT_TRUE(body->has_started());
   const Points start = this->points();
@@ -545,10 +561,10 @@ TEST_F(PosingWindow, TheBodyMovesPausesAndReplaysBitByBit)
   EXPECT_EQ(body->run().steps.size(), 1U);
   EXPECT_NEAR(body->time(), 1.0 / 60.0, 1e-12);
   this->find<QPushButton>("Play")->click();
-  EXPECT_TRUE(this->posing()->is_moving());
+  EXPECT_TRUE(this->posing()->motion()->is_playing());
   ASSERT_TRUE(wait_for([&] { return body->run().steps.size() > 12; }, 20));
   this->find<QPushButton>("Pause")->click();
-  EXPECT_FALSE(this->posing()->is_moving());
+  EXPECT_FALSE(this->posing()->motion()->is_playing());
   const std::size_t steps = body->run().steps.size();
   const Points paused = this->points();
   EXPECT_NE(paused, start);
@@ -578,7 +594,7 @@ TEST_F(PosingWindow, TheBodyMovesPausesAndReplaysBitByBit)
   this->find<QPushButton>("Restart")->click();
   EXPECT_EQ(body->run().steps.size(), 0U);
   this->option<QCheckBox>("pose.moves")->setChecked(false);
-  EXPECT_EQ(this->posing()->body(), nullptr);
+  EXPECT_EQ(this->posing()->motion()->body(), nullptr);
   EXPECT_EQ(this->window.error(), QString());
 }
 
@@ -758,14 +774,14 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   EXPECT_TRUE(right_is_seen());
   // Nothing is bound anew for it: a body that moves goes on.
   this->option<QCheckBox>("pose.moves")->setChecked(true);
-  const Body* body = this->posing()->body();
+  const Body* body = this->posing()->motion()->body();
   ASSERT_NE(body, nullptr);
   fields->layer()->setValue(-1.0);
   EXPECT_EQ(this->window.history()->undoText(), "layer of right");
-  EXPECT_EQ(this->posing()->body(), body);
+  EXPECT_EQ(this->posing()->motion()->body(), body);
   this->window.history()->undo();
   EXPECT_EQ(fields->layer()->value(), 0.0);
-  EXPECT_EQ(this->posing()->body(), body);
+  EXPECT_EQ(this->posing()->motion()->body(), body);
   this->option<QCheckBox>("pose.moves")->setChecked(false);
   // A session keeps them with the handles; of solids there are none.
   this->open();
@@ -995,7 +1011,7 @@ TEST_F(PosingWindow, EveryStateHasAPictureOfItsOwn)
   this->find<QPushButton>(QString::fromUtf8("▾  Compare"))->click();
   this->find<QPushButton>(QString::fromUtf8("▸  Motion"))->click();
   this->option<QCheckBox>("pose.moves")->setChecked(true);
-  wait_for([this] { return this->posing()->body() && this->posing()->body()->has_started(); });
+  wait_for([this] { return this->posing()->motion()->has_started(); });
   save("motion");
   this->option<QCheckBox>("pose.moves")->setChecked(false);
   this->find<QPushButton>(QString::fromUtf8("▾  Motion"))->click();

@@ -1,4 +1,5 @@
 // What the window keeps over its end, a crash or a mistake: sessions, recovery, recent files, undo.
+#include "binding.h"
 #include "unclipped.h"
 #include "window_test.h"
 
@@ -304,10 +305,10 @@ TEST_F(SessionWindow, ABindIsOneStepAndIsBackedUpAtOnce)
   ASSERT_TRUE(this->window.set_mesh(column(false), "column"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
   EXPECT_EQ(this->window.sessions()->autosave()->path(), "");
-  this->window.bind();
+  this->window.binding()->start();
   QElapsedTimer clock;
   clock.start();
-  while (this->window.is_binding() && clock.elapsed() < 60000)
+  while (this->window.binding()->is_running() && clock.elapsed() < 60000)
   {
     QApplication::processEvents(QEventLoop::AllEvents, 20);
   }
@@ -339,10 +340,10 @@ TEST_F(SessionWindow, ARebindIsOfferedAndPosingGoesOn)
   EXPECT_EQ(this->window.rebind_bar()->sentence(), "");
   this->window.history()->redo();
   button_of(this->window.rebind_bar(), "Bind again")->click();
-  EXPECT_TRUE(this->window.is_binding());
+  EXPECT_TRUE(this->window.binding()->is_running());
   EXPECT_EQ(this->window.rebind_bar()->sentence(), "");
-  this->window.cancel_bind();
-  while (this->window.is_binding())
+  this->window.binding()->cancel();
+  while (this->window.binding()->is_running())
   {
     QApplication::processEvents(QEventLoop::AllEvents, 20);
   }

@@ -1,5 +1,6 @@
 // Weights in the window, as a person inspects them: numbers that are known at every point, counts,
 // places in the picture, and what the kernels say of another method.
+#include "binding.h"
 #include "unclipped.h"
 #include "window_test.h"
 
@@ -435,8 +436,8 @@ TEST_F(WeightWindow, ABindGivesVolumeRawColumnsAndCertificates)
   this->open(to_polydata(mesh.points, mesh.triangles));
   EXPECT_TRUE(this->says("There are no weights yet."));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
-  this->window.bind();
-  this->wait_while([this] { return this->window.is_binding(); });
+  this->window.binding()->start();
+  this->wait_while([this] { return this->window.binding()->is_running(); });
   ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
   this->choose("top");
   vtkFieldData* proof = this->window.shown()->GetFieldData();
@@ -457,8 +458,8 @@ TEST_F(WeightWindow, ABindGivesVolumeRawColumnsAndCertificates)
     EXPECT_LE(values->GetComponent(v, 0), 1.0 + 1e-9);
   }
   // Bound again, what was chosen stays.
-  this->window.bind();
-  this->wait_while([this] { return this->window.is_binding(); });
+  this->window.binding()->start();
+  this->wait_while([this] { return this->window.binding()->is_running(); });
   EXPECT_TRUE(this->view()->is_sliced());
   EXPECT_EQ(this->list("top")->currentText(), QString("top"));
   // Saved and opened, all is there but the tets.

@@ -51,6 +51,7 @@ void Deformation::set_source(std::shared_ptr<const PoseSource> source)
   this->posers_.clear();
   this->pose_.clear();
   this->points_ = this->source_ ? this->source_->points : Points();
+  this->rotations_ = PoseRotations();
   this->status_ = Status();
   this->error_.clear();
   this->settled_ = false;
@@ -67,6 +68,7 @@ void Deformation::set_options(const PoseOptions& options)
     return;
   }
   this->options_ = options;
+  this->rotations_ = PoseRotations();
   this->settled_ = false;
   this->cancelled_ = false;
   this->slice_ = first_slice;
@@ -132,6 +134,10 @@ const std::vector<Affine>* Deformation::found()
 
 const PoseRotations* Deformation::rotations()
 {
+  if (is_slow(this->options_.method))
+  {
+    return this->rotations_.of_point ? &this->rotations_ : nullptr;
+  }
   return this->is_found() ? this->poser()->rotations() : nullptr;
 }
 
@@ -201,7 +207,7 @@ void Deformation::bind_beside(const std::shared_ptr<Poser>& poser)
   {
     return; // with something else, which is being cancelled
   }
-  this->task_ = { poser, true, false, 0, 0, nullptr };
+  this->task_ = { poser, true, false, 0, 0, nullptr, nullptr };
   this->job_.start([poser, options = this->options_](ExecutionContext& context)
     { return poser->bind(context, options); });
 }
@@ -220,15 +226,19 @@ void Deformation::solve_beside(const std::shared_ptr<Poser>& poser)
     return;
   }
   auto points = std::make_shared<Points>();
+  auto rotations = std::make_shared<PoseRotations>();
   this->task_ = { poser, false, false, std::min(this->slice_, most_iterations - this->spent_),
-    this->pose_number_, points };
+    this->pose_number_, points, rotations };
   this->job_.start(
-    [poser, points, pose = this->pose_, options = this->options_, slice = this->task_.slice](
-      ExecutionContext& context)
+    [poser, points, rotations, pose = this->pose_, options = this->options_,
+      slice = this->task_.slice](ExecutionContext& context)
     {
       // One core is left to the window.
       context.set_threads(std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1));
-      return poser->solve(context, pose, options, slice, *points);
+      Status status = poser->solve(context, pose, options, slice, *points);
+      const PoseRotations* found = status.usable() ? poser->rotations() : nullptr;
+      *rotations = found ? *found : PoseRotations();
+      return status;
     });
 }
 
@@ -252,6 +262,7 @@ void Deformation::job_finished()
     if (status.usable())
     {
       this->points_ = std::move(*task.points);
+      this->rotations_ = std::move(*task.rotations);
     }
     if (task.pose_number == this->pose_number_)
     {

@@ -83,6 +83,7 @@ private:
   int pose_number_ = 0;
   std::map<bindpose::PoseMethod, std::shared_ptr<bindpose::Poser>> posers_;
   bindpose::Points points_;
+  bindpose::PoseRotations rotations_; ///< of points_, where these are found beside the window
   bindpose::Status status_;
   QString error_;
   bool binding_ = false;
@@ -100,6 +101,7 @@ private:
     bindpose::Index slice = 0;
     int pose_number = 0;
     std::shared_ptr<bindpose::Points> points;
+    std::shared_ptr<bindpose::PoseRotations> rotations;
   };
   Task task_;
   bindpose::Index slice_ = 0; ///< iterations of the next

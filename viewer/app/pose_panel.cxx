@@ -60,6 +60,9 @@ const struct
       "PosePanel", "The smoothest surface through what handles hold. Needs no weights.") },
 };
 
+/// Methods that fit rotations, whatever they move.
+const std::vector<PoseMethod> rigid = { PoseMethod::reduced_arap, PoseMethod::full_arap };
+
 QString translated(const char* text)
 {
   return QCoreApplication::translate("PosePanel", text);
@@ -209,7 +212,6 @@ void PosePanel::add_options(QVBoxLayout* column)
 {
   const std::vector<PoseMethod> skinning = { PoseMethod::linear_blend, PoseMethod::dual_quaternion,
     PoseMethod::stretchable_bones, PoseMethod::rotation_centres };
-  const std::vector<PoseMethod> rigid = { PoseMethod::reduced_arap, PoseMethod::full_arap };
   const std::vector<PoseMethod> reduced = { PoseMethod::reduced_arap };
   const std::vector<PoseMethod> smooth = { PoseMethod::variational };
   const auto value = [this](const char* key, double lowest, double highest, double at)
@@ -279,9 +281,9 @@ void PosePanel::add_options(QVBoxLayout* column)
   this->rotations_ =
     combo(this, "pose.rotations", { tr("not shown"), tr("clusters"), tr("angles") });
   this->option(column, tr("Rotations"), this->rotations_,
-    tr("Colours of what the shape is turned by: clusters of places with similar weights that\n"
-       "share a rotation, or how far each of them is turned"),
-    reduced);
+    tr("Colours of what the shape is turned by: clusters of places that share a rotation, with\n"
+       "similar weights in reduced, each its own in full ARAP; or how far each is turned"),
+    rigid);
 
   this->order_ = combo(this, "pose.order", { tr("membrane"), tr("thin plate"), tr("smoother") });
   this->order_->setCurrentIndex(1);
@@ -489,7 +491,7 @@ bool PosePanel::moves() const
 
 PosePanel::Rotations PosePanel::shown_rotations() const
 {
-  return this->method() == PoseMethod::reduced_arap
+  return std::count(rigid.begin(), rigid.end(), this->method()) > 0
     ? static_cast<Rotations>(this->rotations_->currentIndex())
     : no_rotations;
 }

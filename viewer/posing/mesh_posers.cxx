@@ -8,10 +8,22 @@ bool FullPoser::is_bound(const PoseOptions& options) const
   return this->bound_ && same_bind(*this->bound_, options);
 }
 
+const PoseRotations* FullPoser::rotations()
+{
+  if (!this->bound_)
+  {
+    return nullptr;
+  }
+  take_rotations(this->source(), this->arap_.groups(), this->arap_.rotations(),
+    this->bound_->in_tets, this->rotations_);
+  return &this->rotations_;
+}
+
 Status FullPoser::bind_missing(ExecutionContext& context, const PoseOptions& options)
 {
   const PoseSource& source = this->source();
   this->bound_.reset();
+  this->rotations_ = PoseRotations();
   Status status = check_tets(source, options);
   if (!status.ok())
   {

@@ -18,6 +18,7 @@ class FullPoser : public Poser
 public:
   explicit FullPoser(std::shared_ptr<const PoseSource> source) : Poser(std::move(source)) {}
   bool is_bound(const PoseOptions& options) const override;
+  const PoseRotations* rotations() override;
 
 protected:
   Status bind_missing(ExecutionContext& context, const PoseOptions& options) override;
@@ -27,6 +28,7 @@ protected:
 private:
   std::optional<PoseOptions> bound_;
   FullArap arap_;
+  PoseRotations rotations_; ///< as they were last asked for
   TetAnchors anchors_;
 };
 

@@ -3,21 +3,13 @@
 
 #include "base/execution.h"
 #include "posing/pose_options.h"
+#include "posing/pose_rotations.h"
 #include "posing/pose_source.h"
 
 #include <memory>
 
 namespace bindpose
 {
-
-/// What a method turns the shape by.
-struct PoseRotations
-{
-  /// Which rotation each point of the surface follows, -1 for none; another object for another
-  /// bind.
-  std::shared_ptr<const std::vector<Index>> of_point;
-  std::vector<Eigen::Matrix3d> rotations;
-};
 
 /// One method at work on one source, by the kernels: binds once, poses many times, and gives what
 /// the filter of that method gives, to the bit. Either call may be made on any thread, one at a

@@ -31,11 +31,6 @@ private:
   Skinning on_surface_; ///< in tets only: the surface by all columns
 };
 
-/// Rotations for the points of the surface: each follows its own group, or in tets that of the
-/// vertex nearest to it in its tet. Who has taken some of the same bind has the groups already.
-void take_rotations(const PoseSource& source, const RotationGroups& groups,
-  const std::vector<Eigen::Matrix3d>& rotations, bool in_tets, PoseRotations& taken);
-
 /// What the kernels of reduced as-rigid-as-possible need to know of the options.
 ReducedArapOptions reduced_options(const PoseOptions& options);
 /// The surface's weights by the columns of a space in the source's tets: its own, and extra weights

@@ -445,6 +445,49 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
   EXPECT_FALSE(viewport->shows(vtkDoubleArray::SafeDownCast(on_points())));
 }
 
+TEST_F(PosingWindow, FullArapTurnsEachVertexByItsOwnRotation)
+{
+  this->open();
+  this->choose(PoseMethod::full_arap);
+  EXPECT_TRUE(this->option<QWidget>("pose.rotations")->isVisible());
+  this->option<QComboBox>("pose.rotations")->setCurrentIndex(2);
+  // All of it is turned as one.
+  Pose pose(4);
+  for (HandlePose& handle : pose)
+  {
+    handle.transform.leftCols<3>() =
+      Eigen::AngleAxisd(EIGEN_PI * 40.0 / 180.0, Vec3::UnitZ()).toRotationMatrix();
+  }
+  this->put(pose);
+  ASSERT_TRUE(this->settle());
+  this->render();
+  const PoseRotations* found = this->posing()->rotations();
+  ASSERT_NE(found, nullptr);
+  EXPECT_EQ(static_cast<Index>(found->rotations.size()), this->posing()->points().rows());
+  Viewport* viewport = this->window.viewport();
+  const auto angles = [viewport]
+  { return viewport->drawn()->GetPointData()->GetArray(colour_array_name); };
+  ASSERT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(angles())));
+  for (vtkIdType v = 0; v < angles()->GetNumberOfTuples(); ++v)
+  {
+    EXPECT_NEAR(angles()->GetComponent(v, 0), 40.0, 1e-3) << v;
+  }
+  // They stay while the next pose is solved beside the window, and are there as soon as it came.
+  pose[3].transform(2, 3) += 0.2;
+  Q_EMIT this->posing()->pose_changed(pose);
+  EXPECT_NE(this->posing()->rotations(), nullptr);
+  ASSERT_TRUE(this->settle());
+  EXPECT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(angles())));
+  // Each vertex is a cluster; touching ones differ.
+  this->option<QComboBox>("pose.rotations")->setCurrentIndex(1);
+  this->render();
+  ASSERT_TRUE(viewport->shows(
+    vtkDoubleArray::SafeDownCast(viewport->drawn()->GetCellData()->GetArray(colour_array_name))));
+  this->choose(PoseMethod::variational);
+  ASSERT_TRUE(this->settle());
+  EXPECT_EQ(this->posing()->rotations(), nullptr);
+}
+
 TEST_F(PosingWindow, ABodyThatMovesShowsItsOwnRotations)
 {
   this->open();

@@ -1,11 +1,11 @@
-// Sides of triangles are sorted by the places of their ends; those of one edge then lie next to
-// each other. Where more than two meet, each is compared with the next.
+// Triangles are joined where their points are at the same place. Where more than two meet at an
+// edge, each is compared with the next.
 #include "scene/silhouette.h"
 
+#include "base/triangle_sides.h"
 #include "surface/vertex_order.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace bindpose
 {
@@ -14,47 +14,25 @@ Silhouette::Silhouette(PointsView points, TrianglesView triangles) : triangles_(
 {
   const std::vector<char> all(static_cast<std::size_t>(points.rows()), 1);
   const std::vector<Index> place = lowest_at_place(points, all);
-  struct Half
+  const Triangles joined =
+    triangles.unaryExpr([&](Index v) { return place[static_cast<std::size_t>(v)]; });
+  const std::vector<TriangleSide> sides = sides_by_edge(joined);
+  this->sides_.reserve(sides.size() / 2 + 1);
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end)
   {
-    Index low, high; ///< lowest points at the places of its ends
-    Index triangle;
-    Edge points;
-    bool upwards;
-  };
-  std::vector<Half> halves;
-  halves.reserve(static_cast<std::size_t>(3 * triangles.rows()));
-  for (Index t = 0; t < triangles.rows(); ++t)
-  {
-    for (int k = 0; k < 3; ++k)
+    end = end_of_edge(sides, begin);
+    if (sides[begin].a == sides[begin].b)
     {
-      const Edge ends{ triangles(t, k), triangles(t, (k + 1) % 3) };
-      const Index a = place[static_cast<std::size_t>(ends[0])];
-      const Index b = place[static_cast<std::size_t>(ends[1])];
-      if (a != b)
-      {
-        halves.push_back({ std::min(a, b), std::max(a, b), t, ends, a < b });
-      }
+      continue;
     }
-  }
-  std::sort(halves.begin(), halves.end(),
-    [](const Half& a, const Half& b)
-    { return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle); });
-  const auto together = [](const Half& a, const Half& b)
-  { return a.low == b.low && a.high == b.high; };
-  for (std::size_t k = 0; k < halves.size(); ++k)
-  {
-    const Half& half = halves[k];
-    const bool begins = k == 0 || !together(halves[k - 1], half);
-    const bool ends = k + 1 == halves.size() || !together(half, halves[k + 1]);
-    if (!ends)
+    for (std::size_t k = begin; k + 1 < end || k == begin; ++k)
     {
-      const Half& next = halves[k + 1];
-      this->sides_.push_back(
-        { half.points, half.triangle, next.triangle, half.upwards == next.upwards });
-    }
-    else if (begins)
-    {
-      this->sides_.push_back({ half.points, half.triangle, -1, false });
+      const TriangleSide& side = sides[k];
+      const Edge ends{ triangles(side.triangle, side.corner),
+        triangles(side.triangle, (side.corner + 1) % 3) };
+      const bool alone = k + 1 == end;
+      this->sides_.push_back({ ends, side.triangle, alone ? -1 : sides[k + 1].triangle,
+        !alone && side.forward == sides[k + 1].forward });
     }
   }
   this->facing_.resize(static_cast<std::size_t>(triangles.rows()));

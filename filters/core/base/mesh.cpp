@@ -2,6 +2,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/tet_facets.h"
+#include "base/triangle_sides.h"
 
 #include <algorithm>
 #include <cmath>
@@ -175,36 +176,23 @@ Triangles boundary_triangles(TetsView tets)
 
 std::vector<Edge> mesh_edges(TrianglesView triangles)
 {
+  const std::vector<TriangleSide> sides = sides_by_edge(triangles);
   std::vector<Edge> edges;
-  edges.reserve(static_cast<std::size_t>(triangles.rows()) * 3);
-  for (Index t = 0; t < triangles.rows(); ++t)
+  edges.reserve(sides.size() / 2 + 1); // as many as a closed surface has
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end)
   {
-    for (int k = 0; k < 3; ++k)
+    end = end_of_edge(sides, begin);
+    Edge edge{ sides[begin].a, sides[begin].b, 0, 0 };
+    for (std::size_t k = begin; k < end; ++k)
     {
-      const Index from = triangles(t, k);
-      const Index to = triangles(t, (k + 1) % 3);
-      if (from != to)
-      {
-        edges.push_back({ std::min(from, to), std::max(from, to), 1, from < to ? 1 : -1 });
-      }
+      edge.uses += 1;
+      edge.net_direction += sides[k].forward ? 1 : -1;
+    }
+    if (edge.a != edge.b)
+    {
+      edges.push_back(edge);
     }
   }
-  std::sort(edges.begin(), edges.end(),
-    [](const Edge& x, const Edge& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; });
-  std::size_t last = 0;
-  for (std::size_t i = 1; i < edges.size(); ++i)
-  {
-    if (edges[i].a == edges[last].a && edges[i].b == edges[last].b)
-    {
-      edges[last].uses += 1;
-      edges[last].net_direction += edges[i].net_direction;
-    }
-    else
-    {
-      edges[++last] = edges[i];
-    }
-  }
-  edges.resize(edges.empty() ? 0 : last + 1);
   return edges;
 }
 

@@ -1,6 +1,8 @@
+// Sides are dealt out to the lower of their ends, then the few of each vertex are sorted.
 #include "base/triangle_sides.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 namespace bindpose
@@ -8,21 +10,36 @@ namespace bindpose
 
 std::vector<TriangleSide> sides_by_edge(TrianglesView triangles)
 {
-  std::vector<TriangleSide> sides;
-  sides.reserve(static_cast<std::size_t>(triangles.size()));
-  for (Index t = 0; t < triangles.rows(); ++t)
+  const Index vertices = triangles.size() > 0 ? triangles.maxCoeff() + 1 : 0;
+  std::vector<std::size_t> next(static_cast<std::size_t>(vertices) + 1, 0);
+  const auto for_each = [triangles](const auto& side)
   {
-    for (int k = 0; k < 3; ++k)
+    for (Index t = 0; t < triangles.rows(); ++t)
     {
-      const Index from = triangles(t, k);
-      const Index to = triangles(t, (k + 1) % 3);
-      sides.push_back({ std::min(from, to), std::max(from, to), t, k, from < to });
+      for (int k = 0; k < 3; ++k)
+      {
+        const Index from = triangles(t, k);
+        const Index to = triangles(t, (k + 1) % 3);
+        side(TriangleSide{ std::min(from, to), std::max(from, to), t, k, from < to });
+      }
     }
+  };
+  for_each([&](const TriangleSide& side) { ++next[static_cast<std::size_t>(side.a) + 1]; });
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<TriangleSide> sides(static_cast<std::size_t>(triangles.size()));
+  for_each(
+    [&](const TriangleSide& side) { sides[next[static_cast<std::size_t>(side.a)]++] = side; });
+  // Now next is where the sides of a vertex end.
+  std::size_t begin = 0;
+  for (Index v = 0; v < vertices; ++v)
+  {
+    const std::size_t end = next[static_cast<std::size_t>(v)];
+    std::sort(sides.begin() + static_cast<std::ptrdiff_t>(begin),
+      sides.begin() + static_cast<std::ptrdiff_t>(end),
+      [](const TriangleSide& x, const TriangleSide& y)
+      { return std::tie(x.b, x.triangle, x.corner) < std::tie(y.b, y.triangle, y.corner); });
+    begin = end;
   }
-  std::sort(sides.begin(), sides.end(),
-    [](const TriangleSide& x, const TriangleSide& y) {
-      return std::tie(x.a, x.b, x.triangle, x.corner) < std::tie(y.a, y.b, y.triangle, y.corner);
-    });
   return sides;
 }
 

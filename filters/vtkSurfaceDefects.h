@@ -15,7 +15,7 @@
  * | 4 | misoriented edge | of two triangles that run the same way |
  * | 5 | degenerate triangle | without area |
  * | 6 | duplicate triangle | the corners of a triangle of lower id, in any order |
- * | 7 | self-intersection | meets another triangle beyond what they share |
+ * | 7 | crossing triangle | meets another triangle beyond what they share |
  * | 8 | inward component | of a closed component that is inside out |
  *
  * `OriginalCellIds` and `CrossedCellIds` (the input's cell, and the lowest one that it crosses; -1:

@@ -88,7 +88,7 @@ TEST(SurfaceDefectsFilter, CellsAndArrays)
   {
     const std::string name = names->GetValue(c);
     EXPECT_EQ(cells->GetValue(c) >= 0, out->GetCellType(c) == VTK_TRIANGLE);
-    EXPECT_EQ(crossed->GetValue(c) >= 0, name == "self-intersection");
+    EXPECT_EQ(crossed->GetValue(c) >= 0, name == "crossing triangle");
     if (name == "duplicate triangle")
     {
       EXPECT_EQ(cells->GetValue(c), t);

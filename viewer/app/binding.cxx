@@ -152,7 +152,7 @@ void Binding::finish()
           .arg(report.number("kkt_residual", 0.0), 0, 'e', 1));
   if (!result.status.warnings.empty())
   {
-    Q_EMIT this->failed(
+    Q_EMIT this->noticed(
       tr("Bound, but: %1.").arg(QString::fromStdString(result.status.warnings.front())));
   }
 }

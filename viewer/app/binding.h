@@ -38,6 +38,8 @@ Q_SIGNALS:
   /// The document has new weights.
   void bound();
   void failed(const QString& sentence);
+  /// It is bound, and this is to be known about it.
+  void noticed(const QString& sentence);
 
 private:
   vtkSmartPointer<vtkPolyData> with_weights(const BindResult& result) const;

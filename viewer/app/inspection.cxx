@@ -203,7 +203,7 @@ void Inspection::tets_finished()
   this->set_active(this->active_);
   if (!status.warnings.empty())
   {
-    Q_EMIT this->failed(
+    Q_EMIT this->noticed(
       tr("Tets are there, but: %1.").arg(QString::fromStdString(status.warnings.front())));
   }
 }

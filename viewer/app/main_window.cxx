@@ -187,6 +187,7 @@ void MainWindow::make_inspections()
   QObject::connect(
     this->inspection_, &Inspection::surface_look_changed, this, &MainWindow::update_surface_look);
   QObject::connect(this->inspection_, &Inspection::failed, this, &MainWindow::show_error);
+  QObject::connect(this->inspection_, &Inspection::noticed, this, &MainWindow::show_notice);
   QObject::connect(this->inspection_, &Inspection::defects_found, this, &MainWindow::offer_defects);
   this->weights_ = new WeightInspection(this->viewport_, this->panels_->weight(),
     [this](BindInput& input) { return this->is_bound() && this->binding_->make_input(input); });
@@ -236,6 +237,7 @@ void MainWindow::connect_panel()
       this->update_pose();
     });
   QObject::connect(this->binding_, &Binding::failed, this, &MainWindow::show_error);
+  QObject::connect(this->binding_, &Binding::noticed, this, &MainWindow::show_notice);
   QObject::connect(
     this->binding_, &Binding::bound, this->sessions_->autosave(), &Autosave::begin_save);
   QObject::connect(this->panel_, &SidePanel::method_chosen, this, &MainWindow::set_method);
@@ -855,7 +857,7 @@ void MainWindow::export_as(const QString& what)
   }
   else if (!status.warnings.empty()) // what such a file cannot hold
   {
-    this->note_bar_->offer(QString::fromStdString(status.warnings.front()) + '.', {}, tr("Close"));
+    this->show_notice(QString::fromStdString(status.warnings.front()) + '.');
   }
 }
 
@@ -875,6 +877,11 @@ bool MainWindow::save_picture(const QString& path, int scale, bool transparent)
 void MainWindow::show_error(const QString& sentence)
 {
   this->error_bar_->show_sentence(sentence);
+}
+
+void MainWindow::show_notice(const QString& sentence)
+{
+  this->note_bar_->offer(sentence, {}, tr("Close"));
 }
 
 QString MainWindow::reading() const

@@ -107,6 +107,7 @@ public:
   /// The sentence in the error bar; empty when it is hidden.
   QString error() const;
   void show_error(const QString& sentence);
+  void show_notice(const QString& sentence);
   void update_title();
   NoticeBar* rebind_bar() const { return this->rebind_bar_; }
   NoticeBar* recovery_bar() const { return this->recovery_bar_; }

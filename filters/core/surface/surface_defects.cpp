@@ -196,7 +196,7 @@ const char* to_string(Defect defect)
 {
   constexpr const char* words[defect_kinds] = { "duplicate vertex", "unreferenced vertex",
     "boundary edge", "non-manifold edge", "misoriented edge", "degenerate triangle",
-    "duplicate triangle", "self-intersection", "inward component" };
+    "duplicate triangle", "crossing triangle", "inward component" };
   return words[static_cast<int>(defect)];
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <map>
 #include <numeric>
 
 namespace bindpose
@@ -51,9 +52,21 @@ bool parallel_for(ExecutionContext& context, Index count, Index block_size,
   }
   else
   {
-    tbb::task_arena arena(thread_count(context.threads()));
-    arena.execute(
-      [&] { tbb::parallel_for(Index(0), blocks, Index(1), run, tbb::simple_partitioner()); });
+    const auto share = [&]
+    { tbb::parallel_for(Index(0), blocks, Index(1), run, tbb::simple_partitioner()); };
+    const int threads = thread_count(context.threads());
+    if (threads == thread_count(0))
+    {
+      // The arena that is there: one of its own for each call would live until its workers have
+      // left, and on a busy machine they pile up. Isolated, so that who waits for the last block
+      // does not begin with something else.
+      tbb::this_task_arena::isolate(share);
+    }
+    else
+    {
+      thread_local std::map<int, tbb::task_arena> arenas; // kept for the same reason
+      arenas.try_emplace(threads, threads).first->second.execute(share);
+    }
   }
   return !stopped;
 }

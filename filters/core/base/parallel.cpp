@@ -52,15 +52,18 @@ bool parallel_for(ExecutionContext& context, Index count, Index block_size,
   }
   else
   {
+    // Isolated, so that who waits for the last block does not begin with something else.
     const auto share = [&]
-    { tbb::parallel_for(Index(0), blocks, Index(1), run, tbb::simple_partitioner()); };
+    {
+      tbb::this_task_arena::isolate(
+        [&] { tbb::parallel_for(Index(0), blocks, Index(1), run, tbb::simple_partitioner()); });
+    };
     const int threads = thread_count(context.threads());
     if (threads == thread_count(0))
     {
-      // The arena that is there: one of its own for each call would live until its workers have
-      // left, and on a busy machine they pile up. Isolated, so that who waits for the last block
-      // does not begin with something else.
-      tbb::this_task_arena::isolate(share);
+      // In the arena that is there: one of its own for each call would live until its workers have
+      // left, and on a busy machine they pile up.
+      share();
     }
     else
     {

@@ -72,7 +72,7 @@ BINDPOSE_ALWAYS_INLINE Horn<Scalar> horn(Scalar s00, Scalar s01, Scalar s02, Sca
     s11 - s00 - s22, s12 + s21, s22 - s00 - s11 };
 }
 
-/// The unit column of the adjugate of N - lambda whose diagonal entry is the largest.
+/// The column of the adjugate of N - lambda whose diagonal entry is the largest.
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE Quaternion<Scalar> eigenvector(const Horn<Scalar>& n, Scalar lambda)
 {
@@ -110,96 +110,227 @@ BINDPOSE_ALWAYS_INLINE Quaternion<Scalar> eigenvector(const Horn<Scalar>& n, Sca
   x0 = use_z ? xz : x0;
   y0 = use_z ? yz : y0;
   z0 = use_z ? zz : z0;
-  const Scalar scale = 1 / std::sqrt(w0 * w0 + x0 * x0 + y0 * y0 + z0 * z0 + Fast<Scalar>::tiny);
-  return { w0 * scale, x0 * scale, y0 * scale, z0 * scale };
+  return { w0, x0, y0, z0 };
+}
+
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE Scalar square_of(const Quaternion<Scalar>& v)
+{
+  return v.w * v.w + v.x * v.x + v.y * v.y + v.z * v.z + Fast<Scalar>::tiny;
 }
 
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE Scalar rayleigh(const Horn<Scalar>& n, const Quaternion<Scalar>& v)
 {
-  return n.ww * v.w * v.w + n.xx * v.x * v.x + n.yy * v.y * v.y + n.zz * v.z * v.z +
-    2 *
-    (v.w * (n.wx * v.x + n.wy * v.y + n.wz * v.z) + v.x * (n.xy * v.y + n.xz * v.z) +
-      n.yz * v.y * v.z);
+  return (n.ww * v.w * v.w + n.xx * v.x * v.x + n.yy * v.y * v.y + n.zz * v.z * v.z +
+           2 *
+             (v.w * (n.wx * v.x + n.wy * v.y + n.wz * v.z) + v.x * (n.xy * v.y + n.xz * v.z) +
+               n.yz * v.y * v.z)) /
+    square_of(v);
 }
 
-/// One block of matrices by the fast path: R - I, and a slope that says how far it can be trusted.
+/// Groups of lanes that go through the fast path together, step by step: the roots and quotients of
+/// one are waited for while others are worked on.
+constexpr int groups_at_once = 4;
+
+/// What the steps hand on.
 template <typename Scalar>
-BINDPOSE_ALWAYS_INLINE void fit_lanes(
-  const Scalar* __restrict s, Scalar* __restrict r, Scalar* __restrict slope)
+struct FitBlock
 {
-  using Limits = Fast<Scalar>;
-  constexpr int lanes = Limits::lanes;
-  for (int k = 0; k < lanes; ++k)
+  static constexpr int lanes = Fast<Scalar>::lanes;
+  int groups; ///< that are there
+  Index begin[groups_at_once]; ///< first matrix of each
+  int skipped[groups_at_once]; ///< lanes of each that another one has done
+  Scalar horn[10][groups_at_once * lanes];
+  Scalar linear[groups_at_once * lanes], constant[groups_at_once * lanes]; ///< of the quartic
+  Scalar norm2[groups_at_once * lanes];
+  Scalar eigenvalue[groups_at_once * lanes];
+  Scalar slope[groups_at_once * lanes]; ///< says how far a lane can be trusted
+  Scalar rotation[9][groups_at_once * lanes];
+
+  BINDPOSE_ALWAYS_INLINE Horn<Scalar> horn_of(int k) const
   {
-    Scalar norm2 = 0;
-    for (int e = 0; e < 9; ++e)
+    return { this->horn[0][k], this->horn[1][k], this->horn[2][k], this->horn[3][k],
+      this->horn[4][k], this->horn[5][k], this->horn[6][k], this->horn[7][k], this->horn[8][k],
+      this->horn[9][k] };
+  }
+};
+
+/// N and its quartic p(x) = x^4 - 2 x^2 + c1 x + c0 for S of norm 1: c1 = -8 det S and
+/// c0 = 1 - 4 |cofactors of S|^2.
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE void set_quartics(
+  const MatrixPlanes<const Scalar>& s, FitBlock<Scalar>& __restrict block)
+{
+  constexpr int lanes = Fast<Scalar>::lanes;
+  for (int g = 0; g < block.groups; ++g)
+  {
+    const MatrixPlanes<const Scalar> from = s.from(block.begin[g]);
+    const Scalar *const p00 = from.at(0, 0), *const p01 = from.at(0, 1), *const p02 = from.at(0, 2);
+    const Scalar *const p10 = from.at(1, 0), *const p11 = from.at(1, 1), *const p12 = from.at(1, 2);
+    const Scalar *const p20 = from.at(2, 0), *const p21 = from.at(2, 1), *const p22 = from.at(2, 2);
+    for (int i = 0; i < lanes; ++i)
     {
-      norm2 += s[e * lanes + k] * s[e * lanes + k];
+      const int k = g * lanes + i;
+      const Scalar norm2 = p00[i] * p00[i] + p01[i] * p01[i] + p02[i] * p02[i] + p10[i] * p10[i] +
+        p11[i] * p11[i] + p12[i] * p12[i] + p20[i] * p20[i] + p21[i] * p21[i] + p22[i] * p22[i];
+      const Scalar f = 1 / std::sqrt(norm2 + Fast<Scalar>::tiny);
+      const Scalar s00 = f * p00[i], s01 = f * p01[i], s02 = f * p02[i];
+      const Scalar s10 = f * p10[i], s11 = f * p11[i], s12 = f * p12[i];
+      const Scalar s20 = f * p20[i], s21 = f * p21[i], s22 = f * p22[i];
+      const Horn<Scalar> n = horn(s00, s01, s02, s10, s11, s12, s20, s21, s22);
+      const Scalar k00 = s11 * s22 - s12 * s21, k01 = s12 * s20 - s10 * s22,
+                   k02 = s10 * s21 - s11 * s20;
+      const Scalar k10 = s21 * s02 - s22 * s01, k11 = s22 * s00 - s20 * s02,
+                   k12 = s20 * s01 - s21 * s00;
+      const Scalar k20 = s01 * s12 - s02 * s11, k21 = s02 * s10 - s00 * s12,
+                   k22 = s00 * s11 - s01 * s10;
+      block.linear[k] = -8 * (s00 * k00 + s01 * k01 + s02 * k02);
+      block.constant[k] = 1 -
+        4 *
+          (k00 * k00 + k01 * k01 + k02 * k02 + k10 * k10 + k11 * k11 + k12 * k12 + k20 * k20 +
+            k21 * k21 + k22 * k22);
+      block.norm2[k] = norm2;
+      block.horn[0][k] = n.ww;
+      block.horn[1][k] = n.wx;
+      block.horn[2][k] = n.wy;
+      block.horn[3][k] = n.wz;
+      block.horn[4][k] = n.xx;
+      block.horn[5][k] = n.xy;
+      block.horn[6][k] = n.xz;
+      block.horn[7][k] = n.yy;
+      block.horn[8][k] = n.yz;
+      block.horn[9][k] = n.zz;
     }
-    const Scalar f = 1 / std::sqrt(norm2 + Limits::tiny);
-    const Scalar s00 = f * s[0 * lanes + k], s01 = f * s[1 * lanes + k], s02 = f * s[2 * lanes + k];
-    const Scalar s10 = f * s[3 * lanes + k], s11 = f * s[4 * lanes + k], s12 = f * s[5 * lanes + k];
-    const Scalar s20 = f * s[6 * lanes + k], s21 = f * s[7 * lanes + k], s22 = f * s[8 * lanes + k];
-    const Horn<Scalar> n = horn(s00, s01, s02, s10, s11, s12, s20, s21, s22);
-
-    // p(x) = x^4 - 2 x^2 + c1 x + c0, with c1 = -8 det S and c0 = 1 - 4 |cofactors of S|^2.
-    const Scalar k00 = s11 * s22 - s12 * s21, k01 = s12 * s20 - s10 * s22,
-                 k02 = s10 * s21 - s11 * s20;
-    const Scalar k10 = s21 * s02 - s22 * s01, k11 = s22 * s00 - s20 * s02,
-                 k12 = s20 * s01 - s21 * s00;
-    const Scalar k20 = s01 * s12 - s02 * s11, k21 = s02 * s10 - s00 * s12,
-                 k22 = s00 * s11 - s01 * s10;
-    const Scalar c1 = -8 * (s00 * k00 + s01 * k01 + s02 * k02);
-    const Scalar c0 = 1 -
-      4 *
-        (k00 * k00 + k01 * k01 + k02 * k02 + k10 * k10 + k11 * k11 + k12 * k12 + k20 * k20 +
-          k21 * k21 + k22 * k22);
-
-    Scalar x = Scalar(1.7320508075688772); // the sum of three singular values of |S| = 1 at most
-    Scalar step = 0;
-    for (int i = 0; i < Limits::steps; ++i)
-    {
-      const Scalar x2 = x * x;
-      const Scalar value = (x2 - 2) * x2 + c1 * x + c0;
-      const Scalar first = (4 * x2 - 4) * x + c1;
-      const Scalar second = 12 * x2 - 4;
-      const Scalar inside = 9 * first * first - 12 * value * second;
-      const Scalar below = first + std::sqrt(inside > 0 ? inside : 0);
-      step = 4 * value / (below > Scalar(1e-30) ? below : Scalar(1e-30));
-      x -= step;
-    }
-    // Not there yet (a double root draws the iteration in slowly), or S out of the squares' range:
-    // the careful way.
-    const Scalar p1 = (4 * x * x - 4) * x + c1;
-    slope[k] = std::abs(step) < Limits::last_step && norm2 > Limits::least && norm2 < Limits::most
-      ? p1
-      : Scalar(0);
-
-    Quaternion<Scalar> v = eigenvector(n, x);
-    v = eigenvector(n, rayleigh(n, v));
-    r[0 * lanes + k] = -2 * (v.y * v.y + v.z * v.z);
-    r[1 * lanes + k] = 2 * (v.x * v.y - v.w * v.z);
-    r[2 * lanes + k] = 2 * (v.x * v.z + v.w * v.y);
-    r[3 * lanes + k] = 2 * (v.x * v.y + v.w * v.z);
-    r[4 * lanes + k] = -2 * (v.x * v.x + v.z * v.z);
-    r[5 * lanes + k] = 2 * (v.y * v.z - v.w * v.x);
-    r[6 * lanes + k] = 2 * (v.x * v.z - v.w * v.y);
-    r[7 * lanes + k] = 2 * (v.y * v.z + v.w * v.x);
-    r[8 * lanes + k] = -2 * (v.x * v.x + v.y * v.y);
   }
 }
 
-BINDPOSE_SIMD_CLONES void fit_block(
-  const double* __restrict s, double* __restrict r, double* __restrict slope)
+/// The quartics' largest roots.
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE void find_eigenvalues(FitBlock<Scalar>& __restrict block)
 {
-  fit_lanes(s, r, slope);
+  using Limits = Fast<Scalar>;
+  for (int g = 0; g < block.groups; ++g)
+  {
+    for (int k = g * Limits::lanes; k < (g + 1) * Limits::lanes; ++k)
+    {
+      const Scalar c1 = block.linear[k], c0 = block.constant[k], norm2 = block.norm2[k];
+      Scalar x = Scalar(1.7320508075688772); // the sum of three singular values of |S| = 1 at most
+      Scalar step = 0;
+      for (int i = 0; i < Limits::steps; ++i)
+      {
+        const Scalar x2 = x * x;
+        const Scalar value = (x2 - 2) * x2 + c1 * x + c0;
+        const Scalar first = (4 * x2 - 4) * x + c1;
+        const Scalar second = 12 * x2 - 4;
+        const Scalar inside = 9 * first * first - 12 * value * second;
+        const Scalar below = first + std::sqrt(inside > 0 ? inside : 0);
+        step = 4 * value / (below > Scalar(1e-30) ? below : Scalar(1e-30));
+        x -= step;
+      }
+      // Not there yet (a double root draws the iteration in slowly), or S out of the squares'
+      // range: the careful way.
+      const Scalar slope = (4 * x * x - 4) * x + c1;
+      block.slope[k] =
+        std::abs(step) < Limits::last_step && norm2 > Limits::least && norm2 < Limits::most
+        ? slope
+        : Scalar(0);
+      block.eigenvalue[k] = x;
+    }
+  }
 }
 
-BINDPOSE_SIMD_CLONES void fit_block(
-  const float* __restrict s, float* __restrict r, float* __restrict slope)
+/// Eigenvalues once more, as what N makes of the vectors that belong to them.
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE void refine_eigenvalues(FitBlock<Scalar>& __restrict block)
 {
-  fit_lanes(s, r, slope);
+  constexpr int lanes = Fast<Scalar>::lanes;
+  for (int g = 0; g < block.groups; ++g)
+  {
+    for (int k = g * lanes; k < (g + 1) * lanes; ++k)
+    {
+      const Horn<Scalar> n = block.horn_of(k);
+      block.eigenvalue[k] = rayleigh(n, eigenvector(n, block.eigenvalue[k]));
+    }
+  }
+}
+
+/// R - I, with `diagonal` added to its diagonal.
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE void make_rotations(Scalar diagonal, FitBlock<Scalar>& __restrict block)
+{
+  constexpr int lanes = Fast<Scalar>::lanes;
+  for (int g = 0; g < block.groups; ++g)
+  {
+    for (int k = g * lanes; k < (g + 1) * lanes; ++k)
+    {
+      const Quaternion<Scalar> v = eigenvector(block.horn_of(k), block.eigenvalue[k]);
+      const Scalar twice = 2 / square_of(v);
+      const Scalar w = twice * v.w, x = twice * v.x, y = twice * v.y, z = twice * v.z;
+      block.rotation[0][k] = diagonal - (y * v.y + z * v.z);
+      block.rotation[1][k] = x * v.y - w * v.z;
+      block.rotation[2][k] = x * v.z + w * v.y;
+      block.rotation[3][k] = x * v.y + w * v.z;
+      block.rotation[4][k] = diagonal - (x * v.x + z * v.z);
+      block.rotation[5][k] = y * v.z - w * v.x;
+      block.rotation[6][k] = x * v.z - w * v.y;
+      block.rotation[7][k] = y * v.z + w * v.x;
+      block.rotation[8][k] = diagonal - (x * v.x + y * v.y);
+    }
+  }
+}
+
+/// Puts the rotations that can be trusted where they belong. @return how many cannot be.
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE int put_rotations(
+  const MatrixPlanes<Scalar>& rotations, FitBlock<Scalar>& __restrict block)
+{
+  constexpr int lanes = Fast<Scalar>::lanes;
+  int careful = 0;
+  for (int g = 0; g < block.groups; ++g)
+  {
+    bool take[lanes];
+    for (int i = 0; i < lanes; ++i)
+    {
+      const int k = g * lanes + i;
+      block.slope[k] = i < block.skipped[g] ? Scalar(1) : block.slope[k];
+      // not a number goes the careful way
+      careful += block.slope[k] > Fast<Scalar>::slope ? 0 : 1;
+      take[i] = i >= block.skipped[g] && block.slope[k] > Fast<Scalar>::slope;
+    }
+    for (int e = 0; e < 9; ++e)
+    {
+      Scalar* const __restrict to = rotations.at(e / 3, e % 3) + block.begin[g];
+      for (int i = 0; i < lanes; ++i)
+      {
+        to[i] = take[i] ? block.rotation[e][g * lanes + i] : to[i];
+      }
+    }
+  }
+  return careful;
+}
+
+template <typename Scalar>
+BINDPOSE_ALWAYS_INLINE int fit_groups(const MatrixPlanes<const Scalar>& s,
+  const MatrixPlanes<Scalar>& rotations, Scalar diagonal, FitBlock<Scalar>& block)
+{
+  set_quartics(s, block);
+  find_eigenvalues(block);
+  refine_eigenvalues(block);
+  make_rotations(diagonal, block);
+  return put_rotations(rotations, block);
+}
+
+BINDPOSE_SIMD_CLONES int fit_block(const MatrixPlanes<const double>& s,
+  const MatrixPlanes<double>& rotations, double diagonal, FitBlock<double>& block)
+{
+  return fit_groups(s, rotations, diagonal, block);
+}
+
+BINDPOSE_SIMD_CLONES int fit_block(const MatrixPlanes<const float>& s,
+  const MatrixPlanes<float>& rotations, float diagonal, FitBlock<float>& block)
+{
+  return fit_groups(s, rotations, diagonal, block);
 }
 
 /// The best rotation nearest to the previous one, for any S.
@@ -233,17 +364,32 @@ void fit_carefully(const Eigen::Matrix3d& matrix, Eigen::Matrix3d& rotation)
   rotation = Eigen::Quaterniond(best[0], best[1], best[2], best[3]).toRotationMatrix();
 }
 
-/// `size` numbers of at most `lanes`, mostly all: then their count is known when this is compiled.
-template <int lanes, typename Scalar>
-BINDPOSE_ALWAYS_INLINE void copy_lanes(const Scalar* from, int size, Scalar* to)
+/// A block's matrices that the fast path could not do, one by one.
+template <typename Scalar>
+void fit_rest(const FitBlock<Scalar>& block, const MatrixPlanes<const Scalar>& s,
+  const MatrixPlanes<Scalar>& rotations, Scalar diagonal)
 {
-  if (size == lanes)
+  constexpr int lanes = Fast<Scalar>::lanes;
+  const double missing = 1.0 - diagonal;
+  for (int k = 0; k < block.groups * lanes; ++k)
   {
-    std::copy_n(from, lanes, to);
-  }
-  else
-  {
-    std::copy_n(from, size, to);
+    if (block.slope[k] > Fast<Scalar>::slope)
+    {
+      continue;
+    }
+    const Index at = block.begin[k / lanes] + k % lanes;
+    Eigen::Matrix3d matrix, rotation;
+    for (int e = 0; e < 9; ++e)
+    {
+      matrix(e / 3, e % 3) = s.at(e / 3, e % 3)[at];
+      rotation(e / 3, e % 3) = rotations.at(e / 3, e % 3)[at] + (e % 4 == 0 ? missing : 0.0);
+    }
+    fit_carefully(matrix, rotation);
+    for (int e = 0; e < 9; ++e)
+    {
+      rotations.at(e / 3, e % 3)[at] =
+        static_cast<Scalar>(rotation(e / 3, e % 3) - (e % 4 == 0 ? missing : 0.0));
+    }
   }
 }
 
@@ -253,57 +399,45 @@ void fit_all(Index count, const MatrixPlanes<const Scalar>& s,
   const MatrixPlanes<Scalar>& rotations, Scalar diagonal)
 {
   constexpr int lanes = Fast<Scalar>::lanes;
-  alignas(64) Scalar in[9 * lanes], out[9 * lanes], slope[lanes];
-  for (Index begin = 0; begin < count; begin += lanes)
+  FitBlock<Scalar> block;
+  const auto fit = [&](const MatrixPlanes<const Scalar>& from, const MatrixPlanes<Scalar>& to)
   {
-    const int size = static_cast<int>(std::min<Index>(lanes, count - begin));
-    if (size < lanes)
+    if (fit_block(from, to, diagonal, block) > 0)
     {
-      std::fill_n(in, 9 * lanes, Scalar(0));
+      fit_rest(block, from, to, diagonal);
     }
+  };
+  if (count < lanes)
+  {
+    // Zeros before them make a group.
+    const Index missing = lanes - count;
+    Scalar in[9 * lanes] = {}, out[9 * lanes] = {};
     for (int e = 0; e < 9; ++e)
     {
-      copy_lanes<lanes>(s.at(e / 3, e % 3) + begin, size, in + e * lanes);
+      std::copy_n(s.at(e / 3, e % 3), count, in + e * lanes + missing);
+      std::copy_n(rotations.at(e / 3, e % 3), count, out + e * lanes + missing);
     }
-    fit_block(in, out, slope);
-    for (int e = 0; e < 9 && diagonal != Scalar(0); e += 4)
-    {
-      for (int k = 0; k < lanes; ++k)
-      {
-        out[e * lanes + k] += diagonal;
-      }
-    }
-    std::fill(slope + size, slope + lanes, Scalar(1)); // what is not there needs no care
-    int trusted = 0;
-    for (int k = 0; k < lanes; ++k)
-    {
-      trusted += slope[k] > Fast<Scalar>::slope ? 1 : 0; // not a number goes the careful way
-    }
-    const double missing = 1.0 - diagonal;
-    for (int k = 0; trusted < lanes && k < size; ++k)
-    {
-      if (slope[k] > Fast<Scalar>::slope)
-      {
-        continue;
-      }
-      Eigen::Matrix3d matrix, rotation;
-      for (int e = 0; e < 9; ++e)
-      {
-        matrix(e / 3, e % 3) = in[e * lanes + k];
-        rotation(e / 3, e % 3) =
-          rotations.at(e / 3, e % 3)[begin + k] + (e % 4 == 0 ? missing : 0.0);
-      }
-      fit_carefully(matrix, rotation);
-      for (int e = 0; e < 9; ++e)
-      {
-        out[e * lanes + k] =
-          static_cast<Scalar>(rotation(e / 3, e % 3) - (e % 4 == 0 ? missing : 0.0));
-      }
-    }
+    block.groups = 1;
+    block.begin[0] = 0;
+    block.skipped[0] = static_cast<int>(missing);
+    fit({ in, 3 * lanes, lanes }, { out, 3 * lanes, lanes });
     for (int e = 0; e < 9; ++e)
     {
-      copy_lanes<lanes>(out + e * lanes, size, rotations.at(e / 3, e % 3) + begin);
+      std::copy_n(out + e * lanes + missing, count, rotations.at(e / 3, e % 3));
     }
+    return;
+  }
+  for (Index done = 0; done < count;)
+  {
+    for (block.groups = 0; block.groups < groups_at_once && done < count; ++block.groups)
+    {
+      // The last group goes over some again, and leaves them.
+      const Index begin = std::min(done, count - lanes);
+      block.begin[block.groups] = begin;
+      block.skipped[block.groups] = static_cast<int>(done - begin);
+      done = begin + lanes;
+    }
+    fit(s, rotations);
   }
 }
 } // namespace

@@ -165,31 +165,49 @@ TEST(RotationFit, RankOneTakesTheNearestOfTheBest)
   }
 }
 
+// Counts that fill groups of lanes and that do not; every third matrix is of rank one, for which
+// the previous rotation counts.
 TEST(RotationFit, BatchesAndSinglesAgreeToTheBit)
 {
   test::Random random(13);
-  constexpr Index count = 29, stride = 31;
-  std::vector<double> s(9 * stride), r(9 * stride, 0.0);
-  for (Index k = 0; k < count; ++k)
+  for (const Index count : { 2, 7, 8, 9, 29, 32, 33, 41, 70 })
   {
-    const Eigen::Matrix3d matrix = random_matrix(random);
-    for (int e = 0; e < 9; ++e)
+    const Index stride = count + 2;
+    std::vector<double> s(9 * stride), r(9 * stride, 0.0), before(9 * stride);
+    for (Index k = 0; k < count; ++k)
     {
-      s[e * stride + k] = matrix(e / 3, e % 3);
+      const Vec3 a = random.in_box(-Vec3::Ones(), Vec3::Ones());
+      const Eigen::Matrix3d matrix =
+        k % 3 == 2 ? Eigen::Matrix3d(a * a.reverse().transpose()) : random_matrix(random);
+      const Eigen::Matrix3d previous = random_rotation(random);
+      for (int e = 0; e < 9; ++e)
+      {
+        s[e * stride + k] = matrix(e / 3, e % 3);
+        before[e * stride + k] = previous(e / 3, e % 3);
+      }
     }
-  }
-  fit_rotations(count, stride, s.data(), r.data());
-  for (Index k = 0; k < count; ++k)
-  {
-    Eigen::Matrix3d matrix, single = Eigen::Matrix3d::Identity();
-    for (int e = 0; e < 9; ++e)
+    r = before;
+    fit_rotations(count, stride, s.data(), r.data());
+    for (Index k = 0; k < count; ++k)
     {
-      matrix(e / 3, e % 3) = s[e * stride + k];
+      Eigen::Matrix3d matrix, single;
+      for (int e = 0; e < 9; ++e)
+      {
+        matrix(e / 3, e % 3) = s[e * stride + k];
+        single(e / 3, e % 3) = before[e * stride + k];
+      }
+      fit_rotation(matrix, single);
+      for (int e = 0; e < 9; ++e)
+      {
+        EXPECT_EQ(single(e / 3, e % 3), r[e * stride + k]) << k << " of " << count;
+      }
     }
-    fit_rotation(matrix, single);
-    for (int e = 0; e < 9; ++e)
+    for (int e = 0; e < 9; ++e) // what lies between the planes is left alone
     {
-      EXPECT_EQ(single(e / 3, e % 3), r[e * stride + k]);
+      for (Index k = count; k < stride; ++k)
+      {
+        EXPECT_EQ(r[e * stride + k], 0.0);
+      }
     }
   }
 }

@@ -7,25 +7,26 @@
 namespace bindpose
 {
 
-/// 8 floats or 4 doubles for BINDPOSE_SIMD_CLONES: what a register of AVX2 holds. With 64 bytes
-/// AVX-512 would have one operation instead of two, but on AVX2 GCC keeps such packs in memory.
-template <typename Scalar>
+/// Numbers that one instruction takes. 32 bytes, 8 floats or 4 doubles, are a register of AVX2: for
+/// BINDPOSE_SIMD_CLONES. 64 bytes are one of AVX-512, and of no use on AVX2, where GCC keeps them
+/// in memory: for functions that are written for each width, see BINDPOSE_SIMD_WIDTHS.
+template <typename Scalar, int bytes = 32>
 struct PackOf
 {
-  static constexpr Index lanes = 32 / sizeof(Scalar);
-  typedef Scalar Pack __attribute__((vector_size(32), aligned(alignof(Scalar)), may_alias));
+  static constexpr Index lanes = bytes / sizeof(Scalar);
+  typedef Scalar Pack __attribute__((vector_size(bytes), aligned(alignof(Scalar)), may_alias));
 };
 
-template <typename Scalar>
+template <int bytes = 32, typename Scalar>
 BINDPOSE_ALWAYS_INLINE auto& pack_at(Scalar* from)
 {
-  return *reinterpret_cast<typename PackOf<Scalar>::Pack*>(from);
+  return *reinterpret_cast<typename PackOf<Scalar, bytes>::Pack*>(from);
 }
 
-template <typename Scalar>
+template <int bytes = 32, typename Scalar>
 BINDPOSE_ALWAYS_INLINE const auto& pack_at(const Scalar* from)
 {
-  return *reinterpret_cast<const typename PackOf<Scalar>::Pack*>(from);
+  return *reinterpret_cast<const typename PackOf<Scalar, bytes>::Pack*>(from);
 }
 
 BINDPOSE_ALWAYS_INLINE float sum_of(const PackOf<float>::Pack& p)
@@ -43,12 +44,12 @@ BINDPOSE_ALWAYS_INLINE double sum_of(const PackOf<double>::Pack& p)
 
 /// y_j += A x_j, j = 0, 1, 2, for `count` columns of A, in their order.
 /// @param x_stride from x_j to x_j+1; the y_j are #rows long.
-template <Index count, typename Scalar>
+template <Index count, int bytes = 32, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void add_columns(
   Index rows, const Scalar* a, const Scalar* x, Index x_stride, Scalar* y)
 {
-  constexpr Index lanes = PackOf<Scalar>::lanes;
-  using Pack = typename PackOf<Scalar>::Pack;
+  constexpr Index lanes = PackOf<Scalar, bytes>::lanes;
+  using Pack = typename PackOf<Scalar, bytes>::Pack;
   Scalar factors[count][3];
   for (Index c = 0; c < count; ++c)
   {
@@ -60,17 +61,18 @@ BINDPOSE_ALWAYS_INLINE void add_columns(
   const Index whole = rows / lanes * lanes;
   for (Index r = 0; r < whole; r += lanes)
   {
-    Pack y0 = pack_at(y + r), y1 = pack_at(y + rows + r), y2 = pack_at(y + 2 * rows + r);
+    Pack y0 = pack_at<bytes>(y + r), y1 = pack_at<bytes>(y + rows + r),
+         y2 = pack_at<bytes>(y + 2 * rows + r);
     for (Index c = 0; c < count; ++c)
     {
-      const Pack entry = pack_at(a + c * rows + r);
+      const Pack entry = pack_at<bytes>(a + c * rows + r);
       y0 += entry * factors[c][0];
       y1 += entry * factors[c][1];
       y2 += entry * factors[c][2];
     }
-    pack_at(y + r) = y0;
-    pack_at(y + rows + r) = y1;
-    pack_at(y + 2 * rows + r) = y2;
+    pack_at<bytes>(y + r) = y0;
+    pack_at<bytes>(y + rows + r) = y1;
+    pack_at<bytes>(y + 2 * rows + r) = y2;
   }
   for (Index r = whole; r < rows; ++r)
   {

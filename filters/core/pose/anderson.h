@@ -39,6 +39,8 @@ public:
   /// @param size of x; @param carried how many numbers follow it.
   Anderson(Index window, Index size, Index carried, Dot dot);
 
+  Index window() const { return this->window_; }
+
   /// The next iterate has no past.
   void forget() { this->count_ = 0; }
 

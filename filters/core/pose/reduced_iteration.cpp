@@ -30,88 +30,88 @@ constexpr double farthest_reach = sizeof(Scalar) == 4 ? 3.0 : 1e4;
 
 constexpr Index columns_at_once = 4;
 
-/// y_j = A^T q_j for two columns of A and j = 0, 1, 2.
+/// Rows are padded to whole tiles, a pack of AVX-512 or two of AVX2.
 template <typename Scalar>
-BINDPOSE_ALWAYS_INLINE void multiply_two(
+constexpr Index tile_rows = 64 / sizeof(Scalar);
+
+/// y_j = A^T q_j for a few columns of A and j = 0, 1, 2.
+template <Index count, int bytes, typename Scalar>
+BINDPOSE_ALWAYS_INLINE void dot_columns(
   Index rows, const Scalar* a, const Scalar* q, Scalar* y, Index length)
 {
-  constexpr Index lanes = PackOf<Scalar>::lanes;
-  using Pack = typename PackOf<Scalar>::Pack;
-  Pack sums[2][3][2] = {};
-  for (Index r = 0; r < rows; r += 2 * lanes)
+  constexpr Index lanes = PackOf<Scalar, bytes>::lanes, packs = tile_rows<Scalar> / lanes;
+  using Pack = typename PackOf<Scalar, bytes>::Pack;
+  Pack sums[count][3][packs] = {};
+  for (Index r = 0; r < rows; r += tile_rows<Scalar>)
   {
-    for (Index half = 0; half < 2; ++half)
+    for (Index p = 0; p < packs; ++p)
     {
-      const Scalar* const from = q + r + half * lanes;
-      const Pack q0 = pack_at(from), q1 = pack_at(from + rows), q2 = pack_at(from + 2 * rows);
-      for (Index c = 0; c < 2; ++c)
+      const Scalar* const from = q + r + p * lanes;
+      const Pack q0 = pack_at<bytes>(from), q1 = pack_at<bytes>(from + rows),
+                 q2 = pack_at<bytes>(from + 2 * rows);
+      for (Index c = 0; c < count; ++c)
       {
-        const Pack entry = pack_at(a + c * rows + r + half * lanes);
-        sums[c][0][half] += entry * q0;
-        sums[c][1][half] += entry * q1;
-        sums[c][2][half] += entry * q2;
+        const Pack entry = pack_at<bytes>(a + c * rows + r + p * lanes);
+        sums[c][0][p] += entry * q0;
+        sums[c][1][p] += entry * q1;
+        sums[c][2][p] += entry * q2;
       }
     }
   }
-  for (Index c = 0; c < 2; ++c)
+  for (Index c = 0; c < count; ++c)
   {
     for (Index j = 0; j < 3; ++j)
     {
-      y[j * length + c] = sum_of(sums[c][j][0] + sums[c][j][1]);
+      const Scalar* const sum = reinterpret_cast<const Scalar*>(sums[c][j]);
+      y[j * length + c] = sum_of(pack_at(sum) + pack_at(sum + tile_rows<Scalar> / 2));
     }
   }
 }
 
 /// Y = C^T Q and S = S* + C Y.
-template <typename Scalar>
+template <int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void multiply_both(Index rows, Index columns, const Scalar* covariance,
   const Scalar* q, const Scalar* star, Scalar* y, Index length, Scalar* s)
 {
+  constexpr Index count = bytes == 64 ? columns_at_once : columns_at_once / 2; // of registers
   std::copy_n(star, 3 * rows, s);
   for (Index c = 0; c < columns; c += columns_at_once)
   {
     const Scalar* const a = covariance + c * rows;
-    multiply_two(rows, a, q, y + c, length);
-    multiply_two(rows, a + 2 * rows, q, y + c + 2, length);
-    add_columns<columns_at_once>(rows, a, y + c, length, s);
+    for (Index i = 0; i < columns_at_once; i += count)
+    {
+      dot_columns<count, bytes>(rows, a + i * rows, q, y + c + i, length);
+    }
+    add_columns<columns_at_once, bytes>(rows, a, y + c, length, s);
   }
 }
 
-BINDPOSE_SIMD_CLONES void products(Index rows, Index columns, const float* covariance,
-  const float* q, const float* star, float* y, Index length, float* s)
-{
-  multiply_both(rows, columns, covariance, q, star, y, length, s);
-}
-
-BINDPOSE_SIMD_CLONES void products(Index rows, Index columns, const double* covariance,
-  const double* q, const double* star, double* y, Index length, double* s)
-{
-  multiply_both(rows, columns, covariance, q, star, y, length, s);
-}
-
 /// S = S* + C Y.
-template <typename Scalar>
+template <int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void multiply_once(Index rows, Index columns, const Scalar* covariance,
   const Scalar* star, const Scalar* y, Index length, Scalar* s)
 {
   std::copy_n(star, 3 * rows, s);
   for (Index c = 0; c < columns; c += columns_at_once)
   {
-    add_columns<columns_at_once>(rows, covariance + c * rows, y + c, length, s);
+    add_columns<columns_at_once, bytes>(rows, covariance + c * rows, y + c, length, s);
   }
 }
 
-BINDPOSE_SIMD_CLONES void product(Index rows, Index columns, const float* covariance,
-  const float* star, const float* y, Index length, float* s)
-{
-  multiply_once(rows, columns, covariance, star, y, length, s);
-}
-
-BINDPOSE_SIMD_CLONES void product(Index rows, Index columns, const double* covariance,
-  const double* star, const double* y, Index length, double* s)
-{
-  multiply_once(rows, columns, covariance, star, y, length, s);
-}
+#define BINDPOSE_PRODUCTS(version, bytes, Scalar)                                               \
+  version void products(Index rows, Index columns, const Scalar* covariance, const Scalar* q,   \
+    const Scalar* star, Scalar* y, Index length, Scalar* s)                                     \
+  {                                                                                             \
+    multiply_both<bytes>(rows, columns, covariance, q, star, y, length, s);                     \
+  }                                                                                             \
+  version void product(Index rows, Index columns, const Scalar* covariance, const Scalar* star, \
+    const Scalar* y, Index length, Scalar* s)                                                   \
+  {                                                                                             \
+    multiply_once<bytes>(rows, columns, covariance, star, y, length, s);                        \
+  }
+BINDPOSE_SIMD_WIDTHS(BINDPOSE_PRODUCTS, float)
+BINDPOSE_SIMD_WIDTHS(BINDPOSE_PRODUCTS, double)
+#undef BINDPOSE_PRODUCTS
 
 Index padded(Index count, Index to)
 {
@@ -122,10 +122,11 @@ Index padded(Index count, Index to)
 template <typename Scalar>
 void ReducedIteration<Scalar>::set_size(Index clusters, Index columns)
 {
-  constexpr Index tile = 2 * PackOf<Scalar>::lanes;
+  constexpr Index tile = tile_rows<Scalar>;
   this->clusters_ = clusters;
   this->columns_ = columns;
   this->rows_ = padded(3 * clusters, tile);
+  this->anderson_.reset();
   this->length_ = padded(columns, tile);
   // Not zeroed as a whole: of a change of modes that would be a large part.
   this->covariance_.resize(
@@ -258,10 +259,20 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
   {
     energies.push_back(star_energy + unit * this->global_step(this->plain_));
   }
-  this->tried_ = this->plain_;
-  Anderson<Scalar> anderson(window, 3 * this->length_, 3 * this->rows_,
-    [this](const Scalar* a, const Scalar* b) { return packed_dot(3 * this->length_, a, b); });
-  bool accelerated = false, can_see = true;
+  // A single iteration, the usual one in double precision, has nothing to extrapolate to.
+  const bool accelerates = window > 0 && limits.iterations > 1;
+  if (accelerates && (!this->anderson_ || this->anderson_->window() != window))
+  {
+    this->anderson_.emplace(window, 3 * this->length_, 3 * this->rows_,
+      [size = 3 * this->length_](const Scalar* a, const Scalar* b)
+      { return packed_dot(size, a, b); });
+  }
+  if (accelerates)
+  {
+    this->anderson_->forget();
+    this->tried_ = this->plain_;
+  }
+  bool can_see = true;
   Index iterations = 0;
   progress.converged = false;
   while (iterations < limits.iterations && !progress.converged && progress.in_time && can_see)
@@ -271,18 +282,25 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
       progress.cancelled = true;
       break;
     }
+    bool accelerated = accelerates && iterations > 0 &&
+      this->anderson_->next(this->plain_.data(), this->tried_.data());
+    if (accelerated && this->anderson_->reach() > farthest_reach<Scalar>)
+    {
+      product(this->rows_, this->columns_, this->covariance_.data(), this->star_.data(),
+        this->tried_.data(), this->length_, this->tried_.data() + 3 * this->length_);
+    }
     const double energy_before = energies.back();
     const double noise = energy_noise<Scalar> * unit * this->magnitude_;
     double energy =
       star_energy + unit * this->local_step(accelerated ? this->tried_ : this->plain_);
     if (accelerated && !(energy <= energy_before + limits.same_energy))
     {
-      anderson.forget();
+      this->anderson_->forget();
       energy = star_energy + unit * this->local_step(this->plain_);
       accelerated = false;
     }
     energies.push_back(energy);
-    if (!accelerated && window > 0)
+    if (!accelerated && accelerates)
     {
       this->tried_ = this->plain_;
     }
@@ -302,13 +320,9 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
       progress.converged = limits.tolerance > 0.0 && can_see &&
         progress.change <= limits.tolerance * std::max(energy, limits.least_energy);
     }
-    progress.in_time = std::chrono::steady_clock::now() < limits.deadline;
-    accelerated = anderson.next(this->plain_.data(), this->tried_.data());
-    if (accelerated && anderson.reach() > farthest_reach<Scalar>)
-    {
-      product(this->rows_, this->columns_, this->covariance_.data(), this->star_.data(),
-        this->tried_.data(), this->length_, this->tried_.data() + 3 * this->length_);
-    }
+    // A look at the clock costs as much as a fit of some rotations.
+    progress.in_time = limits.deadline == limits.deadline.max() ||
+      std::chrono::steady_clock::now() < limits.deadline;
   }
   progress.iterations += iterations;
   return true;

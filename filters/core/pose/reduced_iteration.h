@@ -7,6 +7,7 @@
 #include "pose/anderson.h"
 
 #include <chrono>
+#include <optional>
 #include <vector>
 
 namespace bindpose
@@ -91,6 +92,7 @@ private:
   AlignedVector<Scalar> star_; ///< S*
   AlignedVector<Scalar> turns_; ///< Q
   AlignedVector<Scalar> plain_, tried_; ///< iterates: three columns of Y, then S
+  std::optional<Anderson<Scalar>> anderson_; ///< kept for its memory
   bool has_iterate_ = false; ///< else rotations to begin with
   double magnitude_ = 0.0; ///< of what an energy is the difference
 };

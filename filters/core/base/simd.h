@@ -15,12 +15,12 @@
 #define BINDPOSE_SIMD_CLONES \
   __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #define BINDPOSE_SIMD_WIDTHS(define, Scalar)                      \
-  define(__attribute__((target("default"))), 32, Scalar)          \
+  define(__attribute__((target("default"))), 16, Scalar)          \
     define(__attribute__((target("arch=x86-64-v3"))), 32, Scalar) \
       define(__attribute__((target("arch=x86-64-v4"))), 64, Scalar)
 #else
 #define BINDPOSE_SIMD_CLONES
-#define BINDPOSE_SIMD_WIDTHS(define, Scalar) define(, 32, Scalar)
+#define BINDPOSE_SIMD_WIDTHS(define, Scalar) define(, 16, Scalar)
 #endif
 
 #if defined(__GNUC__)

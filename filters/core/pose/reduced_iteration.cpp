@@ -30,7 +30,7 @@ constexpr double farthest_reach = sizeof(Scalar) == 4 ? 3.0 : 1e4;
 
 constexpr Index columns_at_once = 4;
 
-/// Rows are padded to whole tiles, a pack of AVX-512 or two of AVX2.
+/// Rows are padded to whole tiles, a pack of AVX-512, two of AVX2 or four of SSE.
 template <typename Scalar>
 constexpr Index tile_rows = 64 / sizeof(Scalar);
 
@@ -73,7 +73,7 @@ template <int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void multiply_both(Index rows, Index columns, const Scalar* covariance,
   const Scalar* q, const Scalar* star, Scalar* y, Index length, Scalar* s)
 {
-  constexpr Index count = bytes == 64 ? columns_at_once : columns_at_once / 2; // of registers
+  constexpr Index count = bytes / 16; // twelve registers of sums
   std::copy_n(star, 3 * rows, s);
   for (Index c = 0; c < columns; c += columns_at_once)
   {

@@ -1,8 +1,9 @@
-// Loops over tiles, a vertex a lane. Each is compiled for several instruction sets and twice, for
-// floats and for doubles; no operation mixes lanes, so all of them agree to the bit.
+// Loops over tiles, a vertex a lane. Each is written for packs of a register's size, a tile in one
+// part or in several, and compiled for several instruction sets, for floats and for doubles; no
+// operation mixes lanes, so that all with fused operations agree to the bit.
 #include "pose/weight_tiles.h"
 
-#include "base/simd.h"
+#include "base/packs.h"
 
 #include <cmath>
 
@@ -11,50 +12,77 @@ namespace bindpose
 
 namespace
 {
-typedef float FloatPack __attribute__((vector_size(64), aligned(4), may_alias));
-typedef double DoublePack __attribute__((vector_size(64), aligned(8), may_alias));
-typedef std::int32_t FloatBits __attribute__((vector_size(64), may_alias));
-typedef std::int64_t DoubleBits __attribute__((vector_size(64), may_alias));
-template <typename Scalar>
-struct PackOf;
+typedef std::int32_t FloatBits16 __attribute__((vector_size(16), may_alias));
+typedef std::int32_t FloatBits32 __attribute__((vector_size(32), may_alias));
+typedef std::int32_t FloatBits64 __attribute__((vector_size(64), may_alias));
+typedef std::int64_t DoubleBits16 __attribute__((vector_size(16), may_alias));
+typedef std::int64_t DoubleBits32 __attribute__((vector_size(32), may_alias));
+typedef std::int64_t DoubleBits64 __attribute__((vector_size(64), may_alias));
+template <typename Scalar, int bytes>
+struct BitsOf;
 template <>
-struct PackOf<float>
+struct BitsOf<float, 16>
 {
-  using type = FloatPack;
-  using Bits = FloatBits;
+  using type = FloatBits16;
 };
 template <>
-struct PackOf<double>
+struct BitsOf<float, 32>
 {
-  using type = DoublePack;
-  using Bits = DoubleBits;
+  using type = FloatBits32;
 };
-template <typename Scalar>
-using Pack = typename PackOf<Scalar>::type;
+template <>
+struct BitsOf<float, 64>
+{
+  using type = FloatBits64;
+};
+template <>
+struct BitsOf<double, 16>
+{
+  using type = DoubleBits16;
+};
+template <>
+struct BitsOf<double, 32>
+{
+  using type = DoubleBits32;
+};
+template <>
+struct BitsOf<double, 64>
+{
+  using type = DoubleBits64;
+};
+template <typename Scalar, int bytes>
+using Pack = typename PackOf<Scalar, bytes>::Pack;
+template <typename Scalar, int bytes>
+using Bits = typename BitsOf<Scalar, bytes>::type;
 template <typename Scalar>
 using Bit = typename BlendValues<Scalar, 8>::Bits;
 
-/// The references of a tile, each once, and which lanes have it.
 template <typename Scalar>
-struct TileReferences
+constexpr Index tile_lanes = WeightTiles<Scalar>::lanes;
+/// Lanes of a part of a tile.
+template <typename Scalar, int bytes>
+constexpr int part_lanes = PackOf<Scalar, bytes>::lanes;
+
+/// The references of a part of a tile, each once, and which lanes have it.
+template <typename Scalar, int bytes>
+struct PartReferences
 {
-  using Lanes = typename PackOf<Scalar>::Bits;
-  static constexpr Index lanes = WeightTiles<Scalar>::lanes;
-  Lanes where[lanes]; // all bits where a lane has the reference
+  static constexpr int lanes = part_lanes<Scalar, bytes>;
+  Bits<Scalar, bytes> where[lanes]; // all bits where a lane has the reference
   std::int32_t handles[lanes];
   int count = 0;
 
-  BINDPOSE_ALWAYS_INLINE explicit TileReferences(const std::int32_t* references)
+  BINDPOSE_ALWAYS_INLINE explicit PartReferences(const std::int32_t* references)
   {
     bool done[lanes] = {};
-    for (Index i = 0; i < lanes; ++i)
+    for (int i = 0; i < lanes; ++i)
     {
       if (done[i])
       {
         continue;
       }
-      Lanes same = {};
-      for (Index k = i; k < lanes; ++k)
+      Bits<Scalar, bytes> same = {};
+      for (int k = i; k < lanes; ++k)
       {
         const bool equal = references[k] == references[i];
         done[k] = done[k] || equal;
@@ -66,43 +94,31 @@ struct TileReferences
   }
 };
 
-template <typename Scalar>
-BINDPOSE_ALWAYS_INLINE const Pack<Scalar>& pack(const Scalar* at)
-{
-  return *reinterpret_cast<const Pack<Scalar>*>(at);
-}
-template <typename Scalar>
-BINDPOSE_ALWAYS_INLINE Pack<Scalar>& pack(Scalar* at)
-{
-  return *reinterpret_cast<Pack<Scalar>*>(at);
-}
-
-template <int entries, typename Scalar>
-BINDPOSE_ALWAYS_INLINE void blend_any(const std::int32_t* columns, const Scalar* weights,
+/// Sums of a part of a tile; its first weight, its first sum.
+template <int entries, int bytes, typename Scalar>
+BINDPOSE_ALWAYS_INLINE void blend_part(const std::int32_t* columns, const Scalar* weights,
   Index count, const Scalar* values, const Bit<Scalar>* signs, Index handles,
-  const TileReferences<Scalar>* references, Scalar* blended)
+  const PartReferences<Scalar, bytes>* references, Scalar* blended)
 {
-  constexpr Index lanes = WeightTiles<Scalar>::lanes;
-  using Bits = typename PackOf<Scalar>::Bits;
   // Unrolled, so that the sums stay in registers.
-  Pack<Scalar> sums[entries];
+  Pack<Scalar, bytes> sums[entries];
 #pragma GCC unroll 12
   for (int e = 0; e < entries; ++e)
   {
-    sums[e] = Pack<Scalar>{};
+    sums[e] = Pack<Scalar, bytes>{};
   }
   for (Index k = 0; k < count; ++k)
   {
-    Pack<Scalar> w = pack(weights + k * lanes);
+    Pack<Scalar, bytes> w = pack_at<bytes>(weights + k * tile_lanes<Scalar>);
     if (signs)
     {
       const Bit<Scalar>* of_column = signs + columns[k] * handles;
-      Bits flips = {};
+      Bits<Scalar, bytes> flips = {};
       for (int r = 0; r < references->count; ++r)
       {
         flips |= references->where[r] & of_column[references->handles[r]];
       }
-      w = reinterpret_cast<Pack<Scalar>>(reinterpret_cast<Bits>(w) ^ flips);
+      w = reinterpret_cast<Pack<Scalar, bytes>>(reinterpret_cast<Bits<Scalar, bytes>>(w) ^ flips);
     }
     const Scalar* v = values + static_cast<Index>(columns[k]) * entries;
 #pragma GCC unroll 12
@@ -114,96 +130,172 @@ BINDPOSE_ALWAYS_INLINE void blend_any(const std::int32_t* columns, const Scalar*
 #pragma GCC unroll 12
   for (int e = 0; e < entries; ++e)
   {
-    pack(blended + e * lanes) = sums[e];
+    pack_at<bytes>(blended + e * tile_lanes<Scalar>) = sums[e];
   }
 }
 
-template <typename Scalar>
-BINDPOSE_ALWAYS_INLINE void load_any(
+/// Lane i of `a` becomes lane mask[i] of `a` followed by `b`.
+template <typename Scalar, int bytes>
+BINDPOSE_ALWAYS_INLINE void shuffle(
+  Pack<Scalar, bytes>& a, const Pack<Scalar, bytes>& b, const Bits<Scalar, bytes>& mask)
+{
+#if defined(__clang__)
+  constexpr int lanes = part_lanes<Scalar, bytes>;
+  const Pack<Scalar, bytes> from = a;
+  for (int i = 0; i < lanes; ++i)
+  {
+    a[i] = mask[i] < lanes ? from[mask[i]] : b[mask[i] - lanes];
+  }
+#else
+  a = __builtin_shuffle(a, b, mask);
+#endif
+}
+
+/// From a part's points, in the order of memory, their coordinates side by side.
+template <int bytes, typename Scalar>
+BINDPOSE_ALWAYS_INLINE void take_apart(const Scalar* line, Scalar* points)
+{
+  constexpr int lanes = part_lanes<Scalar, bytes>;
+  const Pack<Scalar, bytes> thirds[3] = { pack_at<bytes>(line), pack_at<bytes>(line + lanes),
+    pack_at<bytes>(line + 2 * lanes) };
+#pragma GCC unroll 3
+  for (int c = 0; c < 3; ++c)
+  {
+    Bits<Scalar, bytes> first = {}, last = {};
+#pragma GCC unroll 16
+    for (int i = 0; i < lanes; ++i)
+    {
+      const int from = 3 * i + c;
+      first[i] = from < 2 * lanes ? from : 0;
+      last[i] = from < 2 * lanes ? i : from - lanes;
+    }
+    Pack<Scalar, bytes> coordinate = thirds[0];
+    shuffle<Scalar, bytes>(coordinate, thirds[1], first);
+    shuffle<Scalar, bytes>(coordinate, thirds[2], last);
+    pack_at<bytes>(points + c * tile_lanes<Scalar>) = coordinate;
+  }
+}
+
+/// The other way round.
+template <int bytes, typename Scalar>
+BINDPOSE_ALWAYS_INLINE void put_together(const Scalar* points, Scalar* line)
+{
+  constexpr int lanes = part_lanes<Scalar, bytes>;
+  const Pack<Scalar, bytes> x = pack_at<bytes>(points),
+                            y = pack_at<bytes>(points + tile_lanes<Scalar>),
+                            z = pack_at<bytes>(points + 2 * tile_lanes<Scalar>);
+#pragma GCC unroll 3
+  for (int third = 0; third < 3; ++third)
+  {
+    Bits<Scalar, bytes> first = {}, last = {};
+#pragma GCC unroll 16
+    for (int i = 0; i < lanes; ++i)
+    {
+      const int point = (third * lanes + i) / 3, c = (third * lanes + i) % 3;
+      first[i] = c == 1 ? lanes + point : point;
+      last[i] = c == 2 ? lanes + point : i;
+    }
+    Pack<Scalar, bytes> part = x;
+    shuffle<Scalar, bytes>(part, y, first);
+    shuffle<Scalar, bytes>(part, z, last);
+    pack_at<bytes>(line + third * lanes) = part;
+  }
+}
+
+template <int bytes, typename Scalar>
+BINDPOSE_ALWAYS_INLINE void load_tile(
   const double* rest, Index count, const double* centre, Scalar* points)
 {
-  constexpr Index lanes = WeightTiles<Scalar>::lanes;
+  constexpr Index lanes = tile_lanes<Scalar>, part = part_lanes<Scalar, bytes>;
   if (count == lanes)
   {
+    alignas(64) Scalar line[3 * lanes];
     for (Index i = 0; i < lanes; ++i)
     {
-      points[i] = static_cast<Scalar>(rest[3 * i] - centre[0]);
-      points[lanes + i] = static_cast<Scalar>(rest[3 * i + 1] - centre[1]);
-      points[2 * lanes + i] = static_cast<Scalar>(rest[3 * i + 2] - centre[2]);
+      for (int c = 0; c < 3; ++c)
+      {
+        line[3 * i + c] = static_cast<Scalar>(rest[3 * i + c] - centre[c]);
+      }
+    }
+    for (Index p = 0; p < lanes; p += part)
+    {
+      take_apart<bytes>(line + 3 * p, points + p);
     }
     return;
   }
   for (Index i = 0; i < lanes; ++i)
   {
-    const double* p = rest + 3 * (i < count ? i : 0);
+    const double* from = rest + 3 * (i < count ? i : 0);
     for (int c = 0; c < 3; ++c)
     {
-      points[c * lanes + i] = static_cast<Scalar>(p[c] - centre[c]);
+      points[c * lanes + i] = static_cast<Scalar>(from[c] - centre[c]);
     }
   }
 }
 
-template <typename Scalar>
-BINDPOSE_ALWAYS_INLINE void affine_any(const Scalar* blended, const Scalar* points, Scalar* moves)
+template <int bytes, typename Scalar>
+BINDPOSE_ALWAYS_INLINE void affine_part(const Scalar* blended, const Scalar* points, Scalar* moves)
 {
-  constexpr Index lanes = WeightTiles<Scalar>::lanes;
-  const Pack<Scalar> x = pack(points), y = pack(points + lanes), z = pack(points + 2 * lanes);
+  constexpr Index lanes = tile_lanes<Scalar>;
+  const Pack<Scalar, bytes> x = pack_at<bytes>(points), y = pack_at<bytes>(points + lanes),
+                            z = pack_at<bytes>(points + 2 * lanes);
   for (int r = 0; r < 3; ++r)
   {
     const Scalar* a = blended + 4 * r * lanes;
-    pack(moves + r * lanes) =
-      pack(a) * x + pack(a + lanes) * y + pack(a + 2 * lanes) * z + pack(a + 3 * lanes);
+    pack_at<bytes>(moves + r * lanes) = pack_at<bytes>(a) * x + pack_at<bytes>(a + lanes) * y +
+      pack_at<bytes>(a + 2 * lanes) * z + pack_at<bytes>(a + 3 * lanes);
   }
 }
 
-template <typename Scalar>
-BINDPOSE_ALWAYS_INLINE void dual_any(
+template <int bytes, typename Scalar>
+BINDPOSE_ALWAYS_INLINE void dual_part(
   const Scalar* blended, const Scalar* points, Scalar smallest, Scalar* moves)
 {
-  constexpr Index lanes = WeightTiles<Scalar>::lanes;
-  using Lanes = Pack<Scalar>;
+  constexpr Index lanes = tile_lanes<Scalar>;
+  using Lanes = Pack<Scalar, bytes>;
   Lanes q[8];
   for (int e = 0; e < 8; ++e)
   {
-    q[e] = pack(blended + e * lanes);
+    q[e] = pack_at<bytes>(blended + e * lanes);
   }
   const Lanes square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
-  Lanes inverse;
-  for (Index i = 0; i < lanes; ++i)
+  alignas(64) Scalar inverses[part_lanes<Scalar, bytes>];
+  pack_at<bytes>(inverses) = square;
+#pragma GCC unroll 1 // as a loop it is vectorised
+  for (int i = 0; i < part_lanes<Scalar, bytes>; ++i)
   {
-    const Scalar length = std::sqrt(square[i]);
-    inverse[i] = length > smallest ? Scalar(1) / length : Scalar(0);
+    const Scalar length = std::sqrt(inverses[i]);
+    inverses[i] = length > smallest ? Scalar(1) / length : Scalar(0);
   }
+  const Lanes inverse = pack_at<bytes>(inverses);
   for (int e = 0; e < 8; ++e)
   {
     q[e] *= inverse;
   }
   // With d the real and e the dual part: 2 d x (d x p + w p) + 2 (w e - e_w d + d x e).
-  const Lanes x = pack(points), y = pack(points + lanes), z = pack(points + 2 * lanes);
+  const Lanes x = pack_at<bytes>(points), y = pack_at<bytes>(points + lanes),
+              z = pack_at<bytes>(points + 2 * lanes);
   const Lanes u = q[1] * z - q[2] * y + q[3] * x + q[4];
   const Lanes v = q[2] * x - q[0] * z + q[3] * y + q[5];
   const Lanes t = q[0] * y - q[1] * x + q[3] * z + q[6];
   const Scalar two = 2;
-  pack(moves) = two * (q[1] * t - q[2] * v + q[3] * q[4] - q[7] * q[0]);
-  pack(moves + lanes) = two * (q[2] * u - q[0] * t + q[3] * q[5] - q[7] * q[1]);
-  pack(moves + 2 * lanes) = two * (q[0] * v - q[1] * u + q[3] * q[6] - q[7] * q[2]);
+  pack_at<bytes>(moves) = two * (q[1] * t - q[2] * v + q[3] * q[4] - q[7] * q[0]);
+  pack_at<bytes>(moves + lanes) = two * (q[2] * u - q[0] * t + q[3] * q[5] - q[7] * q[1]);
+  pack_at<bytes>(moves + 2 * lanes) = two * (q[0] * v - q[1] * u + q[3] * q[6] - q[7] * q[2]);
 }
 
-template <typename Scalar>
-BINDPOSE_ALWAYS_INLINE void store_any(
+template <int bytes, typename Scalar>
+BINDPOSE_ALWAYS_INLINE void store_tile(
   const double* rest, Index count, const Scalar* moves, double* posed)
 {
-  constexpr Index lanes = WeightTiles<Scalar>::lanes;
+  constexpr Index lanes = tile_lanes<Scalar>, part = part_lanes<Scalar, bytes>;
   if (count == lanes)
   {
     // First into the order of memory, then all numbers alike.
     alignas(64) Scalar line[3 * lanes];
-#pragma GCC unroll 16
-    for (Index i = 0; i < lanes; ++i)
+    for (Index p = 0; p < lanes; p += part)
     {
-      line[3 * i] = moves[i];
-      line[3 * i + 1] = moves[lanes + i];
-      line[3 * i + 2] = moves[2 * lanes + i];
+      put_together<bytes>(moves + p, line + 3 * p);
     }
     for (Index i = 0; i < 3 * lanes; ++i)
     {
@@ -220,80 +312,101 @@ BINDPOSE_ALWAYS_INLINE void store_any(
   }
 }
 
-// What follows is what is compiled for several instruction sets: templates cannot be.
-#define BINDPOSE_OF_SCALAR(Scalar)                                                               \
-  BINDPOSE_SIMD_CLONES void blend_12(const std::int32_t* columns, const Scalar* weights,         \
-    Index count, const Scalar* values, Scalar* blended)                                          \
-  {                                                                                              \
-    blend_any<12, Scalar>(columns, weights, count, values, nullptr, 0, nullptr, blended);        \
-  }                                                                                              \
-  BINDPOSE_SIMD_CLONES void blend_8(const std::int32_t* columns, const Scalar* weights,          \
-    Index count, const Scalar* values, Scalar* blended)                                          \
-  {                                                                                              \
-    blend_any<8, Scalar>(columns, weights, count, values, nullptr, 0, nullptr, blended);         \
-  }                                                                                              \
-  BINDPOSE_SIMD_CLONES void blend_signed_8(const std::int32_t* columns, const Scalar* weights,   \
-    Index count, const Scalar* values, const Bit<Scalar>* signs, Index handles,                  \
-    const std::int32_t* references, Scalar* blended)                                             \
-  {                                                                                              \
-    const TileReferences<Scalar> of_tile(references);                                            \
-    blend_any<8, Scalar>(columns, weights, count, values, signs, handles, &of_tile, blended);    \
-  }                                                                                              \
-  BINDPOSE_SIMD_CLONES void load(                                                                \
-    const double* rest, Index count, const double* centre, Scalar* points)                       \
-  {                                                                                              \
-    load_any(rest, count, centre, points);                                                       \
-  }                                                                                              \
-  BINDPOSE_SIMD_CLONES void affine(const Scalar* blended, const Scalar* points, Scalar* moves)   \
-  {                                                                                              \
-    affine_any(blended, points, moves);                                                          \
-  }                                                                                              \
-  BINDPOSE_SIMD_CLONES void dual(                                                                \
-    const Scalar* blended, const Scalar* points, Scalar smallest, Scalar* moves)                 \
-  {                                                                                              \
-    dual_any(blended, points, smallest, moves);                                                  \
-  }                                                                                              \
-  BINDPOSE_SIMD_CLONES void store(                                                               \
-    const double* rest, Index count, const Scalar* moves, double* posed)                         \
-  {                                                                                              \
-    store_any(rest, count, moves, posed);                                                        \
-  }                                                                                              \
-  BINDPOSE_SIMD_CLONES void blend_points(const std::int32_t* columns, const Scalar* weights,     \
-    Index count, const Scalar* values, const double* centre, const double* rest, Index vertices, \
-    double* posed)                                                                               \
-  {                                                                                              \
-    constexpr Index lanes = WeightTiles<Scalar>::lanes;                                          \
-    alignas(64) Scalar blended[12 * lanes], points[3 * lanes], moves[3 * lanes];                 \
-    blend_any<12, Scalar>(columns, weights, count, values, nullptr, 0, nullptr, blended);        \
-    load_any(rest, vertices, centre, points);                                                    \
-    affine_any<Scalar>(blended, points, moves);                                                  \
-    store_any(rest, vertices, moves, posed);                                                     \
+/// Sums of a tile without signs.
+template <int entries, int bytes, typename Scalar>
+BINDPOSE_ALWAYS_INLINE void blend_parts(const std::int32_t* columns, const Scalar* weights,
+  Index count, const Scalar* values, Scalar* blended)
+{
+  for (Index p = 0; p < tile_lanes<Scalar>; p += part_lanes<Scalar, bytes>)
+  {
+    blend_part<entries, bytes, Scalar>(
+      columns, weights + p, count, values, nullptr, 0, nullptr, blended + p);
   }
+}
 
-BINDPOSE_OF_SCALAR(float)
-BINDPOSE_OF_SCALAR(double)
+template <int bytes, typename Scalar>
+BINDPOSE_ALWAYS_INLINE void affine_parts(const Scalar* blended, const Scalar* points, Scalar* moves)
+{
+  for (Index p = 0; p < tile_lanes<Scalar>; p += part_lanes<Scalar, bytes>)
+  {
+    affine_part<bytes>(blended + p, points + p, moves + p);
+  }
+}
+
+// What follows is what is compiled for several instruction sets: templates cannot be.
+#define BINDPOSE_OF_SCALAR(version, bytes, Scalar)                                                 \
+  version void blend_12(const std::int32_t* columns, const Scalar* weights, Index count,           \
+    const Scalar* values, Scalar* blended)                                                         \
+  {                                                                                                \
+    blend_parts<12, bytes>(columns, weights, count, values, blended);                              \
+  }                                                                                                \
+  version void blend_8(const std::int32_t* columns, const Scalar* weights, Index count,            \
+    const Scalar* values, Scalar* blended)                                                         \
+  {                                                                                                \
+    blend_parts<8, bytes>(columns, weights, count, values, blended);                               \
+  }                                                                                                \
+  version void blend_signed_8(const std::int32_t* columns, const Scalar* weights, Index count,     \
+    const Scalar* values, const Bit<Scalar>* signs, Index handles, const std::int32_t* references, \
+    Scalar* blended)                                                                               \
+  {                                                                                                \
+    for (Index p = 0; p < tile_lanes<Scalar>; p += part_lanes<Scalar, bytes>)                      \
+    {                                                                                              \
+      const PartReferences<Scalar, bytes> of_part(references + p);                                 \
+      blend_part<8, bytes, Scalar>(                                                                \
+        columns, weights + p, count, values, signs, handles, &of_part, blended + p);               \
+    }                                                                                              \
+  }                                                                                                \
+  version void load(const double* rest, Index count, const double* centre, Scalar* points)         \
+  {                                                                                                \
+    load_tile<bytes>(rest, count, centre, points);                                                 \
+  }                                                                                                \
+  version void affine(const Scalar* blended, const Scalar* points, Scalar* moves)                  \
+  {                                                                                                \
+    affine_parts<bytes>(blended, points, moves);                                                   \
+  }                                                                                                \
+  version void dual(const Scalar* blended, const Scalar* points, Scalar smallest, Scalar* moves)   \
+  {                                                                                                \
+    for (Index p = 0; p < tile_lanes<Scalar>; p += part_lanes<Scalar, bytes>)                      \
+    {                                                                                              \
+      dual_part<bytes>(blended + p, points + p, smallest, moves + p);                              \
+    }                                                                                              \
+  }                                                                                                \
+  version void store(const double* rest, Index count, const Scalar* moves, double* posed)          \
+  {                                                                                                \
+    store_tile<bytes>(rest, count, moves, posed);                                                  \
+  }                                                                                                \
+  version void blend_points(const std::int32_t* columns, const Scalar* weights, Index count,       \
+    const Scalar* values, const double* centre, const double* rest, Index vertices, double* posed) \
+  {                                                                                                \
+    constexpr Index lanes = tile_lanes<Scalar>;                                                    \
+    alignas(64) Scalar blended[12 * lanes], points[3 * lanes], moves[3 * lanes];                   \
+    blend_parts<12, bytes>(columns, weights, count, values, blended);                              \
+    load_tile<bytes>(rest, vertices, centre, points);                                              \
+    affine_parts<bytes>(blended, points, moves);                                                   \
+    store_tile<bytes>(rest, vertices, moves, posed);                                               \
+  }
+BINDPOSE_SIMD_WIDTHS(BINDPOSE_OF_SCALAR, float)
+BINDPOSE_SIMD_WIDTHS(BINDPOSE_OF_SCALAR, double)
 #undef BINDPOSE_OF_SCALAR
 
-BINDPOSE_SIMD_CLONES void pose_floats(const std::int32_t* columns, const float* weights,
+template <int bytes>
+BINDPOSE_ALWAYS_INLINE void pose_parts(const std::int32_t* columns, const float* weights,
   Index count, const float* values, const float* points, const float* rest, Index vertices,
   float* posed)
 {
-  constexpr Index lanes = WeightTiles<float>::lanes;
+  constexpr Index lanes = tile_lanes<float>, part = part_lanes<float, bytes>;
   alignas(64) float blended[12 * lanes], moves[3 * lanes];
-  blend_any<12, float>(columns, weights, count, values, nullptr, 0, nullptr, blended);
-  affine_any<float>(blended, points, moves);
-  for (Index c = 0; c < 3; ++c)
+  blend_parts<12, bytes>(columns, weights, count, values, blended);
+  affine_parts<bytes>(blended, points, moves);
+  for (Index i = 0; i < 3 * lanes; i += part)
   {
-    pack(moves + c * lanes) += pack(rest + c * lanes);
+    pack_at<bytes>(moves + i) += pack_at<bytes>(rest + i);
   }
   if (vertices == lanes)
   {
-#pragma GCC unroll 16
-    for (Index i = 0; i < lanes; ++i)
+    for (Index p = 0; p < lanes; p += part)
     {
-      posed[3 * i] = moves[i];
-      posed[3 * i + 1] = moves[lanes + i];
-      posed[3 * i + 2] = moves[2 * lanes + i];
+      put_together<bytes>(moves + p, posed + 3 * p);
     }
     return;
   }
@@ -305,6 +418,15 @@ BINDPOSE_SIMD_CLONES void pose_floats(const std::int32_t* columns, const float* 
     }
   }
 }
+
+#define BINDPOSE_POSE_FLOATS(version, bytes, Scalar)                                               \
+  version void pose_floats(const std::int32_t* columns, const Scalar* weights, Index count,        \
+    const Scalar* values, const Scalar* points, const Scalar* rest, Index vertices, Scalar* posed) \
+  {                                                                                                \
+    pose_parts<bytes>(columns, weights, count, values, points, rest, vertices, posed);             \
+  }
+BINDPOSE_SIMD_WIDTHS(BINDPOSE_POSE_FLOATS, float)
+#undef BINDPOSE_POSE_FLOATS
 
 /// A sum of quaternions that is no longer than this has no direction.
 constexpr float no_length(float)

@@ -1,6 +1,6 @@
 // The usual blocked product: pieces of a and b are copied so that the innermost loop reads them
-// front to back, and its sums, six rows of eight columns, stay in registers. Every sum runs over
-// the inner index in order, in blocks of a fixed size, whatever the instruction set.
+// front to back, and its sums, a tile of c, stay in registers. Every sum runs over the inner index
+// in order, in blocks of a fixed size, whatever the size of a register and so of a tile.
 #include "base/dense_product.h"
 
 #include "base/packs.h"
@@ -13,32 +13,47 @@ namespace bindpose
 
 namespace
 {
-constexpr Index tile_rows = 6;
-constexpr Index tile_cols = 8;
-constexpr Index inner_block = 256; ///< with tile_cols: 16 KiB, the first cache
-constexpr Index row_block = 96; ///< times inner_block: 192 KiB, the second cache
+constexpr Index inner_block = 256; ///< with a tile's columns: 32 KiB at most, the first cache
+constexpr Index row_block = 192; ///< times inner_block: 384 KiB, the second cache
 
-/// Half a row of a tile: AVX2 has registers for twelve of them and what they are made from.
-using Pack = PackOf<double>::Pack;
-
-/// sums = a b for tile_rows x inner packed column by column and inner x tile_cols row by row.
-BINDPOSE_SIMD_CLONES void multiply_tile(const double* a, const double* b, Index inner, double* sums)
+/// Rows and columns of a tile: 24 registers of AVX-512, or 12 of 16.
+template <int bytes>
+struct Tile
 {
-  Pack packs[tile_rows][2] = {};
+  static constexpr Index lanes = PackOf<double, bytes>::lanes;
+  static constexpr Index rows = bytes == 64 ? 12 : bytes == 32 ? 6 : 3;
+  static constexpr Index packs = bytes == 16 ? 4 : 2; ///< a row
+  static constexpr Index cols = packs * lanes;
+};
+
+/// sums = a b for tile rows x inner packed column by column and inner x tile columns row by row.
+template <int bytes>
+BINDPOSE_ALWAYS_INLINE void multiply_tile(
+  const double* a, const double* b, Index inner, double* sums)
+{
+  using T = Tile<bytes>;
+  typename PackOf<double, bytes>::Pack packs[T::rows][T::packs] = {};
   for (Index k = 0; k < inner; ++k)
   {
-    const Pack left = pack_at(b + k * tile_cols);
-    const Pack right = pack_at(b + k * tile_cols + tile_cols / 2);
-    for (Index i = 0; i < tile_rows; ++i)
+    typename PackOf<double, bytes>::Pack row[T::packs];
+    for (Index p = 0; p < T::packs; ++p)
     {
-      packs[i][0] += a[k * tile_rows + i] * left;
-      packs[i][1] += a[k * tile_rows + i] * right;
+      row[p] = pack_at<bytes>(b + k * T::cols + p * T::lanes);
+    }
+    for (Index i = 0; i < T::rows; ++i)
+    {
+      for (Index p = 0; p < T::packs; ++p)
+      {
+        packs[i][p] += a[k * T::rows + i] * row[p];
+      }
     }
   }
-  for (Index i = 0; i < tile_rows; ++i)
+  for (Index i = 0; i < T::rows; ++i)
   {
-    pack_at(sums + i * tile_cols) = packs[i][0];
-    pack_at(sums + i * tile_cols + tile_cols / 2) = packs[i][1];
+    for (Index p = 0; p < T::packs; ++p)
+    {
+      pack_at<bytes>(sums + i * T::cols + p * T::lanes) = packs[i][p];
+    }
   }
 }
 
@@ -46,63 +61,88 @@ Index tiles_of(Index count, Index size)
 {
   return (count + size - 1) / size;
 }
-} // namespace
 
-void add_product(
+/// Rows begin to end of a, columns first to first + inner, in tiles; zeros fill the last one.
+template <int bytes>
+BINDPOSE_ALWAYS_INLINE void pack_rows(
+  const StridedMatrix& a, Index begin, Index end, Index first, Index inner, double* to)
+{
+  constexpr Index rows = Tile<bytes>::rows;
+  for (Index at = begin; at < end; at += rows)
+  {
+    const Index count = std::min(rows, end - at);
+    for (Index k = 0; k < inner; ++k, to += rows)
+    {
+      for (Index i = 0; i < rows; ++i)
+      {
+        to[i] = i < count ? a.data[(at + i) * a.row + (first + k) * a.column] : 0.0;
+      }
+    }
+  }
+}
+
+/// A tile's columns of b from `left` on; zeros beside the last ones.
+template <int bytes>
+BINDPOSE_ALWAYS_INLINE void pack_columns(
+  const StridedMatrix& b, Index left, Index first, Index inner, double* to)
+{
+  constexpr Index cols = Tile<bytes>::cols;
+  const Index count = std::min(cols, b.cols - left);
+  for (Index k = 0; k < inner; ++k, to += cols)
+  {
+    const double* const from = b.data + (first + k) * b.row + left;
+    if (count == cols)
+    {
+      for (Index p = 0; p < Tile<bytes>::packs; ++p)
+      {
+        const Index at = p * Tile<bytes>::lanes;
+        pack_at<bytes>(to + at) = pack_at<bytes>(from + at);
+      }
+      continue;
+    }
+    for (Index j = 0; j < cols; ++j)
+    {
+      to[j] = j < count ? from[j] : 0.0;
+    }
+  }
+}
+
+template <int bytes>
+BINDPOSE_ALWAYS_INLINE void add_product_of(
   const StridedMatrix& a, const StridedMatrix& b, double* c, Index c_stride, bool lower)
 {
-  const Index column_tiles = tiles_of(b.cols, tile_cols);
+  using T = Tile<bytes>;
   const Index deepest = std::min(inner_block, a.cols);
-  const Index row_tiles = tiles_of(std::min(row_block, a.rows), tile_rows);
-  std::vector<double> packed_b(static_cast<std::size_t>(column_tiles * tile_cols * deepest));
-  std::vector<double> packed_a(static_cast<std::size_t>(row_tiles * tile_rows * deepest));
-  alignas(64) double sums[tile_rows * tile_cols];
+  const Index row_tiles = tiles_of(std::min(row_block, a.rows), T::rows);
+  std::vector<double> packed_a(static_cast<std::size_t>(row_tiles * T::rows * deepest));
+  std::vector<double> packed_b(static_cast<std::size_t>(T::cols * deepest));
+  alignas(64) double sums[T::rows * T::cols];
   for (Index first = 0; first < a.cols; first += inner_block)
   {
     const Index inner = std::min(inner_block, a.cols - first);
-    for (Index tile = 0; tile < column_tiles; ++tile)
-    {
-      const Index at = tile * tile_cols, count = std::min(tile_cols, b.cols - at);
-      double* to = packed_b.data() + at * inner;
-      for (Index k = 0; k < inner; ++k, to += tile_cols)
-      {
-        std::copy_n(b.data + (first + k) * b.row + at, count, to);
-        std::fill(to + count, to + tile_cols, 0.0);
-      }
-    }
     for (Index begin = 0; begin < a.rows; begin += row_block)
     {
       const Index end = std::min(begin + row_block, a.rows);
-      for (Index at = begin; at < end; at += tile_rows)
+      pack_rows<bytes>(a, begin, end, first, inner, packed_a.data());
+      for (Index left = 0; left < b.cols && (!lower || left < end); left += T::cols)
       {
-        const Index count = std::min(tile_rows, end - at);
-        double* to = packed_a.data() + (at - begin) * inner;
-        for (Index k = 0; k < inner; ++k, to += tile_rows)
+        const Index columns = std::min(T::cols, b.cols - left);
+        pack_columns<bytes>(b, left, first, inner, packed_b.data());
+        for (Index at = begin; at < end; at += T::rows)
         {
-          for (Index i = 0; i < tile_rows; ++i)
-          {
-            to[i] = i < count ? a.data[(at + i) * a.row + (first + k) * a.column] : 0.0;
-          }
-        }
-      }
-      for (Index tile = 0; tile < column_tiles; ++tile)
-      {
-        const Index left = tile * tile_cols, columns = std::min(tile_cols, b.cols - left);
-        for (Index at = begin; at < end; at += tile_rows)
-        {
-          const Index rows = std::min(tile_rows, end - at);
+          const Index rows = std::min(T::rows, end - at);
           if (lower && left > at + rows - 1)
           {
             continue;
           }
-          multiply_tile(
-            packed_a.data() + (at - begin) * inner, packed_b.data() + left * inner, inner, sums);
+          multiply_tile<bytes>(
+            packed_a.data() + (at - begin) * inner, packed_b.data(), inner, sums);
           for (Index i = 0; i < rows; ++i)
           {
-            double* to = c + (at + i) * c_stride + left;
+            double* const to = c + (at + i) * c_stride + left;
             for (Index j = 0; j < columns; ++j)
             {
-              to[j] += sums[i * tile_cols + j];
+              to[j] += sums[i * T::cols + j];
             }
           }
         }
@@ -111,13 +151,35 @@ void add_product(
   }
 }
 
+#define BINDPOSE_PRODUCT(version, bytes, Scalar)                                           \
+  version void add_blocks(                                                                 \
+    const StridedMatrix& a, const StridedMatrix& b, Scalar* c, Index c_stride, bool lower) \
+  {                                                                                        \
+    add_product_of<bytes>(a, b, c, c_stride, lower);                                       \
+  }
+BINDPOSE_SIMD_WIDTHS(BINDPOSE_PRODUCT, double)
+#undef BINDPOSE_PRODUCT
+} // namespace
+
+void add_product(
+  const StridedMatrix& a, const StridedMatrix& b, double* c, Index c_stride, bool lower)
+{
+  add_blocks(a, b, c, c_stride, lower);
+}
+
+void add_dense_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
+  const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> c)
+{
+  // Columns lie one after the other: it is the transposed product that goes row by row.
+  add_product({ b.data(), b.cols(), b.rows(), b.outerStride(), 1 },
+    { a.data(), a.cols(), a.rows(), a.outerStride(), 1 }, c.data(), c.outerStride());
+}
+
 Eigen::MatrixXd dense_product(
   const Eigen::Ref<const Eigen::MatrixXd>& a, const Eigen::Ref<const Eigen::MatrixXd>& b)
 {
-  // Columns lie one after the other: it is the transposed product that goes row by row.
   Eigen::MatrixXd c = Eigen::MatrixXd::Zero(a.rows(), b.cols());
-  add_product({ b.data(), b.cols(), b.rows(), b.outerStride(), 1 },
-    { a.data(), a.cols(), a.rows(), a.outerStride(), 1 }, c.data(), c.rows());
+  add_dense_product(a, b, c);
   return c;
 }
 

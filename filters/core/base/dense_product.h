@@ -19,10 +19,14 @@ struct StridedMatrix
 /// results known to be symmetric, in half the time.
 ///
 /// Why not Eigen's or BLAS's: release builds of Eigen's know no more than SSE2, and BLAS's bits
-/// depend on the machine. This is compiled for several instruction sets, two to four times as fast
-/// as Eigen's, and has the same bits in each. One thread.
+/// depend on the machine, its speed on whether it knows the processor. This is written for several
+/// sizes of registers, and has the same bits in each that has fused operations. One thread.
 void add_product(
   const StridedMatrix& a, const StridedMatrix& b, double* c, Index c_stride, bool lower = false);
+
+/// C += A B.
+void add_dense_product(const Eigen::Ref<const Eigen::MatrixXd>& a,
+  const Eigen::Ref<const Eigen::MatrixXd>& b, Eigen::Ref<Eigen::MatrixXd> c);
 
 /// A B.
 Eigen::MatrixXd dense_product(

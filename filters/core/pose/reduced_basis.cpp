@@ -19,7 +19,7 @@
 //  - The triangular factor of G^T is well-conditioned, and u's share in the constraints not small.
 #include "pose/reduced_basis.h"
 
-#include "base/blas_product.h"
+#include "base/dense_product.h"
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
@@ -40,6 +40,8 @@ constexpr double position_rank = 1e-9;
 constexpr double beyond_doubt = 1e-6;
 /// From this many constraints on, as a share of the unknowns, the sturdy way is quicker.
 constexpr Index unknowns_per_constraint = 4;
+/// Columns of a triangular factor that are multiplied at a time.
+constexpr Index triangle_columns = 192;
 
 double norm_of_rows(const Eigen::MatrixXd& m)
 {
@@ -52,7 +54,7 @@ Reflections::Reflections(const Eigen::MatrixXd& packed, const Eigen::VectorXd& f
 {
   this->v_.triangularView<Eigen::StrictlyUpper>().setZero();
   this->v_.diagonal().setOnes();
-  const Eigen::MatrixXd products = blas_product(this->v_.transpose(), this->v_);
+  const Eigen::MatrixXd products = dense_product(this->v_.transpose(), this->v_);
   for (Index k = 0; k < rank; ++k)
   {
     const double factor = factors[k];
@@ -60,13 +62,13 @@ Reflections::Reflections(const Eigen::MatrixXd& packed, const Eigen::VectorXd& f
     this->t_.col(k).head(k) = this->t_.topLeftCorner(k, k).triangularView<Eigen::Upper>() *
       (-factor * products.col(k).head(k));
   }
-  this->tail_ = blas_product(this->t_, this->v_.bottomRows(this->v_.rows() - rank).transpose());
+  this->tail_ = dense_product(this->t_, this->v_.bottomRows(this->v_.rows() - rank).transpose());
 }
 
 void Reflections::times_tail(const Eigen::MatrixXd& m, Eigen::Ref<Eigen::MatrixXd> product) const
 {
   product = m.rightCols(this->tail_.cols());
-  subtract_blas_product(blas_product(m, this->v_), this->tail_, product);
+  add_dense_product(-dense_product(m, this->v_), this->tail_, product);
 }
 
 Eigen::MatrixXd Reflections::times_tail(const Eigen::MatrixXd& m) const
@@ -78,7 +80,7 @@ Eigen::MatrixXd Reflections::times_tail(const Eigen::MatrixXd& m) const
 
 Eigen::MatrixXd Reflections::tail() const
 {
-  Eigen::MatrixXd z = -blas_product(this->v_, this->tail_);
+  Eigen::MatrixXd z = -dense_product(this->v_, this->tail_);
   z.bottomRows(this->tail_.cols()).diagonal().array() += 1.0;
   return z;
 }
@@ -203,7 +205,7 @@ bool ReducedBasis::make_quickly(const ReducedSpace& space, const Eigen::MatrixXd
   if (asked > 0)
   {
     DenseCholesky positions;
-    if (!positions.factor(blas_product(a.topRows(asked), a.topRows(asked).transpose())) ||
+    if (!positions.factor(dense_product(a.topRows(asked), a.topRows(asked).transpose())) ||
       !(positions.reciprocal_condition() > beyond_doubt))
     {
       return false;
@@ -214,8 +216,14 @@ bool ReducedBasis::make_quickly(const ReducedSpace& space, const Eigen::MatrixXd
     a(asked + static_cast<Index>(i), given[i]) = 1.0;
   }
 
-  Eigen::MatrixXd g = a.leftCols(unknowns);
-  whole.cholesky.solve_right(g);
+  // G = A E, and E is upper triangular.
+  Eigen::MatrixXd g = Eigen::MatrixXd::Zero(count, unknowns);
+  for (Index first = 0; first < unknowns; first += triangle_columns)
+  {
+    const Index columns = std::min(triangle_columns, unknowns - first), last = first + columns;
+    add_dense_product(a.leftCols(last), whole.directions.block(0, first, last, columns),
+      g.middleCols(first, columns));
+  }
   const bool shifts = whole.shift.size() > 0;
   if (shifts)
   {
@@ -317,8 +325,8 @@ void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixX
       const Index seen = (eigen.eigenvalues().array() > energy_rank * largest).count(); // the last
       const Eigen::MatrixXd directions = eigen.eigenvectors().rightCols(seen) *
         eigen.eigenvalues().tail(seen).cwiseSqrt().cwiseInverse().asDiagonal();
-      this->basis_ = blas_product(free_space, directions);
-      covariance = blas_product(covariance, directions);
+      this->basis_ = dense_product(free_space, directions);
+      covariance = dense_product(covariance, directions);
     }
   }
   this->particular_ = scale.asDiagonal() * this->particular_;

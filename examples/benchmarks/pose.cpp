@@ -273,6 +273,18 @@ BENCHMARK(reduced_arap_of_tets)
   ->Iterations(1)
   ->Unit(benchmark::kMillisecond);
 
+/// Iterations of a solve, whose energies after half-steps these are, until they are as low as that.
+Index iterations_until(const std::vector<double>& energies, double energy)
+{
+  Index iterations = 0;
+  while (2 * iterations + 1 < static_cast<Index>(energies.size()) &&
+    energies[static_cast<std::size_t>(2 * iterations)] > energy)
+  {
+    ++iterations;
+  }
+  return iterations;
+}
+
 /// Arguments: handles, clusters, iterates that acceleration looks back on, drag in tenths of the
 /// radius. A cold solve to within 1e-4 of the least energy that thousands of iterations reach.
 void reduced_arap_to_energy(benchmark::State& state)
@@ -293,15 +305,7 @@ void reduced_arap_to_energy(benchmark::State& state)
   }
   arap.solve(context, pose, { 0.0, 5000, ReducedArap::Start::rest, state.range(2) });
   const auto iterations_to = [&](double share)
-  {
-    Index iterations = 0;
-    while (2 * iterations + 1 < static_cast<Index>(arap.energies().size()) &&
-      arap.energies()[static_cast<std::size_t>(2 * iterations)] > (1.0 + share) * least)
-    {
-      ++iterations;
-    }
-    return iterations;
-  };
+  { return iterations_until(arap.energies(), (1.0 + share) * least); };
   const Index iterations = iterations_to(1e-4);
   state.counters["to_1e-6"] = static_cast<double>(iterations_to(1e-6));
   state.counters["to_1e-8"] = static_cast<double>(iterations_to(1e-8));
@@ -370,13 +374,7 @@ void reduced_arap_beside_libigl(benchmark::State& state)
   const auto iterations_to = [&](double share, Index window)
   {
     arap.solve(context, pose, { 0.0, 5000, ReducedArap::Start::rest, window });
-    Index iterations = 0;
-    while (2 * iterations + 1 < static_cast<Index>(arap.energies().size()) &&
-      arap.energies()[static_cast<std::size_t>(2 * iterations)] > (1.0 + share) * least)
-    {
-      ++iterations;
-    }
-    return iterations;
+    return iterations_until(arap.energies(), (1.0 + share) * least);
   };
   const Index coarse[2] = { iterations_to(1e-4, 0), iterations_to(1e-4, 5) };
   const Index fine[2] = { iterations_to(1e-8, 0), iterations_to(1e-8, 5) };

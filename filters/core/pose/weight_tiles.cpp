@@ -12,43 +12,11 @@ namespace bindpose
 
 namespace
 {
-typedef std::int32_t FloatBits16 __attribute__((vector_size(16), may_alias));
-typedef std::int32_t FloatBits32 __attribute__((vector_size(32), may_alias));
-typedef std::int32_t FloatBits64 __attribute__((vector_size(64), may_alias));
-typedef std::int64_t DoubleBits16 __attribute__((vector_size(16), may_alias));
-typedef std::int64_t DoubleBits32 __attribute__((vector_size(32), may_alias));
-typedef std::int64_t DoubleBits64 __attribute__((vector_size(64), may_alias));
+/// Whole numbers as large as Scalars, as many as there are in a pack.
 template <typename Scalar, int bytes>
-struct BitsOf;
-template <>
-struct BitsOf<float, 16>
+struct BitsOf
 {
-  using type = FloatBits16;
-};
-template <>
-struct BitsOf<float, 32>
-{
-  using type = FloatBits32;
-};
-template <>
-struct BitsOf<float, 64>
-{
-  using type = FloatBits64;
-};
-template <>
-struct BitsOf<double, 16>
-{
-  using type = DoubleBits16;
-};
-template <>
-struct BitsOf<double, 32>
-{
-  using type = DoubleBits32;
-};
-template <>
-struct BitsOf<double, 64>
-{
-  using type = DoubleBits64;
+  typedef typename BlendValues<Scalar, 8>::Bits type __attribute__((vector_size(bytes), may_alias));
 };
 template <typename Scalar, int bytes>
 using Pack = typename PackOf<Scalar, bytes>::Pack;

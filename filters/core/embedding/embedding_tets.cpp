@@ -118,6 +118,11 @@ Status check(PointsView points, TrianglesView triangles, const EmbeddingOptions&
       std::to_string(LatticeCover::largest_resolution) + " cubes, not " +
       std::to_string(options.resolution));
   }
+  if (options.tets < 1)
+  {
+    return Status::invalid_input(
+      "the wanted number of tets must be at least 1, not " + std::to_string(options.tets));
+  }
   if (!std::isfinite(options.winding_threshold) || options.winding_threshold <= 0.0)
   {
     return Status::invalid_input("winding_threshold must be positive");
@@ -145,8 +150,9 @@ Status embed_surface(PointsView points, TrianglesView triangles, const WindingNu
   LatticeCover cover(surface, winding, options.winding_threshold, box);
   {
     const Phase phase(context, "lattice", 0.0, 0.4);
-    status = surface.build(points, triangles, context) ? cover.choose(options.resolution, context)
-                                                       : Status::cancelled();
+    status = surface.build(points, triangles, context)
+      ? cover.choose(options.resolution, options.tets, context)
+      : Status::cancelled();
     if (!status.ok())
     {
       return status;

@@ -15,8 +15,9 @@ struct EmbeddingOptions
   /// Inside is where the winding number is at least this, > 0.
   double winding_threshold = 0.5;
   /// Lattice cubes along the longest side of the surface's box, 1 … 1000; 0: as many as give about
-  /// 30,000 lattice tets (15,000 to 60,000 unless the surface is a thread), whatever the surface.
+  /// `tets` lattice tets (half to twice as many unless the surface is a thread).
   Index resolution = 0;
+  Index tets = 30000; ///< wanted number of lattice tets, >= 1; of resolution 0 only
 };
 
 /// Where points lie in tets.

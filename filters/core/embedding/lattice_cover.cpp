@@ -20,9 +20,9 @@ using Key = LatticeCover::Key;
 using Cube = LatticeCover::Cube;
 using Id = LatticeCover::Id;
 
-constexpr double wanted_tets = 30000.0;
-constexpr double fewest_tets = 20000.0;
-constexpr double most_tets = 45000.0;
+// As fractions of the wanted number of tets: what is near enough to it.
+constexpr double fewest_tets = 2.0 / 3.0;
+constexpr double most_tets = 1.5;
 constexpr double most_pieces = 2e8;
 constexpr double most_pieces_of_choice = 1e6; // beyond two a triangle
 
@@ -366,8 +366,9 @@ double LatticeCover::count_tets() const
   return static_cast<double>(tets.size());
 }
 
-Status LatticeCover::choose(Index resolution, ExecutionContext& context)
+Status LatticeCover::choose(Index resolution, Index wanted, ExecutionContext& context)
 {
+  const auto wanted_tets = static_cast<double>(wanted);
   const Measures measures(this->surface_, this->box_);
   const double largest =
     this->box_.lower.cwiseAbs().cwiseMax(this->box_.upper.cwiseAbs()).maxCoeff();
@@ -393,7 +394,8 @@ Status LatticeCover::choose(Index resolution, ExecutionContext& context)
     const ProgressRange range(context, 1.0 - std::pow(0.5, round), 1.0 - std::pow(0.5, round + 1));
     const Status status = this->build(std::max(measures.longest / cubes, least_spacing), context);
     const double tets = status.ok() ? this->count_tets() : 0.0;
-    if (!status.ok() || (tets >= fewest_tets && tets <= most_tets) || round + 1 == rounds)
+    if (!status.ok() || (tets >= fewest_tets * wanted_tets && tets <= most_tets * wanted_tets) ||
+      round + 1 == rounds)
     {
       return status;
     }

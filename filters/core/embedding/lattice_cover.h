@@ -57,10 +57,10 @@ public:
   {
   }
 
-  /// `resolution` cubes along the longest side of the box; 0: as many as give about 30,000 tets,
+  /// `resolution` cubes along the longest side of the box; 0: as many as give about `tets` tets,
   /// but not more than 1000, and fewer where triangles would fall into millions of pieces.
-  /// invalid_input: more than most_cubes. Cost: 1 us a piece.
-  Status choose(Index resolution, ExecutionContext& context);
+  /// invalid_input: more than most_cubes. Cost: 1 us per piece.
+  Status choose(Index resolution, Index tets, ExecutionContext& context);
   Status build(double spacing, ExecutionContext& context);
 
   std::array<Vec3, 3> corners_of(Index triangle) const

@@ -14,7 +14,6 @@
 #include "inside/lattice_tets.h"
 #include "inside/remesh_tets.h"
 #include "inside/surface_distance.h"
-#include "surface/surface_repair.h"
 #include "inside/tet_quality.h"
 #include "inside/wrap_surface.h"
 
@@ -29,12 +28,6 @@ namespace bindpose
 
 namespace
 {
-/// "1 triangle was", "2 triangles were"
-std::string counted(Index count, const char* one, const char* many)
-{
-  return std::to_string(count) + " " + (count == 1 ? one : many) + (count == 1 ? " was" : " were");
-}
-
 /// Neither cdt nor remesh: what is left to do is said, whatever the reason.
 Status no_method_fits(Status status)
 {
@@ -50,18 +43,22 @@ Status no_method_fits(Status status)
 class Ladder
 {
 public:
-  Ladder(PointsView points, TrianglesView triangles, const TetrahedralizeOptions& options,
-    TetrahedralizeResult& result, ExecutionContext& context)
-    : points_(points), triangles_(triangles), options_(options), result_(result), context_(context)
+  Ladder(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
+    const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context)
+    : points_(points), triangles_(triangles), options_(options), result_(result), context_(context),
+      surface_(prepared.surface), inside_(prepared.inside),
+      box_(bounding_box(prepared.surface.points)), report_(prepared.report),
+      warnings_(prepared.warnings)
   {
+    result.defects = prepared.defects;
   }
 
   Status run()
   {
-    Status status = this->prepare();
+    Status status = this->check_shape();
     if (status.ok())
     {
-      const Phase phase(this->context_, "tetrahedralize", 0.15, 0.95);
+      const Phase phase(this->context_, "tetrahedralize", 0.0, 0.95);
       status = this->climb();
     }
     if (status.ok())
@@ -82,59 +79,14 @@ public:
   }
 
 private:
-  // ---- Before the ladder -----------------------------------------------------------------------
-
-  Status prepare()
+  Status check_shape() const
   {
-    {
-      const Phase phase(this->context_, "repair", 0.0, 0.05);
-      Status status = repair_surface(
-        this->points_, this->triangles_, RepairOptions(), this->surface_, this->context_);
-      if (!status.ok())
-      {
-        return status;
-      }
-    }
-    this->result_.defects = list_defects(this->points_, this->triangles_, this->surface_);
-    const SurfaceDiagnosis& found = this->surface_.found;
-    add_to_report(found, this->report_);
-    if (this->surface_.triangles.rows() == 0)
-    {
-      return Status::invalid_input(this->triangles_.rows() == 0
-          ? "the surface has no triangles"
-          : "no triangle of the surface has an area, so it encloses nothing");
-    }
     const bool holds_anything =
       this->options_.method == TetMethod::embed || this->options_.method == TetMethod::wrap;
-    if (found.flat && !holds_anything)
-    {
-      return Status::invalid_input(
-        "the surface is flat: all its points lie in one plane, so it encloses nothing");
-    }
-    if (this->surface_.turned_triangles > 0)
-    {
-      this->report_.set("counts.turned_triangles", Report::Value(this->surface_.turned_triangles));
-      this->warn(counted(this->surface_.turned_triangles, "triangle", "triangles") +
-        " turned to agree with the neighbours");
-    }
-    if (this->surface_.turned_components > 0)
-    {
-      this->report_.set(
-        "counts.turned_components", Report::Value(this->surface_.turned_components));
-      this->warn(
-        counted(this->surface_.turned_components, "closed component", "closed components") +
-        " turned: inside out");
-    }
-    this->box_ = bounding_box(this->surface_.points);
-    const Phase phase(this->context_, "winding", 0.05, 0.15);
-    bool turned = false;
-    Status status =
-      this->inside_.build(this->surface_, this->options_.winding_threshold, turned, this->context_);
-    if (turned)
-    {
-      this->warn("the surface was inside out and was turned");
-    }
-    return status;
+    return this->surface_.found.flat && !holds_anything
+      ? Status::invalid_input(
+          "the surface is flat: all its points lie in one plane, so it encloses nothing")
+      : Status();
   }
 
   // ---- Rungs -----------------------------------------------------------------------------------
@@ -390,6 +342,7 @@ private:
     EmbeddingOptions options;
     options.winding_threshold = this->options_.winding_threshold;
     options.resolution = this->options_.resolution;
+    options.tets = this->options_.lattice_tets;
     EmbeddingTets embedding;
     Status status = embed_surface(
       this->points_, this->triangles_, this->inside_.winding(), options, embedding, this->context_);
@@ -657,9 +610,9 @@ private:
   TetrahedralizeResult& result_;
   ExecutionContext& context_;
 
-  RepairedSurface surface_;
-  Box box_;
-  EnclosedRegion inside_;
+  const RepairedSurface& surface_;
+  EnclosedRegion& inside_;
+  const Box box_;
   double climb_start_ = 0.0;
   std::vector<char> inside_tets_; ///< of keep_outside, else empty
   TetMesh lattice_mesh_; ///< of remesh, when it did not fit
@@ -740,6 +693,20 @@ const char* to_string(TetMethod method)
   return "auto";
 }
 
+namespace
+{
+/// Fails the way the ladder does: with what the preparation found, and no tets.
+Status failed(Status status, const PreparedSurface& prepared)
+{
+  status.warnings.insert(
+    status.warnings.begin(), prepared.warnings.begin(), prepared.warnings.end());
+  Report report = prepared.report;
+  report.merge(status.report);
+  status.report = std::move(report);
+  return status;
+}
+} // namespace
+
 Status tetrahedralize(PointsView points, TrianglesView triangles,
   const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context)
 {
@@ -749,7 +716,31 @@ Status tetrahedralize(PointsView points, TrianglesView triangles,
   {
     return status;
   }
-  return Ladder(points, triangles, options, result, context).run();
+  PreparedSurface prepared;
+  {
+    const ProgressRange range(context, 0.0, 0.15);
+    status = prepare_surface(points, triangles, options.winding_threshold, prepared, context);
+  }
+  if (!status.ok())
+  {
+    return failed(std::move(status), prepared);
+  }
+  const ProgressRange range(context, 0.15, 1.0);
+  return tetrahedralize(points, triangles, prepared, options, result, context);
+}
+
+Status tetrahedralize(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
+  const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context)
+{
+  result = TetrahedralizeResult();
+  Status status = check_options(options);
+  if (status.ok() && options.winding_threshold != prepared.winding_threshold)
+  {
+    status =
+      Status::invalid_input("winding_threshold is " + short_number(options.winding_threshold) +
+        ", but the surface was prepared for " + short_number(prepared.winding_threshold));
+  }
+  return status.ok() ? Ladder(points, triangles, prepared, options, result, context).run() : status;
 }
 
 } // namespace bindpose

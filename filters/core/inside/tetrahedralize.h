@@ -5,8 +5,8 @@
 #include "base/mesh.h"
 #include "embedding/embedding_tets.h"
 #include "inside/handle_places.h"
+#include "inside/prepared_surface.h"
 #include "inside/segmentation.h"
-#include "surface/surface_defects.h"
 
 #include <vector>
 
@@ -42,6 +42,8 @@ struct TetrahedralizeOptions
   /// of remesh have edges from 0.2 to 1.4 cubes. 0: automatic, 40 for remesh, as many as give about
   /// 30,000 tets for embed.
   Index resolution = 0;
+  /// embed with resolution 0: about how many lattice tets, >= 1.
+  Index lattice_tets = 30000;
   double time_limit = 120.0; ///< seconds for all of the helper's or fTetWild's work, > 0
   Index memory_limit = 0; ///< MiB of address space for a helper process, 0: no limit
   /// cdt and wrap only: largest ratio of circumradius to shortest edge that interior vertices are
@@ -140,6 +142,11 @@ struct TetrahedralizeResult
 /// internal_error: the method asked for gave no valid mesh.
 /// Cost: about 10 us a triangle and 5 us a tet for clean surfaces, 50 us a triangle for others.
 Status tetrahedralize(PointsView points, TrianglesView triangles,
+  const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context);
+
+/// The same for a surface that prepare_surface() has made ready, with the same points, triangles
+/// and winding threshold (another threshold: invalid_input).
+Status tetrahedralize(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
   const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context);
 
 } // namespace bindpose

@@ -1,0 +1,66 @@
+#include "inside/prepared_surface.h"
+
+namespace bindpose
+{
+
+namespace
+{
+/// "1 triangle was", "2 triangles were"
+std::string counted(Index count, const char* one, const char* many)
+{
+  return std::to_string(count) + " " + (count == 1 ? one : many) + (count == 1 ? " was" : " were");
+}
+
+void report_turned(PreparedSurface& prepared)
+{
+  const RepairedSurface& surface = prepared.surface;
+  if (surface.turned_triangles > 0)
+  {
+    prepared.report.set("counts.turned_triangles", Report::Value(surface.turned_triangles));
+    prepared.warnings.push_back(counted(surface.turned_triangles, "triangle", "triangles") +
+      " turned to agree with the neighbours");
+  }
+  if (surface.turned_components > 0)
+  {
+    prepared.report.set("counts.turned_components", Report::Value(surface.turned_components));
+    prepared.warnings.push_back(
+      counted(surface.turned_components, "closed component", "closed components") +
+      " turned: inside out");
+  }
+}
+} // namespace
+
+Status prepare_surface(PointsView points, TrianglesView triangles, double winding_threshold,
+  PreparedSurface& prepared, ExecutionContext& context)
+{
+  prepared = PreparedSurface();
+  prepared.winding_threshold = winding_threshold;
+  {
+    const Phase phase(context, "repair", 0.0, 0.3);
+    const Status status =
+      repair_surface(points, triangles, RepairOptions(), prepared.surface, context);
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  prepared.defects = list_defects(points, triangles, prepared.surface);
+  add_to_report(prepared.surface.found, prepared.report);
+  if (prepared.surface.triangles.rows() == 0)
+  {
+    return Status::invalid_input(triangles.rows() == 0
+        ? "the surface has no triangles"
+        : "no triangle of the surface has an area, so it encloses nothing");
+  }
+  report_turned(prepared);
+  const Phase phase(context, "winding", 0.3, 1.0);
+  bool turned = false;
+  const Status status = prepared.inside.build(prepared.surface, winding_threshold, turned, context);
+  if (turned)
+  {
+    prepared.warnings.emplace_back("the surface was inside out and was turned");
+  }
+  return status;
+}
+
+} // namespace bindpose

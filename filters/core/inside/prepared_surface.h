@@ -1,0 +1,32 @@
+#ifndef bindpose_inside_prepared_surface_h
+#define bindpose_inside_prepared_surface_h
+
+#include "inside/enclosed_region.h"
+#include "surface/surface_defects.h"
+
+#include <vector>
+
+namespace bindpose
+{
+
+/// A surface made ready for tetrahedralize(): welded, oriented, with its winding number. One
+/// preparation serves several calls, for example tets and then lattices of two resolutions.
+struct PreparedSurface
+{
+  RepairedSurface surface;
+  EnclosedRegion inside;
+  std::vector<DefectPlace> defects;
+  double winding_threshold = 0.5;
+  Report report; ///< counts.* of the diagnosis, counts.turned_triangles, counts.turned_components
+  std::vector<std::string> warnings; ///< one sentence per kind of triangles that were turned
+};
+
+/// Repairs the surface (repair_surface) and builds its winding number (EnclosedRegion).
+/// invalid_input: ids out of range, coordinates that are not finite, no triangle with an area.
+/// Cost: about 5 us per triangle.
+Status prepare_surface(PointsView points, TrianglesView triangles, double winding_threshold,
+  PreparedSurface& prepared, ExecutionContext& context);
+
+} // namespace bindpose
+
+#endif

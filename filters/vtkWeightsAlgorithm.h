@@ -145,12 +145,13 @@ public:
   ///@{
   /**
    * Where to solve for a surface: on its triangles (SURFACE, the default), in conforming tets of
-   * its inside (VOLUME), in a lattice that holds it, in seconds whatever its size (EMBEDDING), or
-   * AUTO: the volume of small surfaces, the embedding of dense ones and of those that cannot be
-   * filled, the shape itself where it is flat; or in tets of the closed cage that the handles have
-   * around the surface, or triangles of a cage of edges around a flat shape (CAGE). The output then
-   * is the surface as it came, with Weights at its own points, and output 2 is what was solved on.
-   * Meshes of tets are solved on directly. Out of range: clamped.
+   * its inside (VOLUME), in a lattice that holds it, in seconds whatever its size (EMBEDDING), in
+   * the closed cage that the handles have around it (CAGE), or AUTO: a flat shape on itself, a
+   * closed, clean surface in its volume where that is predicted to be well conditioned and cheap,
+   * all others in the embedding. With AUTO the embedding also takes over where the first choice
+   * fails, with a warning: AUTO ends in certified weights for every surface that a lattice can
+   * hold. The output then is the surface as it came, with Weights at its own points, and output 2
+   * is the mesh that was solved on. Meshes of tets are solved on directly. Out of range: clamped.
    */
   void SetDomain(int domain);
   vtkGetMacro(Domain, int);
@@ -187,8 +188,8 @@ public:
   };
 
   ///@{
-  /// Of EMBEDDING and AUTO: lattice cubes along the longest side, 6 to 1000. Default 0: as many as
-  /// give about 30,000 tets.
+  /// Of EMBEDDING and AUTO: lattice cubes along the longest side, 6 to 1000. Default 0: lattices
+  /// of growing resolution are solved until two agree.
   void SetEmbeddingResolution(vtkIdType resolution);
   vtkGetMacro(EmbeddingResolution, vtkIdType);
   ///@}

@@ -381,10 +381,11 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
     domain : {"auto", "volume", "embedding", "cage", "surface"}
         Where to solve for a surface: in tets of its inside, in a lattice that holds it, in the closed
         cage that the handles have around it (of edges, around a flat shape), on itself.
-        ``auto``: the volume of surfaces of up to 20,000 triangles, the embedding of dense ones and
-        of those that cannot be filled, flat shapes on themselves. Tets are solved on directly.
+        ``auto``: flat shapes on themselves, closed and clean surfaces in their volume where that is
+        predicted to be well conditioned and cheap, all others in the lattice, which also takes over
+        where the first choice fails. Tets are solved on directly.
     resolution : int
-        Of the embedding: lattice cubes along the longest side; 0: about 30,000 tets.
+        Of the embedding: lattice cubes along the longest side; 0: finer until two lattices agree.
     stage : {"certified", "preview"}
         ``preview``: biharmonic weights, clamped, in the time of a factorisation or less.
     regions : str, optional
@@ -442,7 +443,7 @@ def weights(mesh, handles, *, method="bounded-biharmonic", domain="auto", resolu
     NotConvergedWarning
         A column's certificate is above the tolerance; the result is kept.
     BindposeWarning
-        A handle lies outside, the surface could not be filled and a lattice held it instead, or the
+        A handle lies outside, the domain that ``auto`` chose failed and a lattice took over, or the
         weights of two lattices differ.
 
     Notes

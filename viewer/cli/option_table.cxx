@@ -162,10 +162,10 @@ const std::vector<Verb>& verbs()
         { "--domain", "DOMAIN", Kind::choice, "auto", "auto|volume|embedding|cage|surface",
           "solve in tets of the inside, in a lattice that holds the surface, in the cage of the "
           "handles around it, or on the surface; "
-          "auto: small surfaces in their volume, dense or unfillable ones in the lattice, flat "
-          "ones on themselves" },
+          "auto: flat shapes on themselves, closed and clean ones in their volume where that is "
+          "quick, all others, and where that fails, in the lattice" },
         { "--resolution", "CUBES", Kind::integer, "0", "",
-          "embedding: lattice cubes along the longest side; 0: about 30,000 tets" },
+          "embedding: lattice cubes along the longest side; 0: finer until two lattices agree" },
         { "--stage", "STAGE", Kind::choice, "certified", "certified|preview",
           "preview: something to look at in the time of a factorisation" },
         { "--endpoints", "HOW", Kind::choice, "none", "none|projection|joints|bounded",

@@ -7,6 +7,14 @@
 namespace bindpose
 {
 
+Domain volume_of(const TetMesh& mesh)
+{
+  Domain domain;
+  domain.points = mesh.points;
+  domain.tets = mesh.tets;
+  return domain;
+}
+
 Status check_domain(const Domain& domain)
 {
   if (domain.element_count() == 0)

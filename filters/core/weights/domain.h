@@ -17,6 +17,10 @@ struct Domain
   /// #T: how much of each tet is material (of a lattice that holds a surface), > 0; empty: all 1.
   /// Energies are those of the material.
   Eigen::VectorXd shares;
+  /// Of a lattice: the surface's points that lie in it, and of each a corner of its tet. Distances
+  /// of parts are measured from them; empty: from the vertices.
+  Points held_points;
+  std::vector<Index> held_corners;
 
   bool is_volume() const { return this->tets.rows() > 0; }
   int corners() const { return this->is_volume() ? 4 : 3; }
@@ -30,6 +34,9 @@ struct Domain
     return this->is_volume() ? this->tets.data() + 4 * e : this->triangles.data() + 3 * e;
   }
 };
+
+/// The tets as a domain, each of them all material.
+Domain volume_of(const TetMesh& mesh);
 
 /// invalid_input for: no element, ids out of range, coordinates that are not finite, a tet whose
 /// volume is not positive (naming the first and how many), a surface without area.

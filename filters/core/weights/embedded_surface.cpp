@@ -10,7 +10,7 @@
 #include "base/parallel.h"
 #include "base/sort_unique.h"
 #include "embedding/lattice_cover.h"
-#include "weights/free_system.h"
+#include "weights/surface_smoothing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,10 +95,10 @@ std::size_t EmbeddedSurface::PlaceHash::operator()(const Place& place) const
   return hash;
 }
 
-EmbeddedSurface::EmbeddedSurface(
-  PointsView points, TrianglesView triangles, const TetMesh& lattice, const PointBinding& binding)
+EmbeddedSurface::EmbeddedSurface(PointsView points, TrianglesView triangles,
+  const SimplexLocator& surface, const TetMesh& lattice, const PointBinding& binding)
   : points_(points), triangles_(triangles), lattice_(lattice), binding_(binding),
-    tets_(lattice.points, lattice.tets), surface_(points, triangles)
+    tets_(lattice.points, lattice.tets), surface_(surface)
 {
   for (int k = 1; k < 4; ++k)
   {
@@ -136,12 +136,17 @@ EmbeddedSurface::Place EmbeddedSurface::centre_of(Index tet) const
   return place;
 }
 
-Domain EmbeddedSurface::domain(const TetMesh& lattice, const Eigen::VectorXd& inside_fractions)
+Domain EmbeddedSurface::domain(const Eigen::VectorXd& inside_fractions) const
 {
   Domain result;
-  result.points = lattice.points;
-  result.tets = lattice.tets;
+  result.points = this->lattice_.points;
+  result.tets = this->lattice_.tets;
   result.shares = inside_fractions.cwiseMax(least_share);
+  result.held_points = this->points_;
+  for (const Index tet : this->binding_.tets)
+  {
+    result.held_corners.push_back(tet < 0 ? -1 : this->lattice_.tets(tet, 0));
+  }
   return result;
 }
 
@@ -277,7 +282,7 @@ Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double le
   Points points(n, 3);
   for (Index v = 0; v < n; ++v)
   {
-    points.row(v) = (welded.points[v] - welded.points[0]) / length;
+    points.row(v) = welded.points[v];
   }
   Triangles triangles(static_cast<Index>(welded.triangles.size()), 3);
   for (Index f = 0; f < triangles.rows(); ++f)
@@ -294,27 +299,18 @@ Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double le
   }
   sort_unique(fixed);
 
-  // Slivers get a mass that keeps the system well away from singular.
-  Eigen::VectorXd mass = lumped_mass(points, triangles);
-  mass = mass.cwiseMax(1e-3 * mass.mean());
-  SparseMatrix energy = harmonic_energy(stiffness_matrix(points, triangles), mass, 2);
-  energy += SparseMatrix(mass.asDiagonal());
-  Weights given(n, result.cols());
+  Eigen::MatrixXd smooth = Eigen::MatrixXd::Zero(n, result.cols());
   for (Index i = 0; i < result.rows(); ++i)
   {
     if (welded.of_point[i] >= 0)
     {
-      given.row(welded.of_point[i]) = result.row(i);
+      smooth.row(welded.of_point[i]) = result.row(i);
     }
   }
-  FreeSystem system(energy, fixed);
-  const Status status = system.factor({}, context);
-  if (!status.ok())
+  if (!smooth_on_surface(points, triangles, fixed, length, smooth, context))
   {
-    return status;
+    return Status::cancelled();
   }
-  Eigen::MatrixXd smooth = given;
-  system.solve(mass.asDiagonal() * given, smooth);
   const Eigen::RowVectorXd lowest = result.colwise().minCoeff();
   const Eigen::RowVectorXd highest = result.colwise().maxCoeff();
   for (Index i = 0; i < result.rows(); ++i)
@@ -329,7 +325,7 @@ Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double le
 }
 
 Status EmbeddedSurface::carry(const HandleInsertion& mesh, const Handles& handles,
-  WeightsView values, ExecutionContext& context, Weights& result) const
+  WeightsView values, Smoothness smoothness, ExecutionContext& context, Weights& result) const
 {
   constexpr double smoothing = 0.3;
   const Status status = this->interpolate(mesh, values, context, result);
@@ -357,7 +353,9 @@ Status EmbeddedSurface::carry(const HandleInsertion& mesh, const Handles& handle
     }
   }
   fixed.erase(std::remove(fixed.begin(), fixed.end(), -1), fixed.end());
-  return this->smooth(fixed, smoothing * this->spacing_, context, result);
+  return smoothness == Smoothness::as_interpolated
+    ? Status()
+    : this->smooth(fixed, smoothing * this->spacing_, context, result);
 }
 
 } // namespace bindpose

@@ -100,16 +100,26 @@ void tether_components(const Domain& domain, const Handles& handles,
   {
     has_handle[result.components.of_vertex[v]] = 1;
   }
-  std::vector<double> nearest(static_cast<std::size_t>(count), 1e300);
   for (Index v = 0; v < domain.points.rows(); ++v)
   {
     const Index c = result.components.of_vertex[v];
+    if (c >= 0 && !has_handle[c])
+    {
+      result.roles[v] = VertexRole::tethered;
+    }
+  }
+  const bool holds = !domain.held_corners.empty();
+  const PointsView places = holds ? domain.held_points : domain.points;
+  std::vector<double> nearest(static_cast<std::size_t>(count), 1e300);
+  for (Index v = 0; v < places.rows(); ++v)
+  {
+    const Index corner = holds ? domain.held_corners[v] : v;
+    const Index c = corner < 0 ? -1 : result.components.of_vertex[corner];
     if (c < 0 || has_handle[c])
     {
       continue;
     }
-    result.roles[v] = VertexRole::tethered;
-    const Vec3 p = domain.points.row(v);
+    const Vec3 p = places.row(v);
     for (std::size_t i = 0; i < handles.size(); ++i)
     {
       double distance = 1e300;
@@ -117,7 +127,7 @@ void tether_components(const Domain& domain, const Handles& handles,
       {
         for (const Index u : of_handle[i])
         {
-          distance = std::min(distance, (domain.points.row(u) - domain.points.row(v)).norm());
+          distance = std::min(distance, (domain.points.row(u).transpose() - p).norm());
         }
       }
       else
@@ -129,6 +139,14 @@ void tether_components(const Domain& domain, const Handles& handles,
         nearest[c] = distance;
         result.tether[c] = static_cast<Index>(i);
       }
+    }
+  }
+  // A part of a lattice that no point of the surface lies in moves nothing.
+  for (Index c = 0; c < count; ++c)
+  {
+    if (result.tether[c] < 0 && !has_handle[c])
+    {
+      result.tether[c] = 0;
     }
   }
   std::map<Index, Index> parts; // handle -> how many parts follow it

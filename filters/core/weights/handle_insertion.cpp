@@ -475,6 +475,8 @@ void Inserter::finish()
       domain.shares[e] = this->domain_.shares[this->result_.parent_element[e]];
     }
   }
+  domain.held_points = this->domain_.held_points;
+  domain.held_corners = this->domain_.held_corners; // original vertices keep their ids
   Index* out = this->corners_ == 4 ? domain.tets.data() : domain.triangles.data();
   for (const Index e : alive)
   {

@@ -13,8 +13,9 @@ namespace bindpose
 enum class WeightsDomain : int
 {
   surface = 0, ///< on the triangles
-  /// A flat shape on itself. Up to 20,000 triangles, and with regions, in the volume, unless that
-  /// has more than 120,000 tets or none; else in the embedding, unless the guard is not content.
+  /// A flat shape on itself; a closed, clean surface in its volume where that is predicted to be
+  /// well conditioned and cheap (domain_choice.h), and every surface with regions; all others in
+  /// the embedding, which also takes over where the first choice fails.
   automatic = 1,
   volume = 2, ///< in tets of the inside that keep the surface (tetrahedralize, auto)
   embedding = 3, ///< in a lattice that holds the surface (tetrahedralize, embed)
@@ -47,9 +48,10 @@ struct SurfaceWeightsOptions
   WeightsDomain domain = WeightsDomain::automatic;
   /// Inside is where the winding number is at least this, > 0.
   double winding_threshold = 0.5;
-  /// embedding: lattice cubes along the longest side, 6 … 1000; 0: about 30,000 tets.
+  /// embedding: lattice cubes along the longest side, 6 … 1000; 0: chosen by the guard.
   Index resolution = 0;
-  /// The guard of the embedding: it is solved on two thirds of the resolution, too. Off: not.
+  /// embedding: lattices of several resolutions are solved until two agree. Off: a single one, of
+  /// about 12,000 tets unless the resolution is given.
   bool guard = true;
   /// What of the handles becomes part of a volume's tets.
   HandlePlaces places;
@@ -62,26 +64,30 @@ struct SurfaceWeightsOptions
 ///
 /// **volume**: conforming tets; the surface's points are among their vertices or are taken from the
 /// nearest (transfer). **embedding**: tets of a lattice, whatever the surface's size, weighted by
-/// how much of each is inside, parts that are near but not connected apart; the handles become
-/// vertices, bones every half cube; what is solved is carried to the surface smoothly
-/// (EmbeddedSurface). It differs from the volume's weights by a few hundredths, so a **guard**
-/// solves on two thirds of the resolution as well: where the two differ by more than 0.02 rms or
-/// 0.3 anywhere, the resolution is made 4/3 as fine and compared again; if they still do, `auto`
-/// takes the volume, and `embedding` warns.
+/// the fraction of each that is inside; parts that are near but not connected stay apart. The
+/// handles become vertices, bones every half cube, and the solution is carried to the surface
+/// smoothly (EmbeddedSurface). A **guard** compares lattices: a first one of about 4,500 tets with
+/// a second one of 3/2 of its resolution, and that one with a third one if the two differ by more
+/// than 0.016 rms and the third is predicted to take at most 20 s on one thread. The finest that
+/// converged is the result; it differs from the weights of much finer lattices by about a hundredth
+/// (rms). If the last two still differ more, there is a warning with both numbers. With a given
+/// resolution, it is compared with two thirds of it.
 ///
-/// **cage**: the handles' own cage is filled, with tets (tetrahedralize) or, where it is of edges
-/// in the plane of a flat shape, with triangles (planar_shape). The surface's points (of up to
-/// 20,000 of them) become vertices; a surface that reaches out of it gets the nearest weights, with
-/// a warning.
+/// **automatic** always ends in certified weights where the embedding converges: if the first
+/// choice fails or does not converge, the embedding takes over, with one warning. An error of the
+/// first choice is returned only if the embedding fails, too.
 ///
-/// Report besides the method's keys: domain ("surface", "volume", "embedding",
-/// "cage"), domain_reason (of
-/// auto), tetrahedralize.method, embedding.resolution, guard.resolution, guard.rms_difference,
-/// guard.max_difference, with a preview preview.rms_difference and
-/// preview.max_difference (of it and the result), cage.area and cage.min_angle (degrees, of the
-/// triangles of a cage of edges), and what tetrahedralize() and transfer() report.
-/// The certificate is that of the columns in the tets. Errors: those of the parts. Regions and
-/// domain embedding: invalid_input.
+/// **cage**: the handles' own cage is filled (fill_cage). A surface that reaches out of it gets the
+/// nearest weights, with a warning.
+///
+/// Report besides the method's keys: domain ("surface", "volume", "embedding", "cage"); of
+/// automatic domain_reason and, where the embedding took over, domain_fallback.from,
+/// domain_fallback.status, domain_fallback.message; tetrahedralize.method, embedding.resolution,
+/// guard.resolution, guard.rms_difference, guard.max_difference; with a preview
+/// preview.rms_difference and preview.max_difference (from the result); cage.area and
+/// cage.min_angle (degrees, of the triangles of a cage of edges); what tetrahedralize() and
+/// transfer() report. The certificate is that of the columns in the tets.
+/// Errors: those of the parts; regions with domain embedding: invalid_input.
 /// @param region_ids label of every vertex, or empty.
 Status surface_weights(PointsView points, TrianglesView triangles,
   const std::vector<Index>& region_ids, const Handles& handles,

@@ -181,9 +181,11 @@ TEST(SurfaceWeights, CarriesSmoothFunctionsBetterThanTetsDo)
   EmbeddingOptions options;
   options.resolution = 8;
   ASSERT_TRUE(embed_surface(ball.points, ball.triangles, winding, options, lattice, context).ok());
-  const EmbeddedSurface embedded(ball.points, ball.triangles, lattice.mesh, lattice.binding);
+  const SimplexLocator surface(ball.points, ball.triangles);
+  const EmbeddedSurface embedded(
+    ball.points, ball.triangles, surface, lattice.mesh, lattice.binding);
   HandleInsertion mesh;
-  ASSERT_TRUE(insert_handles(EmbeddedSurface::domain(lattice.mesh, lattice.inside_fractions),
+  ASSERT_TRUE(insert_handles(embedded.domain(lattice.inside_fractions),
     { test::point_handle("p", Vec3::Zero()) }, {}, context, mesh)
                 .ok());
   const auto f = [](const Vec3& p) { return 0.5 + 0.4 * std::sin(2.0 * p[0] + p[1]); };
@@ -193,8 +195,10 @@ TEST(SurfaceWeights, CarriesSmoothFunctionsBetterThanTetsDo)
     values.row(v) << f(mesh.domain.points.row(v)), 0.25;
   }
   Weights carried;
-  ASSERT_TRUE(
-    embedded.carry(mesh, { test::point_handle("p", Vec3::Zero()) }, values, context, carried).ok());
+  ASSERT_TRUE(embedded
+                .carry(mesh, { test::point_handle("p", Vec3::Zero()) }, values,
+                  EmbeddedSurface::Smoothness::smoothed, context, carried)
+                .ok());
   double linear = 0.0, smooth = 0.0;
   for (Index i = 0; i < ball.points.rows(); ++i)
   {
@@ -218,7 +222,8 @@ TEST_F(SurfaceWeightsInTets, AutomaticallyChoosesTheDomain)
   SurfaceWeights result;
   Status status = solve(long_box(), handles, {}, result);
   EXPECT_EQ(result.domain, WeightsDomain::volume);
-  EXPECT_EQ(status.report.text("domain_reason"), "the surface is small");
+  EXPECT_EQ(
+    status.report.text("domain_reason"), "the surface is closed and its tets are well shaped");
 
   const TriangleMesh flat = test::grid(16, 4, 4.0, 1.0);
   status = solve(flat, { handles[0], handles[1] }, {}, result);
@@ -231,9 +236,7 @@ TEST_F(SurfaceWeightsInTets, AutomaticallyChoosesTheDomain)
   status = solve(sheet, { handles[0], handles[1] }, {}, result);
   ASSERT_TRUE(status.usable()) << status.message;
   EXPECT_EQ(result.domain, WeightsDomain::embedding);
-  EXPECT_EQ(status.report.text("tetrahedralize.fallback"), "embed");
-  ASSERT_FALSE(status.warnings.empty());
-  EXPECT_THAT(status.warnings.front(), HasSubstr("could not be filled"));
+  EXPECT_EQ(status.report.text("domain_reason"), "the surface is not closed");
   expect_weights(result.weights, sheet.points.rows(), 2);
 
   status = solve(sheet, { handles[0], handles[1] }, in(WeightsDomain::volume), result);
@@ -245,6 +248,67 @@ TEST_F(SurfaceWeightsInTets, AutomaticallyChoosesTheDomain)
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(result.domain, WeightsDomain::embedding);
   EXPECT_EQ(status.report.text("domain_reason"), "the surface is dense");
+}
+
+TEST_F(SurfaceWeightsInTets, TheEmbeddingTakesOverWhereTheVolumeFails)
+{
+  const TriangleMesh box = long_box();
+  for (const Status& failure : { Status::failure(StatusCode::not_converged, "it stalled"),
+         Status::invalid_input("the matrix is not positive definite") })
+  {
+    const WeightsMethod fails_in_volumes =
+      [&](const WeightsProblem& problem, ExecutionContext& context, WeightsResult& result)
+    {
+      const bool lattice = problem.mesh.domain.shares.size() > 0;
+      const Status status = bounded(problem, context, result);
+      return lattice ? status : failure;
+    };
+    const auto run = [&](WeightsDomain domain, SurfaceWeights& result)
+    {
+      ExecutionContext context;
+      return surface_weights(box.points, box.triangles, {}, three_along(), in(domain), {},
+        fails_in_volumes, context, result);
+    };
+    SurfaceWeights result;
+    const Status status = run(WeightsDomain::automatic, result);
+    ASSERT_TRUE(status.ok()) << status.message;
+    EXPECT_EQ(result.domain, WeightsDomain::embedding);
+    expect_weights(result.weights, box.points.rows(), 3);
+    EXPECT_EQ(status.report.text("domain"), "embedding");
+    EXPECT_EQ(status.report.text("domain_fallback.from"), "volume");
+    EXPECT_EQ(status.report.text("domain_fallback.status"), to_string(failure.code));
+    EXPECT_EQ(status.report.text("domain_fallback.message"), failure.message);
+    ASSERT_EQ(status.warnings.size(), 1u);
+    EXPECT_THAT(status.warnings.front(), HasSubstr(failure.message));
+    for (const WeightsColumn& column : result.solved.columns)
+    {
+      EXPECT_LE(column.certificate.relative_gap, 1e-6);
+    }
+
+    // A domain that was asked for is not left.
+    EXPECT_EQ(run(WeightsDomain::volume, result).code, failure.code);
+  }
+}
+
+TEST_F(SurfaceWeightsInTets, ACoarserLatticeServesWhereTheFinerOneDoesNotConverge)
+{
+  const TriangleMesh box = long_box();
+  ExecutionContext context;
+  SurfaceWeights result;
+  int calls = 0;
+  const Status status = surface_weights(
+    box.points, box.triangles, {}, three_along(), in(WeightsDomain::embedding), {},
+    [&](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
+    {
+      Status solved = bounded(problem, of_method, weights);
+      solved.code = ++calls == 1 ? StatusCode::not_converged : solved.code;
+      return solved;
+    },
+    context, result);
+  EXPECT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(calls, 2);
+  EXPECT_LT(status.report.number("embedding.resolution", 0.0),
+    status.report.number("guard.resolution", 0.0));
 }
 
 TEST(SurfaceWeights, PreviewComesFirstAndItsDifferenceIsReported)

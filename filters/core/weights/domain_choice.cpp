@@ -1,0 +1,99 @@
+#include "weights/domain_choice.h"
+
+#include "base/number_text.h"
+#include "inside/tet_quality.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Triangles from which a lattice of about 30,000 tets is the coarser and cheaper domain.
+constexpr Index most_triangles = 20000;
+/// Triangles with an angle below this force tets that are no better.
+constexpr double bad_angle = 2.0; // degrees
+/// Fractions of triangles and of tets that may be badly shaped. Measured on real furniture: the
+/// conforming solves that failed had more.
+constexpr double most_bad_triangles = 0.02;
+constexpr double most_bad_tets = 0.03;
+/// A lattice has about this many vertices, and is solved at two resolutions.
+constexpr Index lattice_vertices = 9000;
+constexpr double both_resolutions = 1.3;
+
+double smallest_angle(const RepairedSurface& surface, Index triangle)
+{
+  double smallest = 180.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    const auto corner = [&](int i) -> Vec3
+    { return surface.points.row(surface.triangles(triangle, (k + i) % 3)); };
+    const Vec3 u = corner(1) - corner(0);
+    const Vec3 v = corner(2) - corner(0);
+    smallest = std::min(smallest, std::atan2(u.cross(v).norm(), u.dot(v)) * 57.29577951308232);
+  }
+  return smallest;
+}
+
+std::string percent_of(Index part, Index whole)
+{
+  return short_number(100.0 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
+}
+} // namespace
+
+std::string reason_against_volume(const RepairedSurface& surface)
+{
+  const Index count = surface.triangles.rows();
+  if (!surface.closed)
+  {
+    return "the surface is not closed";
+  }
+  if (!surface.clean())
+  {
+    return "triangles cross or coincide";
+  }
+  if (count > most_triangles)
+  {
+    return "the surface is dense";
+  }
+  Index bad = 0;
+  for (Index t = 0; t < count; ++t)
+  {
+    bad += smallest_angle(surface, t) < bad_angle;
+  }
+  return static_cast<double>(bad) > most_bad_triangles * static_cast<double>(count)
+    ? percent_of(bad, count) + " of the triangles have an angle below " + short_number(bad_angle) +
+      " degrees"
+    : std::string();
+}
+
+std::string reason_against_tets(const TetMesh& tets, Index handle_count)
+{
+  const Index count = tets.tets.rows();
+  const TetQuality quality = measure_tets(tets.points, tets.tets);
+  if (static_cast<double>(quality.below_5_degrees) > most_bad_tets * static_cast<double>(count))
+  {
+    return percent_of(quality.below_5_degrees, count) +
+      " of the tets have a dihedral angle below 5 degrees";
+  }
+  const double in_tets = predicted_seconds(tets.points.rows(), handle_count);
+  const double in_lattice = both_resolutions * predicted_seconds(lattice_vertices, handle_count);
+  // Conforming tets keep the surface, which is worth some time.
+  constexpr double worth = 2.0;
+  return in_tets > worth * in_lattice ? std::to_string(count) + " tets would take about " +
+      short_number(in_tets, 2) + " s, a lattice " + short_number(in_lattice, 2) + " s"
+                                      : std::string();
+}
+
+double predicted_seconds(Index vertices, Index handle_count)
+{
+  const double thousands = static_cast<double>(vertices) / 12000.0;
+  constexpr double factorization = 0.1;
+  constexpr double per_column = 6.0;
+  return factorization * thousands * thousands *
+    (2.0 + per_column * static_cast<double>(handle_count));
+}
+
+} // namespace bindpose

@@ -1,0 +1,95 @@
+// Smoothing along a surface: against the factor of an eigenfunction, against a dense solve, and on
+// triangles that make any factorization fail.
+#include "weights/surface_smoothing.h"
+
+#include "base/laplacian.h"
+
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace bindpose;
+
+namespace
+{
+Eigen::MatrixXd smoothed(
+  const TriangleMesh& mesh, const std::vector<Index>& fixed, double length, Eigen::MatrixXd values)
+{
+  ExecutionContext context;
+  EXPECT_TRUE(smooth_on_surface(mesh.points, mesh.triangles, fixed, length, values, context));
+  return values;
+}
+} // namespace
+
+TEST(SurfaceSmoothing, ScalesAnEigenfunctionOfTheSphere)
+{
+  // On the unit sphere the Laplacian of z is -2 z, so smoothing divides z by 1 + 4 length^4.
+  const TriangleMesh ball = test::sphere(4);
+  const Eigen::MatrixXd z = ball.points.col(2);
+  const Eigen::MatrixXd w = smoothed(ball, {}, 0.5, z);
+  EXPECT_LT((w - z / 1.25).cwiseAbs().maxCoeff(), 0.01);
+}
+
+TEST(SurfaceSmoothing, IsTheMinimizerWithFixedPoints)
+{
+  TriangleMesh sheet = test::grid(6, 5, 1.2, 1.0);
+  sheet.points.col(2) = 0.1 * sheet.points.col(0).array().sin();
+  const Index n = sheet.points.rows();
+  const std::vector<Index> fixed{ 0, 17 };
+  constexpr double length = 0.3;
+  Eigen::MatrixXd given(n, 2);
+  for (Index v = 0; v < n; ++v)
+  {
+    given.row(v) << std::sin(7.0 * v), static_cast<double>(v % 3);
+  }
+  const Points scaled = sheet.points / length;
+  const Eigen::MatrixXd k = stiffness_matrix(scaled, sheet.triangles);
+  const Eigen::VectorXd mass = lumped_mass(scaled, sheet.triangles);
+  Eigen::MatrixXd a = k * mass.cwiseInverse().asDiagonal() * k;
+  a.diagonal() += mass;
+  Eigen::MatrixXd b = mass.asDiagonal() * given;
+  for (const Index v : fixed)
+  {
+    a.row(v).setZero();
+    a(v, v) = 1.0;
+    b.row(v) = given.row(v);
+  }
+  const Eigen::MatrixXd exact = a.fullPivLu().solve(b);
+  EXPECT_LT((smoothed(sheet, fixed, length, given) - exact).cwiseAbs().maxCoeff(), 1e-4);
+}
+
+TEST(SurfaceSmoothing, SurvivesNeedleTriangles)
+{
+  // Rows of points 1e-9 apart: cotangents of 1e9.
+  TriangleMesh sheet = test::grid(12, 12, 1.0, 1.0);
+  for (Index v = 0; v < sheet.points.rows(); ++v)
+  {
+    sheet.points(v, 1) = sheet.points(v, 1) > 0.5 ? sheet.points(v, 1) : 1e-9 * sheet.points(v, 1);
+  }
+  const Eigen::MatrixXd given = sheet.points.col(0).array().round();
+  const Eigen::MatrixXd w = smoothed(sheet, {}, 0.2, given);
+  ASSERT_TRUE(w.allFinite());
+  EXPECT_GT((w - given).norm(), 0.0);
+  // Overshoot of a step is bounded, whatever the triangles.
+  EXPECT_GT(w.minCoeff(), -0.5);
+  EXPECT_LT(w.maxCoeff(), 1.5);
+  const Eigen::MatrixXd constant = Eigen::MatrixXd::Constant(given.rows(), 1, 0.25);
+  EXPECT_LT((smoothed(sheet, {}, 0.2, constant) - constant).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(SurfaceSmoothing, IsTheSameForAnyNumberOfThreadsAndStopsWhenCancelled)
+{
+  const TriangleMesh ball = test::sphere(3);
+  const Eigen::MatrixXd given = ball.points;
+  Eigen::MatrixXd one = given, many = given;
+  ExecutionContext single, several;
+  single.set_threads(1);
+  several.set_threads(4);
+  ASSERT_TRUE(smooth_on_surface(ball.points, ball.triangles, {}, 0.3, one, single));
+  ASSERT_TRUE(smooth_on_surface(ball.points, ball.triangles, {}, 0.3, many, several));
+  EXPECT_TRUE((one.array() == many.array()).all());
+  single.request_cancel();
+  EXPECT_FALSE(smooth_on_surface(ball.points, ball.triangles, {}, 0.3, one, single));
+}

@@ -17,9 +17,11 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataReader
 
 # What an object says of its run, not of its parameters.
 NO_PARAMETER = {"Status", "StatusMessage", "Report"}
-# Where a proxy differs from its class on purpose: the file dialog has asked before.
+# Where a proxy differs from its class on purpose: the file dialog has asked before, and a person at a panel wants
+# weights of any surface, while a C++ pipeline solves on the mesh that it is given.
 OTHER_DEFAULTS = {("vtkMeshFileWriter", "Overwrite"), ("vtkVDBWriter", "Overwrite"),
-                  ("vtkGLTFSkinWriter", "Overwrite")}
+                  ("vtkGLTFSkinWriter", "Overwrite"), ("vtkBoundedBiharmonicWeights", "Domain"),
+                  ("vtkMonotoneWeights", "Domain"), ("vtkUnconstrainedWeights", "Domain")}
 
 
 def shape_of(extent):

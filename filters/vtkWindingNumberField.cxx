@@ -459,15 +459,32 @@ bindpose::Status vtkWindingNumberField::Grid(vtkPointSet* input, bindpose::Sampl
   return bindpose::make_grid(request, box, grid);
 }
 
+namespace
+{
+/// The power of 4 next to a number of points. What is built depends on it alone, so that values do
+/// not depend on what was evaluated before.
+bindpose::Index size_class(bindpose::Index points)
+{
+  return bindpose::Index(1) << 2 *
+    std::lround(0.5 * std::log2(static_cast<double>(std::max<bindpose::Index>(1, points))));
+}
+} // namespace
+
 bindpose::Status vtkWindingNumberField::Build(
-  vtkPointSet* input, bindpose::ExecutionContext& context)
+  vtkPointSet* input, long long queries, bindpose::ExecutionContext& context)
 {
   WindingField::Options options;
   options.method = this->Method;
   options.tolerance = this->Tolerance;
   options.orient = this->OrientPatches;
   options.area_array = this->AreaArrayName;
-  if (input && this->Built->valid && this->Built->options == options &&
+  // A gradient takes several times as long as a value.
+  options.expected_queries = size_class(queries * (this->ComputeGradient ? 9 : 1));
+  // Exact methods prepare more when they need it.
+  const bool fits = this->Built->valid &&
+    (this->Built->options.expected_queries == options.expected_queries ||
+      !this->Built->field.depends_on_expected_queries());
+  if (input && fits && this->Built->options == options &&
     this->Built->key == key_of(input, this->AreaArrayName))
   {
     // Warnings are given once, when there is news.
@@ -515,7 +532,10 @@ bindpose::Status vtkWindingNumberField::Execute(
   Status status;
   {
     const bindpose::Phase phase(context, "build", 0.0, 0.2);
-    status = this->Build(surface, context);
+    const Index queries = !points ? whole.count()
+      : this->SampleCellCenters   ? points->GetNumberOfCells()
+                                  : points->GetNumberOfPoints();
+    status = this->Build(surface, queries, context);
   }
   if (!status.ok())
   {

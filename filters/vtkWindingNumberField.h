@@ -47,9 +47,10 @@
  * 0.1 us a voxel and 0.1 to 0.2 us a point; EXACT 15 ns more a point for every open edge, 20 to
  * 100 us when those are many.
  *
- * What is built for a surface is kept until the surface or one of Method, Tolerance and
- * OrientPatches changes: another grid or other points are only evaluated. GetNumberOfBuilds()
- * counts.
+ * The filter builds a structure for the surface and keeps it until the surface or one of Method,
+ * Tolerance and OrientPatches changes; another grid or other points are only evaluated. FAST also
+ * builds again for a number of samples of another size class (a power of 4), because the structure
+ * that takes the least time in total depends on it. GetNumberOfBuilds() counts.
  *
  * Report: method, method_reason, error_bound and measured_error (FAST), builds, counts.{vertices,
  * triangles, boundary_edges, nonmanifold_edges, open_edges, components, merged_vertices,
@@ -250,7 +251,8 @@ private:
   /// The whole grid that options and input ask for.
   bindpose::Status Grid(vtkPointSet* input, bindpose::SampleGrid& grid);
   /// Makes what is in Built unless that still holds.
-  bindpose::Status Build(vtkPointSet* input, bindpose::ExecutionContext& context);
+  bindpose::Status Build(
+    vtkPointSet* input, long long queries, bindpose::ExecutionContext& context);
 
   int Method = AUTO;
   double Tolerance = 1e-3;

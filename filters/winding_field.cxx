@@ -287,6 +287,7 @@ struct WindingField::Kernel
     unsigned char* on_surface) const = 0;
   virtual Status evaluate_gradient(
     const Samples& samples, ExecutionContext& context, double* out) const = 0;
+  virtual bool depends_on_expected_queries() const { return false; }
 };
 
 struct WindingField::Surface : Kernel
@@ -322,6 +323,7 @@ struct WindingField::Surface : Kernel
     WindingNumber::Options wanted;
     wanted.method = method_of(options.method);
     wanted.tolerance = options.tolerance;
+    wanted.expected_queries = options.expected_queries;
     {
       const ProgressRange range(context, share, 1.0);
       status = this->winding.build(points, triangles, context, wanted);
@@ -359,6 +361,11 @@ struct WindingField::Surface : Kernel
   {
     return samples.grid() ? this->winding.evaluate_gradient(*samples.grid(), context, out)
                           : this->winding.evaluate_gradient(samples.points(), context, out);
+  }
+
+  bool depends_on_expected_queries() const override
+  {
+    return this->winding.method() == WindingMethod::fast;
   }
 };
 
@@ -517,6 +524,11 @@ Status WindingField::evaluate_gradient(
   const Samples& samples, ExecutionContext& context, double* out) const
 {
   return this->kernel_->evaluate_gradient(samples, context, out);
+}
+
+bool WindingField::depends_on_expected_queries() const
+{
+  return this->kernel_ && this->kernel_->depends_on_expected_queries();
 }
 
 } // namespace bindpose

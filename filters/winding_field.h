@@ -53,7 +53,10 @@ public:
     double tolerance = 1e-3;
     bool orient = false; ///< surfaces only
     std::string area_array = "Area"; ///< of points; estimated when there is none
+    /// Points to evaluate in total, gradients counted several times; 0: very many. Surfaces only.
+    Index expected_queries = 0;
 
+    /// All but expected_queries, which decides how fast an evaluation is.
     bool operator==(const Options& other) const
     {
       return this->method == other.method && this->tolerance == other.tolerance &&
@@ -77,6 +80,9 @@ public:
     unsigned char* on_surface) const;
   /// 3 x samples.count() derivatives.
   Status evaluate_gradient(const Samples& samples, ExecutionContext& context, double* out) const;
+
+  /// Whether values depend, within the tolerance, on Options::expected_queries.
+  bool depends_on_expected_queries() const;
 
   /// Where a surface is open; empty for the others.
   vtkPolyData* boundary() const { return this->boundary_; }

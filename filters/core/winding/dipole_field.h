@@ -36,7 +36,14 @@ public:
     double finest_cell = 0.0; ///< 0: chosen by the tolerance
     /// Degree of the polynomials, 2 … 14. 0: chosen by the tolerance.
     int order = 0;
+    /// Number of points that will be evaluated, most of them in the region; 0: very many. Cells
+    /// are split only where that saves so many points more time than it takes, and none are made
+    /// for up to some thousand points, which sum all triangles.
+    Index expected_points = 0;
   };
+
+  /// Whether that many expected points (0: very many) are so few that all triangles are summed.
+  static bool sums_all(Index expected_points);
 
   /// Points centred and scaled to a size of about 1, ids below 2^31; a multiplicity a triangle.
   /// Points must outlive the field. A triangle touches a point within touch_tolerance.

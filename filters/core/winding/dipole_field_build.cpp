@@ -53,6 +53,17 @@ constexpr double first_threshold = 1.2;
 constexpr double outer_share = 0.2;
 /// Largest error on the sample, in tolerances: the rest is left to places that were not tried.
 constexpr double wanted_error = 0.5;
+/// Measured nanoseconds: to sum a block, to make a cell, and to make it settle an inherited node
+/// (the last two for order 7; they grow with the cube of the order). Splitting halves the near
+/// list.
+constexpr double block_cost = 10.0;
+constexpr double cell_cost = 2000.0;
+constexpr double node_cost = 150.0;
+/// Up to so many points all triangles are summed: about what the multipoles alone would cost.
+constexpr Index few_points = 3000;
+/// Points per sample of the comparison with the plain sum, and the fewest samples.
+constexpr Index points_per_sample = 512;
+constexpr Index fewest_samples = 48;
 /// From this tolerance on floats do, unless sums in floats err by more than this share of it: of a
 /// thousand triangles at one place.
 constexpr double float_tolerance = 9e-5;
@@ -166,6 +177,8 @@ struct DipoleField::Build
   void place_cells();
   void find_outer();
   void add_outer(Id node);
+  void sum_all();
+  bool pays_to_split(const Vec3& center, double size, double blocks, std::size_t nodes) const;
   bool fill_cells();
   void fill(Subtree& tree, const CellPlace& cell, std::size_t entry, const double* local,
     const Doubt& inherited_doubt, const std::vector<Id>& inherited, Scratch& scratch,
@@ -193,6 +206,8 @@ struct DipoleField::Build
   const Options& options;
   double finest_cell = 1.0;
   double threshold = 0.0; // of an interaction's estimate
+  Box region; // of the expected points
+  double density = 0.0; // expected points per volume; 0: very many
   std::vector<std::array<Id, 3>> ids;
   std::vector<int> multiplicities_of;
   std::vector<int> weights; // of the lanes of blocks
@@ -238,7 +253,11 @@ void DipoleField::Build::cut_long_triangles()
       { (c[1] - c[0]).squaredNorm(), (c[2] - c[1]).squaredNorm(), (c[0] - c[2]).squaredNorm() }));
   }
   const double shortest_cut = 2.5 * std::sqrt(2.0 * area / static_cast<double>(count));
-  const std::size_t most = std::max(2 * count, std::min<std::size_t>(8 * count, 8192));
+  // Fewer pieces for fewer points.
+  const std::size_t factor = this->options.expected_points == 0 ? 8
+    : this->options.expected_points < 500000                    ? 2
+                                                                : 4;
+  const std::size_t most = std::max(2 * count, std::min<std::size_t>(factor * count, 8192));
   // A triangle of length x gives about x / limit pieces.
   double limit = *std::max_element(longest.begin(), longest.end());
   const auto pieces = [&](double length)
@@ -752,6 +771,61 @@ void DipoleField::Build::place_cells()
   this->field.size_ = size > 0.0 ? 1.25 * size : 1.0;
   this->field.lower_ = box.center() - Vec3::Constant(0.5 * this->field.size_);
   this->field.top_level_ = this->ids.size() < 1000 ? 2 : 3;
+  const auto expected = static_cast<double>(this->options.expected_points);
+  if (expected > 0.0)
+  {
+    const int level = expected < 2e4 ? 0 : expected < 2e5 ? 1 : 2;
+    this->field.top_level_ = std::min(this->field.top_level_, level);
+    // A flat region has points all over its cells.
+    this->region = box;
+    for (int k = 0; k < 3; ++k)
+    {
+      const double room = std::max(0.0, 0.05 * size - 0.5 * box.size()[k]);
+      this->region.lower[k] -= room;
+      this->region.upper[k] += room;
+    }
+    const double volume = this->region.size().prod();
+    this->density = volume > 0.0 ? expected / volume : 0.0;
+  }
+}
+
+/// One cell that knows all triangles.
+void DipoleField::Build::sum_all()
+{
+  DipoleField& f = this->field;
+  f.top_level_ = 0;
+  f.cells_.assign(1, ~Id(0));
+  f.first_run_ = { 0, 1 };
+  f.runs_.assign(1, { 0, static_cast<Id>(f.block_count()) });
+  const auto numbers = static_cast<std::size_t>(count_of_local(f.order_) + polynomial_lanes);
+  f.fine_ ? f.double_locals_.assign(numbers, 0.0) : f.float_locals_.assign(numbers, 0.0F);
+  OuterNode all;
+  all.blocks = f.runs_[0];
+  all.radius = 1e300; // always near
+  all.leaf = true;
+  all.skip = 1;
+  f.outer_.assign(1, all);
+  f.outer_moments_.assign(static_cast<std::size_t>(this->count_of_moments()), 0.0);
+}
+
+/// Whether splitting a cell saves its points more time than it takes.
+bool DipoleField::Build::pays_to_split(
+  const Vec3& center, double size, double blocks, std::size_t nodes) const
+{
+  if (this->density <= 0.0)
+  {
+    return true;
+  }
+  double volume = 1.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    const double lower = std::max(this->region.lower[k], center[k] - 0.5 * size);
+    const double upper = std::min(this->region.upper[k], center[k] + 0.5 * size);
+    volume *= std::max(0.0, upper - lower);
+  }
+  const double order = (this->field.order_ + 1) / 8.0;
+  const double child = (cell_cost + node_cost * static_cast<double>(nodes)) * order * order * order;
+  return 0.5 * block_cost * blocks * volume * this->density > 8.0 * child;
 }
 
 // Nodes as points outside the cells may need them: none below one that is always far enough.
@@ -902,7 +976,8 @@ void DipoleField::Build::fill(Subtree& tree, const CellPlace& cell, std::size_t 
     sizes += this->nodes[id].block_radius * this->nodes[id].count;
   }
   const bool leaf = blocks <= static_cast<double>(few_blocks) || cell.level >= finest_level ||
-    radius * blocks <= this->finest_cell * sizes || radius < 1e-6 * this->field.size_;
+    radius * blocks <= this->finest_cell * sizes || radius < 1e-6 * this->field.size_ ||
+    !this->pays_to_split(center, size, blocks, near.size());
   if (leaf)
   {
     std::vector<Id> rest;
@@ -1093,7 +1168,12 @@ double DipoleField::Build::measure()
   DipoleField& f = this->field;
   const Index blocks = f.block_count();
   const BlockRun all{ 0, static_cast<Id>(blocks) };
-  const Index samples = std::clamp<Index>(2000000 / std::max<Index>(1, blocks), 256, 4096);
+  Index samples = std::clamp<Index>(2000000 / std::max<Index>(1, blocks), 256, 4096);
+  if (this->options.expected_points > 0)
+  {
+    samples = std::min(
+      samples, std::max(fewest_samples, this->options.expected_points / points_per_sample));
+  }
   const Index feared = std::min<Index>(samples / 2, static_cast<Index>(this->doubtful.size()));
   std::partial_sort(this->doubtful.begin(), this->doubtful.begin() + feared, this->doubtful.end(),
     [](const DoubtfulLeaf& s, const DoubtfulLeaf& t)
@@ -1174,7 +1254,11 @@ bool DipoleField::Build::run(const Triangles& triangles, const std::vector<int>&
   this->finest_cell =
     this->options.finest_cell > 0.0 ? this->options.finest_cell : tuning->finest_cell;
   f.fine_ = this->options.tolerance < float_tolerance;
-  this->cut_long_triangles();
+  const bool sums_all = DipoleField::sums_all(this->options.expected_points);
+  if (!sums_all)
+  {
+    this->cut_long_triangles();
+  }
   {
     const ProgressRange range(this->context, 0.0, 0.2);
     if (!this->sort_triangles())
@@ -1187,6 +1271,7 @@ bool DipoleField::Build::run(const Triangles& triangles, const std::vector<int>&
   {
     this->finest_cell *= finer;
   }
+  if (!sums_all)
   {
     const ProgressRange range(this->context, 0.2, 0.3);
     if (!this->find_multipoles())
@@ -1199,10 +1284,17 @@ bool DipoleField::Build::run(const Triangles& triangles, const std::vector<int>&
   for (int round = 0;; ++round)
   {
     const ProgressRange range(this->context, 1.0 - 0.7 / (1 << round), 1.0 - 0.35 / (1 << round));
-    this->find_outer();
-    if (!this->fill_cells())
+    if (sums_all)
     {
-      return false;
+      this->sum_all();
+    }
+    else
+    {
+      this->find_outer();
+      if (!this->fill_cells())
+      {
+        return false;
+      }
     }
     f.measured_error_ = this->measure();
     if (this->context.cancelled())
@@ -1217,13 +1309,18 @@ bool DipoleField::Build::run(const Triangles& triangles, const std::vector<int>&
       f.float_blocks_ = {};
       continue;
     }
-    if (f.measured_error_ <= wanted || round == 4)
+    if (f.measured_error_ <= wanted || round == 4 || sums_all)
     {
 
       return true;
     }
     this->threshold *= 0.8 * std::clamp(wanted / f.measured_error_, 0.02, 1.0);
   }
+}
+
+bool DipoleField::sums_all(Index expected_points)
+{
+  return expected_points > 0 && expected_points <= few_points;
 }
 
 bool DipoleField::build(const Points& points, const Triangles& triangles,

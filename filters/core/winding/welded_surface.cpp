@@ -1,5 +1,6 @@
-// Vertices are sorted by their coordinates, so that equal ones stand side by side. Edges and
-// triangles are laid out by their smallest vertex, and sorted where they share it: few do.
+// Vertices are sorted by their coordinates: a radix sort by the leading bits of x, then a
+// comparison sort of the few that share them. Edges and triangles are laid out by their smallest
+// vertex, as integers of 64 bits, and sorted where they share it: few do.
 #include "winding/welded_surface.h"
 
 #include "base/large_pages.h"
@@ -7,8 +8,10 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
+#include <cstdint>
+#include <cstring>
 #include <numeric>
+#include <utility>
 
 namespace bindpose
 {
@@ -23,14 +26,103 @@ bool is_flat(const Vec3& a, const Vec3& b, const Vec3& c)
   return u.cross(v).norm() <= 1e-15 * u.norm() * v.norm();
 }
 
-/// Lays out items by a vertex of each: those of v are items[begin[v] … begin[v + 1]), sorted.
+struct Vertex
+{
+  std::uint32_t key; ///< ascending with x
+  std::int32_t id;
+};
+
+/// The leading 32 bits of a finite number, so that they ascend with it.
+std::uint32_t leading_bits(double x)
+{
+  const double positive_zero = x + 0.0;
+  std::uint64_t bits = 0;
+  std::memcpy(&bits, &positive_zero, sizeof(bits));
+  const auto leading = static_cast<std::uint32_t>(bits >> 32);
+  return leading & 0x80000000U ? ~leading : leading | 0x80000000U;
+}
+
+/// Sorts vertices by x, y, z and id; `at` are their points by id. false when cancelled.
+bool sort_vertices(
+  ExecutionContext& context, const std::vector<Vec3>& at, std::vector<Vertex>& vertices)
+{
+  constexpr int bits = 11;
+  constexpr std::uint32_t digits = 1U << bits;
+  std::vector<Vertex> other(vertices.size());
+  for (int shift = 0; shift < 32; shift += bits)
+  {
+    std::array<std::size_t, digits> next{};
+    const auto digit = [&](const Vertex& v) { return v.key >> shift & (digits - 1); };
+    for (const Vertex& v : vertices)
+    {
+      next[digit(v)] += 1;
+    }
+    std::size_t sum = 0;
+    for (std::size_t& n : next)
+    {
+      sum += std::exchange(n, sum);
+    }
+    for (const Vertex& v : vertices)
+    {
+      other[next[digit(v)]++] = v;
+    }
+    vertices.swap(other);
+    if (context.cancelled())
+    {
+      return false;
+    }
+  }
+  const auto less = [&](const Vertex& s, const Vertex& t)
+  {
+    const Vec3& a = at[s.id];
+    const Vec3& b = at[t.id];
+    for (int k = 0; k < 3; ++k)
+    {
+      if (a[k] != b[k])
+      {
+        return a[k] < b[k];
+      }
+    }
+    return s.id < t.id;
+  };
+  constexpr std::size_t many = 1 << 14;
+  for (std::size_t first = 0, last = 0; first < vertices.size(); first = last)
+  {
+    while (last < vertices.size() && vertices[last].key == vertices[first].key)
+    {
+      ++last;
+    }
+    const auto begin = vertices.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = vertices.begin() + static_cast<std::ptrdiff_t>(last);
+    if (last - first < many)
+    {
+      std::sort(begin, end, less);
+      continue;
+    }
+    std::vector<Vertex> group(begin, end);
+    if (!parallel_sort(context, group, less))
+    {
+      return false;
+    }
+    std::copy(group.begin(), group.end(), begin);
+  }
+  return true;
+}
+
+/// Two vertex ids as one number that ascends with the first, then the second.
+std::uint64_t packed(Index first, Index second)
+{
+  return static_cast<std::uint64_t>(first) << 32 | static_cast<std::uint64_t>(second);
+}
+
+/// Lays out numbers by a vertex of each: those of v are items[begin[v] … begin[v + 1]), ascending.
 /// `visit(see)` calls see(vertex, item) for all items, twice. false when cancelled.
-template <typename Item, typename Visit, typename Less>
-bool lay_out(ExecutionContext& context, Index vertices, const Visit& visit, const Less& less,
-  std::vector<Index>& begin, std::vector<Item>& items)
+template <typename Visit>
+bool lay_out(ExecutionContext& context, Index vertices, const Visit& visit,
+  std::vector<Index>& begin, std::vector<std::uint64_t>& items)
 {
   begin.assign(static_cast<std::size_t>(vertices) + 1, 0);
-  visit([&](Index vertex, const Item&) { begin[vertex + 1] += 1; });
+  visit([&](Index vertex, std::uint64_t) { begin[vertex + 1] += 1; });
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   if (context.cancelled())
   {
@@ -39,13 +131,13 @@ bool lay_out(ExecutionContext& context, Index vertices, const Visit& visit, cons
   reserve_in_large_pages(items, static_cast<std::size_t>(begin.back()));
   items.resize(static_cast<std::size_t>(begin.back()));
   std::vector<Index> next(begin.begin(), begin.end() - 1);
-  visit([&](Index vertex, const Item& item) { items[next[vertex]++] = item; });
+  visit([&](Index vertex, std::uint64_t item) { items[next[vertex]++] = item; });
   return parallel_for(context, vertices, 16384,
     [&](Index first, Index last)
     {
       for (Index v = first; v < last; ++v)
       {
-        std::sort(items.begin() + begin[v], items.begin() + begin[v + 1], less);
+        std::sort(items.begin() + begin[v], items.begin() + begin[v + 1]);
       }
     });
 }
@@ -58,25 +150,17 @@ bool weld(PointsView points, TrianglesView triangles, const ExactFrame& frame,
   {
     used[triangles.data()[k]] = 1;
   }
-  struct Vertex
-  {
-    Vec3 at;
-    Index id;
-  };
   std::vector<Vertex> vertices;
+  std::vector<Vec3> at(static_cast<std::size_t>(points.rows()));
   for (Index v = 0; v < points.rows(); ++v)
   {
     if (used[v])
     {
-      vertices.push_back({ frame(points.row(v)), v });
+      at[v] = frame(points.row(v));
+      vertices.push_back({ leading_bits(at[v].x()), static_cast<std::int32_t>(v) });
     }
   }
-  if (!parallel_sort(context, vertices,
-        [](const Vertex& x, const Vertex& y)
-        {
-          return std::lexicographical_compare(
-            x.at.data(), x.at.data() + 3, y.at.data(), y.at.data() + 3);
-        }))
+  if (!sort_vertices(context, at, vertices))
   {
     return false;
   }
@@ -85,9 +169,10 @@ bool weld(PointsView points, TrianglesView triangles, const ExactFrame& frame,
   welded.points.resize(static_cast<Index>(vertices.size()), 3);
   for (std::size_t i = 0; i < vertices.size(); ++i)
   {
-    if (i == 0 || vertices[i].at != vertices[i - 1].at)
+    const Vec3& here = at[vertices[i].id];
+    if (i == 0 || here != at[vertices[i - 1].id])
     {
-      welded.points.row(count++) = vertices[i].at.transpose();
+      welded.points.row(count++) = here.transpose();
       welded.original_vertices.push_back(vertices[i].id);
     }
     id_of[vertices[i].id] = count - 1;
@@ -119,19 +204,18 @@ bool weld(PointsView points, TrianglesView triangles, const ExactFrame& frame,
 bool count_duplicates(
   const Triangles& triangles, Index vertices, ExecutionContext& context, Index& duplicates)
 {
-  using Others = std::array<Index, 2>; // corners, ascending
   std::vector<Index> begin;
-  std::vector<Others> others;
+  std::vector<std::uint64_t> others; // corners, ascending
   const auto visit = [&](const auto& see)
   {
     for (Index t = 0; t < triangles.rows(); ++t)
     {
-      std::array<Index, 3> ids{ triangles(t, 0), triangles(t, 1), triangles(t, 2) };
-      std::sort(ids.begin(), ids.end());
-      see(ids[0], Others{ ids[1], ids[2] });
+      const Index a = triangles(t, 0), b = triangles(t, 1), c = triangles(t, 2);
+      const Index least = std::min({ a, b, c }), most = std::max({ a, b, c });
+      see(least, packed(a + b + c - least - most, most));
     }
   };
-  if (!lay_out(context, vertices, visit, std::less<>(), begin, others))
+  if (!lay_out(context, vertices, visit, begin, others))
   {
     return false;
   }
@@ -145,11 +229,12 @@ bool count_duplicates(
   return true;
 }
 
-/// mesh_edges(), but on all threads and cancellable.
+/// Counts edges and finds the open ones; false when cancelled.
 bool find_edges(
-  const Triangles& triangles, Index vertices, ExecutionContext& context, std::vector<Edge>& edges)
+  const Triangles& triangles, Index vertices, ExecutionContext& context, WeldedSurface& welded)
 {
   std::vector<Index> begin;
+  std::vector<std::uint64_t> sides; // larger vertex, and whether the side runs to it
   const auto visit = [&](const auto& see)
   {
     for (Index t = 0; t < triangles.rows(); ++t)
@@ -158,32 +243,34 @@ bool find_edges(
       {
         const Index from = triangles(t, k);
         const Index to = triangles(t, (k + 1) % 3);
-        see(std::min(from, to),
-          Edge{ std::min(from, to), std::max(from, to), 1, from < to ? 1 : -1 });
+        see(std::min(from, to), packed(std::max(from, to), from < to ? 1 : 0));
       }
     }
   };
-  edges.clear();
-  if (!lay_out(
-        context, vertices, visit, [](const Edge& x, const Edge& y) { return x.b < y.b; }, begin,
-        edges))
+  if (!lay_out(context, vertices, visit, begin, sides))
   {
     return false;
   }
-  std::size_t kept = 0;
-  for (std::size_t i = 1; i < edges.size(); ++i)
+  for (Index v = 0; v < vertices; ++v)
   {
-    if (edges[i].a == edges[kept].a && edges[i].b == edges[kept].b)
+    for (Index i = begin[v]; i < begin[v + 1];)
     {
-      edges[kept].uses += 1;
-      edges[kept].net_direction += edges[i].net_direction;
-    }
-    else
-    {
-      edges[++kept] = edges[i];
+      Edge edge;
+      edge.a = v;
+      edge.b = static_cast<Index>(sides[i] >> 32);
+      for (; i < begin[v + 1] && static_cast<Index>(sides[i] >> 32) == edge.b; ++i)
+      {
+        edge.uses += 1;
+        edge.net_direction += sides[i] & 1 ? 1 : -1;
+      }
+      welded.boundary_edges += edge.uses == 1;
+      welded.nonmanifold_edges += edge.uses > 2;
+      if (edge.net_direction != 0)
+      {
+        welded.open_edges.push_back(edge);
+      }
     }
   }
-  edges.resize(edges.empty() ? 0 : kept + 1);
   return true;
 }
 } // namespace
@@ -207,7 +294,7 @@ bool weld_surface(PointsView points, TrianglesView triangles, const ExactFrame& 
     }
   }
   const ProgressRange range(context, 0.65, 1.0);
-  return find_edges(welded.triangles, vertices, context, welded.edges);
+  return find_edges(welded.triangles, vertices, context, welded);
 }
 
 } // namespace bindpose

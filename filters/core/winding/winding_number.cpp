@@ -10,11 +10,13 @@
 // All of it happens in an exact frame: size about 1, near the origin, nothing rounded.
 #include "winding/winding_number.h"
 
+#include "base/large_pages.h"
 #include "base/parallel.h"
 #include "winding/boundary_caps.h"
 #include "winding/dipole_field.h"
 #include "winding/point_order.h"
 #include "winding/point_values.h"
+#include "winding/ray_crossings.h"
 #include "winding/solid_angle.h"
 #include "winding/welded_surface.h"
 #include "winding/winding_cells.h"
@@ -41,6 +43,14 @@ constexpr Index few_open_edges = 15000;
 constexpr Index hardly_open = 12;
 /// Beyond this distance, in units of the mesh, the winding number is 0 in double precision.
 constexpr double far_away = 1e20;
+/// Measured nanoseconds of cells: to build them, per triangle; per point; per sample of a row.
+constexpr double cells_per_face = 450.0;
+constexpr double cells_per_point = 40.0;
+constexpr double cells_per_sample = 6.0;
+/// To write a sample of a row.
+constexpr double write_per_sample = 1.0;
+/// Points whose crossings are counted at once: each takes 30 bytes.
+constexpr Index most_ray_points = 1 << 22;
 
 double direct_sum(
   PointsView points, TrianglesView triangles, const Vec3& p, double tolerance, bool* on_surface)
@@ -90,7 +100,12 @@ struct WindingNumber::Parts
   mutable WindingTree tree;
   mutable std::mutex tree_mutex;
   mutable std::atomic<bool> tree_built{ false };
-  WindingCells cells;
+  // Built at once, or when they first pay: other ways of counting crossings give the same values.
+  mutable WindingCells cells;
+  mutable std::mutex cells_mutex;
+  mutable std::atomic<bool> cells_built{ false };
+  mutable std::atomic<double> ray_nanoseconds{ 0.0 }; ///< that rays took so far, as predicted
+  std::unique_ptr<RayCrossings> rays;
   std::vector<Edge> rim; ///< edges whose directions do not cancel
   Triangles caps; ///< with them the surface is closed
   SurfaceBoundary boundary; ///< ids and volumes are the input's
@@ -102,7 +117,10 @@ struct WindingNumber::Parts
   }
   void choose(WindingMethod wanted, Index open_edges);
   bool build_tree(ExecutionContext& context) const;
-  void at(const Vec3* queries, Index number, double* winding_numbers, bool* on_surface) const;
+  bool build_cells(ExecutionContext& context) const;
+  bool rays_pay(double ray_cost, double cell_cost) const;
+  void at(const Vec3* queries, Index number, const int* counts, const unsigned char* resolved,
+    double* winding_numbers, bool* on_surface) const;
   Vec3 gradient_at(const Vec3& point) const;
   double slowly_at(const Vec3& framed, bool* on_surface) const;
   bool reaches(const SampleGrid& grid) const;
@@ -177,6 +195,16 @@ Status WindingNumber::build(
     status = Status::invalid_input(
       "the surface has " + std::to_string(triangles.rows()) + " triangles, more than 2^29");
   }
+  if (status.ok() && points.rows() > std::numeric_limits<std::int32_t>::max())
+  {
+    status = Status::invalid_input(
+      "the surface has " + std::to_string(points.rows()) + " points, more than 2^31 - 1");
+  }
+  if (status.ok() && options.expected_queries < 0)
+  {
+    status = Status::invalid_input(
+      "expected_queries must be at least 0 (got " + std::to_string(options.expected_queries) + ")");
+  }
   if (status.ok() && !(options.tolerance >= 1e-8 && options.tolerance <= 0.1))
   {
     std::ostringstream text;
@@ -205,17 +233,8 @@ Status WindingNumber::build(
   parts.triangles = std::move(welded.triangles);
   if (done)
   {
-    Index boundary = 0, nonmanifold = 0, open = 0;
-    for (const Edge& edge : welded.edges)
-    {
-      boundary += edge.uses == 1;
-      nonmanifold += edge.uses > 2;
-      open += edge.net_direction != 0;
-      if (edge.net_direction != 0)
-      {
-        parts.rim.push_back(edge);
-      }
-    }
+    parts.rim = std::move(welded.open_edges);
+    const auto open = static_cast<Index>(parts.rim.size());
     parts.caps = boundary_caps(parts.rim);
     parts.boundary = surface_boundary(parts.points, parts.triangles, parts.rim, parts.caps);
     const double unit = 1.0 / parts.frame.scale;
@@ -232,8 +251,8 @@ Status WindingNumber::build(
     }
     report.set("counts.vertices", points.rows());
     report.set("counts.triangles", triangles.rows());
-    report.set("counts.boundary_edges", boundary);
-    report.set("counts.nonmanifold_edges", nonmanifold);
+    report.set("counts.boundary_edges", welded.boundary_edges);
+    report.set("counts.nonmanifold_edges", welded.nonmanifold_edges);
     report.set("counts.open_edges", open);
     report.set("counts.components", static_cast<Index>(parts.boundary.components.size()));
     report.set("counts.merged_vertices", welded.merged_vertices);
@@ -249,7 +268,9 @@ Status WindingNumber::build(
       parts.method = WindingMethod::direct;
     }
   }
-  if (done && parts.method == WindingMethod::fast)
+  // A plain sum takes the fewest caps, cells those that reach least far.
+  if (done && parts.method == WindingMethod::fast &&
+    !DipoleField::sums_all(options.expected_queries))
   {
     parts.caps = smaller_caps(parts.points, parts.triangles, parts.caps);
   }
@@ -262,14 +283,17 @@ Status WindingNumber::build(
   if (done && parts.by_crossings())
   {
     const ProgressRange range(context, 0.4, parts.method == WindingMethod::fast ? 0.6 : 1.0);
-    done =
-      parts.cells.build(parts.points, parts.triangles, parts.caps, parts.frame.tolerance, context);
+    parts.rays = std::make_unique<RayCrossings>(
+      parts.points, parts.triangles, parts.caps, parts.frame.tolerance);
+    // Else the first evaluation decides, by its number of points and whether they are a grid.
+    done = options.expected_queries > 0 || parts.build_cells(context);
   }
   if (done && parts.method == WindingMethod::fast)
   {
     const ProgressRange range(context, 0.6, 1.0);
     DipoleField::Options field;
     field.tolerance = options.tolerance;
+    field.expected_points = options.expected_queries;
     // The padding that grids have by default.
     constexpr double padding = 0.1;
     field.region = bounding_box(parts.points, parts.triangles);
@@ -315,9 +339,31 @@ Index WindingNumber::memory() const
     this->parts_->tree.memory() + this->parts_->cells.memory() + this->parts_->field.memory();
 }
 
-/// At up to WindingCells::most_at_once points.
-void WindingNumber::Parts::at(
-  const Vec3* queries, Index number, double* winding_numbers, bool* on_surface) const
+/// Whether to count crossings by rays, which takes so many nanoseconds, rather than by cells. Cells
+/// are built at the latest when rays have taken as long as building them does.
+bool WindingNumber::Parts::rays_pay(double ray_cost, double cell_cost) const
+{
+  if (this->cells_built)
+  {
+    return ray_cost < cell_cost;
+  }
+  const double build =
+    cells_per_face * static_cast<double>(this->triangles.rows() + this->caps.rows());
+  return this->ray_nanoseconds + ray_cost < build + cell_cost;
+}
+
+bool WindingNumber::Parts::build_cells(ExecutionContext& context) const
+{
+  const std::lock_guard<std::mutex> lock(this->cells_mutex);
+  this->cells_built = this->cells_built ||
+    this->cells.build(this->points, this->triangles, this->caps, this->frame.tolerance, context);
+  return this->cells_built;
+}
+
+/// At up to WindingCells::most_at_once points. `counts` and `resolved` are what RayCrossings gives
+/// for them, or null.
+void WindingNumber::Parts::at(const Vec3* queries, Index number, const int* counts,
+  const unsigned char* resolved, double* winding_numbers, bool* on_surface) const
 {
   std::array<Vec3, WindingCells::most_at_once> framed;
   framed.fill(Vec3::Zero());
@@ -344,7 +390,23 @@ void WindingNumber::Parts::at(
   }
   std::array<int, WindingCells::most_at_once> crossed;
   std::array<bool, WindingCells::most_at_once> told;
-  this->cells.evaluate(framed.data(), count, crossed.data(), told.data());
+  if (counts)
+  {
+    for (Index k = 0; k < count; ++k)
+    {
+      crossed[k] = counts[asked[k]];
+      told[k] = resolved[asked[k]] != 0;
+    }
+  }
+  else
+  {
+    if (!this->cells_built)
+    {
+      ExecutionContext quiet;
+      this->build_cells(quiet);
+    }
+    this->cells.evaluate(framed.data(), count, crossed.data(), told.data());
+  }
   std::array<double, WindingCells::most_at_once> of_caps;
   std::array<bool, WindingCells::most_at_once> touches;
   this->caps_at(framed.data(), count, of_caps.data(), touches.data());
@@ -429,7 +491,7 @@ double WindingNumber::evaluate_at(const Vec3& point, bool* on_surface) const
 {
   double winding_number = 0.0;
   bool touches = false;
-  this->parts_->at(&point, 1, &winding_number, &touches);
+  this->parts_->at(&point, 1, nullptr, nullptr, &winding_number, &touches);
   if (on_surface)
   {
     *on_surface = touches;
@@ -446,6 +508,37 @@ Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
   {
     return parts.status;
   }
+  std::vector<int> counts;
+  std::vector<unsigned char> resolved;
+  bool by_rays = false;
+  if (parts.by_crossings() && count > 0 && parts.triangles.rows() > 0)
+  {
+    const double ray_cost = parts.rays->predicted_nanoseconds(count);
+    by_rays = count <= most_ray_points &&
+      parts.rays_pay(ray_cost, cells_per_point * static_cast<double>(count));
+    const ProgressRange range(context, 0.0, 0.5);
+    if (by_rays)
+    {
+      parts.ray_nanoseconds = parts.ray_nanoseconds + ray_cost;
+      std::vector<Vec3> framed;
+      reserve_in_large_pages(framed, static_cast<std::size_t>(count));
+      for (Index i = 0; i < count; ++i)
+      {
+        framed.push_back(parts.frame(point_at(i)));
+      }
+      counts.resize(static_cast<std::size_t>(count));
+      resolved.resize(static_cast<std::size_t>(count));
+      if (!parts.rays->count(framed.data(), count, context, counts.data(), resolved.data()))
+      {
+        return Status::cancelled();
+      }
+    }
+    else if (!parts.cells_built && !parts.build_cells(context))
+    {
+      return Status::cancelled();
+    }
+  }
+  const ProgressRange range(context, by_rays ? 0.5 : 0.0, 1.0);
   // A tree may be no more than a list.
   const double nanoseconds = parts.method == WindingMethod::fast ? 500.0
     : parts.method == WindingMethod::crossings
@@ -466,14 +559,22 @@ Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
       std::array<Vec3, at_once> some;
       std::array<double, at_once> values;
       std::array<bool, at_once> touches;
+      std::array<int, at_once> counts_here;
+      std::array<unsigned char, at_once> resolved_here;
       for (Index first = 0; first < count_here; first += at_once)
       {
         const Index number = std::min(at_once, count_here - first);
         for (Index i = 0; i < number; ++i)
         {
           some[i] = points[order[first + i]];
+          if (by_rays)
+          {
+            counts_here[i] = counts[begin + order[first + i]];
+            resolved_here[i] = resolved[begin + order[first + i]];
+          }
         }
-        parts.at(some.data(), number, values.data(), touches.data());
+        parts.at(some.data(), number, by_rays ? counts_here.data() : nullptr,
+          by_rays ? resolved_here.data() : nullptr, values.data(), touches.data());
         for (Index i = 0; i < number; ++i)
         {
           out[begin + order[first + i]] = values[i];
@@ -597,14 +698,48 @@ Status WindingNumber::evaluate_rows(
   }
   const bool closed = parts.caps.rows() == 0;
   const bool fast = parts.method == WindingMethod::fast;
+  ask_for_large_pages(out, static_cast<std::size_t>(grid.count()) * sizeof(double));
+  RayCrossings::Grid framed;
+  RayCrossings::Layers layers;
+  bool by_rays = (grid.spacing.array() > 0.0).all();
+  if (by_rays)
+  {
+    framed.at[0] = xs;
+    for (int k = 1; k < 3; ++k)
+    {
+      for (Index i = 0; i < grid.size(k); ++i)
+      {
+        std::array<Index, 3> at{ grid.extent[0], grid.extent[2], grid.extent[4] };
+        at[k] += i;
+        framed.at[k].push_back(parts.frame(grid.point(at[0], at[1], at[2]))[k]);
+      }
+    }
+    layers = parts.rays->layers_of(framed);
+    const auto samples = static_cast<double>(grid.count());
+    const double ray_cost = layers.nanoseconds + write_per_sample * samples;
+    by_rays = parts.rays_pay(ray_cost, cells_per_sample * samples);
+    parts.ray_nanoseconds = parts.ray_nanoseconds + (by_rays ? ray_cost : 0.0);
+  }
+  if (!by_rays && !parts.cells_built && !parts.build_cells(context))
+  {
+    return Status::cancelled();
+  }
   const Index cost = fast ? 10 : 1 + parts.caps.rows();
-  const Index block = std::max<Index>(1, 1000000 / (cost * length));
+  const Index rows_per_block =
+    by_rays ? layers.per_slab * grid.size(1) : std::max<Index>(1, 1000000 / (cost * length));
   std::atomic<Index> touching{ 0 };
-  const bool done = parallel_for(context, grid.size(1) * grid.size(2), block,
+  const bool done = parallel_for(context, grid.size(1) * grid.size(2), rows_per_block,
     [&](Index begin, Index end)
     {
       Index touching_here = 0;
-      std::vector<Index> untold;
+      std::vector<Index> untold, unresolved;
+      if (by_rays)
+      {
+        parts.rays->count_slab(
+          framed, layers, begin / rows_per_block, out + begin * length, unresolved);
+        std::sort(unresolved.begin(), unresolved.end());
+      }
+      auto next_unresolved = unresolved.begin();
       std::vector<double> caps_wind(fast ? static_cast<std::size_t>(length) : 0);
       std::vector<unsigned char> on_cap(caps_wind.size());
       for (Index row = begin; row < end; ++row)
@@ -614,7 +749,19 @@ Status WindingNumber::evaluate_rows(
         double* values = out + row * length;
         unsigned char* flags = on_surface ? on_surface + row * length : nullptr;
         untold.clear();
-        parts.cells.evaluate_row(xs.data(), length, p.y(), p.z(), values, untold);
+        if (by_rays)
+        {
+          const Index first = (row - begin) * length;
+          for (; next_unresolved != unresolved.end() && *next_unresolved < first + length;
+               ++next_unresolved)
+          {
+            untold.push_back(*next_unresolved - first);
+          }
+        }
+        else
+        {
+          parts.cells.evaluate_row(xs.data(), length, p.y(), p.z(), values, untold);
+        }
         if (fast)
         {
           parts.field.evaluate_row(

@@ -52,6 +52,11 @@ public:
     double tolerance = 1e-3;
     /// Triangles of a tree node that is not split further, 1 … 10000.
     Index max_leaf_size = 64;
+    /// Number of points that will be evaluated in total, 0 … 2^62; 0: unknown, taken as very many.
+    /// Decides how much the build prepares, so that build and evaluation together take the least
+    /// time. A wrong number costs time, never accuracy. Values of the fast method depend on it
+    /// within the tolerance: give all parts of a grid the whole grid's number.
+    Index expected_queries = 0;
   };
 
   WindingNumber();
@@ -62,13 +67,14 @@ public:
   WindingNumber& operator=(WindingNumber&&) noexcept;
 
   /// Takes a copy of what it needs: #V x 3 points, #F x 3 ids.
-  /// invalid_input: a coordinate that is not finite, an id out of range, 2^31 triangles or more.
-  /// An empty mesh is valid and winds 0 times around everything; a warning says so.
-  /// The status reports method, method_reason, for fast error_bound (the tolerance) and
-  /// measured_error (on a sample of the build's own), counts.vertices, .triangles, .boundary_edges
-  /// (used by one triangle), .nonmanifold_edges, .open_edges (directions do not cancel: what makes
-  /// the winding number fractional), .components, .merged_vertices, .degenerate_triangles,
-  /// .duplicate_triangles, and volume (by the divergence theorem, holes filled by caps).
+  /// invalid_input: a coordinate that is not finite, an id out of range, more than 2^29 triangles
+  /// or 2^31 - 1 points, an option out of its range. An empty mesh is valid and winds 0 times
+  /// around everything; a warning says so. The status reports method, method_reason, for fast
+  /// error_bound (the tolerance) and measured_error (on a sample of the build's own),
+  /// counts.vertices, .triangles, .boundary_edges (used by one triangle), .nonmanifold_edges,
+  /// .open_edges (directions do not cancel: what makes the winding number fractional), .components,
+  /// .merged_vertices, .degenerate_triangles, .duplicate_triangles, and volume (by the divergence
+  /// theorem, holes filled by caps).
   Status build(
     PointsView points, TrianglesView triangles, ExecutionContext& context, const Options& options);
   Status build(PointsView points, TrianglesView triangles, ExecutionContext& context)

@@ -1,0 +1,635 @@
+// A point p and a triangle a, b, c in coordinates (x, y, z) whose first axis is the ray's. The ray
+// crosses the triangle if (py, pz) lies in its projection, by the signs of three orientations in
+// the plane, and p lies before its plane, by the sign of a volume. Signs are computed in doubles
+// with error bounds that hold for the whole bounding box of the triangle; exact arithmetic decides
+// the remaining ones.
+//
+// If (py, pz) lies on an edge, the orientation is that of (py + e, pz + e^2) with an infinitesimal
+// e. Adjacent triangles see opposite signs of their common edge, so each ray crosses exactly one of
+// them, and sums over closed surfaces are integers.
+#include "winding/ray_crossings.h"
+
+#include "base/exact.h"
+#include "base/large_pages.h"
+#include "base/parallel.h"
+#include "base/simd.h"
+#include "winding/solid_angle.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr double epsilon = 0x1p-53;
+/// Of an orientation in the plane, in units of the box's area.
+constexpr double edge_error = 8.0 * epsilon;
+/// Of a volume, in units of the box's volume.
+constexpr double plane_error = 96.0 * epsilon;
+/// Measured nanoseconds: to project a triangle, to test a point against it, to sort a point, and
+/// to test a row of a grid.
+constexpr double face_cost = 35.0;
+constexpr double test_cost = 1.5;
+constexpr double point_cost = 120.0;
+constexpr double slab_face_cost = 50.0;
+constexpr double row_cost = 5.0;
+/// Cells per point of the grid in the projection plane: more if triangles outnumber the points, so
+/// that most triangles meet no point's cell.
+constexpr double fewest_cells_per_point = 0.5;
+constexpr double most_cells_per_point = 8.0;
+/// Points of a slab of that grid, which one thread handles.
+constexpr Index points_per_slab = 32768;
+constexpr std::int32_t points_at_once = 256;
+/// Samples of a slab of a sample grid: some hundred kilobytes, which stay in the cache.
+constexpr Index samples_per_slab = 65536;
+
+int sign_of(double x)
+{
+  return (x > 0.0) - (x < 0.0);
+}
+
+/// Orientation of a, b and a point moved by an infinitesimal amount; 0 if a equals b.
+int moved_orientation(double ay, double az, double by, double bz, double py, double pz)
+{
+  int sign = orientation_2d(ay, az, by, bz, py, pz);
+  sign = sign != 0 ? sign : sign_of(az - bz);
+  return sign != 0 ? sign : sign_of(by - ay);
+}
+
+/// Position in ascending values of the first one that is not below x; `guess` is near it.
+Index first_from(const std::vector<double>& values, double x, double per_length)
+{
+  const auto count = static_cast<Index>(values.size());
+  const double guess = (x - values[0]) * per_length;
+  Index i = guess > 0.0 ? static_cast<Index>(std::min(guess, static_cast<double>(count))) : 0;
+  while (i > 0 && values[i - 1] >= x)
+  {
+    --i;
+  }
+  while (i < count && values[i] < x)
+  {
+    ++i;
+  }
+  return i;
+}
+
+double per_length_of(const std::vector<double>& values)
+{
+  const double length = values.back() - values.front();
+  return length > 0.0 ? static_cast<double>(values.size() - 1) / length : 0.0;
+}
+} // namespace
+
+/// A triangle in the ray's coordinates, and the bounds for points in its box.
+struct RayCrossings::Facet
+{
+  std::array<Vec3, 3> corners; ///< in the input's coordinates
+  int axis;
+  double x[3], y[3], z[3];
+  double lower[3], upper[3]; ///< with the tolerance added
+  double edge_bound; ///< larger orientations have the right sign
+  double outside; ///< points with orientations beyond it on both sides do not touch
+  double normal[3]; ///< not normalized
+  double plane_bound; ///< larger volumes have the right sign, and their points do not touch
+
+  /// Six times the volume with a point: its distance from the plane times the normal's length.
+  double height(double px, double py, double pz) const
+  {
+    return this->normal[0] * (px - this->x[0]) + this->normal[1] * (py - this->y[0]) +
+      this->normal[2] * (pz - this->z[0]);
+  }
+};
+
+RayCrossings::RayCrossings(
+  const Points& points, const Triangles& triangles, const Triangles& caps, double tolerance)
+  : points_(&points), triangles_(&triangles), caps_(&caps), tolerance_(tolerance),
+    faces_(triangles.rows() + caps.rows())
+{
+  this->box_ = bounding_box(points);
+  Vec3 areas = Vec3::Zero();
+  for (Index f = 0; f < this->faces_; ++f)
+  {
+    const std::array<Vec3, 3> c = this->corners(f);
+    const Vec3 size = c[0].cwiseMax(c[1]).cwiseMax(c[2]) - c[0].cwiseMin(c[1]).cwiseMin(c[2]);
+    areas += Vec3(size.y() * size.z(), size.z() * size.x(), size.x() * size.y());
+  }
+  const Vec3 size = this->box_.size();
+  this->overlaps_ = 1e300;
+  for (int k = 0; k < 3; ++k)
+  {
+    const double area = size[(k + 1) % 3] * size[(k + 2) % 3];
+    const double overlaps = area > 0.0 ? areas[k] / area : static_cast<double>(this->faces_);
+    if (overlaps < this->overlaps_)
+    {
+      this->overlaps_ = overlaps;
+      this->axis_ = k;
+    }
+  }
+}
+
+double RayCrossings::predicted_nanoseconds(Index number) const
+{
+  return face_cost * static_cast<double>(this->faces_) +
+    (point_cost + test_cost * this->overlaps_) * static_cast<double>(number);
+}
+
+std::array<Vec3, 3> RayCrossings::corners(Index face) const
+{
+  const Index own = this->triangles_->rows();
+  const auto row = face < own ? this->triangles_->row(face) : this->caps_->row(face - own);
+  return { Vec3(this->points_->row(row[0])), Vec3(this->points_->row(row[1])),
+    Vec3(this->points_->row(row[2])) };
+}
+
+RayCrossings::Facet RayCrossings::facet(Index face, int axis) const
+{
+  Facet f;
+  f.corners = this->corners(face);
+  f.axis = axis;
+  double size[3];
+  double* const coordinates[3] = { f.x, f.y, f.z };
+  for (int k = 0; k < 3; ++k)
+  {
+    for (int v = 0; v < 3; ++v)
+    {
+      coordinates[k][v] = f.corners[v][(axis + k) % 3];
+    }
+    const double* const at = coordinates[k];
+    f.lower[k] = std::min({ at[0], at[1], at[2] }) - this->tolerance_;
+    f.upper[k] = std::max({ at[0], at[1], at[2] }) + this->tolerance_;
+    size[k] = f.upper[k] - f.lower[k];
+  }
+  const double u[3] = { f.x[1] - f.x[0], f.y[1] - f.y[0], f.z[1] - f.z[0] };
+  const double v[3] = { f.x[2] - f.x[0], f.y[2] - f.y[0], f.z[2] - f.z[0] };
+  double length = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    const int l = (k + 1) % 3, m = (k + 2) % 3;
+    f.normal[k] = u[l] * v[m] - u[m] * v[l];
+    length += f.normal[k] * f.normal[k];
+  }
+  f.edge_bound = edge_error * size[1] * size[2];
+  f.outside = f.edge_bound + 2.0 * this->tolerance_ * (size[1] + size[2]);
+  f.plane_bound =
+    plane_error * size[0] * size[1] * size[2] + 2.0 * this->tolerance_ * std::sqrt(length);
+  return f;
+}
+
+int RayCrossings::crossing_of(const Facet& f, const Vec3& point, bool& touches) const
+{
+  const double px = point[f.axis], py = point[(f.axis + 1) % 3], pz = point[(f.axis + 2) % 3];
+  const bool before = px < f.lower[0];
+  const double height = f.height(px, py, pz);
+  const bool is_near = !before && !(std::abs(height) > f.plane_bound);
+  if (is_near &&
+    touches_triangle(point, f.corners[0], f.corners[1], f.corners[2], this->tolerance_))
+  {
+    touches = true;
+    return 0;
+  }
+  const int sign = moved_orientation(f.y[0], f.z[0], f.y[1], f.z[1], py, pz);
+  if (sign == 0 || moved_orientation(f.y[1], f.z[1], f.y[2], f.z[2], py, pz) != sign ||
+    moved_orientation(f.y[2], f.z[2], f.y[0], f.z[0], py, pz) != sign)
+  {
+    return 0;
+  }
+  if (before)
+  {
+    return sign;
+  }
+  double above = height;
+  if (is_near)
+  {
+    above = -side_of_triangle(point, f.corners[0], f.corners[1], f.corners[2]);
+    touches = above == 0.0;
+  }
+  return sign * above < 0.0 ? sign : 0;
+}
+
+// ---- Points ------------------------------------------------------------------------------------
+
+namespace
+{
+/// Points in the ray's coordinates.
+struct PointLanes
+{
+  std::vector<double> x, y, z;
+};
+
+/// What the loop over points needs of a triangle.
+struct FacetBounds
+{
+  double ax, ay, az, by, bz, cy, cz;
+  double upper_x, lower_x, lower_y, upper_y, lower_z, upper_z;
+  double nx, ny, nz, edge_bound, outside, plane_bound;
+};
+
+/// Adds the crossings of the rays from so many points with one triangle, but for those whose signs
+/// are not certain: they get open[i] = 1. @return whether there are any.
+BINDPOSE_SIMD_CLONES bool add_crossings(const FacetBounds& f, const double* x, const double* y,
+  const double* z, int count, std::int32_t* counts, std::int32_t* open)
+{
+  std::int32_t any = 0;
+  for (int i = 0; i < count; ++i)
+  {
+    const double px = x[i], py = y[i], pz = z[i];
+    const double ay = f.ay - py, by = f.by - py, cy = f.cy - py;
+    const double az = f.az - pz, bz = f.bz - pz, cz = f.cz - pz;
+    const double ab = ay * bz - az * by;
+    const double bc = by * cz - bz * cy;
+    const double ca = cy * az - cz * ay;
+    const double least_of_two = ab < bc ? ab : bc, most_of_two = ab > bc ? ab : bc;
+    const double least = least_of_two < ca ? least_of_two : ca;
+    const double most = most_of_two > ca ? most_of_two : ca;
+    const double height = f.nx * (px - f.ax) - f.ny * ay - f.nz * az;
+    const bool in_box = (py >= f.lower_y) & (py <= f.upper_y) & (pz >= f.lower_z) &
+      (pz <= f.upper_z) & (px <= f.upper_x);
+    const bool before = px < f.lower_x;
+    const bool above = height > f.plane_bound, below = height < -f.plane_bound;
+    const bool clear_side = before | above | below;
+    const bool outwards = least > f.edge_bound, inwards = most < -f.edge_bound;
+    const bool apart = (least < -f.outside) & (most > f.outside);
+    const bool is_open = in_box & !apart & (!clear_side | !(outwards | inwards));
+    const bool leaves = in_box & outwards & (before | below);
+    const bool enters = in_box & inwards & (before | above);
+    counts[i] += is_open ? 0 : (leaves ? 1 : 0) - (enters ? 1 : 0);
+    open[i] = is_open ? 1 : 0;
+    any |= open[i];
+  }
+  return any != 0;
+}
+} // namespace
+
+bool RayCrossings::count(const Vec3* points, Index number, ExecutionContext& context, int* counts,
+  unsigned char* resolved) const
+{
+  std::fill(counts, counts + number, 0);
+  std::fill(resolved, resolved + number, static_cast<unsigned char>(1));
+  const int u = (this->axis_ + 1) % 3, v = (this->axis_ + 2) % 3;
+  const Vec3 lower = this->box_.lower.array() - this->tolerance_;
+  const Vec3 upper = this->box_.upper.array() + this->tolerance_;
+  // A grid of cells in the plane, u fastest.
+  const double width = upper[u] - lower[u], height = upper[v] - lower[v];
+  const double cells = std::clamp(std::clamp(static_cast<double>(this->faces_),
+                                    fewest_cells_per_point * static_cast<double>(number),
+                                    most_cells_per_point * static_cast<double>(number)),
+    1.0, 4e6);
+  const double aspect = width > 0.0 && height > 0.0 ? std::clamp(width / height, 1e-3, 1e3) : 1.0;
+  const auto us = static_cast<Index>(std::ceil(std::sqrt(cells * aspect)));
+  const auto vs = static_cast<Index>(std::ceil(std::sqrt(cells / aspect)));
+  const double per_u = width > 0.0 ? static_cast<double>(us) / width : 0.0;
+  const double per_v = height > 0.0 ? static_cast<double>(vs) / height : 0.0;
+  // Both are monotone, so the cells of a triangle's box hold all points in it.
+  const auto u_of = [&](double x)
+  { return std::clamp<Index>(static_cast<Index>((x - lower[u]) * per_u), 0, us - 1); };
+  const auto v_of = [&](double x)
+  { return std::clamp<Index>(static_cast<Index>((x - lower[v]) * per_v), 0, vs - 1); };
+
+  std::vector<std::int32_t> cell(static_cast<std::size_t>(number));
+  std::vector<std::int32_t> begin(static_cast<std::size_t>(us * vs) + 1, 0);
+  for (Index i = 0; i < number; ++i)
+  {
+    const Vec3& p = points[i];
+    const bool inside = (p.array() >= lower.array()).all() && (p.array() <= upper.array()).all();
+    cell[i] = inside ? static_cast<std::int32_t>(v_of(p[v]) * us + u_of(p[u])) : -1;
+    if (inside)
+    {
+      begin[cell[i] + 1] += 1;
+    }
+  }
+  for (std::size_t c = 1; c < begin.size(); ++c)
+  {
+    begin[c] += begin[c - 1];
+  }
+  const auto inside = static_cast<std::size_t>(begin.back());
+  std::vector<std::int32_t> next(begin.begin(), begin.end() - 1);
+  std::vector<std::int32_t> ids(inside);
+  PointLanes sorted;
+  for (std::vector<double>* values : { &sorted.x, &sorted.y, &sorted.z })
+  {
+    reserve_in_large_pages(*values, inside);
+    values->resize(inside);
+  }
+  for (Index i = 0; i < number; ++i)
+  {
+    if (cell[i] >= 0)
+    {
+      const std::int32_t at = next[cell[i]]++;
+      ids[at] = static_cast<std::int32_t>(i);
+      sorted.x[at] = points[i][this->axis_];
+      sorted.y[at] = points[i][u];
+      sorted.z[at] = points[i][v];
+    }
+  }
+  if (context.cancelled())
+  {
+    return false;
+  }
+
+  // Slabs of whole lines of cells; the triangles of each.
+  const Index slabs = std::clamp<Index>(static_cast<Index>(inside) / points_per_slab, 1, vs);
+  const auto slab_of = [&](Index line) { return line * slabs / vs; };
+  std::vector<Index> face_begin(static_cast<std::size_t>(slabs) + 1, 0);
+  std::vector<std::int32_t> faces;
+  if (slabs > 1)
+  {
+    const auto visit = [&](const auto& see)
+    {
+      for (Index f = 0; f < this->faces_; ++f)
+      {
+        const std::array<Vec3, 3> c = this->corners(f);
+        const double low = std::min({ c[0][v], c[1][v], c[2][v] }) - this->tolerance_;
+        const double high = std::max({ c[0][v], c[1][v], c[2][v] }) + this->tolerance_;
+        for (Index s = slab_of(v_of(low)); s <= slab_of(v_of(high)); ++s)
+        {
+          see(s, f);
+        }
+      }
+    };
+    visit([&](Index s, Index) { face_begin[s + 1] += 1; });
+    for (Index s = 0; s < slabs; ++s)
+    {
+      face_begin[s + 1] += face_begin[s];
+    }
+    faces.resize(static_cast<std::size_t>(face_begin.back()));
+    std::vector<Index> next_face(face_begin.begin(), face_begin.end() - 1);
+    visit([&](Index s, Index f) { faces[next_face[s]++] = static_cast<std::int32_t>(f); });
+  }
+  return parallel_for(context, slabs, 1,
+    [&](Index slab, Index)
+    {
+      Index first_line = slab * vs / slabs;
+      while (slab_of(first_line) < slab)
+      {
+        ++first_line;
+      }
+      Index last_line = first_line;
+      while (last_line < vs && slab_of(last_line) == slab)
+      {
+        ++last_line;
+      }
+      const std::int32_t first_point = begin[first_line * us];
+      const std::int32_t last_point = begin[last_line * us];
+      std::vector<std::int32_t> sums(static_cast<std::size_t>(last_point - first_point), 0);
+      std::array<std::int32_t, points_at_once> open;
+      const Index face_count = slabs > 1 ? face_begin[slab + 1] - face_begin[slab] : this->faces_;
+      for (Index i = 0; i < face_count; ++i)
+      {
+        if (i % 65536 == 65535 && context.cancelled())
+        {
+          return;
+        }
+        const Index face = slabs > 1 ? faces[face_begin[slab] + i] : i;
+        // The projected box alone decides for most triangles if points are few.
+        const std::array<Vec3, 3> c = this->corners(face);
+        const Index u0 = u_of(std::min({ c[0][u], c[1][u], c[2][u] }) - this->tolerance_);
+        const Index u1 = u_of(std::max({ c[0][u], c[1][u], c[2][u] }) + this->tolerance_);
+        const Index v0 =
+          std::max(first_line, v_of(std::min({ c[0][v], c[1][v], c[2][v] }) - this->tolerance_));
+        const Index v1 =
+          std::min(last_line - 1, v_of(std::max({ c[0][v], c[1][v], c[2][v] }) + this->tolerance_));
+        bool made = false;
+        Facet f;
+        FacetBounds bounds;
+        for (Index line = v0; line <= v1; ++line)
+        {
+          const std::int32_t b = begin[line * us + u0], e = begin[line * us + u1 + 1];
+          if (b == e)
+          {
+            continue;
+          }
+          if (!made)
+          {
+            f = this->facet(face, this->axis_);
+            bounds = { f.x[0], f.y[0], f.z[0], f.y[1], f.z[1], f.y[2], f.z[2], f.upper[0],
+              f.lower[0], f.lower[1], f.upper[1], f.lower[2], f.upper[2], f.normal[0], f.normal[1],
+              f.normal[2], f.edge_bound, f.outside, f.plane_bound };
+            made = true;
+          }
+          for (std::int32_t at = b; at < e; at += points_at_once)
+          {
+            const std::int32_t some = std::min(points_at_once, e - at);
+            if (add_crossings(bounds, &sorted.x[at], &sorted.y[at], &sorted.z[at], some,
+                  &sums[at - first_point], open.data()))
+            {
+              for (std::int32_t k = at; k < at + some; ++k)
+              {
+                if (open[k - at])
+                {
+                  bool touches = false;
+                  sums[k - first_point] += this->crossing_of(f, points[ids[k]], touches);
+                  resolved[ids[k]] = resolved[ids[k]] && !touches;
+                }
+              }
+            }
+          }
+        }
+      }
+      for (std::int32_t k = first_point; k < last_point; ++k)
+      {
+        counts[ids[k]] = sums[k - first_point];
+      }
+    });
+}
+
+// ---- Grids -------------------------------------------------------------------------------------
+
+RayCrossings::Layers RayCrossings::layers_of(const Grid& grid) const
+{
+  const auto& [xs, ys, zs] = grid.at;
+  Layers layers;
+  const auto zs_count = static_cast<Index>(zs.size());
+  const auto area = static_cast<Index>(xs.size() * ys.size());
+  layers.per_slab = std::clamp<Index>(samples_per_slab / std::max<Index>(1, area), 1, zs_count);
+  const Index slabs = (zs_count + layers.per_slab - 1) / layers.per_slab;
+  const double per_y = per_length_of(ys), per_z = per_length_of(zs);
+  layers.begin.assign(static_cast<std::size_t>(slabs) + 1, 0);
+  struct Range
+  {
+    std::int32_t first, last;
+  };
+  std::vector<Range> ranges(static_cast<std::size_t>(this->faces_));
+  double rows = 0.0;
+  for (Index f = 0; f < this->faces_; ++f)
+  {
+    const std::array<Vec3, 3> c = this->corners(f);
+    const Vec3 lower = c[0].cwiseMin(c[1]).cwiseMin(c[2]).array() - this->tolerance_;
+    const Vec3 upper = c[0].cwiseMax(c[1]).cwiseMax(c[2]).array() + this->tolerance_;
+    const Index first = first_from(zs, lower.z(), per_z);
+    Index end = first;
+    if (first < zs_count && zs[first] <= upper.z() && xs.front() <= upper.x())
+    {
+      end = first_from(zs, upper.z(), per_z);
+      end += end < zs_count && zs[end] <= upper.z();
+      const double across = (upper.y() - lower.y()) * per_y;
+      rows += static_cast<double>(end - first) * std::min(across, static_cast<double>(ys.size()));
+    }
+    ranges[f] = { static_cast<std::int32_t>(first / layers.per_slab),
+      static_cast<std::int32_t>(end > first ? (end - 1) / layers.per_slab : -1) };
+    for (Index s = ranges[f].first; s <= ranges[f].last; ++s)
+    {
+      layers.begin[s + 1] += 1;
+    }
+  }
+  for (Index s = 0; s < slabs; ++s)
+  {
+    layers.begin[s + 1] += layers.begin[s];
+  }
+  layers.faces.resize(static_cast<std::size_t>(layers.begin.back()));
+  std::vector<Index> next(layers.begin.begin(), layers.begin.end() - 1);
+  for (Index f = 0; f < this->faces_; ++f)
+  {
+    for (Index s = ranges[f].first; s <= ranges[f].last; ++s)
+    {
+      layers.faces[next[s]++] = static_cast<std::int32_t>(f);
+    }
+  }
+  layers.nanoseconds = face_cost * static_cast<double>(this->faces_) +
+    slab_face_cost * static_cast<double>(layers.faces.size()) + row_cost * rows;
+  return layers;
+}
+
+/// Crossings of the rows of a slab: `sign` is added to the samples [0, end) of a row.
+class RayCrossings::RowHits
+{
+public:
+  explicit RowHits(Index rows) : begin_(static_cast<std::size_t>(rows) + 1, 0) {}
+
+  void add(Index row, Index end, int sign)
+  {
+    if (end > 0)
+    {
+      this->hits_.push_back(
+        { static_cast<std::int32_t>(row), static_cast<std::int32_t>(end), sign });
+      this->begin_[row + 1] += 1;
+    }
+  }
+
+  void write(Index length, double* values)
+  {
+    const std::size_t rows = this->begin_.size() - 1;
+    for (std::size_t r = 0; r < rows; ++r)
+    {
+      this->begin_[r + 1] += this->begin_[r];
+    }
+    std::vector<Hit> sorted(this->hits_.size());
+    std::vector<std::int32_t> next(this->begin_.begin(), this->begin_.end() - 1);
+    for (const Hit& hit : this->hits_)
+    {
+      sorted[next[hit.row]++] = hit;
+    }
+    for (std::size_t r = 0; r < rows; ++r)
+    {
+      Hit* const first = sorted.data() + this->begin_[r];
+      Hit* const last = sorted.data() + this->begin_[r + 1];
+      std::sort(first, last, [](const Hit& a, const Hit& b) { return a.end < b.end; });
+      int count = 0;
+      for (const Hit* hit = first; hit != last; ++hit)
+      {
+        count += hit->sign;
+      }
+      double* const row = values + static_cast<Index>(r) * length;
+      Index at = 0;
+      for (const Hit* hit = first; hit != last; ++hit)
+      {
+        if (hit->end > at)
+        {
+          std::fill(row + at, row + hit->end, static_cast<double>(count));
+          at = hit->end;
+        }
+        count -= hit->sign;
+      }
+      std::fill(row + at, row + length, 0.0);
+    }
+  }
+
+private:
+  struct Hit
+  {
+    std::int32_t row, end;
+    int sign;
+  };
+  std::vector<Hit> hits_;
+  std::vector<std::int32_t> begin_;
+};
+
+void RayCrossings::count_slab(const Grid& grid, const Layers& layers, Index slab, double* values,
+  std::vector<Index>& unresolved) const
+{
+  const auto& [xs, ys, zs] = grid.at;
+  const auto length = static_cast<Index>(xs.size());
+  const auto rows = static_cast<Index>(ys.size());
+  const Index first_layer = slab * layers.per_slab;
+  const Index last_layer = std::min(static_cast<Index>(zs.size()), first_layer + layers.per_slab);
+  const double per_x = per_length_of(xs), per_y = per_length_of(ys), per_z = per_length_of(zs);
+  RowHits hits((last_layer - first_layer) * rows);
+  for (Index i = layers.begin[slab]; i < layers.begin[slab + 1]; ++i)
+  {
+    const Facet f = this->facet(layers.faces[i], 0);
+    const Index j0 = first_from(ys, f.lower[1], per_y);
+    if (j0 == rows || ys[j0] > f.upper[1])
+    {
+      continue;
+    }
+    const Index k0 = std::max(first_layer, first_from(zs, f.lower[2], per_z));
+    const double per_normal = 1.0 / f.normal[0];
+    const double reach = f.plane_bound * std::abs(per_normal);
+    for (Index k = k0; k < last_layer && zs[k] <= f.upper[2]; ++k)
+    {
+      const double pz = zs[k];
+      const double az = f.z[0] - pz, bz = f.z[1] - pz, cz = f.z[2] - pz;
+      for (Index j = j0; j < rows && ys[j] <= f.upper[1]; ++j)
+      {
+        const double py = ys[j];
+        const double ay = f.y[0] - py, by = f.y[1] - py, cy = f.y[2] - py;
+        const double ab = ay * bz - az * by;
+        const double bc = by * cz - bz * cy;
+        const double ca = cy * az - cz * ay;
+        const double least = std::min({ ab, bc, ca }), most = std::max({ ab, bc, ca });
+        if (least < -f.outside && most > f.outside)
+        {
+          continue;
+        }
+        const Index row = (k - first_layer) * rows + j;
+        const bool certain = least > f.edge_bound || most < -f.edge_bound;
+        // Samples from x to y need a look each. NaN, where the triangle is parallel to the rows,
+        // keeps the box's ends.
+        const double center = f.x[0] + (f.normal[1] * ay + f.normal[2] * az) * per_normal;
+        const double x =
+          center - reach > f.lower[0] ? std::min(center - reach, f.upper[0]) : f.lower[0];
+        const double y =
+          center + reach < f.upper[0] ? std::max(center + reach, f.lower[0]) : f.upper[0];
+        Index at = first_from(xs, x, per_x);
+        bool touches = false;
+        if (certain)
+        {
+          hits.add(row, at, least > 0.0 ? 1 : -1);
+        }
+        else if (at > 0)
+        {
+          // Before the box, the ray's crossing is that of the projection.
+          hits.add(row, at, this->crossing_of(f, Vec3(f.lower[0] - 1.0, py, pz), touches));
+        }
+        for (; at < length && xs[at] <= y; ++at)
+        {
+          touches = false;
+          const int sign = this->crossing_of(f, Vec3(xs[at], py, pz), touches);
+          if (touches)
+          {
+            unresolved.push_back(row * length + at);
+          }
+          else if (sign != 0)
+          {
+            hits.add(row, at + 1, sign);
+            hits.add(row, at, -sign);
+          }
+        }
+      }
+    }
+  }
+  hits.write(length, values);
+}
+
+} // namespace bindpose

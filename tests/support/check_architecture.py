@@ -18,7 +18,7 @@ CORE_ARROWS = {
     "base": {"base"},
     "io": {"base", "io"},
     "winding": {"base", "winding"},
-    "surface": {"base", "surface"},
+    "surface": {"base", "winding", "surface"},
     "helper": {"base", "winding", "helper"},
     "planar": {"base", "winding", "helper", "planar"},
     "embedding": {"base", "winding", "embedding"},

@@ -106,6 +106,10 @@ public:
 private:
   void add(double value)
   {
+    if (value == 0.0)
+    {
+      return;
+    }
     int kept = 0;
     double carry = value;
     for (int i = 0; i < this->count_; ++i)

@@ -13,6 +13,7 @@
 #include "surface/triangle_predicates.h"
 #include "surface/triangle_tree.h"
 #include "surface/vertex_order.h"
+#include "winding/winding_number.h"
 
 #include <algorithm>
 #include <array>
@@ -285,23 +286,143 @@ double winding_of_shell(
   return half_angles / two_pi;
 }
 
-/// Most of some of its triangles' centres do: where shells touch, numbers are between.
-bool lies_in(
-  const Points& points, const Triangles& triangles, const Shell& shell, const Shell& container)
+/// Centers of some of a shell's triangles. It lies in another shell if most of them do: where
+/// shells touch, winding numbers are between.
+std::vector<Vec3> looks_of(const Points& points, const Triangles& triangles, const Shell& shell)
 {
   constexpr std::size_t looks = 5;
-  constexpr double inside = 0.75;
   const std::size_t step = (shell.triangles.size() + looks - 1) / looks;
-  int in = 0;
-  int out = 0;
+  std::vector<Vec3> centers;
   for (std::size_t i = 0; i < shell.triangles.size(); i += step)
   {
     const auto t = triangles.row(shell.triangles[i]);
-    const Vec3 p = (points.row(t[0]) + points.row(t[1]) + points.row(t[2])) / 3.0;
-    (std::abs(winding_of_shell(points, triangles, container, p)) > inside ? in : out) += 1;
+    centers.emplace_back((points.row(t[0]) + points.row(t[1]) + points.row(t[2])) / 3.0);
   }
-  return in > out;
+  return centers;
 }
+
+/// Winding numbers of one closed shell at some points: plain sums for small products of counts,
+/// else by crossings. false when cancelled.
+bool winding_numbers(const Points& points, const Triangles& triangles, const Shell& shell,
+  const std::vector<Vec3>& places, ExecutionContext& context, Eigen::VectorXd& numbers)
+{
+  constexpr std::size_t few_angles = 100000;
+  numbers.resize(static_cast<Index>(places.size()));
+  if (places.size() * shell.triangles.size() <= few_angles)
+  {
+    for (std::size_t i = 0; i < places.size(); ++i)
+    {
+      numbers[static_cast<Index>(i)] = winding_of_shell(points, triangles, shell, places[i]);
+    }
+    return !context.cancelled();
+  }
+  // The shell with vertices of its own, for it may be a small part of the surface.
+  std::vector<Index> vertices;
+  for (const Index t : shell.triangles)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      vertices.push_back(triangles(t, k));
+    }
+  }
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  Points own_points(static_cast<Index>(vertices.size()), 3);
+  for (std::size_t v = 0; v < vertices.size(); ++v)
+  {
+    own_points.row(static_cast<Index>(v)) = points.row(vertices[v]);
+  }
+  Triangles own(static_cast<Index>(shell.triangles.size()), 3);
+  for (Index t = 0; t < own.rows(); ++t)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      own(t, k) =
+        std::lower_bound(vertices.begin(), vertices.end(), triangles(shell.triangles[t], k)) -
+        vertices.begin();
+    }
+  }
+  Points queries(numbers.size(), 3);
+  for (Index i = 0; i < queries.rows(); ++i)
+  {
+    queries.row(i) = places[i].transpose();
+  }
+  ExecutionContext quiet({}, [&context] { return context.cancelled(); });
+  quiet.set_threads(context.threads());
+  WindingNumber::Options options;
+  options.method = WindingMethod::exact;
+  options.expected_queries = queries.rows();
+  WindingNumber winding;
+  Status status = winding.build(own_points, own, quiet, options);
+  status = status.ok() ? winding.evaluate(queries, quiet, numbers.data()) : status;
+  return status.ok();
+}
+
+/// Boxes by their lower corners, to find those that lie in a box: a balanced tree of medians.
+class BoxFinder
+{
+public:
+  /// `boxes` must outlive it; `some` are ids of boxes.
+  BoxFinder(const std::vector<Shell>& boxes, std::vector<Index> some)
+    : boxes_(boxes), ids_(std::move(some))
+  {
+    this->sort(0, this->ids_.size(), 0);
+  }
+  /// Calls found(id) for the boxes that lie in this one, in no particular order.
+  template <typename Found>
+  void find(const Box& box, const Found& found) const
+  {
+    this->find(box, found, 0, this->ids_.size(), 0);
+  }
+
+private:
+  const Box& box(std::size_t i) const { return this->boxes_[this->ids_[i]].box; }
+
+  void sort(std::size_t begin, std::size_t end, int axis)
+  {
+    if (end - begin < 2)
+    {
+      return;
+    }
+    const std::size_t middle = begin + (end - begin) / 2;
+    const auto first = this->ids_.begin();
+    std::nth_element(first + static_cast<std::ptrdiff_t>(begin),
+      first + static_cast<std::ptrdiff_t>(middle), first + static_cast<std::ptrdiff_t>(end),
+      [&](Index s, Index t)
+      { return this->boxes_[s].box.lower[axis] < this->boxes_[t].box.lower[axis]; });
+    this->sort(begin, middle, (axis + 1) % 3);
+    this->sort(middle + 1, end, (axis + 1) % 3);
+  }
+
+  template <typename Found>
+  void find(
+    const Box& outer, const Found& found, std::size_t begin, std::size_t end, int axis) const
+  {
+    if (begin >= end)
+    {
+      return;
+    }
+    const std::size_t middle = begin + (end - begin) / 2;
+    const Box& inner = this->box(middle);
+    if ((outer.lower.array() <= inner.lower.array()).all() &&
+      (inner.upper.array() <= outer.upper.array()).all())
+    {
+      found(this->ids_[middle]);
+    }
+    const double at = inner.lower[axis];
+    if (outer.lower[axis] <= at)
+    {
+      this->find(outer, found, begin, middle, (axis + 1) % 3);
+    }
+    if (at <= outer.upper[axis])
+    {
+      this->find(outer, found, middle + 1, end, (axis + 1) % 3);
+    }
+  }
+
+  const std::vector<Shell>& boxes_;
+  std::vector<Index> ids_;
+};
 
 /// Shells that are inside out: closed, in no other closed shell, of negative volume; and, behind
 /// each, the closed shells that lie in it.
@@ -311,8 +432,9 @@ struct InwardShells
   std::vector<Index> turn; ///< shells to turn
 };
 
-InwardShells inward_shells(
-  const Points& points, const Triangles& triangles, const std::vector<Shell>& shells)
+/// false when cancelled.
+bool inward_shells(const Points& points, const Triangles& triangles,
+  const std::vector<Shell>& shells, ExecutionContext& context, InwardShells& result)
 {
   std::vector<Index> order;
   for (std::size_t s = 0; s < shells.size(); ++s)
@@ -332,39 +454,66 @@ InwardShells inward_shells(
       const double y = std::abs(shells[t].volume);
       return x != y ? x > y : s < t;
     });
-  InwardShells result;
-  std::vector<Index> roots;
+  std::vector<Index> rank(shells.size(), -1);
+  for (std::size_t i = 0; i < order.size(); ++i)
+  {
+    rank[order[i]] = static_cast<Index>(i);
+  }
+  const BoxFinder finder(shells, order);
+  // Each shell in no other one takes all later shells that lie in it, all of them at once.
+  std::vector<Index> container(shells.size(), -1);
   std::vector<char> turned(shells.size(), 0);
   for (const Index s : order)
   {
-    const Shell& shell = shells[s];
-    const auto container = std::find_if(roots.begin(), roots.end(),
-      [&](Index r)
-      {
-        const Box& box = shells[r].box;
-        return (box.lower.array() <= shell.box.lower.array()).all() &&
-          (shell.box.upper.array() <= box.upper.array()).all() &&
-          lies_in(points, triangles, shell, shells[r]);
-      });
-    if (container == roots.end())
+    if (container[s] >= 0)
     {
-      roots.push_back(s);
-      turned[s] = shell.volume < 0.0;
+      turned[s] = turned[container[s]];
+    }
+    else
+    {
+      turned[s] = shells[s].volume < 0.0;
       if (turned[s])
       {
         result.roots.push_back(s);
       }
-    }
-    else
-    {
-      turned[s] = turned[*container];
+      std::vector<Index> inner;
+      finder.find(shells[s].box,
+        [&](Index t)
+        {
+          if (rank[t] > rank[s] && container[t] < 0)
+          {
+            inner.push_back(t);
+          }
+        });
+      std::vector<Vec3> places;
+      std::vector<std::size_t> begin{ 0 };
+      for (const Index t : inner)
+      {
+        const std::vector<Vec3> looks = looks_of(points, triangles, shells[t]);
+        places.insert(places.end(), looks.begin(), looks.end());
+        begin.push_back(places.size());
+      }
+      Eigen::VectorXd numbers;
+      if (!places.empty() &&
+        !winding_numbers(points, triangles, shells[s], places, context, numbers))
+      {
+        return false;
+      }
+      for (std::size_t i = 0; i < inner.size(); ++i)
+      {
+        constexpr double inside = 0.75;
+        const auto here = numbers.segment(
+          static_cast<Index>(begin[i]), static_cast<Index>(begin[i + 1] - begin[i]));
+        const Index in = (here.array().abs() > inside).count();
+        container[inner[i]] = 2 * in > here.size() ? s : -1;
+      }
     }
     if (turned[s])
     {
       result.turn.push_back(s);
     }
   }
-  return result;
+  return true;
 }
 
 void weld_and_drop(PointsView points, TrianglesView triangles, const RepairOptions& options,
@@ -489,7 +638,11 @@ Status repair_surface(PointsView points, TrianglesView triangles, const RepairOp
   }
   const Components components = connected_components(repaired.points.rows(), repaired.triangles);
   const std::vector<Shell> shells = shells_of(repaired.points, repaired.triangles, components);
-  const InwardShells inward = inward_shells(repaired.points, repaired.triangles, shells);
+  InwardShells inward;
+  if (!inward_shells(repaired.points, repaired.triangles, shells, context, inward))
+  {
+    return Status::cancelled();
+  }
   found.components = components.count;
   found.inward_components = static_cast<Index>(inward.roots.size());
   for (const Index s : inward.roots)

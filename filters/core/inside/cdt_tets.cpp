@@ -686,7 +686,9 @@ Status CdtTets::place_handles()
   const HandleSamples samples =
     sample_places(this->options_.handles, [&](const Vec3& p) { return field.at(p); });
   WindingNumber winding;
-  Status status = winding.build(points, boundary, this->context_);
+  WindingNumber::Options few;
+  few.expected_queries = std::max<Index>(1, samples.points.rows());
+  Status status = winding.build(points, boundary, this->context_, few);
   Eigen::VectorXd w;
   status = status.ok() ? winding.evaluate(samples.points, this->context_, w) : status;
   if (!status.usable())

@@ -4,6 +4,7 @@
 #include "inside/enclosed_region.h"
 
 #include "base/number_text.h"
+#include "base/parallel.h"
 #include "inside/tet_quality.h"
 
 #include <algorithm>
@@ -68,7 +69,10 @@ Status EnclosedRegion::build(
 Status EnclosedRegion::sample(
   const RepairedSurface& surface, double& negative, ExecutionContext& context)
 {
-  Status status = this->winding_.build(surface.points, surface.triangles, context);
+  // The samples below, then tets.
+  WindingNumber::Options winding;
+  winding.expected_queries = 500000;
+  Status status = this->winding_.build(surface.points, surface.triangles, context, winding);
   if (surface.found.flat)
   {
     this->volume_ = 0.0;
@@ -205,15 +209,28 @@ Status EnclosedRegion::label_tets(
   {
     return status;
   }
-  // Fast numbers that may be on the wrong side of the threshold.
-  constexpr double doubt = 4e-3;
-  for (Index t = 0; t < w.size() && status.usable(); ++t)
+  // Fast numbers that may be on the wrong side of the threshold: within their error bound of it.
+  const double doubt = this->winding_.method() == WindingMethod::fast
+    ? this->winding_.status().report.number("error_bound", 0.0)
+    : 0.0;
+  std::vector<Index> close;
+  for (Index t = 0; t < w.size(); ++t)
   {
-    if (std::abs(w[t] - this->threshold_) < doubt &&
-      this->winding_.method() == WindingMethod::fast && !context.cancelled())
+    if (std::abs(w[t] - this->threshold_) < doubt)
     {
-      w[t] = this->winding_.evaluate_exactly_at(centers.row(t));
+      close.push_back(t);
     }
+  }
+  if (!parallel_for(context, static_cast<Index>(close.size()), 8,
+        [&](Index begin, Index end)
+        {
+          for (Index i = begin; i < end; ++i)
+          {
+            w[close[i]] = this->winding_.evaluate_exactly_at(centers.row(close[i]));
+          }
+        }))
+  {
+    return Status::cancelled();
   }
   constexpr double large = 0.05; // of the diagonal
   std::vector<Index> tets;

@@ -1,0 +1,556 @@
+#!/usr/bin/env python3
+"""Weights and tets of 820 real furniture models: a benchmark of surfaces as people make them.
+
+The models are the .obj files of the Debian package sweethome3d-furniture. Each goes through
+
+    bindpose weights MODEL.obj --handles auto:8
+    bindpose tetrahedralize MODEL.obj
+
+each in its own process with a time limit. Seconds, processor time and peak memory are those of the process and its
+helpers. Results are checked here, by code that does not come from Bindpose: weights must be finite, lie in [0, 1], sum to
+one within 1e-9, and have a certificate (relative gap and residual at most 1e-6); tets must have positive volumes; a
+refusal must be true. One row per model goes to a .csv file, a summary to a .md file.
+
+    real_meshes.py --build build                              everything: hours
+    real_meshes.py --build build --sample 40                  40 models, the same ones every time, of all sizes
+    real_meshes.py --build build --only scopia/cup scopia/keys --verb weights
+    real_meshes.py --build build --compare old.csv            seconds before and after, on the same models
+    real_meshes.py --build build --check                      exit code 1 if a model fails
+    real_meshes.py --build build --check 'weights_seconds_95<=20' 'tets_thin_files<=10'
+
+--check takes any number of the summary (the table "Numbers") as a goal.
+"""
+
+import argparse
+import collections
+import concurrent.futures
+import contextlib
+import csv
+import dataclasses
+import json
+import math
+import multiprocessing
+import os
+import pathlib
+import platform
+import random
+import re
+import shlex
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import zipfile
+
+TESTS = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(TESTS / "support"))
+
+PACKAGE = "sweethome3d-furniture"
+HANDLES = 8
+SEED = 820
+GRACE = 5  # seconds between asking a process to end and killing it
+SMALL = 100_000  # triangles: peak memory is summarized for smaller models
+THIN_SHARE = 0.01  # of tets below 5 degrees: more make a file thin
+VERBS = {"weights": "weights", "tets": "tetrahedralize"}  # prefix of the columns: verb of the program
+GOOD = {"weights": ("certified", "refused"), "tets": ("filled", "refused")}
+PERCENTILES = {"median": 50, "90": 90, "95": 95, "99": 99, "max": 100}
+EXITS = {1: "usage error", 2: "refused", 3: "not converged", 4: "cancelled", 5: "internal error"}
+# Phases that contain others: not the reason why a run is slow.
+CONTAINERS = {"total", "tetrahedralize", "weights", "cdt", "parts"}
+SURFACE = ["triangles", "boundary_edges", "nonmanifold_edges", "misoriented_edges", "duplicate_vertices",
+           "duplicate_triangles", "degenerate_triangles", "self_intersections", "components", "inward_components"]
+RUN = ["outcome", "message", "exit", "status", "seconds", "user_seconds", "peak_mb", "method", "rungs_failed", "tets",
+       "min_dihedral", "below_5", "phases", "warnings"]
+SOLVE = ["domain", "domain_reason", "relative_gap", "kkt_residual", "guard_rms"]  # of weights only
+COLUMNS = ["name", "bytes", *SURFACE, *(f"weights_{key}" for key in [*RUN, *SOLVE]), *(f"tets_{key}" for key in RUN)]
+
+
+@dataclasses.dataclass
+class Model:
+    name: str
+    size: int  # bytes
+    archive: pathlib.Path = None
+    member: str = ""
+
+    def extract(self, folder):
+        path = folder / "model.obj"
+        with zipfile.ZipFile(self.archive) as archive:
+            path.write_bytes(archive.read(self.member))
+        return path
+
+
+@dataclasses.dataclass
+class Finished:
+    """How a process ended."""
+
+    exit_code: int  # negative: ended by this signal
+    seconds: float
+    user_seconds: float
+    peak_bytes: int  # of the process or its largest helper
+    over_limit: bool
+    message: str
+
+
+# ---- Models ----------------------------------------------------------------------------------------
+
+
+def package_files():
+    done = subprocess.run(["dpkg", "-L", PACKAGE], capture_output=True, text=True, check=False)
+    return [pathlib.Path(line) for line in done.stdout.splitlines() if line.endswith(".sh3f")]
+
+
+def model_name(member):
+    """scopia/cup/cup.obj is called scopia/cup."""
+    path = pathlib.PurePosixPath(member).with_suffix("")
+    return str(path.parent if path.name == path.parent.name else path)
+
+
+def real_models():
+    models = []
+    for file in package_files():
+        with zipfile.ZipFile(file) as archive:
+            models += [Model(model_name(info.filename), info.file_size, file, info.filename)
+                       for info in archive.infolist() if info.filename.lower().endswith(".obj")]
+    return sorted(models, key=lambda model: model.name)
+
+
+def sample(models, count):
+    """The same models every time: one of each of `count` equally large classes of file size."""
+    ordered = sorted(models, key=lambda model: (model.size, model.name))
+    count = min(count, len(ordered))
+    draw = random.Random(SEED)
+    borders = [round(k * len(ordered) / count) for k in range(count + 1)]
+    return [ordered[draw.randrange(first, last)] for first, last in zip(borders, borders[1:])]
+
+
+def chosen_models(options, models):
+    if options.only:
+        models = [model for model in models if any(word in model.name for word in options.only)]
+    return sample(models, options.sample) if options.sample else models
+
+
+# ---- Processes -------------------------------------------------------------------------------------
+
+
+def stop(group, over_limit, ended):
+    """Ask a process group to end, which lets the program write its report, then kill it."""
+    over_limit.set()
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(group, signal.SIGTERM)
+        if not ended.wait(GRACE):
+            os.killpg(group, signal.SIGKILL)
+
+
+def run_limited(words, limit, log):
+    """Run a command in a process group of its own, for at most `limit` seconds."""
+    over_limit, ended = threading.Event(), threading.Event()
+    start = time.monotonic()
+    with open(log, "wb") as errors:
+        process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=errors, start_new_session=True)
+    timer = threading.Timer(limit, stop, (process.pid, over_limit, ended))
+    timer.start()
+    _, status, usage = os.wait4(process.pid, 0)
+    seconds = time.monotonic() - start
+    ended.set()
+    timer.cancel()
+    process.returncode = os.waitstatus_to_exitcode(status)
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGKILL)  # helpers that were left behind
+    message = pathlib.Path(log).read_text(encoding="utf-8", errors="replace").strip()
+    return Finished(process.returncode, seconds, usage.ru_utime, 1024 * usage.ru_maxrss, over_limit.is_set(), message)
+
+
+def in_other_process(name, *arguments):
+    """Call a function of result_checks. VTK and numpy stay out of this process: what a child process occupies at
+    most includes what its parent did when it was started."""
+    import result_checks  # pylint: disable=import-outside-toplevel
+    return getattr(result_checks, name)(*arguments)
+
+
+# ---- One run ---------------------------------------------------------------------------------------
+
+
+def command(options, prefix, model, folder):
+    output = folder / ("out.vtp" if prefix == "weights" else "out.vtu")
+    handles = ["--handles", f"auto:{HANDLES}"] if prefix == "weights" else []
+    return output, [options.program, VERBS[prefix], model, *handles, "-o", output, "--report", folder / "report.json",
+                    "--overwrite", "--quiet", "--threads", str(options.threads)]
+
+
+def read_report(path):
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+
+
+def slowest_phases(report, count=3):
+    phases = {name: seconds for name, seconds in report.get("seconds", {}).items() if name not in CONTAINERS}
+    largest = sorted(phases.items(), key=lambda item: -item[1])[:count]
+    return ", ".join(f"{name} {seconds:.1f}" for name, seconds in largest)
+
+
+def from_report(report):
+    counts, tets = report.get("counts", {}), report.get("counts", {}).get("tets")
+    return {"status": report.get("status", "no report"), "method": report.get("method"),
+            "domain": report.get("domain"), "domain_reason": report.get("domain_reason"), "tets": tets,
+            "min_dihedral": report.get("min_dihedral_angle"),
+            "below_5": counts.get("tets_below_5_degrees", 0) / tets if tets else None,
+            "relative_gap": report.get("relative_gap"), "kkt_residual": report.get("kkt_residual"),
+            "guard_rms": report.get("guard", {}).get("rms_difference"),
+            "rungs_failed": sum(rung.get("outcome") != "ok" for rung in report.get("rungs", [])),
+            "phases": slowest_phases(report), "warnings": "; ".join(report.get("warnings", []))}
+
+
+def outcome_of(prefix, done, report, wrong):
+    """One or two words for how the run ended."""
+    if done.over_limit:
+        return "over time limit"
+    if done.exit_code < 0:
+        return "crash"
+    if done.exit_code != 0:
+        return "false refusal" if wrong else EXITS.get(done.exit_code, "unknown exit code")
+    if not report:
+        return "no report"
+    return "wrong result" if wrong else GOOD[prefix][0]
+
+
+def message_of(prefix, done, wrong):
+    said = done.message.removeprefix(f"bindpose {VERBS[prefix]}: ").replace("\n", " / ")
+    if done.over_limit:
+        said = f"stopped after {done.seconds:.0f} s"
+    elif done.exit_code < 0:
+        said = f"{signal.Signals(-done.exit_code).name} {said}".strip()
+    return "; ".join([*filter(None, [said]), *wrong])
+
+
+def checked(options, pool, prefix, done, report, model, output):
+    """Numbers that were measured on the result, and what is wrong with it."""
+    if done.over_limit or done.exit_code not in (0, 2):
+        return {"wrong": []}
+    if done.exit_code == 2:
+        arguments = ("check_refusal", prefix, options.program, model, done.message, HANDLES)
+    elif prefix == "weights":
+        arguments = ("check_weights", output, report, HANDLES)
+    else:
+        arguments = ("check_tets", output, report)
+    try:
+        return pool.submit(in_other_process, *arguments).result()
+    except Exception as error:  # a file that cannot be read is a wrong result, not the end of the benchmark
+        return {"wrong": [f"the check failed: {error}"]}
+
+
+def run_verb(options, pool, prefix, model, folder):
+    """Run one verb on one model. Returns the columns of the table, without their prefix, and the report."""
+    output, words = command(options, prefix, model, folder)
+    for path in (output, folder / "report.json"):
+        path.unlink(missing_ok=True)
+    done = run_limited(words, options.time_limit, folder / "errors.txt")
+    report = read_report(folder / "report.json")
+    numbers = checked(options, pool, prefix, done, report, model, output)
+    wrong = numbers.pop("wrong")
+    row = {**from_report(report), **numbers, "outcome": outcome_of(prefix, done, report, wrong),
+           "message": message_of(prefix, done, wrong), "exit": done.exit_code,
+           "seconds": round(done.seconds, 3), "user_seconds": round(done.user_seconds, 3),
+           "peak_mb": round(done.peak_bytes / 1e6, 1)}
+    return row, report
+
+
+def run_model(options, pool, model):
+    """The row of one model."""
+    row = dict.fromkeys(COLUMNS, "")
+    row.update(name=model.name, bytes=model.size)
+    with tempfile.TemporaryDirectory(prefix="real_meshes_") as folder:
+        folder = pathlib.Path(folder)
+        path = model.extract(folder)
+        for prefix in options.prefixes:
+            cells, report = run_verb(options, pool, prefix, path, folder)
+            row.update({f"{prefix}_{key}": "" if value is None else value for key, value in cells.items()})
+            # The last verb counts: `tetrahedralize` describes the surface as it is in the file.
+            row.update({key: report["counts"][key] for key in SURFACE if key in report.get("counts", {})})
+    return row
+
+
+def run_models(options, models):
+    """Rows of all models, by name. Each is in the .csv file as soon as it is known."""
+    rows = read_rows(options.csv) if options.resume else {}
+    models = [model for model in models if model.name not in rows]
+    context = multiprocessing.get_context("spawn")
+    with concurrent.futures.ProcessPoolExecutor(options.jobs, context) as pool, \
+            concurrent.futures.ThreadPoolExecutor(options.jobs) as threads:
+        futures = [threads.submit(run_model, options, pool, model) for model in models]
+        for k, future in enumerate(concurrent.futures.as_completed(futures), 1):
+            row = future.result()
+            rows[row["name"]] = row
+            write_rows(options.csv, rows)
+            print(f"{k}/{len(models)} {progress_line(row, options.prefixes)}", flush=True)
+    return rows
+
+
+def progress_line(row, prefixes):
+    parts = [row["name"]]
+    for prefix in prefixes:
+        part = f"{prefix} {row[f'{prefix}_outcome']} {row[f'{prefix}_seconds']:.1f} s"
+        failed = row[f"{prefix}_outcome"] not in GOOD[prefix]
+        parts.append(f"{part} ({row[f'{prefix}_message']})" if failed and row[f"{prefix}_message"] else part)
+    return " | ".join(parts)
+
+
+# ---- The table as a file ---------------------------------------------------------------------------
+
+
+def write_rows(path, rows):
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.DictWriter(file, COLUMNS, extrasaction="ignore", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows[name] for name in sorted(rows))
+
+
+def as_number(text):
+    try:
+        return float(text) if text != "" else ""
+    except ValueError:
+        return text
+
+
+def read_rows(path):
+    if not path.exists():
+        return {}
+    with open(path, encoding="utf-8", newline="") as file:
+        return {row["name"]: {key: value if key == "name" else as_number(value) for key, value in row.items()}
+                for row in csv.DictReader(file)}
+
+
+# ---- Summary ---------------------------------------------------------------------------------------
+
+
+def percentile(values, percent):
+    """The smallest value that is at least as large as so many percent of all."""
+    ordered = sorted(values)
+    return ordered[max(0, math.ceil(percent / 100 * len(ordered)) - 1)] if ordered else math.nan
+
+
+def column(rows, name):
+    return [row[name] for row in rows if row.get(name, "") != ""]
+
+
+def ran(rows, prefix):
+    return [row for row in rows if row.get(f"{prefix}_outcome", "")]
+
+
+def succeeded(rows, prefix):
+    return [row for row in rows if row.get(f"{prefix}_outcome") == GOOD[prefix][0]]
+
+
+def numbers_of(rows, prefix):
+    """All numbers of the summary, by the names that --check knows."""
+    rows = ran(rows, prefix)
+    done, outcomes = succeeded(rows, prefix), collections.Counter(column(rows, f"{prefix}_outcome"))
+    small = [row for row in rows if row["triangles"] == "" or row["triangles"] < SMALL]
+    per_triangle = [row[f"{prefix}_tets"] / row["triangles"] for row in done
+                    if row[f"{prefix}_tets"] != "" and row["triangles"]]
+    numbers = {"models": len(rows), GOOD[prefix][0]: len(done), "refused": outcomes["refused"],
+               "failed": sum(count for word, count in outcomes.items() if word not in GOOD[prefix]),
+               "crashed": outcomes["crash"], "over_limit": outcomes["over time limit"]}
+    for kind in ("seconds", "user_seconds"):
+        numbers.update({f"{kind}_{name}": percentile(column(rows, f"{prefix}_{kind}"), percent)
+                        for name, percent in PERCENTILES.items()})
+    numbers.update({"tets_per_triangle_median": percentile(per_triangle, 50),
+                    "tets_per_triangle_95": percentile(per_triangle, 95),
+                    "thin_files": sum(share > THIN_SHARE for share in column(done, f"{prefix}_below_5")),
+                    "peak_mb_small": max(column(small, f"{prefix}_peak_mb"), default=math.nan),
+                    "peak_mb": max(column(rows, f"{prefix}_peak_mb"), default=math.nan)})
+    return {f"{prefix}_{key}": value for key, value in numbers.items()}
+
+
+def text_of(value):
+    if isinstance(value, str) or value is None:
+        return (value or "").replace("|", "\\|")
+    if isinstance(value, float) and not value.is_integer():
+        return "" if math.isnan(value) else f"{value:.3g}" if abs(value) < 100 else f"{value:.0f}"
+    return f"{value:.0f}"
+
+
+def table(heads, rows):
+    return ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads),
+            *("| " + " | ".join(text_of(cell) for cell in row) + " |" for row in rows), ""]
+
+
+def outcome_lines(rows, prefixes):
+    lines = ["## Outcomes", ""]
+    for prefix in prefixes:
+        outcomes = collections.Counter(column(rows, f"{prefix}_outcome"))
+        total = sum(outcomes.values())
+        words = ", ".join(f"{count} {word}" for word, count in outcomes.most_common())
+        lines.append(f"- `bindpose {VERBS[prefix]}`: {total} models: {words}.")
+    return [*lines, ""]
+
+
+def seconds_lines(rows, prefixes):
+    names = {"seconds": "seconds", "user_seconds": "processor seconds"}
+    cells = [[f"{VERBS[prefix]}: {names[kind]}",
+              *(percentile(column(ran(rows, prefix), f"{prefix}_{kind}"), p) for p in PERCENTILES.values())]
+             for prefix in prefixes for kind in names]
+    return ["## Seconds", "", "Of all models, those that failed among them.", "",
+            *table(["", "median", "90 %", "95 %", "99 %", "slowest"], cells)]
+
+
+def refusal_lines(rows, prefixes):
+    lines = ["## Refused, and why", ""]
+    for prefix in prefixes:
+        sentences = collections.Counter(re.sub(r"\d[\d.e+-]*", "N", str(row[f"{prefix}_message"]))
+                                        for row in rows if row.get(f"{prefix}_outcome") == "refused")
+        lines += [f"- {VERBS[prefix]}: {count} x “{sentence}”" for sentence, count in sentences.most_common()]
+    return [*lines, ""] if len(lines) > 2 else []
+
+
+def failures(rows, prefixes):
+    return [(row, prefix) for prefix in prefixes for row in ran(rows, prefix)
+            if row[f"{prefix}_outcome"] not in GOOD[prefix]]
+
+
+def domain_or_rung(row, prefix):
+    if prefix == "tets" or not row["weights_domain"]:
+        return row[f"{prefix}_method"]
+    reason = row["weights_domain_reason"]
+    return f"{row['weights_domain']} ({reason})" if reason else row["weights_domain"]
+
+
+def failure_lines(rows, prefixes):
+    cells = [[row["name"], VERBS[prefix], row["triangles"], row[f"{prefix}_outcome"], row[f"{prefix}_seconds"],
+              domain_or_rung(row, prefix), row[f"{prefix}_message"]]
+             for row, prefix in failures(rows, prefixes)]
+    if not cells:
+        return ["## Failures", "", "None.", ""]
+    return ["## Failures", "", *table(["model", "verb", "triangles", "outcome", "s", "domain or rung", "message"], cells)]
+
+
+def slowest_lines(rows, prefixes, count=10):
+    lines = []
+    for prefix in prefixes:
+        slowest = sorted(ran(rows, prefix), key=lambda row: -row[f"{prefix}_seconds"])[:count]
+        cells = [[row["name"], row[f"{prefix}_seconds"], row[f"{prefix}_user_seconds"], row["triangles"],
+                  domain_or_rung(row, prefix), row[f"{prefix}_tets"], row[f"{prefix}_rungs_failed"],
+                  row[f"{prefix}_phases"]] for row in slowest]
+        lines += [f"## The slowest: {VERBS[prefix]}", "",
+                  *table(["model", "s", "processor s", "triangles", "domain or rung", "tets", "rungs failed",
+                          "slowest phases, s"], cells)]
+    return lines
+
+
+def numbers_lines(rows, prefixes):
+    cells = [[f"`{name}`", value] for prefix in prefixes for name, value in numbers_of(rows, prefix).items()]
+    return ["## Numbers", "",
+            f"`peak_mb_small` is the largest peak of models below {SMALL:,} triangles, in MB (10^6 bytes);",
+            f"`thin_files` counts files with over {100 * THIN_SHARE:.0f} % of tets below 5 degrees.", "",
+            *table(["name for --check", "value"], cells)]
+
+
+def compare_lines(rows, old, prefixes):
+    lines = ["## Before and after", ""]
+    for prefix in prefixes:
+        pairs = [(old[row["name"]], row) for row in ran(rows, prefix)
+                 if old.get(row["name"], {}).get(f"{prefix}_outcome")]
+        before, after = [pair[0] for pair in pairs], [pair[1] for pair in pairs]
+        cells = [[f"{when}: {kind}", *(percentile(column(side, f"{prefix}_{kind}"), p) for p in PERCENTILES.values())]
+                 for kind in ("seconds", "user_seconds") for when, side in (("before", before), ("after", after))]
+        lines += [f"{VERBS[prefix]}, {len(pairs)} models in both tables; {len(succeeded(before, prefix))} "
+                  f"{GOOD[prefix][0]} before, {len(succeeded(after, prefix))} after.", "",
+                  *table(["", "median", "90 %", "95 %", "99 %", "slowest"], cells)]
+        changed = [[b["name"], b[f"{prefix}_outcome"], a[f"{prefix}_outcome"]] for b, a in pairs
+                   if b[f"{prefix}_outcome"] != a[f"{prefix}_outcome"]]
+        lines += table(["model", "before", "after"], changed) if changed else []
+    return lines
+
+
+def machine():
+    names = [line.split(":")[1].strip() for line in pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+             if line.startswith("model name")]
+    return f"{names[0] if names else platform.machine()}, {os.cpu_count()} cores"
+
+
+def markdown(options, rows, old):
+    words = [pathlib.Path(word).name if word.startswith("/") else word for word in sys.argv[1:]]
+    kind = f"{len(rows)} models of the Debian package {PACKAGE}"
+    lines = ["# Real furniture models: weights and tets", "", "Measured by", "",
+             f"    /usr/bin/python3 tests/real_meshes.py {shlex.join(words)}", "",
+             f"on {kind}, {options.time_limit:g} s allowed for each run, {options.jobs} at once ({machine()}).",
+             f"Weights are for {HANDLES} handles spread over the surface (`--handles auto:{HANDLES}`).", ""]
+    lines += outcome_lines(rows, options.prefixes) + seconds_lines(rows, options.prefixes)
+    lines += compare_lines(rows, old, options.prefixes) if old else []
+    lines += failure_lines(rows, options.prefixes) + refusal_lines(rows, options.prefixes)
+    lines += slowest_lines(rows, options.prefixes) + numbers_lines(rows, options.prefixes)
+    return "\n".join(lines)
+
+
+# ---- Goals -----------------------------------------------------------------------------------------
+
+
+def broken_goals(goals, rows, prefixes):
+    """Sentences about promises that are broken, and goals NAME<=NUMBER that are missed."""
+    broken = [f"{row['name']}: {VERBS[prefix]}: {row[f'{prefix}_outcome']}: {row[f'{prefix}_message']}"
+              for row, prefix in failures(rows, prefixes)]
+    numbers = {name: value for prefix in prefixes for name, value in numbers_of(rows, prefix).items()}
+    for goal in goals:
+        name, limit = (word.strip() for word in goal.split("<="))
+        if not numbers[name] <= float(limit):
+            broken.append(f"{name} is {numbers[name]:g}, the goal is at most {limit}")
+    return broken
+
+
+def check_goal_names(parser, goals, prefixes):
+    known = [name for prefix in prefixes for name in numbers_of([], prefix)]
+    for goal in goals or []:
+        name, found, limit = (word.strip() for word in goal.partition("<="))
+        if name not in known or not found or not isinstance(as_number(limit), float):
+            parser.error(f"--check: '{goal}' is not valid: expected NAME<=NUMBER, with NAME one of {', '.join(known)}")
+
+
+# ---- Options ---------------------------------------------------------------------------------------
+
+
+def parse_options():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--build", type=pathlib.Path, required=True, help="build folder with bin/bindpose")
+    parser.add_argument("--sample", type=int, default=0, metavar="N", help="only N models, the same ones every time")
+    parser.add_argument("--only", nargs="+", metavar="NAME", help="only models whose names contain one of these")
+    parser.add_argument("--verb", choices=["weights", "tetrahedralize", "both"], default="both")
+    parser.add_argument("--jobs", type=int, default=1, help="models at once (default: 1)")
+    parser.add_argument("--threads", type=int, default=0, help="threads of each run, 0: all cores (default: 0)")
+    parser.add_argument("--time-limit", type=float, default=180, metavar="SECONDS", help="of each run (default: 180)")
+    parser.add_argument("--csv", type=pathlib.Path, default=TESTS / "real_meshes.csv")
+    parser.add_argument("--markdown", type=pathlib.Path, default=TESTS / "real_meshes.md")
+    parser.add_argument("--resume", action="store_true", help="keep the rows that the .csv file has")
+    parser.add_argument("--compare", type=pathlib.Path, metavar="OLD.csv", help="percentiles before and after")
+    parser.add_argument("--check", nargs="*", metavar="NAME<=NUMBER", help="exit code 1 if a model fails, or a goal is missed")
+    options = parser.parse_args()
+    options.program = options.build.resolve() / "bin" / "bindpose"
+    options.prefixes = [prefix for prefix, verb in VERBS.items() if options.verb in (verb, "both")]
+    check_goal_names(parser, options.check, options.prefixes)
+    if not options.program.exists():
+        parser.error(f"--build: {options.program} does not exist")
+    if options.compare and not options.compare.exists():
+        parser.error(f"--compare: {options.compare} does not exist")
+    return options
+
+
+def main():
+    options = parse_options()
+    models = chosen_models(options, real_models())
+    if not models:
+        print(f"no models: install the Debian package {PACKAGE}, or choose other names for --only", file=sys.stderr)
+        return 2
+    old = read_rows(options.compare) if options.compare else {}
+    found = run_models(options, models)
+    rows = [found[model.name] for model in sorted(models, key=lambda model: model.name)]
+    options.markdown.write_text(markdown(options, rows, old), encoding="utf-8")
+    print("\n".join(outcome_lines(rows, options.prefixes)[2:]))
+    broken = broken_goals(options.check or [], rows, options.prefixes)
+    print("\n".join(f"BROKEN {sentence}" for sentence in broken))
+    return 1 if broken and options.check is not None else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,197 @@
+"""Independent checks of what `bindpose weights` and `bindpose tetrahedralize` write for an .obj model.
+
+Nothing here uses Bindpose's own code: files are read by VTK or by a parser of ours, and computed on with numpy.
+Each check returns a dict of measured numbers whose entry "wrong" lists what is broken, in words.
+"""
+
+import math
+import pathlib
+import subprocess
+
+import numpy as np
+import vtk
+from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+
+CERTIFICATE = 1e-6  # relative gap and residual that make a column certified
+ROW_SUM = 1e-9
+SAMPLES = 1_000_000  # points at which a refusal's winding number is sampled
+SPECK = 1e-5  # of the bounding box: a volume this small need not be found
+EDGES = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]
+THIN = 5.0  # degrees
+
+
+# ---- Models ----------------------------------------------------------------------------------------
+
+
+def read_obj(path):
+    """Points (#V x 3) and triangles (#F x 3, fans of the faces) of an .obj file."""
+    points, triangles = [], []
+    with open(path, encoding="utf-8", errors="replace") as file:
+        for line in file:
+            words = line.split()
+            if words[:1] == ["v"]:
+                points.append([float(word) for word in words[1:4]])
+            elif words[:1] == ["f"]:
+                ids = [int(word.split("/")[0]) for word in words[1:]]
+                ids = [i - 1 if i > 0 else len(points) + i for i in ids]
+                triangles += [(ids[0], a, b) for a, b in zip(ids[1:-1], ids[2:])]
+    return np.array(points, float).reshape(-1, 3), np.array(triangles, int).reshape(-1, 3)
+
+
+def areas(points, triangles):
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+
+
+def is_flat(points):
+    """True if all points lie in one plane, within 1e-12 of their size."""
+    spread = np.linalg.svd(points - points.mean(axis=0), full_matrices=False, compute_uv=False)
+    return spread[-1] <= 1e-12 * spread[0]
+
+
+def model_facts(path, handles):
+    """Why nothing can be bound to the model, or filled: one entry each, empty if it can."""
+    points, triangles = read_obj(path)
+    used = np.unique(points[np.unique(triangles)], axis=0) if len(triangles) else np.empty((0, 3))
+    has_area = len(triangles) > 0 and areas(points, triangles).max() > 0
+    return {"triangles": len(triangles), "nothing": not has_area, "too few": len(used) < handles,
+            "flat": not has_area or is_flat(used)}
+
+
+# ---- Weights ---------------------------------------------------------------------------------------
+
+
+def read_weights(path):
+    """Points (#V x 3) and weights (#V x #H) of a .vtp file."""
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    output = reader.GetOutput()
+    array = output.GetPointData().GetArray("Weights")
+    if array is None or output.GetNumberOfPoints() == 0:
+        return np.empty((0, 3)), np.empty((0, 0))
+    return vtk_to_numpy(output.GetPoints().GetData()).astype(float), vtk_to_numpy(array).astype(float)
+
+
+def weights_array_errors(weights, handles):
+    if weights.shape[0] == 0 or weights.shape[1] != handles:
+        return [f"the file holds weights of shape {weights.shape}, expected {handles} columns"]
+    if not np.isfinite(weights).all():
+        return [f"{(~np.isfinite(weights)).sum()} weights are not finite"]
+    wrong = []
+    off = np.abs(weights.sum(axis=1) - 1).max()
+    if off > ROW_SUM:
+        wrong.append(f"a row's sum differs from one by {off:.1e}")
+    if weights.min() < 0 or weights.max() > 1:
+        wrong.append(f"weights range from {weights.min():g} to {weights.max():g}")
+    return wrong
+
+
+def certificate_errors(report):
+    wrong = [f"{key} is {report.get(key)}, must be at most {CERTIFICATE:g}"
+             for key in ("relative_gap", "kkt_residual") if not report.get(key, math.inf) <= CERTIFICATE]
+    if not report.get("bounds_violation", math.inf) <= 0:
+        wrong.append(f"bounds_violation is {report.get('bounds_violation')}")
+    return wrong
+
+
+def check_weights(path, report, handles):
+    _, weights = read_weights(path)
+    return {"wrong": weights_array_errors(weights, handles) + certificate_errors(report)}
+
+
+# ---- Tets ------------------------------------------------------------------------------------------
+
+
+def read_tets(path):
+    """Points and tets of a .vtu file."""
+    reader = vtk.vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(path))
+    reader.Update()
+    grid = reader.GetOutput()
+    if grid.GetNumberOfCells() == 0:
+        return np.empty((0, 3)), np.empty((0, 4), int)
+    points = vtk_to_numpy(grid.GetPoints().GetData()).astype(float)
+    return points, vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
+
+
+def volumes(points, tets):
+    a, b, c, d = (points[tets[:, k]] for k in range(4))
+    return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
+
+
+def smallest_dihedral_angles(points, tets):
+    """Degrees, one per tet."""
+    corners = points[tets]
+    smallest = np.full(len(tets), 180.0)
+    for a, b in EDGES:
+        c, d = (k for k in range(4) if k not in (a, b))
+        along = corners[:, b] - corners[:, a]
+        one, two = (np.cross(along, corners[:, k] - corners[:, a]) for k in (c, d))
+        sine = np.linalg.norm(np.cross(one, two), axis=1)
+        cosine = np.einsum("ij,ij->i", one, two)
+        smallest = np.minimum(smallest, np.degrees(np.arctan2(sine, cosine)))
+    return smallest
+
+
+def check_tets(path, report):
+    points, tets = read_tets(path)
+    if len(tets) == 0:
+        return {"wrong": ["the file holds no tets"]}
+    wrong = []
+    sizes, angles = volumes(points, tets), smallest_dihedral_angles(points, tets)
+    if not sizes.min() > 0:
+        wrong.append(f"{(~(sizes > 0)).sum()} tets have no positive volume (smallest {sizes.min():g})")
+    if len(np.unique(np.sort(tets, axis=1), axis=0)) < len(tets):
+        wrong.append("a tet occurs twice")
+    if not abs(sizes.sum() - report.get("volume", math.nan)) <= 1e-9 * sizes.sum():
+        wrong.append(f"the report's volume is {report.get('volume')}, that of the file {sizes.sum():g}")
+    return {"wrong": wrong, "tets": len(tets), "min_dihedral": float(angles.min()),
+            "below_5": float((angles < THIN).mean())}
+
+
+# ---- Refusals --------------------------------------------------------------------------------------
+
+
+def sample_points(points, count):
+    """A low-discrepancy sequence that fills the bounding box of the points."""
+    lower, size = points.min(axis=0), np.ptp(points, axis=0)
+    step = np.array([0.8191725133961645, 0.6710436067037893, 0.5497004779019703])
+    return lower + size * np.modf(0.31 + np.arange(1, count + 1)[:, None] * step)[0]
+
+
+def write_points(path, points):
+    data, holder = vtk.vtkPolyData(), vtk.vtkPoints()
+    holder.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
+    data.SetPoints(holder)
+    writer = vtk.vtkXMLPolyDataWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputData(data)
+    writer.SetCompressorTypeToNone()
+    writer.Write()
+
+
+def enclosed_fraction(program, model, folder):
+    """Fraction of the bounding box where the winding number is 0.5 or more, either way."""
+    points, triangles = read_obj(model)
+    write_points(folder / "samples.vtp", sample_points(points[np.unique(triangles)], SAMPLES))
+    subprocess.run([program, "winding", model, "--points", folder / "samples.vtp", "--orient-patches",
+                    "-o", folder / "winding.vtp", "--overwrite", "--quiet"], check=True, timeout=600)
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(str(folder / "winding.vtp"))
+    reader.Update()
+    winding = vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("WindingNumber"))
+    return max((winding >= 0.5).sum(), (winding <= -0.5).sum()) / SAMPLES
+
+
+def check_refusal(verb, program, model, message, handles):
+    """Whether a refusal is true: is there really nothing to bind, or to fill?"""
+    if not message or "\n" in message:
+        return {"wrong": ["a refusal must be one line"]}
+    facts = model_facts(model, handles)
+    if facts["nothing"] or facts["too few" if verb == "weights" else "flat"]:
+        return {"wrong": []}
+    if verb == "weights":
+        return {"wrong": [f"refused, but the model has {facts['triangles']} triangles"]}
+    share = enclosed_fraction(program, model, pathlib.Path(model).parent)
+    return {"wrong": [f"refused, but {100 * share:.2g} % of its box is enclosed"] if share > SPECK else []}

@@ -1,19 +1,21 @@
 #!/usr/bin/env python3
 """Weights and tets of 820 real furniture models: a benchmark of surfaces as people make them.
 
-The models are the .obj files of the Debian package sweethome3d-furniture. Each goes through
+The models are the .obj files of the Debian package sweethome3d-furniture, or (--set made, --set hostile) those that
+support/furniture.py makes, with the same defects and with worse ones. Each goes through
 
     bindpose weights MODEL.obj --handles auto:8
     bindpose tetrahedralize MODEL.obj
 
 each in its own process with a time limit. Seconds, processor time and peak memory are those of the process and its
-helpers. Results are checked here, by code that does not come from Bindpose: weights must be finite, lie in [0, 1], sum to
-one within 1e-9, and have a certificate (relative gap and residual at most 1e-6); tets must have positive volumes; a
-refusal must be true. One row per model goes to a .csv file, a summary to a .md file.
+helpers. Results are checked here, by code that does not come from Bindpose: weights must be finite, lie in [0, 1],
+sum to one within 1e-9, and have a certificate (relative gap and residual at most 1e-6); tets must have positive
+volumes; a refusal must be true. One row per model goes to a .csv file, a summary to a .md file.
 
     real_meshes.py --build build                              everything: hours
     real_meshes.py --build build --sample 40                  40 models, the same ones every time, of all sizes
     real_meshes.py --build build --only scopia/cup scopia/keys --verb weights
+    real_meshes.py --build build --set made --check           a minute: furniture of our own making
     real_meshes.py --build build --compare old.csv            seconds before and after, on the same models
     real_meshes.py --build build --check                      exit code 1 if a model fails
     real_meshes.py --build build --check 'weights_seconds_95<=20' 'tets_thin_files<=10'
@@ -36,6 +38,7 @@ import platform
 import random
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
@@ -71,13 +74,16 @@ COLUMNS = ["name", "bytes", *SURFACE, *(f"weights_{key}" for key in [*RUN, *SOLV
 class Model:
     name: str
     size: int  # bytes
-    archive: pathlib.Path = None
-    member: str = ""
+    file: pathlib.Path  # .obj, or the archive that holds it
+    member: str = ""  # of an archive
 
-    def extract(self, folder):
+    def copy_to(self, folder):
         path = folder / "model.obj"
-        with zipfile.ZipFile(self.archive) as archive:
-            path.write_bytes(archive.read(self.member))
+        if self.member:
+            with zipfile.ZipFile(self.file) as archive:
+                path.write_bytes(archive.read(self.member))
+        else:
+            shutil.copyfile(self.file, path)
         return path
 
 
@@ -116,6 +122,13 @@ def real_models():
     return sorted(models, key=lambda model: model.name)
 
 
+def made_models(folder, kind):
+    """Models of furniture.py. It runs as a process of its own: see in_other_process."""
+    words = ["--hostile"] if kind == "hostile" else []
+    subprocess.run([sys.executable, TESTS / "support" / "furniture.py", folder, *words], check=True)
+    return [Model(path.stem, path.stat().st_size, path) for path in sorted(pathlib.Path(folder).glob("*.obj"))]
+
+
 def sample(models, count):
     """The same models every time: one of each of `count` equally large classes of file size."""
     ordered = sorted(models, key=lambda model: (model.size, model.name))
@@ -125,7 +138,8 @@ def sample(models, count):
     return [ordered[draw.randrange(first, last)] for first, last in zip(borders, borders[1:])]
 
 
-def chosen_models(options, models):
+def chosen_models(options, folder):
+    models = real_models() if options.set == "furniture" else made_models(folder, options.set)
     if options.only:
         models = [model for model in models if any(word in model.name for word in options.only)]
     return sample(models, options.sample) if options.sample else models
@@ -264,7 +278,7 @@ def run_model(options, pool, model):
     row.update(name=model.name, bytes=model.size)
     with tempfile.TemporaryDirectory(prefix="real_meshes_") as folder:
         folder = pathlib.Path(folder)
-        path = model.extract(folder)
+        path = model.copy_to(folder)
         for prefix in options.prefixes:
             cells, report = run_verb(options, pool, prefix, path, folder)
             row.update({f"{prefix}_{key}": "" if value is None else value for key, value in cells.items()})
@@ -424,7 +438,8 @@ def failure_lines(rows, prefixes):
              for row, prefix in failures(rows, prefixes)]
     if not cells:
         return ["## Failures", "", "None.", ""]
-    return ["## Failures", "", *table(["model", "verb", "triangles", "outcome", "s", "domain or rung", "message"], cells)]
+    heads = ["model", "verb", "triangles", "outcome", "s", "domain or rung", "message"]
+    return ["## Failures", "", *table(heads, cells)]
 
 
 def slowest_lines(rows, prefixes, count=10):
@@ -466,17 +481,20 @@ def compare_lines(rows, old, prefixes):
 
 
 def machine():
-    names = [line.split(":")[1].strip() for line in pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
-             if line.startswith("model name")]
+    lines = pathlib.Path("/proc/cpuinfo").read_text(encoding="utf-8").splitlines()
+    names = [line.split(":")[1].strip() for line in lines if line.startswith("model name")]
     return f"{names[0] if names else platform.machine()}, {os.cpu_count()} cores"
 
 
 def markdown(options, rows, old):
     words = [pathlib.Path(word).name if word.startswith("/") else word for word in sys.argv[1:]]
-    kind = f"{len(rows)} models of the Debian package {PACKAGE}"
+    source = f"that tests/support/furniture.py makes ({options.set})"
+    if options.set == "furniture":
+        source = f"of the Debian package {PACKAGE}"
     lines = ["# Real furniture models: weights and tets", "", "Measured by", "",
              f"    /usr/bin/python3 tests/real_meshes.py {shlex.join(words)}", "",
-             f"on {kind}, {options.time_limit:g} s allowed for each run, {options.jobs} at once ({machine()}).",
+             f"on {len(rows)} models {source},",
+             f"{options.time_limit:g} s allowed for each run, {options.jobs} at once ({machine()}).",
              f"Weights are for {HANDLES} handles spread over the surface (`--handles auto:{HANDLES}`).", ""]
     lines += outcome_lines(rows, options.prefixes) + seconds_lines(rows, options.prefixes)
     lines += compare_lines(rows, old, options.prefixes) if old else []
@@ -514,20 +532,27 @@ def check_goal_names(parser, goals, prefixes):
 def parse_options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, required=True, help="build folder with bin/bindpose")
+    parser.add_argument("--set", choices=["furniture", "made", "hostile"], default="furniture",
+                        help="models of the package, or made ones (default: furniture)")
     parser.add_argument("--sample", type=int, default=0, metavar="N", help="only N models, the same ones every time")
     parser.add_argument("--only", nargs="+", metavar="NAME", help="only models whose names contain one of these")
     parser.add_argument("--verb", choices=["weights", "tetrahedralize", "both"], default="both")
     parser.add_argument("--jobs", type=int, default=1, help="models at once (default: 1)")
     parser.add_argument("--threads", type=int, default=0, help="threads of each run, 0: all cores (default: 0)")
     parser.add_argument("--time-limit", type=float, default=180, metavar="SECONDS", help="of each run (default: 180)")
-    parser.add_argument("--csv", type=pathlib.Path, default=TESTS / "real_meshes.csv")
-    parser.add_argument("--markdown", type=pathlib.Path, default=TESTS / "real_meshes.md")
+    parser.add_argument("--csv", type=pathlib.Path, help="default: real_meshes.csv beside this script")
+    parser.add_argument("--markdown", type=pathlib.Path, help="default: real_meshes.md beside this script")
     parser.add_argument("--resume", action="store_true", help="keep the rows that the .csv file has")
     parser.add_argument("--compare", type=pathlib.Path, metavar="OLD.csv", help="percentiles before and after")
-    parser.add_argument("--check", nargs="*", metavar="NAME<=NUMBER", help="exit code 1 if a model fails, or a goal is missed")
+    parser.add_argument("--check", nargs="*", metavar="NAME<=NUMBER",
+                        help="exit code 1 if a model fails, or one of these goals is missed")
     options = parser.parse_args()
     options.program = options.build.resolve() / "bin" / "bindpose"
     options.prefixes = [prefix for prefix, verb in VERBS.items() if options.verb in (verb, "both")]
+    if options.set != "furniture" and not (options.csv and options.markdown):
+        parser.error(f"--set {options.set}: --csv and --markdown are required, real_meshes.* are the package's")
+    options.csv = options.csv or TESTS / "real_meshes.csv"
+    options.markdown = options.markdown or TESTS / "real_meshes.md"
     check_goal_names(parser, options.check, options.prefixes)
     if not options.program.exists():
         parser.error(f"--build: {options.program} does not exist")
@@ -536,18 +561,24 @@ def parse_options():
     return options
 
 
-def main():
-    options = parse_options()
-    models = chosen_models(options, real_models())
-    if not models:
-        print(f"no models: install the Debian package {PACKAGE}, or choose other names for --only", file=sys.stderr)
-        return 2
+def run(options, models):
+    """Run, write, print. Returns sentences about broken promises and missed goals."""
     old = read_rows(options.compare) if options.compare else {}
     found = run_models(options, models)
     rows = [found[model.name] for model in sorted(models, key=lambda model: model.name)]
     options.markdown.write_text(markdown(options, rows, old), encoding="utf-8")
     print("\n".join(outcome_lines(rows, options.prefixes)[2:]))
-    broken = broken_goals(options.check or [], rows, options.prefixes)
+    return broken_goals(options.check or [], rows, options.prefixes)
+
+
+def main():
+    options = parse_options()
+    with tempfile.TemporaryDirectory(prefix="real_meshes_") as folder:
+        models = chosen_models(options, folder)
+        if not models:
+            print(f"no models: install the Debian package {PACKAGE}, or choose other names for --only", file=sys.stderr)
+            return 2
+        broken = run(options, models)
     print("\n".join(f"BROKEN {sentence}" for sentence in broken))
     return 1 if broken and options.check is not None else 0
 

@@ -244,9 +244,9 @@ def ten_thousand_components():
 
 
 def doubled_three_times():
-    """Every face of a sphere and a torus that cross is there eight times, four of them reversed."""
+    """Every face of a sphere and a torus that cross is there eight times."""
     part = join(triangles(horrors.sphere(3)), triangles(horrors.moved(horrors.torus(), 0.9, 0, 0.1)))
-    return doubled(doubled(doubled(part), reverse=True))
+    return doubled(doubled(doubled(part)))
 
 
 def sheets_a_billionth_apart():

@@ -1,15 +1,20 @@
 #!/usr/bin/env bash
 # What is too long for tests/run.sh: sanitizers, the build without GPL and AGPL parts and OpenVDB, naming on all
 # files, the quickstart, every surface of libcgal-demo and every made horror through the mesher, weights of twenty
-# surfaces with their certificates, a thousand random unclean surfaces, two million poses, a million triangles, the
-# plugin in ParaView, a monkey in the window under sanitizers.
+# surfaces with their certificates, a thousand random unclean surfaces, two million poses, a million triangles, weights
+# and tets of hostile models and of 820 real furniture models, the plugin in ParaView, a monkey in the window under
+# sanitizers.
 # Ends with a summary.
-# usage: tests/nightly.sh [asan|permissive|tidy|quickstart|surfaces|weights|fuzz|drags|million|paraview|monkey …]   (default: all)
+# usage: tests/nightly.sh [PART…]   (default: all)
+# parts: asan permissive tidy quickstart surfaces weights fuzz drags million hostile real paraview monkey
 set -uo pipefail
 program=nightly.sh
 install=yes
 . "$(dirname "${BASH_SOURCE[0]}")/../examples/setup.sh"
-install_packages "$build_packages $test_packages"
+nightly_packages="
+sweethome3d-furniture:820_real_furniture_models
+"
+install_packages "$build_packages $test_packages $nightly_packages"
 build -DBINDPOSE_BUILD_TESTS=ON
 
 summary=()
@@ -85,6 +90,17 @@ million()
   /usr/bin/python3 "$root/tests/support/measure_tets.py" --build "$build_dir" --table million
 }
 
+hostile()
+{
+  /usr/bin/python3 "$root/tests/real_meshes.py" --build "$build_dir" --set hostile --check --time-limit 600 \
+    --csv "$build_dir/nightly-hostile.csv" --markdown "$build_dir/nightly-hostile.md"
+}
+
+real()
+{ # hours; tests/real_meshes.md and .csv are replaced by what is measured now
+  /usr/bin/python3 "$root/tests/real_meshes.py" --build "$build_dir" --check
+}
+
 paraview()
 {
   "$root/tests/paraview.sh"
@@ -100,7 +116,7 @@ monkey()
 )
 
 parts=("$@")
-[ $# -gt 0 ] || parts=(asan permissive tidy quickstart surfaces weights fuzz drags million paraview monkey)
+[ $# -gt 0 ] || parts=(asan permissive tidy quickstart surfaces weights fuzz drags million hostile real paraview monkey)
 for name in "${parts[@]}"; do
   part "$name" "$name"
 done

@@ -26,7 +26,6 @@ volumes; a refusal must be true. One row per model goes to a .csv file, a summar
 import argparse
 import collections
 import concurrent.futures
-import contextlib
 import csv
 import dataclasses
 import json
@@ -43,18 +42,17 @@ import signal
 import subprocess
 import sys
 import tempfile
-import threading
-import time
 import zipfile
 
 TESTS = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(TESTS / "support"))
+from limited_process import run_limited  # noqa: E402
 
 PACKAGE = "sweethome3d-furniture"
 HANDLES = 8
 SEED = 820
-GRACE = 5  # seconds between asking a process to end and killing it
 SMALL = 100_000  # triangles: peak memory is summarized for smaller models
+LEAK = 0.01  # a larger weight on a separate part is a leak
 THIN_SHARE = 0.01  # of tets below 5 degrees: more make a file thin
 VERBS = {"weights": "weights", "tets": "tetrahedralize"}  # prefix of the columns: verb of the program
 GOOD = {"weights": ("certified", "refused"), "tets": ("filled", "refused")}
@@ -66,7 +64,7 @@ SURFACE = ["triangles", "boundary_edges", "nonmanifold_edges", "misoriented_edge
            "duplicate_triangles", "degenerate_triangles", "self_intersections", "components", "inward_components"]
 RUN = ["outcome", "message", "exit", "status", "seconds", "user_seconds", "peak_mb", "method", "rungs_failed", "tets",
        "min_dihedral", "below_5", "phases", "warnings"]
-SOLVE = ["domain", "domain_reason", "relative_gap", "kkt_residual", "guard_rms"]  # of weights only
+SOLVE = ["domain", "domain_reason", "relative_gap", "kkt_residual", "guard_rms", "leak"]  # of weights only
 COLUMNS = ["name", "bytes", *SURFACE, *(f"weights_{key}" for key in [*RUN, *SOLVE]), *(f"tets_{key}" for key in RUN)]
 
 
@@ -85,18 +83,6 @@ class Model:
         else:
             shutil.copyfile(self.file, path)
         return path
-
-
-@dataclasses.dataclass
-class Finished:
-    """How a process ended."""
-
-    exit_code: int  # negative: ended by this signal
-    seconds: float
-    user_seconds: float
-    peak_bytes: int  # of the process or its largest helper
-    over_limit: bool
-    message: str
 
 
 # ---- Models ----------------------------------------------------------------------------------------
@@ -148,38 +134,10 @@ def chosen_models(options, folder):
 # ---- Processes -------------------------------------------------------------------------------------
 
 
-def stop(group, over_limit, ended):
-    """Ask a process group to end, which lets the program write its report, then kill it."""
-    over_limit.set()
-    with contextlib.suppress(ProcessLookupError):
-        os.killpg(group, signal.SIGTERM)
-        if not ended.wait(GRACE):
-            os.killpg(group, signal.SIGKILL)
-
-
-def run_limited(words, limit, log):
-    """Run a command in a process group of its own, for at most `limit` seconds."""
-    over_limit, ended = threading.Event(), threading.Event()
-    start = time.monotonic()
-    with open(log, "wb") as errors:
-        process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=errors, start_new_session=True)
-    timer = threading.Timer(limit, stop, (process.pid, over_limit, ended))
-    timer.start()
-    _, status, usage = os.wait4(process.pid, 0)
-    seconds = time.monotonic() - start
-    ended.set()
-    timer.cancel()
-    process.returncode = os.waitstatus_to_exitcode(status)
-    with contextlib.suppress(ProcessLookupError):
-        os.killpg(process.pid, signal.SIGKILL)  # helpers that were left behind
-    message = pathlib.Path(log).read_text(encoding="utf-8", errors="replace").strip()
-    return Finished(process.returncode, seconds, usage.ru_utime, 1024 * usage.ru_maxrss, over_limit.is_set(), message)
-
-
 def in_other_process(name, *arguments):
     """Call a function of result_checks. VTK and numpy stay out of this process: what a child process occupies at
     most includes what its parent did when it was started."""
-    import result_checks  # pylint: disable=import-outside-toplevel
+    import result_checks
     return getattr(result_checks, name)(*arguments)
 
 
@@ -376,6 +334,10 @@ def numbers_of(rows, prefix):
                     "thin_files": sum(share > THIN_SHARE for share in column(done, f"{prefix}_below_5")),
                     "peak_mb_small": max(column(small, f"{prefix}_peak_mb"), default=math.nan),
                     "peak_mb": max(column(rows, f"{prefix}_peak_mb"), default=math.nan)})
+    if prefix == "weights":
+        leaks = column(done, "weights_leak")
+        numbers.update({"leak_models": len(leaks), "leaks": sum(leak > LEAK for leak in leaks),
+                        "leak_max": max(leaks, default=0.0)})
     return {f"{prefix}_{key}": value for key, value in numbers.items()}
 
 
@@ -442,6 +404,19 @@ def failure_lines(rows, prefixes):
     return ["## Failures", "", *table(heads, cells)]
 
 
+def leak_lines(rows):
+    measured = [row for row in rows if row.get("weights_leak", "") != ""]
+    leaks = sorted(((row["weights_leak"], row["name"]) for row in measured), reverse=True)
+    if not leaks:
+        return []
+    over = [[name, leak] for leak, name in leaks if leak > LEAK]
+    return ["## Leaks between separate parts", "",
+            f"{len(leaks)} models have two or more parts with handles that do not touch, cross or contain each other.",
+            f"On {len(over)} of them a handle of one part has a weight above {LEAK:g} on another; the largest is "
+            f"{leaks[0][0]:.3g} ({leaks[0][1]}).", "",
+            *(table(["model", "largest weight"], over) if over else [])]
+
+
 def slowest_lines(rows, prefixes, count=10):
     lines = []
     for prefix in prefixes:
@@ -499,7 +474,7 @@ def markdown(options, rows, old):
     lines += outcome_lines(rows, options.prefixes) + seconds_lines(rows, options.prefixes)
     lines += compare_lines(rows, old, options.prefixes) if old else []
     lines += failure_lines(rows, options.prefixes) + refusal_lines(rows, options.prefixes)
-    lines += slowest_lines(rows, options.prefixes) + numbers_lines(rows, options.prefixes)
+    lines += leak_lines(rows) + slowest_lines(rows, options.prefixes) + numbers_lines(rows, options.prefixes)
     return "\n".join(lines)
 
 

@@ -12,6 +12,8 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
+from separate_parts import largest_leak
+
 CERTIFICATE = 1e-6  # relative gap and residual that make a column certified
 ROW_SUM = 1e-9
 SAMPLES = 1_000_000  # points at which a refusal's winding number is sampled
@@ -62,15 +64,20 @@ def model_facts(path, handles):
 
 
 def read_weights(path):
-    """Points (#V x 3) and weights (#V x #H) of a .vtp file."""
-    reader = vtk.vtkXMLPolyDataReader()
+    """Points (#V x 3), triangles (#F x 3) and weights (#V x #H) of a .vtp file."""
+    reader, to_triangles = vtk.vtkXMLPolyDataReader(), vtk.vtkTriangleFilter()
     reader.SetFileName(str(path))
-    reader.Update()
-    output = reader.GetOutput()
-    array = output.GetPointData().GetArray("Weights")
-    if array is None or output.GetNumberOfPoints() == 0:
-        return np.empty((0, 3)), np.empty((0, 0))
-    return vtk_to_numpy(output.GetPoints().GetData()).astype(float), vtk_to_numpy(array).astype(float)
+    to_triangles.SetInputConnection(reader.GetOutputPort())
+    to_triangles.PassVertsOff()
+    to_triangles.PassLinesOff()
+    to_triangles.Update()
+    surface = to_triangles.GetOutput()
+    array = surface.GetPointData().GetArray("Weights")
+    if array is None or surface.GetNumberOfPolys() == 0:
+        return np.empty((0, 3)), np.empty((0, 3), int), np.empty((0, 0))
+    return (vtk_to_numpy(surface.GetPoints().GetData()).astype(float),
+            vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3),
+            vtk_to_numpy(array).astype(float))
 
 
 def weights_array_errors(weights, handles):
@@ -96,8 +103,10 @@ def certificate_errors(report):
 
 
 def check_weights(path, report, handles):
-    _, weights = read_weights(path)
-    return {"wrong": weights_array_errors(weights, handles) + certificate_errors(report)}
+    points, triangles, weights = read_weights(path)
+    wrong = weights_array_errors(weights, handles)
+    leak = None if wrong else largest_leak(points, triangles, weights)
+    return {"wrong": wrong + certificate_errors(report), "leak": leak}
 
 
 # ---- Tets ------------------------------------------------------------------------------------------

@@ -1,0 +1,201 @@
+"""Parts of a surface that are separate from each other, and how far weights of one part leak into another.
+
+Components that share no vertex still belong together if they touch, cross, or lie inside each other. Components count
+as touching if points of them share a cube of a grid: surely if they are nearer than 1/500 of the bounding-box
+diagonal, and not if they are farther apart than 1/144 of it.
+"""
+
+import numpy as np
+import vtk
+from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+
+NEAR = 1 / 500  # of the diagonal: spacing of the points on the surface, half an edge of the cubes
+MOST_SAMPLES = 2_000_000
+
+
+# ---- Components ------------------------------------------------------------------------------------
+
+
+def weld(points, triangles):
+    """Give points of equal coordinates one id. Returns points, triangles with an area, and the new id of each point."""
+    welded, ids = np.unique(points, axis=0, return_inverse=True)
+    ids = ids.reshape(-1)
+    joined = ids[triangles].reshape(-1, 3)
+    distinct = (joined[:, 0] != joined[:, 1]) & (joined[:, 1] != joined[:, 2]) & (joined[:, 2] != joined[:, 0])
+    return welded, joined[distinct], ids
+
+
+def poly_data(points, triangles):
+    data, holder, cells = vtk.vtkPolyData(), vtk.vtkPoints(), vtk.vtkCellArray()
+    holder.SetData(numpy_to_vtk(np.ascontiguousarray(points, float), deep=True))
+    cells.SetData(numpy_to_vtkIdTypeArray(np.arange(0, 3 * len(triangles) + 1, 3), deep=True),
+                  numpy_to_vtkIdTypeArray(np.ascontiguousarray(triangles, np.int64).ravel(), deep=True))
+    data.SetPoints(holder)
+    data.SetPolys(cells)
+    return data
+
+
+def components(points, triangles):
+    """The component of each triangle, by shared vertices: 0, 1, …"""
+    connectivity = vtk.vtkConnectivityFilter()
+    connectivity.SetInputData(poly_data(points, triangles))
+    connectivity.SetExtractionModeToAllRegions()
+    connectivity.ColorRegionsOn()
+    connectivity.Update()
+    return vtk_to_numpy(connectivity.GetOutput().GetCellData().GetArray("RegionId")).astype(int)
+
+
+class Groups:
+    """Sets of components that are joined one by one."""
+
+    def __init__(self, count):
+        self.parent = list(range(count))
+
+    def find(self, k):
+        while self.parent[k] != k:
+            self.parent[k] = self.parent[self.parent[k]]
+            k = self.parent[k]
+        return k
+
+    def join(self, a, b):
+        self.parent[self.find(a)] = self.find(b)
+
+    def labels(self):
+        return np.array([self.find(k) for k in range(len(self.parent))])
+
+
+# ---- Which components touch ------------------------------------------------------------------------
+
+
+def turned(corners):
+    """The same triangles, with the longest edge first. Also the lengths of these edges and the heights above them."""
+    edges = np.stack([corners[:, (k + 1) % 3] - corners[:, k] for k in range(3)], axis=1)
+    lengths = np.linalg.norm(edges, axis=2)
+    first = lengths.argmax(axis=1)
+    rows = np.arange(len(corners))
+    corners = np.stack([corners[rows, (first + k) % 3] for k in range(3)], axis=1)
+    longest = lengths[rows, first]
+    doubled_area = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1)
+    return corners, longest, doubled_area / np.maximum(longest, 1e-300)
+
+
+def sample_triangles(points, triangles, spacing):
+    """Points on the triangles, their corners among them, not farther than `spacing` from each other, and the triangle
+    of each point."""
+    corners, longest, height = turned(points[triangles])
+    along, up = np.ceil(longest / spacing).astype(int) + 1, np.ceil(height / spacing).astype(int) + 1
+    found, owners = [], []
+    for s_count, t_count in np.unique(np.stack([along, up], axis=1), axis=0):
+        chosen = np.flatnonzero((along == s_count) & (up == t_count))
+        steps = np.meshgrid(np.linspace(0, 1, s_count), np.linspace(0, 1, t_count))
+        s, t = (grid.ravel()[None, :, None] for grid in steps)
+        a, b, c = (corners[chosen, k][:, None] for k in range(3))
+        found.append(((1 - t) * (a + s * (b - a)) + t * c).reshape(-1, 3))
+        owners.append(np.repeat(chosen, s_count * t_count))
+    return np.vstack(found), np.concatenate(owners)
+
+
+def spacing_of(points, triangles):
+    """NEAR of the diagonal, more where that would be too many points."""
+    size = np.linalg.norm(np.ptp(points, axis=0))
+    _, longest, height = turned(points[triangles])
+    spacing = NEAR * size
+    while ((np.ceil(longest / spacing) + 1) * (np.ceil(height / spacing) + 1)).sum() > MOST_SAMPLES:
+        spacing *= 1.5
+    return spacing
+
+
+def touching_pairs(points, triangles, component):
+    """Pairs of components that have points in the same cube of one of eight shifted grids."""
+    spacing = spacing_of(points, triangles)
+    places, owners = sample_triangles(points, triangles, spacing)
+    owner = component[owners]
+    count = component.max() + 1
+    halves = np.floor((places - points.min(axis=0)) / spacing).astype(np.int64)
+    size = halves.max() // 2 + 2  # cubes along an edge of the grid; size^3 * count stays below 2^63
+    once = np.unique(((halves[:, 0] * 2 * size + halves[:, 1]) * 2 * size + halves[:, 2]) * count + owner)
+    key, owner = once // count, once % count
+    halves = np.stack([key // (2 * size) ** 2, key // (2 * size) % (2 * size), key % (2 * size)], axis=1)
+    pairs = []
+    for shift in np.ndindex(2, 2, 2):
+        cubes = (halves + shift) // 2
+        there = np.unique(((cubes[:, 0] * size + cubes[:, 1]) * size + cubes[:, 2]) * count + owner)
+        same = there[1:] // count == there[:-1] // count
+        pairs.append(np.stack([there[:-1][same] % count, there[1:][same] % count], axis=1))
+    return np.unique(np.vstack(pairs), axis=0)
+
+
+def winding_number(query, points, triangles):
+    """Of the triangles around one point."""
+    a, b, c = (points[triangles[:, k]] - query for k in range(3))
+    la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
+    sine = np.einsum("ij,ij->i", a, np.cross(b, c))
+    cosine = la * lb * lc + np.einsum("ij,ij->i", a, b) * lc + np.einsum("ij,ij->i", b, c) * la + np.einsum(
+        "ij,ij->i", c, a) * lb
+    return np.arctan2(sine, cosine).sum() / (2 * np.pi)
+
+
+def inside_pairs(points, triangles, component, groups):
+    """Pairs of components, the first of which has a vertex inside the second; only of groups that are still apart."""
+    order = np.argsort(component, kind="stable")
+    parts = np.split(triangles[order], np.cumsum(np.bincount(component))[:-1])
+    lower = np.array([points[part.ravel()].min(axis=0) for part in parts])
+    upper = np.array([points[part.ravel()].max(axis=0) for part in parts])
+    solids = np.flatnonzero([len(part) >= 4 for part in parts])
+    for inner, part in enumerate(parts if len(solids) else []):
+        query = points[part[0, 0]]
+        around = solids[((lower[solids] <= query) & (query <= upper[solids])).all(axis=1)]
+        for outer in around:
+            if groups.find(inner) != groups.find(outer) and abs(winding_number(query, points, parts[outer])) >= 0.5:
+                yield inner, outer
+
+
+def separate_parts(points, triangles):
+    """The part of each point, -1 for points without a triangle: components that touch, cross or lie inside each other
+    are one part."""
+    welded, joined, ids = weld(points, triangles)
+    if len(joined) == 0:
+        return np.full(len(points), -1)
+    component = components(welded, joined)
+    groups = Groups(component.max() + 1)
+    if component.max() > 0:
+        for a, b in touching_pairs(welded, joined, component):
+            groups.join(a, b)
+        for a, b in list(inside_pairs(welded, joined, component, groups)):
+            groups.join(a, b)
+    part = np.full(len(welded), -1)
+    part[joined] = groups.labels()[component][:, None]
+    return part[ids]
+
+
+# ---- Handles and leaks -----------------------------------------------------------------------------
+
+
+def farthest_points(points, triangles, count):
+    """Ids of vertices spread as `--handles auto:N` spreads them: the one farthest from the mean, then each time the one
+    farthest from all before it."""
+    used = np.unique(triangles)
+    vertices = points[used]
+    mean = np.cumsum(vertices / len(vertices), axis=0)[-1]  # summed in this order: of equal distances the same is first
+    chosen = [int(((vertices - mean) ** 2).sum(axis=1).argmax())]
+    distance = np.full(len(vertices), np.inf)
+    while len(chosen) < count:
+        distance = np.minimum(distance, ((vertices - vertices[chosen[-1]]) ** 2).sum(axis=1))
+        chosen.append(int(distance.argmax()))
+    return used[chosen]
+
+
+def largest_leak(points, triangles, weights):
+    """The largest weight, on one part, of a handle that lies on another, over parts with handles of their own.
+
+    None if fewer than two parts have handles, or if handles are not where they are expected.
+    """
+    handles = farthest_points(points, triangles, weights.shape[1])
+    if not all(weights[vertex, k] > 0.99 for k, vertex in enumerate(handles)):
+        return None
+    part = separate_parts(points, triangles)
+    home = part[handles]
+    held = np.unique(home[home >= 0])
+    if len(held) < 2:
+        return None
+    return float(max(weights[part == own][:, home != own].max() for own in held))

@@ -16,6 +16,7 @@ volumes; a refusal must be true. One row per model goes to a .csv file, a summar
     real_meshes.py --build build --sample 40                  40 models, the same ones every time, of all sizes
     real_meshes.py --build build --only scopia/cup scopia/keys --verb weights
     real_meshes.py --build build --set made --check           a minute: furniture of our own making
+    real_meshes.py --build build --verb none --accuracy 10    weights of ten models beside those on well-shaped tets
     real_meshes.py --build build --compare old.csv            seconds before and after, on the same models
     real_meshes.py --build build --check                      exit code 1 if a model fails
     real_meshes.py --build build --check 'weights_seconds_95<=20' 'tets_thin_files<=10'
@@ -28,6 +29,7 @@ import collections
 import concurrent.futures
 import csv
 import dataclasses
+import importlib
 import json
 import math
 import multiprocessing
@@ -46,6 +48,7 @@ import zipfile
 
 TESTS = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(TESTS / "support"))
+import weights_accuracy  # noqa: E402
 from limited_process import run_limited  # noqa: E402
 
 PACKAGE = "sweethome3d-furniture"
@@ -124,21 +127,18 @@ def sample(models, count):
     return [ordered[draw.randrange(first, last)] for first, last in zip(borders, borders[1:])]
 
 
-def chosen_models(options, folder):
+def named_models(options, folder):
     models = real_models() if options.set == "furniture" else made_models(folder, options.set)
-    if options.only:
-        models = [model for model in models if any(word in model.name for word in options.only)]
-    return sample(models, options.sample) if options.sample else models
+    return [model for model in models if not options.only or any(word in model.name for word in options.only)]
 
 
 # ---- Processes -------------------------------------------------------------------------------------
 
 
-def in_other_process(name, *arguments):
-    """Call a function of result_checks. VTK and numpy stay out of this process: what a child process occupies at
-    most includes what its parent did when it was started."""
-    import result_checks
-    return getattr(result_checks, name)(*arguments)
+def in_other_process(module, name, *arguments):
+    """Call a function of result_checks or accuracy_checks. VTK and numpy stay out of this process: the peak memory of
+    a child process includes what its parent occupied when it was started."""
+    return getattr(importlib.import_module(module), name)(*arguments)
 
 
 # ---- One run ---------------------------------------------------------------------------------------
@@ -209,7 +209,7 @@ def checked(options, pool, prefix, done, report, model, output):
     else:
         arguments = ("check_tets", output, report)
     try:
-        return pool.submit(in_other_process, *arguments).result()
+        return pool.submit(in_other_process, "result_checks", *arguments).result()
     except Exception as error:  # a file that cannot be read is a wrong result, not the end of the benchmark
         return {"wrong": [f"the check failed: {error}"]}
 
@@ -245,13 +245,23 @@ def run_model(options, pool, model):
     return row
 
 
+def processes(count):
+    return concurrent.futures.ProcessPoolExecutor(count, multiprocessing.get_context("spawn"))
+
+
+def run_accuracy(options, models):
+    """Rows of --accuracy."""
+    with processes(1) as pool:
+        def check(name, *arguments):
+            return pool.submit(in_other_process, "accuracy_checks", name, *arguments).result()
+        return weights_accuracy.accuracy(options, check, models, HANDLES)
+
+
 def run_models(options, models):
     """Rows of all models, by name. Each is in the .csv file as soon as it is known."""
     rows = read_rows(options.csv) if options.resume else {}
     models = [model for model in models if model.name not in rows]
-    context = multiprocessing.get_context("spawn")
-    with concurrent.futures.ProcessPoolExecutor(options.jobs, context) as pool, \
-            concurrent.futures.ThreadPoolExecutor(options.jobs) as threads:
+    with processes(options.jobs) as pool, concurrent.futures.ThreadPoolExecutor(options.jobs) as threads:
         futures = [threads.submit(run_model, options, pool, model) for model in models]
         for k, future in enumerate(concurrent.futures.as_completed(futures), 1):
             row = future.result()
@@ -339,6 +349,11 @@ def numbers_of(rows, prefix):
         numbers.update({"leak_models": len(leaks), "leaks": sum(leak > LEAK for leak in leaks),
                         "leak_max": max(leaks, default=0.0)})
     return {f"{prefix}_{key}": value for key, value in numbers.items()}
+
+
+def all_numbers(rows, prefixes, accuracy):
+    numbers = {name: value for prefix in prefixes for name, value in numbers_of(rows, prefix).items()}
+    return {**numbers, **(weights_accuracy.numbers(accuracy) if accuracy is not None else {})}
 
 
 def text_of(value):
@@ -430,11 +445,11 @@ def slowest_lines(rows, prefixes, count=10):
     return lines
 
 
-def numbers_lines(rows, prefixes):
-    cells = [[f"`{name}`", value] for prefix in prefixes for name, value in numbers_of(rows, prefix).items()]
+def numbers_lines(numbers):
+    cells = [[f"`{name}`", value] for name, value in numbers.items()]
     return ["## Numbers", "",
-            f"`peak_mb_small` is the largest peak of models below {SMALL:,} triangles, in MB (10^6 bytes);",
-            f"`thin_files` counts files with over {100 * THIN_SHARE:.0f} % of tets below 5 degrees.", "",
+            f"`…peak_mb_small` is the largest peak of models below {SMALL:,} triangles, in MB (10^6 bytes);",
+            f"`…thin_files` counts files with over {100 * THIN_SHARE:.0f} % of tets below 5 degrees.", "",
             *table(["name for --check", "value"], cells)]
 
 
@@ -461,31 +476,37 @@ def machine():
     return f"{names[0] if names else platform.machine()}, {os.cpu_count()} cores"
 
 
-def markdown(options, rows, old):
+def benchmark_lines(options, rows, old):
+    lines = outcome_lines(rows, options.prefixes) + seconds_lines(rows, options.prefixes)
+    lines += compare_lines(rows, old, options.prefixes) if old else []
+    lines += failure_lines(rows, options.prefixes) + refusal_lines(rows, options.prefixes)
+    return lines + leak_lines(rows) + slowest_lines(rows, options.prefixes)
+
+
+def markdown(options, rows, old, accuracy):
     words = [pathlib.Path(word).name if word.startswith("/") else word for word in sys.argv[1:]]
     source = f"that tests/support/furniture.py makes ({options.set})"
     if options.set == "furniture":
         source = f"of the Debian package {PACKAGE}"
     lines = ["# Real furniture models: weights and tets", "", "Measured by", "",
              f"    /usr/bin/python3 tests/real_meshes.py {shlex.join(words)}", "",
-             f"on {len(rows)} models {source},",
+             f"on {len(rows or accuracy)} models {source},",
              f"{options.time_limit:g} s allowed for each run, {options.jobs} at once ({machine()}).",
              f"Weights are for {HANDLES} handles spread over the surface (`--handles auto:{HANDLES}`).", ""]
-    lines += outcome_lines(rows, options.prefixes) + seconds_lines(rows, options.prefixes)
-    lines += compare_lines(rows, old, options.prefixes) if old else []
-    lines += failure_lines(rows, options.prefixes) + refusal_lines(rows, options.prefixes)
-    lines += leak_lines(rows) + slowest_lines(rows, options.prefixes) + numbers_lines(rows, options.prefixes)
+    lines += benchmark_lines(options, rows, old) if rows else []
+    lines += weights_accuracy.lines(accuracy, table) if accuracy is not None else []
+    lines += numbers_lines(all_numbers(rows, options.prefixes, accuracy))
     return "\n".join(lines)
 
 
 # ---- Goals -----------------------------------------------------------------------------------------
 
 
-def broken_goals(goals, rows, prefixes):
+def broken_goals(goals, rows, prefixes, accuracy):
     """Sentences about promises that are broken, and goals NAME<=NUMBER that are missed."""
     broken = [f"{row['name']}: {VERBS[prefix]}: {row[f'{prefix}_outcome']}: {row[f'{prefix}_message']}"
               for row, prefix in failures(rows, prefixes)]
-    numbers = {name: value for prefix in prefixes for name, value in numbers_of(rows, prefix).items()}
+    numbers = all_numbers(rows, prefixes, accuracy)
     for goal in goals:
         name, limit = (word.strip() for word in goal.split("<="))
         if not numbers[name] <= float(limit):
@@ -493,9 +514,9 @@ def broken_goals(goals, rows, prefixes):
     return broken
 
 
-def check_goal_names(parser, goals, prefixes):
-    known = [name for prefix in prefixes for name in numbers_of([], prefix)]
-    for goal in goals or []:
+def check_goal_names(parser, options):
+    known = all_numbers([], options.prefixes, [] if options.accuracy else None)
+    for goal in options.check or []:
         name, found, limit = (word.strip() for word in goal.partition("<="))
         if name not in known or not found or not isinstance(as_number(limit), float):
             parser.error(f"--check: '{goal}' is not valid: expected NAME<=NUMBER, with NAME one of {', '.join(known)}")
@@ -511,7 +532,9 @@ def parse_options():
                         help="models of the package, or made ones (default: furniture)")
     parser.add_argument("--sample", type=int, default=0, metavar="N", help="only N models, the same ones every time")
     parser.add_argument("--only", nargs="+", metavar="NAME", help="only models whose names contain one of these")
-    parser.add_argument("--verb", choices=["weights", "tetrahedralize", "both"], default="both")
+    parser.add_argument("--verb", choices=["weights", "tetrahedralize", "both", "none"], default="both")
+    parser.add_argument("--accuracy", type=int, nargs="?", const=40, default=0, metavar="N",
+                        help="also compare the weights of N (40) models with those on well-shaped tets")
     parser.add_argument("--jobs", type=int, default=1, help="models at once (default: 1)")
     parser.add_argument("--threads", type=int, default=0, help="threads of each run, 0: all cores (default: 0)")
     parser.add_argument("--time-limit", type=float, default=180, metavar="SECONDS", help="of each run (default: 180)")
@@ -528,7 +551,7 @@ def parse_options():
         parser.error(f"--set {options.set}: --csv and --markdown are required, real_meshes.* are the package's")
     options.csv = options.csv or TESTS / "real_meshes.csv"
     options.markdown = options.markdown or TESTS / "real_meshes.md"
-    check_goal_names(parser, options.check, options.prefixes)
+    check_goal_names(parser, options)
     if not options.program.exists():
         parser.error(f"--build: {options.program} does not exist")
     if options.compare and not options.compare.exists():
@@ -539,17 +562,21 @@ def parse_options():
 def run(options, models):
     """Run, write, print. Returns sentences about broken promises and missed goals."""
     old = read_rows(options.compare) if options.compare else {}
-    found = run_models(options, models)
-    rows = [found[model.name] for model in sorted(models, key=lambda model: model.name)]
-    options.markdown.write_text(markdown(options, rows, old), encoding="utf-8")
+    rows = []
+    if options.prefixes:
+        chosen = sample(models, options.sample) if options.sample else models
+        found = run_models(options, chosen)
+        rows = [found[name] for name in sorted(model.name for model in chosen)]
+    accuracy = run_accuracy(options, models) if options.accuracy else None
+    options.markdown.write_text(markdown(options, rows, old, accuracy), encoding="utf-8")
     print("\n".join(outcome_lines(rows, options.prefixes)[2:]))
-    return broken_goals(options.check or [], rows, options.prefixes)
+    return broken_goals(options.check or [], rows, options.prefixes, accuracy)
 
 
 def main():
     options = parse_options()
     with tempfile.TemporaryDirectory(prefix="real_meshes_") as folder:
-        models = chosen_models(options, folder)
+        models = named_models(options, folder)
         if not models:
             print(f"no models: install the Debian package {PACKAGE}, or choose other names for --only", file=sys.stderr)
             return 2

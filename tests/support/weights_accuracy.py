@@ -1,0 +1,114 @@
+"""How far the default weights of real models are from weights solved on well-shaped tets that conform to the surface.
+
+The reference: tets by `bindpose tetrahedralize --method remesh`, weights solved on them for the same handles, carried
+to the surface's vertices by code of our own. Models are drawn in a seeded order until enough are measured. A model is
+left out if its reference tets have angles below GOOD_ANGLE, if they leave out a part of the surface (remesh has no tets
+for open sheets), or if remesh closes gaps, so that its tets have fewer connected parts than those of the default.
+
+Part of real_meshes.py, which runs these functions. VTK and numpy are used in accuracy_checks.py only.
+"""
+
+import json
+import pathlib
+import random
+import tempfile
+
+from limited_process import run_limited
+
+SEED = 15
+GOOD_ANGLE = 10.0  # degrees: smallest dihedral angle of a reference; remesh aims at 12
+COVERED = 0.99  # of the vertices must be near the tets
+RMS = 0.015
+COLUMNS = ["triangles", "domain", "tets", "angle", "reference tets", "rms", "largest", "leak", "s", "reference s"]
+
+
+def run(options, verb, words, folder):
+    """Run a verb with a report. Returns the report, or a sentence."""
+    report = folder / "accuracy.json"
+    report.unlink(missing_ok=True)
+    done = run_limited([options.program, verb, *words, "--report", report, "--overwrite", "--quiet",
+                        "--threads", str(options.threads)], options.time_limit, folder / "errors.txt")
+    if done.over_limit:
+        return f"{verb}: stopped after {done.seconds:.0f} s"
+    if done.exit_code != 0:
+        return done.message.replace("\n", " / ") or f"{verb}: exit code {done.exit_code}"
+    return {**json.loads(report.read_text(encoding="utf-8")), "wall": done.seconds}
+
+
+def prepare(options, check, path, folder, handles):
+    """Write handles and reference tets of one model. Returns their quality, or a sentence that says why not."""
+    if not check("write_handles", path, folder / "handles.tgf", handles):
+        return "fewer vertices than handles"
+    report = run(options, "tetrahedralize", [path, "--method", "remesh", "-o", folder / "tets.vtu"], folder)
+    if isinstance(report, str):
+        return report
+    quality = check("tets_quality", path, folder / "tets.vtu")
+    if quality["covered"] < COVERED:
+        return f"{100 * (1 - quality['covered']):.1f} % of the vertices are not near the tets: open sheets"
+    if quality["angle"] < GOOD_ANGLE:
+        return f"a dihedral angle of the reference is {quality['angle']:.1f} degrees"
+    return quality
+
+
+def compare(options, check, path, folder, quality):
+    """Both weights of one model, and their difference. Returns columns of the table, or a sentence."""
+    handles = ["--handles", folder / "handles.tgf"]
+    ours = run(options, "weights", [path, *handles, "-o", folder / "default.vtp"], folder)
+    if isinstance(ours, str):
+        return ours
+    parts = ours["counts"].get("tet_components", quality["parts"])
+    if parts != quality["parts"]:
+        return f"the reference has {quality['parts']} connected parts, the default {parts}"
+    reference = run(options, "weights", [folder / "tets.vtu", *handles, "-o", folder / "reference.vtu"], folder)
+    if isinstance(reference, str):
+        return f"reference: {reference}"
+    found = check("difference", folder / "default.vtp", folder / "reference.vtu")
+    return {**found, "triangles": ours["counts"].get("triangles"), "domain": ours.get("domain"),
+            "tets": ours["counts"].get("tets"), "s": ours["wall"], "reference s": reference["wall"]}
+
+
+def measure(options, check, model, handles):
+    """The row of one model; "skipped" says why it is left out, or is empty."""
+    with tempfile.TemporaryDirectory(prefix="weights_accuracy_") as folder:
+        folder = pathlib.Path(folder)
+        path = model.copy_to(folder)
+        quality = prepare(options, check, path, folder, handles)
+        found = quality if isinstance(quality, str) else compare(options, check, path, folder, quality)
+    if isinstance(found, str):
+        return {"name": model.name, "skipped": found}
+    return {"name": model.name, "skipped": "", **quality, **found}
+
+
+def accuracy(options, check, models, handles):
+    """Rows of models in a seeded order, until as many are measured as wanted."""
+    rows, measured = [], 0
+    for model in random.Random(SEED).sample(models, len(models)):
+        if measured == options.accuracy:
+            break
+        row = measure(options, check, model, handles)
+        measured += not row["skipped"]
+        rows.append(row)
+        text = row["skipped"] or f"rms {row['rms']:.4f}, largest {row['largest']:.3f}"
+        print(f"accuracy: {row['name']} | {text}", flush=True)
+    return rows
+
+
+def numbers(rows):
+    """Numbers of the summary, by the names that --check knows."""
+    measured = [row for row in rows if not row["skipped"]]
+    rms = sorted(row["rms"] for row in measured)
+    return {"accuracy_models": len(measured), "accuracy_rms_median": rms[len(rms) // 2] if rms else 0.0,
+            "accuracy_rms_max": max(rms, default=0.0), "accuracy_over_goal": sum(value > RMS for value in rms)}
+
+
+def lines(rows, table):
+    measured = sorted((row for row in rows if not row["skipped"]), key=lambda row: -row["rms"])
+    skipped = [[row["name"], row["skipped"]] for row in rows if row["skipped"]]
+    over = numbers(rows)["accuracy_over_goal"]
+    text = ["## Accuracy", "",
+            "Default weights against weights solved on well-shaped tets that conform to the surface (`tetrahedralize",
+            "--method remesh`), for the same handles, at the surface's vertices. `rms` is over vertices and handles;",
+            "`angle` is the smallest dihedral angle of the reference tets, degrees; `leak` as in the section on leaks.", "",
+            f"{len(measured)} models measured, {over} of them above the goal of {RMS:g} rms.", ""]
+    text += table(["model", *COLUMNS], [[row["name"], *(row[column] for column in COLUMNS)] for row in measured])
+    return [*text, "Left out:", "", *table(["model", "reason"], skipped)] if skipped else text

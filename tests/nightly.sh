@@ -98,7 +98,8 @@ hostile()
 
 real()
 { # hours; tests/real_meshes.md and .csv are replaced by what is measured now
-  /usr/bin/python3 "$root/tests/real_meshes.py" --build "$build_dir" --check
+  /usr/bin/python3 "$root/tests/real_meshes.py" --build "$build_dir" --accuracy \
+    --check 'accuracy_rms_max<=0.015' 'weights_leak_max<=0.01'
 }
 
 paraview()

@@ -502,12 +502,14 @@ def markdown(options, rows, old, accuracy):
 # ---- Goals -----------------------------------------------------------------------------------------
 
 
-def broken_goals(goals, rows, prefixes, accuracy):
+def broken_goals(options, rows, accuracy):
     """Sentences about promises that are broken, and goals NAME<=NUMBER that are missed."""
     broken = [f"{row['name']}: {VERBS[prefix]}: {row[f'{prefix}_outcome']}: {row[f'{prefix}_message']}"
-              for row, prefix in failures(rows, prefixes)]
-    numbers = all_numbers(rows, prefixes, accuracy)
-    for goal in goals:
+              for row, prefix in failures(rows, options.prefixes)]
+    numbers = all_numbers(rows, options.prefixes, accuracy)
+    if options.accuracy and numbers["accuracy_models"] < options.accuracy:
+        broken.append(f"--accuracy: {numbers['accuracy_models']} models measured, {options.accuracy} wanted")
+    for goal in options.check or []:
         name, limit = (word.strip() for word in goal.split("<="))
         if not numbers[name] <= float(limit):
             broken.append(f"{name} is {numbers[name]:g}, the goal is at most {limit}")
@@ -570,7 +572,7 @@ def run(options, models):
     accuracy = run_accuracy(options, models) if options.accuracy else None
     options.markdown.write_text(markdown(options, rows, old, accuracy), encoding="utf-8")
     print("\n".join(outcome_lines(rows, options.prefixes)[2:]))
-    return broken_goals(options.check or [], rows, options.prefixes, accuracy)
+    return broken_goals(options, rows, accuracy)
 
 
 def main():

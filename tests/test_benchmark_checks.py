@@ -1,0 +1,194 @@
+"""The checks of real_meshes.py: each finds what is wrong, and nothing where nothing is wrong."""
+
+import math
+import pathlib
+import signal
+import sys
+import time
+
+import numpy as np
+import pytest
+import vtk
+from vtk.util.numpy_support import numpy_to_vtk
+
+TESTS = pathlib.Path(__file__).resolve().parent
+sys.path[:0] = [str(TESTS), str(TESTS / "support")]
+import furniture  # noqa: E402
+import real_meshes  # noqa: E402
+import result_checks  # noqa: E402
+import separate_parts  # noqa: E402
+from accuracy_checks import barycentric  # noqa: E402
+from limited_process import run_limited  # noqa: E402
+
+REGULAR = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], float)
+CERTIFIED = {"relative_gap": 1e-9, "kkt_residual": 1e-7, "bounds_violation": 0.0}
+
+
+def triangulated(part):
+    """Points and triangles of a part of furniture.py."""
+    return part[0], np.array([[face[0], a, b] for face in part[1] for a, b in zip(face[1:-1], face[2:])])
+
+
+def write_tets(path, points, tets):
+    grid, holder = vtk.vtkUnstructuredGrid(), vtk.vtkPoints()
+    holder.SetData(numpy_to_vtk(np.ascontiguousarray(points, float), deep=True))
+    grid.SetPoints(holder)
+    for tet in tets:
+        grid.InsertNextCell(vtk.VTK_TETRA, 4, tet)
+    writer = vtk.vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputData(grid)
+    writer.Write()
+
+
+# ---- Models ----------------------------------------------------------------------------------------
+
+
+def test_obj_faces_become_fans(tmp_path):
+    path = tmp_path / "model.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3//1 4//1\nf -4/1 -3/1 -1/1\n")
+    points, triangles = result_checks.read_obj(path)
+    assert points.shape == (4, 3)
+    assert triangles.tolist() == [[0, 1, 2], [0, 2, 3], [0, 1, 3]]
+
+
+def test_made_furniture_is_the_same_every_time(tmp_path):
+    for make in furniture.FURNITURE:
+        first, second = tmp_path / "first.obj", tmp_path / "second.obj"
+        furniture.write_obj(first, *make())
+        furniture.write_obj(second, *make())
+        assert first.read_text().split("\n", 2)[2] == second.read_text().split("\n", 2)[2]
+
+
+def test_a_sample_is_fixed_and_has_all_sizes():
+    models = [real_meshes.Model(f"m{k}", 10 * k, None) for k in range(100)]
+    sample = real_meshes.sample(models, 10)
+    assert sample == real_meshes.sample(models[::-1], 10)
+    assert [model.size // 100 for model in sample] == list(range(10))
+
+
+def test_percentiles():
+    values = list(range(1, 101))
+    assert [real_meshes.percentile(values, p) for p in (50, 90, 95, 99, 100)] == [50, 90, 95, 99, 100]
+    assert math.isnan(real_meshes.percentile([], 50))
+
+
+# ---- Weights ---------------------------------------------------------------------------------------
+
+
+def test_good_weights_have_no_errors():
+    assert result_checks.weights_array_errors(np.full((5, 2), 0.5), 2) == []
+    assert result_checks.certificate_errors(CERTIFIED) == []
+
+
+@pytest.mark.parametrize("row, words", [([0.5, math.nan], "not finite"), ([0.5, 0.5 + 1e-8], "differs from one"),
+                                        ([1.25, -0.25], "range from -0.25"), ([1.0], "shape")])
+def test_wrong_weights_are_found(row, words):
+    errors = result_checks.weights_array_errors(np.array([row]), 2)
+    assert any(words in error for error in errors)
+
+
+@pytest.mark.parametrize("key", CERTIFIED)
+def test_a_missing_or_large_certificate_is_found(key):
+    assert key in result_checks.certificate_errors({**CERTIFIED, key: 1e-3})[0]
+    assert key in result_checks.certificate_errors({k: v for k, v in CERTIFIED.items() if k != key})[0]
+
+
+# ---- Tets ------------------------------------------------------------------------------------------
+
+
+def test_dihedral_angles_of_known_tets():
+    corner = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+    points, tets = np.vstack([REGULAR, corner]), np.array([[0, 1, 2, 3], [4, 5, 6, 7]])
+    angles = result_checks.smallest_dihedral_angles(points, tets)
+    assert angles == pytest.approx([math.degrees(math.acos(1 / 3)), math.degrees(math.acos(1 / math.sqrt(3)))])
+
+
+def test_good_tets_have_no_errors(tmp_path):
+    write_tets(tmp_path / "tets.vtu", REGULAR, [[0, 2, 1, 3]])
+    found = result_checks.check_tets(tmp_path / "tets.vtu", {"volume": 8 / 3})
+    assert found["wrong"] == []
+    assert found["tets"] == 1 and found["below_5"] == 0.0
+
+
+def test_wrong_tets_are_found(tmp_path):
+    for tets, volume, words in (([[0, 1, 2, 3]], -8 / 3, "no positive volume"), ([[0, 2, 1, 3]] * 2, 16 / 3, "twice"),
+                                ([[0, 2, 1, 3]], 1.0, "report's volume"), ([], 0.0, "no tets")):
+        write_tets(tmp_path / "tets.vtu", REGULAR, tets)
+        wrong = result_checks.check_tets(tmp_path / "tets.vtu", {"volume": volume})["wrong"]
+        assert any(words in error for error in wrong)
+
+
+def test_barycentric_coordinates():
+    inside = np.array([[0.1, 0.2, 0.3, 0.4]])
+    assert barycentric(REGULAR, np.array([[0, 1, 2, 3]]), inside @ REGULAR) == pytest.approx(inside)
+
+
+# ---- Refusals --------------------------------------------------------------------------------------
+
+
+def test_refusals_are_compared_with_the_model(tmp_path):
+    for make, verb, true in ((furniture.needles_only, "weights", True), (furniture.needles_only, "tets", True),
+                             (furniture.rug, "tets", True), (furniture.rug, "weights", False),
+                             (furniture.table, "weights", False)):
+        path = tmp_path / "model.obj"
+        furniture.write_obj(path, *make())
+        wrong = result_checks.check_refusal(verb, None, path, "a sentence", 8)["wrong"]
+        assert (wrong == []) is true, (make.__name__, verb)
+    assert result_checks.check_refusal("weights", None, path, "two\nlines", 8)["wrong"]
+
+
+# ---- Separate parts --------------------------------------------------------------------------------
+
+
+def box_at(x, size=1.0):
+    return furniture.box((x, 0, 0), (x + size, size, size))
+
+
+@pytest.mark.parametrize("parts, count", [
+    ([box_at(0), box_at(1.5)], 2),
+    ([box_at(0), box_at(1.0)], 1),  # they touch
+    ([box_at(0), furniture.box((0.5, 0.5, -1), (0.51, 0.51, 2))], 1),  # they cross
+    ([box_at(0, 3.0), furniture.box((1, 1, 1), (2, 2, 2))], 1),  # one lies inside the other
+    ([box_at(0), box_at(1.2), furniture.box((0.5, 0.4, 0.4), (1.7, 0.5, 0.5))], 1),  # joined by a third one
+])
+def test_separate_parts(parts, count):
+    points, triangles = triangulated(furniture.join(*parts))
+    assert len(np.unique(separate_parts.separate_parts(points, triangles))) == count
+
+
+def test_leaks_between_parts():
+    points, triangles = triangulated(furniture.join(box_at(0), box_at(3)))
+    handles = separate_parts.farthest_points(points, triangles, 4)
+    weights = np.zeros((len(points), 4))
+    for home in (points[:, 0] < 2, points[:, 0] > 2):
+        own = [k for k, vertex in enumerate(handles) if home[vertex]]
+        weights[np.ix_(home, own)] = 1 / len(own)
+    weights[handles] = np.eye(4)
+    assert separate_parts.largest_leak(points, triangles, weights) == 0.0
+    stranger = next(k for k, vertex in enumerate(handles) if points[vertex, 0] > 2)
+    vertex = next(v for v in range(8) if v not in handles)
+    weights[vertex, stranger] = 0.2
+    assert separate_parts.largest_leak(points, triangles, weights) == pytest.approx(0.2)
+
+
+# ---- Processes -------------------------------------------------------------------------------------
+
+
+def test_a_process_that_takes_too_long_is_ended_with_its_children(tmp_path):
+    started = time.monotonic()
+    words = ["bash", "-c", f"sleep 100 & echo $! >{tmp_path}/child; wait"]
+    done = run_limited(words, 0.5, tmp_path / "log")
+    assert done.over_limit and done.exit_code == -signal.SIGTERM
+    assert time.monotonic() - started < 30
+    child = (tmp_path / "child").read_text().strip()
+    status = pathlib.Path(f"/proc/{child}/stat")
+    assert not status.exists() or status.read_text().split()[2] == "Z"
+
+
+def test_exit_codes_messages_and_peak_memory(tmp_path):
+    done = run_limited(["bash", "-c", "echo wrong >&2; exit 3"], 60, tmp_path / "log")
+    assert (done.exit_code, done.message, done.over_limit) == (3, "wrong", False)
+    assert run_limited(["bash", "-c", "kill -SEGV $$"], 60, tmp_path / "log").exit_code == -signal.SIGSEGV
+    child = f"'{sys.executable}' -c 'b = bytearray(300_000_000)'; true"
+    assert run_limited(["bash", "-c", child], 60, tmp_path / "log").peak_bytes > 300e6

@@ -204,12 +204,6 @@ def cabinet():
     return join(*without_front, *doors, *knobs)
 
 
-def fence():
-    """Sixty pickets of one box each, crossed by two rails."""
-    pickets = [box((0.1 * k, 0, 0), (0.1 * k + 0.07, 0.02, 1.0 + 0.05 * math.sin(k))) for k in range(60)]
-    return join(*pickets, *(box((-0.05, 0.01, z), (6.05, 0.04, z + 0.08)) for z in (0.2, 0.8)))
-
-
 def rug():
     """One flat sheet: it encloses nothing, and weights are solved on the sheet itself."""
     return sheet(16, (0, 0, 0), (2, 0, 0), (0, 1.2, 0))
@@ -222,7 +216,7 @@ def needles_only():
 
 
 FURNITURE = [table, open_shelf, lathe_lamp, tube_chair, leaf_plant, keys, car_body, coincident_sheets, bed, cabinet,
-             fence, rug, needles_only]
+             rug, needles_only]
 
 
 # ---- Hostile models --------------------------------------------------------------------------------

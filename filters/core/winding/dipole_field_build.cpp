@@ -178,7 +178,7 @@ struct DipoleField::Build
   void find_outer();
   void add_outer(Id node);
   void sum_all();
-  bool pays_to_split(const Vec3& center, double size, double blocks, std::size_t nodes) const;
+  bool pays_to_split(const Vec3& center, double size, double blocks, std::size_t near) const;
   bool fill_cells();
   void fill(Subtree& tree, const CellPlace& cell, std::size_t entry, const double* local,
     const Doubt& inherited_doubt, const std::vector<Id>& inherited, Scratch& scratch,
@@ -808,9 +808,10 @@ void DipoleField::Build::sum_all()
   f.outer_moments_.assign(static_cast<std::size_t>(this->count_of_moments()), 0.0);
 }
 
-/// Whether splitting a cell saves its points more time than it takes.
+/// Whether splitting a cell, with so many blocks in so many near nodes, saves its points more time
+/// than it takes.
 bool DipoleField::Build::pays_to_split(
-  const Vec3& center, double size, double blocks, std::size_t nodes) const
+  const Vec3& center, double size, double blocks, std::size_t near) const
 {
   if (this->density <= 0.0)
   {
@@ -823,8 +824,9 @@ bool DipoleField::Build::pays_to_split(
     const double upper = std::min(this->region.upper[k], center[k] + 0.5 * size);
     volume *= std::max(0.0, upper - lower);
   }
-  const double order = (this->field.order_ + 1) / 8.0;
-  const double child = (cell_cost + node_cost * static_cast<double>(nodes)) * order * order * order;
+  const double orders = (this->field.order_ + 1) / 8.0;
+  const double child =
+    (cell_cost + node_cost * static_cast<double>(near)) * orders * orders * orders;
   return 0.5 * block_cost * blocks * volume * this->density > 8.0 * child;
 }
 

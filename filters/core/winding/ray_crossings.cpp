@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace bindpose
 {
@@ -42,6 +43,10 @@ constexpr double most_cells_per_point = 8.0;
 /// Points of a slab of that grid, which one thread handles.
 constexpr Index points_per_slab = 32768;
 constexpr std::int32_t points_at_once = 256;
+/// A triangle is listed in each slab that it meets: limits on the memory of triangles as large as
+/// the surface.
+constexpr Index most_slabs = 64;
+constexpr Index most_slabs_per_face = 32;
 /// Samples of a slab of a sample grid: some hundred kilobytes, which stay in the cache.
 constexpr Index samples_per_slab = 65536;
 
@@ -329,7 +334,8 @@ bool RayCrossings::count(const Vec3* points, Index number, ExecutionContext& con
   }
 
   // Slabs of whole lines of cells; the triangles of each.
-  const Index slabs = std::clamp<Index>(static_cast<Index>(inside) / points_per_slab, 1, vs);
+  const Index slabs = std::clamp<Index>(
+    static_cast<Index>(inside) / points_per_slab, 1, std::min<Index>(vs, most_slabs));
   const auto slab_of = [&](Index line) { return line * slabs / vs; };
   std::vector<Index> face_begin(static_cast<std::size_t>(slabs) + 1, 0);
   std::vector<std::int32_t> faces;
@@ -476,6 +482,11 @@ RayCrossings::Layers RayCrossings::layers_of(const Grid& grid) const
   for (Index s = 0; s < slabs; ++s)
   {
     layers.begin[s + 1] += layers.begin[s];
+  }
+  if (layers.begin.back() > most_slabs_per_face * this->faces_ + 1000000)
+  {
+    layers.nanoseconds = std::numeric_limits<double>::infinity();
+    return layers;
   }
   layers.faces.resize(static_cast<std::size_t>(layers.begin.back()));
   std::vector<Index> next(layers.begin.begin(), layers.begin.end() - 1);

@@ -51,7 +51,8 @@ public:
     Index per_slab = 1; ///< layers
     std::vector<Index> begin; ///< of each slab in `faces`, and the end
     std::vector<std::int32_t> faces;
-    double nanoseconds = 0.0; ///< expected for all slabs on one thread, without writing values
+    double nanoseconds = 0.0; ///< expected for all slabs on one thread, without writing
+                              ///< values; infinite: too large for rays, and `faces` is empty
   };
   Layers layers_of(const Grid& grid) const;
   /// Writes the winding numbers of a slab's samples, x fastest, from its first layer on. Appends

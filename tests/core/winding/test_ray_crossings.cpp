@@ -201,6 +201,30 @@ TEST(RayCrossings, FewAndManyPointsOfACurvedSurface)
   }
 }
 
+TEST(RayCrossings, TrianglesAsLargeAsTheSurfaceAreNotListedInEveryLayer)
+{
+  // Tets across all of the box: each face meets about half of the layers.
+  test::Random random(19);
+  constexpr Index tets = 3000;
+  TriangleMesh heap = lattice_tets(random, tets);
+  for (Index v = 0; v < heap.points.rows(); ++v)
+  {
+    heap.points.row(v) = random.in_box(Vec3::Constant(-1.0), Vec3::Ones()).transpose();
+  }
+  const RayCrossings rays(heap.points, heap.triangles, Triangles(0, 3), 1e-15);
+  RayCrossings::Grid grid;
+  for (int k = 0; k < 3; ++k)
+  {
+    for (int i = 0; i < (k < 2 ? 256 : 1200); ++i)
+    {
+      grid.at[k].push_back(-1.0 + 2.0 * i / (k < 2 ? 255 : 1199));
+    }
+  }
+  const RayCrossings::Layers layers = rays.layers_of(grid);
+  EXPECT_TRUE(layers.faces.empty());
+  EXPECT_TRUE(std::isinf(layers.nanoseconds));
+}
+
 TEST(RayCrossings, CancelStopsThem)
 {
   const TriangleMesh mesh = test::sphere(4);

@@ -375,7 +375,7 @@ def outcome_lines(rows, prefixes):
         outcomes = collections.Counter(column(rows, f"{prefix}_outcome"))
         total = sum(outcomes.values())
         words = ", ".join(f"{count} {word}" for word, count in outcomes.most_common())
-        lines.append(f"- `bindpose {VERBS[prefix]}`: {total} models: {words}.")
+        lines.append(f"- `bindpose {VERBS[prefix]}` on {total} models: {words}.")
     return [*lines, ""]
 
 
@@ -426,9 +426,10 @@ def leak_lines(rows):
         return []
     over = [[name, leak] for leak, name in leaks if leak > LEAK]
     return ["## Leaks between separate parts", "",
-            f"{len(leaks)} models have two or more parts with handles that do not touch, cross or contain each other.",
-            f"On {len(over)} of them a handle of one part has a weight above {LEAK:g} on another; the largest is "
-            f"{leaks[0][0]:.3g} ({leaks[0][1]}).", "",
+            f"- Models with two or more parts with handles that do not touch, cross or contain each other: "
+            f"{len(leaks)}.",
+            f"- Those on which a handle of one part has a weight above {LEAK:g} on another: {len(over)}.",
+            f"- The largest such weight: {leaks[0][0]:.3g} ({leaks[0][1]}).", "",
             *(table(["model", "largest weight"], over) if over else [])]
 
 
@@ -461,7 +462,7 @@ def compare_lines(rows, old, prefixes):
         before, after = [pair[0] for pair in pairs], [pair[1] for pair in pairs]
         cells = [[f"{when}: {kind}", *(percentile(column(side, f"{prefix}_{kind}"), p) for p in PERCENTILES.values())]
                  for kind in ("seconds", "user_seconds") for when, side in (("before", before), ("after", after))]
-        lines += [f"{VERBS[prefix]}, {len(pairs)} models in both tables; {len(succeeded(before, prefix))} "
+        lines += [f"{VERBS[prefix]}, models in both tables: {len(pairs)}; {len(succeeded(before, prefix))} "
                   f"{GOOD[prefix][0]} before, {len(succeeded(after, prefix))} after.", "",
                   *table(["", "median", "90 %", "95 %", "99 %", "slowest"], cells)]
         changed = [[b["name"], b[f"{prefix}_outcome"], a[f"{prefix}_outcome"]] for b, a in pairs

@@ -49,7 +49,7 @@ import zipfile
 TESTS = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(TESTS / "support"))
 import weights_accuracy  # noqa: E402
-from limited_process import run_limited  # noqa: E402
+from limited_process import end_all, run_limited  # noqa: E402
 
 PACKAGE = "sweethome3d-furniture"
 HANDLES = 8
@@ -263,11 +263,16 @@ def run_models(options, models):
     models = [model for model in models if model.name not in rows]
     with processes(options.jobs) as pool, concurrent.futures.ThreadPoolExecutor(options.jobs) as threads:
         futures = [threads.submit(run_model, options, pool, model) for model in models]
-        for k, future in enumerate(concurrent.futures.as_completed(futures), 1):
-            row = future.result()
-            rows[row["name"]] = row
-            write_rows(options.csv, rows)
-            print(f"{k}/{len(models)} {progress_line(row, options.prefixes)}", flush=True)
+        try:
+            for k, future in enumerate(concurrent.futures.as_completed(futures), 1):
+                row = future.result()
+                rows[row["name"]] = row
+                write_rows(options.csv, rows)
+                print(f"{k}/{len(models)} {progress_line(row, options.prefixes)}", flush=True)
+        except BaseException:  # Ctrl-C above all: do not wait for the models that are left
+            threads.shutdown(wait=False, cancel_futures=True)
+            end_all()
+            raise
     return rows
 
 
@@ -578,6 +583,7 @@ def run(options, models):
 
 def main():
     options = parse_options()
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # raises KeyboardInterrupt, as Ctrl-C does
     with tempfile.TemporaryDirectory(prefix="real_meshes_") as folder:
         models = named_models(options, folder)
         if not models:
@@ -589,4 +595,8 @@ def main():
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    try:
+        sys.exit(main())
+    except KeyboardInterrupt:
+        end_all()
+        sys.exit("interrupted: the rows so far are in the .csv file, --resume continues")

@@ -10,6 +10,8 @@ import threading
 import time
 
 GRACE = 5  # seconds between asking a process to end and killing it
+running = set()  # process groups
+closed = threading.Event()  # no process is started any more
 
 
 @dataclasses.dataclass
@@ -33,13 +35,25 @@ def stop(group, over_limit, ended):
             os.killpg(group, signal.SIGKILL)
 
 
+def end_all():
+    """Kill all processes and start no others: the benchmark was interrupted."""
+    closed.set()
+    for group in list(running):
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(group, signal.SIGKILL)
+
+
 def run_limited(words, limit, log):
     """Run a command in a process group of its own, for at most `limit` seconds."""
+    if closed.is_set():
+        raise InterruptedError("no process is started any more")
     over_limit, ended = threading.Event(), threading.Event()
     start = time.monotonic()
     with open(log, "wb") as errors:
         process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=errors, start_new_session=True)
+    running.add(process.pid)
     timer = threading.Timer(limit, stop, (process.pid, over_limit, ended))
+    timer.daemon = True
     timer.start()
     _, status, usage = os.wait4(process.pid, 0)
     seconds = time.monotonic() - start
@@ -48,5 +62,6 @@ def run_limited(words, limit, log):
     process.returncode = os.waitstatus_to_exitcode(status)
     with contextlib.suppress(ProcessLookupError):
         os.killpg(process.pid, signal.SIGKILL)  # helpers that were left behind
+    running.discard(process.pid)
     message = pathlib.Path(log).read_text(encoding="utf-8", errors="replace").strip()
     return Finished(process.returncode, seconds, usage.ru_utime, 1024 * usage.ru_maxrss, over_limit.is_set(), message)

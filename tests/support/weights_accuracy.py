@@ -108,8 +108,8 @@ def lines(rows, table):
     text = ["## Accuracy", "",
             "Default weights against weights solved on well-shaped tets that conform to the surface (`tetrahedralize",
             "--method remesh`), for the same handles, at the surface's vertices. `rms` is over vertices and handles;",
-            "`angle` is the smallest dihedral angle of the reference tets, degrees; `leak` is the largest weight on one",
-            "separate part of a handle of another.", "",
+            "`angle` is the smallest dihedral angle of the reference tets, degrees; `leak` is the largest weight,",
+            "on one separate part, of a handle of another.", "",
             f"Models measured: {len(measured)}; above the goal of {RMS:g} rms: {over}.", ""]
     text += table(["model", *COLUMNS], [[row["name"], *(row[column] for column in COLUMNS)] for row in measured])
     return [*text, "Left out:", "", *table(["model", "reason"], skipped)] if skipped else text

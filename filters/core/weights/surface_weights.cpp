@@ -24,8 +24,10 @@ namespace
 /// Weights of two lattices that agree this well are trusted. Measured on figures and furniture, the
 /// finer one is then within 0.012 rms of what much finer lattices give.
 constexpr double largest_rms = 0.016;
-/// Tets of the first lattice; the second has about 2.75 times as many, the third as much again.
+/// Tets of the first lattice; the second has 3/2 of its resolution and about three times as many.
 constexpr Index first_tets = 4500;
+/// The third one has 5/4 to 3/2 of the second one's resolution: about this many tets if possible.
+constexpr double third_tets = 36000.0;
 /// Tets of a lattice that is not compared with another one.
 constexpr Index unguarded_tets = 12000;
 constexpr int most_lattices = 3;
@@ -49,6 +51,16 @@ struct Lattice
 };
 
 using LatticePtr = std::unique_ptr<Lattice>;
+
+/// Tets and vertices grow with this power of the resolution, between 2 (sheets) and 3 (solids).
+constexpr double power_of_tets = 2.5;
+
+/// By how much the third lattice's resolution is higher than the second one's.
+double growth_to_third(const Lattice& second)
+{
+  const double tets = second.status.report.number("counts.tets", third_tets);
+  return std::clamp(std::pow(third_tets / std::max(tets, 1.0), 1.0 / power_of_tets), 1.25, 1.5);
+}
 
 class Solver
 {
@@ -513,10 +525,13 @@ LatticePtr Solver::best_lattice()
   }
   for (int level = 1; level < most_lattices && !trusted; ++level)
   {
-    const Index resolution = asked > 0 ? asked : (3 * best->resolution + 1) / 2;
-    // A resolution of 3/2 has about 2.5 times as many vertices.
+    const double growth = level == 1 ? 1.5 : growth_to_third(*best);
+    const Index resolution = asked > 0
+      ? asked
+      : static_cast<Index>(std::ceil(growth * static_cast<double>(best->resolution)));
+    const auto vertices = static_cast<double>(best->result.problem.vertex_count());
     const double seconds =
-      predicted_seconds(static_cast<Index>(2.5 * best->result.problem.vertex_count()),
+      predicted_seconds(static_cast<Index>(std::pow(growth, power_of_tets) * vertices),
         static_cast<Index>(this->handles_.size()));
     if (level > 1 && (asked > 0 || seconds > most_seconds))
     {

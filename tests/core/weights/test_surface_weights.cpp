@@ -172,6 +172,36 @@ TEST(SurfaceWeights, BonesInPartsThatShareTetsFindTheirOwn)
   EXPECT_GT(result.weights.col(1).tail(half).minCoeff(), 1.0 - 1e-6);
 }
 
+TEST(SurfaceWeights, APartWithoutAHandleFollowsTheHandleNearestToItsSurface)
+{
+  // A knob between two bars with a handle each, 3 % nearer to the handle of the right one: less
+  // than any lattice here resolves.
+  const auto box = [](const Vec3& lower, const Vec3& upper)
+  {
+    const TetMesh tets = test::tet_box(4, 4, 4, lower, upper);
+    return TriangleMesh{ tets.points, boundary_triangles(tets.tets) };
+  };
+  const TriangleMesh bars =
+    test::join(box(Vec3(-3, -1, -1), Vec3(-2, 1, 1)), box(Vec3(2, -1, -1), Vec3(3, 1, 1)));
+  const Vec3 center(0.03, 0.0, 0.0);
+  const Vec3 half = Vec3::Constant(0.05);
+  const TriangleMesh shape = test::join(bars, box(center - half, center + half));
+  const Handles handles{ test::point_handle("left", { -2.5, 0, 0 }),
+    test::point_handle("right", { 2.5, 0, 0 }) };
+  for (const Index resolution : { 6, 7, 9, 13, 17 })
+  {
+    SurfaceWeightsOptions options = in(WeightsDomain::embedding, resolution);
+    options.guard = false;
+    SurfaceWeights result;
+    const Status status = solve(shape, handles, options, result);
+    ASSERT_TRUE(status.ok()) << status.message;
+    for (Index v = bars.points.rows(); v < shape.points.rows(); ++v)
+    {
+      EXPECT_GT(result.weights(v, 1), 0.99) << resolution;
+    }
+  }
+}
+
 TEST(SurfaceWeights, CarriesSmoothFunctionsBetterThanTetsDo)
 {
   const TriangleMesh ball = test::sphere(4);

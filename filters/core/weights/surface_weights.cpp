@@ -523,12 +523,12 @@ LatticePtr Solver::best_lattice()
   {
     return best;
   }
+  Index resolution = best->resolution; // of the last one, which may not have converged
   for (int level = 1; level < most_lattices && !trusted; ++level)
   {
     const double growth = level == 1 ? 1.5 : growth_to_third(*best);
-    const Index resolution = asked > 0
-      ? asked
-      : static_cast<Index>(std::ceil(growth * static_cast<double>(best->resolution)));
+    resolution =
+      asked > 0 ? asked : static_cast<Index>(std::ceil(growth * static_cast<double>(resolution)));
     const auto vertices = static_cast<double>(best->result.problem.vertex_count());
     const double seconds =
       predicted_seconds(static_cast<Index>(std::pow(growth, power_of_tets) * vertices),

@@ -341,9 +341,10 @@ TEST_P(BoxQpStarts, FoundTogetherEndWhereOthersEnd)
   for (const double scale : { 1.0, 1e6, 1e-6 })
   {
     const SparseMatrix scaled = scale * q;
-    // With slivers round-off alone makes 1e-7.
+    // Each of two solutions has settled to 1.5e-6 or 5e-9 (interior_point.cpp), whatever the
+    // processor rounds. With slivers round-off alone makes 1e-7.
     for (const auto& [tolerance, same] :
-      { std::pair{ 1e-6, 1e-6 }, std::pair{ 1e-9, GetParam() ? 1e-6 : 1e-8 } })
+      { std::pair{ 1e-6, 3e-6 }, std::pair{ 1e-9, GetParam() ? 1e-6 : 1e-8 } })
     {
       BoxQp qp(scaled, fixed, { tolerance, 100, {} });
       ExecutionContext context;

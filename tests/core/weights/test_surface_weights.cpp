@@ -331,7 +331,7 @@ TEST_F(SurfaceWeightsInTets, ACoarserLatticeServesWhereTheFinerOneDoesNotConverg
     [&](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
     {
       Status solved = bounded(problem, of_method, weights);
-      solved.code = ++calls == 1 ? StatusCode::not_converged : solved.code;
+      solved.code = ++calls == 2 ? StatusCode::not_converged : solved.code;
       return solved;
     },
     context, result);

@@ -8,7 +8,7 @@
 namespace bindpose
 {
 
-/// What a closed cage is filled for.
+/// Options of fill_cage().
 struct CageOptions
 {
   double winding_threshold = 0.5; ///< > 0

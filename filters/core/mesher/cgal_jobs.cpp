@@ -141,7 +141,8 @@ bool cross(const Soup& soup, const Face& f, const Face& g)
   return true;
 }
 
-std::vector<Pair> crossing_pairs(const Soup& soup)
+/// In order. Of more than `most`, some are missing.
+std::vector<Pair> crossing_pairs(const Soup& soup, std::size_t most)
 {
   using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index>;
   std::vector<Box> boxes;
@@ -154,7 +155,7 @@ std::vector<Pair> crossing_pairs(const Soup& soup)
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(),
     [&](const Box& a, const Box& b)
     {
-      if (cross(soup, soup.faces[a.info()], soup.faces[b.info()]))
+      if (pairs.size() <= most && cross(soup, soup.faces[a.info()], soup.faces[b.info()]))
       {
         pairs.push_back(std::minmax(a.info(), b.info()));
       }
@@ -264,13 +265,26 @@ void cut(Soup& soup, const Face& face, const Cuts& cuts, std::vector<Face>& piec
   {
     planar.insert_constraint(ends[k], ends[(k + 1) % 3]);
   }
+  // Notes are known in space; only where they cross each other must a vertex be lifted.
+  std::map<Planar::Vertex_handle, Exact::Point_3> known;
+  const auto insert = [&](const Exact::Point_3& p)
+  {
+    const Planar::Vertex_handle vertex = planar.insert(project(p));
+    known.emplace(vertex, p);
+    return vertex;
+  };
   for (const Exact::Point_3& p : cuts.points)
   {
-    planar.insert(project(p));
+    insert(p);
   }
   for (const Exact::Segment_3& s : cuts.segments)
   {
-    planar.insert_constraint(project(s.source()), project(s.target()));
+    const Planar::Vertex_handle source = insert(s.source());
+    const Planar::Vertex_handle target = insert(s.target());
+    if (source != target)
+    {
+      planar.insert_constraint(source, target);
+    }
   }
   for (auto vertex = planar.finite_vertices_begin(); vertex != planar.finite_vertices_end();
        ++vertex)
@@ -279,14 +293,24 @@ void cut(Soup& soup, const Face& face, const Cuts& cuts, std::vector<Face>& piec
     {
       continue;
     }
-    const Exact::FT x = vertex->point().x();
-    const Exact::FT y = vertex->point().y();
-    const Exact::FT z = corners[0][axis] -
-      (normal[u] * (x - corners[0][u]) + normal[v] * (y - corners[0][v])) / normal[axis];
     Coordinates p{};
-    p[u] = rounded(x);
-    p[v] = rounded(y);
-    p[axis] = rounded(z);
+    if (const auto entry = known.find(vertex); entry != known.end())
+    {
+      for (int k = 0; k < 3; ++k)
+      {
+        p[k] = rounded(entry->second[k]);
+      }
+    }
+    else
+    {
+      const Exact::FT x = vertex->point().x();
+      const Exact::FT y = vertex->point().y();
+      const Exact::FT z = corners[0][axis] -
+        (normal[u] * (x - corners[0][u]) + normal[v] * (y - corners[0][v])) / normal[axis];
+      p[u] = rounded(x);
+      p[v] = rounded(y);
+      p[axis] = rounded(z);
+    }
     ids[vertex] = soup.add(p);
   }
   for (auto f = planar.finite_faces_begin(); f != planar.finite_faces_end(); ++f)
@@ -294,6 +318,12 @@ void cut(Soup& soup, const Face& face, const Cuts& cuts, std::vector<Face>& piec
     const Face piece{ ids.at(f->vertex(0)), ids.at(f->vertex(1)), ids.at(f->vertex(2)) };
     pieces.push_back(keeps_orientation ? piece : Face{ piece[0], piece[2], piece[1] });
   }
+}
+
+std::string too_many(const std::string& why)
+{
+  tell_report("too_many", 1.0);
+  return why;
 }
 
 std::string too_long(double limit)
@@ -335,7 +365,8 @@ std::string split(Soup& soup, const std::vector<Pair>& pairs, const Stopwatch& c
     }
     if (next.size() > face_limit)
     {
-      return "crossing triangles fall into more than " + std::to_string(face_limit) + " pieces";
+      return too_many(
+        "crossing triangles fall into more than " + std::to_string(face_limit) + " pieces");
     }
     if (clock.seconds() > options.time_limit)
     {
@@ -384,13 +415,22 @@ std::string refine(MesherData& data, const RefineOptions& options)
     options.growth_limit * static_cast<double>(std::max(soup.faces.size(), small)));
   constexpr std::size_t few = 64; // pairs; so many come and go
   constexpr int patience = 3; // rounds
+  // More than this many pairs take too long, or fall into too many pieces, two more for each.
+  constexpr double seconds_per_pair = 2.5e-4;
+  const auto pair_limit = std::min(static_cast<std::size_t>(options.time_limit / seconds_per_pair),
+    face_limit / 2 - std::min(face_limit, soup.faces.size()) / 2);
   bool rounded = false;
   std::size_t before = std::numeric_limits<std::size_t>::max();
   int growing = 0; // rounds after which more crossed than before
   int round = 0;
   for (; round < options.round_limit; ++round)
   {
-    const std::vector<Pair> pairs = crossing_pairs(soup);
+    const std::vector<Pair> pairs = crossing_pairs(soup, pair_limit);
+    if (pairs.size() > pair_limit)
+    {
+      return too_many("more than " + std::to_string(pair_limit) +
+        " pairs of triangles cross, too many to split them");
+    }
     if (round == 0 && !rounded)
     {
       tell_report("counts.self_intersections", static_cast<double>(pairs.size()));

@@ -23,7 +23,9 @@ struct RefineOptions
 /// Splits triangles along their intersections until they meet only in shared vertices and edges.
 /// Input vertices keep their ids and coordinates, new ones come behind; triangles of zero area and
 /// duplicates are dropped. Where that does not end, input vertices are rounded to about 2e-13 of
-/// the diagonal first. Reports self_intersections (pairs in the input), rounded (0 or 1), rounds.
+/// the diagonal first. Gives up at once when that will take longer than the time limit, or make
+/// more faces than the growth limit. Reports self_intersections (pairs in the input), rounded (0 or
+/// 1), rounds, too_many (1: it gave up because of the number of crossings).
 /// @return empty, or why it gave up.
 std::string refine(MesherData& data, const RefineOptions& options);
 

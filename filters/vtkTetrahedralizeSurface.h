@@ -189,8 +189,8 @@ public:
 
   ///@{
   /**
-   * Largest ratio of circumradius to shortest edge of a tet that CDT and WRAP add points for: 1.1
-   * (many points) to 10; default 1.414; 0 adds none for this reason.
+   * From 1.1 to 10 (default 1.414): CDT and WRAP improve flat tets, with the same result for all of
+   * these numbers. 0: they do not, and without an InteriorEdge they add no points inside.
    */
   vtkSetMacro(Quality, double);
   vtkGetMacro(Quality, double);
@@ -199,8 +199,9 @@ public:
   ///@{
   /**
    * Longest edges that CDT and WRAP leave inside, as a fraction of the surface's diagonal, 0 or
-   * more; default 0.04; 0: no bound. Smooth weights need points inside, not only on the surface.
-   * FTETWILD aims at this length everywhere; 0: at its own 0.05.
+   * more. Default 0: automatic, as long as the surface's own edges nearby and longer with the
+   * distance to it, about 4.5 tets per triangle. Smooth weights need points inside, not only on the
+   * surface. FTETWILD aims at this length everywhere; 0: at its own 0.05.
    */
   vtkSetMacro(InteriorEdge, double);
   vtkGetMacro(InteriorEdge, double);
@@ -268,7 +269,7 @@ private:
   double TimeLimit = 120.0;
   int MemoryLimit = 0;
   double Quality = 1.414;
-  double InteriorEdge = 0.04;
+  double InteriorEdge = 0.0;
   bool KeepOutside = false;
   double WrapAlpha = 0.02;
   double WrapOffset = 0.001;

@@ -74,11 +74,11 @@ const std::vector<Verb>& verbs()
         { "--cut-sigma", "NUMBER", Kind::number, "0.1", "",
           "difference of winding numbers between tets that counts as surface" },
         { "--quality", "RATIO", Kind::number, "1.414", "",
-          "largest circumradius to shortest edge that cdt and wrap leave inside, 1.1 to 10; 0: "
-          "any" },
-        { "--interior-edge", "FRACTION", Kind::number, "0.04", "",
+          "from 1.1 to 10: cdt and wrap improve flat tets, with the same result for all of these; "
+          "0: they do not" },
+        { "--interior-edge", "FRACTION", Kind::number, "0", "",
           "longest edges that cdt and wrap leave inside, and those that ftetwild aims at, of the "
-          "surface's diagonal; 0: any" },
+          "surface's diagonal; 0: automatic" },
         { "--keep-outside", "", Kind::flag, "", "",
           "with --method cdt: write all tets of the hull, to look at the array Label" },
         { "--handles", "HANDLES", Kind::text, "", "",

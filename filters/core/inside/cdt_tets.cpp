@@ -1,19 +1,20 @@
-// A clean surface goes to TetGen as it is, which adds vertices inside in the same run. Any other is
-// first refined exactly until triangles meet only in shared vertices and edges; TetGen then fills
-// the convex hull (or a box around it) with tets that keep all these triangles, and tets with a
-// winding number below the threshold are thrown away. Where openings bound much of what is
+// A clean surface goes to TetGen as it is. Any other is first refined exactly until triangles meet
+// only in shared vertices and edges; TetGen then fills the convex hull (or a box around it) with
+// tets that keep all these triangles, and tets with a winding number below the threshold are thrown
+// away. Where openings bound much of what is
 // enclosed, small tets in a box come first: they can end where the winding number does. TetGen 1.5
 // fails on some inputs with one set of switches and on others with another, so several are tried;
 // then the same with vertices rounded to a coarser grid (which welds nearly coincident ones) and
 // with vertices moved a little (which takes soups apart). Last comes a plain Delaunay triangulation
 // of the refined vertices, whose tets need not respect the triangles.
 //
-// Kept tets that have none yet get vertices inside, by TetGen's refinement with the boundary left
-// alone: angles become better and weights have something to vary over.
+// Kept tets then get vertices inside (tet_filling.h), so that weights have something to vary over,
+// and flat ones are improved (tet_improvement.h); both keep the boundary.
 #include "inside/cdt_tets.h"
 
 #include "base/number_text.h"
 #include "helper/mesher_process.h"
+#include "inside/tet_filling.h"
 #include "inside/tet_improvement.h"
 #include "inside/tet_quality.h"
 #include "surface/triangle_tree.h"
@@ -31,12 +32,22 @@ struct CdtTets::Move
   const char* name;
   double snap; ///< fraction of the diagonal
   double jitter; ///< fraction of the diagonal
+
+  bool moves() const { return this->snap > 0.0 || this->jitter > 0.0; }
 };
 
 namespace
 {
 /// Height of tets at the boundary that are taken off, of the diagonal.
 constexpr double flat = 1e-11;
+/// Triangles of the boundary within this height of one plane, of the diagonal, are in one plane.
+constexpr double coplanar = 1e-10;
+/// Without a request for a length inside: there are at least about so many tets,
+constexpr Index fewest_tets = 1500;
+/// and vertices are added until there are so many tets per triangle of the surface.
+constexpr double most_tets_per_triangle = 4.5;
+/// With one.
+constexpr Index most_tets_on_request = 20000000;
 
 /// A number in [-1, 1) from an integer, the same everywhere (splitmix64).
 double scatter(std::uint64_t n)
@@ -94,15 +105,6 @@ Status CdtTets::build(double seconds)
     data.points = this->surface_.points;
     data.triangles = this->surface_.triangles;
     // Without c, TetGen throws the outside away itself.
-    if (this->fills() && !this->options_.keep_outside && this->options_.handles.empty() &&
-      !this->triangles_are_large())
-    {
-      status = this->try_filled_tets(no_move, data);
-      if (status.ok() || this->final(status))
-      {
-        return status;
-      }
-    }
     status = this->try_tetgen(this->options_.keep_outside ? "pYcA" : "pYA", no_move, data, false);
     if (status.ok() || this->final(status))
     {
@@ -112,7 +114,7 @@ Status CdtTets::build(double seconds)
   MesherData first_refined;
   std::vector<Index> first_original;
   const Move moves[] = { no_move, { ", vertices rounded", 0x1p-20, 0.0 },
-    { ", vertices moved by 1e-5", 0.0, 1e-5 }, { ", vertices moved by 1e-4", 0.0, 1e-4 } };
+    { ", vertices moved by 1e-5", 0.0, 1e-5 } };
   for (const Move& move : moves)
   {
     MesherData refined;
@@ -137,6 +139,15 @@ Status CdtTets::build(double seconds)
     {
       return status;
     }
+    if (this->too_many_crossings_ || this->out_of_patience())
+    {
+      break; // vertices moved a little make no fewer crossings
+    }
+  }
+  if (this->too_many_crossings_ && first_refined.points.rows() == 0)
+  {
+    first_refined.points = this->surface_.points;
+    first_original = this->surface_.original_vertices;
   }
   if (first_refined.points.rows() > 0)
   {
@@ -146,20 +157,14 @@ Status CdtTets::build(double seconds)
   return status;
 }
 
-/// Tets with vertices inside at once: TetGen is quicker than in two steps, where it manages.
-Status CdtTets::try_filled_tets(const Move& move, const MesherData& surface)
+/// After that long, TetGen is left: the Delaunay triangulation that comes last takes a tenth of the
+/// time.
+bool CdtTets::out_of_patience() const
 {
-  constexpr double seconds = 10.0;
-  const std::string size =
-    this->options_.interior_edge > 0.0 ? "a" + short_number(this->volume_bound()) : "";
-  Status status =
-    this->try_tetgen("pYA" + this->quality_switch() + size, move, surface, false, seconds);
-  this->filled_ = status.ok() && !this->too_many_are_bad();
-  if (status.ok() && !this->filled_)
-  {
-    status = Status::failure(StatusCode::internal_error, "too many tets are flat");
-  }
-  return status;
+  constexpr double patience = 6.0; // seconds
+  constexpr double per_triangle = 2e-4;
+  return this->context_.elapsed_seconds() - this->start_ >
+    patience + per_triangle * static_cast<double>(this->surface_.triangles.rows());
 }
 
 /// TetGen on refined triangles, with one set of switches after the other. Across wide openings the
@@ -196,10 +201,22 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
       return status;
     }
   }
-  for (const Way& way :
-    { Way{ "pYcA", false }, Way{ "pYA", true }, Way{ "pcA", false }, Way{ "pA", true } })
+  // T: how flat a tet on two of the triangles must be for these to count as one plane. The
+  // triangles are cut exactly, so that TetGen's own 1e-8 finds planes that are none, and crashes on
+  // them.
+  std::vector<Way> ways{ { "pYcAT1e-12", false }, { "pYcA", false }, { "pYAT1e-16", true },
+    { "pYA", true } };
+  if (move.moves())
+  {
+    ways = { { "pYcAT1e-12", false }, { "pYAT1e-16", true } };
+  }
+  for (const Way& way : ways)
   {
     status = this->try_tetgen(way.switches, move, refined, way.box);
+    if (this->timed_out_ || (!status.ok() && this->out_of_patience()))
+    {
+      break; // on the same triangles, other switches run out of time as well
+    }
     if (!done() && this->wrong_volume_ && !fine_tried)
     {
       try_fine();
@@ -222,21 +239,22 @@ Status CdtTets::try_fine_tets(const Move& move, const MesherData& refined)
   {
     return Status::failure(StatusCode::internal_error, "small tets take too long");
   }
-  const double start = this->context_.elapsed_seconds();
   const double box = bounding_box(refined.points).size().prod();
   constexpr double tets_inside = 400.0;
   constexpr double most_tets = 2e4; // in the box, before TetGen grades them
   const double bound =
     std::max(std::min(this->volume_bound(), this->inside_.volume() / tets_inside), box / most_tets);
   const Status status = this->try_tetgen("pAq2a" + short_number(bound), move, refined, true);
-  constexpr double too_long = 20.0; // seconds
-  this->fine_takes_too_long_ = !status.ok() && this->context_.elapsed_seconds() - start > too_long;
+  this->fine_takes_too_long_ = this->timed_out_;
+  this->timed_out_ = false; // without small tets it may be soon done
   return status;
 }
 
+/// TetGen gets several times what it needs for most surfaces of this size, 20 to 60 us a triangle.
 Status CdtTets::try_tetgen(
-  const std::string& switches, const Move& move, const MesherData& input, bool box, double seconds)
+  const std::string& switches, const Move& move, const MesherData& input, bool box)
 {
+  const double seconds = 3.0 + 3e-4 * static_cast<double>(input.triangles.rows());
   const std::string name = "tetgen " + switches + (box ? " in a box" : "") + move.name;
   const double start = this->context_.elapsed_seconds();
   this->wrong_volume_ = false;
@@ -283,13 +301,13 @@ Status CdtTets::try_delaunay(const MesherData& refined)
   input.triangles.resize(0, 3);
   this->original_.resize(static_cast<std::size_t>(originals));
   MesherAnswer answer;
-  Status status = this->run_job({ "delaunay" }, input, 30.0, answer);
+  const double seconds = 5.0 + 2e-4 * static_cast<double>(input.points.rows());
+  Status status = this->run_job({ "delaunay" }, input, seconds, answer);
   if (status.ok())
   {
     status = this->keep_inside(answer.data);
   }
-  this->log_.add(
-    "delaunay of the refined vertices", this->context_.elapsed_seconds() - start, status);
+  this->log_.add("delaunay of the vertices", this->context_.elapsed_seconds() - start, status);
   if (status.ok())
   {
     this->warnings_.emplace_back("the tets do not follow the surface's triangles everywhere");
@@ -312,7 +330,9 @@ Status CdtTets::refine(const Move& move, MesherData& refined)
     MesherData input;
     input.points = std::move(moved.points);
     input.triangles = std::move(moved.triangles);
-    status = this->run_job({ "refine" }, input, 25.0, answer);
+    const double size = static_cast<double>(input.triangles.rows());
+    status = this->run_job({ "refine" }, input, 5.0 + 1e-4 * size, answer);
+    this->too_many_crossings_ = this->timed_out_ || answer.report.number("too_many", 0.0) > 0.0;
     rounded = answer.report.number("rounded", 0.0) > 0.0;
     refined = std::move(answer.data);
     if (status.ok() && refined.triangles.rows() == 0)
@@ -356,12 +376,12 @@ Status CdtTets::move_vertices(const Move& move, RepairedSurface& moved)
   return {};
 }
 
-/// One job of the helper, within what is left of the time.
+/// One job of the helper, for at most `seconds` and what is left of the time.
 Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherData& input,
   double seconds, MesherAnswer& answer)
 {
-  constexpr double per_element = 1e-4;
   const double left = this->deadline_ - this->context_.elapsed_seconds();
+  this->timed_out_ = false;
   if (left <= 0.0)
   {
     return Status::failure(StatusCode::internal_error, "the time limit was reached");
@@ -369,16 +389,19 @@ Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherD
   MesherRequest request;
   request.arguments = arguments;
   request.memory_limit = this->options_.memory_limit;
-  request.time_limit = std::min(
-    left, seconds + per_element * static_cast<double>(input.triangles.rows() + input.tets.rows()));
+  request.time_limit = std::min(left, seconds);
+  double limit = request.time_limit;
   if (arguments.front() == "refine")
   {
     // It gives up by itself, a little earlier, and says how far it came.
     constexpr double earlier = 0.9;
-    request.arguments.insert(
-      request.arguments.end(), { "--time", std::to_string(earlier * request.time_limit) });
+    limit *= earlier;
+    request.arguments.insert(request.arguments.end(), { "--time", std::to_string(limit) });
   }
-  return run_mesher(request, input, answer, this->context_);
+  const double start = this->context_.elapsed_seconds();
+  const Status status = run_mesher(request, input, answer, this->context_);
+  this->timed_out_ = !status.ok() && this->context_.elapsed_seconds() - start >= limit;
+  return status;
 }
 
 /// A status after which no other rung can help.
@@ -553,13 +576,9 @@ Status CdtTets::complete()
     return {};
   }
   Status status;
-  if (this->filled_)
+  if (this->fills() || !this->options_.handles.empty())
   {
-    this->surface_vertices_ = this->surface_.points.rows();
-  }
-  else if (this->fills() || !this->options_.handles.empty())
-  {
-    const Phase phase(this->context_, "fill", 0.0, 0.8);
+    const Phase phase(this->context_, "fill", 0.0, 0.5);
     status = this->fill();
     if (!status.ok() && status.code != StatusCode::cancelled)
     {
@@ -568,121 +587,95 @@ Status CdtTets::complete()
   }
   if (this->options_.quality > 0.0 && status.code != StatusCode::cancelled)
   {
-    const Phase phase(this->context_, "improve", 0.8, 1.0);
+    const Phase phase(this->context_, "improve", 0.5, 1.0);
     status = this->improve();
   }
   this->renumber();
   return status.code == StatusCode::cancelled ? status : Status();
 }
 
+/// Adds vertices inside, those of handles first.
 Status CdtTets::fill()
 {
-  // What stands behind the last vertex of a tet is inserted: the handles' points, none of the
-  // hull's.
-  this->surface_vertices_ = this->mesh_.tets.maxCoeff() + 1;
-  this->mesh_.points.conservativeResize(this->surface_vertices_, 3);
-  this->mesh_original_.resize(
-    std::min(this->mesh_original_.size(), static_cast<std::size_t>(this->surface_vertices_)));
-  MesherData coarse;
-  coarse.tets = this->mesh_.tets;
-  coarse.points = this->mesh_.points;
-  if (this->options_.handles.empty())
-  {
-    return this->fill(coarse);
-  }
-  Status status = this->place_handles();
-  const Index count = this->handle_points_.rows();
-  if (status.ok())
-  {
-    coarse.points.conservativeResize(this->surface_vertices_ + count, 3);
-    coarse.points.bottomRows(count) = this->handle_points_;
-    status = this->fill(coarse);
-  }
-  if (!status.ok() && status.code != StatusCode::cancelled && count > 0)
-  {
-    this->warnings_.push_back("handles are no vertices of the tets (" + status.message + ")");
-    this->handle_points_.resize(0, 3);
-    coarse.points = this->mesh_.points;
-    status = this->fill(coarse);
-  }
-  return status;
-}
-
-/// Ways to add vertices, the first that works. What is bounded by many needles (CAD) stays bad with
-/// the boundary left alone; then its triangles may be split, and so may large ones that are in the
-/// way of small tets.
-Status CdtTets::fill(const MesherData& coarse)
-{
-  const std::string size = this->options_.interior_edge > 0.0 ? "a" : "";
-  const std::string good = this->quality_switch();
-  const std::string fair = good.empty() ? "" : "q2";
+  const double start = this->context_.elapsed_seconds();
+  const Triangles boundary = boundary_triangles(this->mesh_.tets);
+  const SizingField field = this->lengths_inside(boundary);
+  FillOptions options;
   Status status;
-  if (this->triangles_are_large())
+  if (!this->options_.handles.empty())
   {
-    status = this->try_fill("r" + good + size, coarse);
-    if (status.ok() || this->final(status))
+    status = this->place_handles(boundary, field, options.required);
+    if (!status.ok())
     {
       return status;
     }
   }
-  status = this->try_fill("rY" + good + size, coarse);
-  if (!status.ok() && !this->final(status) && good != fair)
+  if (this->fills())
   {
-    status = this->try_fill("rY" + fair + size, coarse);
+    if (this->options_.interior_edge > 0.0)
+    {
+      options.most_tets = most_tets_on_request;
+      constexpr double long_edge = 3.0;
+      options.longest_boundary_edge = long_edge * this->options_.interior_edge * this->diagonal_;
+    }
+    else
+    {
+      options.fewest_tets = fewest_tets;
+      options.most_tets = std::max(fewest_tets,
+        static_cast<Index>(
+          most_tets_per_triangle * static_cast<double>(this->surface_.triangles.rows())));
+    }
   }
-  if (!good.empty() && !this->final(status) && this->too_many_are_bad())
+  else
   {
-    const Status split = this->try_fill("r" + fair + size, coarse);
-    status = split.ok() || split.code == StatusCode::cancelled ? split : status;
+    options.most_tets = 0;
   }
-  return status;
+  TetMesh mesh = this->mesh_;
+  Filling done;
+  if (!fill_tets(mesh, field, options, done, this->context_))
+  {
+    return Status::cancelled();
+  }
+  const double before = tet_volumes(this->mesh_.points, this->mesh_.tets).sum();
+  status = this->accept(mesh, before);
+  this->log_.add("vertices inside", this->context_.elapsed_seconds() - start, status);
+  if (!status.ok())
+  {
+    return status;
+  }
+  for (const Index v : done.required)
+  {
+    if (v >= 0)
+    {
+      this->handle_vertices_.push_back(v);
+    }
+  }
+  return {};
 }
 
-/// One run of TetGen's refinement; its tets replace the mesh's when they fill the same volume.
-Status CdtTets::try_fill(const std::string& switches, const MesherData& coarse)
+/// Takes the tets if they are valid and fill the same volume.
+Status CdtTets::accept(TetMesh& mesh, double volume)
 {
-  const double start = this->context_.elapsed_seconds();
-  MesherData data = coarse;
-  if (this->options_.interior_edge > 0.0)
-  {
-    data.largest_volumes.assign(static_cast<std::size_t>(coarse.tets.rows()), this->volume_bound());
-  }
-  MesherAnswer answer;
-  Status status = this->run_job({ "tetgen", "--switches", switches }, data, 5.0, answer);
-  if (status.ok())
-  {
-    status = this->accept_fill(answer.data, tet_volumes(coarse.points, coarse.tets).sum());
-  }
-  this->log_.add(
-    "vertices inside by tetgen " + switches, this->context_.elapsed_seconds() - start, status);
-  return status;
-}
-
-Status CdtTets::accept_fill(MesherData& data, double volume)
-{
-  const double after = tet_volumes(data.points, data.tets).sum();
+  const double after = tet_volumes(mesh.points, mesh.tets).sum();
   constexpr double rounding = 1e-9;
   if (std::abs(after - volume) > rounding * volume)
   {
     return Status::failure(StatusCode::internal_error,
       "they changed the volume from " + short_number(volume) + " to " + short_number(after));
   }
-  Status status = check_tets(data.points, data.tets);
+  Status status = check_tets(mesh.points, mesh.tets);
   if (status.ok())
   {
-    this->mesh_.points = std::move(data.points);
-    this->mesh_.tets = std::move(data.tets);
+    this->mesh_ = std::move(mesh);
   }
   return status;
 }
 
 /// Points of the handles that lie inside, and points between them. Those between keep some distance
 /// from the boundary: there are vertices enough there, and TetGen would squeeze flat tets between.
-Status CdtTets::place_handles()
+Status CdtTets::place_handles(const Triangles& boundary, const SizingField& field, Points& places)
 {
   const Points& points = this->mesh_.points;
-  const Triangles boundary = boundary_triangles(this->mesh_.tets);
-  const SizingField field = this->lengths_inside(boundary);
   const HandleSamples samples =
     sample_places(this->options_.handles, [&](const Vec3& p) { return field.at(p); });
   WindingNumber winding;
@@ -696,7 +689,7 @@ Status CdtTets::place_handles()
     return status;
   }
   const TriangleTree tree(points, boundary);
-  this->handle_points_.resize(samples.points.rows(), 3);
+  places.resize(samples.points.rows(), 3);
   Index kept = 0;
   for (Index i = 0; i < samples.points.rows(); ++i)
   {
@@ -707,26 +700,27 @@ Status CdtTets::place_handles()
     constexpr double half = 0.5; // the numbers are 0 and 1
     if (w[i] > half && tree.distance(p, distance) > distance)
     {
-      this->handle_points_.row(kept++) = p;
+      places.row(kept++) = p;
     }
   }
-  this->handle_points_.conservativeResize(kept, 3);
+  places.conservativeResize(kept, 3);
   return {};
 }
 
-/// How long edges inside become: as long as the boundary's, growing with the distance to it.
+/// How long edges inside become: as long as the shortest ones of the boundary near them, and longer
+/// by half of the distance to these. (Means of the lengths make tets too coarse for small details
+/// between long triangles.)
 SizingField CdtTets::lengths_inside(const Triangles& boundary) const
 {
   const Points& points = this->mesh_.points;
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(points.rows());
-  Eigen::VectorXd counts = Eigen::VectorXd::Zero(points.rows());
+  constexpr double none = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd shortest = Eigen::VectorXd::Constant(points.rows(), none);
   for (const Edge& edge : mesh_edges(boundary))
   {
     const double length = (points.row(edge.a) - points.row(edge.b)).norm();
     for (const Index v : { edge.a, edge.b })
     {
-      sums[v] += length;
-      counts[v] += 1.0;
+      shortest[v] = std::min(shortest[v], length);
     }
   }
   Points sites(points.rows(), 3);
@@ -734,32 +728,37 @@ SizingField CdtTets::lengths_inside(const Triangles& boundary) const
   Index count = 0;
   for (Index v = 0; v < points.rows(); ++v)
   {
-    if (counts[v] > 0.0)
+    if (shortest[v] < none)
     {
       sites.row(count) = points.row(v);
-      lengths[count++] = sums[v] / counts[v];
+      lengths[count++] = shortest[v];
     }
   }
   sites.conservativeResize(count, 3);
   lengths.conservativeResize(count);
-  constexpr double growth = 0.3;
+  constexpr double growth = 0.5;
   const double largest = this->options_.interior_edge > 0.0 ? this->options_.interior_edge : 1.0;
   return SizingField(sites, lengths, growth, largest * this->diagonal_);
 }
 
-/// Swaps edges and facets inside, and moves vertices that are neither the surface's nor a handle's,
-/// where tets are flat.
+/// Makes flat tets better. The input's vertices and those of handles stay, and so does the boundary
+/// but for triangles in one plane and needles.
 Status CdtTets::improve()
 {
   const double start = this->context_.elapsed_seconds();
   TetMesh mesh = this->mesh_;
   std::vector<char> held(static_cast<std::size_t>(mesh.points.rows()), 0);
-  // The surface's come first, then the handles'.
-  const Index last = this->surface_vertices_ + this->handle_points_.rows();
-  std::fill_n(held.begin(), std::min(last, mesh.points.rows()), 1);
+  std::fill_n(held.begin(), std::min(this->mesh_original_.size(), held.size()), 1);
+  for (const Index v : this->handle_vertices_)
+  {
+    held[v] = 1;
+  }
   ImproveOptions options;
   options.least_angle = 0.0; // held vertices never move
   options.keep_boundary = true;
+  options.coplanar = coplanar * this->diagonal_;
+  options.insert = true;
+  options.slack = 0.7;
   Improvement done;
   if (!improve_tets(mesh, std::move(held), {}, options, done, this->context_))
   {
@@ -768,7 +767,7 @@ Status CdtTets::improve()
   std::vector<TetFacet> facets = tet_facets(mesh.tets);
   peel_slivers(mesh.points, mesh.tets, facets, flat * this->diagonal_);
   const Status status = check_tets(mesh.points, mesh.tets, facets);
-  this->log_.add("flat tets swapped", this->context_.elapsed_seconds() - start, status);
+  this->log_.add("flat tets improved", this->context_.elapsed_seconds() - start, status);
   if (status.ok())
   {
     this->mesh_ = std::move(mesh);
@@ -780,25 +779,6 @@ Status CdtTets::improve()
 bool CdtTets::fills() const
 {
   return this->options_.quality > 0.0 || this->options_.interior_edge > 0.0;
-}
-
-std::string CdtTets::quality_switch() const
-{
-  return this->options_.quality > 0.0 ? "q" + short_number(this->options_.quality) + "/10" : "";
-}
-
-/// So that tets of the wanted size do not fit to them.
-bool CdtTets::triangles_are_large() const
-{
-  return this->options_.interior_edge > 0.0 &&
-    this->mean_surface_edge() > 3.0 * this->options_.interior_edge * this->diagonal_;
-}
-
-bool CdtTets::too_many_are_bad() const
-{
-  constexpr double too_many = 0.2;
-  const Index bad = measure_tets(this->mesh_.points, this->mesh_.tets).below_5_degrees;
-  return static_cast<double>(bad) > too_many * static_cast<double>(this->mesh_.tets.rows());
 }
 
 double CdtTets::mean_surface_edge() const

@@ -39,7 +39,7 @@ struct CdtOptions
   double time_limit = 120.0;
   Index memory_limit = 0;
   double quality = 1.414;
-  double interior_edge = 0.04;
+  double interior_edge = 0.0;
   bool keep_outside = false; ///< the tets that were told apart as they are, outside ones, too
   HandlePlaces handles;
 };
@@ -82,30 +82,25 @@ private:
 
   Status try_switches(const Move& move, const MesherData& refined);
   Status try_fine_tets(const Move& move, const MesherData& refined);
-  Status try_filled_tets(const Move& move, const MesherData& surface);
-  Status try_tetgen(const std::string& switches, const Move& move, const MesherData& input,
-    bool box, double seconds = 30.0);
+  Status try_tetgen(
+    const std::string& switches, const Move& move, const MesherData& input, bool box);
   Status try_delaunay(const MesherData& refined);
   Status refine(const Move& move, MesherData& refined);
   Status move_vertices(const Move& move, RepairedSurface& moved);
   Status run_job(const std::vector<std::string>& arguments, const MesherData& input, double seconds,
     MesherAnswer& answer);
   bool final(const Status& status) const;
+  bool out_of_patience() const;
   Status keep_inside(const MesherData& data);
   Status take_inside(const MesherData& data, const Eigen::VectorXd& w, SegmentationMethod method);
   Status swap_flat(const Points& points, Tets& tets, std::vector<TetFacet>& facets);
   void take_all(const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside);
   Status fill();
-  Status fill(const MesherData& coarse);
-  Status try_fill(const std::string& switches, const MesherData& coarse);
-  Status accept_fill(MesherData& data, double volume);
-  Status place_handles();
+  Status accept(TetMesh& mesh, double volume);
+  Status place_handles(const Triangles& boundary, const SizingField& field, Points& places);
   SizingField lengths_inside(const Triangles& boundary) const;
   Status improve();
   bool fills() const;
-  std::string quality_switch() const;
-  bool triangles_are_large() const;
-  bool too_many_are_bad() const;
   double mean_surface_edge() const;
   double volume_bound() const;
   void renumber();
@@ -121,14 +116,14 @@ private:
   std::vector<Index> original_; ///< input id of the first vertices of the rung's points
   bool wrong_volume_ = false; ///< the rung's tets are there, but their volume is wrong
   bool finer_is_no_better_ = false; ///< then more of the same will not help
+  bool timed_out_ = false; ///< the last job ended because of its time limit
+  bool too_many_crossings_ = false; ///< the refinement gave up because of them
   bool fine_takes_too_long_ = false; ///< small tets were tried, until the time was up
-  bool filled_ = false; ///< the mesh has its vertices inside already
   TetMesh mesh_;
   Eigen::VectorXd winding_numbers_;
   std::vector<char> kept_;
   std::vector<Index> mesh_original_;
-  Index surface_vertices_ = 0; ///< the mesh's first vertices before it was filled
-  Points handle_points_; ///< of handles, inside; behind the surface's vertices when it was filled
+  std::vector<Index> handle_vertices_; ///< at points of handles, inside
   double misfit_ = std::numeric_limits<double>::infinity();
   double volume_ = 0.0;
   std::vector<std::string> warnings_;

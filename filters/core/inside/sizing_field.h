@@ -19,6 +19,7 @@ public:
 
   /// Thread-safe.
   double at(const Vec3& p) const;
+  double growth() const { return this->growth_; }
 
 private:
   struct Node

@@ -1,42 +1,43 @@
-// Pass after pass over the tets that are too flat, worst first. Each is tried in turn to be made
-// better by
+// Pass after pass over the tets that are too flat, worst first; a tet is looked at again only when
+// the tets at one of its vertices have changed. Each is tried in turn to be made better by
 // 1. removing one of its edges: the tets around it are replaced by tets between its ends and a
 //    triangulation of the ring of their other vertices, the best one by dynamic programming. An
 //    edge of the boundary that is nearly flat can go as well; with a single tet that removes it.
 // 2. removing one of its facets: two tets become three around a new edge;
 // 3. moving one of its vertices: a search in a few directions with shrinking steps;
-// 4. contracting one of its edges into one of its ends, when no vertex could be moved.
+// 4. contracting one of its edges into one of its ends, when no vertex could be moved;
+// 5. inserting a vertex in the middle of one of its edges, where that is allowed.
 // In the last passes held vertices of tets that are still too flat may move. What is left of them
 // goes when it is a tet by itself.
 #include "inside/tet_improvement.h"
 
 #include "base/tet_facets.h"
-#include "inside/tet_quality.h"
+#include "inside/tet_complex.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 
 namespace bindpose
 {
 
 namespace
 {
-using Tet = std::array<Index, 4>;
-constexpr double better = 1e-3; // degrees: what counts as an improvement
-constexpr std::size_t longest_ring = 8;
+using Tet = TetComplex::Tet;
+using Facet = TetComplex::Facet;
+using Ring = TetComplex::Ring;
+constexpr double better = 0.02; // what counts as an improvement: a fiftieth of a tet's angle
 // Cosines between the normals of boundary triangles.
 constexpr double flat_cosine = 0.966; // 15 degrees: an edge that may be swapped
 constexpr double crease_cosine = 0.766; // 40 degrees: a vertex that may not move
 
-/// The tets around an edge a-b: the tets and their other vertices in order. Open for an edge of the
-/// boundary: there is one more vertex than tets.
-struct Ring
+/// What a set of tets costs: 0 where all are good enough.
+struct Cost
 {
-  std::vector<Index> tets;
-  std::vector<Index> vertices;
-  bool closed = false;
+  double sum = 0.0; ///< of log(sine wanted / sine of the smallest dihedral angle)
+  double worst = 1.0; ///< smallest quality
 };
 
 class Improver
@@ -44,206 +45,161 @@ class Improver
 public:
   Improver(TetMesh& mesh, std::vector<char> held, const OntoSurface& surface,
     const ImproveOptions& options, Improvement& done)
-    : mesh_(mesh), held_(std::move(held)), surface_(surface), options_(options), done_(done)
+    : mesh_(mesh), tets_(mesh), held_(std::move(held)), surface_(surface), options_(options),
+      done_(done), good_(TetComplex::quality_of_angle(options.angle)),
+      moved_(static_cast<std::size_t>(mesh.points.rows()), 0)
   {
-    this->at_.resize(static_cast<std::size_t>(mesh.points.rows()));
-    this->boundary_.resize(this->at_.size(), 0);
-    this->moved_.resize(this->at_.size(), 0);
-    for (Index t = 0; t < mesh.tets.rows(); ++t)
-    {
-      this->add({ mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3) });
-    }
-    const Triangles skin = boundary_triangles(mesh.tets);
-    for (Index k = 0; k < skin.size(); ++k)
-    {
-      this->boundary_[skin.data()[k]] = 1;
-    }
+    const auto tets = static_cast<double>(mesh.tets.rows() + small);
+    this->most_evaluations_ = std::min(options.effort * tets, large + per_tet_of_large * tets);
   }
 
   bool run(ExecutionContext& context)
   {
-    bool whole = true;
-    bool release = false;
-    for (Index pass = 0; pass < this->options_.passes && whole; ++pass)
+    constexpr Index last_passes = 4; // in which held vertices move
+    constexpr Index first_passes = 3; // before vertices are added
+    const Index passes = this->options_.passes - last_passes;
+    bool whole =
+      this->passes(this->options_.insert ? first_passes : passes, this->options_.angle, context);
+    if (whole && this->options_.insert)
     {
-      const double angle = release ? this->options_.least_angle : this->options_.angle;
-      const std::vector<Index> flat = this->flat_tets(angle);
-      this->release_ = release;
-      bool any = false;
-      for (std::size_t i = 0; i < flat.size() && whole; ++i)
-      {
-        if (this->quality_[flat[i]] < angle) // it may be gone or better by now
-        {
-          any = this->improve(flat[i]) || any;
-        }
-        constexpr std::size_t often = 64;
-        whole = i % often != 0 || !context.cancelled();
-      }
-      context.progress(static_cast<double>(pass + 1) / static_cast<double>(this->options_.passes));
-      if (flat.empty() || !any)
-      {
-        if (release)
-        {
-          break;
-        }
-        release = true;
-      }
-      release = release || pass + 4 >= this->options_.passes;
+      this->insert_ = true;
+      this->tried_.clear();
+      whole = this->passes(passes - first_passes, this->options_.angle, context);
+    }
+    if (whole && this->options_.least_angle > 0.0)
+    {
+      this->release_ = true;
+      this->tried_.clear();
+      whole = this->passes(last_passes, this->options_.least_angle, context);
+      this->release_ = false;
     }
     if (whole && !this->options_.keep_boundary)
     {
       this->drop_lone_tets();
     }
-    this->finish();
+    this->tets_.write(this->mesh_);
     return whole;
   }
 
 private:
-  Vec3 point(Index v) const { return this->mesh_.points.row(v); }
+  /// Small meshes get more evaluations per tet, large ones get fewer.
+  static constexpr Index small = 1000; // tets
+  static constexpr double large = 2.5e7; // evaluations
+  static constexpr double per_tet_of_large = 140.0;
 
-  /// Smallest dihedral angle; negative when turned over or flat.
-  double quality(const Tet& t) const
+  const Vec3& point(Index v) const { return this->tets_.point(v); }
+
+  bool exhausted() const
   {
-    const Vec3 a = this->point(t[0]), b = this->point(t[1]), c = this->point(t[2]),
-               d = this->point(t[3]);
-    return tet_volume(a, b, c, d) > 0.0 ? min_dihedral_angle(a, b, c, d) : -1.0;
+    return static_cast<double>(this->tets_.evaluations()) > this->most_evaluations_;
   }
 
-  void add(const Tet& tet)
+  /// @return false when cancelled.
+  bool passes(Index most, double angle, ExecutionContext& context)
   {
-    const auto id = static_cast<Index>(this->tets_.size());
-    this->tets_.push_back(tet);
-    this->quality_.push_back(this->quality(tet));
-    for (const Index v : tet)
+    const double enough = TetComplex::quality_of_angle(angle);
+    for (Index pass = 0; pass < most; ++pass)
     {
-      this->at_[v].push_back(id);
-    }
-  }
-
-  void remove(Index t)
-  {
-    for (const Index v : this->tets_[t])
-    {
-      auto& list = this->at_[v];
-      list.erase(std::find(list.begin(), list.end(), t));
-    }
-    this->quality_[t] = gone;
-  }
-
-  std::vector<Index> flat_tets(double angle) const
-  {
-    std::vector<Index> flat;
-    for (std::size_t t = 0; t < this->tets_.size(); ++t)
-    {
-      if (this->quality_[t] < angle)
+      const std::vector<Index> flat = this->flat_tets(enough);
+      std::size_t tried = 0;
+      std::size_t better_now = 0;
+      for (std::size_t i = 0; i < flat.size() && !this->exhausted(); ++i)
       {
-        flat.push_back(static_cast<Index>(t));
+        const Index t = flat[i];
+        if (this->tets_.quality(t) < enough && this->changed(t)) // it may be gone or better by now
+        {
+          this->tried_[t] = this->newest(t);
+          ++tried;
+          better_now += this->improve(t);
+        }
+        constexpr std::size_t often = 64;
+        if (i % often == 0 && context.cancelled())
+        {
+          return false;
+        }
       }
-    }
-    std::sort(flat.begin(), flat.end(),
-      [&](Index a, Index b) {
-        return this->quality_[a] != this->quality_[b] ? this->quality_[a] < this->quality_[b]
-                                                      : a < b;
-      });
-    return flat;
-  }
-
-  static bool has(const Tet& tet, Index v)
-  {
-    return std::find(tet.begin(), tet.end(), v) != tet.end();
-  }
-
-  std::vector<Index> tets_with(Index a, Index b) const
-  {
-    std::vector<Index> found;
-    for (const Index t : this->at_[a])
-    {
-      if (has(this->tets_[t], b))
+      context.progress(static_cast<double>(pass + 1) / static_cast<double>(most));
+      constexpr std::size_t worth_a_pass = 20; // one in so many
+      if (worth_a_pass * better_now <= tried)
       {
-        found.push_back(t);
-      }
-    }
-    return found;
-  }
-
-  /// The two other vertices, so that (a, b, first, second) is positive.
-  std::pair<Index, Index> others(Index t, Index a, Index b) const
-  {
-    Tet tet = this->tets_[t];
-    int swaps = 0;
-    for (int k = 0; k < 2; ++k)
-    {
-      const Index wanted = k == 0 ? a : b;
-      const auto at = std::find(tet.begin(), tet.end(), wanted) - tet.begin();
-      if (at != k)
-      {
-        std::swap(tet[at], tet[k]);
-        ++swaps;
-      }
-    }
-    return swaps % 2 == 0 ? std::make_pair(tet[2], tet[3]) : std::make_pair(tet[3], tet[2]);
-  }
-
-  /// @return false when the tets at the edge are no single ring, or too many.
-  bool find_ring(Index a, Index b, Ring& ring) const
-  {
-    std::vector<Index> left = this->tets_with(a, b);
-    if (left.empty() || left.size() > longest_ring)
-    {
-      return false;
-    }
-    std::vector<std::pair<Index, Index>> sides;
-    for (const Index t : left)
-    {
-      sides.push_back(this->others(t, a, b));
-    }
-    // Start at the side that no other tet ends at, if there is one.
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < sides.size(); ++i)
-    {
-      if (std::none_of(sides.begin(), sides.end(),
-            [&](const auto& side) { return side.second == sides[i].first; }))
-      {
-        first = i;
         break;
       }
-    }
-    ring = Ring();
-    ring.vertices.push_back(sides[first].first);
-    Index end = sides[first].first;
-    for (std::size_t n = 0; n < sides.size(); ++n)
-    {
-      const auto next = std::find_if(
-        sides.begin(), sides.end(), [&](const auto& side) { return side.first == end; });
-      if (next == sides.end())
-      {
-        return false;
-      }
-      ring.tets.push_back(left[static_cast<std::size_t>(next - sides.begin())]);
-      end = next->second;
-      if (end == ring.vertices.front())
-      {
-        ring.closed = true;
-        return ring.tets.size() == left.size();
-      }
-      ring.vertices.push_back(end);
     }
     return true;
   }
 
-  double worst(const std::vector<Index>& tets) const
+  /// The last change at a vertex of the tet.
+  std::uint64_t newest(Index t) const
   {
-    double least = 180.0;
+    std::uint64_t last = 0;
+    for (const Index v : this->tets_.tet(t))
+    {
+      last = std::max(last, this->tets_.stamp(v));
+    }
+    return last;
+  }
+
+  /// A vertex of the tet has seen a change since the tet was tried.
+  bool changed(Index t)
+  {
+    if (static_cast<Index>(this->tried_.size()) <= t)
+    {
+      this->tried_.resize(static_cast<std::size_t>(this->tets_.tet_ids()), 0);
+    }
+    return this->tried_[t] < this->newest(t);
+  }
+
+  std::vector<Index> flat_tets(double enough) const
+  {
+    std::vector<Index> flat;
+    for (Index t = 0; t < this->tets_.tet_ids(); ++t)
+    {
+      if (this->tets_.quality(t) < enough)
+      {
+        flat.push_back(t);
+      }
+    }
+    std::sort(flat.begin(), flat.end(),
+      [&](Index a, Index b)
+      {
+        return this->tets_.quality(a) != this->tets_.quality(b)
+          ? this->tets_.quality(a) < this->tets_.quality(b)
+          : a < b;
+      });
+    return flat;
+  }
+
+  double penalty(double quality) const
+  {
+    if (quality >= this->good_)
+    {
+      return 0.0;
+    }
+    constexpr double least = 1e-24;
+    constexpr double half = 0.5; // the quality is a square
+    return half * std::log(this->good_ / std::max(quality, least));
+  }
+
+  Cost cost(const std::vector<Index>& tets) const
+  {
+    Cost cost;
     for (const Index t : tets)
     {
-      least = std::min(least, this->quality_[t]);
+      cost.sum += this->penalty(this->tets_.quality(t));
+      cost.worst = std::min(cost.worst, this->tets_.quality(t));
     }
-    return least;
+    return cost;
+  }
+
+  /// The smallest quality that a tet may have which replaces tets of that cost.
+  double least_after(const Cost& cost) const
+  {
+    return std::min(this->options_.slack * this->options_.slack * cost.worst, this->good_);
   }
 
   bool improve(Index t)
   {
-    const Tet tet = this->tets_[t];
+    const Tet tet = this->tets_.tet(t);
     for (int i = 0; i < 4; ++i)
     {
       for (int j = i + 1; j < 4; ++j)
@@ -261,56 +217,69 @@ private:
         return true;
       }
     }
-    bool any = false;
-    for (const Index v : tet)
+    constexpr double too_near = 0.01; // of the longest edge: no move makes up for that
+    bool moved = false;
+    bool any = this->contract_any(tet, too_near);
+    for (int k = 0; k < 4 && !any; ++k)
     {
-      any = this->move(v) || any;
+      moved = this->move(tet[k]) || moved;
     }
-    for (int k = 0; k < 16 && !any; ++k)
-    {
-      any = k / 4 != k % 4 && this->contract(t, tet[k / 4], tet[k % 4]);
-    }
-    return any;
+    any = any || moved || this->contract_any(tet, 1.0);
+    return any || (this->insert_ && this->tets_.quality(t) < this->bad_ && this->insert_near(t));
   }
 
   // ---- Edges and facets ------------------------------------------------------------------------
 
   bool remove_edge(Index a, Index b)
   {
-    Ring ring;
-    if (!this->find_ring(a, b, ring) || (ring.closed && ring.tets.size() < 3))
+    Ring& ring = this->ring_;
+    if (!this->tets_.find_ring(a, b, ring) || (ring.closed && ring.tets.size() < 3))
     {
       return false;
     }
-    if (!ring.closed && (this->options_.keep_boundary || !this->may_swap_boundary(a, b, ring)))
+    if (!ring.closed && !this->may_swap_boundary(a, b, ring))
     {
       return false;
     }
+    const Cost old = this->cost(ring.tets);
+    const double least = this->least_after(old);
     const std::vector<Index>& r = ring.vertices;
     const std::size_t n = r.size();
-    // best[i][j]: the worst tet of the best triangulation of the polygon r[i] … r[j].
-    std::array<std::array<double, longest_ring + 1>, longest_ring + 1> best;
-    std::array<std::array<std::size_t, longest_ring + 1>, longest_ring + 1> apex{};
+    constexpr std::size_t most = TetComplex::longest_ring + 1;
+    constexpr double never = std::numeric_limits<double>::infinity();
+    // best[i][j]: what the best triangulation of the polygon r[i] … r[j] costs.
+    std::array<std::array<double, most>, most> best;
+    std::array<std::array<std::size_t, most>, most> apex{};
     for (std::size_t i = 0; i + 1 < n; ++i)
     {
-      best[i][i + 1] = 180.0;
+      best[i][i + 1] = 0.0;
     }
+    const double enough = old.sum - better;
     for (std::size_t span = 2; span < n; ++span)
     {
       for (std::size_t i = 0; i + span < n; ++i)
       {
         const std::size_t j = i + span;
-        best[i][j] = -1.0;
+        best[i][j] = never;
         for (std::size_t k = i + 1; k < j; ++k)
         {
-          const double rest = std::min(best[i][k], best[k][j]);
-          if (rest <= best[i][j])
+          const double rest = best[i][k] + best[k][j];
+          if (!(rest < best[i][j]) || !(rest < enough))
           {
             continue;
           }
-          const double value = std::min({ rest, this->quality({ r[i], r[k], r[j], b }),
-            this->quality({ r[k], r[i], r[j], a }) });
-          if (value > best[i][j])
+          const double one = this->tets_.quality({ r[i], r[k], r[j], b });
+          if (!(one > 0.0) || one < least)
+          {
+            continue;
+          }
+          const double other = this->tets_.quality({ r[k], r[i], r[j], a });
+          if (!(other > 0.0) || other < least)
+          {
+            continue;
+          }
+          const double value = rest + this->penalty(one) + this->penalty(other);
+          if (value < best[i][j])
           {
             best[i][j] = value;
             apex[i][j] = k;
@@ -318,13 +287,13 @@ private:
         }
       }
     }
-    if (best[0][n - 1] <= this->worst(ring.tets) + better)
+    if (!(best[0][n - 1] < enough))
     {
       return false;
     }
     for (const Index t : ring.tets)
     {
-      this->remove(t);
+      this->tets_.remove(t);
     }
     std::vector<std::pair<std::size_t, std::size_t>> open{ { 0, n - 1 } };
     while (!open.empty())
@@ -336,8 +305,8 @@ private:
         continue;
       }
       const std::size_t k = apex[i][j];
-      this->add({ r[i], r[k], r[j], b });
-      this->add({ r[k], r[i], r[j], a });
+      this->tets_.add({ r[i], r[k], r[j], b });
+      this->tets_.add({ r[k], r[i], r[j], a });
       open.emplace_back(i, k);
       open.emplace_back(k, j);
     }
@@ -348,6 +317,10 @@ private:
   /// The boundary is flat enough at the edge, and its new edge makes it touch itself nowhere.
   bool may_swap_boundary(Index a, Index b, const Ring& ring) const
   {
+    if (this->options_.keep_boundary && !(this->options_.coplanar > 0.0))
+    {
+      return false;
+    }
     const Index first = ring.vertices.front();
     const Index last = ring.vertices.back();
     const Vec3 p = this->point(a), q = this->point(b);
@@ -360,37 +333,34 @@ private:
     {
       return false;
     }
+    if (this->options_.keep_boundary)
+    {
+      const double largest =
+        std::max({ one.norm(), other.norm(), new_one.norm(), new_other.norm() });
+      const double volume = std::abs(one.dot(this->point(last) - p)); // six times
+      if (volume > this->options_.coplanar * largest)
+      {
+        return false;
+      }
+    }
     if (ring.tets.size() == 1)
     {
       Ring opposite;
-      return this->find_ring(first, last, opposite) && opposite.closed;
+      return this->tets_.find_ring(first, last, opposite) && opposite.closed;
     }
-    return this->tets_with(first, last).empty();
-  }
-
-  /// The tet on the other side of a facet, -1 on the boundary.
-  Index beyond(Index t, Index a, Index b, Index c) const
-  {
-    for (const Index s : this->at_[a])
-    {
-      if (s != t && has(this->tets_[s], b) && has(this->tets_[s], c))
-      {
-        return s;
-      }
-    }
-    return -1;
+    return !this->tets_.has_edge(first, last);
   }
 
   bool remove_facet(Index t, Index a, Index b, Index c)
   {
-    const Index other = this->beyond(t, a, b, c);
+    const Index other = this->tets_.beyond(t, a, b, c);
     if (other < 0)
     {
       return false;
     }
     const auto apex = [&](Index s)
     {
-      for (const Index v : this->tets_[s])
+      for (const Index v : this->tets_.tet(s))
       {
         if (v != a && v != b && v != c)
         {
@@ -401,27 +371,34 @@ private:
     };
     const Index d = apex(t), e = apex(other);
     std::array<Tet, 3> fresh{ { { a, b, e, d }, { b, c, e, d }, { c, a, e, d } } };
-    if (tet_volume(this->point(a), this->point(b), this->point(c), this->point(d)) < 0.0)
+    if (this->tets_.volume({ a, b, c, d }) < 0.0)
     {
       for (Tet& tet : fresh)
       {
         std::swap(tet[0], tet[1]);
       }
     }
-    double least = 180.0;
+    const Cost old = this->cost({ t, other });
+    const double least = this->least_after(old);
+    double sum = 0.0;
     for (const Tet& tet : fresh)
     {
-      least = std::min(least, this->quality(tet));
+      const double value = this->tets_.quality(tet);
+      if (!(value > 0.0) || value < least)
+      {
+        return false;
+      }
+      sum += this->penalty(value);
     }
-    if (least <= this->worst({ t, other }) + better || !this->tets_with(d, e).empty())
+    if (!(sum < old.sum - better) || this->tets_.has_edge(d, e))
     {
       return false;
     }
-    this->remove(t);
-    this->remove(other);
+    this->tets_.remove(t);
+    this->tets_.remove(other);
     for (const Tet& tet : fresh)
     {
-      this->add(tet);
+      this->tets_.add(tet);
     }
     return true;
   }
@@ -434,38 +411,7 @@ private:
     Vec3 normal = Vec3::Zero();
   };
 
-  /// The boundary triangles at v.
-  std::vector<std::array<Index, 3>> skin_at(Index v) const
-  {
-    std::vector<std::array<Index, 3>> skin;
-    for (const Index t : this->at_[v])
-    {
-      const Tet& tet = this->tets_[t];
-      for (const auto& f : facet_corners)
-      {
-        const std::array<Index, 3> facet{ tet[f[0]], tet[f[1]], tet[f[2]] };
-        if (std::find(facet.begin(), facet.end(), v) == facet.end() || !this->boundary_[facet[0]] ||
-          !this->boundary_[facet[1]] || !this->boundary_[facet[2]])
-        {
-          continue;
-        }
-        const auto& list = this->at_[v];
-        const bool shared = std::any_of(list.begin(), list.end(),
-          [&](Index s)
-          {
-            return s != t && has(this->tets_[s], facet[0]) && has(this->tets_[s], facet[1]) &&
-              has(this->tets_[s], facet[2]);
-          });
-        if (!shared)
-        {
-          skin.push_back(facet);
-        }
-      }
-    }
-    return skin;
-  }
-
-  Patch patch_of(const std::vector<std::array<Index, 3>>& skin) const
+  Patch patch_of(const std::vector<Facet>& skin) const
   {
     std::vector<Vec3> normals;
     Patch patch;
@@ -487,22 +433,27 @@ private:
     {
       return false;
     }
-    std::vector<std::array<Index, 3>> skin;
+    const bool on_boundary = this->tets_.on_boundary(v);
+    std::vector<Facet> skin;
     Patch patch;
-    if (this->boundary_[v])
+    if (on_boundary)
     {
-      skin = this->skin_at(v);
+      if (!this->surface_)
+      {
+        return false;
+      }
+      skin = this->tets_.skin_at(v);
       patch = this->patch_of(skin);
-      if (!this->surface_ || !patch.smooth)
+      if (!patch.smooth)
       {
         return false;
       }
     }
     const Vec3 start = this->point(v);
     double shortest = 1e300;
-    for (const Index t : this->at_[v])
+    for (const Index t : this->tets_.tets_at(v))
     {
-      for (const Index w : this->tets_[t])
+      for (const Index w : this->tets_.tet(t))
       {
         if (w != v)
         {
@@ -510,29 +461,34 @@ private:
         }
       }
     }
-    double value = this->worst(this->at_[v]);
-    const double before = value;
+    const Cost old = this->cost(this->tets_.tets_at(v));
+    const double least = this->least_after(old);
+    double value = old.sum;
     Vec3 at = start;
+    // Those that cost something first: they rule out most directions.
+    this->star_ = this->tets_.tets_at(v);
+    std::stable_sort(this->star_.begin(), this->star_.end(),
+      [&](Index s, Index t) { return this->tets_.quality(s) < this->tets_.quality(t); });
     constexpr double first_step = 0.3;
-    constexpr double last_step = 0.01;
-    for (double step = first_step * shortest; step > last_step * shortest;)
+    constexpr double last_step = 0.08;
+    for (double step = first_step * shortest; step > last_step * shortest && value > 0.0;)
     {
       bool found = false;
       for (int k = 0; k < directions_count && !found; ++k)
       {
         Vec3 d = direction(k);
-        if (this->boundary_[v])
+        if (on_boundary)
         {
           d -= d.dot(patch.normal) * patch.normal;
         }
         Vec3 p = at + step * d;
-        if (this->boundary_[v] && !this->surface_(p, patch.normal, step))
+        if (on_boundary && !this->surface_(p, patch.normal, step))
         {
           continue;
         }
-        this->mesh_.points.row(v) = p;
-        const double there = this->value_at(v, value + better);
-        if (there > value + better && (skin.empty() || this->patch_of(skin).smooth))
+        this->tets_.set_point(v, p);
+        const double there = this->sum_of_star(least, value - better);
+        if (there < value - better && (skin.empty() || this->patch_of(skin).smooth))
         {
           value = there;
           at = p;
@@ -541,76 +497,206 @@ private:
       }
       step *= found ? 1.0 : 0.5;
     }
-    this->mesh_.points.row(v) = at;
-    if (value <= before + better)
+    if (!(value < old.sum - better))
     {
-      this->mesh_.points.row(v) = start;
+      this->tets_.set_point(v, start);
       return false;
     }
-    for (const Index t : this->at_[v])
-    {
-      this->quality_[t] = this->quality(this->tets_[t]);
-    }
+    this->tets_.set_point(v, at);
+    this->tets_.requalify(v);
     (this->held_[v] ? this->done_.released_vertices : this->done_.moved_vertices) +=
       !this->moved_[v];
     this->moved_[v] = 1;
     return true;
   }
 
-  /// The worst tet at v; less than `enough` may be any such number.
-  double value_at(Index v, double enough) const
+  /// What the tets of star_ cost; infinity for more than `most` and where one of them is worse than
+  /// `least`.
+  double sum_of_star(double least, double most) const
   {
-    double least = 180.0;
-    for (const Index t : this->at_[v])
+    double sum = 0.0;
+    for (const Index t : this->star_)
     {
-      least = std::min(least, this->quality(this->tets_[t]));
-      if (least < enough)
+      const double value = this->tets_.quality(this->tets_.tet(t));
+      sum += this->penalty(value);
+      if (!(value > 0.0) || value < least || sum > most)
       {
-        break;
+        return std::numeric_limits<double>::infinity();
       }
     }
-    return least;
+    return sum;
+  }
+
+  // ---- New vertices ----------------------------------------------------------------------------
+
+  /// Inserts a vertex in the middle of the tet or of one of its edges, with the tets around it that
+  /// its circumsphere takes in, then moved to where that costs least.
+  bool insert_near(Index t)
+  {
+    const Tet tet = this->tets_.tet(t);
+    Vec3 center = Vec3::Zero();
+    for (const Index v : tet)
+    {
+      center += 0.25 * this->point(v);
+    }
+    if (this->insert(t, center))
+    {
+      return true;
+    }
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int j = i + 1; j < 4; ++j)
+      {
+        if (this->insert(t, 0.5 * (this->point(tet[i]) + this->point(tet[j]))))
+        {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  bool insert(Index t, Vec3 p)
+  {
+    constexpr double tiny = 0.25;
+    if (!this->tets_.find_cavity(p, t, tiny * this->tets_.quality(t), this->cavity_))
+    {
+      return false;
+    }
+    const Cost old = this->cost(this->cavity_.tets);
+    const double least = this->least_after(old);
+    double shortest = 1e300;
+    for (const Facet& f : this->cavity_.facets)
+    {
+      for (const Index w : f)
+      {
+        shortest = std::min(shortest, (this->point(w) - p).norm());
+      }
+    }
+    constexpr double margin = 0.3; // a vertex more must be worth it
+    const double enough = old.sum - margin;
+    const Index v = this->tets_.add_vertex(p, false);
+    constexpr double never = std::numeric_limits<double>::infinity();
+    const auto value_at = [&](const Vec3& place, double most)
+    {
+      this->tets_.set_point(v, place);
+      double sum = 0.0;
+      for (const Facet& f : this->cavity_.facets)
+      {
+        const double value = this->tets_.quality({ f[0], f[1], f[2], v });
+        sum += this->penalty(value);
+        if (!(value > 0.0) || value < least || sum > most)
+        {
+          return never;
+        }
+      }
+      return sum;
+    };
+    double value = value_at(p, never);
+    constexpr double hopeful = 3;
+    if (!(value < hopeful * old.sum))
+    {
+      this->tets_.drop_last_vertex();
+      return false;
+    }
+    constexpr double first_step = 0.3;
+    constexpr double last_step = 0.1;
+    for (double step = first_step * shortest; step > last_step * shortest && value > 0.0;)
+    {
+      bool found = false;
+      for (int k = 0; k < directions_count && !found; ++k)
+      {
+        const Vec3 place = p + step * direction(k);
+        const double there = value_at(place, value);
+        if (there < value - better)
+        {
+          value = there;
+          p = place;
+          found = true;
+        }
+      }
+      step *= found ? 1.0 : 0.5;
+    }
+    this->tets_.drop_last_vertex();
+    if (!(value < enough))
+    {
+      return false;
+    }
+    this->tets_.fill_cavity(p, this->cavity_);
+    this->held_.push_back(0);
+    this->moved_.push_back(1);
+    ++this->done_.inserted_vertices;
+    return true;
   }
 
   // ---- Contraction -----------------------------------------------------------------------------
 
-  /// Vertex a becomes b; the tets at both, t among them, are gone. The others at a become better
-  /// than t, or no worse than they were.
-  bool contract(Index t, Index a, Index b)
+  /// Contracts an edge that is no longer than `share` of the tet's longest.
+  bool contract_any(const Tet& tet, double share)
   {
-    if (this->held_[a] || (this->boundary_[a] && this->options_.keep_boundary))
+    double longest = 0.0;
+    const auto length = [&](int i, int j)
+    { return (this->point(tet[i]) - this->point(tet[j])).norm(); };
+    for (int k = 0; k < 16; ++k)
+    {
+      longest = std::max(longest, length(k / 4, k % 4));
+    }
+    for (int k = 0; k < 16; ++k)
+    {
+      if (k / 4 != k % 4 && length(k / 4, k % 4) <= share * longest &&
+        this->contract(tet[k / 4], tet[k % 4]))
+      {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  /// Vertex a becomes b; the tets at both are gone.
+  bool contract(Index a, Index b)
+  {
+    const bool on_boundary = this->tets_.on_boundary(a);
+    if (this->held_[a] || (on_boundary && this->options_.keep_boundary))
     {
       return false;
     }
-    const std::vector<Index> old = this->at_[a];
+    const std::vector<Index> old = this->tets_.tets_at(a);
+    const Cost before = this->cost(old);
+    const double least = this->least_after(before);
     std::vector<Tet> fresh;
+    double sum = 0.0;
     for (const Index other : old)
     {
-      if (has(this->tets_[other], b))
+      if (TetComplex::has(this->tets_.tet(other), b))
       {
         continue;
       }
-      fresh.push_back(this->tets_[other]);
+      fresh.push_back(this->tets_.tet(other));
       std::replace(fresh.back().begin(), fresh.back().end(), a, b);
-      const double value = this->quality(fresh.back());
-      if (!(value > 0.0) || value < std::min(this->quality_[other], this->quality_[t] + better))
+      const double value = this->tets_.quality(fresh.back());
+      sum += this->penalty(value);
+      if (!(value > 0.0) || value < least || !(sum < before.sum - better))
       {
         return false;
       }
     }
-    const std::vector<std::array<Index, 3>> skin =
-      this->boundary_[a] ? this->skin_at(a) : std::vector<std::array<Index, 3>>();
+    const std::vector<Facet> skin = on_boundary ? this->tets_.skin_at(a) : std::vector<Facet>();
+    const auto has_b = [b](const Facet& f) { return std::find(f.begin(), f.end(), b) != f.end(); };
+    if (on_boundary && std::none_of(skin.begin(), skin.end(), has_b))
+    {
+      return false; // the boundary would be drawn inwards
+    }
     if (fresh.empty() || !this->keeps_shape(skin, a, b) || !this->keeps_topology(skin, a, b))
     {
       return false;
     }
     for (const Index other : old)
     {
-      this->remove(other);
+      this->tets_.remove(other);
     }
     for (const Tet& tet : fresh)
     {
-      this->add(tet);
+      this->tets_.add(tet);
     }
     ++this->done_.collapsed_edges;
     return true;
@@ -619,7 +705,7 @@ private:
   /// No boundary triangle at a turns by more than what is flat when a becomes b; a vertex of a
   /// crease goes along the crease, and where creases meet or end none goes. skin: the boundary
   /// triangles at a.
-  bool keeps_shape(const std::vector<std::array<Index, 3>>& skin, Index a, Index b) const
+  bool keeps_shape(const std::vector<Facet>& skin, Index a, Index b) const
   {
     std::vector<std::pair<Index, Vec3>> sides; // (other end of an edge at a, normal beside it)
     for (const auto& f : skin)
@@ -666,13 +752,15 @@ private:
 
   /// The link condition: what is around a and around b is around the edge a-b, too. The outside
   /// counts as one more vertex that the boundary's triangles make tets with.
-  bool keeps_topology(const std::vector<std::array<Index, 3>>& skin, Index a, Index b) const
+  bool keeps_topology(const std::vector<Facet>& skin, Index a, Index b) const
   {
     const Link link_a = this->link_of(a, skin);
     const Link link_b =
-      this->link_of(b, this->boundary_[b] ? this->skin_at(b) : std::vector<std::array<Index, 3>>());
+      this->link_of(b, this->tets_.on_boundary(b) ? this->tets_.skin_at(b) : std::vector<Facet>());
     // Around the edge is a cycle (or more than one, where the boundary touches itself).
-    const auto cycle = static_cast<std::ptrdiff_t>(this->tets_with(a, b).size()) +
+    std::vector<Index> at_edge;
+    this->tets_.tets_with(a, b, at_edge);
+    const auto cycle = static_cast<std::ptrdiff_t>(at_edge.size()) +
       std::count_if(skin.begin(), skin.end(),
         [&](const auto& f) { return std::find(f.begin(), f.end(), b) != f.end(); });
     return shared(link_a.vertices, link_b.vertices) == cycle &&
@@ -688,13 +776,13 @@ private:
     std::vector<std::array<Index, 3>> triangles;
   };
 
-  Link link_of(Index v, const std::vector<std::array<Index, 3>>& skin) const
+  Link link_of(Index v, const std::vector<Facet>& skin) const
   {
     constexpr Index outside = -1;
     Link link;
-    for (const Index t : this->at_[v])
+    for (const Index t : this->tets_.tets_at(v))
     {
-      Tet tet = this->tets_[t];
+      Tet tet = this->tets_.tet(t);
       std::swap(*std::find(tet.begin(), tet.end(), v), tet[3]);
       link.triangles.push_back({ tet[0], tet[1], tet[2] });
     }
@@ -732,17 +820,18 @@ private:
   /// Removes tets that share no facet with another and stayed too flat.
   void drop_lone_tets()
   {
-    const std::vector<Index> flat = this->flat_tets(this->options_.least_angle);
+    const std::vector<Index> flat =
+      this->flat_tets(TetComplex::quality_of_angle(this->options_.least_angle));
     for (const Index t : flat)
     {
-      const Tet& tet = this->tets_[t];
+      const Tet& tet = this->tets_.tet(t);
       const bool held =
         std::any_of(tet.begin(), tet.end(), [&](Index v) { return this->held_[v]; });
       const bool alone = std::all_of(std::begin(facet_corners), std::end(facet_corners),
-        [&](const auto& f) { return this->beyond(t, tet[f[0]], tet[f[1]], tet[f[2]]) < 0; });
+        [&](const auto& f) { return this->tets_.beyond(t, tet[f[0]], tet[f[1]], tet[f[2]]) < 0; });
       if (!held && alone)
       {
-        this->remove(t);
+        this->tets_.remove(t);
         ++this->done_.removed_tets;
       }
     }
@@ -761,33 +850,22 @@ private:
       std::sqrt(3.0);
   }
 
-  void finish()
-  {
-    Index count = 0;
-    this->mesh_.tets.resize(static_cast<Index>(this->tets_.size()), 4);
-    for (std::size_t t = 0; t < this->tets_.size(); ++t)
-    {
-      if (this->quality_[t] < gone)
-      {
-        const Tet& tet = this->tets_[t];
-        this->mesh_.tets.row(count++) << tet[0], tet[1], tet[2], tet[3];
-      }
-    }
-    this->mesh_.tets.conservativeResize(count, 4);
-  }
-
-  static constexpr double gone = 1e9; ///< quality of a tet that was removed: never too flat
-
   TetMesh& mesh_;
+  TetComplex tets_;
   std::vector<char> held_;
   const OntoSurface& surface_;
   const ImproveOptions& options_;
   Improvement& done_;
-  bool release_ = false;
-  std::vector<Tet> tets_;
-  std::vector<double> quality_;
-  std::vector<std::vector<Index>> at_; ///< tets at each vertex
-  std::vector<char> boundary_, moved_;
+  const double good_; ///< quality of tets that are left as they are
+  const double bad_ = TetComplex::quality_of_angle(this->options_.insert_angle);
+  double most_evaluations_ = 0.0;
+  bool release_ = false; ///< held vertices may move
+  bool insert_ = false; ///< vertices may be added
+  std::vector<char> moved_;
+  std::vector<std::uint64_t> tried_; ///< per tet: its newest change when it was tried
+  Ring ring_;
+  std::vector<Index> star_;
+  TetComplex::Cavity cavity_;
 };
 } // namespace
 

@@ -14,7 +14,11 @@ double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   // Angles between outward normals are 180 degrees minus the dihedral angles.
   const std::array<Vec3, 4> normals{ (c - b).cross(d - b), (d - a).cross(c - a),
     (b - a).cross(d - a), (c - a).cross(b - a) };
+  const std::array<Vec3, 4> corners{ a, b, c, d };
+  const double volume = std::abs((b - a).cross(c - a).dot(d - a)); // six times
+  constexpr double nearly_one = 0.9999;
   double largest_cosine = -1.0;
+  double least_sine = 1.0; // of small angles, whose cosines are all rounded to 1
   for (int i = 0; i < 4; ++i)
   {
     for (int j = 0; j < i; ++j)
@@ -24,11 +28,19 @@ double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
       {
         return 0.0;
       }
-      largest_cosine = std::max(largest_cosine, -normals[i].dot(normals[j]) / lengths);
+      const double cosine = -normals[i].dot(normals[j]) / lengths;
+      largest_cosine = std::max(largest_cosine, cosine);
+      if (cosine > nearly_one)
+      {
+        const int k = i != 0 && j != 0 ? 0 : (i != 1 && j != 1 ? 1 : 2);
+        const int l = 6 - i - j - k; // the edge k-l is between the two sides
+        least_sine = std::min(least_sine, volume * (corners[l] - corners[k]).norm() / lengths);
+      }
     }
   }
   constexpr double degrees = 57.295779513082320877;
-  return degrees * std::acos(std::min(largest_cosine, 1.0));
+  return degrees *
+    (largest_cosine > nearly_one ? std::asin(least_sine) : std::acos(largest_cosine));
 }
 
 double longest_edge(const Points& points, const Tets& tets, Index t)
@@ -62,6 +74,98 @@ TetQuality measure_tets(PointsView points, TetsView tets)
     ++quality.histogram.tets[std::min(bin, quality.histogram.tets.size() - 1)];
   }
   return quality;
+}
+
+Index count_forced_tets(
+  PointsView points, TetsView tets, const std::vector<TetFacet>& facets, double angle)
+{
+  constexpr double degrees = 57.295779513082320877;
+  using EdgeKey = std::array<Index, 2>;
+  struct Side
+  {
+    EdgeKey edge;
+    Index third; ///< the triangle's other corner
+    Vec3 normal; ///< outwards
+  };
+  std::vector<EdgeKey> forced;
+  std::vector<Side> sides;
+  for (std::size_t i = 0; i < facets.size(); ++i)
+  {
+    const bool shared = (i > 0 && facets[i - 1].vertices == facets[i].vertices) ||
+      (i + 1 < facets.size() && facets[i + 1].vertices == facets[i].vertices);
+    if (shared)
+    {
+      continue;
+    }
+    const auto& corners = facet_corners[facets[i].side];
+    std::array<Index, 3> ids{};
+    std::array<Vec3, 3> p;
+    for (int k = 0; k < 3; ++k)
+    {
+      ids[k] = tets(facets[i].tet, corners[k]);
+      p[k] = points.row(ids[k]);
+    }
+    const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]);
+    double least = 180.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3 u = p[(k + 1) % 3] - p[k], v = p[(k + 2) % 3] - p[k];
+      least = std::min(least, degrees * std::atan2(normal.norm(), u.dot(v)));
+    }
+    for (int k = 0; k < 3; ++k)
+    {
+      const Index a = ids[k], b = ids[(k + 1) % 3];
+      const EdgeKey edge{ std::min(a, b), std::max(a, b) };
+      if (least < angle)
+      {
+        forced.push_back(edge);
+      }
+      sides.push_back({ edge, ids[(k + 2) % 3], normal.normalized() });
+    }
+  }
+  std::sort(sides.begin(), sides.end(),
+    [](const Side& x, const Side& y)
+    { return x.edge != y.edge ? x.edge < y.edge : x.third < y.third; });
+  for (std::size_t i = 0; i + 1 < sides.size(); ++i)
+  {
+    if (sides[i].edge != sides[i + 1].edge)
+    {
+      continue;
+    }
+    // Convex and nearly closed: the other triangle lies behind this one's plane, and normals are
+    // nearly opposite.
+    const Vec3 away = points.row(sides[i + 1].third) - points.row(sides[i].edge[0]);
+    const double between = degrees *
+      std::atan2(sides[i].normal.cross(sides[i + 1].normal).norm(),
+        -sides[i].normal.dot(sides[i + 1].normal));
+    if (between < angle && sides[i].normal.dot(away) < 0.0)
+    {
+      forced.push_back(sides[i].edge);
+    }
+  }
+  std::sort(forced.begin(), forced.end());
+  Index count = 0;
+  for (Index t = 0; t < tets.rows(); ++t)
+  {
+    if (min_dihedral_angle(points.row(tets(t, 0)), points.row(tets(t, 1)), points.row(tets(t, 2)),
+          points.row(tets(t, 3))) >= angle)
+    {
+      continue;
+    }
+    bool touches = false;
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int j = 0; j < i; ++j)
+      {
+        const Index a = tets(t, i), b = tets(t, j);
+        touches = touches ||
+          std::binary_search(
+            forced.begin(), forced.end(), EdgeKey{ std::min(a, b), std::max(a, b) });
+      }
+    }
+    count += touches;
+  }
+  return count;
 }
 
 Status check_tets(PointsView points, TetsView tets, bool may_branch)

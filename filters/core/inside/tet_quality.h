@@ -35,6 +35,13 @@ struct TetQuality
 
 TetQuality measure_tets(PointsView points, TetsView tets);
 
+/// How many tets have their smallest dihedral angle below `angle` degrees and an edge that the
+/// boundary forces to be bad: one of a boundary triangle with a corner of less than `angle`, or one
+/// at which two boundary triangles meet at less than `angle`, measured inside.
+/// `facets`: tet_facets of the tets.
+Index count_forced_tets(
+  PointsView points, TetsView tets, const std::vector<TetFacet>& facets, double angle);
+
 /// internal_error naming the first tet that is flat, turned over, there twice, or that shares a
 /// facet with two others or with one on the same side (else the boundary is closed); with
 /// may_branch a facet may have any number of tets. Ids must be in range.

@@ -304,6 +304,14 @@ private:
     constexpr double lattice_share = 0.1;
     options.time_limit = std::max(this->time_left() - lattice_share * this->options_.time_limit,
       least_share * this->options_.time_limit);
+    if (this->options_.method == TetMethod::automatic)
+    {
+      // Several times what it needs for most surfaces: one of needles takes minutes.
+      constexpr double patience = 8.0; // seconds
+      constexpr double per_triangle = 1e-4;
+      options.time_limit = std::min(options.time_limit,
+        patience + per_triangle * static_cast<double>(this->surface_.triangles.rows()));
+    }
     RemeshResult result;
     Status status = remesh_tets(this->surface_.points, this->surface_.triangles,
       this->inside_.winding(), options, result, this->context_);
@@ -544,6 +552,10 @@ private:
     this->report_.set("counts.tet_vertices", Report::Value(mesh.points.rows()));
     this->report_.set("counts.kept_vertices", Report::Value(kept));
     this->report_.set("counts.tets_below_5_degrees", Report::Value(quality.below_5_degrees));
+    this->report_.set("counts.tets_below_5_degrees_forced",
+      Report::Value(quality.below_5_degrees == 0
+          ? Index(0)
+          : count_forced_tets(mesh.points, mesh.tets, tet_facets(mesh.tets), sliver)));
     if (this->inside_tets_.empty())
     {
       this->report_.set("volume", Report::Value(quality.volume));
@@ -599,6 +611,8 @@ private:
     this->log_.add(rung, this->context_.elapsed_seconds() - start, status);
   }
 
+  /// Degrees, of counts.tets_below_5_degrees.
+  static constexpr double sliver = 5.0;
   /// A volume that is off by more than a factor of two is no result.
   static constexpr double worst_misfit = 0.6931471805599453;
   /// A wrap winds once around its inside, whatever the surface does.

@@ -27,6 +27,10 @@ enum class TetMethod
 /// "auto", "cdt", "remesh", "embed", "wrap", "ftetwild".
 const char* to_string(TetMethod method);
 
+/// The interior_edge that smooth weights need: with tets as coarse as interior_edge 0 makes them,
+/// the weights differ visibly from those of finer ones.
+constexpr double interior_edge_of_weights = 0.04;
+
 struct TetrahedralizeOptions
 {
   TetMethod method = TetMethod::automatic;
@@ -46,13 +50,16 @@ struct TetrahedralizeOptions
   Index lattice_tets = 30000;
   double time_limit = 120.0; ///< seconds for all of the helper's or fTetWild's work, > 0
   Index memory_limit = 0; ///< MiB of address space for a helper process, 0: no limit
-  /// cdt and wrap only: largest ratio of circumradius to shortest edge that interior vertices are
-  /// added for; 1.1 … 2, 0: none are added. The surface's triangles are never split for it.
+  /// cdt and wrap only: 0: the tets are not improved, and without an interior_edge no vertices are
+  /// added inside. 1.1 … 10: both are done, with the same result for all of these numbers.
   double quality = 1.414;
-  /// cdt and wrap: longest edges inside, as a fraction of the surface's diagonal; 0: no bound.
-  /// Smooth weights need vertices inside, not only on the surface. ftetwild: the edge length that
-  /// it aims at everywhere; 0: its own 0.05.
-  double interior_edge = 0.04;
+  /// cdt and wrap: longest edges inside, as a fraction of the surface's diagonal, >= 0; edges of
+  /// the surface that are longer than three of these are split. 0: automatic; edges inside are as
+  /// long as the surface's own near them and grow with the distance to it, vertices are added until
+  /// there are 4.5 tets per triangle, and a surface of few triangles is filled with about 1,500
+  /// tets, for which its long edges are split. Smooth weights need vertices inside, not only on the
+  /// surface. ftetwild: the edge length that it aims at everywhere; 0: its own 0.05.
+  double interior_edge = 0.0;
   /// cdt only: keep all tets of the surface's convex hull (or of a box around it, where that was
   /// needed), as the segmentation told them apart: labels says which are inside. No vertices are
   /// added, not for handles either.
@@ -124,7 +131,10 @@ struct TetrahedralizeResult
 /// left); counts.* of the diagnosis; counts.tets, counts.tet_vertices, counts.kept_vertices;
 /// volume (of the tets inside), winding_volume (of {w >= threshold}: exact for clean surfaces,
 /// sampled otherwise), winding_volume_error (its standard error, relative), min_dihedral_angle
-/// (degrees), counts.tets_below_5_degrees, quality[].dihedral_angle, quality[].tets (how many tets
+/// (degrees), counts.tets_below_5_degrees, counts.tets_below_5_degrees_forced (how many of these
+/// have an edge of a boundary triangle with a corner below 5 degrees, or an edge at which two
+/// boundary triangles meet at less than 5 degrees: while the surface's triangles are kept, few of
+/// them can be better), quality[].dihedral_angle, quality[].tets (how many tets
 /// have their smallest dihedral angle from this many degrees to the next); counts.handle_points,
 /// counts.handle_vertices (of cdt with handles: how many of their points are vertices);
 /// segmentation (of cdt; a graph cut whose volume does not fit is left for the threshold), energy,
@@ -140,7 +150,7 @@ struct TetrahedralizeResult
 /// and names method embed. unavailable: method cdt or wrap without helper, ftetwild without
 /// fTetWild; method remesh (or another) found no tet in what is enclosed, too thin for its tets.
 /// internal_error: the method asked for gave no valid mesh.
-/// Cost: about 10 us a triangle and 5 us a tet for clean surfaces, 50 us a triangle for others.
+/// Cost: about 0.1 ms a triangle, and up to 1 ms where many are needles or cross.
 Status tetrahedralize(PointsView points, TrianglesView triangles,
   const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context);
 

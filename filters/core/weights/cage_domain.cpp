@@ -67,6 +67,7 @@ Status fill_faces(const std::vector<CageElement>& faces, PointsView points, cons
     triangles.row(f) << faces[f][0], faces[f][1], faces[f][2];
   }
   TetrahedralizeOptions options;
+  options.interior_edge = interior_edge_of_weights;
   options.handles.points = cage.places.points;
   if (points.rows() <= cage.most_points)
   {

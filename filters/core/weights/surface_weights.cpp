@@ -199,6 +199,7 @@ TetrahedralizeOptions Solver::fill_options() const
 {
   TetrahedralizeOptions options;
   options.winding_threshold = this->options_.winding_threshold;
+  options.interior_edge = interior_edge_of_weights;
   return options;
 }
 

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 using namespace bindpose;
@@ -49,6 +50,19 @@ TEST(TetQuality, TetsMeetAtMostInPairsOnOppositeSides)
   TetMesh turned = good;
   turned.tets.row(1).head<2>().reverseInPlace();
   EXPECT_THAT(check_tets(turned.points, turned.tets).message, HasSubstr("tet 1 has no positive"));
+}
+
+TEST(TetQuality, AnglesOfVeryFlatTetsAreNotZero)
+{
+  for (const double height : { 1e-3, 1e-7, 1e-10, 1e-13 })
+  {
+    SCOPED_TRACE(height);
+    // The base's sides are at 0.3, 0.3 and 0.2 sqrt(2) from the foot of the apex.
+    const double degrees = 57.295779513082320877;
+    const double angle =
+      min_dihedral_angle(Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0.3, 0.3, -height));
+    EXPECT_NEAR(angle / (degrees * std::atan(height / 0.3)), 1.0, 1e-6);
+  }
 }
 
 TEST(TetQuality, TheHistogramCountsEveryTetOnce)

@@ -75,6 +75,7 @@ TEST_F(Cdt, BonesAndCagesGetVerticesAtTheLocalEdgeLength)
   const Vec3 a(-0.3, 0.3, 0.2), b(0.4, 0.35, 0.25), c(0.1, -0.1, 0.5);
   TetrahedralizeOptions options;
   options.method = TetMethod::cdt;
+  options.interior_edge = 0.04;
   options.handles = places_of({ head, tail, a, b, c });
   options.handles.segments.resize(1, 2);
   options.handles.segments << 0, 1;
@@ -87,7 +88,7 @@ TEST_F(Cdt, BonesAndCagesGetVerticesAtTheLocalEdgeLength)
   ASSERT_GE(on.size(), 8u);
   EXPECT_NEAR(on.front(), 0.0, 1e-12);
   EXPECT_NEAR(on.back(), 1.0, 1e-12);
-  const double largest = 0.04 * bounding_box(ball.points).diagonal();
+  const double largest = options.interior_edge * bounding_box(ball.points).diagonal();
   for (std::size_t i = 1; i < on.size(); ++i)
   {
     EXPECT_LT((on[i] - on[i - 1]) * (tail - head).norm(), 1.01 * largest);

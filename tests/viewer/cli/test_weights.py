@@ -222,7 +222,8 @@ def test_a_sheet_that_is_not_flat_is_solved_in_a_lattice(folder):
     run = folder.run("weights", "m.off", "--handles", "auto:2", "-o", "w.vtp", "--report", "-").is_good()
     assert run.report["domain"] == "embedding" and run.report["domain_reason"] == "the surface is not closed"
     check(weights_of(folder / "w.vtp"), mesh[0])
-    folder.run("weights", "m.off", "--handles", "auto:2", "--domain", "volume", "-o", "v.vtp").is_refused()
+    forced = folder.run("weights", "m.off", "--handles", "auto:2", "--domain", "volume", "-o", "v.vtp")
+    assert forced.code in (2, 3), "a sheet's conforming tets are refused, or their weights are not certified"
 
 
 def test_embedding_and_preview(bar):

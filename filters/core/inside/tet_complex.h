@@ -1,0 +1,125 @@
+#ifndef bindpose_inside_tet_complex_h
+#define bindpose_inside_tet_complex_h
+
+#include "base/mesh.h"
+
+#include <array>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace bindpose
+{
+
+/// Tets that are edited in place: vertices know their tets, removed tets keep their ids unused.
+/// The quality of a tet is the squared sine of its smallest dihedral angle (at most 70.53 degrees).
+class TetComplex
+{
+public:
+  using Tet = std::array<Index, 4>;
+  using Facet = std::array<Index, 3>;
+
+  /// The tets around an edge a-b and their other vertices, in order. For an edge of the boundary
+  /// the ring is open: there is one more vertex than tets.
+  struct Ring
+  {
+    std::vector<Index> tets;
+    std::vector<Index> vertices;
+    bool closed = false;
+  };
+
+  /// Tets to replace, and facets that bound them, each oriented so that a point inside sees it from
+  /// the positive side: (facet, point) is a positive tet.
+  struct Cavity
+  {
+    std::vector<Index> tets;
+    std::vector<Facet> facets;
+    std::vector<char> on_boundary; ///< per facet: it belongs to the boundary of the mesh
+  };
+
+  static constexpr double gone = 1e9; ///< quality of a removed tet
+  static constexpr std::size_t longest_ring = 10; ///< tets
+
+  /// Takes over points and tets; the tets must be positive and meet in common facets.
+  explicit TetComplex(TetMesh& mesh);
+  /// Gives points and tets back, in the order in which they were added.
+  void write(TetMesh& mesh);
+
+  Index vertex_count() const { return static_cast<Index>(this->points_.size()); }
+  /// One more than the largest id of a tet.
+  Index tet_ids() const { return static_cast<Index>(this->tets_.size()); }
+  Index tet_count() const { return this->count_; }
+  const Vec3& point(Index v) const { return this->points_[v]; }
+  const Tet& tet(Index t) const { return this->tets_[t]; }
+  bool alive(Index t) const { return this->quality_[t] < gone; }
+  const std::vector<Index>& tets_at(Index v) const { return this->at_[v]; }
+  bool on_boundary(Index v) const { return this->boundary_[v] != 0; }
+  double quality(Index t) const { return this->quality_[t]; }
+  /// -1 unless the volume is positive, exactly.
+  double quality(const Tet& tet) const;
+  static double quality_of_angle(double degrees);
+  /// How often the quality of a tet was computed.
+  std::uint64_t evaluations() const { return this->evaluations_; }
+  double worst(const std::vector<Index>& tets) const;
+  double volume(const Tet& tet) const;
+  /// Counts changes of the tets at a vertex.
+  std::uint64_t stamp(Index v) const { return this->stamp_[v]; }
+
+  Index add_vertex(const Vec3& p, bool on_boundary);
+  /// Takes back the last vertex, which no tet uses.
+  void drop_last_vertex();
+  /// Does not update qualities: see requalify().
+  void set_point(Index v, const Vec3& p) { this->points_[v] = p; }
+  void requalify(Index v);
+  Index add(const Tet& tet);
+  void remove(Index t);
+
+  static bool has(const Tet& tet, Index v)
+  {
+    return tet[0] == v || tet[1] == v || tet[2] == v || tet[3] == v;
+  }
+  void tets_with(Index a, Index b, std::vector<Index>& found) const;
+  bool has_edge(Index a, Index b) const;
+  /// The two other vertices, so that (a, b, first, second) is positive.
+  std::pair<Index, Index> others(Index t, Index a, Index b) const;
+  /// @return false when the tets at the edge are no single ring, or too many.
+  bool find_ring(Index a, Index b, Ring& ring) const;
+  /// The tet on the other side of a facet, -1 on the boundary.
+  Index beyond(Index t, Index a, Index b, Index c) const;
+  /// The boundary facets at v, oriented outwards.
+  std::vector<Facet> skin_at(Index v) const;
+
+  /// Puts a new vertex on an edge: every tet at the edge becomes two. @return the vertex, or -1 if
+  /// that makes a tet without volume; then nothing has changed.
+  Index split_edge(Index a, Index b, const Vec3& p);
+
+  /// The tets around tet `start`, joined by facets, whose circumspheres contain p, without those
+  /// from which p cannot be joined to a facet by a tet of quality `least`.
+  /// @return false if no cavity is left; p must be inside of `start`.
+  bool find_cavity(const Vec3& p, Index start, double least, Cavity& cavity);
+  /// Replaces the tets of the cavity by tets from a new vertex. @return the vertex.
+  Index fill_cavity(const Vec3& p, const Cavity& cavity);
+
+private:
+  bool in_sphere(const Tet& tet, const Vec3& p) const;
+  void collect_sphere(const Vec3& p, Index start, std::vector<Index>& tets);
+  bool shrink_cavity(Index v, Index start, double least, Cavity& cavity);
+
+  std::vector<Vec3> points_;
+  std::vector<Tet> tets_;
+  std::vector<double> quality_;
+  std::vector<std::vector<Index>> at_; ///< tets per vertex
+  std::vector<char> boundary_; ///< per vertex
+  std::vector<std::uint64_t> stamp_;
+  std::vector<Index> cavity_; ///< per tet: the last cavity that it belongs to
+  std::vector<Index> reached_; ///< per tet: the last search that met it
+  Index cavities_ = 0;
+  Index searches_ = 0;
+  Index count_ = 0;
+  std::uint64_t changes_ = 0;
+  mutable std::uint64_t evaluations_ = 0;
+};
+
+} // namespace bindpose
+
+#endif

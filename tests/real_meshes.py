@@ -66,7 +66,7 @@ CONTAINERS = {"total", "tetrahedralize", "weights", "cdt", "parts"}
 SURFACE = ["triangles", "boundary_edges", "nonmanifold_edges", "misoriented_edges", "duplicate_vertices",
            "duplicate_triangles", "degenerate_triangles", "self_intersections", "components", "inward_components"]
 RUN = ["outcome", "message", "exit", "status", "seconds", "user_seconds", "peak_mb", "method", "rungs_failed", "tets",
-       "min_dihedral", "below_5", "phases", "warnings"]
+       "min_dihedral", "below_5", "forced", "phases", "warnings"]
 SOLVE = ["domain", "domain_reason", "relative_gap", "kkt_residual", "guard_rms", "leak"]  # of weights only
 COLUMNS = ["name", "bytes", *SURFACE, *(f"weights_{key}" for key in [*RUN, *SOLVE]), *(f"tets_{key}" for key in RUN)]
 
@@ -170,6 +170,7 @@ def from_report(report):
             "domain": report.get("domain"), "domain_reason": report.get("domain_reason"), "tets": tets,
             "min_dihedral": report.get("min_dihedral_angle"),
             "below_5": counts.get("tets_below_5_degrees", 0) / tets if tets else None,
+            "forced": counts.get("tets_below_5_degrees_forced", 0) / tets if tets else None,
             "relative_gap": report.get("relative_gap"), "kkt_residual": report.get("kkt_residual"),
             "guard_rms": report.get("guard", {}).get("rms_difference"),
             "rungs_failed": sum(rung.get("outcome") != "ok" for rung in report.get("rungs", [])),
@@ -347,6 +348,9 @@ def numbers_of(rows, prefix):
     numbers.update({"tets_per_triangle_median": percentile(per_triangle, 50),
                     "tets_per_triangle_95": percentile(per_triangle, 95),
                     "thin_files": sum(share > THIN_SHARE for share in column(done, f"{prefix}_below_5")),
+                    "thin_files_not_forced": sum(
+                        below - forced > THIN_SHARE for below, forced in zip(column(done, f"{prefix}_below_5"),
+                                                                             column(done, f"{prefix}_forced"))),
                     "peak_mb_small": max(column(small, f"{prefix}_peak_mb"), default=math.nan),
                     "peak_mb": max(column(rows, f"{prefix}_peak_mb"), default=math.nan)})
     if prefix == "weights":
@@ -455,7 +459,8 @@ def numbers_lines(numbers):
     cells = [[f"`{name}`", value] for name, value in numbers.items()]
     return ["## Numbers", "",
             f"`…peak_mb_small` is the largest peak of models below {SMALL:,} triangles, in MB (10^6 bytes);",
-            f"`…thin_files` counts files with over {100 * THIN_SHARE:.0f} % of tets below 5 degrees.", "",
+            f"`…thin_files` counts files with over {100 * THIN_SHARE:.0f} % of tets below 5 degrees, `…_not_forced` those",
+            "with so many that no triangle of the surface forces: none with a corner, or an edge, of less than 5 degrees.", "",
             *table(["name for --check", "value"], cells)]
 
 

@@ -1,15 +1,16 @@
 // A clean surface goes to TetGen as it is. Any other is first refined exactly until triangles meet
 // only in shared vertices and edges; TetGen then fills the convex hull (or a box around it) with
 // tets that keep all these triangles, and tets with a winding number below the threshold are thrown
-// away. Where openings bound much of what is
-// enclosed, small tets in a box come first: they can end where the winding number does. TetGen 1.5
-// fails on some inputs with one set of switches and on others with another, so several are tried;
-// then the same with vertices rounded to a coarser grid (which welds nearly coincident ones) and
-// with vertices moved a little (which takes soups apart). Last comes a plain Delaunay triangulation
-// of the refined vertices, whose tets need not respect the triangles.
+// away. Where openings bound much of what is enclosed, small tets in a box come first: they can end
+// where the winding number does. TetGen 1.5 fails on some inputs with one set of switches and on
+// others with another, so several are tried; then the same with vertices rounded to a coarser grid
+// (which welds nearly coincident ones) and with vertices moved a little (which takes soups apart).
+// Last comes a plain Delaunay triangulation of the refined vertices, or of the surface's own where
+// too many triangles cross: its tets need not respect the triangles.
 //
-// Kept tets then get vertices inside (tet_filling.h), so that weights have something to vary over,
-// and flat ones are improved (tet_improvement.h); both keep the boundary.
+// Kept tets then get vertices inside, so that weights have something to vary over: by TetGen's
+// refinement, or where needles on the boundary keep that from ending, by fill_tets (tet_filling.h).
+// Flat tets are improved (tet_improvement.h); both keep the boundary.
 #include "inside/cdt_tets.h"
 
 #include "base/number_text.h"
@@ -57,6 +58,27 @@ double scatter(std::uint64_t n)
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
   z ^= z >> 31;
   return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
+}
+
+/// At most one in fifty triangles has a corner of less than 5 degrees.
+bool few_needles(const Points& points, const Triangles& triangles)
+{
+  constexpr double most = 0.02;
+  const double sharp = std::cos(5.0 / 57.295779513082320877);
+  Index needles = 0;
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    bool needle = false;
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3 a = points.row(triangles(t, k));
+      const Vec3 u = points.row(triangles(t, (k + 1) % 3)).transpose() - a;
+      const Vec3 v = points.row(triangles(t, (k + 2) % 3)).transpose() - a;
+      needle = needle || !(u.dot(v) < sharp * u.norm() * v.norm());
+    }
+    needles += needle;
+  }
+  return static_cast<double>(needles) <= most * static_cast<double>(triangles.rows());
 }
 
 } // namespace
@@ -610,6 +632,14 @@ Status CdtTets::fill()
       return status;
     }
   }
+  if (this->fills() && few_needles(this->mesh_.points, boundary))
+  {
+    status = this->fill_by_tetgen(options.required);
+    if (status.ok() || status.code == StatusCode::cancelled)
+    {
+      return status;
+    }
+  }
   if (this->fills())
   {
     if (this->options_.interior_edge > 0.0)
@@ -653,6 +683,59 @@ Status CdtTets::fill()
   return {};
 }
 
+/// TetGen's refinement with the boundary left alone: its tets are the best where no needles on the
+/// boundary keep it from ending.
+Status CdtTets::fill_by_tetgen(const Points& places)
+{
+  const double start = this->context_.elapsed_seconds();
+  // What stands behind the last vertex of a tet is inserted: the places, none of the hull's.
+  const Index vertices = this->mesh_.tets.maxCoeff() + 1;
+  const Index count = this->mesh_.tets.rows();
+  const double volume = tet_volumes(this->mesh_.points, this->mesh_.tets).sum();
+  MesherData data;
+  data.tets = this->mesh_.tets;
+  data.points.resize(vertices + places.rows(), 3);
+  data.points << this->mesh_.points.topRows(vertices), places;
+  const double largest = this->options_.interior_edge > 0.0
+    ? this->volume_bound()
+    : volume / static_cast<double>(fewest_tets);
+  constexpr double regular = 0.11785113019775793;
+  constexpr double long_edge = 2.0; // of the wanted length: its triangles would have to be split
+  if (this->mean_surface_edge() > long_edge * std::cbrt(largest / regular))
+  {
+    return Status::failure(StatusCode::internal_error, "the surface's triangles are too large");
+  }
+  data.largest_volumes.assign(static_cast<std::size_t>(count), largest);
+  constexpr double seconds = 3.0;
+  constexpr double seconds_per_tet = 2e-4;
+  MesherAnswer answer;
+  Status status = this->run_job({ "tetgen", "--switches", "rYq1.414/10a" }, data,
+    seconds + seconds_per_tet * (static_cast<double>(count) + volume / largest), answer);
+  constexpr double too_many = 0.05;
+  TetMesh mesh{ std::move(answer.data.points), std::move(answer.data.tets) };
+  if (status.ok() &&
+    static_cast<double>(measure_tets(mesh.points, mesh.tets).below_5_degrees) >
+      too_many * static_cast<double>(mesh.tets.rows()))
+  {
+    status = Status::failure(StatusCode::internal_error, "too many tets are flat");
+  }
+  if (status.ok())
+  {
+    status = this->accept(mesh, volume);
+  }
+  this->log_.add("vertices inside by tetgen", this->context_.elapsed_seconds() - start, status);
+  if (status.ok())
+  {
+    this->mesh_original_.resize(
+      std::min(this->mesh_original_.size(), static_cast<std::size_t>(vertices)));
+    for (Index i = 0; i < places.rows(); ++i)
+    {
+      this->handle_vertices_.push_back(vertices + i);
+    }
+  }
+  return status;
+}
+
 /// Takes the tets if they are valid and fill the same volume.
 Status CdtTets::accept(TetMesh& mesh, double volume)
 {
@@ -672,7 +755,7 @@ Status CdtTets::accept(TetMesh& mesh, double volume)
 }
 
 /// Points of the handles that lie inside, and points between them. Those between keep some distance
-/// from the boundary: there are vertices enough there, and TetGen would squeeze flat tets between.
+/// from the boundary: there are vertices enough there, and flat tets would lie between.
 Status CdtTets::place_handles(const Triangles& boundary, const SizingField& field, Points& places)
 {
   const Points& points = this->mesh_.points;
@@ -742,7 +825,7 @@ SizingField CdtTets::lengths_inside(const Triangles& boundary) const
 }
 
 /// Makes flat tets better. The input's vertices and those of handles stay, and so does the boundary
-/// but for triangles in one plane and needles.
+/// but for the diagonals of triangles in one plane.
 Status CdtTets::improve()
 {
   const double start = this->context_.elapsed_seconds();

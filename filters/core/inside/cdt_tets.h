@@ -96,6 +96,7 @@ private:
   Status swap_flat(const Points& points, Tets& tets, std::vector<TetFacet>& facets);
   void take_all(const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside);
   Status fill();
+  Status fill_by_tetgen(const Points& places);
   Status accept(TetMesh& mesh, double volume);
   Status place_handles(const Triangles& boundary, const SizingField& field, Points& places);
   SizingField lengths_inside(const Triangles& boundary) const;

@@ -8,17 +8,13 @@
 // Last comes a plain Delaunay triangulation of the refined vertices, or of the surface's own where
 // too many triangles cross: its tets need not respect the triangles.
 //
-// Kept tets then get vertices inside, so that weights have something to vary over: by TetGen's
-// refinement, or where needles on the boundary keep that from ending, by fill_tets (tet_filling.h).
-// Flat tets are improved (tet_improvement.h); both keep the boundary.
+// Kept tets then get vertices inside and are improved: see cdt_tets_fill.cpp.
 #include "inside/cdt_tets.h"
 
 #include "base/number_text.h"
 #include "helper/mesher_process.h"
-#include "inside/tet_filling.h"
 #include "inside/tet_improvement.h"
 #include "inside/tet_quality.h"
-#include "surface/triangle_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -39,16 +35,6 @@ struct CdtTets::Move
 
 namespace
 {
-/// Height of tets at the boundary that are taken off, of the diagonal.
-constexpr double flat = 1e-11;
-/// Triangles of the boundary within this height of one plane, of the diagonal, are in one plane.
-constexpr double coplanar = 1e-10;
-/// Without a request for a length inside: there are at least about so many tets,
-constexpr Index fewest_tets = 1500;
-/// and vertices are added until there are so many tets per triangle of the surface.
-constexpr double most_tets_per_triangle = 4.5;
-/// With one.
-constexpr Index most_tets_on_request = 20000000;
 
 /// A number in [-1, 1) from an integer, the same everywhere (splitmix64).
 double scatter(std::uint64_t n)
@@ -58,27 +44,6 @@ double scatter(std::uint64_t n)
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
   z ^= z >> 31;
   return static_cast<double>(z >> 11) * 0x1p-52 - 1.0;
-}
-
-/// At most one in fifty triangles has a corner of less than 5 degrees.
-bool few_needles(const Points& points, const Triangles& triangles)
-{
-  constexpr double most = 0.02;
-  const double sharp = std::cos(5.0 / 57.295779513082320877);
-  Index needles = 0;
-  for (Index t = 0; t < triangles.rows(); ++t)
-  {
-    bool needle = false;
-    for (int k = 0; k < 3; ++k)
-    {
-      const Vec3 a = points.row(triangles(t, k));
-      const Vec3 u = points.row(triangles(t, (k + 1) % 3)).transpose() - a;
-      const Vec3 v = points.row(triangles(t, (k + 2) % 3)).transpose() - a;
-      needle = needle || !(u.dot(v) < sharp * u.norm() * v.norm());
-    }
-    needles += needle;
-  }
-  return static_cast<double>(needles) <= most * static_cast<double>(triangles.rows());
 }
 
 } // namespace
@@ -150,12 +115,11 @@ Status CdtTets::build(double seconds)
       }
       status = this->try_switches(move, refined);
     }
-    const double moved = std::max(move.snap, move.jitter);
-    if (status.ok() && moved > 0.0)
+    if (status.ok() && move.moves())
     {
       this->warnings_.push_back(
         "tets were possible only with the surface's vertices moved, by up to " +
-        short_number(moved) + " of its diagonal");
+        short_number(std::max(move.snap, move.jitter)) + " of its diagonal");
     }
     if (status.ok() || this->final(status))
     {
@@ -412,17 +376,16 @@ Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherD
   request.arguments = arguments;
   request.memory_limit = this->options_.memory_limit;
   request.time_limit = std::min(left, seconds);
-  double limit = request.time_limit;
   if (arguments.front() == "refine")
   {
     // It gives up by itself, a little earlier, and says how far it came.
     constexpr double earlier = 0.9;
-    limit *= earlier;
-    request.arguments.insert(request.arguments.end(), { "--time", std::to_string(limit) });
+    request.arguments.insert(
+      request.arguments.end(), { "--time", std::to_string(earlier * request.time_limit) });
   }
   const double start = this->context_.elapsed_seconds();
   const Status status = run_mesher(request, input, answer, this->context_);
-  this->timed_out_ = !status.ok() && this->context_.elapsed_seconds() - start >= limit;
+  this->timed_out_ = !status.ok() && this->context_.elapsed_seconds() - start >= request.time_limit;
   return status;
 }
 
@@ -486,7 +449,7 @@ Status CdtTets::take_inside(
   // Of the volume. Where numbers waver, a tet stays by itself.
   const double lone = this->inside_.labels_are_exact() ? 1e-8 : 1e-4;
   drop_crumbs(data.points, kept, facets, lone);
-  peel_slivers(data.points, kept, facets, flat * this->diagonal_);
+  peel_slivers(data.points, kept, facets, flat_height * this->diagonal_);
   if (count == 0 && this->inside_.labels_are_exact())
   {
     this->finer_is_no_better_ = true;
@@ -586,8 +549,6 @@ void CdtTets::take_all(
   this->kept_.resize(static_cast<std::size_t>(count));
 }
 
-// ---- Vertices inside ---------------------------------------------------------------------------
-
 Status CdtTets::complete()
 {
   this->finer_is_no_better_ = false;
@@ -616,254 +577,6 @@ Status CdtTets::complete()
   return status.code == StatusCode::cancelled ? status : Status();
 }
 
-/// Adds vertices inside, those of handles first.
-Status CdtTets::fill()
-{
-  const double start = this->context_.elapsed_seconds();
-  const Triangles boundary = boundary_triangles(this->mesh_.tets);
-  const SizingField field = this->lengths_inside(boundary);
-  FillOptions options;
-  Status status;
-  if (!this->options_.handles.empty())
-  {
-    status = this->place_handles(boundary, field, options.required);
-    if (!status.ok())
-    {
-      return status;
-    }
-  }
-  if (this->fills() && few_needles(this->mesh_.points, boundary))
-  {
-    status = this->fill_by_tetgen(options.required);
-    if (status.ok() || status.code == StatusCode::cancelled)
-    {
-      return status;
-    }
-  }
-  if (this->fills())
-  {
-    if (this->options_.interior_edge > 0.0)
-    {
-      options.most_tets = most_tets_on_request;
-      constexpr double long_edge = 3.0;
-      options.longest_boundary_edge = long_edge * this->options_.interior_edge * this->diagonal_;
-    }
-    else
-    {
-      options.fewest_tets = fewest_tets;
-      options.most_tets = std::max(fewest_tets,
-        static_cast<Index>(
-          most_tets_per_triangle * static_cast<double>(this->surface_.triangles.rows())));
-    }
-  }
-  else
-  {
-    options.most_tets = 0;
-  }
-  TetMesh mesh = this->mesh_;
-  Filling done;
-  if (!fill_tets(mesh, field, options, done, this->context_))
-  {
-    return Status::cancelled();
-  }
-  const double before = tet_volumes(this->mesh_.points, this->mesh_.tets).sum();
-  status = this->accept(mesh, before);
-  this->log_.add("vertices inside", this->context_.elapsed_seconds() - start, status);
-  if (!status.ok())
-  {
-    return status;
-  }
-  for (const Index v : done.required)
-  {
-    if (v >= 0)
-    {
-      this->handle_vertices_.push_back(v);
-    }
-  }
-  return {};
-}
-
-/// TetGen's refinement with the boundary left alone: its tets are the best where no needles on the
-/// boundary keep it from ending.
-Status CdtTets::fill_by_tetgen(const Points& places)
-{
-  const double start = this->context_.elapsed_seconds();
-  // What stands behind the last vertex of a tet is inserted: the places, none of the hull's.
-  const Index vertices = this->mesh_.tets.maxCoeff() + 1;
-  const Index count = this->mesh_.tets.rows();
-  const double volume = tet_volumes(this->mesh_.points, this->mesh_.tets).sum();
-  MesherData data;
-  data.tets = this->mesh_.tets;
-  data.points.resize(vertices + places.rows(), 3);
-  data.points << this->mesh_.points.topRows(vertices), places;
-  const double largest = this->options_.interior_edge > 0.0
-    ? this->volume_bound()
-    : volume / static_cast<double>(fewest_tets);
-  constexpr double regular = 0.11785113019775793;
-  constexpr double long_edge = 2.0; // of the wanted length: its triangles would have to be split
-  if (this->mean_surface_edge() > long_edge * std::cbrt(largest / regular))
-  {
-    return Status::failure(StatusCode::internal_error, "the surface's triangles are too large");
-  }
-  data.largest_volumes.assign(static_cast<std::size_t>(count), largest);
-  constexpr double seconds = 3.0;
-  constexpr double seconds_per_tet = 2e-4;
-  MesherAnswer answer;
-  Status status = this->run_job({ "tetgen", "--switches", "rYq1.414/10a" }, data,
-    seconds + seconds_per_tet * (static_cast<double>(count) + volume / largest), answer);
-  constexpr double too_many = 0.05;
-  TetMesh mesh{ std::move(answer.data.points), std::move(answer.data.tets) };
-  if (status.ok() &&
-    static_cast<double>(measure_tets(mesh.points, mesh.tets).below_5_degrees) >
-      too_many * static_cast<double>(mesh.tets.rows()))
-  {
-    status = Status::failure(StatusCode::internal_error, "too many tets are flat");
-  }
-  if (status.ok())
-  {
-    status = this->accept(mesh, volume);
-  }
-  this->log_.add("vertices inside by tetgen", this->context_.elapsed_seconds() - start, status);
-  if (status.ok())
-  {
-    this->mesh_original_.resize(
-      std::min(this->mesh_original_.size(), static_cast<std::size_t>(vertices)));
-    for (Index i = 0; i < places.rows(); ++i)
-    {
-      this->handle_vertices_.push_back(vertices + i);
-    }
-  }
-  return status;
-}
-
-/// Takes the tets if they are valid and fill the same volume.
-Status CdtTets::accept(TetMesh& mesh, double volume)
-{
-  const double after = tet_volumes(mesh.points, mesh.tets).sum();
-  constexpr double rounding = 1e-9;
-  if (std::abs(after - volume) > rounding * volume)
-  {
-    return Status::failure(StatusCode::internal_error,
-      "they changed the volume from " + short_number(volume) + " to " + short_number(after));
-  }
-  Status status = check_tets(mesh.points, mesh.tets);
-  if (status.ok())
-  {
-    this->mesh_ = std::move(mesh);
-  }
-  return status;
-}
-
-/// Points of the handles that lie inside, and points between them. Those between keep some distance
-/// from the boundary: there are vertices enough there, and flat tets would lie between.
-Status CdtTets::place_handles(const Triangles& boundary, const SizingField& field, Points& places)
-{
-  const Points& points = this->mesh_.points;
-  const HandleSamples samples =
-    sample_places(this->options_.handles, [&](const Vec3& p) { return field.at(p); });
-  WindingNumber winding;
-  WindingNumber::Options few;
-  few.expected_queries = std::max<Index>(1, samples.points.rows());
-  Status status = winding.build(points, boundary, this->context_, few);
-  Eigen::VectorXd w;
-  status = status.ok() ? winding.evaluate(samples.points, this->context_, w) : status;
-  if (!status.usable())
-  {
-    return status;
-  }
-  const TriangleTree tree(points, boundary);
-  places.resize(samples.points.rows(), 3);
-  Index kept = 0;
-  for (Index i = 0; i < samples.points.rows(); ++i)
-  {
-    const Vec3 p = samples.points.row(i);
-    constexpr double near = 0.3; // of the local length
-    constexpr double touching = 1e-6; // of the diagonal
-    const double distance = i < samples.chosen ? touching * this->diagonal_ : near * field.at(p);
-    constexpr double half = 0.5; // the numbers are 0 and 1
-    if (w[i] > half && tree.distance(p, distance) > distance)
-    {
-      places.row(kept++) = p;
-    }
-  }
-  places.conservativeResize(kept, 3);
-  return {};
-}
-
-/// How long edges inside become: as long as the shortest ones of the boundary near them, and longer
-/// by half of the distance to these. (Means of the lengths make tets too coarse for small details
-/// between long triangles.)
-SizingField CdtTets::lengths_inside(const Triangles& boundary) const
-{
-  const Points& points = this->mesh_.points;
-  constexpr double none = std::numeric_limits<double>::infinity();
-  Eigen::VectorXd shortest = Eigen::VectorXd::Constant(points.rows(), none);
-  for (const Edge& edge : mesh_edges(boundary))
-  {
-    const double length = (points.row(edge.a) - points.row(edge.b)).norm();
-    for (const Index v : { edge.a, edge.b })
-    {
-      shortest[v] = std::min(shortest[v], length);
-    }
-  }
-  Points sites(points.rows(), 3);
-  Eigen::VectorXd lengths(points.rows());
-  Index count = 0;
-  for (Index v = 0; v < points.rows(); ++v)
-  {
-    if (shortest[v] < none)
-    {
-      sites.row(count) = points.row(v);
-      lengths[count++] = shortest[v];
-    }
-  }
-  sites.conservativeResize(count, 3);
-  lengths.conservativeResize(count);
-  constexpr double growth = 0.5;
-  const double largest = this->options_.interior_edge > 0.0 ? this->options_.interior_edge : 1.0;
-  return SizingField(sites, lengths, growth, largest * this->diagonal_);
-}
-
-/// Makes flat tets better. The input's vertices and those of handles stay, and so does the boundary
-/// but for the diagonals of triangles in one plane.
-Status CdtTets::improve()
-{
-  const double start = this->context_.elapsed_seconds();
-  TetMesh mesh = this->mesh_;
-  std::vector<char> held(static_cast<std::size_t>(mesh.points.rows()), 0);
-  std::fill_n(held.begin(), std::min(this->mesh_original_.size(), held.size()), 1);
-  for (const Index v : this->handle_vertices_)
-  {
-    held[v] = 1;
-  }
-  ImproveOptions options;
-  options.least_angle = 0.0; // held vertices never move
-  options.keep_boundary = true;
-  options.coplanar = coplanar * this->diagonal_;
-  options.insert = true;
-  options.slack = 0.7;
-  Improvement done;
-  if (!improve_tets(mesh, std::move(held), {}, options, done, this->context_))
-  {
-    return Status::cancelled();
-  }
-  std::vector<TetFacet> facets = tet_facets(mesh.tets);
-  peel_slivers(mesh.points, mesh.tets, facets, flat * this->diagonal_);
-  const Status status = check_tets(mesh.points, mesh.tets, facets);
-  this->log_.add("flat tets improved", this->context_.elapsed_seconds() - start, status);
-  if (status.ok())
-  {
-    this->mesh_ = std::move(mesh);
-  }
-  return {};
-}
-
-/// Vertices are wanted inside.
-bool CdtTets::fills() const
-{
-  return this->options_.quality > 0.0 || this->options_.interior_edge > 0.0;
-}
-
 double CdtTets::mean_surface_edge() const
 {
   double sum = 0.0;
@@ -883,11 +596,10 @@ double CdtTets::mean_surface_edge() const
 /// Volume of a regular tet with edges of interior_edge, no shorter than a third of the surface's.
 double CdtTets::volume_bound() const
 {
-  constexpr double regular = 0.11785113019775793;
   constexpr double default_edge = 0.04;
   const double fraction =
     this->options_.interior_edge > 0.0 ? this->options_.interior_edge : default_edge;
-  return regular *
+  return regular_tet_volume *
     std::pow(std::max(fraction * this->diagonal_, this->mean_surface_edge() / 3.0), 3.0);
 }
 

@@ -79,6 +79,8 @@ public:
 
 private:
   struct Move;
+  /// Height of tets at the boundary that are taken off, of the diagonal.
+  static constexpr double flat_height = 1e-11;
 
   Status try_switches(const Move& move, const MesherData& refined);
   Status try_fine_tets(const Move& move, const MesherData& refined);
@@ -96,8 +98,11 @@ private:
   Status swap_flat(const Points& points, Tets& tets, std::vector<TetFacet>& facets);
   void take_all(const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside);
   Status fill();
+  double largest_inner_tet() const;
+  bool suits_tetgen(const Triangles& boundary) const;
   Status fill_by_tetgen(const Points& places);
-  Status accept(TetMesh& mesh, double volume);
+  Status fill_by_cavities(const SizingField& field, Points places);
+  Status accept(TetMesh& mesh);
   Status place_handles(const Triangles& boundary, const SizingField& field, Points& places);
   SizingField lengths_inside(const Triangles& boundary) const;
   Status improve();

@@ -2,6 +2,7 @@
 
 #include "base/tet_facets.h"
 #include "inside/tet_complex.h"
+#include "inside/tet_quality.h"
 #include "surface/triangle_predicates.h"
 
 #include <algorithm>
@@ -17,7 +18,6 @@ namespace
 using Tet = TetComplex::Tet;
 using Facet = TetComplex::Facet;
 
-constexpr double regular = 0.11785113019775793; ///< volume of a regular tet with edges of 1
 /// A tet is split when it is larger than a regular one with edges of the wanted length, times this.
 constexpr double largest_volume = 1.0;
 /// Distances of a new vertex from others and from the boundary, by the wanted length.
@@ -331,7 +331,7 @@ private:
       volume += this->tets_.alive(t) ? this->tets_.volume(this->tets_.tet(t)) : 0.0;
     }
     const auto wanted = static_cast<double>(this->options_.fewest_tets);
-    this->largest_size_ = std::cbrt(volume / (wanted * regular * largest_volume));
+    this->largest_size_ = std::cbrt(volume / (wanted * regular_tet_volume * largest_volume));
     for (double& size : this->sizes_)
     {
       size = std::min(size, this->largest_size_);
@@ -360,7 +360,7 @@ private:
   {
     const Tet& tet = this->tets_.tet(t);
     const double size = this->size_at(this->center_of(tet), tet);
-    return this->tets_.volume(tet) / (largest_volume * regular * size * size * size);
+    return this->tets_.volume(tet) / (largest_volume * regular_tet_volume * size * size * size);
   }
 
   bool refine(Index most_tets)
@@ -412,7 +412,7 @@ private:
     return true;
   }
 
-  /// Where a vertex is put for a tet that is too large, and the tets that it replaces.
+  /// Finds the place of a new vertex for a tet that is too large, and the tets that it replaces.
   bool find_place(Index t, Vec3& p, TetComplex::Cavity& cavity)
   {
     const Tet tet = this->tets_.tet(t);

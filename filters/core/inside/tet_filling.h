@@ -24,7 +24,7 @@ struct FillOptions
   Points required;
 };
 
-/// What was added.
+/// The vertices that were added.
 struct Filling
 {
   Index inner_vertices = 0; ///< without the required ones

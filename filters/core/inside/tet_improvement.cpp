@@ -33,7 +33,7 @@ constexpr double better = 0.02; // what counts as an improvement: a fiftieth of 
 constexpr double flat_cosine = 0.966; // 15 degrees: an edge that may be swapped
 constexpr double crease_cosine = 0.766; // 40 degrees: a vertex that may not move
 
-/// What a set of tets costs: 0 where all are good enough.
+/// Cost of a set of tets: 0 where all are good enough.
 struct Cost
 {
   double sum = 0.0; ///< of log(sine wanted / sine of the smallest dihedral angle)
@@ -510,7 +510,7 @@ private:
     return true;
   }
 
-  /// What the tets of star_ cost; infinity for more than `most` and where one of them is worse than
+  /// Cost of the tets of star_: infinity above `most` and where one of them is worse than
   /// `least`.
   double sum_of_star(double least, double most) const
   {

@@ -1,7 +1,9 @@
 #include "inside/tet_quality.h"
 
 #include "base/disjoint_sets.h"
+#include "base/triangle_sides.h"
 #include "surface/triangle_predicates.h"
+#include "surface/triangle_shape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -68,99 +70,78 @@ TetQuality measure_tets(PointsView points, TetsView tets)
     const double angle = min_dihedral_angle(points.row(tets(t, 0)), points.row(tets(t, 1)),
       points.row(tets(t, 2)), points.row(tets(t, 3)));
     quality.min_dihedral_angle = std::min(quality.min_dihedral_angle, angle);
-    constexpr double sliver = 5.0;
-    quality.below_5_degrees += angle < sliver;
+    quality.below_5_degrees += angle < sliver_angle;
     const auto bin = static_cast<std::size_t>(angle / DihedralHistogram::bin);
     ++quality.histogram.tets[std::min(bin, quality.histogram.tets.size() - 1)];
   }
   return quality;
 }
 
-Index count_forced_tets(
-  PointsView points, TetsView tets, const std::vector<TetFacet>& facets, double angle)
+namespace
+{
+using EdgeKey = std::array<Index, 2>;
+
+/// Two triangles of the boundary meet at less than `angle` degrees, measured inside: their normals
+/// are nearly opposite, and the other one lies behind the plane of the first.
+bool is_wedge(PointsView points, const Triangles& boundary, const TriangleSide& one,
+  const TriangleSide& other, double angle)
 {
   constexpr double degrees = 57.295779513082320877;
-  using EdgeKey = std::array<Index, 2>;
-  struct Side
+  const auto corner = [&](const TriangleSide& side, int k) -> Vec3
+  { return points.row(boundary(side.triangle, (side.corner + k) % 3)); };
+  const auto normal = [&](const TriangleSide& side) -> Vec3
   {
-    EdgeKey edge;
-    Index third; ///< the triangle's other corner
-    Vec3 normal; ///< outwards
+    const Vec3 a = corner(side, 0);
+    return (corner(side, 1) - a).cross(corner(side, 2) - a).normalized();
   };
+  const Vec3 n = normal(one), m = normal(other);
+  return degrees * std::atan2(n.cross(m).norm(), -n.dot(m)) < angle &&
+    n.dot(corner(other, 2) - corner(one, 0)) < 0.0;
+}
+
+/// Edges at which tets cannot have good angles, sorted: see count_forced_tets().
+std::vector<EdgeKey> forced_edges(PointsView points, const Triangles& boundary, double angle)
+{
   std::vector<EdgeKey> forced;
-  std::vector<Side> sides;
-  for (std::size_t i = 0; i < facets.size(); ++i)
+  const std::vector<TriangleSide> sides = sides_by_edge(boundary);
+  for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end)
   {
-    const bool shared = (i > 0 && facets[i - 1].vertices == facets[i].vertices) ||
-      (i + 1 < facets.size() && facets[i + 1].vertices == facets[i].vertices);
-    if (shared)
+    end = end_of_edge(sides, begin);
+    bool is_forced = false;
+    for (std::size_t i = begin; i < end && !is_forced; ++i)
     {
-      continue;
-    }
-    const auto& corners = facet_corners[facets[i].side];
-    std::array<Index, 3> ids{};
-    std::array<Vec3, 3> p;
-    for (int k = 0; k < 3; ++k)
-    {
-      ids[k] = tets(facets[i].tet, corners[k]);
-      p[k] = points.row(ids[k]);
-    }
-    const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]);
-    double least = 180.0;
-    for (int k = 0; k < 3; ++k)
-    {
-      const Vec3 u = p[(k + 1) % 3] - p[k], v = p[(k + 2) % 3] - p[k];
-      least = std::min(least, degrees * std::atan2(normal.norm(), u.dot(v)));
-    }
-    for (int k = 0; k < 3; ++k)
-    {
-      const Index a = ids[k], b = ids[(k + 1) % 3];
-      const EdgeKey edge{ std::min(a, b), std::max(a, b) };
-      if (least < angle)
+      const Index t = sides[i].triangle;
+      is_forced = smallest_corner(points.row(boundary(t, 0)), points.row(boundary(t, 1)),
+                    points.row(boundary(t, 2))) < angle;
+      for (std::size_t j = begin; j < i && !is_forced; ++j)
       {
-        forced.push_back(edge);
+        is_forced = is_wedge(points, boundary, sides[j], sides[i], angle);
       }
-      sides.push_back({ edge, ids[(k + 2) % 3], normal.normalized() });
+    }
+    if (is_forced)
+    {
+      forced.push_back({ sides[begin].a, sides[begin].b });
     }
   }
-  std::sort(sides.begin(), sides.end(),
-    [](const Side& x, const Side& y)
-    { return x.edge != y.edge ? x.edge < y.edge : x.third < y.third; });
-  for (std::size_t i = 0; i + 1 < sides.size(); ++i)
-  {
-    if (sides[i].edge != sides[i + 1].edge)
-    {
-      continue;
-    }
-    // Convex and nearly closed: the other triangle lies behind this one's plane, and normals are
-    // nearly opposite.
-    const Vec3 away = points.row(sides[i + 1].third) - points.row(sides[i].edge[0]);
-    const double between = degrees *
-      std::atan2(sides[i].normal.cross(sides[i + 1].normal).norm(),
-        -sides[i].normal.dot(sides[i + 1].normal));
-    if (between < angle && sides[i].normal.dot(away) < 0.0)
-    {
-      forced.push_back(sides[i].edge);
-    }
-  }
-  std::sort(forced.begin(), forced.end());
+  return forced;
+}
+} // namespace
+
+Index count_forced_tets(
+  PointsView points, TetsView tets, const Eigen::VectorXd& angles, double angle)
+{
+  const std::vector<EdgeKey> forced = forced_edges(points, boundary_triangles(tets), angle);
   Index count = 0;
   for (Index t = 0; t < tets.rows(); ++t)
   {
-    if (min_dihedral_angle(points.row(tets(t, 0)), points.row(tets(t, 1)), points.row(tets(t, 2)),
-          points.row(tets(t, 3))) >= angle)
-    {
-      continue;
-    }
     bool touches = false;
-    for (int i = 0; i < 4; ++i)
+    for (int i = 0; i < 4 && angles[t] < angle; ++i)
     {
       for (int j = 0; j < i; ++j)
       {
         const Index a = tets(t, i), b = tets(t, j);
-        touches = touches ||
-          std::binary_search(
-            forced.begin(), forced.end(), EdgeKey{ std::min(a, b), std::max(a, b) });
+        const EdgeKey edge{ std::min(a, b), std::max(a, b) };
+        touches = touches || std::binary_search(forced.begin(), forced.end(), edge);
       }
     }
     count += touches;

@@ -10,6 +10,11 @@
 namespace bindpose
 {
 
+/// Volume of a regular tet with edges of length 1.
+constexpr double regular_tet_volume = 0.11785113019775793;
+/// Tets with a smaller dihedral angle are counted as bad, degrees.
+constexpr double sliver_angle = 5.0;
+
 /// Smallest of a tet's six dihedral angles, degrees; 0 for a tet without volume.
 double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
@@ -35,12 +40,11 @@ struct TetQuality
 
 TetQuality measure_tets(PointsView points, TetsView tets);
 
-/// How many tets have their smallest dihedral angle below `angle` degrees and an edge that the
-/// boundary forces to be bad: one of a boundary triangle with a corner of less than `angle`, or one
-/// at which two boundary triangles meet at less than `angle`, measured inside.
-/// `facets`: tet_facets of the tets.
+/// How many tets have their smallest dihedral angle (angles: #T, degrees) below `angle` and an edge
+/// that the boundary forces to be bad: one of a boundary triangle with a corner of less than
+/// `angle`, or one at which two boundary triangles meet at less than `angle`, measured inside.
 Index count_forced_tets(
-  PointsView points, TetsView tets, const std::vector<TetFacet>& facets, double angle);
+  PointsView points, TetsView tets, const Eigen::VectorXd& angles, double angle);
 
 /// internal_error naming the first tet that is flat, turned over, there twice, or that shares a
 /// facet with two others or with one on the same side (else the boundary is closed); with

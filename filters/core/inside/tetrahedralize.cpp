@@ -555,7 +555,8 @@ private:
     this->report_.set("counts.tets_below_5_degrees_forced",
       Report::Value(quality.below_5_degrees == 0
           ? Index(0)
-          : count_forced_tets(mesh.points, mesh.tets, tet_facets(mesh.tets), sliver)));
+          : count_forced_tets(
+              mesh.points, mesh.tets, this->result_.min_dihedral_angles, sliver_angle)));
     if (this->inside_tets_.empty())
     {
       this->report_.set("volume", Report::Value(quality.volume));
@@ -611,8 +612,6 @@ private:
     this->log_.add(rung, this->context_.elapsed_seconds() - start, status);
   }
 
-  /// Degrees, of counts.tets_below_5_degrees.
-  static constexpr double sliver = 5.0;
   /// A volume that is off by more than a factor of two is no result.
   static constexpr double worst_misfit = 0.6931471805599453;
   /// A wrap winds once around its inside, whatever the surface does.

@@ -328,8 +328,8 @@ std::string too_many(const std::string& why)
 
 std::string too_long(double limit)
 {
-  return "still splitting crossing triangles after " + std::to_string(static_cast<int>(limit)) +
-    " s";
+  return too_many(
+    "still splitting crossing triangles after " + std::to_string(static_cast<int>(limit)) + " s");
 }
 
 /// One round on pairs that cross. @return empty, or why it gave up.

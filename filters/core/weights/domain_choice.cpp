@@ -2,6 +2,7 @@
 
 #include "base/number_text.h"
 #include "inside/tet_quality.h"
+#include "surface/triangle_shape.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,20 +23,6 @@ constexpr double most_bad_tets = 0.03;
 /// A lattice has about this many vertices, and is solved at two resolutions.
 constexpr Index lattice_vertices = 9000;
 constexpr double both_resolutions = 1.3;
-
-double smallest_angle(const RepairedSurface& surface, Index triangle)
-{
-  double smallest = 180.0;
-  for (int k = 0; k < 3; ++k)
-  {
-    const auto corner = [&](int i) -> Vec3
-    { return surface.points.row(surface.triangles(triangle, (k + i) % 3)); };
-    const Vec3 u = corner(1) - corner(0);
-    const Vec3 v = corner(2) - corner(0);
-    smallest = std::min(smallest, std::atan2(u.cross(v).norm(), u.dot(v)) * 57.29577951308232);
-  }
-  return smallest;
-}
 
 std::string percent_of(Index part, Index whole)
 {
@@ -58,11 +45,7 @@ std::string reason_against_volume(const RepairedSurface& surface)
   {
     return "the surface is dense";
   }
-  Index bad = 0;
-  for (Index t = 0; t < count; ++t)
-  {
-    bad += smallest_angle(surface, t) < bad_angle;
-  }
+  const Index bad = count_needles(surface.points, surface.triangles, bad_angle);
   return static_cast<double>(bad) > most_bad_triangles * static_cast<double>(count)
     ? percent_of(bad, count) + " of the triangles have an angle below " + short_number(bad_angle) +
       " degrees"

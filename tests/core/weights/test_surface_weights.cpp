@@ -271,6 +271,12 @@ TEST_F(SurfaceWeightsInTets, AutomaticallyChoosesTheDomain)
   EXPECT_EQ(status.report.text("domain_reason"), "the surface is not closed");
   expect_weights(result.weights, sheet.points.rows(), 2);
 
+  status = solve(sheet, { handles[0], handles[1] }, in(WeightsDomain::volume), result);
+  if (status.usable()) // else the tets do not hold what the sheet's winding number encloses
+  {
+    expect_weights(result.weights, sheet.points.rows(), 2);
+  }
+
   const TriangleMesh dense = test::sphere(5, 2.0, Vec3(2, 0, 0));
   ASSERT_GT(dense.triangles.rows(), 20000);
   status = solve(dense, handles, {}, result);

@@ -180,7 +180,7 @@ Status TourPlayer::play(const TourRequest& request)
     const double cpu = cpu_seconds() - cpu_begin;
     if (sentence.isEmpty() && this->left() <= 0.0)
     {
-      sentence = QString("the tour has taken more than %1 s").arg(this->seconds_);
+      sentence = this->out_of_time();
     }
     if (step.verb != TourVerb::check)
     {
@@ -224,6 +224,11 @@ Status TourPlayer::write_record(const TourRequest& request) const
 double TourPlayer::left() const
 {
   return this->seconds_ - 1e-3 * static_cast<double>(this->clock_.elapsed());
+}
+
+QString TourPlayer::out_of_time() const
+{
+  return QString("the tour has taken more than %1 s").arg(this->seconds_);
 }
 
 /// What has been asked for is drawn, and nothing more is waited for.
@@ -413,20 +418,26 @@ QString TourPlayer::wait(const TourStep& step)
       ? QString()
       : QString("the window was busy until the tour's time was over");
   }
-  const double seconds = std::min(step.seconds, std::max(0.0, this->left()));
+  // Said here for a wait that is cut short: timers may end a millisecond early, before the limit.
+  const double left = std::max(0.0, this->left());
+  const double seconds = std::min(step.seconds, left);
+  const QString sentence = step.seconds > left ? this->out_of_time() : QString();
   if (this->film_.text.empty())
   {
     wait_seconds(seconds);
-    return {};
+    return sentence;
   }
   QElapsedTimer clock;
   clock.start();
-  QString sentence;
-  for (int frame = 1; frame <= seconds * film_rate && sentence.isEmpty(); ++frame)
+  for (int frame = 1; frame <= seconds * film_rate; ++frame)
   {
     const double due = frame / film_rate - 1e-3 * static_cast<double>(clock.elapsed());
     wait_seconds(std::max(0.0, due));
-    sentence = this->film_frame();
+    const QString failed = this->film_frame();
+    if (!failed.isEmpty())
+    {
+      return failed;
+    }
   }
   return sentence;
 }

@@ -60,6 +60,7 @@ private:
   void let_draw();
   QString fit_view();
   double left() const;
+  QString out_of_time() const;
   bindpose::Status write_record(const TourRequest& request) const;
 
   MainWindow* window_;

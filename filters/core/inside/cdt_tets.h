@@ -6,7 +6,6 @@
 #include "inside/enclosed_region.h"
 #include "inside/handle_places.h"
 #include "inside/segmentation.h"
-#include "inside/sizing_field.h"
 #include "surface/surface_repair.h"
 
 #include <limits>
@@ -79,6 +78,7 @@ public:
 
 private:
   struct Move;
+  struct Inside;
   /// Height of tets at the boundary that are taken off, of the diagonal.
   static constexpr double flat_height = 1e-11;
 
@@ -98,13 +98,14 @@ private:
   Status swap_flat(const Points& points, Tets& tets, std::vector<TetFacet>& facets);
   void take_all(const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside);
   Status fill();
-  double largest_inner_tet() const;
-  bool suits_tetgen(const Triangles& boundary) const;
-  Status fill_by_tetgen(const Points& places);
-  Status fill_by_cavities(const SizingField& field, Points places);
+  Status find_places(Inside& inside);
+  Status find_places(
+    double length, double long_edge, Index most_tets, Index most, Inside& inside);
+  Status look_inside(double longest, Inside& inside);
+  Points places_of_handles(Inside& inside) const;
+  Status insert_by_tetgen(const Points& places, std::vector<Index>& vertices);
+  Status insert_by_cavities(const Points& places, std::vector<Index>& vertices);
   Status accept(TetMesh& mesh);
-  Status place_handles(const Triangles& boundary, const SizingField& field, Points& places);
-  SizingField lengths_inside(const Triangles& boundary) const;
   Status improve();
   bool fills() const;
   double mean_surface_edge() const;

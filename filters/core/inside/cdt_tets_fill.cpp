@@ -1,20 +1,23 @@
-// Vertices inside of the tets of method cdt, so that weights have something to vary over: by
-// TetGen's refinement where needles on the boundary do not keep that from ending, else by fill_tets
-// (tet_filling.h). Then flat tets are improved (tet_improvement.h). Both keep the boundary.
+// Vertices inside of the tets of method cdt, so that weights have something to vary over: places of
+// a lattice that gets coarser away from the boundary (inner_points.h), inserted by TetGen, or by
+// insert_vertices where that fails. Then flat tets are improved (tet_improvement.h). Both keep the
+// boundary.
 #include "inside/cdt_tets.h"
 
 #include "base/number_text.h"
 #include "helper/mesher_process.h"
-#include "inside/tet_filling.h"
+#include "inside/inner_points.h"
 #include "inside/tet_improvement.h"
+#include "inside/tet_insertion.h"
 #include "inside/tet_quality.h"
-#include "surface/triangle_shape.h"
-#include "surface/triangle_tree.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
+#include <memory>
+#include <numeric>
 
 namespace bindpose
 {
@@ -25,199 +28,144 @@ namespace
 constexpr double coplanar = 1e-10;
 /// Without a request for a length inside: there are at least about so many tets,
 constexpr Index fewest_tets = 1500;
-/// and vertices are added until there are so many tets per triangle of the surface.
-constexpr double most_tets_per_triangle = 4.5;
+/// and about so many per triangle of the surface.
+constexpr double tets_per_triangle = 4.2;
 /// With one.
 constexpr Index most_tets_on_request = 20000000;
+/// That come with a vertex inside, and with a triangle of the boundary, about.
+constexpr Index tets_per_vertex = 6;
+constexpr Index tets_per_boundary_triangle = 2;
+
+/// Of new vertices: enough for the tets that are wanted, and for some room between the triangles.
+Index most_inner_vertices(Index surface_triangles, Index boundary_triangles)
+{
+  constexpr double least = 0.1; // per triangle
+  const double triangles = static_cast<double>(surface_triangles);
+  const double tets = std::max(static_cast<double>(fewest_tets), tets_per_triangle * triangles) -
+    static_cast<double>(tets_per_boundary_triangle * boundary_triangles);
+  return static_cast<Index>(std::max(least * triangles, tets / tets_per_vertex));
+}
+
+/// Removes the places that are nearer to one of the others than the distance says.
+void remove_near(
+  Points& places, const Points& others, const std::function<double(const Vec3&)>& distance)
+{
+  std::vector<Index> order(static_cast<std::size_t>(others.rows())); // along x
+  std::iota(order.begin(), order.end(), Index(0));
+  std::sort(order.begin(), order.end(),
+    [&](Index a, Index b) { return others(a, 0) < others(b, 0); });
+  Index kept = 0;
+  for (Index i = 0; i < places.rows() && others.rows() > 0; ++i)
+  {
+    const Vec3 p = places.row(i);
+    const double least = distance(p);
+    bool near = false;
+    for (auto other = std::lower_bound(order.begin(), order.end(), p.x() - least,
+           [&](Index a, double x) { return others(a, 0) < x; });
+         other != order.end() && others(*other, 0) <= p.x() + least && !near; ++other)
+    {
+      near = (others.row(*other).transpose() - p).norm() < least;
+    }
+    if (!near)
+    {
+      places.row(kept++) = p;
+    }
+  }
+  places.conservativeResize(others.rows() > 0 ? kept : places.rows(), 3);
+}
 } // namespace
+
+/// What is inside of the tets' boundary.
+struct CdtTets::Inside
+{
+  Interior interior;
+  std::unique_ptr<SizingField> sizes;
+  Points places; ///< of new vertices
+};
 
 /// Adds vertices inside, those of handles first.
 Status CdtTets::fill()
 {
-  const Triangles boundary = boundary_triangles(this->mesh_.tets);
-  const SizingField field = this->lengths_inside(boundary);
-  Points places(0, 3);
-  if (!this->options_.handles.empty())
-  {
-    const Status status = this->place_handles(boundary, field, places);
-    if (!status.ok())
-    {
-      return status;
-    }
-  }
-  if (this->fills() && this->suits_tetgen(boundary))
-  {
-    const Status status = this->fill_by_tetgen(places);
-    if (status.ok() || status.code == StatusCode::cancelled)
-    {
-      return status;
-    }
-  }
-  return this->fill_by_cavities(field, std::move(places));
-}
-
-/// Volume that no tet inside is to exceed.
-double CdtTets::largest_inner_tet() const
-{
-  return this->options_.interior_edge > 0.0 ? this->volume_bound()
-                                            : this->volume_ / static_cast<double>(fewest_tets);
-}
-
-/// TetGen's refinement does not end at needles, and does not split triangles of the boundary that
-/// are larger than the tets wanted.
-bool CdtTets::suits_tetgen(const Triangles& boundary) const
-{
-  constexpr double long_edge = 2.0; // of the wanted length
-  constexpr double most_needles = 0.02; // of the triangles
-  return this->mean_surface_edge() <=
-    long_edge * std::cbrt(this->largest_inner_tet() / regular_tet_volume) &&
-    static_cast<double>(count_needles(this->mesh_.points, boundary, sliver_angle)) <=
-    most_needles * static_cast<double>(boundary.rows());
-}
-
-/// TetGen's refinement with the boundary left alone: its tets are the best where it ends.
-Status CdtTets::fill_by_tetgen(const Points& places)
-{
   const double start = this->context_.elapsed_seconds();
-  // TetGen inserts all points behind the last one that a tet uses: the places may stand there, the
-  // hull's other vertices may not.
-  const Index vertices = this->mesh_.tets.maxCoeff() + 1;
-  const double largest = this->largest_inner_tet();
-  MesherData data;
-  data.tets = this->mesh_.tets;
-  data.points.resize(vertices + places.rows(), 3);
-  data.points << this->mesh_.points.topRows(vertices), places;
-  data.largest_volumes.assign(static_cast<std::size_t>(data.tets.rows()), largest);
-  constexpr double seconds = 3.0;
-  constexpr double seconds_per_tet = 2e-4;
-  MesherAnswer answer;
-  Status status = this->run_job({ "tetgen", "--switches", "rYq1.414/10a" }, data,
-    seconds + seconds_per_tet * (static_cast<double>(data.tets.rows()) + this->volume_ / largest),
-    answer);
-  TetMesh mesh{ std::move(answer.data.points), std::move(answer.data.tets) };
-  constexpr double most_bad = 0.05; // of the tets
-  if (status.ok() &&
-    static_cast<double>(measure_tets(mesh.points, mesh.tets).below_5_degrees) >
-      most_bad * static_cast<double>(mesh.tets.rows()))
+  Inside inside;
+  Status status = this->fills() ? this->find_places(inside)
+                                : this->look_inside(this->diagonal_, inside);
+  const Points of_handles = status.ok() ? this->places_of_handles(inside) : Points(0, 3);
+  this->log_.add("places inside", this->context_.elapsed_seconds() - start, status);
+  Points places(of_handles.rows() + inside.places.rows(), 3);
+  places << of_handles, inside.places;
+  if (!status.ok() || places.rows() == 0)
   {
-    status = Status::failure(StatusCode::internal_error, "too many tets are flat");
+    return status;
+  }
+  std::vector<Index> vertices;
+  status = this->insert_by_tetgen(places, vertices);
+  if (!status.ok() && status.code != StatusCode::cancelled)
+  {
+    status = this->insert_by_cavities(places, vertices);
   }
   if (status.ok())
   {
-    status = this->accept(mesh);
-  }
-  this->log_.add("vertices inside by tetgen", this->context_.elapsed_seconds() - start, status);
-  if (status.ok())
-  {
-    this->mesh_original_.resize(
-      std::min(this->mesh_original_.size(), static_cast<std::size_t>(vertices)));
-    for (Index i = 0; i < places.rows(); ++i)
-    {
-      this->handle_vertices_.push_back(vertices + i);
-    }
-  }
-  return status;
-}
-
-/// Needs no good triangles: see fill_tets().
-Status CdtTets::fill_by_cavities(const SizingField& field, Points places)
-{
-  const double start = this->context_.elapsed_seconds();
-  FillOptions options;
-  options.required = std::move(places);
-  if (!this->fills())
-  {
-    options.most_tets = 0;
-  }
-  else if (this->options_.interior_edge > 0.0)
-  {
-    options.most_tets = most_tets_on_request;
-    constexpr double long_edge = 3.0;
-    options.longest_boundary_edge = long_edge * this->options_.interior_edge * this->diagonal_;
-  }
-  else
-  {
-    options.fewest_tets = fewest_tets;
-    options.most_tets = std::max(fewest_tets,
-      static_cast<Index>(
-        most_tets_per_triangle * static_cast<double>(this->surface_.triangles.rows())));
-  }
-  TetMesh mesh = this->mesh_;
-  Filling done;
-  if (!fill_tets(mesh, field, options, done, this->context_))
-  {
-    return Status::cancelled();
-  }
-  const Status status = this->accept(mesh);
-  this->log_.add("vertices inside", this->context_.elapsed_seconds() - start, status);
-  if (status.ok())
-  {
-    std::copy_if(done.required.begin(), done.required.end(),
+    std::copy_if(vertices.begin(), vertices.begin() + of_handles.rows(),
       std::back_inserter(this->handle_vertices_), [](Index v) { return v >= 0; });
   }
   return status;
 }
 
-/// Takes the tets if they are valid and fill the same volume.
-Status CdtTets::accept(TetMesh& mesh)
+/// Finds places of new vertices. Edges of the boundary that are too long for them are split.
+Status CdtTets::find_places(Inside& inside)
 {
-  const double after = tet_volumes(mesh.points, mesh.tets).sum();
-  constexpr double rounding = 1e-9;
-  if (std::abs(after - this->volume_) > rounding * this->volume_)
+  const double wanted = this->options_.interior_edge * this->diagonal_;
+  if (wanted > 0.0)
   {
-    return Status::failure(StatusCode::internal_error,
-      "they changed the volume from " + short_number(this->volume_) + " to " + short_number(after));
+    constexpr double long_edge = 3.0; // of the wanted length
+    return this->find_places(
+      wanted, long_edge * wanted, most_tets_on_request, most_tets_on_request, inside);
   }
-  Status status = check_tets(mesh.points, mesh.tets);
-  if (status.ok())
+  const Index boundary = boundary_triangles(this->mesh_.tets).rows();
+  const Index most = most_inner_vertices(this->surface_.triangles.rows(), boundary);
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const Status status = this->find_places(this->diagonal_, never, 0, most, inside);
+  if (!status.ok() ||
+    tets_per_boundary_triangle * boundary + tets_per_vertex * inside.places.rows() >= fewest_tets)
   {
-    this->mesh_ = std::move(mesh);
+    return status;
+  }
+  // The same length everywhere, so that there are enough.
+  const double length =
+    std::cbrt(this->volume_ / (static_cast<double>(fewest_tets) * regular_tet_volume));
+  constexpr double long_edge = 2.0;
+  constexpr double share = 0.6; // of the tets for the boundary
+  return this->find_places(length, long_edge * length,
+    static_cast<Index>(share * static_cast<double>(fewest_tets)), fewest_tets / tets_per_vertex,
+    inside);
+}
+
+/// `most` places about `length` from each other, after edges of the boundary longer than
+/// `long_edge` have been split until there are `most_tets`.
+Status CdtTets::find_places(
+  double length, double long_edge, Index most_tets, Index most, Inside& inside)
+{
+  if (most_tets > 0 && !split_long_edges(this->mesh_, long_edge, most_tets, this->context_))
+  {
+    return Status::cancelled();
+  }
+  Status status = this->look_inside(length, inside);
+  if (status.ok() &&
+    !inner_points(inside.interior, *inside.sizes, most, this->context_, inside.places))
+  {
+    status = Status::cancelled();
   }
   return status;
 }
 
-/// Points of the handles that lie inside, and points between them. Those between keep some distance
-/// from the boundary: there are vertices enough there, and flat tets would lie between.
-Status CdtTets::place_handles(const Triangles& boundary, const SizingField& field, Points& places)
-{
-  const Points& points = this->mesh_.points;
-  const HandleSamples samples =
-    sample_places(this->options_.handles, [&](const Vec3& p) { return field.at(p); });
-  WindingNumber winding;
-  WindingNumber::Options few;
-  few.expected_queries = std::max<Index>(1, samples.points.rows());
-  Status status = winding.build(points, boundary, this->context_, few);
-  Eigen::VectorXd w;
-  status = status.ok() ? winding.evaluate(samples.points, this->context_, w) : status;
-  if (!status.usable())
-  {
-    return status;
-  }
-  const TriangleTree tree(points, boundary);
-  places.resize(samples.points.rows(), 3);
-  Index kept = 0;
-  for (Index i = 0; i < samples.points.rows(); ++i)
-  {
-    const Vec3 p = samples.points.row(i);
-    constexpr double near = 0.3; // of the local length
-    constexpr double touching = 1e-6; // of the diagonal
-    const double distance = i < samples.chosen ? touching * this->diagonal_ : near * field.at(p);
-    constexpr double half = 0.5; // the numbers are 0 and 1
-    if (w[i] > half && tree.distance(p, distance) > distance)
-    {
-      places.row(kept++) = p;
-    }
-  }
-  places.conservativeResize(kept, 3);
-  return {};
-}
-
 /// How long edges inside become: as long as the shortest ones of the boundary near them, and longer
-/// by half of the distance to these. (Means of the lengths make tets too coarse for small details
-/// between long triangles.)
-SizingField CdtTets::lengths_inside(const Triangles& boundary) const
+/// by three quarters of the distance to these, at most `longest`. (Means of the lengths make tets too coarse
+/// for small details between long triangles.)
+Status CdtTets::look_inside(double longest, Inside& inside)
 {
   const Points& points = this->mesh_.points;
+  const Triangles boundary = boundary_triangles(this->mesh_.tets);
   constexpr double none = std::numeric_limits<double>::infinity();
   Eigen::VectorXd shortest = Eigen::VectorXd::Constant(points.rows(), none);
   for (const Edge& edge : mesh_edges(boundary))
@@ -241,9 +189,110 @@ SizingField CdtTets::lengths_inside(const Triangles& boundary) const
   }
   sites.conservativeResize(count, 3);
   lengths.conservativeResize(count);
-  constexpr double growth = 0.5;
-  const double largest = this->options_.interior_edge > 0.0 ? this->options_.interior_edge : 1.0;
-  return SizingField(sites, lengths, growth, largest * this->diagonal_);
+  constexpr double growth = 0.75;
+  inside.sizes = std::make_unique<SizingField>(sites, lengths, growth, longest);
+  inside.places.resize(0, 3);
+  return inside.interior.build(points, boundary, this->context_);
+}
+
+/// Points of the handles that lie inside, and points between them. Those between keep some distance
+/// from the boundary: there are vertices enough there, and flat tets would lie between. Removes the
+/// places that are near to one.
+Points CdtTets::places_of_handles(Inside& inside) const
+{
+  constexpr double near = 0.3; // of the local length
+  constexpr double touching = 1e-6; // of the diagonal
+  const SizingField& sizes = *inside.sizes;
+  const HandleSamples samples =
+    sample_places(this->options_.handles, [&](const Vec3& p) { return sizes.at(p); });
+  Points kept(samples.points.rows(), 3);
+  Index count = 0;
+  for (Index i = 0; i < samples.points.rows(); ++i)
+  {
+    const Vec3 p = samples.points.row(i);
+    const double distance = i < samples.chosen ? touching * this->diagonal_ : near * sizes.at(p);
+    if (inside.interior.is_clear(p, distance) && inside.interior.contains(p))
+    {
+      kept.row(count++) = p;
+    }
+  }
+  kept.conservativeResize(count, 3);
+  constexpr double spacing = 0.5; // of the local length
+  remove_near(inside.places, kept, [&](const Vec3& p) { return spacing * sizes.at(p); });
+  return kept;
+}
+
+/// By TetGen, with its exact arithmetic: it also swaps the tets that are there until all are
+/// Delaunay, which many of one sphere are not.
+Status CdtTets::insert_by_tetgen(const Points& places, std::vector<Index>& vertices)
+{
+  const double start = this->context_.elapsed_seconds();
+  // TetGen inserts all points behind the last one that a tet uses: the places may stand there, the
+  // hull's other vertices may not.
+  const Index used = this->mesh_.tets.maxCoeff() + 1;
+  MesherData data;
+  data.tets = this->mesh_.tets;
+  data.points.resize(used + places.rows(), 3);
+  data.points << this->mesh_.points.topRows(used), places;
+  constexpr double seconds = 3.0;
+  constexpr double seconds_per_tet = 1e-4;
+  MesherAnswer answer;
+  Status status = this->run_job({ "tetgen", "--switches", "rY" }, data,
+    seconds +
+      seconds_per_tet *
+        static_cast<double>(data.tets.rows() + tets_per_vertex * places.rows()),
+    answer);
+  TetMesh mesh{ std::move(answer.data.points), std::move(answer.data.tets) };
+  status = status.ok() ? this->accept(mesh) : status;
+  this->log_.add("vertices inside", this->context_.elapsed_seconds() - start, status);
+  if (status.ok())
+  {
+    std::vector<char> taken(static_cast<std::size_t>(this->mesh_.points.rows()), 0);
+    for (Index k = 0; k < this->mesh_.tets.size(); ++k)
+    {
+      taken[this->mesh_.tets.data()[k]] = 1;
+    }
+    vertices.resize(static_cast<std::size_t>(places.rows()));
+    for (Index i = 0; i < places.rows(); ++i)
+    {
+      vertices[i] = taken[used + i] ? used + i : -1;
+    }
+    this->mesh_original_.resize(
+      std::min(this->mesh_original_.size(), static_cast<std::size_t>(used)));
+  }
+  return status;
+}
+
+/// By our own code, where TetGen fails.
+Status CdtTets::insert_by_cavities(const Points& places, std::vector<Index>& vertices)
+{
+  const double start = this->context_.elapsed_seconds();
+  TetMesh mesh = this->mesh_;
+  if (!insert_vertices(mesh, places, vertices, this->context_))
+  {
+    return Status::cancelled();
+  }
+  const Status status = this->accept(mesh);
+  this->log_.add("vertices inside by cavities", this->context_.elapsed_seconds() - start, status);
+  return status;
+}
+
+/// Takes the tets if they are valid and fill the same volume.
+Status CdtTets::accept(TetMesh& mesh)
+{
+  const double after = tet_volumes(mesh.points, mesh.tets).sum();
+  constexpr double rounding = 1e-9;
+  if (std::abs(after - this->volume_) > rounding * this->volume_)
+  {
+    return Status::failure(StatusCode::internal_error,
+      "they changed the volume from " + short_number(this->volume_) + " to " + short_number(after));
+  }
+  Status status = check_tets(mesh.points, mesh.tets);
+  if (status.ok())
+  {
+    this->mesh_ = std::move(mesh);
+  }
+  return status;
 }
 
 /// Makes flat tets better. The input's vertices and those of handles stay, and so does the boundary

@@ -71,7 +71,7 @@ void SizingField::build(Index begin, Index end)
 double SizingField::bound(const Node& node, const Vec3& p) const
 {
   const Vec3 away = (node.box.lower - p).cwiseMax(p - node.box.upper).cwiseMax(0.0);
-  return node.smallest + this->growth_ * away.norm();
+  return this->scale_ * node.smallest + this->growth_ * away.norm();
 }
 
 double SizingField::at(const Vec3& p) const
@@ -96,8 +96,9 @@ double SizingField::at(const Vec3& p) const
     {
       for (Index i = node.begin; i < node.end; ++i)
       {
-        best = std::min(
-          best, this->lengths_[i] + this->growth_ * (this->sites_.row(i).transpose() - p).norm());
+        best = std::min(best,
+          this->scale_ * this->lengths_[i] +
+            this->growth_ * (this->sites_.row(i).transpose() - p).norm());
       }
       continue;
     }

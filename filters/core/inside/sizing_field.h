@@ -19,7 +19,11 @@ public:
 
   /// Thread-safe.
   double at(const Vec3& p) const;
+  double largest() const { return this->largest_; }
   double growth() const { return this->growth_; }
+  void set_growth(double growth) { this->growth_ = growth; }
+  /// Makes the sites' lengths longer.
+  void scale(double factor) { this->scale_ *= factor; }
 
 private:
   struct Node
@@ -35,6 +39,7 @@ private:
   Points sites_;
   Eigen::VectorXd lengths_;
   double growth_, largest_;
+  double scale_ = 1.0; ///< of the lengths
   std::vector<Index> order_;
   std::vector<Node> nodes_;
 };

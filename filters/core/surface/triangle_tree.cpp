@@ -104,15 +104,16 @@ double TriangleTree::distance(const Vec3& p, double limit, Vec3* nearest) const
 {
   double best = limit * limit;
   bool found = false;
-  std::vector<Index> stack;
+  // The median halves a node: no tree is deeper.
+  std::array<Index, 128> stack;
+  std::size_t top = 0;
   if (!this->nodes_.empty())
   {
-    stack.push_back(0);
+    stack[top++] = 0;
   }
-  while (!stack.empty())
+  while (top > 0)
   {
-    const Index at = stack.back();
-    stack.pop_back();
+    const Index at = stack[--top];
     const Node& node = this->nodes_[at];
     if (squared_distance(node.box, p) > best)
     {
@@ -142,8 +143,8 @@ double TriangleTree::distance(const Vec3& p, double limit, Vec3* nearest) const
     const Index left = at + 1;
     const bool left_nearer = squared_distance(this->nodes_[left].box, p) <=
       squared_distance(this->nodes_[node.right].box, p);
-    stack.push_back(left_nearer ? node.right : left);
-    stack.push_back(left_nearer ? left : node.right);
+    stack[top++] = left_nearer ? node.right : left;
+    stack[top++] = left_nearer ? left : node.right;
   }
   return found ? std::sqrt(best) : std::numeric_limits<double>::infinity();
 }

@@ -1,5 +1,5 @@
-// Vertices inside of tets: how many, where, and what stays as it is.
-#include "inside/tet_filling.h"
+// New vertices of tets: where they come, and what stays as it is.
+#include "inside/tet_insertion.h"
 
 #include "inside/tet_quality.h"
 #include "inside/tetrahedralize.h"
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
+#include <random>
 
 using namespace bindpose;
 using test::Cdt;
@@ -20,83 +20,91 @@ using Outcome = test::TetOutcome;
 
 namespace
 {
-SizingField everywhere(double length)
+double longest_boundary_edge(const TetMesh& mesh)
 {
-  return SizingField(Points(0, 3), Eigen::VectorXd(0), 0.5, length);
+  double longest = 0.0;
+  for (const Edge& edge : mesh_edges(boundary_triangles(mesh.tets)))
+  {
+    longest = std::max(longest, (mesh.points.row(edge.a) - mesh.points.row(edge.b)).norm());
+  }
+  return longest;
 }
 
-/// Smallest distance of two vertices of which one is at least `first`.
-double smallest_distance(const Points& points, Index first)
+/// It is still a mesh of the unit cube.
+void expect_cube(const TetMesh& mesh)
 {
-  double smallest = 1e9;
-  for (Index v = first; v < points.rows(); ++v)
-  {
-    for (Index w = 0; w < v; ++w)
-    {
-      smallest = std::min(smallest, (points.row(v) - points.row(w)).norm());
-    }
-  }
-  return smallest;
-}
-/// Fills the mesh for edges of `length`; it stays a mesh.
-Filling fill(TetMesh& mesh, double length, const FillOptions& options)
-{
-  Filling done;
-  ExecutionContext context;
-  EXPECT_TRUE(fill_tets(mesh, everywhere(length), options, done, context));
   EXPECT_TRUE(check_tets(mesh.points, mesh.tets).ok());
-  return done;
+  EXPECT_NEAR(tet_volumes(mesh.points, mesh.tets).sum(), 1.0, 1e-12);
+  EXPECT_NEAR(surface_area(mesh.points, boundary_triangles(mesh.tets)), 6.0, 1e-12);
 }
 } // namespace
 
-TEST(TetFilling, AddsVerticesOfTheWantedDistance)
+TEST(TetInsertion, LongEdgesOfTheBoundaryAreSplit)
 {
   TetMesh mesh = test::tet_box(1, 1, 1);
   const Points before = mesh.points;
-  FillOptions options;
-  options.longest_boundary_edge = 0.3;
-  const Filling done = fill(mesh, 0.2, options);
-  EXPECT_NEAR(tet_volumes(mesh.points, mesh.tets).sum(), 1.0, 1e-12);
-  EXPECT_NEAR(surface_area(mesh.points, boundary_triangles(mesh.tets)), 6.0, 1e-12);
+  ExecutionContext context;
+  ASSERT_TRUE(split_long_edges(mesh, 0.3, 1000000, context));
+  expect_cube(mesh);
   EXPECT_EQ(mesh.points.topRows(8), before);
-  EXPECT_GT(done.inner_vertices, 20);
-  EXPECT_GT(done.boundary_vertices, 50);
-  EXPECT_EQ(mesh.points.rows(), 8 + done.inner_vertices + done.boundary_vertices);
-  // Regular tets of this size would be 1 / (0.118 * 0.2^3), about 1,060.
-  EXPECT_GT(mesh.tets.rows(), 500);
-  EXPECT_LT(mesh.tets.rows(), 4000);
-  EXPECT_GT(smallest_distance(mesh.points, 8), 0.05);
+  EXPECT_LE(longest_boundary_edge(mesh), 0.3);
+  EXPECT_GT(longest_boundary_edge(mesh), 0.15) << "none is shorter than it must be";
 }
 
-TEST(TetFilling, EndsAtTheNumberOfTets)
+TEST(TetInsertion, SplittingEndsAtTheNumberOfTets)
 {
   TetMesh mesh = test::tet_box(2, 2, 2);
-  FillOptions options;
-  options.most_tets = 500;
-  fill(mesh, 0.01, options);
+  ExecutionContext context;
+  ASSERT_TRUE(split_long_edges(mesh, 0.01, 500, context));
   EXPECT_GE(mesh.tets.rows(), 500);
-  EXPECT_LT(mesh.tets.rows(), 700);
+  EXPECT_LT(mesh.tets.rows(), 520);
 }
 
-TEST(TetFilling, RequiredPointsBecomeVertices)
+TEST(TetInsertion, PlacesBecomeVertices)
 {
   TetMesh mesh = test::tet_box(1, 1, 1);
-  FillOptions options;
-  options.most_tets = 0;
-  options.required.resize(4, 3);
+  Points places(4, 3);
   // In general position, on the cube's diagonal, on the box's boundary, and outside.
-  options.required << 0.3, 0.41, 0.2, 0.5, 0.5, 0.5, 0.0, 0.31, 0.4, 1.5, 0.5, 0.5;
-  const Filling done = fill(mesh, 1.0, options);
-  ASSERT_EQ(done.required.size(), 4u);
+  places << 0.3, 0.41, 0.2, 0.5, 0.5, 0.5, 0.0, 0.31, 0.4, 1.5, 0.5, 0.5;
+  std::vector<Index> vertices;
+  ExecutionContext context;
+  ASSERT_TRUE(insert_vertices(mesh, places, vertices, context));
+  ASSERT_EQ(vertices.size(), 4u);
   for (const int i : { 0, 1 })
   {
-    ASSERT_GE(done.required[i], 8);
-    EXPECT_EQ(mesh.points.row(done.required[i]), options.required.row(i));
+    ASSERT_GE(vertices[i], 8);
+    EXPECT_EQ(mesh.points.row(vertices[i]), places.row(i));
   }
-  EXPECT_EQ(done.required[2], -1);
-  EXPECT_EQ(done.required[3], -1);
+  EXPECT_EQ(vertices[2], -1);
+  EXPECT_EQ(vertices[3], -1);
   EXPECT_EQ(mesh.points.rows(), 10);
   EXPECT_EQ(boundary_triangles(mesh.tets).rows(), 12);
+  expect_cube(mesh);
+}
+
+TEST(TetInsertion, ManyPlacesAreInserted)
+{
+  TetMesh mesh = test::tet_box(3, 3, 3);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> within(0.05, 0.95);
+  Points places(500, 3);
+  std::generate_n(places.data(), places.size(), [&] { return within(random); });
+  std::vector<Index> vertices;
+  ExecutionContext context;
+  ASSERT_TRUE(insert_vertices(mesh, places, vertices, context));
+  EXPECT_EQ(std::count(vertices.begin(), vertices.end(), -1), 0);
+  expect_cube(mesh);
+}
+
+TEST(TetInsertion, CancelLeavesAMesh)
+{
+  TetMesh mesh = test::tet_box(1, 1, 1);
+  ExecutionContext context;
+  context.request_cancel();
+  EXPECT_FALSE(split_long_edges(mesh, 0.01, 1000000, context));
+  std::vector<Index> vertices;
+  EXPECT_FALSE(insert_vertices(mesh, Points::Constant(9, 3, 0.4), vertices, context));
+  expect_cube(mesh);
 }
 
 TEST_F(Cdt, NumbersOfTetsGrowWithTheSurfaceNotWithTheVolume)

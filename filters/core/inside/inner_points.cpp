@@ -1,0 +1,262 @@
+// Level by level: a cell that is larger than the sizes ask for is cut into eight. A cell that the
+// surface does not meet is inside or outside as a whole; those outside are left alone.
+#include "inside/inner_points.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr double largest_cell = 1.1; // of the wanted length: edges are 0.87 and 1 of a cell's
+constexpr double clearance = 0.5; // from the surface, of the length that is wanted there
+constexpr int deepest = 19; // levels
+constexpr Index block = 256;
+
+/// Places are counted in halves of the smallest cells: 21 bits for each coordinate.
+using Place = std::array<std::uint64_t, 3>;
+
+class Lattice
+{
+public:
+  Lattice(const Interior& interior, const SizingField& sizes, ExecutionContext& context)
+    : interior_(interior), sizes_(sizes), context_(context)
+  {
+    // Halved often enough, the whole has the size of the largest cells that are wanted.
+    const Box& box = interior.box();
+    const double side = box.size().maxCoeff();
+    double whole = largest_cell * sizes.largest();
+    whole = whole < side ? std::ldexp(whole, static_cast<int>(std::ceil(std::log2(side / whole))))
+                         : side;
+    this->unit_ = std::ldexp(whole, -deepest - 1);
+    this->lower_ = box.center() - Vec3::Constant(0.5 * whole);
+  }
+
+  /// @return false when cancelled, or where there would be more points than `most`.
+  bool build(Index most)
+  {
+    std::vector<Cell> cells{ Cell() };
+    for (int level = 0; !cells.empty(); ++level)
+    {
+      if (!this->look_at(cells, level) || !this->cut(cells, level, most))
+      {
+        return false;
+      }
+    }
+    return this->choose();
+  }
+
+  const std::vector<Vec3>& points() const { return this->points_; }
+
+private:
+  struct Cell
+  {
+    Place corner{}; ///< the lower one
+    bool inside = false; ///< all of it
+    bool outside = false;
+    bool large = false;
+  };
+
+  /// A place, and 1 in the last bit where it is not yet known to be inside: of equal places, those
+  /// that are known come first.
+  using Key = std::uint64_t;
+  static constexpr int bits = 21;
+  static constexpr Key mask = (Key(1) << bits) - 1;
+
+  static Key key_of(const Place& place, bool inside)
+  {
+    return ((place[0] << bits | place[1]) << bits | place[2]) << 1 | (inside ? 0 : 1);
+  }
+
+  Vec3 position(Key key) const
+  {
+    const Key place = key >> 1;
+    return this->position(Place{ place >> (2 * bits), place >> bits & mask, place & mask });
+  }
+
+  Vec3 position(const Place& place) const
+  {
+    const Vec3 units(static_cast<double>(place[0]), static_cast<double>(place[1]),
+      static_cast<double>(place[2]));
+    return this->lower_ + this->unit_ * units;
+  }
+
+  static std::uint64_t side_of(int level) { return std::uint64_t(1) << (deepest + 1 - level); }
+
+  static Place moved(Place place, int corner, std::uint64_t step)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      place[k] += (corner >> k & 1) * step;
+    }
+    return place;
+  }
+
+  bool look_at(std::vector<Cell>& cells, int level)
+  {
+    const std::uint64_t units = side_of(level);
+    const double side = this->unit_ * static_cast<double>(units);
+    const double reach = 0.5 * std::sqrt(3.0) * side;
+    return parallel_for(this->context_, static_cast<Index>(cells.size()), block,
+      [&](Index begin, Index end)
+      {
+        for (Index i = begin; i < end; ++i)
+        {
+          Cell& cell = cells[i];
+          const Vec3 center = this->position(moved(cell.corner, 7, units / 2));
+          if (!cell.inside && this->interior_.is_clear(center, reach))
+          {
+            cell.inside = this->interior_.contains(center);
+            cell.outside = !cell.inside;
+          }
+          cell.large = level < deepest && !cell.outside &&
+            side > largest_cell * this->sizes_.at(center);
+        }
+      });
+  }
+
+  /// The cells of the next level. Those that stay give their corners and centers.
+  bool cut(std::vector<Cell>& cells, int level, Index most)
+  {
+    const std::uint64_t units = side_of(level);
+    std::vector<Cell> parts;
+    for (const Cell& cell : cells)
+    {
+      for (int corner = 0; corner < 8 && !cell.outside; ++corner)
+      {
+        if (cell.large)
+        {
+          Cell part;
+          part.corner = moved(cell.corner, corner, units / 2);
+          part.inside = cell.inside;
+          parts.push_back(part);
+        }
+        else
+        {
+          this->corners_.push_back(key_of(moved(cell.corner, corner, units), cell.inside));
+        }
+      }
+      if (!cell.large && !cell.outside)
+      {
+        this->centers_.push_back(key_of(moved(cell.corner, 7, units / 2), cell.inside));
+        this->cells_inside_ += cell.inside ? 1 : 0;
+      }
+    }
+    cells = std::move(parts);
+    return this->cells_inside_ <= most;
+  }
+
+  /// Keeps what is inside, away from the surface.
+  bool choose()
+  {
+    std::vector<Key>& keys = this->centers_;
+    keys.insert(keys.end(), this->corners_.begin(), this->corners_.end());
+    std::sort(keys.begin(), keys.end());
+    keys.erase(
+      std::unique(keys.begin(), keys.end(), [](Key a, Key b) { return a >> 1 == b >> 1; }),
+      keys.end());
+    std::vector<char> good(keys.size(), 0);
+    // At a distance d, the sizes are larger than at the surface by growth * d.
+    const double least = clearance / (1.0 + clearance * this->sizes_.growth());
+    const bool whole = parallel_for(this->context_, static_cast<Index>(keys.size()), block,
+      [&](Index begin, Index end)
+      {
+        for (Index i = begin; i < end; ++i)
+        {
+          const Vec3 p = this->position(keys[i]);
+          good[i] = this->interior_.is_clear(p, least * this->sizes_.at(p)) &&
+            ((keys[i] & 1) == 0 || this->interior_.contains(p));
+        }
+      });
+    for (std::size_t i = 0; i < keys.size() && whole; ++i)
+    {
+      if (good[i])
+      {
+        this->points_.push_back(this->position(keys[i]));
+      }
+    }
+    return whole;
+  }
+
+  const Interior& interior_;
+  const SizingField& sizes_;
+  ExecutionContext& context_;
+  double unit_; ///< half of a smallest cell's side
+  Vec3 lower_;
+  std::vector<Key> centers_, corners_;
+  Index cells_inside_ = 0;
+  std::vector<Vec3> points_;
+};
+} // namespace
+
+Status Interior::build(Points points, Triangles boundary, ExecutionContext& context)
+{
+  this->points_ = std::move(points);
+  this->boundary_ = std::move(boundary);
+  this->box_ = bounding_box(this->points_, this->boundary_);
+  this->tree_ = std::make_unique<TriangleTree>(this->points_, this->boundary_);
+  WindingNumber::Options options;
+  options.expected_queries = std::max<Index>(1, this->boundary_.rows()); // about
+  return this->winding_.build(this->points_, this->boundary_, context, options);
+}
+
+bool Interior::contains(const Vec3& p) const
+{
+  constexpr double half = 0.5; // the numbers are 0 and 1
+  return this->winding_.evaluate_at(p) > half;
+}
+
+bool Interior::is_clear(const Vec3& p, double distance) const
+{
+  return this->tree_->distance(p, distance) > distance;
+}
+
+bool inner_points(const Interior& interior, SizingField& sizes, Index most,
+  ExecutionContext& context, Points& inner)
+{
+  constexpr double too_many = 5.0; // times `most`: no use in going on
+  constexpr double enough = 1.2;
+  constexpr int attempts = 20;
+  for (int attempt = 0; attempt < attempts; ++attempt)
+  {
+    Lattice lattice(interior, sizes, context);
+    const bool whole = lattice.build(static_cast<Index>(too_many * static_cast<double>(most)) + 1);
+    if (context.cancelled())
+    {
+      return false;
+    }
+    const double ratio = whole
+      ? static_cast<double>(lattice.points().size()) / static_cast<double>(std::max<Index>(1, most))
+      : too_many;
+    if (ratio <= enough || attempt + 1 == attempts)
+    {
+      inner.resize(static_cast<Index>(lattice.points().size()), 3);
+      for (Index i = 0; i < inner.rows(); ++i)
+      {
+        inner.row(i) = lattice.points()[i];
+      }
+      return true;
+    }
+    // Tets' volumes go with the cubes of growing edges; at the surface, a layer has as many vertices
+    // as the square of its edges says. (Cells of sizes that grew faster would not follow them.)
+    constexpr double most_growth = 1.0;
+    constexpr double least = 1.1;
+    if (sizes.growth() < most_growth)
+    {
+      sizes.set_growth(std::min(most_growth, sizes.growth() * std::max(least, std::cbrt(ratio))));
+    }
+    else
+    {
+      sizes.scale(std::max(least, std::sqrt(ratio)));
+    }
+  }
+  return true;
+}
+
+} // namespace bindpose

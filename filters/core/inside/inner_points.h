@@ -1,0 +1,43 @@
+#ifndef bindpose_inside_inner_points_h
+#define bindpose_inside_inner_points_h
+
+#include "base/execution.h"
+#include "base/mesh.h"
+#include "inside/sizing_field.h"
+#include "surface/triangle_tree.h"
+#include "winding/winding_number.h"
+
+#include <memory>
+
+namespace bindpose
+{
+
+/// What a closed surface encloses. Answers are thread-safe.
+class Interior
+{
+public:
+  Status build(Points points, Triangles boundary, ExecutionContext& context);
+  bool contains(const Vec3& p) const;
+  /// No point of the surface is nearer to p.
+  bool is_clear(const Vec3& p, double distance) const;
+  const Box& box() const { return this->box_; }
+
+private:
+  Points points_;
+  Triangles boundary_;
+  std::unique_ptr<TriangleTree> tree_; ///< of these two
+  WindingNumber winding_;
+  Box box_;
+};
+
+/// Points inside that are about as far from each other as the sizes say, and from the surface by
+/// half of what they say there: corners and centers of the cells of an octree, whose Delaunay tets
+/// are well shaped. If there were more than `most`, the sizes are made larger until there are about
+/// so many. Cost: some microseconds for each cell.
+/// @return false when cancelled.
+bool inner_points(const Interior& interior, SizingField& sizes, Index most,
+  ExecutionContext& context, Points& inner);
+
+} // namespace bindpose
+
+#endif

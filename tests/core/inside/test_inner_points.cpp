@@ -1,0 +1,122 @@
+// Points inside of closed surfaces: where they are, how far apart, how many.
+#include "inside/inner_points.h"
+
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+using namespace bindpose;
+
+namespace
+{
+constexpr double pi = 3.14159265358979323846;
+
+SizingField everywhere(double length)
+{
+  return SizingField(Points(0, 3), Eigen::VectorXd(0), 0.0, length);
+}
+
+Points points_in(const TriangleMesh& mesh, SizingField sizes, Index most, int threads = 0)
+{
+  ExecutionContext context;
+  context.set_threads(threads);
+  Interior interior;
+  EXPECT_TRUE(interior.build(mesh.points, mesh.triangles, context).ok());
+  Points inner;
+  EXPECT_TRUE(inner_points(interior, sizes, most, context, inner));
+  return inner;
+}
+
+/// From point i to the nearest other one.
+double spacing(const Points& points, Index i)
+{
+  double nearest = std::numeric_limits<double>::infinity();
+  for (Index k = 0; k < points.rows(); ++k)
+  {
+    nearest = k == i ? nearest : std::min(nearest, (points.row(k) - points.row(i)).norm());
+  }
+  return nearest;
+}
+} // namespace
+
+TEST(InnerPoints, AreInsideAndAsFarApartAsTheSizesSay)
+{
+  const TriangleMesh sphere = test::sphere(4); // of radius 1
+  const double length = 0.2;
+  const Points inner = points_in(sphere, everywhere(length), 100000);
+  for (Index i = 0; i < inner.rows(); ++i)
+  {
+    EXPECT_LE(inner.row(i).norm(), 1.0 - 0.5 * length + 1e-3);
+    EXPECT_GE(spacing(inner, i), 0.47 * length); // cells are halved: 0.55 … 1.1 of the length
+    EXPECT_LE(spacing(inner, i), 1.1 * length);
+  }
+  // Two points for each cell.
+  const double volume = 4.0 / 3.0 * pi * std::pow(1.0 - 0.5 * length, 3.0);
+  EXPECT_GE(static_cast<double>(inner.rows()), 2.0 * volume / std::pow(1.1 * length, 3.0) * 0.9);
+  EXPECT_LE(static_cast<double>(inner.rows()), 2.0 * volume / std::pow(0.55 * length, 3.0) * 1.1);
+}
+
+TEST(InnerPoints, AreDenserWhereTheSurfaceIs)
+{
+  Points site(1, 3);
+  site << 1.0, 0.0, 0.0;
+  const SizingField sizes(site, Eigen::VectorXd::Constant(1, 0.02), 0.5, 10.0);
+  const Points inner = points_in(test::sphere(4), sizes, 100000);
+  ASSERT_GT(inner.rows(), 50);
+  for (Index i = 0; i < inner.rows(); ++i)
+  {
+    const double wanted = sizes.at(inner.row(i));
+    EXPECT_GE(spacing(inner, i), 0.2 * wanted);
+    EXPECT_LE(spacing(inner, i), 2.0 * wanted);
+  }
+}
+
+TEST(InnerPoints, AreNotManyMoreThanAskedFor)
+{
+  const TriangleMesh sphere = test::sphere(3);
+  const SizingField sizes(
+    sphere.points, Eigen::VectorXd::Constant(sphere.points.rows(), 0.02), 0.5, 10.0);
+  const Points inner = points_in(sphere, sizes, 300);
+  EXPECT_LE(inner.rows(), 360);
+  EXPECT_GE(inner.rows(), 100);
+}
+
+TEST(InnerPoints, AHollowStaysEmpty)
+{
+  TriangleMesh shell = test::sphere(4);
+  const TriangleMesh inner = test::sphere(4);
+  const Index vertices = shell.points.rows();
+  const Index triangles = shell.triangles.rows();
+  shell.points.conservativeResize(2 * vertices, 3);
+  shell.points.bottomRows(vertices) = 0.5 * inner.points;
+  shell.triangles.conservativeResize(2 * triangles, 3);
+  shell.triangles.bottomRows(triangles) =
+    inner.triangles.rowwise().reverse().array() + vertices; // faces the other way
+  const Points points = points_in(shell, everywhere(0.1), 100000);
+  ASSERT_GT(points.rows(), 1000);
+  EXPECT_GT(points.rowwise().norm().minCoeff(), 0.5);
+}
+
+TEST(InnerPoints, DoNotDependOnThreads)
+{
+  const TriangleMesh sphere = test::sphere(3);
+  const SizingField sizes(
+    sphere.points, Eigen::VectorXd::Constant(sphere.points.rows(), 0.05), 0.5, 10.0);
+  EXPECT_EQ(points_in(sphere, sizes, 1000, 1), points_in(sphere, sizes, 1000, 2));
+}
+
+TEST(InnerPoints, CancelEndsTheSearch)
+{
+  const TriangleMesh sphere = test::sphere(3);
+  ExecutionContext context;
+  Interior interior;
+  ASSERT_TRUE(interior.build(sphere.points, sphere.triangles, context).ok());
+  context.request_cancel();
+  SizingField sizes = everywhere(0.01);
+  Points inner;
+  EXPECT_FALSE(inner_points(interior, sizes, 1000000, context, inner));
+}

@@ -110,6 +110,7 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
   options.time_limit = this->TimeLimit;
   options.memory_limit = this->MemoryLimit;
   options.quality = this->Quality;
+  options.bare = this->Bare;
   options.interior_edge = this->InteriorEdge;
   options.keep_outside = this->KeepOutside;
   options.wrap_alpha = this->WrapAlpha;
@@ -160,6 +161,7 @@ void vtkTetrahedralizeSurface::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "TimeLimit: " << this->TimeLimit << "\n";
   os << indent << "MemoryLimit: " << this->MemoryLimit << "\n";
   os << indent << "Quality: " << this->Quality << "\n";
+  os << indent << "Bare: " << this->Bare << "\n";
   os << indent << "InteriorEdge: " << this->InteriorEdge << "\n";
   os << indent << "KeepOutside: " << (this->KeepOutside ? "on" : "off") << "\n";
   os << indent << "WrapAlpha: " << this->WrapAlpha << "\n";

@@ -189,11 +189,22 @@ public:
 
   ///@{
   /**
-   * From 1.1 to 10 (default 1.414): CDT and WRAP improve flat tets, with the same result for all of
-   * these numbers. 0: they do not, and without an InteriorEdge they add no points inside.
+   * Smallest dihedral angle that every tet must have, degrees, 0 (default) to 20. AUTO leaves the
+   * surface's triangles for it where they do not allow it; REMESH reaches 10.7 on any surface, and
+   * 15 on most. What misses it is NOT_CONVERGED. 0: as large as the surface's triangles allow.
    */
   vtkSetMacro(Quality, double);
   vtkGetMacro(Quality, double);
+  ///@}
+
+  ///@{
+  /**
+   * CDT and WRAP only: no points are added inside and flat tets stay as they are; InteriorEdge and
+   * Quality must be 0. Default off.
+   */
+  vtkSetMacro(Bare, bool);
+  vtkGetMacro(Bare, bool);
+  vtkBooleanMacro(Bare, bool);
   ///@}
 
   ///@{
@@ -211,8 +222,8 @@ public:
   /**
    * CDT only (INVALID_INPUT otherwise): keep all tets of the surface's convex hull, or of a box
    * around it where that was needed, for inspection: those with `Label` above 0 are inside.
-   * `WindingNumber` is then what the segmentation decided on, and no points are added for Quality
-   * and InteriorEdge. Default off.
+   * `WindingNumber` is then what the segmentation decided on, and no points are added for
+   * InteriorEdge. Default off.
    */
   vtkSetMacro(KeepOutside, bool);
   vtkGetMacro(KeepOutside, bool);
@@ -268,7 +279,8 @@ private:
   int Resolution = 0;
   double TimeLimit = 120.0;
   int MemoryLimit = 0;
-  double Quality = 1.414;
+  double Quality = 0.0;
+  bool Bare = false;
   double InteriorEdge = 0.0;
   bool KeepOutside = false;
   double WrapAlpha = 0.02;

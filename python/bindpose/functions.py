@@ -168,8 +168,8 @@ def contains(surface, points, *, winding_threshold=0.5, method="auto", tolerance
 
 
 def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentation="graph-cut", cut_smoothness=1.0,
-                   cut_sigma=0.1, quality=1.414, interior_edge=0.0, keep_outside=False, resolution=0, wrap_alpha=0.02,
-                   wrap_offset=0.001, ftetwild_epsilon=0.001, time_limit=120.0, memory_limit=0, handles=None, threads=0,
+                   cut_sigma=0.1, quality=0.0, bare=False, interior_edge=0.0, keep_outside=False, resolution=0,
+                   wrap_alpha=0.02, wrap_offset=0.001, ftetwild_epsilon=0.001, time_limit=120.0, memory_limit=0, handles=None, threads=0,
                    progress=None):
     """Fill the inside of a surface, however unclean, with tets.
 
@@ -190,7 +190,10 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
         Of the graph cut: weight of a small boundary, and the difference of winding numbers between neighbours
         that counts as surface.
     quality : float
-        From 1.1 to 10: cdt and wrap improve flat tets, with the same result for all of these; 0: they do not.
+        Smallest dihedral angle that every tet must have, degrees, 0 to 20: auto leaves the surface's triangles
+        for it where they do not allow it. remesh reaches 10.7 on any surface, and 15 on most.
+    bare : bool
+        cdt and wrap add no vertices inside and leave flat tets as they are; `interior_edge` and `quality` must be 0.
     interior_edge : float
         Longest edges that cdt and wrap leave inside, as a fraction of the surface's diagonal; 0 for automatic.
         ftetwild aims at this length; 0 for its own 0.05.
@@ -239,6 +242,7 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
     filler.SetCutSmoothness(cut_smoothness)
     filler.SetCutSigma(cut_sigma)
     filler.SetQuality(quality)
+    filler.SetBare(bool(bare))
     filler.SetInteriorEdge(interior_edge)
     filler.SetKeepOutside(bool(keep_outside))
     filler.SetResolution(int(resolution))

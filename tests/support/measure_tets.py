@@ -66,7 +66,7 @@ def clean_table(options, surfaces, plain, scratch):
         mesh = read_off(path)
         true = horrors.volume(mesh)
         for inside, switches, words in (
-                ("as it is", "pYQ", ["--quality", "0", "--interior-edge", "0"]),
+                ("as it is", "pYQ", ["--bare"]),
                 ("filled", f"pYq1.414/10a{volume_bound(mesh):.9g}Q", ["--interior-edge", "0.04"])):
             alone, ours, report = [], [], {}
             for _ in range(options.runs):

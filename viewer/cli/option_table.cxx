@@ -73,9 +73,11 @@ const std::vector<Verb>& verbs()
           "weight of a small boundary against the winding numbers" },
         { "--cut-sigma", "NUMBER", Kind::number, "0.1", "",
           "difference of winding numbers between tets that counts as surface" },
-        { "--quality", "RATIO", Kind::number, "1.414", "",
-          "from 1.1 to 10: cdt and wrap improve flat tets, with the same result for all of these; "
-          "0: they do not" },
+        { "--quality", "DEGREES", Kind::number, "0", "",
+          "smallest dihedral angle that every tet must have, 0 to 20: auto leaves the surface's "
+          "triangles for it where they do not allow it; remesh reaches 10.7 on any surface" },
+        { "--bare", "", Kind::flag, "", "",
+          "cdt and wrap: add no vertices inside and leave flat tets as they are" },
         { "--interior-edge", "FRACTION", Kind::number, "0", "",
           "longest edges that cdt and wrap leave inside, and those that ftetwild aims at, of the "
           "surface's diagonal; 0: automatic" },

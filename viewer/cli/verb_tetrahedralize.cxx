@@ -55,6 +55,7 @@ void run_tetrahedralize(Session& session)
   tets->SetCutSmoothness(arguments.number("cut-smoothness"));
   tets->SetCutSigma(arguments.number("cut-sigma"));
   tets->SetQuality(arguments.number("quality"));
+  tets->SetBare(arguments.has("bare"));
   tets->SetInteriorEdge(arguments.number("interior-edge"));
   tets->SetKeepOutside(arguments.has("keep-outside"));
   tets->SetResolution(arguments.integer("resolution"));

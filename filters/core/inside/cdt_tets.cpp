@@ -559,7 +559,7 @@ Status CdtTets::complete()
     return {};
   }
   Status status;
-  if (this->fills() || !this->options_.handles.empty())
+  if (!this->options_.bare || !this->options_.handles.empty())
   {
     const Phase phase(this->context_, "fill", 0.0, 0.5);
     status = this->fill();
@@ -568,7 +568,7 @@ Status CdtTets::complete()
       this->warnings_.push_back("no vertices were added inside (" + status.message + ")");
     }
   }
-  if (this->options_.quality > 0.0 && status.code != StatusCode::cancelled)
+  if (!this->options_.bare && status.code != StatusCode::cancelled)
   {
     const Phase phase(this->context_, "improve", 0.5, 1.0);
     status = this->improve();

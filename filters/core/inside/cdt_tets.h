@@ -37,7 +37,7 @@ struct CdtOptions
   SegmentationOptions segmentation; ///< of open surfaces; a closed one's numbers are whole
   double time_limit = 120.0;
   Index memory_limit = 0;
-  double quality = 1.414;
+  bool bare = false;
   double interior_edge = 0.0;
   bool keep_outside = false; ///< the tets that were told apart as they are, outside ones, too
   HandlePlaces handles;
@@ -107,7 +107,6 @@ private:
   Status insert_by_cavities(const Points& places, std::vector<Index>& vertices);
   Status accept(TetMesh& mesh);
   Status improve();
-  bool fills() const;
   double mean_surface_edge() const;
   double volume_bound() const;
   void renumber();

@@ -88,8 +88,8 @@ Status CdtTets::fill()
 {
   const double start = this->context_.elapsed_seconds();
   Inside inside;
-  Status status = this->fills() ? this->find_places(inside)
-                                : this->look_inside(this->diagonal_, inside);
+  Status status = this->options_.bare ? this->look_inside(this->diagonal_, inside)
+                                      : this->find_places(inside);
   const Points of_handles = status.ok() ? this->places_of_handles(inside) : Points(0, 3);
   this->log_.add("places inside", this->context_.elapsed_seconds() - start, status);
   Points places(of_handles.rows() + inside.places.rows(), 3);
@@ -327,12 +327,6 @@ Status CdtTets::improve()
     this->mesh_ = std::move(mesh);
   }
   return {};
-}
-
-/// Vertices are wanted inside.
-bool CdtTets::fills() const
-{
-  return this->options_.quality > 0.0 || this->options_.interior_edge > 0.0;
 }
 
 } // namespace bindpose

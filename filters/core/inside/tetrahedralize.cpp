@@ -128,7 +128,9 @@ private:
     }
     if (status.ok() || status.code == StatusCode::cancelled)
     {
-      return status.ok() ? this->take_cdt(cdt) : status;
+      status = status.ok() ? this->take_cdt(cdt) : status;
+      return automatic && status.ok() && !this->is_good_enough() ? this->leave_cdt_for_quality()
+                                                                 : status;
     }
     const std::string why = status.message;
     if (automatic)
@@ -161,7 +163,7 @@ private:
       this->options_.cut_smoothness, this->options_.cut_sigma };
     options.time_limit = this->options_.time_limit;
     options.memory_limit = this->options_.memory_limit;
-    options.quality = this->options_.quality;
+    options.bare = this->options_.bare;
     options.interior_edge = this->options_.interior_edge;
     options.keep_outside = this->options_.keep_outside;
     options.handles = this->options_.handles;
@@ -220,17 +222,69 @@ private:
     return this->keep_no_vertex(TetMethod::remesh);
   }
 
+  double angle() const
+  {
+    const TetMesh& mesh = this->result_.mesh;
+    return measure_tets(mesh.points, mesh.tets).min_dihedral_angle;
+  }
+
+  bool is_good_enough() const
+  {
+    return this->options_.quality == 0.0 || this->angle() >= this->options_.quality;
+  }
+
+  /// Takes the tets of another rung where their smallest angle is larger. @return ok or cancelled.
+  template <typename Rung>
+  Status improve_by(const Rung& rung, bool& better)
+  {
+    const double angle = this->angle();
+    const TetrahedralizeResult result = this->result_;
+    const Report report = this->report_;
+    const Status status = rung();
+    better = status.ok() && this->angle() > angle;
+    if (status.code != StatusCode::cancelled && !better)
+    {
+      this->result_ = result;
+      this->report_ = report;
+    }
+    return status.code == StatusCode::cancelled ? status : Status();
+  }
+
+  /// Of tets by cdt.
+  Status leave_cdt_for_quality()
+  {
+    const double angle = this->angle();
+    bool better = false;
+    const Status status = this->improve_by([&] { return this->remesh(true); }, better);
+    if (better)
+    {
+      this->warn("method cdt was left (its smallest dihedral angle is " + short_number(angle) +
+        " degrees); the tets are remesh's and do not keep the surface's triangles");
+    }
+    return status;
+  }
+
   Status remesh(bool finer_when_needed)
   {
     {
       const Phase phase(this->context_, "remesh", 0.0, 0.7);
       const Status refined = this->refine_inside();
-      if (refined.ok() || refined.code == StatusCode::cancelled)
+      if (refined.code == StatusCode::cancelled || (refined.ok() && this->is_good_enough()))
       {
         return refined;
       }
+      if (refined.ok())
+      {
+        bool better = false;
+        return this->improve_by([&] { return this->cut_lattice(finer_when_needed); }, better);
+      }
     }
     const ProgressRange range(this->context_, 0.7, 1.0);
+    return this->cut_lattice(finer_when_needed);
+  }
+
+  Status cut_lattice(bool finer_when_needed)
+  {
     constexpr double most_cubes = 4e6;
     for (Index resolution = this->remesh_resolution();; resolution *= 2)
     {
@@ -572,7 +626,14 @@ private:
     this->report_.set("quality[].dihedral_angle", from);
     this->report_.set("quality[].tets",
       std::vector<std::int64_t>(quality.histogram.tets.begin(), quality.histogram.tets.end()));
-    return {};
+    return quality.min_dihedral_angle >= this->options_.quality
+      ? Status()
+      : Status::failure(StatusCode::not_converged,
+          "the smallest dihedral angle is " + short_number(quality.min_dihedral_angle) +
+            " degrees, not " + short_number(this->options_.quality) +
+            (this->options_.method == TetMethod::cdt || this->options_.method == TetMethod::wrap
+                ? ": method auto (--method auto) may leave the surface's triangles for it"
+                : ""));
   }
 
   /// Labels and angles; of the whole hull how many tets are inside, and their volume.
@@ -666,15 +727,20 @@ Status check_options(const TetrahedralizeOptions& options)
   {
     return Status::invalid_input("keep_outside needs method cdt: only that fills the hull");
   }
-  if (!(options.quality == 0.0 || (options.quality >= 1.1 && options.quality <= 10.0)))
+  constexpr double best_quality = 20.0;
+  if (!(options.quality >= 0.0 && options.quality <= best_quality))
   {
     return Status::invalid_input(
-      "quality must be 0 or from 1.1 to 10, not " + short_number(options.quality));
+      "quality must be from 0 to 20 degrees, not " + short_number(options.quality));
   }
   if (!(options.interior_edge >= 0.0))
   {
     return Status::invalid_input(
       "interior_edge must not be negative, but is " + short_number(options.interior_edge));
+  }
+  if (options.bare && (options.interior_edge > 0.0 || options.quality > 0.0))
+  {
+    return Status::invalid_input("with bare, interior_edge and quality must be 0");
   }
   constexpr double ftetwilds_threshold = 0.5;
   if (options.method == TetMethod::ftetwild && options.winding_threshold != ftetwilds_threshold)

@@ -50,9 +50,13 @@ struct TetrahedralizeOptions
   Index lattice_tets = 30000;
   double time_limit = 120.0; ///< seconds for all of the helper's or fTetWild's work, > 0
   Index memory_limit = 0; ///< MiB of address space for a helper process, 0: no limit
-  /// cdt and wrap only: 0: the tets are not improved, and without an interior_edge no vertices are
-  /// added inside. 1.1 … 10: both are done, with the same result for all of these numbers.
-  double quality = 1.414;
+  /// Smallest dihedral angle that every tet must have, degrees, 0 … 20. Method automatic leaves the
+  /// surface's triangles for it where they do not allow it (remesh reaches 10.7 on any surface, and
+  /// 15 on most); what misses it is not_converged. 0: as large as the surface's triangles allow.
+  double quality = 0.0;
+  /// cdt and wrap only: no vertices are added inside and flat tets stay as they are; interior_edge
+  /// and quality must be 0.
+  bool bare = false;
   /// cdt and wrap: longest edges inside, as a fraction of the surface's diagonal, >= 0; edges of
   /// the surface that are longer than three of these are split. 0: automatic; edges inside are as
   /// long as the surface's own near them and grow with the distance to it, vertices are added until
@@ -144,6 +148,7 @@ struct TetrahedralizeResult
 /// boundary and the surface where that bounds the inside, percent of its diagonal); for wrap
 /// counts.wrap_triangles.
 ///
+/// not_converged: a dihedral angle is below quality; the message tells the smallest.
 /// invalid_input: not finite, flat (but for embed and wrap), or encloses nothing (the same);
 /// keep_outside with another method than cdt; or, of
 /// method automatic, neither cdt nor remesh gives a valid mesh: the message tells the last reason

@@ -139,7 +139,7 @@ TEST_F(Cdt, TetsForcedByNeedlesAreCounted)
   // Boxes of 12 triangles. One of 100 x 1 x 1 has sides with corners of 0.57 degrees.
   TetrahedralizeOptions bare;
   bare.method = TetMethod::cdt;
-  bare.quality = 0.0;
+  bare.bare = true;
   TriangleMesh bar = test::cube(0.0, 1.0);
   bar.points.col(0) *= 100.0;
   const Outcome forced = run(bar, bare);

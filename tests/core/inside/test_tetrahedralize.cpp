@@ -308,7 +308,9 @@ TEST(Tetrahedralize, OptionsAreChecked)
   EXPECT_THAT(message([](auto& o) { o.resolution = 2; }), HasSubstr("resolution"));
   EXPECT_THAT(message([](auto& o) { o.time_limit = -1.0; }), HasSubstr("time_limit"));
   EXPECT_THAT(message([](auto& o) { o.memory_limit = -1; }), HasSubstr("memory_limit"));
-  EXPECT_THAT(message([](auto& o) { o.quality = 1.0; }), HasSubstr("quality"));
+  EXPECT_THAT(message([](auto& o) { o.quality = 21.0; }), HasSubstr("quality"));
+  EXPECT_THAT(message([](auto& o) { o.bare = true, o.quality = 5.0; }), HasSubstr("bare"));
+  EXPECT_THAT(message([](auto& o) { o.bare = true, o.interior_edge = 0.1; }), HasSubstr("bare"));
   EXPECT_THAT(message([](auto& o) { o.interior_edge = -0.1; }), HasSubstr("interior_edge"));
   EXPECT_THAT(message([](auto& o) { o.cut_smoothness = -1.0; }), HasSubstr("cut_smoothness"));
   EXPECT_THAT(message([](auto& o) { o.cut_sigma = 0.0; }), HasSubstr("cut_sigma"));

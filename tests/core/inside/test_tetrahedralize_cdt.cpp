@@ -111,8 +111,7 @@ TEST_F(Cdt, VerticesInsideAreAdded)
 {
   const TriangleMesh sphere = test::sphere(3);
   TetrahedralizeOptions none;
-  none.quality = 0.0;
-  none.interior_edge = 0.0;
+  none.bare = true;
   const Outcome bare = run(sphere, none);
   const Outcome full = run(sphere);
   expect_valid(bare, sphere);
@@ -126,6 +125,36 @@ TEST_F(Cdt, VerticesInsideAreAdded)
   TetrahedralizeOptions fine;
   fine.interior_edge = 0.02;
   EXPECT_GT(run(sphere, fine).result.mesh.tets.rows(), 3 * full.result.mesh.tets.rows());
+}
+
+TEST_F(Cdt, TheSurfaceIsLeftForAnAngleThatItDoesNotAllow)
+{
+  // Two walls that meet at an angle of 2.9 degrees.
+  TriangleMesh wedge = test::cube(0.0, 1.0);
+  for (Index v = 0; v < wedge.points.rows(); ++v)
+  {
+    wedge.points(v, 2) *= 0.05 * wedge.points(v, 0) + 1e-3;
+  }
+  TetrahedralizeOptions options;
+  options.method = TetMethod::cdt;
+  options.quality = 10.0;
+  const Outcome kept = run(wedge, options);
+  EXPECT_EQ(kept.status.code, StatusCode::not_converged);
+  EXPECT_THAT(kept.status.message, testing::HasSubstr("smallest dihedral angle"));
+  EXPECT_LT(kept.number("min_dihedral_angle"), 3.0);
+  options.method = TetMethod::automatic;
+  options.resolution = 200; // the wedge is thin
+  const Outcome left = run(wedge, options);
+  expect_valid(left, wedge);
+  EXPECT_EQ(left.method(), "remesh");
+  EXPECT_GE(left.number("min_dihedral_angle"), 10.0);
+  ASSERT_FALSE(left.status.warnings.empty());
+  EXPECT_THAT(left.status.warnings.back(), testing::HasSubstr("cdt was left"));
+  // A surface that allows it is kept.
+  const Outcome cube = run(test::cube(), options);
+  expect_valid(cube, test::cube());
+  EXPECT_EQ(cube.method(), "cdt");
+  EXPECT_GE(cube.number("min_dihedral_angle"), 10.0);
 }
 
 TEST_F(Cdt, FlatTetsAreSwappedAndTheSurfaceStays)

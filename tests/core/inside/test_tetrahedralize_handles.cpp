@@ -123,8 +123,7 @@ TEST_F(Cdt, HandlesNeedNoRefinement)
 {
   TetrahedralizeOptions options;
   options.method = TetMethod::cdt;
-  options.quality = 0.0;
-  options.interior_edge = 0.0;
+  options.bare = true;
   options.handles = places_of({ Vec3(0.1, 0.0, 0.2) });
   const Outcome outcome = run(test::cube(), options);
   expect_valid(outcome, test::cube());

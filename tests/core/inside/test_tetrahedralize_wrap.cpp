@@ -148,9 +148,9 @@ TEST_F(Wrap, SizesInsideAreKept)
 {
   TetrahedralizeOptions options;
   options.method = TetMethod::wrap;
-  options.quality = 0.0;
-  options.interior_edge = 0.0;
+  options.bare = true;
   const Outcome none = run(test::sphere(2), options);
+  options.bare = false;
   options.interior_edge = 0.03;
   const Outcome many = run(test::sphere(2), options);
   EXPECT_GT(many.number("counts.tet_vertices"), 1.5 * none.number("counts.tet_vertices"));

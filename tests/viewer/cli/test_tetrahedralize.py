@@ -86,10 +86,11 @@ def test_how_an_open_surface_is_segmented(folder):
 def test_points_inside_as_wanted(folder):
     folder.off("sphere.off", shapes.sphere())
     words = ["tetrahedralize", "sphere.off", "-o", "m.vtu", "--overwrite", "--report", "-"]
-    none = folder.run(*words, "--quality", "0", "--interior-edge", "0").is_good().report["counts"]
+    none = folder.run(*words, "--bare").is_good().report["counts"]
     many = folder.run(*words, "--interior-edge", "0.02").is_good().report["counts"]
     assert 2 * none["tet_vertices"] < many["tet_vertices"]
-    folder.run(*words, "--quality", "0.5").is_refused()
+    folder.run(*words, "--quality", "21").is_refused()
+    folder.run(*words, "--bare", "--quality", "10").is_refused()
     folder.run(*words, "--time-limit", "-1").is_refused()
 
 

@@ -3,6 +3,7 @@
 #include "base/laplacian.h"
 #include "base/parallel.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace bindpose
@@ -22,6 +23,7 @@ public:
   {
     const Points scaled = (points.rowwise() - points.row(0)) / length;
     this->stiffness_ = stiffness_matrix(scaled, triangles);
+    this->limit_stiffness();
     this->mass_ = lumped_mass(scaled, triangles);
     // Points of needle triangles have almost no mass, which would only slow the iterations down.
     constexpr double least_mass = 1e-3;
@@ -81,6 +83,26 @@ public:
   }
 
 private:
+  /// Triangles with almost no height couple their points with up to 1e16: round-off in the products
+  /// would be larger than the values. The matrix stays symmetric, and constants stay in its kernel.
+  void limit_stiffness()
+  {
+    constexpr double most = 30.0; // cotangent of 2 degrees
+    VectorXd sums = VectorXd::Zero(this->stiffness_.cols());
+    for (int j = 0; j < this->stiffness_.outerSize(); ++j)
+    {
+      for (SparseMatrix::InnerIterator k(this->stiffness_, j); k; ++k)
+      {
+        if (k.row() != k.col())
+        {
+          k.valueRef() = std::clamp(k.value(), -most, most);
+          sums[k.col()] += k.value();
+        }
+      }
+    }
+    this->stiffness_.diagonal() = -sums;
+  }
+
   SparseMatrix stiffness_;
   VectorXd mass_;
   VectorXd free_; // 0 for fixed points, 1 for all others

@@ -123,7 +123,7 @@ void normalise(Weights& weights)
   for (Index i = 0; i < weights.rows(); ++i)
   {
     const double sum = weights.row(i).sum();
-    if (sum > 1e-3)
+    if (sum > 0.0)
     {
       weights.row(i) /= sum;
     }

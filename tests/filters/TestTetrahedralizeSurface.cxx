@@ -397,10 +397,10 @@ TEST(TetrahedralizeSurface, PrintsItsParameters)
   vtkNew<vtkTetrahedralizeSurface> filter;
   std::ostringstream text;
   filter->Print(text);
-  for (const char* word :
-    { "Method: auto", "WindingThreshold: 0.5", "Resolution: 0", "Segmentation: graph-cut",
-      "CutSmoothness: 1", "CutSigma: 0.1", "TimeLimit: 120", "MemoryLimit: 0", "Quality: 0",
-      "Bare: 0", "InteriorEdge: 0", "WrapAlpha: 0.02", "WrapOffset: 0.001", "FtetwildEpsilon: 0.001" })
+  for (const char* word : { "Method: auto", "WindingThreshold: 0.5", "Resolution: 0",
+         "Segmentation: graph-cut", "CutSmoothness: 1", "CutSigma: 0.1", "TimeLimit: 120",
+         "MemoryLimit: 0", "Quality: 0", "Bare: 0", "InteriorEdge: 0", "WrapAlpha: 0.02",
+         "WrapOffset: 0.001", "FtetwildEpsilon: 0.001" })
   {
     EXPECT_THAT(text.str(), HasSubstr(word));
   }

@@ -52,8 +52,8 @@ void remove_near(
 {
   std::vector<Index> order(static_cast<std::size_t>(others.rows())); // along x
   std::iota(order.begin(), order.end(), Index(0));
-  std::sort(order.begin(), order.end(),
-    [&](Index a, Index b) { return others(a, 0) < others(b, 0); });
+  std::sort(
+    order.begin(), order.end(), [&](Index a, Index b) { return others(a, 0) < others(b, 0); });
   Index kept = 0;
   for (Index i = 0; i < places.rows() && others.rows() > 0; ++i)
   {
@@ -88,8 +88,8 @@ Status CdtTets::fill()
 {
   const double start = this->context_.elapsed_seconds();
   Inside inside;
-  Status status = this->options_.bare ? this->look_inside(this->diagonal_, inside)
-                                      : this->find_places(inside);
+  Status status =
+    this->options_.bare ? this->look_inside(this->diagonal_, inside) : this->find_places(inside);
   const Points of_handles = status.ok() ? this->places_of_handles(inside) : Points(0, 3);
   this->log_.add("places inside", this->context_.elapsed_seconds() - start, status);
   Points places(of_handles.rows() + inside.places.rows(), 3);
@@ -160,8 +160,8 @@ Status CdtTets::find_places(
 }
 
 /// How long edges inside become: as long as the shortest ones of the boundary near them, and longer
-/// by three quarters of the distance to these, at most `longest`. (Means of the lengths make tets too coarse
-/// for small details between long triangles.)
+/// by three quarters of the distance to these, at most `longest`. (Means of the lengths make tets
+/// too coarse for small details between long triangles.)
 Status CdtTets::look_inside(double longest, Inside& inside)
 {
   const Points& points = this->mesh_.points;
@@ -239,8 +239,7 @@ Status CdtTets::insert_by_tetgen(const Points& places, std::vector<Index>& verti
   MesherAnswer answer;
   Status status = this->run_job({ "tetgen", "--switches", "rY" }, data,
     seconds +
-      seconds_per_tet *
-        static_cast<double>(data.tets.rows() + tets_per_vertex * places.rows()),
+      seconds_per_tet * static_cast<double>(data.tets.rows() + tets_per_vertex * places.rows()),
     answer);
   TetMesh mesh{ std::move(answer.data.points), std::move(answer.data.tets) };
   status = status.ok() ? this->accept(mesh) : status;

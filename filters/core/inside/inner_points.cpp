@@ -32,8 +32,8 @@ public:
     const Box& box = interior.box();
     const double side = box.size().maxCoeff();
     double whole = largest_cell * sizes.largest();
-    whole = whole < side ? std::ldexp(whole, static_cast<int>(std::ceil(std::log2(side / whole))))
-                         : side;
+    whole =
+      whole < side ? std::ldexp(whole, static_cast<int>(std::ceil(std::log2(side / whole)))) : side;
     this->unit_ = std::ldexp(whole, -deepest - 1);
     this->lower_ = box.center() - Vec3::Constant(0.5 * whole);
   }
@@ -82,8 +82,8 @@ private:
 
   Vec3 position(const Place& place) const
   {
-    const Vec3 units(static_cast<double>(place[0]), static_cast<double>(place[1]),
-      static_cast<double>(place[2]));
+    const Vec3 units(
+      static_cast<double>(place[0]), static_cast<double>(place[1]), static_cast<double>(place[2]));
     return this->lower_ + this->unit_ * units;
   }
 
@@ -115,8 +115,8 @@ private:
             cell.inside = this->interior_.contains(center);
             cell.outside = !cell.inside;
           }
-          cell.large = level < deepest && !cell.outside &&
-            side > largest_cell * this->sizes_.at(center);
+          cell.large =
+            level < deepest && !cell.outside && side > largest_cell * this->sizes_.at(center);
         }
       });
   }
@@ -158,8 +158,7 @@ private:
     std::vector<Key>& keys = this->centers_;
     keys.insert(keys.end(), this->corners_.begin(), this->corners_.end());
     std::sort(keys.begin(), keys.end());
-    keys.erase(
-      std::unique(keys.begin(), keys.end(), [](Key a, Key b) { return a >> 1 == b >> 1; }),
+    keys.erase(std::unique(keys.begin(), keys.end(), [](Key a, Key b) { return a >> 1 == b >> 1; }),
       keys.end());
     std::vector<char> good(keys.size(), 0);
     // At a distance d, the sizes are larger than at the surface by growth * d.
@@ -243,8 +242,9 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
       }
       return true;
     }
-    // Tets' volumes go with the cubes of growing edges; at the surface, a layer has as many vertices
-    // as the square of its edges says. (Cells of sizes that grew faster would not follow them.)
+    // Tets' volumes go with the cubes of growing edges; at the surface, a layer has as many
+    // vertices as the square of its edges says. (Cells of sizes that grew faster would not follow
+    // them.)
     constexpr double most_growth = 1.0;
     constexpr double least = 1.1;
     if (sizes.growth() < most_growth)

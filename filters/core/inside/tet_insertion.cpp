@@ -34,8 +34,8 @@ class Inserter
 public:
   explicit Inserter(TetComplex& tets) : tets_(tets) {}
 
-  /// p becomes a vertex: with tets of some thickness, else on an edge that it is on but for rounding
-  /// (points of a bone are on one line), else anyhow. @return -1 where nothing helps.
+  /// p becomes a vertex: with tets of some thickness, else on an edge that it is on but for
+  /// rounding (points of a bone are on one line), else anyhow. @return -1 where nothing helps.
   Index insert(const Vec3& p)
   {
     const Index t = this->locate(p);
@@ -106,7 +106,8 @@ private:
     Index t = this->near_;
     for (int step = 0; step < longest && t >= 0; ++step)
     {
-      const int side = this->side_towards(t, p, step); // another first side: no way round in circles
+      const int side =
+        this->side_towards(t, p, step); // another first side: no way round in circles
       if (side < 0)
       {
         return t;

@@ -15,7 +15,8 @@ namespace bindpose
 /// Solved by conjugate gradients from the given values, each column by itself, until the residual
 /// has fallen to 1e-6 of its start, or for 200 iterations: every iterate has a lower energy than
 /// the one before, so needle triangles and soups do no harm. Angles below 2 degrees count as 2:
-/// smaller ones would couple their points by more than round-off allows. Constants stay as they are.
+/// smaller ones would couple their points by more than round-off allows. Constants stay as they
+/// are.
 /// @param points,triangles any surface whose equal points are one; triangles without an area count
 /// as nothing.
 /// @param fixed ids of points whose values stay, ascending.

@@ -190,8 +190,8 @@ public:
   ///@{
   /**
    * Smallest dihedral angle that every tet must have, degrees, 0 (default) to 20. AUTO leaves the
-   * surface's triangles for it where they do not allow it; REMESH reaches 10.7 on any surface, and
-   * 15 on most. What misses it is NOT_CONVERGED. 0: as large as the surface's triangles allow.
+   * surface's triangles for it where they do not allow it; REMESH reaches 10.7 on any surface. A
+   * result that misses it is NOT_CONVERGED. 0: as large as the surface's triangles allow.
    */
   vtkSetMacro(Quality, double);
   vtkGetMacro(Quality, double);

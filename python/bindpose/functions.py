@@ -191,7 +191,7 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
         that counts as surface.
     quality : float
         Smallest dihedral angle that every tet must have, degrees, 0 to 20: auto leaves the surface's triangles
-        for it where they do not allow it. remesh reaches 10.7 on any surface, and 15 on most.
+        for it where they do not allow it. remesh reaches 10.7 on any surface.
     bare : bool
         cdt and wrap add no vertices inside and leave flat tets as they are; `interior_edge` and `quality` must be 0.
     interior_edge : float

@@ -22,6 +22,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 namespace bindpose
 {
@@ -47,8 +48,8 @@ public:
     const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context)
     : points_(points), triangles_(triangles), options_(options), result_(result), context_(context),
       surface_(prepared.surface), inside_(prepared.inside),
-      box_(bounding_box(prepared.surface.points)), report_(prepared.report),
-      warnings_(prepared.warnings)
+      box_(bounding_box(prepared.surface.points)), diagnosis_(prepared.report),
+      report_(prepared.report), warnings_(prepared.warnings)
   {
     result.defects = prepared.defects;
   }
@@ -233,30 +234,35 @@ private:
     return this->options_.quality == 0.0 || this->angle() >= this->options_.quality;
   }
 
-  /// Takes the tets of another rung where their smallest angle is larger. @return ok or cancelled.
+  /// Runs another rung, and returns to the present tets unless its smallest angle is larger.
+  /// @return ok or cancelled.
   template <typename Rung>
-  Status improve_by(const Rung& rung, bool& better)
+  Status improve_by(const Rung& rung)
   {
     const double angle = this->angle();
-    const TetrahedralizeResult result = this->result_;
-    const Report report = this->report_;
+    const Report report = std::exchange(this->report_, this->diagnosis_);
+    TetrahedralizeResult result;
+    result.defects = this->result_.defects;
+    std::swap(result, this->result_);
     const Status status = rung();
-    better = status.ok() && this->angle() > angle;
-    if (status.code != StatusCode::cancelled && !better)
+    if (status.code == StatusCode::cancelled)
     {
-      this->result_ = result;
-      this->report_ = report;
+      return status;
     }
-    return status.code == StatusCode::cancelled ? status : Status();
+    if (!status.ok() || this->angle() <= angle)
+    {
+      this->report_ = report;
+      this->result_ = std::move(result);
+    }
+    return {};
   }
 
-  /// Of tets by cdt.
+  /// Replaces the tets of cdt by those of remesh if these have the larger smallest angle.
   Status leave_cdt_for_quality()
   {
     const double angle = this->angle();
-    bool better = false;
-    const Status status = this->improve_by([&] { return this->remesh(true); }, better);
-    if (better)
+    const Status status = this->improve_by([&] { return this->remesh(true); });
+    if (status.ok() && this->report_.text("method") == to_string(TetMethod::remesh))
     {
       this->warn("method cdt was left (its smallest dihedral angle is " + short_number(angle) +
         " degrees); the tets are remesh's and do not keep the surface's triangles");
@@ -266,21 +272,18 @@ private:
 
   Status remesh(bool finer_when_needed)
   {
+    Status refined;
     {
       const Phase phase(this->context_, "remesh", 0.0, 0.7);
-      const Status refined = this->refine_inside();
-      if (refined.code == StatusCode::cancelled || (refined.ok() && this->is_good_enough()))
-      {
-        return refined;
-      }
-      if (refined.ok())
-      {
-        bool better = false;
-        return this->improve_by([&] { return this->cut_lattice(finer_when_needed); }, better);
-      }
+      refined = this->refine_inside();
+    }
+    if (refined.code == StatusCode::cancelled || (refined.ok() && this->is_good_enough()))
+    {
+      return refined;
     }
     const ProgressRange range(this->context_, 0.7, 1.0);
-    return this->cut_lattice(finer_when_needed);
+    const auto cut = [&] { return this->cut_lattice(finer_when_needed); };
+    return refined.ok() ? this->improve_by(cut) : cut();
   }
 
   Status cut_lattice(bool finer_when_needed)
@@ -691,6 +694,7 @@ private:
   std::vector<char> inside_tets_; ///< of keep_outside, else empty
   TetMesh lattice_mesh_; ///< of remesh, when it did not fit
   double lattice_misfit_ = std::numeric_limits<double>::infinity();
+  const Report& diagnosis_; ///< the initial report_
   Report report_;
   RungLog log_;
   std::vector<std::string> warnings_;

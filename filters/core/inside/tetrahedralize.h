@@ -51,8 +51,8 @@ struct TetrahedralizeOptions
   double time_limit = 120.0; ///< seconds for all of the helper's or fTetWild's work, > 0
   Index memory_limit = 0; ///< MiB of address space for a helper process, 0: no limit
   /// Smallest dihedral angle that every tet must have, degrees, 0 … 20. Method automatic leaves the
-  /// surface's triangles for it where they do not allow it (remesh reaches 10.7 on any surface, and
-  /// 15 on most); what misses it is not_converged. 0: as large as the surface's triangles allow.
+  /// surface's triangles for it where they do not allow it (remesh reaches 10.7 on any surface); a
+  /// result that misses it is not_converged. 0: as large as the surface's triangles allow.
   double quality = 0.0;
   /// cdt and wrap only: no vertices are added inside and flat tets stay as they are; interior_edge
   /// and quality must be 0.
@@ -148,7 +148,7 @@ struct TetrahedralizeResult
 /// boundary and the surface where that bounds the inside, percent of its diagonal); for wrap
 /// counts.wrap_triangles.
 ///
-/// not_converged: a dihedral angle is below quality; the message tells the smallest.
+/// not_converged: a dihedral angle is below quality; the message names the smallest angle.
 /// invalid_input: not finite, flat (but for embed and wrap), or encloses nothing (the same);
 /// keep_outside with another method than cdt; or, of
 /// method automatic, neither cdt nor remesh gives a valid mesh: the message tells the last reason

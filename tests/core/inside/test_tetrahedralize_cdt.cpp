@@ -17,6 +17,7 @@
 using namespace bindpose;
 using test::Cdt;
 using test::expect_valid;
+using test::places_of;
 using test::run;
 using Outcome = test::TetOutcome;
 using testing::HasSubstr;
@@ -150,6 +151,14 @@ TEST_F(Cdt, TheSurfaceIsLeftForAnAngleThatItDoesNotAllow)
   EXPECT_GE(left.number("min_dihedral_angle"), 10.0);
   ASSERT_FALSE(left.status.warnings.empty());
   EXPECT_THAT(left.status.warnings.back(), testing::HasSubstr("cdt was left"));
+  // Nothing of the tets that were left remains.
+  options.handles = places_of({ Vec3(0.9, 0.5, 0.02) });
+  const Outcome with_handle = run(wedge, options);
+  EXPECT_EQ(with_handle.method(), "remesh");
+  EXPECT_TRUE(with_handle.result.handle_vertices.empty());
+  EXPECT_EQ(with_handle.number("counts.handle_vertices"), -1.0);
+  EXPECT_EQ(with_handle.result.mesh.tets, left.result.mesh.tets);
+  options.handles = HandlePlaces();
   // A surface that allows it is kept.
   const Outcome cube = run(test::cube(), options);
   expect_valid(cube, test::cube());

@@ -99,7 +99,9 @@ private:
   void take_all(const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside);
   Status fill();
   Status find_places(Inside& inside);
-  Status find_places(double length, double long_edge, Index most_tets, Index most, Inside& inside);
+  Status find_even_places(
+    double length, double long_edge, Index most_tets, Index most, Inside& inside);
+  Status find_inner_places(Index most, Inside& inside);
   Status look_inside(double longest, Inside& inside);
   Points places_of_handles(Inside& inside) const;
   Status insert_by_tetgen(const Points& places, std::vector<Index>& vertices);

@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iterator>
 #include <limits>
 #include <memory>
@@ -36,7 +35,8 @@ constexpr Index most_tets_on_request = 20000000;
 constexpr Index tets_per_vertex = 6;
 constexpr Index tets_per_boundary_triangle = 2;
 
-/// Of new vertices: enough for the tets that are wanted, and for some room between the triangles.
+/// The largest number of new vertices: it gives the wanted number of tets, and leaves some vertices
+/// for the space between triangles that are many already.
 Index most_inner_vertices(Index surface_triangles, Index boundary_triangles)
 {
   constexpr double least = 0.1; // per triangle
@@ -46,19 +46,23 @@ Index most_inner_vertices(Index surface_triangles, Index boundary_triangles)
   return static_cast<Index>(std::max(least * triangles, tets / tets_per_vertex));
 }
 
-/// Removes the places that are nearer to one of the others than the distance says.
-void remove_near(
-  Points& places, const Points& others, const std::function<double(const Vec3&)>& distance)
+/// Removes the places that are nearer to one of the others than half of the local length.
+void remove_near(Points& places, const Points& others, const SizingField& sizes)
 {
+  if (others.rows() == 0)
+  {
+    return;
+  }
   std::vector<Index> order(static_cast<std::size_t>(others.rows())); // along x
   std::iota(order.begin(), order.end(), Index(0));
   std::sort(
     order.begin(), order.end(), [&](Index a, Index b) { return others(a, 0) < others(b, 0); });
   Index kept = 0;
-  for (Index i = 0; i < places.rows() && others.rows() > 0; ++i)
+  for (Index i = 0; i < places.rows(); ++i)
   {
     const Vec3 p = places.row(i);
-    const double least = distance(p);
+    constexpr double spacing = 0.5; // of the local length
+    const double least = spacing * sizes.at(p);
     bool near = false;
     for (auto other = std::lower_bound(order.begin(), order.end(), p.x() - least,
            [&](Index a, double x) { return others(a, 0) < x; });
@@ -71,14 +75,15 @@ void remove_near(
       places.row(kept++) = p;
     }
   }
-  places.conservativeResize(others.rows() > 0 ? kept : places.rows(), 3);
+  places.conservativeResize(kept, 3);
 }
 } // namespace
 
-/// What is inside of the tets' boundary.
+/// The space that the tets' boundary encloses.
 struct CdtTets::Inside
 {
   Interior interior;
+  Index boundary_triangles = 0;
   std::unique_ptr<SizingField> sizes;
   Points places; ///< of new vertices
 };
@@ -119,15 +124,18 @@ Status CdtTets::find_places(Inside& inside)
   if (wanted > 0.0)
   {
     constexpr double long_edge = 3.0; // of the wanted length
-    return this->find_places(
+    return this->find_even_places(
       wanted, long_edge * wanted, most_tets_on_request, most_tets_on_request, inside);
   }
-  const Index boundary = boundary_triangles(this->mesh_.tets).rows();
-  const Index most = most_inner_vertices(this->surface_.triangles.rows(), boundary);
-  constexpr double never = std::numeric_limits<double>::infinity();
-  const Status status = this->find_places(this->diagonal_, never, 0, most, inside);
-  if (!status.ok() ||
-    tets_per_boundary_triangle * boundary + tets_per_vertex * inside.places.rows() >= fewest_tets)
+  Status status = this->look_inside(this->diagonal_, inside);
+  if (status.ok())
+  {
+    status = this->find_inner_places(
+      most_inner_vertices(this->surface_.triangles.rows(), inside.boundary_triangles), inside);
+  }
+  const Index expected =
+    tets_per_boundary_triangle * inside.boundary_triangles + tets_per_vertex * inside.places.rows();
+  if (!status.ok() || expected >= fewest_tets)
   {
     return status;
   }
@@ -136,32 +144,34 @@ Status CdtTets::find_places(Inside& inside)
     std::cbrt(this->volume_ / (static_cast<double>(fewest_tets) * regular_tet_volume));
   constexpr double long_edge = 2.0;
   constexpr double share = 0.6; // of the tets for the boundary
-  return this->find_places(length, long_edge * length,
+  return this->find_even_places(length, long_edge * length,
     static_cast<Index>(share * static_cast<double>(fewest_tets)), fewest_tets / tets_per_vertex,
     inside);
 }
 
-/// `most` places about `length` from each other, after edges of the boundary longer than
-/// `long_edge` have been split until there are `most_tets`.
-Status CdtTets::find_places(
+/// Finds at most about `most` places no farther than about `length` from each other, after edges of
+/// the boundary longer than `long_edge` have been split until there are `most_tets`.
+Status CdtTets::find_even_places(
   double length, double long_edge, Index most_tets, Index most, Inside& inside)
 {
-  if (most_tets > 0 && !split_long_edges(this->mesh_, long_edge, most_tets, this->context_))
+  if (!split_long_edges(this->mesh_, long_edge, most_tets, this->context_))
   {
     return Status::cancelled();
   }
-  Status status = this->look_inside(length, inside);
-  if (status.ok() &&
-    !inner_points(inside.interior, *inside.sizes, most, this->context_, inside.places))
-  {
-    status = Status::cancelled();
-  }
-  return status;
+  const Status status = this->look_inside(length, inside);
+  return status.ok() ? this->find_inner_places(most, inside) : status;
 }
 
-/// How long edges inside become: as long as the shortest ones of the boundary near them, and longer
-/// by three quarters of the distance to these, at most `longest`. (Means of the lengths make tets
-/// too coarse for small details between long triangles.)
+Status CdtTets::find_inner_places(Index most, Inside& inside)
+{
+  return inner_points(inside.interior, *inside.sizes, most, this->context_, inside.places)
+    ? Status()
+    : Status::cancelled();
+}
+
+/// Edges inside become as long as the shortest ones of the boundary near them, and longer by three
+/// quarters of the distance to these, at most `longest`. (Means of the lengths make tets too coarse
+/// for small details between long triangles.)
 Status CdtTets::look_inside(double longest, Inside& inside)
 {
   const Points& points = this->mesh_.points;
@@ -192,12 +202,13 @@ Status CdtTets::look_inside(double longest, Inside& inside)
   constexpr double growth = 0.75;
   inside.sizes = std::make_unique<SizingField>(sites, lengths, growth, longest);
   inside.places.resize(0, 3);
+  inside.boundary_triangles = boundary.rows();
   return inside.interior.build(points, boundary, this->context_);
 }
 
 /// Points of the handles that lie inside, and points between them. Those between keep some distance
 /// from the boundary: there are vertices enough there, and flat tets would lie between. Removes the
-/// places that are near to one.
+/// other places near them.
 Points CdtTets::places_of_handles(Inside& inside) const
 {
   constexpr double near = 0.3; // of the local length
@@ -217,13 +228,12 @@ Points CdtTets::places_of_handles(Inside& inside) const
     }
   }
   kept.conservativeResize(count, 3);
-  constexpr double spacing = 0.5; // of the local length
-  remove_near(inside.places, kept, [&](const Vec3& p) { return spacing * sizes.at(p); });
+  remove_near(inside.places, kept, sizes);
   return kept;
 }
 
-/// By TetGen, with its exact arithmetic: it also swaps the tets that are there until all are
-/// Delaunay, which many of one sphere are not.
+/// Inserts the places by TetGen, with its exact arithmetic. TetGen also swaps existing tets until
+/// all are Delaunay, which matters where many vertices lie on one sphere.
 Status CdtTets::insert_by_tetgen(const Points& places, std::vector<Index>& vertices)
 {
   const double start = this->context_.elapsed_seconds();
@@ -262,7 +272,7 @@ Status CdtTets::insert_by_tetgen(const Points& places, std::vector<Index>& verti
   return status;
 }
 
-/// By our own code, where TetGen fails.
+/// Inserts the places by our own code: the fallback where TetGen fails.
 Status CdtTets::insert_by_cavities(const Points& places, std::vector<Index>& vertices)
 {
   const double start = this->context_.elapsed_seconds();

@@ -38,7 +38,8 @@ public:
     this->lower_ = box.center() - Vec3::Constant(0.5 * whole);
   }
 
-  /// @return false when cancelled, or where there would be more points than `most`.
+  /// @return false when cancelled, or when more than `most` cells are inside; then points() is
+  /// empty.
   bool build(Index most)
   {
     std::vector<Cell> cells{ Cell() };
@@ -52,7 +53,7 @@ public:
     return this->choose();
   }
 
-  const std::vector<Vec3>& points() const { return this->points_; }
+  const Points& points() const { return this->points_; }
 
 private:
   struct Cell
@@ -139,12 +140,12 @@ private:
         }
         else
         {
-          this->corners_.push_back(key_of(moved(cell.corner, corner, units), cell.inside));
+          this->keys_.push_back(key_of(moved(cell.corner, corner, units), cell.inside));
         }
       }
       if (!cell.large && !cell.outside)
       {
-        this->centers_.push_back(key_of(moved(cell.corner, 7, units / 2), cell.inside));
+        this->keys_.push_back(key_of(moved(cell.corner, 7, units / 2), cell.inside));
         this->cells_inside_ += cell.inside ? 1 : 0;
       }
     }
@@ -155,8 +156,7 @@ private:
   /// Keeps what is inside, away from the surface.
   bool choose()
   {
-    std::vector<Key>& keys = this->centers_;
-    keys.insert(keys.end(), this->corners_.begin(), this->corners_.end());
+    std::vector<Key>& keys = this->keys_;
     std::sort(keys.begin(), keys.end());
     keys.erase(std::unique(keys.begin(), keys.end(), [](Key a, Key b) { return a >> 1 == b >> 1; }),
       keys.end());
@@ -173,14 +173,20 @@ private:
             ((keys[i] & 1) == 0 || this->interior_.contains(p));
         }
       });
-    for (std::size_t i = 0; i < keys.size() && whole; ++i)
+    if (!whole)
+    {
+      return false;
+    }
+    this->points_.resize(std::count(good.begin(), good.end(), 1), 3);
+    Index count = 0;
+    for (std::size_t i = 0; i < keys.size(); ++i)
     {
       if (good[i])
       {
-        this->points_.push_back(this->position(keys[i]));
+        this->points_.row(count++) = this->position(keys[i]);
       }
     }
-    return whole;
+    return true;
   }
 
   const Interior& interior_;
@@ -188,9 +194,9 @@ private:
   ExecutionContext& context_;
   double unit_; ///< half of a smallest cell's side
   Vec3 lower_;
-  std::vector<Key> centers_, corners_;
+  std::vector<Key> keys_; ///< corners and centers of the cells that are not cut
   Index cells_inside_ = 0;
-  std::vector<Vec3> points_;
+  Points points_{ 0, 3 };
 };
 } // namespace
 
@@ -230,17 +236,13 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
     {
       return false;
     }
+    inner = lattice.points();
     const double ratio = whole
-      ? static_cast<double>(lattice.points().size()) / static_cast<double>(std::max<Index>(1, most))
+      ? static_cast<double>(inner.rows()) / static_cast<double>(std::max<Index>(1, most))
       : too_many;
-    if (ratio <= enough || attempt + 1 == attempts)
+    if (ratio <= enough)
     {
-      inner.resize(static_cast<Index>(lattice.points().size()), 3);
-      for (Index i = 0; i < inner.rows(); ++i)
-      {
-        inner.row(i) = lattice.points()[i];
-      }
-      return true;
+      break;
     }
     // Tets' volumes go with the cubes of growing edges; at the surface, a layer has as many
     // vertices as the square of its edges says. (Cells of sizes that grew faster would not follow

@@ -12,7 +12,7 @@
 namespace bindpose
 {
 
-/// What a closed surface encloses. Answers are thread-safe.
+/// The inside of a closed surface. Queries are thread-safe.
 class Interior
 {
 public:
@@ -30,10 +30,10 @@ private:
   Box box_;
 };
 
-/// Points inside that are about as far from each other as the sizes say, and from the surface by
-/// half of what they say there: corners and centers of the cells of an octree, whose Delaunay tets
-/// are well shaped. If there were more than `most`, the sizes are made larger until there are about
-/// so many. Cost: some microseconds for each cell.
+/// Finds points inside, about as far from each other as the sizes ask for, and half as far from the
+/// surface: corners and centers of the cells of an octree, whose Delaunay tets are well shaped. If
+/// there were more than `most`, the sizes are made larger until there are about so many. Cost: some
+/// microseconds for each cell.
 /// @return false when cancelled.
 bool inner_points(const Interior& interior, SizingField& sizes, Index most,
   ExecutionContext& context, Points& inner);

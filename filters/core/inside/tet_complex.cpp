@@ -424,7 +424,6 @@ bool TetComplex::shrink_cavity(Index v, Index start, double least, Cavity& cavit
     const Index now = ++this->searches_;
     cavity.tets.assign(1, start);
     cavity.facets.clear();
-    cavity.on_boundary.clear();
     this->reached_[start] = now;
     Index bad = -1;
     for (std::size_t i = 0; i < cavity.tets.size() && bad < 0; ++i)
@@ -450,7 +449,6 @@ bool TetComplex::shrink_cavity(Index v, Index start, double least, Cavity& cavit
           break;
         }
         cavity.facets.push_back(inwards);
-        cavity.on_boundary.push_back(next < 0 ? 1 : 0);
       }
     }
     if (bad < 0 || bad == start)

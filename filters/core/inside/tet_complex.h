@@ -34,7 +34,6 @@ public:
   {
     std::vector<Index> tets;
     std::vector<Facet> facets;
-    std::vector<char> on_boundary; ///< per facet: it belongs to the boundary of the mesh
   };
 
   static constexpr double gone = 1e9; ///< quality of a removed tet

@@ -31,7 +31,7 @@ Points points_in(const TriangleMesh& mesh, SizingField sizes, Index most, int th
   return inner;
 }
 
-/// From point i to the nearest other one.
+/// The distance from point i to its nearest neighbor.
 double spacing(const Points& points, Index i)
 {
   double nearest = std::numeric_limits<double>::infinity();

@@ -55,7 +55,9 @@
  *
  * Vertices in no cell get rows of zeros, and the unsigned char point array `WeightsMask` is 0 there
  * (it is present only then). A connected part without a handle follows the nearest one, with a
- * warning. Handles outside are moved to the nearest place of the mesh, with a warning.
+ * warning; on a lattice it is held by the parts that it touches, or by the nearest one, and has the
+ * weights that come from there. Handles outside are moved to the nearest place of the mesh, with a
+ * warning.
  *
  * **Bind cache.** The weights are kept while the mesh's points and cells, its labels, the handles'
  * rest (points, cells, names, kinds) and this filter's parameters stay: editing Transform, Mode,
@@ -68,7 +70,8 @@
  * and kkt_residual (the worst column's), bounds_violation, normalised_bounds_violation (with
  * bounds), counts.capped_vertices and influences.{largest_difference, rms_difference} (from the
  * weights without MaximumInfluences), partition.{of_unity, energy, largest_difference,
- * rms_difference} (COUPLED, from weights that were divided by their sums), handles[].mirror (with
+ * rms_difference} (COUPLED, from weights that were divided by their sums), counts.{linked_parts,
+ * links} (parts without a handle on a lattice, and what holds them), handles[].mirror (with
  * mirrors), row_sum_error, largest_snap (in edge
  * lengths), iterations, memory_estimate_bytes (what the process would hold at most, by an estimate
  * made before the factorisations; of bounded and monotone weights), seconds.{insert, analyse,

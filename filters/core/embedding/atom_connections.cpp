@@ -57,6 +57,7 @@ public:
     {
       return Status::cancelled();
     }
+    this->connect_links();
     this->connect_cubes();
     return {};
   }
@@ -365,6 +366,33 @@ private:
       }
     }
     return true;
+  }
+
+  /// Links hold on to the triangles that their ends lie on.
+  void connect_links()
+  {
+    for (const LatticeSurface::End& end : this->surface_.ends)
+    {
+      const Key tet = this->cover_.tet_of_point[end.point];
+      Id held = this->atoms_.atom_of(end.triangle, tet);
+      if (held < 0) // rounding left the triangle in the next tet only
+      {
+        held = this->nearest_piece(end.triangle, this->cover_.places[end.point]);
+      }
+      this->connect(this->atoms_.atom_of(end.link, tet), held);
+    }
+  }
+
+  /// The atom of a triangle's piece whose middle is nearest to a place.
+  Id nearest_piece(Id triangle, const Vec3& place) const
+  {
+    const auto& pieces = this->cover_.pieces;
+    const auto begin = pieces.begin() + this->cover_.first_piece[triangle];
+    const auto end = pieces.begin() + this->cover_.first_piece[triangle + 1];
+    const auto nearest = std::min_element(begin, end,
+      [&](const LatticeCover::Piece& a, const LatticeCover::Piece& b)
+      { return (a.middle - place).squaredNorm() < (b.middle - place).squaredNorm(); });
+    return this->atoms_.first_piece + static_cast<Id>(nearest - pieces.begin());
   }
 
   const LatticeSurface& surface_;

@@ -127,6 +127,19 @@ Status check(PointsView points, TrianglesView triangles, const EmbeddingOptions&
   {
     return Status::invalid_input("winding_threshold must be positive");
   }
+  for (const PartLink& link : options.links)
+  {
+    for (int k = 0; k < 2; ++k)
+    {
+      if (link.triangles[k] < 0 || link.triangles[k] >= triangles.rows() ||
+        !link.places[k].allFinite())
+      {
+        return Status::invalid_input("a link must join two places on triangles of the surface, "
+                                     "not on triangle " +
+          std::to_string(link.triangles[k]));
+      }
+    }
+  }
   return {};
 }
 } // namespace
@@ -150,7 +163,7 @@ Status embed_surface(PointsView points, TrianglesView triangles, const WindingNu
   LatticeCover cover(surface, winding, options.winding_threshold, box);
   {
     const Phase phase(context, "lattice", 0.0, 0.4);
-    status = surface.build(points, triangles, context)
+    status = surface.build(points, triangles, options.links, context)
       ? cover.choose(options.resolution, options.tets, context)
       : Status::cancelled();
     if (!status.ok())

@@ -3,6 +3,7 @@
 
 #include "base/execution.h"
 #include "base/mesh.h"
+#include "surface/part_links.h"
 #include "winding/winding_number.h"
 
 #include <vector>
@@ -18,6 +19,8 @@ struct EmbeddingOptions
   /// `tets` lattice tets (half to twice as many unless the surface is a thread).
   Index resolution = 0;
   Index tets = 30000; ///< wanted number of lattice tets, >= 1; of resolution 0 only
+  /// Lines that count as parts of the surface: what is at their ends is connected.
+  std::vector<PartLink> links;
 };
 
 /// Where points lie in tets.
@@ -59,7 +62,7 @@ struct EmbeddingTets
 /// connected through the palm only, two solids not at all, however narrow the gap. What is
 /// connected is what triangles connect that share a vertex (equal points are one), and what can be
 /// reached through the inside along lines a sixth of a cube apart; triangles that merely cross do
-/// not connect.
+/// not connect, unless there is a link.
 ///
 /// `winding` is that of the surface (as is, or repaired); equal points, degenerate and duplicate
 /// triangles do no harm. The same tets for any number of threads and, but for the scale, any power
@@ -69,8 +72,8 @@ struct EmbeddingTets
 /// counts.branching_facets, counts.tet_components.
 ///
 /// invalid_input: not finite, larger than 1e100, ids out of range, no triangles, options out of
-/// range, or a resolution that needs more memory than is sensible (above 4 million cubes).
-/// Cost: about 2 us a triangle and 5 us a tet.
+/// range (those of links, too), or a resolution that needs more memory than is sensible (above 4
+/// million cubes). Cost: about 2 us a triangle and 5 us a tet.
 Status embed_surface(PointsView points, TrianglesView triangles, const WindingNumber& winding,
   const EmbeddingOptions& options, EmbeddingTets& result, ExecutionContext& context);
 

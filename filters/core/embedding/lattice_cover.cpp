@@ -87,7 +87,8 @@ struct Measures
 
 } // namespace
 
-bool LatticeSurface::build(PointsView all, TrianglesView faces, ExecutionContext& context)
+bool LatticeSurface::build(PointsView all, TrianglesView faces, const std::vector<PartLink>& links,
+  ExecutionContext& context)
 {
   std::vector<Id> order;
   this->of_point.assign(static_cast<std::size_t>(all.rows()), -1);
@@ -125,6 +126,17 @@ bool LatticeSurface::build(PointsView all, TrianglesView faces, ExecutionContext
     for (int k = 0; k < 3; ++k)
     {
       this->triangles[f][k] = this->of_point[faces(f, k)];
+    }
+  }
+  for (const PartLink& link : links)
+  {
+    const auto from = static_cast<Id>(this->points.size());
+    const auto id = static_cast<Id>(this->triangles.size());
+    this->points.insert(this->points.end(), link.places.begin(), link.places.end());
+    this->triangles.push_back({ from, from + 1, from + 1 });
+    for (int k = 0; k < 2; ++k)
+    {
+      this->ends.push_back({ from + k, id, static_cast<Id>(link.triangles[k]) });
     }
   }
   return true;

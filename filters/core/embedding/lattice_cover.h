@@ -4,6 +4,7 @@
 #include "base/execution.h"
 #include "base/mesh.h"
 #include "embedding/disphenoid_lattice.h"
+#include "surface/part_links.h"
 #include "winding/winding_number.h"
 
 #include <algorithm>
@@ -13,17 +14,27 @@
 namespace bindpose
 {
 
-/// A surface with equal points welded; whatever else it has stays.
+/// A surface with equal points welded; whatever else it has stays. Each link is one more triangle,
+/// without area, and its ends are two more points.
 struct LatticeSurface
 {
   using Id = std::int32_t;
 
+  /// A link's end.
+  struct End
+  {
+    Id point, link; ///< the link's triangle
+    Id triangle; ///< that holds the end
+  };
+
   std::vector<Id> of_point; ///< #V: id in `points`, -1 for a point that no triangle uses
   std::vector<Vec3> points;
   std::vector<std::array<Id, 3>> triangles;
+  std::vector<End> ends; ///< of the links
 
   /// @return false when cancelled.
-  bool build(PointsView all, TrianglesView faces, ExecutionContext& context);
+  bool build(PointsView all, TrianglesView faces, const std::vector<PartLink>& links,
+    ExecutionContext& context);
 };
 
 /// Which tets and cubes of a lattice a surface goes through, and which cubes it encloses.

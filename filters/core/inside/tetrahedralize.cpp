@@ -408,6 +408,7 @@ private:
     options.winding_threshold = this->options_.winding_threshold;
     options.resolution = this->options_.resolution;
     options.tets = this->options_.lattice_tets;
+    options.links = this->options_.links;
     EmbeddingTets embedding;
     Status status = embed_surface(
       this->points_, this->triangles_, this->inside_.winding(), options, embedding, this->context_);

@@ -48,6 +48,7 @@ struct TetrahedralizeOptions
   Index resolution = 0;
   /// embed with resolution 0: about how many lattice tets, >= 1.
   Index lattice_tets = 30000;
+  std::vector<PartLink> links; ///< embed only: lines that hold parts of the surface together
   double time_limit = 120.0; ///< seconds for all of the helper's or fTetWild's work, > 0
   Index memory_limit = 0; ///< MiB of address space for a helper process, 0: no limit
   /// Smallest dihedral angle that every tet must have, degrees, 0 … 20. Method automatic leaves the

@@ -32,13 +32,17 @@ public:
   /// returns false. Thread-safe.
   void pairs_of_leaf(Index leaf, const std::function<bool(Index, Index)>& found) const;
 
-private:
+  /// For searches of other kinds: the root is the first, children come after their parents.
   struct Node
   {
     Box box;
-    Index begin = 0, end = 0; ///< triangles, in order_
+    Index begin = 0, end = 0; ///< triangles, in order()
     Index right = -1; ///< second child, the first is the next node; -1: a leaf
   };
+  const std::vector<Node>& nodes() const { return this->nodes_; }
+  const std::vector<Index>& order() const { return this->order_; } ///< triangle ids
+
+private:
   struct Item
   {
     Vec3 center;

@@ -274,7 +274,7 @@ Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double le
   ExecutionContext& context, Weights& result) const
 {
   LatticeSurface welded;
-  if (!welded.build(this->points_, this->triangles_, context))
+  if (!welded.build(this->points_, this->triangles_, {}, context))
   {
     return Status::cancelled();
   }

@@ -86,6 +86,10 @@ private:
   Status in_embedding(SurfaceWeights& result);
   Status in_cage(SurfaceWeights& result);
   LatticePtr embed(Index resolution, Index tets);
+  Status fill_held(TetrahedralizeOptions options, Lattice& lattice);
+  Status find_links(Lattice& lattice, std::vector<PartLink>& links, Index& loose_parts);
+  void put_surface_in(Lattice& lattice);
+  HandleInsertionOptions insertion_in(const Lattice& lattice) const;
   Status solve_on(Lattice& lattice, Status filled);
   LatticePtr best_lattice();
   Status finish(Lattice& lattice, SurfaceWeights& result);
@@ -115,6 +119,8 @@ private:
   Weights preview_; ///< once it is made
   std::unique_ptr<PreparedSurface> prepared_; ///< once it is made; serves all tets and lattices
   std::unique_ptr<SimplexLocator> surface_; ///< the same
+  std::vector<PartLink> links_; ///< hold the parts without a handle; each lattice adds its own
+  Index linked_parts_ = 0;
 };
 
 /// Rows divided by their sums; rows of nothing stay.
@@ -425,7 +431,7 @@ LatticePtr Solver::embed(Index resolution, Index tets)
   options.method = TetMethod::embed;
   options.resolution = resolution;
   options.lattice_tets = tets;
-  lattice->status = this->fill(options, lattice->result.tets);
+  lattice->status = this->fill_held(options, *lattice);
   if (lattice->status.usable())
   {
     lattice->resolution = static_cast<Index>(lattice->status.report.number("resolution", 0.0));
@@ -435,20 +441,128 @@ LatticePtr Solver::embed(Index resolution, Index tets)
   return lattice;
 }
 
+/// Makes a lattice in which every part has a handle or is held by others. (A finer lattice may tell
+/// parts apart that a coarser one does not.)
+Status Solver::fill_held(TetrahedralizeOptions options, Lattice& lattice)
+{
+  constexpr int most_rounds = 3;
+  for (int round = 0;; ++round)
+  {
+    options.links = this->links_;
+    Status status = this->fill(options, lattice.result.tets);
+    if (!status.usable())
+    {
+      return status;
+    }
+    std::vector<PartLink> more;
+    Index loose_parts = 0;
+    if (round < most_rounds)
+    {
+      lattice.status = std::move(status);
+      const Status found = this->find_links(lattice, more, loose_parts);
+      if (!found.ok())
+      {
+        return found;
+      }
+      status = std::move(lattice.status);
+    }
+    if (more.empty())
+    {
+      if (this->linked_parts_ > 0)
+      {
+        const auto links = static_cast<std::int64_t>(this->links_.size());
+        status.report.set("counts.linked_parts", this->linked_parts_);
+        status.report.set("counts.links", Report::Value(links));
+        status.warnings.push_back(std::to_string(this->linked_parts_) +
+          (this->linked_parts_ == 1 ? " connected part has no handle: it is"
+                                    : " connected parts have no handle: they are") +
+          " held by what they touch or are nearest to");
+      }
+      return status;
+    }
+    this->links_.insert(this->links_.end(), more.begin(), more.end());
+    this->linked_parts_ = std::max(this->linked_parts_, loose_parts);
+  }
+}
+
+/// Links parts of the surface without a handle to others, as this lattice tells parts apart.
+Status Solver::find_links(Lattice& lattice, std::vector<PartLink>& links, Index& loose_parts)
+{
+  constexpr double touching = 1.0 / 500.0; // of the surface's diagonal
+  constexpr Index most_loose_parts = 20000;
+  const TetMesh& tets = lattice.result.tets.mesh;
+  const Components parts = connected_components(tets.points.rows(), tets.tets);
+  if (parts.count < 2)
+  {
+    return {};
+  }
+  this->put_surface_in(lattice);
+  HandleInsertion mesh;
+  const Status inserted =
+    insert_handles(lattice.surface->domain(lattice.result.tets.inside_fractions), this->handles_,
+      this->insertion_in(lattice), this->context_, mesh);
+  lattice.surface.reset();
+  if (!inserted.ok())
+  {
+    return inserted;
+  }
+  std::vector<char> held(static_cast<std::size_t>(parts.count), 0);
+  const auto hold = [&](Index v)
+  {
+    const Index inserted_at = v - tets.points.rows();
+    held[parts.of_vertex[inserted_at < 0 ? v : mesh.inserted[inserted_at].parents[0]]] = 1;
+  };
+  for (const HandlePlacement& placement : mesh.handles)
+  {
+    std::for_each(placement.vertices.begin(), placement.vertices.end(), hold);
+  }
+  for (const CageVertex& on_cage : mesh.cage)
+  {
+    hold(on_cage.vertex);
+  }
+  loose_parts = static_cast<Index>(std::count(held.begin(), held.end(), 0));
+  if (loose_parts == 0 || loose_parts == parts.count || loose_parts > most_loose_parts)
+  {
+    return {};
+  }
+  std::vector<Index> of_triangle(static_cast<std::size_t>(this->triangles_.rows()), -1);
+  for (Index f = 0; f < this->triangles_.rows(); ++f)
+  {
+    const Index tet = lattice.result.tets.binding.tets[this->triangles_(f, 0)];
+    of_triangle[f] = tet < 0 ? -1 : parts.of_vertex[tets.tets(tet, 0)];
+  }
+  PartLinkOptions options;
+  options.touching = touching * bounding_box(this->points_, this->triangles_).diagonal();
+  options.spacing = lattice.status.report.number("spacing", 0.0);
+  return link_parts(
+    this->points_, this->triangles_, of_triangle, held, options, links, this->context_);
+}
+
+/// Where the lattice's tets lie on the surface.
+void Solver::put_surface_in(Lattice& lattice)
+{
+  if (!this->surface_)
+  {
+    this->surface_ = std::make_unique<SimplexLocator>(this->points_, this->triangles_);
+  }
+  lattice.surface = std::make_unique<EmbeddedSurface>(this->points_, this->triangles_,
+    *this->surface_, lattice.result.tets.mesh, lattice.result.tets.binding);
+}
+
+HandleInsertionOptions Solver::insertion_in(const Lattice& lattice) const
+{
+  HandleInsertionOptions insertion = this->weights_options_.insertion;
+  insertion.spacing = 0.5;
+  insertion.element_of = [&lattice](const Vec3& place) { return lattice.surface->tet_of(place); };
+  return insertion;
+}
+
 /// @param filled how the lattice was made.
 Status Solver::solve_on(Lattice& lattice, Status filled)
 {
   SurfaceWeights& result = lattice.result;
   result.domain = WeightsDomain::embedding;
-  if (!this->surface_)
-  {
-    this->surface_ = std::make_unique<SimplexLocator>(this->points_, this->triangles_);
-  }
-  lattice.surface = std::make_unique<EmbeddedSurface>(
-    this->points_, this->triangles_, *this->surface_, result.tets.mesh, result.tets.binding);
-  HandleInsertionOptions insertion = this->weights_options_.insertion;
-  insertion.spacing = 0.5;
-  insertion.element_of = [&](const Vec3& place) { return lattice.surface->tet_of(place); };
+  this->put_surface_in(lattice);
   WeightTerms terms;
   const Domain domain = lattice.surface->domain(result.tets.inside_fractions);
   const std::vector<Index> none(static_cast<std::size_t>(domain.points.rows()), -1);
@@ -464,7 +578,7 @@ Status Solver::solve_on(Lattice& lattice, Status filled)
     { return lattice.carry(solved, this->handles_, smoothness, this->context_, at_points); };
   };
   return this->joined(std::move(filled),
-    this->solve(domain, {}, terms, insertion, carry(Smoothness::as_interpolated),
+    this->solve(domain, {}, terms, this->insertion_in(lattice), carry(Smoothness::as_interpolated),
       carry(Smoothness::smoothed), result));
 }
 

@@ -64,9 +64,10 @@ struct SurfaceWeightsOptions
 ///
 /// **volume**: conforming tets; the surface's points are among their vertices or are taken from the
 /// nearest (transfer). **embedding**: tets of a lattice, whatever the surface's size, weighted by
-/// the fraction of each that is inside; parts that are near but not connected stay apart. The
-/// handles become vertices, bones every half cube, and the solution is carried to the surface
-/// smoothly (EmbeddedSurface). A **guard** compares lattices: a first one of about 4,500 tets with
+/// the fraction of each that is inside. Parts that are near but not connected stay apart, but a
+/// part without a handle is held by the parts that it touches (nearer than 1/500 of the diagonal),
+/// or by the nearest one (link_parts), with one warning. The handles become vertices, bones every
+/// half cube, and the solution is carried to the surface smoothly (EmbeddedSurface). A **guard** compares lattices: a first one of about 4,500 tets with
 /// a second one of 3/2 of its resolution, and that one with a finer third one if the two differ by
 /// more than 0.016 rms and the third is predicted to take at most 20 s on one thread. The finest
 /// that converged is the result; it differs from the weights of much finer lattices by about a
@@ -83,7 +84,8 @@ struct SurfaceWeightsOptions
 /// Report besides the method's keys: domain ("surface", "volume", "embedding", "cage"); of
 /// automatic domain_reason and, where the embedding took over, domain_fallback.from,
 /// domain_fallback.status, domain_fallback.message; tetrahedralize.method, embedding.resolution,
-/// guard.resolution, guard.rms_difference, guard.max_difference; with a preview
+/// guard.resolution, guard.rms_difference, guard.max_difference, counts.linked_parts and
+/// counts.links (parts without a handle, and what holds them); with a preview
 /// preview.rms_difference and preview.max_difference (from the result); cage.area and
 /// cage.min_angle (degrees, of the triangles of a cage of edges); what tetrahedralize() and
 /// transfer() report. The certificate is that of the columns in the tets.

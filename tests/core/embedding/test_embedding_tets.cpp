@@ -664,3 +664,71 @@ TEST(EmbeddingTets, CancelEndsSoon)
     EXPECT_EQ(status.ok(), result.mesh.tets.rows() > 0);
   }
 }
+
+TEST(EmbeddingTets, ALinkConnectsWhatIsAtItsEnds)
+{
+  // Two boxes 3 apart, linked from the middle of a side to a corner of the other; and two that lie
+  // in the same tets, linked at one place.
+  const TriangleMesh apart =
+    test::join(box(Vec3(0, 0, 0), Vec3(1, 1, 1)), box(Vec3(4, 0, 0), Vec3(5, 1, 1)));
+  const TriangleMesh near =
+    test::join(box(Vec3(0, 0, 0), Vec3(4, 1, 1)), box(Vec3(0, 1.01, 0), Vec3(4, 2, 1)));
+  const auto triangle_at = [](const TriangleMesh& mesh, const Vec3& place, Index begin)
+  {
+    for (Index f = begin; f < mesh.triangles.rows(); ++f)
+    {
+      std::array<Vec3, 2> places;
+      const Vec3 a = mesh.points.row(mesh.triangles(f, 0));
+      const Vec3 b = mesh.points.row(mesh.triangles(f, 1));
+      const Vec3 c = mesh.points.row(mesh.triangles(f, 2));
+      if (nearest_places({ place, place, place }, { a, b, c }, places) < 1e-12)
+      {
+        return f;
+      }
+    }
+    return Index(-1);
+  };
+  ExecutionContext context;
+  for (const bool is_near : { false, true })
+  {
+    const TriangleMesh& mesh = is_near ? near : apart;
+    const Vec3 from = is_near ? Vec3(2, 1, 0.4) : Vec3(1, 0.5, 0.4);
+    const Vec3 to = is_near ? Vec3(2, 1.01, 0.4) : Vec3(4, 1, 1);
+    PartLink link;
+    link.triangles = { triangle_at(mesh, from, 0), triangle_at(mesh, to, 12) };
+    link.places = { from, to };
+    const WindingNumber winding(mesh.points, mesh.triangles);
+    for (const Index resolution : { 5, 9, 20 })
+    {
+      EXPECT_EQ(embedded(mesh, resolution).components, 2);
+      EmbeddingOptions options;
+      options.resolution = resolution;
+      options.links = { link };
+      EmbeddingTets result;
+      const Status status =
+        embed_surface(mesh.points, mesh.triangles, winding, options, result, context);
+      ASSERT_TRUE(status.ok()) << status.message;
+      EXPECT_EQ(result.components, 1);
+      expect_valid(mesh, result);
+      // The way from one to the other leads along the link.
+      const std::vector<double> distance = distances(result.mesh,
+        vertices_of(
+          result, mesh.points, [](const Vec3& p) { return (p - Vec3(0, 0, 0)).norm() < 1e-9; }));
+      const Vec3 end = is_near ? Vec3(0, 2, 0) : Vec3(5, 0, 0);
+      const double way = (from - Vec3(0, 0, 0)).norm() + (to - from).norm() + (end - to).norm();
+      for (const Index v :
+        vertices_of(result, mesh.points, [&](const Vec3& p) { return (p - end).norm() < 1e-9; }))
+      {
+        EXPECT_LT(distance[v], 1.5 * way);
+        EXPECT_GT(distance[v], way - 3.0 * result.spacing);
+      }
+    }
+    EmbeddingOptions options;
+    options.links = { link };
+    options.links[0].triangles[1] = mesh.triangles.rows();
+    EmbeddingTets result;
+    const Status status =
+      embed_surface(mesh.points, mesh.triangles, winding, options, result, context);
+    EXPECT_EQ(status.code, StatusCode::invalid_input);
+  }
+}

@@ -204,6 +204,61 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsTheHandleNearestToItsSurface)
   }
 }
 
+TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
+{
+  // A bar with a handle at each end; a knob 0.004 above it, nearest to the left handle, and a seat
+  // across the gap between the bar and a second one that has a handle of its own.
+  const auto box = [](int n, const Vec3& lower, const Vec3& upper)
+  {
+    const TetMesh tets = test::tet_box(n, 4, 4, lower, upper);
+    return TriangleMesh{ tets.points, boundary_triangles(tets.tets) };
+  };
+  const TriangleMesh bar = box(32, Vec3(0, 0, 0), Vec3(4, 0.5, 0.5));
+  TriangleMesh shape = test::join(bar, box(4, Vec3(1.4, 0.1, 0.504), Vec3(1.7, 0.4, 0.8)));
+  const Index end_of_knob = shape.points.rows();
+  shape = test::join(shape, box(4, Vec3(3.5, 0.3, -0.204), Vec3(3.9, 1.9, -0.004)));
+  const Index end_of_seat = shape.points.rows();
+  shape = test::join(shape, box(32, Vec3(0, 1.5, 0), Vec3(4, 2.0, 0.5)));
+  const Handles handles{ test::point_handle("left", { 0.2, 0.25, 0.25 }),
+    test::point_handle("right", { 3.0, 0.25, 0.25 }),
+    test::point_handle("far", { 1, 1.75, 0.25 }) };
+  for (const Index resolution : { 12, 20, 30 })
+  {
+    SurfaceWeightsOptions options = in(WeightsDomain::embedding, resolution);
+    options.guard = false;
+    SurfaceWeights result;
+    const Status status = solve(shape, handles, options, result);
+    ASSERT_TRUE(status.ok()) << status.message;
+    EXPECT_THAT(status.warnings, testing::Contains(HasSubstr("2 connected parts have no handle")));
+    EXPECT_EQ(status.report.number("counts.linked_parts", 0.0), 2.0);
+    EXPECT_EQ(status.report.number("counts.components_without_handle", 0.0), 0.0);
+    expect_weights(result.weights, shape.points.rows(), 3);
+    for (Index v = bar.points.rows(); v < end_of_knob; ++v)
+    {
+      const Vec3 p = shape.points.row(v);
+      // The bar's own weights below the knob.
+      double nearest = 1e300;
+      Index below = 0;
+      for (Index u = 0; u < bar.points.rows(); ++u)
+      {
+        const double d = (bar.points.row(u).transpose() - Vec3(p[0], p[1], 0.5)).norm();
+        below = d < nearest ? u : below;
+        nearest = std::min(nearest, d);
+      }
+      EXPECT_LT((result.weights.row(v) - result.weights.row(below)).cwiseAbs().maxCoeff(), 0.15)
+        << p.transpose() << " at " << resolution;
+    }
+    for (Index v = end_of_knob; v < end_of_seat; ++v)
+    {
+      const double y = shape.points(v, 1);
+      if (y < 0.5 || y > 1.5) // above a bar: follows that bar
+      {
+        EXPECT_GT(result.weights(v, y < 0.5 ? 1 : 2), 0.6) << y << " at " << resolution;
+      }
+    }
+  }
+}
+
 TEST(SurfaceWeights, CarriesSmoothFunctionsBetterThanTetsDo)
 {
   const TriangleMesh ball = test::sphere(4);

@@ -1,0 +1,438 @@
+// Boxes that hold triangles of one group only are known by their group: a search for what is
+// nearest outside of a group does not enter its own. The best that a group has found so far bounds
+// the search of its next triangle.
+#include "surface/part_links.h"
+
+#include "base/disjoint_sets.h"
+#include "base/parallel.h"
+#include "surface/triangle_predicates.h"
+#include "surface/triangle_tree.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <tuple>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr Index several = -1; ///< instead of a box's group: triangles of more than one
+
+using Corners = std::array<Vec3, 3>;
+
+/// Two triangles of different groups, and how near they are.
+struct Pair
+{
+  double distance = infinite;
+  PartLink link;
+};
+
+/// Parameters of the nearest points of the segments p0 p1 and q0 q1.
+std::array<double, 2> nearest_on_segments(
+  const Vec3& p0, const Vec3& p1, const Vec3& q0, const Vec3& q1)
+{
+  const Vec3 u = p1 - p0, v = q1 - q0, w = p0 - q0;
+  const double a = u.squaredNorm(), b = u.dot(v), c = v.squaredNorm();
+  const double d = u.dot(w), e = v.dot(w);
+  const double determinant = a * c - b * b;
+  double s = determinant > 0.0 ? std::clamp((b * e - c * d) / determinant, 0.0, 1.0) : 0.0;
+  const double t = c > 0.0 ? std::clamp((b * s + e) / c, 0.0, 1.0) : 0.0;
+  s = a > 0.0 ? std::clamp((b * t - d) / a, 0.0, 1.0) : 0.0;
+  return { s, t };
+}
+
+/// Where an edge of a goes through b.
+bool edge_meets(const Corners& a, const Corners& b, Vec3& place)
+{
+  for (int k = 0; k < 3; ++k)
+  {
+    const Vec3& p = a[k];
+    const Vec3& q = a[(k + 1) % 3];
+    if (segment_meets_triangle(p, q, b[0], b[1], b[2]))
+    {
+      const Vec3 normal = (b[1] - b[0]).cross(b[2] - b[0]);
+      const double from = normal.dot(p - b[0]), to = normal.dot(q - b[0]);
+      const double t = from != to ? std::clamp(from / (from - to), 0.0, 1.0) : 0.5;
+      place = closest_point(p + t * (q - p), b[0], b[1], b[2]);
+      return true;
+    }
+  }
+  return false;
+}
+
+Box box_of(const Corners& corners)
+{
+  Box box;
+  for (const Vec3& corner : corners)
+  {
+    box.add(corner);
+  }
+  return box;
+}
+
+double distance(const Box& a, const Box& b)
+{
+  return (a.lower - b.upper).cwiseMax(b.lower - a.upper).cwiseMax(0.0).norm();
+}
+
+class Linker
+{
+public:
+  Linker(PointsView points, TrianglesView triangles, const std::vector<Index>& parts,
+    const std::vector<char>& held, const PartLinkOptions& options, ExecutionContext& context)
+    : points_(points), triangles_(triangles), parts_(parts), held_(held), options_(options),
+      context_(context), tree_(points, triangles), groups_(held.size())
+  {
+  }
+
+  bool run(std::vector<PartLink>& links)
+  {
+    this->loose_ = this->held_;
+    for (char& loose : this->loose_)
+    {
+      loose = loose ? 0 : 1;
+    }
+    return this->link_nearest(links) && this->link_touching(links);
+  }
+
+private:
+  Corners corners(Index f) const
+  {
+    return { this->points_.row(this->triangles_(f, 0)), this->points_.row(this->triangles_(f, 1)),
+      this->points_.row(this->triangles_(f, 2)) };
+  }
+  /// The label of every box's triangles, `several` where they differ. Triangles of no part count as
+  /// none.
+  void label_boxes(const std::vector<Index>& label_of_part)
+  {
+    const auto& nodes = this->tree_.nodes();
+    this->labels_.assign(nodes.size(), none);
+    for (std::size_t at = nodes.size(); at-- > 0;)
+    {
+      const auto& node = nodes[at];
+      Index& label = this->labels_[at];
+      if (node.right >= 0)
+      {
+        label = this->joined(this->labels_[at + 1], this->labels_[node.right]);
+        continue;
+      }
+      for (Index i = node.begin; i < node.end; ++i)
+      {
+        const Index part = this->parts_[this->tree_.order()[i]];
+        label = this->joined(label, part < 0 ? none : label_of_part[part]);
+      }
+    }
+  }
+  static Index joined(Index a, Index b)
+  {
+    return a == none || a == b ? b : b == none ? a : several;
+  }
+
+  /// Calls leaf(g) for triangles of other labels whose boxes are nearer than `limit`, which leaf()
+  /// may lower; nearer boxes first.
+  template <typename AtTriangle>
+  void visit_others(const Box& box, Index label, const double& limit, const AtTriangle& at_triangle)
+  {
+    auto& stack = this->stack_;
+    stack.clear();
+    const auto& nodes = this->tree_.nodes();
+    const auto push = [&](Index at)
+    {
+      if (this->labels_[at] != label && this->labels_[at] != none)
+      {
+        const double d = distance(nodes[at].box, box);
+        if (d <= limit)
+        {
+          stack.emplace_back(d, at);
+        }
+      }
+    };
+    push(0);
+    while (!stack.empty())
+    {
+      const auto [d, at] = stack.back();
+      stack.pop_back();
+      if (d > limit)
+      {
+        continue;
+      }
+      const auto& node = nodes[at];
+      if (node.right < 0)
+      {
+        for (Index i = node.begin; i < node.end; ++i)
+        {
+          at_triangle(this->tree_.order()[i]);
+        }
+        continue;
+      }
+      const std::size_t first = stack.size();
+      push(at + 1);
+      push(node.right);
+      if (stack.size() == first + 2 && stack[first].first < stack[first + 1].first)
+      {
+        std::swap(stack[first], stack[first + 1]);
+      }
+    }
+  }
+
+  /// What is nearest to a group outside of it.
+  Pair nearest_to(const std::vector<Index>& members, Index group)
+  {
+    Pair best;
+    for (const Index f : members)
+    {
+      if (best.distance == 0.0)
+      {
+        break;
+      }
+      const Corners here = this->corners(f);
+      const Box box = box_of(here);
+      this->visit_others(box, group, best.distance,
+        [&](Index g)
+        {
+          const Index part = this->parts_[g];
+          if (part < 0 || this->group_of_part_[part] == group ||
+            distance(box_of(this->corners(g)), box) >= best.distance)
+          {
+            return;
+          }
+          PartLink link;
+          link.triangles = { f, g };
+          const double d = nearest_places(here, this->corners(g), link.places);
+          if (d < best.distance)
+          {
+            best = { d, link };
+          }
+        });
+    }
+    return best;
+  }
+
+  bool link_nearest(std::vector<PartLink>& links)
+  {
+    const auto parts = static_cast<Index>(this->held_.size());
+    std::vector<char> held = this->held_; // of groups, by their smallest part
+    for (bool again = true; again;)
+    {
+      again = false;
+      this->group_of_part_.resize(this->held_.size());
+      for (Index p = 0; p < parts; ++p)
+      {
+        this->group_of_part_[p] = this->groups_.find(p);
+      }
+      std::vector<std::vector<Index>> members(this->held_.size());
+      for (Index i = 0; i < this->triangles_.rows(); ++i)
+      {
+        const Index f = this->tree_.order()[i]; // neighbours in space follow each other
+        const Index group = this->parts_[f] < 0 ? -1 : this->group_of_part_[this->parts_[f]];
+        if (group >= 0 && !held[group])
+        {
+          members[group].push_back(f);
+        }
+      }
+      this->label_boxes(this->group_of_part_);
+      for (Index group = 0; group < parts; ++group)
+      {
+        if (members[group].empty())
+        {
+          continue;
+        }
+        if (this->context_.cancelled())
+        {
+          return false;
+        }
+        const Pair best = this->nearest_to(members[group], group);
+        if (best.distance == infinite)
+        {
+          continue;
+        }
+        const Index a = this->groups_.find(group);
+        const Index b = this->groups_.find(this->parts_[best.link.triangles[1]]);
+        if (a != b)
+        {
+          links.push_back(best.link);
+          this->groups_.unite(a, b);
+          held[std::min(a, b)] = held[a] || held[b] ? 1 : 0;
+          again = true;
+        }
+      }
+    }
+    return true;
+  }
+
+  /// Links loose parts to all that they touch, one in each cube of a grid.
+  bool link_touching(std::vector<PartLink>& links)
+  {
+    std::vector<Index> own(this->held_.size());
+    for (std::size_t p = 0; p < own.size(); ++p)
+    {
+      own[p] = static_cast<Index>(p);
+    }
+    this->label_boxes(own);
+    using Cell = std::array<std::int64_t, 3>;
+    std::set<std::tuple<Index, Index, Cell>> linked;
+    const auto cell_of = [&](const Vec3& place)
+    {
+      Cell cell;
+      for (int k = 0; k < 3; ++k)
+      {
+        cell[k] = std::llround(place[k] / this->options_.spacing);
+      }
+      return cell;
+    };
+    for (const PartLink& link : links)
+    {
+      const Index a = this->parts_[link.triangles[0]], b = this->parts_[link.triangles[1]];
+      linked.insert({ std::min(a, b), std::max(a, b), cell_of(link.places[0]) });
+    }
+    std::set<std::pair<Index, Cell>> looked_at;
+    for (Index i = 0; i < this->triangles_.rows(); ++i)
+    {
+      const Index f = this->tree_.order()[i];
+      const Index part = this->parts_[f];
+      if (part < 0 || !this->loose_[part])
+      {
+        continue;
+      }
+      if (i % 256 == 0 && this->context_.cancelled())
+      {
+        return false;
+      }
+      this->for_samples(f,
+        [&](const Vec3& place)
+        {
+          if (!looked_at.insert({ part, cell_of(place) }).second)
+          {
+            return;
+          }
+          Box box;
+          box.add(place);
+          double limit = this->options_.touching;
+          PartLink link;
+          this->visit_others(box, part, limit,
+            [&](Index g)
+            {
+              if (this->parts_[g] < 0 || this->parts_[g] == part)
+              {
+                return;
+              }
+              const Corners there = this->corners(g);
+              const Vec3 nearest = closest_point(place, there[0], there[1], there[2]);
+              const double d = (nearest - place).norm();
+              if (d < limit || (d == limit && link.triangles[1] < 0))
+              {
+                limit = d;
+                link.triangles = { f, g };
+                link.places = { place, nearest };
+              }
+            });
+          if (link.triangles[1] >= 0)
+          {
+            const Index other = this->parts_[link.triangles[1]];
+            if (linked.insert({ std::min(part, other), std::max(part, other), cell_of(place) })
+                  .second)
+            {
+              links.push_back(link);
+            }
+          }
+        });
+    }
+    return true;
+  }
+
+  /// Corners of a triangle and points of it, not much farther than the spacing from each other.
+  template <typename AtPlace>
+  void for_samples(Index f, const AtPlace& at_place) const
+  {
+    const Corners corner = this->corners(f);
+    double longest = 0.0;
+    for (int k = 0; k < 3; ++k)
+    {
+      longest = std::max(longest, (corner[(k + 1) % 3] - corner[k]).norm());
+    }
+    constexpr double most = 100.0;
+    const int steps =
+      std::max(1, static_cast<int>(std::min(most, std::ceil(longest / this->options_.spacing))));
+    for (int i = 0; i <= steps; ++i)
+    {
+      for (int j = 0; i + j <= steps; ++j)
+      {
+        const double u = static_cast<double>(i) / steps, v = static_cast<double>(j) / steps;
+        at_place(corner[0] + u * (corner[1] - corner[0]) + v * (corner[2] - corner[0]));
+      }
+    }
+  }
+
+  static constexpr Index none = -2; ///< instead of a box's group: no triangle of a part
+
+  PointsView points_;
+  TrianglesView triangles_;
+  const std::vector<Index>& parts_;
+  const std::vector<char>& held_;
+  const PartLinkOptions& options_;
+  ExecutionContext& context_;
+  TriangleTree tree_;
+  DisjointSets<Index> groups_;
+  std::vector<Index> group_of_part_;
+  std::vector<char> loose_; ///< of parts
+  std::vector<Index> labels_; ///< of the tree's boxes
+  std::vector<std::pair<double, Index>> stack_;
+};
+} // namespace
+
+double nearest_places(
+  const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, std::array<Vec3, 2>& places)
+{
+  double best = infinite;
+  const auto offer = [&](const Vec3& p, const Vec3& q)
+  {
+    const double d = (p - q).norm();
+    if (d < best)
+    {
+      best = d;
+      places = { p, q };
+    }
+  };
+  Vec3 place;
+  if (distance(box_of(a), box_of(b)) == 0.0 && (edge_meets(a, b, place) || edge_meets(b, a, place)))
+  {
+    places = { closest_point(place, a[0], a[1], a[2]), closest_point(place, b[0], b[1], b[2]) };
+    return 0.0;
+  }
+  for (int k = 0; k < 3; ++k)
+  {
+    offer(a[k], closest_point(a[k], b[0], b[1], b[2]));
+    offer(closest_point(b[k], a[0], a[1], a[2]), b[k]);
+    for (int l = 0; l < 3; ++l)
+    {
+      const Vec3 &p = a[k], &q = a[(k + 1) % 3], &r = b[l], &s = b[(l + 1) % 3];
+      const auto at = nearest_on_segments(p, q, r, s);
+      offer(p + at[0] * (q - p), r + at[1] * (s - r));
+    }
+  }
+  return best;
+}
+
+Status link_parts(PointsView points, TrianglesView triangles, const std::vector<Index>& parts,
+  const std::vector<char>& held, const PartLinkOptions& options, std::vector<PartLink>& links,
+  ExecutionContext& context)
+{
+  links.clear();
+  if (std::none_of(held.begin(), held.end(), [](char is_held) { return is_held != 0; }))
+  {
+    return Status::invalid_input("no part of the surface is held");
+  }
+  if (!(options.touching >= 0.0) || !(options.spacing > 0.0))
+  {
+    return Status::invalid_input(
+      "links need a spacing above 0, and parts that touch a distance of at least 0");
+  }
+  return Linker(points, triangles, parts, held, options, context).run(links) ? Status()
+                                                                             : Status::cancelled();
+}
+
+} // namespace bindpose

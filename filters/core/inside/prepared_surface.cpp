@@ -1,5 +1,7 @@
 #include "inside/prepared_surface.h"
 
+#include "surface/back_sides.h"
+
 namespace bindpose
 {
 
@@ -28,6 +30,42 @@ void report_turned(PreparedSurface& prepared)
       " turned: inside out");
   }
 }
+/// Repairs the surface once more without the backs of its triangles, if there are any. The
+/// diagnosis in the report stays that of the whole surface.
+Status leave_out_backs(
+  PointsView points, TrianglesView triangles, PreparedSurface& prepared, ExecutionContext& context)
+{
+  const std::vector<Index> backs = back_sides(prepared.surface.points, prepared.surface.triangles);
+  if (backs.empty())
+  {
+    return {};
+  }
+  const auto count = static_cast<Index>(backs.size());
+  std::vector<char> is_back(static_cast<std::size_t>(triangles.rows()), 0);
+  for (const Index back : backs)
+  {
+    is_back[prepared.surface.original_triangles[back]] = 1;
+  }
+  std::vector<Index> ids;
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    if (!is_back[t])
+    {
+      ids.push_back(t);
+    }
+  }
+  const Triangles fronts = triangles(ids, Eigen::all);
+  const Status status = repair_surface(points, fronts, RepairOptions(), prepared.surface, context);
+  for (Index& id : prepared.surface.original_triangles)
+  {
+    id = ids[id];
+  }
+  prepared.report.set("counts.back_triangles", Report::Value(count));
+  prepared.warnings.push_back(counted(count, "triangle that is the back of another",
+                                "triangles that are the backs of others") +
+    " left out: with them the surface would enclose nothing there");
+  return status;
+}
 } // namespace
 
 Status prepare_surface(PointsView points, TrianglesView triangles, double winding_threshold,
@@ -36,7 +74,7 @@ Status prepare_surface(PointsView points, TrianglesView triangles, double windin
   prepared = PreparedSurface();
   prepared.winding_threshold = winding_threshold;
   {
-    const Phase phase(context, "repair", 0.0, 0.3);
+    const Phase phase(context, "repair", 0.0, 0.2);
     const Status status =
       repair_surface(points, triangles, RepairOptions(), prepared.surface, context);
     if (!status.ok())
@@ -51,6 +89,14 @@ Status prepare_surface(PointsView points, TrianglesView triangles, double windin
     return Status::invalid_input(triangles.rows() == 0
         ? "the surface has no triangles"
         : "no triangle of the surface has an area, so it encloses nothing");
+  }
+  {
+    const Phase phase(context, "repair", 0.2, 0.3);
+    const Status status = leave_out_backs(points, triangles, prepared, context);
+    if (!status.ok())
+    {
+      return status;
+    }
   }
   report_turned(prepared);
   const Phase phase(context, "winding", 0.3, 1.0);

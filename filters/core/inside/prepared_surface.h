@@ -17,11 +17,14 @@ struct PreparedSurface
   EnclosedRegion inside;
   std::vector<DefectPlace> defects;
   double winding_threshold = 0.5;
-  Report report; ///< counts.* of the diagnosis, counts.turned_triangles, counts.turned_components
-  std::vector<std::string> warnings; ///< one sentence per kind of triangles that were turned
+  /// counts.* of the diagnosis, counts.back_triangles, counts.turned_triangles,
+  /// counts.turned_components
+  Report report;
+  std::vector<std::string> warnings; ///< one sentence per kind of triangles left out or turned
 };
 
-/// Repairs the surface (repair_surface) and builds its winding number (EnclosedRegion).
+/// Repairs the surface (repair_surface), leaves out triangles that are the backs of others
+/// (back_sides) and builds its winding number (EnclosedRegion).
 /// invalid_input: ids out of range, coordinates that are not finite, no triangle with an area.
 /// Cost: about 5 us per triangle.
 Status prepare_surface(PointsView points, TrianglesView triangles, double winding_threshold,

@@ -1,0 +1,159 @@
+#include "surface/back_sides.h"
+
+#include "base/triangle_sides.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr double most_open = 0.25; ///< sum of the area vectors over the area
+
+/// All copies of one triangle, which cancel.
+struct Copies
+{
+  Index forward = -1; ///< the first that runs as `corners`
+  Index backward = -1;
+  std::vector<Index> all;
+};
+
+/// Copies that cancel, and their corners in ascending order of the first.
+struct CancellingTriangles
+{
+  std::vector<Copies> copies;
+  Triangles triangles; ///< as the forward copies run
+};
+
+CancellingTriangles find_cancelling(TrianglesView triangles)
+{
+  struct Item
+  {
+    std::array<Index, 3> key;
+    Index triangle;
+    bool forward; ///< runs as the key
+  };
+  std::vector<Item> items;
+  for (Index t = 0; t < triangles.rows(); ++t)
+  {
+    std::array<Index, 3> corners{ triangles(t, 0), triangles(t, 1), triangles(t, 2) };
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    const bool forward = corners[1] < corners[2];
+    if (!forward)
+    {
+      std::swap(corners[1], corners[2]);
+    }
+    items.push_back({ corners, t, forward });
+  }
+  std::sort(items.begin(), items.end(),
+    [](const Item& a, const Item& b)
+    { return a.key != b.key ? a.key < b.key : a.triangle < b.triangle; });
+  CancellingTriangles result;
+  std::vector<std::array<Index, 3>> keys;
+  for (std::size_t i = 0, j = 0; i < items.size(); i = j)
+  {
+    Copies copies;
+    int sum = 0;
+    for (j = i; j < items.size() && items[j].key == items[i].key; ++j)
+    {
+      Index& first = items[j].forward ? copies.forward : copies.backward;
+      first = first < 0 ? items[j].triangle : first;
+      copies.all.push_back(items[j].triangle);
+      sum += items[j].forward ? 1 : -1;
+    }
+    if (sum == 0)
+    {
+      result.copies.push_back(std::move(copies));
+      keys.push_back(items[i].key);
+    }
+  }
+  result.triangles.resize(static_cast<Index>(keys.size()), 3);
+  for (std::size_t i = 0; i < keys.size(); ++i)
+  {
+    result.triangles.row(static_cast<Index>(i)) << keys[i][0], keys[i][1], keys[i][2];
+  }
+  return result;
+}
+
+/// Neighbors across edges that two triangles use, and whether both run the same way around.
+using Neighbors = std::vector<std::vector<std::pair<Index, bool>>>;
+
+Neighbors neighbors_of(const Triangles& triangles)
+{
+  Neighbors neighbors(static_cast<std::size_t>(triangles.rows()));
+  const std::vector<TriangleSide> sides = sides_by_edge(triangles);
+  for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
+  {
+    j = end_of_edge(sides, i);
+    if (j == i + 2)
+    {
+      const bool agree = sides[i].forward != sides[i + 1].forward;
+      neighbors[sides[i].triangle].emplace_back(sides[i + 1].triangle, agree);
+      neighbors[sides[i + 1].triangle].emplace_back(sides[i].triangle, agree);
+    }
+  }
+  return neighbors;
+}
+} // namespace
+
+std::vector<Index> back_sides(PointsView points, TrianglesView triangles)
+{
+  const CancellingTriangles cancelling = find_cancelling(triangles);
+  const Neighbors neighbors = neighbors_of(cancelling.triangles);
+  std::vector<signed char> way(neighbors.size(), 0); // 1: as the forward copy, -1: as the other
+  std::vector<Index> backs;
+  std::vector<Index> patch;
+  for (std::size_t start = 0; start < neighbors.size(); ++start)
+  {
+    if (way[start] != 0)
+    {
+      continue;
+    }
+    patch.assign(1, static_cast<Index>(start));
+    way[start] = 1;
+    bool orientable = true;
+    double area = 0.0, volume = 0.0;
+    Vec3 sum = Vec3::Zero();
+    const Vec3 origin = points.row(cancelling.triangles(static_cast<Index>(start), 0));
+    for (std::size_t i = 0; i < patch.size(); ++i)
+    {
+      const Index t = patch[i];
+      const auto corner = [&](int k) -> Vec3
+      { return points.row(cancelling.triangles(t, k)).transpose() - origin; };
+      const Vec3 normal = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0));
+      area += normal.norm();
+      sum += way[t] * normal;
+      volume += way[t] * corner(0).dot(normal) / 3.0;
+      for (const auto& [neighbor, agree] : neighbors[t])
+      {
+        const auto expected = static_cast<signed char>(agree ? way[t] : -way[t]);
+        if (way[neighbor] == 0)
+        {
+          way[neighbor] = expected;
+          patch.push_back(neighbor);
+        }
+        orientable = orientable && way[neighbor] == expected;
+      }
+    }
+    if (!orientable || sum.norm() > most_open * area)
+    {
+      continue;
+    }
+    for (const Index t : patch)
+    {
+      const Copies& copies = cancelling.copies[t];
+      const bool forward = (way[t] > 0) == (volume >= 0.0);
+      const Index kept = forward ? copies.forward : copies.backward;
+      std::copy_if(copies.all.begin(), copies.all.end(), std::back_inserter(backs),
+        [&](Index copy) { return copy != kept; });
+    }
+  }
+  std::sort(backs.begin(), backs.end());
+  return backs;
+}
+
+} // namespace bindpose

@@ -55,7 +55,6 @@ PACKAGE = "sweethome3d-furniture"
 HANDLES = 8
 SEED = 820
 SMALL = 100_000  # triangles: peak memory is summarized for smaller models
-LEAK = 0.01  # a larger weight on a separate part is a leak
 THIN_SHARE = 0.01  # of tets below 5 degrees: more make a file thin
 VERBS = {"weights": "weights", "tets": "tetrahedralize"}  # prefix of the columns: verb of the program
 GOOD = {"weights": ("certified", "refused"), "tets": ("filled", "refused")}

@@ -172,6 +172,15 @@ def test_leaks_between_parts():
     assert separate_parts.largest_leak(points, triangles, weights) == pytest.approx(0.2)
 
 
+def test_the_inside_leads_from_one_open_part_to_another():
+    points, triangles = triangulated(furniture.join(box_at(0, 2.0), box_at(2.2, 2.0)))
+    places = points[triangles].mean(axis=1)
+    faces_the_gap = ((places[:, 0] == 2.0) | (places[:, 0] == 2.2))
+    sides = points[points[:, 0] < 2.1], points[points[:, 0] > 2.1]
+    assert not separate_parts.inside_leads(*sides, points, triangles)
+    assert separate_parts.inside_leads(*sides, points, triangles[~faces_the_gap])
+
+
 # ---- Processes -------------------------------------------------------------------------------------
 
 

@@ -2,7 +2,8 @@
 
 Components that share no vertex still belong together if they touch, cross, or lie inside each other. Components count
 as touching if points of them share a cube of a grid: surely if they are nearer than 1/500 of the bounding-box
-diagonal, and not if they are farther apart than 1/144 of it.
+diagonal, and not if they are farther apart than 1/144 of it. Open components also belong together if the inside leads
+from one to the other, as from a bottle's open neck into its cap: if all of a straight line between them is inside.
 """
 
 import numpy as np
@@ -11,6 +12,9 @@ from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to
 
 NEAR = 1 / 500  # of the diagonal: spacing of the points on the surface, half an edge of the cubes
 MOST_SAMPLES = 2_000_000
+LEAK = 0.01  # a larger weight on a separate part is a leak
+LINES = 300  # straight lines that are tried from one part to another
+SEED = 11
 
 
 # ---- Components ------------------------------------------------------------------------------------
@@ -150,6 +154,42 @@ def inside_pairs(points, triangles, component, groups):
                 yield inner, outer
 
 
+def winding_numbers(queries, points, triangles):
+    """Of all triangles around each query."""
+    corners = [points[triangles[:, k]] for k in range(3)]
+    found = np.empty(len(queries))
+    for number, query in enumerate(queries):
+        a, b, c = (corner - query for corner in corners)
+        la, lb, lc = (np.sqrt(np.einsum("ij,ij->i", v, v)) for v in (a, b, c))
+        sine = np.einsum("ij,ij->i", a, np.cross(b, c))
+        cosine = la * lb * lc + np.einsum("ij,ij->i", a, b) * lc + np.einsum("ij,ij->i", b, c) * la + np.einsum(
+            "ij,ij->i", c, a) * lb
+        found[number] = np.arctan2(sine, cosine).sum() / (2 * np.pi)
+    return found
+
+
+def inside_leads(first, second, points, triangles):
+    """True if all of some straight line between two sets of points is inside.
+
+    Half of the lines lead to the nearest point, half to any. A line is looked at in steps that are too short to miss
+    the gap between the sets.
+    """
+    random = np.random.RandomState(SEED)
+    starts, ends = (side[random.randint(len(side), size=LINES)] for side in (first, second))
+    for k in range(LINES // 2):
+        ends[k] = second[((second - starts[k]) ** 2).sum(axis=1).argmin()]
+    lengths = np.linalg.norm(ends - starts, axis=1)
+    step = NEAR * np.linalg.norm(np.ptp(points, axis=0)) / 2
+    for start, end, length in sorted(zip(starts, ends, lengths), key=lambda line: line[2]):
+        coarse = np.linspace(0, 1, 7)[1:-1, None]
+        if winding_numbers((1 - coarse) * start + coarse * end, points, triangles).min() < 0.5:
+            continue
+        fine = np.linspace(0, 1, int(np.ceil(length / step)) + 2)[1:-1, None]
+        if winding_numbers((1 - fine) * start + fine * end, points, triangles).min() >= 0.5:
+            return True
+    return False
+
+
 def separate_parts(points, triangles):
     """The part of each point, -1 for points without a triangle: components that touch, cross or lie inside each other
     are one part."""
@@ -195,7 +235,12 @@ def largest_leak(points, triangles, weights):
         return None
     part = separate_parts(points, triangles)
     home = part[handles]
-    held = np.unique(home[home >= 0])
-    if len(held) < 2:
-        return None
-    return float(max(weights[part == own][:, home != own].max() for own in held))
+    while len(held := np.unique(home[home >= 0])) > 1:
+        leaks = {(own, other): weights[part == own][:, home == other].max()
+                 for own in held for other in held if own != other}
+        (own, other), leak = max(leaks.items(), key=lambda item: item[1])
+        if leak <= LEAK or not inside_leads(points[part == own], points[part == other], points, triangles):
+            return float(leak)
+        part[part == other] = own
+        home[home == other] = own
+    return None

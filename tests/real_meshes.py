@@ -354,7 +354,7 @@ def numbers_of(rows, prefix):
                     "peak_mb": max(column(rows, f"{prefix}_peak_mb"), default=math.nan)})
     if prefix == "weights":
         leaks = column(done, "weights_leak")
-        numbers.update({"leak_models": len(leaks), "leaks": sum(leak > LEAK for leak in leaks),
+        numbers.update({"leak_models": len(leaks), "leaks": sum(leak > weights_accuracy.LEAK for leak in leaks),
                         "leak_max": max(leaks, default=0.0)})
     return {f"{prefix}_{key}": value for key, value in numbers.items()}
 
@@ -432,11 +432,11 @@ def leak_lines(rows):
     leaks = sorted(((row["weights_leak"], row["name"]) for row in measured), reverse=True)
     if not leaks:
         return []
-    over = [[name, leak] for leak, name in leaks if leak > LEAK]
+    over = [[name, leak] for leak, name in leaks if leak > weights_accuracy.LEAK]
     return ["## Leaks between separate parts", "",
             f"- Models with two or more parts with handles that do not touch, cross or contain each other: "
             f"{len(leaks)}.",
-            f"- Those on which a handle of one part has a weight above {LEAK:g} on another: {len(over)}.",
+            f"- Those on which a handle of one part has a weight above {weights_accuracy.LEAK:g} on another: {len(over)}.",
             f"- The largest such weight: {leaks[0][0]:.3g} ({leaks[0][1]}).", "",
             *(table(["model", "largest weight"], over) if over else [])]
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The arrows of the house, read from the includes: fails where one points upwards.
 
-core names no VTK header; inside core base <- winding <- (surface, helper, planar, embedding) <- inside <- weights <- (automatic, pose), io on base only
+core names no VTK header; inside core base <- winding <- (surface <- embedding, helper, planar) <- inside <- weights <- (automatic, pose), io on base only
 (inside may use it); filters do not know the viewer; nothing outside the tests includes a test's header. The ParaView plugin has no
 sources of its own, and a proxy for every filter that can be made.
 """
@@ -21,7 +21,7 @@ CORE_ARROWS = {
     "surface": {"base", "winding", "surface"},
     "helper": {"base", "winding", "helper"},
     "planar": {"base", "winding", "helper", "planar"},
-    "embedding": {"base", "winding", "embedding"},
+    "embedding": {"base", "winding", "surface", "embedding"},
     # inside talks to fTetWild through files.
     "inside": {"base", "io", "winding", "surface", "helper", "embedding", "inside"},
     "weights": {"base", "winding", "surface", "planar", "embedding", "inside", "weights"},

@@ -10,9 +10,10 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
+from weights_accuracy import LEAK
+
 NEAR = 1 / 500  # of the diagonal: spacing of the points on the surface, half an edge of the cubes
 MOST_SAMPLES = 2_000_000
-LEAK = 0.01  # a larger weight on a separate part is a leak
 LINES = 300  # straight lines that are tried from one part to another
 SEED = 11
 

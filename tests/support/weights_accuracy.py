@@ -19,6 +19,7 @@ SEED = 15
 GOOD_ANGLE = 10.0  # degrees: smallest dihedral angle of a reference; remesh aims at 12
 COVERED = 0.99  # of the vertices must be near the tets
 RMS = 0.015
+LEAK = 0.01  # a larger weight on a separate part is a leak
 COLUMNS = ["triangles", "domain", "tets", "angle", "reference tets", "rms", "largest", "leak", "s", "reference s"]
 
 

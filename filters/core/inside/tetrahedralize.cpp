@@ -54,8 +54,10 @@ public:
     result.defects = prepared.defects;
   }
 
-  Status run()
+  /// @param embedding of method embed, already made; or nothing
+  Status run(EmbeddingTets* embedding = nullptr)
   {
+    this->made_ = embedding;
     Status status = this->check_shape();
     if (status.ok())
     {
@@ -403,21 +405,27 @@ private:
   /// triangles are turned matters to the winding number only.
   Status embed()
   {
-    const double start = this->context_.elapsed_seconds();
-    EmbeddingOptions options;
-    options.winding_threshold = this->options_.winding_threshold;
-    options.resolution = this->options_.resolution;
-    options.tets = this->options_.lattice_tets;
-    options.links = this->options_.links;
     EmbeddingTets embedding;
-    Status status = embed_surface(
-      this->points_, this->triangles_, this->inside_.winding(), options, embedding, this->context_);
-    this->log("lattice of " + std::to_string(embedding.resolution) + " cubes", start, status);
-    if (!status.ok())
+    if (this->made_)
     {
-      return status;
+      embedding = std::move(*this->made_);
     }
-    this->report_.merge(status.report);
+    else
+    {
+      const double start = this->context_.elapsed_seconds();
+      EmbeddingOptions options;
+      options.winding_threshold = this->options_.winding_threshold;
+      options.resolution = this->options_.resolution;
+      options.tets = this->options_.lattice_tets;
+      const Status status = embed_surface(this->points_, this->triangles_, this->inside_.winding(),
+        options, embedding, this->context_);
+      this->log("lattice of " + std::to_string(embedding.resolution) + " cubes", start, status);
+      if (!status.ok())
+      {
+        return status;
+      }
+      this->report_.merge(status.report);
+    }
     this->result_.mesh = std::move(embedding.mesh);
     this->result_.inside_fractions = std::move(embedding.inside_fractions);
     this->result_.binding = std::move(embedding.binding);
@@ -692,6 +700,7 @@ private:
   EnclosedRegion& inside_;
   const Box box_;
   double climb_start_ = 0.0;
+  EmbeddingTets* made_ = nullptr;
   std::vector<char> inside_tets_; ///< of keep_outside, else empty
   TetMesh lattice_mesh_; ///< of remesh, when it did not fit
   double lattice_misfit_ = std::numeric_limits<double>::infinity();
@@ -825,6 +834,16 @@ Status tetrahedralize(PointsView points, TrianglesView triangles, PreparedSurfac
         ", but the surface was prepared for " + short_number(prepared.winding_threshold));
   }
   return status.ok() ? Ladder(points, triangles, prepared, options, result, context).run() : status;
+}
+
+Status take_embedding(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
+  EmbeddingTets embedding, TetrahedralizeResult& result, ExecutionContext& context)
+{
+  result = TetrahedralizeResult();
+  TetrahedralizeOptions options;
+  options.method = TetMethod::embed;
+  options.winding_threshold = prepared.winding_threshold;
+  return Ladder(points, triangles, prepared, options, result, context).run(&embedding);
 }
 
 } // namespace bindpose

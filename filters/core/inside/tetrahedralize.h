@@ -48,7 +48,6 @@ struct TetrahedralizeOptions
   Index resolution = 0;
   /// embed with resolution 0: about how many lattice tets, >= 1.
   Index lattice_tets = 30000;
-  std::vector<PartLink> links; ///< embed only: lines that hold parts of the surface together
   double time_limit = 120.0; ///< seconds for all of the helper's or fTetWild's work, > 0
   Index memory_limit = 0; ///< MiB of address space for a helper process, 0: no limit
   /// Smallest dihedral angle that every tet must have, degrees, 0 … 20. Method automatic leaves the
@@ -164,6 +163,11 @@ Status tetrahedralize(PointsView points, TrianglesView triangles,
 /// and winding threshold (another threshold: invalid_input).
 Status tetrahedralize(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
   const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context);
+
+/// What method embed gives, of tets that embed_surface() has made of the prepared surface: winding
+/// numbers, labels, angles and the report. Cost: a winding number a tet.
+Status take_embedding(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
+  EmbeddingTets embedding, TetrahedralizeResult& result, ExecutionContext& context);
 
 } // namespace bindpose
 

@@ -6,6 +6,7 @@
 #include "weights/cage_domain.h"
 #include "weights/domain_choice.h"
 #include "weights/embedded_surface.h"
+#include "weights/loose_parts.h"
 #include "weights/preview_weights.h"
 #include "weights/transfer.h"
 
@@ -40,7 +41,8 @@ struct Lattice
   SurfaceWeights result; ///< weights as interpolated
   Status status;
   Index resolution = 0;
-  std::unique_ptr<EmbeddedSurface> surface; ///< refers to result.tets
+  EmbeddingTets tets;
+  std::unique_ptr<EmbeddedSurface> surface; ///< refers to tets
 
   Status carry(const Weights& solved, const Handles& handles,
     EmbeddedSurface::Smoothness smoothness, ExecutionContext& context, Weights& at_points) const
@@ -86,8 +88,7 @@ private:
   Status in_embedding(SurfaceWeights& result);
   Status in_cage(SurfaceWeights& result);
   LatticePtr embed(Index resolution, Index tets);
-  Status fill_held(TetrahedralizeOptions options, Lattice& lattice);
-  Status find_links(Lattice& lattice, std::vector<PartLink>& links, Index& loose_parts);
+  Status hold_surface(EmbeddingOptions options, Lattice& lattice);
   void put_surface_in(Lattice& lattice);
   HandleInsertionOptions insertion_in(const Lattice& lattice) const;
   Status solve_on(Lattice& lattice, Status filled);
@@ -427,115 +428,78 @@ Status Solver::in_cage(SurfaceWeights& result)
 LatticePtr Solver::embed(Index resolution, Index tets)
 {
   auto lattice = std::make_unique<Lattice>();
-  TetrahedralizeOptions options = this->fill_options();
-  options.method = TetMethod::embed;
+  EmbeddingOptions options;
+  options.winding_threshold = this->options_.winding_threshold;
   options.resolution = resolution;
-  options.lattice_tets = tets;
-  lattice->status = this->fill_held(options, *lattice);
+  options.tets = tets;
+  lattice->status = this->hold_surface(options, *lattice);
   if (lattice->status.usable())
   {
-    lattice->resolution = static_cast<Index>(lattice->status.report.number("resolution", 0.0));
+    lattice->resolution = lattice->tets.resolution;
     lattice->status.report.set("embedding.resolution", lattice->resolution);
     lattice->status = this->solve_on(*lattice, std::move(lattice->status));
   }
   return lattice;
 }
 
-/// Makes a lattice in which every part has a handle or is held by others. (A finer lattice may tell
-/// parts apart that a coarser one does not.)
-Status Solver::fill_held(TetrahedralizeOptions options, Lattice& lattice)
+/// Makes a lattice in which every part of the surface has a handle or is held by others. Links that
+/// a lattice adds serve all later ones.
+Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
 {
-  constexpr int most_rounds = 3;
-  for (int round = 0;; ++round)
+  const Phase phase(this->context_, "tetrahedralize", 0.0, 0.3);
+  Status prepared;
+  {
+    const ProgressRange range(this->context_, 0.0, 0.3);
+    prepared = this->prepare();
+  }
+  if (!prepared.ok())
+  {
+    return prepared;
+  }
+  // A finer lattice may tell parts apart that were one before; two rounds have always been enough.
+  constexpr int most_rounds = 4;
+  const ProgressRange range(this->context_, 0.3, 1.0);
+  Status status;
+  for (int round = 0; round < most_rounds; ++round)
   {
     options.links = this->links_;
-    Status status = this->fill(options, lattice.result.tets);
-    if (!status.usable())
+    status = embed_surface(this->points_, this->triangles_, this->prepared_->inside.winding(),
+      options, lattice.tets, this->context_);
+    if (!status.ok())
     {
       return status;
     }
-    std::vector<PartLink> more;
-    Index loose_parts = 0;
-    if (round < most_rounds)
+    this->put_surface_in(lattice);
+    LooseParts loose;
+    const Status found = find_loose_parts(this->points_, this->triangles_,
+      this->prepared_->surface.lowest_equal, lattice.tets, *lattice.surface, this->handles_,
+      this->insertion_in(lattice), loose, this->context_);
+    if (!found.ok())
     {
-      lattice.status = std::move(status);
-      const Status found = this->find_links(lattice, more, loose_parts);
-      if (!found.ok())
-      {
-        return found;
-      }
-      status = std::move(lattice.status);
+      return found;
     }
-    if (more.empty())
+    if (loose.links.empty())
     {
-      if (this->linked_parts_ > 0)
-      {
-        const auto links = static_cast<std::int64_t>(this->links_.size());
-        status.report.set("counts.linked_parts", this->linked_parts_);
-        status.report.set("counts.links", Report::Value(links));
-        status.warnings.push_back(std::to_string(this->linked_parts_) +
-          (this->linked_parts_ == 1 ? " connected part has no handle: it is"
-                                    : " connected parts have no handle: they are") +
-          " held by what they touch or are nearest to");
-      }
-      return status;
+      break;
     }
-    this->links_.insert(this->links_.end(), more.begin(), more.end());
-    this->linked_parts_ = std::max(this->linked_parts_, loose_parts);
+    this->links_.insert(this->links_.end(), loose.links.begin(), loose.links.end());
+    this->linked_parts_ = std::max(this->linked_parts_, loose.count);
   }
-}
-
-/// Links parts of the surface without a handle to others, as this lattice tells parts apart.
-Status Solver::find_links(Lattice& lattice, std::vector<PartLink>& links, Index& loose_parts)
-{
-  constexpr double touching = 1.0 / 500.0; // of the surface's diagonal
-  constexpr Index most_loose_parts = 20000;
-  const TetMesh& tets = lattice.result.tets.mesh;
-  const Components parts = connected_components(tets.points.rows(), tets.tets);
-  if (parts.count < 2)
+  status.warnings = this->prepared_->warnings;
+  Report report = this->prepared_->report;
+  report.merge(status.report);
+  status.report = std::move(report);
+  if (this->linked_parts_ > 0)
   {
-    return {};
+    const auto links = static_cast<std::int64_t>(this->links_.size());
+    status.report.set("counts.linked_parts", this->linked_parts_);
+    status.report.set("counts.links", Report::Value(links));
+    status.warnings.push_back(std::to_string(this->linked_parts_) +
+      (this->linked_parts_ == 1 ? " connected part has no handle: it is"
+                                : " connected parts have no handle: they are") +
+      " held by what they touch or are nearest to");
   }
-  this->put_surface_in(lattice);
-  HandleInsertion mesh;
-  const Status inserted =
-    insert_handles(lattice.surface->domain(lattice.result.tets.inside_fractions), this->handles_,
-      this->insertion_in(lattice), this->context_, mesh);
-  lattice.surface.reset();
-  if (!inserted.ok())
-  {
-    return inserted;
-  }
-  std::vector<char> held(static_cast<std::size_t>(parts.count), 0);
-  const auto hold = [&](Index v)
-  {
-    const Index inserted_at = v - tets.points.rows();
-    held[parts.of_vertex[inserted_at < 0 ? v : mesh.inserted[inserted_at].parents[0]]] = 1;
-  };
-  for (const HandlePlacement& placement : mesh.handles)
-  {
-    std::for_each(placement.vertices.begin(), placement.vertices.end(), hold);
-  }
-  for (const CageVertex& on_cage : mesh.cage)
-  {
-    hold(on_cage.vertex);
-  }
-  loose_parts = static_cast<Index>(std::count(held.begin(), held.end(), 0));
-  if (loose_parts == 0 || loose_parts == parts.count || loose_parts > most_loose_parts)
-  {
-    return {};
-  }
-  std::vector<Index> of_triangle(static_cast<std::size_t>(this->triangles_.rows()), -1);
-  for (Index f = 0; f < this->triangles_.rows(); ++f)
-  {
-    const Index tet = lattice.result.tets.binding.tets[this->triangles_(f, 0)];
-    of_triangle[f] = tet < 0 ? -1 : parts.of_vertex[tets.tets(tet, 0)];
-  }
-  PartLinkOptions options;
-  options.touching = touching * bounding_box(this->points_, this->triangles_).diagonal();
-  options.spacing = lattice.status.report.number("spacing", 0.0);
-  return link_parts(
-    this->points_, this->triangles_, of_triangle, held, options, links, this->context_);
+  return status;
 }
 
 /// Where the lattice's tets lie on the surface.
@@ -545,8 +509,8 @@ void Solver::put_surface_in(Lattice& lattice)
   {
     this->surface_ = std::make_unique<SimplexLocator>(this->points_, this->triangles_);
   }
-  lattice.surface = std::make_unique<EmbeddedSurface>(this->points_, this->triangles_,
-    *this->surface_, lattice.result.tets.mesh, lattice.result.tets.binding);
+  lattice.surface = std::make_unique<EmbeddedSurface>(
+    this->points_, this->triangles_, *this->surface_, lattice.tets.mesh, lattice.tets.binding);
 }
 
 HandleInsertionOptions Solver::insertion_in(const Lattice& lattice) const
@@ -562,9 +526,8 @@ Status Solver::solve_on(Lattice& lattice, Status filled)
 {
   SurfaceWeights& result = lattice.result;
   result.domain = WeightsDomain::embedding;
-  this->put_surface_in(lattice);
   WeightTerms terms;
-  const Domain domain = lattice.surface->domain(result.tets.inside_fractions);
+  const Domain domain = lattice.surface->domain(lattice.tets.inside_fractions);
   const std::vector<Index> none(static_cast<std::size_t>(domain.points.rows()), -1);
   const Status carried = this->carry_terms_to(domain.points, none, terms, filled);
   if (!carried.ok())
@@ -681,7 +644,7 @@ LatticePtr Solver::best_lattice()
   return best;
 }
 
-/// Carries a lattice's weights to the surface once more, smoothed.
+/// Carries a lattice's weights to the surface once more, smoothed, and describes its tets.
 Status Solver::finish(Lattice& lattice, SurfaceWeights& result)
 {
   const Phase phase(this->context_, "transfer", 0.95, 1.0);
@@ -696,7 +659,15 @@ Status Solver::finish(Lattice& lattice, SurfaceWeights& result)
   {
     return carried;
   }
-  Status status = std::move(lattice.status);
+  Status described = take_embedding(this->points_, this->triangles_, *this->prepared_,
+    std::move(lattice.tets), lattice.result.tets, this->context_);
+  if (!described.usable())
+  {
+    return described;
+  }
+  rename_tet_method(described.report);
+  described.warnings.clear(); // the lattice's status has them
+  Status status = this->joined(std::move(described), std::move(lattice.status));
   if (this->preview_.size() > 0)
   {
     report_difference(this->preview_, lattice.result.weights, "preview", status.report);

@@ -67,12 +67,13 @@ struct SurfaceWeightsOptions
 /// the fraction of each that is inside. Parts that are near but not connected stay apart, but a
 /// part without a handle is held by the parts that it touches (nearer than 1/500 of the diagonal),
 /// or by the nearest one (link_parts), with one warning. The handles become vertices, bones every
-/// half cube, and the solution is carried to the surface smoothly (EmbeddedSurface). A **guard** compares lattices: a first one of about 4,500 tets with
-/// a second one of 3/2 of its resolution, and that one with a finer third one if the two differ by
-/// more than 0.016 rms and the third is predicted to take at most 20 s on one thread. The finest
-/// that converged is the result; it differs from the weights of much finer lattices by about a
-/// hundredth (rms). If the last two still differ more, there is a warning with both numbers. With a
-/// given resolution, it is compared with two thirds of it.
+/// half cube, and the solution is carried to the surface smoothly (EmbeddedSurface). A **guard**
+/// compares lattices: a first one of about 4,500 tets with a second one of 3/2 of its resolution,
+/// and that one with a finer third one if the two differ by more than 0.016 rms and the third is
+/// predicted to take at most 20 s on one thread. The finest that converged is the result; it
+/// differs from the weights of much finer lattices by about a hundredth (rms). If the last two
+/// still differ more, there is a warning with both numbers. With a given resolution, it is compared
+/// with two thirds of it.
 ///
 /// **automatic** always ends in certified weights where the embedding converges: if the first
 /// choice fails or does not converge, the embedding takes over, with one warning. An error of the

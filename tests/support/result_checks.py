@@ -17,6 +17,7 @@ from separate_parts import largest_leak
 CERTIFICATE = 1e-6  # relative gap and residual that make a column certified
 ROW_SUM = 1e-9
 SAMPLES = 1_000_000  # points at which a refusal's winding number is sampled
+LOOKED_AT = 2000  # of the samples inside
 SPECK = 1e-5  # of the bounding box: a volume this small need not be found
 EDGES = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]
 THIN = 5.0  # degrees
@@ -181,16 +182,32 @@ def write_points(path, points):
 
 
 def enclosed_fraction(program, model, folder):
-    """Fraction of the bounding box where the winding number is 0.5 or more, either way."""
+    """Fraction of the bounding box where the winding number is 0.5 or more, either way, in more than specks: half of
+    the places there that are looked at have such places around them, 1/1000 of the diagonal away."""
     points, triangles = read_obj(model)
-    write_points(folder / "samples.vtp", sample_points(points[np.unique(triangles)], SAMPLES))
+    surface = points[np.unique(triangles)]
+    samples = sample_points(surface, SAMPLES)
+    winding = winding_at(program, model, samples, folder)
+    winding = winding if (winding >= 0.5).sum() >= (winding <= -0.5).sum() else -winding
+    inside = samples[winding >= 0.5]
+    if len(inside) == 0:
+        return 0.0
+    centers = inside[:: len(inside) // LOOKED_AT + 1]
+    around = np.vstack([np.eye(3), -np.eye(3)]) * np.linalg.norm(np.ptp(surface, axis=0)) / 1000
+    near = np.abs(winding_at(program, model, (centers[:, None] + around).reshape(-1, 3), folder))
+    surrounded = (near.reshape(-1, 6) >= 0.5).all(axis=1).mean()
+    return len(inside) / SAMPLES if surrounded >= 0.5 else 0.0
+
+
+def winding_at(program, model, places, folder):
+    """Winding numbers of a model, its patches turned to agree, at some places."""
+    write_points(folder / "samples.vtp", places)
     subprocess.run([program, "winding", model, "--points", folder / "samples.vtp", "--orient-patches",
                     "-o", folder / "winding.vtp", "--overwrite", "--quiet"], check=True, timeout=600)
     reader = vtk.vtkXMLPolyDataReader()
     reader.SetFileName(str(folder / "winding.vtp"))
     reader.Update()
-    winding = vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("WindingNumber"))
-    return max((winding >= 0.5).sum(), (winding <= -0.5).sum()) / SAMPLES
+    return vtk_to_numpy(reader.GetOutput().GetPointData().GetArray("WindingNumber"))
 
 
 def check_refusal(verb, program, model, message, handles):

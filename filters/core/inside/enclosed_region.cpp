@@ -147,6 +147,34 @@ Status EnclosedRegion::no_tets() const
                        : this->encloses_nothing();
 }
 
+Status EnclosedRegion::only_specks(const RepairedSurface& surface) const
+{
+  constexpr Index fewest_triangles = 10000;
+  constexpr double loose = 0.9; // of all sides
+  constexpr double largest_share = 1e-3; // of the box
+  constexpr double largest_thickness = 0.1; // of a triangle's size
+  const Index count = surface.triangles.rows();
+  const double share = this->volume_ / this->box_.size().prod();
+  if (count < fewest_triangles || share > largest_share ||
+    static_cast<double>(surface.found.boundary_edges) < loose * 3.0 * static_cast<double>(count))
+  {
+    return {};
+  }
+  double area = 0.0;
+  for (Index t = 0; t < count; ++t)
+  {
+    const Vec3 a = surface.points.row(surface.triangles(t, 0));
+    const Vec3 b = surface.points.row(surface.triangles(t, 1));
+    const Vec3 c = surface.points.row(surface.triangles(t, 2));
+    area += 0.5 * (b - a).cross(c - a).norm();
+  }
+  const double size = std::sqrt(area / static_cast<double>(count));
+  return this->volume_ > largest_thickness * size * area
+    ? Status()
+    : Status::invalid_input("the surface is loose triangles (" + std::to_string(count) +
+        ") that enclose only specks, about " + short_number(100.0 * share, 3) + " % of its box");
+}
+
 bool EnclosedRegion::fits(double volume) const
 {
   const double slack = this->volume_error_;

@@ -38,6 +38,10 @@ public:
   /// surface does enclose something, too thin for them.
   Status no_tets() const;
 
+  /// The error of thousands of loose triangles that enclose only specks, thinner than a tenth of
+  /// their size, where some come near each other: tets of them are no shape, and take minutes.
+  Status only_specks(const RepairedSurface& surface) const;
+
   /// Winding number of each tet: of its region's largest tet when the surface is closed, else at
   /// its centre or, for large tets near the threshold, the mean of four points; 0 for a tet whose
   /// centre is outside of the surface's box.

@@ -121,6 +121,11 @@ private:
       return status.ok() ? status : this->take_lattice(status);
     }
     const bool automatic = this->options_.method == TetMethod::automatic;
+    const Status specks = automatic ? this->inside_.only_specks(this->surface_) : Status();
+    if (!specks.ok())
+    {
+      return no_method_fits(specks);
+    }
     const CdtOptions options = this->cdt_options();
     CdtTets cdt(this->surface_, this->inside_, options, this->log_, this->context_);
     Status status;

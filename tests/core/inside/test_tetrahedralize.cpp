@@ -18,6 +18,7 @@
 
 #include <functional>
 #include <limits>
+#include <random>
 
 using namespace bindpose;
 using test::Environment;
@@ -243,6 +244,41 @@ TEST(Tetrahedralize, TheBacksOfTrianglesAreLeftOut)
     EXPECT_EQ(two_sided.number("counts.duplicate_triangles"), ball.triangles.rows());
     EXPECT_THAT(two_sided.status.warnings, testing::Contains(HasSubstr("the backs of others")));
   }
+}
+
+TEST(Tetrahedralize, LooseTrianglesThatEncloseOnlySpecksAreNamed)
+{
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> along(0.0, 1.0);
+  std::normal_distribution<double> beside(0.0, 0.01);
+  TriangleMesh loose{ Points(36000, 3), Triangles(12000, 3) };
+  for (Index t = 0; t < loose.triangles.rows(); ++t)
+  {
+    const Vec3 center(along(random), along(random), along(random));
+    for (int k = 0; k < 3; ++k)
+    {
+      const Vec3 offset(beside(random), beside(random), beside(random));
+      loose.points.row(3 * t + k) = center + offset;
+      loose.triangles(t, k) = 3 * t + k;
+    }
+  }
+  const Outcome outcome = run(loose);
+  EXPECT_EQ(outcome.status.code, StatusCode::invalid_input);
+  EXPECT_THAT(
+    outcome.status.message, HasSubstr("loose triangles (12000) that enclose only specks"));
+  EXPECT_THAT(outcome.status.message, HasSubstr("--method embed"));
+  // A ball whose triangles do not quite meet is a ball.
+  TriangleMesh ball = test::unwelded(test::sphere(5));
+  ASSERT_GT(ball.triangles.rows(), 10000);
+  for (double& x : ball.points.reshaped())
+  {
+    x += 1e-6 * beside(random);
+  }
+  TetrahedralizeOptions options;
+  options.method = TetMethod::automatic;
+  options.resolution = 20;
+  const Environment no_helper("BINDPOSE_MESHER", "/nowhere");
+  EXPECT_TRUE(run(ball, options).status.usable());
 }
 
 TEST(Tetrahedralize, AThresholdNothingReachesIsSaidAtOnce)

@@ -30,6 +30,7 @@ TetComplex::TetComplex(TetMesh& mesh)
   this->tets_.reserve(tets);
   this->quality_.reserve(tets);
   this->cavity_.reserve(tets);
+  this->site_ids_.reserve(tets);
   this->reached_.reserve(tets);
   for (Index t = 0; t < mesh.tets.rows(); ++t)
   {
@@ -159,6 +160,7 @@ Index TetComplex::add(const Tet& tet)
   this->tets_.push_back(tet);
   this->quality_.push_back(this->quality(tet));
   this->cavity_.push_back(0);
+  this->site_ids_.push_back(0);
   this->reached_.push_back(0);
   ++this->changes_;
   for (const Index v : tet)
@@ -395,21 +397,46 @@ bool TetComplex::find_cavity(const Vec3& p, Index start, double least, Cavity& c
   return std::abs(new_volume - old_volume) <= rounding * old_volume;
 }
 
+TetComplex::Site& TetComplex::site_of(Index t)
+{
+  return this->sites_[this->site_ids_[t]];
+}
+
+void TetComplex::add_site(Index t, std::vector<Index>& tets)
+{
+  this->cavity_[t] = this->cavities_;
+  this->site_ids_[t] = static_cast<Index>(this->sites_.size());
+  this->sites_.emplace_back();
+  tets.push_back(t);
+}
+
+/// The tet beyond facet k of a tet of the cavity.
+Index TetComplex::beyond_of_site(Index t, int k)
+{
+  Index& next = this->site_of(t).beyond[k];
+  if (next == Site::unknown)
+  {
+    const Tet& tet = this->tets_[t];
+    const auto& f = facet_corners[k];
+    next = this->beyond(t, tet[f[0]], tet[f[1]], tet[f[2]]);
+  }
+  return next;
+}
+
 void TetComplex::collect_sphere(const Vec3& p, Index start, std::vector<Index>& tets)
 {
   const Index in = ++this->cavities_;
-  tets.assign(1, start);
-  this->cavity_[start] = in;
+  this->sites_.clear();
+  tets.clear();
+  this->add_site(start, tets);
   for (std::size_t i = 0; i < tets.size() && tets.size() < largest_cavity; ++i)
   {
-    const Tet tet = this->tets_[tets[i]];
-    for (const auto& f : facet_corners)
+    for (int k = 0; k < 4; ++k)
     {
-      const Index next = this->beyond(tets[i], tet[f[0]], tet[f[1]], tet[f[2]]);
+      const Index next = this->beyond_of_site(tets[i], k);
       if (next >= 0 && this->cavity_[next] != in && this->in_sphere(this->tets_[next], p))
       {
-        this->cavity_[next] = in;
-        tets.push_back(next);
+        this->add_site(next, tets);
       }
     }
   }
@@ -429,11 +456,9 @@ bool TetComplex::shrink_cavity(Index v, Index start, double least, Cavity& cavit
     for (std::size_t i = 0; i < cavity.tets.size() && bad < 0; ++i)
     {
       const Index t = cavity.tets[i];
-      const Tet tet = this->tets_[t];
-      for (const auto& f : facet_corners)
+      for (int k = 0; k < 4; ++k)
       {
-        const Facet inwards{ tet[f[0]], tet[f[2]], tet[f[1]] };
-        const Index next = this->beyond(t, tet[f[0]], tet[f[1]], tet[f[2]]);
+        const Index next = this->beyond_of_site(t, k);
         if (next >= 0 && this->cavity_[next] == in)
         {
           if (this->reached_[next] != now)
@@ -443,7 +468,15 @@ bool TetComplex::shrink_cavity(Index v, Index start, double least, Cavity& cavit
           }
           continue;
         }
-        if (this->quality({ inwards[0], inwards[1], inwards[2], v }) < least)
+        const Tet& tet = this->tets_[t];
+        const auto& f = facet_corners[k];
+        const Facet inwards{ tet[f[0]], tet[f[2]], tet[f[1]] };
+        double& fit = this->site_of(t).fits[k];
+        if (std::isnan(fit))
+        {
+          fit = this->quality({ inwards[0], inwards[1], inwards[2], v });
+        }
+        if (fit < least)
         {
           bad = t;
           break;

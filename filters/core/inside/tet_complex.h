@@ -4,6 +4,7 @@
 #include "base/mesh.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -101,6 +102,16 @@ public:
 
 private:
   bool in_sphere(const Tet& tet, const Vec3& p) const;
+  /// A tet of a cavity: what is known of its facets while the cavity shrinks.
+  struct Site
+  {
+    static constexpr Index unknown = -2;
+    std::array<Index, 4> beyond{ unknown, unknown, unknown, unknown };
+    std::array<double, 4> fits{ NAN, NAN, NAN, NAN }; ///< qualities of new tets on the facets
+  };
+  Site& site_of(Index t);
+  void add_site(Index t, std::vector<Index>& tets);
+  Index beyond_of_site(Index t, int k);
   void collect_sphere(const Vec3& p, Index start, std::vector<Index>& tets);
   bool shrink_cavity(Index v, Index start, double least, Cavity& cavity);
 
@@ -111,6 +122,8 @@ private:
   std::vector<char> boundary_; ///< per vertex
   std::vector<std::uint64_t> stamp_;
   std::vector<Index> cavity_; ///< per tet: the last cavity that it belongs to
+  std::vector<Site> sites_; ///< of the last cavity
+  std::vector<Index> site_ids_; ///< per tet: its place in sites_, if it is in the last cavity
   std::vector<Index> reached_; ///< per tet: the last search that met it
   Index cavities_ = 0;
   Index searches_ = 0;

@@ -236,11 +236,11 @@ Status CdtTets::try_fine_tets(const Move& move, const MesherData& refined)
   return status;
 }
 
-/// TetGen gets several times what it needs for most surfaces of this size, 20 to 60 us a triangle.
+/// TetGen gets more than it needs for most surfaces of this size, 20 to 60 us a triangle.
 Status CdtTets::try_tetgen(
   const std::string& switches, const Move& move, const MesherData& input, bool box)
 {
-  const double seconds = 3.0 + 3e-4 * static_cast<double>(input.triangles.rows());
+  const double seconds = 3.0 + 1.5e-4 * static_cast<double>(input.triangles.rows());
   const std::string name = "tetgen " + switches + (box ? " in a box" : "") + move.name;
   const double start = this->context_.elapsed_seconds();
   this->wrong_volume_ = false;

@@ -36,6 +36,17 @@ TriangleMesh cube(double lower, double upper)
   return mesh;
 }
 
+TriangleMesh box(const Vec3& lower, const Vec3& upper)
+{
+  TriangleMesh mesh = cube(0.0, 1.0);
+  for (Index i = 0; i < mesh.points.rows(); ++i)
+  {
+    const Vec3 p = mesh.points.row(i);
+    mesh.points.row(i) = lower + p.cwiseProduct(upper - lower);
+  }
+  return mesh;
+}
+
 TriangleMesh open_cube(double lower, double upper)
 {
   TriangleMesh mesh = cube(lower, upper);

@@ -13,6 +13,8 @@ namespace bindpose::test
 /// [lower, upper]^3, 12 triangles outwards, side k's triangles are 2k, 2k+1 in the order
 /// -x +x -y +y -z +z.
 TriangleMesh cube(double lower = -1.0, double upper = 1.0);
+/// An axis-aligned box of 12 triangles.
+TriangleMesh box(const Vec3& lower, const Vec3& upper);
 /// The cube without its +z side.
 TriangleMesh open_cube(double lower = -1.0, double upper = 1.0);
 /// Subdivided icosahedron: 20 * 4^levels triangles on the unit sphere, outwards.

@@ -18,6 +18,7 @@
 #include <thread>
 
 using namespace bindpose;
+using test::box;
 
 namespace
 {
@@ -33,18 +34,6 @@ EmbeddingTets embedded(const TriangleMesh& mesh, Index resolution = 0, int threa
     embed_surface(mesh.points, mesh.triangles, winding, options, result, context);
   EXPECT_TRUE(status.ok()) << status.message;
   return result;
-}
-
-/// An axis-aligned box.
-TriangleMesh box(const Vec3& lower, const Vec3& upper)
-{
-  TriangleMesh mesh = test::cube(0.0, 1.0);
-  for (Index i = 0; i < mesh.points.rows(); ++i)
-  {
-    const Vec3 p = mesh.points.row(i);
-    mesh.points.row(i) = lower + p.cwiseProduct(upper - lower);
-  }
-  return mesh;
 }
 
 /// Vertices of the tets that hold the points for which chosen(point) is true.

@@ -12,6 +12,7 @@
 #include <set>
 
 using namespace bindpose;
+using test::box;
 
 namespace
 {
@@ -43,17 +44,6 @@ struct Shape
     this->parts.resize(static_cast<std::size_t>(this->mesh.triangles.rows()), this->count++);
   }
 };
-
-TriangleMesh box(const Vec3& lower, const Vec3& upper)
-{
-  TriangleMesh mesh = test::cube(0.0, 1.0);
-  for (Index i = 0; i < mesh.points.rows(); ++i)
-  {
-    const Vec3 p = mesh.points.row(i);
-    mesh.points.row(i) = lower + p.cwiseProduct(upper - lower);
-  }
-  return mesh;
-}
 
 std::vector<PartLink> links_of(
   const Shape& shape, const std::vector<char>& held, const PartLinkOptions& options)

@@ -2,7 +2,7 @@
 """Runs the page and the whole gallery, and puts pictures and numbers where the README shows them.
 
 Pictures go to examples/pictures, shrunk to less than 200 kB each; numbers replace what stands in
-gallery/README.md between `<!-- NAME -->` and `<!-- end -->`.
+gallery/README.md between `<!-- NAME -->` and `<!-- end -->`. Needs the Debian package sweethome3d-furniture.
 """
 
 import argparse
@@ -29,7 +29,8 @@ SCRIPTS = ("../01_inside_outside.py", "open_crossing_flipped.py", "boundary_and_
            "weights_in_volume.py", "preview_and_certified.py", "cost_of_weights.py",
            "candy_wrapper.py", "bent_elbow.py", "stretch_and_twist.py", "dragged_points.py",
            "handle_modes.py", "drag_only.py", "disjoint_skeleton.py", "four_energies.py", "rotation_clusters.py",
-           "surface_and_volume.py", "tether.py", "full_and_reduced.py", "extra_weights.py", "crowd.py", "jello.py", "procedural.py",
+           "surface_and_volume.py", "bent_furniture.py", "tether.py", "full_and_reduced.py", "extra_weights.py", "crowd.py",
+           "jello.py", "procedural.py",
            "orders_and_boundaries.py", "torus_and_tubes.py", "rig_in_a_file.py",
            "automatic_handles.py")
 

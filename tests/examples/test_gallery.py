@@ -1,11 +1,14 @@
 """Each script of the gallery proves its claim, on less data."""
 
+import pathlib
+
 import numpy as np
 import pytest
 from running import EXAMPLES, is_refused, numbers_of, script
 
 GALLERY = EXAMPLES / "gallery"
-NAMES = ["amount_of_insideness", "automatic_handles", "bent_elbow", "boundary_and_parts", "candy_wrapper", "closing_holes", "colours_of_handles",
+NAMES = ["amount_of_insideness", "automatic_handles", "bent_elbow", "bent_furniture",
+         "boundary_and_parts", "candy_wrapper", "closing_holes", "colours_of_handles",
          "cost_of_a_point", "cost_of_weights", "crowd", "cut_out_cartoon", "defect_classes", "disjoint_skeleton", "drag_only",
          "dragged_points", "extra_weights", "four_energies", "full_and_reduced", "growth", "handle_modes",
          "hull_segmentation", "image_rectangle", "jello", "jump_and_harmonic", "limbs_in_front", "mesh_independence",
@@ -458,6 +461,18 @@ def test_the_readme_has_them_all():
         assert table.count("\n") > 3, f"run examples/gallery/refresh.py: {name} has no numbers"
         picture = EXAMPLES / "pictures" / f"{name}.png"
         assert 10_000 < picture.stat().st_size < 200_000
+
+
+def test_bent_furniture(tmp_path):
+    """Of a package that not everybody has: without it a sentence says so."""
+    if not pathlib.Path("/usr/share/sweethome3d/furniture/BlendSwap-CC-0.sh3f").exists():
+        is_refused(script("gallery/bent_furniture.py", "--small", "--output", tmp_path), "sweethome3d-furniture")
+        return
+    numbers = numbers_of("gallery/bent_furniture.py", tmp_path)
+    gaps = [value for name, value in numbers.items() if name.endswith("certificate")]
+    assert len(gaps) == 4 and max(gaps) <= 1e-6
+    assert sum(sum(value) > 0 for name, value in numbers.items() if name.endswith("defects")) == 4
+    assert all(value < 0.05 for name, value in numbers.items() if name.endswith("what touched"))
 
 
 def test_cost_of_weights(tmp_path):

@@ -79,8 +79,8 @@ TEST_F(Wrap, HoldsAnySurface)
          Case{ "triangle", triangle, 1, 0.0, "thin shell" },
          Case{ "sheet", test::grid(3, 2), 1, 0.0, "10 boundary edges" },
          Case{ "soup", far_apart, 2, 0.0, "6 boundary edges" },
-         Case{
-           "doubled both ways", test::join(test::cube(), test::flipped(test::cube())), 1, 0.0, "" },
+         Case{ "doubled both ways", test::join(test::cube(), test::flipped(test::cube())), 1, 8.0,
+           "the backs of others" },
          Case{ "unwelded", test::unwelded(test::cube()), 1, 8.0, "" } })
   {
     SCOPED_TRACE(c.name);

@@ -1,10 +1,10 @@
 #include "surface/back_sides.h"
 
-#include "base/triangle_sides.h"
+#include "surface/oriented_patches.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <iterator>
 #include <utility>
 
 namespace bindpose
@@ -78,75 +78,35 @@ CancellingTriangles find_cancelling(TrianglesView triangles)
   }
   return result;
 }
-
-/// Neighbors across edges that two triangles use, and whether both run the same way around.
-using Neighbors = std::vector<std::vector<std::pair<Index, bool>>>;
-
-Neighbors neighbors_of(const Triangles& triangles)
-{
-  Neighbors neighbors(static_cast<std::size_t>(triangles.rows()));
-  const std::vector<TriangleSide> sides = sides_by_edge(triangles);
-  for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
-  {
-    j = end_of_edge(sides, i);
-    if (j == i + 2)
-    {
-      const bool agree = sides[i].forward != sides[i + 1].forward;
-      neighbors[sides[i].triangle].emplace_back(sides[i + 1].triangle, agree);
-      neighbors[sides[i + 1].triangle].emplace_back(sides[i].triangle, agree);
-    }
-  }
-  return neighbors;
-}
 } // namespace
 
 std::vector<Index> back_sides(PointsView points, TrianglesView triangles)
 {
   const CancellingTriangles cancelling = find_cancelling(triangles);
-  const Neighbors neighbors = neighbors_of(cancelling.triangles);
-  std::vector<signed char> way(neighbors.size(), 0); // 1: as the forward copy, -1: as the other
   std::vector<Index> backs;
-  std::vector<Index> patch;
-  for (std::size_t start = 0; start < neighbors.size(); ++start)
+  for (const OrientedPatch& patch : oriented_patches(cancelling.triangles))
   {
-    if (way[start] != 0)
-    {
-      continue;
-    }
-    patch.assign(1, static_cast<Index>(start));
-    way[start] = 1;
-    bool orientable = true;
     double area = 0.0, volume = 0.0;
     Vec3 sum = Vec3::Zero();
-    const Vec3 origin = points.row(cancelling.triangles(static_cast<Index>(start), 0));
-    for (std::size_t i = 0; i < patch.size(); ++i)
+    const Vec3 origin = points.row(cancelling.triangles(patch.triangles[0], 0));
+    for (std::size_t i = 0; i < patch.triangles.size(); ++i)
     {
-      const Index t = patch[i];
       const auto corner = [&](int k) -> Vec3
-      { return points.row(cancelling.triangles(t, k)).transpose() - origin; };
+      { return points.row(cancelling.triangles(patch.triangles[i], k)).transpose() - origin; };
+      const double way = patch.turned[i] ? -1.0 : 1.0;
       const Vec3 normal = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0));
       area += normal.norm();
-      sum += way[t] * normal;
-      volume += way[t] * corner(0).dot(normal) / 3.0;
-      for (const auto& [neighbor, agree] : neighbors[t])
-      {
-        const auto expected = static_cast<signed char>(agree ? way[t] : -way[t]);
-        if (way[neighbor] == 0)
-        {
-          way[neighbor] = expected;
-          patch.push_back(neighbor);
-        }
-        orientable = orientable && way[neighbor] == expected;
-      }
+      sum += way * normal;
+      volume += way * corner(0).dot(normal) / 3.0;
     }
-    if (!orientable || sum.norm() > most_open * area)
+    if (!patch.orientable || sum.norm() > most_open * area)
     {
       continue;
     }
-    for (const Index t : patch)
+    for (std::size_t i = 0; i < patch.triangles.size(); ++i)
     {
-      const Copies& copies = cancelling.copies[t];
-      const bool forward = (way[t] > 0) == (volume >= 0.0);
+      const Copies& copies = cancelling.copies[patch.triangles[i]];
+      const bool forward = (patch.turned[i] == 0) == (volume >= 0.0);
       const Index kept = forward ? copies.forward : copies.backward;
       std::copy_if(copies.all.begin(), copies.all.end(), std::back_inserter(backs),
         [&](Index copy) { return copy != kept; });

@@ -10,6 +10,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/triangle_sides.h"
+#include "surface/oriented_patches.h"
 #include "surface/triangle_predicates.h"
 #include "surface/triangle_tree.h"
 #include "surface/vertex_order.h"
@@ -87,66 +88,24 @@ double area(const Points& points, const Triangles& triangles, Index t)
 /// Turns the smaller part of every patch whose triangles disagree. @return triangles turned.
 Index agree_within_patches(const Points& points, Triangles& triangles)
 {
-  const std::vector<TriangleSide> sides = sides_by_edge(triangles);
-  struct Neighbour
-  {
-    Index triangle = -1;
-    bool agrees = true;
-  };
-  std::vector<std::array<Neighbour, 3>> neighbours(static_cast<std::size_t>(triangles.rows()));
-  std::vector<char> count(neighbours.size(), 0);
-  for (std::size_t i = 0; i < sides.size();)
-  {
-    const std::size_t j = end_of_edge(sides, i);
-    if (j == i + 2)
-    {
-      const bool agrees = sides[i].forward != sides[i + 1].forward;
-      const Index s = sides[i].triangle;
-      const Index t = sides[i + 1].triangle;
-      neighbours[s][count[s]++] = { t, agrees };
-      neighbours[t][count[t]++] = { s, agrees };
-    }
-    i = j;
-  }
-  std::vector<signed char> parity(neighbours.size(), -1);
-  std::vector<Index> patch;
   Index turned = 0;
-  for (Index start = 0; start < triangles.rows(); ++start)
+  for (const OrientedPatch& patch : oriented_patches(triangles))
   {
-    if (parity[start] >= 0)
+    if (!patch.orientable)
     {
-      continue;
+      continue; // no orientation is right
     }
-    patch.assign(1, start);
-    parity[start] = 0;
-    bool orientable = true;
     double areas[2] = { 0.0, 0.0 };
-    for (std::size_t i = 0; i < patch.size(); ++i)
+    for (std::size_t i = 0; i < patch.triangles.size(); ++i)
     {
-      const Index t = patch[i];
-      areas[parity[t]] += area(points, triangles, t);
-      for (int k = 0; k < count[t]; ++k)
-      {
-        const Neighbour& n = neighbours[t][k];
-        const auto expected = static_cast<signed char>(n.agrees ? parity[t] : 1 - parity[t]);
-        if (parity[n.triangle] < 0)
-        {
-          parity[n.triangle] = expected;
-          patch.push_back(n.triangle);
-        }
-        orientable = orientable && parity[n.triangle] == expected;
-      }
-    }
-    if (!orientable)
-    {
-      continue; // one-sided, like a Moebius strip: no orientation is right
+      areas[patch.turned[i]] += area(points, triangles, patch.triangles[i]);
     }
     const int minority = areas[1] <= areas[0] ? 1 : 0;
-    for (const Index t : patch)
+    for (std::size_t i = 0; i < patch.triangles.size(); ++i)
     {
-      if (parity[t] == minority)
+      if (patch.turned[i] == minority)
       {
-        std::swap(triangles(t, 1), triangles(t, 2));
+        std::swap(triangles(patch.triangles[i], 1), triangles(patch.triangles[i], 2));
         ++turned;
       }
     }

@@ -12,7 +12,7 @@ import numpy as np
 import vtk
 from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
-from separate_parts import largest_leak
+from separate_parts import largest_leak, weld
 
 CERTIFICATE = 1e-6  # relative gap and residual that make a column certified
 ROW_SUM = 1e-9
@@ -182,21 +182,32 @@ def write_points(path, points):
 
 
 def enclosed_fraction(program, model, folder):
-    """Fraction of the bounding box where the winding number is 0.5 or more, either way, in more than specks: half of
-    the places there that are looked at have such places around them, 1/1000 of the diagonal away."""
+    """Fraction of the bounding box where the winding number is 0.5 or more, either way.
+
+    0 of loose triangles (9 of 10 edges are of one triangle only) that enclose specks alone: not even half of the places
+    in them that are looked at have such places on all sides, 1/1000 of the diagonal away.
+    """
     points, triangles = read_obj(model)
     surface = points[np.unique(triangles)]
     samples = sample_points(surface, SAMPLES)
     winding = winding_at(program, model, samples, folder)
     winding = winding if (winding >= 0.5).sum() >= (winding <= -0.5).sum() else -winding
     inside = samples[winding >= 0.5]
-    if len(inside) == 0:
-        return 0.0
+    if len(inside) == 0 or not are_loose(points, triangles):
+        return len(inside) / SAMPLES
     centers = inside[:: len(inside) // LOOKED_AT + 1]
     around = np.vstack([np.eye(3), -np.eye(3)]) * np.linalg.norm(np.ptp(surface, axis=0)) / 1000
     near = np.abs(winding_at(program, model, (centers[:, None] + around).reshape(-1, 3), folder))
     surrounded = (near.reshape(-1, 6) >= 0.5).all(axis=1).mean()
     return len(inside) / SAMPLES if surrounded >= 0.5 else 0.0
+
+
+def are_loose(points, triangles):
+    """True if nine of ten edges are those of one triangle only."""
+    _, joined, _ = weld(points, triangles)
+    edges = np.sort(np.vstack([joined[:, [0, 1]], joined[:, [1, 2]], joined[:, [2, 0]]]), axis=1)
+    _, count = np.unique(edges, axis=0, return_counts=True)
+    return (count == 1).mean() >= 0.9
 
 
 def winding_at(program, model, places, folder):

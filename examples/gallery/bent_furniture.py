@@ -17,7 +17,7 @@ import zipfile
 import common
 import bindpose
 import numpy as np
-from bindpose.meshes import points_of, to_vtk_points
+from bindpose.meshes import point_array, points_of, to_vtk_points
 from vtkmodules.vtkCommonCore import vtkIdList
 from vtkmodules.vtkCommonDataModel import vtkStaticPointLocator
 from vtkmodules.vtkFiltersCore import vtkPolyDataConnectivityFilter, vtkCleanPolyData
@@ -75,7 +75,7 @@ def touching(mesh, points):
     parts.ColorRegionsOn()
     parts.Update()
     welded = parts.GetOutput()
-    region = np.array([welded.GetPointData().GetArray("RegionId").GetValue(k) for k in range(welded.GetNumberOfPoints())])
+    region = point_array(welded, "RegionId")
     locator = vtkStaticPointLocator()
     locator.SetDataSet(welded)
     locator.BuildLocator()

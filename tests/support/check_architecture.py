@@ -2,8 +2,8 @@
 """The arrows of the house, read from the includes: fails where one points upwards.
 
 core names no VTK header; inside core base <- winding <- (surface <- embedding, helper, planar) <- inside <- weights <-
-(automatic, pose), io on base only (inside may use it); filters do not know the viewer; nothing outside the tests includes a test's header. The ParaView plugin has no
-sources of its own, and a proxy for every filter that can be made.
+(automatic, pose), io on base only (inside may use it); filters do not know the viewer; nothing outside the tests
+includes a test's header. The ParaView plugin has no sources of its own, and a proxy for every filter that can be made.
 """
 
 import pathlib

@@ -130,14 +130,18 @@ def touching_pairs(points, triangles, component):
     return np.unique(np.vstack(pairs), axis=0)
 
 
-def winding_number(query, points, triangles):
-    """Of the triangles around one point."""
-    a, b, c = (points[triangles[:, k]] - query for k in range(3))
-    la, lb, lc = (np.linalg.norm(v, axis=1) for v in (a, b, c))
-    sine = np.einsum("ij,ij->i", a, np.cross(b, c))
-    cosine = la * lb * lc + np.einsum("ij,ij->i", a, b) * lc + np.einsum("ij,ij->i", b, c) * la + np.einsum(
-        "ij,ij->i", c, a) * lb
-    return np.arctan2(sine, cosine).sum() / (2 * np.pi)
+def winding_numbers(queries, points, triangles):
+    """Of all triangles around each query."""
+    corners = [points[triangles[:, k]] for k in range(3)]
+    found = np.empty(len(queries))
+    for number, query in enumerate(queries):
+        a, b, c = (corner - query for corner in corners)
+        la, lb, lc = (np.sqrt(np.einsum("ij,ij->i", v, v)) for v in (a, b, c))
+        sine = np.einsum("ij,ij->i", a, np.cross(b, c))
+        cosine = la * lb * lc + np.einsum("ij,ij->i", a, b) * lc + np.einsum("ij,ij->i", b, c) * la + np.einsum(
+            "ij,ij->i", c, a) * lb
+        found[number] = np.arctan2(sine, cosine).sum() / (2 * np.pi)
+    return found
 
 
 def inside_pairs(points, triangles, component, groups):
@@ -151,22 +155,8 @@ def inside_pairs(points, triangles, component, groups):
         query = points[part[0, 0]]
         around = solids[((lower[solids] <= query) & (query <= upper[solids])).all(axis=1)]
         for outer in around:
-            if groups.find(inner) != groups.find(outer) and abs(winding_number(query, points, parts[outer])) >= 0.5:
+            if groups.find(inner) != groups.find(outer) and abs(winding_numbers([query], points, parts[outer])[0]) >= 0.5:
                 yield inner, outer
-
-
-def winding_numbers(queries, points, triangles):
-    """Of all triangles around each query."""
-    corners = [points[triangles[:, k]] for k in range(3)]
-    found = np.empty(len(queries))
-    for number, query in enumerate(queries):
-        a, b, c = (corner - query for corner in corners)
-        la, lb, lc = (np.sqrt(np.einsum("ij,ij->i", v, v)) for v in (a, b, c))
-        sine = np.einsum("ij,ij->i", a, np.cross(b, c))
-        cosine = la * lb * lc + np.einsum("ij,ij->i", a, b) * lc + np.einsum("ij,ij->i", b, c) * la + np.einsum(
-            "ij,ij->i", c, a) * lb
-        found[number] = np.arctan2(sine, cosine).sum() / (2 * np.pi)
-    return found
 
 
 def inside_leads(first, second, points, triangles):

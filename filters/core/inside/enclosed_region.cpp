@@ -160,14 +160,7 @@ Status EnclosedRegion::only_specks(const RepairedSurface& surface) const
   {
     return {};
   }
-  double area = 0.0;
-  for (Index t = 0; t < count; ++t)
-  {
-    const Vec3 a = surface.points.row(surface.triangles(t, 0));
-    const Vec3 b = surface.points.row(surface.triangles(t, 1));
-    const Vec3 c = surface.points.row(surface.triangles(t, 2));
-    area += 0.5 * (b - a).cross(c - a).norm();
-  }
+  const double area = surface_area(surface.points, surface.triangles);
   const double size = std::sqrt(area / static_cast<double>(count));
   return this->volume_ > largest_thickness * size * area
     ? Status()

@@ -30,6 +30,7 @@ void report_turned(PreparedSurface& prepared)
       " turned: inside out");
   }
 }
+
 /// Repairs the surface once more without the backs of its triangles, if there are any. The
 /// diagnosis in the report stays that of the whole surface.
 Status leave_out_backs(

@@ -54,15 +54,25 @@ public:
     result.defects = prepared.defects;
   }
 
-  /// @param embedding of method embed, already made; or nothing
-  Status run(EmbeddingTets* embedding = nullptr)
+  Status run()
   {
-    this->made_ = embedding;
+    return this->make_and_check([this]() { return this->climb(); });
+  }
+  /// Of method embed, with tets that are made already.
+  Status run(EmbeddingTets embedding)
+  {
+    return this->make_and_check([&]() { return this->take(std::move(embedding)); });
+  }
+
+private:
+  template <typename MakeTets>
+  Status make_and_check(const MakeTets& make_tets)
+  {
     Status status = this->check_shape();
     if (status.ok())
     {
       const Phase phase(this->context_, "tetrahedralize", 0.0, 0.95);
-      status = this->climb();
+      status = make_tets();
     }
     if (status.ok())
     {
@@ -81,7 +91,6 @@ public:
     return status;
   }
 
-private:
   Status check_shape() const
   {
     const bool holds_anything =
@@ -410,27 +419,25 @@ private:
   /// triangles are turned matters to the winding number only.
   Status embed()
   {
+    const double start = this->context_.elapsed_seconds();
+    EmbeddingOptions options;
+    options.winding_threshold = this->options_.winding_threshold;
+    options.resolution = this->options_.resolution;
+    options.tets = this->options_.lattice_tets;
     EmbeddingTets embedding;
-    if (this->made_)
+    const Status status = embed_surface(
+      this->points_, this->triangles_, this->inside_.winding(), options, embedding, this->context_);
+    this->log("lattice of " + std::to_string(embedding.resolution) + " cubes", start, status);
+    if (!status.ok())
     {
-      embedding = std::move(*this->made_);
+      return status;
     }
-    else
-    {
-      const double start = this->context_.elapsed_seconds();
-      EmbeddingOptions options;
-      options.winding_threshold = this->options_.winding_threshold;
-      options.resolution = this->options_.resolution;
-      options.tets = this->options_.lattice_tets;
-      const Status status = embed_surface(this->points_, this->triangles_, this->inside_.winding(),
-        options, embedding, this->context_);
-      this->log("lattice of " + std::to_string(embedding.resolution) + " cubes", start, status);
-      if (!status.ok())
-      {
-        return status;
-      }
-      this->report_.merge(status.report);
-    }
+    this->report_.merge(status.report);
+    return this->take(std::move(embedding));
+  }
+
+  Status take(EmbeddingTets embedding)
+  {
     this->result_.mesh = std::move(embedding.mesh);
     this->result_.inside_fractions = std::move(embedding.inside_fractions);
     this->result_.binding = std::move(embedding.binding);
@@ -705,7 +712,6 @@ private:
   EnclosedRegion& inside_;
   const Box box_;
   double climb_start_ = 0.0;
-  EmbeddingTets* made_ = nullptr;
   std::vector<char> inside_tets_; ///< of keep_outside, else empty
   TetMesh lattice_mesh_; ///< of remesh, when it did not fit
   double lattice_misfit_ = std::numeric_limits<double>::infinity();
@@ -848,7 +854,7 @@ Status take_embedding(PointsView points, TrianglesView triangles, PreparedSurfac
   TetrahedralizeOptions options;
   options.method = TetMethod::embed;
   options.winding_threshold = prepared.winding_threshold;
-  return Ladder(points, triangles, prepared, options, result, context).run(&embedding);
+  return Ladder(points, triangles, prepared, options, result, context).run(std::move(embedding));
 }
 
 } // namespace bindpose

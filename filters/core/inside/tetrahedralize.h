@@ -164,8 +164,8 @@ Status tetrahedralize(PointsView points, TrianglesView triangles,
 Status tetrahedralize(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
   const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context);
 
-/// What method embed gives, of tets that embed_surface() has made of the prepared surface: winding
-/// numbers, labels, angles and the report. Cost: a winding number a tet.
+/// The result of method embed for tets that embed_surface() has made of the prepared surface: with
+/// winding numbers, labels, angles and the report. Cost: a winding number a tet.
 Status take_embedding(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
   EmbeddingTets embedding, TetrahedralizeResult& result, ExecutionContext& context);
 

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -45,7 +46,7 @@ std::array<double, 2> nearest_on_segments(
   return { s, t };
 }
 
-/// Where an edge of a goes through b.
+/// The place where an edge of triangle a meets triangle b.
 bool edge_meets(const Corners& a, const Corners& b, Vec3& place)
 {
   for (int k = 0; k < 3; ++k)
@@ -91,11 +92,6 @@ public:
 
   bool run(std::vector<PartLink>& links)
   {
-    this->loose_ = this->held_;
-    for (char& loose : this->loose_)
-    {
-      loose = loose ? 0 : 1;
-    }
     return this->link_nearest(links) && this->link_touching(links);
   }
 
@@ -132,8 +128,8 @@ private:
     return a == none || a == b ? b : b == none ? a : several;
   }
 
-  /// Calls leaf(g) for triangles of other labels whose boxes are nearer than `limit`, which leaf()
-  /// may lower; nearer boxes first.
+  /// Calls at_triangle(g) for triangles in boxes that hold other labels and are no farther than
+  /// `limit`, which at_triangle() may lower; nearer boxes first.
   template <typename AtTriangle>
   void visit_others(const Box& box, Index label, const double& limit, const AtTriangle& at_triangle)
   {
@@ -179,7 +175,7 @@ private:
     }
   }
 
-  /// What is nearest to a group outside of it.
+  /// The nearest pair of a triangle of the group and one of another group.
   Pair nearest_to(const std::vector<Index>& members, Index group)
   {
     Pair best;
@@ -227,7 +223,7 @@ private:
       std::vector<std::vector<Index>> members(this->held_.size());
       for (Index i = 0; i < this->triangles_.rows(); ++i)
       {
-        const Index f = this->tree_.order()[i]; // neighbours in space follow each other
+        const Index f = this->tree_.order()[i]; // neighbors in space follow each other
         const Index group = this->parts_[f] < 0 ? -1 : this->group_of_part_[this->parts_[f]];
         if (group >= 0 && !held[group])
         {
@@ -268,10 +264,7 @@ private:
   bool link_touching(std::vector<PartLink>& links)
   {
     std::vector<Index> own(this->held_.size());
-    for (std::size_t p = 0; p < own.size(); ++p)
-    {
-      own[p] = static_cast<Index>(p);
-    }
+    std::iota(own.begin(), own.end(), Index(0));
     this->label_boxes(own);
     using Cell = std::array<std::int64_t, 3>;
     std::set<std::tuple<Index, Index, Cell>> linked;
@@ -294,7 +287,7 @@ private:
     {
       const Index f = this->tree_.order()[i];
       const Index part = this->parts_[f];
-      if (part < 0 || !this->loose_[part])
+      if (part < 0 || this->held_[part])
       {
         continue;
       }
@@ -378,7 +371,6 @@ private:
   TriangleTree tree_;
   DisjointSets<Index> groups_;
   std::vector<Index> group_of_part_;
-  std::vector<char> loose_; ///< of parts
   std::vector<Index> labels_; ///< of the tree's boxes
   std::vector<std::pair<double, Index>> stack_;
 };

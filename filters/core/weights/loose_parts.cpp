@@ -76,7 +76,7 @@ Status find_loose_parts(PointsView points, TrianglesView triangles,
   {
     return {};
   }
-  // Each component by itself: a finer lattice may tell those of one part apart.
+  // Components are linked one by one, because a finer lattice may separate those of one part.
   std::vector<Index> of_triangle;
   const Components components = welded_components(triangles, lowest_equal, of_triangle);
   std::vector<char> is_held(static_cast<std::size_t>(components.count), 0);

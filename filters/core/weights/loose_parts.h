@@ -9,7 +9,7 @@
 namespace bindpose
 {
 
-/// What holds the parts of a surface that have no handle.
+/// The parts of a surface that have no handle, and the links that hold them.
 struct LooseParts
 {
   Index count = 0; ///< connected parts of the lattice without a handle

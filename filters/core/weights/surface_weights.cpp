@@ -456,7 +456,8 @@ Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
   {
     return prepared;
   }
-  // A finer lattice may tell parts apart that were one before; two rounds have always been enough.
+  // A finer lattice may separate what was one part on a coarser one. Real models took three rounds
+  // at most; parts that are left after the last one follow the nearest handle.
   constexpr int most_rounds = 4;
   const ProgressRange range(this->context_, 0.3, 1.0);
   Status status;
@@ -502,7 +503,7 @@ Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
   return status;
 }
 
-/// Where the lattice's tets lie on the surface.
+/// Makes what carries weights from the lattice to the surface.
 void Solver::put_surface_in(Lattice& lattice)
 {
   if (!this->surface_)

@@ -28,18 +28,16 @@ TriangleMesh welded(const TriangleMesh& mesh)
 
 double volume_without(const TriangleMesh& mesh, const std::vector<Index>& left_out)
 {
-  double volume = 0.0;
+  std::vector<Index> kept;
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
   {
     if (!std::binary_search(left_out.begin(), left_out.end(), t))
     {
-      const Vec3 a = mesh.points.row(mesh.triangles(t, 0));
-      const Vec3 b = mesh.points.row(mesh.triangles(t, 1));
-      const Vec3 c = mesh.points.row(mesh.triangles(t, 2));
-      volume += a.dot(b.cross(c)) / 6.0;
+      kept.push_back(t);
     }
   }
-  return volume;
+  const Triangles triangles = mesh.triangles(kept, Eigen::all);
+  return signed_volume(mesh.points, triangles);
 }
 
 TriangleMesh shuffled(TriangleMesh mesh, unsigned seed)

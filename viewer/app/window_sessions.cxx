@@ -251,7 +251,7 @@ void WindowSessions::offer_recovery(const QString& root)
   };
   this->recovery_->offer(
     tr("Bindpose did not end as it should. Its work from %1 is still there.").arg(when),
-    { { tr("Restore"), [this] { this->recover(); } }, { tr("Discard"), discard } }, tr("Later"));
+    { { tr("&Restore"), [this] { this->recover(); } }, { tr("Discard"), discard } }, tr("Later"));
 }
 
 void WindowSessions::recover()

@@ -23,6 +23,7 @@
 #include "vtkPolyData.h"
 
 #include <QString>
+#include <QThread>
 
 using namespace bindpose;
 
@@ -67,6 +68,8 @@ Status read_with(Reader* reader, const std::string& path, const RunReader& run, 
 
 Status read_file(const std::string& path, OpenedFile& file, const RunReader& run)
 {
+  // Qt takes the first thread that uses it for the application's: that must not be the one below.
+  QThread::currentThread();
   // Beside the reading: of a large mesh it takes as long.
   file.checksum = std::async(
     std::launch::async, [name = QString::fromStdString(path)] { return checksum_of(name); });

@@ -392,7 +392,7 @@ TEST_F(SessionWindow, AKilledProgramsWorkIsOfferedAndRestored)
   this->window.sessions()->offer_recovery(root);
   EXPECT_NE(this->window.recovery_bar()->sentence().indexOf("did not end as it should"), -1);
   EXPECT_TRUE(this->window.is_empty()); // never silently
-  button_of(this->window.recovery_bar(), "Restore")->click();
+  button_of(this->window.recovery_bar(), "&Restore")->click();
   EXPECT_EQ(this->window.recovery_bar()->sentence(), "");
   EXPECT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
   EXPECT_EQ(this->window.document()->handles().size(), 2u);

@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace bindpose
 {
@@ -31,8 +32,9 @@ constexpr double relative_mu = 1e-4; // the gap aimed at
 constexpr double metric = 1e-2; // of A's diagonal
 constexpr double relaxation = 1.7;
 constexpr int steps = 80;
+constexpr double enough = 1e-7; // of its energy: squared length of a step that ends a column
 constexpr int memory = 8; // steps that Anderson acceleration looks back
-constexpr Index largest_block = 8; // columns that are solved for together
+constexpr Index largest_block = 4; // columns that are solved for together
 
 /// The y in (0, 1) with p (y - z) = mu / y - mu / (1 - y): Newton's method from the better end.
 double barrier_step(double z, double mu_per_p)
@@ -181,41 +183,57 @@ std::vector<CentralStart> barrier_start(const SplitForm& matrices,
         }
         anderson.emplace_back(n);
       }
-      for (int step = 0; step <= steps && !context.cancelled(); ++step)
+      const auto step_barriers = [&](Index k)
       {
-        for (Index k = 0; k < width; ++k)
+        const char* given = pinned.data() + k * n;
+        const Bounds& bounds = columns[static_cast<std::size_t>(first + k)].bounds;
+        for (Index i = 0; i < n; ++i)
         {
-          const char* given = pinned.data() + k * n;
-          const Bounds& bounds = columns[static_cast<std::size_t>(first + k)].bounds;
-          for (Index i = 0; i < n; ++i)
+          if (!given[i])
           {
-            if (!given[i])
-            {
-              const Index v = matrices.free_vertices[i];
-              const double l = bounds.low(v);
-              const double range = bounds.high(v) - l; // the equation is scaled to [0, 1]
-              y(i, k) =
-                l + range * barrier_step((z(i, k) - l) / range, mu[k] / p[i] / (range * range));
-            }
+            const Index v = matrices.free_vertices[i];
+            const double l = bounds.low(v);
+            const double range = bounds.high(v) - l; // the equation is scaled to [0, 1]
+            y(i, k) =
+              l + range * barrier_step((z(i, k) - l) / range, mu[k] / p[i] / (range * range));
           }
         }
-        if (step == steps)
+      };
+      std::vector<Index> active(static_cast<std::size_t>(width)); // columns that still move
+      std::iota(active.begin(), active.end(), 0);
+      for (int step = 0; step < steps && !active.empty() && !context.cancelled(); ++step)
+      {
+        rhs.resize(n, static_cast<Index>(active.size()));
+        for (std::size_t j = 0; j < active.size(); ++j)
         {
-          break;
+          const Index k = active[j];
+          step_barriers(k);
+          rhs.col(static_cast<Index>(j)) = p.cwiseProduct(2.0 * y.col(k) - z.col(k)) - c.col(k);
         }
-        rhs = p.asDiagonal() * (2.0 * y - z) - c;
         single.solve(rhs, x);
-        for (Index k = 0; k < width; ++k)
+        std::vector<Index> left;
+        for (std::size_t j = 0; j < active.size(); ++j)
         {
+          const Index k = active[j];
           VectorXd at = z.col(k);
-          const VectorXd change = relaxation * (x.col(k) - y.col(k));
-          anderson[static_cast<std::size_t>(k)].accelerate(at, change, weights);
+          const VectorXd change = x.col(static_cast<Index>(j)) - y.col(k);
+          const double size = change.cwiseProduct(weights).squaredNorm();
+          anderson[static_cast<std::size_t>(k)].accelerate(at, relaxation * change, weights);
           z.col(k) = at;
+          if (size > enough * mu[k] * static_cast<double>(2 * n) / relative_mu)
+          {
+            left.push_back(k);
+          }
         }
+        active = left;
         if (begin == 0)
         {
           context.progress(static_cast<double>(step) / steps / static_cast<double>(blocks));
         }
+      }
+      for (Index k = 0; k < width && !context.cancelled(); ++k)
+      {
+        step_barriers(k);
       }
       for (Index k = 0; k < width; ++k)
       {

@@ -80,6 +80,7 @@ public:
 private:
   Status set_up();
   void set_start(bool central);
+  void balance_start();
   VectorXd apply(const VectorXd& x) const; // B x
   VectorXd apply_transposed(const VectorXd& y) const; // B' y
   Status factor(const VectorXd& d);
@@ -557,6 +558,31 @@ void InteriorPoint::set_start(bool central)
   this->z_ = mu * this->s_.cwiseInverse();
 }
 
+/// A common start that is far from the central path, because its column had not settled after all
+/// steps, has multipliers that are too small: no step leads far from there. Larger multipliers and
+/// slacks halve the number of iterations.
+void InteriorPoint::balance_start()
+{
+  const double gap = this->result_.certificate.relative_gap;
+  constexpr double far = 1.0; // gap; near starts have 1e-3 to 0.5
+  constexpr double least_slack = 1e-3;
+  constexpr double mu_of_energy = 3.0; // measured: 1 to 10 do the same
+  if (this->start_.mu > 0.0 && gap > far)
+  {
+    const auto nb = static_cast<Index>(this->bounded_.size());
+    for (Index i = 0; i < nb; ++i)
+    {
+      const Index at = this->bounded_[i];
+      const double least = least_slack * std::min(1.0, this->upper_[at] - this->lower_[at]);
+      this->s_[i] = std::max(this->s_[i], least);
+      this->s_[nb + i] = std::max(this->s_[nb + i], least);
+    }
+    const double mu =
+      mu_of_energy * this->result_.certificate.energy / static_cast<double>(this->s_.size());
+    this->z_ = std::max(mu, this->start_.mu) * this->s_.cwiseInverse();
+  }
+}
+
 /// Moves what is not ordered, given values stay.
 void InteriorPoint::order_pairs(VectorXd& w) const
 {
@@ -652,6 +678,7 @@ BoxQpSolution InteriorPoint::run()
     this->set_start(true);
     this->certify_iterate();
     this->best_ = this->result_;
+    this->balance_start();
   }
   // The gap is quadratic in the weights' error: a certified iterate can be a thousand tolerances
   // away from the minimiser. A few more iterations let the weights settle as well; whether they do

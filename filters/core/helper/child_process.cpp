@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <sstream>
 
@@ -127,6 +128,16 @@ public:
     siginfo_t info{};
     return ::waitid(P_PID, static_cast<id_t>(this->id_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
       info.si_pid == this->id_;
+  }
+
+  /// What it has used itself, without what it started; 0 where the system does not tell.
+  double processor_seconds() const
+  {
+    clockid_t clock{};
+    timespec time{};
+    const bool told =
+      ::clock_getcpuclockid(this->id_, &clock) == 0 && ::clock_gettime(clock, &time) == 0;
+    return told ? static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec) : 0.0;
   }
 
   /// Kills what is left of the group and reaps the process. @return its status as of waitpid.
@@ -322,11 +333,15 @@ Status run_child(const ChildRequest& request,
       judge(child.finish(), end);
       return {};
     }
-    if (end.seconds > request.time_limit)
+    const bool at_processor_limit =
+      request.processor_limit > 0.0 && child.processor_seconds() > request.processor_limit;
+    end.at_limit = at_processor_limit || end.seconds > request.time_limit;
+    if (end.at_limit)
     {
       return Status::failure(StatusCode::internal_error,
-        request.name + " was stopped at its time limit of " + short_number(request.time_limit) +
-          " s");
+        request.name + " was stopped at its time limit of " +
+          (at_processor_limit ? short_number(request.processor_limit) + " s of processor time"
+                              : short_number(request.time_limit) + " s"));
     }
   }
 }

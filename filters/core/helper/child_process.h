@@ -21,6 +21,9 @@ struct ChildRequest
   int input = -1; ///< file descriptor of its standard input, -1: nothing to read
   int output = -1; ///< file descriptor of its standard output, -1: lines, like standard error
   double time_limit = 120.0; ///< seconds after which it is killed
+  /// Seconds of its own processor time after which it is killed, 0: no limit. Other work on the
+  /// machine does not count.
+  double processor_limit = 0.0;
   Index memory_limit = 0; ///< MiB of address space that it may use, 0: no limit
   /// Called with the process group once it runs, and with 0 when nothing is left of the group.
   std::function<void(int group)> started;
@@ -32,6 +35,7 @@ struct ChildEnd
   /// "was ended by signal 11 (Segmentation fault)" or "ended with code 7"; empty for code 0.
   std::string failure;
   bool by_signal = false;
+  bool at_limit = false; ///< it was stopped at one of its limits of time
   double seconds = 0.0;
 };
 
@@ -41,7 +45,7 @@ struct ChildEnd
 /// - ok: it ended by itself: see `end`;
 /// - unavailable: it could not be started;
 /// - cancelled: the context was cancelled (the group is killed within 20 ms);
-/// - internal_error: it was stopped at its time limit, or there is no pipe to be had.
+/// - internal_error: it was stopped at a limit of time, or there is no pipe to be had.
 Status run_child(const ChildRequest& request,
   const std::function<void(const std::string&)>& take_line, ChildEnd& end,
   ExecutionContext& context);

@@ -175,6 +175,7 @@ Status run_mesher(const MesherRequest& request, const MesherData& input, MesherA
   child.input = input_file.get();
   child.output = output_file.get();
   child.time_limit = request.time_limit;
+  child.processor_limit = request.processor_limit;
   child.name = "bindpose-mesher" +
     (request.arguments.empty() ? std::string() : " " + request.arguments.front());
   if (request.memory_limit > 0)
@@ -189,6 +190,7 @@ Status run_mesher(const MesherRequest& request, const MesherData& input, MesherA
     child, [&](const std::string& line) { lines.take(line, context, answer.report); }, end,
     context);
   answer.seconds = end.seconds;
+  answer.at_limit = end.at_limit;
   if (status.ok())
   {
     status = judge_end(end, lines, request, child.name);

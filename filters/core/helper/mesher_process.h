@@ -17,6 +17,8 @@ struct MesherRequest
   std::vector<std::string> arguments;
   double time_limit = 120.0; ///< seconds after which the helper is killed
   Index memory_limit = 0; ///< MiB of address space that the helper may use, 0: no limit
+  double processor_limit =
+    0.0; ///< seconds of its processor time after which it is killed, 0: no limit
 };
 
 /// What a job gave.
@@ -25,6 +27,7 @@ struct MesherAnswer
   MesherData data;
   Report report; ///< what the helper counted, by the helper's own keys
   double seconds = 0.0;
+  bool at_limit = false; ///< it was stopped at one of its limits of time
 };
 
 /// Path of bindpose-mesher, empty when there is none. Looked for in the environment variable

@@ -122,3 +122,20 @@ TEST(ChildProcess, ItsGroupIsKilledWhateverTheEnd)
     EXPECT_EQ(shell.lines.size(), 1u) << "cancelled before: not started";
   }
 }
+
+TEST(ChildProcess, OnlyItsOwnProcessorTimeCounts)
+{
+  Shell idle("sleep 0.5");
+  idle.request.processor_limit = 0.2;
+  EXPECT_TRUE(idle.run().ok());
+  EXPECT_FALSE(idle.end.at_limit);
+
+  Shell busy("while :; do :; done");
+  busy.request.processor_limit = 0.2;
+  busy.request.time_limit = 60.0;
+  const Status status = busy.run();
+  EXPECT_EQ(status.code, StatusCode::internal_error);
+  EXPECT_EQ(status.message, "the shell was stopped at its time limit of 0.2 s of processor time");
+  EXPECT_TRUE(busy.end.at_limit);
+  EXPECT_GE(busy.end.seconds, 0.19);
+}

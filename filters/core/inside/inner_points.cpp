@@ -226,8 +226,21 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
   ExecutionContext& context, Points& inner)
 {
   constexpr double too_many = 5.0; // times `most`: no use in going on
+  constexpr double least_enough = 0.6;
   constexpr double enough = 1.2;
+  constexpr double aim = 1.1;
   constexpr int attempts = 20;
+  constexpr double most_growth = 1.0; // cells of sizes that grew faster would not follow them
+  constexpr double least_step = 1.1;
+  constexpr double blind_step = 2.0; // without a number
+  // Of a scale, that the number of vertices falls with: 3 in wide spaces, 2 in a layer at the
+  // surface, less where many triangles are near each other.
+  constexpr double least_power = 0.7;
+  constexpr double largest_power = 3.0;
+  double power = largest_power;
+  double step = 1.0; // the last scale
+  double largest_step = 6.0;
+  double before = 0.0; // the ratio ahead of it; 0: without a number
   for (int attempt = 0; attempt < attempts; ++attempt)
   {
     Lattice lattice(interior, sizes, context);
@@ -240,23 +253,33 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
     const double ratio = whole
       ? static_cast<double>(inner.rows()) / static_cast<double>(std::max<Index>(1, most))
       : too_many;
-    if (ratio <= enough)
+    const bool too_far = ratio < least_enough && step > least_step;
+    if (ratio <= enough && !too_far)
     {
       break;
     }
-    // Tets' volumes go with the cubes of growing edges; at the surface, a layer has as many
-    // vertices as the square of its edges says. (Cells of sizes that grew faster would not follow
-    // them.)
-    constexpr double most_growth = 1.0;
-    constexpr double least = 1.1;
+    if (too_far)
+    {
+      step = std::sqrt(step);
+      largest_step = std::max(least_step, step);
+      before = 0.0;
+      sizes.scale(1.0 / step);
+      continue;
+    }
     if (sizes.growth() < most_growth)
     {
-      sizes.set_growth(std::min(most_growth, sizes.growth() * std::max(least, std::cbrt(ratio))));
+      sizes.set_growth(
+        std::min(most_growth, sizes.growth() * std::max(least_step, std::cbrt(ratio))));
+      continue;
     }
-    else
+    if (whole && before > 0.0)
     {
-      sizes.scale(std::max(least, std::sqrt(ratio)));
+      power = std::clamp(std::log(before / ratio) / std::log(step), least_power, largest_power);
     }
+    before = whole ? ratio : 0.0;
+    step =
+      whole ? std::clamp(std::pow(ratio / aim, 1.0 / power), least_step, largest_step) : blind_step;
+    sizes.scale(step);
   }
   return true;
 }

@@ -221,7 +221,7 @@ def bad_input(folder, bound, posed_handles):
     reader = cases["missing.off"]
     (folder / "missing.off").write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n")
     reader.FileName = str(folder / "broken.off")
-    tets = TetrahedralizeSurface(Input=reader, InteriorEdge=0)
+    tets = TetrahedralizeSurface(Input=reader, Bare=1)
     assert fetch(tets).GetNumberOfCells() == 0
     reader.FileName = str(folder / "missing.off")
     assert fetch(tets).GetNumberOfCells() == 1

@@ -17,8 +17,7 @@ struct MesherRequest
   std::vector<std::string> arguments;
   double time_limit = 120.0; ///< seconds after which the helper is killed
   Index memory_limit = 0; ///< MiB of address space that the helper may use, 0: no limit
-  double processor_limit =
-    0.0; ///< seconds of its processor time after which it is killed, 0: no limit
+  double processor_limit = 0.0; ///< seconds of its processor time that have the same end, 0: none
 };
 
 /// What a job gave.

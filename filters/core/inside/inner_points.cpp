@@ -232,15 +232,15 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
   constexpr int attempts = 20;
   constexpr double most_growth = 1.0; // cells of sizes that grew faster would not follow them
   constexpr double least_step = 1.1;
-  constexpr double blind_step = 2.0; // without a number
-  // Of a scale, that the number of vertices falls with: 3 in wide spaces, 2 in a layer at the
+  constexpr double blind_step = 2.0; // where the vertices were too many to be counted
+  // The number of vertices falls with a power of the scale: 3 in wide spaces, 2 in a layer at the
   // surface, less where many triangles are near each other.
   constexpr double least_power = 0.7;
   constexpr double largest_power = 3.0;
   double power = largest_power;
-  double step = 1.0; // the last scale
+  double step = 1.0; // the last one
   double largest_step = 6.0;
-  double before = 0.0; // the ratio ahead of it; 0: without a number
+  double before = 0.0; // the ratio ahead of it, 0 where it was not counted
   for (int attempt = 0; attempt < attempts; ++attempt)
   {
     Lattice lattice(interior, sizes, context);

@@ -130,7 +130,7 @@ public:
       info.si_pid == this->id_;
   }
 
-  /// What it has used itself, without what it started; 0 where the system does not tell.
+  /// Processor time of the child without that of its own children; 0 where it is not available.
   double processor_seconds() const
   {
     clockid_t clock{};

@@ -17,7 +17,7 @@ struct MesherRequest
   std::vector<std::string> arguments;
   double time_limit = 120.0; ///< seconds after which the helper is killed
   Index memory_limit = 0; ///< MiB of address space that the helper may use, 0: no limit
-  double processor_limit = 0.0; ///< seconds of its processor time that have the same end, 0: none
+  double processor_limit = 0.0; ///< seconds of processor time with the same effect, 0: no limit
 };
 
 /// What a job gave.

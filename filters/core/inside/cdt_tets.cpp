@@ -376,7 +376,7 @@ Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherD
   MesherRequest request;
   request.arguments = arguments;
   request.memory_limit = this->options_.memory_limit;
-  // Of a busy machine the helper may get a quarter only.
+  // On a busy machine the helper may get only a quarter of a processor.
   constexpr double slack = 4.0;
   request.processor_limit = seconds;
   request.time_limit = std::min(left, slack * seconds);

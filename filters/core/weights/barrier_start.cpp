@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace bindpose
 {
@@ -32,7 +33,7 @@ constexpr double relative_mu = 1e-4; // the gap aimed at
 constexpr double metric = 1e-2; // of A's diagonal
 constexpr double relaxation = 1.7;
 constexpr int steps = 80;
-constexpr double enough = 1e-7; // of its energy: squared length of a step that ends a column
+constexpr double enough = 1e-7; // a column ends at a squared step of this fraction of its energy
 constexpr int memory = 8; // steps that Anderson acceleration looks back
 constexpr Index largest_block = 4; // columns that are solved for together
 
@@ -225,7 +226,7 @@ std::vector<CentralStart> barrier_start(const SplitForm& matrices,
             left.push_back(k);
           }
         }
-        active = left;
+        active = std::move(left);
         if (begin == 0)
         {
           context.progress(static_cast<double>(step) / steps / static_cast<double>(blocks));

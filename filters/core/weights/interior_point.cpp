@@ -81,6 +81,7 @@ private:
   Status set_up();
   void set_start(bool central);
   void balance_start();
+  void raise_slacks(double least);
   VectorXd apply(const VectorXd& x) const; // B x
   VectorXd apply_transposed(const VectorXd& y) const; // B' y
   Status factor(const VectorXd& d);
@@ -546,14 +547,8 @@ void InteriorPoint::set_start(bool central)
   }
   // Both constants measured on boxes and on real shapes: half of the iterations of mu = E / n.
   constexpr double least = 1e-2;
-  VectorXd floor = VectorXd::Constant(this->h_.size(), least);
-  const auto nb = static_cast<Index>(this->bounded_.size());
-  for (Index i = 0; i < nb; ++i)
-  {
-    const Index at = this->bounded_[i];
-    floor[i] = floor[nb + i] = least * std::min(1.0, this->upper_[at] - this->lower_[at]);
-  }
-  this->s_ = (this->apply(this->x_) + this->h_).cwiseMax(floor);
+  this->s_ = this->apply(this->x_) + this->h_;
+  this->raise_slacks(least);
   const double mu = 10.0 * energy / static_cast<double>(this->s_.size());
   this->z_ = mu * this->s_.cwiseInverse();
 }
@@ -569,18 +564,24 @@ void InteriorPoint::balance_start()
   constexpr double mu_of_energy = 3.0; // measured: 1 to 10 do the same
   if (this->start_.mu > 0.0 && gap > far)
   {
-    const auto nb = static_cast<Index>(this->bounded_.size());
-    for (Index i = 0; i < nb; ++i)
-    {
-      const Index at = this->bounded_[i];
-      const double least = least_slack * std::min(1.0, this->upper_[at] - this->lower_[at]);
-      this->s_[i] = std::max(this->s_[i], least);
-      this->s_[nb + i] = std::max(this->s_[nb + i], least);
-    }
+    this->raise_slacks(least_slack);
     const double mu =
       mu_of_energy * this->result_.certificate.energy / static_cast<double>(this->s_.size());
     this->z_ = std::max(mu, this->start_.mu) * this->s_.cwiseInverse();
   }
+}
+
+/// @param least smallest slack afterwards; less between bounds that are nearer than 1.
+void InteriorPoint::raise_slacks(double least)
+{
+  VectorXd floor = VectorXd::Constant(this->h_.size(), least);
+  const auto nb = static_cast<Index>(this->bounded_.size());
+  for (Index i = 0; i < nb; ++i)
+  {
+    const Index at = this->bounded_[i];
+    floor[i] = floor[nb + i] = least * std::min(1.0, this->upper_[at] - this->lower_[at]);
+  }
+  this->s_ = this->s_.cwiseMax(floor);
 }
 
 /// Moves what is not ordered, given values stay.

@@ -47,7 +47,8 @@ public:
     const ImproveOptions& options, Improvement& done)
     : mesh_(mesh), tets_(mesh), held_(std::move(held)), surface_(surface), options_(options),
       done_(done), good_(TetComplex::quality_of_angle(options.angle)),
-      moved_(static_cast<std::size_t>(mesh.points.rows()), 0)
+      moved_(static_cast<std::size_t>(mesh.points.rows()), 0),
+      stays_(static_cast<std::size_t>(mesh.points.rows()), 0)
   {
     const auto tets = static_cast<double>(mesh.tets.rows() + small);
     this->most_evaluations_ = std::min(options.effort * tets, large + per_tet_of_large * tets);
@@ -429,10 +430,11 @@ private:
 
   bool move(Index v)
   {
-    if (this->held_[v] && !this->release_)
+    if ((this->held_[v] && !this->release_) || this->stays_[v] == this->tets_.stamp(v))
     {
       return false;
     }
+    this->stays_[v] = this->tets_.stamp(v);
     const bool on_boundary = this->tets_.on_boundary(v);
     std::vector<Facet> skin;
     Patch patch;
@@ -625,6 +627,7 @@ private:
     this->tets_.fill_cavity(p, this->cavity_);
     this->held_.push_back(0);
     this->moved_.push_back(1);
+    this->stays_.push_back(0);
     ++this->done_.inserted_vertices;
     return true;
   }
@@ -862,6 +865,8 @@ private:
   bool release_ = false; ///< held vertices may move
   bool insert_ = false; ///< vertices may be added
   std::vector<char> moved_;
+  /// Per vertex: its newest change when no better place was found for it; 0: none was looked for.
+  std::vector<std::uint64_t> stays_;
   std::vector<std::uint64_t> tried_; ///< per tet: its newest change when it was tried
   Ring ring_;
   std::vector<Index> star_;

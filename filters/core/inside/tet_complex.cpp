@@ -13,7 +13,6 @@ namespace
 {
 /// Below this quality the sign of a volume in doubles is not trusted: 0.001 degrees.
 constexpr double doubtful = 3e-10;
-constexpr std::size_t largest_cavity = 128; // tets
 } // namespace
 
 TetComplex::TetComplex(TetMesh& mesh)
@@ -29,9 +28,6 @@ TetComplex::TetComplex(TetMesh& mesh)
   const auto tets = static_cast<std::size_t>(mesh.tets.rows());
   this->tets_.reserve(tets);
   this->quality_.reserve(tets);
-  this->cavity_.reserve(tets);
-  this->site_ids_.reserve(tets);
-  this->reached_.reserve(tets);
   for (Index t = 0; t < mesh.tets.rows(); ++t)
   {
     this->add({ mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3) });
@@ -75,11 +71,8 @@ double TetComplex::volume(const Tet& t) const
     this->points_[t[0]], this->points_[t[1]], this->points_[t[2]], this->points_[t[3]]);
 }
 
-double TetComplex::quality(const Tet& t) const
+double TetComplex::quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 {
-  ++this->evaluations_;
-  const Vec3 &a = this->points_[t[0]], &b = this->points_[t[1]], &c = this->points_[t[2]],
-             &d = this->points_[t[3]];
   const Vec3 ab = b - a, ac = c - a, ad = d - a, bc = c - b, bd = d - b;
   const Vec3 nd = ac.cross(ab);
   const double volume = -nd.dot(ad); // six times
@@ -114,16 +107,6 @@ double TetComplex::quality(const Tet& t) const
   return least;
 }
 
-double TetComplex::worst(const std::vector<Index>& tets) const
-{
-  double least = 1.0;
-  for (const Index t : tets)
-  {
-    least = std::min(least, this->quality_[t]);
-  }
-  return least;
-}
-
 Index TetComplex::add_vertex(const Vec3& p, bool on_boundary)
 {
   this->points_.push_back(p);
@@ -141,8 +124,9 @@ void TetComplex::drop_last_vertex()
   this->stamp_.pop_back();
 }
 
-void TetComplex::requalify(Index v)
+void TetComplex::move(Index v, const Vec3& p)
 {
+  this->points_[v] = p;
   ++this->changes_;
   for (const Index t : this->at_[v])
   {
@@ -159,9 +143,6 @@ Index TetComplex::add(const Tet& tet)
   const Index id = this->tet_ids();
   this->tets_.push_back(tet);
   this->quality_.push_back(this->quality(tet));
-  this->cavity_.push_back(0);
-  this->site_ids_.push_back(0);
-  this->reached_.push_back(0);
   ++this->changes_;
   for (const Index v : tet)
   {
@@ -347,161 +328,6 @@ Index TetComplex::split_edge(Index a, Index b, const Vec3& p)
   for (const Tet& tet : fresh)
   {
     this->add(tet);
-  }
-  return v;
-}
-
-bool TetComplex::in_sphere(const Tet& tet, const Vec3& p) const
-{
-  const Vec3& a = this->points_[tet[0]];
-  const Vec3 u = this->points_[tet[1]] - a, v = this->points_[tet[2]] - a,
-             w = this->points_[tet[3]] - a, q = p - a;
-  const Vec3 vw = v.cross(w);
-  const Vec3 center = u.squaredNorm() * vw + v.squaredNorm() * w.cross(u) +
-    w.squaredNorm() * u.cross(v); // times twice the determinant
-  return q.squaredNorm() * u.dot(vw) < q.dot(center);
-}
-
-bool TetComplex::find_cavity(const Vec3& p, Index start, double least, Cavity& cavity)
-{
-  this->collect_sphere(p, start, cavity.tets);
-  const Index v = this->add_vertex(p, false); // for qualities
-  const bool found = this->shrink_cavity(v, start, least, cavity);
-  this->drop_last_vertex();
-  if (!found)
-  {
-    return false;
-  }
-  // The same volume, and no vertex is lost.
-  double new_volume = 0.0;
-  std::vector<Index> kept;
-  for (const Facet& f : cavity.facets)
-  {
-    new_volume += tet_volume(this->points_[f[0]], this->points_[f[1]], this->points_[f[2]], p);
-    kept.insert(kept.end(), f.begin(), f.end());
-  }
-  std::sort(kept.begin(), kept.end());
-  double old_volume = 0.0;
-  for (const Index t : cavity.tets)
-  {
-    old_volume += this->volume(this->tets_[t]);
-    for (const Index w : this->tets_[t])
-    {
-      if (!std::binary_search(kept.begin(), kept.end(), w))
-      {
-        return false;
-      }
-    }
-  }
-  constexpr double rounding = 1e-9;
-  return std::abs(new_volume - old_volume) <= rounding * old_volume;
-}
-
-TetComplex::Site& TetComplex::site_of(Index t)
-{
-  return this->sites_[this->site_ids_[t]];
-}
-
-void TetComplex::add_site(Index t, std::vector<Index>& tets)
-{
-  this->cavity_[t] = this->cavities_;
-  this->site_ids_[t] = static_cast<Index>(this->sites_.size());
-  this->sites_.emplace_back();
-  tets.push_back(t);
-}
-
-/// The tet beyond facet k of a tet of the cavity.
-Index TetComplex::beyond_of_site(Index t, int k)
-{
-  Index& next = this->site_of(t).beyond[k];
-  if (next == Site::unknown)
-  {
-    const Tet& tet = this->tets_[t];
-    const auto& f = facet_corners[k];
-    next = this->beyond(t, tet[f[0]], tet[f[1]], tet[f[2]]);
-  }
-  return next;
-}
-
-void TetComplex::collect_sphere(const Vec3& p, Index start, std::vector<Index>& tets)
-{
-  const Index in = ++this->cavities_;
-  this->sites_.clear();
-  tets.clear();
-  this->add_site(start, tets);
-  for (std::size_t i = 0; i < tets.size() && tets.size() < largest_cavity; ++i)
-  {
-    for (int k = 0; k < 4; ++k)
-    {
-      const Index next = this->beyond_of_site(tets[i], k);
-      if (next >= 0 && this->cavity_[next] != in && this->in_sphere(this->tets_[next], p))
-      {
-        this->add_site(next, tets);
-      }
-    }
-  }
-}
-
-bool TetComplex::shrink_cavity(Index v, Index start, double least, Cavity& cavity)
-{
-  const Index in = this->cavities_;
-  for (;;)
-  {
-    // Those that facets still join to the start, until one is met that v does not fit to.
-    const Index now = ++this->searches_;
-    cavity.tets.assign(1, start);
-    cavity.facets.clear();
-    this->reached_[start] = now;
-    Index bad = -1;
-    for (std::size_t i = 0; i < cavity.tets.size() && bad < 0; ++i)
-    {
-      const Index t = cavity.tets[i];
-      for (int k = 0; k < 4; ++k)
-      {
-        const Index next = this->beyond_of_site(t, k);
-        if (next >= 0 && this->cavity_[next] == in)
-        {
-          if (this->reached_[next] != now)
-          {
-            this->reached_[next] = now;
-            cavity.tets.push_back(next);
-          }
-          continue;
-        }
-        const Tet& tet = this->tets_[t];
-        const auto& f = facet_corners[k];
-        const Facet inwards{ tet[f[0]], tet[f[2]], tet[f[1]] };
-        double& fit = this->site_of(t).fits[k];
-        if (std::isnan(fit))
-        {
-          fit = this->quality({ inwards[0], inwards[1], inwards[2], v });
-        }
-        if (fit < least)
-        {
-          bad = t;
-          break;
-        }
-        cavity.facets.push_back(inwards);
-      }
-    }
-    if (bad < 0 || bad == start)
-    {
-      return bad < 0;
-    }
-    this->cavity_[bad] = 0;
-  }
-}
-
-Index TetComplex::fill_cavity(const Vec3& p, const Cavity& cavity)
-{
-  const Index v = this->add_vertex(p, false);
-  for (const Index t : cavity.tets)
-  {
-    this->remove(t);
-  }
-  for (const Facet& f : cavity.facets)
-  {
-    this->add({ f[0], f[1], f[2], v });
   }
   return v;
 }

@@ -4,7 +4,6 @@
 #include "base/mesh.h"
 
 #include <array>
-#include <cmath>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -13,6 +12,7 @@ namespace bindpose
 {
 
 /// Tets that are edited in place: vertices know their tets, removed tets keep their ids unused.
+/// Queries are thread-safe while nothing is edited.
 /// The quality of a tet is the squared sine of its smallest dihedral angle (at most 70.53 degrees).
 class TetComplex
 {
@@ -27,14 +27,6 @@ public:
     std::vector<Index> tets;
     std::vector<Index> vertices;
     bool closed = false;
-  };
-
-  /// Tets to replace, and facets that bound them, each oriented so that a point inside sees it from
-  /// the positive side: (facet, point) is a positive tet.
-  struct Cavity
-  {
-    std::vector<Index> tets;
-    std::vector<Facet> facets;
   };
 
   static constexpr double gone = 1e9; ///< quality of a removed tet
@@ -56,21 +48,21 @@ public:
   bool on_boundary(Index v) const { return this->boundary_[v] != 0; }
   double quality(Index t) const { return this->quality_[t]; }
   /// -1 unless the volume is positive, exactly.
-  double quality(const Tet& tet) const;
+  static double quality(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
+  double quality(const Tet& tet) const
+  {
+    return quality(
+      this->points_[tet[0]], this->points_[tet[1]], this->points_[tet[2]], this->points_[tet[3]]);
+  }
   static double quality_of_angle(double degrees);
-  /// How often the quality of a tet was computed.
-  std::uint64_t evaluations() const { return this->evaluations_; }
-  double worst(const std::vector<Index>& tets) const;
   double volume(const Tet& tet) const;
   /// Counts changes of the tets at a vertex.
   std::uint64_t stamp(Index v) const { return this->stamp_[v]; }
+  /// The newest stamp of all vertices.
+  std::uint64_t changes() const { return this->changes_; }
 
   Index add_vertex(const Vec3& p, bool on_boundary);
-  /// Takes back the last vertex, which no tet uses.
-  void drop_last_vertex();
-  /// Does not update qualities: see requalify().
-  void set_point(Index v, const Vec3& p) { this->points_[v] = p; }
-  void requalify(Index v);
+  void move(Index v, const Vec3& p);
   Index add(const Tet& tet);
   void remove(Index t);
 
@@ -93,27 +85,9 @@ public:
   /// that makes a tet without volume; then nothing has changed.
   Index split_edge(Index a, Index b, const Vec3& p);
 
-  /// The tets around tet `start`, joined by facets, whose circumspheres contain p, without those
-  /// from which p cannot be joined to a facet by a tet of quality `least`.
-  /// @return false if no cavity is left; p must be inside of `start`.
-  bool find_cavity(const Vec3& p, Index start, double least, Cavity& cavity);
-  /// Replaces the tets of the cavity by tets from a new vertex. @return the vertex.
-  Index fill_cavity(const Vec3& p, const Cavity& cavity);
-
 private:
-  bool in_sphere(const Tet& tet, const Vec3& p) const;
-  /// A tet of a cavity: what is known of its facets while the cavity shrinks.
-  struct Site
-  {
-    static constexpr Index unknown = -2;
-    std::array<Index, 4> beyond{ unknown, unknown, unknown, unknown };
-    std::array<double, 4> fits{ NAN, NAN, NAN, NAN }; ///< qualities of new tets on the facets
-  };
-  Site& site_of(Index t);
-  void add_site(Index t, std::vector<Index>& tets);
-  Index beyond_of_site(Index t, int k);
-  void collect_sphere(const Vec3& p, Index start, std::vector<Index>& tets);
-  bool shrink_cavity(Index v, Index start, double least, Cavity& cavity);
+  /// Takes back the last vertex, which no tet uses.
+  void drop_last_vertex();
 
   std::vector<Vec3> points_;
   std::vector<Tet> tets_;
@@ -121,15 +95,8 @@ private:
   std::vector<std::vector<Index>> at_; ///< tets per vertex
   std::vector<char> boundary_; ///< per vertex
   std::vector<std::uint64_t> stamp_;
-  std::vector<Index> cavity_; ///< per tet: the last cavity that it belongs to
-  std::vector<Site> sites_; ///< of the last cavity
-  std::vector<Index> site_ids_; ///< per tet: its place in sites_, if it is in the last cavity
-  std::vector<Index> reached_; ///< per tet: the last search that met it
-  Index cavities_ = 0;
-  Index searches_ = 0;
   Index count_ = 0;
   std::uint64_t changes_ = 0;
-  mutable std::uint64_t evaluations_ = 0;
 };
 
 } // namespace bindpose

@@ -43,7 +43,7 @@ struct Improvement
 };
 
 /// Moves p along the unit vector n, at most `reach` either way, onto the surface that the boundary
-/// is to lie on. @return false when it is not met there.
+/// is to lie on. Called from several threads. @return false when it is not met there.
 using OntoSurface = std::function<bool(Vec3& p, const Vec3& n, double reach)>;
 
 /// Improves the flattest tets of a mesh by replacing edges and facets between tets (Freitag and
@@ -57,8 +57,9 @@ using OntoSurface = std::function<bool(Vec3& p, const Vec3& n, double reach)>;
 /// edges of it that turn its triangles by no more than 15 degrees; vertices at creases of more than
 /// 40 degrees do not move and are contracted along the crease only, its ends and corners not at
 /// all. Held ones do not move and never go. The tets must be positive and meet in common facets.
-/// held: #V. Points stay, used or not; new ones come behind. Cost: some 20 us per tet that is too
-/// flat and pass in which its vicinity has changed.
+/// held: #V. Points stay, used or not; new ones come behind. The same on any number of threads.
+/// Cost: some 40 us of one thread per tet that is too flat and pass in which its vicinity has
+/// changed.
 /// @return false when cancelled; the mesh is valid all the same.
 bool improve_tets(TetMesh& mesh, std::vector<char> held, const OntoSurface& surface,
   const ImproveOptions& options, Improvement& done, ExecutionContext& context);

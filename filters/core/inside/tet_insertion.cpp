@@ -1,6 +1,7 @@
 #include "inside/tet_insertion.h"
 
 #include "base/tet_facets.h"
+#include "inside/tet_cavity.h"
 #include "inside/tet_complex.h"
 #include "surface/triangle_predicates.h"
 
@@ -32,7 +33,7 @@ struct LongEdge
 class Inserter
 {
 public:
-  explicit Inserter(TetComplex& tets) : tets_(tets) {}
+  explicit Inserter(TetComplex& tets) : tets_(tets), search_(tets) {}
 
   /// p becomes a vertex: with tets of some thickness, else on an edge that it is on but for
   /// rounding (points of a bone are on one line), else anyhow. @return -1 where nothing helps.
@@ -44,14 +45,14 @@ public:
       return -1;
     }
     Index v = -1;
-    if (this->tets_.find_cavity(p, t, this->thick_, this->cavity_))
+    if (this->search_.find(p, t, this->thick_, this->cavity_))
     {
-      v = this->tets_.fill_cavity(p, this->cavity_);
+      v = fill_cavity(this->tets_, p, this->cavity_);
     }
     v = v < 0 ? this->split_edge_at(p, t) : v;
-    if (v < 0 && this->tets_.find_cavity(p, t, 0.0, this->cavity_))
+    if (v < 0 && this->search_.find(p, t, 0.0, this->cavity_))
     {
-      v = this->tets_.fill_cavity(p, this->cavity_);
+      v = fill_cavity(this->tets_, p, this->cavity_);
     }
     this->near_ = v < 0 ? t : this->tets_.tets_at(v).front();
     return v;
@@ -127,7 +128,8 @@ private:
   }
 
   TetComplex& tets_;
-  TetComplex::Cavity cavity_;
+  CavitySearch search_;
+  TetCavity cavity_;
   TetComplex::Ring ring_;
   Index near_ = -1; ///< a tet near the last place
   const double thick_ = TetComplex::quality_of_angle(1.0);

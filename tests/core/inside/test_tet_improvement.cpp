@@ -172,6 +172,53 @@ TEST(TetImprovement, CancelledAtOnceIsStillAMesh)
   EXPECT_NEAR(tet_volumes(mesh.points, mesh.tets).sum(), 1.0, 1e-12);
 }
 
+TEST(TetImprovement, ThreadsMakeNoDifference)
+{
+  // Flat tets everywhere, also next to each other.
+  constexpr int n = 12;
+  TetMesh shaken = test::tet_box(n, n, n);
+  test::Random random(11);
+  for (Index v = 0; v < shaken.points.rows(); ++v)
+  {
+    const Vec3 p = shaken.points.row(v);
+    if (p.minCoeff() > 1e-9 && p.maxCoeff() < 1.0 - 1e-9)
+    {
+      constexpr double by = 0.25 / n;
+      shaken.points.row(v) += random.in_box(Vec3::Constant(-by), Vec3::Constant(by)).transpose();
+    }
+  }
+  ASSERT_TRUE(check_tets(shaken.points, shaken.tets).ok());
+  for (const bool keep_boundary : { false, true })
+  {
+    SCOPED_TRACE(keep_boundary);
+    ImproveOptions options;
+    options.keep_boundary = keep_boundary;
+    options.insert = keep_boundary;
+    options.angle = 25.0;
+    options.insert_angle = 20.0;
+    TetMesh one;
+    for (const int threads : { 1, 2, 8 })
+    {
+      SCOPED_TRACE(threads);
+      TetMesh mesh = shaken;
+      ExecutionContext context;
+      context.set_threads(threads);
+      Improvement done;
+      ASSERT_TRUE(
+        improve_tets(mesh, std::vector<char>(mesh.points.rows(), 0), {}, options, done, context));
+      EXPECT_GT(done.moved_vertices, 100);
+      EXPECT_TRUE(check_tets(mesh.points, mesh.tets).ok());
+      EXPECT_NEAR(tet_volumes(mesh.points, mesh.tets).sum(), 1.0, 1e-12);
+      if (threads == 1)
+      {
+        one = mesh;
+      }
+      EXPECT_EQ(mesh.points, one.points);
+      EXPECT_EQ(mesh.tets, one.tets);
+    }
+  }
+}
+
 TEST(TetImprovement, KeepsTheBoundaryWhenAsked)
 {
   // Beside inner vertices, those of the sides move within their planes: there are flat tets there.

@@ -1,0 +1,68 @@
+#ifndef bindpose_inside_tet_cavity_h
+#define bindpose_inside_tet_cavity_h
+
+#include "base/mesh.h"
+#include "inside/tet_complex.h"
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace bindpose
+{
+
+/// Tets to replace by tets from a new vertex, and facets that bound them, each oriented so that a
+/// point inside sees it from the positive side: (facet, point) is a positive tet.
+struct TetCavity
+{
+  std::vector<Index> tets;
+  std::vector<TetComplex::Facet> facets;
+};
+
+/// Replaces the tets of the cavity. @return the vertex.
+Index fill_cavity(TetComplex& tets, const Vec3& p, const TetCavity& cavity);
+
+/// Finds cavities. Each thread needs its own; the tets may be edited between two searches.
+class CavitySearch
+{
+public:
+  explicit CavitySearch(const TetComplex& tets) : tets_(tets) {}
+
+  /// The tets around tet `start`, joined by facets, whose circumspheres contain p, without those
+  /// from which p cannot be joined to a facet by a tet of quality `least`.
+  /// @return false if no cavity is left; p must be inside of `start`.
+  bool find(const Vec3& p, Index start, double least, TetCavity& cavity);
+  /// Qualities of tets that were computed.
+  Index evaluations() const { return this->evaluations_; }
+
+private:
+  using Tet = TetComplex::Tet;
+  using Facet = TetComplex::Facet;
+  /// A tet of a cavity: what is known of its facets while the cavity shrinks.
+  struct Site
+  {
+    static constexpr Index unknown = -2;
+    std::array<Index, 4> beyond{ unknown, unknown, unknown, unknown };
+    std::array<double, 4> fits{ NAN, NAN, NAN, NAN }; ///< qualities of new tets on the facets
+  };
+  bool in_sphere(const Tet& tet, const Vec3& p) const;
+  Site& site_of(Index t) { return this->sites_[this->site_ids_[t]]; }
+  void add_site(Index t, std::vector<Index>& tets);
+  Index beyond_of_site(Index t, int k);
+  void collect_sphere(const Vec3& p, Index start, std::vector<Index>& tets);
+  bool shrink(const Vec3& p, Index start, double least, TetCavity& cavity);
+  bool keeps_all(const Vec3& p, const TetCavity& cavity) const;
+
+  const TetComplex& tets_;
+  std::vector<Index> cavity_; ///< per tet: the last search whose cavity it belongs to
+  std::vector<Site> sites_; ///< of this search
+  std::vector<Index> site_ids_; ///< per tet: its place in sites_, if it is in the cavity
+  std::vector<Index> reached_; ///< per tet: the last walk that met it
+  Index searches_ = 0;
+  Index walks_ = 0;
+  Index evaluations_ = 0;
+};
+
+} // namespace bindpose
+
+#endif

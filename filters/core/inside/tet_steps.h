@@ -1,0 +1,131 @@
+#ifndef bindpose_inside_tet_steps_h
+#define bindpose_inside_tet_steps_h
+
+#include "base/mesh.h"
+#include "inside/tet_cavity.h"
+#include "inside/tet_complex.h"
+#include "inside/tet_improvement.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace bindpose
+{
+
+/// A change of a few tets after which they cost less.
+struct TetStep
+{
+  enum class Kind
+  {
+    none,
+    swap, ///< the tets `removed` are replaced by `fresh`
+    contract, ///< the same, and a vertex is no longer used
+    move, ///< `vertex` moves to `place`
+    insert ///< the tets of `cavity` are replaced by tets from a new vertex at `place`
+  };
+  Kind kind = Kind::none;
+  std::vector<Index> removed;
+  std::vector<TetComplex::Tet> fresh;
+  Index vertex = -1;
+  Vec3 place = Vec3::Zero();
+  TetCavity cavity;
+  /// Vertices of the tet for which no better place was found.
+  std::vector<Index> stay;
+
+  void clear();
+};
+
+/// What a step may do.
+struct TetStepRules
+{
+  explicit TetStepRules(const ImproveOptions& improve_options, const OntoSurface& onto)
+    : options(improve_options), surface(onto)
+  {
+  }
+
+  const ImproveOptions& options;
+  const OntoSurface& surface;
+  std::vector<char> held; ///< #V
+  /// #V, stamp of the vertex when no better place was found for it; 0: none was looked for.
+  std::vector<std::uint64_t> stays;
+  bool release = false; ///< held vertices may move
+  bool insert = false; ///< vertices may be added
+};
+
+/// A better place is looked for if a tet at v is too flat.
+bool may_move(const TetComplex& tets, const TetStepRules& rules, Index v);
+
+/// Finds steps. Each thread needs its own; tets and rules may change between two searches.
+class TetStepSearch
+{
+public:
+  TetStepSearch(const TetComplex& tets, const TetStepRules& rules);
+
+  /// The first step that improves tet t, of kind none where there is none.
+  void find(Index t, TetStep& step);
+  /// Qualities of tets that were computed.
+  Index evaluations() const { return this->evaluations_ + this->cavities_.evaluations(); }
+
+private:
+  using Tet = TetComplex::Tet;
+  using Facet = TetComplex::Facet;
+  using Ring = TetComplex::Ring;
+  /// Of a set of tets: 0 where all are good enough.
+  struct Cost
+  {
+    double sum = 0.0; ///< of log(sine wanted / sine of the smallest dihedral angle)
+    double worst = 1.0; ///< smallest quality
+  };
+  /// The boundary at a vertex.
+  struct Patch
+  {
+    bool smooth = true;
+    Vec3 normal = Vec3::Zero();
+  };
+  /// Sorted, and so are the vertices of each.
+  struct Link
+  {
+    std::vector<Index> vertices;
+    std::vector<std::array<Index, 2>> edges;
+    std::vector<std::array<Index, 3>> triangles;
+  };
+
+  const Vec3& point(Index v) const { return this->tets_.point(v); }
+  double quality(const Tet& tet);
+  double penalty(double quality) const;
+  Cost cost(const std::vector<Index>& tets) const;
+  double least_after(const Cost& cost) const;
+
+  bool remove_edge(Index a, Index b, TetStep& step);
+  bool may_swap_boundary(Index a, Index b, const Ring& ring) const;
+  bool remove_facet(Index t, Index a, Index b, Index c, TetStep& step);
+
+  bool move(Index v, TetStep& step);
+  double sum_of_star(Index v, const Vec3& p, double least, double most);
+  Patch patch_of(const std::vector<Facet>& skin, Index moved, const Vec3& p) const;
+
+  bool insert_near(Index t, TetStep& step);
+  bool insert(Index t, Vec3 p, TetStep& step);
+  double sum_of_cavity(const TetCavity& cavity, const Vec3& p, double least, double most);
+
+  bool contract_any(const Tet& tet, double share, TetStep& step);
+  bool contract(Index a, Index b, TetStep& step);
+  bool keeps_shape(const std::vector<Facet>& skin, Index a, Index b) const;
+  bool keeps_topology(const std::vector<Facet>& skin, Index a, Index b) const;
+  Link link_of(Index v, const std::vector<Facet>& skin) const;
+
+  const TetComplex& tets_;
+  const TetStepRules& rules_;
+  const double good_; ///< quality of tets that are left as they are
+  const double bad_; ///< below it, vertices may be inserted
+  CavitySearch cavities_;
+  Ring ring_;
+  std::vector<Index> star_;
+  Index evaluations_ = 0;
+};
+
+} // namespace bindpose
+
+#endif

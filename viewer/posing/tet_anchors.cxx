@@ -1,6 +1,6 @@
 #include "posing/tet_anchors.h"
 
-#include "weights/simplex_locator.h"
+#include "base/simplex_locator.h"
 
 #include <algorithm>
 

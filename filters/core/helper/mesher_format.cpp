@@ -1,4 +1,4 @@
-// The record: 8 bytes magic, six 64-bit counts, the arrays one behind the other in the machine's
+// The record: 8 bytes magic, five 64-bit counts, the arrays one behind the other in the machine's
 // own byte order, and the magic again, so that a truncated file is seen.
 #include "helper/mesher_format.h"
 
@@ -14,7 +14,7 @@ namespace bindpose
 
 namespace
 {
-constexpr std::array<char, 8> magic{ 'B', 'P', 'M', 'E', 'S', 'H', '0', '2' };
+constexpr std::array<char, 8> magic{ 'B', 'P', 'M', 'E', 'S', 'H', '0', '3' };
 
 bool write_all(int file, const void* data, std::size_t size)
 {
@@ -76,16 +76,14 @@ bool ids_in_range(const Index* ids, Index count, Index vertices)
 
 bool write_mesher_data(int file, const MesherData& data)
 {
-  const std::array<Index, 6> counts{ data.points.rows(), data.triangles.rows(), data.tets.rows(),
-    static_cast<Index>(data.regions.size()), static_cast<Index>(data.largest_volumes.size()),
-    data.segments.rows() };
+  const std::array<Index, 5> counts{ data.points.rows(), data.triangles.rows(), data.tets.rows(),
+    static_cast<Index>(data.regions.size()), data.segments.rows() };
   return write_all(file, magic.data(), magic.size()) &&
     write_all(file, counts.data(), sizeof(counts)) &&
     write_all(file, data.points.data(), sizeof(double) * data.points.size()) &&
     write_all(file, data.triangles.data(), sizeof(Index) * data.triangles.size()) &&
     write_all(file, data.tets.data(), sizeof(Index) * data.tets.size()) &&
     write_all(file, data.regions.data(), sizeof(Index) * data.regions.size()) &&
-    write_all(file, data.largest_volumes.data(), sizeof(double) * data.largest_volumes.size()) &&
     write_all(file, data.segments.data(), sizeof(Index) * data.segments.size()) &&
     write_all(file, magic.data(), magic.size());
 }
@@ -94,14 +92,14 @@ bool read_mesher_data(int file, MesherData& data)
 {
   data = MesherData();
   std::vector<char> bytes;
-  std::array<Index, 6> counts{};
+  std::array<Index, 5> counts{};
   if (!read_all(file, bytes) || bytes.size() < 2 * magic.size() + sizeof(counts) ||
     std::memcmp(bytes.data(), magic.data(), magic.size()) != 0)
   {
     return false;
   }
   std::memcpy(counts.data(), bytes.data() + magic.size(), sizeof(counts));
-  constexpr std::array<std::size_t, 6> sizes{ 24, 24, 32, 8, 8, 16 };
+  constexpr std::array<std::size_t, 5> sizes{ 24, 24, 32, 8, 16 };
   std::size_t expected = 2 * magic.size() + sizeof(counts);
   for (std::size_t k = 0; k < counts.size(); ++k)
   {
@@ -130,19 +128,17 @@ bool read_mesher_data(int file, MesherData& data)
   data.triangles.resize(counts[1], 3);
   data.tets.resize(counts[2], 4);
   data.regions.resize(static_cast<std::size_t>(counts[3]));
-  data.largest_volumes.resize(static_cast<std::size_t>(counts[4]));
-  data.segments.resize(counts[5], 2);
+  data.segments.resize(counts[4], 2);
   take(data.points.data(), sizeof(double) * data.points.size());
   take(data.triangles.data(), sizeof(Index) * data.triangles.size());
   take(data.tets.data(), sizeof(Index) * data.tets.size());
   take(data.regions.data(), sizeof(Index) * data.regions.size());
-  take(data.largest_volumes.data(), sizeof(double) * data.largest_volumes.size());
   take(data.segments.data(), sizeof(Index) * data.segments.size());
   return data.points.allFinite() &&
     ids_in_range(data.triangles.data(), data.triangles.size(), counts[0]) &&
     ids_in_range(data.tets.data(), data.tets.size(), counts[0]) &&
     ids_in_range(data.segments.data(), data.segments.size(), counts[0]) &&
-    (counts[3] == 0 || counts[3] == counts[2]) && (counts[4] == 0 || counts[4] == counts[2]);
+    (counts[3] == 0 || counts[3] == counts[2]);
 }
 
 } // namespace bindpose

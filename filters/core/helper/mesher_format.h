@@ -17,7 +17,6 @@ struct MesherData
   Triangles triangles; ///< #F x 3
   Tets tets; ///< #T x 4
   std::vector<Index> regions; ///< #T or none: equal for tets that no triangle separates
-  std::vector<double> largest_volumes; ///< #T or none: bound on a tet's volume, <= 0 for none
   Segments segments; ///< #E x 2: curves in the plane z = 0
 };
 

@@ -104,8 +104,7 @@ private:
   Status find_inner_places(Index most, Inside& inside);
   Status look_inside(double longest, Inside& inside);
   Points places_of_handles(Inside& inside) const;
-  Status insert_by_tetgen(const Points& places, std::vector<Index>& vertices);
-  Status insert_by_cavities(const Points& places, std::vector<Index>& vertices);
+  Status insert(const Points& places, std::vector<Index>& vertices);
   Status accept(TetMesh& mesh);
   Status improve();
   double mean_surface_edge() const;

@@ -1,11 +1,9 @@
 // Vertices inside of the tets of method cdt, so that weights have something to vary over: places of
-// a lattice that gets coarser away from the boundary (inner_points.h), inserted by TetGen, or by
-// insert_vertices where that fails. Then flat tets are improved (tet_improvement.h). Both keep the
-// boundary.
+// a lattice that gets coarser away from the boundary (inner_points.h) become vertices
+// (tet_insertion.h). Then flat tets are improved (tet_improvement.h). Both keep the boundary.
 #include "inside/cdt_tets.h"
 
 #include "base/number_text.h"
-#include "helper/mesher_process.h"
 #include "inside/inner_points.h"
 #include "inside/tet_improvement.h"
 #include "inside/tet_insertion.h"
@@ -104,11 +102,7 @@ Status CdtTets::fill()
     return status;
   }
   std::vector<Index> vertices;
-  status = this->insert_by_tetgen(places, vertices);
-  if (!status.ok() && status.code != StatusCode::cancelled)
-  {
-    status = this->insert_by_cavities(places, vertices);
-  }
+  status = this->insert(places, vertices);
   if (status.ok())
   {
     std::copy_if(vertices.begin(), vertices.begin() + of_handles.rows(),
@@ -232,48 +226,7 @@ Points CdtTets::places_of_handles(Inside& inside) const
   return kept;
 }
 
-/// Inserts the places by TetGen, with its exact arithmetic. TetGen also swaps existing tets until
-/// all are Delaunay, which matters where many vertices lie on one sphere.
-Status CdtTets::insert_by_tetgen(const Points& places, std::vector<Index>& vertices)
-{
-  const double start = this->context_.elapsed_seconds();
-  // TetGen inserts all points behind the last one that a tet uses: the places may stand there, the
-  // hull's other vertices may not.
-  const Index used = this->mesh_.tets.maxCoeff() + 1;
-  MesherData data;
-  data.tets = this->mesh_.tets;
-  data.points.resize(used + places.rows(), 3);
-  data.points << this->mesh_.points.topRows(used), places;
-  constexpr double seconds = 3.0;
-  constexpr double seconds_per_tet = 1e-4;
-  MesherAnswer answer;
-  Status status = this->run_job({ "tetgen", "--switches", "rY" }, data,
-    seconds +
-      seconds_per_tet * static_cast<double>(data.tets.rows() + tets_per_vertex * places.rows()),
-    answer);
-  TetMesh mesh{ std::move(answer.data.points), std::move(answer.data.tets) };
-  status = status.ok() ? this->accept(mesh) : status;
-  this->log_.add("vertices inside", this->context_.elapsed_seconds() - start, status);
-  if (status.ok())
-  {
-    std::vector<char> taken(static_cast<std::size_t>(this->mesh_.points.rows()), 0);
-    for (Index k = 0; k < this->mesh_.tets.size(); ++k)
-    {
-      taken[this->mesh_.tets.data()[k]] = 1;
-    }
-    vertices.resize(static_cast<std::size_t>(places.rows()));
-    for (Index i = 0; i < places.rows(); ++i)
-    {
-      vertices[i] = taken[used + i] ? used + i : -1;
-    }
-    this->mesh_original_.resize(
-      std::min(this->mesh_original_.size(), static_cast<std::size_t>(used)));
-  }
-  return status;
-}
-
-/// Inserts the places by our own code: the fallback where TetGen fails.
-Status CdtTets::insert_by_cavities(const Points& places, std::vector<Index>& vertices)
+Status CdtTets::insert(const Points& places, std::vector<Index>& vertices)
 {
   const double start = this->context_.elapsed_seconds();
   TetMesh mesh = this->mesh_;
@@ -282,7 +235,7 @@ Status CdtTets::insert_by_cavities(const Points& places, std::vector<Index>& ver
     return Status::cancelled();
   }
   const Status status = this->accept(mesh);
-  this->log_.add("vertices inside by cavities", this->context_.elapsed_seconds() - start, status);
+  this->log_.add("vertices inside", this->context_.elapsed_seconds() - start, status);
   return status;
 }
 

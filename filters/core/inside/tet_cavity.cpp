@@ -9,7 +9,7 @@ namespace bindpose
 
 namespace
 {
-constexpr std::size_t largest_cavity = 128; // tets
+constexpr std::size_t largest_cavity = 512; // tets
 } // namespace
 
 Index fill_cavity(TetComplex& tets, const Vec3& p, const TetCavity& cavity)
@@ -92,13 +92,14 @@ bool CavitySearch::shrink(const Vec3& p, Index start, double least, TetCavity& c
   const Index in = this->searches_;
   for (;;)
   {
-    // Those that facets still join to the start, until one is met that p does not fit to.
+    // Those that facets still join to the start. One that p does not fit to goes, whatever else
+    // does.
     const Index now = ++this->walks_;
     cavity.tets.assign(1, start);
     cavity.facets.clear();
     this->reached_[start] = now;
-    Index bad = -1;
-    for (std::size_t i = 0; i < cavity.tets.size() && bad < 0; ++i)
+    bool whole = true;
+    for (std::size_t i = 0; i < cavity.tets.size(); ++i)
     {
       const Index t = cavity.tets[i];
       for (int k = 0; k < 4; ++k)
@@ -125,17 +126,21 @@ bool CavitySearch::shrink(const Vec3& p, Index start, double least, TetCavity& c
         }
         if (fit < least)
         {
-          bad = t;
+          if (t == start)
+          {
+            return false;
+          }
+          this->cavity_[t] = 0;
+          whole = false;
           break;
         }
         cavity.facets.push_back(inwards);
       }
     }
-    if (bad < 0 || bad == start)
+    if (whole)
     {
-      return bad < 0;
+      return true;
     }
-    this->cavity_[bad] = 0;
   }
 }
 

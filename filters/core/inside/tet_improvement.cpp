@@ -8,6 +8,7 @@
 #include "inside/tet_improvement.h"
 
 #include "base/parallel.h"
+#include "base/per_thread.h"
 #include "base/tet_facets.h"
 #include "inside/tet_complex.h"
 #include "inside/tet_steps.h"
@@ -15,7 +16,6 @@
 #include <algorithm>
 #include <iterator>
 #include <memory>
-#include <mutex>
 #include <utility>
 
 namespace bindpose
@@ -187,18 +187,19 @@ private:
     const bool whole = parallel_for(this->quiet_, static_cast<Index>(tets.size()), per_task,
       [&](Index begin, Index end)
       {
-        std::unique_ptr<TetStepSearch> search = this->borrow_search();
-        for (Index i = begin; i < end; ++i)
-        {
-          search->find(tets[i], this->steps_[i]);
-        }
-        this->give_back(std::move(search));
+        this->searches_.with([&]
+          { return std::make_unique<TetStepSearch>(this->tets_, this->rules_); },
+          [&](TetStepSearch& search)
+          {
+            for (Index i = begin; i < end; ++i)
+            {
+              search.find(tets[i], this->steps_[i]);
+            }
+          });
       });
     this->evaluations_ = 0;
-    for (const auto& search : this->searches_)
-    {
-      this->evaluations_ += search->evaluations();
-    }
+    this->searches_.for_each(
+      [&](const TetStepSearch& search) { this->evaluations_ += search.evaluations(); });
     for (std::size_t i = 0; i < tets.size() && whole; ++i)
     {
       for (const Index v : this->steps_[i].stay)
@@ -207,24 +208,6 @@ private:
       }
     }
     return whole;
-  }
-
-  std::unique_ptr<TetStepSearch> borrow_search()
-  {
-    const std::lock_guard<std::mutex> lock(this->mutex_);
-    if (this->searches_.empty())
-    {
-      return std::make_unique<TetStepSearch>(this->tets_, this->rules_);
-    }
-    std::unique_ptr<TetStepSearch> search = std::move(this->searches_.back());
-    this->searches_.pop_back();
-    return search;
-  }
-
-  void give_back(std::unique_ptr<TetStepSearch> search)
-  {
-    const std::lock_guard<std::mutex> lock(this->mutex_);
-    this->searches_.push_back(std::move(search));
   }
 
   /// A tet that the step goes by may be another now.
@@ -344,8 +327,7 @@ private:
   std::vector<Index> claims_; ///< per vertex: the last turn in which a tet at it was looked at
   Index turn_ = 0;
   std::vector<TetStep> steps_; ///< of the tets that are looked at
-  std::vector<std::unique_ptr<TetStepSearch>> searches_; ///< those that no thread uses
-  std::mutex mutex_;
+  PerThread<TetStepSearch> searches_;
 };
 } // namespace
 

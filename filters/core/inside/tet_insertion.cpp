@@ -1,13 +1,20 @@
 #include "inside/tet_insertion.h"
 
+#include "base/parallel.h"
+#include "base/per_thread.h"
+#include "base/simplex_locator.h"
 #include "base/tet_facets.h"
 #include "inside/tet_cavity.h"
 #include "inside/tet_complex.h"
 #include "surface/triangle_predicates.h"
 
 #include <algorithm>
+#include <array>
+#include <memory>
+#include <numeric>
 #include <queue>
 #include <tuple>
+#include <utility>
 
 namespace bindpose
 {
@@ -30,57 +37,82 @@ struct LongEdge
   }
 };
 
-class Inserter
+/// A number for each place, so that places with numbers next to each other are far apart.
+std::vector<Index> scattered(Index count)
+{
+  constexpr double golden = 0.6180339887498949;
+  Index stride = std::max<Index>(1, static_cast<Index>(golden * static_cast<double>(count)));
+  while (std::gcd(stride, count) > 1)
+  {
+    ++stride;
+  }
+  std::vector<Index> order(static_cast<std::size_t>(count));
+  for (Index i = 0, next = 0; i < count; ++i, next = (next + stride) % count)
+  {
+    order[i] = next;
+  }
+  return order;
+}
+
+/// Where places lie among tets that are replaced by others: the tets that are there first are in a
+/// tree, and each that is replaced knows by which.
+class PlaceFinder
 {
 public:
-  explicit Inserter(TetComplex& tets) : tets_(tets), search_(tets) {}
+  explicit PlaceFinder(const TetComplex& tets) : tets_(tets) {}
 
-  /// p becomes a vertex: with tets of some thickness, else on an edge that it is on but for
-  /// rounding (points of a bone are on one line), else anyhow. @return -1 where nothing helps.
-  Index insert(const Vec3& p)
+  /// To be called first, with the tets that the complex has by now. @return false when cancelled.
+  bool look_for(const TetMesh& mesh, const Points& places, ExecutionContext& context)
   {
-    const Index t = this->locate(p);
-    if (t < 0)
-    {
-      return -1;
-    }
-    Index v = -1;
-    if (this->search_.find(p, t, this->thick_, this->cavity_))
-    {
-      v = fill_cavity(this->tets_, p, this->cavity_);
-    }
-    v = v < 0 ? this->split_edge_at(p, t) : v;
-    if (v < 0 && this->search_.find(p, t, 0.0, this->cavity_))
-    {
-      v = fill_cavity(this->tets_, p, this->cavity_);
-    }
-    this->near_ = v < 0 ? t : this->tets_.tets_at(v).front();
-    return v;
+    const SimplexLocator locator(mesh.points, mesh.tets);
+    this->first_.resize(static_cast<std::size_t>(places.rows()));
+    constexpr Index block = 64;
+    return parallel_for(context, places.rows(), block,
+      [&](Index begin, Index end)
+      {
+        for (Index i = begin; i < end; ++i)
+        {
+          this->first_[i] = locator.locate(places.row(i)).element;
+        }
+      });
   }
 
-private:
-  Index split_edge_at(const Vec3& p, Index t)
+  /// The tet that contains place i, p; -1 where none is found. Thread-safe.
+  Index find(Index i, const Vec3& p) const
   {
-    const Tet tet = this->tets_.tet(t);
-    constexpr double rounding = 1e-9; // of the edge
-    for (int i = 0; i < 4; ++i)
+    Index t = this->first_[i];
+    while (t >= 0 && !this->tets_.alive(t))
     {
-      for (int j = 0; j < i; ++j)
+      const Range& range = this->replaced_[t];
+      t = range.begin < range.end ? range.begin : -1;
+      for (Index other = range.begin; other < range.end; ++other)
       {
-        const Vec3& a = this->tets_.point(tet[i]);
-        const Vec3 edge = this->tets_.point(tet[j]) - a;
-        const double off = edge.cross(p - a).norm() / edge.squaredNorm();
-        const bool inside = off < rounding && this->tets_.find_ring(tet[i], tet[j], this->ring_) &&
-          this->ring_.closed;
-        const Index v = inside ? this->tets_.split_edge(tet[i], tet[j], p) : -1;
-        if (v >= 0)
+        if (this->side_towards(other, p) < 0)
         {
-          return v;
+          t = other;
+          break;
         }
       }
     }
-    return -1;
+    return this->walk(t, p);
   }
+
+  /// The tets have been replaced by those from `begin` to the last.
+  void replace(const std::vector<Index>& tets, Index begin)
+  {
+    this->replaced_.resize(static_cast<std::size_t>(this->tets_.tet_ids()));
+    for (const Index t : tets)
+    {
+      this->replaced_[t] = { begin, this->tets_.tet_ids() };
+    }
+  }
+
+private:
+  struct Range
+  {
+    Index begin = 0;
+    Index end = 0;
+  };
 
   /// The side of tet t behind which p lies, as an index into facet_corners; -1: p is in the tet.
   int side_towards(Index t, const Vec3& p, int first = 0) const
@@ -99,16 +131,14 @@ private:
     return -1;
   }
 
-  /// The tet that contains p, -1 where none does: from tet to tet towards p, or all are tried where
-  /// the boundary is in the way.
-  Index locate(const Vec3& p) const
+  /// From tet to tet towards p: a few steps where rounding has chosen a neighbour.
+  Index walk(Index t, const Vec3& p) const
   {
-    constexpr int longest = 200;
-    Index t = this->near_;
+    constexpr int longest = 50;
     for (int step = 0; step < longest && t >= 0; ++step)
     {
-      const int side =
-        this->side_towards(t, p, step); // another first side: no way round in circles
+      // Another first side: no way round in circles.
+      const int side = this->side_towards(t, p, step);
       if (side < 0)
       {
         return t;
@@ -117,21 +147,183 @@ private:
       const auto& f = facet_corners[side];
       t = this->tets_.beyond(t, tet[f[0]], tet[f[1]], tet[f[2]]);
     }
-    for (t = 0; t < this->tets_.tet_ids(); ++t)
-    {
-      if (this->tets_.alive(t) && this->side_towards(t, p) < 0)
-      {
-        return t;
-      }
-    }
     return -1;
   }
 
+  const TetComplex& tets_;
+  std::vector<Index> first_; ///< per place: the tet that contained it, or was the nearest, at first
+  std::vector<Range> replaced_; ///< per tet that is gone
+};
+
+/// Inserts places. For a number of them at the same time cavities are looked for, while nothing
+/// changes; then they are filled in order. One of which a tet has been replaced is looked for
+/// again.
+class Inserter
+{
+public:
+  Inserter(TetComplex& tets, ExecutionContext& context)
+    : tets_(tets), finder_(tets), context_(context),
+      quiet_({}, [&context] { return context.cancelled(); })
+  {
+    this->quiet_.set_threads(context.threads());
+  }
+
+  /// mesh: the tets as they are by now.
+  bool insert(const TetMesh& mesh, const Points& places, std::vector<Index>& vertices)
+  {
+    if (!this->finder_.look_for(mesh, places, this->quiet_))
+    {
+      return false;
+    }
+    const std::vector<Index> order = scattered(places.rows());
+    std::vector<Index> now;
+    std::vector<Index> later;
+    for (std::size_t next = 0; next < order.size() || !later.empty();)
+    {
+      now = std::exchange(later, {});
+      for (; now.size() < most_at_once && next < order.size(); ++next)
+      {
+        now.push_back(order[next]);
+      }
+      if (!this->look_at(places, now))
+      {
+        return false;
+      }
+      for (std::size_t i = 0; i < now.size(); ++i)
+      {
+        const Site& site = this->sites_[i];
+        if (std::all_of(site.tets().begin(), site.tets().end(),
+              [&](Index t) { return this->tets_.alive(t); }))
+        {
+          vertices[now[i]] = this->take(site, places.row(now[i]));
+        }
+        else
+        {
+          later.push_back(now[i]);
+        }
+      }
+      this->context_.progress(static_cast<double>(next) / static_cast<double>(order.size()));
+    }
+    return true;
+  }
+
+private:
+  static constexpr std::size_t most_at_once = 64;
+  static constexpr Index per_task = 4;
+
+  /// What a place would replace.
+  struct Site
+  {
+    enum class Kind
+    {
+      none,
+      cavity,
+      edge
+    };
+    Kind kind = Kind::none;
+    TetCavity cavity;
+    std::array<Index, 2> edge{};
+    TetComplex::Ring ring;
+
+    const std::vector<Index>& tets() const
+    {
+      return this->kind == Kind::edge ? this->ring.tets : this->cavity.tets;
+    }
+  };
+
+  /// @return false when cancelled.
+  bool look_at(const Points& places, const std::vector<Index>& now)
+  {
+    return parallel_for(this->quiet_, static_cast<Index>(now.size()), per_task,
+      [&](Index begin, Index end)
+      {
+        this->searches_.with([&] { return std::make_unique<CavitySearch>(this->tets_); },
+          [&](CavitySearch& search)
+          {
+            for (Index i = begin; i < end; ++i)
+            {
+              this->look_at(now[i], places.row(now[i]), search, this->sites_[i]);
+            }
+          });
+      });
+  }
+
+  /// Place i, p, is to become a vertex: with tets of some thickness, else on an edge that it is on
+  /// but for rounding (points of a bone are on one line), else anyhow.
+  void look_at(Index i, const Vec3& p, CavitySearch& search, Site& site) const
+  {
+    site.kind = Site::Kind::none;
+    site.cavity.tets.clear();
+    const Index t = this->finder_.find(i, p);
+    if (t < 0)
+    {
+      return;
+    }
+    if (search.find(p, t, this->thick_, site.cavity))
+    {
+      site.kind = Site::Kind::cavity;
+    }
+    else if (this->find_edge(p, t, site))
+    {
+      site.kind = Site::Kind::edge;
+    }
+    else if (search.find(p, t, 0.0, site.cavity))
+    {
+      site.kind = Site::Kind::cavity;
+    }
+    else
+    {
+      site.cavity.tets.clear();
+    }
+  }
+
+  bool find_edge(const Vec3& p, Index t, Site& site) const
+  {
+    const Tet& tet = this->tets_.tet(t);
+    constexpr double rounding = 1e-9; // of the edge
+    for (int i = 0; i < 4; ++i)
+    {
+      for (int j = 0; j < i; ++j)
+      {
+        const Vec3& a = this->tets_.point(tet[i]);
+        const Vec3 edge = this->tets_.point(tet[j]) - a;
+        const double off = edge.cross(p - a).norm() / edge.squaredNorm();
+        if (off < rounding && this->tets_.find_ring(tet[i], tet[j], site.ring) && site.ring.closed)
+        {
+          site.edge = { tet[i], tet[j] };
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// @return the new vertex, -1 where nothing helps.
+  Index take(const Site& site, const Vec3& p)
+  {
+    const Index begin = this->tets_.tet_ids();
+    Index v = -1;
+    if (site.kind == Site::Kind::cavity)
+    {
+      v = fill_cavity(this->tets_, p, site.cavity);
+    }
+    else if (site.kind == Site::Kind::edge)
+    {
+      v = this->tets_.split_edge(site.edge[0], site.edge[1], p);
+    }
+    if (v >= 0)
+    {
+      this->finder_.replace(site.tets(), begin);
+    }
+    return v;
+  }
+
   TetComplex& tets_;
-  CavitySearch search_;
-  TetCavity cavity_;
-  TetComplex::Ring ring_;
-  Index near_ = -1; ///< a tet near the last place
+  PlaceFinder finder_;
+  ExecutionContext& context_;
+  ExecutionContext quiet_; ///< tells no progress of what is done in parallel
+  PerThread<CavitySearch> searches_;
+  std::array<Site, most_at_once> sites_;
   const double thick_ = TetComplex::quality_of_angle(1.0);
 };
 } // namespace
@@ -186,18 +378,8 @@ bool insert_vertices(
   TetMesh& mesh, const Points& places, std::vector<Index>& vertices, ExecutionContext& context)
 {
   TetComplex tets(mesh);
-  Inserter inserter(tets);
   vertices.assign(static_cast<std::size_t>(places.rows()), -1);
-  bool whole = true;
-  for (Index i = 0; i < places.rows() && whole; ++i)
-  {
-    vertices[i] = inserter.insert(places.row(i));
-    if (i % often == 0)
-    {
-      context.progress(static_cast<double>(i) / static_cast<double>(places.rows()));
-      whole = !context.cancelled();
-    }
-  }
+  const bool whole = Inserter(tets, context).insert(mesh, places, vertices);
   tets.write(mesh);
   return whole;
 }

@@ -64,9 +64,8 @@ struct TetgenOptions
   bool box = false; ///< surround the surface by 12 triangles, 10 % larger than its box
 };
 
-/// Tets by TetGen: of the points and triangles (switch p), or of given tets (switch r) with
-/// largest_volumes; points behind the last that such a tet uses are inserted where they are inside.
-/// The first points of the result are the input's, with their ids; tets are positive.
+/// Tets by TetGen of the points and triangles (switch p). The first points of the result are the
+/// input's, with their ids; tets are positive.
 std::string tetgen(MesherData& data, const TetgenOptions& options);
 
 struct RemeshJobOptions

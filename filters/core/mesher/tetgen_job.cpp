@@ -1,4 +1,4 @@
-// TetGen on a surface or on tets. TetGen drops vertices that nothing uses or that nearly coincide
+// TetGen on a surface. TetGen drops vertices that nothing uses or that nearly coincide
 // and renumbers the rest, but it never moves a vertex: input vertices are found again by their
 // exact coordinates.
 #include "mesher/jobs.h"
@@ -52,38 +52,12 @@ void set_facet(tetgenio::facet& facet, const Index* ids)
   }
 }
 
-void set_points(const double* coordinates, Index count, tetgenio& in)
+void fill_input(const Points& points, const Triangles& triangles, tetgenio& in)
 {
   in.firstnumber = 0;
-  in.numberofpoints = static_cast<int>(count);
-  in.pointlist = new REAL[static_cast<std::size_t>(3 * count)];
-  std::copy(coordinates, coordinates + 3 * count, in.pointlist);
-}
-
-void fill_input(
-  const MesherData& data, const Points& points, const Triangles& triangles, bool tets, tetgenio& in)
-{
-  if (tets)
-  {
-    in.numberofcorners = 4;
-    in.numberoftetrahedra = static_cast<int>(data.tets.rows());
-    in.tetrahedronlist = new int[static_cast<std::size_t>(data.tets.size())];
-    for (Index t = 0; t < data.tets.rows(); ++t)
-    {
-      // TetGen counts the other orientation as positive.
-      const std::array<int, 4> order{ 1, 0, 2, 3 };
-      for (int k = 0; k < 4; ++k)
-      {
-        in.tetrahedronlist[4 * t + k] = static_cast<int>(data.tets(t, order[k]));
-      }
-    }
-    if (!data.largest_volumes.empty())
-    {
-      in.tetrahedronvolumelist = new REAL[data.largest_volumes.size()];
-      std::copy(data.largest_volumes.begin(), data.largest_volumes.end(), in.tetrahedronvolumelist);
-    }
-    return;
-  }
+  in.numberofpoints = static_cast<int>(points.rows());
+  in.pointlist = new REAL[static_cast<std::size_t>(points.size())];
+  std::copy(points.data(), points.data() + points.size(), in.pointlist);
   in.numberoffacets = static_cast<int>(triangles.rows());
   in.facetlist = new tetgenio::facet[static_cast<std::size_t>(triangles.rows())];
   for (Index f = 0; f < triangles.rows(); ++f)
@@ -118,29 +92,20 @@ void add_box(Points& points, Triangles& triangles)
 
 std::string tetgen(MesherData& data, const TetgenOptions& options)
 {
-  const bool from_tets = options.switches.find('r') != std::string::npos;
   Points points = data.points;
   Triangles triangles = data.triangles;
   if (options.box)
   {
     add_box(points, triangles);
   }
-  tetgenio in, added, out;
-  fill_input(data, points, triangles, from_tets, in);
+  tetgenio in, out;
+  fill_input(points, triangles, in);
   std::string switches = options.switches + "Q";
-  // Behind the tets' vertices: points to insert.
-  const Index used = from_tets ? data.tets.maxCoeff() + 1 : points.rows();
-  set_points(points.data(), used, in);
-  if (used < points.rows())
-  {
-    switches += "i";
-    set_points(points.row(used).data(), points.rows() - used, added);
-  }
   tetgenbehavior behavior;
   behavior.parse_commandline(switches.data());
   // Only exactly coplanar triangles are one facet; within other facets edges could be flipped.
   behavior.facet_ang_tol = 180.0;
-  ::tetrahedralize(&behavior, &in, &out, &added);
+  ::tetrahedralize(&behavior, &in, &out);
 
   // New numbers: input vertices keep theirs, the others follow in TetGen's order.
   std::unordered_map<Key, Index, KeyHash> ids;
@@ -193,7 +158,6 @@ std::string tetgen(MesherData& data, const TetgenOptions& options)
     }
   }
   data.triangles.resize(0, 3);
-  data.largest_volumes.clear();
   return data.tets.rows() > 0 ? std::string() : "TetGen made no tets";
 }
 

@@ -1,7 +1,7 @@
 // Which points of the mesh handles hold: found once, chosen anew when modes change.
 #include "pose/mesh_grips.h"
 
-#include "weights/simplex_locator.h"
+#include "base/simplex_locator.h"
 
 #include <algorithm>
 #include <cmath>

@@ -12,7 +12,7 @@
 #include "surface/triangle_predicates.h"
 #include "surface/triangle_tree.h"
 #include "weights/free_system.h"
-#include "weights/simplex_locator.h"
+#include "base/simplex_locator.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -4,7 +4,7 @@
 #include "base/execution.h"
 #include "embedding/embedding_tets.h"
 #include "weights/handle_insertion.h"
-#include "weights/simplex_locator.h"
+#include "base/simplex_locator.h"
 
 #include <array>
 #include <unordered_map>

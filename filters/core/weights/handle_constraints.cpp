@@ -3,7 +3,7 @@
 #include "base/disjoint_sets.h"
 #include "base/laplacian.h"
 #include "base/sort_unique.h"
-#include "weights/simplex_locator.h"
+#include "base/simplex_locator.h"
 
 #include <algorithm>
 #include <map>

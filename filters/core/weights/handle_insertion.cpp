@@ -10,7 +10,7 @@
 #include "base/line_pieces.h"
 #include "base/sort_unique.h"
 #include "inside/handle_places.h"
-#include "weights/simplex_locator.h"
+#include "base/simplex_locator.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "weights/transfer.h"
 
 #include "base/parallel.h"
-#include "weights/simplex_locator.h"
+#include "base/simplex_locator.h"
 
 #include <memory>
 

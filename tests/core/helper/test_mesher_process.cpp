@@ -151,7 +151,7 @@ TEST(MesherProcess, RecordsAreChecked)
     const bool whole = read_mesher_data(file, back);
     ::close(file);
     return whole && back.points == data.points && back.tets == data.tets &&
-      back.regions == data.regions && back.largest_volumes == data.largest_volumes;
+      back.regions == data.regions;
   };
   MesherData data;
   EXPECT_TRUE(survives(data));
@@ -159,7 +159,6 @@ TEST(MesherProcess, RecordsAreChecked)
   data.points = box.points;
   data.tets = box.tets;
   data.regions.assign(static_cast<std::size_t>(box.tets.rows()), 4);
-  data.largest_volumes.assign(data.regions.size(), 0.5);
   EXPECT_TRUE(survives(data));
   data.tets(3, 2) = box.points.rows();
   EXPECT_FALSE(survives(data)) << "an id out of range";

@@ -96,6 +96,41 @@ TEST(TetInsertion, ManyPlacesAreInserted)
   expect_cube(mesh);
 }
 
+TEST(TetInsertion, ThreadsMakeNoDifference)
+{
+  // Ten times as many places as there are tets: most lie in tets that have been replaced, and many
+  // of those looked at together want the same ones.
+  const TetMesh box = test::tet_box(3, 3, 3);
+  test::Random random(17);
+  Points places(10 * box.tets.rows(), 3);
+  for (Index i = 0; i < places.rows(); ++i)
+  {
+    places.row(i) = random.in_box(Vec3::Constant(0.01), Vec3::Constant(0.99));
+  }
+  TetMesh one;
+  for (const int threads : { 1, 2, 8 })
+  {
+    SCOPED_TRACE(threads);
+    TetMesh mesh = box;
+    ExecutionContext context;
+    context.set_threads(threads);
+    std::vector<Index> vertices;
+    ASSERT_TRUE(insert_vertices(mesh, places, vertices, context));
+    expect_cube(mesh);
+    for (Index i = 0; i < places.rows(); ++i)
+    {
+      ASSERT_GE(vertices[i], box.points.rows()) << i;
+      ASSERT_EQ(mesh.points.row(vertices[i]), places.row(i)) << i;
+    }
+    if (threads == 1)
+    {
+      one = mesh;
+    }
+    EXPECT_EQ(mesh.points, one.points);
+    EXPECT_EQ(mesh.tets, one.tets);
+  }
+}
+
 TEST(TetInsertion, CancelLeavesAMesh)
 {
   TetMesh mesh = test::tet_box(1, 1, 1);

@@ -2,7 +2,7 @@
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
 #include "weights/preview_weights.h"
-#include "weights/simplex_locator.h"
+#include "base/simplex_locator.h"
 #include "weights/surface_weights.h"
 
 #include "support/needs_mesher.h"

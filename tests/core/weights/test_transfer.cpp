@@ -1,6 +1,6 @@
 // Transfer is exact on vertices, reproduces linear functions inside, clamps to the nearest place
 // outside, and its search agrees with looking at every element.
-#include "weights/simplex_locator.h"
+#include "base/simplex_locator.h"
 #include "weights/transfer.h"
 
 #include "weights_shapes.h"

@@ -1,5 +1,5 @@
-#ifndef bindpose_weights_simplex_locator_h
-#define bindpose_weights_simplex_locator_h
+#ifndef bindpose_base_simplex_locator_h
+#define bindpose_base_simplex_locator_h
 
 #include "base/mesh.h"
 

@@ -1,6 +1,6 @@
 // A binary tree of axis-aligned boxes, split at the median of the elements' centres along the
 // longest side, searched nearest box first.
-#include "weights/simplex_locator.h"
+#include "base/simplex_locator.h"
 
 #include <algorithm>
 #include <numeric>

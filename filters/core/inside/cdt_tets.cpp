@@ -147,8 +147,8 @@ Status CdtTets::build(double seconds)
 /// time.
 bool CdtTets::out_of_patience() const
 {
-  constexpr double patience = 6.0; // seconds
-  constexpr double per_triangle = 2e-4;
+  constexpr double patience = 8.0; // seconds
+  constexpr double per_triangle = 8e-5;
   return this->context_.elapsed_seconds() - this->start_ >
     patience + per_triangle * static_cast<double>(this->surface_.triangles.rows());
 }

@@ -232,14 +232,14 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
   constexpr int attempts = 20;
   constexpr double most_growth = 1.0; // cells of sizes that grew faster would not follow them
   constexpr double least_step = 1.1;
-  constexpr double blind_step = 2.0; // where the vertices were too many to be counted
+  constexpr double blind_step = 4.0; // where the vertices were too many to be counted
   // The number of vertices falls with a power of the scale: 3 in wide spaces, 2 in a layer at the
   // surface, less where many triangles are near each other.
-  constexpr double least_power = 0.7;
+  constexpr double least_power = 0.4;
   constexpr double largest_power = 3.0;
   double power = largest_power;
   double step = 1.0; // the last one
-  double largest_step = 6.0;
+  double largest_step = 12.0;
   double before = 0.0; // the ratio ahead of it, 0 where it was not counted
   for (int attempt = 0; attempt < attempts; ++attempt)
   {
@@ -266,7 +266,11 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
       sizes.scale(1.0 / step);
       continue;
     }
-    if (sizes.growth() < most_growth)
+    if (!whole)
+    {
+      sizes.set_growth(most_growth);
+    }
+    else if (sizes.growth() < most_growth)
     {
       sizes.set_growth(
         std::min(most_growth, sizes.growth() * std::max(least_step, std::cbrt(ratio))));

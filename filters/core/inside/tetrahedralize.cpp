@@ -382,8 +382,9 @@ private:
       // Several times what it needs for most surfaces: one of needles takes minutes.
       constexpr double patience = 8.0; // seconds
       constexpr double per_triangle = 1e-4;
-      options.time_limit = std::min(options.time_limit,
-        patience + per_triangle * static_cast<double>(this->surface_.triangles.rows()));
+      constexpr double most_patience = 14.0;
+      options.time_limit = std::min({ options.time_limit, most_patience,
+        patience + per_triangle * static_cast<double>(this->surface_.triangles.rows()) });
     }
     RemeshResult result;
     Status status = remesh_tets(this->surface_.points, this->surface_.triangles,

@@ -1,7 +1,9 @@
 #include "weights/surface_smoothing.h"
 
+#include "base/float_cholesky.h"
 #include "base/laplacian.h"
 #include "base/parallel.h"
+#include "base/sparse_solver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +14,11 @@ namespace bindpose
 namespace
 {
 using Eigen::VectorXd;
+/// So many columns are smoothed together: the matrix is read once for all of them.
+constexpr int lanes = 4;
+using Lanes = Eigen::Array<double, 1, lanes>;
+/// #V x lanes.
+using Columns = Eigen::Array<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
 
 /// The energy's matrix M + K M⁻¹ K on the points that are not fixed, in units of the length.
 class SmoothingEnergy
@@ -22,8 +29,7 @@ public:
     : free_(VectorXd::Ones(points.rows()))
   {
     const Points scaled = (points.rowwise() - points.row(0)) / length;
-    this->stiffness_ = stiffness_matrix(scaled, triangles);
-    this->limit_stiffness();
+    this->stiffness_ = stiffness_matrix(scaled, triangles, shares_of(scaled, triangles));
     this->mass_ = lumped_mass(scaled, triangles);
     // Points of needle triangles have almost no mass, which would only slow the iterations down.
     constexpr double least_mass = 1e-3;
@@ -32,81 +38,153 @@ public:
     {
       this->free_[v] = 0.0;
     }
-    // (K M⁻¹ K)_ii = sum_j K_ij² / m_j.
-    this->preconditioner_ = this->mass_;
-    for (int j = 0; j < this->stiffness_.outerSize(); ++j)
-    {
-      for (SparseMatrix::InnerIterator k(this->stiffness_, j); k; ++k)
-      {
-        this->preconditioner_[k.row()] += k.value() * k.value() / this->mass_[j];
-      }
-    }
-    this->preconditioner_ = this->free_.cwiseQuotient(this->preconditioner_);
+    this->prepare();
   }
 
-  /// K M⁻¹ K w; K is symmetric, and the product with its transpose is the faster one.
-  VectorXd bend(const VectorXd& w) const
-  {
-    const VectorXd curvature = (this->stiffness_.transpose() * w).cwiseQuotient(this->mass_);
-    return this->stiffness_.transpose() * curvature;
-  }
-  VectorXd multiply(const VectorXd& w) const
-  {
-    return (this->mass_.cwiseProduct(w) + this->bend(w)).cwiseProduct(this->free_);
-  }
-
-  void minimize(VectorXd& w, const ExecutionContext& context) const
+  /// By conjugate gradients, each column with its own steps.
+  void minimize(Columns& w, const ExecutionContext& context) const
   {
     constexpr double reduction = 1e-6;
     constexpr int most_iterations = 200;
-    VectorXd r = -this->bend(w).cwiseProduct(this->free_);
-    VectorXd z = this->preconditioner_.cwiseProduct(r);
-    VectorXd p = z;
-    double now = r.dot(z);
-    const double enough = reduction * reduction * now;
-    for (int i = 0; i < most_iterations && now > enough && !context.cancelled(); ++i)
+    const Index count = w.rows();
+    Columns curvature(count, lanes), r(count, lanes), z(count, lanes), p(count, lanes),
+      ap(count, lanes);
+    this->find_curvature(w, curvature);
+    for (Index v = 0; v < count; ++v)
     {
-      const VectorXd ap = this->multiply(p);
-      const double curvature = p.dot(ap);
-      if (!(curvature > 0.0))
+      r.row(v) = -this->free_[v] * this->times_stiffness(curvature, v);
+    }
+    Lanes now = this->precondition(r, z);
+    p = z;
+    const Lanes enough = reduction * reduction * now;
+    // Columns that are done, or that round-off has stopped, have no more steps.
+    Eigen::Array<bool, 1, lanes> goes_on = now > enough;
+    for (int i = 0; i < most_iterations && goes_on.any() && !context.cancelled(); ++i)
+    {
+      this->find_curvature(p, curvature);
+      Lanes along = Lanes::Zero();
+      for (Index v = 0; v < count; ++v)
       {
-        return; // round-off
+        const Lanes p_v = p.row(v);
+        const Lanes ap_v =
+          this->free_[v] * (this->mass_[v] * p_v + this->times_stiffness(curvature, v));
+        ap.row(v) = ap_v;
+        along += p_v * ap_v;
       }
-      const double step = now / curvature;
-      w += step * p;
-      r -= step * ap;
-      z = this->preconditioner_.cwiseProduct(r);
-      const double next = r.dot(z);
-      p = z + (next / now) * p;
+      goes_on = goes_on && along > 0.0;
+      const Lanes step = goes_on.select(now / along, 0.0);
+      for (Index v = 0; v < count; ++v)
+      {
+        w.row(v) += step * p.row(v);
+        r.row(v) -= step * ap.row(v);
+      }
+      const Lanes next = this->precondition(r, z);
+      const Lanes again = goes_on.select(next / now, 0.0);
+      for (Index v = 0; v < count; ++v)
+      {
+        p.row(v) = z.row(v) + again * p.row(v);
+      }
       now = next;
+      goes_on = goes_on && now > enough;
     }
   }
 
 private:
   /// Triangles with almost no height couple their points with up to 1e16: round-off in the products
-  /// would be larger than the values. The matrix stays symmetric, and constants stay in its kernel.
-  void limit_stiffness()
+  /// would be larger than the values. Less of them counts, so that nothing couples more than at an
+  /// angle of 2 degrees; the matrix stays positive semi-definite.
+  static VectorXd shares_of(const Points& points, TrianglesView triangles)
   {
-    constexpr double most = 30.0; // cotangent of 2 degrees
-    VectorXd sums = VectorXd::Zero(this->stiffness_.cols());
+    constexpr double most = 15.0; // half of the cotangent of 2 degrees
+    const auto weights = cotangent_weights(points, triangles);
+    VectorXd shares(triangles.rows());
+    for (Index t = 0; t < triangles.rows(); ++t)
+    {
+      shares[t] = most / std::max(most, weights.row(t).cwiseAbs().maxCoeff());
+    }
+    return shares;
+  }
+
+  /// Row v of K w: K is symmetric.
+  Lanes times_stiffness(const Columns& w, Index v) const
+  {
+    Lanes sum = Lanes::Zero();
+    for (SparseMatrix::InnerIterator k(this->stiffness_, v); k; ++k)
+    {
+      sum += k.value() * w.row(k.row());
+    }
+    return sum;
+  }
+
+  /// M⁻¹ K w.
+  void find_curvature(const Columns& w, Columns& curvature) const
+  {
+    for (Index v = 0; v < w.rows(); ++v)
+    {
+      curvature.row(v) = this->times_stiffness(w, v) / this->mass_[v];
+    }
+  }
+
+  /// Factors M + K.
+  void prepare()
+  {
+    SparseMatrix a = this->stiffness_;
+    for (int j = 0; j < a.outerSize(); ++j)
+    {
+      for (SparseMatrix::InnerIterator k(a, j); k; ++k)
+      {
+        k.valueRef() = k.row() == k.col() ? k.value() + this->mass_[j]
+                                          : k.value() * this->free_[k.row()] * this->free_[j];
+      }
+    }
+    SparseSolver analysis;
+    if (analysis.analyse(a).ok() && this->factor_.analyse(analysis, a).ok() &&
+      this->factor_.factor(a, 0.0, {}).ok())
+    {
+      return;
+    }
+    // Without such a factorization: by the diagonal, (K M⁻¹ K)_ii = sum_j K_ij² / m_j.
+    this->factor_ = FloatCholesky();
+    this->diagonal_ = this->mass_;
     for (int j = 0; j < this->stiffness_.outerSize(); ++j)
     {
       for (SparseMatrix::InnerIterator k(this->stiffness_, j); k; ++k)
       {
-        if (k.row() != k.col())
-        {
-          k.valueRef() = std::clamp(k.value(), -most, most);
-          sums[k.col()] += k.value();
-        }
+        this->diagonal_[k.row()] += k.value() * k.value() / this->mass_[j];
       }
     }
-    this->stiffness_.diagonal() = -sums;
+  }
+
+  /// z = P⁻¹ r of the free points, 0 of the others. @return r · z.
+  Lanes precondition(const Columns& r, Columns& z) const
+  {
+    if (this->factor_.analysed())
+    {
+      Eigen::MatrixXd once, twice;
+      this->factor_.solve(Eigen::MatrixXd(r), once);
+      once.array().colwise() *= this->mass_.array();
+      this->factor_.solve(once, twice);
+      z = twice.array().colwise() * this->free_.array();
+    }
+    else
+    {
+      z = r.colwise() * (this->free_.array() / this->diagonal_.array());
+    }
+    Lanes sum = Lanes::Zero();
+    for (Index v = 0; v < r.rows(); ++v)
+    {
+      sum += r.row(v) * z.row(v);
+    }
+    return sum;
   }
 
   SparseMatrix stiffness_;
   VectorXd mass_;
   VectorXd free_; // 0 for fixed points, 1 for all others
-  VectorXd preconditioner_; // of the free points, 0 for the others
+  // M + K M⁻¹ K is at most (M + K) M⁻¹ (M + K) and at least half of it: as a preconditioner that
+  // takes a few iterations.
+  FloatCholesky factor_; // of M + K, where it could be factored
+  VectorXd diagonal_; // else
 };
 } // namespace
 
@@ -114,15 +192,13 @@ bool smooth_on_surface(PointsView points, TrianglesView triangles, const std::ve
   double length, Eigen::MatrixXd& values, ExecutionContext& context)
 {
   const SmoothingEnergy energy(points, triangles, fixed, length);
-  return parallel_for(context, values.cols(), 1,
+  return parallel_for(context, values.cols(), lanes,
     [&](Index begin, Index end)
     {
-      for (Index j = begin; j < end; ++j)
-      {
-        VectorXd w = values.col(j);
-        energy.minimize(w, context);
-        values.col(j) = w;
-      }
+      Columns w = Columns::Zero(values.rows(), lanes);
+      w.leftCols(end - begin) = values.middleCols(begin, end - begin);
+      energy.minimize(w, context);
+      values.middleCols(begin, end - begin) = w.leftCols(end - begin);
     });
 }
 

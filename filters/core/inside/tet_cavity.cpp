@@ -92,8 +92,8 @@ bool CavitySearch::shrink(const Vec3& p, Index start, double least, TetCavity& c
   const Index in = this->searches_;
   for (;;)
   {
-    // Those that facets still join to the start. One that p does not fit to goes, whatever else
-    // does.
+    // Collect the tets still connected to the start. A tet with a facet that makes too flat a tet
+    // with p leaves the cavity.
     const Index now = ++this->walks_;
     cavity.tets.assign(1, start);
     cavity.facets.clear();

@@ -56,7 +56,7 @@ private:
   const TetComplex& tets_;
   std::vector<Index> cavity_; ///< per tet: the last search whose cavity it belongs to
   std::vector<Site> sites_; ///< of this search
-  std::vector<Index> site_ids_; ///< per tet: its place in sites_, if it is in the cavity
+  std::vector<Index> site_ids_; ///< per tet: its index in sites_, if it is in the cavity
   std::vector<Index> reached_; ///< per tet: the last walk that met it
   Index searches_ = 0;
   Index walks_ = 0;

@@ -155,10 +155,12 @@ Index TetComplex::add(const Tet& tet)
 
 void TetComplex::remove(Index t)
 {
+  ++this->changes_;
   for (const Index v : this->tets_[t])
   {
     auto& list = this->at_[v];
     list.erase(std::find(list.begin(), list.end(), t));
+    this->stamp_[v] = this->changes_;
   }
   this->quality_[t] = gone;
   --this->count_;

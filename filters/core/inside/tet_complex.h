@@ -56,7 +56,7 @@ public:
   }
   static double quality_of_angle(double degrees);
   double volume(const Tet& tet) const;
-  /// Counts changes of the tets at a vertex.
+  /// Value of changes() at the last change of a tet at the vertex.
   std::uint64_t stamp(Index v) const { return this->stamp_[v]; }
   /// The newest stamp of all vertices.
   std::uint64_t changes() const { return this->changes_; }

@@ -1,8 +1,7 @@
 // Pass after pass over the tets that are too flat, worst first; a tet is looked at again only when
-// the tets at one of its vertices have changed. For a number of tets at the same time steps are
-// looked for (tet_steps.h), while nothing changes; then they are taken in order. A step near which
-// one before it has changed something is looked for again. How many threads look makes no
-// difference.
+// the tets at one of its vertices have changed. Steps for up to 64 tets are searched in parallel
+// while the mesh does not change (tet_steps.h), then applied in order. A step is searched again if
+// an earlier one changed a tet near it. The result does not depend on the number of threads.
 // In the last passes held vertices of tets that are still too flat may move. What is left of them
 // goes when it is a tet by itself.
 #include "inside/tet_improvement.h"
@@ -73,7 +72,7 @@ private:
   static constexpr double large = 2.5e7; // evaluations
   static constexpr double per_tet_of_large = 140.0;
   /// Tets for which steps are looked for at the same time: enough for many threads, few enough that
-  /// they are seldom neighbours.
+  /// they are seldom neighbors.
   static constexpr std::size_t most_at_once = 64;
   static constexpr Index per_task = 2;
 
@@ -160,8 +159,8 @@ private:
     return true;
   }
 
-  /// Of the tets with a vertex that may move, one at a time looks where to. @return false when
-  /// another has the vertex.
+  /// Reserves the tet's vertices for this batch, so that no two tets search a new position for the
+  /// same vertex. @return false if another tet has reserved a vertex that may move.
   bool claim(Index t)
   {
     this->claims_.resize(static_cast<std::size_t>(this->tets_.vertex_count()), 0);
@@ -210,7 +209,7 @@ private:
     return whole;
   }
 
-  /// A tet that the step goes by may be another now.
+  /// A tet that the step uses has been removed or changed.
   bool touched_since(std::uint64_t before, const TetStep& step) const
   {
     const auto touched = [&](Index t) { return !this->tets_.alive(t) || this->newest(t) > before; };
@@ -319,7 +318,7 @@ private:
   TetStepRules rules_;
   Improvement& done_;
   ExecutionContext& context_;
-  ExecutionContext quiet_; ///< tells no progress of what is done in parallel
+  ExecutionContext quiet_; ///< reports no progress from the parallel loops
   double most_evaluations_ = 0.0;
   Index evaluations_ = 0;
   std::vector<char> moved_;

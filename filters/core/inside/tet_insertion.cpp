@@ -54,8 +54,8 @@ std::vector<Index> scattered(Index count)
   return order;
 }
 
-/// Where places lie among tets that are replaced by others: the tets that are there first are in a
-/// tree, and each that is replaced knows by which.
+/// Finds the tets that contain given places while tets are being replaced: a tree over the initial
+/// tets, and for each replaced tet the range of its successors.
 class PlaceFinder
 {
 public:
@@ -131,7 +131,7 @@ private:
     return -1;
   }
 
-  /// From tet to tet towards p: a few steps where rounding has chosen a neighbour.
+  /// From tet to tet towards p: a few steps where rounding has chosen a neighbor.
   Index walk(Index t, const Vec3& p) const
   {
     constexpr int longest = 50;
@@ -155,9 +155,8 @@ private:
   std::vector<Range> replaced_; ///< per tet that is gone
 };
 
-/// Inserts places. For a number of them at the same time cavities are looked for, while nothing
-/// changes; then they are filled in order. One of which a tet has been replaced is looked for
-/// again.
+/// Cavities of up to 64 places are searched in parallel while the mesh does not change, then filled
+/// in order. A place is searched again if one of its tets has been replaced.
 class Inserter
 {
 public:
@@ -248,8 +247,8 @@ private:
       });
   }
 
-  /// Place i, p, is to become a vertex: with tets of some thickness, else on an edge that it is on
-  /// but for rounding (points of a bone are on one line), else anyhow.
+  /// Place i is p. Tries tets of at least 1 degree first, then a split of an edge that contains p
+  /// up to rounding (points of a bone are collinear), then any positive tets.
   void look_at(Index i, const Vec3& p, CavitySearch& search, Site& site) const
   {
     site.kind = Site::Kind::none;
@@ -288,7 +287,8 @@ private:
         const Vec3& a = this->tets_.point(tet[i]);
         const Vec3 edge = this->tets_.point(tet[j]) - a;
         const double off = edge.cross(p - a).norm() / edge.squaredNorm();
-        if (off < rounding && this->tets_.find_ring(tet[i], tet[j], site.ring) && site.ring.closed)
+        if (off < rounding && this->tets_.find_ring(tet[i], tet[j], site.ring) &&
+          site.ring.closed && this->may_split(tet[i], tet[j], site.ring.tets, p))
         {
           site.edge = { tet[i], tet[j] };
           return true;
@@ -296,6 +296,20 @@ private:
       }
     }
     return false;
+  }
+
+  /// A vertex at p on the edge a-b leaves all tets at the edge positive.
+  bool may_split(Index a, Index b, const std::vector<Index>& tets, const Vec3& p) const
+  {
+    const auto is_positive = [&](const Tet& tet, Index end)
+    {
+      const auto at = [&](int k) -> const Vec3&
+      { return tet[k] == end ? p : this->tets_.point(tet[k]); };
+      return TetComplex::quality(at(0), at(1), at(2), at(3)) > 0.0;
+    };
+    return std::all_of(tets.begin(), tets.end(),
+      [&](Index t)
+      { return is_positive(this->tets_.tet(t), a) && is_positive(this->tets_.tet(t), b); });
   }
 
   /// @return the new vertex, -1 where nothing helps.
@@ -321,7 +335,7 @@ private:
   TetComplex& tets_;
   PlaceFinder finder_;
   ExecutionContext& context_;
-  ExecutionContext quiet_; ///< tells no progress of what is done in parallel
+  ExecutionContext quiet_; ///< reports no progress from the parallel loops
   PerThread<CavitySearch> searches_;
   std::array<Site, most_at_once> sites_;
   const double thick_ = TetComplex::quality_of_angle(1.0);

@@ -15,11 +15,11 @@ namespace bindpose
 /// @return false when cancelled; the mesh is valid all the same.
 bool split_long_edges(TetMesh& mesh, double longest, Index most_tets, ExecutionContext& context);
 
-/// Makes vertices of #P x 3 places inside: each replaces the tets whose circumspheres contain it,
-/// but those that cannot be seen from it (Shewchuk, Constrained Delaunay Tetrahedralizations and
+/// Inserts vertices at #P x 3 places inside: each replaces the tets whose circumspheres contain it,
+/// except those not visible from it (Shewchuk, Constrained Delaunay Tetrahedralizations and
 /// Provably Good Boundary Recovery, 2002). The boundary stays. Needs what split_long_edges() does.
 /// vertices: #P, the new vertex, -1 where none could be made. The same on any number of threads.
-/// Cost: about 1 us a tet, and 30 us of one thread for each vertex.
+/// Cost: about 1 us per tet, and 30 us of one thread per vertex.
 /// @return false when cancelled; the mesh is valid all the same.
 bool insert_vertices(
   TetMesh& mesh, const Points& places, std::vector<Index>& vertices, ExecutionContext& context);

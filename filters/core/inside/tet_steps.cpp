@@ -19,9 +19,6 @@ namespace bindpose
 
 namespace
 {
-using Tet = TetComplex::Tet;
-using Facet = TetComplex::Facet;
-using Ring = TetComplex::Ring;
 constexpr double better = 0.02; // what counts as an improvement: a fiftieth of a tet's angle
 constexpr double never = std::numeric_limits<double>::infinity();
 // Cosines between the normals of boundary triangles.

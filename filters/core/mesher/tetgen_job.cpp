@@ -1,10 +1,11 @@
-// TetGen on a surface. TetGen drops vertices that nothing uses or that nearly coincide
-// and renumbers the rest, but it never moves a vertex: input vertices are found again by their
-// exact coordinates.
+// TetGen on a surface. TetGen drops vertices that nothing uses or that nearly coincide and
+// renumbers the rest, but it never moves a vertex: input vertices are found again by their exact
+// coordinates.
 #include "mesher/jobs.h"
 
 #include <tetgen.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <unordered_map>

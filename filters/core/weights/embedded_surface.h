@@ -2,9 +2,9 @@
 #define bindpose_weights_embedded_surface_h
 
 #include "base/execution.h"
+#include "base/simplex_locator.h"
 #include "embedding/embedding_tets.h"
 #include "weights/handle_insertion.h"
-#include "base/simplex_locator.h"
 
 #include <array>
 #include <unordered_map>

@@ -2,8 +2,8 @@
 
 #include "base/disjoint_sets.h"
 #include "base/laplacian.h"
-#include "base/sort_unique.h"
 #include "base/simplex_locator.h"
+#include "base/sort_unique.h"
 
 #include <algorithm>
 #include <map>

@@ -8,9 +8,9 @@
 #include "weights/handle_insertion.h"
 
 #include "base/line_pieces.h"
+#include "base/simplex_locator.h"
 #include "base/sort_unique.h"
 #include "inside/handle_places.h"
-#include "base/simplex_locator.h"
 
 #include <algorithm>
 #include <cmath>

@@ -24,8 +24,8 @@ using Columns = Eigen::Array<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
 class SmoothingEnergy
 {
 public:
-  SmoothingEnergy(
-    PointsView points, TrianglesView triangles, const std::vector<Index>& fixed, double length)
+  SmoothingEnergy(PointsView points, TrianglesView triangles, const std::vector<Index>& fixed,
+    double length, const ExecutionContext& context)
     : free_(VectorXd::Ones(points.rows()))
   {
     const Points scaled = (points.rowwise() - points.row(0)) / length;
@@ -38,7 +38,7 @@ public:
     {
       this->free_[v] = 0.0;
     }
-    this->prepare();
+    this->prepare(context);
   }
 
   /// By conjugate gradients, each column with its own steps.
@@ -126,20 +126,20 @@ private:
   }
 
   /// Factors M + K.
-  void prepare()
+  void prepare(const ExecutionContext& context)
   {
     SparseMatrix a = this->stiffness_;
     for (int j = 0; j < a.outerSize(); ++j)
     {
       for (SparseMatrix::InnerIterator k(a, j); k; ++k)
       {
-        k.valueRef() = k.row() == k.col() ? k.value() + this->mass_[j]
-                                          : k.value() * this->free_[k.row()] * this->free_[j];
+        k.valueRef() *= k.row() == k.col() ? 1.0 : this->free_[k.row()] * this->free_[j];
       }
     }
+    a += SparseMatrix(this->mass_.asDiagonal());
     SparseSolver analysis;
     if (analysis.analyse(a).ok() && this->factor_.analyse(analysis, a).ok() &&
-      this->factor_.factor(a, 0.0, {}).ok())
+      this->factor_.factor(a, 0.0, context).ok())
     {
       return;
     }
@@ -181,8 +181,8 @@ private:
   SparseMatrix stiffness_;
   VectorXd mass_;
   VectorXd free_; // 0 for fixed points, 1 for all others
-  // M + K M⁻¹ K is at most (M + K) M⁻¹ (M + K) and at least half of it: as a preconditioner that
-  // takes a few iterations.
+  // Without fixed points, M + K M⁻¹ K is at most (M + K) M⁻¹ (M + K) and at least half of it, so
+  // that this preconditioner needs few iterations. Fixed points add a term at their neighbors only.
   FloatCholesky factor_; // of M + K, where it could be factored
   VectorXd diagonal_; // else
 };
@@ -191,8 +191,12 @@ private:
 bool smooth_on_surface(PointsView points, TrianglesView triangles, const std::vector<Index>& fixed,
   double length, Eigen::MatrixXd& values, ExecutionContext& context)
 {
-  const SmoothingEnergy energy(points, triangles, fixed, length);
-  return parallel_for(context, values.cols(), lanes,
+  if (points.rows() == 0 || values.cols() == 0)
+  {
+    return !context.cancelled();
+  }
+  const SmoothingEnergy energy(points, triangles, fixed, length, context);
+  const bool whole = parallel_for(context, values.cols(), lanes,
     [&](Index begin, Index end)
     {
       Columns w = Columns::Zero(values.rows(), lanes);
@@ -200,6 +204,7 @@ bool smooth_on_surface(PointsView points, TrianglesView triangles, const std::ve
       energy.minimize(w, context);
       values.middleCols(begin, end - begin) = w.leftCols(end - begin);
     });
+  return whole && !context.cancelled();
 }
 
 } // namespace bindpose

@@ -23,7 +23,7 @@ namespace bindpose
 /// @param fixed ids of points whose values stay, ascending.
 /// @param values #V x #columns, in and out.
 /// @return false when cancelled.
-/// Cost: analysis and factorization, about 5 us a point; then about 1 us a point and column.
+/// Cost: analysis and factorization, about 5 us per point; then about 1 us per point and column.
 bool smooth_on_surface(PointsView points, TrianglesView triangles, const std::vector<Index>& fixed,
   double length, Eigen::MatrixXd& values, ExecutionContext& context);
 

@@ -15,10 +15,9 @@ using namespace bindpose;
 
 namespace
 {
-/// The box with its inner vertices moved by up to `by`.
-TetMesh shaken_box(double by)
+/// The box of n x n x n cells with its inner vertices moved by up to `by`.
+TetMesh shaken_box(double by, int n = 6)
 {
-  constexpr int n = 6;
   TetMesh mesh = test::tet_box(n, n, n);
   test::Random random(3);
   for (Index v = 0; v < mesh.points.rows(); ++v)
@@ -161,6 +160,31 @@ TEST(TetImprovement, AFlatTetOnTheBoundaryGoes)
   EXPECT_TRUE(count_edges(boundary_triangles(mesh.tets)).closed);
 }
 
+TEST(TetImprovement, OfTwoFlatTetsOnOneEdgeOnlyOneGoes)
+{
+  // Around the edge 0-1 stand two thick tets and, outside of them, two flat ones that lie opposite
+  // to each other: without both of them the boundary would touch itself along the edge.
+  TetMesh mesh;
+  mesh.points.resize(6, 3);
+  constexpr double thin = 1e-4;
+  mesh.points << 0, 0, -1, 0, 0, 1, 1, thin, 0, 1, -thin, 0, -1, thin, 0, -1, -thin, 0;
+  mesh.tets.resize(4, 4);
+  mesh.tets << 0, 1, 2, 3, 0, 1, 4, 5, 0, 1, 2, 4, 0, 1, 3, 5;
+  for (Index t = 0; t < mesh.tets.rows(); ++t)
+  {
+    if (tet_volumes(mesh.points, mesh.tets)[t] < 0.0)
+    {
+      mesh.tets.row(t).tail<2>().reverseInPlace();
+    }
+  }
+  ASSERT_TRUE(check_tets(mesh.points, mesh.tets).ok());
+  Improvement done;
+  ASSERT_TRUE(improve(mesh, std::vector<char>(6, 1), done));
+  EXPECT_TRUE(check_tets(mesh.points, mesh.tets).ok());
+  EXPECT_TRUE(count_edges(boundary_triangles(mesh.tets)).closed);
+  EXPECT_EQ(count_edges(boundary_triangles(mesh.tets)).nonmanifold, 0);
+}
+
 TEST(TetImprovement, CancelledAtOnceIsStillAMesh)
 {
   TetMesh mesh = shaken_box(0.055);
@@ -175,18 +199,7 @@ TEST(TetImprovement, CancelledAtOnceIsStillAMesh)
 TEST(TetImprovement, ThreadsMakeNoDifference)
 {
   // Flat tets everywhere, also next to each other.
-  constexpr int n = 12;
-  TetMesh shaken = test::tet_box(n, n, n);
-  test::Random random(11);
-  for (Index v = 0; v < shaken.points.rows(); ++v)
-  {
-    const Vec3 p = shaken.points.row(v);
-    if (p.minCoeff() > 1e-9 && p.maxCoeff() < 1.0 - 1e-9)
-    {
-      constexpr double by = 0.25 / n;
-      shaken.points.row(v) += random.in_box(Vec3::Constant(-by), Vec3::Constant(by)).transpose();
-    }
-  }
+  const TetMesh shaken = shaken_box(0.02, 12);
   ASSERT_TRUE(check_tets(shaken.points, shaken.tets).ok());
   for (const bool keep_boundary : { false, true })
   {

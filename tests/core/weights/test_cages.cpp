@@ -1,8 +1,8 @@
 // Cages: weights are linear along their edges and faces, whatever the energy does between them.
 #include "weights/bounded_biharmonic_weights.h"
+#include "base/simplex_locator.h"
 #include "weights/monotone_weights.h"
 #include "weights/preview_weights.h"
-#include "base/simplex_locator.h"
 #include "weights/surface_weights.h"
 
 #include "support/needs_mesher.h"

@@ -9,7 +9,9 @@ namespace bindpose
 
 namespace
 {
-constexpr std::size_t largest_cavity = 512; // tets
+// Tets. Where all vertices of a surface lie on one quadric, its first tets are all in one cavity:
+// with smaller ones slivers would stay.
+constexpr std::size_t largest_cavity = 6000;
 } // namespace
 
 Index fill_cavity(TetComplex& tets, const Vec3& p, const TetCavity& cavity)

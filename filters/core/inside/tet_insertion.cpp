@@ -177,13 +177,19 @@ public:
     const std::vector<Index> order = scattered(places.rows());
     std::vector<Index> now;
     std::vector<Index> later;
+    // The first cavities are large where all vertices lie on one sphere, and overlap: as many are
+    // searched at the same time as do not.
+    std::size_t at_once = 1;
     for (std::size_t next = 0; next < order.size() || !later.empty();)
     {
-      now = std::exchange(later, {});
-      for (; now.size() < most_at_once && next < order.size(); ++next)
+      const auto again = static_cast<std::ptrdiff_t>(std::min(at_once, later.size()));
+      now.assign(later.begin(), later.begin() + again);
+      later.erase(later.begin(), later.begin() + again);
+      for (; now.size() < at_once && next < order.size(); ++next)
       {
         now.push_back(order[next]);
       }
+      const std::size_t waiting = later.size();
       if (!this->look_at(places, now))
       {
         return false;
@@ -201,6 +207,10 @@ public:
           later.push_back(now[i]);
         }
       }
+      constexpr std::size_t seldom = 4; // one in so many
+      const bool overlap = seldom * (later.size() - waiting) > now.size();
+      at_once =
+        overlap ? std::max<std::size_t>(1, at_once / 2) : std::min(most_at_once, 2 * at_once);
       this->context_.progress(static_cast<double>(next) / static_cast<double>(order.size()));
     }
     return true;

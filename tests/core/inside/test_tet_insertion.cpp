@@ -156,6 +156,17 @@ TEST_F(Cdt, NumbersOfTetsGrowWithTheSurfaceNotWithTheVolume)
   }
 }
 
+TEST_F(Cdt, AnEllipsoidIsFilledWithoutSlivers)
+{
+  // Its vertices lie on one quadric: the tets that only they make are slivers through all of it.
+  TriangleMesh spindle = test::sphere(5);
+  spindle.points.leftCols(2) *= 0.45;
+  const Outcome outcome = run(spindle, TetMethod::cdt);
+  expect_valid(outcome, spindle);
+  EXPECT_LT(outcome.number("counts.tets_below_5_degrees"),
+    0.01 * static_cast<double>(outcome.result.mesh.tets.rows()));
+}
+
 TEST_F(Cdt, AFewTrianglesAreFilledWithManyTets)
 {
   const Outcome outcome = run(test::cube(), TetMethod::cdt);

@@ -269,6 +269,8 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
     if (!whole)
     {
       sizes.set_growth(most_growth);
+      step = blind_step;
+      before = 0.0;
     }
     else if (sizes.growth() < most_growth)
     {
@@ -276,13 +278,15 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
         std::min(most_growth, sizes.growth() * std::max(least_step, std::cbrt(ratio))));
       continue;
     }
-    if (whole && before > 0.0)
+    else
     {
-      power = std::clamp(std::log(before / ratio) / std::log(step), least_power, largest_power);
+      if (before > 0.0)
+      {
+        power = std::clamp(std::log(before / ratio) / std::log(step), least_power, largest_power);
+      }
+      step = std::clamp(std::pow(ratio / aim, 1.0 / power), least_step, largest_step);
+      before = ratio;
     }
-    before = whole ? ratio : 0.0;
-    step =
-      whole ? std::clamp(std::pow(ratio / aim, 1.0 / power), least_step, largest_step) : blind_step;
     sizes.scale(step);
   }
   return true;

@@ -107,6 +107,13 @@ double TetComplex::quality(const Vec3& a, const Vec3& b, const Vec3& c, const Ve
   return least;
 }
 
+double TetComplex::quality_with(Index t, Index v, const Vec3& p) const
+{
+  const Tet& tet = this->tets_[t];
+  const auto at = [&](int k) -> const Vec3& { return tet[k] == v ? p : this->points_[tet[k]]; };
+  return quality(at(0), at(1), at(2), at(3));
+}
+
 Index TetComplex::add_vertex(const Vec3& p, bool on_boundary)
 {
   this->points_.push_back(p);
@@ -114,14 +121,6 @@ Index TetComplex::add_vertex(const Vec3& p, bool on_boundary)
   this->boundary_.push_back(on_boundary ? 1 : 0);
   this->stamp_.push_back(++this->changes_);
   return this->vertex_count() - 1;
-}
-
-void TetComplex::drop_last_vertex()
-{
-  this->points_.pop_back();
-  this->at_.pop_back();
-  this->boundary_.pop_back();
-  this->stamp_.pop_back();
 }
 
 void TetComplex::move(Index v, const Vec3& p)
@@ -296,10 +295,22 @@ std::vector<TetComplex::Facet> TetComplex::skin_at(Index v) const
   return skin;
 }
 
+bool TetComplex::may_split_edge(
+  Index a, Index b, const std::vector<Index>& tets, const Vec3& p) const
+{
+  return std::all_of(tets.begin(), tets.end(),
+    [&](Index t)
+    { return this->quality_with(t, a, p) > 0.0 && this->quality_with(t, b, p) > 0.0; });
+}
+
 Index TetComplex::split_edge(Index a, Index b, const Vec3& p)
 {
   std::vector<Index> old;
   this->tets_with(a, b, old);
+  if (!this->may_split_edge(a, b, old, p))
+  {
+    return -1;
+  }
   bool open = false;
   for (const Index t : old)
   {
@@ -307,29 +318,16 @@ Index TetComplex::split_edge(Index a, Index b, const Vec3& p)
     open = open || this->beyond(t, a, b, c) < 0 || this->beyond(t, a, b, d) < 0;
   }
   const Index v = this->add_vertex(p, open);
-  std::vector<Tet> fresh;
-  fresh.reserve(2 * old.size());
   for (const Index t : old)
   {
+    const Tet tet = this->tets_[t];
+    this->remove(t);
     for (const Index end : { a, b })
     {
-      Tet tet = this->tets_[t];
-      std::replace(tet.begin(), tet.end(), end, v);
-      if (!(this->quality(tet) > 0.0))
-      {
-        this->drop_last_vertex();
-        return -1;
-      }
-      fresh.push_back(tet);
+      Tet half = tet;
+      std::replace(half.begin(), half.end(), end, v);
+      this->add(half);
     }
-  }
-  for (const Index t : old)
-  {
-    this->remove(t);
-  }
-  for (const Tet& tet : fresh)
-  {
-    this->add(tet);
   }
   return v;
 }

@@ -54,6 +54,8 @@ public:
     return quality(
       this->points_[tet[0]], this->points_[tet[1]], this->points_[tet[2]], this->points_[tet[3]]);
   }
+  /// Quality that tet t would have with its vertex v at p.
+  double quality_with(Index t, Index v, const Vec3& p) const;
   static double quality_of_angle(double degrees);
   double volume(const Tet& tet) const;
   /// Value of changes() at the last change of a tet at the vertex.
@@ -81,14 +83,13 @@ public:
   /// The boundary facets at v, oriented outwards.
   std::vector<Facet> skin_at(Index v) const;
 
+  /// Both halves of all the tets at an edge would have a volume if a vertex at p split it.
+  bool may_split_edge(Index a, Index b, const std::vector<Index>& tets, const Vec3& p) const;
   /// Puts a new vertex on an edge: every tet at the edge becomes two. @return the vertex, or -1 if
   /// that makes a tet without volume; then nothing has changed.
   Index split_edge(Index a, Index b, const Vec3& p);
 
 private:
-  /// Takes back the last vertex, which no tet uses.
-  void drop_last_vertex();
-
   std::vector<Vec3> points_;
   std::vector<Tet> tets_;
   std::vector<double> quality_;

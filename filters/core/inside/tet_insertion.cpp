@@ -37,7 +37,7 @@ struct LongEdge
   }
 };
 
-/// A number for each place, so that places with numbers next to each other are far apart.
+/// An order of the places in which those next to each other are far apart.
 std::vector<Index> scattered(Index count)
 {
   constexpr double golden = 0.6180339887498949;
@@ -131,7 +131,8 @@ private:
     return -1;
   }
 
-  /// From tet to tet towards p: a few steps where rounding has chosen a neighbor.
+  /// The tet that contains p, a few steps from t at most: rounding may have chosen a neighbor.
+  /// @return -1 where it is farther away.
   Index walk(Index t, const Vec3& p) const
   {
     constexpr int longest = 50;
@@ -220,7 +221,7 @@ private:
   static constexpr std::size_t most_at_once = 64;
   static constexpr Index per_task = 4;
 
-  /// What a place would replace.
+  /// The tets or the edge that a place would replace.
   struct Site
   {
     enum class Kind
@@ -298,7 +299,7 @@ private:
         const Vec3 edge = this->tets_.point(tet[j]) - a;
         const double off = edge.cross(p - a).norm() / edge.squaredNorm();
         if (off < rounding && this->tets_.find_ring(tet[i], tet[j], site.ring) &&
-          site.ring.closed && this->may_split(tet[i], tet[j], site.ring.tets, p))
+          site.ring.closed && this->tets_.may_split_edge(tet[i], tet[j], site.ring.tets, p))
         {
           site.edge = { tet[i], tet[j] };
           return true;
@@ -306,20 +307,6 @@ private:
       }
     }
     return false;
-  }
-
-  /// A vertex at p on the edge a-b leaves all tets at the edge positive.
-  bool may_split(Index a, Index b, const std::vector<Index>& tets, const Vec3& p) const
-  {
-    const auto is_positive = [&](const Tet& tet, Index end)
-    {
-      const auto at = [&](int k) -> const Vec3&
-      { return tet[k] == end ? p : this->tets_.point(tet[k]); };
-      return TetComplex::quality(at(0), at(1), at(2), at(3)) > 0.0;
-    };
-    return std::all_of(tets.begin(), tets.end(),
-      [&](Index t)
-      { return is_positive(this->tets_.tet(t), a) && is_positive(this->tets_.tet(t), b); });
   }
 
   /// @return the new vertex, -1 where nothing helps.

@@ -19,7 +19,8 @@ bool split_long_edges(TetMesh& mesh, double longest, Index most_tets, ExecutionC
 /// except those not visible from it (Shewchuk, Constrained Delaunay Tetrahedralizations and
 /// Provably Good Boundary Recovery, 2002). The boundary stays. Needs what split_long_edges() does.
 /// vertices: #P, the new vertex, -1 where none could be made. The same on any number of threads.
-/// Cost: about 1 us per tet, and 30 us of one thread per vertex.
+/// Cost: about 1 us per tet, and 30 us of one thread per vertex; many times that where all vertices
+/// lie on one sphere or ellipsoid.
 /// @return false when cancelled; the mesh is valid all the same.
 bool insert_vertices(
   TetMesh& mesh, const Points& places, std::vector<Index>& vertices, ExecutionContext& context);

@@ -1,4 +1,4 @@
-// What improves one tet, tried in turn:
+// A tet is improved by the first of these steps that works:
 // 1. removing one of its edges: the tets around it are replaced by tets between its ends and a
 //    triangulation of the ring of their other vertices, the best one by dynamic programming. An
 //    edge of the boundary that is nearly flat can go as well; with a single tet that removes it.
@@ -8,6 +8,7 @@
 // 5. inserting a vertex in the middle of it or of one of its edges, where that is allowed.
 #include "inside/tet_steps.h"
 
+#include "base/sort_unique.h"
 #include "base/tet_facets.h"
 
 #include <algorithm>
@@ -40,13 +41,6 @@ Vec3 direction(int k)
   }
   const int bits = k - 6;
   return Vec3(bits & 1 ? -1.0 : 1.0, bits & 2 ? -1.0 : 1.0, bits & 4 ? -1.0 : 1.0) / std::sqrt(3.0);
-}
-
-template <typename T>
-void make_set(std::vector<T>& list)
-{
-  std::sort(list.begin(), list.end());
-  list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
 template <typename T>
@@ -417,17 +411,17 @@ bool TetStepSearch::move(Index v, TetStep& step)
   return true;
 }
 
-/// Cost of the tets of star_ with v at p: infinity above `most` and where one of them is worse than
+/// Cost of new tets, one for each item: infinity above `most` and where one of them is worse than
 /// `least`.
-double TetStepSearch::sum_of_star(Index v, const Vec3& p, double least, double most)
+template <typename Items, typename QualityOf>
+double TetStepSearch::sum_of(
+  const Items& items, const QualityOf& quality_of, double least, double most)
 {
   double sum = 0.0;
-  for (const Index t : this->star_)
+  for (const auto& item : items)
   {
-    const Tet& tet = this->tets_.tet(t);
-    const auto at = [&](int k) -> const Vec3& { return tet[k] == v ? p : this->point(tet[k]); };
     ++this->evaluations_;
-    const double value = TetComplex::quality(at(0), at(1), at(2), at(3));
+    const double value = quality_of(item);
     sum += this->penalty(value);
     if (!(value > 0.0) || value < least || sum > most)
     {
@@ -435,6 +429,13 @@ double TetStepSearch::sum_of_star(Index v, const Vec3& p, double least, double m
     }
   }
   return sum;
+}
+
+/// Cost of the tets of star_ with v at p.
+double TetStepSearch::sum_of_star(Index v, const Vec3& p, double least, double most)
+{
+  return this->sum_of(
+    this->star_, [&](Index t) { return this->tets_.quality_with(t, v, p); }, least, most);
 }
 
 // ---- New vertices ------------------------------------------------------------------------------
@@ -524,24 +525,15 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
   return true;
 }
 
-/// Cost of tets from p to the cavity's facets: infinity above `most` and where one of them is worse
-/// than `least`.
+/// Cost of tets from p to the cavity's facets.
 double TetStepSearch::sum_of_cavity(
   const TetCavity& cavity, const Vec3& p, double least, double most)
 {
-  double sum = 0.0;
-  for (const Facet& f : cavity.facets)
-  {
-    ++this->evaluations_;
-    const double value =
-      TetComplex::quality(this->point(f[0]), this->point(f[1]), this->point(f[2]), p);
-    sum += this->penalty(value);
-    if (!(value > 0.0) || value < least || sum > most)
-    {
-      return never;
-    }
-  }
-  return sum;
+  return this->sum_of(
+    cavity.facets,
+    [&](const Facet& f)
+    { return TetComplex::quality(this->point(f[0]), this->point(f[1]), this->point(f[2]), p); },
+    least, most);
 }
 
 // ---- Contraction -----------------------------------------------------------------------------
@@ -692,9 +684,9 @@ TetStepSearch::Link TetStepSearch::link_of(Index v, const std::vector<Facet>& sk
     link.edges.insert(link.edges.end(), { { f[0], f[1] }, { f[0], f[2] }, { f[1], f[2] } });
     link.vertices.insert(link.vertices.end(), f.begin(), f.end());
   }
-  make_set(link.vertices);
-  make_set(link.edges);
-  make_set(link.triangles);
+  sort_unique(link.vertices);
+  sort_unique(link.edges);
+  sort_unique(link.triangles);
   return link;
 }
 

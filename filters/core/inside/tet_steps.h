@@ -36,10 +36,10 @@ struct TetStep
   void clear();
 };
 
-/// What a step may do.
+/// Limits for all steps.
 struct TetStepRules
 {
-  explicit TetStepRules(const ImproveOptions& improve_options, const OntoSurface& onto)
+  TetStepRules(const ImproveOptions& improve_options, const OntoSurface& onto)
     : options(improve_options), surface(onto)
   {
   }
@@ -71,7 +71,7 @@ private:
   using Tet = TetComplex::Tet;
   using Facet = TetComplex::Facet;
   using Ring = TetComplex::Ring;
-  /// Of a set of tets: 0 where all are good enough.
+  /// Cost of a set of tets: 0 where all are good enough.
   struct Cost
   {
     double sum = 0.0; ///< of log(sine wanted / sine of the smallest dihedral angle)
@@ -102,6 +102,8 @@ private:
   bool remove_facet(Index t, Index a, Index b, Index c, TetStep& step);
 
   bool move(Index v, TetStep& step);
+  template <typename Items, typename QualityOf>
+  double sum_of(const Items& items, const QualityOf& quality_of, double least, double most);
   double sum_of_star(Index v, const Vec3& p, double least, double most);
   Patch patch_of(const std::vector<Facet>& skin, Index moved, const Vec3& p) const;
 

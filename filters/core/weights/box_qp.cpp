@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "base/per_thread.h"
 #include "base/refined_solve.h"
 #include "weights/barrier_start.h"
 #include "weights/interior_point.h"
@@ -69,8 +70,7 @@ struct BoxQp::Impl : SplitForm
   double memory_estimate = 0.0;
   int most_threads = 0; // that memory will do for, 0: any number
   mutable std::mutex solver_mutex;
-  mutable std::mutex pool_mutex;
-  mutable std::vector<std::unique_ptr<BoxQpWorkspace>> pool;
+  mutable PerThread<BoxQpWorkspace> of_threads;
 
   /// What the factors will take. A workspace a thread, one at least.
   /// @param in_single_precision how A is factored.
@@ -101,15 +101,8 @@ struct BoxQp::Impl : SplitForm
         std::to_string(this->q.rows()) + " vertices",
       once + workspaces * each, this->options.solver.memory_limit);
   }
-  std::unique_ptr<BoxQpWorkspace> take_workspace() const
+  std::unique_ptr<BoxQpWorkspace> make_workspace() const
   {
-    const std::lock_guard<std::mutex> lock(this->pool_mutex);
-    if (!this->pool.empty())
-    {
-      auto workspace = std::move(this->pool.back());
-      this->pool.pop_back();
-      return workspace;
-    }
     auto workspace = std::make_unique<BoxQpWorkspace>();
     workspace->solver = this->solver.clone();
     workspace->single = this->single.clone();
@@ -227,11 +220,6 @@ struct BoxQp::Impl : SplitForm
       }
     }
     return starts;
-  }
-  void give_back(std::unique_ptr<BoxQpWorkspace> workspace) const
-  {
-    const std::lock_guard<std::mutex> lock(this->pool_mutex);
-    this->pool.push_back(std::move(workspace));
   }
 };
 
@@ -375,13 +363,15 @@ std::vector<BoxQpSolution> BoxQp::solve_all(
     {
       for (Index j = begin; j < end; ++j)
       {
-        auto workspace = impl.take_workspace();
         const VectorXd unconstrained = free_of_bounds.col(j);
-        solutions[j] = interior_point(
-          impl, impl.options, columns[j], unconstrained, starts[static_cast<std::size_t>(j)],
-          [&](const VectorXd& r) { return impl.inverse(r); }, *workspace, context);
+        impl.of_threads.with([&] { return impl.make_workspace(); },
+          [&](BoxQpWorkspace& workspace)
+          {
+            solutions[j] = interior_point(
+              impl, impl.options, columns[j], unconstrained, starts[static_cast<std::size_t>(j)],
+              [&](const VectorXd& r) { return impl.inverse(r); }, workspace, context);
+          });
         solutions[j].solve_seconds += start_seconds;
-        impl.give_back(std::move(workspace));
       }
     });
   return solutions;

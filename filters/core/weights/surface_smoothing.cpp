@@ -125,7 +125,7 @@ private:
     }
   }
 
-  /// Factors M + K.
+  /// Factors M + K, or takes the diagonal where that cannot be had.
   void prepare(const ExecutionContext& context)
   {
     SparseMatrix a = this->stiffness_;
@@ -145,14 +145,15 @@ private:
     }
     // Without such a factorization: by the diagonal, (K M⁻¹ K)_ii = sum_j K_ij² / m_j.
     this->factor_ = FloatCholesky();
-    this->diagonal_ = this->mass_;
+    VectorXd diagonal = this->mass_;
     for (int j = 0; j < this->stiffness_.outerSize(); ++j)
     {
       for (SparseMatrix::InnerIterator k(this->stiffness_, j); k; ++k)
       {
-        this->diagonal_[k.row()] += k.value() * k.value() / this->mass_[j];
+        diagonal[k.row()] += k.value() * k.value() / this->mass_[j];
       }
     }
+    this->inverse_diagonal_ = this->free_.cwiseQuotient(diagonal);
   }
 
   /// z = P⁻¹ r of the free points, 0 of the others. @return r · z.
@@ -168,7 +169,7 @@ private:
     }
     else
     {
-      z = r.colwise() * (this->free_.array() / this->diagonal_.array());
+      z = r.colwise() * this->inverse_diagonal_.array();
     }
     Lanes sum = Lanes::Zero();
     for (Index v = 0; v < r.rows(); ++v)
@@ -184,7 +185,7 @@ private:
   // Without fixed points, M + K M⁻¹ K is at most (M + K) M⁻¹ (M + K) and at least half of it, so
   // that this preconditioner needs few iterations. Fixed points add a term at their neighbors only.
   FloatCholesky factor_; // of M + K, where it could be factored
-  VectorXd diagonal_; // else
+  VectorXd inverse_diagonal_; // else: of the free points, 0 for the others
 };
 } // namespace
 

@@ -459,7 +459,8 @@ def numbers_lines(numbers):
     return ["## Numbers", "",
             f"`…peak_mb_small` is the largest peak of models below {SMALL:,} triangles, in MB (10^6 bytes);",
             f"`…thin_files` counts files with over {100 * THIN_SHARE:.0f} % of tets below 5 degrees, `…_not_forced` those",
-            "with so many that no triangle of the surface forces: none with a corner, or an edge, of less than 5 degrees.", "",
+            "with so many that no triangle of the surface forces: none with a corner, or an edge, of less than 5 degrees, or with",
+            "another triangle right in front of it.", "",
             *table(["name for --check", "value"], cells)]
 
 

@@ -7,13 +7,6 @@
 namespace bindpose
 {
 
-namespace
-{
-// Tets. Where all vertices of a surface lie on one quadric, its first tets are all in one cavity:
-// with smaller ones slivers would stay.
-constexpr std::size_t largest_cavity = 6000;
-} // namespace
-
 Index fill_cavity(TetComplex& tets, const Vec3& p, const TetCavity& cavity)
 {
   const Index v = tets.add_vertex(p, false);
@@ -33,9 +26,13 @@ bool CavitySearch::find(const Vec3& p, Index start, double least, TetCavity& cav
   const auto tets = static_cast<std::size_t>(this->tets_.tet_ids());
   this->cavity_.resize(tets, 0);
   this->site_ids_.resize(tets, 0);
-  this->reached_.resize(tets, 0);
-  this->collect_sphere(p, start, cavity.tets);
-  return this->shrink(p, start, least, cavity) && this->keeps_all(p, cavity);
+  this->collect_sphere(p, start);
+  if (!this->shrink(p, start, least))
+  {
+    return false;
+  }
+  this->collect_connected(start, cavity);
+  return this->keeps_all(p, cavity);
 }
 
 bool CavitySearch::in_sphere(const Tet& tet, const Vec3& p) const
@@ -49,12 +46,12 @@ bool CavitySearch::in_sphere(const Tet& tet, const Vec3& p) const
   return q.squaredNorm() * u.dot(vw) < q.dot(center);
 }
 
-void CavitySearch::add_site(Index t, std::vector<Index>& tets)
+void CavitySearch::add_site(Index t)
 {
   this->cavity_[t] = this->searches_;
   this->site_ids_[t] = static_cast<Index>(this->sites_.size());
   this->sites_.emplace_back();
-  tets.push_back(t);
+  this->queue_.push_back(t);
 }
 
 /// The tet beyond facet k of a tet of the cavity.
@@ -70,78 +67,105 @@ Index CavitySearch::beyond_of_site(Index t, int k)
   return next;
 }
 
-void CavitySearch::collect_sphere(const Vec3& p, Index start, std::vector<Index>& tets)
+void CavitySearch::collect_sphere(const Vec3& p, Index start)
 {
-  const Index in = ++this->searches_;
+  ++this->searches_;
   this->sites_.clear();
-  tets.clear();
-  this->add_site(start, tets);
-  for (std::size_t i = 0; i < tets.size() && tets.size() < largest_cavity; ++i)
+  this->queue_.clear();
+  this->add_site(start);
+  for (std::size_t i = 0; i < this->queue_.size(); ++i)
   {
     for (int k = 0; k < 4; ++k)
     {
-      const Index next = this->beyond_of_site(tets[i], k);
-      if (next >= 0 && this->cavity_[next] != in && this->in_sphere(this->tets_.tet(next), p))
+      const Index next = this->beyond_of_site(this->queue_[i], k);
+      if (next >= 0 && !this->joins(next) && this->in_sphere(this->tets_.tet(next), p))
       {
-        this->add_site(next, tets);
+        this->add_site(next);
       }
     }
   }
 }
 
-bool CavitySearch::shrink(const Vec3& p, Index start, double least, TetCavity& cavity)
+bool CavitySearch::facet_fits(const Vec3& p, Index t, int k, double least)
+{
+  double& fit = this->site_of(t).fits[k];
+  if (std::isnan(fit))
+  {
+    ++this->evaluations_;
+    const Facet f = this->facet_inwards(t, k);
+    fit = TetComplex::quality(
+      this->tets_.point(f[0]), this->tets_.point(f[1]), this->tets_.point(f[2]), p);
+  }
+  return fit >= least;
+}
+
+/// Facet k of a tet, as seen from inside of it.
+CavitySearch::Facet CavitySearch::facet_inwards(Index t, int k) const
+{
+  const Tet& tet = this->tets_.tet(t);
+  const auto& f = facet_corners[k];
+  return { tet[f[0]], tet[f[2]], tet[f[1]] };
+}
+
+/// A tet with a facet that makes too flat a tet with p leaves the cavity, and its neighbors are
+/// looked at again. @return false if the start leaves.
+bool CavitySearch::shrink(const Vec3& p, Index start, double least)
 {
   const Index in = this->searches_;
-  for (;;)
+  for (std::size_t next = 0; next < this->queue_.size(); ++next)
   {
-    // Collect the tets still connected to the start. A tet with a facet that makes too flat a tet
-    // with p leaves the cavity.
-    const Index now = ++this->walks_;
-    cavity.tets.assign(1, start);
-    cavity.facets.clear();
-    this->reached_[start] = now;
-    bool whole = true;
-    for (std::size_t i = 0; i < cavity.tets.size(); ++i)
+    const Index t = this->queue_[next];
+    if (this->cavity_[t] != in)
     {
-      const Index t = cavity.tets[i];
-      for (int k = 0; k < 4; ++k)
-      {
-        const Index next = this->beyond_of_site(t, k);
-        if (next >= 0 && this->cavity_[next] == in)
-        {
-          if (this->reached_[next] != now)
-          {
-            this->reached_[next] = now;
-            cavity.tets.push_back(next);
-          }
-          continue;
-        }
-        const Tet& tet = this->tets_.tet(t);
-        const auto& f = facet_corners[k];
-        const Facet inwards{ tet[f[0]], tet[f[2]], tet[f[1]] };
-        double& fit = this->site_of(t).fits[k];
-        if (std::isnan(fit))
-        {
-          ++this->evaluations_;
-          fit = TetComplex::quality(this->tets_.point(inwards[0]), this->tets_.point(inwards[1]),
-            this->tets_.point(inwards[2]), p);
-        }
-        if (fit < least)
-        {
-          if (t == start)
-          {
-            return false;
-          }
-          this->cavity_[t] = 0;
-          whole = false;
-          break;
-        }
-        cavity.facets.push_back(inwards);
-      }
+      continue;
     }
-    if (whole)
+    for (int k = 0; k < 4; ++k)
     {
-      return true;
+      if (this->joins(this->beyond_of_site(t, k)) || this->facet_fits(p, t, k, least))
+      {
+        continue;
+      }
+      if (t == start)
+      {
+        return false;
+      }
+      this->cavity_[t] = 0;
+      for (int other = 0; other < 4; ++other)
+      {
+        const Index neighbor = this->beyond_of_site(t, other);
+        if (this->joins(neighbor))
+        {
+          this->queue_.push_back(neighbor);
+        }
+      }
+      break;
+    }
+  }
+  return true;
+}
+
+/// What of the cavity is connected to the start.
+void CavitySearch::collect_connected(Index start, TetCavity& cavity)
+{
+  const Index reached = -this->searches_;
+  cavity.tets.assign(1, start);
+  cavity.facets.clear();
+  this->cavity_[start] = reached;
+  for (std::size_t i = 0; i < cavity.tets.size(); ++i)
+  {
+    const Index t = cavity.tets[i];
+    for (int k = 0; k < 4; ++k)
+    {
+      const Index next = this->beyond_of_site(t, k);
+      if (this->joins(next))
+      {
+        this->cavity_[next] = reached;
+        cavity.tets.push_back(next);
+      }
+      else if (next < 0 || this->cavity_[next] != reached)
+      {
+        cavity.facets.push_back(this->facet_inwards(t, k));
+      }
     }
   }
 }

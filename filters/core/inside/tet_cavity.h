@@ -47,19 +47,23 @@ private:
   };
   bool in_sphere(const Tet& tet, const Vec3& p) const;
   Site& site_of(Index t) { return this->sites_[this->site_ids_[t]]; }
-  void add_site(Index t, std::vector<Index>& tets);
+  void add_site(Index t);
+  bool joins(Index t) const { return t >= 0 && this->cavity_[t] == this->searches_; }
   Index beyond_of_site(Index t, int k);
-  void collect_sphere(const Vec3& p, Index start, std::vector<Index>& tets);
-  bool shrink(const Vec3& p, Index start, double least, TetCavity& cavity);
+  Facet facet_inwards(Index t, int k) const;
+  bool facet_fits(const Vec3& p, Index t, int k, double least);
+  void collect_sphere(const Vec3& p, Index start);
+  bool shrink(const Vec3& p, Index start, double least);
+  void collect_connected(Index start, TetCavity& cavity);
   bool keeps_all(const Vec3& p, const TetCavity& cavity) const;
 
   const TetComplex& tets_;
-  std::vector<Index> cavity_; ///< per tet: the last search whose cavity it belongs to
+  std::vector<Index> cavity_; ///< per tet: the last search whose cavity it belongs to; negative:
+                              ///< the last that met it at the end
   std::vector<Site> sites_; ///< of this search
   std::vector<Index> site_ids_; ///< per tet: its index in sites_, if it is in the cavity
-  std::vector<Index> reached_; ///< per tet: the last walk that met it
+  std::vector<Index> queue_; ///< tets of this search to be looked at
   Index searches_ = 0;
-  Index walks_ = 0;
   Index evaluations_ = 0;
 };
 

@@ -84,6 +84,14 @@ public:
     while (t >= 0 && !this->tets_.alive(t))
     {
       const Range& range = this->replaced_[t];
+      if (range.end - range.begin > many)
+      {
+        const Index found = this->walk_from(range, p);
+        if (found >= 0)
+        {
+          return found;
+        }
+      }
       t = range.begin < range.end ? range.begin : -1;
       for (Index other = range.begin; other < range.end; ++other)
       {
@@ -94,7 +102,8 @@ public:
         }
       }
     }
-    return this->walk(t, p);
+    constexpr int few = 50; // steps: rounding may have chosen a neighbor
+    return this->walk(t, p, few);
   }
 
   /// The tets have been replaced by those from `begin` to the last.
@@ -108,6 +117,7 @@ public:
   }
 
 private:
+  static constexpr int many = 500; // tets to look at, one after the other
   struct Range
   {
     Index begin = 0;
@@ -131,11 +141,16 @@ private:
     return -1;
   }
 
-  /// The tet that contains p, a few steps from t at most: rounding may have chosen a neighbor.
-  /// @return -1 where it is farther away.
-  Index walk(Index t, const Vec3& p) const
+  /// From a tet at the vertex that came with these tets, which saw p when it came.
+  Index walk_from(const Range& range, const Vec3& p) const
   {
-    constexpr int longest = 50;
+    const std::vector<Index>& around = this->tets_.tets_at(this->tets_.tet(range.begin)[3]);
+    return around.empty() ? -1 : this->walk(around.front(), p, many);
+  }
+
+  /// The tet that contains p, at most `longest` steps from t. @return -1 where it is farther away.
+  Index walk(Index t, const Vec3& p, int longest) const
+  {
     for (int step = 0; step < longest && t >= 0; ++step)
     {
       // Another first side: no way round in circles.

@@ -4,6 +4,7 @@
 #include "base/triangle_sides.h"
 #include "surface/triangle_predicates.h"
 #include "surface/triangle_shape.h"
+#include "surface/triangle_tree.h"
 
 #include <algorithm>
 #include <cmath>
@@ -99,9 +100,49 @@ bool is_wedge(PointsView points, const Triangles& boundary, const TriangleSide& 
     n.dot(corner(other, 2) - corner(one, 0)) < 0.0;
 }
 
+/// Whether another triangle of the boundary is so near in front of this one, on its inside, that no
+/// tet on it can have all its angles above `angle` degrees. Such a tet would contain the roof of
+/// that slope over the triangle. It is enough that one of the roof's ridges, or the segment from
+/// the center of the triangle's inscribed circle to the roof's top, meets another triangle.
+bool is_blocked(
+  PointsView points, const Triangles& boundary, const TriangleTree& tree, Index t, double angle)
+{
+  constexpr double degrees = 57.295779513082320877;
+  const auto triangle = boundary.row(t);
+  const std::array<Vec3, 3> corners{ points.row(triangle[0]), points.row(triangle[1]),
+    points.row(triangle[2]) };
+  const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  Vec3 center = Vec3::Zero();
+  double around = 0.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    const double opposite = (corners[(k + 2) % 3] - corners[(k + 1) % 3]).norm();
+    center += opposite * corners[k];
+    around += opposite;
+  }
+  center /= around;
+  const double radius = normal.norm() / around;
+  constexpr double within = 0.999; // of the roof, against rounding
+  const Vec3 top = center - within * std::tan(angle / degrees) * radius * normal.normalized();
+  const auto others = [&](Index other)
+  {
+    return std::none_of(triangle.begin(), triangle.end(),
+      [&](Index v) { return (boundary.row(other).array() == v).any(); });
+  };
+  return tree.segment_meets(center, top, others) ||
+    std::any_of(corners.begin(), corners.end(),
+      [&](const Vec3& corner) { return tree.segment_meets(corner, top, others); });
+}
+
 /// Edges at which tets cannot have good angles, sorted: see count_forced_tets().
 std::vector<EdgeKey> forced_edges(PointsView points, const Triangles& boundary, double angle)
 {
+  const TriangleTree tree(points, boundary);
+  std::vector<char> blocked(static_cast<std::size_t>(boundary.rows()));
+  for (Index t = 0; t < boundary.rows(); ++t)
+  {
+    blocked[t] = is_blocked(points, boundary, tree, t, angle);
+  }
   std::vector<EdgeKey> forced;
   const std::vector<TriangleSide> sides = sides_by_edge(boundary);
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end)
@@ -111,8 +152,9 @@ std::vector<EdgeKey> forced_edges(PointsView points, const Triangles& boundary, 
     for (std::size_t i = begin; i < end && !is_forced; ++i)
     {
       const Index t = sides[i].triangle;
-      is_forced = smallest_corner(points.row(boundary(t, 0)), points.row(boundary(t, 1)),
-                    points.row(boundary(t, 2))) < angle;
+      is_forced = blocked[t] ||
+        smallest_corner(points.row(boundary(t, 0)), points.row(boundary(t, 1)),
+          points.row(boundary(t, 2))) < angle;
       for (std::size_t j = begin; j < i && !is_forced; ++j)
       {
         is_forced = is_wedge(points, boundary, sides[j], sides[i], angle);

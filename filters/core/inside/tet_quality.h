@@ -42,7 +42,9 @@ TetQuality measure_tets(PointsView points, TetsView tets);
 
 /// How many tets have their smallest dihedral angle (angles: #T, degrees) below `angle` and an edge
 /// that the boundary forces to be bad: one of a boundary triangle with a corner of less than
-/// `angle`, or one at which two boundary triangles meet at less than `angle`, measured inside.
+/// `angle`, or with another triangle of the boundary right in front of it, so that every tet on it
+/// has an angle below `angle`; or one at which two boundary triangles meet at less than `angle`,
+/// measured inside.
 Index count_forced_tets(
   PointsView points, TetsView tets, const Eigen::VectorXd& angles, double angle);
 

@@ -111,3 +111,33 @@ TEST(TetQuality, CrumbsAndLoneTetsGo)
   EXPECT_EQ(facets.size(), static_cast<std::size_t>(4 * tets.rows()));
   EXPECT_TRUE(check_tets(mesh.points, tets, facets).ok());
 }
+
+TEST(TetQuality, TrianglesInFrontOfOthersForceFlatTets)
+{
+  // A plate of 6 x 6 cells. Its large triangles have inscribed circles of radius 0.0488: a tet on
+  // one whose angles are all at least 5 degrees is higher than 0.00427. The needles at the rim
+  // force the tets there only.
+  for (const double height : { 0.004, 0.005 })
+  {
+    TetMesh plate = test::tet_box(6, 6, 1);
+    plate.points.col(2) *= height;
+    Eigen::VectorXd angles(plate.tets.rows());
+    for (Index t = 0; t < plate.tets.rows(); ++t)
+    {
+      const auto tet = plate.tets.row(t);
+      angles[t] = min_dihedral_angle(plate.points.row(tet[0]), plate.points.row(tet[1]),
+        plate.points.row(tet[2]), plate.points.row(tet[3]));
+    }
+    ASSERT_LT(angles.maxCoeff(), 5.0);
+    const Index forced = count_forced_tets(plate.points, plate.tets, angles, 5.0);
+    if (height < 0.00427)
+    {
+      EXPECT_EQ(forced, plate.tets.rows());
+    }
+    else
+    {
+      EXPECT_LT(forced, plate.tets.rows());
+      EXPECT_GT(forced, 0);
+    }
+  }
+}

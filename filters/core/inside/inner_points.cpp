@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace bindpose
@@ -222,72 +223,149 @@ bool Interior::is_clear(const Vec3& p, double distance) const
   return this->tree_->distance(p, distance) > distance;
 }
 
+double Interior::layer(const SizingField& sizes) const
+{
+  constexpr Index samples = 1024;
+  const Index step = std::max<Index>(1, this->boundary_.rows() / samples);
+  double sum = 0.0;
+  for (Index t = 0; t < this->boundary_.rows(); t += step)
+  {
+    const Vec3 a = this->points_.row(this->boundary_(t, 0));
+    const Vec3 b = this->points_.row(this->boundary_(t, 1));
+    const Vec3 c = this->points_.row(this->boundary_(t, 2));
+    const double size = sizes.at((a + b + c) / 3.0);
+    sum += 0.5 * (b - a).cross(c - a).norm() / (size * size);
+  }
+  constexpr double least_growth = 0.1; // slower growth is not seen in a layer
+  return sum * static_cast<double>(step) / (2.0 * std::max(sizes.growth(), least_growth));
+}
+
+namespace
+{
+/// Searches the scale of sizes that gives a wanted number of points. Points get fewer with the
+/// scale, by a power that depends on the surface: 3 in wide spaces, 2 in a layer at the surface,
+/// less where many triangles are near each other.
+class ScaleSearch
+{
+public:
+  ScaleSearch(double first, double wanted) : wanted_(wanted), least_(first) {}
+
+  /// What a scale gave; `points` may be infinite, where they were too many to be counted.
+  void add(double scale, double points)
+  {
+    Sample& known = points > this->wanted_ ? this->many_ : this->few_;
+    if (std::isfinite(points) && points > this->wanted_ && std::isfinite(this->many_.points) &&
+      this->many_.scale > 0.0)
+    {
+      constexpr double least_power = 0.4;
+      constexpr double largest_power = 3.0;
+      this->power_ =
+        std::clamp(std::log(this->many_.points / points) / std::log(scale / this->many_.scale),
+          least_power, largest_power);
+    }
+    known = { scale, points };
+  }
+
+  /// The scale to try next.
+  double next() const
+  {
+    const Sample& many = this->many_;
+    const Sample& few = this->few_;
+    constexpr double blind = 12.0; // step where nothing is known
+    constexpr double largest_step = 12.0;
+    constexpr double least_step = 1.1;
+    if (few.scale == 0.0)
+    {
+      const double step = std::isfinite(many.points)
+        ? std::pow(many.points / this->wanted_, 1.0 / this->power_)
+        : blind;
+      return many.scale * std::clamp(step, least_step, largest_step);
+    }
+    if (many.scale == 0.0)
+    {
+      return std::max(this->least_, few.scale * few.points / this->wanted_);
+    }
+    double share = 0.5; // of the way from many to few
+    if (std::isfinite(many.points) && few.points > 0.0)
+    {
+      constexpr double margin = 0.15;
+      share = std::clamp(std::log(many.points / this->wanted_) / std::log(many.points / few.points),
+        margin, 1.0 - margin);
+    }
+    return many.scale * std::pow(few.scale / many.scale, share);
+  }
+
+  /// No scale between those that are known makes a difference.
+  bool ended() const
+  {
+    constexpr double alike = 1.05;
+    return this->few_.scale > 0.0 &&
+      this->few_.scale < alike * std::max(this->least_, this->many_.scale);
+  }
+
+private:
+  struct Sample
+  {
+    double scale = 0.0; ///< 0: none
+    double points = 0.0;
+  };
+  double wanted_;
+  double least_; ///< scale
+  double power_ = 1.0;
+  Sample many_; ///< of the largest scale that gave more than wanted
+  Sample few_; ///< of the smallest one that gave fewer
+};
+} // namespace
+
 bool inner_points(const Interior& interior, SizingField& sizes, Index most,
   ExecutionContext& context, Points& inner)
 {
   constexpr double too_many = 5.0; // times `most`: no use in going on
-  constexpr double least_enough = 0.6;
   constexpr double enough = 1.2;
-  constexpr double aim = 1.1;
+  constexpr double least_enough = 0.6;
   constexpr int attempts = 20;
   constexpr double most_growth = 1.0; // cells of sizes that grew faster would not follow them
-  constexpr double least_step = 1.1;
-  constexpr double blind_step = 4.0; // where the vertices were too many to be counted
-  // The number of vertices falls with a power of the scale: 3 in wide spaces, 2 in a layer at the
-  // surface, less where many triangles are near each other.
-  constexpr double least_power = 0.4;
-  constexpr double largest_power = 3.0;
-  double power = largest_power;
-  double step = 1.0; // the last one
-  double largest_step = 12.0;
-  double before = 0.0; // the ratio ahead of it, 0 where it was not counted
+  const double wanted = static_cast<double>(std::max<Index>(1, most));
+  ScaleSearch search(sizes.scale(), wanted);
+  // A first guess: there are 4 to 20 points for each cell of the layer at most surfaces.
+  constexpr double points_per_cell = 3.0;
+  constexpr double largest_guess = 30.0;
+  const double first_scale = sizes.scale();
+  const auto guess = [&] { return points_per_cell * interior.layer(sizes); };
+  if (guess() > enough * wanted)
+  {
+    sizes.set_growth(std::max(sizes.growth(), most_growth));
+    while (guess() > enough * wanted && sizes.scale() < largest_guess * first_scale)
+    {
+      constexpr double step = 1.5;
+      sizes.set_scale(step * sizes.scale());
+    }
+  }
   for (int attempt = 0; attempt < attempts; ++attempt)
   {
     Lattice lattice(interior, sizes, context);
-    const bool whole = lattice.build(static_cast<Index>(too_many * static_cast<double>(most)) + 1);
+    const bool whole = lattice.build(static_cast<Index>(too_many * wanted) + 1);
     if (context.cancelled())
     {
       return false;
     }
     inner = lattice.points();
-    const double ratio = whole
-      ? static_cast<double>(inner.rows()) / static_cast<double>(std::max<Index>(1, most))
-      : too_many;
-    const bool too_far = ratio < least_enough && step > least_step;
-    if (ratio <= enough && !too_far)
+    const double points =
+      whole ? static_cast<double>(inner.rows()) : std::numeric_limits<double>::infinity();
+    if (points > enough * wanted && sizes.growth() < most_growth)
+    {
+      sizes.set_growth(most_growth);
+      if (guess() < enough * wanted)
+      {
+        continue;
+      }
+    }
+    search.add(sizes.scale(), points);
+    if (search.ended() || (points <= enough * wanted && points >= least_enough * wanted))
     {
       break;
     }
-    if (too_far)
-    {
-      step = std::sqrt(step);
-      largest_step = std::max(least_step, step);
-      before = 0.0;
-      sizes.scale(1.0 / step);
-      continue;
-    }
-    if (!whole)
-    {
-      sizes.set_growth(most_growth);
-      step = blind_step;
-      before = 0.0;
-    }
-    else if (sizes.growth() < most_growth)
-    {
-      sizes.set_growth(
-        std::min(most_growth, sizes.growth() * std::max(least_step, std::cbrt(ratio))));
-      continue;
-    }
-    else
-    {
-      if (before > 0.0)
-      {
-        power = std::clamp(std::log(before / ratio) / std::log(step), least_power, largest_power);
-      }
-      step = std::clamp(std::pow(ratio / aim, 1.0 / power), least_step, largest_step);
-      before = ratio;
-    }
-    sizes.scale(step);
+    sizes.set_scale(search.next());
   }
   return true;
 }

@@ -22,8 +22,9 @@ public:
   double largest() const { return this->largest_; }
   double growth() const { return this->growth_; }
   void set_growth(double growth) { this->growth_ = growth; }
-  /// Makes the sites' lengths longer.
-  void scale(double factor) { this->scale_ *= factor; }
+  double scale() const { return this->scale_; }
+  /// The sites' lengths count as so many times as long; 1 at first.
+  void set_scale(double scale) { this->scale_ = scale; }
 
 private:
   struct Node

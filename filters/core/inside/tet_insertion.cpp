@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/per_thread.h"
+#include "base/point_order.h"
 #include "base/simplex_locator.h"
 #include "base/tet_facets.h"
 #include "inside/tet_cavity.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <memory>
-#include <numeric>
 #include <queue>
 #include <tuple>
 #include <utility>
@@ -37,19 +37,53 @@ struct LongEdge
   }
 };
 
-/// An order of the places in which those next to each other are far apart.
-std::vector<Index> scattered(Index count)
+std::vector<Vec3> as_vectors(const Points& points)
 {
-  constexpr double golden = 0.6180339887498949;
-  Index stride = std::max<Index>(1, static_cast<Index>(golden * static_cast<double>(count)));
-  while (std::gcd(stride, count) > 1)
+  std::vector<Vec3> vectors(static_cast<std::size_t>(points.rows()));
+  for (Index i = 0; i < points.rows(); ++i)
   {
-    ++stride;
+    vectors[i] = points.row(i);
   }
-  std::vector<Index> order(static_cast<std::size_t>(count));
-  for (Index i = 0, next = 0; i < count; ++i, next = (next + stride) % count)
+  return vectors;
+}
+
+/// An order of insertion, in rounds, each twice as long as the one ahead of it and spread over all
+/// of the places, so that cavities soon become small (Amenta, Choi, Rote, Incremental Constructions
+/// con BRIO, 2003). A round follows `near`, in which places behind each other are near each other,
+/// on several tracks at once: `tracks` places behind each other are far apart, and the tets of the
+/// next ones have been in use lately.
+std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& near, Index tracks)
+{
+  const auto count = static_cast<Index>(near.size());
+  constexpr Index first_round = 64;
+  // Bit k of the shifted rank tells whether a place waits for a later round: every second one does.
+  std::vector<std::vector<Index>> rounds(1);
+  for (Index size = first_round; size < count; size *= 2)
   {
-    order[i] = next;
+    rounds.emplace_back();
+  }
+  for (Index rank = 0; rank < count; ++rank)
+  {
+    std::size_t round = rounds.size() - 1;
+    for (Index rest = rank; round > 0 && rest % 2 == 0; rest /= 2)
+    {
+      --round;
+    }
+    rounds[round].push_back(near[rank]);
+  }
+  std::vector<Index> order;
+  order.reserve(near.size());
+  for (const std::vector<Index>& round : rounds)
+  {
+    const auto size = static_cast<Index>(round.size());
+    const Index length = (size + tracks - 1) / tracks;
+    for (Index i = 0; i < length; ++i)
+    {
+      for (Index k = i; k < size; k += length)
+      {
+        order.push_back(round[k]);
+      }
+    }
   }
   return order;
 }
@@ -61,8 +95,10 @@ class PlaceFinder
 public:
   explicit PlaceFinder(const TetComplex& tets) : tets_(tets) {}
 
-  /// To be called first, with the tets that the complex has by now. @return false when cancelled.
-  bool look_for(const TetMesh& mesh, const Points& places, ExecutionContext& context)
+  /// To be called first, with the tets that the complex has by now. `near`: an order in which
+  /// places behind each other are often near each other. @return false when cancelled.
+  bool look_for(const TetMesh& mesh, const Points& places, const std::vector<std::int32_t>& near,
+    ExecutionContext& context)
   {
     const SimplexLocator locator(mesh.points, mesh.tets);
     this->first_.resize(static_cast<std::size_t>(places.rows()));
@@ -70,9 +106,13 @@ public:
     return parallel_for(context, places.rows(), block,
       [&](Index begin, Index end)
       {
+        Index t = -1;
         for (Index i = begin; i < end; ++i)
         {
-          this->first_[i] = locator.locate(places.row(i)).element;
+          const Vec3 p = places.row(near[i]);
+          t = this->walk(t, p, few);
+          t = t >= 0 ? t : locator.locate(p).element;
+          this->first_[near[i]] = t;
         }
       });
   }
@@ -102,8 +142,7 @@ public:
         }
       }
     }
-    constexpr int few = 50; // steps: rounding may have chosen a neighbor
-    return this->walk(t, p, few);
+    return this->walk(t, p, few); // rounding may have chosen a neighbor
   }
 
   /// The tets have been replaced by those from `begin` to the last.
@@ -117,7 +156,8 @@ public:
   }
 
 private:
-  static constexpr int many = 500; // tets to look at, one after the other
+  static constexpr int few = 50; // tets to look at, one after the other
+  static constexpr int many = 500;
   struct Range
   {
     Index begin = 0;
@@ -186,11 +226,12 @@ public:
   /// mesh: the tets as they are by now.
   bool insert(const TetMesh& mesh, const Points& places, std::vector<Index>& vertices)
   {
-    if (!this->finder_.look_for(mesh, places, this->quiet_))
+    const std::vector<std::int32_t> near = order_by_place(as_vectors(places));
+    if (!this->finder_.look_for(mesh, places, near, this->quiet_))
     {
       return false;
     }
-    const std::vector<Index> order = scattered(places.rows());
+    const std::vector<Index> order = order_of_insertion(near, most_at_once);
     std::vector<Index> now;
     std::vector<Index> later;
     // The first cavities are large where all vertices lie on one sphere, and overlap: as many are

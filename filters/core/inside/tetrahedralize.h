@@ -136,8 +136,8 @@ struct TetrahedralizeResult
 /// volume (of the tets inside), winding_volume (of {w >= threshold}: exact for clean surfaces,
 /// sampled otherwise), winding_volume_error (its standard error, relative), min_dihedral_angle
 /// (degrees), counts.tets_below_5_degrees, counts.tets_below_5_degrees_forced (how many of these
-/// have an edge of a boundary triangle with a corner below 5 degrees, or with another right in front
-/// of it, or an edge at which two boundary triangles meet at less than 5 degrees: while the
+/// have an edge of a boundary triangle with a corner below 5 degrees, or with another right in
+/// front of it, or an edge at which two boundary triangles meet at less than 5 degrees: while the
 /// surface's triangles are kept, few of them can be better), quality[].dihedral_angle,
 /// quality[].tets (how many tets have their smallest dihedral angle from this many degrees to the
 /// next); counts.handle_points,

@@ -14,7 +14,7 @@
 #include "base/parallel.h"
 #include "winding/boundary_caps.h"
 #include "winding/dipole_field.h"
-#include "winding/point_order.h"
+#include "base/point_order.h"
 #include "winding/point_values.h"
 #include "winding/ray_crossings.h"
 #include "winding/solid_angle.h"

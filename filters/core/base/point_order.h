@@ -1,5 +1,5 @@
-#ifndef bindpose_winding_point_order_h
-#define bindpose_winding_point_order_h
+#ifndef bindpose_base_point_order_h
+#define bindpose_base_point_order_h
 
 #include "base/mesh.h"
 

@@ -1,5 +1,5 @@
 // Every point once, and neighbours one after the other.
-#include "winding/point_order.h"
+#include "base/point_order.h"
 
 #include "support/meshes.h"
 

@@ -1,7 +1,7 @@
 // The points' box is cut into 16 or 32 cells along each axis, numbered so that the eight of a cube
 // of two come one after the other, and so on upwards (Morton's order); the points are counted into
 // them.
-#include "winding/point_order.h"
+#include "base/point_order.h"
 
 #include <algorithm>
 #include <array>

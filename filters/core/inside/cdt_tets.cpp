@@ -12,8 +12,9 @@
 #include "inside/cdt_tets.h"
 
 #include "base/number_text.h"
-#include "helper/mesher_process.h"
+#include "base/side_task.h"
 #include "inside/tet_improvement.h"
+#include "helper/mesher_process.h"
 #include "inside/tet_quality.h"
 
 #include <algorithm>
@@ -22,6 +23,19 @@
 
 namespace bindpose
 {
+
+/// How TetGen is called.
+struct CdtTets::Way
+{
+  std::string switches;
+  bool box; ///< around the surface
+};
+
+struct CdtTets::TetgenRun
+{
+  Status status;
+  MesherAnswer answer;
+};
 
 /// How the vertices are moved before refinement.
 struct CdtTets::Move
@@ -92,7 +106,8 @@ Status CdtTets::build(double seconds)
     data.points = this->surface_.points;
     data.triangles = this->surface_.triangles;
     // Without c, TetGen throws the outside away itself.
-    status = this->try_tetgen(this->options_.keep_outside ? "pYcA" : "pYA", no_move, data, false);
+    status =
+      this->try_tetgen({ this->options_.keep_outside ? "pYcA" : "pYA", false }, no_move, data);
     if (status.ok() || this->final(status))
     {
       return status;
@@ -159,11 +174,6 @@ bool CdtTets::out_of_patience() const
 /// in doubt, do not: small tets miss the sliver, too.
 Status CdtTets::try_switches(const Move& move, const MesherData& refined)
 {
-  struct Way
-  {
-    const char* switches;
-    bool box;
-  };
   const Phase phase(this->context_, "tetgen", 0.4, 1.0);
   constexpr double wide_open = 1.5;
   constexpr double sheet = 14.0;
@@ -189,16 +199,28 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
   }
   // T: how flat a tet on two of the triangles must be for these to count as one plane. The
   // triangles are cut exactly, so that TetGen's own 1e-8 finds planes that are none, and crashes on
-  // them.
-  std::vector<Way> ways{ { "pYcAT1e-12", false }, { "pYcA", false }, { "pYAT1e-16", true },
-    { "pYA", true } };
-  if (move.moves())
+  // them. Where both ways crash, others do, too: on the same triangles one in thirty succeeds.
+  std::vector<Way> ways{ { "pYcAT1e-12", false }, { "pYAT1e-16", true } };
+  if (move.jitter > 0.0)
   {
-    ways = { { "pYcAT1e-12", false }, { "pYAT1e-16", true } };
+    ways.erase(ways.begin()); // no triangles in one plane are left
   }
-  for (const Way& way : ways)
+  // Where the first way takes long, the last one begins beside it.
+  constexpr double long_time = 1.0; // seconds
+  TetgenRun last_run;
+  SideTask last(long_time, this->context_,
+    [&](ExecutionContext& side) { last_run = this->run_tetgen(ways.back(), refined, side); });
+  for (std::size_t i = 0; i < ways.size(); ++i)
   {
-    status = this->try_tetgen(way.switches, move, refined, way.box);
+    if (i + 1 < ways.size())
+    {
+      status = this->try_tetgen(ways[i], move, refined);
+    }
+    else
+    {
+      last.finish();
+      status = this->judge(ways[i], move, last_run);
+    }
     if (this->timed_out_ || (!status.ok() && this->out_of_patience()))
     {
       break; // on the same triangles, other switches run out of time as well
@@ -221,38 +243,47 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
 Status CdtTets::try_fine_tets(const Move& move, const MesherData& refined)
 {
   this->wrong_volume_ = false;
-  if (this->fine_takes_too_long_)
+  if (this->fine_fails_)
   {
-    return Status::failure(StatusCode::internal_error, "small tets take too long");
+    return Status::failure(StatusCode::internal_error, "small tets were not possible");
   }
   const double box = bounding_box(refined.points).size().prod();
   constexpr double tets_inside = 400.0;
   constexpr double most_tets = 2e4; // in the box, before TetGen grades them
   const double bound =
     std::max(std::min(this->volume_bound(), this->inside_.volume() / tets_inside), box / most_tets);
-  const Status status = this->try_tetgen("pAq2a" + short_number(bound), move, refined, true);
-  this->fine_takes_too_long_ = this->timed_out_;
+  const Status status = this->try_tetgen({ "pAq2a" + short_number(bound), true }, move, refined);
+  this->fine_fails_ = !status.ok() && !this->wrong_volume_;
   this->timed_out_ = false; // without small tets it may be soon done
   return status;
 }
 
+Status CdtTets::try_tetgen(const Way& way, const Move& move, const MesherData& input)
+{
+  return this->judge(way, move, this->run_tetgen(way, input, this->context_));
+}
+
 /// TetGen gets twice what it needs at most for surfaces of this size where it succeeds; 20 to 60 us
-/// a triangle are usual.
-Status CdtTets::try_tetgen(
-  const std::string& switches, const Move& move, const MesherData& input, bool box)
+/// a triangle are usual. Thread-safe.
+CdtTets::TetgenRun CdtTets::run_tetgen(
+  const Way& way, const MesherData& input, ExecutionContext& context) const
 {
   const double seconds = 1.5 + 1e-4 * static_cast<double>(input.triangles.rows());
-  const std::string name = "tetgen " + switches + (box ? " in a box" : "") + move.name;
+  TetgenRun run;
+  run.status = this->run_job({ "tetgen", "--switches", way.switches, "--box", way.box ? "1" : "0" },
+    input, seconds, run.answer, context);
+  return run;
+}
+
+/// Keeps TetGen's tets inside.
+Status CdtTets::judge(const Way& way, const Move& move, const TetgenRun& run)
+{
   const double start = this->context_.elapsed_seconds();
   this->wrong_volume_ = false;
-  MesherAnswer answer;
-  Status status = this->run_job(
-    { "tetgen", "--switches", switches, "--box", box ? "1" : "0" }, input, seconds, answer);
-  if (status.ok())
-  {
-    status = this->keep_inside(answer.data);
-  }
-  this->log_.add(name, this->context_.elapsed_seconds() - start, status);
+  this->timed_out_ = run.answer.at_limit;
+  const Status status = run.status.ok() ? this->keep_inside(run.answer.data) : run.status;
+  this->log_.add("tetgen " + way.switches + (way.box ? " in a box" : "") + move.name,
+    run.answer.seconds + this->context_.elapsed_seconds() - start, status);
   return status;
 }
 
@@ -289,7 +320,7 @@ Status CdtTets::try_delaunay(const MesherData& refined)
   this->original_.resize(static_cast<std::size_t>(originals));
   MesherAnswer answer;
   const double seconds = 5.0 + 2e-4 * static_cast<double>(input.points.rows());
-  Status status = this->run_job({ "delaunay" }, input, seconds, answer);
+  Status status = this->run_job({ "delaunay" }, input, seconds, answer, this->context_);
   if (status.ok())
   {
     status = this->keep_inside(answer.data);
@@ -318,8 +349,8 @@ Status CdtTets::refine(const Move& move, MesherData& refined)
     input.points = std::move(moved.points);
     input.triangles = std::move(moved.triangles);
     const double size = static_cast<double>(input.triangles.rows());
-    status = this->run_job({ "refine" }, input, 5.0 + 1e-4 * size, answer);
-    this->too_many_crossings_ = this->timed_out_ || answer.report.number("too_many", 0.0) > 0.0;
+    status = this->run_job({ "refine" }, input, 5.0 + 1e-4 * size, answer, this->context_);
+    this->too_many_crossings_ = answer.at_limit || answer.report.number("too_many", 0.0) > 0.0;
     rounded = answer.report.number("rounded", 0.0) > 0.0;
     refined = std::move(answer.data);
     if (status.ok() && refined.triangles.rows() == 0)
@@ -365,10 +396,9 @@ Status CdtTets::move_vertices(const Move& move, RepairedSurface& moved)
 
 /// One job of the helper, for at most `seconds` of processor time and what is left of the time.
 Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherData& input,
-  double seconds, MesherAnswer& answer)
+  double seconds, MesherAnswer& answer, ExecutionContext& context) const
 {
   const double left = this->deadline_ - this->context_.elapsed_seconds();
-  this->timed_out_ = false;
   if (left <= 0.0)
   {
     return Status::failure(StatusCode::internal_error, "the time limit was reached");
@@ -387,9 +417,7 @@ Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherD
     request.arguments.insert(
       request.arguments.end(), { "--time", std::to_string(earlier * std::min(left, seconds)) });
   }
-  const Status status = run_mesher(request, input, answer, this->context_);
-  this->timed_out_ = answer.at_limit;
-  return status;
+  return run_mesher(request, input, answer, context);
 }
 
 /// A status after which no other rung can help.

@@ -78,19 +78,22 @@ public:
 
 private:
   struct Move;
+  struct Way;
+  struct TetgenRun;
   struct Inside;
   /// Height of tets at the boundary that are taken off, of the diagonal.
   static constexpr double flat_height = 1e-11;
 
   Status try_switches(const Move& move, const MesherData& refined);
   Status try_fine_tets(const Move& move, const MesherData& refined);
-  Status try_tetgen(
-    const std::string& switches, const Move& move, const MesherData& input, bool box);
+  Status try_tetgen(const Way& way, const Move& move, const MesherData& input);
+  TetgenRun run_tetgen(const Way& way, const MesherData& input, ExecutionContext& context) const;
+  Status judge(const Way& way, const Move& move, const TetgenRun& run);
   Status try_delaunay(const MesherData& refined);
   Status refine(const Move& move, MesherData& refined);
   Status move_vertices(const Move& move, RepairedSurface& moved);
   Status run_job(const std::vector<std::string>& arguments, const MesherData& input, double seconds,
-    MesherAnswer& answer);
+    MesherAnswer& answer, ExecutionContext& context) const;
   bool final(const Status& status) const;
   bool out_of_patience() const;
   Status keep_inside(const MesherData& data);
@@ -124,7 +127,7 @@ private:
   bool finer_is_no_better_ = false; ///< then more of the same will not help
   bool timed_out_ = false; ///< the last job ended because of its time limit
   bool too_many_crossings_ = false; ///< the refinement gave up because of them
-  bool fine_takes_too_long_ = false; ///< small tets were tried, until the time was up
+  bool fine_fails_ = false; ///< TetGen has crashed on small tets, or run out of time
   TetMesh mesh_;
   Eigen::VectorXd winding_numbers_;
   std::vector<char> kept_;

@@ -1,0 +1,73 @@
+#include "base/side_task.h"
+
+#include <chrono>
+#include <utility>
+
+namespace bindpose
+{
+
+SideTask::SideTask(double delay, ExecutionContext& context, Work work)
+  : delay_(delay), context_(context), work_(std::move(work))
+{
+  const bool one_thread = context.threads() == 1 || std::thread::hardware_concurrency() == 1;
+  if (!one_thread)
+  {
+    this->thread_ = std::thread([this] { this->run(); });
+  }
+}
+
+SideTask::~SideTask()
+{
+  {
+    const std::lock_guard<std::mutex> lock(this->mutex_);
+    this->dropped_ = true;
+  }
+  this->changed_.notify_all();
+  if (this->thread_.joinable())
+  {
+    this->thread_.join();
+  }
+}
+
+void SideTask::run()
+{
+  {
+    std::unique_lock<std::mutex> lock(this->mutex_);
+    this->changed_.wait_for(lock, std::chrono::duration<double>(this->delay_),
+      [this] { return this->wanted_ || this->dropped_; });
+    if (this->dropped_)
+    {
+      return;
+    }
+  }
+  ExecutionContext context({},
+    [this]
+    {
+      const std::lock_guard<std::mutex> lock(this->mutex_);
+      return this->dropped_ || this->context_.cancelled();
+    });
+  context.set_threads(1);
+  this->work_(context);
+}
+
+void SideTask::finish()
+{
+  if (this->done_)
+  {
+    return;
+  }
+  this->done_ = true;
+  if (!this->thread_.joinable())
+  {
+    this->work_(this->context_);
+    return;
+  }
+  {
+    const std::lock_guard<std::mutex> lock(this->mutex_);
+    this->wanted_ = true;
+  }
+  this->changed_.notify_all();
+  this->thread_.join();
+}
+
+} // namespace bindpose

@@ -1,0 +1,109 @@
+#include "base/side_task.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+using namespace bindpose;
+
+namespace
+{
+void sleep_for(double seconds)
+{
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+}
+constexpr double never = 1e6; // seconds
+} // namespace
+
+TEST(SideTask, BeginsByItselfAfterItsDelay)
+{
+  ExecutionContext context;
+  context.set_threads(2);
+  std::atomic<bool> begun{ false };
+  SideTask task(0.01, context, [&](ExecutionContext&) { begun = true; });
+  for (int i = 0; i < 1000 && !begun; ++i)
+  {
+    sleep_for(0.01);
+  }
+  EXPECT_TRUE(begun || std::thread::hardware_concurrency() == 1);
+}
+
+TEST(SideTask, FinishBeginsItAtOnceAndWaitsForItsEnd)
+{
+  for (const int threads : { 1, 2 })
+  {
+    ExecutionContext context;
+    context.set_threads(threads);
+    int runs = 0;
+    SideTask task(never, context,
+      [&](ExecutionContext&)
+      {
+        sleep_for(0.05);
+        ++runs;
+      });
+    task.finish();
+    EXPECT_EQ(runs, 1);
+    task.finish();
+    EXPECT_EQ(runs, 1);
+  }
+}
+
+TEST(SideTask, WithOneThreadItWaitsForFinish)
+{
+  ExecutionContext context;
+  context.set_threads(1);
+  const std::thread::id here = std::this_thread::get_id();
+  std::thread::id there;
+  SideTask task(0.0, context, [&](ExecutionContext&) { there = std::this_thread::get_id(); });
+  sleep_for(0.05);
+  EXPECT_EQ(there, std::thread::id());
+  task.finish();
+  EXPECT_EQ(there, here);
+}
+
+TEST(SideTask, IsCancelledWithItsMakerAndWhenItIsDropped)
+{
+  for (const bool drop : { false, true })
+  {
+    ExecutionContext context;
+    context.set_threads(2);
+    std::atomic<bool> begun{ false };
+    std::atomic<bool> cancelled{ false };
+    {
+      SideTask task(0.0, context,
+        [&](ExecutionContext& side)
+        {
+          begun = true;
+          while (!side.cancelled())
+          {
+            sleep_for(0.001);
+          }
+          cancelled = true;
+        });
+      while (!begun && std::thread::hardware_concurrency() > 1)
+      {
+        sleep_for(0.001);
+      }
+      if (!drop)
+      {
+        context.request_cancel();
+        task.finish();
+        EXPECT_TRUE(cancelled);
+      }
+    }
+    EXPECT_TRUE(cancelled || std::thread::hardware_concurrency() == 1);
+  }
+}
+
+TEST(SideTask, DroppedBeforeItBeginsItNeverRuns)
+{
+  ExecutionContext context;
+  context.set_threads(2);
+  bool ran = false;
+  {
+    SideTask task(never, context, [&](ExecutionContext&) { ran = true; });
+  }
+  EXPECT_FALSE(ran);
+}

@@ -35,7 +35,7 @@ CANCELLED = 4  # exit code
 PROGRESS = re.compile(rb"([0-9]+) %  ([a-z][^\x1b\r\n]*)")
 TOUR = {"tour": {"schema": 1, "name": "first picture", "view": [1200, 800], "seconds": LIMIT},
         "steps": [{"screenshot": "first"}]}
-POSE = {"handles": {"p0": {"translate": [0.1, 0.0, 0.0]}}}
+POSE = {"handles": {"p1": {"translate": [0.1, 0.0, 0.0]}}}
 
 
 @dataclasses.dataclass

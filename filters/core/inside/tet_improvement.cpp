@@ -70,7 +70,7 @@ private:
   /// Small meshes get more evaluations per tet, large ones get fewer.
   static constexpr Index small = 1000; // tets
   static constexpr double large = 2.5e7; // evaluations
-  static constexpr double per_tet_of_large = 140.0;
+  static constexpr double per_tet_of_large = 400.0;
   /// Tets for which steps are looked for at the same time: enough for many threads, few enough that
   /// they are seldom neighbors.
   static constexpr std::size_t most_at_once = 64;
@@ -93,7 +93,7 @@ private:
         return false;
       }
       this->context_.progress(static_cast<double>(pass + 1) / static_cast<double>(most));
-      constexpr Index worth_a_pass = 20; // one in so many
+      constexpr Index worth_a_pass = 60; // one in so many
       if (worth_a_pass * count.improved <= count.tried)
       {
         break;

@@ -16,19 +16,19 @@ struct ImproveOptions
   double angle = 12.0;
   /// Held vertices of tets that stay below this may move after all, degrees.
   double least_angle = 8.5;
-  Index passes = 12; ///< over the tets that are too flat, at most
+  Index passes = 20; ///< over the tets that are too flat, at most
   bool keep_boundary = false; ///< not one of its triangles changes, but see coplanar
   /// With keep_boundary: boundary edges may be swapped if their two triangles lie in one plane
   /// within this length. 0: none is swapped.
   double coplanar = 0.0;
   /// Vertices may be added inside, near tets below insert_angle that nothing else helps.
   bool insert = false;
-  double insert_angle = 5.0; ///< degrees
+  double insert_angle = 8.0; ///< degrees
   /// A step may make the smallest angle of the tets that it touches smaller by this factor if it
   /// makes enough others better, 0 … 1. 1: no step does.
   double slack = 1.0;
   /// At most about this many qualities are computed per tet, 40 ns each; in all no more than 25
-  /// million and 140 per tet.
+  /// million and 400 per tet.
   double effort = 2000.0;
 };
 

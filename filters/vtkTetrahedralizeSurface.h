@@ -176,7 +176,8 @@ public:
   ///@}
 
   ///@{
-  /// Seconds that the helper process, or fTetWild, may take in all, above 0; default 120.
+  /// Seconds that the helper process, or fTetWild, may take in all. 0 (default): 120, and for
+  /// surfaces of over a million triangles 120 per million.
   vtkSetMacro(TimeLimit, double);
   vtkGetMacro(TimeLimit, double);
   ///@}
@@ -277,7 +278,7 @@ private:
   double CutSmoothness = 1.0;
   double CutSigma = 0.1;
   int Resolution = 0;
-  double TimeLimit = 120.0;
+  double TimeLimit = 0.0;
   int MemoryLimit = 0;
   double Quality = 0.0;
   bool Bare = false;

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # What is too long for tests/run.sh: sanitizers, the build without GPL and AGPL parts and OpenVDB, naming on all
 # files, the quickstart, every surface of libcgal-demo and every made horror through the mesher, weights of twenty
-# surfaces with their certificates, a thousand random unclean surfaces, two million poses, a million triangles, weights
-# and tets of hostile models and of 820 real furniture models, the plugin in ParaView, a monkey in the window under
+# surfaces with their certificates, a thousand random unclean surfaces, two million poses, every verb on a million
+# triangles, interrupted, too, weights and tets of hostile models and of 820 real furniture models, the plugin in ParaView, a monkey in the window under
 # sanitizers.
 # Ends with a summary.
 # usage: tests/nightly.sh [PART…]   (default: all)
-# parts: asan permissive tidy quickstart surfaces weights fuzz drags million hostile real paraview monkey
+# parts: asan permissive tidy quickstart surfaces weights fuzz drags million scale hostile real paraview monkey
 set -uo pipefail
 program=nightly.sh
 install=yes
@@ -90,6 +90,11 @@ million()
   /usr/bin/python3 "$root/tests/support/measure_tets.py" --build "$build_dir" --table million
 }
 
+scale()
+{
+  /usr/bin/python3 "$root/tests/support/measure_scale.py" --build "$build_dir" --millions 1 --cancel 2
+}
+
 hostile()
 {
   /usr/bin/python3 "$root/tests/real_meshes.py" --build "$build_dir" --set hostile --check --time-limit 600 \
@@ -117,7 +122,7 @@ monkey()
 )
 
 parts=("$@")
-[ $# -gt 0 ] || parts=(asan permissive tidy quickstart surfaces weights fuzz drags million hostile real paraview monkey)
+[ $# -gt 0 ] || parts=(asan permissive tidy quickstart surfaces weights fuzz drags million scale hostile real paraview monkey)
 for name in "${parts[@]}"; do
   part "$name" "$name"
 done

@@ -169,7 +169,7 @@ def contains(surface, points, *, winding_threshold=0.5, method="auto", tolerance
 
 def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentation="graph-cut", cut_smoothness=1.0,
                    cut_sigma=0.1, quality=0.0, bare=False, interior_edge=0.0, keep_outside=False, resolution=0,
-                   wrap_alpha=0.02, wrap_offset=0.001, ftetwild_epsilon=0.001, time_limit=120.0, memory_limit=0, handles=None, threads=0,
+                   wrap_alpha=0.02, wrap_offset=0.001, ftetwild_epsilon=0.001, time_limit=0.0, memory_limit=0, handles=None, threads=0,
                    progress=None):
     """Fill the inside of a surface, however unclean, with tets.
 
@@ -211,7 +211,7 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
     ftetwild_epsilon : float
         Of ftetwild: how far from the surface the tets may end, as a fraction of the diagonal.
     time_limit : float
-        Seconds for the meshing process.
+        Seconds for the meshing process; 0 for 120, and for 120 per million triangles of larger surfaces.
     memory_limit : int
         MiB for the meshing process; 0 for none.
     threads, progress

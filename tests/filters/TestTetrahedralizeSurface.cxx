@@ -398,7 +398,7 @@ TEST(TetrahedralizeSurface, PrintsItsParameters)
   std::ostringstream text;
   filter->Print(text);
   for (const char* word : { "Method: auto", "WindingThreshold: 0.5", "Resolution: 0",
-         "Segmentation: graph-cut", "CutSmoothness: 1", "CutSigma: 0.1", "TimeLimit: 120",
+         "Segmentation: graph-cut", "CutSmoothness: 1", "CutSigma: 0.1", "TimeLimit: 0",
          "MemoryLimit: 0", "Quality: 0", "Bare: 0", "InteriorEdge: 0", "WrapAlpha: 0.02",
          "WrapOffset: 0.001", "FtetwildEpsilon: 0.001" })
   {

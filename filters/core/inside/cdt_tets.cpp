@@ -205,10 +205,13 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
   {
     ways.erase(ways.begin()); // no triangles in one plane are left
   }
-  // Where the first way takes long, the last one begins beside it.
+  // Where the first way takes long, the last one begins beside it, if there is memory for two.
+  constexpr Index most_triangles = 1000000;
   constexpr double long_time = 1.0; // seconds
+  constexpr double never = 1e6;
+  const double delay = refined.triangles.rows() > most_triangles ? never : long_time;
   TetgenRun last_run;
-  SideTask last(long_time, this->context_,
+  SideTask last(delay, this->context_,
     [&](ExecutionContext& side) { last_run = this->run_tetgen(ways.back(), refined, side); });
   for (std::size_t i = 0; i < ways.size(); ++i)
   {

@@ -48,8 +48,12 @@ public:
     const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context)
     : points_(points), triangles_(triangles), options_(options), result_(result), context_(context),
       surface_(prepared.surface), inside_(prepared.inside),
-      box_(bounding_box(prepared.surface.points)), diagnosis_(prepared.report),
-      report_(prepared.report), warnings_(prepared.warnings)
+      box_(bounding_box(prepared.surface.points)),
+      time_limit_(options.time_limit > 0.0
+          ? options.time_limit
+          : std::max(least_time_limit,
+              time_limit_per_triangle * static_cast<double>(prepared.surface.triangles.rows()))),
+      diagnosis_(prepared.report), report_(prepared.report), warnings_(prepared.warnings)
   {
     result.defects = prepared.defects;
   }
@@ -141,7 +145,7 @@ private:
     {
       const Phase phase(this->context_, "cdt", 0.0, 0.6);
       constexpr double share = 0.75; // leave time for vertices inside
-      status = cdt.build(share * this->options_.time_limit);
+      status = cdt.build(share * this->time_limit_);
     }
     if (status.ok() || status.code == StatusCode::cancelled)
     {
@@ -178,7 +182,7 @@ private:
     CdtOptions options;
     options.segmentation = { this->options_.segmentation, this->options_.winding_threshold,
       this->options_.cut_smoothness, this->options_.cut_sigma };
-    options.time_limit = this->options_.time_limit;
+    options.time_limit = this->time_limit_;
     options.memory_limit = this->options_.memory_limit;
     options.bare = this->options_.bare;
     options.interior_edge = this->options_.interior_edge;
@@ -375,8 +379,8 @@ private:
     // What method cdt has left of the time, and some of it for the lattice.
     constexpr double least_share = 0.25;
     constexpr double lattice_share = 0.1;
-    options.time_limit = std::max(this->time_left() - lattice_share * this->options_.time_limit,
-      least_share * this->options_.time_limit);
+    options.time_limit = std::max(
+      this->time_left() - lattice_share * this->time_limit_, least_share * this->time_limit_);
     if (this->options_.method == TetMethod::automatic)
     {
       // Several times what it needs for most surfaces: one of needles takes minutes.
@@ -498,7 +502,7 @@ private:
     options.offset = this->options_.wrap_offset;
     options.memory_limit = this->options_.memory_limit;
     constexpr double share = 0.75; // leave time to fill it
-    options.time_limit = share * this->options_.time_limit;
+    options.time_limit = share * this->time_limit_;
     Points points;
     Triangles triangles;
     Status status;
@@ -525,7 +529,7 @@ private:
     FtetwildOptions options;
     options.epsilon = this->options_.ftetwild_epsilon;
     options.edge = this->options_.interior_edge;
-    options.time_limit = this->options_.time_limit;
+    options.time_limit = this->time_limit_;
     options.memory_limit = this->options_.memory_limit;
     Status status;
     {
@@ -586,7 +590,7 @@ private:
 
   double time_left() const
   {
-    return this->options_.time_limit - (this->context_.elapsed_seconds() - this->climb_start_);
+    return this->time_limit_ - (this->context_.elapsed_seconds() - this->climb_start_);
   }
 
   Status keep_no_vertex(TetMethod method)
@@ -712,6 +716,9 @@ private:
   const RepairedSurface& surface_;
   EnclosedRegion& inside_;
   const Box box_;
+  static constexpr double least_time_limit = 120.0; ///< seconds
+  static constexpr double time_limit_per_triangle = 1.2e-4;
+  const double time_limit_;
   double climb_start_ = 0.0;
   std::vector<char> inside_tets_; ///< of keep_outside, else empty
   TetMesh lattice_mesh_; ///< of remesh, when it did not fit
@@ -744,7 +751,9 @@ Status check_options(const TetrahedralizeOptions& options)
     return Status::invalid_input(
       "resolution must be 0 or from 4 to 1000 cubes, not " + std::to_string(options.resolution));
   }
-  Status limits = check_limits(options.time_limit, options.memory_limit);
+  constexpr double automatic = 1.0;
+  Status limits =
+    check_limits(options.time_limit == 0.0 ? automatic : options.time_limit, options.memory_limit);
   if (!limits.ok())
   {
     return limits;

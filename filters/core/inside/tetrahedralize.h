@@ -48,7 +48,9 @@ struct TetrahedralizeOptions
   Index resolution = 0;
   /// embed with resolution 0: about how many lattice tets, >= 1.
   Index lattice_tets = 30000;
-  double time_limit = 120.0; ///< seconds for all of the helper's or fTetWild's work, > 0
+  /// Seconds for all of the helper's or fTetWild's work. 0: 120, and for surfaces of over a million
+  /// triangles 120 per million.
+  double time_limit = 0.0;
   Index memory_limit = 0; ///< MiB of address space for a helper process, 0: no limit
   /// Smallest dihedral angle that every tet must have, degrees, 0 … 20. Method automatic leaves the
   /// surface's triangles for it where they do not allow it (remesh reaches 10.7 on any surface); a

@@ -176,8 +176,8 @@ public:
   ///@}
 
   ///@{
-  /// Seconds that the helper process, or fTetWild, may take in all. 0 (default): 120, and for
-  /// surfaces of over a million triangles 120 per million.
+  /// Seconds that the helper process, or fTetWild, may take in all. 0 (default): 120, or 120 per
+  /// million triangles if that is more.
   vtkSetMacro(TimeLimit, double);
   vtkGetMacro(TimeLimit, double);
   ///@}

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # What is too long for tests/run.sh: sanitizers, the build without GPL and AGPL parts and OpenVDB, naming on all
 # files, the quickstart, every surface of libcgal-demo and every made horror through the mesher, weights of twenty
-# surfaces with their certificates, a thousand random unclean surfaces, two million poses, every verb on a million
-# triangles, interrupted, too, weights and tets of hostile models and of 820 real furniture models, the plugin in ParaView, a monkey in the window under
-# sanitizers.
+# surfaces with their certificates, a thousand random unclean surfaces, two million poses, two surfaces of a million
+# triangles to tets, every verb on a million triangles to its end and interrupted, weights and tets of hostile models
+# and of 820 real furniture models, the plugin in ParaView, a monkey in the window under sanitizers.
 # Ends with a summary.
 # usage: tests/nightly.sh [PART…]   (default: all)
 # parts: asan permissive tidy quickstart surfaces weights fuzz drags million scale hostile real paraview monkey

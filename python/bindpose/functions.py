@@ -211,7 +211,7 @@ def tetrahedralize(surface, *, method="auto", winding_threshold=0.5, segmentatio
     ftetwild_epsilon : float
         Of ftetwild: how far from the surface the tets may end, as a fraction of the diagonal.
     time_limit : float
-        Seconds for the meshing process; 0 for 120, and for 120 per million triangles of larger surfaces.
+        Seconds for the meshing process; 0 for 120, or 120 per million triangles if that is more.
     memory_limit : int
         MiB for the meshing process; 0 for none.
     threads, progress

@@ -30,6 +30,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 SHAPES = ("closed", "open")
 VERBS = ("info", "winding", "tetrahedralize", "weights", "deform", "view")
 LIMIT = 1800.0  # seconds
+GRACE = 60.0  # seconds between an interrupt and the end by force
 MOST_MEMORY = 12 << 30
 CANCELLED = 4  # exit code
 PROGRESS = re.compile(rb"([0-9]+) %  ([a-z][^\x1b\r\n]*)")
@@ -62,7 +63,7 @@ class Screen:
 
     def look(self, chunk):
         self.text = (self.text + chunk)[-4000:]
-        found = PROGRESS.findall(chunk)
+        found = PROGRESS.findall(self.text)  # a line may come in two pieces
         if found and found[-1] != self.shown:
             self.change(found[-1])
 
@@ -88,9 +89,12 @@ def run(words, interrupt_after=LIMIT):
             except OSError:  # nobody writes any more
                 break
             screen.look(chunk)
-        if interrupted is None and time.monotonic() - start > interrupt_after:
-            interrupted = time.monotonic()
-            process.send_signal(signal.SIGINT)
+        now = time.monotonic()
+        if interrupted is None and now - start > interrupt_after:
+            interrupted = now
+            os.kill(process.pid, signal.SIGINT)
+        if interrupted is not None and now - interrupted > GRACE:
+            os.killpg(process.pid, signal.SIGKILL)
     _, status, usage = os.wait4(process.pid, 0)
     end = time.monotonic()
     process.returncode = os.waitstatus_to_exitcode(status)
@@ -130,14 +134,16 @@ def measure(options, name, surface, folder):
     """Rows of the table for one surface."""
     triangles = counts_of(options.program, surface, folder)
     rows = []
+    (folder / "weights.vtp").unlink(missing_ok=True)
+    wanted = {*options.verb, *(["weights"] if "deform" in options.verb else [])}
     for verb, words in commands(options.program, surface, folder).items():
-        if verb not in options.verb:
+        if verb not in wanted:
             continue
         done = run(words)
         row = {"surface": name, "triangles": triangles, "verb": verb, "s": f"{done.seconds:.1f}",
                "MiB": done.peak_bytes >> 20, "longest silence, s": f"{done.silence:.1f} ({done.silent})",
                "failed": done.exit_code != 0 or done.peak_bytes > MOST_MEMORY}
-        if options.cancel:
+        if options.cancel and verb != "view":  # the window does not listen to interrupts
             runs = [run(words, done.seconds * (k + 0.5) / options.cancel) for k in range(options.cancel)]
             row["longest after an interrupt, s"] = f"{max(each.interrupted for each in runs):.2f}"
             row["failed"] |= any(each.exit_code not in (0, CANCELLED) for each in runs)
@@ -149,11 +155,11 @@ def measure(options, name, surface, folder):
 
 
 def as_markdown(rows, command):
-    columns = [name for name in rows[0] if name != "failed"]
-    lines = ["# Scale: one and four million triangles", "", "Measured by", "", f"    {command}", "",
-             "on a machine with two cores. Open surfaces lack the triangles in forty balls.", "",
+    columns = list(dict.fromkeys(name for row in rows for name in row if name != "failed"))
+    lines = ["# Scale: millions of triangles", "", "Measured by", "", f"    {command}", "",
+             f"on a machine with {os.cpu_count()} cores. Open surfaces lack the triangles in forty balls.", "",
              "| " + " | ".join(columns) + " |", "|---" * len(columns) + "|"]
-    lines += ["| " + " | ".join(str(row[name]) for name in columns) + " |" for row in rows]
+    lines += ["| " + " | ".join(str(row.get(name, "")) for name in columns) + " |" for row in rows]
     return "\n".join(lines) + "\n"
 
 

@@ -100,7 +100,7 @@ const std::vector<Verb>& verbs()
         { "--ftetwild-epsilon", "FRACTION", Kind::number, "0.001", "",
           "of ftetwild: how far from the surface the tets may end, of the diagonal" },
         { "--time-limit", "SECONDS", Kind::number, "0", "",
-          "for the meshing process; 0: 120, and 120 per million triangles of larger surfaces" },
+          "for the meshing process; 0: 120, or 120 per million triangles if that is more" },
         { "--memory-limit", "MIB", Kind::integer, "0", "",
           "address space of the meshing process; 0: no limit", false, false, 0 },
         { "-o,--output", "OUT", Kind::text, "", "", ".vtu, .vtk or .mesh", true } } },

@@ -1,6 +1,7 @@
 #include "base/side_task.h"
 
 #include <chrono>
+#include <system_error>
 #include <utility>
 
 namespace bindpose
@@ -12,7 +13,14 @@ SideTask::SideTask(double delay, ExecutionContext& context, Work work)
   const bool one_thread = context.threads() == 1 || std::thread::hardware_concurrency() == 1;
   if (!one_thread)
   {
-    this->thread_ = std::thread([this] { this->run(); });
+    try
+    {
+      this->thread_ = std::thread([this] { this->run(); });
+    }
+    catch (const std::system_error&)
+    {
+      // No more threads: finish() does the work.
+    }
   }
 }
 
@@ -40,23 +48,25 @@ void SideTask::run()
       return;
     }
   }
-  ExecutionContext context({},
-    [this]
-    {
-      const std::lock_guard<std::mutex> lock(this->mutex_);
-      return this->dropped_ || this->context_.cancelled();
-    });
+  ExecutionContext context({}, [this] { return this->dropped_ || this->context_.cancelled(); });
   context.set_threads(1);
-  this->work_(context);
+  try
+  {
+    this->work_(context);
+  }
+  catch (...)
+  {
+    this->failure_ = std::current_exception();
+  }
 }
 
 void SideTask::finish()
 {
-  if (this->done_)
+  if (this->finished_)
   {
     return;
   }
-  this->done_ = true;
+  this->finished_ = true;
   if (!this->thread_.joinable())
   {
     this->work_(this->context_);
@@ -68,6 +78,10 @@ void SideTask::finish()
   }
   this->changed_.notify_all();
   this->thread_.join();
+  if (this->failure_)
+  {
+    std::rethrow_exception(this->failure_);
+  }
 }
 
 } // namespace bindpose

@@ -3,7 +3,9 @@
 
 #include "base/execution.h"
 
+#include <atomic>
 #include <condition_variable>
+#include <exception>
 #include <functional>
 #include <mutex>
 #include <thread>
@@ -11,24 +13,24 @@
 namespace bindpose
 {
 
-/// Work that may be needed later, begun on a thread of its own while its maker does something else
-/// for a long time. Whether it is begun early changes when it ends, not what it gives: the maker
-/// decides what to take.
+/// Work that may be needed later, done on a thread of its own while the owner does something else.
+/// The owner decides afterwards whether the result is used, so an early start changes how long it
+/// takes to get a result, and nothing else.
 class SideTask
 {
 public:
-  /// Runs on one thread, with a context that is cancelled when the task or the maker's context is.
+  /// Runs on one thread. Its context is cancelled when the owner's is, and by the destructor.
   using Work = std::function<void(ExecutionContext& context)>;
 
-  /// Begins the work after `delay` seconds. Where the context has one thread only, the work waits
-  /// for finish(). The context must outlive the task.
+  /// Starts the work after `delay` seconds; if the context has one thread only, in finish(). The
+  /// context must outlive the task.
   SideTask(double delay, ExecutionContext& context, Work work);
-  /// Cancels what is not finished.
+  /// Cancels the work and waits for its thread.
   ~SideTask();
   SideTask(const SideTask&) = delete;
   SideTask& operator=(const SideTask&) = delete;
 
-  /// Begins the work if it has not begun, and waits for its end.
+  /// Starts the work if it has not started, waits for its end, and throws what it threw.
   void finish();
 
 private:
@@ -39,10 +41,11 @@ private:
   const Work work_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  bool wanted_ = false; ///< now
-  bool dropped_ = false;
-  bool done_ = false;
-  std::thread thread_; ///< none where the context has one thread
+  bool wanted_ = false; ///< finish() was called
+  std::atomic<bool> dropped_{ false }; ///< by the destructor
+  bool finished_ = false;
+  std::exception_ptr failure_;
+  std::thread thread_; ///< none if the context has one thread
 };
 
 } // namespace bindpose

@@ -3,7 +3,7 @@
 // tets that keep all these triangles, and tets with a winding number below the threshold are thrown
 // away. Where openings bound much of what is enclosed, small tets in a box come first: they can end
 // where the winding number does. TetGen 1.5 fails on some inputs with one set of switches and on
-// others with another, so several are tried; then the same with vertices rounded to a coarser grid
+// others with another, so two are tried, then the same with vertices rounded to a coarser grid
 // (which welds nearly coincident ones) and with vertices moved a little (which takes soups apart).
 // Last comes a plain Delaunay triangulation of the refined vertices, or of the surface's own where
 // too many triangles cross: its tets need not respect the triangles.
@@ -13,8 +13,8 @@
 
 #include "base/number_text.h"
 #include "base/side_task.h"
-#include "inside/tet_improvement.h"
 #include "helper/mesher_process.h"
+#include "inside/tet_improvement.h"
 #include "inside/tet_quality.h"
 
 #include <algorithm>
@@ -164,7 +164,7 @@ bool CdtTets::out_of_patience() const
 {
   constexpr double patience = 8.0; // seconds
   constexpr double per_triangle = 8e-5;
-  return this->context_.elapsed_seconds() - this->start_ >
+  return this->job_seconds_ >
     patience + per_triangle * static_cast<double>(this->surface_.triangles.rows());
 }
 
@@ -205,11 +205,13 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
   {
     ways.erase(ways.begin()); // no triangles in one plane are left
   }
-  // Where the first way takes long, the last one begins beside it, if there is memory for two.
+  // If the first way takes long, the last one starts beside it, where two do not take too much
+  // memory.
   constexpr Index most_triangles = 1000000;
   constexpr double long_time = 1.0; // seconds
   constexpr double never = 1e6;
-  const double delay = refined.triangles.rows() > most_triangles ? never : long_time;
+  const bool large = refined.triangles.rows() > most_triangles || this->options_.memory_limit > 0;
+  const double delay = large ? never : long_time;
   TetgenRun last_run;
   SideTask last(delay, this->context_,
     [&](ExecutionContext& side) { last_run = this->run_tetgen(ways.back(), refined, side); });
@@ -284,6 +286,7 @@ Status CdtTets::judge(const Way& way, const Move& move, const TetgenRun& run)
   const double start = this->context_.elapsed_seconds();
   this->wrong_volume_ = false;
   this->timed_out_ = run.answer.at_limit;
+  this->job_seconds_ += run.answer.seconds;
   const Status status = run.status.ok() ? this->keep_inside(run.answer.data) : run.status;
   this->log_.add("tetgen " + way.switches + (way.box ? " in a box" : "") + move.name,
     run.answer.seconds + this->context_.elapsed_seconds() - start, status);
@@ -353,6 +356,7 @@ Status CdtTets::refine(const Move& move, MesherData& refined)
     input.triangles = std::move(moved.triangles);
     const double size = static_cast<double>(input.triangles.rows());
     status = this->run_job({ "refine" }, input, 5.0 + 1e-4 * size, answer, this->context_);
+    this->job_seconds_ += answer.seconds;
     this->too_many_crossings_ = answer.at_limit || answer.report.number("too_many", 0.0) > 0.0;
     rounded = answer.report.number("rounded", 0.0) > 0.0;
     refined = std::move(answer.data);

@@ -125,9 +125,10 @@ private:
   std::vector<Index> original_; ///< input id of the first vertices of the rung's points
   bool wrong_volume_ = false; ///< the rung's tets are there, but their volume is wrong
   bool finer_is_no_better_ = false; ///< then more of the same will not help
-  bool timed_out_ = false; ///< the last job ended because of its time limit
+  bool timed_out_ = false; ///< the last run of TetGen ended because of its time limit
+  double job_seconds_ = 0.0; ///< of refinements and of TetGen, one after the other
   bool too_many_crossings_ = false; ///< the refinement gave up because of them
-  bool fine_fails_ = false; ///< TetGen has crashed on small tets, or run out of time
+  bool fine_fails_ = false; ///< small tets were tried, and there were none
   TetMesh mesh_;
   Eigen::VectorXd winding_numbers_;
   std::vector<char> kept_;

@@ -283,7 +283,9 @@ public:
     }
     if (many.scale == 0.0)
     {
-      return std::max(this->least_, few.scale * few.points / this->wanted_);
+      constexpr double largest_step_back = 0.1;
+      return std::max(
+        this->least_, few.scale * std::max(largest_step_back, few.points / this->wanted_));
     }
     double share = 0.5; // of the way from many to few
     if (std::isfinite(many.points) && few.points > 0.0)
@@ -317,34 +319,58 @@ private:
 };
 } // namespace
 
+namespace
+{
+/// As many of the points as wanted, spread over their order.
+Points every_other(const Points& points, Index wanted)
+{
+  Points kept(wanted, 3);
+  for (Index i = 0; i < wanted; ++i)
+  {
+    kept.row(i) = points.row(i * points.rows() / wanted);
+  }
+  return kept;
+}
+} // namespace
+
 bool inner_points(const Interior& interior, SizingField& sizes, Index most,
   ExecutionContext& context, Points& inner)
 {
   constexpr double too_many = 5.0; // times `most`: no use in going on
+  constexpr double few_cells = 2000.0; // soon made in any case
   constexpr double enough = 1.2;
   constexpr double least_enough = 0.6;
   constexpr int attempts = 20;
   constexpr double most_growth = 1.0; // cells of sizes that grew faster would not follow them
   const double wanted = static_cast<double>(std::max<Index>(1, most));
   ScaleSearch search(sizes.scale(), wanted);
-  // A first guess: there are 4 to 20 points for each cell of the layer at most surfaces.
-  constexpr double points_per_cell = 3.0;
-  constexpr double largest_guess = 30.0;
+  // A guess: there are 4 to 20 points for each cell of the layer at most surfaces.
   const double first_scale = sizes.scale();
-  const auto guess = [&] { return points_per_cell * interior.layer(sizes); };
-  if (guess() > enough * wanted)
+  const auto raise = [&]
   {
-    sizes.set_growth(std::max(sizes.growth(), most_growth));
-    while (guess() > enough * wanted && sizes.scale() < largest_guess * first_scale)
+    constexpr double points_per_cell = 3.0;
+    constexpr double largest_guess = 30.0;
+    constexpr double step = 1.5;
+    while (points_per_cell * interior.layer(sizes) > enough * wanted &&
+      sizes.scale() < largest_guess * first_scale)
     {
-      constexpr double step = 1.5;
+      if (sizes.growth() < most_growth)
+      {
+        sizes.set_growth(most_growth);
+        continue;
+      }
       sizes.set_scale(step * sizes.scale());
     }
-  }
+  };
+  raise();
+  Points fewer; // the most points so far that are not too many
+  Points more; // the fewest so far that are
+  double before = -1.0;
   for (int attempt = 0; attempt < attempts; ++attempt)
   {
     Lattice lattice(interior, sizes, context);
-    const bool whole = lattice.build(static_cast<Index>(too_many * wanted) + 1);
+    const bool whole =
+      lattice.build(static_cast<Index>(std::max(few_cells, too_many * wanted)) + 1);
     if (context.cancelled())
     {
       return false;
@@ -352,21 +378,39 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
     inner = lattice.points();
     const double points =
       whole ? static_cast<double>(inner.rows()) : std::numeric_limits<double>::infinity();
-    if (points > enough * wanted && sizes.growth() < most_growth)
+    const bool many = points > enough * wanted;
+    if (many && sizes.growth() < most_growth)
     {
       sizes.set_growth(most_growth);
-      if (guess() < enough * wanted)
-      {
-        continue;
-      }
+      raise();
+      continue;
     }
     search.add(sizes.scale(), points);
-    if (search.ended() || (points <= enough * wanted && points >= least_enough * wanted))
+    const bool same = whole && points == before; // the largest size decides, not the scale
+    before = points;
+    if (!many && (points >= least_enough * wanted || sizes.scale() == first_scale))
+    {
+      return true;
+    }
+    if (!many && inner.rows() >= fewer.rows())
+    {
+      fewer = inner;
+    }
+    if (many && whole && (more.rows() == 0 || inner.rows() < more.rows()))
+    {
+      more = inner;
+    }
+    if (search.ended() || same || attempt + 1 == attempts)
     {
       break;
     }
     sizes.set_scale(search.next());
   }
+  // In a plate all cells may become smaller at the same scale: then there is nothing between none
+  // and too many, of which some are left out.
+  constexpr double too_few = 0.3;
+  const bool thin_out = more.rows() > 0 && static_cast<double>(fewer.rows()) < too_few * wanted;
+  inner = thin_out ? every_other(more, static_cast<Index>(wanted)) : std::move(fewer);
   return true;
 }
 

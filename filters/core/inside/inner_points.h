@@ -22,7 +22,8 @@ public:
   bool is_clear(const Vec3& p, double distance) const;
   const Box& box() const { return this->box_; }
   /// About how many cells of these sizes are in the layer at the surface, up to a factor that
-  /// changes little with the sizes: A / (2 growth size^2) over an area A. Cost: a thousand sizes.
+  /// changes little with the sizes: A / (2 growth size^2) over an area A. Cost: at most 2,047
+  /// sizes.
   double layer(const SizingField& sizes) const;
 
 private:

@@ -23,7 +23,7 @@ public:
   double growth() const { return this->growth_; }
   void set_growth(double growth) { this->growth_ = growth; }
   double scale() const { return this->scale_; }
-  /// The sites' lengths count as so many times as long; 1 at first.
+  /// Multiplies the sites' lengths by `scale`; initially 1.
   void set_scale(double scale) { this->scale_ = scale; }
 
 private:

@@ -81,6 +81,7 @@ void CavitySearch::collect_sphere(const Vec3& p, Index start)
       if (next >= 0 && !this->joins(next) && this->in_sphere(this->tets_.tet(next), p))
       {
         this->add_site(next);
+        ++this->evaluations_;
       }
     }
   }
@@ -144,7 +145,7 @@ bool CavitySearch::shrink(const Vec3& p, Index start, double least)
   return true;
 }
 
-/// What of the cavity is connected to the start.
+/// Collects the tets of the cavity that are connected to the start.
 void CavitySearch::collect_connected(Index start, TetCavity& cavity)
 {
   const Index reached = -this->searches_;

@@ -32,7 +32,7 @@ public:
   /// from which p cannot be joined to a facet by a tet of quality `least`.
   /// @return false if no cavity is left; p must be inside of `start`.
   bool find(const Vec3& p, Index start, double least, TetCavity& cavity);
-  /// Qualities of tets that were computed.
+  /// Qualities of tets that were computed, and tets that were collected.
   Index evaluations() const { return this->evaluations_; }
 
 private:
@@ -58,8 +58,9 @@ private:
   bool keeps_all(const Vec3& p, const TetCavity& cavity) const;
 
   const TetComplex& tets_;
-  std::vector<Index> cavity_; ///< per tet: the last search whose cavity it belongs to; negative:
-                              ///< the last that met it at the end
+  /// Per tet: the last search whose cavity it belongs to; minus that, if it is connected to the
+  /// start.
+  std::vector<Index> cavity_;
   std::vector<Site> sites_; ///< of this search
   std::vector<Index> site_ids_; ///< per tet: its index in sites_, if it is in the cavity
   std::vector<Index> queue_; ///< tets of this search to be looked at

@@ -49,14 +49,15 @@ std::vector<Vec3> as_vectors(const Points& points)
 
 /// An order of insertion, in rounds, each twice as long as the one ahead of it and spread over all
 /// of the places, so that cavities soon become small (Amenta, Choi, Rote, Incremental Constructions
-/// con BRIO, 2003). A round follows `near`, in which places behind each other are near each other,
-/// on several tracks at once: `tracks` places behind each other are far apart, and the tets of the
-/// next ones have been in use lately.
+/// con BRIO, 2003). A round is divided into `tracks` pieces of `near`, an order in which neighbors
+/// are near each other, and takes one place of each piece in turn. So places that are inserted at
+/// the same time are far apart, and each is near one that was inserted shortly before, whose tets
+/// are still in the processor's caches.
 std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& near, Index tracks)
 {
   const auto count = static_cast<Index>(near.size());
   constexpr Index first_round = 64;
-  // Bit k of the shifted rank tells whether a place waits for a later round: every second one does.
+  // Every second place is in the last round, every second one of the others in the round before it.
   std::vector<std::vector<Index>> rounds(1);
   for (Index size = first_round; size < count; size *= 2)
   {
@@ -89,7 +90,7 @@ std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& near, Ind
 }
 
 /// Finds the tets that contain given places while tets are being replaced: a tree over the initial
-/// tets, and for each replaced tet the range of its successors.
+/// tets, for each replaced tet the range of its successors, and walks from tet to tet.
 class PlaceFinder
 {
 public:
@@ -181,7 +182,8 @@ private:
     return -1;
   }
 
-  /// From a tet at the vertex that came with these tets, which saw p when it came.
+  /// Walks from a tet at the vertex that these tets were made for: the straight way from there to p
+  /// was inside of the cavity.
   Index walk_from(const Range& range, const Vec3& p) const
   {
     const std::vector<Index>& around = this->tets_.tets_at(this->tets_.tet(range.begin)[3]);

@@ -1,6 +1,8 @@
 #include "inside/tet_quality.h"
 
 #include "base/disjoint_sets.h"
+#include "base/parallel.h"
+#include "base/sort_unique.h"
 #include "base/triangle_sides.h"
 #include "surface/triangle_predicates.h"
 #include "surface/triangle_shape.h"
@@ -134,15 +136,59 @@ bool is_blocked(
       [&](const Vec3& corner) { return tree.segment_meets(corner, top, others); });
 }
 
-/// Edges at which tets cannot have good angles, sorted: see count_forced_tets().
-std::vector<EdgeKey> forced_edges(PointsView points, const Triangles& boundary, double angle)
+EdgeKey edge_key(Index a, Index b)
 {
-  const TriangleTree tree(points, boundary);
-  std::vector<char> blocked(static_cast<std::size_t>(boundary.rows()));
-  for (Index t = 0; t < boundary.rows(); ++t)
+  return { std::min(a, b), std::max(a, b) };
+}
+
+/// The edges of tets below `angle`, sorted.
+std::vector<EdgeKey> edges_of_flat(TetsView tets, const Eigen::VectorXd& angles, double angle)
+{
+  std::vector<EdgeKey> edges;
+  for (Index t = 0; t < tets.rows(); ++t)
   {
-    blocked[t] = is_blocked(points, boundary, tree, t, angle);
+    for (int k = 0; k < 16 && angles[t] < angle; ++k)
+    {
+      if (k / 4 < k % 4)
+      {
+        edges.push_back(edge_key(tets(t, k / 4), tets(t, k % 4)));
+      }
+    }
   }
+  sort_unique(edges);
+  return edges;
+}
+
+/// Whether is_blocked(), for the triangles that have one of the edges.
+std::vector<char> blocked_triangles(PointsView points, const Triangles& boundary,
+  const std::vector<EdgeKey>& edges, double angle, ExecutionContext& context)
+{
+  std::vector<char> blocked(static_cast<std::size_t>(boundary.rows()), 0);
+  const TriangleTree tree(points, boundary);
+  constexpr Index block = 256;
+  parallel_for(context, boundary.rows(), block,
+    [&](Index begin, Index end)
+    {
+      for (Index t = begin; t < end; ++t)
+      {
+        for (int k = 0; k < 3; ++k)
+        {
+          const EdgeKey edge = edge_key(boundary(t, k), boundary(t, (k + 1) % 3));
+          if (std::binary_search(edges.begin(), edges.end(), edge))
+          {
+            blocked[t] = is_blocked(points, boundary, tree, t, angle);
+            break;
+          }
+        }
+      }
+    });
+  return blocked;
+}
+
+/// Edges at which tets cannot have good angles, sorted: see count_forced_tets().
+std::vector<EdgeKey> forced_edges(
+  PointsView points, const Triangles& boundary, const std::vector<char>& blocked, double angle)
+{
   std::vector<EdgeKey> forced;
   const std::vector<TriangleSide> sides = sides_by_edge(boundary);
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end)
@@ -169,10 +215,13 @@ std::vector<EdgeKey> forced_edges(PointsView points, const Triangles& boundary, 
 }
 } // namespace
 
-Index count_forced_tets(
-  PointsView points, TetsView tets, const Eigen::VectorXd& angles, double angle)
+Index count_forced_tets(PointsView points, TetsView tets, const Eigen::VectorXd& angles,
+  double angle, ExecutionContext& context)
 {
-  const std::vector<EdgeKey> forced = forced_edges(points, boundary_triangles(tets), angle);
+  const Triangles boundary = boundary_triangles(tets);
+  const std::vector<char> blocked =
+    blocked_triangles(points, boundary, edges_of_flat(tets, angles, angle), angle, context);
+  const std::vector<EdgeKey> forced = forced_edges(points, boundary, blocked, angle);
   Index count = 0;
   for (Index t = 0; t < tets.rows(); ++t)
   {
@@ -181,9 +230,8 @@ Index count_forced_tets(
     {
       for (int j = 0; j < i; ++j)
       {
-        const Index a = tets(t, i), b = tets(t, j);
-        const EdgeKey edge{ std::min(a, b), std::max(a, b) };
-        touches = touches || std::binary_search(forced.begin(), forced.end(), edge);
+        touches = touches ||
+          std::binary_search(forced.begin(), forced.end(), edge_key(tets(t, i), tets(t, j)));
       }
     }
     count += touches;

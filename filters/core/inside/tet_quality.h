@@ -1,6 +1,7 @@
 #ifndef bindpose_inside_tet_quality_h
 #define bindpose_inside_tet_quality_h
 
+#include "base/execution.h"
 #include "base/mesh.h"
 #include "base/tet_facets.h"
 
@@ -42,11 +43,12 @@ TetQuality measure_tets(PointsView points, TetsView tets);
 
 /// How many tets have their smallest dihedral angle (angles: #T, degrees) below `angle` and an edge
 /// that the boundary forces to be bad: one of a boundary triangle with a corner of less than
-/// `angle`, or with another triangle of the boundary right in front of it, so that every tet on it
+/// `angle`, or with another triangle of the boundary so close in front of it that every tet on it
 /// has an angle below `angle`; or one at which two boundary triangles meet at less than `angle`,
 /// measured inside.
-Index count_forced_tets(
-  PointsView points, TetsView tets, const Eigen::VectorXd& angles, double angle);
+/// Cancelled, it counts fewer.
+Index count_forced_tets(PointsView points, TetsView tets, const Eigen::VectorXd& angles,
+  double angle, ExecutionContext& context);
 
 /// internal_error naming the first tet that is flat, turned over, there twice, or that shares a
 /// facet with two others or with one on the same side (else the boundary is closed); with

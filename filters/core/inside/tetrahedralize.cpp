@@ -638,8 +638,8 @@ private:
     this->report_.set("counts.tets_below_5_degrees_forced",
       Report::Value(quality.below_5_degrees == 0
           ? Index(0)
-          : count_forced_tets(
-              mesh.points, mesh.tets, this->result_.min_dihedral_angles, sliver_angle)));
+          : count_forced_tets(mesh.points, mesh.tets, this->result_.min_dihedral_angles,
+              sliver_angle, this->context_)));
     if (this->inside_tets_.empty())
     {
       this->report_.set("volume", Report::Value(quality.volume));
@@ -751,9 +751,14 @@ Status check_options(const TetrahedralizeOptions& options)
     return Status::invalid_input(
       "resolution must be 0 or from 4 to 1000 cubes, not " + std::to_string(options.resolution));
   }
-  constexpr double automatic = 1.0;
+  if (!(options.time_limit >= 0.0))
+  {
+    return Status::invalid_input("time_limit must be 0 (automatic) or positive, not " +
+      short_number(options.time_limit) + " s");
+  }
+  constexpr double any = 1.0;
   Status limits =
-    check_limits(options.time_limit == 0.0 ? automatic : options.time_limit, options.memory_limit);
+    check_limits(options.time_limit > 0.0 ? options.time_limit : any, options.memory_limit);
   if (!limits.ok())
   {
     return limits;

@@ -48,8 +48,8 @@ struct TetrahedralizeOptions
   Index resolution = 0;
   /// embed with resolution 0: about how many lattice tets, >= 1.
   Index lattice_tets = 30000;
-  /// Seconds for all of the helper's or fTetWild's work. 0: 120, and for surfaces of over a million
-  /// triangles 120 per million.
+  /// Seconds for all of the helper's or fTetWild's work, >= 0. 0: 120, or 120 per million triangles
+  /// if that is more.
   double time_limit = 0.0;
   Index memory_limit = 0; ///< MiB of address space for a helper process, 0: no limit
   /// Smallest dihedral angle that every tet must have, degrees, 0 … 20. Method automatic leaves the
@@ -138,11 +138,11 @@ struct TetrahedralizeResult
 /// volume (of the tets inside), winding_volume (of {w >= threshold}: exact for clean surfaces,
 /// sampled otherwise), winding_volume_error (its standard error, relative), min_dihedral_angle
 /// (degrees), counts.tets_below_5_degrees, counts.tets_below_5_degrees_forced (how many of these
-/// have an edge of a boundary triangle with a corner below 5 degrees, or with another right in
-/// front of it, or an edge at which two boundary triangles meet at less than 5 degrees: while the
-/// surface's triangles are kept, few of them can be better), quality[].dihedral_angle,
-/// quality[].tets (how many tets have their smallest dihedral angle from this many degrees to the
-/// next); counts.handle_points,
+/// have an edge of a boundary triangle with a corner below 5 degrees or with another boundary
+/// triangle close in front of it, or an edge at which two boundary triangles meet at less than 5
+/// degrees: while the surface's triangles are kept, few of them can be better),
+/// quality[].dihedral_angle, quality[].tets (how many tets have their smallest dihedral angle from
+/// this many degrees to the next); counts.handle_points,
 /// counts.handle_vertices (of cdt with handles: how many of their points are vertices);
 /// segmentation (of cdt; a graph cut whose volume does not fit is left for the threshold), energy,
 /// threshold_energy, counts.changed_by_cut (see Segmentation); for remesh and embed resolution, for

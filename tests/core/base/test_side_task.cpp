@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <new>
 #include <thread>
 
 using namespace bindpose;
@@ -106,4 +107,35 @@ TEST(SideTask, DroppedBeforeItBeginsItNeverRuns)
     SideTask task(never, context, [&](ExecutionContext&) { ran = true; });
   }
   EXPECT_FALSE(ran);
+}
+
+TEST(SideTask, FinishThrowsWhatTheWorkThrew)
+{
+  for (const int threads : { 1, 2 })
+  {
+    ExecutionContext context;
+    context.set_threads(threads);
+    SideTask task(0.0, context, [](ExecutionContext&) { throw std::bad_alloc(); });
+    EXPECT_THROW(task.finish(), std::bad_alloc);
+  }
+}
+
+TEST(SideTask, DroppedNothingIsThrown)
+{
+  ExecutionContext context;
+  context.set_threads(2);
+  std::atomic<bool> begun{ false };
+  {
+    SideTask task(0.0, context,
+      [&](ExecutionContext&)
+      {
+        begun = true;
+        throw std::bad_alloc();
+      });
+    while (!begun && std::thread::hardware_concurrency() > 1)
+    {
+      sleep_for(0.001);
+    }
+  }
+  EXPECT_TRUE(begun || std::thread::hardware_concurrency() == 1);
 }

@@ -85,6 +85,24 @@ TEST(InnerPoints, AreNotManyMoreThanAskedFor)
   EXPECT_GE(inner.rows(), 100);
 }
 
+TEST(InnerPoints, EvenGridsGiveSomePointsAndNotTooMany)
+{
+  // All cells at the surface are cut at the same size, so that their number jumps.
+  for (const double height : { 1.0, 0.2, 0.05 })
+  {
+    const TetMesh box = test::tet_box(20, 20, 4, Vec3::Zero(), Vec3(1.0, 1.0, height));
+    const TriangleMesh mesh{ box.points, boundary_triangles(box.tets) };
+    const SizingField sizes(
+      mesh.points, Eigen::VectorXd::Constant(mesh.points.rows(), 0.05), 0.75, 2.0);
+    for (const Index most : { 20, 200, 1000 })
+    {
+      const Points inner = points_in(mesh, sizes, most);
+      EXPECT_GT(inner.rows(), 0) << height << " " << most;
+      EXPECT_LE(inner.rows(), 2 * most) << height << " " << most;
+    }
+  }
+}
+
 TEST(InnerPoints, AHollowStaysEmpty)
 {
   TriangleMesh shell = test::sphere(4);

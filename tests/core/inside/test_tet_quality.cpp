@@ -129,7 +129,8 @@ TEST(TetQuality, TrianglesInFrontOfOthersForceFlatTets)
         plate.points.row(tet[2]), plate.points.row(tet[3]));
     }
     ASSERT_LT(angles.maxCoeff(), 5.0);
-    const Index forced = count_forced_tets(plate.points, plate.tets, angles, 5.0);
+    ExecutionContext context;
+    const Index forced = count_forced_tets(plate.points, plate.tets, angles, 5.0, context);
     if (height < 0.00427)
     {
       EXPECT_EQ(forced, plate.tets.rows());

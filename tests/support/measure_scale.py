@@ -3,9 +3,9 @@
 
 The surfaces are those of scale_surfaces.py. Each verb runs in a process of its own, on a terminal whose progress is
 read as a person sees it. The table tells seconds by the clock, peak memory of the process or its largest helper, and
-the longest time in which neither the percentage nor the name of the phase changed. --cancel N also interrupts each verb
-N times, spread over the time that it took, and tells the longest time that it went on. Fails where a verb does, or
-takes more than 12 GiB.
+the longest time in which neither the percentage nor the name of the phase changed. --cancel N also interrupts each
+verb but view N times, spread over its run, and tells the longest time from an interrupt to the end. Fails if a verb
+fails or takes more than 12 GiB.
 
     measure_scale.py --build build                           four surfaces
     measure_scale.py --build build --millions 1 --cancel 4   how soon the work on a million triangles can be cancelled

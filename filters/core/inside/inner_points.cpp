@@ -250,7 +250,7 @@ class ScaleSearch
 public:
   ScaleSearch(double first, double wanted) : wanted_(wanted), least_(first) {}
 
-  /// What a scale gave; `points` may be infinite, where they were too many to be counted.
+  /// Tells how many points a scale gives: infinity if there are too many to be counted.
   void add(double scale, double points)
   {
     Sample& known = points > this->wanted_ ? this->many_ : this->few_;
@@ -317,12 +317,9 @@ private:
   Sample many_; ///< of the largest scale that gave more than wanted
   Sample few_; ///< of the smallest one that gave fewer
 };
-} // namespace
 
-namespace
-{
 /// As many of the points as wanted, spread over their order.
-Points every_other(const Points& points, Index wanted)
+Points thinned(const Points& points, Index wanted)
 {
   Points kept(wanted, 3);
   for (Index i = 0; i < wanted; ++i)
@@ -410,7 +407,7 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
   // and too many, of which some are left out.
   constexpr double too_few = 0.3;
   const bool thin_out = more.rows() > 0 && static_cast<double>(fewer.rows()) < too_few * wanted;
-  inner = thin_out ? every_other(more, static_cast<Index>(wanted)) : std::move(fewer);
+  inner = thin_out ? thinned(more, static_cast<Index>(wanted)) : std::move(fewer);
   return true;
 }
 

@@ -112,11 +112,10 @@ CavitySearch::Facet CavitySearch::facet_inwards(Index t, int k) const
 /// looked at again. @return false if the start leaves.
 bool CavitySearch::shrink(const Vec3& p, Index start, double least)
 {
-  const Index in = this->searches_;
   for (std::size_t next = 0; next < this->queue_.size(); ++next)
   {
     const Index t = this->queue_[next];
-    if (this->cavity_[t] != in)
+    if (!this->joins(t))
     {
       continue;
     }

@@ -12,9 +12,9 @@
 
 #include "base/large_pages.h"
 #include "base/parallel.h"
+#include "base/point_order.h"
 #include "winding/boundary_caps.h"
 #include "winding/dipole_field.h"
-#include "base/point_order.h"
 #include "winding/point_values.h"
 #include "winding/ray_crossings.h"
 #include "winding/solid_angle.h"

@@ -426,6 +426,8 @@ std::string refine(MesherData& data, const RefineOptions& options)
   for (; round < options.round_limit; ++round)
   {
     const std::vector<Pair> pairs = crossing_pairs(soup, pair_limit);
+    constexpr double first_found = 0.4; // share of the seconds, where little crosses
+    tell_progress(first_found);
     if (pairs.size() > pair_limit)
     {
       return too_many("more than " + std::to_string(pair_limit) +

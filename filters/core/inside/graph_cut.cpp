@@ -1,7 +1,8 @@
-// A node that is cheaper inside hangs on the source by the difference of its two costs, one that is
-// cheaper outside on the sink; what flows from source to sink until nothing more fits has filled
-// the cheapest edges that separate them. Costs become whole numbers first: flow arithmetic is then
-// exact, and the end does not depend on rounding.
+// Most nodes are decided at once: their own costs outweigh their edges. The others make a network.
+// There, a node that is cheaper inside hangs on the source by the difference of its two costs, one
+// that is cheaper outside on the sink; what flows from source to sink until nothing more fits has
+// filled the cheapest edges that separate them. Costs become whole numbers first: flow arithmetic
+// is then exact, and the end does not depend on rounding.
 #include "inside/graph_cut.h"
 
 #include <boost/graph/boykov_kolmogorov_max_flow.hpp>
@@ -107,13 +108,108 @@ double CutEnergy::of(const std::vector<char>& inside) const
   return sum;
 }
 
-Status minimize(const CutEnergy& energy, std::vector<char>& inside, ExecutionContext& context)
+namespace
 {
-  Status status = check(energy);
-  if (!status.ok())
+/// Labels of nodes, most of which are decided before any flow.
+class Labels
+{
+public:
+  static constexpr char undecided = 2;
+
+  explicit Labels(const CutEnergy& energy)
+    : energy_(energy), gains_(energy.inside_costs.size()),
+      labels_(energy.inside_costs.size(), undecided)
   {
-    return status;
   }
+
+  /// Decides nodes that are on one side in every minimum: what they gain there by themselves, and
+  /// by edges to nodes that are decided, is more than all their other edges cost. That decides
+  /// neighbors in turn, until few are left to gain.
+  void decide()
+  {
+    const auto nodes = static_cast<Index>(this->labels_.size());
+    std::vector<double> edges(this->labels_.size()); // costs of those to undecided nodes
+    for (bool go_on = true; go_on;)
+    {
+      for (Index i = 0; i < nodes; ++i)
+      {
+        this->gains_[i] = this->energy_.outside_costs[i] - this->energy_.inside_costs[i];
+        edges[i] = 0.0;
+      }
+      for (const CutEnergy::Edge& edge : this->energy_.edges)
+      {
+        this->add(edge.a, edge.b, edge.cost, edges);
+        this->add(edge.b, edge.a, edge.cost, edges);
+      }
+      constexpr double rounding = 1e-9; // a node that is left undecided does no harm
+      Index left = 0;
+      Index decided = 0;
+      for (Index i = 0; i < nodes; ++i)
+      {
+        const double gain = this->gains_[i];
+        const bool open = this->labels_[i] == undecided;
+        const bool clear = std::abs(gain) * (1.0 - rounding) > edges[i];
+        this->labels_[i] = open && clear ? char(gain > 0.0) : this->labels_[i];
+        decided += open && clear;
+        left += open && !clear;
+      }
+      constexpr Index few = 20; // one in so many of those left
+      go_on = few * decided > left;
+    }
+  }
+
+  /// What is left to decide.
+  CutEnergy rest()
+  {
+    this->ids_.assign(this->labels_.size(), -1);
+    CutEnergy rest;
+    for (std::size_t i = 0; i < this->labels_.size(); ++i)
+    {
+      if (this->labels_[i] == undecided)
+      {
+        this->ids_[i] = static_cast<Index>(rest.inside_costs.size());
+        rest.inside_costs.push_back(std::max(0.0, -this->gains_[i]));
+        rest.outside_costs.push_back(std::max(0.0, this->gains_[i]));
+      }
+    }
+    for (const CutEnergy::Edge& edge : this->energy_.edges)
+    {
+      if (this->ids_[edge.a] >= 0 && this->ids_[edge.b] >= 0)
+      {
+        rest.edges.push_back({ this->ids_[edge.a], this->ids_[edge.b], edge.cost });
+      }
+    }
+    return rest;
+  }
+
+  /// @param inside labels of the rest, by their ids there.
+  std::vector<char> with(const std::vector<char>& inside) const
+  {
+    std::vector<char> all = this->labels_;
+    for (std::size_t i = 0; i < all.size(); ++i)
+    {
+      all[i] = this->ids_[i] >= 0 ? inside[this->ids_[i]] : all[i];
+    }
+    return all;
+  }
+
+private:
+  void add(Index node, Index neighbor, double cost, std::vector<double>& edges)
+  {
+    const char label = this->labels_[neighbor];
+    this->gains_[node] += label == undecided ? 0.0 : label == 1 ? cost : -cost;
+    edges[node] += label == undecided ? cost : 0.0;
+  }
+
+  const CutEnergy& energy_;
+  std::vector<double> gains_; ///< by being inside
+  std::vector<char> labels_; ///< 1 inside, 0 outside, or undecided
+  std::vector<Index> ids_; ///< among those that are left
+};
+
+/// Decides by flow.
+Status cut(const CutEnergy& energy, std::vector<char>& inside, ExecutionContext& context)
+{
   const auto nodes = static_cast<Index>(energy.inside_costs.size());
   const Index source = nodes;
   const Index sink = nodes + 1;
@@ -229,6 +325,25 @@ Status minimize(const CutEnergy& energy, std::vector<char>& inside, ExecutionCon
     inside[i] = colors[i] == boost::black_color; // the source's tree
   }
   return {};
+}
+} // namespace
+
+Status minimize(const CutEnergy& energy, std::vector<char>& inside, ExecutionContext& context)
+{
+  Status status = check(energy);
+  if (!status.ok())
+  {
+    return status;
+  }
+  Labels labels(energy);
+  labels.decide();
+  std::vector<char> rest;
+  status = cut(labels.rest(), rest, context);
+  if (status.ok())
+  {
+    inside = labels.with(rest);
+  }
+  return status;
 }
 
 } // namespace bindpose

@@ -42,7 +42,12 @@ std::vector<TetFacet> tet_facets(TetsView tets)
     std::sort(facets.begin() + static_cast<std::ptrdiff_t>(begin[v]),
       facets.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]),
       [](const TetFacet& x, const TetFacet& y)
-      { return x.vertices != y.vertices ? x.vertices < y.vertices : x.tet < y.tet; });
+      {
+        // The first vertices are equal.
+        return x.vertices[1] != y.vertices[1] ? x.vertices[1] < y.vertices[1]
+          : x.vertices[2] != y.vertices[2]    ? x.vertices[2] < y.vertices[2]
+                                              : x.tet < y.tet;
+      });
   }
   return facets;
 }

@@ -165,6 +165,33 @@ void TetComplex::remove(Index t)
   --this->count_;
 }
 
+std::vector<Index> TetComplex::compact(Index ids)
+{
+  std::vector<Index> new_ids(this->tets_.size(), -1);
+  Index count = 0;
+  for (Index t = 0; t < this->tet_ids(); ++t)
+  {
+    if (this->alive(t))
+    {
+      this->tets_[count] = this->tets_[t];
+      this->quality_[count] = this->quality_[t];
+      new_ids[t] = count++;
+    }
+  }
+  this->tets_.resize(static_cast<std::size_t>(count));
+  this->quality_.resize(static_cast<std::size_t>(count));
+  this->tets_.reserve(static_cast<std::size_t>(ids));
+  this->quality_.reserve(static_cast<std::size_t>(ids));
+  for (std::vector<Index>& list : this->at_)
+  {
+    for (Index& t : list)
+    {
+      t = new_ids[t];
+    }
+  }
+  return new_ids;
+}
+
 void TetComplex::tets_with(Index a, Index b, std::vector<Index>& found) const
 {
   found.clear();

@@ -11,9 +11,9 @@
 namespace bindpose
 {
 
-/// Tets that are edited in place: vertices know their tets, removed tets keep their ids unused.
-/// Queries are thread-safe while nothing is edited.
-/// The quality of a tet is the squared sine of its smallest dihedral angle (at most 70.53 degrees).
+/// Tets that are edited in place: vertices know their tets, removed tets keep their ids unused
+/// until compact(). Queries are thread-safe while nothing is edited. The quality of a tet is the
+/// squared sine of its smallest dihedral angle (at most 70.53 degrees).
 class TetComplex
 {
 public:
@@ -67,6 +67,9 @@ public:
   void move(Index v, const Vec3& p);
   Index add(const Tet& tet);
   void remove(Index t);
+  /// Gives the tets the ids 0 to tet_count() - 1, in their order, and makes room for `ids` of them.
+  /// @return their new ids by the old ones, -1 for removed tets.
+  std::vector<Index> compact(Index ids);
 
   static bool has(const Tet& tet, Index v)
   {

@@ -146,6 +146,32 @@ public:
     return this->walk(t, p, few); // rounding may have chosen a neighbor
   }
 
+  /// Finds these places again, so that the tets which were replaced are no longer needed. The tets
+  /// get new ids then: see renumber(). @return false when cancelled.
+  bool find_again(
+    const Points& places, const std::vector<Index>& pending, ExecutionContext& context)
+  {
+    constexpr Index block = 64;
+    return parallel_for(context, static_cast<Index>(pending.size()), block,
+      [&](Index begin, Index end)
+      {
+        for (Index i = begin; i < end; ++i)
+        {
+          this->first_[pending[i]] = this->find(pending[i], places.row(pending[i]));
+        }
+      });
+  }
+
+  /// The tets have new ids.
+  void renumber(const std::vector<Index>& ids)
+  {
+    for (Index& t : this->first_)
+    {
+      t = t >= 0 ? ids[t] : -1;
+    }
+    this->replaced_.clear();
+  }
+
   /// The tets have been replaced by those from `begin` to the last.
   void replace(const std::vector<Index>& tets, Index begin)
   {
@@ -229,10 +255,15 @@ public:
   bool insert(const TetMesh& mesh, const Points& places, std::vector<Index>& vertices)
   {
     const std::vector<std::int32_t> near = order_by_place(as_vectors(places));
-    if (!this->finder_.look_for(mesh, places, near, this->quiet_))
+    constexpr double looked = 0.2; // share of the seconds
     {
-      return false;
+      const ProgressRange range(this->context_, 0.0, looked);
+      if (!this->finder_.look_for(mesh, places, near, this->context_))
+      {
+        return false;
+      }
     }
+    const ProgressRange range(this->context_, looked, 1.0);
     const std::vector<Index> order = order_of_insertion(near, most_at_once);
     std::vector<Index> now;
     std::vector<Index> later;
@@ -249,6 +280,16 @@ public:
         now.push_back(order[next]);
       }
       const std::size_t waiting = later.size();
+      if (this->tets_.tet_ids() > this->most_ids_)
+      {
+        std::vector<Index> pending(order.begin() + static_cast<std::ptrdiff_t>(next), order.end());
+        pending.insert(pending.end(), now.begin(), now.end());
+        pending.insert(pending.end(), later.begin(), later.end());
+        if (!this->drop_replaced(places, pending))
+        {
+          return false;
+        }
+      }
       if (!this->look_at(places, now))
       {
         return false;
@@ -298,6 +339,26 @@ private:
       return this->kind == Kind::edge ? this->ring.tets : this->cavity.tets;
     }
   };
+
+  /// Gives back the memory of tets that have been replaced. pending: the places not yet inserted.
+  /// @return false when cancelled.
+  bool drop_replaced(const Points& places, const std::vector<Index>& pending)
+  {
+    if (!this->finder_.find_again(places, pending, this->quiet_))
+    {
+      return false;
+    }
+    this->most_ids_ = most_ids_of(this->tets_.tet_count());
+    this->finder_.renumber(this->tets_.compact(this->most_ids_));
+    return true;
+  }
+
+  /// Of these many tets, and of those that they have replaced. (Each vertex replaces about 20.)
+  static Index most_ids_of(Index tets)
+  {
+    constexpr Index few = 100000; // no matter
+    return few + tets + tets / 2;
+  }
 
   /// @return false when cancelled.
   bool look_at(const Points& places, const std::vector<Index>& now)
@@ -394,6 +455,7 @@ private:
   PerThread<CavitySearch> searches_;
   std::array<Site, most_at_once> sites_;
   const double thick_ = TetComplex::quality_of_angle(1.0);
+  Index most_ids_ = most_ids_of(tets_.tet_count()); ///< then replaced tets are dropped
 };
 } // namespace
 

@@ -96,6 +96,27 @@ TEST(TetInsertion, ManyPlacesAreInserted)
   expect_cube(mesh);
 }
 
+TEST(TetInsertion, PlacesAreFoundAgainWhenReplacedTetsAreDropped)
+{
+  // Each of them replaces about 20 tets, so that there are several times as many ids as tets.
+  TetMesh mesh = test::tet_box(3, 3, 3);
+  test::Random random(23);
+  Points places(20000, 3);
+  for (Index i = 0; i < places.rows(); ++i)
+  {
+    places.row(i) = random.in_box(Vec3::Constant(0.01), Vec3::Constant(0.99));
+  }
+  std::vector<Index> vertices;
+  ExecutionContext context;
+  ASSERT_TRUE(insert_vertices(mesh, places, vertices, context));
+  EXPECT_EQ(std::count(vertices.begin(), vertices.end(), -1), 0);
+  for (Index i = 0; i < places.rows(); ++i)
+  {
+    EXPECT_EQ(mesh.points.row(vertices[i]), places.row(i));
+  }
+  expect_cube(mesh);
+}
+
 TEST(TetInsertion, ThreadsMakeNoDifference)
 {
   // Ten times as many places as there are tets: most lie in tets that have been replaced, and many

@@ -90,9 +90,14 @@ struct CdtTets::Inside
 Status CdtTets::fill()
 {
   const double start = this->context_.elapsed_seconds();
+  constexpr double found = 0.35; // share of the seconds
   Inside inside;
-  Status status =
-    this->options_.bare ? this->look_inside(this->diagonal_, inside) : this->find_places(inside);
+  Status status;
+  {
+    const ProgressRange range(this->context_, 0.0, found);
+    status =
+      this->options_.bare ? this->look_inside(this->diagonal_, inside) : this->find_places(inside);
+  }
   const Points of_handles = status.ok() ? this->places_of_handles(inside) : Points(0, 3);
   this->log_.add("places inside", this->context_.elapsed_seconds() - start, status);
   Points places(of_handles.rows() + inside.places.rows(), 3);
@@ -101,6 +106,7 @@ Status CdtTets::fill()
   {
     return status;
   }
+  const ProgressRange range(this->context_, found, 1.0);
   std::vector<Index> vertices;
   status = this->insert(places, vertices);
   if (status.ok())

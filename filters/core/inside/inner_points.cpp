@@ -44,13 +44,21 @@ public:
   bool build(Index most)
   {
     std::vector<Cell> cells{ Cell() };
+    constexpr double chosen = 0.7; // share of the seconds before choose()
+    double done = 0.0; // of that
     for (int level = 0; !cells.empty(); ++level)
     {
+      // Most cells are in the last levels, and how many these are is not known.
+      const double share = static_cast<double>(cells.size()) / static_cast<double>(most);
+      const double next = std::min(0.5 * (1.0 + done), done + share);
+      const ProgressRange range(this->context_, chosen * done, chosen * next);
       if (!this->look_at(cells, level) || !this->cut(cells, level, most))
       {
         return false;
       }
+      done = next;
     }
+    const ProgressRange range(this->context_, chosen, 1.0);
     return this->choose();
   }
 
@@ -363,8 +371,14 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
   Points fewer; // the most points so far that are not too many
   Points more; // the fewest so far that are
   double before = -1.0;
+  double begin = 0.0; // of this attempt's progress
   for (int attempt = 0; attempt < attempts; ++attempt)
   {
+    // Two or three attempts are usual.
+    constexpr double share = 0.45; // of what is left
+    const double end = begin + share * (1.0 - begin);
+    const ProgressRange range(context, begin, end);
+    begin = end;
     Lattice lattice(interior, sizes, context);
     const bool whole =
       lattice.build(static_cast<Index>(std::max(few_cells, too_many * wanted)) + 1);

@@ -6,7 +6,11 @@
 #include "base/sparse_solver.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <numeric>
 
 namespace bindpose
 {
@@ -25,7 +29,7 @@ class SmoothingEnergy
 {
 public:
   SmoothingEnergy(PointsView points, TrianglesView triangles, const std::vector<Index>& fixed,
-    double length, const ExecutionContext& context)
+    double length, ExecutionContext& context)
     : free_(VectorXd::Ones(points.rows()))
   {
     const Points scaled = (points.rowwise() - points.row(0)) / length;
@@ -41,8 +45,10 @@ public:
     this->prepare(context);
   }
 
-  /// By conjugate gradients, each column with its own steps.
-  void minimize(Columns& w, const ExecutionContext& context) const
+  /// By conjugate gradients, each column with its own steps. Calls `advance` after each
+  /// step with the share of the way to the minimum that has been gone.
+  void minimize(Columns& w, const ExecutionContext& context,
+    const std::function<void(double share)>& advance) const
   {
     constexpr double reduction = 1e-6;
     constexpr int most_iterations = 200;
@@ -56,7 +62,8 @@ public:
     }
     Lanes now = this->precondition(r, z);
     p = z;
-    const Lanes enough = reduction * reduction * now;
+    const Lanes first = now;
+    const Lanes enough = reduction * reduction * first;
     // Columns that are done, or that round-off has stopped, have no more steps.
     Eigen::Array<bool, 1, lanes> goes_on = now > enough;
     for (int i = 0; i < most_iterations && goes_on.any() && !context.cancelled(); ++i)
@@ -86,6 +93,8 @@ public:
       }
       now = next;
       goes_on = goes_on && now > enough;
+      const Lanes gone = goes_on.select((now / first).log() / std::log(reduction * reduction), 1.0);
+      advance(gone.minCoeff());
     }
   }
 
@@ -126,7 +135,7 @@ private:
   }
 
   /// Factors M + K, or takes the diagonal where that cannot be had.
-  void prepare(const ExecutionContext& context)
+  void prepare(ExecutionContext& context)
   {
     SparseMatrix a = this->stiffness_;
     for (int j = 0; j < a.outerSize(); ++j)
@@ -137,11 +146,20 @@ private:
       }
     }
     a += SparseMatrix(this->mass_.asDiagonal());
-    SparseSolver analysis;
-    if (analysis.analyse(a).ok() && this->factor_.analyse(analysis, a).ok() &&
-      this->factor_.factor(a, 0.0, context).ok())
+    constexpr double assembled = 0.15; // shares of the seconds
+    constexpr double analysed = 0.6;
+    context.progress(assembled);
+    // METIS would take longer for its order than that order saves.
+    SparseSolver::Options options;
+    options.ordering = SparseSolver::Ordering::amd;
+    SparseSolver analysis(options);
+    if (analysis.analyse(a).ok() && this->factor_.analyse(analysis, a).ok())
     {
-      return;
+      context.progress(analysed);
+      if (this->factor_.factor(a, 0.0, context).ok())
+      {
+        return;
+      }
     }
     // Without such a factorization: by the diagonal, (K M⁻¹ K)_ii = sum_j K_ij² / m_j.
     this->factor_ = FloatCholesky();
@@ -196,13 +214,27 @@ bool smooth_on_surface(PointsView points, TrianglesView triangles, const std::ve
   {
     return !context.cancelled();
   }
-  const SmoothingEnergy energy(points, triangles, fixed, length, context);
+  constexpr double prepared = 0.4; // share of the seconds
+  std::unique_ptr<SmoothingEnergy> energy;
+  {
+    const ProgressRange range(context, 0.0, prepared);
+    energy = std::make_unique<SmoothingEnergy>(points, triangles, fixed, length, context);
+  }
+  const ProgressRange range(context, prepared, 1.0);
+  const Index blocks = (values.cols() + lanes - 1) / lanes;
+  std::vector<std::atomic<double>> gone(static_cast<std::size_t>(blocks));
   const bool whole = parallel_for(context, values.cols(), lanes,
     [&](Index begin, Index end)
     {
       Columns w = Columns::Zero(values.rows(), lanes);
       w.leftCols(end - begin) = values.middleCols(begin, end - begin);
-      energy.minimize(w, context);
+      energy->minimize(w, context,
+        [&](double share)
+        {
+          gone[begin / lanes] = share;
+          const double sum = std::accumulate(gone.begin(), gone.end(), 0.0);
+          context.progress(sum / static_cast<double>(blocks));
+        });
       values.middleCols(begin, end - begin) = w.leftCols(end - begin);
     });
   return whole && !context.cancelled();

@@ -792,6 +792,14 @@ Status check_options(const TetrahedralizeOptions& options)
 }
 } // namespace
 
+double interior_edge_of_weights(double volume, double diagonal)
+{
+  constexpr double most = 0.04;
+  constexpr double fewest_tets = 10000.0;
+  const double edge = std::cbrt(volume / (fewest_tets * regular_tet_volume)) / diagonal;
+  return edge > 0.0 ? std::min(most, edge) : most;
+}
+
 const char* to_string(TetMethod method)
 {
   switch (method)

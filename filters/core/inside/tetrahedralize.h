@@ -27,9 +27,10 @@ enum class TetMethod
 /// "auto", "cdt", "remesh", "embed", "wrap", "ftetwild".
 const char* to_string(TetMethod method);
 
-/// The interior_edge that smooth weights need: with tets as coarse as interior_edge 0 makes them,
-/// the weights differ visibly from those of finer ones.
-constexpr double interior_edge_of_weights = 0.04;
+/// The interior_edge that smooth weights need in a surface that encloses a volume in a box of this
+/// diagonal: at most 0.04, and such that there are at least about 10,000 tets. With fewer of them
+/// weights are more than 0.015 rms from those of much finer tets.
+double interior_edge_of_weights(double volume, double diagonal);
 
 struct TetrahedralizeOptions
 {

@@ -2,6 +2,7 @@
 
 #include "planar/planar_shape.h"
 
+#include <cmath>
 #include <utility>
 
 namespace bindpose
@@ -67,7 +68,8 @@ Status fill_faces(const std::vector<CageElement>& faces, PointsView points, cons
     triangles.row(f) << faces[f][0], faces[f][1], faces[f][2];
   }
   TetrahedralizeOptions options;
-  options.interior_edge = interior_edge_of_weights;
+  options.interior_edge = interior_edge_of_weights(
+    std::abs(signed_volume(corners, triangles)), bounding_box(corners).diagonal());
   options.handles.points = cage.places.points;
   if (points.rows() <= cage.most_points)
   {

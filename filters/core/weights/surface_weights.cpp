@@ -94,8 +94,7 @@ private:
   Status solve_on(Lattice& lattice, Status filled);
   LatticePtr best_lattice();
   Status finish(Lattice& lattice, SurfaceWeights& result);
-  Status fill(const TetrahedralizeOptions& options, TetrahedralizeResult& tets);
-  TetrahedralizeOptions fill_options() const;
+  Status fill(TetrahedralizeResult& tets);
   Status refuse_single_points(const char* domain) const;
   /// Adds what a step said to what came before it. @return the step's status with all of it.
   Status joined(Status before, Status step) const;
@@ -183,7 +182,8 @@ Status Solver::prepare()
   return status;
 }
 
-Status Solver::fill(const TetrahedralizeOptions& options, TetrahedralizeResult& tets)
+/// Tets of the inside, fine enough for smooth weights.
+Status Solver::fill(TetrahedralizeResult& tets)
 {
   const Phase phase(this->context_, "tetrahedralize", 0.0, 0.3);
   Status status;
@@ -195,19 +195,16 @@ Status Solver::fill(const TetrahedralizeOptions& options, TetrahedralizeResult& 
   {
     return status;
   }
+  TetrahedralizeOptions options;
+  options.winding_threshold = this->options_.winding_threshold;
+  options.interior_edge = interior_edge_of_weights(
+    this->prepared_->inside.volume(), bounding_box(this->prepared_->surface.points).diagonal());
+  options.handles = this->options_.places;
   const ProgressRange range(this->context_, 0.3, 1.0);
   status = tetrahedralize(
     this->points_, this->triangles_, *this->prepared_, options, tets, this->context_);
   rename_tet_method(status.report);
   return status;
-}
-
-TetrahedralizeOptions Solver::fill_options() const
-{
-  TetrahedralizeOptions options;
-  options.winding_threshold = this->options_.winding_threshold;
-  options.interior_edge = interior_edge_of_weights;
-  return options;
 }
 
 /// What is asked of single points can only be kept where they are vertices.
@@ -333,9 +330,7 @@ Status Solver::on_mesh(SurfaceWeights& result)
 
 Status Solver::in_volume(SurfaceWeights& result)
 {
-  TetrahedralizeOptions options = this->fill_options();
-  options.handles = this->options_.places;
-  Status status = this->fill(options, result.tets);
+  Status status = this->fill(result.tets);
   return status.usable() ? this->solve_volume(std::move(status), result) : status;
 }
 
@@ -722,9 +717,7 @@ Status Solver::automatic(SurfaceWeights& result)
 Status Solver::automatic_volume(SurfaceWeights& result)
 {
   result.domain = WeightsDomain::volume;
-  TetrahedralizeOptions options = this->fill_options();
-  options.handles = this->options_.places;
-  Status status = this->fill(options, result.tets);
+  Status status = this->fill(result.tets);
   if (status.code == StatusCode::cancelled)
   {
     return status;

@@ -119,7 +119,8 @@ TEST_F(Cdt, VerticesInsideAreAdded)
   EXPECT_EQ(bare.result.mesh.points.rows(), sphere.points.rows());
   EXPECT_GT(full.result.mesh.points.rows(), 1.5 * sphere.points.rows());
   TetrahedralizeOptions of_weights;
-  of_weights.interior_edge = interior_edge_of_weights;
+  of_weights.interior_edge = interior_edge_of_weights(
+    signed_volume(sphere.points, sphere.triangles), bounding_box(sphere.points).diagonal());
   EXPECT_GT(run(sphere, of_weights).result.mesh.points.rows(), 2 * sphere.points.rows());
   EXPECT_GT(full.number("min_dihedral_angle"), 4.0);
   // No edge inside is much longer than asked for.

@@ -84,7 +84,8 @@ TEST_F(SurfaceWeightsInTets, OfTheVolumeAreTheStagesByHand)
 
   ExecutionContext context;
   TetrahedralizeOptions options;
-  options.interior_edge = interior_edge_of_weights;
+  options.interior_edge = interior_edge_of_weights(
+    signed_volume(mesh.points, mesh.triangles), bounding_box(mesh.points).diagonal());
   TetrahedralizeResult tets;
   ASSERT_TRUE(tetrahedralize(mesh.points, mesh.triangles, options, tets, context).ok());
   WeightsProblem problem;

@@ -251,7 +251,7 @@ def processes(count):
 
 def run_accuracy(options, models):
     """Rows of --accuracy."""
-    with processes(1) as pool:
+    with processes(options.jobs) as pool:
         def check(name, *arguments):
             return pool.submit(in_other_process, "accuracy_checks", name, *arguments).result()
         return weights_accuracy.accuracy(options, check, models, HANDLES)

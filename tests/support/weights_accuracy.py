@@ -8,6 +8,7 @@ for open sheets), or if remesh closes gaps, so that its tets have fewer connecte
 Part of real_meshes.py, which runs these functions. VTK and numpy are used in accuracy_checks.py only.
 """
 
+import concurrent.futures
 import json
 import pathlib
 import random
@@ -81,16 +82,19 @@ def measure(options, check, model, handles):
 
 
 def accuracy(options, check, models, handles):
-    """Rows of models in a seeded order, until as many are measured as wanted."""
+    """Rows of models in a seeded order, until as many are measured as wanted; the same for any number of jobs."""
+    order = random.Random(SEED).sample(models, len(models))
     rows, measured = [], 0
-    for model in random.Random(SEED).sample(models, len(models)):
-        if measured == options.accuracy:
-            break
-        row = measure(options, check, model, handles)
-        measured += not row["skipped"]
-        rows.append(row)
-        text = row["skipped"] or f"rms {row['rms']:.4f}, largest {row['largest']:.3f}"
-        print(f"accuracy: {row['name']} | {text}", flush=True)
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as threads:
+        for begin in range(0, len(order), options.jobs):
+            some = order[begin:begin + options.jobs]
+            for row in threads.map(lambda model: measure(options, check, model, handles), some):
+                if measured == options.accuracy:
+                    return rows
+                measured += not row["skipped"]
+                rows.append(row)
+                text = row["skipped"] or f"rms {row['rms']:.4f}, largest {row['largest']:.3f}"
+                print(f"accuracy: {row['name']} | {text}", flush=True)
     return rows
 
 

@@ -114,8 +114,6 @@ namespace
 class Labels
 {
 public:
-  static constexpr char undecided = 2;
-
   explicit Labels(const CutEnergy& energy)
     : energy_(energy), gains_(energy.inside_costs.size()),
       labels_(energy.inside_costs.size(), undecided)
@@ -124,7 +122,7 @@ public:
 
   /// Decides nodes that are on one side in every minimum: what they gain there by themselves, and
   /// by edges to nodes that are decided, is more than all their other edges cost. That decides
-  /// neighbors in turn, until few are left to gain.
+  /// neighbors in turn. Ends after a round that decides few.
   void decide()
   {
     const auto nodes = static_cast<Index>(this->labels_.size());
@@ -146,12 +144,20 @@ public:
       Index decided = 0;
       for (Index i = 0; i < nodes; ++i)
       {
+        if (this->labels_[i] != undecided)
+        {
+          continue;
+        }
         const double gain = this->gains_[i];
-        const bool open = this->labels_[i] == undecided;
-        const bool clear = std::abs(gain) * (1.0 - rounding) > edges[i];
-        this->labels_[i] = open && clear ? char(gain > 0.0) : this->labels_[i];
-        decided += open && clear;
-        left += open && !clear;
+        if (std::abs(gain) * (1.0 - rounding) > edges[i])
+        {
+          this->labels_[i] = gain > 0.0 ? inside : outside;
+          ++decided;
+        }
+        else
+        {
+          ++left;
+        }
       }
       constexpr Index few = 20; // one in so many of those left
       go_on = few * decided > left;
@@ -182,28 +188,32 @@ public:
     return rest;
   }
 
-  /// @param inside labels of the rest, by their ids there.
-  std::vector<char> with(const std::vector<char>& inside) const
+  /// @param rest labels of the rest, by their ids there.
+  std::vector<char> with(const std::vector<char>& rest) const
   {
     std::vector<char> all = this->labels_;
     for (std::size_t i = 0; i < all.size(); ++i)
     {
-      all[i] = this->ids_[i] >= 0 ? inside[this->ids_[i]] : all[i];
+      all[i] = this->ids_[i] >= 0 ? rest[this->ids_[i]] : all[i];
     }
     return all;
   }
 
 private:
+  static constexpr char outside = 0;
+  static constexpr char inside = 1;
+  static constexpr char undecided = 2;
+
   void add(Index node, Index neighbor, double cost, std::vector<double>& edges)
   {
     const char label = this->labels_[neighbor];
-    this->gains_[node] += label == undecided ? 0.0 : label == 1 ? cost : -cost;
+    this->gains_[node] += label == undecided ? 0.0 : label == inside ? cost : -cost;
     edges[node] += label == undecided ? cost : 0.0;
   }
 
   const CutEnergy& energy_;
   std::vector<double> gains_; ///< by being inside
-  std::vector<char> labels_; ///< 1 inside, 0 outside, or undecided
+  std::vector<char> labels_;
   std::vector<Index> ids_; ///< among those that are left
 };
 

@@ -164,7 +164,7 @@ public:
     }
   }
 
-  /// What is left to decide.
+  /// The energy of the undecided nodes, next to decided neighbors.
   CutEnergy rest()
   {
     this->ids_.assign(this->labels_.size(), -1);

@@ -353,10 +353,10 @@ private:
     return true;
   }
 
-  /// Of these many tets, and of those that they have replaced. (Each vertex replaces about 20.)
+  /// How many ids may be in use when there are this many tets: half as many replaced ones are kept.
   static Index most_ids_of(Index tets)
   {
-    constexpr Index few = 100000; // no matter
+    constexpr Index few = 100000; // that take little memory
     return few + tets + tets / 2;
   }
 

@@ -9,7 +9,6 @@
 #include <atomic>
 #include <cmath>
 #include <functional>
-#include <memory>
 #include <numeric>
 
 namespace bindpose
@@ -20,6 +19,8 @@ namespace
 using Eigen::VectorXd;
 /// So many columns are smoothed together: the matrix is read once for all of them.
 constexpr int lanes = 4;
+/// Share of the seconds until the energy's matrix has been factored.
+constexpr double prepared = 0.4;
 using Lanes = Eigen::Array<double, 1, lanes>;
 /// #V x lanes.
 using Columns = Eigen::Array<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
@@ -137,6 +138,7 @@ private:
   /// Factors M + K, or takes the diagonal where that cannot be had.
   void prepare(ExecutionContext& context)
   {
+    const ProgressRange range(context, 0.0, prepared);
     SparseMatrix a = this->stiffness_;
     for (int j = 0; j < a.outerSize(); ++j)
     {
@@ -214,12 +216,7 @@ bool smooth_on_surface(PointsView points, TrianglesView triangles, const std::ve
   {
     return !context.cancelled();
   }
-  constexpr double prepared = 0.4; // share of the seconds
-  std::unique_ptr<SmoothingEnergy> energy;
-  {
-    const ProgressRange range(context, 0.0, prepared);
-    energy = std::make_unique<SmoothingEnergy>(points, triangles, fixed, length, context);
-  }
+  const SmoothingEnergy energy(points, triangles, fixed, length, context);
   const ProgressRange range(context, prepared, 1.0);
   const Index blocks = (values.cols() + lanes - 1) / lanes;
   std::vector<std::atomic<double>> gone(static_cast<std::size_t>(blocks));
@@ -228,7 +225,7 @@ bool smooth_on_surface(PointsView points, TrianglesView triangles, const std::ve
     {
       Columns w = Columns::Zero(values.rows(), lanes);
       w.leftCols(end - begin) = values.middleCols(begin, end - begin);
-      energy->minimize(w, context,
+      energy.minimize(w, context,
         [&](double share)
         {
           gone[begin / lanes] = share;

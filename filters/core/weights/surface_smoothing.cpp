@@ -19,8 +19,10 @@ namespace
 using Eigen::VectorXd;
 /// So many columns are smoothed together: the matrix is read once for all of them.
 constexpr int lanes = 4;
-/// Share of the seconds until the energy's matrix has been factored.
-constexpr double prepared = 0.4;
+/// Shares of the seconds until the energy's matrix has been factored, and until the first
+/// iteration.
+constexpr double factored = 0.4;
+constexpr double prepared = 0.5;
 using Lanes = Eigen::Array<double, 1, lanes>;
 /// #V x lanes.
 using Columns = Eigen::Array<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
@@ -43,7 +45,14 @@ public:
     {
       this->free_[v] = 0.0;
     }
-    this->prepare(context);
+    if (this->factor(context))
+    {
+      this->count_fixed(fixed, context);
+    }
+    else
+    {
+      this->take_diagonal();
+    }
   }
 
   /// By conjugate gradients, each column with its own steps. Calls `advance` after each
@@ -56,12 +65,13 @@ public:
     const Index count = w.rows();
     Columns curvature(count, lanes), r(count, lanes), z(count, lanes), p(count, lanes),
       ap(count, lanes);
+    Work work;
     this->find_curvature(w, curvature);
     for (Index v = 0; v < count; ++v)
     {
       r.row(v) = -this->free_[v] * this->times_stiffness(curvature, v);
     }
-    Lanes now = this->precondition(r, z);
+    Lanes now = this->precondition(r, z, work);
     p = z;
     const Lanes first = now;
     const Lanes enough = reduction * reduction * first;
@@ -86,7 +96,7 @@ public:
         w.row(v) += step * p.row(v);
         r.row(v) -= step * ap.row(v);
       }
-      const Lanes next = this->precondition(r, z);
+      const Lanes next = this->precondition(r, z, work);
       const Lanes again = goes_on.select(next / now, 0.0);
       for (Index v = 0; v < count; ++v)
       {
@@ -100,6 +110,12 @@ public:
   }
 
 private:
+  /// Memory that one block of columns uses again and again.
+  struct Work
+  {
+    Eigen::MatrixXd once, twice;
+  };
+
   /// Triangles with almost no height couple their points with up to 1e16: round-off in the products
   /// would be larger than the values. Less of them counts, so that nothing couples more than at an
   /// angle of 2 degrees; the matrix stays positive semi-definite.
@@ -135,10 +151,10 @@ private:
     }
   }
 
-  /// Factors M + K, or takes the diagonal where that cannot be had.
-  void prepare(ExecutionContext& context)
+  /// Factors M + K. @return false where that cannot be had.
+  bool factor(ExecutionContext& context)
   {
-    const ProgressRange range(context, 0.0, prepared);
+    const ProgressRange range(context, 0.0, factored);
     SparseMatrix a = this->stiffness_;
     for (int j = 0; j < a.outerSize(); ++j)
     {
@@ -155,15 +171,64 @@ private:
     SparseSolver::Options options;
     options.ordering = SparseSolver::Ordering::amd;
     SparseSolver analysis(options);
-    if (analysis.analyse(a).ok() && this->factor_.analyse(analysis, a).ok())
+    if (!analysis.analyse(a).ok() || !this->factor_.analyse(analysis, a).ok())
     {
-      context.progress(analysed);
-      if (this->factor_.factor(a, 0.0, context).ok())
+      return false;
+    }
+    context.progress(analysed);
+    return this->factor_.factor(a, 0.0, context).ok();
+  }
+
+  /// Adds to the preconditioner what the curvature at fixed points adds to the energy.
+  void count_fixed(const std::vector<Index>& fixed, ExecutionContext& context)
+  {
+    const ProgressRange range(context, factored, prepared);
+    constexpr Index most_numbers = 40'000'000; // 320 MB
+    const Index n = this->mass_.size();
+    const Index most = std::min(static_cast<Index>(fixed.size()), most_numbers / n);
+    this->counted_.assign(fixed.begin(), fixed.begin() + most);
+    Eigen::MatrixXd responses(n, most);
+    parallel_for(context, most, lanes,
+      [&](Index begin, Index end)
       {
-        return;
+        Columns terms = Columns::Zero(n, lanes), found(n, lanes);
+        Work work;
+        for (Index c = begin; c < end; ++c)
+        {
+          this->for_each_of_term(c, [&](Index v, double value) { terms(v, c - begin) = value; });
+        }
+        this->solve_with_factor(terms, found, work);
+        responses.middleCols(begin, end - begin) = found.leftCols(end - begin);
+      });
+    Eigen::MatrixXd small = Eigen::MatrixXd::Identity(most, most);
+    for (Index c = 0; c < most; ++c)
+    {
+      this->for_each_of_term(
+        c, [&](Index v, double value) { small.row(c) += value * responses.row(v); });
+    }
+    const Eigen::MatrixXd symmetric = 0.5 * (small + small.transpose());
+    this->small_.compute(symmetric);
+    this->responses_ = std::move(responses);
+  }
+
+  /// Calls visit(v, value) for the entries of the term of one fixed point: the curvature there, as
+  /// a function of the points that are not fixed, times the root of the mass.
+  template <typename Visit>
+  void for_each_of_term(Index c, const Visit& visit) const
+  {
+    const Index point = this->counted_[c];
+    for (SparseMatrix::InnerIterator k(this->stiffness_, point); k; ++k)
+    {
+      if (this->free_[k.row()] != 0.0)
+      {
+        visit(k.row(), k.value() / std::sqrt(this->mass_[point]));
       }
     }
-    // Without such a factorization: by the diagonal, (K M⁻¹ K)_ii = sum_j K_ij² / m_j.
+  }
+
+  /// Without a factor: by the diagonal, (K M⁻¹ K)_ii = sum_j K_ij² / m_j.
+  void take_diagonal()
+  {
     this->factor_ = FloatCholesky();
     VectorXd diagonal = this->mass_;
     for (int j = 0; j < this->stiffness_.outerSize(); ++j)
@@ -176,16 +241,30 @@ private:
     this->inverse_diagonal_ = this->free_.cwiseQuotient(diagonal);
   }
 
+  /// z = (M + K)⁻¹ M (M + K)⁻¹ r of the free points, 0 of the others.
+  void solve_with_factor(const Columns& r, Columns& z, Work& work) const
+  {
+    work.twice = r;
+    this->factor_.solve(work.twice, work.once);
+    work.once.array().colwise() *= this->mass_.array();
+    this->factor_.solve(work.once, work.twice);
+    z = work.twice.array().colwise() * this->free_.array();
+  }
+
   /// z = P⁻¹ r of the free points, 0 of the others. @return r · z.
-  Lanes precondition(const Columns& r, Columns& z) const
+  Lanes precondition(const Columns& r, Columns& z, Work& work) const
   {
     if (this->factor_.analysed())
     {
-      Eigen::MatrixXd once, twice;
-      this->factor_.solve(Eigen::MatrixXd(r), once);
-      once.array().colwise() *= this->mass_.array();
-      this->factor_.solve(once, twice);
-      z = twice.array().colwise() * this->free_.array();
+      this->solve_with_factor(r, z, work);
+      const auto counted = static_cast<Index>(this->counted_.size());
+      Eigen::MatrixXd at_fixed = Eigen::MatrixXd::Zero(counted, lanes);
+      for (Index c = 0; c < counted; ++c)
+      {
+        this->for_each_of_term(
+          c, [&](Index v, double value) { at_fixed.row(c) += value * z.row(v).matrix(); });
+      }
+      z.matrix() -= this->responses_ * this->small_.solve(at_fixed);
     }
     else
     {
@@ -202,10 +281,15 @@ private:
   SparseMatrix stiffness_;
   VectorXd mass_;
   VectorXd free_; // 0 for fixed points, 1 for all others
-  // Without fixed points, M + K M⁻¹ K is at most (M + K) M⁻¹ (M + K) and at least half of it, so
-  // that this preconditioner needs few iterations. Fixed points add a term at their neighbors only.
+  // The preconditioner. Without fixed points, M + K M⁻¹ K is at most (M + K) M⁻¹ (M + K) and at
+  // least half of it, so that this needs few iterations. Each fixed point adds u uᵀ to the energy,
+  // and by the formula of Sherman, Morrison and Woodbury to the preconditioner: without it, it
+  // would cost several iterations.
   FloatCholesky factor_; // of M + K, where it could be factored
-  VectorXd inverse_diagonal_; // else: of the free points, 0 for the others
+  std::vector<Index> counted_; // fixed points whose terms are counted
+  Eigen::MatrixXd responses_; // #V x #counted: the solutions for their terms
+  Eigen::LLT<Eigen::MatrixXd> small_; // of 1 + uᵀ (M + K)⁻¹ M (M + K)⁻¹ u
+  VectorXd inverse_diagonal_; // without a factor: of the free points, 0 for the others
 };
 } // namespace
 

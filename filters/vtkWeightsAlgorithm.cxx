@@ -506,6 +506,7 @@ Status vtkWeightsAlgorithm::Bind(
   surface.domain = static_cast<WeightsDomain>(this->Domain);
   surface.resolution = this->EmbeddingResolution;
   surface.guard = this->Stage == CERTIFIED;
+  surface.keep_raw = this->KeepRaw;
   surface.places = to_handle_places(geometry);
   if (wants_preview)
   {

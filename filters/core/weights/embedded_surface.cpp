@@ -273,11 +273,16 @@ Index EmbeddedSurface::point_at(const Vec3& place) const
 Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double length,
   ExecutionContext& context, Weights& result) const
 {
+  constexpr double built = 0.03; // share of the seconds
   LatticeSurface welded;
-  if (!welded.build(this->points_, this->triangles_, {}, context))
   {
-    return Status::cancelled();
+    const ProgressRange range(context, 0.0, built);
+    if (!welded.build(this->points_, this->triangles_, {}, context))
+    {
+      return Status::cancelled();
+    }
   }
+  const ProgressRange range(context, built, 1.0);
   const auto n = static_cast<Index>(welded.points.size());
   Points points(n, 3);
   for (Index v = 0; v < n; ++v)
@@ -328,7 +333,13 @@ Status EmbeddedSurface::carry(const HandleInsertion& mesh, const Handles& handle
   WeightsView values, Smoothness smoothness, ExecutionContext& context, Weights& result) const
 {
   constexpr double smoothing = 0.3;
-  const Status status = this->interpolate(mesh, values, context, result);
+  const bool smoothed = smoothness == Smoothness::smoothed;
+  const double interpolation = smoothed ? 0.1 : 1.0; // share of the seconds
+  Status status;
+  {
+    const ProgressRange range(context, 0.0, interpolation);
+    status = this->interpolate(mesh, values, context, result);
+  }
   if (!status.ok())
   {
     return status;
@@ -353,9 +364,8 @@ Status EmbeddedSurface::carry(const HandleInsertion& mesh, const Handles& handle
     }
   }
   fixed.erase(std::remove(fixed.begin(), fixed.end(), -1), fixed.end());
-  return smoothness == Smoothness::as_interpolated
-    ? Status()
-    : this->smooth(fixed, smoothing * this->spacing_, context, result);
+  const ProgressRange range(context, interpolation, 1.0);
+  return smoothed ? this->smooth(fixed, smoothing * this->spacing_, context, result) : Status();
 }
 
 } // namespace bindpose

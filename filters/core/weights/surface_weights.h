@@ -34,7 +34,8 @@ using WeightsMethod =
 struct SurfaceWeights
 {
   Weights weights; ///< #V x #handles at the surface's points, rows sum to one
-  Weights raw; ///< the same before rows are divided by their sums
+  /// The same before rows are divided by their sums; empty unless SurfaceWeightsOptions::keep_raw.
+  Weights raw;
   WeightsDomain domain = WeightsDomain::surface; ///< which it was
   /// What `problem` began with: of volume, embedding and a cage of faces.
   TetrahedralizeResult tets;
@@ -53,6 +54,8 @@ struct SurfaceWeightsOptions
   /// embedding: lattices of several resolutions are solved until two agree. Off: a single one, of
   /// about 12,000 tets unless the resolution is given.
   bool guard = true;
+  /// Carries the raw weights to the surface's points, too.
+  bool keep_raw = false;
   /// What of the handles becomes part of a volume's tets.
   HandlePlaces places;
   /// Where set: called with the weights of preview_weights at the surface's points, once, as soon

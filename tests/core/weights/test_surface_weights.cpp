@@ -435,6 +435,26 @@ TEST(SurfaceWeights, PreviewComesFirstAndItsDifferenceIsReported)
   EXPECT_LT(rms(preview, result.weights), 0.05);
 }
 
+TEST(SurfaceWeights, RawOnesAreCarriedOnlyWhenAskedForAndChangeNothing)
+{
+  const TriangleMesh mesh = long_box();
+  SurfaceWeightsOptions options = in(WeightsDomain::embedding);
+  options.guard = false;
+  SurfaceWeights without, with;
+  ASSERT_TRUE(solve(mesh, three_along(), options, without).usable());
+  options.keep_raw = true;
+  ASSERT_TRUE(solve(mesh, three_along(), options, with).usable());
+  EXPECT_EQ(without.raw.cols(), 0);
+  EXPECT_EQ(with.weights, without.weights);
+  ASSERT_EQ(with.raw.rows(), mesh.points.rows());
+  ASSERT_EQ(with.raw.cols(), 3);
+  // Each column is bounded by itself, so rows sum to one only about.
+  const Eigen::VectorXd sums = with.raw.rowwise().sum();
+  EXPECT_GT((sums.array() - 1.0).abs().maxCoeff(), 1e-12);
+  EXPECT_LT((sums.array() - 1.0).abs().maxCoeff(), 0.5);
+  EXPECT_LT(rms(sums.cwiseInverse().asDiagonal() * with.raw, with.weights), 1e-3);
+}
+
 TEST(SurfaceWeights, AreTheSameBitsOnAnyNumberOfThreads)
 {
   SurfaceWeights one, many;

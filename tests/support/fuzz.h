@@ -4,6 +4,7 @@
 // Tests that try many random cases. A round's case depends on its seed alone, so that a failure can
 // be repeated by itself:
 //   BINDPOSE_FUZZ_FACTOR=8   makes 8 times as many rounds (nightly);
+//   BINDPOSE_FUZZ_NIGHT=3    takes other seeds, those after three such runs (nightly: by the date);
 //   BINDPOSE_FUZZ_SEED=7     runs the round of this seed alone;
 //   BINDPOSE_FUZZ_TRACE=1    prints each seed before its round, for a crash takes the trace with
 //   it.
@@ -47,8 +48,10 @@ template <typename Body>
 void fuzz(const char* what, Index base, const Body& body)
 {
   const Index only = whole_number_of("BINDPOSE_FUZZ_SEED", 0);
-  const Index first = only > 0 ? only : 1;
-  const Index last = only > 0 ? only : fuzz_rounds(base);
+  const Index rounds = only > 0 ? 1 : fuzz_rounds(base);
+  const Index night = whole_number_of("BINDPOSE_FUZZ_NIGHT", 0);
+  const Index first = only > 0 ? only : night * rounds + 1;
+  const Index last = first + rounds - 1;
   const bool trace = std::getenv("BINDPOSE_FUZZ_TRACE") != nullptr;
   constexpr double longest = sanitized ? 400.0 : 120.0;
   Index seed = first;

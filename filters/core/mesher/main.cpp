@@ -62,6 +62,16 @@ void set_limits(double memory_mib)
   std::set_new_handler([] { fail("out of memory"); });
 }
 
+/// Goes where no file can be made: CGAL leaves what it could not mesh in the working folder
+/// ("dump-bug.mesh"), which is the user's.
+void leave_working_folder()
+{
+  if (::chdir("/proc") != 0 && ::chdir("/") != 0)
+  {
+    fail("cannot leave the working folder");
+  }
+}
+
 double number(const std::map<std::string, std::string>& options, const char* key, double fallback)
 {
   const auto entry = options.find(key);
@@ -138,6 +148,7 @@ int main(int argc, char* argv[])
   }
   die_with(static_cast<pid_t>(number(options, "--parent", 0.0)));
   set_limits(number(options, "--memory", 0.0));
+  leave_working_folder();
   // Libraries print to standard output: keep it for the result alone.
   const int result = ::dup(1);
   ::dup2(2, 1);

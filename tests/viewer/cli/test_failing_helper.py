@@ -72,6 +72,20 @@ def sleeping_helper(folder):
 # ---- The helper ------------------------------------------------------------------------------------
 
 
+@needs_helper
+def test_helper_can_leave_no_file(tmp_path):
+    # CGAL writes what it cannot mesh into the working folder.
+    with subprocess.Popen([HELPER, "refine"], cwd=tmp_path, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as helper:
+        folder = pathlib.Path("/proc", str(helper.pid), "cwd")
+        give_up = time.monotonic() + 60
+        while os.readlink(folder) == str(tmp_path) and time.monotonic() < give_up:
+            time.sleep(0.002)
+        with pytest.raises(OSError):
+            (folder / "dump-bug.mesh").write_text("")
+        helper.kill()
+    assert os.listdir(tmp_path) == []
+
+
 def test_missing_helper(folder):
     folder.off("s.off", shapes.sphere())
     nowhere = {"BINDPOSE_MESHER": "/nowhere/bindpose-mesher"}

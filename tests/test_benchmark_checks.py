@@ -13,6 +13,7 @@ from vtk.util.numpy_support import numpy_to_vtk
 
 TESTS = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(TESTS), str(TESTS / "support")]
+import accuracy_checks  # noqa: E402
 import furniture  # noqa: E402
 import real_meshes  # noqa: E402
 import result_checks  # noqa: E402
@@ -27,6 +28,39 @@ CERTIFIED = {"relative_gap": 1e-9, "kkt_residual": 1e-7, "bounds_violation": 0.0
 def triangulated(part):
     """Points and triangles of a part of furniture.py."""
     return part[0], np.array([[face[0], a, b] for face in part[1] for a, b in zip(face[1:-1], face[2:])])
+
+
+def tets_of_boxes(xs, ys, zs):
+    """Points and tets of a grid, six tets in each box."""
+    points = np.array([[x, y, z] for x in xs for y in ys for z in zs], float)
+    tets = []
+    for cell in np.ndindex(len(xs) - 1, len(ys) - 1, len(zs) - 1):
+        for order in ((0, 1, 2), (0, 2, 1), (1, 0, 2), (1, 2, 0), (2, 0, 1), (2, 1, 0)):
+            corner, path = list(cell), []
+            for axis in (None, *order):
+                if axis is not None:
+                    corner[axis] += 1
+                path.append((corner[0] * len(ys) + corner[1]) * len(zs) + corner[2])
+            tets.append(path)
+    return points, np.array(tets)
+
+
+def test_tets_that_bridge_a_gap_are_taken_out(tmp_path, monkeypatch):
+    # Inside is where x is not between -0.1 and 0.1; the boxes in the middle reach from -0.2 to 0.2.
+    def inside(_program, _model, places, _folder):
+        return np.where(np.abs(places[:, 0]) > 0.1, 1.0, 0.0)
+
+    monkeypatch.setattr(accuracy_checks, "winding_at", inside)
+    points, tets = tets_of_boxes([-1, -0.5, -0.2, 0.2, 0.5, 1], range(5), range(5))
+    accuracy_checks.write_tets(tmp_path / "tets.vtu", points, tets)
+    (tmp_path / "model.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n")
+    accuracy_checks.open_gaps("", tmp_path / "model.obj", tmp_path / "tets.vtu")
+    left_points, left = result_checks.read_tets(tmp_path / "tets.vtu")
+    in_middle = np.abs(points[tets].mean(axis=1)[:, 0]) < 0.2
+    left_in_middle = np.abs(left_points[left].mean(axis=1)[:, 0]) < 0.2
+    assert (~left_in_middle).sum() == (~in_middle).sum()
+    assert left_in_middle.sum() < (in_middle & ~accuracy_checks.are_inner(tets)).sum()
+    assert len(result_checks.read_obj(tmp_path / "single.obj")[1]) == 1
 
 
 def write_tets(path, points, tets):

@@ -2,14 +2,16 @@
 
 import numpy as np
 import vtk
-from vtk.util.numpy_support import vtk_to_numpy
+from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
-from result_checks import read_obj, read_tets, read_weights, smallest_dihedral_angles
-from separate_parts import farthest_points, largest_leak
+from result_checks import read_obj, read_tets, read_weights, smallest_dihedral_angles, winding_at
+from separate_parts import farthest_points, largest_leak, weld
 
 NEAR = 0.01  # of the diagonal: vertices farther from the reference tets are not compared
 MOST_VERTICES = 20_000
 SEED = 7
+PLACES = 8  # in a tet, where it may be outside of the model
+FACETS = [(1, 2, 3), (0, 2, 3), (0, 1, 3), (0, 1, 2)]
 
 
 def write_handles(model, path, count):
@@ -51,6 +53,51 @@ def read_grid(path):
     return reader.GetOutput()
 
 
+def write_tets(path, points, tets):
+    used, ids = np.unique(tets, return_inverse=True)
+    grid, holder, cells = vtk.vtkUnstructuredGrid(), vtk.vtkPoints(), vtk.vtkCellArray()
+    holder.SetData(numpy_to_vtk(np.ascontiguousarray(points[used]), deep=True))
+    cells.SetData(numpy_to_vtkIdTypeArray(np.arange(0, 4 * len(tets) + 1, 4), deep=True),
+                  numpy_to_vtkIdTypeArray(np.ascontiguousarray(ids.ravel(), np.int64), deep=True))
+    grid.SetPoints(holder)
+    grid.SetCells(vtk.VTK_TETRA, cells)
+    writer = vtk.vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputData(grid)
+    writer.Write()
+
+
+def write_without_doubles(model, path):
+    """Write an .obj model without triangles that occur twice: the sheets of those that face each other enclose nothing,
+    but their winding numbers would cancel."""
+    points, triangles, _ = weld(*read_obj(model))
+    _, first = np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)
+    lines = ["v %r %r %r" % tuple(point) for point in points.tolist()]
+    lines += ["f %d %d %d" % tuple(corners) for corners in (triangles[np.sort(first)] + 1).tolist()]
+    path.write_text("\n".join(lines) + "\n", encoding="ascii")
+
+
+def are_inner(tets):
+    """True for tets that share all four facets with others."""
+    facets = np.sort(np.concatenate([tets[:, [a, b, c]] for a, b, c in FACETS]), axis=1)
+    _, ids, count = np.unique(facets, axis=0, return_inverse=True, return_counts=True)
+    return (count[ids.ravel()].reshape(len(FACETS), -1) == 2).all(axis=0)
+
+
+def open_gaps(program, model, path):
+    """Take out of a .vtu file the tets that bridge gaps: their center, or any place in an inner tet, is outside of the
+    model."""
+    single = path.parent / "single.obj"
+    write_without_doubles(model, single)
+    points, tets = read_tets(path)
+    shares = np.vstack([np.full(4, 0.25), np.random.RandomState(SEED).dirichlet(np.ones(4), PLACES)])
+    places = np.einsum("kc,tcd->tkd", shares, points[tets]).reshape(-1, 3)
+    winding = np.abs(winding_at(program, single, places, path.parent)).reshape(len(tets), -1)
+    outside = winding < 0.5
+    bridges = outside[:, 0] | (are_inner(tets) & outside.any(axis=1))
+    write_tets(path, points, tets[~bridges])
+
+
 def connected_parts(grid):
     connectivity = vtk.vtkConnectivityFilter()
     connectivity.SetInputData(grid)
@@ -89,12 +136,18 @@ def carried(path, queries):
     return np.einsum("ij,ijk->ik", inside, weights[tets[cells]]), distances
 
 
-def difference(surface, reference):
-    """How far the weights of a .vtp file are from those of a .vtu file."""
+def rms(gap):
+    return float(np.sqrt((gap**2).mean()))
+
+
+def difference(surface, reference, coarse):
+    """How far the weights of a .vtp file are from those of the reference, a .vtu file, and these from those of the
+    coarse reference."""
     points, triangles, weights = read_weights(surface)
     chosen = chosen_vertices(points, triangles)
     expected, distances = carried(reference, points[chosen])
-    near = distances <= NEAR * np.linalg.norm(np.ptp(points[chosen], axis=0))
+    roughly, coarse_distances = carried(coarse, points[chosen])
+    near = np.maximum(distances, coarse_distances) <= NEAR * np.linalg.norm(np.ptp(points[chosen], axis=0))
     gap = (weights[chosen] - expected)[near]
-    return {"rms": float(np.sqrt((gap**2).mean())), "largest": float(np.abs(gap).max()),
+    return {"rms": rms(gap), "largest": float(np.abs(gap).max()), "references": rms((roughly - expected)[near]),
             "leak": largest_leak(points, triangles, weights)}

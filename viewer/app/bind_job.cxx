@@ -44,6 +44,7 @@ void run_bind(const BindInput& input, const std::function<void(const Weights&)>&
   ExecutionContext& context, BindResult& result)
 {
   SurfaceWeightsOptions options;
+  options.keep_raw = true; // the panel shows row sums
   options.places = input.handle_places;
   options.domain = input.domain;
   if (input.preview)

@@ -9,7 +9,6 @@ import time
 import numpy as np
 import pytest
 import vtk
-from vtk.util.numpy_support import numpy_to_vtk
 
 TESTS = pathlib.Path(__file__).resolve().parent
 sys.path[:0] = [str(TESTS), str(TESTS / "support")]
@@ -20,6 +19,7 @@ import result_checks  # noqa: E402
 import separate_parts  # noqa: E402
 from accuracy_checks import barycentric  # noqa: E402
 from limited_process import run_limited  # noqa: E402
+from result_checks import write_tets  # noqa: E402
 
 REGULAR = np.array([[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]], float)
 CERTIFIED = {"relative_gap": 1e-9, "kkt_residual": 1e-7, "bounds_violation": 0.0}
@@ -52,7 +52,7 @@ def test_tets_that_bridge_a_gap_are_taken_out(tmp_path, monkeypatch):
 
     monkeypatch.setattr(accuracy_checks, "winding_at", inside)
     points, tets = tets_of_boxes([-1, -0.5, -0.2, 0.2, 0.5, 1], range(5), range(5))
-    accuracy_checks.write_tets(tmp_path / "tets.vtu", points, tets)
+    write_tets(tmp_path / "tets.vtu", points, tets)
     (tmp_path / "model.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n")
     accuracy_checks.open_gaps("", tmp_path / "model.obj", tmp_path / "tets.vtu")
     left_points, left = result_checks.read_tets(tmp_path / "tets.vtu")
@@ -60,19 +60,10 @@ def test_tets_that_bridge_a_gap_are_taken_out(tmp_path, monkeypatch):
     left_in_middle = np.abs(left_points[left].mean(axis=1)[:, 0]) < 0.2
     assert (~left_in_middle).sum() == (~in_middle).sum()
     assert left_in_middle.sum() < (in_middle & ~accuracy_checks.are_inner(tets)).sum()
-    assert len(result_checks.read_obj(tmp_path / "single.obj")[1]) == 1
-
-
-def write_tets(path, points, tets):
-    grid, holder = vtk.vtkUnstructuredGrid(), vtk.vtkPoints()
-    holder.SetData(numpy_to_vtk(np.ascontiguousarray(points, float), deep=True))
-    grid.SetPoints(holder)
-    for tet in tets:
-        grid.InsertNextCell(vtk.VTK_TETRA, 4, tet)
-    writer = vtk.vtkXMLUnstructuredGridWriter()
-    writer.SetFileName(str(path))
-    writer.SetInputData(grid)
-    writer.Write()
+    reader = vtk.vtkXMLPolyDataReader()
+    reader.SetFileName(str(tmp_path / "single.vtp"))
+    reader.Update()
+    assert reader.GetOutput().GetNumberOfPolys() == 1
 
 
 # ---- Models ----------------------------------------------------------------------------------------

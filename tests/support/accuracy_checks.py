@@ -2,10 +2,11 @@
 
 import numpy as np
 import vtk
-from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtk.util.numpy_support import vtk_to_numpy
 
-from result_checks import read_obj, read_tets, read_weights, smallest_dihedral_angles, winding_at
-from separate_parts import farthest_points, largest_leak, weld
+from result_checks import (read_obj, read_tets, read_weights, smallest_dihedral_angles, winding_at, write_poly_data,
+                           write_tets)
+from separate_parts import farthest_points, largest_leak, poly_data, weld
 
 NEAR = 0.01  # of the diagonal: vertices farther from the reference tets are not compared
 MOST_VERTICES = 20_000
@@ -53,28 +54,12 @@ def read_grid(path):
     return reader.GetOutput()
 
 
-def write_tets(path, points, tets):
-    used, ids = np.unique(tets, return_inverse=True)
-    grid, holder, cells = vtk.vtkUnstructuredGrid(), vtk.vtkPoints(), vtk.vtkCellArray()
-    holder.SetData(numpy_to_vtk(np.ascontiguousarray(points[used]), deep=True))
-    cells.SetData(numpy_to_vtkIdTypeArray(np.arange(0, 4 * len(tets) + 1, 4), deep=True),
-                  numpy_to_vtkIdTypeArray(np.ascontiguousarray(ids.ravel(), np.int64), deep=True))
-    grid.SetPoints(holder)
-    grid.SetCells(vtk.VTK_TETRA, cells)
-    writer = vtk.vtkXMLUnstructuredGridWriter()
-    writer.SetFileName(str(path))
-    writer.SetInputData(grid)
-    writer.Write()
-
-
 def write_without_doubles(model, path):
-    """Write an .obj model without triangles that occur twice: the sheets of those that face each other enclose nothing,
-    but their winding numbers would cancel."""
+    """Write an .obj model as .vtp without triangles that occur twice: sheets of those that face each other enclose
+    nothing, but their winding numbers would cancel."""
     points, triangles, _ = weld(*read_obj(model))
     _, first = np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)
-    lines = ["v %r %r %r" % tuple(point) for point in points.tolist()]
-    lines += ["f %d %d %d" % tuple(corners) for corners in (triangles[np.sort(first)] + 1).tolist()]
-    path.write_text("\n".join(lines) + "\n", encoding="ascii")
+    write_poly_data(path, poly_data(points, triangles[np.sort(first)]))
 
 
 def are_inner(tets):
@@ -87,7 +72,7 @@ def are_inner(tets):
 def open_gaps(program, model, path):
     """Take out of a .vtu file the tets that bridge gaps: their center, or any place in an inner tet, is outside of the
     model."""
-    single = path.parent / "single.obj"
+    single = path.parent / "single.vtp"
     write_without_doubles(model, single)
     points, tets = read_tets(path)
     shares = np.vstack([np.full(4, 0.25), np.random.RandomState(SEED).dirichlet(np.ones(4), PLACES)])

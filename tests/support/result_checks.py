@@ -10,7 +10,7 @@ import subprocess
 
 import numpy as np
 import vtk
-from vtk.util.numpy_support import numpy_to_vtk, vtk_to_numpy
+from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray, vtk_to_numpy
 
 from separate_parts import largest_leak, weld
 
@@ -125,6 +125,21 @@ def read_tets(path):
     return points, vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, 4)
 
 
+def write_tets(path, points, tets):
+    """Write a .vtu file of tets and their points."""
+    used, ids = np.unique(np.asarray(tets, np.int64), return_inverse=True)
+    grid, holder, cells = vtk.vtkUnstructuredGrid(), vtk.vtkPoints(), vtk.vtkCellArray()
+    holder.SetData(numpy_to_vtk(np.ascontiguousarray(points[used]), deep=True))
+    cells.SetData(numpy_to_vtkIdTypeArray(np.arange(0, ids.size + 1, 4), deep=True),
+                  numpy_to_vtkIdTypeArray(np.ascontiguousarray(ids.ravel(), np.int64), deep=True))
+    grid.SetPoints(holder)
+    grid.SetCells(vtk.VTK_TETRA, cells)
+    writer = vtk.vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(str(path))
+    writer.SetInputData(grid)
+    writer.Write()
+
+
 def volumes(points, tets):
     a, b, c, d = (points[tets[:, k]] for k in range(4))
     return np.einsum("ij,ij->i", np.cross(b - a, c - a), d - a) / 6
@@ -170,15 +185,19 @@ def sample_points(points, count):
     return lower + size * np.modf(0.31 + np.arange(1, count + 1)[:, None] * step)[0]
 
 
-def write_points(path, points):
-    data, holder = vtk.vtkPolyData(), vtk.vtkPoints()
-    holder.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
-    data.SetPoints(holder)
+def write_poly_data(path, data):
     writer = vtk.vtkXMLPolyDataWriter()
     writer.SetFileName(str(path))
     writer.SetInputData(data)
     writer.SetCompressorTypeToNone()
     writer.Write()
+
+
+def write_points(path, points):
+    data, holder = vtk.vtkPolyData(), vtk.vtkPoints()
+    holder.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
+    data.SetPoints(holder)
+    write_poly_data(path, data)
 
 
 def enclosed_fraction(program, model, folder):

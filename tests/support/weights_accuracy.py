@@ -26,8 +26,8 @@ AGREE = 0.01  # rms
 COVERED = 0.99  # of the vertices must be near the tets
 RMS = 0.015
 LEAK = 0.01  # a larger weight on a separate part is a leak
-COLUMNS = ["triangles", "domain", "tets", "angle", "reference tets", "references", "rms", "largest", "warned", "leak", "s",
-           "reference s"]
+COLUMNS = ["triangles", "domain", "tets", "angle", "reference tets", "references", "rms", "largest", "warned", "leak",
+           "s", "reference s"]
 WARNING = "are not resolved"  # that two lattices differ
 
 
@@ -44,16 +44,18 @@ def run(options, verb, words, folder):
     return {**json.loads(report.read_text(encoding="utf-8")), "wall": done.seconds}
 
 
+def remesh(options, path, folder, name, cubes):
+    return run(options, "tetrahedralize",
+               [path, "--method", "remesh", "--resolution", str(cubes), "-o", folder / f"{name}.vtu"], folder)
+
+
 def prepare(options, check, path, folder, handles):
     """Write handles and reference tets of one model. Returns their quality, or a sentence that says why not."""
     if not check("write_handles", path, folder / "handles.tgf", handles):
         return "fewer vertices than handles"
-    for name, cubes in (("reference", CUBES), ("coarse", COARSE_CUBES)):
-        report = run(options, "tetrahedralize",
-                     [path, "--method", "remesh", "--resolution", str(cubes), "-o", folder / f"{name}.vtu"], folder)
-        if isinstance(report, str):
-            return report
-    check("open_gaps", options.program, path, folder / "coarse.vtu")
+    report = remesh(options, path, folder, "reference", CUBES)
+    if isinstance(report, str):
+        return report
     quality = check("tets_quality", path, folder / "reference.vtu")
     if quality["covered"] < COVERED:
         return f"{100 * (1 - quality['covered']):.1f} % of the vertices are not near the tets: open sheets"
@@ -71,6 +73,10 @@ def compare(options, check, path, folder, quality):
     parts = ours["counts"].get("tet_components", quality["parts"])
     if parts != quality["parts"]:
         return f"the reference has {quality['parts']} connected parts, the default {parts}"
+    report = remesh(options, path, folder, "coarse", COARSE_CUBES)
+    if isinstance(report, str):
+        return report
+    check("open_gaps", options.program, path, folder / "coarse.vtu")
     seconds = {}
     for name in ("coarse", "reference"):
         solved = run(options, "weights",
@@ -98,6 +104,11 @@ def measure(options, check, model, handles):
     return {"name": model.name, "skipped": "", **quality, **found}
 
 
+def differences(row):
+    warned = ", warned" if row["warned"] else ""
+    return f"rms {row['rms']:.4f}, references {row['references']:.4f}{warned}"
+
+
 def accuracy(options, check, models, handles):
     """Rows of models in a seeded order, until as many are measured as wanted; the same for any number of jobs."""
     order = random.Random(SEED).sample(models, len(models))
@@ -110,8 +121,7 @@ def accuracy(options, check, models, handles):
                     return rows
                 measured += not row["skipped"]
                 rows.append(row)
-                text = row["skipped"] or f"rms {row['rms']:.4f}, references {row['references']:.4f}, warned {row['warned']}"
-                print(f"accuracy: {row['name']} | {text}", flush=True)
+                print(f"accuracy: {row['name']} | {row['skipped'] or differences(row)}", flush=True)
     return rows
 
 

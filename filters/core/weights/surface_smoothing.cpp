@@ -187,8 +187,8 @@ private:
     const Index n = this->mass_.size();
     const Index most = std::min(static_cast<Index>(fixed.size()), most_numbers / n);
     this->counted_.assign(fixed.begin(), fixed.begin() + most);
-    Eigen::MatrixXd responses(n, most);
-    parallel_for(context, most, lanes,
+    this->responses_.resize(n, most);
+    const bool whole = parallel_for(context, most, lanes,
       [&](Index begin, Index end)
       {
         Columns terms = Columns::Zero(n, lanes), found(n, lanes);
@@ -198,17 +198,24 @@ private:
           this->for_each_of_term(c, [&](Index v, double value) { terms(v, c - begin) = value; });
         }
         this->solve_with_factor(terms, found, work);
-        responses.middleCols(begin, end - begin) = found.leftCols(end - begin);
+        this->responses_.middleCols(begin, end - begin) = found.leftCols(end - begin);
       });
+    if (!whole)
+    {
+      this->counted_.clear(); // cancelled: the responses are not all there
+      return;
+    }
     Eigen::MatrixXd small = Eigen::MatrixXd::Identity(most, most);
     for (Index c = 0; c < most; ++c)
     {
       this->for_each_of_term(
-        c, [&](Index v, double value) { small.row(c) += value * responses.row(v); });
+        c, [&](Index v, double value) { small.row(c) += value * this->responses_.row(v); });
     }
-    const Eigen::MatrixXd symmetric = 0.5 * (small + small.transpose());
-    this->small_.compute(symmetric);
-    this->responses_ = std::move(responses);
+    this->small_.compute(0.5 * (small + small.transpose()));
+    if (this->small_.info() != Eigen::Success)
+    {
+      this->counted_.clear(); // responses in single precision are too inexact: more iterations
+    }
   }
 
   /// Calls visit(v, value) for the entries of the term of one fixed point: the curvature there, as
@@ -251,20 +258,29 @@ private:
     z = work.twice.array().colwise() * this->free_.array();
   }
 
+  /// Takes the response to the terms of fixed points away from z.
+  void correct(Columns& z) const
+  {
+    if (this->counted_.empty())
+    {
+      return;
+    }
+    Eigen::MatrixXd at_fixed = Eigen::MatrixXd::Zero(this->responses_.cols(), lanes);
+    for (Index c = 0; c < at_fixed.rows(); ++c)
+    {
+      this->for_each_of_term(
+        c, [&](Index v, double value) { at_fixed.row(c) += value * z.row(v).matrix(); });
+    }
+    z.matrix() -= this->responses_ * this->small_.solve(at_fixed);
+  }
+
   /// z = P⁻¹ r of the free points, 0 of the others. @return r · z.
   Lanes precondition(const Columns& r, Columns& z, Work& work) const
   {
     if (this->factor_.analysed())
     {
       this->solve_with_factor(r, z, work);
-      const auto counted = static_cast<Index>(this->counted_.size());
-      Eigen::MatrixXd at_fixed = Eigen::MatrixXd::Zero(counted, lanes);
-      for (Index c = 0; c < counted; ++c)
-      {
-        this->for_each_of_term(
-          c, [&](Index v, double value) { at_fixed.row(c) += value * z.row(v).matrix(); });
-      }
-      z.matrix() -= this->responses_ * this->small_.solve(at_fixed);
+      this->correct(z);
     }
     else
     {
@@ -282,13 +298,13 @@ private:
   VectorXd mass_;
   VectorXd free_; // 0 for fixed points, 1 for all others
   // The preconditioner. Without fixed points, M + K M⁻¹ K is at most (M + K) M⁻¹ (M + K) and at
-  // least half of it, so that this needs few iterations. Each fixed point adds u uᵀ to the energy,
-  // and by the formula of Sherman, Morrison and Woodbury to the preconditioner: without it, it
-  // would cost several iterations.
+  // least half of it, so that few iterations are needed. Each fixed point adds a term u uᵀ to the
+  // energy, which would cost several more: the formula of Sherman, Morrison and Woodbury adds it to
+  // the preconditioner, too.
   FloatCholesky factor_; // of M + K, where it could be factored
   std::vector<Index> counted_; // fixed points whose terms are counted
   Eigen::MatrixXd responses_; // #V x #counted: the solutions for their terms
-  Eigen::LLT<Eigen::MatrixXd> small_; // of 1 + uᵀ (M + K)⁻¹ M (M + K)⁻¹ u
+  Eigen::LLT<Eigen::MatrixXd> small_; // of 1 + Uᵀ (M + K)⁻¹ M (M + K)⁻¹ U, U: the terms as columns
   VectorXd inverse_diagonal_; // without a factor: of the free points, 0 for the others
 };
 } // namespace

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <queue>
 #include <tuple>
@@ -47,6 +48,8 @@ std::vector<Vec3> as_vectors(const Points& points)
   return vectors;
 }
 
+constexpr Index first_round = 64; // places
+
 /// An order of insertion, in rounds, each twice as long as the one ahead of it and spread over all
 /// of the places, so that cavities soon become small (Amenta, Choi, Rote, Incremental Constructions
 /// con BRIO, 2003). A round is divided into `tracks` pieces of `near`, an order in which neighbors
@@ -56,7 +59,6 @@ std::vector<Vec3> as_vectors(const Points& points)
 std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& near, Index tracks)
 {
   const auto count = static_cast<Index>(near.size());
-  constexpr Index first_round = 64;
   // Every second place is in the last round, every second one of the others in the round before it.
   std::vector<std::vector<Index>> rounds(1);
   for (Index size = first_round; size < count; size *= 2)
@@ -87,6 +89,16 @@ std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& near, Ind
     }
   }
   return order;
+}
+
+/// The share of the work that the first `done` of `count` places are. About half of it is done in
+/// equal parts by the rounds, however few places the first ones have: their cavities are large.
+double share_of_insertion(std::size_t done, std::size_t count)
+{
+  const auto rounds = [](std::size_t places)
+  { return std::log2(1.0 + static_cast<double>(places) / static_cast<double>(first_round)); };
+  return 0.5 *
+    (static_cast<double>(done) / static_cast<double>(count) + rounds(done) / rounds(count));
 }
 
 /// Finds the tets that contain given places while tets are being replaced: a tree over the initial
@@ -311,7 +323,7 @@ public:
       const bool overlap = seldom * (later.size() - waiting) > now.size();
       at_once =
         overlap ? std::max<std::size_t>(1, at_once / 2) : std::min(most_at_once, 2 * at_once);
-      this->context_.progress(static_cast<double>(next) / static_cast<double>(order.size()));
+      this->context_.progress(share_of_insertion(next, order.size()));
     }
     return true;
   }

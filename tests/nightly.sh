@@ -117,8 +117,7 @@ paraview()
 
 monkey()
 ( # ten minutes of random events; BINDPOSE_MONKEY_SEED picks others
-  cmake --preset asan -S "$root" -DBINDPOSE_WITH_QT=ON &&
-    ninja -C "$root/build-asan" bindpose-mesher bindpose_app_tests || return 1
+  cmake --preset asan -S "$root" && ninja -C "$root/build-asan" bindpose-mesher bindpose_app_tests || return 1
   export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
   export BINDPOSE_MONKEY_SECONDS=${BINDPOSE_MONKEY_SECONDS:-600}
   under_xvfb "$root/build-asan/bin/bindpose_app_tests" --gtest_filter='Monkey.*'

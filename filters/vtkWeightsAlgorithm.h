@@ -115,7 +115,7 @@ public:
   ///@}
 
   ///@{
-  /// Iterations a column, each a factorisation, at least 1. Default 100; 10 to 30 are usual.
+  /// Iterations a column, each a factorisation, at least 1. Default 100; 1 to 20 are usual.
   void SetMaximumIterations(int iterations);
   vtkGetMacro(MaximumIterations, int);
   ///@}

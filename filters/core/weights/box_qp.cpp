@@ -1,22 +1,26 @@
 // One analysis and one factorisation of Q's free block, in single precision where conjugate
 // gradients reach the limit of double precision with it (biharmonic energies of meshes as a rule,
 // triharmonic ones seldom), in double precision otherwise. Then all columns get their starts
-// together (barrier_start.cpp), and each one is solved for by the interior-point method of
-// interior_point.cpp, in a workspace that the next column uses again.
+// together (splitting_start.cpp), and each one is solved for from there (active_set.cpp), in a
+// workspace that the next column uses again. Columns without a start, and those whose start does
+// not lead to the minimiser, are left to the interior-point method of interior_point.cpp.
 #include "weights/box_qp.h"
 
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "base/per_thread.h"
 #include "base/refined_solve.h"
-#include "weights/barrier_start.h"
+#include "weights/active_set.h"
 #include "weights/interior_point.h"
+#include "weights/splitting_start.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
 #include <mutex>
+#include <numeric>
+#include <utility>
 
 namespace bindpose
 {
@@ -58,6 +62,7 @@ private:
 
 struct BoxQp::Impl : SplitForm
 {
+  class ColumnsSolve;
   using SplitForm::SplitForm;
 
   BoxQpOptions options;
@@ -189,38 +194,144 @@ struct BoxQp::Impl : SplitForm
     this->solve_a(-(this->to_fixed * fixed_values), context, x);
     return this->whole(x, fixed_values);
   }
-  /// Starts for all columns. Those with a start of their own, with ordered pairs or without bounds
-  /// get none.
-  std::vector<CentralStart> find_starts(const std::vector<BoxQpColumn>& columns,
-    const Eigen::MatrixXd& unconstrained, ExecutionContext& context) const
+};
+
+/// The solve of all columns: from starts at the bounds, then, for those that this did not solve, by
+/// the interior-point method.
+class BoxQp::Impl::ColumnsSolve
+{
+public:
+  ColumnsSolve(const BoxQp::Impl& qp, const std::vector<BoxQpColumn>& columns,
+    Eigen::MatrixXd unconstrained, std::vector<BoxQpSolution>& solutions, ExecutionContext& context)
+    : qp_(qp), columns_(columns), unconstrained_(std::move(unconstrained)), solutions_(solutions),
+      context_(context), inverse_([&qp](const VectorXd& r) { return qp.inverse(r); })
   {
-    std::vector<CentralStart> starts(columns.size());
-    std::vector<std::size_t> wanted;
-    std::vector<BoxQpColumn> some;
-    Eigen::MatrixXd free_of_bounds(unconstrained.rows(), unconstrained.cols());
-    for (std::size_t j = 0; j < columns.size() && this->single.analysed(); ++j)
+  }
+
+  void run()
+  {
+    constexpr double at_bounds = 0.7; // share of the seconds
+    std::vector<std::size_t> all(this->columns_.size());
+    std::iota(all.begin(), all.end(), std::size_t(0));
     {
-      const Bounds& bounds = columns[j].bounds;
-      if (columns[j].pairs.empty() && columns[j].start.size() == 0 && bounds.lower.allFinite() &&
-        bounds.upper.allFinite())
+      const ProgressRange range(this->context_, 0.0, at_bounds);
+      const std::vector<ColumnStart> starts = this->find_starts(all, false);
+      const ProgressRange solving(this->context_, start_share, 1.0);
+      this->solve_each(all,
+        [&](std::size_t j, BoxQpWorkspace& workspace)
+        {
+          if (starts[j].x.size() > 0)
+          {
+            return active_set(this->qp_, this->qp_.options, this->columns_[j], starts[j],
+              this->inverse_, workspace, this->context_);
+          }
+          BoxQpSolution none;
+          none.status = Status::failure(StatusCode::not_converged, "");
+          return none;
+        });
+    }
+    if (this->context_.cancelled())
+    {
+      return;
+    }
+    std::vector<std::size_t> left;
+    for (const std::size_t j : all)
+    {
+      if (this->solutions_[j].status.code == StatusCode::not_converged)
       {
-        free_of_bounds.col(static_cast<Index>(wanted.size())) =
-          unconstrained.col(static_cast<Index>(j));
-        wanted.push_back(j);
-        some.push_back(columns[j]);
+        left.push_back(j);
+        this->solutions_[j].status = Status::cancelled();
       }
     }
-    if (!wanted.empty())
-    {
-      FloatCholesky own = this->single.clone();
-      std::vector<CentralStart> found = barrier_start(*this, some, free_of_bounds, own, context);
-      for (std::size_t k = 0; k < wanted.size(); ++k)
+    const ProgressRange range(this->context_, at_bounds, 1.0);
+    const std::vector<ColumnStart> starts = this->find_starts(left, true);
+    const ProgressRange solving(this->context_, start_share, 1.0);
+    this->solve_each(left,
+      [&](std::size_t j, BoxQpWorkspace& workspace)
       {
-        starts[wanted[k]] = std::move(found[k]);
+        const VectorXd unconstrained = this->unconstrained_.col(static_cast<Index>(j));
+        BoxQpOptions options = this->qp_.options;
+        options.maximum_iterations -= this->solutions_[j].iterations;
+        return interior_point(this->qp_, options, this->columns_[j], unconstrained, starts[j],
+          this->inverse_, workspace, this->context_);
+      });
+  }
+
+private:
+  static constexpr double start_share = 0.3; // of the seconds, for starts
+
+  /// Whether a column can have a start: one without its own, without ordered pairs, with bounds.
+  bool may_start(const BoxQpColumn& column) const
+  {
+    return this->qp_.single.analysed() && column.pairs.empty() && column.start.size() == 0 &&
+      column.bounds.lower.allFinite() && column.bounds.upper.allFinite();
+  }
+
+  /// @return one for each of all columns; only those asked for that can have a start have one.
+  std::vector<ColumnStart> find_starts(const std::vector<std::size_t>& asked, bool barriers)
+  {
+    const auto begin = Clock::now();
+    std::vector<ColumnStart> starts(this->columns_.size());
+    std::vector<std::size_t> chosen;
+    std::vector<BoxQpColumn> some;
+    Eigen::MatrixXd unconstrained(this->unconstrained_.rows(), static_cast<Index>(asked.size()));
+    for (const std::size_t j : asked)
+    {
+      if (this->may_start(this->columns_[j]))
+      {
+        unconstrained.col(static_cast<Index>(chosen.size())) =
+          this->unconstrained_.col(static_cast<Index>(j));
+        chosen.push_back(j);
+        some.push_back(this->columns_[j]);
       }
+    }
+    if (chosen.empty())
+    {
+      return starts;
+    }
+    const ProgressRange range(this->context_, 0.0, start_share);
+    FloatCholesky own = this->qp_.single.clone();
+    std::vector<ColumnStart> found =
+      splitting_start(this->qp_, some, barriers, unconstrained, own, this->context_);
+    for (std::size_t k = 0; k < chosen.size(); ++k)
+    {
+      starts[chosen[k]] = std::move(found[k]);
+      this->solutions_[chosen[k]].solve_seconds +=
+        seconds_since(begin) / static_cast<double>(chosen.size());
     }
     return starts;
   }
+
+  /// @param solve (column, workspace) -> its solution, on any thread.
+  template <class Solve>
+  void solve_each(const std::vector<std::size_t>& chosen, const Solve& solve)
+  {
+    parallel_for(this->context_, static_cast<Index>(chosen.size()), 1,
+      [&](Index begin, Index end)
+      {
+        for (Index k = begin; k < end; ++k)
+        {
+          this->qp_.of_threads.with([&] { return this->qp_.make_workspace(); },
+            [&](BoxQpWorkspace& workspace)
+            {
+              BoxQpSolution& before = this->solutions_[chosen[k]];
+              BoxQpSolution solution = solve(chosen[k], workspace);
+              solution.iterations += before.iterations;
+              solution.factorisations += before.factorisations;
+              solution.factor_seconds += before.factor_seconds;
+              solution.solve_seconds += before.solve_seconds;
+              before = std::move(solution);
+            });
+        }
+      });
+  }
+
+  const BoxQp::Impl& qp_;
+  const std::vector<BoxQpColumn>& columns_;
+  const Eigen::MatrixXd unconstrained_; // #V x #columns
+  std::vector<BoxQpSolution>& solutions_;
+  ExecutionContext& context_;
+  const InverseForm inverse_;
 };
 
 BoxQp::BoxQp(const SparseMatrix& q, std::vector<Index> fixed, const BoxQpOptions& options)
@@ -344,36 +455,12 @@ std::vector<BoxQpSolution> BoxQp::solve_all(
     solutions[j].status = Status::cancelled();
     solutions[j].w = VectorXd::Zero(impl.q.rows());
   }
-  const Eigen::MatrixXd free_of_bounds = impl.minimisers(fixed_values, &context);
-  if (context.cancelled())
+  Eigen::MatrixXd free_of_bounds = impl.minimisers(fixed_values, &context);
+  if (!context.cancelled())
   {
-    return solutions;
+    const FewerThreads fewer(context, impl.most_threads);
+    Impl::ColumnsSolve(impl, columns, std::move(free_of_bounds), solutions, context).run();
   }
-  std::vector<CentralStart> starts;
-  const auto start = Clock::now();
-  {
-    const ProgressRange range(context, 0.0, 0.1);
-    starts = impl.find_starts(columns, free_of_bounds, context);
-  }
-  const double start_seconds = seconds_since(start) / std::max<double>(1.0, double(columns.size()));
-  const ProgressRange range(context, 0.1, 1.0);
-  const FewerThreads fewer(context, impl.most_threads);
-  parallel_for(context, static_cast<Index>(columns.size()), 1,
-    [&](Index begin, Index end)
-    {
-      for (Index j = begin; j < end; ++j)
-      {
-        const VectorXd unconstrained = free_of_bounds.col(j);
-        impl.of_threads.with([&] { return impl.make_workspace(); },
-          [&](BoxQpWorkspace& workspace)
-          {
-            solutions[j] = interior_point(
-              impl, impl.options, columns[j], unconstrained, starts[static_cast<std::size_t>(j)],
-              [&](const VectorXd& r) { return impl.inverse(r); }, workspace, context);
-          });
-        solutions[j].solve_seconds += start_seconds;
-      }
-    });
   return solutions;
 }
 

@@ -15,8 +15,8 @@ struct BoxQpOptions
   /// Both the relative duality gap and the natural residual must get below it. 1e-6 by default;
   /// 1e-9 is "tight" and near the limit of double precision on fine meshes. Range (0, 1).
   double tolerance = 1e-6;
-  /// Interior-point iterations a column, each one factorisation. 5 to 15 are usual, 25 with ordered
-  /// pairs.
+  /// Iterations a column, each one factorisation. 1 to 3 are usual, 5 to 20 where the guess at the
+  /// bounds is not good enough, 25 with ordered pairs.
   int maximum_iterations = 100;
   SparseSolver::Options solver;
 };
@@ -51,20 +51,22 @@ struct BoxQpSolution
 };
 
 /// min 1/2 w' Q w subject to l <= w <= u (0 and 1 by default) and given values at the fixed
-/// vertices, for many columns, by a primal-dual interior-point method from starts found for all
-/// columns at once; one symbolic analysis serves all columns and iterations.
+/// vertices, for many columns. One symbolic analysis serves all of them. Splitting guesses all
+/// columns at once and finds the bounds that hold them; from there an active-set method solves for
+/// each column, and a primal-dual interior-point method where that does not lead to the minimiser
+/// and where there are ordered pairs.
 ///
 /// Stops on the certificate only (see Certificate), never on iterations: not reaching it within the
-/// budget is not_converged, with the best iterate and its numbers. Cost a column with
-/// CHOLMOD, in F, the time of one factorisation of Q in double precision: 3 to 4 F on regular boxes
-/// of 5k and 12k vertices, 4 to 9 F on tets of real shapes with 10k to 12k (3 to 10 factorisations
-/// in single precision at 1/2 F, the rest solves), 21 F where the boundary was much finer than the
-/// inside; with ordered pairs 12 to 13 F on a box of 5k; with Eigen's backend 10 to 25 F. Memory: a
-/// factor in single precision of Q and one a thread, with a third more for its work (63k vertices:
-/// 1.4 GB in all with one thread); with ordered pairs or where single precision fails, a factor in
-/// double precision a thread as well.
+/// budget is not_converged, with the best iterate and its numbers. Cost a column with CHOLMOD, when
+/// there are eight, in F, the time of one factorisation of Q in double precision: 3 to 6 F on
+/// lattices of real shapes with 9k to 11k vertices, two to three times that where the
+/// interior-point method is needed; with ordered pairs 12 to 13 F on a box of 5k; with Eigen's
+/// backend 10 to 25 F. Memory: a factor in single precision of Q and one a thread, with a third
+/// more for its work (63k vertices: 1.4 GB in all with one thread); with ordered pairs or where
+/// single precision fails, a factor in double precision a thread as well.
 ///
-/// Mehrotra 1992; Gondzio 1996; Jacobson et al. 2011 and 2012 for the problems.
+/// Hintermueller, Ito and Kunisch 2003; Mehrotra 1992; Gondzio 1996; Jacobson et al. 2011 and 2012
+/// for the problems.
 class BoxQp
 {
 public:

@@ -28,6 +28,7 @@
 #include "weights/interior_point.h"
 
 #include "base/refined_solve.h"
+#include "weights/column_problem.h"
 #include "weights/ordered_pairs.h"
 #include "weights/projected_newton.h"
 
@@ -43,7 +44,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Clock = std::chrono::steady_clock;
-using Inverse = std::function<VectorXd(const VectorXd&)>;
 
 double seconds_since(Clock::time_point start)
 {
@@ -67,11 +67,11 @@ class InteriorPoint
 public:
   /// @param in_single whether factors in single precision may be taken.
   InteriorPoint(const SplitForm& matrices, const BoxQpOptions& options, const BoxQpColumn& column,
-    const VectorXd& unconstrained, const CentralStart& start, const Inverse& inverse,
+    const VectorXd& unconstrained, const ColumnStart& start, const InverseForm& inverse,
     BoxQpWorkspace& workspace, ExecutionContext& context, bool in_single)
     : matrices_(matrices), options_(options), column_(column), unconstrained_(unconstrained),
       start_(start), inverse_(inverse), workspace_(workspace), context_(context),
-      single_is_enough_(in_single)
+      problem_(matrices, column), single_is_enough_(in_single)
   {
   }
 
@@ -104,20 +104,16 @@ private:
   const BoxQpOptions& options_;
   const BoxQpColumn& column_;
   const VectorXd& unconstrained_; // #V
-  const CentralStart& start_;
-  const Inverse& inverse_;
+  const ColumnStart& start_;
+  const InverseForm& inverse_;
   BoxQpWorkspace& workspace_;
   ExecutionContext& context_;
 
-  std::vector<char> pinned_; // by free index
+  const ColumnProblem problem_;
   std::vector<Index> unpinned_; // free indices
   std::vector<Index> bounded_; // those of them that have bounds
   std::vector<PairRow> rows_;
   std::vector<OrderedPair> upwards_; // the column's, those of low vertices first
-  std::vector<char> free_here_; // #V
-  VectorXd given_; // #V: fixed and pinned values, 0 elsewhere
-  VectorXd lower_, upper_; // bounds by free index
-  VectorXd c_; // linear term
   VectorXd h_; // offsets of the constraints
   VectorXd x_, s_, z_;
   VectorXd rd_, rp_; // residuals of the first two conditions
@@ -136,38 +132,16 @@ private:
 Status InteriorPoint::set_up()
 {
   const auto& matrices = this->matrices_;
-  const auto free_count = static_cast<Index>(matrices.free_vertices.size());
-  this->given_ = VectorXd::Zero(matrices.q.rows());
-  this->free_here_ = matrices.is_free;
-  for (std::size_t i = 0; i < matrices.fixed.size(); ++i)
+  const ColumnProblem& problem = this->problem_;
+  for (Index i = 0; i < problem.c.size(); ++i)
   {
-    this->given_[matrices.fixed[i]] = this->column_.fixed_values[static_cast<Index>(i)];
-  }
-  this->c_ = matrices.to_fixed * this->column_.fixed_values;
-  this->pinned_.assign(static_cast<std::size_t>(free_count), 0);
-  for (std::size_t i = 0; i < this->column_.pinned.size(); ++i)
-  {
-    const Index v = this->column_.pinned[i];
-    if (matrices.is_free[v])
-    {
-      this->pinned_[matrices.free_of_vertex[v]] = 1;
-      this->free_here_[v] = 0;
-      this->given_[v] = this->column_.pinned_values[static_cast<Index>(i)];
-    }
-  }
-  this->lower_.resize(free_count);
-  this->upper_.resize(free_count);
-  for (Index i = 0; i < free_count; ++i)
-  {
-    this->lower_[i] = this->column_.bounds.low(matrices.free_vertices[i]);
-    this->upper_[i] = this->column_.bounds.high(matrices.free_vertices[i]);
-    if (!this->pinned_[i])
+    if (!problem.pinned[i])
     {
       this->unpinned_.push_back(i);
-    }
-    if (!this->pinned_[i] && std::isfinite(this->lower_[i]) && std::isfinite(this->upper_[i]))
-    {
-      this->bounded_.push_back(i);
+      if (std::isfinite(problem.lower[i]) && std::isfinite(problem.upper[i]))
+      {
+        this->bounded_.push_back(i);
+      }
     }
   }
   for (std::size_t k = 0; k < this->column_.pairs.size(); ++k)
@@ -175,10 +149,10 @@ Status InteriorPoint::set_up()
     const OrderedPair& pair = this->column_.pairs[k];
     PairRow row;
     row.pair = static_cast<Index>(k);
-    row.low = this->free_here_[pair.low] ? matrices.free_of_vertex[pair.low] : -1;
-    row.high = this->free_here_[pair.high] ? matrices.free_of_vertex[pair.high] : -1;
-    row.offset = (row.high < 0 ? this->given_[pair.high] : 0.0) -
-      (row.low < 0 ? this->given_[pair.low] : 0.0) - pair.least;
+    row.low = this->problem_.free_here[pair.low] ? matrices.free_of_vertex[pair.low] : -1;
+    row.high = this->problem_.free_here[pair.high] ? matrices.free_of_vertex[pair.high] : -1;
+    row.offset = (row.high < 0 ? this->problem_.given[pair.high] : 0.0) -
+      (row.low < 0 ? this->problem_.given[pair.low] : 0.0) - pair.least;
     if (row.low < 0 && row.high < 0)
     {
       continue;
@@ -197,8 +171,8 @@ Status InteriorPoint::set_up()
   this->h_.resize(2 * nb + static_cast<Index>(this->rows_.size()));
   for (Index i = 0; i < nb; ++i)
   {
-    this->h_[i] = -this->lower_[this->bounded_[i]];
-    this->h_[nb + i] = this->upper_[this->bounded_[i]];
+    this->h_[i] = -this->problem_.lower[this->bounded_[i]];
+    this->h_[nb + i] = this->problem_.upper[this->bounded_[i]];
   }
   for (std::size_t r = 0; r < this->rows_.size(); ++r)
   {
@@ -238,7 +212,7 @@ VectorXd InteriorPoint::apply(const VectorXd& x) const
 VectorXd InteriorPoint::apply_transposed(const VectorXd& y) const
 {
   const auto nb = static_cast<Index>(this->bounded_.size());
-  VectorXd x = VectorXd::Zero(this->c_.size());
+  VectorXd x = VectorXd::Zero(this->problem_.c.size());
   for (Index i = 0; i < nb; ++i)
   {
     x[this->bounded_[i]] = y[i] - y[nb + i];
@@ -291,30 +265,20 @@ Status InteriorPoint::factor(const VectorXd& d)
   }
   if (static_cast<Index>(this->unpinned_.size()) < matrix.cols())
   {
-    for (Index j = 0; j < matrix.cols(); ++j)
-    {
-      for (int k = matrix.outerIndexPtr()[j]; k < matrix.outerIndexPtr()[j + 1]; ++k)
-      {
-        const Index i = matrix.innerIndexPtr()[k];
-        if (i != j && (this->pinned_[i] || this->pinned_[j]))
-        {
-          values[k] = 0.0;
-        }
-      }
-    }
+    matrices.decouple(this->problem_.pinned, matrix);
   }
   Status status;
   this->in_single_ = false;
   if (this->workspace_.single.analysed() && this->single_is_enough_)
   {
-    this->extra_ = VectorXd::Zero(this->c_.size());
+    this->extra_ = VectorXd::Zero(this->problem_.c.size());
     for (Index i = 0; i < nb; ++i)
     {
       this->extra_[this->bounded_[i]] = d[i] + d[nb + i];
     }
     this->of_pairs_ = d.tail(static_cast<Index>(this->rows_.size()));
-    this->inverse_diagonal_.resize(this->c_.size());
-    for (Index i = 0; i < this->c_.size(); ++i)
+    this->inverse_diagonal_.resize(this->problem_.c.size());
+    for (Index i = 0; i < this->problem_.c.size(); ++i)
     {
       this->inverse_diagonal_[i] = 1.0 / values[matrices.diagonal[i]];
     }
@@ -384,9 +348,9 @@ MatrixXd InteriorPoint::multiply(const MatrixXd& x) const
       }
     }
   }
-  for (std::size_t i = 0; i < this->pinned_.size(); ++i)
+  for (std::size_t i = 0; i < this->problem_.pinned.size(); ++i)
   {
-    if (this->pinned_[i])
+    if (this->problem_.pinned[i])
     {
       y.row(static_cast<Index>(i)).setZero();
     }
@@ -413,9 +377,9 @@ InteriorPoint::Direction InteriorPoint::solve(const VectorXd& target, double acc
   const VectorXd per_s = target.cwiseQuotient(this->s_);
   VectorXd rhs =
     this->apply_transposed(per_s - this->quotient_.cwiseProduct(this->rp_)) - this->rd_;
-  for (std::size_t i = 0; i < this->pinned_.size(); ++i)
+  for (std::size_t i = 0; i < this->problem_.pinned.size(); ++i)
   {
-    if (this->pinned_[i])
+    if (this->problem_.pinned[i])
     {
       rhs[static_cast<Index>(i)] = 0.0;
     }
@@ -516,7 +480,6 @@ InteriorPoint::Direction InteriorPoint::find_direction()
 void InteriorPoint::set_start(bool central)
 {
   const auto& matrices = this->matrices_;
-  const auto n = static_cast<Index>(matrices.free_vertices.size());
   if (central && this->start_.mu > 0.0)
   {
     this->x_ = this->start_.x;
@@ -525,21 +488,11 @@ void InteriorPoint::set_start(bool central)
     return;
   }
   const VectorXd& guess = this->column_.start.size() ? this->column_.start : this->unconstrained_;
-  this->x_.resize(n);
-  for (Index i = 0; i < n; ++i)
-  {
-    const Index v = matrices.free_vertices[i];
-    this->x_[i] =
-      this->pinned_[i] ? this->given_[v] : std::clamp(guess[v], this->lower_[i], this->upper_[i]);
-  }
+  this->x_ = this->problem_.nearest(matrices, guess);
   double energy = this->column_.energy > 0.0
     ? this->column_.energy
     : 0.5 * this->unconstrained_.dot(matrices.q.transpose() * this->unconstrained_);
-  VectorXd within = this->given_;
-  for (Index i = 0; i < n; ++i)
-  {
-    within[matrices.free_vertices[i]] = this->x_[i];
-  }
+  const VectorXd within = this->problem_.whole(matrices, this->x_);
   const double energy_within = 0.5 * within.dot(matrices.q.transpose() * within);
   if (!(energy > 1e-9 * energy_within))
   {
@@ -579,7 +532,8 @@ void InteriorPoint::raise_slacks(double least)
   for (Index i = 0; i < nb; ++i)
   {
     const Index at = this->bounded_[i];
-    floor[i] = floor[nb + i] = least * std::min(1.0, this->upper_[at] - this->lower_[at]);
+    floor[i] = floor[nb + i] =
+      least * std::min(1.0, this->problem_.upper[at] - this->problem_.lower[at]);
   }
   this->s_ = this->s_.cwiseMax(floor);
 }
@@ -596,19 +550,14 @@ void InteriorPoint::order_pairs(VectorXd& w) const
   {
     highest[v] = this->column_.bounds.high(v);
   }
-  order_values(this->upwards_, this->free_here_, highest, w);
+  order_values(this->upwards_, this->problem_.free_here, highest, w);
 }
 
 /// @param second_bound ask for the second bound at once (see Certificate).
 void InteriorPoint::certify_iterate(bool second_bound)
 {
   const auto& matrices = this->matrices_;
-  this->result_.w = this->given_;
-  for (const Index i : this->unpinned_)
-  {
-    this->result_.w[matrices.free_vertices[i]] =
-      std::clamp(this->x_[i], this->lower_[i], this->upper_[i]);
-  }
+  this->result_.w = this->problem_.whole(matrices, this->x_);
   this->order_pairs(this->result_.w);
   const auto nb = static_cast<Index>(this->bounded_.size());
   this->result_.multipliers = VectorXd::Zero(static_cast<Index>(this->column_.pairs.size()));
@@ -616,11 +565,11 @@ void InteriorPoint::certify_iterate(bool second_bound)
   {
     this->result_.multipliers[this->rows_[r].pair] = this->z_[2 * nb + static_cast<Index>(r)];
   }
-  const BoundedEnergy problem{ matrices.q, this->free_here_, this->column_.bounds };
+  const BoundedEnergy problem{ matrices.q, this->problem_.free_here, this->column_.bounds };
   Certificate& certificate = this->result_.certificate;
   const bool bounds_everywhere = this->bounded_.size() == this->unpinned_.size();
   certificate = certify(problem, this->result_.w, this->column_.pairs, this->result_.multipliers,
-    second_bound || !bounds_everywhere ? this->inverse_ : Inverse());
+    second_bound || !bounds_everywhere ? this->inverse_ : InverseForm());
   // When the iterate itself is near enough and only the first bound says otherwise, that is
   // round-off: the second bound decides.
   const double tolerance = this->options_.tolerance;
@@ -643,10 +592,10 @@ double InteriorPoint::finish(double enough)
   VectorXd x = this->x_;
   for (const Index i : this->unpinned_)
   {
-    x[i] = std::clamp(x[i], this->lower_[i], this->upper_[i]);
+    x[i] = std::clamp(x[i], this->problem_.lower[i], this->problem_.upper[i]);
   }
   const double moved = projected_newton(
-    this->matrices_, this->c_, this->pinned_, this->lower_, this->upper_,
+    this->matrices_, this->problem_,
     [this](const VectorXd& r, VectorXd& z)
     {
       if (this->in_single_)
@@ -681,11 +630,10 @@ BoxQpSolution InteriorPoint::run()
     this->best_ = this->result_;
     this->balance_start();
   }
-  // The gap is quadratic in the weights' error: a certified iterate can be a thousand tolerances
-  // away from the minimiser. A few more iterations let the weights settle as well; whether they do
+  // After the certificate a few more iterations let the weights settle as well; whether they do
   // decides nothing about the status.
   constexpr int most_settling = 6;
-  const double settled = std::max(tolerance, std::min(5.0 * tolerance, 1.5e-6));
+  const double settled = settled_move(tolerance);
   int settling = 0;
   // A projected Newton method takes over as soon as it works: it converges many times faster than
   // the path, by solves with the factor at hand. Measured: further away it fails too often; a
@@ -720,8 +668,8 @@ BoxQpSolution InteriorPoint::run()
     }
     this->single_is_enough_ = this->single_is_enough_ && this->result_.iterations < double_after;
     this->rp_ = this->apply(this->x_) + this->h_ - this->s_;
-    this->rd_ =
-      this->matrices_.a.transpose() * this->x_ + this->c_ - this->apply_transposed(this->z_);
+    this->rd_ = this->matrices_.a.transpose() * this->x_ + this->problem_.c -
+      this->apply_transposed(this->z_);
     this->mu_ = this->s_.dot(this->z_) / static_cast<double>(this->s_.size());
     this->quotient_ = this->z_.cwiseQuotient(this->s_);
     status = this->factor(this->quotient_);
@@ -762,7 +710,7 @@ BoxQpSolution InteriorPoint::run()
       (moved <= near || (tries == 0 && worst(this->best_.certificate) <= tolerance)))
     {
       const BoxQpSolution iterate = this->result_;
-      const double enough = 0.1 * settled;
+      const double enough = settled_newton_move(tolerance);
       const double left = this->finish(enough);
       if (left <= enough && worst(this->result_.certificate) <= tolerance)
       {
@@ -789,8 +737,8 @@ BoxQpSolution InteriorPoint::run()
 } // namespace
 
 BoxQpSolution interior_point(const SplitForm& matrices, const BoxQpOptions& options,
-  const BoxQpColumn& column, const VectorXd& unconstrained, const CentralStart& start,
-  const Inverse& inverse, BoxQpWorkspace& workspace, ExecutionContext& context)
+  const BoxQpColumn& column, const VectorXd& unconstrained, const ColumnStart& start,
+  const InverseForm& inverse, BoxQpWorkspace& workspace, ExecutionContext& context)
 {
   const auto run = [&](bool in_single)
   {

@@ -1,6 +1,6 @@
-// A vertex is held at a bound for a round when its own Newton step, with all others fixed, would
-// cross that bound. For the others the gradient is brought to zero by preconditioned conjugate
-// gradients, roughly, and what then lies outside of the bounds is projected back to them.
+// Where a vertex is held for a round it goes to its bound. For the others the gradient is brought
+// to zero by preconditioned conjugate gradients, roughly, and what then lies outside of the bounds
+// is projected back to them.
 #include "weights/projected_newton.h"
 
 #include <algorithm>
@@ -11,24 +11,44 @@ namespace bindpose
 
 using Eigen::VectorXd;
 
-double projected_newton(const SplitForm& matrices, const VectorXd& c,
-  const std::vector<char>& pinned, const VectorXd& lower, const VectorXd& upper,
+namespace
+{
+/// Where vertex i would go with all others fixed, were there no bounds.
+double newton_step(const SplitForm& matrices, const VectorXd& gradient, const VectorXd& x, Index i)
+{
+  return x[i] - gradient[i] / matrices.lower.valuePtr()[matrices.diagonal[i]];
+}
+} // namespace
+
+std::vector<char> held_vertices(const SplitForm& matrices, const ColumnProblem& problem,
+  const VectorXd& gradient, const VectorXd& x)
+{
+  std::vector<char> held(problem.pinned);
+  for (Index i = 0; i < x.size(); ++i)
+  {
+    const double to = newton_step(matrices, gradient, x, i);
+    held[i] = held[i] || to <= problem.lower[i] || to >= problem.upper[i];
+  }
+  return held;
+}
+
+double projected_newton(const SplitForm& matrices, const ColumnProblem& problem,
   const Preconditioner& preconditioner, int rounds, double enough, const ExecutionContext& context,
   VectorXd& x)
 {
   constexpr int steps = 4; // of conjugate gradients a round
   constexpr double reduction = 0.05; // of the error's energy norm that ends them
-  const Eigen::Index n = x.size();
+  const Index n = x.size();
   const SparseMatrix& a = matrices.a; // symmetric: the product with its transpose is the faster one
-  std::vector<char> held(static_cast<std::size_t>(n));
+  std::vector<char> held;
   const auto release = [&](VectorXd& v)
   {
-    for (Eigen::Index i = 0; i < n; ++i)
+    for (Index i = 0; i < n; ++i)
     {
       v[i] = held[i] ? 0.0 : v[i];
     }
   };
-  VectorXd g = a.transpose() * x + c;
+  VectorXd g = a.transpose() * x + problem.c;
   VectorXd r, z, p, ap;
   double moved = 1.0;
   double before = 1e300;
@@ -37,14 +57,14 @@ double projected_newton(const SplitForm& matrices, const VectorXd& c,
        round < rounds && moved > enough && moved < 0.9 * before && !context.cancelled(); ++round)
   {
     before = round == 0 ? 1e300 : moved;
+    held = held_vertices(matrices, problem, g, x);
     VectorXd start = x;
-    for (Eigen::Index i = 0; i < n; ++i)
+    for (Index i = 0; i < n; ++i)
     {
-      const double newton = x[i] - g[i] / matrices.lower.valuePtr()[matrices.diagonal[i]];
-      const bool low = newton <= lower[i];
-      const bool high = newton >= upper[i];
-      held[i] = pinned[i] || low || high;
-      start[i] = pinned[i] ? x[i] : low ? lower[i] : high ? upper[i] : x[i];
+      if (held[i] && !problem.pinned[i])
+      {
+        start[i] = std::clamp(newton_step(matrices, g, x, i), problem.lower[i], problem.upper[i]);
+      }
     }
     r = -(g + a.transpose() * (start - x));
     release(r);
@@ -73,9 +93,9 @@ double projected_newton(const SplitForm& matrices, const VectorXd& c,
       next += (now / curvature) * p;
       r -= (now / curvature) * ap;
     }
-    for (Eigen::Index i = 0; i < n; ++i)
+    for (Index i = 0; i < n; ++i)
     {
-      next[i] = pinned[i] ? x[i] : std::clamp(next[i], lower[i], upper[i]);
+      next[i] = problem.pinned[i] ? x[i] : std::clamp(next[i], problem.lower[i], problem.upper[i]);
     }
     moved = (next - x).cwiseAbs().maxCoeff();
     g += a.transpose() * (next - x);

@@ -74,6 +74,21 @@ Eigen::MatrixXd SplitForm::whole(
   return all;
 }
 
+void SplitForm::decouple(const std::vector<char>& held, SparseMatrix& matrix) const
+{
+  for (Index j = 0; j < matrix.cols(); ++j)
+  {
+    for (int k = matrix.outerIndexPtr()[j]; k < matrix.outerIndexPtr()[j + 1]; ++k)
+    {
+      const Index i = matrix.innerIndexPtr()[k];
+      if (i != j && (held[i] || held[j]))
+      {
+        matrix.valuePtr()[k] = 0.0;
+      }
+    }
+  }
+}
+
 int SplitForm::position(Index i, Index j) const
 {
   const int* begin = this->lower.innerIndexPtr() + this->lower.outerIndexPtr()[j];

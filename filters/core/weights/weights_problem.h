@@ -23,7 +23,7 @@ struct WeightsOptions
   /// Largest relative gap and natural residual of a column (see Certificate), range (0, 1).
   /// 1e-6 by default, 1e-9 is tight.
   double tolerance = 1e-6;
-  /// Interior-point iterations a column, > 0.
+  /// Iterations a column, > 0: see BoxQpOptions.
   int maximum_iterations = 100;
   /// Bounded weights alone.
   PartitionOfUnity partition = PartitionOfUnity::normalise;

@@ -341,8 +341,8 @@ TEST_P(BoxQpStarts, FoundTogetherEndWhereOthersEnd)
   for (const double scale : { 1.0, 1e6, 1e-6 })
   {
     const SparseMatrix scaled = scale * q;
-    // Each of two solutions has settled to 1.5e-6 or 5e-9 (interior_point.cpp), whatever the
-    // processor rounds. With slivers round-off alone makes 1e-7.
+    // Each of two solutions has settled to 1.5e-6 or 5e-9 (box_qp_workspace.h), whatever the
+    // processor rounds. Starts of their own go to the interior-point method, the others do not. With slivers round-off alone makes 1e-7.
     for (const auto& [tolerance, same] :
       { std::pair{ 1e-6, 3e-6 }, std::pair{ 1e-9, GetParam() ? 1e-6 : 1e-8 } })
     {
@@ -502,7 +502,9 @@ TEST(BoxQp, TooFewIterationsAreSaidAndCancelEndsIt)
   BoxQp qp(q, { 88, 220, 352 }, { 1e-9, 3, {} });
   ExecutionContext context;
   ASSERT_TRUE(qp.prepare(context).ok());
-  const BoxQpSolution early = qp.solve(column_of({ 1, 0, 0 }), context);
+  BoxQpColumn far = column_of({ 1, 0, 0 });
+  far.start = Eigen::VectorXd::Zero(q.rows());
+  const BoxQpSolution early = qp.solve(far, context);
   EXPECT_EQ(early.status.code, StatusCode::not_converged);
   EXPECT_EQ(early.iterations, 3);
   EXPECT_GT(std::max(early.certificate.relative_gap, early.certificate.kkt_residual), 1e-9);

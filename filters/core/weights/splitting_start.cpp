@@ -1,16 +1,20 @@
-// The problem is the sum of a quadratic and of barriers, one a vertex. Douglas-Rachford splitting
-// treats them in turn, in the metric P, a small multiple of A's diagonal:
-//   y = argmin barrier(y) + 1/2 |y - z|_P^2      (a scalar equation a vertex)
+// The problem is the sum of a quadratic and of what keeps each vertex within its bounds: these
+// themselves, or barriers. Douglas-Rachford splitting treats both in turn, in the metric P, a small
+// multiple of A's diagonal:
+//   y = the point within the bounds nearest to z, or
+//       argmin barrier(y) + 1/2 |y - z|_P^2      (a scalar equation a vertex)
 //   x = argmin quadratic(x) + 1/2 |x - (2y - z)|_P^2 = (A + P)^-1 (P (2y - z) - c)
 //   z = z + relaxation (x - y)
+// In the end y is the minimiser. Without barriers, z lies beyond a bound where that holds a vertex.
 // The matrix A + P is the same for all columns and steps, so the solves of all columns share its
 // factor and run as dense products. Anderson acceleration: z jumps to the combination of the last
 // few steps that would make the change x - y smallest if the map were linear.
 //
 // The constants were measured on boxes and on real shapes of 5k to 70k vertices.
-#include "weights/barrier_start.h"
+#include "weights/splitting_start.h"
 
 #include "base/parallel.h"
+#include "weights/column_problem.h"
 
 #include <Eigen/Cholesky>
 
@@ -29,7 +33,7 @@ using Eigen::MatrixXf;
 using Eigen::VectorXd;
 using Eigen::VectorXf;
 
-constexpr double relative_mu = 1e-4; // the gap aimed at
+constexpr double relative_mu = 1e-4; // the gap aimed at with barriers
 constexpr double metric = 1e-2; // of A's diagonal
 constexpr double relaxation = 1.7;
 constexpr int steps = 80;
@@ -129,13 +133,13 @@ private:
 };
 } // namespace
 
-std::vector<CentralStart> barrier_start(const SplitForm& matrices,
-  const std::vector<BoxQpColumn>& columns, const MatrixXd& unconstrained, FloatCholesky& single,
-  ExecutionContext& context)
+std::vector<ColumnStart> splitting_start(const SplitForm& matrices,
+  const std::vector<BoxQpColumn>& columns, bool barriers, const MatrixXd& unconstrained,
+  FloatCholesky& single, ExecutionContext& context)
 {
   const auto n = static_cast<Index>(matrices.free_vertices.size());
   const auto count = static_cast<Index>(columns.size());
-  std::vector<CentralStart> starts(columns.size());
+  std::vector<ColumnStart> starts(columns.size());
   VectorXd p(n);
   SparseMatrix shifted = matrices.lower;
   for (Index i = 0; i < n; ++i)
@@ -156,48 +160,31 @@ std::vector<CentralStart> barrier_start(const SplitForm& matrices,
     {
       const Index first = std::min(begin * block, count);
       const Index width = std::min(block, count - first);
-      MatrixXd z(n, width), y(n, width), rhs(n, width), x;
-      MatrixXd c(n, width);
-      std::vector<char> pinned(static_cast<std::size_t>(n * width), 0);
+      MatrixXd z(n, width), y(n, width), rhs, x;
+      std::vector<ColumnProblem> problems;
+      VectorXd energy(width); // of the minimisers without bounds
       VectorXd mu(width);
       std::vector<Anderson> anderson;
       for (Index k = 0; k < width; ++k)
       {
-        const BoxQpColumn& column = columns[static_cast<std::size_t>(first + k)];
         const VectorXd free_of_bounds = unconstrained.col(first + k);
-        c.col(k) = matrices.to_fixed * column.fixed_values;
-        mu[k] = relative_mu * 0.5 * free_of_bounds.dot(matrices.q.transpose() * free_of_bounds) /
-          static_cast<double>(2 * n);
-        for (Index i = 0; i < n; ++i)
-        {
-          const Index v = matrices.free_vertices[i];
-          z(i, k) = std::clamp(free_of_bounds[v], column.bounds.low(v), column.bounds.high(v));
-        }
-        for (std::size_t i = 0; i < column.pinned.size(); ++i)
-        {
-          const Index at = matrices.free_of_vertex[column.pinned[i]];
-          if (at >= 0)
-          {
-            pinned[static_cast<std::size_t>(k * n + at)] = 1;
-            y(at, k) = column.pinned_values[static_cast<Index>(i)];
-          }
-        }
+        problems.emplace_back(matrices, columns[static_cast<std::size_t>(first + k)]);
+        z.col(k) = problems.back().nearest(matrices, free_of_bounds);
+        energy[k] = 0.5 * free_of_bounds.dot(matrices.q.transpose() * free_of_bounds);
+        mu[k] = barriers ? relative_mu * energy[k] / static_cast<double>(2 * n) : 0.0;
         anderson.emplace_back(n);
       }
-      const auto step_barriers = [&](Index k)
+      const auto step_to_bounds = [&](Index k)
       {
-        const char* given = pinned.data() + k * n;
-        const Bounds& bounds = columns[static_cast<std::size_t>(first + k)].bounds;
+        const ColumnProblem& problem = problems[static_cast<std::size_t>(k)];
         for (Index i = 0; i < n; ++i)
         {
-          if (!given[i])
-          {
-            const Index v = matrices.free_vertices[i];
-            const double l = bounds.low(v);
-            const double range = bounds.high(v) - l; // the equation is scaled to [0, 1]
-            y(i, k) =
-              l + range * barrier_step((z(i, k) - l) / range, mu[k] / p[i] / (range * range));
-          }
+          const double l = problem.lower[i];
+          const double range = problem.upper[i] - l;
+          y(i, k) = problem.pinned[i] ? problem.given[matrices.free_vertices[i]]
+            : mu[k] > 0.0 // the equation is scaled to [0, 1]
+            ? l + range * barrier_step((z(i, k) - l) / range, mu[k] / p[i] / (range * range))
+            : std::clamp(z(i, k), l, problem.upper[i]);
         }
       };
       std::vector<Index> active(static_cast<std::size_t>(width)); // columns that still move
@@ -208,8 +195,9 @@ std::vector<CentralStart> barrier_start(const SplitForm& matrices,
         for (std::size_t j = 0; j < active.size(); ++j)
         {
           const Index k = active[j];
-          step_barriers(k);
-          rhs.col(static_cast<Index>(j)) = p.cwiseProduct(2.0 * y.col(k) - z.col(k)) - c.col(k);
+          step_to_bounds(k);
+          rhs.col(static_cast<Index>(j)) =
+            p.cwiseProduct(2.0 * y.col(k) - z.col(k)) - problems[static_cast<std::size_t>(k)].c;
         }
         single.solve(rhs, x);
         std::vector<Index> left;
@@ -221,7 +209,7 @@ std::vector<CentralStart> barrier_start(const SplitForm& matrices,
           const double size = change.cwiseProduct(weights).squaredNorm();
           anderson[static_cast<std::size_t>(k)].accelerate(at, relaxation * change, weights);
           z.col(k) = at;
-          if (size > enough * mu[k] * static_cast<double>(2 * n) / relative_mu)
+          if (size > enough * energy[k])
           {
             left.push_back(k);
           }
@@ -234,14 +222,22 @@ std::vector<CentralStart> barrier_start(const SplitForm& matrices,
       }
       for (Index k = 0; k < width && !context.cancelled(); ++k)
       {
-        step_barriers(k);
-      }
-      for (Index k = 0; k < width; ++k)
-      {
-        CentralStart& start = starts[static_cast<std::size_t>(first + k)];
+        step_to_bounds(k);
+        if (!z.col(k).allFinite() || !y.col(k).allFinite() || (barriers && !(mu[k] > 0.0)))
+        {
+          continue;
+        }
+        ColumnStart& start = starts[static_cast<std::size_t>(first + k)];
         start.x = y.col(k);
-        start.mu =
-          !context.cancelled() && std::isfinite(mu[k]) && start.x.allFinite() ? mu[k] : 0.0;
+        start.mu = mu[k];
+        if (!barriers)
+        {
+          start.held = problems[static_cast<std::size_t>(k)].pinned;
+          for (Index i = 0; i < n; ++i)
+          {
+            start.held[i] = start.held[i] || z(i, k) != y(i, k);
+          }
+        }
       }
     });
   return starts;

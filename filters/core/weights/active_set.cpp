@@ -1,0 +1,106 @@
+// The factor is exact for the vertices that are held as long as these stay the same, and a good
+// preconditioner while few change. Where projected_newton() does not settle with it, the next
+// factor is made for those that are held by then.
+#include "weights/active_set.h"
+
+#include "weights/projected_newton.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace bindpose
+{
+
+namespace
+{
+using Eigen::VectorXd;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start)
+{
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// @param inverse asked for where round-off keeps the first bound of the certificate too large.
+Certificate certify_column(const SplitForm& matrices, const BoxQpColumn& column,
+  const ColumnProblem& problem, double tolerance, const InverseForm& inverse, const VectorXd& w)
+{
+  const BoundedEnergy energy{ matrices.q, problem.free_here, column.bounds };
+  const Certificate first = certify(energy, w);
+  return first.relative_gap <= tolerance || first.kkt_residual > tolerance
+    ? first
+    : certify(energy, w, {}, VectorXd(), inverse);
+}
+} // namespace
+
+BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
+  const BoxQpColumn& column, const ColumnStart& start, const InverseForm& inverse,
+  BoxQpWorkspace& workspace, ExecutionContext& context)
+{
+  const auto begin = Clock::now();
+  constexpr int most_factorisations = 10;
+  constexpr int sure = 2; // factors that need not lead nearer
+  constexpr double nearer = 0.5; // than the nearest before, from then on
+  constexpr int rounds = 6; // with each of them
+  const double tolerance = options.tolerance;
+  const double enough = settled_newton_move(tolerance);
+  const ColumnProblem problem(matrices, column);
+  BoxQpSolution solution;
+  VectorXd x = start.x;
+  std::vector<char> held = start.held;
+  const int most = std::min(most_factorisations, options.maximum_iterations);
+  const bool given = std::all_of(
+    problem.pinned.begin(), problem.pinned.end(), [](char pinned) { return pinned != 0; });
+  double moved = given ? 0.0 : 1e300;
+  double least_move = 1e300;
+  const auto certified = [&]
+  {
+    solution.w = problem.whole(matrices, x);
+    solution.certificate =
+      certify_column(matrices, column, problem, tolerance, inverse, solution.w);
+    return std::max(solution.certificate.relative_gap, solution.certificate.kkt_residual) <=
+      tolerance;
+  };
+  while (!(moved <= enough && certified()))
+  {
+    const bool stalled = solution.iterations > sure && !(moved < nearer * least_move);
+    if (stalled || solution.iterations >= most || context.cancelled())
+    {
+      solution.status = Status::failure(StatusCode::not_converged, "");
+      break;
+    }
+    least_move = std::min(least_move, moved);
+    if (solution.iterations > 0)
+    {
+      held = held_vertices(matrices, problem, matrices.a.transpose() * x + problem.c, x);
+    }
+    const auto factor_begin = Clock::now();
+    std::copy(matrices.lower.valuePtr(), matrices.lower.valuePtr() + matrices.lower.nonZeros(),
+      workspace.matrix.valuePtr());
+    matrices.decouple(held, workspace.matrix);
+    const Status factored = workspace.single.factor(workspace.matrix, 0.0, context);
+    solution.factorisations += 1;
+    solution.factor_seconds += seconds_since(factor_begin);
+    if (!factored.ok())
+    {
+      solution.status = Status::failure(StatusCode::not_converged, factored.message);
+      break;
+    }
+    moved = projected_newton(
+      matrices, problem, [&](const VectorXd& r, VectorXd& z) { workspace.single.solve(r, z); },
+      rounds, enough, context, x);
+    solution.iterations += 1;
+  }
+  if (!solution.status.ok())
+  {
+    certified(); // its numbers, whatever they are
+  }
+  if (context.cancelled())
+  {
+    solution.status = Status::cancelled();
+  }
+  solution.solve_seconds = seconds_since(begin) - solution.factor_seconds;
+  return solution;
+}
+
+} // namespace bindpose

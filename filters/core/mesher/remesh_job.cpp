@@ -13,7 +13,7 @@
 // 2 and 7 degrees after exudation, 12 after improvement), and always ends.
 #include "mesher/circumcenter_traits.h"
 #include "mesher/jobs.h"
-#include "mesher/stopwatch.h"
+#include "base/stopwatch.h"
 
 #include "inside/crease_points.h"
 #include "inside/region_boundary.h"

@@ -3,10 +3,10 @@
 // factor is made for those that are held by then.
 #include "weights/active_set.h"
 
+#include "base/stopwatch.h"
 #include "weights/projected_newton.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace bindpose
 {
@@ -14,12 +14,6 @@ namespace bindpose
 namespace
 {
 using Eigen::VectorXd;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// @param inverse asked for where round-off keeps the first bound of the certificate too large.
 Certificate certify_column(const SplitForm& matrices, const BoxQpColumn& column,
@@ -37,7 +31,7 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
   const BoxQpColumn& column, const ColumnStart& start, const InverseForm& inverse,
   BoxQpWorkspace& workspace, ExecutionContext& context)
 {
-  const auto begin = Clock::now();
+  const Stopwatch watch;
   constexpr int most_factorisations = 10;
   constexpr int sure = 2; // factors that need not lead nearer
   constexpr double nearer = 0.5; // than the nearest before, from then on
@@ -74,13 +68,13 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
     {
       held = held_vertices(matrices, problem, matrices.a.transpose() * x + problem.c, x);
     }
-    const auto factor_begin = Clock::now();
+    const Stopwatch factor_watch;
     std::copy(matrices.lower.valuePtr(), matrices.lower.valuePtr() + matrices.lower.nonZeros(),
       workspace.matrix.valuePtr());
     matrices.decouple(held, workspace.matrix);
     const Status factored = workspace.single.factor(workspace.matrix, 0.0, context);
     solution.factorisations += 1;
-    solution.factor_seconds += seconds_since(factor_begin);
+    solution.factor_seconds += factor_watch.seconds();
     if (!factored.ok())
     {
       solution.status = Status::failure(StatusCode::not_converged, factored.message);
@@ -99,7 +93,7 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
   {
     solution.status = Status::cancelled();
   }
-  solution.solve_seconds = seconds_since(begin) - solution.factor_seconds;
+  solution.solve_seconds = watch.seconds() - solution.factor_seconds;
   return solution;
 }
 

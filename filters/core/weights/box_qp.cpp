@@ -10,12 +10,12 @@
 #include "base/parallel.h"
 #include "base/per_thread.h"
 #include "base/refined_solve.h"
+#include "base/stopwatch.h"
 #include "weights/active_set.h"
 #include "weights/interior_point.h"
 #include "weights/splitting_start.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -28,12 +28,6 @@ namespace bindpose
 namespace
 {
 using Eigen::VectorXd;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// Relative residuals of systems in A: what refinement aims at, and what it may end with.
 constexpr double wanted_accuracy = 1e-14;
@@ -270,7 +264,7 @@ private:
   /// @return one for each of all columns; only those asked for that can have a start have one.
   std::vector<ColumnStart> find_starts(const std::vector<std::size_t>& asked, bool barriers)
   {
-    const auto begin = Clock::now();
+    const Stopwatch watch;
     std::vector<ColumnStart> starts(this->columns_.size());
     std::vector<std::size_t> chosen;
     std::vector<BoxQpColumn> some;
@@ -297,7 +291,7 @@ private:
     {
       starts[chosen[k]] = std::move(found[k]);
       this->solutions_[chosen[k]].solve_seconds +=
-        seconds_since(begin) / static_cast<double>(chosen.size());
+        watch.seconds() / static_cast<double>(chosen.size());
     }
     return starts;
   }
@@ -361,7 +355,7 @@ Status BoxQp::prepare(ExecutionContext& context, const std::vector<BoxQpColumn>&
       status = single.code == StatusCode::unavailable ? status : single;
     }
   }
-  const auto start = Clock::now();
+  const Stopwatch watch;
   if (status.ok())
   {
     status = impl.plan_memory(columns, context.threads(), impl.single.analysed());
@@ -376,7 +370,7 @@ Status BoxQp::prepare(ExecutionContext& context, const std::vector<BoxQpColumn>&
     status = status.ok() ? without_minimum(impl.solver.factor(impl.lower)) : status;
     impl.in_double = status.ok();
   }
-  context.add_seconds("factor", seconds_since(start));
+  context.add_seconds("factor", watch.seconds());
   return status.ok() && context.cancelled() ? Status::cancelled() : status;
 }
 
@@ -401,12 +395,12 @@ std::vector<BoxQpSolution> BoxQp::solve_unbounded(
   {
     fixed_values.col(static_cast<Index>(j)) = columns[j].fixed_values;
   }
-  const auto start = Clock::now();
+  const Stopwatch watch;
   const Eigen::MatrixXd w = impl.minimisers(fixed_values, &context);
-  const double seconds = seconds_since(start) / std::max<double>(1.0, double(columns.size()));
+  const double seconds = watch.seconds() / std::max<double>(1.0, double(columns.size()));
   for (std::size_t j = 0; j < columns.size() && !context.cancelled(); ++j)
   {
-    const auto column_start = Clock::now();
+    const Stopwatch column_watch;
     BoxQpSolution& solution = solutions[j];
     solution.w = w.col(static_cast<Index>(j));
     std::vector<char> pinned(static_cast<std::size_t>(impl.q.rows()), 0);
@@ -432,7 +426,7 @@ std::vector<BoxQpSolution> BoxQp::solve_unbounded(
       solution.certificate.relative_gap =
         0.5 * g.dot(impl.inverse(g)) / solution.certificate.energy;
     }
-    solution.solve_seconds = seconds + seconds_since(column_start);
+    solution.solve_seconds = seconds + column_watch.seconds();
   }
   return solutions;
 }

@@ -22,10 +22,10 @@
 
 #include "base/memory.h"
 #include "base/parallel.h"
+#include "base/stopwatch.h"
 #include "weights/split_form.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -36,12 +36,6 @@ namespace
 {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// One row's weights that are solved for, side by side, and what they must sum to.
 struct Row
@@ -330,7 +324,7 @@ void CoupledQp::set_start(const MatrixXd& start)
 
 Status CoupledQp::factor()
 {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   this->d_ = this->z_.cwiseQuotient(this->s_) + this->r_.cwiseQuotient(this->t_);
   std::vector<Status> statuses(static_cast<std::size_t>(this->m_));
   const bool whole = parallel_for(this->context_, this->m_, 1,
@@ -391,7 +385,7 @@ Status CoupledQp::factor()
     this->least_d_[i] = this->coupled_[i] ? least : 0.0;
     this->share_[i] = count > 0.0 ? 1.0 / std::sqrt(count) : 0.0;
   }
-  this->factor_seconds_ += seconds_since(start);
+  this->factor_seconds_ += watch.seconds();
   return whole && !this->context_.cancelled() ? Status() : Status::cancelled();
 }
 
@@ -629,7 +623,7 @@ void CoupledQp::certify_iterate()
 
 CoupledSolution CoupledQp::run(const MatrixXd& start)
 {
-  const auto begin = Clock::now();
+  const Stopwatch watch;
   const auto worst = [](const Certificate& c) { return std::max(c.relative_gap, c.kkt_residual); };
   const double tolerance = this->options_.tolerance;
   Status status = this->set_up();
@@ -718,7 +712,7 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
     this->best_.status.code = StatusCode::not_converged;
   }
   const double share = 1.0 / std::max<double>(1.0, static_cast<double>(this->m_));
-  const double seconds = seconds_since(begin);
+  const double seconds = watch.seconds();
   for (BoxQpSolution& column : this->best_.columns)
   {
     column.status = this->best_.status;

@@ -28,12 +28,12 @@
 #include "weights/interior_point.h"
 
 #include "base/refined_solve.h"
+#include "base/stopwatch.h"
 #include "weights/column_problem.h"
 #include "weights/ordered_pairs.h"
 #include "weights/projected_newton.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace bindpose
@@ -43,12 +43,6 @@ namespace
 {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start)
-{
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 /// An ordered pair as a row of B: ends by free index, -1 for an end with a given value.
 struct PairRow
@@ -235,7 +229,7 @@ VectorXd InteriorPoint::apply_transposed(const VectorXd& y) const
 
 Status InteriorPoint::factor(const VectorXd& d)
 {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   const auto& matrices = this->matrices_;
   SparseMatrix& matrix = this->workspace_.matrix;
   double* values = matrix.valuePtr();
@@ -299,7 +293,7 @@ Status InteriorPoint::factor(const VectorXd& d)
   {
     status = this->factor_double();
   }
-  this->result_.factor_seconds += seconds_since(start);
+  this->result_.factor_seconds += watch.seconds();
   return status;
 }
 
@@ -388,11 +382,11 @@ InteriorPoint::Direction InteriorPoint::solve(const VectorXd& target, double acc
   if (this->in_single_ && !this->solve_refined(rhs, accuracy, d.x) && !this->context_.cancelled())
   {
     // From here on this column takes double precision.
-    const auto start = Clock::now();
+    const Stopwatch watch;
     this->in_single_ = false;
     this->single_is_enough_ = false;
     this->failure_ = this->factor_double();
-    this->result_.factor_seconds += seconds_since(start);
+    this->result_.factor_seconds += watch.seconds();
   }
   if (!this->in_single_ && this->failure_.ok())
   {
@@ -619,7 +613,7 @@ double InteriorPoint::finish(double enough)
 
 BoxQpSolution InteriorPoint::run()
 {
-  const auto start = Clock::now();
+  const Stopwatch watch;
   const auto worst = [](const Certificate& c) { return std::max(c.relative_gap, c.kkt_residual); };
   const double tolerance = this->options_.tolerance;
   Status status = this->set_up();
@@ -726,7 +720,7 @@ BoxQpSolution InteriorPoint::run()
   this->best_.iterations = this->result_.iterations;
   this->best_.factorisations = this->result_.factorisations;
   this->best_.factor_seconds = this->result_.factor_seconds;
-  this->best_.solve_seconds = seconds_since(start) - this->result_.factor_seconds;
+  this->best_.solve_seconds = watch.seconds() - this->result_.factor_seconds;
   this->best_.status = status;
   if (status.ok() && worst(this->best_.certificate) > tolerance)
   {

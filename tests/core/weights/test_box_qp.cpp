@@ -342,7 +342,8 @@ TEST_P(BoxQpStarts, FoundTogetherEndWhereOthersEnd)
   {
     const SparseMatrix scaled = scale * q;
     // Each of two solutions has settled to 1.5e-6 or 5e-9 (box_qp_workspace.h), whatever the
-    // processor rounds. Starts of their own go to the interior-point method, the others do not. With slivers round-off alone makes 1e-7.
+    // processor rounds. Starts of their own go to the interior-point method, the others do not.
+    // With slivers round-off alone makes 1e-7.
     for (const auto& [tolerance, same] :
       { std::pair{ 1e-6, 3e-6 }, std::pair{ 1e-9, GetParam() ? 1e-6 : 1e-8 } })
     {

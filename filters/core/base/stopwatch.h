@@ -1,5 +1,5 @@
-#ifndef bindpose_mesher_stopwatch_h
-#define bindpose_mesher_stopwatch_h
+#ifndef bindpose_base_stopwatch_h
+#define bindpose_base_stopwatch_h
 
 #include <chrono>
 

@@ -44,7 +44,7 @@ def seconds_of(report, handles):
 
 def make(options):
     elephant = common.demo_mesh(options, "elephant.off")
-    edges = (0.04, 0.02) if options.small else (0.0205, 0.0145, 0.0113, 0.0077)
+    edges = (0.04, 0.0113) if options.small else (0.0205, 0.0145, 0.0113, 0.0077)
     handle_counts = (4,) if options.small else (4, 24)
     sizes, tet_counts, peaks, estimates, previews = [], [], [], [], []
     spreads = {(count, part): [] for count in handle_counts for part in PARTS}

@@ -6,7 +6,7 @@
  * is 1 on the handle, 0 on all others and nowhere below 0 or above 1. Smooth also at handles, aware
  * of the shape, local. Solved to a certificate by an active-set method, or by an interior-point
  * method where that does not end; all handles share one symbolic analysis and are solved at the
- * same time. Cost: 3 to 6 sparse factorisations a handle, two to three times that where the
+ * same time. Cost: 3 to 6 sparse factorisations a handle, three to five times that where the
  * interior-point method is needed (10k vertices of a lattice: 0.3 to 0.7 s a handle on one core).
  *
  * Ports, arrays, certificate, bind cache, report and errors: vtkWeightsAlgorithm.

@@ -14,6 +14,7 @@
 // more crossings than it found; then all begins anew with the input's vertices rounded to a grid
 // that is far coarser than doubles and far finer than shapes, in which such sheets coincide.
 #include "mesher/jobs.h"
+
 #include "base/stopwatch.h"
 
 #include <CGAL/Box_intersection_d/Box_with_info_d.h>

@@ -11,6 +11,7 @@
 // limit of points. Angles up to 20.6 degrees can always be had, but for those that the outline has
 // itself; 30 degrees mostly can.
 #include "mesher/jobs.h"
+
 #include "base/stopwatch.h"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>

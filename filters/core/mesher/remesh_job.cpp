@@ -13,8 +13,8 @@
 // 2 and 7 degrees after exudation, 12 after improvement), and always ends.
 #include "mesher/circumcenter_traits.h"
 #include "mesher/jobs.h"
-#include "base/stopwatch.h"
 
+#include "base/stopwatch.h"
 #include "inside/crease_points.h"
 #include "inside/region_boundary.h"
 #include "inside/sizing_field.h"

@@ -71,7 +71,7 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
     const Stopwatch factor_watch;
     std::copy(matrices.lower.valuePtr(), matrices.lower.valuePtr() + matrices.lower.nonZeros(),
       workspace.matrix.valuePtr());
-    matrices.decouple(held, workspace.matrix);
+    SplitForm::decouple(held, workspace.matrix);
     const Status factored = workspace.single.factor(workspace.matrix, 0.0, context);
     solution.factorisations += 1;
     solution.factor_seconds += factor_watch.seconds();
@@ -85,9 +85,10 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
       rounds, enough, context, x);
     solution.iterations += 1;
   }
-  if (!solution.status.ok())
+  // What is certified when the budget ends is a result, settled or not.
+  if (!solution.status.ok() && certified() && solution.iterations >= options.maximum_iterations)
   {
-    certified(); // its numbers, whatever they are
+    solution.status = Status();
   }
   if (context.cancelled())
   {

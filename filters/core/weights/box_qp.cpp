@@ -205,37 +205,37 @@ public:
   void run()
   {
     constexpr double at_bounds = 0.7; // share of the seconds
-    std::vector<std::size_t> all(this->columns_.size());
-    std::iota(all.begin(), all.end(), std::size_t(0));
+    std::vector<std::size_t> left; // for the interior-point method
     {
       const ProgressRange range(this->context_, 0.0, at_bounds);
+      std::vector<std::size_t> all(this->columns_.size());
+      std::iota(all.begin(), all.end(), std::size_t(0));
       const std::vector<ColumnStart> starts = this->find_starts(all, false);
+      std::vector<std::size_t> started;
+      for (const std::size_t j : all)
+      {
+        (starts[j].x.size() > 0 ? started : left).push_back(j);
+      }
       const ProgressRange solving(this->context_, start_share, 1.0);
-      this->solve_each(all,
+      this->solve_each(started,
         [&](std::size_t j, BoxQpWorkspace& workspace)
         {
-          if (starts[j].x.size() > 0)
-          {
-            return active_set(this->qp_, this->qp_.options, this->columns_[j], starts[j],
-              this->inverse_, workspace, this->context_);
-          }
-          BoxQpSolution none;
-          none.status = Status::failure(StatusCode::not_converged, "");
-          return none;
+          return active_set(this->qp_, this->qp_.options, this->columns_[j], starts[j],
+            this->inverse_, workspace, this->context_);
         });
+      for (const std::size_t j : started)
+      {
+        if (this->solutions_[j].status.code == StatusCode::not_converged &&
+          this->solutions_[j].iterations < this->qp_.options.maximum_iterations)
+        {
+          this->solutions_[j].status = Status::cancelled(); // until it is solved for again
+          left.push_back(j);
+        }
+      }
     }
     if (this->context_.cancelled())
     {
       return;
-    }
-    std::vector<std::size_t> left;
-    for (const std::size_t j : all)
-    {
-      if (this->solutions_[j].status.code == StatusCode::not_converged)
-      {
-        left.push_back(j);
-        this->solutions_[j].status = Status::cancelled();
-      }
     }
     const ProgressRange range(this->context_, at_bounds, 1.0);
     const std::vector<ColumnStart> starts = this->find_starts(left, true);
@@ -287,11 +287,11 @@ private:
     FloatCholesky own = this->qp_.single.clone();
     std::vector<ColumnStart> found =
       splitting_start(this->qp_, some, barriers, unconstrained, own, this->context_);
+    const double seconds = watch.seconds() / static_cast<double>(chosen.size());
     for (std::size_t k = 0; k < chosen.size(); ++k)
     {
       starts[chosen[k]] = std::move(found[k]);
-      this->solutions_[chosen[k]].solve_seconds +=
-        watch.seconds() / static_cast<double>(chosen.size());
+      this->solutions_[chosen[k]].solve_seconds += seconds;
     }
     return starts;
   }

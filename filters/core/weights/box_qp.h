@@ -59,7 +59,7 @@ struct BoxQpSolution
 /// Stops on the certificate only (see Certificate), never on iterations: not reaching it within the
 /// budget is not_converged, with the best iterate and its numbers. Cost a column with CHOLMOD, when
 /// there are eight, in F, the time of one factorisation of Q in double precision: 3 to 6 F on
-/// lattices of real shapes with 9k to 11k vertices, two to three times that where the
+/// lattices of real shapes with 9k to 11k vertices, three to five times that where the
 /// interior-point method is needed; with ordered pairs 12 to 13 F on a box of 5k; with Eigen's
 /// backend 10 to 25 F. Memory: a factor in single precision of Q and one a thread, with a third
 /// more for its work (63k vertices: 1.4 GB in all with one thread); with ordered pairs or where

@@ -10,7 +10,7 @@
 namespace bindpose
 {
 
-/// What one column's solve needs and the next can use again.
+/// The memory of one column's solve, used again for the next.
 struct BoxQpWorkspace
 {
   SparseSolver solver; ///< has analysed the pattern of lower
@@ -28,7 +28,7 @@ inline double settled_move(double tolerance)
   return std::max(tolerance, std::min(5.0 * tolerance, 1.5e-6));
 }
 
-/// Of what a projected Newton method comes to, that is wanted.
+/// The largest last move of a projected Newton method that counts as none.
 inline double settled_newton_move(double tolerance)
 {
   return 0.1 * settled_move(tolerance);

@@ -259,7 +259,7 @@ Status InteriorPoint::factor(const VectorXd& d)
   }
   if (static_cast<Index>(this->unpinned_.size()) < matrix.cols())
   {
-    matrices.decouple(this->problem_.pinned, matrix);
+    SplitForm::decouple(this->problem_.pinned, matrix);
   }
   Status status;
   this->in_single_ = false;

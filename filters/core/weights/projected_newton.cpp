@@ -1,6 +1,6 @@
-// Where a vertex is held for a round it goes to its bound. For the others the gradient is brought
-// to zero by preconditioned conjugate gradients, roughly, and what then lies outside of the bounds
-// is projected back to them.
+// In each round, held vertices go to their bounds. For the others the gradient is brought to zero
+// by preconditioned conjugate gradients, roughly, and values outside of the bounds are projected
+// back to them.
 #include "weights/projected_newton.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 namespace
 {
-/// Where vertex i would go with all others fixed, were there no bounds.
+/// The minimiser over vertex i alone, without bounds.
 double newton_step(const SplitForm& matrices, const VectorXd& gradient, const VectorXd& x, Index i)
 {
   return x[i] - gradient[i] / matrices.lower.valuePtr()[matrices.diagonal[i]];

@@ -74,7 +74,7 @@ Eigen::MatrixXd SplitForm::whole(
   return all;
 }
 
-void SplitForm::decouple(const std::vector<char>& held, SparseMatrix& matrix) const
+void SplitForm::decouple(const std::vector<char>& held, SparseMatrix& matrix)
 {
   for (Index j = 0; j < matrix.cols(); ++j)
   {

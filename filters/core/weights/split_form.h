@@ -35,9 +35,9 @@ struct SplitForm
   /// @return #V x m.
   Eigen::MatrixXd whole(
     const Eigen::MatrixXd& free_rows, const Eigen::MatrixXd& fixed_values) const;
-  /// Sets the entries of a matrix with lower's pattern to 0 that join a held vertex with another.
+  /// Sets the entries of a free x free matrix to 0 that join a held vertex with another.
   /// @param held free: 1 where it is.
-  void decouple(const std::vector<char>& held, SparseMatrix& matrix) const;
+  static void decouple(const std::vector<char>& held, SparseMatrix& matrix);
   /// Position of entry (i, j), i > j, in lower's values; -1 when there is none.
   int position(Index i, Index j) const;
 };

@@ -116,13 +116,13 @@ def invented_poses(handles, diagonal, frames=10):
         for number, (name, kind, head, _tail) in enumerate(handles):
             wave = 0.5 - 0.5 * math.cos(turn + 2.0 * math.pi * number / len(handles))
             if kind == 1:
-                pose[name] = {"space": "parent", "rotate": {"axis": [0, 0, 1], "degrees": 25.0 * math.sin(turn)}}
+                pose[name] = {"rotate": {"axis": [0, 0, 1], "degrees": 25.0 * math.sin(turn)}}
             else:
                 out = [head[k] - middle[k] for k in range(3)]
                 length = math.sqrt(sum(x * x for x in out)) or 1.0
                 pose[name] = {"mode": "position", "translate": [0.12 * diagonal * wave * x / length for x in out]}
         poses.append({"handles": pose})
-    return {"fps": 8, "frames": poses}
+    return {"version": 2, "fps": 8, "frames": poses}
 
 
 def diagonal_of(dataset):

@@ -233,15 +233,17 @@ Status take_poses(const std::string& path, const Handles& handles, const Pose& b
   {
     return status;
   }
-  for (const auto& edits : sequence.frames)
+  std::vector<std::string> made_warnings; // the same of every frame, mostly
+  for (const PoseEdits& edits : sequence.frames)
   {
     std::vector<Affine> transforms;
     const Status made = skinning_transforms(handles, apply_edits(edits, handles, base), transforms);
-    status.warnings = made.warnings; // the same of every frame, mostly
+    made_warnings = made.warnings;
     GltfFrame frame;
     frame.posed = posed_joints(handles, transforms);
     skin.frames.push_back(std::move(frame));
   }
+  status.warnings.insert(status.warnings.end(), made_warnings.begin(), made_warnings.end());
   skin.frames_per_second = sequence.frames_per_second;
   return status;
 }

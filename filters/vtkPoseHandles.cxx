@@ -9,6 +9,7 @@
 #include "frame_times.h"
 #include "gltf_data.h"
 #include "io/dmat.h"
+#include "pose/handle_hierarchy.h"
 #include "pose/pose_file.h"
 #include "pose/pose_matrix.h"
 
@@ -18,9 +19,11 @@
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <sstream>
 
 using namespace bindpose;
@@ -31,6 +34,8 @@ vtkStandardNewMacro(vtkPoseHandles);
 struct vtkPoseHandles::Internals
 {
   GltfFile gltf;
+  /// Path of the pose file whose warnings were issued; empty for PoseJSON.
+  std::optional<std::string> warned_of;
 };
 
 vtkPoseHandles::vtkPoseHandles() : Internal(std::make_unique<Internals>()) {}
@@ -165,6 +170,18 @@ Status vtkPoseHandles::Execute(
       status.message = source + status.message;
       return status;
     }
+    if (this->Internal->warned_of == source)
+    {
+      status.warnings.clear();
+    }
+    if (!status.warnings.empty())
+    {
+      this->Internal->warned_of = source;
+    }
+    for (std::string& warning : status.warnings)
+    {
+      warning = source + warning;
+    }
     this->NumberOfFrames = static_cast<int>(sequence.frames.size());
     this->FramesPerSecond = sequence.frames_per_second;
     this->Sequence = sequence.sequence;
@@ -210,8 +227,8 @@ Status vtkPoseHandles::TakeDMAT(const Handles& handles, Pose& pose)
         std::to_string(this->Frame) + ", only 1 (counted from 0)");
 }
 
-/// The transforms of the frame that is on at the time, or of Frame, by name; handles that are no
-/// joints keep their pose.
+/// Assign the transforms of the frame at `time`, or of Frame, to the handles by name. Handles that
+/// are not joints follow their parents.
 Status vtkPoseHandles::TakeGLTF(const Handles& handles, const double* time, Pose& pose)
 {
   const std::string path = this->FileName;
@@ -248,18 +265,21 @@ Status vtkPoseHandles::TakeGLTF(const Handles& handles, const double* time, Pose
     return Status::invalid_input(path + ": there is no frame " + std::to_string(frame) + ", only " +
       std::to_string(this->NumberOfFrames) + " (counted from 0)");
   }
+  const Pose base = pose;
   std::size_t known = 0;
-  for (std::size_t h = 0; h < handles.size(); ++h)
+  for (const Index handle : parents_first(handles))
   {
-    for (std::size_t j = 0; j < data.handle_list.size(); ++j)
+    const auto h = static_cast<std::size_t>(handle);
+    const auto joint = std::find_if(data.handle_list.begin(), data.handle_list.end(),
+      [&](const Handle& each) { return each.name == handles[h].name; });
+    if (joint == data.handle_list.end())
     {
-      if (data.handle_list[j].name == handles[h].name)
-      {
-        pose[h].mode = HandleMode::full;
-        pose[h].transform = frames[frame][j].transform;
-        known += 1;
-      }
+      follow_parent(handles, base, handle, pose);
+      continue;
     }
+    pose[h].mode = HandleMode::full;
+    pose[h].transform = frames[frame][joint - data.handle_list.begin()].transform;
+    known += 1;
   }
   return known > 0 ? Status()
                    : Status::invalid_input(path + ": none of its joints has the name of a handle");

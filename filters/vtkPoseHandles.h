@@ -5,11 +5,20 @@
  * Reads a pose (or one frame of a sequence) from JSON and writes it into the cell arrays `Mode`,
  * `Transform`, `Stretch` and `Twist` of the handles:
  * <pre>
- *   {"handles": {NAME: {"mode": "full|position|free|tail|ends", "translate": [x, y, z],
- *     "rotate": {"axis": [x, y, z], "degrees": d}, "scale": s, "space": "world|parent",
+ *   {"version": 2,
+ *    "handles": {NAME: {"mode": "full|position|free|tail|ends", "translate": [x, y, z],
+ *     "rotate": {"axis": [x, y, z], "degrees": d}, "scale": s, "space": "parent|world",
  *     "head": [x, y, z], "tail": [x, y, z], "stretch": s, "twist": [deg, deg]}}}
- *   {"frames": [pose, …], "fps": n}
+ *   {"version": 2, "frames": [pose, …], "fps": n}
  * </pre>
+ * **Parents.** A handle with pivot c is transformed by x -> c + translation + R S (x - c), and then
+ * by the transform that it inherits from its parent (cell array `Parent`), as in glTF. Handles that
+ * the pose does not mention inherit it as well. "space": "world" disables the inheritance. A child
+ * of a bone that stretches or twists moves with the cross-section of the bone to which it is
+ * attached. `head` and `tail` are world positions. The transform replaces that of the input.
+ * A text without "version" has version 1: the default space is "world", and handles that are not
+ * mentioned keep their transform. A warning is issued once if version 2 would give another pose.
+ *
  * **Expressions.** Any number of a handle may be a text, an expression in `t`, the time in seconds:
  * "translate": ["0.2 * sin(6.28 * t)", 0, 0] (vtkExprTkFunctionParser; its functions and
  * constants). In a sequence t is the frame's own time, its number / fps.
@@ -18,13 +27,12 @@
  * times of its frames, expressions the range from 0 to EndTime. Who asks for a time gets the frame
  * that is on then, or the expressions' values; who asks for none, Frame and Time.
  *
- * A handle with pivot c moves x -> c + translate + R S (x - c), absolute; "space": "parent" applies
- * the parent's transform afterwards. Errors: a broken file, an unknown handle, an expression that
- * cannot be read or has no finite value at the time. Handles that the pose does not mention keep
- * what the input says. Without FileName and PoseJSON the input is passed on.
+ * Errors: a broken file, an unknown handle, an expression that cannot be read or has no finite
+ * value at the time. Without FileName and PoseJSON the input is passed on.
  *
  * FileName may also name a .glb or .gltf file: its animation, or without one how its nodes stand,
- * is taken by the names of joints and handles (see vtkGLTFSkinReader). Or a .dmat file of libigl,
+ * is assigned by the names of joints and handles (see vtkGLTFSkinReader); handles that are not
+ * joints follow their parents. Or a .dmat file of libigl,
  * which poses all handles, points before bones: (d + 1) m x d numbers, a transposed transform a
  * handle (d = 3, or 2 in a plane), or 4 b x 1, a rotation (x, y, z, w) a bone about its head,
  * before its parent's.

@@ -45,7 +45,7 @@ def bent(handles, degrees):
     for cell in range(handles.GetNumberOfCells()):
         if handles.GetCellData().GetArray("Parent").GetValue(cell) >= 0:
             name = handles.GetCellData().GetAbstractArray("HandleName").GetValue(cell)
-            pose[name] = {"rotate": {"axis": [0, 0, 1], "degrees": degrees * (-1) ** cell}, "space": "parent"}
+            pose[name] = {"rotate": {"axis": [0, 0, 1], "degrees": degrees * (-1) ** cell}}
     return {"handles": pose}
 
 

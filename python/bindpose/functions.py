@@ -558,6 +558,8 @@ def _make_poser(handles, pose):
     if isinstance(pose, (str, os.PathLike)):
         poser.SetFileName(os.fspath(pose))
     else:
+        if isinstance(pose, dict):
+            pose = {"version": 2, **pose}
         try:
             poser.SetPoseJSON(json.dumps(pose))
         except TypeError as error:
@@ -582,7 +584,8 @@ def deform(mesh, handles, pose, *, method="lbs", weights=None, exponent=1.0, ene
     pose : dict, str or path-like
         ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}``
         or ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file, where numbers may be expressions in
-        ``t``; or a .dmat file of libigl; or a .glb or .gltf file for its animation.
+        ``t``; or a .dmat file of libigl; or a .glb or .gltf file for its animation. A handle follows its parent
+        unless its entry has ``"space": "world"``; a .json file needs ``"version": 2`` for that.
     method : {"lbs", "dqs", "stbs", "cor", "reduced-arap", "full-arap", "mls", "variational"}
         Linear blend skinning, dual quaternions, stretchable and twistable bones (with the point array
         ``EndpointWeights`` where there is one), centres of rotation (neither twists nor bends lose width),

@@ -56,7 +56,7 @@ def error(mesh, found, expected):
     return np.linalg.norm(np.array(found) - expected, axis=1).max() / np.linalg.norm(np.ptp(points, axis=0))
 
 
-TURN = {"handles": {"b2": {"rotate": {"axis": [0, 0, 1], "degrees": 40}}, "b3": {"space": "parent"}}}
+TURN = {"handles": {"b2": {"rotate": {"axis": [0, 0, 1], "degrees": 40}}}}
 
 
 @pytest.mark.parametrize("row_sum", [1.0, 0.7])

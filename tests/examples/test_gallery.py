@@ -13,6 +13,7 @@ NAMES = ["amount_of_insideness", "automatic_handles", "bent_elbow", "bent_furnit
          "dragged_points", "extra_weights", "four_energies", "full_and_reduced", "growth", "handle_modes",
          "hull_segmentation", "image_rectangle", "jello", "jump_and_harmonic", "limbs_in_front", "mesh_independence",
          "near_limbs", "new_hues", "open_crossing_flipped", "orders_and_boundaries", "original_and_faster",
+         "parents_and_children",
          "preview_and_certified", "procedural", "rig_in_a_file", "rigidity_brush", "rotation_clusters",
          "small_features", "spurious_extrema", "stretch_and_twist", "surface_and_volume", "tether",
          "topological_simplification", "torus_and_tubes", "weights_in_volume"]
@@ -199,6 +200,15 @@ def test_bent_elbow(tmp_path):
         assert numbers[f"{thin}, nearest"] < numbers[f"{ours}, nearest"]
         assert numbers[f"{round_}, farthest"] > numbers[f"{ours}, farthest"]
     assert numbers["120 degrees, dual quaternions, farthest"] > 1.05
+
+
+def test_parents_and_children(tmp_path):
+    numbers = numbers_of("gallery/parents_and_children.py", tmp_path)
+    for name in ("at rest", "forearm turned", "upper arm stretched"):
+        assert numbers[f"{name}: distance of the tip"] < 0.02
+    held = "hand held in the world"
+    assert numbers[f"{held}: distance of the tip"] > 0.5
+    assert numbers[f"{held}: largest triangle"] > 2 * numbers["forearm turned: largest triangle"]
 
 
 def test_stretch_and_twist(tmp_path):

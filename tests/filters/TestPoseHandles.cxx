@@ -12,6 +12,7 @@
 #include "vtkPolyData.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -54,7 +55,7 @@ Vec3 moved(const Affine& t, const Vec3& p)
   return t.leftCols<3>() * p + t.col(3);
 }
 
-/// Updates and gives the error sentence, empty without one; nothing goes to the terminal.
+/// Updates and gives the last error or warning, empty without one; nothing goes to the terminal.
 std::string update(vtkPoseHandles* filter)
 {
   vtkNew<vtkCallbackCommand> keep;
@@ -62,9 +63,10 @@ std::string update(vtkPoseHandles* filter)
   keep->SetClientData(&text);
   keep->SetCallback([](vtkObject*, unsigned long, void* client, void* data)
     { *static_cast<std::string*>(client) = static_cast<const char*>(data); });
-  const unsigned long tag = filter->AddObserver(vtkCommand::ErrorEvent, keep);
+  filter->AddObserver(vtkCommand::ErrorEvent, keep);
+  filter->AddObserver(vtkCommand::WarningEvent, keep);
   filter->Update();
-  filter->RemoveObserver(tag);
+  filter->RemoveObserver(keep);
   return text;
 }
 } // namespace
@@ -79,25 +81,36 @@ TEST(PoseHandles, WithoutAPoseTheInputPasses)
   EXPECT_EQ(filter->GetNumberOfFrames(), 1);
 }
 
-TEST(PoseHandles, AParentTakesItsChildAlongOnlyWhenAsked)
+TEST(PoseHandles, AParentTakesItsChildAlong)
 {
-  const char* const turned = R"({"handles": {
-    "b1": {"rotate": {"axis": [0, 0, 1], "degrees": 90}},
-    "b2": {"space": "SPACE", "rotate": {"axis": [0, 0, 1], "degrees": 90}}}})";
-  for (const std::string space : { "parent", "world" })
+  const auto posed = [](const std::string& text)
   {
-    std::string text = turned;
-    text.replace(text.find("SPACE"), 5, space);
     vtkNew<vtkPoseHandles> filter;
     filter->SetInputData(arm());
-    filter->SetPoseJSON(text);
-    ASSERT_EQ(update(filter), "");
-    const Pose pose = pose_of(vtkPolyData::SafeDownCast(filter->GetOutput()));
-    EXPECT_NEAR((moved(pose[1].transform, Vec3(0, 1, 0)) - Vec3(-1, 0, 0)).norm(), 0.0, 1e-15);
-    // Alone b2 turns about its own rest head; with its parent that head moves to (-1, 0, 0).
-    const Vec3 tip = space == "parent" ? Vec3(-1, -1, 0) : Vec3(-1, 1, 0);
-    EXPECT_NEAR((moved(pose[2].transform, Vec3(0, 2, 0)) - tip).norm(), 0.0, 1e-15) << space;
-  }
+    filter->SetPoseJSON("{\"version\": 2, \"handles\": " + text + "}");
+    EXPECT_EQ(update(filter), "");
+    return pose_of(vtkPolyData::SafeDownCast(filter->GetOutput()));
+  };
+  const std::string turned = R"({"b1": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})";
+  const auto tip = [](const Pose& pose) { return moved(pose[2].transform, Vec3(0, 2, 0)); };
+  const std::string b2 = R"(, "b2": {"rotate": {"axis": [0, 0, 1], "degrees": 90})";
+  EXPECT_LT((tip(posed(turned + "}")) - Vec3(-2, 0, 0)).norm(), 1e-15);
+  EXPECT_LT((tip(posed(turned + b2 + "}}")) - Vec3(-1, -1, 0)).norm(), 1e-15);
+  // In the world b2 turns about its own rest head alone.
+  EXPECT_LT((tip(posed(turned + b2 + R"(, "space": "world"}})")) - Vec3(-1, 1, 0)).norm(), 1e-15);
+}
+
+TEST(PoseHandles, APoseWithoutAVersionWarnsOnce)
+{
+  vtkNew<vtkPoseHandles> filter;
+  filter->SetInputData(arm());
+  filter->SetPoseJSON(R"({"frames": [
+    {"handles": {"b1": {"translate": [1, 0, 0]}}}, {"handles": {"b1": {"translate": [2, 0, 0]}}}]})");
+  EXPECT_THAT(update(filter), testing::HasSubstr("\"version\": 2"));
+  const Pose pose = pose_of(vtkPolyData::SafeDownCast(filter->GetOutput()));
+  EXPECT_EQ(pose[2].transform, identity_affine());
+  filter->SetFrame(1);
+  EXPECT_EQ(update(filter), "");
 }
 
 TEST(PoseHandles, FramesOfAFile)
@@ -133,7 +146,8 @@ TEST(PoseHandles, WhatABindDependsOnIsTheInputsOwn)
   const auto before = bind_objects(handles);
   for (int degrees = 0; degrees < 100; degrees += 7)
   {
-    filter->SetPoseJSON(R"({"handles": {"b1": {"rotate": {"axis": [0, 0, 1], "degrees": )" +
+    filter->SetPoseJSON(
+      R"({"version": 2, "handles": {"b1": {"rotate": {"axis": [0, 0, 1], "degrees": )" +
       std::to_string(degrees) + "}}}}");
     ASSERT_EQ(update(filter), "");
     EXPECT_EQ(bind_objects(vtkPolyData::SafeDownCast(filter->GetOutput())), before);

@@ -1,6 +1,7 @@
 #include "handle_poses.h"
 
 #include "pose/transform_parts.h"
+#include "weights/bone_projection.h"
 
 #include <Eigen/Geometry>
 
@@ -26,6 +27,25 @@ Affine after(const Affine3d& motion, const Affine& transform)
   Affine moved = motion.linear() * transform;
   moved.col(3) += motion.translation();
   return moved;
+}
+
+/// Return where the branch that a follower belongs to is attached to the first grabbed bone: 0 at
+/// its head, 1 at its tail.
+double attachment(const std::vector<HandlePlace>& places, const HandleGroup& group, vtkIdType cell)
+{
+  const HandlePlace& bone = places[static_cast<std::size_t>(group.cells.front())];
+  vtkIdType child = cell;
+  for (std::size_t step = 0; step < places.size(); ++step)
+  {
+    const vtkIdType parent = places[static_cast<std::size_t>(child)].parent;
+    if (parent < 0 || parent == group.cells.front())
+    {
+      break;
+    }
+    child = parent;
+  }
+  return projected_endpoint(places[static_cast<std::size_t>(child)].rest_head, bone.rest_head,
+    bone.rest_tail - bone.rest_head);
 }
 
 Matrix3d turn(const Vec3& axis, double degrees)
@@ -97,14 +117,23 @@ std::vector<HandleData::CellPose> moved_poses(const std::vector<HandlePlace>& pl
   const Vec3 arm = motion.linear() * (bone.tail - bone.head);
   const bool is_bone = bone.is_bone() && arm.norm() > 0.0;
   const Vec3 axis = is_bone ? Vec3(arm.normalized()) : Vec3::UnitY();
-  // what the followers do beyond the motion
-  Affine3d following = about(head, turn(axis, change.twist[1]));
-  following.translation() += (change.factor - 1.0) * arm;
+  // The followers inherit stretch and twist as in transform_for_child().
+  const auto following = [&](vtkIdType cell)
+  {
+    const double along = attachment(places, group, cell);
+    const double degrees = change.to_arrays
+      ? (1.0 - along) * change.twist[0] + along * change.twist[1]
+      : change.twist.sum();
+    Affine3d motion_there = about(head, turn(axis, degrees));
+    motion_there.translation() += along * (change.factor - 1.0) * arm;
+    return motion_there;
+  };
   for (std::size_t i = 0; i < group.cells.size(); ++i)
   {
     const HandlePlace& place = places[static_cast<std::size_t>(group.cells[i])];
     HandleData::CellPose& pose = poses[i];
-    Affine3d whole = i < group.grabbed || !is_bone ? motion : Affine3d(following * motion);
+    Affine3d whole =
+      i < group.grabbed || !is_bone ? motion : Affine3d(following(group.cells[i]) * motion);
     if (i == 0 && is_bone && !change.to_arrays)
     {
       const Matrix3d along = Matrix3d::Identity() + (change.factor - 1.0) * axis * axis.transpose();

@@ -34,8 +34,8 @@ struct GrabbedChange
 };
 
 /// Poses after a motion of the world. A handle whose mode is position goes with its pivot and does
-/// not turn. Of a longer bone the followers go with the tail; of one twisted at the tail they turn
-/// about it.
+/// not turn. If a bone stretches or twists, its followers move with the cross-section to which they
+/// are attached, as in transform_for_child().
 std::vector<HandleData::CellPose> moved_poses(const std::vector<HandlePlace>& places,
   const HandleGroup& group, const Eigen::Affine3d& motion, const GrabbedChange& change = {});
 

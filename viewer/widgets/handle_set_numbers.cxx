@@ -36,8 +36,8 @@ bool vtkHandleSetRepresentation::WriteHandle(vtkIdType handle, const HandlePlace
     motion.translation() = posed.transform.col(3) - motion.linear() * before.transform.col(3);
   }
   const double factor = before.stretch != 0.0 ? posed.stretch / before.stretch : 1.0;
-  std::vector<bindpose::HandleData::CellPose> poses = bindpose::moved_poses(
-    places, group, motion, { factor, Vector2d(0.0, posed.twist[1] - before.twist[1]), true });
+  std::vector<bindpose::HandleData::CellPose> poses =
+    bindpose::moved_poses(places, group, motion, { factor, posed.twist - before.twist, true });
   poses.front() = { posed.transform, posed.stretch, posed.twist };
   this->Internal->Data.set_poses(group.cells, poses);
   this->Modified();

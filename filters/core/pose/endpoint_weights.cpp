@@ -2,7 +2,7 @@
 // ends of the bones as points, or the two ends of one bone tied together by a cage's edge.
 #include "pose/endpoint_weights.h"
 
-#include "pose/skinning.h"
+#include "weights/bone_projection.h"
 
 #include <algorithm>
 #include <array>

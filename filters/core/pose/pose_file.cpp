@@ -1,14 +1,16 @@
 // The JSON library reads the text; everything it would let pass (keys nobody knows, keys given
 // twice, numbers out of range) is refused here, because a pose that is half understood moves the
-// wrong thing. Names are resolved while reading, transforms are built afterwards, since a parent's
-// transform may stand later in the file.
+// wrong thing. Names are resolved while reading, transforms are built afterwards, parents first,
+// wherever they stand in the file.
 #include "pose/pose_file.h"
 
 #include "base/number_text.h"
+#include "pose/handle_hierarchy.h"
 #include "pose/transform_parts.h"
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <map>
@@ -148,12 +150,14 @@ Eigen::Matrix3d read_rotation(const Json& value, const std::string& where)
   return Eigen::AngleAxisd(degrees * (EIGEN_PI / 180.0), axis).toRotationMatrix();
 }
 
-HandleEdit read_handle(const Json& value, const std::string& where, Index index, const Handle& rest)
+HandleEdit read_handle(
+  const Json& value, const std::string& where, Index index, const Handle& rest, int version)
 {
   check_object(value, where,
     { "mode", "translate", "rotate", "scale", "space", "head", "tail", "stretch", "twist" });
   HandleEdit edit;
   edit.handle = index;
+  edit.with_parent = version > 1;
   for (const auto& item : value.items())
   {
     const std::string& key = item.key();
@@ -188,7 +192,7 @@ HandleEdit read_handle(const Json& value, const std::string& where, Index index,
     }
     else if (key == "space")
     {
-      edit.parent_space = word(entry, at, { "world", "parent" }) == 1;
+      edit.with_parent = word(entry, at, { "parent", "world" }) == 0;
     }
     else if (key == "head")
     {
@@ -213,7 +217,8 @@ HandleEdit read_handle(const Json& value, const std::string& where, Index index,
     {
       fail(where, " has head or tail and also translate, rotate or scale; give one or the other");
     }
-    if (edit.head.value_or(rest.head) == edit.tail.value_or(rest.tail))
+    const bool known = (edit.head && edit.tail) || version < 2 || !edit.with_parent;
+    if (known && edit.head.value_or(rest.head) == edit.tail.value_or(rest.tail))
     {
       fail(where, " is posed to length zero");
     }
@@ -271,10 +276,30 @@ struct Expressions
   }
 };
 
-std::vector<HandleEdit> read_pose(const Json& value, const std::string& where,
-  const std::map<std::string, Index>& index_of, const Handles& handles, Expressions& expressions)
+/// Versions 1 to this one are read; this one is written.
+constexpr int newest_version = 2;
+
+int read_version(const Json& root)
 {
-  check_object(value, where, { "handles" });
+  if (!root.is_object() || !root.contains("version"))
+  {
+    return 1;
+  }
+  const Json& version = root["version"];
+  for (int known = 1; known <= newest_version; ++known)
+  {
+    if (version.is_number() && version.get<double>() == known)
+    {
+      return known;
+    }
+  }
+  fail("version", " is " + version.dump() + "; expected 1 or 2");
+}
+
+PoseEdits read_pose(const Json& value, const std::string& where,
+  const std::map<std::string, Index>& index_of, const Handles& handles, Expressions& expressions,
+  int version)
+{
   if (!value.contains("handles"))
   {
     fail(where, " is empty; it needs the key 'handles'");
@@ -283,7 +308,8 @@ std::vector<HandleEdit> read_pose(const Json& value, const std::string& where,
   {
     fail(where, ".handles must be an object of handle names");
   }
-  std::vector<HandleEdit> edits;
+  PoseEdits edits;
+  edits.children_follow = version > 1;
   for (const auto& item : value["handles"].items())
   {
     const auto found = index_of.find(item.key());
@@ -294,10 +320,33 @@ std::vector<HandleEdit> read_pose(const Json& value, const std::string& where,
     const std::string handle = where + " handle '" + item.key() + "'";
     Json entry = item.value();
     expressions.replace(entry, "", handle);
-    edits.push_back(
-      read_handle(entry, handle, found->second, handles[static_cast<std::size_t>(found->second)]));
+    edits.handles.push_back(read_handle(
+      entry, handle, found->second, handles[static_cast<std::size_t>(found->second)], version));
   }
   return edits;
+}
+
+/// Return whether version 2 would pose a handle differently: a pose moves a parent and has no
+/// "space" for a child.
+bool leaves_a_child(const Json& root, const Handles& handles)
+{
+  const auto leaves = [&](const Json& pose)
+  {
+    const Json& named = pose["handles"];
+    return std::any_of(handles.begin(), handles.end(),
+      [&](const Handle& child)
+      {
+        const auto entry = named.find(child.name);
+        return child.parent >= 0 &&
+          named.contains(handles[static_cast<std::size_t>(child.parent)].name) &&
+          (entry == named.end() || !entry->contains("space"));
+      });
+  };
+  if (!root.contains("frames"))
+  {
+    return leaves(root);
+  }
+  return std::any_of(root["frames"].begin(), root["frames"].end(), leaves);
 }
 
 /// The library keeps the last of equal keys without a word; this refuses them.
@@ -341,14 +390,28 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
   try
   {
     const Json root = parse_without_doubled_keys(text);
+    const int version = read_version(root);
+    Status status;
+    const auto note_children = [&]
+    {
+      if (!root.contains("version") && leaves_a_child(root, handles))
+      {
+        status.warnings.push_back("the pose file has no \"version\", so children do not follow "
+                                  "their parents, as in version 1; add \"version\": 2 to let "
+                                  "them follow");
+      }
+    };
     if (!root.is_object() || !root.contains("frames"))
     {
+      check_object(root, "the pose", { "version", "handles" });
       Expressions expressions{ expression, time };
-      sequence.frames.push_back(read_pose(root, "the pose", index_of, handles, expressions));
+      sequence.frames.push_back(
+        read_pose(root, "the pose", index_of, handles, expressions, version));
       sequence.has_expressions = expressions.found;
-      return {};
+      note_children();
+      return status;
     }
-    check_object(root, "the sequence", { "frames", "fps" });
+    check_object(root, "the sequence", { "version", "frames", "fps" });
     sequence.sequence = true;
     if (root.contains("fps"))
     {
@@ -363,9 +426,12 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
       const std::string where = "frame " + std::to_string(sequence.frames.size());
       Expressions expressions{ expression,
         static_cast<double>(sequence.frames.size()) / sequence.frames_per_second };
-      sequence.frames.push_back(read_pose(frame, where, index_of, handles, expressions));
+      check_object(frame, where, { "handles" });
+      sequence.frames.push_back(read_pose(frame, where, index_of, handles, expressions, version));
       sequence.has_expressions = sequence.has_expressions || expressions.found;
     }
+    note_children();
+    return status;
   }
   catch (const PoseFileError& error)
   {
@@ -381,7 +447,6 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
     return Status::invalid_input("the pose file is not valid JSON: " +
       (end == std::string::npos ? what : what.substr(end + 2)));
   }
-  return {};
 }
 
 bool read_pose_times(const std::string& text, PoseTimes& times)
@@ -452,57 +517,88 @@ Eigen::Matrix3d minimal_arc(const Vec3& from, const Vec3& to)
   return 2.0 * axis * axis.transpose() - Eigen::Matrix3d::Identity();
 }
 
-Pose apply_edits(const std::vector<HandleEdit>& edits, const Handles& handles, const Pose& base)
+namespace
 {
-  Pose pose = base;
-  std::vector<const HandleEdit*> edit_of(handles.size(), nullptr);
-  for (const HandleEdit& edit : edits)
+bool has_transform(const HandleEdit& edit)
+{
+  return edit.head || edit.tail || edit.translate || edit.rotation || edit.scale;
+}
+
+/// Apply the transform of an edit to a handle that inherits `up` from its parent.
+void place_handle(const HandleEdit& edit, const Handle& rest, const Affine& up, HandlePose& posed)
+{
+  if (!edit.head && !edit.tail)
   {
-    const auto h = static_cast<std::size_t>(edit.handle);
-    const Handle& rest = handles[h];
-    HandlePose& posed = pose[h];
-    edit_of[h] = &edit;
-    posed.mode = edit.mode.value_or(posed.mode);
-    posed.twist = edit.twist.value_or(posed.twist);
-    if (edit.head || edit.tail)
-    {
-      const Vec3 head = edit.head.value_or(rest.head);
-      const Vec3 bone = edit.tail.value_or(rest.tail) - head;
-      posed.transform =
-        affine_about(rest.head, minimal_arc(rest.tail - rest.head, bone), head - rest.head);
-      posed.stretch = bone.stableNorm() / (rest.tail - rest.head).stableNorm();
-    }
-    else if (edit.translate || edit.rotation || edit.scale)
-    {
-      const Eigen::Matrix3d linear =
-        edit.scale.value_or(1.0) * edit.rotation.value_or(Eigen::Matrix3d::Identity());
-      posed.transform = affine_about(rest.head, linear, edit.translate.value_or(Vec3::Zero()));
-    }
-    posed.stretch = edit.stretch.value_or(posed.stretch);
+    const Eigen::Matrix3d linear =
+      edit.scale.value_or(1.0) * edit.rotation.value_or(Eigen::Matrix3d::Identity());
+    posed.transform =
+      composed(up, affine_about(rest.head, linear, edit.translate.value_or(Vec3::Zero())));
+    return;
   }
-  // Parents before children, whatever their order in the list.
-  std::vector<bool> done(handles.size(), false);
-  for (std::size_t start = 0; start < handles.size(); ++start)
+  const Vec3 carried_head = up * rest.head.homogeneous();
+  const Vec3 carried_tail = up * rest.tail.homogeneous();
+  const Vec3 carried = carried_tail - carried_head;
+  const Vec3 head = edit.head.value_or(carried_head);
+  const Vec3 bone = edit.tail.value_or(carried_tail) - head;
+  // Both ends may coincide up to rounding, because one of them follows the parent. The bone then
+  // has no direction and keeps its own.
+  constexpr double round_off = 1e-13;
+  const double least =
+    edit.head && edit.tail ? 0.0 : round_off * (head.stableNorm() + carried.stableNorm());
+  Eigen::Matrix3d linear = up.leftCols<3>();
+  posed.stretch = 1.0;
+  if (carried != Vec3::Zero() && bone.stableNorm() > least)
   {
-    std::vector<std::size_t> chain;
-    for (auto h = static_cast<Index>(start); h >= 0 && !done[static_cast<std::size_t>(h)];
-         h = handles[static_cast<std::size_t>(h)].parent)
-    {
-      chain.push_back(static_cast<std::size_t>(h));
-    }
-    for (auto h = chain.rbegin(); h != chain.rend(); ++h)
-    {
-      done[*h] = true;
-      const Index parent = handles[*h].parent;
-      if (!edit_of[*h] || !edit_of[*h]->parent_space || parent < 0)
-      {
-        continue;
-      }
-      const Affine& up = pose[static_cast<std::size_t>(parent)].transform;
-      const Affine local = pose[*h].transform;
-      pose[*h].transform.leftCols<3>() = up.leftCols<3>() * local.leftCols<3>();
-      pose[*h].transform.col(3) = up.leftCols<3>() * local.col(3) + up.col(3);
-    }
+    linear = minimal_arc(carried, bone) * linear;
+    posed.stretch = bone.stableNorm() / carried.stableNorm();
+  }
+  posed.transform = affine_about(rest.head, linear, head - rest.head);
+}
+
+/// Pose one handle. Its parent must have its final pose.
+void pose_handle(const HandleEdit* edit, bool children_follow, const Handles& handles,
+  const Pose& base, Index handle, Pose& pose)
+{
+  const Handle& rest = handles[static_cast<std::size_t>(handle)];
+  HandlePose& posed = pose[static_cast<std::size_t>(handle)];
+  const bool with_parent = rest.parent >= 0 && (edit ? edit->with_parent : children_follow);
+  const auto parent = static_cast<std::size_t>(with_parent ? rest.parent : 0);
+  if (edit && has_transform(*edit))
+  {
+    place_handle(*edit, rest,
+      with_parent && children_follow ? transform_for_child(handles[parent], pose[parent], rest.head)
+                                     : identity_affine(),
+      posed);
+  }
+  else if (with_parent && children_follow)
+  {
+    follow_parent(handles, base, handle, pose);
+  }
+  if (with_parent && !children_follow)
+  {
+    posed.transform = composed(pose[parent].transform, posed.transform); // version 1
+  }
+  if (edit)
+  {
+    posed.mode = edit->mode.value_or(posed.mode);
+    posed.stretch = edit->stretch.value_or(posed.stretch);
+    posed.twist = edit->twist.value_or(posed.twist);
+  }
+}
+} // namespace
+
+Pose apply_edits(const PoseEdits& edits, const Handles& handles, const Pose& base)
+{
+  std::vector<const HandleEdit*> edit_of(handles.size(), nullptr);
+  for (const HandleEdit& edit : edits.handles)
+  {
+    edit_of[static_cast<std::size_t>(edit.handle)] = &edit;
+  }
+  Pose pose = base;
+  for (const Index handle : parents_first(handles))
+  {
+    pose_handle(edit_of[static_cast<std::size_t>(handle)], edits.children_follow, handles, base,
+      handle, pose);
   }
   return pose;
 }
@@ -519,31 +615,69 @@ Json list(const Eigen::VectorXd& values)
   return result;
 }
 
-Json format_handle(const HandlePose& posed, const Handle& rest, std::vector<std::string>& warnings)
+/// The numbers of a transform in a pose file.
+struct TransformNumbers
 {
-  const Eigen::Matrix3d linear = posed.transform.leftCols<3>();
-  const TransformParts parts = parts_of(posed.transform, rest.head);
-  double scale = parts.scale.trace() / 3.0;
-  const double misfit = (linear - scale * parts.rotation).norm();
-  if (misfit > 1e-9 * linear.norm() || !(scale > 0.0))
+  TransformParts parts;
+  double scale = 1.0; ///< the same for all axes
+  bool exact = true; ///< false: a shear, a non-uniform scale or a reflection is left out
+};
+
+TransformNumbers numbers_of(const Affine& transform, const Vec3& pivot)
+{
+  TransformNumbers numbers;
+  numbers.parts = parts_of(transform, pivot);
+  const double scale = numbers.parts.scale.trace() / 3.0;
+  const Eigen::Matrix3d linear = transform.leftCols<3>();
+  const double misfit = (linear - scale * numbers.parts.rotation).norm();
+  numbers.exact = misfit <= 1e-9 * linear.norm() && scale > 0.0;
+  numbers.scale = scale > 0.0 ? scale : 1.0;
+  return numbers;
+}
+
+Json format_handle(
+  const Pose& pose, const Handles& handles, std::size_t h, std::vector<std::string>& warnings)
+{
+  const HandlePose& posed = pose[h];
+  const Handle& rest = handles[h];
+  Json entry;
+  entry["mode"] = to_string(posed.mode);
+  TransformNumbers numbers = numbers_of(posed.transform, rest.head);
+  if (rest.parent >= 0)
+  {
+    const auto parent = static_cast<std::size_t>(rest.parent);
+    Affine back;
+    TransformNumbers to_parent;
+    to_parent.exact = invert(transform_for_child(handles[parent], pose[parent], rest.head), back);
+    if (to_parent.exact)
+    {
+      to_parent = numbers_of(composed(back, posed.transform), rest.head);
+    }
+    if (to_parent.exact)
+    {
+      numbers = to_parent;
+    }
+    else
+    {
+      entry["space"] = "world";
+    }
+  }
+  if (!numbers.exact)
   {
     warnings.push_back("the transform of handle '" + rest.name +
       "' has a shear, an uneven scale or a reflection that a pose file cannot hold; its nearest "
       "rotation and scale were written");
-    scale = scale > 0.0 ? scale : 1.0;
   }
-  Json entry;
-  entry["mode"] = to_string(posed.mode);
-  entry["translate"] = list(parts.translation);
-  const Eigen::AngleAxisd turn(parts.rotation);
+  entry["translate"] = list(numbers.parts.translation);
+  const Eigen::AngleAxisd turn(numbers.parts.rotation);
   if (turn.angle() != 0.0)
   {
     entry["rotate"] = { { "axis", list(turn.axis()) },
       { "degrees", turn.angle() * (180.0 / EIGEN_PI) } };
   }
-  if (std::abs(scale - 1.0) > 1e-15)
+  if (std::abs(numbers.scale - 1.0) > 1e-15)
   {
-    entry["scale"] = scale;
+    entry["scale"] = numbers.scale;
   }
   if (rest.kind == HandleKind::bone)
   {
@@ -578,7 +712,7 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
         return Status::invalid_input(
           "the pose of handle '" + handles[h].name + "' has a number that is not finite");
       }
-      frame["handles"][handles[h].name] = format_handle(pose[h], handles[h], status.warnings);
+      frame["handles"][handles[h].name] = format_handle(pose, handles, h, status.warnings);
     }
     frames.push_back(std::move(frame));
   }
@@ -587,9 +721,10 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
     return Status::invalid_input("there is no pose to write");
   }
   Json root;
+  root["version"] = newest_version;
   if (frames.size() == 1)
   {
-    root = frames.front();
+    root["handles"] = std::move(frames.front()["handles"]);
   }
   else
   {

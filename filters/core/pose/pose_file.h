@@ -19,16 +19,24 @@ struct HandleEdit
   std::optional<Vec3> translate;
   std::optional<Eigen::Matrix3d> rotation; ///< of "rotate": axis and degrees
   std::optional<double> scale;
-  bool parent_space = false; ///< "space": "parent"
+  bool with_parent = true; ///< "space": "parent"; false: "world"
   std::optional<Vec3> head, tail; ///< bones: posed ends
   std::optional<double> stretch; ///< bones: posed length / rest length
   std::optional<Eigen::Vector2d> twist; ///< bones: degrees at head and tail
 };
 
-/// A pose file as read: one list of edits a frame; each frame starts from the base pose again.
+/// The edits of one pose in a pose file.
+struct PoseEdits
+{
+  std::vector<HandleEdit> handles;
+  /// False for version 1, in which handles do not follow their parents by default.
+  bool children_follow = true;
+};
+
+/// A pose file as read. Each frame starts from the base pose again.
 struct PoseSequence
 {
-  std::vector<std::vector<HandleEdit>> frames;
+  std::vector<PoseEdits> frames;
   double frames_per_second = 24.0;
   bool sequence = false; ///< the file has "frames", be it one, and is no single pose
   bool has_expressions = false; ///< somewhere stands a text for a number
@@ -40,14 +48,19 @@ using PoseExpression = std::function<Status(const std::string& text, double t, d
 
 /// Reads the text of a POSE.json: one pose
 ///
-///     {"handles": {NAME: {"mode": "full|position|free|tail|ends", "translate": [x, y, z],
+///     {"version": 2,
+///      "handles": {NAME: {"mode": "full|position|free|tail|ends", "translate": [x, y, z],
 ///                         "rotate": {"axis": [x, y, z], "degrees": d}, "scale": s,
-///                         "space": "world|parent",
+///                         "space": "parent|world",
 ///                         "head": [x, y, z], "tail": [x, y, z], "stretch": s,
 ///                         "twist": [deg, deg]}}}
 ///
-/// or a sequence {"frames": [pose, …], "fps": n}. All keys of a handle are optional; the last four
-/// are for bones, and head or tail exclude translate, rotate and scale.
+/// or a sequence {"version": 2, "frames": [pose, …], "fps": n}. All keys of a handle are optional;
+/// the last four are for bones, and head or tail exclude translate, rotate and scale. What a pose
+/// means: apply_edits().
+///
+/// A text without "version" has version 1, in which a handle follows its parent only if it has
+/// "space": "parent". A warning is returned if version 2 would pose a handle differently.
 ///
 /// Any number of a handle may be a text: an expression in t, for example "sin(2 * t)". With
 /// `expression` it is evaluated at t = `time` (single pose) or the frame's own time, its number /
@@ -55,8 +68,8 @@ using PoseExpression = std::function<Status(const std::string& text, double t, d
 ///
 /// Strict: an empty or broken text, an unknown handle or key, a key given twice, a wrong type, a
 /// number that is not finite, a rotation axis of length zero, a scale, stretch or fps that is not
-/// positive, a bone posed to length zero, an expression that cannot be read or has no finite value:
-/// invalid_input with one sentence that names it.
+/// positive, a bone posed to length zero, an expression that cannot be read or has no finite value,
+/// another version: invalid_input with one sentence that names it.
 Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequence& sequence,
   const PoseExpression& expression = {}, double time = 0.0);
 
@@ -71,20 +84,30 @@ struct PoseTimes
 /// False for a text that is no pose file at all; parse_pose_file() says why.
 bool read_pose_times(const std::string& text, PoseTimes& times);
 
-/// The pose that a frame asks for. A handle with pivot c (point, bone head, cage vertex, region
-/// pivot) moves x -> c + translate + R * scale * (x - c), absolute, not on top of the base pose.
-/// A bone with head or tail given (the other one rests) moves rigidly by the minimal arc from rest
-/// to posed direction, and its stretch is the ratio of lengths unless given. "space": "parent"
-/// applies the parent's posed transform afterwards. What the frame does not mention keeps the base
-/// pose; an entry without any of translate, rotate, scale, head, tail keeps the base transform.
-/// base must have one entry a handle; handles must have passed check_handles().
-Pose apply_edits(const std::vector<HandleEdit>& edits, const Handles& handles, const Pose& base);
+/// Return the pose that a frame describes.
+///
+/// Version 2: a handle with pivot c (point, bone head, cage vertex, region pivot) is transformed by
+/// x -> c + translate + R * scale * (x - c), then by what it inherits from its parent
+/// (transform_for_child()), as in glTF. "space": "world" disables the inheritance. The transform
+/// replaces that of the base pose. `head` and `tail` are world positions; an end that is not given
+/// follows the parent, or rests if the space is "world". The bone is rotated by the minimal arc
+/// between both directions, and its stretch is the ratio of the lengths unless `stretch` is given.
+/// A handle without translate, rotate, scale, head and tail keeps its transform relative to its
+/// parent in the base pose; so does a handle that the frame does not mention.
+///
+/// Version 1: the default space is "world". With "parent", `head` and `tail` are applied at rest,
+/// before the parent's transform. A handle that is not mentioned keeps its base transform.
+///
+/// base must have one entry per handle; handles must have passed check_handles().
+Pose apply_edits(const PoseEdits& edits, const Handles& handles, const Pose& base);
 
-/// Writes poses as the text of a POSE.json: a single one as a pose, several as a sequence. Reading
-/// it back gives the same poses to round-off, whatever the base pose. A transform with a shear, an
-/// uneven scale or a reflection has no words in the file: its nearest rotation and scale are
-/// written and a warning names the handle. invalid_input for a number that is not finite and for a
-/// name that is not UTF-8.
+/// Write poses as the text of a POSE.json of version 2: one pose, or a sequence of several. Reading
+/// the text returns the same poses up to rounding, for any base pose. Transforms are written
+/// relative to the parents, so that children follow if a number is edited; "space": "world" is
+/// written for a handle whose relative transform is not a rotation and a uniform scale. A shear, a
+/// non-uniform scale or a reflection cannot be written: the nearest rotation and scale are written
+/// instead, and a warning names the handle. invalid_input: a number that is not finite, a name that
+/// is not UTF-8.
 Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second,
   const Handles& handles, std::string& text);
 

@@ -905,12 +905,6 @@ std::vector<BoneChange> bone_changes(const Handles& handles, const Pose& pose)
   return changes;
 }
 
-double projected_endpoint(const Vec3& point, const Vec3& head, const Vec3& vector)
-{
-  const double length = vector.stableNorm();
-  return length > 0.0 ? std::clamp((point - head).dot(vector / length) / length, 0.0, 1.0) : 0.0;
-}
-
 Points handle_pivots(const Handles& handles)
 {
   Points pivots(static_cast<Index>(handles.size()), 3);

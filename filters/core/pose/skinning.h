@@ -159,10 +159,6 @@ Status skinning_transforms(
 /// What bones in mode full do along themselves; nothing for all other handles.
 std::vector<BoneChange> bone_changes(const Handles& handles, const Pose& pose);
 
-/// Where a point is along a bone: 0 up to the head, 1 from the tail on, between them its
-/// projection. 0 for a bone without length.
-double projected_endpoint(const Vec3& point, const Vec3& head, const Vec3& vector);
-
 /// #handles x 3 pivots: the handles' heads.
 Points handle_pivots(const Handles& handles);
 

@@ -516,7 +516,7 @@ TEST(FuzzReaders, Poses)
 {
   const Handles handles = named_handles();
   const std::vector<std::string> valid{
-    R"({"handles": {"p": {"mode": "position", "translate": [1, 0.5, -2e-1],
+    R"({"version": 2, "handles": {"p": {"mode": "position", "translate": [1, 0.5, -2e-1],
  "rotate": {"axis": [0, 0, 1], "degrees": 90}, "scale": 2},
  "fore": {"rotate": {"axis": [1, 1, 1], "degrees": -30}, "space": "parent"},
  "upper": {"head": [0, 1, 0], "tail": [3, 1, 0], "stretch": 1.5, "twist": [10, -20]}}})",
@@ -544,7 +544,7 @@ TEST(FuzzReaders, Poses)
       bool moderate = true;
       for (const auto& frame : sequence.frames)
       {
-        for (const HandleEdit& edit : frame)
+        for (const HandleEdit& edit : frame.handles)
         {
           ASSERT_TRUE(edit.handle >= 0 && edit.handle < 3);
           const double largest = largest_number(edit);
@@ -594,7 +594,7 @@ TEST(FuzzReaders, NamesInPoseFiles)
       PoseSequence back;
       const Status status = parse_pose_file(text, handles, back);
       ASSERT_TRUE(status.ok()) << status.message;
-      EXPECT_EQ(back.frames[0].size(), 3u);
+      EXPECT_EQ(back.frames[0].handles.size(), 3u);
       // Names of others are refused in one sentence.
       test::expect_spoken(parse_pose_file(text, named_handles(), back));
     });

@@ -1,5 +1,7 @@
 // Pose files: what they mean, what is refused, and that what is written is read back.
+#include "pose/handle_hierarchy.h"
 #include "pose/pose_file.h"
+#include "pose/skinning.h"
 #include "pose/transform_parts.h"
 
 #include "support/handles.h"
@@ -82,7 +84,7 @@ TEST(PoseFile, WhatIsNotMentionedKeepsTheBase)
   EXPECT_EQ(read(R"({"handles": {"fore": {"mode": "free"}}})", base)[1].transform(1, 3), 100.0);
 }
 
-TEST(PoseFile, ParentsComposeOnlyWhenAsked)
+TEST(PoseFile, InVersionOneParentsComposeOnlyWhenAsked)
 {
   const std::string upper = R"("upper": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})";
   const std::string fore = R"("fore": {"rotate": {"axis": [0, 0, 1], "degrees": 90})";
@@ -96,6 +98,152 @@ TEST(PoseFile, ParentsComposeOnlyWhenAsked)
   // A root's parent is the world.
   pose = read(R"({"handles": {"upper": {"space": "parent", "translate": [1, 1, 1]}}})");
   EXPECT_EQ(pose[2].transform.col(3), Vec3(1, 1, 1));
+  // A handle that is not mentioned keeps its transform.
+  EXPECT_EQ(read("{\"handles\": {" + upper + "}}")[1].transform, identity_affine());
+}
+
+TEST(PoseFile, AMissingVersionWarnsIfChildrenWouldFollow)
+{
+  const auto warnings = [](const std::string& text)
+  {
+    PoseSequence sequence;
+    const Status status = parse_pose_file(text, rig(), sequence);
+    EXPECT_TRUE(status.ok()) << status.message;
+    return status.warnings;
+  };
+  const std::string upper = R"("upper": {"scale": 2})";
+  // Once, in a sequence too.
+  ASSERT_EQ(warnings("{\"handles\": {" + upper + "}}").size(), 1u);
+  EXPECT_THAT(warnings("{\"handles\": {" + upper + "}}")[0], HasSubstr("\"version\": 2"));
+  EXPECT_EQ(
+    warnings("{\"frames\": [{\"handles\": {" + upper + "}}, {\"handles\": {" + upper + "}}]}")
+      .size(),
+    1u);
+  // Not where both versions mean the same.
+  EXPECT_EQ(warnings("{\"version\": 1, \"handles\": {" + upper + "}}").size(), 0u);
+  EXPECT_EQ(warnings("{\"version\": 2, \"handles\": {" + upper + "}}").size(), 0u);
+  EXPECT_EQ(warnings(R"({"handles": {"fore": {"scale": 2}, "p": {"scale": 2}}})").size(), 0u);
+  EXPECT_EQ(warnings("{\"handles\": {" + upper + R"(, "fore": {"space": "world"}}})").size(), 0u);
+}
+
+TEST(PoseFile, ChildrenFollowTheirParents)
+{
+  const auto read_new = [](const std::string& handles, const Pose& base = Pose(3))
+  { return read("{\"version\": 2, \"handles\": {" + handles + "}}", base); };
+  const std::string upper = R"("upper": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})";
+  // A quarter turn about the origin, of the bone and of what hangs on it.
+  Pose pose = read_new(upper);
+  EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(0, 2, 0)).norm(), 1e-15);
+  EXPECT_EQ(pose[0].transform, identity_affine());
+  // Its own quarter turn comes first.
+  pose = read_new(upper + R"(, "fore": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})");
+  EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
+  EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(-1, 1, 0)).norm(), 1e-15);
+  // In world space it does not follow, with a transform or without.
+  pose = read_new(
+    upper + R"(, "fore": {"space": "world", "rotate": {"axis": [0, 0, 1], "degrees": 90}})");
+  EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
+  pose = read_new(upper + R"(, "fore": {"space": "world", "mode": "free"})");
+  EXPECT_EQ(pose[1].transform, identity_affine());
+  EXPECT_EQ(pose[1].mode, HandleMode::free);
+  // A child at the tail moves with the stretch and rotates with the twist there.
+  pose = read_new(R"("upper": {"rotate": {"axis": [0, 0, 1], "degrees": 90}, "stretch": 3})");
+  EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(0, 4, 0)).norm(), 1e-15);
+  pose = read_new(R"("upper": {"twist": [0, 90]})");
+  EXPECT_LT((apply(pose[1].transform, Vec3(2, 1, 0)) - Vec3(2, 0, 1)).norm(), 1e-15);
+  // A given end is a world position; the other end follows the parent.
+  pose = read_new(upper + R"(, "fore": {"tail": [2, 1, 0]})");
+  EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
+  EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
+  EXPECT_DOUBLE_EQ(pose[1].stretch, 2.0);
+  pose = read_new(upper + R"(, "fore": {"tail": [0, 1, 0]})"); // where its head is
+  EXPECT_EQ(pose[1].stretch, 1.0);
+  EXPECT_TRUE(pose[1].transform.allFinite());
+}
+
+TEST(PoseFile, FollowersKeepTheirPlaceRelativeToTheParent)
+{
+  test::Random random(5);
+  const auto motion = [&](double scale)
+  {
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(
+      random.uniform(-3, 3), random.in_box(-Vec3::Ones(), Vec3::Ones()).normalized())
+                                   .toRotationMatrix();
+    return affine_about(Vec3::Zero(), scale * turn, random.in_box(-Vec3::Ones(), Vec3::Ones()));
+  };
+  for (int i = 0; i < 100; ++i)
+  {
+    Pose base(3);
+    base[1].transform = motion(0.7);
+    base[2].transform = motion(1.3);
+    base[2].stretch = 1.5;
+    base[2].twist << 20, 50;
+    const Pose pose = read(
+      R"({"version": 2, "handles": {"upper": {"translate": [0, 2, 0], "stretch": 0.5}}})", base);
+    // The transform relative to the parent's tail has not changed.
+    Affine back, back_then;
+    ASSERT_TRUE(invert(transform_for_child(rig()[2], pose[2], Vec3(1, 0, 0)), back));
+    ASSERT_TRUE(invert(transform_for_child(rig()[2], base[2], Vec3(1, 0, 0)), back_then));
+    EXPECT_LT((composed(back, pose[1].transform) - composed(back_then, base[1].transform))
+                .cwiseAbs()
+                .maxCoeff(),
+      1e-13);
+    // Without a motion of the parent no bit changes.
+    EXPECT_EQ(
+      read(R"({"version": 2, "handles": {"p": {"translate": [0, 2, 0]}}})", base)[1].transform,
+      base[1].transform);
+  }
+  Pose flat(3);
+  flat[2].transform.setZero();
+  flat[1].transform(0, 3) = 4.0;
+  EXPECT_EQ(read(R"({"version": 2, "handles": {"upper": {"scale": 1}}})", flat)[1].transform,
+    flat[1].transform);
+}
+
+// A child moves like the skin at the point where it is attached.
+TEST(HandleHierarchy, ChildrenGoWithTheSkinWhereTheyAreAttached)
+{
+  test::Random random(6);
+  const Handle bone = test::bone_handle("b", Vec3(1, 2, 3), Vec3(3, 2, 4));
+  HandlePose posed;
+  posed.transform = affine_about(bone.head,
+    1.4 * Eigen::AngleAxisd(0.8, Vec3(1, 2, -1).normalized()).toRotationMatrix(), Vec3(4, 5, 6));
+  posed.stretch = 1.7;
+  posed.twist << -30, 75;
+  Points rest(50, 3);
+  for (Index i = 0; i < 50; ++i)
+  {
+    rest.row(i) = random.in_box(Vec3(0, 1, 2), Vec3(4, 3, 5)).transpose();
+  }
+  ExecutionContext context;
+  Skinning skinning;
+  const Weights weights = Weights::Ones(50, 1);
+  ASSERT_TRUE(skinning.bind(context, weights).ok());
+  Points skin;
+  ASSERT_TRUE(skinning
+                .stretchable_bones(context, rest, { posed.transform },
+                  bone_changes({ bone }, { posed }), Weights(), skin)
+                .ok());
+  for (Index i = 0; i < 50; ++i)
+  {
+    const Vec3 place = rest.row(i).transpose();
+    EXPECT_LT(
+      (apply(transform_for_child(bone, posed, place), place) - skin.row(i).transpose()).norm(),
+      1e-12);
+  }
+}
+
+TEST(HandleHierarchy, ParentsComeFirst)
+{
+  Handles handles(5);
+  handles[0].parent = 3;
+  handles[3].parent = 4;
+  handles[1].parent = 0;
+  EXPECT_EQ(parents_first(handles), (std::vector<Index>{ 4, 3, 0, 1, 2 }));
+  handles[4].parent = 1; // a ring
+  std::vector<Index> order = parents_first(handles);
+  std::sort(order.begin(), order.end());
+  EXPECT_EQ(order, (std::vector<Index>{ 0, 1, 2, 3, 4 }));
 }
 
 TEST(PoseFile, BonesGoWhereTheirEndsAreSent)
@@ -139,7 +287,7 @@ TEST(PoseFile, SequencesHaveFramesAndARate)
                 .ok());
   ASSERT_EQ(sequence.frames.size(), 2u);
   EXPECT_EQ(sequence.frames_per_second, 12.5);
-  EXPECT_TRUE(sequence.frames[0].empty());
+  EXPECT_TRUE(sequence.frames[0].handles.empty());
   EXPECT_EQ(apply_edits(sequence.frames[1], rig(), Pose(3))[0].transform(0, 3), 1.0);
 }
 
@@ -166,7 +314,7 @@ TEST(PoseFile, TextsAreExpressionsInTime)
   ASSERT_TRUE(parse_pose_file(
     R"({"fps": 4, "frames": [)" + frame + "," + frame + "]}", rig(), sequence, expression, 90.0)
                 .ok());
-  EXPECT_EQ(*sequence.frames[1][0].translate, Vec3(0.25, 0, 0));
+  EXPECT_EQ(*sequence.frames[1].handles[0].translate, Vec3(0.25, 0, 0));
 
   const auto wrong = [&](const std::string& entry)
   {
@@ -233,12 +381,15 @@ TEST(PoseFile, WhatIsWrongIsNamed)
     HasSubstr("'radians'"));
   EXPECT_THAT(message(R"({"handles": {"p": {"scale": 0}}})"), HasSubstr("greater than 0"));
   EXPECT_THAT(message(R"({"handles": {"p": {"scale": -1}}})"), HasSubstr("greater than 0"));
-  EXPECT_THAT(message(R"({"handles": {"p": {"space": "local"}}})"), HasSubstr("world, parent"));
+  EXPECT_THAT(message(R"({"handles": {"p": {"space": "local"}}})"), HasSubstr("parent, world"));
   EXPECT_THAT(message(R"({"handles": {"p": {"head": [0, 0, 0]}}})"), HasSubstr("for bones"));
   EXPECT_THAT(message(R"({"handles": {"fore": {"head": [2, 0, 0]}}})"), HasSubstr("length zero"));
   EXPECT_THAT(message(R"({"handles": {"fore": {"head": [1, 1, 1], "scale": 2}}})"),
     HasSubstr("one or the other"));
   EXPECT_THAT(message(R"({"handles": {"fore": {"twist": [1]}}})"), HasSubstr("2 numbers"));
+  EXPECT_THAT(message(R"({"version": 3, "handles": {}})"), HasSubstr("expected 1 or 2"));
+  EXPECT_THAT(message(R"({"version": "2", "handles": {}})"), HasSubstr("version is \"2\""));
+  EXPECT_THAT(message(R"({"frames": [{"version": 2, "handles": {}}]})"), HasSubstr("'version'"));
   EXPECT_THAT(message(R"({"frames": []})"), HasSubstr("at least one"));
   EXPECT_THAT(message(R"({"frames": [{"handles": {}}], "fps": 0})"), HasSubstr("fps"));
   EXPECT_THAT(

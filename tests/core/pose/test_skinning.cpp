@@ -6,6 +6,7 @@
 #include "support/bars.h"
 #include "support/handles.h"
 #include "support/meshes.h"
+#include "weights/bone_projection.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

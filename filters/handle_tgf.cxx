@@ -2,11 +2,27 @@
 // are those of the handles.
 #include "handle_tgf.h"
 
+#include <algorithm>
 #include <array>
 #include <map>
 
 namespace bindpose
 {
+
+namespace
+{
+/// Return the parent that vtkHandleFileReader finds: the first bone whose tail is the head.
+Index parent_by_joint(const Handles& handles, const Handle& handle)
+{
+  const auto found = std::find_if(handles.begin(), handles.end(),
+    [&](const Handle& other)
+    {
+      return handle.kind == HandleKind::bone && other.kind == HandleKind::bone &&
+        other.tail == handle.head;
+    });
+  return found == handles.end() ? -1 : found - handles.begin();
+}
+} // namespace
 
 Status to_tgf(const Handles& handles, Tgf& graph)
 {
@@ -63,7 +79,22 @@ Status to_tgf(const Handles& handles, Tgf& graph)
       graph.edges.push_back(edge);
     }
   }
-  return {};
+  std::vector<Index> lost;
+  for (std::size_t i = 0; i < handles.size(); ++i)
+  {
+    if (handles[i].parent != parent_by_joint(handles, handles[i]))
+    {
+      lost.push_back(static_cast<Index>(i));
+    }
+  }
+  Status status;
+  if (!lost.empty())
+  {
+    status.warnings.push_back("a .tgf file stores parents only as shared joints of bones; the "
+                              "parents of " +
+      quoted_names(handles, lost) + " are not stored (use a .vtp file)");
+  }
+  return status;
 }
 
 } // namespace bindpose

@@ -10,7 +10,10 @@
  * bindpose-mesher) and simplifies it: ends and junctions are joints, branches shorter than the
  * shape is thick are pruned, the others split where they bend into bones b1, b2, … Bones lead away
  * from the joint nearest to the centroid of mass, and have as `Parent` the one whose tail is their
- * head; those at the root have none. Each component has bones of its own, one like a ball a point.
+ * head. Each component has its own bones; a component like a ball has a point. Exactly one bone has
+ * no parent: among the bones at the root of the largest component, the one with the largest volume.
+ * It is the parent of the others at that root. The first bone of every other component, and every
+ * point, has the nearest bone of the largest component as its parent.
  * A cycle is cut where it is farthest from the root, with a warning. A surface that is not clean
  * (open, crossing, doubled) is contracted by way of the boundary of what it winds around.
  *

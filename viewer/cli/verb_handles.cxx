@@ -21,6 +21,10 @@ bool write_tgf_file(Session& session, vtkDataSet* data, const std::string& path)
   if (status.ok())
   {
     status = to_tgf(handles, graph);
+    for (const std::string& warning : status.warnings)
+    {
+      session.warn(warning);
+    }
   }
   AtomicFile file;
   if (status.ok())

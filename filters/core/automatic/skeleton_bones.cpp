@@ -4,10 +4,12 @@
 #include "automatic/skeleton_bones.h"
 
 #include "base/number_text.h"
+#include "weights/bone_projection.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <queue>
 #include <set>
 
@@ -511,78 +513,171 @@ std::vector<Piece> split(const Graph& graph, double tolerance, double longest, I
   return pieces;
 }
 
-/// Bones away from the roots, parents first.
-void orient(
-  const Graph& graph, Index parts, const std::vector<Piece>& pieces, SkeletonBones& result)
+/// Length times squared radius: an estimate of the volume around a piece.
+double volume_of(const Graph& graph, const Piece& piece)
 {
-  std::vector<std::vector<Index>> at(static_cast<std::size_t>(graph.size())); // pieces of a joint
-  for (std::size_t i = 0; i < pieces.size(); ++i)
+  double sum = 0.0;
+  for (std::size_t i = 1; i < piece.path.size(); ++i)
   {
-    at[pieces[i].path.front()].push_back(static_cast<Index>(i));
-    at[pieces[i].path.back()].push_back(static_cast<Index>(i));
+    const Index a = piece.path[i - 1];
+    const Index b = piece.path[i];
+    const double radius = 0.5 * (graph.radius(a) + graph.radius(b));
+    sum += radius * radius * (graph.place(a) - graph.place(b)).norm();
   }
-  std::vector<Index> joint_of(at.size(), -1);
-  std::vector<Vec3> joints;
-  const auto add_joint = [&](Index v)
+  return sum;
+}
+
+/// Converts pieces to bones with heads, tails and parents.
+class Orientation
+{
+public:
+  Orientation(const Graph& graph, const std::vector<Piece>& pieces, SkeletonBones& result)
+    : graph_(graph), pieces_(pieces), result_(result), at_(static_cast<std::size_t>(graph.size())),
+      done_(pieces.size(), 0)
   {
-    joint_of[v] = static_cast<Index>(joints.size());
-    joints.push_back(graph.place(v));
-    result.junctions += at[v].size() >= 3 ? 1 : 0;
-  };
-  Index bones = 0;
-  std::vector<char> done(pieces.size(), 0);
-  for (Index part = 0; part < parts; ++part)
-  {
-    Index root = -1;
-    for (Index v = 0; v < graph.size(); ++v)
+    for (std::size_t i = 0; i < pieces.size(); ++i)
     {
-      // Of components with cycles the root is held; of others it is the joint nearest by.
-      const auto distance = [&](Index w)
-      { return graph.held(w) ? -1.0 : (graph.place(w) - graph.centroid(part)).norm(); };
-      if (graph.part(v) == part && !at[v].empty() && (root < 0 || distance(v) < distance(root)))
+      this->at_[pieces[i].path.front()].push_back(static_cast<Index>(i));
+      this->at_[pieces[i].path.back()].push_back(static_cast<Index>(i));
+    }
+  }
+
+  /// Create bones that lead away from the roots, parents first. The component with the largest
+  /// volume comes first, because its bones are parents of the other components.
+  void run(Index parts)
+  {
+    std::vector<double> volumes(static_cast<std::size_t>(parts), 0.0);
+    for (const Piece& piece : this->pieces_)
+    {
+      volumes[this->graph_.part(piece.path.front())] += volume_of(this->graph_, piece);
+    }
+    std::vector<Index> order(volumes.size());
+    std::iota(order.begin(), order.end(), Index(0));
+    std::stable_sort(
+      order.begin(), order.end(), [&](Index a, Index b) { return volumes[a] > volumes[b]; });
+    const auto first_bone = static_cast<Index>(this->result_.handles.size());
+    Index last_bone = first_bone; // end of the bones of the first component
+    for (const Index part : order)
+    {
+      const Index root = this->root_of(part);
+      if (root >= 0)
+      {
+        this->grow(root, this->nearest(this->graph_.place(root), first_bone, last_bone));
+        last_bone =
+          last_bone > first_bone ? last_bone : static_cast<Index>(this->result_.handles.size());
+      }
+    }
+    for (Index h = 0; h < first_bone; ++h) // balls
+    {
+      this->result_.handles[h].parent =
+        this->nearest(this->result_.handles[h].head, first_bone, last_bone);
+    }
+    this->result_.joints.resize(static_cast<Index>(this->joints_.size()), 3);
+    for (std::size_t j = 0; j < this->joints_.size(); ++j)
+    {
+      this->result_.joints.row(static_cast<Index>(j)) = this->joints_[j].transpose();
+    }
+  }
+
+private:
+  /// Return the held joint of a component with cycles, else the joint nearest to the centroid, or
+  /// -1 if the component has no bones.
+  Index root_of(Index part) const
+  {
+    const auto distance = [&](Index v)
+    {
+      return this->graph_.held(v) ? -1.0
+                                  : (this->graph_.place(v) - this->graph_.centroid(part)).norm();
+    };
+    Index root = -1;
+    for (Index v = 0; v < this->graph_.size(); ++v)
+    {
+      if (this->graph_.part(v) == part && !this->at_[v].empty() &&
+        (root < 0 || distance(v) < distance(root)))
       {
         root = v;
       }
     }
-    if (root < 0)
+    return root;
+  }
+
+  /// Return the bone nearest to a point, or -1 if the range is empty.
+  Index nearest(const Vec3& place, Index begin, Index end) const
+  {
+    Index best = -1;
+    double least = infinite;
+    for (Index h = begin; h < end; ++h)
     {
-      continue;
+      const Handle& bone = this->result_.handles[h];
+      const Vec3 vector = bone.tail - bone.head;
+      const double along = projected_endpoint(place, bone.head, vector);
+      const double distance = (bone.head + along * vector - place).norm();
+      if (distance < least)
+      {
+        least = distance;
+        best = h;
+      }
     }
-    add_joint(root);
-    result.roots.push_back(joint_of[root]);
+    return best;
+  }
+
+  void add_joint(Index v)
+  {
+    this->joints_.push_back(this->graph_.place(v));
+    this->result_.junctions += this->at_[v].size() >= 3 ? 1 : 0;
+  }
+
+  /// Create the bones of one component. The bone with the largest volume at the root is the trunk:
+  /// the parent of the others there.
+  void grow(Index root, Index carrier)
+  {
+    std::vector<Index>& first = this->at_[root];
+    std::iter_swap(first.begin(),
+      std::max_element(first.begin(), first.end(),
+        [&](Index a, Index b) {
+          return volume_of(this->graph_, this->pieces_[a]) <
+            volume_of(this->graph_, this->pieces_[b]);
+        }));
+    const auto trunk = static_cast<Index>(this->result_.handles.size());
+    this->result_.roots.push_back(static_cast<Index>(this->joints_.size()));
+    this->add_joint(root);
     std::queue<std::pair<Index, Index>> open; // a joint, and the handle that leads to it
-    open.push({ root, -1 });
+    open.push({ root, trunk });
     while (!open.empty())
     {
       const auto [head, parent] = open.front();
       open.pop();
-      for (const Index i : at[head])
+      for (const Index i : this->at_[head])
       {
-        if (done[i])
+        if (this->done_[i])
         {
           continue;
         }
-        done[i] = 1;
-        const Piece& piece = pieces[i];
+        this->done_[i] = 1;
+        const Piece& piece = this->pieces_[i];
         const Index tail = piece.path.front() == head ? piece.path.back() : piece.path.front();
-        add_joint(tail);
+        this->add_joint(tail);
+        const auto number = static_cast<Index>(this->result_.handles.size());
         Handle bone;
         bone.kind = HandleKind::bone;
-        bone.name = "b" + std::to_string(++bones);
-        bone.head = graph.place(head);
-        bone.tail = graph.place(tail);
-        bone.parent = parent;
-        open.push({ tail, static_cast<Index>(result.handles.size()) });
-        result.handles.push_back(std::move(bone));
+        bone.name = "b" + std::to_string(++this->bones_);
+        bone.head = this->graph_.place(head);
+        bone.tail = this->graph_.place(tail);
+        bone.parent = number == trunk ? carrier : parent;
+        open.push({ tail, number });
+        this->result_.handles.push_back(std::move(bone));
       }
     }
   }
-  result.joints.resize(static_cast<Index>(joints.size()), 3);
-  for (std::size_t j = 0; j < joints.size(); ++j)
-  {
-    result.joints.row(static_cast<Index>(j)) = joints[j].transpose();
-  }
-}
+
+  const Graph& graph_;
+  const std::vector<Piece>& pieces_;
+  SkeletonBones& result_;
+  std::vector<std::vector<Index>> at_; ///< pieces of a joint
+  std::vector<char> done_; ///< of pieces
+  std::vector<Vec3> joints_;
+  Index bones_ = 0;
+};
 
 Status check_options(const SkeletonBonesOptions& options)
 {
@@ -648,7 +743,7 @@ Status skeleton_bones(const CurveSkeleton& skeleton, double diagonal,
   }
   const std::vector<Piece> pieces =
     split(graph, options.tolerance * diagonal, options.longest_bone * diagonal, options.most_bones);
-  orient(graph, parts, pieces, bones);
+  Orientation(graph, pieces, bones).run(parts);
   if (bones.cut_cycles > 0)
   {
     status.warnings.push_back(std::to_string(bones.cut_cycles) +

@@ -50,8 +50,11 @@ struct SkeletonBones
 ///    need). What lies in the ball of a junction is no bend. A bone that leaves the shape is split,
 ///    too, where that can help; all are split at points within the shape only.
 /// 4. The root of a component without cycles is its joint nearest to the centroid. Bones lead away
-///    from it: a bone's parent is the one whose tail is its head; several bones may begin at a
-///    root, and have no parent. Parents come before children.
+///    from it: a bone's parent is the one whose tail is its head. If several bones begin at a root,
+///    the one with the largest volume is the parent of the others.
+/// 5. The first bone of every other component, and every point, has as its parent the nearest bone
+///    of the component with the largest volume. Exactly one bone has no parent. Parents come before
+///    children, except for points, which come first.
 ///
 /// @param diagonal  of the shape's box, the unit of the options
 /// invalid_input: an option out of range. Warns where cycles are cut and where most_bones cannot

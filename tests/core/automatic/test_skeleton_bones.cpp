@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -71,8 +72,13 @@ SkeletonBones run(const Drawing& drawing, const SkeletonBonesOptions& options = 
 }
 
 /// A bone's parent ends where it begins and comes before it; those without begin at a root.
+/// Exactly one handle has no parent. A bone begins at the tail of its parent or at a root.
 void expect_tree(const SkeletonBones& bones)
 {
+  EXPECT_TRUE(check_handles(bones.handles).ok());
+  EXPECT_EQ(std::count_if(bones.handles.begin(), bones.handles.end(),
+              [](const Handle& handle) { return handle.parent < 0; }),
+    1);
   for (std::size_t i = 0; i < bones.handles.size(); ++i)
   {
     const Handle& bone = bones.handles[i];
@@ -80,10 +86,9 @@ void expect_tree(const SkeletonBones& bones)
     {
       continue;
     }
-    if (bone.parent >= 0)
+    EXPECT_LT(bone.parent, static_cast<Index>(i));
+    if (bone.parent >= 0 && bones.handles[bone.parent].tail == bone.head)
     {
-      EXPECT_LT(bone.parent, static_cast<Index>(i));
-      EXPECT_EQ(bones.handles[bone.parent].tail, bone.head) << bone.name;
       continue;
     }
     bool at_root = false;
@@ -186,7 +191,7 @@ TEST(SkeletonBones, AnElbowIsAJoint)
   EXPECT_EQ(bones.handles[0].head, Vec3(0.5, 0.0, 0.0));
   EXPECT_EQ(bones.handles[1].head, Vec3(0.5, 0.0, 0.0));
   EXPECT_EQ(bones.handles[0].parent, -1);
-  EXPECT_EQ(bones.handles[1].parent, -1);
+  EXPECT_EQ(bones.handles[1].parent, 0);
 }
 
 TEST(SkeletonBones, AreWithinTheToleranceOfTheCurve)
@@ -279,6 +284,32 @@ TEST(SkeletonBones, ACrossHasOneJunction)
   ASSERT_EQ(bones.roots.size(), 1u);
   EXPECT_EQ(Vec3(bones.joints.row(bones.roots[0])), Vec3::Zero());
   expect_tree(bones);
+}
+
+TEST(SkeletonBones, TheBoneWithTheLargestVolumeIsTheRoot)
+{
+  // A thick trunk upwards and two thin limbs; one limb has a second bone.
+  Drawing drawing;
+  drawing.centroids = { Vec3::Zero() };
+  const Index centre = drawing.point(Vec3::Zero(), 0.1);
+  drawing.line(centre, Vec3(2.0, 0.0, 0.0));
+  const Index trunk = drawing.point(Vec3(0.0, 0.0, 0.2), 0.4);
+  drawing.segments.push_back({ centre, trunk });
+  drawing.line(trunk, Vec3(0.0, 0.0, 1.5));
+  drawing.line(drawing.line(centre, Vec3(-2.0, 0.0, 0.0)), Vec3(-2.0, 1.5, 0.0));
+  const SkeletonBones bones = run(drawing);
+  ASSERT_EQ(bones.handles.size(), 4u);
+  EXPECT_EQ(bones.handles[0].tail, Vec3(0.0, 0.0, 1.5));
+  EXPECT_EQ(bones.handles[0].parent, -1);
+  expect_tree(bones);
+  for (const Handle& bone : bones.handles)
+  {
+    EXPECT_EQ(bone.parent,
+      bone.tail == Vec3(0.0, 0.0, 1.5) ? -1
+        : bone.head.isZero()           ? 0
+                                       : 2)
+      << bone.name;
+  }
 }
 
 TEST(SkeletonBones, JunctionsWithinTheThicknessAreOne)
@@ -392,6 +423,12 @@ TEST(SkeletonBones, BallsArePointsAndComponentsHaveRootsOfTheirOwn)
   EXPECT_EQ(bones.handles[2].name, "b1");
   EXPECT_EQ(bones.handles[3].name, "b2");
   EXPECT_EQ(bones.roots.size(), 2u);
+  expect_tree(bones);
+  // The point above and the one below are both nearest to the bone between them.
+  EXPECT_EQ(bones.handles[0].parent, 2);
+  EXPECT_EQ(bones.handles[1].parent, 2);
+  EXPECT_EQ(bones.handles[2].parent, -1);
+  EXPECT_EQ(bones.handles[3].parent, 2);
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("2 bones, more than 1"));
 }

@@ -19,6 +19,7 @@
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 
+#include <algorithm>
 #include <iostream>
 
 namespace bindpose::cli
@@ -90,6 +91,11 @@ bool Session::fail(Status status)
 
 void Session::warn(const std::string& sentence)
 {
+  // A filter that is updated once per frame repeats its warnings.
+  if (std::find(this->warnings_.begin(), this->warnings_.end(), sentence) != this->warnings_.end())
+  {
+    return;
+  }
   this->warnings_.push_back(sentence);
   if (!this->arguments_.has("quiet"))
   {

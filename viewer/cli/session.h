@@ -43,6 +43,7 @@ public:
 
   bool fail(Status status);
   bool invalid(const std::string& sentence) { return this->fail(Status::invalid_input(sentence)); }
+  /// Print and report a warning, each sentence once.
   void warn(const std::string& sentence);
   /// Progress of what is no algorithm.
   void show(double fraction, const std::string& what) { this->bar_.show(fraction, what); }

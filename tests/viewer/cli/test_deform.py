@@ -30,6 +30,20 @@ def deform(folder, pose, *more, method="lbs", output="out.vtp"):
                       "-o", output, *more)
 
 
+def test_children_follow_their_parents(bar):
+    turn = {"rotate": {"axis": [0, 0, 1], "degrees": 90}}
+    result = deform(bar, {"version": 2, "handles": {"b1": turn}}).is_good()
+    assert result.err == ""
+    x, y, z = bar.points.T
+    turned = np.stack([1 - y, x, z], axis=1)  # about (0.5, 0.5)
+    assert points_of(bindpose.read(bar / "out.vtp")) == pytest.approx(turned, abs=1e-12)
+    # In version 1 b2 does not follow; one warning says so, for a sequence as well.
+    result = deform(bar, {"frames": [{"handles": {"b1": turn}}] * 3}, output="old.vtp").is_good()
+    assert result.err.count("warning") == 1 and '"version": 2' in result.err
+    ends = points_of(bindpose.read(bar / "old_0002.vtp"))[x == 6]
+    assert ends == pytest.approx(bar.points[x == 6], abs=1e-12)
+
+
 @pytest.mark.parametrize("method", METHODS)
 def test_rest_and_rigid_poses(bar, method):
     deform(bar, {"handles": {}}, method=method).is_good()

@@ -43,7 +43,8 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
     in->addWidget(name, row, 0);
     return name;
   };
-  this->names_ = { label(grid, 0, tr("Move"), tr("From rest, along x, y and z")),
+  this->names_ = { label(grid, 0, tr("Move"),
+                     tr("Translation along x, y and z, relative to the parent")),
     label(grid, 1, tr("Turn °"), tr("About x, then y, then z, through the handle's place")),
     label(grid, 2, tr("Scale"), tr("1 is the size at rest")) };
   for (int k = 0; k < 3; ++k)
@@ -76,10 +77,12 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
     bone->addWidget(this->fields_[8 + k], 1, 1 + k);
   }
   rows->addWidget(this->bone_rows_);
-  for (QDoubleSpinBox* each : this->fields_)
+  for (std::size_t k = 0; k < this->fields_.size(); ++k)
   {
+    QDoubleSpinBox* each = this->fields_[k];
     QObject::connect(each, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
-      [this] { Q_EMIT this->values_chosen(); });
+      [this, k] { Q_EMIT this->values_chosen(static_cast<int>(k)); });
+    QObject::connect(each, &QAbstractSpinBox::editingFinished, this, &HandleFields::edit_ended);
   }
   this->layer_row_ = new QWidget(this);
   auto* layer = new QGridLayout(this->layer_row_);

@@ -35,7 +35,10 @@ public:
   QDoubleSpinBox* layer() const { return this->layer_; }
 
 Q_SIGNALS:
-  void values_chosen();
+  /// The value of field(field) has changed. A wheel or an arrow key emits this once per step.
+  void values_chosen(int field);
+  /// An edit is complete: the field has lost the focus, or Enter was pressed.
+  void edit_ended();
   void layer_chosen(double layer);
 
 private:

@@ -26,6 +26,7 @@
 #include "volume_panel.h"
 #include "volume_view.h"
 #include "weight_inspection.h"
+#include "wheel_guard.h"
 #include "window_menus.h"
 #include "window_sessions.h"
 
@@ -79,6 +80,7 @@ QString certificate_note(vtkPolyData* surface)
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Document(this))
 {
   this->setAcceptDrops(true);
+  new WheelGuard(this);
   this->resize(1280, 800);
   this->make_layout();
   this->make_inspections();
@@ -717,7 +719,10 @@ void MainWindow::connect_posing()
       this->update_pose();
     });
   QObject::connect(this->posing_, &Posing::pose_done, this->document_,
-    [this](const QString& step) { this->document_->commit_pose(step); });
+    [this](const QString& step, const QString& merge)
+    { this->document_->commit_pose(step, merge); });
+  QObject::connect(
+    this->posing_, &Posing::edit_ended, this->document_, [this] { this->document_->end_merge(); });
   QObject::connect(this->posing_, &Posing::shelf_changed, this->document_,
     [this](const QString& step) { this->document_->set_key_poses(this->posing_->shelf(), step); });
   QObject::connect(this->posing_, &Posing::handles_changed, this->document_,

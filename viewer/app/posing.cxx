@@ -193,13 +193,16 @@ void Posing::connect_panel()
       this->motion_->cancel_bind();
     });
   QObject::connect(this->panels_.fields, &HandleFields::values_chosen, this, &Posing::values_typed);
+  QObject::connect(this->panels_.fields, &HandleFields::edit_ended, this, &Posing::edit_ended);
   QObject::connect(this->panels_.fields, &HandleFields::layer_chosen, this, &Posing::layer_typed);
 }
 
 void Posing::connect_keeper()
 {
-  QObject::connect(this->keeper_, &PoseKeeper::pose_wanted, this, &Posing::change_pose);
-  QObject::connect(this->keeper_, &PoseKeeper::pose_done, this, &Posing::pose_done);
+  QObject::connect(this->keeper_, &PoseKeeper::pose_wanted, this,
+    [this](const Pose& pose, const QString& step) { this->change_pose(pose, step); });
+  QObject::connect(this->keeper_, &PoseKeeper::pose_done, this,
+    [this](const QString& step) { Q_EMIT this->pose_done(step); });
   QObject::connect(this->keeper_, &PoseKeeper::shelf_changed, this, &Posing::shelf_changed);
   QObject::connect(this->keeper_, &PoseKeeper::failed, this, &Posing::failed);
   KeyStrip* strip = this->panels_.strip;
@@ -498,7 +501,7 @@ void Posing::show_values()
   const auto k = static_cast<std::size_t>(this->selected_);
   const Handle& handle = this->source_->handles[k];
   this->panels_.fields->show_values(
-    &handle, values_of(handle, pose[k]), pose[k].mode == HandleMode::free);
+    &handle, values_of(this->source_->handles, pose, k), pose[k].mode == HandleMode::free);
   this->panels_.fields->show_count(QString::fromStdString(handle.name), this->selected_count_);
   Eigen::VectorXd layers;
   const bool layered = this->plane_ &&
@@ -506,17 +509,18 @@ void Posing::show_values()
   this->panels_.fields->show_layer(layered ? std::optional(layers[this->selected_]) : std::nullopt);
 }
 
-void Posing::values_typed()
+void Posing::values_typed(int field)
 {
-  Pose pose = this->pose();
+  const Pose pose = this->pose();
   if (this->selected_ < 0 || this->selected_ >= static_cast<int>(pose.size()))
   {
     return;
   }
   const auto k = static_cast<std::size_t>(this->selected_);
-  const Handle& handle = this->source_->handles[k];
-  pose[k] = with_values(handle, pose[k], this->panels_.fields->values());
-  this->change_pose(pose, tr("values of %1").arg(QString::fromStdString(handle.name)));
+  const Handles& handles = this->source_->handles;
+  this->change_pose(with_values(handles, pose, k, this->panels_.fields->values()),
+    tr("values of %1").arg(QString::fromStdString(handles[k].name)),
+    QStringLiteral("value %1 of %2").arg(field).arg(QString::fromStdString(handles[k].name)));
 }
 
 void Posing::layer_typed(double layer)
@@ -565,13 +569,13 @@ void Posing::order_layers()
   this->viewport_->set_depths(depths, this->plane_.value_or(Vec3::UnitZ()));
 }
 
-void Posing::change_pose(const Pose& pose, const QString& step)
+void Posing::change_pose(const Pose& pose, const QString& step, const QString& merge)
 {
   this->look_at_rest(false);
   Q_EMIT this->pose_changed(pose);
   if (!step.isEmpty())
   {
-    Q_EMIT this->pose_done(step);
+    Q_EMIT this->pose_done(step, merge);
   }
 }
 

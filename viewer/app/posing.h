@@ -94,7 +94,9 @@ Q_SIGNALS:
   /// The handles shall be in this pose; it is not done yet.
   void pose_changed(const bindpose::Pose& pose);
   /// Since the first pose_changed() this has happened: a step of the history.
-  void pose_done(const QString& step);
+  /// Successive steps with the same merge text are one step of the history, until edit_ended().
+  void pose_done(const QString& step, const QString& merge = {});
+  void edit_ended();
   void shelf_changed(const QString& step);
   /// The handles have other cell arrays now: a step of the history.
   void handles_changed(const QString& step);
@@ -113,11 +115,11 @@ private:
   void show_state();
   void show_difference();
   void follow_free_handles();
-  void values_typed();
+  void values_typed(int field);
   void layer_typed(double layer);
   void order_layers();
   void show_values();
-  void change_pose(const bindpose::Pose& pose, const QString& step);
+  void change_pose(const bindpose::Pose& pose, const QString& step, const QString& merge = {});
   bindpose::Pose holding_pose() const;
   void moves_changed();
   void ask_and_export();

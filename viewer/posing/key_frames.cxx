@@ -1,5 +1,6 @@
 #include "posing/key_frames.h"
 
+#include "pose/handle_hierarchy.h"
 #include "posing/json_fields.h"
 #include "posing/pose_blend.h"
 
@@ -15,8 +16,8 @@ constexpr double same_time = 5e-4; // seconds
 constexpr double longest = 36000.0;
 constexpr const char* interpolation_words[] = { "linear", "spline" };
 
-/// Where a handle's pivot is at a time between keys b and c; a and d are their neighbours, or they
-/// themselves at the ends.
+/// Return a handle's pivot, relative to its parent, at a time between keys 1 and 2. Keys 0 and 3
+/// are their neighbors, or the keys themselves at the ends.
 Vec3 on_spline(const Vec3 (&p)[4], const double (&t)[4], double time)
 {
   const double span = t[2] - t[1];
@@ -114,22 +115,27 @@ Pose KeyFrames::pose_at(double time, const Handles& handles, const Pose& base) c
     return from;
   }
   const Pose to = next->pose.of(handles, base);
-  Pose result = blend(handles, from, to, (time - before->time) / (next->time - before->time));
-  if (this->interpolation == KeyInterpolation::spline && this->keys_.size() > 2)
+  const double share = (time - before->time) / (next->time - before->time);
+  if (share == 0.0 || this->interpolation == KeyInterpolation::linear || this->keys_.size() < 3)
   {
-    const auto first = before == this->keys_.begin() ? before : before - 1;
-    const auto last = next + 1 == this->keys_.end() ? next : next + 1;
-    const Pose start = first->pose.of(handles, base), end = last->pose.of(handles, base);
-    const double times[4] = { first->time, before->time, next->time, last->time };
-    for (std::size_t k = 0; k < result.size(); ++k)
-    {
-      const Vec3 places[4] = { pivot_of(handles[k], start[k]), pivot_of(handles[k], from[k]),
-        pivot_of(handles[k], to[k]), pivot_of(handles[k], end[k]) };
-      result[k].transform.col(3) +=
-        on_spline(places, times, time) - pivot_of(handles[k], result[k]);
-    }
+    return blend(handles, from, to, share);
   }
-  return result;
+  const auto first = before == this->keys_.begin() ? before : before - 1;
+  const auto last = next + 1 == this->keys_.end() ? next : next + 1;
+  const double times[4] = { first->time, before->time, next->time, last->time };
+  Pose keys[4] = { first->pose.of(handles, base), from, to, last->pose.of(handles, base) };
+  for (Pose& key : keys)
+  {
+    key = relative_pose(handles, key);
+  }
+  Pose result = blend_relative(handles, keys[1], keys[2], share);
+  for (std::size_t k = 0; k < result.size(); ++k)
+  {
+    const Vec3 places[4] = { pivot_of(handles[k], keys[0][k]), pivot_of(handles[k], keys[1][k]),
+      pivot_of(handles[k], keys[2][k]), pivot_of(handles[k], keys[3][k]) };
+    result[k].transform.col(3) += on_spline(places, times, time) - pivot_of(handles[k], result[k]);
+  }
+  return absolute_pose(handles, result);
 }
 
 std::size_t KeyFrames::frame_count() const

@@ -1,5 +1,6 @@
 #include "posing/named_pose.h"
 
+#include "pose/handle_hierarchy.h"
 #include "posing/json_fields.h"
 
 #include <algorithm>
@@ -24,10 +25,18 @@ Pose NamedPose::of(const Handles& handles, const Pose& base) const
     at[this->names_[k]] = k;
   }
   Pose result = base;
-  for (std::size_t k = 0; k < handles.size() && k < result.size(); ++k)
+  for (const Index handle : parents_first(handles))
   {
+    const auto k = static_cast<std::size_t>(handle);
     const auto found = at.find(handles[k].name);
-    result[k] = found == at.end() ? result[k] : this->pose_[found->second];
+    if (found != at.end())
+    {
+      result[k] = this->pose_[found->second];
+    }
+    else
+    {
+      follow_parent(handles, base, handle, result);
+    }
   }
   return result;
 }

@@ -19,7 +19,8 @@ public:
   NamedPose() = default;
   NamedPose(const Handles& handles, Pose pose);
 
-  /// The pose of these handles; those that it does not know stay as they are in `base`.
+  /// The pose of these handles; handles that it does not know follow their
+  /// parents from the base pose.
   Pose of(const Handles& handles, const Pose& base) const;
   bool empty() const { return this->names_.empty(); }
   /// The handle has another name now. What the pose knows of a handle that had it before goes.

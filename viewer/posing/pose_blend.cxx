@@ -1,5 +1,6 @@
 #include "posing/pose_blend.h"
 
+#include "pose/handle_hierarchy.h"
 #include "pose/transform_parts.h"
 
 #include <cmath>
@@ -17,9 +18,10 @@ Eigen::Matrix3d turn(double degrees, const Vec3& axis)
 }
 } // namespace
 
-HandleValues values_of(const Handle& handle, const HandlePose& pose)
+HandleValues values_of(const Handles& handles, const Pose& pose, std::size_t handle)
 {
-  const TransformParts parts = parts_of(pose.transform, handle.head);
+  const TransformParts parts =
+    parts_of(relative_pose(handles, pose)[handle].transform, handles[handle].head);
   HandleValues values;
   values.translate = parts.translation;
   // R = Rz Ry Rx: the turn about y shows in the last row.
@@ -32,28 +34,35 @@ HandleValues values_of(const Handle& handle, const HandlePose& pose)
   values.scale = parts.scale.trace() / 3.0;
   values.more =
     (parts.scale - values.scale * Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-9;
-  values.stretch = pose.stretch;
-  values.twist = pose.twist;
+  values.stretch = pose[handle].stretch;
+  values.twist = pose[handle].twist;
   return values;
 }
 
-HandlePose with_values(const Handle& handle, const HandlePose& pose, const HandleValues& values)
+Pose with_values(
+  const Handles& handles, const Pose& pose, std::size_t handle, const HandleValues& values)
 {
-  HandlePose result = pose;
   const Eigen::Matrix3d rotation = turn(values.degrees.z(), Vec3::UnitZ()) *
     turn(values.degrees.y(), Vec3::UnitY()) * turn(values.degrees.x(), Vec3::UnitX());
-  result.transform = affine_about(handle.head, values.scale * rotation, values.translate);
-  result.stretch = values.stretch;
-  result.twist = values.twist;
+  Pose relative = relative_pose(handles, pose);
+  relative[handle].transform =
+    affine_about(handles[handle].head, values.scale * rotation, values.translate);
+  Pose result = pose;
+  result[handle].transform = absolute_pose(handles, relative)[handle].transform;
+  result[handle].stretch = values.stretch;
+  result[handle].twist = values.twist;
+  for (const Index other : parents_first(handles))
+  {
+    if (other != static_cast<Index>(handle))
+    {
+      follow_parent(handles, pose, other, result);
+    }
+  }
   return result;
 }
 
-Pose blend(const Handles& handles, const Pose& a, const Pose& b, double share)
+Pose blend_relative(const Handles& handles, const Pose& a, const Pose& b, double share)
 {
-  if (share <= 0.0 || share >= 1.0)
-  {
-    return share <= 0.0 ? a : b;
-  }
   Pose result = a;
   for (std::size_t k = 0; k < a.size(); ++k)
   {
@@ -72,6 +81,29 @@ Pose blend(const Handles& handles, const Pose& a, const Pose& b, double share)
     }
     result[k].stretch = (1.0 - share) * a[k].stretch + share * b[k].stretch;
     result[k].twist = (1.0 - share) * a[k].twist + share * b[k].twist;
+  }
+  return result;
+}
+
+Pose blend(const Handles& handles, const Pose& a, const Pose& b, double share)
+{
+  if (share <= 0.0 || share >= 1.0)
+  {
+    return share <= 0.0 ? a : b;
+  }
+  Pose result = absolute_pose(
+    handles, blend_relative(handles, relative_pose(handles, a), relative_pose(handles, b), share));
+  std::vector<bool> moves(handles.size(), false);
+  for (const Index handle : parents_first(handles))
+  {
+    const auto h = static_cast<std::size_t>(handle);
+    const Index parent = handles[h].parent;
+    moves[h] = a[h].transform != b[h].transform || a[h].stretch != b[h].stretch ||
+      a[h].twist != b[h].twist || (parent >= 0 && moves[static_cast<std::size_t>(parent)]);
+    if (!moves[h])
+    {
+      result[h] = a[h];
+    }
   }
   return result;
 }

@@ -7,8 +7,8 @@
 namespace bindpose
 {
 
-/// A handle's transform as a person types it: about its pivot, first scaled, then turned about x,
-/// then y, then z, then moved.
+/// A handle's transform as the window shows it, relative to the parent: a scale about the pivot,
+/// rotations about x, then y, then z, and a translation.
 struct HandleValues
 {
   Vec3 translate = Vec3::Zero();
@@ -20,14 +20,18 @@ struct HandleValues
   /// rotation and the mean scale are told.
   bool more = false;
 };
-HandleValues values_of(const Handle& handle, const HandlePose& pose);
-/// The pose with these values; its mode stays.
-HandlePose with_values(const Handle& handle, const HandlePose& pose, const HandleValues& values);
+HandleValues values_of(const Handles& handles, const Pose& pose, std::size_t handle);
+/// Return the pose with other values for one handle. Its mode stays; its descendants follow.
+Pose with_values(
+  const Handles& handles, const Pose& pose, std::size_t handle, const HandleValues& values);
 
-/// Between two poses: pivots go straight, rotations by the shorter arc (slerp), scale and shear,
-/// stretch and twist linearly. Modes are those of `a` up to share 1. Share 0 gives `a` and share 1
-/// `b`, to the bit.
+/// Interpolate between two poses, per handle and relative to its parent: pivots, scale, shear,
+/// stretch and twist linearly, rotations by the shorter arc (slerp). Modes are those of `a` below
+/// share 1. Share 0 returns `a` and share 1 returns `b`, bit for bit; a handle that is the same in
+/// both poses, with all its ancestors, keeps its bits for every share.
 Pose blend(const Handles& handles, const Pose& a, const Pose& b, double share);
+/// The same for poses that are relative already (relative_pose()).
+Pose blend_relative(const Handles& handles, const Pose& a, const Pose& b, double share);
 
 } // namespace bindpose
 

@@ -51,6 +51,7 @@
 #include <QScrollArea>
 #include <QSlider>
 #include <QUndoStack>
+#include <QWheelEvent>
 
 #include <gtest/gtest.h>
 
@@ -667,7 +668,7 @@ TEST_F(PosingWindow, TypedValuesMoveTheSelectedHandle)
   values.translate.x() = 0.25;
   values.degrees.y() = 40.0;
   values.scale = 1.2;
-  pose[3] = with_values(this->list[3], pose[3], values);
+  pose = with_values(this->list, pose, 3, values);
   const Points typed = this->points();
   this->put(pose);
   EXPECT_LT((this->points() - typed).cwiseAbs().maxCoeff(), 1e-12);
@@ -677,6 +678,68 @@ TEST_F(PosingWindow, TypedValuesMoveTheSelectedHandle)
   }
   EXPECT_EQ(fields->field(4)->value(), 0.0);
   EXPECT_EQ(this->points(), Points(to_points(this->surface).view()));
+}
+
+TEST_F(PosingWindow, TypedValuesTakeTheChildrenAlong)
+{
+  this->list[1].parent = 3;
+  this->open();
+  this->window.panel()->select_handle(3);
+  HandleFields* fields = this->window.panel()->fields();
+  fields->field(4)->setValue(40.0);
+  const Pose pose = this->window.document()->pose();
+  EXPECT_EQ(pose[1].transform, pose[3].transform);
+  EXPECT_EQ(pose[0].transform, identity_affine());
+  // The numbers of the child are relative to its parent.
+  this->window.panel()->select_handle(1);
+  EXPECT_EQ(fields->field(4)->value(), 0.0);
+  fields->field(2)->setValue(0.5);
+  EXPECT_EQ(fields->field(2)->value(), 0.5);
+  EXPECT_EQ(this->window.document()->pose()[3].transform, pose[3].transform);
+}
+
+TEST_F(PosingWindow, TheWheelTurnsNothingButTheFieldWithTheFocus)
+{
+  this->open();
+  QApplication::setActiveWindow(&this->window);
+  this->window.panel()->select_handle(3);
+  QDoubleSpinBox* field = this->window.panel()->fields()->field(1);
+  auto* methods = this->window.panel()->findChild<QComboBox*>();
+  ASSERT_NE(methods, nullptr);
+  const int steps = this->window.history()->count();
+  const int method = methods->currentIndex();
+  const auto roll = [](QWidget* widget)
+  {
+    const QPointF at = widget->rect().center();
+    QWheelEvent wheel(at, widget->mapToGlobal(at.toPoint()), QPoint(), QPoint(0, -120),
+      Qt::NoButton, Qt::NoModifier, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(widget, &wheel);
+  };
+  for (int turn = 0; turn < 5; ++turn)
+  {
+    roll(field);
+    roll(methods);
+  }
+  EXPECT_EQ(field->value(), 0.0);
+  EXPECT_FALSE(field->hasFocus());
+  EXPECT_EQ(methods->currentIndex(), method);
+  EXPECT_EQ(this->window.history()->count(), steps);
+  // With the focus, all steps of the wheel are one step of the history.
+  field->setFocus();
+  ASSERT_TRUE(field->hasFocus());
+  for (int turn = 0; turn < 5; ++turn)
+  {
+    roll(field);
+  }
+  EXPECT_NEAR(field->value(), -0.05, 1e-12);
+  EXPECT_EQ(this->window.history()->count(), steps + 1);
+  this->window.viewport()->setFocus();
+  field->setFocus();
+  roll(field);
+  EXPECT_EQ(this->window.history()->count(), steps + 2);
+  this->window.history()->undo();
+  this->window.history()->undo();
+  EXPECT_EQ(field->value(), 0.0);
 }
 
 TEST_F(PosingWindow, PosesAreStoredNamedAppliedAndBlended)

@@ -69,35 +69,85 @@ TEST(Blend, EndsAreExactAndTheMiddleIsHalfway)
   EXPECT_EQ(still[0].transform, at(0.7)[0].transform);
 }
 
+TEST(Blend, ChildrenStayOnTheirParents)
+{
+  // The upper arm rotates by 180 degrees. Halfway, the elbow must be one length away from the
+  // shoulder, and the forearm, which has no rotation of its own, must be straight.
+  Handles arm{ test::bone_handle("upper", Vec3(0, 0, 0), Vec3(1, 0, 0)),
+    test::bone_handle("fore", Vec3(1, 0, 0), Vec3(2, 0, 0)) };
+  arm[1].parent = 0;
+  const Pose rest(2);
+  HandleValues half_turn;
+  half_turn.degrees.z() = 180.0 - 1e-9;
+  const Pose swung = with_values(arm, rest, 0, half_turn);
+  const Pose middle = blend(arm, rest, swung, 0.5);
+  EXPECT_LT((middle[1].transform * Vec3(1, 0, 0).homogeneous() - Vec3(0, 1, 0)).norm(), 1e-9);
+  EXPECT_LT((middle[1].transform * Vec3(2, 0, 0).homogeneous() - Vec3(0, 2, 0)).norm(), 1e-9);
+  // Splines preserve the length, too.
+  KeyFrames keys;
+  keys.interpolation = KeyInterpolation::spline;
+  for (const double t : { 0.0, 1.0, 2.0 })
+  {
+    HandleValues values;
+    values.degrees.z() = 90.0 * t;
+    keys.set(t, NamedPose(arm, with_values(arm, rest, 0, values)));
+  }
+  for (const double t : { 0.2, 0.5, 1.7 })
+  {
+    const Pose pose = keys.pose_at(t, arm, rest);
+    EXPECT_NEAR((pose[1].transform * Vec3(1, 0, 0).homogeneous()).norm(), 1.0, 1e-12) << t;
+    EXPECT_EQ(pose[0].transform, pose[1].transform) << t;
+  }
+  // A handle that a stored pose does not know follows its parent.
+  const Pose known = NamedPose({ arm[0] }, { swung[0] }).of(arm, rest);
+  EXPECT_LT((known[1].transform - swung[0].transform).cwiseAbs().maxCoeff(), 1e-15);
+}
+
 TEST(HandleValues, AreReadBackAsTyped)
 {
-  const Handle handle = handles()[0];
+  Handles handles = ::handles();
+  Pose pose(2);
   HandleValues typed;
   typed.translate = Vec3(0.1, -2, 3);
   typed.degrees = Vec3(30, -50, 120);
   typed.scale = 1.5;
   typed.stretch = 1.25;
   typed.twist = Eigen::Vector2d(-30, 400);
-  HandlePose pose;
-  pose.mode = HandleMode::position;
-  pose = with_values(handle, pose, typed);
-  EXPECT_EQ(pose.mode, HandleMode::position);
-  const HandleValues read = values_of(handle, pose);
-  EXPECT_LT((read.translate - typed.translate).norm(), 1e-13);
-  EXPECT_LT((read.degrees - typed.degrees).norm(), 1e-11);
-  EXPECT_NEAR(read.scale, 1.5, 1e-14);
-  EXPECT_EQ(read.stretch, 1.25);
-  EXPECT_EQ(read.twist, typed.twist);
-  EXPECT_FALSE(read.more);
+  pose[0].mode = HandleMode::position;
+  pose = with_values(handles, pose, 0, typed);
+  EXPECT_EQ(pose[0].mode, HandleMode::position);
+  EXPECT_EQ(pose[1].transform, identity_affine());
+  const auto expect_typed = [&](const HandleValues& read)
+  {
+    EXPECT_LT((read.translate - typed.translate).norm(), 1e-13);
+    EXPECT_LT((read.degrees - typed.degrees).norm(), 1e-11);
+    EXPECT_NEAR(read.scale, 1.5, 1e-14);
+    EXPECT_EQ(read.stretch, 1.25);
+    EXPECT_EQ(read.twist, typed.twist);
+    EXPECT_FALSE(read.more);
+  };
+  expect_typed(values_of(handles, pose, 0));
+  // Values of a child are relative to its parent: they do not change if the parent moves.
+  handles[1].parent = 0;
+  const Pose before = pose;
+  pose = with_values(handles, pose, 1, typed);
+  expect_typed(values_of(handles, pose, 1));
+  HandleValues other;
+  other.degrees = Vec3(10, 20, 30);
+  pose = with_values(handles, pose, 0, other);
+  expect_typed(values_of(handles, pose, 1));
+  EXPECT_GT((pose[1].transform - before[1].transform).norm(), 0.1);
+  handles[1].parent = -1;
   // Straight up: turns about x and z are one.
   typed.degrees = Vec3(20, 90, 0);
-  pose = with_values(handle, pose, typed);
-  EXPECT_LT((with_values(handle, pose, values_of(handle, pose)).transform - pose.transform)
-              .cwiseAbs()
-              .maxCoeff(),
+  pose = with_values(handles, pose, 0, typed);
+  EXPECT_LT(
+    (with_values(handles, pose, 0, values_of(handles, pose, 0))[0].transform - pose[0].transform)
+      .cwiseAbs()
+      .maxCoeff(),
     1e-7);
-  pose.transform(0, 1) += 0.5;
-  EXPECT_TRUE(values_of(handle, pose).more);
+  pose[0].transform(0, 1) += 0.5;
+  EXPECT_TRUE(values_of(handles, pose, 0).more);
 }
 
 TEST(KeyFrames, HitTheirKeysExactly)

@@ -104,6 +104,6 @@ TEST(LargeWindingNumberField, StopsWithinAFifthOfASecond)
       shortest = std::min(shortest, std::chrono::duration<double>(Clock::now() - asked).count());
     }
     std::printf("  asked at %.0f %%, stopped after %.0f ms\n", 100.0 * when, 1e3 * shortest);
-    EXPECT_LT(shortest, test::sanitized ? 1.0 : 0.2) << when;
+    EXPECT_LT(shortest, test::sanitized ? 3.0 : 0.2) << when; // sanitizers: 1.0 s on a slow machine
   }
 }

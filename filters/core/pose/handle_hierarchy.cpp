@@ -6,8 +6,6 @@
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
-#include <algorithm>
-
 namespace bindpose
 {
 
@@ -65,30 +63,25 @@ Affine transform_for_child(const Handle& parent, const HandlePose& posed, const 
     affine_about(parent.head, turn.toRotationMatrix(), along * (posed.stretch - 1.0) * bone));
 }
 
-namespace
+Affine inherited_transform(const Handles& handles, const Pose& pose, Index handle)
 {
-/// What the handle inherits from its parent; the identity for a root and if that is singular.
-Affine above(const Handles& handles, const Pose& pose, std::size_t handle)
-{
-  const Index parent = handles[handle].parent;
-  Affine up = identity_affine();
-  if (parent >= 0)
+  const Handle& rest = handles[static_cast<std::size_t>(handle)];
+  if (rest.parent < 0)
   {
-    const auto p = static_cast<std::size_t>(parent);
-    up = transform_for_child(handles[p], pose[p], handles[handle].head);
+    return identity_affine();
   }
-  Affine back;
-  return invert(up, back) ? up : identity_affine();
+  const auto parent = static_cast<std::size_t>(rest.parent);
+  return transform_for_child(handles[parent], pose[parent], rest.head);
 }
-} // namespace
 
 Pose relative_pose(const Handles& handles, const Pose& pose)
 {
   Pose relative = pose;
   for (std::size_t h = 0; h < handles.size(); ++h)
   {
-    Affine back = identity_affine();
-    if (handles[h].parent >= 0 && invert(above(handles, pose, h), back))
+    Affine back;
+    if (handles[h].parent >= 0 &&
+      invert(inherited_transform(handles, pose, static_cast<Index>(h)), back))
     {
       relative[h].transform = composed(back, pose[h].transform);
     }
@@ -102,9 +95,11 @@ Pose absolute_pose(const Handles& handles, const Pose& relative)
   for (const Index handle : parents_first(handles))
   {
     const auto h = static_cast<std::size_t>(handle);
-    if (handles[h].parent >= 0)
+    const Affine inherited = inherited_transform(handles, pose, handle);
+    Affine back;
+    if (handles[h].parent >= 0 && invert(inherited, back))
     {
-      pose[h].transform = composed(above(handles, pose, h), relative[h].transform);
+      pose[h].transform = composed(inherited, relative[h].transform);
     }
   }
   return pose;
@@ -112,20 +107,10 @@ Pose absolute_pose(const Handles& handles, const Pose& relative)
 
 void follow_parent(const Handles& handles, const Pose& base, Index handle, Pose& pose)
 {
-  const Handle& rest = handles[static_cast<std::size_t>(handle)];
-  if (rest.parent < 0)
-  {
-    return;
-  }
-  const auto up = static_cast<std::size_t>(rest.parent);
-  const Affine before = transform_for_child(handles[up], base[up], rest.head);
-  const Affine now = transform_for_child(handles[up], pose[up], rest.head);
-  if (now == before)
-  {
-    return;
-  }
+  const Affine before = inherited_transform(handles, base, handle);
+  const Affine now = inherited_transform(handles, pose, handle);
   Affine back;
-  if (invert(before, back))
+  if (now != before && invert(before, back))
   {
     const auto h = static_cast<std::size_t>(handle);
     pose[h].transform = composed(now, composed(back, base[h].transform));

@@ -15,6 +15,8 @@ std::vector<Index> parents_first(const Handles& handles);
 /// cross-section at `place`, as in Skinning::stretchable_bones(): a child at the tail inherits the
 /// whole stretch and the tail's twist, a child at the head only the head's twist.
 Affine transform_for_child(const Handle& parent, const HandlePose& posed, const Vec3& place);
+/// Return that transform for a handle and its parent, or the identity for a root.
+Affine inherited_transform(const Handles& handles, const Pose& pose, Index handle);
 
 /// Convert world transforms to transforms relative to the parents, and back:
 /// world = transform_for_child(parent) * relative. A root, and a child of a parent whose transform

@@ -562,11 +562,10 @@ void pose_handle(const HandleEdit* edit, bool children_follow, const Handles& ha
   const Handle& rest = handles[static_cast<std::size_t>(handle)];
   HandlePose& posed = pose[static_cast<std::size_t>(handle)];
   const bool with_parent = rest.parent >= 0 && (edit ? edit->with_parent : children_follow);
-  const auto parent = static_cast<std::size_t>(with_parent ? rest.parent : 0);
   if (edit && has_transform(*edit))
   {
     place_handle(*edit, rest,
-      with_parent && children_follow ? transform_for_child(handles[parent], pose[parent], rest.head)
+      with_parent && children_follow ? inherited_transform(handles, pose, handle)
                                      : identity_affine(),
       posed);
   }
@@ -576,6 +575,7 @@ void pose_handle(const HandleEdit* edit, bool children_follow, const Handles& ha
   }
   if (with_parent && !children_follow)
   {
+    const auto parent = static_cast<std::size_t>(rest.parent);
     posed.transform = composed(pose[parent].transform, posed.transform); // version 1
   }
   if (edit)
@@ -645,10 +645,9 @@ Json format_handle(
   TransformNumbers numbers = numbers_of(posed.transform, rest.head);
   if (rest.parent >= 0)
   {
-    const auto parent = static_cast<std::size_t>(rest.parent);
     Affine back;
     TransformNumbers to_parent;
-    to_parent.exact = invert(transform_for_child(handles[parent], pose[parent], rest.head), back);
+    to_parent.exact = invert(inherited_transform(handles, pose, static_cast<Index>(h)), back);
     if (to_parent.exact)
     {
       to_parent = numbers_of(composed(back, posed.transform), rest.head);

@@ -2,6 +2,7 @@
 // rotations have only one.
 #include "pose/pose_matrix.h"
 
+#include "pose/handle_hierarchy.h"
 #include "pose/transform_parts.h"
 
 #include <Eigen/Geometry>
@@ -53,9 +54,7 @@ const Affine& follow(const std::vector<Eigen::Matrix3d>& rotations, const Handle
     if (parent >= 0)
     {
       const Affine above = follow(rotations, handles, static_cast<std::size_t>(parent), done, pose);
-      const Eigen::Matrix3d linear = above.leftCols<3>();
-      transform.col(3) = linear * transform.col(3) + above.col(3);
-      transform.leftCols<3>() = linear * Eigen::Matrix3d(transform.leftCols<3>());
+      transform = composed(above, transform);
     }
   }
   return transform;

@@ -29,11 +29,11 @@ Pose NamedPose::of(const Handles& handles, const Pose& base) const
   {
     const auto k = static_cast<std::size_t>(handle);
     const auto found = at.find(handles[k].name);
-    if (found != at.end())
+    if (found != at.end() && k < result.size())
     {
       result[k] = this->pose_[found->second];
     }
-    else
+    else if (base.size() == handles.size())
     {
       follow_parent(handles, base, handle, result);
     }

@@ -19,8 +19,8 @@ public:
   NamedPose() = default;
   NamedPose(const Handles& handles, Pose pose);
 
-  /// The pose of these handles; handles that it does not know follow their
-  /// parents from the base pose.
+  /// Return the pose of these handles. Handles that it does not know follow their parents from the
+  /// base pose. The result has the size of the base pose.
   Pose of(const Handles& handles, const Pose& base) const;
   bool empty() const { return this->names_.empty(); }
   /// The handle has another name now. What the pose knows of a handle that had it before goes.

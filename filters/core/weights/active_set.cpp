@@ -85,7 +85,7 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
       rounds, enough, context, x);
     solution.iterations += 1;
   }
-  // What is certified when the budget ends is a result, settled or not.
+  // A certified iterate is a valid result at the end of the budget, even if it has not settled.
   if (!solution.status.ok() && certified() && solution.iterations >= options.maximum_iterations)
   {
     solution.status = Status();

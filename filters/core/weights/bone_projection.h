@@ -8,8 +8,8 @@
 namespace bindpose
 {
 
-/// Where a point is along a bone: 0 up to the head, 1 from the tail on, between them its
-/// projection. 0 for a bone without length.
+/// Return the position of a point along a bone: its projection onto the bone, 0 at the head and 1
+/// at the tail, clamped to [0, 1]. 0 for a bone without length.
 inline double projected_endpoint(const Vec3& point, const Vec3& head, const Vec3& vector)
 {
   const double length = vector.stableNorm();

@@ -15,7 +15,8 @@
  * It is the parent of the others at that root. The first bone of every other component, and every
  * point, has the nearest bone of the largest component as its parent.
  * A cycle is cut where it is farthest from the root, with a warning. A surface that is not clean
- * (open, crossing, doubled) is contracted by way of the boundary of what it winds around.
+ * (open, crossing, doubled, flat), or very dense, is replaced by the boundary of a lattice of what
+ * it encloses, together with a layer around its thin parts.
  *
  * POINTS spreads points p1, p2, … over the vertices, each the farthest from all before it, along
  * edges or through space; moved into the middle of the shape where it has an inside. Every
@@ -24,17 +25,17 @@
  * The same shape gives the same handles, whatever the order of its points and cells, and for any
  * number of threads.
  *
- * Report: method, counts.handles, handles[].{name, kind}. SKELETON: surface (clean or remeshed),
+ * Report: method, counts.handles, handles[].{name, kind}. SKELETON: surface (clean or lattice),
  * counts.{parts, left_out_parts, contracted_triangles, iterations, skeleton_points, joints,
- * junctions, joints_outside, bones_outside, cut_cycles, pruned_branches, merged_branches}, and of a
- * remeshed surface what vtkTetrahedralizeSurface reports. POINTS: distance, counts.{components,
- * served_components, points_inside}, handles[].vertex (point id on the surface). seconds.*.
+ * junctions, joints_outside, bones_outside, cut_cycles, pruned_branches, merged_branches}, of a
+ * lattice resolution (cubes along the longest side) and counts.thickened_triangles. POINTS:
+ * distance, counts.{components, served_components, points_inside}, handles[].vertex (point id on
+ * the surface). seconds.*.
  *
  * Errors: INVALID_INPUT for a surface without 2D cells, with ids out of range or coordinates that
- * are not finite, an option out of its range; SKELETON: flat surfaces and those that enclose
- * nothing; POINTS: fewer different vertices than NumberOfPoints. UNAVAILABLE: SKELETON without the
- * helper, or of an unclean surface too thin to be filled. INTERNAL_ERROR: the helper failed, or ran
- * out of time or memory.
+ * are not finite, an option out of its range; SKELETON: no triangle with an area;
+ * POINTS: fewer different vertices than NumberOfPoints. UNAVAILABLE: SKELETON without the helper.
+ * INTERNAL_ERROR: the helper failed, or ran out of time or memory.
  * Cost, on one core: SKELETON 1.2 s for 6,000 clean triangles, 3.5 s for 90,000, 3.4 s for 4,500
  * full of holes; POINTS a shortest-path pass a point, 50 of 45,000 vertices 0.4 s.
  *

@@ -6,7 +6,8 @@
 #include "base/number_text.h"
 #include "helper/child_process.h"
 #include "helper/mesher_process.h"
-#include "inside/tetrahedralize.h"
+#include "inside/prepared_surface.h"
+#include "inside/thick_solid.h"
 #include "surface/surface_repair.h"
 #include "surface/triangle_tree.h"
 #include "surface/unit_frame.h"
@@ -33,41 +34,47 @@ Status check_options(const CurveSkeletonOptions& options)
   return check_limits(options.time_limit, options.memory_limit);
 }
 
+/// Decimating a clean surface with more triangles than this per contracted one takes longer than a
+/// lattice.
+constexpr Index dense = 10;
+
 /// A closed surface of what the given one encloses, without its hollows filled.
 Status close_surface(PointsView points, TrianglesView triangles,
   const CurveSkeletonOptions& options, TriangleMesh& solid, ExecutionContext& context)
 {
-  RepairedSurface repaired;
-  Status status = repair_surface(points, triangles, RepairOptions(), repaired, context);
+  PreparedSurface prepared;
+  Status status;
+  {
+    const ProgressRange range(context, 0.0, 0.6);
+    status = prepare_surface(points, triangles, options.winding_threshold, prepared, context);
+  }
   if (!status.ok())
   {
     return status;
   }
-  if (context.cancelled())
-  {
-    return Status::cancelled();
-  }
-  if (repaired.clean() && repaired.found.nonmanifold_edges == 0 && repaired.triangles.rows() > 0)
+  RepairedSurface& surface = prepared.surface;
+  const bool clean = surface.clean() && surface.found.nonmanifold_edges == 0;
+  if (clean && surface.triangles.rows() <= dense * options.triangles)
   {
     status.report.set("surface", "clean");
-    solid.points = std::move(repaired.points);
-    solid.triangles = std::move(repaired.triangles);
+    solid.points = std::move(surface.points);
+    solid.triangles = std::move(surface.triangles);
     return status;
   }
-  TetrahedralizeOptions tetrahedra;
-  tetrahedra.method = TetMethod::remesh;
-  tetrahedra.winding_threshold = options.winding_threshold;
-  tetrahedra.time_limit = options.time_limit;
-  tetrahedra.memory_limit = options.memory_limit;
-  TetrahedralizeResult tets;
-  status = tetrahedralize(points, triangles, tetrahedra, tets, context);
-  if (!status.ok())
-  {
-    return status;
-  }
-  status.report.set("surface", "remeshed");
-  solid.points = std::move(tets.mesh.points);
-  solid.triangles = boundary_triangles(tets.mesh.tets);
+  status.warnings = prepared.warnings;
+  status.report.merge(prepared.report);
+  status.report.set("surface", "lattice");
+  ThickSolidOptions thick;
+  thick.winding_threshold = options.winding_threshold;
+  // Parts of an unclean surface are meant to be one shape. A clean one keeps its gaps.
+  thick.join_near_parts = !clean;
+  thick.triangles = (clean ? 4 : 2) * options.triangles;
+  const ProgressRange range(context, 0.6, 1.0);
+  Status made = thick_solid(
+    surface.points, surface.triangles, prepared.inside.winding(), thick, solid, context);
+  status.report.merge(made.report);
+  status.code = made.code;
+  status.message = made.message;
   return status;
 }
 

@@ -36,19 +36,21 @@ struct CurveSkeleton
 /// The curve skeleton of what a surface encloses, by mean curvature flow (Tagliasacchi, Alhashim,
 /// Olson, Zhang, Mean Curvature Skeletons, 2012) in the helper executable bindpose-mesher.
 ///
-/// A clean surface (closed, manifold, nothing crosses) is contracted itself, any other one by way
-/// of the boundary of the tets of its inside (tetrahedralize, method remesh): open, crossing,
-/// doubled, partly inside out, it needs only to wind around something. Either is brought to
-/// `triangles` even triangles first. Hollows are filled; components with less than a 1000th of the
-/// largest one's volume, and hulls that are not closed, are left out, with a warning.
+/// A clean surface (closed, manifold, nothing crosses) with at most 10 times `triangles` is
+/// contracted itself. Any other one (open, crossing, doubled, partly inside out, flat) is replaced
+/// by the closed surface of what it encloses together with a layer around thin parts
+/// (thick_solid.h); parts of an unclean surface that touch or nearly touch become one. Either is
+/// brought to `triangles` even triangles first. Hollows are filled; components with less than a
+/// 1000th of the largest one's volume are left out, with a warning.
 ///
 /// @param solid  the closed surface that was taken, before it was evened
 ///
-/// Report: surface ("clean" or "remeshed"), counts.parts, counts.contracted_triangles,
-/// counts.iterations, counts.left_out_parts; of a remeshed surface what tetrahedralize reports.
-/// invalid_input: not finite, ids out of range, no triangles, flat, encloses nothing, an option out
-/// of range. unavailable: no helper; too thin for remesh's tets. internal_error: the helper failed
-/// or ran out of time. cancelled within 20 ms of the flow.
+/// Report: surface ("clean" or "lattice"), counts.parts, counts.contracted_triangles,
+/// counts.iterations, counts.left_out_parts, the counts of prepare_surface; of a lattice what
+/// thick_solid reports.
+/// invalid_input: not finite, ids out of range, no triangle with an area, an option out of range.
+/// unavailable: no helper. internal_error: the helper failed or ran out of time. cancelled within
+/// 20 ms of the flow.
 /// Cost: 10,000 triangles contracted take some seconds, whatever the surface's own number.
 Status curve_skeleton(PointsView points, TrianglesView triangles,
   const CurveSkeletonOptions& options, CurveSkeleton& skeleton, TriangleMesh& solid,

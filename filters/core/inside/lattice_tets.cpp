@@ -1,8 +1,8 @@
 // Lattice vertices are numbered corners first (x fastest), then centres; everything below runs in
 // the order of these numbers, so results are the same for any number of threads.
 //
-// Stuffing: 1. winding numbers at all lattice vertices; + where w >= threshold. 2. On each edge
-// between + and -, the cut point by bisection (w jumps at the surface, so nothing faster is safe).
+// Stuffing: 1. + for lattice vertices inside, - for the others. 2. On each edge between + and -,
+// the cut point by bisection (winding numbers jump at the surface, so nothing faster is safe).
 // 3. A vertex that has a cut point nearer than alpha times the edge moves there and becomes 0.
 // 4. Each tet with a + vertex and no - vertex is kept; one with - vertices keeps its + side, with
 // cut points in place of the - vertices. Where that leaves a quadrilateral on a face, both tets of
@@ -165,18 +165,6 @@ SampleGrid grid_of(const Lattice& lattice, bool centers)
   return grid;
 }
 
-Status sample(const WindingNumber& winding, const Lattice& lattice, const Numbering& numbering,
-  Eigen::VectorXd& w, ExecutionContext& context)
-{
-  w.resize(numbering.vertices());
-  Status status = winding.evaluate(grid_of(lattice, false), context, w.data());
-  if (status.ok())
-  {
-    status = winding.evaluate(grid_of(lattice, true), context, w.data() + numbering.corners());
-  }
-  return status;
-}
-
 /// Renumbers to the vertices that are used, in their order.
 void compact(const std::vector<Vec3>& points, std::vector<Tet>& tets, TetMesh& mesh)
 {
@@ -216,30 +204,22 @@ void compact(const std::vector<Vec3>& points, std::vector<Tet>& tets, TetMesh& m
 class Stuffing
 {
 public:
-  Stuffing(const WindingNumber& winding, const Lattice& lattice, const Box& box, double threshold)
-    : winding_(winding), lattice_(lattice), numbering_(lattice), box_(box), threshold_(threshold)
+  Stuffing(const Lattice& lattice, const LatticeRegion& region)
+    : numbering_(lattice), region_(region)
   {
   }
 
   Status run(TetMesh& mesh, ExecutionContext& context)
   {
-    Eigen::VectorXd w;
-    {
-      const Phase phase(context, "sample", 0.0, 0.4);
-      Status status = sample(this->winding_, this->lattice_, this->numbering_, w, context);
-      if (!status.ok())
-      {
-        return status;
-      }
-    }
-    this->sign_.resize(static_cast<std::size_t>(w.size()));
+    const Index count = this->numbering_.vertices();
+    this->sign_.resize(static_cast<std::size_t>(count));
     this->points_.resize(this->sign_.size());
-    for (Index v = 0; v < w.size(); ++v)
+    for (Index v = 0; v < count; ++v)
     {
       this->points_[v] = this->numbering_.point(v);
-      this->sign_[v] = w[v] >= this->threshold_ && this->in_box(this->points_[v]) ? 1 : -1;
+      this->sign_[v] = this->region_.inside[v] ? 1 : -1;
     }
-    const Phase phase(context, "cut", 0.4, 1.0);
+    const Phase phase(context, "cut");
     std::vector<Tet> tets;
     const auto any_inside = [&](const Tet& tet)
     { return std::any_of(tet.begin(), tet.end(), [&](Index v) { return this->sign_[v] > 0; }); };
@@ -287,26 +267,16 @@ private:
       });
   }
 
-  bool in_box(const Vec3& p) const
-  {
-    return (p.array() >= this->box_.lower.array()).all() &&
-      (p.array() <= this->box_.upper.array()).all();
-  }
-
-  /// Where along the edge, from its first vertex, w passes the threshold.
+  /// Where along the edge, from its first vertex, it passes the region's boundary.
   double cut_of(const Edge2& edge) const
   {
     const bool first_inside = this->sign_[edge.first] > 0;
-    const Vec3 a = this->points_[edge.first];
-    const Vec3 d = this->points_[edge.second] - a;
     double lower = 0.0;
     double upper = 1.0;
-    constexpr int steps = 8;
-    for (int s = 0; s < steps; ++s)
+    for (int s = 0; s < this->region_.bisections; ++s)
     {
       const double middle = 0.5 * (lower + upper);
-      const Vec3 p = a + middle * d;
-      const bool inside = this->in_box(p) && this->winding_.evaluate_at(p) >= this->threshold_;
+      const bool inside = this->region_.contains(edge.first, edge.second, middle);
       (inside == first_inside ? lower : upper) = middle;
     }
     return 0.5 * (lower + upper);
@@ -526,11 +496,8 @@ private:
     return false;
   }
 
-  const WindingNumber& winding_;
-  const Lattice& lattice_;
   Numbering numbering_;
-  Box box_;
-  double threshold_;
+  const LatticeRegion& region_;
   std::vector<signed char> sign_;
   std::vector<Vec3> points_;
   std::vector<Edge2> edges_; // cut edges, sorted
@@ -555,11 +522,69 @@ Lattice Lattice::around(const Box& box, Index resolution)
   return lattice;
 }
 
+Points lattice_points(const Lattice& lattice)
+{
+  const Numbering numbering(lattice);
+  Points points(numbering.vertices(), 3);
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    points.row(v) = numbering.point(v);
+  }
+  return points;
+}
+
+Status sample_lattice(const WindingNumber& winding, const Lattice& lattice,
+  Eigen::VectorXd& winding_numbers, ExecutionContext& context)
+{
+  const Numbering numbering(lattice);
+  winding_numbers.resize(numbering.vertices());
+  Status status = winding.evaluate(grid_of(lattice, false), context, winding_numbers.data());
+  if (status.ok())
+  {
+    status = winding.evaluate(
+      grid_of(lattice, true), context, winding_numbers.data() + numbering.corners());
+  }
+  return status;
+}
+
+Status stuff_lattice(
+  const Lattice& lattice, const LatticeRegion& region, TetMesh& mesh, ExecutionContext& context)
+{
+  mesh = TetMesh();
+  return Stuffing(lattice, region).run(mesh, context);
+}
+
 Status stuff_lattice(const WindingNumber& winding, const Lattice& lattice, const Box& box,
   double threshold, TetMesh& mesh, ExecutionContext& context)
 {
   mesh = TetMesh();
-  return Stuffing(winding, lattice, box, threshold).run(mesh, context);
+  Eigen::VectorXd w;
+  {
+    const Phase phase(context, "sample", 0.0, 0.4);
+    Status status = sample_lattice(winding, lattice, w, context);
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
+  const Points points = lattice_points(lattice);
+  const auto in_box = [&box](const Vec3& p)
+  { return (p.array() >= box.lower.array()).all() && (p.array() <= box.upper.array()).all(); };
+  LatticeRegion region;
+  region.inside.resize(static_cast<std::size_t>(w.size()));
+  for (Index v = 0; v < w.size(); ++v)
+  {
+    region.inside[v] = w[v] >= threshold && in_box(points.row(v)) ? 1 : 0;
+  }
+  region.contains = [&](Index v, Index u, double t)
+  {
+    const Vec3 start = points.row(v);
+    const Vec3 end = points.row(u);
+    const Vec3 p = start + t * (end - start);
+    return in_box(p) && winding.evaluate_at(p) >= threshold;
+  };
+  const ProgressRange range(context, 0.4, 1.0);
+  return stuff_lattice(lattice, region, mesh, context);
 }
 
 } // namespace bindpose

@@ -5,6 +5,9 @@
 #include "base/mesh.h"
 #include "winding/winding_number.h"
 
+#include <functional>
+#include <vector>
+
 namespace bindpose
 {
 
@@ -21,6 +24,31 @@ struct Lattice
   /// side.
   static Lattice around(const Box& box, Index resolution);
 };
+
+/// The vertices of a lattice, #N x 3: corners first (x fastest), then centers.
+Points lattice_points(const Lattice& lattice);
+
+/// Winding numbers at the vertices of a lattice, #N, in the order of lattice_points().
+/// @return cancelled or ok.
+Status sample_lattice(const WindingNumber& winding, const Lattice& lattice,
+  Eigen::VectorXd& winding_numbers, ExecutionContext& context);
+
+/// A set of points, as far as stuff_lattice needs to know it.
+struct LatticeRegion
+{
+  std::vector<char> inside; ///< #N: 1 for each lattice vertex in the set, else 0
+  /// Whether the point (1 - t) v + t w of a lattice edge from vertex v to vertex w is in the set.
+  /// Called only where one end is inside and the other is not. Thread-safe.
+  std::function<bool(Index v, Index w, double t)> contains;
+  /// Steps of the search for the place where an edge leaves the set; each halves the error, which
+  /// starts at half of the edge.
+  int bisections = 8;
+};
+
+/// Tets of a region by isosurface stuffing, see below.
+/// @return cancelled or ok.
+Status stuff_lattice(
+  const Lattice& lattice, const LatticeRegion& region, TetMesh& mesh, ExecutionContext& context);
 
 /// Tets of {w >= threshold}, as far as it lies in the box, by isosurface stuffing (Labelle and
 /// Shewchuk, Isosurface Stuffing: Fast Tetrahedral Meshes with Good Dihedral Angles, 2007): lattice

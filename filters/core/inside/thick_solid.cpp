@@ -1,0 +1,167 @@
+#include "inside/thick_solid.h"
+
+#include "base/parallel.h"
+#include "inside/lattice_tets.h"
+#include "inside/manifold_boundary.h"
+#include "surface/triangle_tree.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bindpose
+{
+
+namespace
+{
+/// Cubes along the longest side with which a surface of this area gets about the wanted number of
+/// triangles.
+Index resolution_for(const Box& box, double area, Index triangles)
+{
+  // Stuffing cuts an area of one cube face into 3.8 triangles, measured on a sphere.
+  constexpr double triangles_per_face = 3.8;
+  constexpr double fewest = 16.0;
+  constexpr double most = 400.0;
+  constexpr double most_cubes = 2e6;
+  const double longest = box.size().maxCoeff();
+  const double spacing = std::sqrt(triangles_per_face * area / static_cast<double>(triangles));
+  double resolution = std::clamp(spacing > 0.0 ? longest / spacing : most, fewest, most);
+  // The margin of the lattice is two cubes on every side.
+  constexpr double margin = 4.0;
+  const auto cubes = [&] { return (box.size().array() / longest * resolution + margin).prod(); };
+  while (resolution > fewest && cubes() > most_cubes)
+  {
+    resolution *= 0.9;
+  }
+  return static_cast<Index>(std::lround(std::max(resolution, fewest)));
+}
+
+/// Triangles whose surface the lattice vertices inside miss: at one of their points, at most half a
+/// cube apart, no vertex of the cube around it is inside.
+Triangles missed_triangles(PointsView points, TrianglesView triangles, const Lattice& lattice,
+  const std::vector<char>& inside)
+{
+  const Index nx = lattice.cubes[0];
+  const Index ny = lattice.cubes[1];
+  const Index corners = (nx + 1) * (ny + 1) * (lattice.cubes[2] + 1);
+  const auto is_met = [&](const Vec3& p)
+  {
+    std::array<Index, 3> at{};
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double cube = std::floor((p[axis] - lattice.origin[axis]) / lattice.spacing);
+      at[axis] = std::clamp<Index>(static_cast<Index>(cube), 0, lattice.cubes[axis] - 1);
+    }
+    bool met = inside[corners + (at[2] * ny + at[1]) * nx + at[0]] != 0;
+    for (int corner = 0; corner < 8 && !met; ++corner)
+    {
+      const Index x = at[0] + (corner & 1);
+      const Index y = at[1] + (corner >> 1 & 1);
+      const Index z = at[2] + (corner >> 2 & 1);
+      met = inside[(z * (ny + 1) + y) * (nx + 1) + x] != 0;
+    }
+    return met;
+  };
+  std::vector<Index> missed;
+  for (Index f = 0; f < triangles.rows(); ++f)
+  {
+    const Vec3 a = points.row(triangles(f, 0));
+    const Vec3 b = points.row(triangles(f, 1));
+    const Vec3 c = points.row(triangles(f, 2));
+    const double longest = std::max({ (b - a).norm(), (c - b).norm(), (a - c).norm() });
+    const auto steps = static_cast<Index>(std::ceil(2.0 * longest / lattice.spacing)) + 1;
+    bool met = true;
+    for (Index i = 0; i <= steps && met; ++i)
+    {
+      for (Index j = 0; i + j <= steps && met; ++j)
+      {
+        const double u = static_cast<double>(i) / static_cast<double>(steps);
+        const double v = static_cast<double>(j) / static_cast<double>(steps);
+        met = is_met(a + u * (b - a) + v * (c - a));
+      }
+    }
+    if (!met)
+    {
+      missed.push_back(f);
+    }
+  }
+  Triangles result(static_cast<Index>(missed.size()), 3);
+  for (std::size_t i = 0; i < missed.size(); ++i)
+  {
+    result.row(static_cast<Index>(i)) = triangles.row(missed[i]);
+  }
+  return result;
+}
+} // namespace
+
+Status thick_solid(PointsView points, TrianglesView triangles, const WindingNumber& winding,
+  const ThickSolidOptions& options, TriangleMesh& solid, ExecutionContext& context)
+{
+  solid = TriangleMesh();
+  const Box box = bounding_box(points, triangles);
+  const Index resolution = resolution_for(box, surface_area(points, triangles), options.triangles);
+  const Lattice lattice = Lattice::around(box, resolution);
+  const double threshold = options.winding_threshold;
+  const Points vertices = lattice_points(lattice);
+  LatticeRegion region;
+  Status status;
+  {
+    const Phase phase(context, "sample", 0.0, 0.4);
+    Eigen::VectorXd w;
+    status = sample_lattice(winding, lattice, w, context);
+    if (!status.ok())
+    {
+      return status;
+    }
+    region.inside.resize(static_cast<std::size_t>(w.size()));
+    for (Index v = 0; v < w.size(); ++v)
+    {
+      region.inside[v] = w[v] >= threshold ? 1 : 0;
+    }
+  }
+  // A lattice vertex is within 0.559 cubes of every point, so the layer has no gaps.
+  constexpr double layer = 0.6;
+  const double thickness = layer * lattice.spacing;
+  const Triangles thickened = options.join_near_parts
+    ? Triangles(triangles)
+    : missed_triangles(points, triangles, lattice, region.inside);
+  const TriangleTree tree(points, thickened);
+  const auto in_layer = [&](const Vec3& p)
+  { return thickened.rows() > 0 && std::isfinite(tree.distance(p, thickness)); };
+  {
+    const Phase phase(context, "distance", 0.4, 0.6);
+    constexpr Index block = 256;
+    const bool whole = parallel_for(context, vertices.rows(), block,
+      [&](Index begin, Index end)
+      {
+        for (Index v = begin; v < end; ++v)
+        {
+          region.inside[v] = region.inside[v] || in_layer(vertices.row(v)) ? 1 : 0;
+        }
+      });
+    if (!whole)
+    {
+      return Status::cancelled();
+    }
+  }
+  region.contains = [&](Index v, Index u, double t)
+  {
+    const Vec3 start = vertices.row(v);
+    const Vec3 end = vertices.row(u);
+    const Vec3 p = start + t * (end - start);
+    return in_layer(p) || winding.evaluate_at(p) >= threshold;
+  };
+  region.bisections = 4;
+  const ProgressRange range(context, 0.6, 1.0);
+  TetMesh tets;
+  status = stuff_lattice(lattice, region, tets, context);
+  if (!status.ok())
+  {
+    return status;
+  }
+  solid = manifold_boundary(tets);
+  status.report.set("resolution", resolution);
+  status.report.set("counts.thickened_triangles", thickened.rows());
+  return status;
+}
+
+} // namespace bindpose

@@ -1,0 +1,120 @@
+#include "inside/thick_solid.h"
+
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace bindpose;
+
+namespace
+{
+struct Made
+{
+  TriangleMesh solid;
+  Status status;
+  Index parts = 0;
+  double volume = 0.0;
+};
+
+Made make(const TriangleMesh& mesh, const ThickSolidOptions& options, int threads = 0)
+{
+  ExecutionContext context;
+  context.set_threads(threads);
+  const WindingNumber winding(mesh.points, mesh.triangles);
+  Made made;
+  made.status = thick_solid(mesh.points, mesh.triangles, winding, options, made.solid, context);
+  EXPECT_TRUE(made.status.ok()) << made.status.message;
+  EXPECT_TRUE(count_edges(made.solid.triangles).closed);
+  made.parts = connected_components(made.solid.points.rows(), made.solid.triangles).count;
+  made.volume = signed_volume(made.solid.points, made.solid.triangles);
+  return made;
+}
+
+/// Length of a lattice cube that was taken for a mesh with the longest side `longest`.
+double cube_of(const Made& made, double longest)
+{
+  return longest / made.status.report.number("resolution", 0.0);
+}
+} // namespace
+
+TEST(ThickSolid, OfABallIsABallWithTheWantedTriangles)
+{
+  const TriangleMesh ball = test::sphere(4);
+  const Made made = make(ball, {});
+  EXPECT_EQ(made.parts, 1);
+  EXPECT_LT(made.status.report.number("counts.thickened_triangles", 1e9),
+    0.01 * static_cast<double>(ball.triangles.rows()));
+  EXPECT_NEAR(made.volume / signed_volume(ball.points, ball.triangles), 1.0, 0.01);
+  EXPECT_NEAR(static_cast<double>(made.solid.triangles.rows()), 20000.0, 2000.0);
+}
+
+TEST(ThickSolid, ASheetBecomesAPlateOfTwiceTheLayer)
+{
+  const TriangleMesh sheet = test::grid(10, 10);
+  const Made made = make(sheet, {});
+  EXPECT_EQ(made.parts, 1);
+  const double layer = 0.6 * cube_of(made, 1.0);
+  // A plate with half a cylinder at each edge and an eighth of a ball at each corner twice.
+  const double pi = std::acos(-1.0);
+  const double expected =
+    2.0 * layer + 2.0 * pi * layer * layer + 4.0 / 3.0 * pi * layer * layer * layer;
+  EXPECT_NEAR(made.volume / expected, 1.0, 0.1);
+}
+
+TEST(ThickSolid, ThinWallsStay)
+{
+  // A plate with a hundredth of a cube between its sides.
+  const TriangleMesh plate = test::box(Vec3(0.0, 0.0, 0.0), Vec3(1.0, 1.0, 1e-4));
+  const Made made = make(plate, {});
+  EXPECT_EQ(made.parts, 1);
+  EXPECT_GT(made.volume, cube_of(made, 1.0));
+}
+
+TEST(ThickSolid, NarrowGapsCloseWherePartsAreJoinedOnly)
+{
+  ThickSolidOptions options;
+  options.triangles = 4000;
+  const TriangleMesh left = test::cube(0.0, 1.0);
+  const auto both = [&](double gap)
+  { return test::join(left, test::translated(left, Vec3(1.0 + gap, 0.0, 0.0))); };
+  const double cube = cube_of(make(both(0.05), options), 2.05);
+  const TriangleMesh apart = both(0.9 * cube);
+  options.join_near_parts = true;
+  EXPECT_EQ(make(apart, options).parts, 1);
+  EXPECT_EQ(make(both(2.6 * cube), options).parts, 2);
+  options.join_near_parts = false;
+  EXPECT_EQ(make(both(1.8 * cube), options).parts, 2);
+}
+
+TEST(ThickSolid, AnOpenCubeIsFilled)
+{
+  const Made made = make(test::open_cube(), {});
+  EXPECT_EQ(made.parts, 1);
+  // Its walls stand in a layer at the opening.
+  EXPECT_NEAR(made.volume, 8.0, 0.8);
+}
+
+TEST(ThickSolid, SameBitsForAnyNumberOfThreads)
+{
+  ThickSolidOptions options;
+  options.triangles = 3000;
+  options.join_near_parts = true;
+  const TriangleMesh mesh = test::join(test::torus(24, 12, 1.0, 0.4), test::grid(3, 3));
+  const Made one = make(mesh, options, 1);
+  const Made many = make(mesh, options, 4);
+  EXPECT_EQ(one.solid.points, many.solid.points);
+  EXPECT_EQ(one.solid.triangles, many.solid.triangles);
+}
+
+TEST(ThickSolid, CancelEndsSoon)
+{
+  const TriangleMesh mesh = test::sphere(4);
+  const WindingNumber winding(mesh.points, mesh.triangles);
+  ExecutionContext context;
+  context.request_cancel();
+  TriangleMesh solid;
+  EXPECT_EQ(thick_solid(mesh.points, mesh.triangles, winding, {}, solid, context).code,
+    StatusCode::cancelled);
+}

@@ -654,8 +654,9 @@ Status to_pose(
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
     const vtkIdType cell = cells[i];
-    const int mode = static_cast<int>(cell_value(data, "Mode", cell, 0));
-    if (mode < 0 || mode > 4)
+    constexpr int automatic = static_cast<int>(HandleMode::automatic);
+    const int mode = static_cast<int>(cell_value(data, "Mode", cell, automatic));
+    if (mode < 0 || mode > automatic)
     {
       return Status::invalid_input(
         "handle '" + handles[i].name + "' has an unknown Mode " + std::to_string(mode));

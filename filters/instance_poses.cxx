@@ -141,7 +141,8 @@ Status from_rows(vtkDataSetAttributes* arrays, vtkIdType rows, vtkPointSet* poin
       for (std::size_t h = 0; h < handles.size(); ++h)
       {
         const double mode = modes->GetComponent(i, static_cast<int>(h));
-        if (!(mode >= 0.0 && mode <= 4.0) || mode != std::floor(mode))
+        if (!(mode >= 0.0 && mode <= static_cast<double>(HandleMode::automatic)) ||
+          mode != std::floor(mode))
         {
           return Status::invalid_input(of_instance(static_cast<std::size_t>(i)) + "handle '" +
             handles[h].name + "' has an unknown Mode");

@@ -5,6 +5,7 @@
 
 #include "base/execution.h"
 #include "bind_key.h"
+#include "pose/found_rotations.h"
 #include "pose_input.h"
 #include "weights_input.h"
 
@@ -53,7 +54,7 @@ std::vector<std::string> warnings_of(const Handles& handles, const Pose& pose)
   {
     const Eigen::Matrix3d linear = pose[h].transform.leftCols<3>();
     const double volume = linear.determinant(), size = linear.norm();
-    if (pose[h].mode != HandleMode::full)
+    if (!holds_transform(pose[h].mode))
     {
       continue;
     }
@@ -197,6 +198,10 @@ Status vtkBindAlgorithm::Prepare(vtkInformationVector** input, ExecutionContext&
   if (handle_data)
   {
     status = to_pose(handle_data, bound.handles, bound.cells, bound.pose);
+    if (status.ok() && this->FindsRotations())
+    {
+      bound.pose = with_found_rotations(bound.handles, bound.pose);
+    }
   }
   if (!status.ok())
   {

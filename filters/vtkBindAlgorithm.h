@@ -61,6 +61,10 @@ protected:
    */
   virtual bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) = 0;
 
+  /// Whether the method finds rotations that a pose leaves free: handles in mode automatic that
+  /// only move then have mode position.
+  virtual bool FindsRotations() { return false; }
+
   /// Setters of bind parameters call this instead of Modified().
   void BindModified();
   /// What most of them are.

@@ -123,6 +123,7 @@ protected:
   bool NeedsWeights() const override { return false; }
   std::vector<std::string> BindArrays() override;
   bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) override;
+  bool FindsRotations() override { return true; }
   bindpose::Status Deform(
     const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) override;
 

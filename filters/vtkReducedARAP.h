@@ -9,7 +9,9 @@
  * - a handle in mode `position` (1) has its pivot where `Transform` takes it, turns by itself;
  * - a bone in mode `tail` (3) has its tail where Transform and Stretch take it, in mode `ends` (4)
  *   both ends, and finds the rest (how it turns about itself, or about the end);
- * - a handle in mode `free` (2) finds itself.
+ * - a handle in mode `free` (2) finds itself;
+ * - a handle in mode `automatic` (5, also without an array Mode) has mode position if it is only
+ *   translated, in the world or relative to its parent, else mode full; a region has mode full.
  *
  * With every handle full the result is linear blend skinning. The energy is the sum over clusters
  * of vertices with similar weights of |e' - R e|^2 over their edges e; a solve alternates best
@@ -166,6 +168,7 @@ protected:
   ~vtkReducedARAP() override;
 
   bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) override;
+  bool FindsRotations() override { return true; }
   bindpose::Status Deform(
     const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) override;
   bindpose::Status DeformNormals(const PoseInput& input, bindpose::ExecutionContext& context,

@@ -152,6 +152,7 @@ protected:
   int RequestUpdateExtent(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) override;
+  bool FindsRotations() override { return true; }
   bindpose::Status Deform(
     const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) override;
   bindpose::Status DeformNormals(const PoseInput& input, bindpose::ExecutionContext& context,

@@ -25,8 +25,8 @@ using namespace bindpose;
 
 namespace
 {
-constexpr HandleMode all_modes[] = { HandleMode::full, HandleMode::position, HandleMode::free,
-  HandleMode::tail, HandleMode::ends };
+constexpr HandleMode all_modes[] = { HandleMode::automatic, HandleMode::full, HandleMode::position,
+  HandleMode::free, HandleMode::tail, HandleMode::ends };
 
 /// Of the action that lets handles fix that.
 std::string name_of(HandleMode mode)
@@ -93,7 +93,7 @@ void HandleCommands::make_actions()
       std::string("mirror.") + "xyz"[axis], axes[axis], [this, axis] { this->mirror(axis); }));
   }
   const QString modes[] = { tr("&Full transform"), tr("&Position only"), tr("&Nothing (free)"),
-    tr("A bone's &tail"), tr("A bone's &ends") };
+    tr("A bone's &tail"), tr("A bone's &ends"), tr("&Automatic") };
   for (const HandleMode mode : all_modes)
   {
     QAction* action =

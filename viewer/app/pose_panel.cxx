@@ -248,9 +248,6 @@ void PosePanel::add_options(QVBoxLayout* column)
   this->option(column, QString(), this->single_,
     tr("Half the memory and twice the speed, right to a millionth of the shape"), skinning);
 
-  this->drag_only_ = check("pose.drag_only", tr("Drag only"));
-  this->option(column, QString(), this->drag_only_,
-    tr("Points are held where they are dragged to and turn by themselves"), rigid);
   this->in_tets_ = check("pose.in_tets", tr("Keep the volume"));
   this->option(column, QString(), this->in_tets_,
     tr("The energy of the tets that the weights were solved in, instead of the surface's"), rigid);
@@ -456,7 +453,6 @@ PoseOptions PosePanel::options() const
   options.endpoints = static_cast<bindpose::EndpointMethod>(this->endpoints_->currentIndex());
   options.energy = static_cast<bindpose::ArapEnergy>(this->energy_->currentIndex());
   options.in_tets = this->in_tets_->isChecked() && this->state_.tets;
-  options.drag_only = this->drag_only_->isChecked();
   options.extra_weights = std::lround(this->extra_->value());
   options.extra_kind = static_cast<bindpose::ExtraWeights>(this->extra_kind_->currentIndex());
   options.iterations = std::lround(this->iterations_->value());

@@ -108,7 +108,6 @@ private:
   ValueRow* iterations_;
   ValueRow* budget_;
   QCheckBox* in_tets_;
-  QCheckBox* drag_only_;
   QComboBox* rotations_;
   QComboBox* order_;
   QComboBox* boundary_;

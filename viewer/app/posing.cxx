@@ -138,6 +138,7 @@ void Posing::set_data(
   this->motion_->set_source(this->source_);
   this->main_->set_options(this->panels_.pose->options());
   this->show_state();
+  this->show_what_is_held();
   this->show_comparison();
   this->moves_changed();
   this->show_values();
@@ -219,8 +220,16 @@ void Posing::options_changed()
   this->main_->bind(); // after a cancel
   this->compared_->set_options(this->compared_options());
   this->motion_->options_changed();
+  this->show_what_is_held();
   this->handles_moved();
   Q_EMIT this->moved();
+}
+
+/// Handles are drawn as the method takes their modes.
+void Posing::show_what_is_held()
+{
+  const bool finds = finds_rotations(this->panels_.pose->options().method);
+  this->viewport_->handle_widget()->GetHandleSetRepresentation()->SetFindsRotations(finds);
 }
 
 /// The second method has the first one's options.

@@ -108,6 +108,7 @@ private:
   void connect_panel();
   void connect_keeper();
   bindpose::Pose pose() const;
+  void show_what_is_held();
   bindpose::PoseOptions compared_options() const;
   void options_changed();
   void comparison_changed();

@@ -119,13 +119,19 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   this->mode_label_ = new QLabel(tr("Fixes"), handles);
   mode_row->addWidget(this->mode_label_);
   this->mode_ = combo(handles);
-  this->mode_->addItem(tr("full transform"));
-  this->mode_->addItem(tr("position only"));
-  this->mode_->addItem(tr("nothing (free)"));
-  this->mode_->addItem(tr("a bone's tail"));
-  this->mode_->addItem(tr("a bone's ends"));
+  using bindpose::HandleMode;
+  const std::pair<HandleMode, QString> modes[] = { { HandleMode::automatic, tr("automatic") },
+    { HandleMode::full, tr("full transform") }, { HandleMode::position, tr("position only") },
+    { HandleMode::free, tr("nothing (free)") }, { HandleMode::tail, tr("a bone's tail") },
+    { HandleMode::ends, tr("a bone's ends") } };
+  for (const auto& [mode, text] : modes)
+  {
+    this->mode_->addItem(text, static_cast<int>(mode));
+  }
   this->mode_->setToolTip(
-    tr("What the selected handle fixes; as-rigid-as-possible (ARAP) finds the rest"));
+    tr("What the selected handle fixes; as-rigid-as-possible (ARAP) finds the rest.\n"
+       "Automatic: the position of a handle that was only moved, the full transform\n"
+       "of one that was rotated, scaled, stretched or twisted."));
   mode_row->addWidget(this->mode_, 1);
   list->addLayout(mode_row);
   this->fields_ = new HandleFields(handles);
@@ -169,11 +175,11 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   QObject::connect(
     this->handles_, &QListWidget::itemSelectionChanged, this, &SidePanel::list_changed);
   QObject::connect(this->mode_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
-    [this](int mode)
+    [this](int entry)
     {
       if (!this->selected_.empty())
       {
-        Q_EMIT this->mode_chosen(mode);
+        Q_EMIT this->mode_chosen(this->mode_->itemData(entry).toInt());
       }
     });
   this->set_handles({}, {}, {});
@@ -225,12 +231,13 @@ void SidePanel::show_mode()
     this->selected_.begin(), this->selected_.end(), [this](int k) { return this->bones_[k]; });
   this->mode_label_->setEnabled(handle >= 0);
   this->mode_->setEnabled(handle >= 0);
-  this->mode_->setCurrentIndex(handle >= 0 ? this->modes_[handle] : 0);
+  this->mode_->setCurrentIndex(handle >= 0 ? this->mode_->findData(this->modes_[handle]) : 0);
   auto* items = qobject_cast<QStandardItemModel*>(this->mode_->model());
-  for (int mode = 0; mode < this->mode_->count(); ++mode)
+  for (int entry = 0; entry < this->mode_->count(); ++entry)
   {
+    const int mode = this->mode_->itemData(entry).toInt();
     const bool of_bones = bindpose::holds_tail(static_cast<bindpose::HandleMode>(mode));
-    items->item(mode)->setEnabled(!of_bones || (handle >= 0 && bones));
+    items->item(entry)->setEnabled(!of_bones || (handle >= 0 && bones));
   }
 }
 
@@ -238,7 +245,7 @@ void SidePanel::set_mode(int handle, int mode)
 {
   this->modes_[handle] = mode;
   QListWidgetItem* item = this->handles_->item(handle);
-  item->setText(mode == 0
+  item->setText(mode == static_cast<int>(bindpose::HandleMode::automatic)
       ? this->names_[handle]
       : QString("%1   (%2)").arg(this->names_[handle], tr(bindpose::handle_mode_words[mode])));
   if (handle == this->selected_handle())

@@ -70,6 +70,8 @@ constexpr std::array<WindowKey, 43> window_keys{ {
   { "snap", "handles", "Ctrl+T", "Snap to the surface" },
   { "cage_edge", "handles", "Ctrl+E", "Join two cage vertices by an edge, or part them" },
   { "reset", "handles", "Ctrl+0", "Reset: back to rest" },
+  { "fixes.auto", "handles", "Alt+0",
+    "Fixes what was done to it: dragged its position, rotated all" },
   { "fixes.full", "handles", "Alt+1", "Fixes its full transform" },
   { "fixes.position", "handles", "Alt+2", "Fixes its position only" },
   { "fixes.free", "handles", "Alt+3", "Fixes nothing" },

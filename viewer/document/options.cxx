@@ -42,7 +42,6 @@ const std::vector<OptionInfo>& option_table()
     { "pose.endpoints", QT_TRANSLATE_NOOP("Document", "place along bones"), 0, 0, 2 },
     { "pose.pseudo_edges", QT_TRANSLATE_NOOP("Document", "what turns points"), 1, 0, 2 },
     { "pose.single_precision", QT_TRANSLATE_NOOP("Document", "precision"), false },
-    { "pose.drag_only", QT_TRANSLATE_NOOP("Document", "drag only"), false },
     { "pose.in_tets", QT_TRANSLATE_NOOP("Document", "energy of the volume"), false },
     { "pose.energy", QT_TRANSLATE_NOOP("Document", "what is rigid"), 0, 0, 3 },
     { "pose.extra_weights", QT_TRANSLATE_NOOP("Document", "extra weights"), 0.0, 0.0, 30.0 },

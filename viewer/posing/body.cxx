@@ -1,5 +1,6 @@
 #include "posing/body.h"
 
+#include "pose/found_rotations.h"
 #include "posing/reduced_poser.h"
 
 #include <tuple>
@@ -61,7 +62,6 @@ Status Body::bind(ExecutionContext& context, const PoseOptions& options)
 {
   if (this->is_bound(options))
   {
-    this->bound_->drag_only = options.drag_only;
     return {};
   }
   const PoseSource& source = *this->source_;
@@ -131,7 +131,7 @@ Status Body::restart(ExecutionContext& context, const Pose& pose, Points& posed)
   }
   ReducedSolveOptions still;
   still.max_iterations = 1000;
-  const Pose start = effective_pose(pose, this->source_->handles, *this->bound_);
+  const Pose start = with_found_rotations(this->source_->handles, pose);
   const Status status = this->body_.start(context, start, still);
   if (!status.usable())
   {
@@ -154,7 +154,7 @@ Status Body::step(
   Status status;
   {
     Phase phase(context, "solve", 0.0, 0.5);
-    status = this->body_.step(context, effective_pose(pose, this->source_->handles, *this->bound_),
+    status = this->body_.step(context, with_found_rotations(this->source_->handles, pose),
       kernel_options(options, this->diagonal_));
     if (!status.usable())
     {

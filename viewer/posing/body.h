@@ -49,7 +49,7 @@ public:
   explicit Body(std::shared_ptr<const PoseSource> source) : source_(std::move(source)) {}
 
   bool is_bound(const PoseOptions& options) const;
-  /// @param options  of reduced as-rigid-as-possible: energy, tets, extra weights, drag_only
+  /// @param options  of reduced as-rigid-as-possible: energy, tets, extra weights
   Status bind(ExecutionContext& context, const PoseOptions& options);
   Index binds() const { return this->binds_; }
 

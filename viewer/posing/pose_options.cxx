@@ -13,8 +13,8 @@ constexpr const char* method_words[] = { "lbs", "dqs", "reduced-arap", "stbs", "
 auto tied(const PoseOptions& o)
 {
   return std::tie(o.method, o.single_precision, o.pseudo_edges, o.pseudo_edge_stretch, o.endpoints,
-    o.energy, o.in_tets, o.drag_only, o.extra_weights, o.extra_kind, o.iterations,
-    o.budget_microseconds, o.order, o.boundary);
+    o.energy, o.in_tets, o.extra_weights, o.extra_kind, o.iterations, o.budget_microseconds,
+    o.order, o.boundary);
 }
 } // namespace
 
@@ -31,6 +31,11 @@ bool needs_weights(PoseMethod method)
 bool is_skinning(PoseMethod method)
 {
   return needs_weights(method) && method != PoseMethod::reduced_arap;
+}
+
+bool finds_rotations(PoseMethod method)
+{
+  return method == PoseMethod::reduced_arap || method == PoseMethod::full_arap;
 }
 
 bool is_slow(PoseMethod method)

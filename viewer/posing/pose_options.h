@@ -29,6 +29,8 @@ const char* to_string(PoseMethod method);
 bool needs_weights(PoseMethod method);
 /// Whether it blends transforms as they are given, and finds none.
 bool is_skinning(PoseMethod method);
+/// Whether it is as rigid as possible: it finds rotations that the pose leaves free.
+bool finds_rotations(PoseMethod method);
 /// Whether a solve takes as long as the mesh is large: it then runs beside the window.
 bool is_slow(PoseMethod method);
 
@@ -57,8 +59,6 @@ struct PoseOptions
   ArapEnergy energy = ArapEnergy::automatic;
   /// Both: the energy of the tets that the weights were solved in, which keep volume.
   bool in_tets = false;
-  /// Both: point handles in mode full count as position, so that nothing needs to be turned.
-  bool drag_only = false;
   /// Reduced: weights besides the handles', 0 to 30.
   Index extra_weights = 0;
   ExtraWeights extra_kind = ExtraWeights::bumps;

@@ -1,5 +1,6 @@
 #include "posing/poser.h"
 
+#include "pose/found_rotations.h"
 #include "posing/mesh_posers.h"
 #include "posing/reduced_poser.h"
 #include "posing/skinning_poser.h"
@@ -32,8 +33,9 @@ Status Poser::solve(ExecutionContext& context, const Pose& pose, const PoseOptio
   Status status = check_pose(this->source().handles, pose);
   if (status.ok())
   {
-    status = this->pose(context, effective_pose(pose, this->source().handles, options), options,
-      most_iterations, posed);
+    status = this->pose(context,
+      finds_rotations(options.method) ? with_found_rotations(this->source().handles, pose) : pose,
+      options, most_iterations, posed);
   }
   return status;
 }
@@ -64,21 +66,6 @@ Status check_tets(const PoseSource& source, const PoseOptions& options)
     ? Status()
     : Status::invalid_input("there are no tets with weights: bind in a volume first, or take the "
                             "energy of the surface");
-}
-
-Pose effective_pose(const Pose& pose, const Handles& handles, const PoseOptions& options)
-{
-  Pose result = pose;
-  for (std::size_t k = 0; options.drag_only && !is_skinning(options.method) && k < pose.size(); ++k)
-  {
-    const bool point =
-      handles[k].kind == HandleKind::point || handles[k].kind == HandleKind::cage_vertex;
-    if (point && pose[k].mode == HandleMode::full)
-    {
-      result[k].mode = HandleMode::position;
-    }
-  }
-  return result;
 }
 
 } // namespace bindpose

@@ -57,8 +57,6 @@ bool same_poser(PoseMethod a, PoseMethod b);
 /// The elements that an as-rigid-as-possible energy is of: those of the source's tets, if the
 /// options want them.
 Status check_tets(const PoseSource& source, const PoseOptions& options);
-/// With drag_only point handles in mode full become position.
-Pose effective_pose(const Pose& pose, const Handles& handles, const PoseOptions& options);
 
 } // namespace bindpose
 

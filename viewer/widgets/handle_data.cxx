@@ -2,6 +2,8 @@
 // the mouse. Nothing is kept between calls, so an array that was edited without a word is seen.
 #include "handle_data.h"
 
+#include "pose/found_rotations.h"
+
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
@@ -70,7 +72,7 @@ public:
     const vtkIdType* ids = nullptr;
     this->data_->GetCellPoints(cell, size, ids);
     place.kind = static_cast<int>(this->kinds_.value(cell, size == 2 ? 1.0 : 0.0));
-    place.mode = static_cast<int>(this->modes_.value(cell, 0.0));
+    place.mode = static_cast<int>(this->modes_.value(cell, place.mode));
     place.locked = this->locks_.value(cell, 0.0) != 0.0;
     place.parent = static_cast<vtkIdType>(this->parents_.value(cell, -1.0));
     this->transforms_.read(cell, place.transform.data());
@@ -193,6 +195,32 @@ std::vector<HandlePlace> HandleData::places(bool at_rest) const
     }
   }
   return places;
+}
+
+void HandleData::resolve_modes(std::vector<HandlePlace>& places, bool finds_rotations)
+{
+  Handles handles(places.size());
+  Pose pose(places.size());
+  for (std::size_t k = 0; k < places.size(); ++k)
+  {
+    const HandlePlace& place = places[k];
+    handles[k].kind = place.is_handle() ? static_cast<HandleKind>(place.kind) : HandleKind::point;
+    handles[k].head = place.rest_head;
+    handles[k].tail = place.rest_tail;
+    const bool has_parent =
+      place.parent >= 0 && place.parent < static_cast<vtkIdType>(places.size());
+    handles[k].parent = has_parent ? static_cast<Index>(place.parent) : -1;
+    pose[k].mode = static_cast<HandleMode>(place.mode);
+    pose[k].transform = place.transform;
+    pose[k].stretch = place.stretch;
+    pose[k].twist = place.twist;
+  }
+  const Pose resolved = finds_rotations ? with_found_rotations(handles, pose) : pose;
+  for (std::size_t k = 0; k < places.size(); ++k)
+  {
+    const HandleMode mode = resolved[k].mode;
+    places[k].mode = static_cast<int>(holds_transform(mode) ? HandleMode::full : mode);
+  }
 }
 
 HandlePlace HandleData::place(vtkIdType cell, bool at_rest) const

@@ -19,7 +19,7 @@ namespace bindpose
 struct HandlePlace
 {
   int kind = 0; ///< HandleKind; negative: a bar that is no handle
-  int mode = 0; ///< HandleMode
+  int mode = static_cast<int>(HandleMode::automatic); ///< HandleMode
   bool locked = false;
   vtkIdType parent = -1;
   Vec3 rest_head = Vec3::Zero(); ///< of a bar, too: its first two points
@@ -49,6 +49,9 @@ public:
 
   /// All cells. At rest: neither transforms nor stretches.
   std::vector<HandlePlace> places(bool at_rest = false) const;
+  /// Replace mode automatic by what a method that finds rotations makes of it
+  /// (with_found_rotations()), else by full.
+  static void resolve_modes(std::vector<HandlePlace>& places, bool finds_rotations);
   /// One cell; a default one for a number that there is not.
   HandlePlace place(vtkIdType cell, bool at_rest = false) const;
   /// The ends of bars: cage elements go with their cage vertices, pseudo-edges with their points.

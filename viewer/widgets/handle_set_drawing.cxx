@@ -61,7 +61,8 @@ void vtkHandleSetRepresentation::BuildRepresentation()
     return;
   }
   const bindpose::ScreenView view(this->Renderer);
-  const std::vector<HandlePlace> places = self.Data.places(this->EditMode != POSE);
+  std::vector<HandlePlace> places = self.Data.places(this->EditMode != POSE);
+  bindpose::HandleData::resolve_modes(places, this->FindsRotations != 0);
   const bool fine = places.size() <= 60;
   bindpose::HandleShapes solid(fine);
   bindpose::HandleShapes outline(fine);
@@ -112,7 +113,10 @@ void vtkHandleSetRepresentation::BuildRepresentation()
     if (place.is_handle() && (this->ShowLabels || named || dragged))
     {
       std::string text = self.Data.name(cell);
-      text += place.locked ? " (locked)" : place.is_free() && hot ? " (free)" : "";
+      text += place.locked          ? " (locked)"
+        : place.is_free() && hot    ? " (free)"
+        : place.only_moves() && hot ? " (rotation free)"
+                                    : "";
       text += dragged && !self.LastText.empty() ? "   " + self.LastText : "";
       Vector2d at = bindpose::label_place(view, place, this->PixelScale * this->PointSize);
       if (dragged && self.Dragged->part() != bindpose::no_part)

@@ -649,6 +649,7 @@ void vtkHandleSetRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "DrawOnTop: " << this->DrawOnTop << "\n";
   os << indent << "MoveDescendants: " << this->MoveDescendants << "\n";
   os << indent << "DragFree: " << this->DragFree << "\n";
+  os << indent << "FindsRotations: " << this->FindsRotations << "\n";
   const auto print_colour = [&](const char* name, const double c[3])
   { os << indent << name << ": (" << c[0] << ", " << c[1] << ", " << c[2] << ")\n"; };
   print_colour("FullColor", this->FullColor);

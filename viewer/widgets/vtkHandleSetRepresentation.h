@@ -304,6 +304,14 @@ public:
   ///@}
 
   ///@{
+  /// Draw handles in mode automatic as a method that finds rotations treats them (see
+  /// vtkReducedARAP): those that are only translated as mode position. Off by default.
+  vtkSetMacro(FindsRotations, vtkTypeBool);
+  vtkGetMacro(FindsRotations, vtkTypeBool);
+  vtkBooleanMacro(FindsRotations, vtkTypeBool);
+  ///@}
+
+  ///@{
   /// Colours by Mode (full: orange, position and ends: blue, free: grey) and of the outline; the
   /// selected handle's outline has its own, with the outline's colour around it.
   vtkSetVector3Macro(FullColor, double);
@@ -473,6 +481,7 @@ private:
   vtkTypeBool DrawOnTop = 1;
   vtkTypeBool MoveDescendants = 1;
   vtkTypeBool DragFree = 0;
+  vtkTypeBool FindsRotations = 0;
   double FullColor[3] = { 0.95, 0.58, 0.13 };
   double PositionColor[3] = { 0.20, 0.56, 0.86 };
   double FreeColor[3] = { 0.66, 0.66, 0.68 };

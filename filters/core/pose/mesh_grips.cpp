@@ -218,7 +218,7 @@ void MeshGrips::choose(const Pose& pose, const std::vector<Index>& staying)
     for (std::size_t h = 0; h < pose.size(); ++h)
     {
       const auto handle = static_cast<Index>(h);
-      if (full != (pose[h].mode == HandleMode::full))
+      if (full != holds_transform(pose[h].mode))
       {
         continue;
       }
@@ -243,7 +243,7 @@ void MeshGrips::choose(const Pose& pose, const std::vector<Index>& staying)
   {
     if (hold.point.size() == 1)
     {
-      given.insert({ hold.point[0].first, pose[hold.handle].mode == HandleMode::full });
+      given.insert({ hold.point[0].first, holds_transform(pose[hold.handle].mode) });
     }
   }
   for (const Index v : staying)
@@ -259,7 +259,7 @@ void MeshGrips::choose(const Pose& pose, const std::vector<Index>& staying)
   std::vector<char> taken(this->given_.size(), 0);
   for (Hold& hold : this->holds_)
   {
-    const bool full = pose[hold.handle].mode == HandleMode::full;
+    const bool full = holds_transform(pose[hold.handle].mode);
     if (hold.point.size() > 1)
     {
       hold.held = static_cast<Index>(this->held_.size());
@@ -310,7 +310,7 @@ std::vector<std::string> MeshGrips::redundancy(
   for (const Index point : points)
   {
     const Index handle = this->holder_[point];
-    if (pose[handle].mode != HandleMode::full)
+    if (!holds_transform(pose[handle].mode))
     {
       redundant.push_back(handle);
     }

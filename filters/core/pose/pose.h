@@ -15,11 +15,13 @@ enum class HandleMode : int
   position = 1, ///< where the pivot goes; rotation and scale are found
   free = 2, ///< nothing
   tail = 3, ///< bones: where the tail goes
-  ends = 4 ///< bones: where both ends go
+  ends = 4, ///< bones: where both ends go
+  automatic = 5 ///< full, or for methods that find rotations what with_found_rotations() chooses
 };
 
 /// The words of the modes, in the order of their numbers.
-inline constexpr const char* handle_mode_words[] = { "full", "position", "free", "tail", "ends" };
+inline constexpr const char* handle_mode_words[] = { "full", "position", "free", "tail", "ends",
+  "auto" };
 /// One of handle_mode_words.
 const char* to_string(HandleMode mode);
 
@@ -35,12 +37,17 @@ inline Affine identity_affine()
 /// Pose of one handle.
 struct HandlePose
 {
-  HandleMode mode = HandleMode::full;
+  HandleMode mode = HandleMode::automatic;
   Affine transform = identity_affine();
   double stretch = 1.0; ///< bones: posed length / rest length
   Eigen::Vector2d twist = Eigen::Vector2d::Zero(); ///< bones: degrees at head and tail
 };
 
+/// Whether a mode fixes the whole transform.
+inline bool holds_transform(HandleMode mode)
+{
+  return mode == HandleMode::full || mode == HandleMode::automatic;
+}
 /// Whether a mode that is not full fixes where the pivot goes, or the tail.
 inline bool holds_pivot(HandleMode mode)
 {

@@ -580,7 +580,11 @@ void pose_handle(const HandleEdit* edit, bool children_follow, const Handles& ha
   }
   if (edit)
   {
-    posed.mode = edit->mode.value_or(posed.mode);
+    // A rotation that an expression takes through zero is fixed there, too.
+    const bool turns =
+      edit->rotation || edit->scale || edit->head || edit->tail || edit->stretch || edit->twist;
+    const bool full = turns && posed.mode == HandleMode::automatic;
+    posed.mode = edit->mode.value_or(full ? HandleMode::full : posed.mode);
     posed.stretch = edit->stretch.value_or(posed.stretch);
     posed.twist = edit->twist.value_or(posed.twist);
   }
@@ -678,9 +682,12 @@ Json format_handle(
   {
     entry["scale"] = numbers.scale;
   }
-  if (rest.kind == HandleKind::bone)
+  if (posed.stretch != 1.0)
   {
     entry["stretch"] = posed.stretch;
+  }
+  if (posed.twist != Eigen::Vector2d::Zero())
+  {
     entry["twist"] = list(posed.twist);
   }
   return entry;

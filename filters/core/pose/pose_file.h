@@ -49,7 +49,7 @@ using PoseExpression = std::function<Status(const std::string& text, double t, d
 /// Reads the text of a POSE.json: one pose
 ///
 ///     {"version": 2,
-///      "handles": {NAME: {"mode": "full|position|free|tail|ends", "translate": [x, y, z],
+///      "handles": {NAME: {"mode": "full|position|free|tail|ends|auto", "translate": [x, y, z],
 ///                         "rotate": {"axis": [x, y, z], "degrees": d}, "scale": s,
 ///                         "space": "parent|world",
 ///                         "head": [x, y, z], "tail": [x, y, z], "stretch": s,
@@ -94,6 +94,10 @@ bool read_pose_times(const std::string& text, PoseTimes& times);
 /// between both directions, and its stretch is the ratio of the lengths unless `stretch` is given.
 /// A handle without translate, rotate, scale, head and tail keeps its transform relative to its
 /// parent in the base pose; so does a handle that the frame does not mention.
+///
+/// A handle without "mode" keeps its mode of the base pose. If that is automatic and the frame
+/// gives more than a translation (rotate, scale, head, tail, stretch, twist), it gets mode full. So
+/// methods that find rotations find those of handles that are only translated or not mentioned.
 ///
 /// Version 1: the default space is "world". With "parent", `head` and `tail` are applied at rest,
 /// before the parent's transform. A handle that is not mentioned keeps its base transform.

@@ -78,7 +78,7 @@ void ReducedSolver::factor(
   }
   for (Index j = 0; j < space.columns; ++j)
   {
-    if (j >= handles || this->modes_[static_cast<std::size_t>(j)] != HandleMode::full)
+    if (j >= handles || !holds_transform(this->modes_[static_cast<std::size_t>(j)]))
     {
       for (Index a = 0; a < 4; ++a)
       {
@@ -116,8 +116,7 @@ void ReducedSolver::start_rotations(const ReducedSpace& space, const Pose& pose)
     {
       const double w = space.cluster_weights(k, static_cast<Index>(h));
       blend += w *
-        (pose[h].mode == HandleMode::full ? Eigen::Matrix3d(pose[h].transform.leftCols<3>())
-                                          : common);
+        (holds_transform(pose[h].mode) ? Eigen::Matrix3d(pose[h].transform.leftCols<3>()) : common);
     }
     Eigen::Matrix3d rotation = common;
     fit_rotation(blend.transpose(), rotation);
@@ -152,7 +151,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   d = Rows::Zero(4 * space.columns, 3);
   for (std::size_t h = 0; h < pose.size(); ++h)
   {
-    if (pose[h].mode == HandleMode::full)
+    if (holds_transform(pose[h].mode))
     {
       const auto j = static_cast<Index>(h);
       d.middleRows<4>(4 * j) = space.block_of(pose[h].transform, j);

@@ -468,7 +468,7 @@ std::vector<Affine> ReducedSpace::transforms_of(const Rows& d, const Pose& pose)
   for (Index j = 0; j < this->columns; ++j)
   {
     const auto h = static_cast<std::size_t>(j);
-    transforms.push_back(h < pose.size() && pose[h].mode == HandleMode::full
+    transforms.push_back(h < pose.size() && holds_transform(pose[h].mode)
         ? pose[h].transform
         : this->affine_of(d.middleRows<4>(4 * j), j));
   }

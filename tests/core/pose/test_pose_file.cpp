@@ -61,7 +61,23 @@ TEST(PoseFile, HandlesMoveAboutTheirPivots)
   EXPECT_LT((apply(pose[0].transform, Vec3(1, 2, 3)) - Vec3(2, 2, 3)).norm(), 1e-15);
   EXPECT_LT((apply(pose[0].transform, Vec3(2, 2, 4)) - Vec3(2, 4, 5)).norm(), 1e-15);
   EXPECT_EQ(pose[1].transform, identity_affine());
-  EXPECT_EQ(pose[1].mode, HandleMode::full);
+  EXPECT_EQ(pose[1].mode, HandleMode::automatic);
+}
+
+TEST(PoseFile, ModesOfHandlesWithoutModeAreFullWhereMoreThanATranslationIsGiven)
+{
+  const auto mode = [](const std::string& fore, const Pose& base = Pose(3))
+  { return read(R"({"version": 2, "handles": {"fore": {)" + fore + "}}}", base)[1].mode; };
+  EXPECT_EQ(mode(R"("translate": [1, 0, 0])"), HandleMode::automatic);
+  EXPECT_EQ(mode(R"("rotate": {"axis": [0, 0, 1], "degrees": 0})"), HandleMode::full);
+  EXPECT_EQ(mode(R"("scale": 1)"), HandleMode::full);
+  EXPECT_EQ(mode(R"("tail": [2, 1, 0])"), HandleMode::full);
+  EXPECT_EQ(mode(R"("stretch": 2)"), HandleMode::full);
+  EXPECT_EQ(mode(R"("twist": [0, 9])"), HandleMode::full);
+  EXPECT_EQ(mode(R"("scale": 2, "mode": "auto")"), HandleMode::automatic);
+  Pose base(3);
+  base[1].mode = HandleMode::free;
+  EXPECT_EQ(mode(R"("scale": 2)", base), HandleMode::free);
 }
 
 TEST(PoseFile, WhatIsNotMentionedKeepsTheBase)
@@ -408,10 +424,14 @@ TEST(PoseFile, WhatIsWrittenIsReadBack)
       const Eigen::Matrix3d r = Eigen::AngleAxisd(
         random.uniform(-3, 3), random.in_box(-Vec3::Ones(), Vec3::Ones()).normalized())
                                   .toRotationMatrix();
-      pose[h].mode = static_cast<HandleMode>(random.below(3));
-      pose[h].transform = affine_about(
-        rig()[h].head, random.uniform(0.1, 3) * r, random.in_box(-Vec3::Ones(), Vec3::Ones()));
-      if (rig()[h].kind == HandleKind::bone)
+      const HandleMode modes[] = { HandleMode::full, HandleMode::position, HandleMode::free,
+        HandleMode::automatic };
+      pose[h].mode = modes[random.below(4)];
+      const bool moves = random.below(4) == 0;
+      pose[h].transform = affine_about(rig()[h].head,
+        moves ? Eigen::Matrix3d::Identity() : random.uniform(0.1, 3) * r,
+        random.in_box(-Vec3::Ones(), Vec3::Ones()));
+      if (!moves && rig()[h].kind == HandleKind::bone)
       {
         pose[h].stretch = random.uniform(0.5, 2);
         pose[h].twist << random.uniform(-90, 90), random.uniform(-90, 90);

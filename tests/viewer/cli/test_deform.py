@@ -58,6 +58,27 @@ def test_rest_and_rigid_poses(bar, method):
     assert points_of(bindpose.read(bar / "out.vtp")) == pytest.approx(expected, abs=1e-8)
 
 
+@pytest.mark.parametrize("method", ["reduced-arap", "full-arap"])
+def test_translated_handles_turn_freely(bar, method):
+    def posed(pose):
+        deform(bar, pose, "--overwrite", method=method).is_good()
+        return points_of(bindpose.read(bar / "out.vtp"))
+
+    up = {"translate": [-0.5, 2, 0]}
+    found = posed({"version": 2, "handles": {"b2": {**up, "space": "world"}}})
+    position = {"mode": "position"}
+    assert found == pytest.approx(posed({"version": 2, "handles": {"b1": position, "b2": {**position, **up, "space": "world"}}}),
+                                  abs=1e-12)
+    full = {"mode": "full"}
+    sheared = posed({"version": 2, "handles": {"b1": full, "b2": {**full, **up, "space": "world"}}})
+    assert abs(found - sheared).max() > 0.1
+    # Lengths along the bar change less than in the blend of translations.
+    def strain(points):
+        steps = np.linalg.norm(points[1:] - points[:-1], axis=1) / np.linalg.norm(bar.points[1:] - bar.points[:-1], axis=1)
+        return np.abs(steps - 1).max()
+    assert strain(found) < strain(sheared)
+
+
 def test_linear_blend_is_linear(bar):
     deform(bar, {"handles": {"b2": {"translate": [0, 1, 2]}}}).is_good()
     x = bar.points[:, :1] / 6
@@ -165,7 +186,7 @@ def test_a_sequence_is_there_whole_or_not_at_all(bar):
     frames = [{"handles": {}}, {"handles": {}}]
     bar.write("out_0001.vtp", "precious")
     deform(bar, {"frames": frames})  # writes pose.json
-    deform(bar, {"frames": frames}).is_refused("out_0001.vtp", "exists already")
+    deform(bar, {"frames": frames}).is_refused("out_0001.vtp", "the file exists")
     assert (bar / "out_0001.vtp").read_text() == "precious"
     assert not (bar / "out_0000.vtp").exists()
 

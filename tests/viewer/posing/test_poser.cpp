@@ -232,7 +232,6 @@ TEST(Poser, DragsDoNotBindAgain)
       pose[2].mode = static_cast<HandleMode>(drag % 3);
       ASSERT_TRUE(poser->solve(context, pose, options, 5, posed).usable()) << method;
       // What is chosen at pose time needs no bind either.
-      options.drag_only = !options.drag_only;
       options.iterations += 1;
       options.budget_microseconds += 1.0;
     }
@@ -261,21 +260,26 @@ TEST(Poser, SkinningMethodsShareTheirBind)
   EXPECT_TRUE(poser->is_bound(options));
 }
 
-TEST(Poser, DragOnlyMakesPointsPositions)
+TEST(Poser, RigidMethodsFindRotationsOfHandlesThatOnlyMove)
 {
   const Rig rig = beam();
-  PoseOptions options = with(PoseMethod::reduced_arap);
-  Pose turned = some_pose(rig.list);
-  turned[2] = turned[3] = HandlePose();
-  Pose moved = turned;
-  for (const std::size_t k : { 0, 1 })
+  Pose automatic(rig.list.size());
+  automatic[1].transform.col(3) = Vec3(0.2, 0.3, -0.1);
+  Pose moved = automatic;
+  Pose full = automatic;
+  for (std::size_t k = 0; k < rig.list.size(); ++k)
   {
     moved[k].mode = HandleMode::position;
+    full[k].mode = HandleMode::full;
   }
-  const Points wanted = by_poser(rig, moved, options);
-  options.drag_only = true;
-  const Points posed = by_poser(rig, turned, options);
-  EXPECT_EQ(posed, wanted);
+  for (const PoseMethod method : { PoseMethod::reduced_arap, PoseMethod::full_arap })
+  {
+    const PoseOptions options = with(method);
+    EXPECT_EQ(by_poser(rig, automatic, options), by_poser(rig, moved, options));
+    EXPECT_NE(by_poser(rig, automatic, options), by_poser(rig, full, options));
+  }
+  const PoseOptions blend = with(PoseMethod::linear_blend);
+  EXPECT_EQ(by_poser(rig, automatic, blend), by_poser(rig, full, blend));
 }
 
 TEST(Poser, WhatCannotBePosedIsSaid)

@@ -44,8 +44,15 @@ Status check_extension(const std::string& path, const std::string& list)
   {
     return {};
   }
+  std::string expected;
+  std::istringstream words(list);
+  for (std::string entry; words >> entry;)
+  {
+    expected += (expected.empty() ? "." : ", .") + entry;
+  }
   return Status::invalid_input(path +
-    (extension.empty() ? " has no ending" : " has an unknown ending") + "; known are: " + list);
+    (extension.empty() ? " has no file name extension" : " has an unknown file name extension") +
+    "; expected " + expected);
 }
 
 } // namespace bindpose

@@ -87,6 +87,15 @@ using bindpose::Vec3;
 using bindpose::WindingField;
 using SDDP = vtkStreamingDemandDrivenPipeline;
 
+/// The build's expected share of the seconds. Measured on clean figures and on soups of leaves.
+double build_share(Index triangles, Index queries)
+{
+  constexpr double per_triangle = 1e-5;
+  constexpr double per_query = 1e-7;
+  const double build = per_triangle * static_cast<double>(triangles);
+  return build / (build + per_query * static_cast<double>(queries) + 1e-9);
+}
+
 /// Samples of a block on the way to floats: 32 MiB of values.
 constexpr Index block_samples = Index(1) << 22;
 
@@ -529,12 +538,13 @@ bindpose::Status vtkWindingNumberField::Execute(
       return status;
     }
   }
+  const Index queries = !points ? whole.count()
+    : this->SampleCellCenters   ? points->GetNumberOfCells()
+                                : points->GetNumberOfPoints();
+  const double built = build_share(surface->GetNumberOfCells(), queries);
   Status status;
   {
-    const bindpose::Phase phase(context, "build", 0.0, 0.2);
-    const Index queries = !points ? whole.count()
-      : this->SampleCellCenters   ? points->GetNumberOfCells()
-                                  : points->GetNumberOfPoints();
+    const bindpose::Phase phase(context, "build", 0.0, built);
     status = this->Build(surface, queries, context);
   }
   if (!status.ok())
@@ -549,7 +559,7 @@ bindpose::Status vtkWindingNumberField::Execute(
     boundary->ShallowCopy(this->Built->field.boundary());
   }
 
-  const bindpose::Phase phase(context, "evaluate", 0.2, 1.0);
+  const bindpose::Phase phase(context, "evaluate", built, 1.0);
   SampleGrid grid = whole;
   if (!points)
   {

@@ -173,7 +173,7 @@ TEST_F(HandleFiles, UnusableHandlesAreNamed)
   EXPECT_TRUE(this->Read(this->Folder / "none.tgf").empty());
   EXPECT_THAT(this->Reader->GetStatusMessage(), HasSubstr("No such file"));
   EXPECT_TRUE(this->Read(this->Folder.write("h.json", "{}")).empty());
-  EXPECT_THAT(this->Reader->GetStatusMessage(), HasSubstr("unknown ending"));
+  EXPECT_THAT(this->Reader->GetStatusMessage(), HasSubstr("unknown file name extension"));
   EXPECT_TRUE(this->Read(this->Folder.write("broken.vtp", "<VTKFile")).empty());
   EXPECT_THAT(this->Reader->GetStatusMessage(), HasSubstr("broken.vtp"));
   const TriangleMesh mesh = test::cube();

@@ -252,7 +252,7 @@ TEST_F(MeshFiles, UnreadableFilesAreOneSentence)
       EXPECT_EQ(read_report(this->Reader->GetOutput()).text("status"), "invalid_input");
     }
   }
-  EXPECT_THAT(this->ReadError(this->Folder.write("mesh.xyz", "1")), HasSubstr("unknown ending"));
+  EXPECT_THAT(this->ReadError(this->Folder.write("mesh.xyz", "1")), HasSubstr("unknown file name extension"));
   EXPECT_THAT(this->ReadError(this->Folder.write("mesh", "1")), HasSubstr("no ending"));
   EXPECT_THAT(this->ReadError(""), HasSubstr("no file name"));
 }
@@ -306,7 +306,7 @@ TEST_F(MeshFiles, WhatCannotBeWrittenIsOneSentence)
   const auto surface = cube();
   const std::string path = this->Folder / "x.off";
   EXPECT_THAT(this->Write(surface, ""), HasSubstr("no file name"));
-  EXPECT_THAT(this->Write(surface, this->Folder / "x.abc"), HasSubstr("unknown ending"));
+  EXPECT_THAT(this->Write(surface, this->Folder / "x.abc"), HasSubstr("unknown file name extension"));
   EXPECT_THAT(this->Write(surface, this->Folder / "no/x.vtp"), HasSubstr("No such file"));
   EXPECT_THAT(this->Write(surface, this->Folder / "x.vtu"), HasSubstr("vtkPolyData"));
   EXPECT_THAT(this->Write(surface, this->Folder / "x.vti"), HasSubstr("volumes"));
@@ -317,7 +317,7 @@ TEST_F(MeshFiles, WhatCannotBeWrittenIsOneSentence)
   EXPECT_EQ(this->Folder.number_of_files(), 0u);
 
   ASSERT_EQ(this->Write(surface, path), "");
-  EXPECT_THAT(this->Write(surface, path), HasSubstr("exists already"));
+  EXPECT_THAT(this->Write(surface, path), HasSubstr("the file exists"));
   EXPECT_EQ(this->Writer->Write(), 0);
   this->Writer->OverwriteOn();
   EXPECT_EQ(this->Writer->Write(), 1);

@@ -146,7 +146,7 @@ TEST_F(VDBWriter, WritesAgainOnlyWhenAllowed)
   EXPECT_EQ(this->Writer->Write(), 1);
   this->Writer->OverwriteOff();
   EXPECT_EQ(this->Writer->Write(), 0);
-  EXPECT_THAT(this->Writer->GetStatusMessage(), HasSubstr("exists already"));
+  EXPECT_THAT(this->Writer->GetStatusMessage(), HasSubstr("the file exists"));
   EXPECT_EQ(this->Listener->errors.size(), 1u);
 }
 
@@ -162,7 +162,7 @@ TEST_F(VDBWriter, WhatCannotBeWrittenIsOneSentence)
   this->Refuses("3 components");
   this->Writer->SetArrayName(nullptr);
   this->Writer->SetFileName((this->Folder / "f.vti").c_str());
-  this->Refuses("unknown ending");
+  this->Refuses("unknown file name extension");
   this->Writer->SetFileName(nullptr);
   this->Refuses("no file name");
   this->Writer->SetFileName((this->Folder / "no/f.vdb").c_str());

@@ -43,7 +43,7 @@ def test_rigs(tmp_path):
     bindpose.write(shapes.cube(), tmp_path / "cube.gltf")
     assert bindpose.read(tmp_path / "cube.gltf").GetNumberOfCells() == 12
     assert bindpose.read_rig(tmp_path / "cube.gltf").pose is None
-    with pytest.raises(bindpose.InvalidInput, match="exists already"):
+    with pytest.raises(bindpose.InvalidInput, match="the file exists"):
         bindpose.write_rig(mesh, tmp_path / "h.tgf", tmp_path / "rig.glb")
     with pytest.raises(bindpose.InvalidInput, match="animation"):
         bindpose.write_rig(mesh, tmp_path / "h.tgf", tmp_path / "rig.glb", animation="shapes")
@@ -52,7 +52,7 @@ def test_rigs(tmp_path):
 def test_existing_files_are_kept(tmp_path):
     path = tmp_path / "m.off"
     bindpose.write(shapes.cube(), path)
-    with pytest.raises(bindpose.InvalidInput, match="exists already"):
+    with pytest.raises(bindpose.InvalidInput, match="the file exists"):
         bindpose.write(shapes.flat(), path)
     assert bindpose.read(path).GetNumberOfCells() == 12
     bindpose.write(shapes.flat(), path, overwrite=True)
@@ -72,7 +72,7 @@ def test_errors(tmp_path):
         image = vtkImageData()
         image.SetDimensions(2, 2, 2)
         bindpose.write(image, tmp_path / "m.vtp")
-    with pytest.raises(bindpose.InvalidInput, match="unknown ending"):
+    with pytest.raises(bindpose.InvalidInput, match="unknown file name extension"):
         bindpose.write(shapes.cube(), tmp_path / "m.doc")
     with pytest.raises(bindpose.InvalidInput, match="No such file"):
         bindpose.write(shapes.cube(), tmp_path / "no" / "m.off")

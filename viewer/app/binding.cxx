@@ -112,6 +112,7 @@ void Binding::show_preview(const Weights& weights)
   const auto bound = this->is_running() ? this->with_weights(preview) : nullptr;
   if (bound && this->document_->set_preview(bound))
   {
+    this->preview_ = bound;
     this->panel_->set_note(tr("A preview to pose with; exact weights follow …"));
   }
 }
@@ -119,14 +120,25 @@ void Binding::show_preview(const Weights& weights)
 void Binding::finish()
 {
   const BindResult& result = this->job_->result();
+  const vtkSmartPointer<vtkPolyData> preview = std::move(this->preview_);
   this->document_->drop_preview();
   this->offer_again();
   Q_EMIT this->changed();
   if (result.status.code == StatusCode::cancelled)
   {
-    this->panel_->set_note(this->document_->is_bound()
-        ? tr("Cancelled; the weights stay as they were.")
-        : tr("Cancelled."));
+    if (this->document_->is_bound())
+    {
+      this->panel_->set_note(tr("Cancelled; the weights stay as they were."));
+    }
+    else if (preview && this->document_->set_bound(preview, nullptr))
+    {
+      this->panel_->set_note(tr("Cancelled; the preview's weights stay, without a certificate. "
+                                "Bind again for exact ones."));
+    }
+    else
+    {
+      this->panel_->set_note(tr("Cancelled."));
+    }
     return;
   }
   if (!result.status.usable())

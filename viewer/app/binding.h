@@ -50,6 +50,7 @@ private:
   SidePanel* panel_;
   NoticeBar* bar_;
   BindJob* job_;
+  vtkSmartPointer<vtkPolyData> preview_; ///< of the job that runs
   QString reason_; ///< that was offered
 };
 

@@ -2,6 +2,7 @@
 #include "cli/arguments.h"
 
 #include "cli/option_table.h"
+#include "cli/suggestion.h"
 #include "io/text_scanner.h"
 
 #include <CLI/CLI.hpp>
@@ -34,7 +35,9 @@ void add_check(CLI::Option* parsed, const Option& option)
       [choices = split(option.choices, '|'), &option](const std::string& word)
       {
         const bool known = std::find(choices.begin(), choices.end(), word) != choices.end();
-        return known ? std::string() : "'" + word + "' is none of " + option.choices;
+        return known
+          ? std::string()
+          : "'" + word + "' is not valid: expected " + option.choices + suggestion(word, choices);
       });
   }
   else if (option.kind == OptionKind::integer)
@@ -47,7 +50,7 @@ void add_check(CLI::Option* parsed, const Option& option)
           value <= std::numeric_limits<int>::max();
         return good
           ? std::string()
-          : "'" + word + "' is no whole number of at least " + std::to_string(option.minimum);
+          : "'" + word + "' is not valid: expected an integer >= " + std::to_string(option.minimum);
       });
   }
   else if (option.kind == OptionKind::number)
@@ -57,7 +60,7 @@ void add_check(CLI::Option* parsed, const Option& option)
       {
         double value = 0;
         const bool good = parse_number(word, value) && std::isfinite(value);
-        return good ? std::string() : "'" + word + "' is no finite number";
+        return good ? std::string() : "'" + word + "' is not valid: expected a finite number";
       });
   }
 }
@@ -115,6 +118,40 @@ std::string missing_option(const std::vector<Option>& options, const Arguments& 
   return "";
 }
 
+std::vector<std::string> verb_names()
+{
+  std::vector<std::string> names;
+  for (const Verb& verb : verbs())
+  {
+    names.emplace_back(verb.name);
+  }
+  return names;
+}
+
+/// What is wrong with the first option that the verb does not have; empty: nothing.
+std::string unknown_option(const Verb& verb, const std::vector<std::string>& words)
+{
+  std::vector<std::string> known{ "--help" };
+  for (const std::vector<Option>* options : { &verb.options, &common_options() })
+  {
+    for (const Option& option : *options)
+    {
+      const std::vector<std::string> names = split(option.name, ',');
+      known.push_back(names.back());
+    }
+  }
+  for (const std::string& word : words)
+  {
+    const std::string name = word.substr(0, word.find('='));
+    if (name.size() > 2 && name.compare(0, 2, "--") == 0 &&
+      std::find(known.begin(), known.end(), name) == known.end())
+    {
+      return "unknown option '" + name + "'" + suggestion(name, known);
+    }
+  }
+  return {};
+}
+
 void fill_defaults(const std::vector<Option>& options, Arguments& arguments)
 {
   for (const Option& option : options)
@@ -169,13 +206,20 @@ int parse_arguments(int argc, char** argv, Arguments& arguments)
     ->callback([&arguments]() { arguments.verb = "key-table"; });
   if (argc < 2)
   {
-    std::cerr << "bindpose: there is no verb (see bindpose --help)\n";
+    std::string list;
+    for (const std::string& name : verb_names())
+    {
+      list += (list.empty() ? "" : ", ") + name;
+    }
+    std::cerr << "bindpose: no verb is given; expected one of " << list
+              << " (see bindpose --help)\n";
     return 1;
   }
   if (argv[1][0] != '-' &&
     app.get_subcommands([&](const CLI::App* sub) { return sub->get_name() == argv[1]; }).empty())
   {
-    std::cerr << "bindpose: '" << argv[1] << "' is no verb (see bindpose --help)\n";
+    std::cerr << "bindpose: '" << argv[1] << "' is not a verb" << suggestion(argv[1], verb_names())
+              << " (see bindpose --help)\n";
     return 1;
   }
   arguments.words.assign(argv + 1, argv + argc);
@@ -195,6 +239,12 @@ int parse_arguments(int argc, char** argv, Arguments& arguments)
       who += " " + sub->get_name();
     }
     std::string sentence = error.what();
+    for (const Verb& verb : verbs())
+    {
+      const std::string unknown =
+        argv[1] == std::string(verb.name) ? unknown_option(verb, arguments.words) : std::string();
+      sentence = unknown.empty() ? sentence : unknown;
+    }
     std::replace(sentence.begin(), sentence.end(), '\n', ' ');
     std::cerr << who << ": " << sentence << " (see " << who << " --help)\n";
     return 1;

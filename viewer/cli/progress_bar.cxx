@@ -22,7 +22,8 @@ void ProgressBar::show(double fraction, const std::string& phase)
   this->phase_ = phase;
   this->drawn_ = true;
   constexpr int width = 30;
-  const double f = std::clamp(fraction, 0.0, 1.0);
+  this->furthest_ = std::max(this->furthest_, std::clamp(fraction, 0.0, 1.0));
+  const double f = this->furthest_;
   const int full = static_cast<int>(f * width);
   const std::string bar =
     std::string(static_cast<std::size_t>(full), '#') + std::string(width - full, '-');

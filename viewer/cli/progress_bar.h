@@ -17,7 +17,7 @@ public:
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  /// fraction of the whole in [0, 1]
+  /// fraction of the whole in [0, 1]; the bar never goes back
   void show(double fraction, const std::string& phase);
   /// Takes the line away, so that something else can be printed.
   void clear();
@@ -25,6 +25,7 @@ public:
 private:
   bool visible_ = false;
   bool drawn_ = false;
+  double furthest_ = 0.0;
   std::string phase_;
   std::chrono::steady_clock::time_point last_{};
 };

@@ -2,6 +2,7 @@
 
 #include "base/memory.h"
 #include "cli/interrupt.h"
+#include "cli/suggestion.h"
 #include "file_kind.h"
 #include "io/report_json.h"
 #include "io/text_scanner.h"
@@ -64,9 +65,17 @@ void on_progress(vtkObject* caller, unsigned long, void* stage_data, void*)
     algorithm->SetAbortExecute(1); // a signal that came before the pipeline cleared the flag
   }
   const char* phase = algorithm->GetProgressText();
-  const std::string text = phase && stage->name != phase ? stage->name + ": " + phase : stage->name;
+  const bool has_phase = phase && *phase && stage->name != phase;
+  const std::string text = has_phase ? stage->name + ": " + phase : stage->name;
   stage->bar->show(stage->begin + algorithm->GetProgress() * (stage->end - stage->begin), text);
 }
+
+// Expected fractions of the seconds of a run.
+constexpr double reading = 0.02;
+constexpr double choosing_points = 0.01;
+constexpr double finding_bones = 0.3;
+constexpr double main_end = 0.97; ///< then the results are written
+constexpr double latest_main_begin = 0.5; ///< however many files are read
 
 bool starts_with(const std::string& text, const std::string& begin)
 {
@@ -104,7 +113,18 @@ void Session::warn(const std::string& sentence)
   }
 }
 
+double Session::of_whole(double fraction) const
+{
+  return this->main_begin_ + fraction * (main_end - this->main_begin_);
+}
+
 Status Session::try_run(vtkBindposeAlgorithm* algorithm, const std::string& stage_name,
+  double begin, double end, Merge merge)
+{
+  return this->try_stage(algorithm, stage_name, this->of_whole(begin), this->of_whole(end), merge);
+}
+
+Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& stage_name,
   double begin, double end, Merge merge)
 {
   if (interrupted())
@@ -199,11 +219,25 @@ bool Session::run(
   return status.usable() || this->fail(status);
 }
 
+bool Session::run_stage(
+  vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin, double end, Merge merge)
+{
+  const Status status = this->try_stage(algorithm, stage, begin, end, merge);
+  return status.usable() || this->fail(status);
+}
+
+bool Session::run_before(vtkBindposeAlgorithm* algorithm, const std::string& stage, double share)
+{
+  const double begin = this->main_begin_;
+  this->main_begin_ = std::min(begin + share, std::max(begin, latest_main_begin));
+  return this->run_stage(algorithm, stage, begin, this->main_begin_, Merge::nothing);
+}
+
 vtkSmartPointer<vtkDataSet> Session::read(const std::string& path)
 {
   vtkNew<vtkMeshFileReader> reader;
   reader->SetFileName(path.c_str());
-  if (!this->run(reader, "read", 0.0, 0.0, Merge::nothing))
+  if (!this->run_before(reader, "read", reading))
   {
     return nullptr;
   }
@@ -225,9 +259,16 @@ vtkSmartPointer<vtkPolyData> Session::read_handles(const std::string& value, vtk
   const std::string word = value.substr(0, colon);
   if ((word != "auto" && word != "skeleton") || !surface)
   {
+    if (file_extension(value).empty() && surface)
+    {
+      this->invalid("--handles '" + value +
+        "' is not valid: expected auto[:N], skeleton[:N] or a file .tgf, .vtp, .glb or .gltf" +
+        suggestion(word, { "auto", "skeleton" }));
+      return nullptr;
+    }
     vtkNew<vtkHandleFileReader> reader;
     reader->SetFileName(value.c_str());
-    return this->run(reader, "read", 0.0, 0.0, Merge::nothing)
+    return this->run_before(reader, "read", reading)
       ? vtkPolyData::SafeDownCast(reader->GetOutput())
       : nullptr;
   }
@@ -235,8 +276,8 @@ vtkSmartPointer<vtkPolyData> Session::read_handles(const std::string& value, vtk
   if (colon != std::string::npos &&
     (!parse_index(value.substr(colon + 1), count) || count < 1 || count > 100000))
   {
-    this->invalid(
-      "--handles " + value + ": behind " + word + ": stands how many, from 1 to 100000");
+    this->invalid("--handles " + word + ":N needs an integer N between 1 and 100000 (got '" +
+      value.substr(colon + 1) + "')");
     return nullptr;
   }
   if (word == "skeleton")
@@ -244,14 +285,14 @@ vtkSmartPointer<vtkPolyData> Session::read_handles(const std::string& value, vtk
     vtkNew<vtkAutomaticHandles> bones;
     bones->SetInputData(surface);
     bones->SetMostBones(static_cast<int>(count));
-    return this->run(bones, "handles", 0.0, 0.0, Merge::nothing)
+    return this->run_before(bones, "handles", finding_bones)
       ? vtkPolyData::SafeDownCast(bones->GetOutput())
       : nullptr;
   }
   vtkNew<vtkFarthestPointHandles> handles;
   handles->SetInputData(surface);
   handles->SetNumberOfHandles(static_cast<int>(count));
-  return this->run(handles, "handles", 0.0, 0.0, Merge::nothing)
+  return this->run_before(handles, "handles", choosing_points)
     ? vtkPolyData::SafeDownCast(handles->GetOutput())
     : nullptr;
 }
@@ -288,7 +329,7 @@ bool Session::write(vtkDataSet* data, const std::string& path)
   writer->SetInputData(data);
   writer->SetFileName(path.c_str());
   writer->SetOverwrite(this->arguments_.has("overwrite"));
-  return this->run(writer, "write", 1.0, 1.0, Merge::nothing);
+  return this->run_stage(writer, "write", main_end, 1.0, Merge::nothing);
 }
 
 bool Session::write_rig(vtkDataSet* mesh, vtkPolyData* handles,
@@ -313,7 +354,7 @@ bool Session::write_rig(vtkDataSet* mesh, vtkPolyData* handles,
   // Its numbers stand apart from the verb's own.
   const Report own = this->report_;
   this->report_ = Report();
-  const bool written = this->run(writer, "write", 1.0, 1.0, Merge::numbers);
+  const bool written = this->run_stage(writer, "write", main_end, 1.0, Merge::numbers);
   Report report = own;
   for (const auto& [key, value] : this->report_.entries())
   {

@@ -45,11 +45,15 @@ public:
   bool invalid(const std::string& sentence) { return this->fail(Status::invalid_input(sentence)); }
   /// Print and report a warning, each sentence once.
   void warn(const std::string& sentence);
-  /// Progress of what is no algorithm.
-  void show(double fraction, const std::string& what) { this->bar_.show(fraction, what); }
+  /// Show progress of work that is not done by an algorithm, as a fraction of the verb's main work.
+  void show(double fraction, const std::string& what)
+  {
+    this->bar_.show(this->of_whole(fraction), what);
+  }
 
-  /// Brings the algorithm up to date as a stage [begin, end] of the whole. Its warnings and
-  /// errors are the session's, nothing is printed by VTK.
+  /// Bring the algorithm up to date as the stage [begin, end] of the verb's main work: what comes
+  /// between reading and writing. Its warnings and errors are the session's, nothing is printed by
+  /// VTK.
   bool run(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin, double end,
     Merge merge);
   /// The same, but a failure is only returned, for callers with another way out. A cancel counts
@@ -84,11 +88,21 @@ public:
   int finish();
 
 private:
+  /// The same as a stage [begin, end] of the whole run.
+  Status try_stage(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin,
+    double end, Merge merge);
+  bool run_stage(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin,
+    double end, Merge merge);
+  /// Run what prepares the main work, and let that begin `share` of the whole later.
+  bool run_before(vtkBindposeAlgorithm* algorithm, const std::string& stage, double share);
+  double of_whole(double fraction) const;
+
   std::string who() const { return "bindpose " + this->arguments_.verb; }
   void write_report();
 
   Arguments arguments_;
   ProgressBar bar_;
+  double main_begin_ = 0.0; ///< where the main work begins, as a fraction of the whole
   Status status_;
   std::vector<std::string> warnings_;
   Report report_;

@@ -134,7 +134,7 @@ Status make_bones(const SortedSurface& surface, const AutomaticHandlesOptions& o
   TriangleMesh solid;
   Status status;
   {
-    const Phase phase(context, "skeleton", 0.0, 0.95);
+    const Phase phase(context, "skeleton", 0.0, 0.98);
     status =
       curve_skeleton(surface.points, surface.triangles, options.skeleton, skeleton, solid, context);
   }
@@ -142,7 +142,7 @@ Status make_bones(const SortedSurface& surface, const AutomaticHandlesOptions& o
   {
     return status;
   }
-  const Phase phase(context, "bones", 0.95, 1.0);
+  const Phase phase(context, "bones", 0.98, 1.0);
   WindingNumber winding;
   Status built = winding.build(solid.points, solid.triangles, context);
   if (!built.ok())

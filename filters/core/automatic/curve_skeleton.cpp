@@ -244,7 +244,7 @@ Status curve_skeleton(PointsView points, TrianglesView triangles,
   }
   const double start = context.elapsed_seconds();
   {
-    const Phase phase(context, "close", 0.0, 0.3);
+    const Phase phase(context, "close", 0.0, 0.25);
     status = close_surface(points, triangles, options, solid, context);
   }
   if (!status.ok())
@@ -261,7 +261,7 @@ Status curve_skeleton(PointsView points, TrianglesView triangles,
   MesherAnswer answer;
   Status contracted;
   {
-    const Phase phase(context, "contract", 0.3, 0.95);
+    const Phase phase(context, "contract", 0.25, 0.98);
     MesherData data;
     data.points = frame.into(solid.points);
     data.triangles = solid.triangles;
@@ -275,7 +275,7 @@ Status curve_skeleton(PointsView points, TrianglesView triangles,
   {
     return Status::failure(StatusCode::internal_error, "the skeleton is empty");
   }
-  const Phase phase(context, "measure", 0.95, 1.0);
+  const Phase phase(context, "measure", 0.98, 1.0);
   skeleton.points = frame.back(answer.data.points);
   skeleton.segments = tidy(answer.data.segments);
   measure(solid, skeleton);

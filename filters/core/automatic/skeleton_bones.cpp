@@ -746,9 +746,9 @@ Status skeleton_bones(const CurveSkeleton& skeleton, double diagonal,
   Orientation(graph, pieces, bones).run(parts);
   if (bones.cut_cycles > 0)
   {
-    status.warnings.push_back(std::to_string(bones.cut_cycles) +
-      (bones.cut_cycles == 1 ? " cycle of the skeleton was" : " cycles of the skeleton were") +
-      " cut where farthest from the root: a bone has one parent");
+    status.warnings.push_back("the skeleton has " + std::to_string(bones.cut_cycles) +
+      (bones.cut_cycles == 1 ? " loop, which was" : " loops, which were") +
+      " opened at the joint farthest from the root, because a bone has only one parent");
   }
   if (options.most_bones > 0 && static_cast<Index>(pieces.size()) > options.most_bones)
   {

@@ -599,7 +599,7 @@ Status CdtTets::complete()
   Status status;
   if (!this->options_.bare || !this->options_.handles.empty())
   {
-    const Phase phase(this->context_, "fill", 0.0, 0.5);
+    const Phase phase(this->context_, "fill", 0.0, 0.35);
     status = this->fill();
     if (!status.ok() && status.code != StatusCode::cancelled)
     {
@@ -608,7 +608,7 @@ Status CdtTets::complete()
   }
   if (!this->options_.bare && status.code != StatusCode::cancelled)
   {
-    const Phase phase(this->context_, "improve", 0.5, 1.0);
+    const Phase phase(this->context_, "improve", 0.35, 1.0);
     status = this->improve();
   }
   this->renumber();

@@ -89,7 +89,7 @@ Status prepare_surface(PointsView points, TrianglesView triangles, double windin
   {
     return Status::invalid_input(triangles.rows() == 0
         ? "the surface has no triangles"
-        : "no triangle of the surface has an area, so it encloses nothing");
+        : "no triangle of the surface has an area, so the surface has no inside");
   }
   {
     const Phase phase(context, "repair", 0.2, 0.3);

@@ -29,6 +29,9 @@ namespace bindpose
 
 namespace
 {
+/// Where the triangulation of the surface ends, as a fraction of all that method cdt does.
+constexpr double cdt_built = 0.45;
+
 /// Neither cdt nor remesh: what is left to do is said, whatever the reason.
 Status no_method_fits(Status status)
 {
@@ -101,7 +104,7 @@ private:
       this->options_.method == TetMethod::embed || this->options_.method == TetMethod::wrap;
     return this->surface_.found.flat && !holds_anything
       ? Status::invalid_input(
-          "the surface is flat: all its points lie in one plane, so it encloses nothing")
+          "the surface is flat: all its points lie in one plane, so it has no inside to fill")
       : Status();
   }
 
@@ -143,7 +146,7 @@ private:
     CdtTets cdt(this->surface_, this->inside_, options, this->log_, this->context_);
     Status status;
     {
-      const Phase phase(this->context_, "cdt", 0.0, 0.6);
+      const Phase phase(this->context_, "cdt", 0.0, cdt_built);
       constexpr double share = 0.75; // leave time for vertices inside
       status = cdt.build(share * this->time_limit_);
     }
@@ -191,7 +194,7 @@ private:
     return options;
   }
 
-  Status take_cdt(CdtTets& cdt, double begin = 0.6, double end = 1.0)
+  Status take_cdt(CdtTets& cdt, double begin = cdt_built, double end = 1.0)
   {
     const Phase phase(this->context_, "cdt", begin, end);
     Status status = cdt.complete();

@@ -75,7 +75,7 @@ Status check_target(const std::string& target, bool overwrite)
   }
   if (!overwrite)
   {
-    return cannot_write(target, "it exists already (allow it with overwrite)");
+    return cannot_write(target, "the file exists; turn on overwrite to replace it");
   }
   return {};
 }

@@ -68,7 +68,7 @@ TEST(AtomicFile, KeepsTheOldFileUntilTheNewOneIsWhole)
   const test::Folder folder;
   folder.write("out", "old");
   AtomicFile file;
-  EXPECT_THAT(file.open(folder / "out", false).message, HasSubstr("exists already"));
+  EXPECT_THAT(file.open(folder / "out", false).message, HasSubstr("the file exists"));
   EXPECT_EQ(folder.number_of_files(), 1u);
   ASSERT_TRUE(file.open(folder / "out", true).ok());
   ASSERT_TRUE(write_file(file.temporary(), "new").ok());
@@ -96,7 +96,7 @@ TEST(AtomicFile, AFileMadeMeanwhileIsKept)
   AtomicFile file;
   ASSERT_TRUE(file.open(folder / "out", false).ok());
   folder.write("out", "of another");
-  EXPECT_THAT(file.commit().message, HasSubstr("exists already"));
+  EXPECT_THAT(file.commit().message, HasSubstr("the file exists"));
   EXPECT_EQ(folder.read("out"), "of another");
   EXPECT_EQ(folder.number_of_files(), 1u);
 }

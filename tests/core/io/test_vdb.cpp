@@ -455,7 +455,7 @@ TEST_F(Vdb, FilesAreThereWholeOrNotAtAll)
   EXPECT_THAT(this->write(field, "no/field.vdb").message, HasSubstr("No such file"));
   ASSERT_TRUE(this->write(field).ok());
   const std::string before = this->folder.read("field.vdb");
-  EXPECT_THAT(this->write(field).message, HasSubstr("exists already"));
+  EXPECT_THAT(this->write(field).message, HasSubstr("the file exists"));
   this->options.overwrite = true;
 
   // A full disk, as far as a process can make one.

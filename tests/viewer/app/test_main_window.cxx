@@ -309,7 +309,7 @@ TEST_F(Window, APreviewIsThereToPoseWithBeforeTheBindEnds)
   ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
   EXPECT_TRUE(this->window.is_bound());
 
-  // Cancelled after its preview, a bind leaves what was there before: here, nothing.
+  // Cancelled after its preview, a first bind leaves that, as a step that can be undone.
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
   EXPECT_FALSE(this->window.is_bound());
   this->window.binding()->start();
@@ -317,8 +317,18 @@ TEST_F(Window, APreviewIsThereToPoseWithBeforeTheBindEnds)
   ASSERT_TRUE(this->window.binding()->is_running());
   this->window.binding()->cancel();
   ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
-  EXPECT_FALSE(this->window.is_bound());
+  EXPECT_TRUE(this->window.is_bound());
+  EXPECT_FALSE(this->window.document()->has_preview());
   EXPECT_EQ(this->window.error(), QString());
+  // The next bind that is cancelled leaves these weights.
+  vtkDataArray* kept = this->window.shown()->GetPointData()->GetArray("Weights");
+  this->window.binding()->start();
+  ASSERT_TRUE(wait_for([this] { return this->window.document()->has_preview(); }));
+  this->window.binding()->cancel();
+  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
+  EXPECT_EQ(this->window.shown()->GetPointData()->GetArray("Weights"), kept);
+  this->window.document()->history()->undo();
+  EXPECT_FALSE(this->window.is_bound());
 }
 
 TEST_F(Window, WhatCannotBeOpenedIsSaidAndTheWorkStays)

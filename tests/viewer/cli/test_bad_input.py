@@ -19,7 +19,7 @@ UNREADABLE = {
     "nothing.off": ("OFF\n0 0 0\n", ["nothing.off"]),
     "nan.off": (CUBE.replace("-1.0 -1.0 -1.0", "-1.0 nan -1.0"), ["nan.off, line 3", "not a finite number"]),
     "range.off": (CUBE.replace("3 0 4 6", "3 0 4 9"), ["range.off, line 11"]),
-    "mesh.xyz": ("1 2 3\n", ["mesh.xyz", "unknown ending"]),
+    "mesh.xyz": ("1 2 3\n", ["mesh.xyz", "unknown file name extension"]),
     "folder.off": ("folder", ["folder.off", "directory"]),
 }
 
@@ -58,8 +58,8 @@ def test_outputs_that_cannot_be_written(folder, verb):
     folder.run(verb, "x.off", *words, f"no/such/out{ending}").is_refused("no/such/out", "No such file")
     os.mkdir(folder / f"dir{ending}")
     folder.run(verb, "x.off", *words, f"dir{ending}").is_refused("directory")
-    folder.run(verb, "x.off", *words, "out.doc").is_refused("out.doc", "unknown ending")
+    folder.run(verb, "x.off", *words, "out.doc").is_refused("out.doc", "unknown file name extension")
     folder.run(verb, "x.off", *words, "out").is_refused("no ending")
     folder.write(f"there{ending}", "precious")
-    folder.run(verb, "x.off", *words, f"there{ending}").is_refused("exists already")
+    folder.run(verb, "x.off", *words, f"there{ending}").is_refused("the file exists")
     assert (folder / f"there{ending}").read_text() == "precious"

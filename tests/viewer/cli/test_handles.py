@@ -67,7 +67,7 @@ def test_weights_of_a_skeleton(folder):
     bar(folder)
     report = folder.run("weights", "bar.off", "--handles", "skeleton:1", "-o", "w.vtp", "--report", "-").is_good().report
     assert [handle["name"] for handle in report["handles"]] == ["b1"]
-    folder.run("weights", "bar.off", "--handles", "skeleton:x", "-o", "x.vtp").is_refused("behind skeleton: stands how many")
+    folder.run("weights", "bar.off", "--handles", "skeleton:x", "-o", "x.vtp").is_refused("--handles skeleton:N needs an integer N between 1 and 100000 (got 'x')")
 
 
 def test_bad_input(folder):

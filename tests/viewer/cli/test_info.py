@@ -82,7 +82,7 @@ def test_tets(folder):
 def test_report_file(folder):
     folder.off("cube.off", shapes.cube())
     assert folder.run("info", "cube.off", "--report", "r.json").is_good().new_files == ["r.json"]
-    folder.run("info", "cube.off", "--report", "r.json").is_refused("r.json", "exists already")
+    folder.run("info", "cube.off", "--report", "r.json").is_refused("r.json", "the file exists")
     folder.run("info", "cube.off", "--report", "r.json", "--overwrite").is_good()
     folder.run("info", "cube.off", "--report", "no/r.json").is_refused("no/r.json")
 

@@ -89,4 +89,4 @@ def test_broken_files_are_named(bar):
         deform(bar, mesh=name, output="o.vtp").is_refused(name)
         deform(bar, handles=name, output="o.vtp").is_refused(name)
         deform(bar, pose=name, output="o.vtp").is_refused(name)
-    deform(bar).is_refused("out.glb", "exists already")
+    deform(bar).is_refused("out.glb", "the file exists")

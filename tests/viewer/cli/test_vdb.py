@@ -107,9 +107,9 @@ def test_refusals(folder):
     folder.run(*run, "-o", "no/field.vdb").is_refused("no/field.vdb", "No such file")
     folder.run(*run, "-o", "f.vdb", "--vdb-band", "narrow", "--vdb-background", "0.5").is_refused("threshold")
     folder.run(*run, "-o", "f.vdb").is_good()
-    folder.run(*run, "-o", "f.vdb").is_refused("f.vdb", "exists already")
+    folder.run(*run, "-o", "f.vdb").is_refused("f.vdb", "the file exists")
     assert "at least 1" in folder.run(*run, "-o", "g.vdb", "--vdb-band-width", "0").err
-    assert "none of full|narrow" in folder.run(*run, "-o", "g.vdb", "--vdb-band", "wide").err
+    assert "expected full|narrow" in folder.run(*run, "-o", "g.vdb", "--vdb-band", "wide").err
 
 
 def test_from_python(folder):
@@ -127,7 +127,7 @@ def test_from_python(folder):
     assert facts["Bounding box of active voxels"] == "[-5, -20, 7] -> [4, -12, 30]"
     assert number(facts["Number of active voxels"]) == (values > 1e-6).sum()
     assert np.array_equal(facts["matrix"], [[0.5, 0, 0, 0], [0, 0.25, 0, 0], [0, 0, 0.125, 0], [1, -2, 3, 1]])
-    with pytest.raises(bindpose.InvalidInput, match="exists already"):
+    with pytest.raises(bindpose.InvalidInput, match="the file exists"):
         bindpose.write(image, folder / "density.vdb")
     with pytest.raises(bindpose.InvalidInput, match="vtkPolyData"):
         bindpose.write(shapes.cube(), folder / "cube.vdb")

@@ -1,0 +1,54 @@
+"""The progress line on a terminal: it never goes back, names what runs, and follows the clock."""
+
+import os
+import pty
+import re
+import subprocess
+import time
+
+import pytest
+import shapes
+from driver import PROGRAM
+
+
+def progress_of(folder, *words):
+    """Seconds from the start, percent and text of every line that a terminal shows; the last row is the end."""
+    master, slave = pty.openpty()
+    start = time.monotonic()
+    run = subprocess.Popen([PROGRAM, *map(str, words)], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                           stderr=slave)
+    os.close(slave)
+    rows = []
+    while True:
+        try:
+            data = os.read(master, 65536)
+        except OSError:  # Linux ends a terminal this way
+            break
+        if not data:
+            break
+        now = time.monotonic() - start
+        rows += [(now, int(percent), text.strip()) for percent, text in re.findall(r"\] +(\d+) %  ([^\r\x1b]*)", data.decode())]
+    os.close(master)
+    assert run.wait() == 0
+    return rows + [(time.monotonic() - start, 100, "")]
+
+
+@pytest.mark.parametrize("words, names", [
+    (("weights", "m.off", "--handles", "auto:8", "-o", "w.vtp"), ["read", "handles", "weights: tetrahedralize", "write"]),
+    (("tetrahedralize", "m.off", "-o", "t.vtu"), ["read", "tetrahedralize: winding", "tetrahedralize: tetgen", "write"]),
+    (("winding", "m.off", "--grid", "160", "-o", "w.vti"), ["read", "winding: build", "winding: evaluate", "write"]),
+])
+def test_progress_follows_the_clock(folder, words, names):
+    folder.write("m.off", shapes.torus_off(160, 80))
+    rows = progress_of(folder, *words)
+    percents = [percent for _, percent, _ in rows]
+    assert percents == sorted(percents)
+    texts = [text for _, _, text in rows]
+    assert all(name in texts for name in names), sorted(set(texts))
+    assert not any(text.endswith(":") for text in texts)
+    end = rows[-1][0]
+    off = [abs(percent / 100 - seconds / end) for seconds, percent, _ in rows[:-1]]
+    assert sum(off) / len(off) < 0.3
+    # Seconds with 98 % or more, up to the end.
+    late = end - min(seconds for seconds, percent, _ in rows if percent >= 98)
+    assert late < 0.2 * end + 0.2

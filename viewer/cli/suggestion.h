@@ -1,0 +1,19 @@
+#ifndef bindpose_cli_suggestion_h
+#define bindpose_cli_suggestion_h
+
+#include <string>
+#include <vector>
+
+namespace bindpose::cli
+{
+
+/// Return the known word that is most like a mistyped one, or an empty text if none is: at most a
+/// third of its letters are wrong, missing, added or swapped with their neighbors.
+std::string most_similar(const std::string& word, const std::vector<std::string>& known);
+
+/// Return "; did you mean 'WORD'?" for that word, or an empty text.
+std::string suggestion(const std::string& word, const std::vector<std::string>& known);
+
+} // namespace bindpose::cli
+
+#endif

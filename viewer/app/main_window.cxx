@@ -163,6 +163,8 @@ void MainWindow::make_layout()
   this->binding_ = new Binding(this->document_, this->panel_, this->rebind_bar_, this);
   this->shape_handles_ = new ShapeHandles(this->document_, this->note_bar_, this);
   QObject::connect(this->shape_handles_, &ShapeHandles::failed, this, &MainWindow::show_error);
+  QObject::connect(
+    this->shape_handles_, &ShapeHandles::rigged, this, [this] { this->binding_->start(); });
   // Before another panel shows its own colours.
   QObject::connect(this->panels_, &PanelColumn::panel_shown, this,
     [this](int panel)

@@ -10,7 +10,16 @@
 #include <QInputDialog>
 #include <QMenu>
 
+#include <algorithm>
+
 using namespace bindpose;
+
+namespace
+{
+/// Triangles that auto_rig() contracts to the skeleton: half of the time of the default, and
+/// fingers may be missed.
+constexpr Index quick_triangles = 5000;
+} // namespace
 
 ShapeHandles::ShapeHandles(Document* document, NoticeBar* bar, QWidget* window)
   : QObject(window), document_(document), bar_(bar), window_(window)
@@ -21,6 +30,10 @@ ShapeHandles::ShapeHandles(Document* document, NoticeBar* bar, QWidget* window)
 
 void ShapeHandles::fill_menu(QMenu* menu)
 {
+  this->auto_rig_ = menu->addAction(tr("Auto-&rig"));
+  this->auto_rig_->setObjectName("handles.auto_rig");
+  this->auto_rig_->setToolTip(tr("Make bones along the shape and bind it, ready to drag"));
+  QObject::connect(this->auto_rig_, &QAction::triggered, this, &ShapeHandles::auto_rig);
   this->menu_ = menu->addMenu(tr("From the &shape"));
   QAction* bones = this->menu_->addAction(tr("&Bones along it"));
   bones->setObjectName("handles.bones_along_it");
@@ -33,7 +46,9 @@ void ShapeHandles::fill_menu(QMenu* menu)
 
 void ShapeHandles::update()
 {
-  this->menu_->setEnabled(this->document_->surface() && !this->is_running());
+  const bool can = this->document_->surface() && !this->is_running();
+  this->menu_->setEnabled(can);
+  this->auto_rig_->setEnabled(can);
 }
 
 void ShapeHandles::ask_for_count()
@@ -50,9 +65,33 @@ void ShapeHandles::ask_for_count()
   dialog->open();
 }
 
+void ShapeHandles::auto_rig()
+{
+  if (!this->is_running())
+  {
+    this->rigging_ = true;
+    AutomaticHandlesOptions options;
+    options.skeleton.triangles = quick_triangles;
+    this->make(options);
+  }
+}
+
 void ShapeHandles::start(AutomaticMethod method, Index count)
 {
-  if (this->is_running() || !this->document_->surface())
+  if (!this->is_running())
+  {
+    this->rigging_ = false;
+    AutomaticHandlesOptions options;
+    options.method = method;
+    options.bones.most_bones = count;
+    options.points.count = count;
+    this->make(options);
+  }
+}
+
+void ShapeHandles::make(AutomaticHandlesOptions options)
+{
+  if (!this->document_->surface())
   {
     return;
   }
@@ -63,16 +102,12 @@ void ShapeHandles::start(AutomaticMethod method, Index count)
     Q_EMIT this->failed(QString::fromStdString(status.message));
     return;
   }
-  AutomaticHandlesOptions options;
-  options.method = method;
-  options.bones.most_bones = count;
-  options.points.count = count;
-  this->step_ =
-    method == AutomaticMethod::points ? tr("points spread over it") : tr("bones along the shape");
+  this->method_ = options.method;
   this->surface_ = this->document_->surface();
   this->made_ = std::make_shared<Handles>();
-  this->bar_->offer(method == AutomaticMethod::points ? tr("Spreading points over the shape …")
-                                                      : tr("Finding bones along the shape …"),
+  this->bar_->offer(options.method == AutomaticMethod::points
+      ? tr("Spreading points over the shape …")
+      : tr("Finding bones along the shape …"),
     {}, tr("Cancel"));
   this->job_.start(
     [surface, options, made = this->made_](ExecutionContext& context)
@@ -92,15 +127,31 @@ void ShapeHandles::finish()
   {
     return; // another shape has come meanwhile
   }
-  Status told = status;
+  const bool points = this->method_ == AutomaticMethod::points;
+  const bool has_bones = std::any_of(this->made_->begin(), this->made_->end(),
+    [](const Handle& handle) { return handle.kind == HandleKind::bone; });
+  if (this->rigging_ && !points && !(status.usable() && has_bones))
+  {
+    AutomaticHandlesOptions instead;
+    instead.method = AutomaticMethod::points;
+    this->make(instead);
+    return;
+  }
+  Status committed = status;
   if (status.usable())
   {
     this->document_->editable_handles()->ShallowCopy(to_polydata(*this->made_));
-    told = this->document_->commit_handles(this->step_);
+    committed = this->document_->commit_handles(
+      points ? tr("points spread over it") : tr("bones along the shape"));
   }
-  if (!told.usable())
+  if (!committed.usable())
   {
-    Q_EMIT this->failed(tr("No handles: %1.").arg(QString::fromStdString(told.message)));
+    Q_EMIT this->failed(tr("No handles: %1.").arg(QString::fromStdString(committed.message)));
+    return;
+  }
+  if (this->rigging_)
+  {
+    Q_EMIT this->rigged();
   }
   else if (!status.warnings.empty())
   {

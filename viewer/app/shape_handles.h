@@ -9,6 +9,7 @@
 
 class Document;
 class NoticeBar;
+class QAction;
 class QMenu;
 class QWidget;
 
@@ -26,23 +27,30 @@ public:
   /// What can be chosen depends on whether there is a surface.
   void update();
 
+  /// Make bones along the shape, or points spread over it if it has no bones, and emit rigged().
+  void auto_rig();
   /// @param count points, or the most bones; 0: as many as the shape needs
   void start(bindpose::AutomaticMethod method, bindpose::Index count);
   void cancel() { this->job_.cancel(); }
   bool is_running() const { return this->job_.is_running(); }
 
 Q_SIGNALS:
+  /// The handles of auto_rig() are there: they can be bound.
+  void rigged();
   void failed(const QString& sentence);
 
 private:
   void ask_for_count();
+  void make(bindpose::AutomaticHandlesOptions options);
   void finish();
 
   Document* document_;
   NoticeBar* bar_;
   QWidget* window_;
+  QAction* auto_rig_ = nullptr;
   QMenu* menu_ = nullptr;
-  QString step_;
+  bindpose::AutomaticMethod method_ = bindpose::AutomaticMethod::skeleton;
+  bool rigging_ = false;
   std::shared_ptr<bindpose::Handles> made_;
   const void* surface_ = nullptr; ///< that they are made for
   KernelJob job_; // last: it ends before what it works on

@@ -22,7 +22,7 @@ public:
   /// The panel says how far it is and what came of it; the bar offers to bind again.
   Binding(Document* document, SidePanel* panel, NoticeBar* bar, QObject* parent);
 
-  /// By the panel's method. Nothing without a surface and handles, or while it runs.
+  /// By the panel's method, in its domain. Nothing without a surface and handles, or while it runs.
   void start();
   void cancel() { this->job_->cancel(); }
   bool is_running() const { return this->job_->is_running(); }

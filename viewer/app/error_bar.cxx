@@ -21,11 +21,20 @@ ErrorBar::ErrorBar(QWidget* parent) : QFrame(parent), text_(new QLabel(this))
   this->hide();
 }
 
-void ErrorBar::show_sentence(const QString& sentence, const QString& tool_tip)
+void ErrorBar::show_sentence(const QString& sentence, ErrorKind kind, const QString& tool_tip)
 {
+  this->kind_ = kind;
   this->text_->setText(sentence);
   this->text_->setToolTip(tool_tip);
   this->show();
+}
+
+void ErrorBar::succeeded(ErrorKind kind)
+{
+  if (kind == this->kind_)
+  {
+    this->hide();
+  }
 }
 
 QString ErrorBar::sentence() const

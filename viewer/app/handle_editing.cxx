@@ -27,9 +27,9 @@
 #include <QContextMenuEvent>
 #include <QKeyEvent>
 #include <QLabel>
-#include <QListWidget>
 #include <QMenu>
 #include <QShortcut>
+#include <QTreeWidget>
 
 using namespace bindpose;
 
@@ -44,7 +44,7 @@ HandleEditing::HandleEditing(
     painting_(new RegionPainting(document, viewport))
 {
   this->make_actions();
-  this->commands_ = new HandleCommands(this, document, viewport, panel->handle_list());
+  this->commands_ = new HandleCommands(this, document, viewport, panel->handle_list()->tree());
   this->tools_ = new EditTools(
     { this->modes_->actions(), this->gizmos_->actions() + QList<QAction*>{ this->local_ } },
     viewport->parentWidget());
@@ -83,12 +83,12 @@ HandleEditing::HandleEditing(
       this->show_selection();
     });
   QObject::connect(panel, &SidePanel::handles_chosen, this, &HandleEditing::list_chosen);
-  panel->handle_list()->setContextMenuPolicy(Qt::CustomContextMenu);
-  QObject::connect(panel->handle_list(), &QWidget::customContextMenuRequested, this,
-    [this](const QPoint& at)
+  QTreeWidget* list = panel->handle_list()->tree();
+  list->setContextMenuPolicy(Qt::CustomContextMenu);
+  QObject::connect(list, &QWidget::customContextMenuRequested, this,
+    [this, list](const QPoint& at)
     {
-      QListWidget* list = this->panel_->handle_list();
-      if (QListWidgetItem* item = list->itemAt(at))
+      if (QTreeWidgetItem* item = list->itemAt(at))
       {
         if (!item->isSelected())
         {

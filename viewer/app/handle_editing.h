@@ -54,6 +54,8 @@ public:
 
   /// The row of tools, for above the picture.
   EditTools* tools() const { return this->tools_; }
+  /// What a mode has, in the upper left corner of the picture.
+  ModeBar* mode_bar() const { return this->bar_; }
   HandleCommands* commands() const { return this->commands_; }
   void fill_menu(QMenu* menu);
   /// By its name in window_keys.h; null for none of the tools.

@@ -232,6 +232,7 @@ void Inspection::choose_colours(int colours)
   if (status.ok())
   {
     this->colours_ = colours;
+    Q_EMIT this->succeeded();
     return;
   }
   this->panel_->set_colours(this->colours_);

@@ -46,6 +46,8 @@ Q_SIGNALS:
   void defects_found(const QString& counts);
   /// One sentence; what was shown stays.
   void failed(const QString& sentence);
+  /// Tets are made, or shown as was asked for.
+  void succeeded();
   /// Tets are made, and this is to be known about them.
   void noticed(const QString& sentence);
 

@@ -9,7 +9,6 @@
 #include <QLabel>
 #include <QMouseEvent>
 #include <QPainter>
-#include <QProgressBar>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
@@ -72,16 +71,7 @@ KeyStrip::KeyStrip(QWidget* parent) : QFrame(parent), track_(new KeyTrack(this))
   this->rate_->setSuffix(tr(" /s"));
   this->rate_->setButtonSymbols(QAbstractSpinBox::NoButtons);
   this->rate_->setKeyboardTracking(false);
-  this->rate_->setToolTip(tr("Frames a second of what is exported"));
-  this->bar_ = new QProgressBar(this);
-  this->bar_->setRange(0, 1000);
-  this->bar_->setTextVisible(false);
-  this->bar_->setFixedWidth(80);
-  this->bar_->hide();
-  line->addWidget(this->bar_);
-  this->export_ = add(tr("Export…"),
-    tr("Pose file (.json), datasets (.vtp and .pvd), glTF animation (.glb), strip of pictures\n"
-       "(.png), or moving picture (.gif, .webm, .mp4)"));
+  this->rate_->setToolTip(tr("Frames per second of an exported film"));
   rows->addLayout(line);
   auto* below = new QHBoxLayout;
   below->setSpacing(6);
@@ -98,18 +88,6 @@ KeyStrip::KeyStrip(QWidget* parent) : QFrame(parent), track_(new KeyTrack(this))
   QObject::connect(this->smooth_, &QPushButton::clicked, this, &KeyStrip::smooth_chosen);
   QObject::connect(this->rate_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
     &KeyStrip::rate_chosen);
-  QObject::connect(this->export_, &QPushButton::clicked, this,
-    [this]
-    {
-      if (this->bar_->isVisible())
-      {
-        Q_EMIT this->cancel_wanted();
-      }
-      else
-      {
-        Q_EMIT this->export_wanted();
-      }
-    });
   QObject::connect(this->track_, &KeyTrack::scrubbed, this, &KeyStrip::scrubbed);
   QObject::connect(this->track_, &KeyTrack::scrub_ended, this, &KeyStrip::scrub_ended);
   QObject::connect(this->track_, &KeyTrack::key_moved, this, &KeyStrip::key_moved);
@@ -148,20 +126,11 @@ void KeyStrip::set_ready(bool ready)
   this->enable();
 }
 
-void KeyStrip::set_progress(double fraction)
-{
-  this->bar_->setVisible(fraction >= 0.0);
-  this->bar_->setValue(static_cast<int>(1000.0 * fraction));
-  this->export_->setText(fraction >= 0.0 ? tr("Stop") : tr("Export…"));
-  this->enable();
-}
-
 void KeyStrip::enable()
 {
   this->play_->setEnabled(this->ready_ && (this->playing_ || this->keys_.keys().size() > 1));
   this->add_->setEnabled(this->ready_ && !this->playing_);
   this->remove_->setEnabled(!this->playing_ && this->keys_.at(this->time_) >= 0);
-  this->export_->setEnabled(this->ready_);
   this->track_->setEnabled(this->ready_);
 }
 

@@ -7,12 +7,11 @@
 
 class QDoubleSpinBox;
 class QLabel;
-class QProgressBar;
 class QPushButton;
 class KeyTrack;
 
 /// Key frames below the picture: a track with a mark a key, which the mouse scrubs and moves keys
-/// on, and what plays, sets and exports them. It shows what it is told.
+/// on, and what plays and sets them. It shows what it is told.
 class KeyStrip : public QFrame
 {
   Q_OBJECT
@@ -24,8 +23,6 @@ public:
   void set_time(double seconds);
   void set_playing(bool playing);
   void set_ready(bool ready);
-  /// Of an export; below 0: there is none.
-  void set_progress(double fraction);
   double time() const { return this->time_; }
   KeyTrack* track() const { return this->track_; }
 
@@ -39,8 +36,6 @@ Q_SIGNALS:
   void loop_chosen(bool loop);
   void smooth_chosen(bool smooth);
   void rate_chosen(double frames_per_second);
-  void export_wanted();
-  void cancel_wanted();
 
 private:
   void enable();
@@ -51,10 +46,8 @@ private:
   QPushButton* remove_;
   QPushButton* loop_;
   QPushButton* smooth_;
-  QPushButton* export_;
   QDoubleSpinBox* rate_;
   QLabel* clock_;
-  QProgressBar* bar_;
   bindpose::KeyFrames keys_;
   double time_ = 0.0;
   bool ready_ = false;

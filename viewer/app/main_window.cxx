@@ -1,12 +1,13 @@
 #include "main_window.h"
 
+#include "bar_stack.h"
 #include "binding.h"
 #include "document/document.h"
 #include "document/opened_file.h"
 #include "document/recent_files.h"
 #include "edit_tools.h"
 #include "elided_label.h"
-#include "error_bar.h"
+#include "exports.h"
 #include "handle_commands.h"
 #include "handle_editing.h"
 #include "inspection.h"
@@ -14,7 +15,6 @@
 #include "notice_bar.h"
 #include "option_links.h"
 #include "panel_column.h"
-#include "picture_dialog.h"
 #include "plane_options.h"
 #include "posing.h"
 #include "probe.h"
@@ -26,14 +26,15 @@
 #include "volume_panel.h"
 #include "volume_view.h"
 #include "weight_inspection.h"
+#include "weight_panel.h"
 #include "wheel_guard.h"
+#include "winding_volume.h"
 #include "window_menus.h"
 #include "window_sessions.h"
 
 #include "conversion.h"
 #include "handle_geometry.h"
 #include "scene/camera.h"
-#include "scene/picture.h"
 #include "scene/volume.h"
 
 #include "vtkDataArray.h"
@@ -47,12 +48,16 @@
 #include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QGuiApplication>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMimeData>
+#include <QScreen>
 #include <QStatusBar>
 #include <QUndoStack>
 #include <QVBoxLayout>
+
+#include <algorithm>
 
 using namespace bindpose;
 
@@ -81,9 +86,13 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
 {
   this->setAcceptDrops(true);
   new WheelGuard(this);
-  this->resize(1280, 800);
+  // The whole window is on a small screen, with the title that the desktop gives it.
+  constexpr int title = 40; // pixels
+  const QSize room = QGuiApplication::primaryScreen()->availableGeometry().size();
+  this->resize(QSize(1280, 800).boundedTo(room - QSize(0, title)));
   this->make_layout();
   this->make_inspections();
+  this->exports_ = new Exports(this, this->export_bar_);
   this->menus_ = new WindowMenus(this);
   this->links_ = new OptionLinks(this->document_, this->panels_);
   this->links_->tie(
@@ -97,6 +106,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
   this->connect_volume();
   this->connect_handles();
   this->connect_posing();
+  this->connect_errors();
   QObject::connect(
     this->document_, &Document::about_to_change, this->editing_, &HandleEditing::stop);
   QObject::connect(this->document_, &Document::changed, this, &MainWindow::document_changed);
@@ -131,15 +141,16 @@ void MainWindow::make_layout()
   auto* rows = new QVBoxLayout;
   rows->setSpacing(0);
 
-  this->error_bar_ = new ErrorBar(centre);
-  rows->addWidget(this->error_bar_);
-  for (NoticeBar** bar : { &this->recovery_bar_, &this->note_bar_, &this->rebind_bar_ })
-  {
-    *bar = new NoticeBar(centre);
-    rows->addWidget(*bar);
-  }
-
   this->viewport_ = new Viewport(centre);
+  this->bars_ = new BarStack(this->viewport_);
+  this->error_bar_ = new ErrorBar(this->bars_);
+  this->bars_->add(this->error_bar_);
+  for (NoticeBar** bar :
+    { &this->recovery_bar_, &this->note_bar_, &this->rebind_bar_, &this->export_bar_ })
+  {
+    *bar = new NoticeBar(this->bars_);
+    this->bars_->add(*bar);
+  }
   auto* over = new QVBoxLayout(this->viewport_);
   this->empty_ = new QLabel(this->viewport_);
   this->empty_->setObjectName("empty");
@@ -160,9 +171,9 @@ void MainWindow::make_layout()
     { this->panel_->pose(), this->panel_->fields(), this->panel_->poses(), this->strip_ });
   this->editing_ = new HandleEditing(this->document_, this->viewport_, this->posing_, this->panel_);
   rows->insertWidget(rows->indexOf(this->viewport_), this->editing_->tools());
+  this->bars_->begin_below(this->editing_->mode_bar());
   this->binding_ = new Binding(this->document_, this->panel_, this->rebind_bar_, this);
   this->shape_handles_ = new ShapeHandles(this->document_, this->note_bar_, this);
-  QObject::connect(this->shape_handles_, &ShapeHandles::failed, this, &MainWindow::show_error);
   QObject::connect(
     this->shape_handles_, &ShapeHandles::rigged, this, [this] { this->binding_->start(); });
   // Before another panel shows its own colours.
@@ -190,7 +201,6 @@ void MainWindow::make_inspections()
   this->inspection_ = new Inspection(this->viewport_, this->panels_->tet());
   QObject::connect(
     this->inspection_, &Inspection::surface_look_changed, this, &MainWindow::update_surface_look);
-  QObject::connect(this->inspection_, &Inspection::failed, this, &MainWindow::show_error);
   QObject::connect(this->inspection_, &Inspection::noticed, this, &MainWindow::show_notice);
   QObject::connect(this->inspection_, &Inspection::defects_found, this, &MainWindow::offer_defects);
   this->weights_ = new WeightInspection(this->viewport_, this->panels_->weight(),
@@ -201,7 +211,6 @@ void MainWindow::make_inspections()
       this->update_surface_look();
       this->update_pose(); // a slice lies in the shape at rest
     });
-  QObject::connect(this->weights_, &WeightInspection::failed, this, &MainWindow::show_error);
   this->rotations_ =
     std::make_unique<RotationView>(this->viewport_, this->panels_->side()->pose(), this->posing_);
   this->probe_ = new Probe(
@@ -223,7 +232,24 @@ void MainWindow::make_inspections()
       {
         this->rotations_->set_active(true);
       }
+      if (panel == PanelColumn::weights)
+      {
+        this->show_selected_column();
+      }
     });
+  QObject::connect(this->panels_->weight(), &WeightPanel::column_chosen, this,
+    [this](int column)
+    {
+      const std::vector<int> selected = this->editing_->selected();
+      const bool shown = this->panels_->shown_panel() == PanelColumn::weights;
+      const int count = static_cast<int>(this->document_->handles().size());
+      if (shown && this->is_bound() && column >= 0 && column < count &&
+        std::find(selected.begin(), selected.end(), column) == selected.end())
+      {
+        this->panel_->select_handle(column);
+      }
+    });
+  this->winding_volume_ = new WindingVolume(this->document_, this->panels_->volume(), this);
 }
 
 void MainWindow::connect_panel()
@@ -240,7 +266,6 @@ void MainWindow::connect_panel()
       this->update_panel();
       this->update_pose();
     });
-  QObject::connect(this->binding_, &Binding::failed, this, &MainWindow::show_error);
   QObject::connect(this->binding_, &Binding::noticed, this, &MainWindow::show_notice);
   QObject::connect(
     this->binding_, &Binding::bound, this->sessions_->autosave(), &Autosave::begin_save);
@@ -280,7 +305,6 @@ void MainWindow::connect_handles()
   QObject::connect(this->editing_, &HandleEditing::moved, this, &MainWindow::update_pose);
   QObject::connect(
     this->editing_, &HandleEditing::sentence_changed, this, &MainWindow::update_hint);
-  QObject::connect(this->editing_, &HandleEditing::refused, this, &MainWindow::show_error);
   // Regions have the colours of the surface to themselves.
   QObject::connect(this->editing_, &HandleEditing::mode_changed, this,
     [this](int mode)
@@ -291,14 +315,44 @@ void MainWindow::connect_handles()
       }
     });
   QObject::connect(this->editing_, &HandleEditing::handle_selected, this,
-    [this](int handle)
+    [this]
     {
       this->posing_->select_handles(this->editing_->selected());
-      if (this->is_bound())
-      {
-        this->weights_->choose_column(handle);
-      }
+      this->show_selected_column();
     });
+}
+
+/// The panel of weights shows those of the handle that was selected last.
+void MainWindow::show_selected_column()
+{
+  const std::vector<int> selected = this->editing_->selected();
+  if (this->is_bound() && !selected.empty())
+  {
+    this->weights_->choose_column(selected.back());
+  }
+}
+
+/// An error leaves when something of its kind succeeds.
+void MainWindow::connect_errors()
+{
+  const auto fails = [this](auto* part, auto signal, ErrorKind kind)
+  {
+    QObject::connect(part, signal, this,
+      [this, kind](const QString& sentence) { this->show_error(sentence, kind); });
+  };
+  const auto succeeds = [this](auto* part, auto signal, ErrorKind kind)
+  { QObject::connect(part, signal, this, [this, kind] { this->error_bar_->succeeded(kind); }); };
+  fails(this->binding_, &Binding::failed, ErrorKind::other); // the next bind hides all errors
+  fails(this->shape_handles_, &ShapeHandles::failed, ErrorKind::edit_handles);
+  fails(this->editing_, &HandleEditing::refused, ErrorKind::edit_handles);
+  fails(this->posing_, &Posing::failed, ErrorKind::pose);
+  succeeds(this->posing_, &Posing::succeeded, ErrorKind::pose);
+  fails(this->inspection_, &Inspection::failed, ErrorKind::tets);
+  succeeds(this->inspection_, &Inspection::succeeded, ErrorKind::tets);
+  fails(this->weights_, &WeightInspection::failed, ErrorKind::weights);
+  succeeds(this->weights_, &WeightInspection::succeeded, ErrorKind::weights);
+  fails(this->winding_volume_, &WindingVolume::failed, ErrorKind::volume);
+  succeeds(this->winding_volume_, &WindingVolume::succeeded, ErrorKind::volume);
 }
 
 // ---- What the document has become --------------------------------------------------------------
@@ -343,6 +397,11 @@ void MainWindow::document_changed(int parts)
   {
     const auto& kept = this->document_->work().key_poses;
     this->posing_->keeper()->set_shelf(kept ? *kept : PoseShelf());
+    this->keys_changed();
+  }
+  if (parts & (handles_part | handle_looks_part))
+  {
+    this->error_bar_->succeeded(ErrorKind::edit_handles);
   }
   this->editing_->document_changed(parts);
   this->update_title();
@@ -352,6 +411,24 @@ void MainWindow::document_changed(int parts)
     this->update_panel();
     this->update_pose();
   }
+}
+
+/// The first key brings the timeline; it leaves when a person says so.
+void MainWindow::keys_changed()
+{
+  const bool has_keys = !this->posing_->shelf().keys.keys().empty();
+  if (has_keys && !this->has_keys_)
+  {
+    this->show_timeline(true);
+  }
+  this->has_keys_ = has_keys;
+}
+
+void MainWindow::show_timeline(bool shown)
+{
+  this->timeline_ = shown;
+  this->strip_->setVisible(shown && this->document_->surface());
+  this->menus_->update();
 }
 
 void MainWindow::option_changed(const QString& key, const QVariant& value)
@@ -411,17 +488,15 @@ void MainWindow::show_handles()
   {
     this->viewport_->reset_view();
   }
-  QStringList names;
-  QList<int> modes;
-  QList<bool> bones;
+  std::vector<HandleTree::Row> rows;
   const Pose pose = this->document_->pose();
   for (std::size_t k = 0; k < pose.size(); ++k)
   {
-    names << QString::fromStdString(this->document_->handles()[k].name);
-    modes << static_cast<int>(pose[k].mode);
-    bones << (this->document_->handles()[k].kind == HandleKind::bone);
+    const Handle& handle = this->document_->handles()[k];
+    rows.push_back({ QString::fromStdString(handle.name), handle.kind,
+      static_cast<int>(handle.parent), static_cast<int>(pose[k].mode) });
   }
-  this->panel_->set_handles(names, modes, bones);
+  this->panel_->set_handles(rows);
 }
 
 void MainWindow::show_volume()
@@ -543,7 +618,7 @@ bool MainWindow::open_file(const QString& path, const OpenedFile* read)
   {
     // The readers name the whole path; here the name says enough.
     this->error_bar_->show_sentence(
-      QString::fromStdString(status.message).replace(path, name), path);
+      QString::fromStdString(status.message).replace(path, name), ErrorKind::other, path);
     return false;
   }
   const OpenedFile& file = read ? *read : here;
@@ -709,7 +784,6 @@ vtkPolyData* MainWindow::shown() const
 void MainWindow::connect_posing()
 {
   QObject::connect(this->posing_, &Posing::moved, this, &MainWindow::draw_pose);
-  QObject::connect(this->posing_, &Posing::failed, this, &MainWindow::show_error);
   QObject::connect(this->posing_, &Posing::pose_changed, this,
     [this](const Pose& pose)
     {
@@ -796,10 +870,10 @@ void MainWindow::update_panel()
       : surface                  ? tr("Needs handles.")
                                  : tr("Needs a mesh."));
   this->panels_->set_open(this->volume_view_->volume(), surface || handles, surface);
-  this->panels_->volume()->set_has_surface(surface);
+  this->winding_volume_->update();
   this->update_surface_look();
   this->empty_->setVisible(this->is_empty());
-  this->strip_->setVisible(surface); // so that the picture stays when the first handle comes
+  this->strip_->setVisible(surface && this->timeline_);
   this->menus_->update();
 }
 
@@ -830,60 +904,11 @@ void MainWindow::show_column(int column)
                : tr("Weights of %1").arg(short_name(QString::fromStdString(handles[handle].name))));
 }
 
-// ---- Saving and errors -------------------------------------------------------------------------
+// ---- Errors -------------------------------------------------------------------------
 
-void MainWindow::export_as(const QString& what)
+void MainWindow::show_error(const QString& sentence, ErrorKind kind)
 {
-  PictureDialog picture(this->viewport_, this);
-  if (what == "picture" && picture.exec() != QDialog::Accepted)
-  {
-    return;
-  }
-  const QString kinds = what == "shape" ? tr("Shapes (*.vtp *.ply *.obj *.off *.stl)")
-    : what == "pose"                    ? tr("Poses (*.json)")
-                                        : tr("Pictures (*.png)");
-  QFileDialog dialog(this, tr("Save %1").arg(what), QString(), kinds);
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix(what == "shape" ? "vtp" : what == "pose" ? "json" : "png");
-  if (dialog.exec() != QDialog::Accepted)
-  {
-    return;
-  }
-  const QString path = dialog.selectedFiles().front();
-  if (what == "picture")
-  {
-    this->save_picture(path, picture.scale(), picture.is_transparent());
-    return;
-  }
-  const Status status = what == "pose"
-    ? write_poses({ this->document_->pose() }, this->document_->handles(), path.toStdString())
-    : write_shape(this->shown(), path.toStdString());
-  if (!status.ok())
-  {
-    this->show_error(QString::fromStdString(status.message));
-  }
-  else if (!status.warnings.empty()) // what such a file cannot hold
-  {
-    this->show_notice(QString::fromStdString(status.warnings.front()) + '.');
-  }
-}
-
-bool MainWindow::save_picture(const QString& path, int scale, bool transparent)
-{
-  QApplication::setOverrideCursor(Qt::WaitCursor); // a large one takes seconds
-  vtkSmartPointer<vtkImageData> picture;
-  Status status = this->viewport_->take_picture(scale, transparent, picture);
-  if (status.ok())
-  {
-    status = write_png(picture, path.toStdString(), true);
-  }
-  QApplication::restoreOverrideCursor();
-  return this->say(QString(), status);
-}
-
-void MainWindow::show_error(const QString& sentence)
-{
-  this->error_bar_->show_sentence(sentence);
+  this->error_bar_->show_sentence(sentence, kind);
 }
 
 void MainWindow::show_notice(const QString& sentence)

@@ -2,6 +2,7 @@
 #define main_window_h
 
 #include "document/work.h"
+#include "error_bar.h"
 
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -12,10 +13,11 @@
 
 class QLabel;
 class QUndoStack;
+class BarStack;
 class Binding;
 class Document;
 class ElidedLabel;
-class ErrorBar;
+class Exports;
 struct OpenedFile;
 class HandleEditing;
 class ShapeHandles;
@@ -33,6 +35,7 @@ class VolumeView;
 class WeightInspection;
 class WindowMenus;
 class WindowSessions;
+class WindingVolume;
 class vtkDataSet;
 class vtkImageData;
 
@@ -53,6 +56,7 @@ public:
   QUndoStack* history() const;
 
   WindowSessions* sessions() const { return this->sessions_; }
+  Exports* exports() const { return this->exports_; }
 
   /// Opens a mesh, handles, weights, a picture, a volume, curves or a session, whichever it is.
   /// False, with a sentence in the error bar, when it cannot be used; what was open stays.
@@ -65,11 +69,6 @@ public:
   void close_volume();
   /// Asks for files to open.
   void choose_and_open();
-  /// Asks where to write the "shape", the "pose" or the "picture".
-  void export_as(const QString& what);
-  /// Writes what is seen, as Viewport::take_picture() has it (.png), in place of what was there;
-  /// false with a sentence in the error bar.
-  bool save_picture(const QString& path, int scale, bool transparent);
 
   bool is_bound() const;
   void set_method(int method);
@@ -100,19 +99,26 @@ public:
   HandleEditing* editing() const { return this->editing_; }
   ShapeHandles* shape_handles() const { return this->shape_handles_; }
   KeyStrip* strip() const { return this->strip_; }
+  WindingVolume* winding_volume() const { return this->winding_volume_; }
+  /// The key frames below the picture: seen from the first one on, or on demand.
+  bool shows_timeline() const { return this->timeline_; }
+  void show_timeline(bool shown);
   /// The line at the bottom, which says what the hand does or what the last pose took.
   const ElidedLabel* hint() const { return this->hint_; }
   /// What is under the mouse, as the label in the picture says it, in one line.
   QString reading() const;
   /// The sentence in the error bar; empty when it is hidden.
   QString error() const;
-  void show_error(const QString& sentence);
+  void show_error(const QString& sentence, ErrorKind kind = ErrorKind::other);
+  ErrorBar* error_bar() const { return this->error_bar_; }
   void show_notice(const QString& sentence);
   void update_title();
   NoticeBar* rebind_bar() const { return this->rebind_bar_; }
   NoticeBar* recovery_bar() const { return this->recovery_bar_; }
   /// What is missing of a session, how a picture was cut out, where a surface is unclean.
   NoticeBar* note_bar() const { return this->note_bar_; }
+  /// What was exported, and where to.
+  NoticeBar* export_bar() const { return this->export_bar_; }
 
 protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -131,6 +137,8 @@ private:
   void show_handles();
   void show_volume();
   void connect_weights();
+  void connect_errors();
+  void keys_changed();
   void update_plane();
   vtkPolyData* seen() const;
   void update_surface_look();
@@ -140,6 +148,7 @@ private:
   void draw_pose();
   void update_panel();
   void show_column(int column);
+  void show_selected_column();
   bool open_file(const QString& path, const OpenedFile* read);
   bool open_picture(vtkImageData* picture, const QString& name, const Source& source, bool whole);
   bool say(const QString& name, const bindpose::Status& status);
@@ -164,13 +173,19 @@ private:
   OptionLinks* links_ = nullptr;
   WindowMenus* menus_ = nullptr;
   WindowSessions* sessions_ = nullptr;
+  Exports* exports_ = nullptr;
+  WindingVolume* winding_volume_ = nullptr;
+  BarStack* bars_ = nullptr; // over the picture:
   ErrorBar* error_bar_ = nullptr;
   NoticeBar* recovery_bar_ = nullptr;
   NoticeBar* note_bar_ = nullptr;
   NoticeBar* rebind_bar_ = nullptr;
+  NoticeBar* export_bar_ = nullptr;
   ElidedLabel* hint_ = nullptr;
   QLabel* empty_ = nullptr; // in the middle of the picture as long as nothing is open
   vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport has
+  bool timeline_ = false;
+  bool has_keys_ = false;
   QString hint_text_; // in the status line, unless the hand does something
 };
 

@@ -34,7 +34,7 @@ void NoticeBar::offer(const QString& sentence, const QList<Choice>& choices, con
     button->deleteLater(); // it may be the one that was pressed
   }
   this->buttons_.clear();
-  this->text_->setText(sentence);
+  this->set_sentence(sentence);
   for (const Choice& choice : choices)
   {
     QObject::connect(this->add_button(choice.text), &QPushButton::clicked, this,
@@ -54,6 +54,12 @@ void NoticeBar::offer(const QString& sentence, const QList<Choice>& choices, con
       });
   }
   this->show();
+}
+
+void NoticeBar::set_sentence(const QString& sentence, const QString& tool_tip)
+{
+  this->text_->setText(sentence);
+  this->text_->setToolTip(tool_tip);
 }
 
 QString NoticeBar::sentence() const

@@ -10,7 +10,7 @@ class QHBoxLayout;
 class QLabel;
 class QPushButton;
 
-/// A sentence above the picture with something to do about it, until that is done or it is closed.
+/// A sentence over the picture with something to do about it, until that is done or it is closed.
 /// It never stops the work.
 class NoticeBar : public QFrame
 {
@@ -27,6 +27,8 @@ public:
 
   /// Replaces what is there. `close` names the button that only hides the bar; empty: none.
   void offer(const QString& sentence, const QList<Choice>& choices, const QString& close);
+  /// Another sentence for the same offer.
+  void set_sentence(const QString& sentence, const QString& tool_tip = QString());
   /// Empty when the bar is hidden.
   QString sentence() const;
 

@@ -1,5 +1,6 @@
 #include "panel_column.h"
 
+#include "handle_tree.h"
 #include "panel_parts.h"
 #include "side_panel.h"
 #include "tet_panel.h"
@@ -10,9 +11,13 @@
 #include <QFrame>
 #include <QHBoxLayout>
 #include <QPushButton>
+#include <QScrollArea>
+#include <QSplitter>
 #include <QStyle>
 #include <QVBoxLayout>
 #include <QVariant>
+
+#include <algorithm>
 
 namespace
 {
@@ -20,9 +25,10 @@ constexpr int panel_count = 4;
 } // namespace
 
 PanelColumn::PanelColumn(QWidget* parent)
-  : QWidget(parent), choice_(new QFrame(this)), buttons_(new QButtonGroup(this)),
-    side_(new SidePanel(this)), weight_(new WeightPanel(this)), tet_(new TetPanel(this)),
-    volume_(new VolumePanel(this))
+  : QWidget(parent), choice_(new QFrame(this)), splitter_(new QSplitter(Qt::Vertical, this)),
+    handles_(new HandleTree(this)), buttons_(new QButtonGroup(this)),
+    side_(new SidePanel(this->handles_, this)), weight_(new WeightPanel(this)),
+    tet_(new TetPanel(this)), volume_(new VolumePanel(this))
 {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -47,24 +53,68 @@ PanelColumn::PanelColumn(QWidget* parent)
     row->addWidget(segment, segment->sizeHint().width()); // four words leave no room to share
   }
   column->addWidget(this->choice_);
-  for (QFrame* panel : { static_cast<QFrame*>(this->side_), static_cast<QFrame*>(this->weight_),
-         static_cast<QFrame*>(this->tet_), static_cast<QFrame*>(this->volume_) })
+  this->splitter_->setChildrenCollapsible(false);
+  this->splitter_->addWidget(this->handles_);
+  auto* panels = new QWidget(this->splitter_);
+  auto* below = new QVBoxLayout(panels);
+  below->setContentsMargins(0, 0, 0, 0);
+  below->setSpacing(0);
+  // Equally wide, so that the picture does not jump.
+  const int width = this->side_->sizeHint().width();
+  this->panels_ = { this->side_, this->scrolled(this->weight_, width),
+    this->scrolled(this->tet_, width), this->scrolled(this->volume_, width) };
+  for (QWidget* panel : this->panels_)
   {
-    column->addWidget(panel, 1);
-    // Equally wide, so that the picture does not jump.
-    if (panel != this->side_)
-    {
-      panel->setFixedWidth(this->side_->sizeHint().width());
-    }
+    below->addWidget(panel, 1);
   }
+  this->splitter_->addWidget(panels);
+  this->splitter_->setStretchFactor(0, 1);
+  this->splitter_->setStretchFactor(1, 0);
+  column->addWidget(this->splitter_, 1);
+  QObject::connect(
+    this->splitter_, &QSplitter::splitterMoved, this, [this] { this->shared_by_hand_ = true; });
   QObject::connect(this->buttons_, &QButtonGroup::idClicked, this, &PanelColumn::show_panel);
   this->set_open(false, false, false);
 }
 
+/// A small window has no room for all of a panel.
+QWidget* PanelColumn::scrolled(QFrame* panel, int width)
+{
+  auto* scroll = new QScrollArea(this);
+  scroll->setObjectName("panel_scroll");
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setWidgetResizable(true);
+  scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  scroll->setFocusPolicy(Qt::NoFocus);
+  scroll->setFixedWidth(width);
+  scroll->setWidget(panel);
+  return scroll;
+}
+
+/// The list has what the panel leaves, until a person says otherwise.
+void PanelColumn::share_height()
+{
+  constexpr int panel_height = 540;
+  constexpr int least = 180;
+  if (!this->shared_by_hand_ && !this->handles_->isHidden())
+  {
+    const int height = this->splitter_->height();
+    const int list = std::max(least, std::min(height - panel_height, height / 2));
+    this->splitter_->setSizes({ list, std::max(least, height - list) });
+  }
+}
+
+void PanelColumn::resizeEvent(QResizeEvent* event)
+{
+  QWidget::resizeEvent(event);
+  this->share_height();
+}
+
 void PanelColumn::set_open(bool volume, bool shape, bool surface)
 {
-  const bool open[] = { shape, surface, surface, volume };
-  this->choice_->setVisible(shape + surface + volume > 1);
+  this->has_shape_ = shape;
+  const bool open[] = { shape, surface, surface, surface || volume };
+  this->choice_->setVisible(surface || (shape && volume));
   const auto buttons = this->buttons_->buttons();
   QList<QAbstractButton*> row;
   for (int k = 0; k < panel_count; ++k)
@@ -94,6 +144,21 @@ void PanelColumn::set_open(bool volume, bool shape, bool surface)
   {
     this->show_panel(volume && !shape ? volume_slice : bind_and_pose);
   }
+  else
+  {
+    this->show_handles();
+  }
+}
+
+void PanelColumn::show_handles()
+{
+  const int panel = this->shown_panel();
+  const bool shown = this->has_shape_ && (panel == bind_and_pose || panel == weights);
+  if (this->handles_->isHidden() == shown)
+  {
+    this->handles_->setVisible(shown);
+    this->share_height();
+  }
 }
 
 int PanelColumn::shown_panel() const
@@ -108,11 +173,11 @@ void PanelColumn::show_panel(int panel)
     panel = bind_and_pose; // of a session that had something else open
   }
   this->buttons_->button(panel)->setChecked(true);
-  QFrame* const panels[] = { this->side_, this->weight_, this->tet_, this->volume_ };
-  for (QFrame* each : panels)
+  for (QWidget* each : this->panels_)
   {
     each->setVisible(false); // first: the window grows where two must fit for a moment
   }
-  panels[panel]->setVisible(true);
+  this->panels_[panel]->setVisible(true);
+  this->show_handles();
   Q_EMIT this->panel_shown(panel);
 }

@@ -73,6 +73,7 @@ QString sentence_of(const QString& phase)
   } table[] = {
     { "repair", QT_TRANSLATE_NOOP("Panel", "Looking at the surface") },
     { "winding", QT_TRANSLATE_NOOP("Panel", "Finding the inside") },
+    { "build evaluate", QT_TRANSLATE_NOOP("Panel", "Computing winding numbers") },
     { "tetrahedralize cdt refine tetgen label fill improve remesh distance wrap ftetwild "
       "lattice sample samples connect parts cut check",
       QT_TRANSLATE_NOOP("Panel", "Filling it with tets") },

@@ -22,9 +22,9 @@ const char* const transparent_key = "picture/transparent";
 PictureDialog::PictureDialog(Viewport* viewport, QWidget* parent)
   : QDialog(parent), viewport_(viewport), scale_(new QComboBox(this)),
     transparent_(new QCheckBox(tr("Transparent background"), this)), size_(new QLabel(this)),
-    save_(button(tr("Save…"), this))
+    save_(button(tr("Export…"), this))
 {
-  this->setWindowTitle(tr("Save picture"));
+  this->setWindowTitle(tr("Export picture"));
   auto* rows = new QGridLayout(this);
   rows->setContentsMargins(16, 14, 16, 14);
   rows->setHorizontalSpacing(12);

@@ -2,7 +2,6 @@
 
 #include "body_motion.h"
 #include "handle_fields.h"
-#include "key_strip.h"
 #include "panel_parts.h"
 #include "pose_ghost.h"
 #include "pose_keeper.h"
@@ -22,8 +21,6 @@
 #include "vtkHandleSetWidget.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
-
-#include <QFileDialog>
 
 #include <algorithm>
 #include <chrono>
@@ -206,12 +203,7 @@ void Posing::connect_keeper()
     [this](const QString& step) { Q_EMIT this->pose_done(step); });
   QObject::connect(this->keeper_, &PoseKeeper::shelf_changed, this, &Posing::shelf_changed);
   QObject::connect(this->keeper_, &PoseKeeper::failed, this, &Posing::failed);
-  KeyStrip* strip = this->panels_.strip;
-  QObject::connect(strip, &KeyStrip::export_wanted, this, &Posing::ask_and_export);
-  QObject::connect(strip, &KeyStrip::cancel_wanted, this->export_, &SequenceExport::cancel);
-  QObject::connect(this->export_, &SequenceExport::progress, strip, &KeyStrip::set_progress);
   QObject::connect(this->export_, &SequenceExport::pictures_taken, this, &Posing::moved);
-  QObject::connect(this->export_, &SequenceExport::finished, this, &Posing::export_finished);
 }
 
 void Posing::options_changed()
@@ -286,6 +278,10 @@ void Posing::handles_moved()
     if (!this->main_->error().isEmpty())
     {
       Q_EMIT this->failed(tr("Cannot pose: %1.").arg(this->main_->error()));
+    }
+    else if (this->main_->can_pose())
+    {
+      Q_EMIT this->succeeded();
     }
   }
   if (this->ghost_->place() != PoseGhost::hidden)
@@ -636,29 +632,25 @@ void Posing::moves_changed()
 
 // ---- Export ------------------------------------------------------------------------------------
 
-void Posing::ask_and_export()
+bool Posing::has_motion() const
 {
-  QFileDialog dialog(this->viewport_, tr("Export the animation"), QString(),
-    tr("Animations (%1)").arg(SequenceExport::patterns()));
-  dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix("gif");
-  if (dialog.exec() == QDialog::Accepted)
-  {
-    this->export_to(dialog.selectedFiles().front());
-  }
+  return this->panels_.pose->moves() && this->motion_->has_started() &&
+    !this->motion_->body()->run().steps.empty();
+}
+
+bool Posing::has_animation() const
+{
+  return this->source_ && (this->has_motion() || !this->shelf().keys.keys().empty());
 }
 
 void Posing::export_to(const QString& path)
 {
-  this->keeper_->play(false);
-  this->motion_->play(false);
-  const bool moves = this->panels_.pose->moves() && this->motion_->has_started() &&
-    !this->motion_->body()->run().steps.empty();
-  if (!this->source_ || (!moves && this->shelf().keys.keys().empty()))
+  if (!this->has_animation())
   {
-    Q_EMIT this->failed(tr("There is nothing to export yet: set a key first."));
     return;
   }
+  this->keeper_->play(false);
+  this->motion_->play(false);
   SequenceExport::Input input;
   input.source = this->source_;
   input.surface = this->surface_;
@@ -667,7 +659,7 @@ void Posing::export_to(const QString& path)
   set_pose(input.handles, this->cells_, Pose(this->cells_.size()));
   input.options = this->panels_.pose->options();
   input.frames_per_second = this->shelf().keys.frames_per_second;
-  if (moves)
+  if (this->has_motion())
   {
     input.run = this->motion_->body()->run();
   }
@@ -676,13 +668,4 @@ void Posing::export_to(const QString& path)
     input.poses = this->shelf().keys.frames(this->source_->handles, this->pose());
   }
   this->export_->start(input, path);
-}
-
-void Posing::export_finished()
-{
-  this->panels_.strip->set_progress(-1.0);
-  if (!this->export_->error().isEmpty())
-  {
-    Q_EMIT this->failed(tr("Cannot export: %1.").arg(this->export_->error()));
-  }
 }

@@ -86,6 +86,9 @@ public:
   BodyMotion* motion() const { return this->motion_; }
   PoseKeeper* keeper() const { return this->keeper_; }
   SequenceExport* sequence_export() const { return this->export_; }
+  /// There are key frames, or a motion.
+  bool has_animation() const;
+  /// Writes those; sequence_export() tells how far it is and what came of it. Nothing without any.
   void export_to(const QString& path);
 
   const bindpose::PoseShelf& shelf() const { return this->keeper_->shelf(); }
@@ -103,6 +106,8 @@ Q_SIGNALS:
   /// The shape is another one, or what is said of it: draw().
   void moved();
   void failed(const QString& sentence);
+  /// A pose was applied, and nothing is wrong with it.
+  void succeeded();
 
 private:
   void connect_panel();
@@ -123,8 +128,7 @@ private:
   void change_pose(const bindpose::Pose& pose, const QString& step, const QString& merge = {});
   bindpose::Pose holding_pose() const;
   void moves_changed();
-  void ask_and_export();
-  void export_finished();
+  bool has_motion() const;
 
   Viewport* viewport_;
   Panels panels_;

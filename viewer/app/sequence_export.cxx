@@ -23,7 +23,6 @@
 #include "vtkRenderWindow.h"
 
 #include <QApplication>
-#include <QFileInfo>
 #include <QImage>
 #include <QPainter>
 
@@ -134,10 +133,9 @@ void SequenceExport::end(const Status& status)
   }
   else if (status.code != StatusCode::cancelled)
   {
-    this->said_ = tr("%1 frames in %2")
+    this->said_ = tr("%1 frames")
                     .arg(this->frames_->points.empty() ? this->input_.poses.size()
-                                                       : this->frames_->points.size())
-                    .arg(QFileInfo(this->path_).fileName());
+                                                       : this->frames_->points.size());
   }
   this->frames_.reset();
   this->input_ = Input();

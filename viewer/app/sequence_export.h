@@ -42,8 +42,10 @@ public:
   bool is_running() const { return this->job_.is_running() || this->encoder_.is_running(); }
   /// One sentence, or empty.
   const QString& error() const { return this->error_; }
-  /// "24 frames in walk.gif"
+  /// What was written, "24 frames"; empty when it was cancelled.
   const QString& said() const { return this->said_; }
+  /// The file that is written, or was last.
+  const QString& path() const { return this->path_; }
 
 Q_SIGNALS:
   void progress(double fraction);

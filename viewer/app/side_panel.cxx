@@ -8,11 +8,9 @@
 
 #include "pose/pose.h"
 
-#include <QApplication>
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
-#include <QListWidget>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QScrollArea>
@@ -25,6 +23,19 @@
 
 namespace
 {
+struct DomainChoice
+{
+  bindpose::WeightsDomain domain;
+  const char* name;
+};
+constexpr DomainChoice domain_choices[] = {
+  { bindpose::WeightsDomain::automatic, QT_TRANSLATE_NOOP("SidePanel", "Automatic") },
+  { bindpose::WeightsDomain::volume, QT_TRANSLATE_NOOP("SidePanel", "Tets of the inside") },
+  { bindpose::WeightsDomain::embedding, QT_TRANSLATE_NOOP("SidePanel", "Embedding lattice") },
+  { bindpose::WeightsDomain::cage, QT_TRANSLATE_NOOP("SidePanel", "Cage of the handles") },
+  { bindpose::WeightsDomain::surface, QT_TRANSLATE_NOOP("SidePanel", "Surface") },
+};
+
 /// A combo box that does not grow with its items: they may be handles of any name.
 QComboBox* combo(QWidget* parent)
 {
@@ -35,7 +46,8 @@ QComboBox* combo(QWidget* parent)
 }
 } // namespace
 
-SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
+SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
+  : QFrame(parent), handles_(handles_of_all)
 {
   this->setObjectName("panel");
   this->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
@@ -54,6 +66,24 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   this->kind_->setToolTip(tr("Bounded: smooth functions between 0 and 1.\n"
                              "Monotone: besides, no hill or hollow away from the handles."));
   column->addWidget(this->kind_);
+  auto* domain_row = new QHBoxLayout;
+  domain_row->addWidget(new QLabel(tr("Domain"), this));
+  this->domain_ = combo(this);
+  this->domain_->setObjectName("bind.domain");
+  for (const DomainChoice& choice : domain_choices)
+  {
+    this->domain_->addItem(tr(choice.name));
+  }
+  this->domain_->setToolTip(
+    tr("Where the weights are solved.\n"
+       "Automatic: flat shapes on themselves, closed and clean ones in tets of their inside where\n"
+       "that is quick, all others in a lattice.\n"
+       "Tets of the inside: keeps the surface's triangles.\n"
+       "Embedding lattice: cubes that merely hold the surface, whatever it is.\n"
+       "Cage: the inside of the closed cage that the handles make.\n"
+       "Surface: on the triangles; what is near but not connected does not count."));
+  domain_row->addWidget(this->domain_, 1);
+  column->addLayout(domain_row);
   auto* buttons = new QHBoxLayout;
   this->bind_ = button(tr("Bind"), this);
   this->bind_->setObjectName("primary");
@@ -78,12 +108,14 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   this->bar_->setSizePolicy(keeps_place);
   column->addWidget(this->note_);
 
-  column->addSpacing(10);
-  column->addWidget(heading(tr("Show"), this));
+  auto* shown_row = new QHBoxLayout;
+  this->shown_label_ = new QLabel(tr("Show"), this);
+  shown_row->addWidget(this->shown_label_);
   this->shown_ = combo(this);
   this->shown_->setObjectName("show.column");
   this->shown_->setToolTip(tr("The shaded surface, or one handle's weights on it"));
-  column->addWidget(this->shown_);
+  shown_row->addWidget(this->shown_, 1);
+  column->addLayout(shown_row);
 
   // What poses has more to choose from than a small window has room for.
   column->addSpacing(6);
@@ -108,13 +140,7 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   auto* list = new QVBoxLayout(handles);
   list->setContentsMargins(0, 4, 0, 0);
   list->setSpacing(6);
-  list->addWidget(heading(tr("Handles"), handles));
-  this->handles_ = new QListWidget(handles);
-  this->handles_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  this->handles_->setTextElideMode(Qt::ElideMiddle);
-  this->handles_->setSelectionMode(QAbstractItemView::ExtendedSelection);
-  this->handles_->setFixedHeight(6 * this->handles_->fontMetrics().lineSpacing());
-  list->addWidget(this->handles_);
+  list->addWidget(heading(tr("Selected handle"), handles));
   auto* mode_row = new QHBoxLayout;
   this->mode_label_ = new QLabel(tr("Fixes"), handles);
   mode_row->addWidget(this->mode_label_);
@@ -163,62 +189,52 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   QObject::connect(this->pose_, &PosePanel::method_chosen, this, &SidePanel::method_chosen);
   QObject::connect(this->shown_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     [this](int index) { Q_EMIT this->column_chosen(index - 1); });
-  QObject::connect(this->handles_, &QListWidget::currentRowChanged, this,
-    [this](int handle)
+  QObject::connect(this->handles_, &HandleTree::chosen, this,
+    [this]
     {
-      if (handle >= 0 && this->handles_->selectedItems().isEmpty() &&
-        QApplication::mouseButtons() == Qt::NoButton)
-      {
-        this->handles_->item(handle)->setSelected(true); // the keyboard's first step does not
-      }
+      this->show_mode();
+      Q_EMIT this->handles_chosen();
     });
-  QObject::connect(
-    this->handles_, &QListWidget::itemSelectionChanged, this, &SidePanel::list_changed);
   QObject::connect(this->mode_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     [this](int entry)
     {
-      if (!this->selected_.empty())
+      if (!this->selected_handles().empty())
       {
         Q_EMIT this->mode_chosen(this->mode_->itemData(entry).toInt());
       }
     });
-  this->set_handles({}, {}, {});
+  this->set_handles({});
   this->set_state(false, false, false);
 }
 
-void SidePanel::set_handles(
-  const QStringList& names, const QList<int>& modes, const QList<bool>& bones)
+void SidePanel::set_handles(const std::vector<HandleTree::Row>& handles)
 {
-  const QSignalBlocker quiet(this->handles_);
-  const QSignalBlocker quiet_too(this->shown_);
-  const QString shown = this->shown_column() >= 0 && this->shown_column() < this->names_.size()
-    ? this->names_[this->shown_column()]
+  const QSignalBlocker quiet(this->shown_);
+  const QString shown = this->shown_->currentIndex() > 0
+    ? this->shown_->currentData(Qt::ToolTipRole).toString()
     : QString();
-  this->names_ = names;
-  this->modes_ = modes;
-  this->bones_ = bones;
-  this->handles_->clear();
-  this->selected_.clear();
+  this->handles_->set_rows(handles);
   this->shown_->clear();
   this->shown_->addItem(tr("Shaded surface"));
-  for (int handle = 0; handle < names.size(); ++handle)
+  int index = 0;
+  for (const HandleTree::Row& handle : handles)
   {
-    this->handles_->addItem(names[handle]);
-    this->handles_->item(handle)->setToolTip(names[handle]);
-    this->shown_->addItem(tr("Weights of %1")
-                            .arg(this->fontMetrics().elidedText(
-                              names[handle], Qt::ElideMiddle, this->room_for_names())));
-    this->shown_->setItemData(handle + 1, names[handle], Qt::ToolTipRole);
-    this->set_mode(handle, modes[handle]);
+    this->shown_->addItem(
+      tr("Weights of %1")
+        .arg(this->fontMetrics().elidedText(handle.name, Qt::ElideMiddle, this->room_for_names())));
+    const int item = this->shown_->count() - 1;
+    this->shown_->setItemData(item, handle.name, Qt::ToolTipRole);
+    index = !shown.isEmpty() && handle.name == shown ? item : index;
   }
-  this->shown_->setCurrentIndex(shown.isEmpty() ? 0 : names.indexOf(shown) + 1);
+  this->shown_->setCurrentIndex(index);
   this->show_mode();
 }
 
 /// Pixels that a handle's name may take in the combo box, after the words before it.
 int SidePanel::room_for_names() const
 {
-  const int field = this->kind_->sizeHint().width() - 50; // frame, arrow, padding
+  const int field = this->kind_->sizeHint().width() - this->shown_label_->sizeHint().width() -
+    60; // frame, arrow, padding, spacing
   return field - this->fontMetrics().horizontalAdvance(tr("Weights of %1").arg(QString()));
 }
 
@@ -227,27 +243,27 @@ void SidePanel::show_mode()
 {
   const QSignalBlocker quiet(this->mode_);
   const int handle = this->selected_handle();
-  const bool bones = std::all_of(
-    this->selected_.begin(), this->selected_.end(), [this](int k) { return this->bones_[k]; });
+  const std::vector<HandleTree::Row>& rows = this->handles_->rows();
+  const auto is_bone = [&rows](int k)
+  { return rows[static_cast<std::size_t>(k)].kind == bindpose::HandleKind::bone; };
+  const bool bones =
+    std::all_of(this->selected_handles().begin(), this->selected_handles().end(), is_bone);
   this->mode_label_->setEnabled(handle >= 0);
   this->mode_->setEnabled(handle >= 0);
-  this->mode_->setCurrentIndex(handle >= 0 ? this->mode_->findData(this->modes_[handle]) : 0);
+  const int mode = handle >= 0 ? rows[static_cast<std::size_t>(handle)].mode : -1;
+  this->mode_->setCurrentIndex(handle >= 0 ? this->mode_->findData(mode) : 0);
   auto* items = qobject_cast<QStandardItemModel*>(this->mode_->model());
   for (int entry = 0; entry < this->mode_->count(); ++entry)
   {
-    const int mode = this->mode_->itemData(entry).toInt();
-    const bool of_bones = bindpose::holds_tail(static_cast<bindpose::HandleMode>(mode));
+    const auto of_entry = static_cast<bindpose::HandleMode>(this->mode_->itemData(entry).toInt());
+    const bool of_bones = bindpose::holds_tail(of_entry);
     items->item(entry)->setEnabled(!of_bones || (handle >= 0 && bones));
   }
 }
 
 void SidePanel::set_mode(int handle, int mode)
 {
-  this->modes_[handle] = mode;
-  QListWidgetItem* item = this->handles_->item(handle);
-  item->setText(mode == static_cast<int>(bindpose::HandleMode::automatic)
-      ? this->names_[handle]
-      : QString("%1   (%2)").arg(this->names_[handle], tr(bindpose::handle_mode_words[mode])));
+  this->handles_->set_mode(handle, mode);
   if (handle == this->selected_handle())
   {
     this->show_mode();
@@ -261,40 +277,7 @@ void SidePanel::select_handle(int handle)
 
 void SidePanel::select_handles(const std::vector<int>& handles)
 {
-  if (handles == this->selected_)
-  {
-    return;
-  }
-  const QSignalBlocker quiet(this->handles_);
-  this->handles_->setCurrentRow(
-    handles.empty() ? -1 : handles.back(), QItemSelectionModel::NoUpdate);
-  this->handles_->clearSelection();
-  for (const int handle : handles)
-  {
-    this->handles_->item(handle)->setSelected(true);
-  }
-  this->selected_ = handles;
-  this->show_mode();
-  Q_EMIT this->handles_chosen();
-}
-
-/// The list tells which are selected, not in which order.
-void SidePanel::list_changed()
-{
-  const auto is_gone = [this](int k) { return !this->handles_->item(k)->isSelected(); };
-  this->selected_.erase(
-    std::remove_if(this->selected_.begin(), this->selected_.end(), is_gone), this->selected_.end());
-  for (int k = 0; k < this->handles_->count(); ++k)
-  {
-    const bool known =
-      std::find(this->selected_.begin(), this->selected_.end(), k) != this->selected_.end();
-    if (!known && !is_gone(k))
-    {
-      this->selected_.push_back(k);
-    }
-  }
-  this->show_mode();
-  Q_EMIT this->handles_chosen();
+  this->handles_->select(handles);
 }
 
 void SidePanel::set_state(bool ready, bool binding, bool bound)
@@ -320,6 +303,7 @@ void SidePanel::set_state(bool ready, bool binding, bool bound)
     (binding ? this->cancel_ : this->bind_)->setFocus();
   }
   enable(this->kind_, ready && !binding);
+  enable(this->domain_, ready && !binding);
   this->bar_->setValue(0);
   this->bar_->setVisible(binding);
   enable(this->shown_, bound);
@@ -348,6 +332,11 @@ void SidePanel::set_method(int method)
 bool SidePanel::monotone() const
 {
   return this->kind_->currentIndex() == 1;
+}
+
+bindpose::WeightsDomain SidePanel::domain() const
+{
+  return domain_choices[this->domain_->currentIndex()].domain;
 }
 
 int SidePanel::shown_column() const

@@ -1,14 +1,16 @@
 #ifndef side_panel_h
 #define side_panel_h
 
+#include "handle_tree.h"
+
+#include "weights/surface_weights.h"
+
 #include <QFrame>
-#include <QStringList>
 
 #include <vector>
 
 class QComboBox;
 class QLabel;
-class QListWidget;
 class QProgressBar;
 class QPushButton;
 class HandleFields;
@@ -22,20 +24,23 @@ class SidePanel : public QFrame
   Q_OBJECT
 
 public:
-  explicit SidePanel(QWidget* parent = nullptr);
+  /// @param handles  the list that handles are selected in; it is elsewhere
+  explicit SidePanel(HandleTree* handles, QWidget* parent = nullptr);
 
-  /// Other handles, of which the column that is shown is kept by its name: one line a handle: its
-  /// name, its mode (bindpose::HandleMode), and whether it is a bone, which has modes of its own.
-  void set_handles(const QStringList& names, const QList<int>& modes, const QList<bool>& bones);
+  /// Other handles; the column that is shown is kept by its name.
+  void set_handles(const std::vector<HandleTree::Row>& handles);
   void set_mode(int handle, int mode);
   /// It alone; -1: none.
   void select_handle(int handle);
   void select_handles(const std::vector<int>& handles);
   /// Those that are selected in the list, the last one selected at the end.
-  const std::vector<int>& selected_handles() const { return this->selected_; }
+  const std::vector<int>& selected_handles() const { return this->handles_->selected(); }
   /// The first of them, of which the values are shown; -1: none.
-  int selected_handle() const { return this->selected_.empty() ? -1 : this->selected_.front(); }
-  QListWidget* handle_list() const { return this->handles_; }
+  int selected_handle() const
+  {
+    return this->selected_handles().empty() ? -1 : this->selected_handles().front();
+  }
+  HandleTree* handle_list() const { return this->handles_; }
 
   /// Ready: a surface and handles are there. Bound: weights are there.
   void set_state(bool ready, bool binding, bool bound);
@@ -50,6 +55,8 @@ public:
 
   /// True when monotone weights are wanted.
   bool monotone() const;
+  /// Where they are solved.
+  bindpose::WeightsDomain domain() const;
   /// Column of the weights that is shown, -1: shaded.
   int shown_column() const;
   void show_column(int column);
@@ -67,13 +74,14 @@ Q_SIGNALS:
 
 private:
   int room_for_names() const;
-  void list_changed();
   void show_mode();
 
-  QListWidget* handles_;
+  HandleTree* handles_;
   QLabel* mode_label_;
   QComboBox* mode_;
   QComboBox* kind_;
+  QComboBox* domain_;
+  QLabel* shown_label_;
   QComboBox* shown_;
   QPushButton* bind_;
   QPushButton* cancel_;
@@ -83,10 +91,6 @@ private:
   PosePanel* pose_;
   HandleFields* fields_;
   PoseList* poses_;
-  QStringList names_;
-  QList<int> modes_;
-  QList<bool> bones_;
-  std::vector<int> selected_;
   bool stopping_ = false; // cancel was pressed, the bind has not ended yet
 };
 

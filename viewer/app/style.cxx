@@ -121,6 +121,8 @@ QLineEdit { background: @field; border: 1px solid @edge; border-radius: 5px; pad
 QLineEdit:focus { border-color: @accent; }
 QScrollArea#scroll { background: transparent; border: none; border-top: 1px solid @faint; padding-top: 6px; }
 QWidget#scrolled { background: @panel; }
+QScrollArea#panel_scroll { background: @panel; border: none; }
+QWidget#handles { background: @panel; border-left: 1px solid @line; }
 QFrame#strip { background: @panel; border: none; border-top: 1px solid @line; }
 QComboBox { background: @field; border: 1px solid @edge; border-radius: 5px; padding: 4px 8px; }
 QComboBox:hover { border-color: @edge_hover; }
@@ -153,6 +155,13 @@ QListWidget:focus { border-color: @accent; }
 QListWidget::item { padding: 4px 6px; border: none; }
 QListWidget::item:hover { background: @item_hover; }
 QListWidget::item:selected { background: @picked; color: @ink; }
+QTreeWidget { background: @field; border: 1px solid @line; border-radius: 5px; outline: none; selection-background-color: @picked; selection-color: @ink; }
+QTreeWidget:focus { border-color: @accent; }
+QTreeWidget::item { padding: 2px 4px; border: none; }
+QTreeWidget::item:hover { background: @item_hover; }
+QTreeWidget::item:selected { background: @picked; color: @ink; }
+QSplitter::handle { background: @panel; border-left: 1px solid @line; }
+QSplitter::handle:hover { background: @menu_hover; }
 QScrollBar:vertical { background: transparent; width: 10px; margin: 2px; }
 QScrollBar:horizontal { background: transparent; height: 10px; margin: 2px; }
 QScrollBar::handle { background: @scroll; border-radius: 3px; min-height: 24px; min-width: 24px; }
@@ -161,10 +170,10 @@ QScrollBar::add-line, QScrollBar::sub-line { width: 0; height: 0; }
 QScrollBar::add-page, QScrollBar::sub-page { background: transparent; }
 QProgressBar { background: @trough; border: none; border-radius: 3px; max-height: 6px; }
 QProgressBar::chunk { background: @accent; border-radius: 3px; }
-QFrame#error { background: @error; border: none; border-bottom: 1px solid @error_edge; }
+QFrame#error { background: @error; border: 1px solid @error_edge; border-radius: 7px; }
 QFrame#error QLabel { color: @error_ink; }
 QFrame#error QPushButton { border: none; background: transparent; color: @error_ink; font-weight: 600; padding: 2px 8px; }
-QFrame#notice { background: @notice; border: none; border-bottom: 1px solid @notice_edge; }
+QFrame#notice { background: @notice; border: 1px solid @notice_edge; border-radius: 7px; }
 QFrame#notice QLabel { color: @notice_ink; }
 QFrame#notice QPushButton { padding: 3px 10px; }
 QFrame#notice QPushButton:focus { padding: 2px 9px; }

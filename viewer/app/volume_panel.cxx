@@ -7,12 +7,36 @@
 #include <QButtonGroup>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QHBoxLayout>
 #include <QLabel>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
 #include <algorithm>
+
+namespace
+{
+struct Fineness
+{
+  int samples; // along the longest side
+  const char* name;
+};
+constexpr Fineness finenesses[] = {
+  { 48, QT_TRANSLATE_NOOP("VolumePanel", "Coarse: 48 samples") },
+  { 96, QT_TRANSLATE_NOOP("VolumePanel", "Medium: 96 samples") },
+  { 192, QT_TRANSLATE_NOOP("VolumePanel", "Fine: 192 samples") },
+};
+
+void keep_place(QWidget* widget)
+{
+  // What comes and goes keeps its place, so that nothing below it jumps.
+  QSizePolicy policy = widget->sizePolicy();
+  policy.setRetainSizeWhenHidden(true);
+  widget->setSizePolicy(policy);
+}
+} // namespace
 
 VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
 {
@@ -21,6 +45,39 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->setContentsMargins(16, 14, 16, 14);
   column->setSpacing(7);
 
+  column->addWidget(heading(tr("Winding numbers"), this));
+  this->samples_ = new QComboBox(this);
+  this->samples_->setObjectName("volume.samples");
+  for (const Fineness& fineness : finenesses)
+  {
+    this->samples_->addItem(tr(fineness.name));
+  }
+  this->samples_->setCurrentIndex(1);
+  this->samples_->setToolTip(
+    tr("Samples along the longest side of the grid around the surface; twice as many take eight "
+       "times the memory"));
+  column->addWidget(this->samples_);
+  auto* buttons = new QHBoxLayout;
+  this->compute_ = button(tr("Compute"), this);
+  this->compute_->setObjectName("primary");
+  this->compute_->setToolTip(tr("How many times the surface winds around each sample: 1 inside, 0 "
+                                "outside; the window can be used meanwhile"));
+  this->cancel_ = button(tr("Cancel"), this);
+  this->cancel_->setToolTip(tr("Stops; the volume stays as it was"));
+  buttons->addWidget(this->compute_, 1);
+  buttons->addWidget(this->cancel_);
+  column->addLayout(buttons);
+  this->bar_ = new QProgressBar(this);
+  this->bar_->setRange(0, 1000);
+  this->bar_->setTextVisible(false);
+  keep_place(this->bar_);
+  column->addWidget(this->bar_);
+  this->note_ = new QLabel(this);
+  this->note_->setObjectName("note");
+  this->note_->setFixedHeight(this->note_->fontMetrics().lineSpacing() + 2);
+  column->addWidget(this->note_);
+
+  column->addSpacing(10);
   column->addWidget(heading(tr("Slice"), this));
   this->slice_ = new QCheckBox(tr("Show the slice"), this);
   this->slice_->setChecked(true);
@@ -72,17 +129,20 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->surface_);
 
   column->addStretch(1);
-  QPushButton* close = button(tr("Close the volume"), this);
-  column->addWidget(close);
+  this->close_ = button(tr("Close the volume"), this);
+  column->addWidget(this->close_);
 
+  QObject::connect(this->compute_, &QPushButton::clicked, this, &VolumePanel::compute_wanted);
+  QObject::connect(this->cancel_, &QPushButton::clicked, this,
+    [this]
+    {
+      this->set_note(tr("Stopping …"));
+      Q_EMIT this->cancel_wanted();
+    });
   QObject::connect(this->slice_, &QCheckBox::toggled, this,
     [this](bool shown)
     {
-      for (QAbstractButton* orientation : this->orientations_->buttons())
-      {
-        orientation->setEnabled(shown);
-      }
-      this->position_->setEnabled(shown);
+      this->enable();
       Q_EMIT this->slice_wanted(shown);
     });
   QObject::connect(
@@ -103,14 +163,65 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   QObject::connect(this->cloud_, &QCheckBox::toggled, this, &VolumePanel::cloud_wanted);
   QObject::connect(this->surface_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     &VolumePanel::surface_look_chosen);
-  QObject::connect(close, &QPushButton::clicked, this, &VolumePanel::close_wanted);
-  // What comes and goes keeps its place, so that nothing below it jumps.
-  QSizePolicy keeps_place = this->area_->sizePolicy();
-  keeps_place.setRetainSizeWhenHidden(true);
-  this->area_->setSizePolicy(keeps_place);
+  QObject::connect(this->close_, &QPushButton::clicked, this, &VolumePanel::close_wanted);
+  keep_place(this->area_);
   this->area_->hide();
   this->set_area(0.0);
-  this->set_has_surface(false);
+  this->set_state(false, false, false);
+}
+
+void VolumePanel::set_state(bool has_surface, bool computing, bool has_volume)
+{
+  this->has_volume_ = has_volume;
+  this->samples_->setEnabled(has_surface && !computing);
+  this->compute_->setText(has_volume ? tr("Compute again") : tr("Compute"));
+  this->compute_->setEnabled(has_surface && !computing);
+  this->cancel_->setVisible(computing);
+  this->bar_->setVisible(computing);
+  if (!computing)
+  {
+    this->bar_->setValue(0);
+  }
+  this->surface_heading_->setVisible(has_surface);
+  this->surface_->setVisible(has_surface);
+  this->enable();
+}
+
+/// There is nothing to be looked at without a volume.
+void VolumePanel::enable()
+{
+  for (QWidget* widget :
+    { static_cast<QWidget*>(this->slice_), static_cast<QWidget*>(this->isosurface_),
+      static_cast<QWidget*>(this->level_), static_cast<QWidget*>(this->cloud_),
+      static_cast<QWidget*>(this->surface_), static_cast<QWidget*>(this->close_) })
+  {
+    widget->setEnabled(this->has_volume_);
+  }
+  const bool sliced = this->has_volume_ && this->slice_->isChecked();
+  for (QAbstractButton* orientation : this->orientations_->buttons())
+  {
+    orientation->setEnabled(sliced);
+  }
+  this->position_->setEnabled(sliced);
+}
+
+void VolumePanel::set_progress(double fraction, const QString& phase)
+{
+  this->bar_->setValue(static_cast<int>(1000.0 * fraction));
+  if (this->note_->text() != tr("Stopping …"))
+  {
+    this->set_note(tr("%1, %2 %").arg(sentence_of(phase)).arg(static_cast<int>(100.0 * fraction)));
+  }
+}
+
+void VolumePanel::set_note(const QString& text)
+{
+  this->note_->setText(text);
+}
+
+int VolumePanel::samples() const
+{
+  return finenesses[this->samples_->currentIndex()].samples;
 }
 
 void VolumePanel::set_values(double lowest, double highest)
@@ -129,12 +240,6 @@ void VolumePanel::set_area(double area)
 {
   this->area_->setText(
     area > 0.0 ? tr("Area %1").arg(area, 0, 'g', 5) : tr("There is no such place."));
-}
-
-void VolumePanel::set_has_surface(bool there)
-{
-  this->surface_heading_->setVisible(there);
-  this->surface_->setVisible(there);
 }
 
 double VolumePanel::level() const

@@ -184,6 +184,10 @@ void WeightInspection::update()
       Q_EMIT this->failed(
         tr("Cannot show the weights: %1.").arg(QString::fromStdString(status.message)));
     }
+    else
+    {
+      Q_EMIT this->succeeded();
+    }
   }
   else
   {

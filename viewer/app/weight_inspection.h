@@ -46,6 +46,8 @@ Q_SIGNALS:
   void surface_look_changed();
   /// One sentence; what was shown stays.
   void failed(const QString& sentence);
+  /// What was asked for is shown.
+  void succeeded();
 
 private:
   void update();

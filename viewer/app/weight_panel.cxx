@@ -184,10 +184,11 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   column->addStretch(1);
 
   QObject::connect(this->column_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
-    [this]
+    [this](int index)
     {
       this->enable();
       Q_EMIT this->look_changed();
+      Q_EMIT this->column_chosen(index - 1);
     });
   QObject::connect(this->compare_, &QPushButton::clicked, this,
     [this] { Q_EMIT this->comparison_wanted(this->method_->currentIndex()); });

@@ -78,6 +78,8 @@ public:
 Q_SIGNALS:
   /// How much of the colours is seen over the picture, 0 to 1.
   void tint_chosen(double share);
+  /// Another column is shown; -1: all.
+  void column_chosen(int column);
   /// Any of what the getters tell.
   void look_changed();
   /// A method, by its place in compared_methods().

@@ -17,6 +17,7 @@
 #include "value_row.h"
 #include "viewport.h"
 #include "weight_inspection.h"
+#include "winding_volume.h"
 
 #include "vtkHandleSetRepresentation.h"
 #include "vtkHandleSetWidget.h"
@@ -431,9 +432,9 @@ bool is_idle(const MainWindow* window)
   const bool moves = window->panel()->pose()->moves();
   const bool compares = posing->ghost()->place() != PoseGhost::hidden;
   return !window->binding()->is_running() && !window->inspection()->is_busy() &&
-    !window->weights()->is_busy() && !posing->keeper()->is_playing() &&
-    !posing->motion()->is_playing() && !posing->sequence_export()->is_running() &&
-    (moves || !is_busy(posing->deformation())) &&
+    !window->weights()->is_busy() && !window->winding_volume()->is_running() &&
+    !posing->keeper()->is_playing() && !posing->motion()->is_playing() &&
+    !posing->sequence_export()->is_running() && (moves || !is_busy(posing->deformation())) &&
     (!moves || !posing->motion()->body() || posing->motion()->has_started()) &&
     (!compares || !is_busy(posing->compared()));
 }

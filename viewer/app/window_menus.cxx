@@ -2,6 +2,7 @@
 
 #include "binding.h"
 #include "document/document.h"
+#include "exports.h"
 #include "handle_editing.h"
 #include "help_boxes.h"
 #include "key_strip.h"
@@ -104,12 +105,16 @@ void WindowMenus::add_file_menu()
   this->save_as_ = this->add(
     file, tr("Save session &as…"), "save_as", [window] { window->sessions()->save_as(); });
   file->addSeparator();
-  this->save_shape_ =
-    this->add(file, tr("Save s&hape as…"), "", [window] { window->export_as("shape"); });
-  this->save_pose_ =
-    this->add(file, tr("Save &pose as…"), "", [window] { window->export_as("pose"); });
-  this->save_picture_ =
-    this->add(file, tr("Save p&icture as…"), "", [window] { window->export_as("picture"); });
+  Exports* exports = window->exports();
+  this->export_shape_ =
+    this->add(file, tr("Export s&hape…"), "", [exports] { exports->ask_for_shape(); });
+  this->export_rig_ =
+    this->add(file, tr("Export ri&g (.glb)…"), "", [exports] { exports->ask_for_rig(); });
+  this->export_pose_ =
+    this->add(file, tr("Export &pose…"), "", [exports] { exports->ask_for_pose(); });
+  this->add(file, tr("Export p&icture…"), "", [exports] { exports->ask_for_picture(); });
+  this->export_film_ =
+    this->add(file, tr("Export &film…"), "", [exports] { exports->ask_for_film(); });
   file->addSeparator();
   this->add(file, tr("&Quit"), "quit", [window] { window->close(); });
 }
@@ -152,6 +157,9 @@ void WindowMenus::add_view_menu()
     [window] { window->show_outlines(!window->viewport()->has_outlines()); });
   this->outlines_->setCheckable(true);
   this->outlines_->setToolTip(tr("Lines where the shape turns away"));
+  this->timeline_ = this->add(
+    view, tr("Ti&meline"), "", [window] { window->show_timeline(!window->shows_timeline()); });
+  this->timeline_->setCheckable(true);
   view->addSeparator();
   this->add(view, tr("&Rest or posed"), "look_at_rest",
     [window] { window->posing()->look_at_rest(!window->posing()->looks_at_rest()); });
@@ -194,14 +202,17 @@ void WindowMenus::update()
   const bool ready = document->surface() && document->handle_data();
   this->save_->setEnabled(!this->window_->is_empty());
   this->save_as_->setEnabled(!this->window_->is_empty());
-  this->save_shape_->setEnabled(document->surface());
-  this->save_picture_->setEnabled(!this->window_->is_empty());
-  this->save_pose_->setEnabled(document->handle_data());
+  this->export_shape_->setEnabled(document->surface());
+  this->export_rig_->setEnabled(this->window_->is_bound());
+  this->export_pose_->setEnabled(document->handle_data());
+  this->export_film_->setEnabled(ready);
   this->bind_->setEnabled(ready && !this->window_->binding()->is_running());
   this->rest_pose_->setEnabled(document->is_bound());
   this->methods_->setEnabled(ready);
   this->flat_view_->setEnabled(this->window_->is_planar() && !document->work().volume);
   this->flat_view_->setChecked(this->window_->viewport()->is_flat());
   this->outlines_->setChecked(this->window_->viewport()->has_outlines());
+  this->timeline_->setEnabled(document->surface());
+  this->timeline_->setChecked(this->window_->shows_timeline());
   this->window_->shape_handles()->update();
 }

@@ -30,11 +30,13 @@ private:
   MainWindow* window_;
   QAction* save_ = nullptr;
   QAction* save_as_ = nullptr;
-  QAction* save_shape_ = nullptr;
-  QAction* save_pose_ = nullptr;
-  QAction* save_picture_ = nullptr;
+  QAction* export_shape_ = nullptr;
+  QAction* export_rig_ = nullptr;
+  QAction* export_pose_ = nullptr;
+  QAction* export_film_ = nullptr;
   QAction* flat_view_ = nullptr;
   QAction* outlines_ = nullptr;
+  QAction* timeline_ = nullptr;
   QAction* bind_ = nullptr;
   QAction* rest_pose_ = nullptr;
   QActionGroup* methods_ = nullptr;

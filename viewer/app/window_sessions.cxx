@@ -36,7 +36,8 @@ WindowSessions::WindowSessions(
 {
   QObject::connect(
     window->document(), &Document::changed, &this->autosave_, &Autosave::note_change);
-  QObject::connect(&this->autosave_, &Autosave::failed, window, &MainWindow::show_error);
+  QObject::connect(&this->autosave_, &Autosave::failed, window,
+    [window](const QString& sentence) { window->show_error(sentence, ErrorKind::save_session); });
 }
 
 WindowSessions::~WindowSessions() = default;
@@ -148,10 +149,12 @@ bool WindowSessions::write(const QString& path)
   if (!status.ok())
   {
     this->window_->show_error(
-      tr("The session is not saved: %1.").arg(QString::fromStdString(status.message)));
+      tr("The session is not saved: %1.").arg(QString::fromStdString(status.message)),
+      ErrorKind::save_session);
     return false;
   }
   this->path_ = absolute;
+  this->window_->error_bar()->succeeded(ErrorKind::save_session);
   this->window_->document()->set_saved();
   this->window_->update_title();
   RecentFiles::add(absolute);

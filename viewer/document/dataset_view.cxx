@@ -7,6 +7,7 @@
 #include "vtkCellData.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
+#include "vtkImageData.h"
 #include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPoints.h"
@@ -76,6 +77,18 @@ void view_attributes(vtkDataSetAttributes* arrays, vtkDataSetAttributes* view)
 
 vtkSmartPointer<vtkDataSet> view_of(vtkDataSet* data)
 {
+  if (auto* image = vtkImageData::SafeDownCast(data))
+  {
+    auto view = vtkSmartPointer<vtkImageData>::New();
+    view->SetOrigin(image->GetOrigin());
+    view->SetSpacing(image->GetSpacing());
+    view->SetDirectionMatrix(image->GetDirectionMatrix());
+    view->SetExtent(image->GetExtent());
+    view_attributes(image->GetPointData(), view->GetPointData());
+    view_attributes(image->GetCellData(), view->GetCellData());
+    view_arrays(image->GetFieldData(), view->GetFieldData());
+    return view;
+  }
   auto* polydata = vtkPolyData::SafeDownCast(data);
   auto* grid = vtkUnstructuredGrid::SafeDownCast(data);
   if (!polydata && !(grid && !grid->GetFaces()))

@@ -308,13 +308,17 @@ Status Document::set_picture(
   return status;
 }
 
-void Document::set_volume(vtkImageData* volume, const QString& name, const Source& source)
+void Document::set_volume(
+  vtkImageData* volume, const QString& name, const Source& source, const QString& step)
 {
   Work after = this->work_;
   after.volume = volume;
   after.volume_name = name;
   after.volume_source = source;
-  this->push(volume ? tr("open volume %1").arg(name) : tr("close the volume"), after);
+  this->push(!step.isEmpty() ? step
+      : volume               ? tr("open volume %1").arg(name)
+                             : tr("close the volume"),
+    after);
 }
 
 void Document::set_curves(vtkPolyData* curves, const QString& name, const Source& source)

@@ -75,8 +75,9 @@ public:
   /// A surface that was cut out of a picture (vtkPlanarShape), which it shows.
   bindpose::Status set_picture(
     vtkPolyData* shape, vtkImageData* picture, const QString& name, const Source& source = {});
-  /// Null closes it.
-  void set_volume(vtkImageData* volume, const QString& name, const Source& source = {});
+  /// Null closes it. `step`: the name of the step, if it is not opened from a file.
+  void set_volume(
+    vtkImageData* volume, const QString& name, const Source& source = {}, const QString& step = {});
   void set_curves(vtkPolyData* curves, const QString& name, const Source& source = {});
 
   // ---- Handles and pose ----

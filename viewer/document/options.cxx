@@ -38,6 +38,7 @@ const std::vector<OptionInfo>& option_table()
 {
   static const std::vector<OptionInfo> table = {
     { "bind.method", QT_TRANSLATE_NOOP("Document", "kind of weights"), 0, 0, 1 },
+    { "bind.domain", QT_TRANSLATE_NOOP("Document", "domain of weights"), 0, 0, 4 },
     { "pose.method", QT_TRANSLATE_NOOP("Document", "way to pose"), 0, 0, 31 },
     { "pose.endpoints", QT_TRANSLATE_NOOP("Document", "place along bones"), 0, 0, 2 },
     { "pose.pseudo_edges", QT_TRANSLATE_NOOP("Document", "what turns points"), 1, 0, 2 },
@@ -83,6 +84,7 @@ const std::vector<OptionInfo>& option_table()
     { "tets.normal", QT_TRANSLATE_NOOP("Document", "turn the cut"), z_axis },
     { "tets.shrink", QT_TRANSLATE_NOOP("Document", "size of each tet"), 1.0, 0.1, 1.0 },
     { "defects.shown", QT_TRANSLATE_NOOP("Document", "defects"), false },
+    { "volume.samples", QT_TRANSLATE_NOOP("Document", "samples of the volume"), 1, 0, 2 },
     { "volume.slice", QT_TRANSLATE_NOOP("Document", "slice"), true },
     { "volume.orientation", QT_TRANSLATE_NOOP("Document", "slice turned"), 2, 0, 3 },
     { "volume.place", QT_TRANSLATE_NOOP("Document", "move the slice"), 0.5, 0.0, 1.0 },

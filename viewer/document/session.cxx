@@ -12,8 +12,11 @@
 #include "io/atomic_file.h"
 #include "io/text_scanner.h"
 #include "scene/picture_file.h"
+#include "scene/volume.h"
 
 #include "vtkNew.h"
+#include "vtkXMLImageDataReader.h"
+#include "vtkXMLImageDataWriter.h"
 #include "vtkXMLPolyDataReader.h"
 #include "vtkXMLPolyDataWriter.h"
 #include "vtkXMLUnstructuredGridReader.h"
@@ -62,10 +65,11 @@ void remove_stale_companions(const QString& session, const QStringList& named)
   const QString stem = QRegularExpression::escape(companion_stem(session));
   const auto anchored = [](const QString& pattern)
   { return QRegularExpression(QRegularExpression::anchoredPattern(pattern)); };
-  const QRegularExpression ours = anchored(
-    stem + QString("(surface-[0-9a-f]{%1}\\.vtp|tets-[0-9a-f]{%1}\\.vtu)").arg(hash_digits));
+  const QRegularExpression ours = anchored(stem +
+    QString("(surface-[0-9a-f]{%1}\\.vtp|tets-[0-9a-f]{%1}\\.vtu|volume-[0-9a-f]{%1}\\.vti)")
+      .arg(hash_digits));
   const QRegularExpression half =
-    anchored(stem + R"(((surface|tets)\.)?part-(\d+)-\d+\.(vtp|vtu|bindpose))");
+    anchored(stem + R"(((surface|tets|volume)\.)?part-(\d+)-\d+\.(vtp|vtu|vti|bindpose))");
   for (const QString& name : folder.entryList(QDir::Files))
   {
     const auto left = half.match(name);
@@ -169,7 +173,7 @@ public:
     const QString name =
       QString::fromStdString(json_text(json_at(this->text_, "name"), "its name"));
     this->read_mesh(inputs, companions, name, session);
-    this->read_others(inputs, session);
+    this->read_others(inputs, companions, session);
   }
 
 private:
@@ -301,9 +305,25 @@ private:
     }
   }
 
-  void read_others(const json& inputs, Session& session) const
+  void read_others(const json& inputs, const json& companions, Session& session) const
   {
     Work& work = session.work;
+    bool lost = false;
+    work.volume = vtkImageData::SafeDownCast(
+      this->companion<vtkXMLImageDataReader>(companions, "volume", lost));
+    if (work.volume && !check_volume(work.volume, "WindingNumber").ok())
+    {
+      work.volume = nullptr;
+      lost = true;
+    }
+    if (work.volume)
+    {
+      work.volume_name = tr("winding numbers");
+    }
+    if (lost)
+    {
+      session.notes << tr("The volume beside the session is missing or damaged: compute it again.");
+    }
     const auto lose = [&](const char* role, const Source& source)
     {
       session.lost.push_back({ role, source.path, source.checksum });
@@ -368,7 +388,8 @@ Status SessionFile::write_companion(
     return {};
   }
   const bool is_tets = role == "tets";
-  const QString ending = is_tets ? "vtu" : "vtp";
+  const bool is_volume = role == "volume";
+  const QString ending = is_tets ? "vtu" : is_volume ? "vti" : "vtp";
   AtomicFile file;
   const QString unnamed = folder.filePath(companion_stem(session) + role + '.' + ending);
   Status status = file.open(unnamed.toStdString(), true);
@@ -378,8 +399,9 @@ Status SessionFile::write_companion(
   }
   const vtkSmartPointer<vtkDataSet> view = view_of(data); // the window may be using the data
   const bool written = view &&
-    (is_tets ? write_xml<vtkXMLUnstructuredGridWriter>(view, file.temporary())
-             : write_xml<vtkXMLPolyDataWriter>(view, file.temporary()));
+    (is_tets        ? write_xml<vtkXMLUnstructuredGridWriter>(view, file.temporary())
+        : is_volume ? write_xml<vtkXMLImageDataWriter>(view, file.temporary())
+                    : write_xml<vtkXMLPolyDataWriter>(view, file.temporary()));
   const QString temporary = QString::fromStdString(file.temporary());
   const QByteArray checksum = written ? checksum_of(temporary) : QByteArray();
   if (checksum.isEmpty())
@@ -401,8 +423,10 @@ struct SessionFile::Prepared
 {
   QString path; // absolute
   json text; // all but the companions
-  vtkSmartPointer<vtkPolyData> surface; // these two no input holds; or null
+  // No input holds these; or null.
+  vtkSmartPointer<vtkPolyData> surface;
   vtkSmartPointer<vtkUnstructuredGrid> tets;
+  vtkSmartPointer<vtkImageData> volume;
 };
 
 std::shared_ptr<const SessionFile::Prepared> SessionFile::prepare(
@@ -431,6 +455,10 @@ std::shared_ptr<const SessionFile::Prepared> SessionFile::prepare(
   {
     prepared->surface = work.surface;
     prepared->tets = work.weighted_tets;
+  }
+  if (work.volume_source.path.isEmpty())
+  {
+    prepared->volume = work.volume;
   }
   text["handles"] = work.handles ? handles_to_json(work.handles) : json();
   text["bound_handles"] = !work.bound_handles ? json()
@@ -481,6 +509,10 @@ Status SessionFile::write(const Prepared& prepared)
     {
       status = add("tets", prepared.tets, this->tets_);
     }
+  }
+  if (status.ok() && prepared.volume)
+  {
+    status = add("volume", prepared.volume, this->volume_);
   }
   if (!status.ok())
   {

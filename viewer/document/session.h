@@ -42,9 +42,9 @@ struct Session
 };
 
 /// **Session files** (`NAME.bindpose`) are JSON; viewer/README.md documents the schema. Inputs are
-/// named by paths relative to the session file and by their SHA-256; what no input holds, surfaces
-/// and weights that were made here, is in companions beside it, `NAME.surface-HASH.vtp` and
-/// `NAME.tets-HASH.vtu`, named after their contents.
+/// named by paths relative to the session file and by their SHA-256; what no input holds, surfaces,
+/// weights and volumes that were made here, is in companions beside it, `NAME.surface-HASH.vtp`,
+/// `NAME.tets-HASH.vtu` and `NAME.volume-HASH.vti`, named after their contents.
 ///
 /// Nothing is ever half-written: companions are on the disk before the session that names them
 /// takes the place of the last one, in one step, and only then those that nobody names any more
@@ -72,7 +72,7 @@ private:
   bindpose::Status write_companion(
     const QString& session, const QString& role, vtkDataSet* data, Companion& companion);
 
-  Companion surface_, tets_;
+  Companion surface_, tets_, volume_;
 };
 
 /// Reads a session file of this or an older schema. invalid_input, one sentence, for what is no

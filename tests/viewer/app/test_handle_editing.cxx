@@ -33,7 +33,6 @@
 #include <QInputDialog>
 #include <QLabel>
 #include <QLineEdit>
-#include <QListWidget>
 #include <QMenu>
 #include <QMenuBar>
 #include <QPushButton>
@@ -41,6 +40,7 @@
 #include <QStatusBar>
 #include <QTableWidget>
 #include <QToolButton>
+#include <QTreeWidget>
 #include <QUndoStack>
 #include <QtTest/qtestkeyboard.h>
 
@@ -746,7 +746,7 @@ TEST_F(HandleWindow, CageEdgesAreToggledBetweenTwoVertices)
 {
   this->open_mesh();
   this->key(Qt::Key_C);
-  for (const Vec3& corner : { Vec3(-0.6, 0, -0.9), Vec3(0.6, 0, -0.9), Vec3(0.6, 0, 0.9) })
+  for (const Vec3& corner : { Vec3(-0.5, 0, -0.8), Vec3(0.5, 0, -0.8), Vec3(0.5, 0, 0.8) })
   {
     this->click(this->pixel(corner));
   }
@@ -796,7 +796,7 @@ TEST_F(HandleWindow, NamesThatCannotBeAreOneSentence)
   box->setTextValue("claw");
   box->accept();
   EXPECT_EQ(this->names()[0], "claw");
-  EXPECT_EQ(this->window.panel()->handle_list()->item(0)->text(), "claw");
+  EXPECT_EQ(this->window.panel()->handle_list()->item(0)->text(0), "claw");
 }
 
 TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
@@ -839,8 +839,9 @@ TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
   this->mouse(QEvent::MouseButtonRelease, at, Qt::RightButton, Qt::NoButton);
   this->release(at);
   // In the list the same.
-  QListWidget* list = this->window.panel()->handle_list();
-  Q_EMIT list->customContextMenuRequested(list->visualItemRect(list->item(2)).center());
+  const HandleTree* handles = this->window.panel()->handle_list();
+  QTreeWidget* list = handles->tree();
+  Q_EMIT list->customContextMenuRequested(list->visualItemRect(handles->item(2)).center());
   EXPECT_TRUE(menu->isVisible());
   EXPECT_EQ(this->editing()->selected(), std::vector<int>{ 2 });
   menu->hide();

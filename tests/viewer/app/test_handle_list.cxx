@@ -1,11 +1,13 @@
-// The list of handles and the picture show the same selection, however it was made, and what is
-// chosen in the panel is for all of it.
+// The list of handles, the panel of weights and the picture show the same selection, however it was
+// made, and what is chosen in the panel is for all of it. The list is a tree that can be searched.
 #include "window_test.h"
 
 #include "document/document.h"
+#include "handle_commands.h"
 #include "handle_editing.h"
 #include "handle_fields.h"
 #include "side_panel.h"
+#include "weight_panel.h"
 
 #include "weights_arrays.h"
 
@@ -19,8 +21,10 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
-#include <QListWidget>
+#include <QLineEdit>
+#include <QSplitter>
 #include <QTest>
+#include <QTreeWidget>
 #include <QUndoStack>
 
 using namespace bindpose;
@@ -57,11 +61,12 @@ protected:
     this->render();
   }
 
-  QListWidget* list() { return this->window.panel()->handle_list(); }
+  HandleTree* list() { return this->window.panel()->handle_list(); }
   void click(int row, Qt::KeyboardModifiers held = Qt::NoModifier)
   {
-    const QRect at = this->list()->visualItemRect(this->list()->item(row));
-    QTest::mouseClick(this->list()->viewport(), Qt::LeftButton, held, at.center());
+    QTreeWidget* tree = this->list()->tree();
+    const QRect at = tree->visualItemRect(this->list()->item(row));
+    QTest::mouseClick(tree->viewport(), Qt::LeftButton, held, at.center());
     QApplication::processEvents();
   }
   /// What is selected, of which all that show it say the same.
@@ -69,7 +74,7 @@ protected:
   {
     const std::vector<int> result = this->window.editing()->selected();
     auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
-    for (int k = 0; k < this->list()->count(); ++k)
+    for (int k = 0; k < static_cast<int>(this->list()->rows().size()); ++k)
     {
       const bool is = std::find(result.begin(), result.end(), k) != result.end();
       EXPECT_EQ(this->list()->item(k)->isSelected(), is) << k;
@@ -161,7 +166,7 @@ TEST_F(HandleList, WhatIsSelectedInThePictureIsSelectedInTheList)
   this->hand.trigger("delete");
   EXPECT_EQ(this->selected(), Numbers());
   this->hand.trigger("edit.undo");
-  EXPECT_EQ(this->list()->count(), 4);
+  EXPECT_EQ(this->list()->rows().size(), 4U);
   this->selected();
 }
 
@@ -211,4 +216,197 @@ TEST_F(HandleList, AModeIsForAllThatAreSelectedAndOneStep)
   EXPECT_EQ(this->hand.set_mode("free"), QString());
   EXPECT_EQ(this->mode(2), HandleMode::free);
   EXPECT_EQ(this->mode(3), HandleMode::free);
+}
+
+// ---- The panel of weights ----------------------------------------------------------------------
+
+TEST_F(HandleList, TheWeightsPanelAndTheSelectionFollowEachOther)
+{
+  WeightPanel* weights = this->window.panels()->weight();
+  this->click(2);
+  this->window.panels()->show_panel(PanelColumn::weights);
+  EXPECT_EQ(weights->column(), 2) << "what was selected before";
+  this->pick("bottom");
+  EXPECT_EQ(this->selected(), Numbers({ 0 }));
+  EXPECT_EQ(weights->column(), 0);
+  this->click(3);
+  EXPECT_EQ(weights->column(), 3);
+  auto* box = weights->findChild<QComboBox*>("weights.column");
+  box->setCurrentIndex(1 + 1);
+  EXPECT_EQ(this->selected(), Numbers({ 1 }));
+  // Of several the last one is shown, and they stay selected.
+  this->click(2, Qt::ControlModifier);
+  EXPECT_EQ(this->selected(), Numbers({ 1, 2 }));
+  EXPECT_EQ(weights->column(), 2);
+  box->setCurrentIndex(0); // all handles
+  EXPECT_EQ(this->selected(), Numbers({ 1, 2 }));
+}
+
+// ---- The tree ----------------------------------------------------------------------------------
+
+namespace
+{
+/// A ball with a spine of three bones, two arms of three with five fingers each, and a point.
+class HandleTreeWindow : public test::WindowTest
+{
+protected:
+  void add(const std::string& name, int parent)
+  {
+    Handle bone;
+    bone.name = name;
+    bone.kind = HandleKind::bone;
+    bone.parent = parent;
+    const double k = static_cast<double>(this->handles.size());
+    bone.head = Vec3(0.5 * std::cos(k), 0.5 * std::sin(k), 0.02 * k - 0.4);
+    bone.tail = bone.head + Vec3(0, 0, 0.015);
+    this->handles.push_back(bone);
+  }
+  void SetUp() override
+  {
+    Handle point;
+    point.name = "nose";
+    point.head = point.tail = Vec3(0, 0, 0.7);
+    this->handles.push_back(point);
+    this->add("hips", -1);
+    this->add("chest", 1);
+    for (const std::string side : { "left", "right" })
+    {
+      const int arm = static_cast<int>(this->handles.size());
+      this->add(side + "_arm", 2);
+      this->add(side + "_hand", arm);
+      for (int finger = 0; finger < 5; ++finger)
+      {
+        this->add(side + "_finger_" + std::to_string(finger), arm + 1);
+      }
+    }
+    const TriangleMesh mesh = test::sphere(2);
+    ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
+    ASSERT_TRUE(this->window.set_handles(to_polydata(this->handles), "rig"));
+    this->render();
+  }
+  HandleTree* list() { return this->window.panel()->handle_list(); }
+  QString text(int handle) { return this->list()->item(handle)->text(0); }
+  int number(const std::string& name)
+  {
+    const Handles& now = this->window.document()->handles();
+    return static_cast<int>(
+      std::find_if(now.begin(), now.end(), [&](const Handle& each) { return each.name == name; }) -
+      now.begin());
+  }
+  /// Names of the rows that are seen without scrolling.
+  QStringList seen()
+  {
+    QApplication::processEvents();
+    QStringList names;
+    QTreeWidget* tree = this->list()->tree();
+    for (QTreeWidgetItem* item = tree->topLevelItem(0); item; item = tree->itemBelow(item))
+    {
+      const QRect at = tree->visualItemRect(item);
+      if (!at.isEmpty() && tree->viewport()->rect().contains(at.adjusted(0, 0, -at.width() + 1, 0)))
+      {
+        names << item->text(0);
+      }
+    }
+    return names;
+  }
+
+  Handles handles;
+};
+} // namespace
+
+TEST_F(HandleTreeWindow, ChildrenAreBelowTheirParents)
+{
+  const Handles& now = this->window.document()->handles();
+  ASSERT_EQ(now.size(), 17U);
+  for (int k = 0; k < 17; ++k)
+  {
+    const auto& handle = now[static_cast<std::size_t>(k)];
+    QTreeWidgetItem* above = this->list()->item(k)->parent();
+    EXPECT_EQ(above ? HandleTree::handle_of(above) : -1, handle.parent) << handle.name;
+    EXPECT_EQ(this->text(k).toStdString(), handle.name);
+    EXPECT_TRUE(this->list()->item(k)->isExpanded());
+  }
+  // Another parent by the menu's function moves the row; what was folded stays so.
+  this->list()->item(this->number("right_hand"))->setExpanded(false);
+  this->window.panel()->select_handle(this->number("left_hand"));
+  this->window.editing()->commands()->set_parent(this->number("hips"));
+  QTreeWidgetItem* moved = this->list()->item(this->number("left_hand"));
+  ASSERT_NE(moved->parent(), nullptr);
+  EXPECT_EQ(moved->parent()->text(0), "hips");
+  EXPECT_FALSE(this->list()->item(this->number("right_hand"))->isExpanded());
+  // What is selected in the picture is unfolded.
+  this->window.panel()->select_handle(this->number("right_finger_2"));
+  EXPECT_TRUE(this->list()->item(this->number("right_hand"))->isExpanded());
+}
+
+TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
+{
+  this->resize(QSize(1920, 1040));
+  QLineEdit* search = this->list()->search();
+  search->setFocus();
+  QTest::keyClicks(search, "RIGHT_F");
+  EXPECT_EQ(this->seen(),
+    QStringList({ "hips", "chest", "right_arm", "right_hand", "right_finger_0", "right_finger_1",
+      "right_finger_2", "right_finger_3", "right_finger_4" }));
+  EXPECT_EQ(this->window.editing()->mode(), HandleEditing::pose)
+    << "letters are no shortcuts there";
+  QTest::keyClick(search, Qt::Key_Return);
+  EXPECT_EQ(this->window.editing()->selected(), Numbers({ this->number("right_finger_0") }));
+  // What is selected elsewhere is seen, whatever is searched for.
+  this->window.panel()->select_handle(this->number("nose"));
+  EXPECT_TRUE(this->seen().contains("nose"));
+  search->setFocus();
+  QTest::keyClick(search, Qt::Key_Escape);
+  EXPECT_EQ(search->text(), QString());
+  EXPECT_GE(this->seen().size(), 12);
+  for (int k = 0; k < 17; ++k)
+  {
+    EXPECT_FALSE(this->list()->item(k)->isHidden()) << k;
+  }
+  QTest::keyClicks(search, "no such name");
+  this->window.panel()->select_handles({});
+  search->setText("no such name at all");
+  EXPECT_EQ(this->seen(), QStringList());
+}
+
+TEST_F(HandleTreeWindow, ALargeScreenShowsADozenRowsAndTheHeightCanBeDragged)
+{
+  this->resize(QSize(1920, 1040)); // what a desktop leaves of 1920 x 1080
+  EXPECT_GE(this->seen().size(), 12);
+  this->resize(QSize(1280, 760));
+  EXPECT_GE(this->seen().size(), 4);
+  const int before = this->list()->height();
+  auto* splitter = this->window.panels()->findChild<QSplitter*>();
+  QWidget* grip = splitter->handle(1);
+  const QPoint at = grip->rect().center();
+  const auto send = [grip](QEvent::Type type, const QPoint& place, Qt::MouseButton button)
+  {
+    QMouseEvent event(
+      type, place, grip->mapToGlobal(place), button, Qt::LeftButton, Qt::NoModifier);
+    QApplication::sendEvent(grip, &event);
+  };
+  send(QEvent::MouseButtonPress, at, Qt::LeftButton);
+  send(QEvent::MouseMove, at + QPoint(0, 100), Qt::NoButton);
+  send(QEvent::MouseButtonRelease, at, Qt::LeftButton);
+  QApplication::processEvents();
+  EXPECT_GT(this->list()->height(), before + 50);
+  const int dragged = this->list()->height();
+  this->window.panels()->show_panel(PanelColumn::tets);
+  EXPECT_FALSE(this->list()->isVisible());
+  this->window.panels()->show_panel(PanelColumn::weights);
+  EXPECT_TRUE(this->list()->isVisible());
+  EXPECT_NEAR(this->list()->height(), dragged, 3) << "a person's choice stays";
+}
+
+TEST_F(HandleTreeWindow, ParentsInACircleAreNoParents)
+{
+  HandleTree tree;
+  tree.set_rows({ { "a", HandleKind::bone, 1, 0 }, { "b", HandleKind::bone, 0, 0 },
+    { "c", HandleKind::bone, 2, 0 }, { "d", HandleKind::bone, 99, 0 },
+    { "e", HandleKind::bone, 3, 0 } });
+  for (const int handle : { 0, 1, 2, 3 })
+  {
+    EXPECT_EQ(tree.item(handle)->parent(), nullptr) << handle;
+  }
+  EXPECT_EQ(tree.tree()->topLevelItemCount() + tree.item(3)->childCount(), 5);
 }

@@ -31,11 +31,11 @@
 #include <QApplication>
 #include <QElapsedTimer>
 #include <QLabel>
-#include <QListWidget>
 #include <QMenuBar>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSurfaceFormat>
+#include <QTreeWidget>
 #include <QUndoStack>
 
 #include <gtest/gtest.h>
@@ -481,9 +481,10 @@ TEST_F(Window, WhatCannotBeDoneYetIsDisabledInTheMenus)
     ADD_FAILURE() << "no entry " << text;
     return false;
   };
-  const std::vector<const char*> later = { "Save shape", "Save pose", "Save picture", "Bind",
-    "Back to rest", "Linear", "Dual", "Reduced", "Full" };
+  const std::vector<const char*> later = { "Export shape", "Export rig", "Export pose",
+    "Export film", "Bind", "Back to rest", "Linear", "Dual", "Reduced", "Full" };
   EXPECT_TRUE(enabled("Open"));
+  EXPECT_TRUE(enabled("Export picture"));
   for (const char* text : later)
   {
     EXPECT_FALSE(enabled(text)) << text;
@@ -522,7 +523,7 @@ TEST_F(Window, NoTextOfThePanelIsClipped)
         << label->text().toStdString();
       EXPECT_GT(label->height(), 0);
     }
-    EXPECT_GT(this->window.panel()->findChild<QListWidget*>()->height(), 60);
+    EXPECT_GT(this->window.panel()->handle_list()->tree()->height(), 60);
   }
 }
 

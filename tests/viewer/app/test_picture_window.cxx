@@ -3,6 +3,7 @@
 #include "unclipped.h"
 #include "window_test.h"
 
+#include "exports.h"
 #include "picture_dialog.h"
 
 #include "document/document.h"
@@ -222,14 +223,14 @@ TEST_F(PictureWindow, IsWrittenWithItsAlpha)
   this->open_weighted();
   const test::Folder folder;
   const QString path = QString::fromStdString(folder / "ball.png");
-  ASSERT_TRUE(this->window.save_picture(path, 2, true));
+  ASSERT_TRUE(this->window.exports()->save_picture(path, 2, true));
   const QImage read(path);
   EXPECT_TRUE(read.hasAlphaChannel());
   EXPECT_EQ(read.size(), this->window.viewport()->picture_size(2));
   EXPECT_EQ(qAlpha(read.pixel(read.width() - 3, 3)), 0);
-  ASSERT_TRUE(this->window.save_picture(path, 1, false));
+  ASSERT_TRUE(this->window.exports()->save_picture(path, 1, false));
   EXPECT_FALSE(QImage(path).hasAlphaChannel());
-  EXPECT_FALSE(this->window.save_picture("/no/such/folder/ball.png", 1, false));
+  EXPECT_FALSE(this->window.exports()->save_picture("/no/such/folder/ball.png", 1, false));
   EXPECT_EQ(this->window.error().count('\n'), 0);
   EXPECT_FALSE(this->window.error().isEmpty());
 }

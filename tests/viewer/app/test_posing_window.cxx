@@ -47,6 +47,7 @@
 #include <QElapsedTimer>
 #include <QLabel>
 #include <QListWidget>
+#include <QTreeWidget>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QSlider>
@@ -794,12 +795,10 @@ TEST_F(PosingWindow, BonesMayBeHeldByAnEnd)
   const auto texts = [this]
   {
     QStringList all;
-    for (QListWidget* items : this->window.panel()->findChildren<QListWidget*>())
+    const HandleTree* handles = this->window.panel()->handle_list();
+    for (int k = 0; k < static_cast<int>(handles->rows().size()); ++k)
     {
-      for (int k = 0; k < items->count(); ++k)
-      {
-        all << items->item(k)->text();
-      }
+      all << handles->item(k)->text(0);
     }
     return all;
   };
@@ -1039,6 +1038,7 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
 TEST_F(PosingWindow, NoTextIsClipped)
 {
   this->open();
+  this->window.show_timeline(true);
   this->window.panel()->select_handle(3);
   for (const char* section : { "▸  Compare", "▸  Motion", "▸  Poses" })
   {

@@ -282,7 +282,7 @@ TEST_F(VolumeWindow, ASurfaceAlongWithAVolumeIsSeeThrough)
   const QColor seen = this->picture().pixelColor(this->pixel(Vec3(0.3, 0.1, 0)));
   EXPECT_GT(seen.red(), seen.blue() + 40);
   EXPECT_NE(this->reading_at(Vec3(0.3, 0.1, 0)), QString());
-  auto* look = this->panel()->findChild<QComboBox*>();
+  auto* look = this->panel()->findChild<QComboBox*>("volume.surface_look");
   look->setCurrentIndex(Viewport::hidden);
   EXPECT_FALSE(this->window.viewport()->surface_actor()->GetVisibility());
   look->setCurrentIndex(Viewport::edges_only);

@@ -1,0 +1,31 @@
+#ifndef bindpose_tests_viewer_app_opened_folders_h
+#define bindpose_tests_viewer_app_opened_folders_h
+
+#include <QDesktopServices>
+#include <QList>
+#include <QObject>
+#include <QUrl>
+
+namespace bindpose::test
+{
+
+/// Opens folders in place of the desktop, and keeps which.
+class OpenedFolders : public QObject
+{
+  Q_OBJECT
+
+public:
+  OpenedFolders() { QDesktopServices::setUrlHandler("file", this, "open"); }
+  ~OpenedFolders() override { QDesktopServices::unsetUrlHandler("file"); }
+  const QList<QUrl>& urls() const { return this->urls_; }
+
+public Q_SLOTS:
+  void open(const QUrl& url) { this->urls_ << url; }
+
+private:
+  QList<QUrl> urls_;
+};
+
+} // namespace bindpose::test
+
+#endif

@@ -1,0 +1,278 @@
+// What the menu File exports: when it can be chosen, what is in the files, and what is said about
+// them. Errors leave when something of their kind succeeds.
+#include "opened_folders.h"
+#include "window_test.h"
+
+#include "document/document.h"
+#include "exports.h"
+#include "handle_commands.h"
+#include "handle_editing.h"
+#include "key_strip.h"
+#include "notice_bar.h"
+#include "posing.h"
+#include "sequence_export.h"
+
+#include "weights_arrays.h"
+
+#include "support/files.h"
+#include "support/meshes.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkMeshFileReader.h"
+#include "vtkPointData.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QDialog>
+#include <QFileDialog>
+#include <QImage>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTimer>
+
+#include <filesystem>
+
+using namespace bindpose;
+using test::OpenedFolders;
+using test::two_points;
+using test::wait_for;
+
+namespace
+{
+QString text(const std::string& path)
+{
+  return QString::fromStdString(path);
+}
+
+class ExportWindow : public test::WindowTest
+{
+protected:
+  void open_mesh()
+  {
+    const TriangleMesh mesh = test::sphere(2);
+    this->ball = to_polydata(mesh.points, mesh.triangles);
+    ASSERT_TRUE(this->window.set_mesh(this->ball, "ball.off"));
+  }
+  void open_bound()
+  {
+    this->open_mesh();
+    Handles handles;
+    ASSERT_TRUE(to_handles(two_points(), handles).ok());
+    Weights weights(this->ball->GetNumberOfPoints(), 2);
+    for (Index v = 0; v < weights.rows(); ++v)
+    {
+      weights(v, 1) = 0.5 + 0.4 * this->ball->GetPoint(v)[2];
+      weights(v, 0) = 1.0 - weights(v, 1);
+    }
+    this->ball->GetPointData()->AddArray(to_weights_array("Weights", weights, handles));
+    ASSERT_TRUE(this->window.set_mesh(this->ball, "ball.off"));
+    ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
+    ASSERT_TRUE(this->window.is_bound());
+    this->render();
+  }
+  void bend()
+  {
+    Pose pose(2);
+    pose[1].transform.col(3) = Vec3(0.25, 0, 0);
+    this->window.document()->set_pose(pose, "bend");
+    this->render();
+  }
+  bool enabled(const char* name)
+  {
+    const QAction* entry = this->hand.action(name);
+    EXPECT_NE(entry, nullptr) << name;
+    return entry && entry->isEnabled();
+  }
+  /// Chooses the entry and answers its dialogs, as a person does with the keyboard.
+  void export_by_menu(const char* name, const std::string& path)
+  {
+    int answered = 0;
+    QTimer watch;
+    QObject::connect(&watch, &QTimer::timeout,
+      [&]
+      {
+        QWidget* dialog = QApplication::activeModalWidget();
+        if (auto* files = qobject_cast<QFileDialog*>(dialog))
+        {
+          files->findChild<QLineEdit*>("fileNameEdit")->setText(text(path));
+          static_cast<QDialog*>(files)->accept();
+          ++answered;
+        }
+        else if (dialog)
+        {
+          for (QPushButton* button : dialog->findChildren<QPushButton*>())
+          {
+            if (button->isDefault())
+            {
+              button->click();
+              break;
+            }
+          }
+        }
+      });
+    watch.start(20);
+    EXPECT_EQ(this->hand.trigger(name), QString()) << name;
+    EXPECT_EQ(answered, 1) << name;
+  }
+  QString said() { return this->window.export_bar()->sentence(); }
+  void press(const QString& text)
+  {
+    for (QPushButton* button : this->window.export_bar()->findChildren<QPushButton*>())
+    {
+      if (button->text() == text && button->isVisible())
+      {
+        button->click();
+        return;
+      }
+    }
+    ADD_FAILURE() << "no button " << text.toStdString();
+  }
+
+  WindowHand hand{ &this->window };
+  vtkSmartPointer<vtkPolyData> ball;
+  test::Folder folder;
+};
+} // namespace
+
+TEST_F(ExportWindow, EachIsThereAsSoonAsItMakesSense)
+{
+  const auto all = [this]
+  {
+    QStringList names;
+    for (const char* name : { "file.export_shape", "file.export_rig_glb", "file.export_pose",
+           "file.export_picture", "file.export_film" })
+    {
+      if (this->enabled(name))
+      {
+        names << QString(name).mid(12);
+      }
+    }
+    return names.join(' ');
+  };
+  EXPECT_EQ(all(), "picture");
+  this->open_mesh();
+  EXPECT_EQ(all(), "shape picture");
+  ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
+  EXPECT_EQ(all(), "shape pose picture film");
+  this->open_bound();
+  EXPECT_EQ(all(), "shape rig_glb pose picture film");
+}
+
+TEST_F(ExportWindow, TheShapeIsExportedAsItIsShown)
+{
+  this->open_bound();
+  this->bend();
+  const std::string path = this->folder / "bent.ply";
+  this->export_by_menu("file.export_shape", path);
+  vtkNew<vtkMeshFileReader> reader;
+  reader->SetFileName(path.c_str());
+  reader->Update();
+  auto* read = vtkPolyData::SafeDownCast(reader->GetOutput());
+  ASSERT_NE(read, nullptr);
+  const Points shown = to_points(this->window.shown()).view();
+  ASSERT_EQ(read->GetNumberOfPoints(), shown.rows());
+  EXPECT_LT((Points(to_points(read).view()) - shown).cwiseAbs().maxCoeff(), 1e-5);
+  EXPECT_GT((shown - Points(to_points(this->ball.Get()).view())).cwiseAbs().maxCoeff(), 0.2);
+  EXPECT_TRUE(this->said().contains("bent.ply")) << this->said().toStdString();
+  EXPECT_EQ(this->window.error(), QString());
+}
+
+TEST_F(ExportWindow, TheRigHasTheSkinAndStandsAsTheHandlesDo)
+{
+  this->open_bound();
+  this->bend();
+  const std::string path = this->folder / "ball.glb";
+  this->export_by_menu("file.export_rig_glb", path);
+  MainWindow other;
+  ASSERT_TRUE(other.open(text(path))) << other.error().toStdString();
+  EXPECT_TRUE(other.is_bound());
+  ASSERT_EQ(other.document()->handles().size(), 2U);
+  const Pose pose = other.document()->pose();
+  EXPECT_LT((pose[1].transform.col(3) - Vec3(0.25, 0, 0)).norm(), 1e-6);
+  // The shape there is the shape here.
+  QApplication::processEvents();
+  const Points here = to_points(this->window.shown()).view();
+  const Points there = to_points(other.shown()).view();
+  ASSERT_EQ(there.rows(), here.rows());
+  EXPECT_LT((there - here).cwiseAbs().maxCoeff(), 1e-5);
+  EXPECT_TRUE(this->said().contains("ball.glb"));
+  // A method that glTF does not have is said.
+  this->window.set_method(1);
+  ASSERT_TRUE(this->window.exports()->save_rig(text(path)));
+  EXPECT_TRUE(this->said().contains("linear blend skinning")) << this->said().toStdString();
+}
+
+TEST_F(ExportWindow, PoseAndPictureAreExportedByTheMenu)
+{
+  this->open_bound();
+  this->bend();
+  this->export_by_menu("file.export_pose", this->folder / "bent.json");
+  EXPECT_TRUE(std::filesystem::exists(this->folder / "bent.json"));
+  EXPECT_TRUE(this->said().contains("bent.json"));
+  this->export_by_menu("file.export_picture", this->folder / "bent.png");
+  EXPECT_FALSE(QImage(text(this->folder / "bent.png")).isNull());
+  EXPECT_TRUE(this->said().contains("bent.png"));
+}
+
+TEST_F(ExportWindow, AFilmNeedsKeyFramesAndSaysSo)
+{
+  this->open_bound();
+  EXPECT_FALSE(this->window.strip()->isVisible());
+  EXPECT_EQ(this->hand.trigger("file.export_film"), QString());
+  EXPECT_TRUE(this->said().contains("key frames")) << this->said().toStdString();
+  EXPECT_EQ(this->window.error(), QString());
+  this->press("Show the timeline");
+  EXPECT_TRUE(this->window.strip()->isVisible());
+  EXPECT_EQ(this->said(), QString());
+  // With two keys there is one; here as a pose file, which needs no other program.
+  EXPECT_EQ(this->hand.press_key("K"), QString());
+  this->hand.scrub(0.25);
+  this->bend();
+  EXPECT_EQ(this->hand.press_key("K"), QString());
+  const std::string path = this->folder / "film.json";
+  this->export_by_menu("file.export_film", path);
+  ASSERT_TRUE(wait_for([this] { return !this->window.posing()->sequence_export()->is_running(); }));
+  EXPECT_TRUE(std::filesystem::exists(path));
+  EXPECT_TRUE(this->said().contains("film.json")) << this->said().toStdString();
+  EXPECT_TRUE(this->said().contains("7 frames"));
+}
+
+TEST_F(ExportWindow, TheFolderOfWhatWasWrittenIsOpened)
+{
+  this->open_mesh();
+  ASSERT_TRUE(this->window.exports()->save_shape(text(this->folder / "ball.obj")));
+  EXPECT_TRUE(this->said().contains("ball.obj"));
+  OpenedFolders folders;
+  this->press("Show in folder");
+  ASSERT_EQ(folders.urls().size(), 1);
+  EXPECT_EQ(std::filesystem::canonical(folders.urls()[0].toLocalFile().toStdString()),
+    std::filesystem::canonical(std::filesystem::path(this->folder / "ball.obj").parent_path()));
+  EXPECT_EQ(this->said(), QString()) << "the bar has done its work";
+}
+
+TEST_F(ExportWindow, AnErrorLeavesWhenTheSameKindSucceeds)
+{
+  this->open_bound();
+  EXPECT_FALSE(this->window.exports()->save_shape("/no/such/folder/ball.ply"));
+  EXPECT_TRUE(this->window.error().contains("Cannot export")) << this->window.error().toStdString();
+  EXPECT_EQ(this->said(), QString());
+  ASSERT_TRUE(this->window.exports()->save_shape(text(this->folder / "ball.ply")));
+  EXPECT_EQ(this->window.error(), QString());
+  // Another kind says nothing about it.
+  EXPECT_FALSE(this->window.editing()->commands()->rename(0, "top"));
+  const QString refused = this->window.error();
+  EXPECT_FALSE(refused.isEmpty());
+  ASSERT_TRUE(this->window.exports()->save_shape(text(this->folder / "ball.ply")));
+  this->bend();
+  EXPECT_EQ(this->window.error(), refused);
+  EXPECT_TRUE(this->window.editing()->commands()->rename(0, "foot"));
+  EXPECT_EQ(this->window.error(), QString());
+  // A picture of key frames that cannot be written, and one that can.
+  EXPECT_EQ(this->hand.press_key("K"), QString());
+  this->window.posing()->export_to("/no/such/folder/ball.json");
+  ASSERT_TRUE(wait_for([this] { return !this->window.error().isEmpty(); }));
+  this->window.posing()->export_to(text(this->folder / "ball.json"));
+  ASSERT_TRUE(
+    wait_for([this] { return !this->said().isEmpty() && this->said().contains("Wrote"); }));
+  EXPECT_EQ(this->window.error(), QString());
+}

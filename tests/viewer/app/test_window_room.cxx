@@ -1,0 +1,279 @@
+// What the window has room for: a small screen fits it whole, bars lie over the picture instead of
+// pushing it, the timeline comes with the first key, and domains and winding numbers are to be had.
+#include "window_test.h"
+
+#include "document/document.h"
+#include "error_bar.h"
+#include "key_strip.h"
+#include "notice_bar.h"
+#include "posing.h"
+#include "side_panel.h"
+#include "volume_panel.h"
+#include "volume_view.h"
+#include "winding_volume.h"
+
+#include "document/session.h"
+
+#include "support/files.h"
+#include "support/meshes.h"
+
+#include "report_field_data.h"
+
+#include "vtkImageData.h"
+#include "vtkPointData.h"
+
+#include <QMenuBar>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QStatusBar>
+#include <QUndoStack>
+
+using namespace bindpose;
+using test::two_points;
+using test::wait_for;
+
+namespace
+{
+class WindowRoom : public test::WindowTest
+{
+protected:
+  void open_ball(bool handles = true)
+  {
+    const TriangleMesh mesh = test::sphere(2);
+    ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
+    if (handles)
+    {
+      ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
+    }
+    ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
+    this->render();
+  }
+  void open_figure()
+  {
+    for (const char* name : { "figure_weights.vtp", "figure.tgf" })
+    {
+      ASSERT_TRUE(this->window.open(QString(BINDPOSE_TOURS "/data/") + name)) << name;
+    }
+    ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
+    this->render();
+  }
+  QRect picture_place()
+  {
+    QApplication::processEvents();
+    const Viewport* viewport = this->window.viewport();
+    return { viewport->mapTo(&this->window, QPoint()), viewport->size() };
+  }
+
+  WindowHand hand{ &this->window };
+};
+
+/// Parts of the window that stick out of it.
+QStringList outside(const QWidget& window, const QList<const QWidget*>& parts)
+{
+  QStringList names;
+  for (const QWidget* part : parts)
+  {
+    const QRect at(part->mapTo(&window, QPoint()), part->size());
+    if (!part->isVisible() || !window.rect().contains(at))
+    {
+      names << part->metaObject()->className();
+    }
+  }
+  return names;
+}
+} // namespace
+
+TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
+{
+  this->open_ball();
+  const QRect place = this->picture_place();
+  const QPoint seen = this->pixel(Vec3(0, 0, 0.9));
+  const auto expect_still = [&](const char* what)
+  {
+    EXPECT_EQ(this->picture_place(), place) << what;
+    this->render();
+    EXPECT_EQ(this->pixel(Vec3(0, 0, 0.9)), seen) << what;
+  };
+  int bars = 0;
+  for (NoticeBar* bar : { this->window.note_bar(), this->window.rebind_bar(),
+         this->window.recovery_bar(), this->window.export_bar() })
+  {
+    bar->offer("A sentence that is long enough for two lines in a window of this size, for it goes "
+               "on and on, and then some more, so that there are surely two of them.",
+      { { "Do it", [] {} } }, "Close");
+    expect_still("a notice came");
+    EXPECT_TRUE(bar->isVisible());
+    EXPECT_TRUE(place.contains(QRect(bar->mapTo(&this->window, QPoint()), bar->size())));
+    ++bars;
+  }
+  this->window.show_error("Something has gone wrong.");
+  expect_still("an error came");
+  EXPECT_EQ(bars, 4);
+  // Each has a place of its own, below the title of a mode.
+  EXPECT_EQ(this->hand.press_key("A"), QString());
+  expect_still("a mode began");
+  QList<QRect> places;
+  for (const QWidget* bar : { static_cast<QWidget*>(this->window.error_bar()),
+         static_cast<QWidget*>(this->window.note_bar()),
+         static_cast<QWidget*>(this->window.rebind_bar()),
+         static_cast<QWidget*>(this->window.viewport()->findChild<QFrame*>("mode")) })
+  {
+    const QRect at(bar->mapTo(&this->window, QPoint()), bar->size());
+    for (const QRect& other : places)
+    {
+      EXPECT_FALSE(at.intersects(other));
+    }
+    places << at;
+  }
+  for (NoticeBar* bar : { this->window.note_bar(), this->window.rebind_bar(),
+         this->window.recovery_bar(), this->window.export_bar() })
+  {
+    bar->hide();
+    expect_still("a notice left");
+  }
+  // What the hand does is in the line at the bottom.
+  this->hover(seen);
+  expect_still("a hint came");
+  // Where the bars were the mouse is the picture's again.
+  this->window.error_bar()->hide();
+  QApplication::processEvents();
+  const QWidget* there = this->window.viewport()->childAt(this->window.viewport()->width() / 2, 60);
+  EXPECT_EQ(there, nullptr) << there->metaObject()->className();
+}
+
+TEST_F(WindowRoom, ABarDoesNotEndADrag)
+{
+  this->open_figure();
+  QPoint at;
+  ASSERT_EQ(this->hand.place_of("left_hand", 0.0, at), QString());
+  this->hand.move(at, Qt::NoModifier);
+  this->hand.press(at, Qt::LeftButton, Qt::NoModifier);
+  this->hand.move(at + QPoint(0, -20), Qt::NoModifier);
+  this->window.show_error("Something has gone wrong meanwhile.");
+  QApplication::processEvents();
+  this->hand.move(at + QPoint(0, -60), Qt::NoModifier);
+  this->hand.release(at + QPoint(0, -60), Qt::LeftButton, Qt::NoModifier);
+  EXPECT_EQ(this->window.history()->undoText(), "move left_hand");
+  QPoint now;
+  ASSERT_EQ(this->hand.place_of("left_hand", 0.0, now), QString());
+  EXPECT_NEAR(now.y(), at.y() - 60, 3);
+}
+
+TEST_F(WindowRoom, TheTimelineComesWithTheFirstKeyOrOnDemand)
+{
+  this->open_figure();
+  const auto shown = [this]
+  {
+    QApplication::processEvents();
+    const QAction* entry = this->hand.action("view.timeline");
+    EXPECT_EQ(entry->isChecked(), this->window.strip()->isVisible());
+    return this->window.strip()->isVisible();
+  };
+  EXPECT_FALSE(shown());
+  EXPECT_EQ(this->hand.press_key("K"), QString());
+  EXPECT_TRUE(shown());
+  EXPECT_EQ(this->hand.trigger("view.timeline"), QString());
+  EXPECT_FALSE(shown());
+  EXPECT_EQ(this->hand.press_key("K"), QString()); // the same key again
+  EXPECT_FALSE(shown()) << "a person has sent it away";
+  EXPECT_EQ(this->hand.trigger("edit.undo"), QString());
+  EXPECT_EQ(this->hand.trigger("edit.undo"), QString());
+  EXPECT_TRUE(this->window.posing()->shelf().keys.keys().empty());
+  EXPECT_EQ(this->hand.trigger("view.timeline"), QString());
+  EXPECT_TRUE(shown()) << "there is none, but it was asked for";
+}
+
+TEST_F(WindowRoom, AScreenOf1280By800FitsAllOfIt)
+{
+  this->open_figure();
+  EXPECT_EQ(this->hand.press_key("K"), QString());
+  // What a desktop leaves below its own bar and the window's title.
+  const QSize room(1280, 720);
+  for (int panel = 0; panel < 4; ++panel)
+  {
+    this->window.panels()->show_panel(panel);
+    QApplication::processEvents();
+    const QSize least = this->window.minimumSizeHint();
+    EXPECT_LE(least.width(), room.width()) << panel;
+    EXPECT_LE(least.height(), room.height()) << panel;
+    this->resize(room);
+    EXPECT_EQ(outside(this->window,
+                { this->window.menuBar(), this->window.statusBar(), this->window.viewport(),
+                  this->window.strip(), this->window.panels() }),
+      QStringList())
+      << panel;
+    EXPECT_GT(this->window.viewport()->height(), 400) << panel;
+    // Panels are scrolled upwards only.
+    for (const QScrollArea* area : this->window.panels()->findChildren<QScrollArea*>())
+    {
+      if (area->isVisible())
+      {
+        EXPECT_LE(area->widget()->minimumSizeHint().width(), area->viewport()->width()) << panel;
+      }
+    }
+  }
+}
+
+TEST_F(WindowRoom, TheDomainOfABindIsChosen)
+{
+  this->open_ball();
+  EXPECT_EQ(this->hand.choose("bind.domain", 4), QString()); // surface
+  EXPECT_EQ(this->window.panel()->domain(), WeightsDomain::surface);
+  EXPECT_EQ(this->hand.trigger("edit.bind"), QString());
+  ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
+  ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
+  EXPECT_EQ(read_report(this->window.document()->surface()).text("domain"), "surface");
+  EXPECT_EQ(this->hand.choose("bind.domain", 2), QString()); // lattice
+  EXPECT_EQ(this->hand.trigger("edit.bind"), QString());
+  ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
+  EXPECT_EQ(read_report(this->window.document()->surface()).text("domain"), "embedding");
+  EXPECT_EQ(this->window.error(), QString());
+}
+
+TEST_F(WindowRoom, WindingNumbersOfASurfaceAreComputedThere)
+{
+  EXPECT_NE(this->hand.show_panel("volume"), QString()) << "of nothing";
+  this->open_ball(false);
+  ASSERT_EQ(this->hand.show_panel("volume"), QString());
+  EXPECT_EQ(this->hand.choose("volume.samples", 0), QString());
+  ASSERT_EQ(this->hand.push("Compute"), QString());
+  ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
+  vtkImageData* volume = this->window.volume_view()->volume();
+  ASSERT_NE(volume, nullptr) << this->window.error().toStdString();
+  EXPECT_EQ(this->window.history()->undoText(), "compute winding numbers");
+  int size[3];
+  volume->GetDimensions(size);
+  EXPECT_EQ(*std::max_element(size, size + 3), 48);
+  vtkDataArray* values = volume->GetPointData()->GetArray("WindingNumber");
+  int inside = 0;
+  for (vtkIdType v = 0; v < volume->GetNumberOfPoints(); ++v)
+  {
+    const double radius = Vec3(volume->GetPoint(v)).norm();
+    if (radius < 0.8 || radius > 1.01) // the ball has corners
+    {
+      EXPECT_NEAR(values->GetComponent(v, 0), radius < 0.8, 1e-9) << radius;
+      inside += radius < 0.8;
+    }
+  }
+  EXPECT_GT(inside, 1000);
+  EXPECT_EQ(this->hand.choose("volume.isosurface", true), QString());
+  // No file holds it: a session does.
+  const test::Folder folder;
+  const QString path = QString::fromStdString(folder / "ball.bindpose");
+  SessionFile file;
+  Session session;
+  session.work = this->window.document()->work();
+  ASSERT_TRUE(file.write(path, session).ok());
+  Session back;
+  ASSERT_TRUE(read_session(path, back).ok());
+  EXPECT_EQ(back.notes, QStringList());
+  ASSERT_NE(back.work.volume, nullptr);
+  EXPECT_EQ(back.work.volume->GetNumberOfPoints(), volume->GetNumberOfPoints());
+  EXPECT_EQ(Vec3(back.work.volume->GetOrigin()), Vec3(volume->GetOrigin()));
+  EXPECT_EQ(back.work.volume->GetPointData()->GetArray("WindingNumber")->GetComponent(1000, 0),
+    values->GetComponent(1000, 0));
+  EXPECT_EQ(this->hand.push("Close the volume"), QString());
+  EXPECT_EQ(this->window.volume_view()->volume(), nullptr);
+  EXPECT_EQ(this->hand.trigger("edit.undo"), QString());
+  EXPECT_EQ(this->window.volume_view()->volume(), volume);
+}

@@ -1,0 +1,261 @@
+#include "exports.h"
+
+#include "document/document.h"
+#include "document/opened_file.h"
+#include "error_bar.h"
+#include "main_window.h"
+#include "notice_bar.h"
+#include "panel_parts.h"
+#include "picture_dialog.h"
+#include "pose_panel.h"
+#include "posing.h"
+#include "sequence_export.h"
+#include "viewport.h"
+#include "window_sessions.h"
+
+#include "scene/picture.h"
+
+#include "vtkCallbackCommand.h"
+#include "vtkCommand.h"
+#include "vtkGLTFSkinWriter.h"
+#include "vtkImageData.h"
+#include "vtkNew.h"
+
+#include <QApplication>
+#include <QDesktopServices>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QUrl>
+
+#include <algorithm>
+
+using namespace bindpose;
+
+namespace
+{
+/// A path for one line of a bar.
+QString short_path(const QString& path)
+{
+  constexpr int longest = 70;
+  const QString native = QDir::toNativeSeparators(path);
+  return native.size() <= longest
+    ? native
+    : native.left(longest / 2) + QStringLiteral("…") + native.right(longest / 2);
+}
+
+Status write_rig(vtkPolyData* surface, vtkPolyData* handles, const QString& path)
+{
+  vtkNew<vtkGLTFSkinWriter> writer;
+  vtkNew<vtkCallbackCommand> nothing; // it speaks through its status
+  nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  writer->AddObserver(vtkCommand::ErrorEvent, nothing);
+  writer->AddObserver(vtkCommand::WarningEvent, nothing);
+  writer->SetInputData(0, surface);
+  writer->SetHandlesData(handles);
+  writer->SetFileName(path.toStdString().c_str());
+  writer->OverwriteOn();
+  return writer->Write() == 1 ? Status() : Status::invalid_input(writer->GetStatusMessage());
+}
+
+bool is_rest(const Pose& pose)
+{
+  return std::all_of(pose.begin(), pose.end(),
+    [](const HandlePose& each)
+    {
+      return each.transform == identity_affine() && each.stretch == 1.0 &&
+        each.twist == Eigen::Vector2d::Zero();
+    });
+}
+} // namespace
+
+Exports::Exports(MainWindow* window, NoticeBar* bar) : QObject(window), window_(window), bar_(bar)
+{
+  SequenceExport* film = window->posing()->sequence_export();
+  QObject::connect(film, &SequenceExport::progress, this, &Exports::show_progress);
+  QObject::connect(film, &SequenceExport::finished, this, &Exports::film_finished);
+  QObject::connect(bar, &NoticeBar::closed, film, &SequenceExport::cancel);
+}
+
+// ---- Asking ------------------------------------------------------------------------------------
+
+/// Empty: not now.
+QString Exports::ask(const QString& title, const QString& kinds, const QString& ending)
+{
+  QFileDialog dialog(this->window_, title, this->folder_, kinds);
+  dialog.setAcceptMode(QFileDialog::AcceptSave);
+  dialog.setDefaultSuffix(ending);
+  const QString name = QFileInfo(this->window_->sessions()->name()).completeBaseName();
+  dialog.selectFile((name.isEmpty() ? tr("export") : name) + '.' + ending);
+  return dialog.exec() == QDialog::Accepted ? dialog.selectedFiles().front() : QString();
+}
+
+void Exports::ask_for_shape()
+{
+  const QString path =
+    this->ask(tr("Export the shape"), tr("Shapes (*.vtp *.ply *.obj *.off *.stl)"), "ply");
+  if (!path.isEmpty())
+  {
+    this->save_shape(path);
+  }
+}
+
+void Exports::ask_for_rig()
+{
+  const QString path = this->ask(tr("Export the rig"), tr("glTF 2.0 (*.glb *.gltf)"), "glb");
+  if (!path.isEmpty())
+  {
+    this->save_rig(path);
+  }
+}
+
+void Exports::ask_for_pose()
+{
+  const QString path = this->ask(tr("Export the pose"), tr("Poses (*.json)"), "json");
+  if (!path.isEmpty())
+  {
+    this->save_pose(path);
+  }
+}
+
+void Exports::ask_for_picture()
+{
+  PictureDialog picture(this->window_->viewport(), this->window_);
+  if (picture.exec() != QDialog::Accepted)
+  {
+    return;
+  }
+  const QString path = this->ask(tr("Export the picture"), tr("Pictures (*.png)"), "png");
+  if (!path.isEmpty())
+  {
+    this->save_picture(path, picture.scale(), picture.is_transparent());
+  }
+}
+
+void Exports::ask_for_film()
+{
+  if (!this->window_->posing()->has_animation())
+  {
+    this->bar_->offer(
+      tr("A film needs key frames: pose the shape and set a key (K), go on in time, "
+         "pose it again and set another."),
+      { { tr("Show the timeline"), [this] { this->window_->show_timeline(true); } } }, tr("Close"));
+    return;
+  }
+  const QString path =
+    this->ask(tr("Export the film"), tr("Animations (%1)").arg(SequenceExport::patterns()), "gif");
+  if (!path.isEmpty())
+  {
+    this->window_->posing()->export_to(path);
+  }
+}
+
+// ---- Writing -----------------------------------------------------------------------------------
+
+bool Exports::save_shape(const QString& path)
+{
+  return this->finish(path, write_shape(this->window_->shown(), path.toStdString()));
+}
+
+bool Exports::save_rig(const QString& path)
+{
+  const Document* document = this->window_->document();
+  QApplication::setOverrideCursor(Qt::WaitCursor); // of a large mesh it takes seconds
+  const Status status = write_rig(document->surface(), document->handle_data(), path);
+  QApplication::restoreOverrideCursor();
+  const auto method = static_cast<PoseMethod>(document->number("pose.method"));
+  const bool other = method != PoseMethod::linear_blend && !is_rest(document->pose());
+  return this->finish(path, status,
+    other
+      ? tr("Other programs pose it by linear blend skinning, not by %1.").arg(method_name(method))
+      : QString());
+}
+
+bool Exports::save_pose(const QString& path)
+{
+  const Document* document = this->window_->document();
+  return this->finish(
+    path, write_poses({ document->pose() }, document->handles(), path.toStdString()));
+}
+
+bool Exports::save_picture(const QString& path, int scale, bool transparent)
+{
+  QApplication::setOverrideCursor(Qt::WaitCursor); // a large one takes seconds
+  vtkSmartPointer<vtkImageData> picture;
+  Status status = this->window_->viewport()->take_picture(scale, transparent, picture);
+  if (status.ok())
+  {
+    status = write_png(picture, path.toStdString(), true);
+  }
+  QApplication::restoreOverrideCursor();
+  return this->finish(path, status);
+}
+
+void Exports::show_progress(double fraction)
+{
+  if (!this->tells_progress_)
+  {
+    this->tells_progress_ = true;
+    this->bar_->offer(QString(), {}, tr("Stop"));
+  }
+  this->bar_->set_sentence(
+    tr("Writing %1 … %2 %")
+      .arg(QFileInfo(this->window_->posing()->sequence_export()->path()).fileName())
+      .arg(static_cast<int>(100.0 * fraction)));
+}
+
+void Exports::film_finished()
+{
+  const SequenceExport* film = this->window_->posing()->sequence_export();
+  this->tells_progress_ = false;
+  this->bar_->hide();
+  if (!film->error().isEmpty())
+  {
+    this->window_->show_error(tr("Cannot export: %1.").arg(film->error()), ErrorKind::export_file);
+  }
+  else if (!film->said().isEmpty()) // else it was stopped
+  {
+    this->tell(film->path(), capital(film->said()) + '.');
+  }
+}
+
+// ---- What came of it ---------------------------------------------------------------------------
+
+bool Exports::finish(const QString& path, const Status& status, const QString& remark)
+{
+  if (!status.ok())
+  {
+    this->window_->show_error(
+      tr("Cannot export: %1.").arg(QString::fromStdString(status.message)), ErrorKind::export_file);
+    return false;
+  }
+  // What such a file cannot hold.
+  this->tell(path,
+    status.warnings.empty() ? remark
+                            : capital(QString::fromStdString(status.warnings.front())) + '.');
+  return true;
+}
+
+void Exports::tell(const QString& path, const QString& remark)
+{
+  const QString absolute = QFileInfo(path).absoluteFilePath();
+  this->folder_ = QFileInfo(absolute).absolutePath();
+  this->window_->error_bar()->succeeded(ErrorKind::export_file);
+  this->bar_->offer(QString(),
+    { { tr("Show in folder"), [this, absolute] { this->show_in_folder(absolute); } } },
+    tr("Close"));
+  const QString written = tr("Wrote %1.").arg(short_path(absolute));
+  this->bar_->set_sentence(
+    remark.isEmpty() ? written : written + ' ' + remark, QDir::toNativeSeparators(absolute));
+}
+
+void Exports::show_in_folder(const QString& path)
+{
+  const QString folder = QFileInfo(path).absolutePath();
+  if (!QDesktopServices::openUrl(QUrl::fromLocalFile(folder)))
+  {
+    this->window_->show_error(
+      tr("No program opens the folder %1.").arg(QDir::toNativeSeparators(folder)),
+      ErrorKind::export_file);
+  }
+}

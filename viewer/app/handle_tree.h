@@ -1,7 +1,7 @@
 #ifndef handle_tree_h
 #define handle_tree_h
 
-#include "weights/handles.h"
+#include "pose/pose.h"
 
 #include <QStringList>
 #include <QWidget>

@@ -10,6 +10,7 @@
 #include "posing.h"
 #include "region_painting.h"
 #include "side_panel.h"
+#include "start_card.h"
 #include "tool_icons.h"
 #include "viewport.h"
 #include "window_keys.h"
@@ -39,23 +40,17 @@ using Drawn = vtkHandleSetRepresentation;
 } // namespace
 
 HandleEditing::HandleEditing(
-  Document* document, Viewport* viewport, Posing* posing, SidePanel* panel)
+  Document* document, Viewport* viewport, Posing* posing, SidePanel* panel, QAction* auto_rig)
   : QObject(viewport), document_(document), viewport_(viewport), posing_(posing), panel_(panel),
     painting_(new RegionPainting(document, viewport))
 {
   this->make_actions();
   this->commands_ = new HandleCommands(this, document, viewport, panel->handle_list()->tree());
-  this->tools_ = new EditTools(
-    { this->modes_->actions(), this->gizmos_->actions() + QList<QAction*>{ this->local_ } },
+  this->tools_ = new EditTools({ { auto_rig }, this->modes_->actions(),
+                                 this->gizmos_->actions() + QList<QAction*>{ this->local_ } },
     viewport->parentWidget());
   this->bar_ = new ModeBar(this->inside_, viewport);
-  this->nothing_ = new QLabel(viewport);
-  this->nothing_->setObjectName("nothing");
-  this->nothing_->setAlignment(Qt::AlignCenter);
-  this->nothing_->setAttribute(Qt::WA_TransparentForMouseEvents);
-  this->nothing_->setText(tr("<b>No handles yet.</b> Press A to add points, B bones,<br>"
-                             "C a cage, P to paint regions, or open a file of handles.<br>"
-                             "Then bind, and drag them. ? shows all keys."));
+  this->nothing_ = new StartCard(auto_rig, viewport);
   if (auto* over = qobject_cast<QBoxLayout*>(viewport->layout()))
   {
     over->insertWidget(0, this->bar_, 0, Qt::AlignLeft | Qt::AlignTop);

@@ -50,7 +50,8 @@ public:
     paint_regions = 5
   };
 
-  HandleEditing(Document* document, Viewport* viewport, Posing* posing, SidePanel* panel);
+  HandleEditing(
+    Document* document, Viewport* viewport, Posing* posing, SidePanel* panel, QAction* auto_rig);
 
   /// The row of tools, for above the picture.
   EditTools* tools() const { return this->tools_; }
@@ -140,7 +141,7 @@ private:
   QAction* inside_ = nullptr;
   EditTools* tools_ = nullptr;
   ModeBar* bar_ = nullptr;
-  QLabel* nothing_ = nullptr; ///< over the picture as long as a mesh has no handles
+  QWidget* nothing_ = nullptr; ///< over the picture as long as a mesh has no handles
   int mode_ = pose;
   std::vector<std::string> names_; ///< of the selected handles
   bool is_committing_ = false;

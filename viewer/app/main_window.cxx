@@ -3,6 +3,7 @@
 #include "bar_stack.h"
 #include "binding.h"
 #include "document/document.h"
+#include "empty_state.h"
 #include "document/opened_file.h"
 #include "document/recent_files.h"
 #include "edit_tools.h"
@@ -152,15 +153,13 @@ void MainWindow::make_layout()
     this->bars_->add(*bar);
   }
   auto* over = new QVBoxLayout(this->viewport_);
-  this->empty_ = new QLabel(this->viewport_);
-  this->empty_->setObjectName("empty");
-  this->empty_->setAlignment(Qt::AlignCenter);
-  this->empty_->setWordWrap(true);
-  this->empty_->setAttribute(Qt::WA_TransparentForMouseEvents);
-  this->empty_->setText(
-    tr("<p style='font-size:15pt'>Open a mesh, or drop one here</p>"
-       "<p>Then add handles or open some (.tgf or .vtp), bind, and drag them.</p>"
-       "<p>A volume of winding numbers (.vti) is shown sliced.</p>"));
+  this->empty_ = new EmptyState(this->viewport_);
+  QObject::connect(this->empty_, &EmptyState::open_and_rig_wanted, this,
+    [this]
+    {
+      this->choose_and_open();
+      this->shape_handles_->auto_rig();
+    });
   over->addWidget(this->empty_);
   this->panels_ = new PanelColumn(centre);
   this->panel_ = this->panels_->side();
@@ -169,11 +168,12 @@ void MainWindow::make_layout()
   rows->addWidget(this->strip_);
   this->posing_ = new Posing(this->viewport_,
     { this->panel_->pose(), this->panel_->fields(), this->panel_->poses(), this->strip_ });
-  this->editing_ = new HandleEditing(this->document_, this->viewport_, this->posing_, this->panel_);
+  this->shape_handles_ = new ShapeHandles(this->document_, this->note_bar_, this);
+  this->editing_ = new HandleEditing(this->document_, this->viewport_, this->posing_, this->panel_,
+    this->shape_handles_->auto_rig_action());
   rows->insertWidget(rows->indexOf(this->viewport_), this->editing_->tools());
   this->bars_->begin_below(this->editing_->mode_bar());
   this->binding_ = new Binding(this->document_, this->panel_, this->rebind_bar_, this);
-  this->shape_handles_ = new ShapeHandles(this->document_, this->note_bar_, this);
   QObject::connect(
     this->shape_handles_, &ShapeHandles::rigged, this, [this] { this->binding_->start(); });
   // Before another panel shows its own colours.

@@ -20,6 +20,7 @@ class ElidedLabel;
 class Exports;
 struct OpenedFile;
 class HandleEditing;
+class EmptyState;
 class ShapeHandles;
 class Inspection;
 class KeyStrip;
@@ -182,7 +183,7 @@ private:
   NoticeBar* rebind_bar_ = nullptr;
   NoticeBar* export_bar_ = nullptr;
   ElidedLabel* hint_ = nullptr;
-  QLabel* empty_ = nullptr; // in the middle of the picture as long as nothing is open
+  EmptyState* empty_ = nullptr; // in the middle of the picture as long as nothing is open
   vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport has
   bool timeline_ = false;
   bool has_keys_ = false;

@@ -3,6 +3,8 @@
 #include "conversion.h"
 #include "document/document.h"
 #include "notice_bar.h"
+#include "tool_icons.h"
+#include "window_keys.h"
 
 #include "vtkPolyData.h"
 
@@ -22,18 +24,22 @@ constexpr Index quick_triangles = 5000;
 } // namespace
 
 ShapeHandles::ShapeHandles(Document* document, NoticeBar* bar, QWidget* window)
-  : QObject(window), document_(document), bar_(bar), window_(window)
+  : QObject(window), document_(document), bar_(bar), window_(window),
+    auto_rig_(new QAction(tool_icon("auto_rig"), tr("Auto-&rig"), this))
 {
+  this->auto_rig_->setObjectName("auto_rig");
+  const QString keys = QString::fromStdString(keys_of("auto_rig"));
+  this->auto_rig_->setShortcut(QKeySequence(keys));
+  this->auto_rig_->setToolTip(
+    tr("Make bones along the shape and bind it, ready to drag (%1)").arg(keys));
+  QObject::connect(this->auto_rig_, &QAction::triggered, this, &ShapeHandles::auto_rig);
   QObject::connect(bar, &NoticeBar::closed, this, &ShapeHandles::cancel);
   QObject::connect(&this->job_, &KernelJob::finished, this, &ShapeHandles::finish);
 }
 
 void ShapeHandles::fill_menu(QMenu* menu)
 {
-  this->auto_rig_ = menu->addAction(tr("Auto-&rig"));
-  this->auto_rig_->setObjectName("handles.auto_rig");
-  this->auto_rig_->setToolTip(tr("Make bones along the shape and bind it, ready to drag"));
-  QObject::connect(this->auto_rig_, &QAction::triggered, this, &ShapeHandles::auto_rig);
+  menu->addAction(this->auto_rig_);
   this->menu_ = menu->addMenu(tr("From the &shape"));
   QAction* bones = this->menu_->addAction(tr("&Bones along it"));
   bones->setObjectName("handles.bones_along_it");
@@ -47,7 +53,10 @@ void ShapeHandles::fill_menu(QMenu* menu)
 void ShapeHandles::update()
 {
   const bool can = this->document_->surface() && !this->is_running();
-  this->menu_->setEnabled(can);
+  if (this->menu_)
+  {
+    this->menu_->setEnabled(can);
+  }
   this->auto_rig_->setEnabled(can);
 }
 

@@ -23,6 +23,7 @@ public:
   /// The bar says what is being made, and can call it off.
   ShapeHandles(Document* document, NoticeBar* bar, QWidget* window);
 
+  QAction* auto_rig_action() const { return this->auto_rig_; }
   void fill_menu(QMenu* menu);
   /// What can be chosen depends on whether there is a surface.
   void update();
@@ -47,7 +48,7 @@ private:
   Document* document_;
   NoticeBar* bar_;
   QWidget* window_;
-  QAction* auto_rig_ = nullptr;
+  QAction* auto_rig_;
   QMenu* menu_ = nullptr;
   bindpose::AutomaticMethod method_ = bindpose::AutomaticMethod::skeleton;
   bool rigging_ = false;

@@ -82,7 +82,8 @@ QStatusBar::item { border: none; }
 QFrame#panel { background: @panel; border: none; border-left: 1px solid @line; }
 QLabel#heading { color: @note; font-weight: 600; }
 QLabel#note { color: @note; }
-QLabel#empty { color: @note; background: transparent; }
+QWidget#empty { background: transparent; }
+QWidget#empty QLabel { color: @note; background: transparent; }
 QLabel:disabled { color: @off; }
 QPushButton { background: @field; border: 1px solid @edge; border-radius: 5px; padding: 5px 12px; outline: none; }
 QPushButton:hover { border-color: @edge_hover; }
@@ -113,7 +114,8 @@ QFrame#tools QToolButton:checked:disabled { background: @accent_off; border-colo
 QFrame#tools QToolButton:disabled { color: @off; }
 QFrame#tools QToolButton:focus { border: 2px solid @accent_ring; padding: 2px 5px; }
 QFrame#mode { background: @panel; border: 1px solid @line; border-radius: 7px; }
-QLabel#nothing { background: @panel; border: 1px solid @line; border-radius: 7px; padding: 9px 14px; color: @status; }
+QFrame#nothing { background: @panel; border: 1px solid @line; border-radius: 7px; padding: 5px 10px; }
+QFrame#nothing QLabel { background: transparent; color: @status; }
 QLabel#reading { background: @panel; border: 1px solid @line; border-radius: 5px; padding: 4px 9px; color: @status; }
 QTableWidget#sheet { background: @field; border: 1px solid @line; border-radius: 5px; padding: 4px 8px; }
 QTableWidget#sheet::item { padding: 2px 0; }

@@ -156,6 +156,17 @@ void draw_pose(QPainter& painter)
   painter.drawPolyline(QPolygonF({ { 5.5, 18 }, { 10, 12.5 }, { 15, 17.5 } }));
 }
 
+/// A figure of bones, and a spark.
+void draw_auto_rig(QPainter& painter)
+{
+  dot(painter, { 8, 4.5 }, 1.9);
+  painter.drawPolyline(QPolygonF({ { 2.5, 8.5 }, { 8, 8.5 }, { 13.5, 8.5 } }));
+  painter.drawLine(QPointF(8, 6), QPointF(8, 12.5));
+  painter.drawPolyline(QPolygonF({ { 4, 18 }, { 8, 12.5 }, { 12, 18 } }));
+  painter.drawLine(QPointF(16, 1.5), QPointF(16, 6.5));
+  painter.drawLine(QPointF(13.5, 4), QPointF(18.5, 4));
+}
+
 QPixmap drawn(void (*draw)(QPainter&), const QColor& colour, int scale)
 {
   QPixmap pixmap(static_cast<int>(side) * scale, static_cast<int>(side) * scale);
@@ -175,7 +186,7 @@ QIcon tool_icon(const char* action)
     { "gizmo.move", draw_move }, { "gizmo.turn", draw_turn }, { "gizmo.scale", draw_scale },
     { "gizmo.all", draw_all }, { "gizmo.local", draw_local }, { "mode.pose", draw_pose },
     { "mode.rest", draw_rest }, { "mode.points", draw_points }, { "mode.bones", draw_bones },
-    { "mode.cage", draw_cage }, { "mode.regions", draw_regions } };
+    { "mode.cage", draw_cage }, { "mode.regions", draw_regions }, { "auto_rig", draw_auto_rig } };
   QIcon icon;
   const auto drawing = drawings.find(action);
   for (int scale = 1; drawing != drawings.end() && scale <= 3; ++scale)

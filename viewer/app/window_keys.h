@@ -23,13 +23,14 @@ struct WindowKey
   const char* text; ///< what it does
 };
 
-constexpr std::array<WindowKey, 43> window_keys{ {
+constexpr std::array<WindowKey, 45> window_keys{ {
   { "open", "anywhere", "Ctrl+O", "Open files" },
   { "save", "anywhere", "Ctrl+S", "Save the session" },
   { "save_as", "anywhere", "Ctrl+Shift+S", "Save the session under another name" },
   { "undo", "anywhere", "Ctrl+Z", "Undo" },
   { "redo", "anywhere", "Ctrl+Shift+Z, Ctrl+Y", "Redo" },
   { "bind", "anywhere", "Ctrl+B", "Bind" },
+  { "auto_rig", "anywhere", "Ctrl+Shift+B", "Auto-rig: make bones along the shape and bind it" },
   { "rest_pose", "anywhere", "Ctrl+R", "Take all handles back to rest" },
   { "", "anywhere", "1 … 7",
     "Way to pose: linear, dual quaternions, reduced ARAP, stretchable bones, centers of rotation, "

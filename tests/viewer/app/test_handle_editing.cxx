@@ -286,7 +286,7 @@ TEST_F(HandleWindow, HandlesComeFromTheShape)
 TEST_F(HandleWindow, PointsAreAddedToAMeshWithoutHandlesAndBound)
 {
   this->open_mesh();
-  auto* nothing = this->window.findChild<QLabel*>("nothing");
+  auto* nothing = this->window.findChild<QWidget*>("nothing");
   EXPECT_TRUE(nothing->isVisible());
   this->key(Qt::Key_A);
   EXPECT_EQ(this->editing()->mode(), HandleEditing::add_points);
@@ -739,7 +739,7 @@ TEST_F(HandleWindow, CommandsAreStepsWithNames)
   EXPECT_EQ(this->editing()->selected().size(), 3U);
   this->check("delete 3 handles", [&] { this->key(Qt::Key_Delete); });
   EXPECT_EQ(this->document()->handle_data(), nullptr);
-  EXPECT_TRUE(this->window.findChild<QLabel*>("nothing")->isVisible());
+  EXPECT_TRUE(this->window.findChild<QWidget*>("nothing")->isVisible());
 }
 
 TEST_F(HandleWindow, CageEdgesAreToggledBetweenTwoVertices)

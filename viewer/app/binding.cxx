@@ -157,7 +157,7 @@ void Binding::finish()
   Q_EMIT this->bound();
   const Report& report = result.status.report;
   this->panel_->set_note(result.status.ok()
-      ? tr("Bound in %1 s, certified to %2.")
+      ? tr("Bound in %1 s. Optimal to within %2.")
           .arg(report.number("seconds.total", 0.0), 0, 'f', 1)
           .arg(report.number("relative_gap", 0.0), 0, 'e', 1)
       : tr("Not converged: gap %1, residual %2.")

@@ -44,7 +44,7 @@ std::vector<Index> to_list(const std::vector<int>& handles)
 HandleCommands::HandleCommands(
   HandleEditing* editing, Document* document, QWidget* picture, QWidget* list)
   : QObject(editing), editing_(editing), document_(document), picture_(picture),
-    menu_(new QMenu(picture)), fixes_(new QMenu(tr("&Fixes"), picture)),
+    menu_(new QMenu(picture)), fixes_(new QMenu(tr("&Holds"), picture)),
     mirror_(new QMenu(tr("&Mirror"), picture)), parents_(new QMenu(tr("&Parent"), picture))
 {
   this->make_actions();
@@ -92,7 +92,7 @@ void HandleCommands::make_actions()
     this->mirror_->addAction(this->add(
       std::string("mirror.") + "xyz"[axis], axes[axis], [this, axis] { this->mirror(axis); }));
   }
-  const QString modes[] = { tr("&Full transform"), tr("&Position only"), tr("&Nothing (free)"),
+  const QString modes[] = { tr("&Position and rotation"), tr("Position &only"), tr("&Nothing"),
     tr("A bone's &tail"), tr("A bone's &ends"), tr("&Automatic") };
   for (const HandleMode mode : all_modes)
   {

@@ -195,7 +195,7 @@ void Inspection::tets_finished()
   this->choose_colours(this->colours_);
   this->update_panel();
   this->show_position();
-  this->panel_->set_note(tr("%L1 tets by %2 in %3 s.")
+  this->panel_->set_note(tr("%L1 tets in %3 s (method %2).")
                            .arg(qlonglong(this->tets_->tets()->GetNumberOfCells()))
                            .arg(QString::fromStdString(status.report.text("method")))
                            .arg(status.report.number("seconds.total", 0.0), 0, 'f', 1));

@@ -59,7 +59,7 @@ KeyStrip::KeyStrip(QWidget* parent) : QFrame(parent), track_(new KeyTrack(this))
   this->add_ = add(tr("Set key"), tr("Keeps the pose as it is, at this time (K)"));
   this->remove_ = add(tr("Delete"), tr("Takes away the key at this time"));
   line->addStretch(1);
-  this->smooth_ = add(tr("Smooth"),
+  this->smooth_ = add(tr("Curved"),
     tr("Between keys places go on a smooth curve through all of them, not straight.\n"
        "Turns take the shorter way round and sizes change evenly, either way."));
   this->smooth_->setObjectName("toggle");

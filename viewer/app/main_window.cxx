@@ -78,7 +78,7 @@ QString certificate_note(vtkPolyData* surface)
 {
   vtkDataArray* gaps = surface->GetFieldData()->GetArray("WeightsRelativeGap");
   return gaps && gaps->GetNumberOfTuples() > 0
-    ? MainWindow::tr("Bound, certified to %1.").arg(gaps->GetRange()[1], 0, 'e', 1)
+    ? MainWindow::tr("Bound. Optimal to within %1.").arg(gaps->GetRange()[1], 0, 'e', 1)
     : MainWindow::tr("Bound with the mesh's weights.");
 }
 } // namespace

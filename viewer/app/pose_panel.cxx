@@ -54,8 +54,8 @@ const struct
     QT_TRANSLATE_NOOP("PosePanel", "Full ARAP"),
     QT_TRANSLATE_NOOP(
       "PosePanel", "As rigid as possible, every vertex on its own. Needs no weights; slower.") },
-  { PoseMethod::variational, QT_TRANSLATE_NOOP("PosePanel", "Smooth"),
-    QT_TRANSLATE_NOOP("PosePanel", "Smooth surface"),
+  { PoseMethod::variational, QT_TRANSLATE_NOOP("PosePanel", "Fair"),
+    QT_TRANSLATE_NOOP("PosePanel", "Fair surface"),
     QT_TRANSLATE_NOOP(
       "PosePanel", "The smoothest surface through what handles hold. Needs no weights.") },
 };
@@ -77,6 +77,16 @@ QComboBox* combo(QWidget* parent, const char* key, const QStringList& items)
   return box;
 }
 } // namespace
+
+std::vector<PoseMethod> method_order()
+{
+  std::vector<PoseMethod> order;
+  for (const auto& entry : methods)
+  {
+    order.push_back(entry.method);
+  }
+  return order;
+}
 
 QString method_name(PoseMethod method)
 {
@@ -132,7 +142,7 @@ void PosePanel::add_methods(QVBoxLayout* column)
     const auto number = static_cast<int>(methods[k].method);
     segment->setToolTip(QString("%1 (%2)\n%3")
                           .arg(method_name(methods[k].method))
-                          .arg(number + 1)
+                          .arg(k + 1)
                           .arg(method_purpose(methods[k].method)));
     this->methods_->addButton(segment, number);
     row->addWidget(segment, 1);
@@ -238,11 +248,11 @@ void PosePanel::add_options(QVBoxLayout* column)
        "computed when they are chosen. The array EndpointWeights comes first."),
     { PoseMethod::stretchable_bones });
   this->pseudo_edges_ =
-    combo(this, "pose.pseudo_edges", { tr("nothing"), tr("drawn edges"), tr("automatic edges") });
+    combo(this, "pose.pseudo_edges", { tr("none"), tr("file's edges"), tr("automatic edges") });
   this->pseudo_edges_->setCurrentIndex(1);
-  this->option(column, tr("Points turn by"), this->pseudo_edges_,
-    tr("Points that are only dragged turn as the edges between them do:\n"
-       "edges of the handle file, or automatic ones along the shape."),
+  this->option(column, tr("Pseudo-edges"), this->pseudo_edges_,
+    tr("Points that are only moved rotate with the edges between them:\n"
+       "pseudo-edges of the handle file, or automatic ones along the shape."),
     skinning);
   this->single_ = check("pose.single_precision", tr("Single precision"));
   this->option(column, QString(), this->single_,

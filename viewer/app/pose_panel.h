@@ -127,6 +127,8 @@ private:
   ValueRow* damping_;
 };
 
+/// The methods in the order of buttons, menu entries, keys (1 to 7) and `bindpose deform --method`.
+std::vector<bindpose::PoseMethod> method_order();
 /// The name of a method in menus and lists, and in a sentence what it is for.
 QString method_name(bindpose::PoseMethod method);
 QString method_purpose(bindpose::PoseMethod method);

@@ -142,22 +142,22 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   list->setSpacing(6);
   list->addWidget(heading(tr("Selected handle"), handles));
   auto* mode_row = new QHBoxLayout;
-  this->mode_label_ = new QLabel(tr("Fixes"), handles);
+  this->mode_label_ = new QLabel(tr("Holds"), handles);
   mode_row->addWidget(this->mode_label_);
   this->mode_ = combo(handles);
   using bindpose::HandleMode;
   const std::pair<HandleMode, QString> modes[] = { { HandleMode::automatic, tr("automatic") },
-    { HandleMode::full, tr("full transform") }, { HandleMode::position, tr("position only") },
-    { HandleMode::free, tr("nothing (free)") }, { HandleMode::tail, tr("a bone's tail") },
-    { HandleMode::ends, tr("a bone's ends") } };
+    { HandleMode::full, tr("position and rotation") },
+    { HandleMode::position, tr("position only") }, { HandleMode::free, tr("nothing") },
+    { HandleMode::tail, tr("a bone's tail") }, { HandleMode::ends, tr("a bone's ends") } };
   for (const auto& [mode, text] : modes)
   {
     this->mode_->addItem(text, static_cast<int>(mode));
   }
   this->mode_->setToolTip(
-    tr("What the selected handle fixes; as-rigid-as-possible (ARAP) finds the rest.\n"
-       "Automatic: the position of a handle that was only moved, the full transform\n"
-       "of one that was rotated, scaled, stretched or twisted."));
+    tr("What the selected handle holds; as-rigid-as-possible (ARAP) methods find the rest.\n"
+       "Automatic: its position if it was only moved; rotation and scale as well\n"
+       "if it was rotated, scaled, stretched or twisted."));
   mode_row->addWidget(this->mode_, 1);
   list->addLayout(mode_row);
   this->fields_ = new HandleFields(handles);

@@ -94,7 +94,7 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
 
   column->addSpacing(10);
   column->addWidget(heading(tr("Isosurface"), this));
-  this->isosurface_ = new QCheckBox(tr("Show where w is"), this);
+  this->isosurface_ = new QCheckBox(tr("Isosurface where w is"), this);
   this->isosurface_->setObjectName("volume.isosurface");
   this->isosurface_->setToolTip(
     tr("The surface where the winding number w (1 inside, 0 outside) is this"));

@@ -33,8 +33,8 @@ constexpr std::array<WindowKey, 45> window_keys{ {
   { "auto_rig", "anywhere", "Ctrl+Shift+B", "Auto-rig: make bones along the shape and bind it" },
   { "rest_pose", "anywhere", "Ctrl+R", "Take all handles back to rest" },
   { "", "anywhere", "1 … 7",
-    "Way to pose: linear, dual quaternions, reduced ARAP, stretchable bones, centers of rotation, "
-    "full ARAP, smooth surface" },
+    "Way to pose: linear, dual quaternions, stretchable bones, centers of rotation, reduced ARAP, "
+    "full ARAP, fair surface" },
   { "play", "anywhere", "Space", "Play key frames, or pause" },
   { "set_key", "anywhere", "K", "Set a key frame" },
   { "keys", "anywhere", "?, F1", "This sheet" },
@@ -72,10 +72,10 @@ constexpr std::array<WindowKey, 45> window_keys{ {
   { "cage_edge", "handles", "Ctrl+E", "Join two cage vertices by an edge, or part them" },
   { "reset", "handles", "Ctrl+0", "Reset: back to rest" },
   { "fixes.auto", "handles", "Alt+0",
-    "Fixes what was done to it: dragged its position, rotated all" },
-  { "fixes.full", "handles", "Alt+1", "Fixes its full transform" },
-  { "fixes.position", "handles", "Alt+2", "Fixes its position only" },
-  { "fixes.free", "handles", "Alt+3", "Fixes nothing" },
+    "Holds what was done to it: its position, and its rotation if rotated" },
+  { "fixes.full", "handles", "Alt+1", "Holds position and rotation" },
+  { "fixes.position", "handles", "Alt+2", "Holds its position only" },
+  { "fixes.free", "handles", "Alt+3", "Holds nothing" },
 } };
 
 /// Of an action, as in the table; empty for none.

@@ -168,11 +168,14 @@ void WindowMenus::add_view_menu()
   this->add(view, tr("&Set a key"), "set_key", [window] { Q_EMIT window->strip()->key_wanted(); });
   view->addSeparator();
   this->methods_ = new QActionGroup(this);
-  for (int k = 0; k < bindpose::pose_method_count; ++k)
+  int key = Qt::Key_1;
+  for (const bindpose::PoseMethod each : method_order())
   {
-    QAction* method = this->add(view, method_name(static_cast<bindpose::PoseMethod>(k)), "",
-      [window, k] { window->set_method(k); });
-    method->setShortcut(QKeySequence(Qt::Key_1 + k));
+    const auto number = static_cast<int>(each);
+    QAction* method =
+      this->add(view, method_name(each), "", [window, number] { window->set_method(number); });
+    method->setData(number);
+    method->setShortcut(QKeySequence(key++));
     method->setCheckable(true);
     this->methods_->addAction(method);
   }
@@ -193,7 +196,13 @@ void WindowMenus::add_view_menu()
 
 void WindowMenus::show_method(int method)
 {
-  this->methods_->actions()[method]->setChecked(true);
+  for (QAction* action : this->methods_->actions())
+  {
+    if (action->data().toInt() == method)
+    {
+      action->setChecked(true);
+    }
+  }
 }
 
 void WindowMenus::update()

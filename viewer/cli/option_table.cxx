@@ -273,7 +273,7 @@ const std::vector<Verb>& verbs()
           "linear blend, dual quaternions, stretchable and twistable bones (along the point array "
           "EndpointWeights), centres of rotation, reduced as-rigid-as-possible; without weights: "
           "full as-rigid-as-possible, moving least squares, which knows nothing of the shape, or "
-          "the smooth surface between what handles and the point array Fixed hold" },
+          "the fair surface between what handles and the point array Fixed hold" },
         { "--single-precision", "", Kind::flag, "", "",
           "of lbs, dqs, stbs and cor: weights and transforms as floats: half the memory, up to "
           "twice "

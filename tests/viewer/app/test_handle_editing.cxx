@@ -819,7 +819,7 @@ TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
     }
     return all.join('|');
   }();
-  for (const char* text : { "Rename", "Colour", "Locked", "Fixes", "Parent", "Reset",
+  for (const char* text : { "Rename", "Colour", "Locked", "Holds", "Parent", "Reset",
          "Snap to the surface", "Mirror", "Delete" })
   {
     EXPECT_TRUE(texts.contains(text)) << text;

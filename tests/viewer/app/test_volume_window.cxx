@@ -247,7 +247,7 @@ TEST_F(VolumeWindow, TheLevelsSliderGivesTheSphereOfThatLevel)
   EXPECT_NEAR(level, 0.5, 1e-9);
   EXPECT_NEAR(place.norm(), 1.0, 0.01);
   EXPECT_NE(this->reading_at(Vec3(1.4, 1.4, 0)).indexOf("Slice"), -1);
-  this->find<QCheckBox>("Show where w is")->setChecked(false);
+  this->find<QCheckBox>("Isosurface where w is")->setChecked(false);
   EXPECT_EQ(this->view()->isosurface()->GetNumberOfPolys(), 0);
 }
 
@@ -365,7 +365,7 @@ TEST_F(VolumeWindow, AConstantFieldIsShown)
 {
   this->open(volume([](const Vec3&) { return 1.0; }));
   this->find<QCheckBox>("Show as a cloud")->setChecked(true);
-  this->find<QCheckBox>("Show where w is")->setChecked(true);
+  this->find<QCheckBox>("Isosurface where w is")->setChecked(true);
   this->render();
   EXPECT_NE(this->reading_at(Vec3(0.3, 0.2, 0)).indexOf("w = 1.000"), -1);
   EXPECT_EQ(this->view()->isosurface()->GetNumberOfPolys(), 0);

@@ -588,7 +588,18 @@ TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
   with->setCurrentIndex(0);
   this->render();
   EXPECT_EQ(this->window.viewport()->renderer()->GetViewport()[2], 1.0);
-  EXPECT_EQ(this->picture(), alone);
+  // But for what lies on the surface: how near that is depends on the depth in view.
+  const QImage again = this->picture();
+  ASSERT_EQ(again.size(), alone.size());
+  int apart = 0;
+  for (int y = 0; y < again.height(); ++y)
+  {
+    for (int x = 0; x < again.width(); ++x)
+    {
+      apart += again.pixel(x, y) != alone.pixel(x, y);
+    }
+  }
+  EXPECT_LT(apart, 20);
 }
 
 TEST_F(PosingWindow, TheBodyMovesPausesAndReplaysBitByBit)

@@ -154,11 +154,16 @@ Status Body::step(
   Status status;
   {
     Phase phase(context, "solve", 0.0, 0.5);
-    status = this->body_.step(context, effective_pose(pose, this->source_->handles, *this->bound_),
-      kernel_options(options, this->diagonal_));
+    const Pose effective = effective_pose(pose, this->source_->handles, *this->bound_);
+    status = this->body_.step(context, effective, kernel_options(options, this->diagonal_));
     if (!status.usable())
     {
       return status;
+    }
+    const std::string unused = unused_stretch(effective, stretch_use(this->bound_->method));
+    if (!unused.empty())
+    {
+      status.warnings.push_back(unused);
     }
     status.report.set("seconds.solve", phase.seconds());
   }

@@ -33,6 +33,13 @@ bool is_skinning(PoseMethod method)
   return needs_weights(method) && method != PoseMethod::reduced_arap;
 }
 
+StretchUse stretch_use(PoseMethod method)
+{
+  return method == PoseMethod::stretchable_bones ? StretchUse::all
+    : is_skinning(method)                        ? StretchUse::tails
+                                                 : StretchUse::ends;
+}
+
 bool is_slow(PoseMethod method)
 {
   return method == PoseMethod::full_arap || method == PoseMethod::variational;

@@ -4,6 +4,7 @@
 #include "pose/arap_energy.h"
 #include "pose/endpoint_weights.h"
 #include "pose/polyharmonic.h"
+#include "pose/pose.h"
 #include "pose/reduced_space.h"
 
 namespace bindpose
@@ -29,6 +30,8 @@ const char* to_string(PoseMethod method);
 bool needs_weights(PoseMethod method);
 /// Whether it blends transforms as they are given, and finds none.
 bool is_skinning(PoseMethod method);
+/// What it does with the stretch and the twist of bones.
+StretchUse stretch_use(PoseMethod method);
 /// Whether a solve takes as long as the mesh is large: it then runs beside the window.
 bool is_slow(PoseMethod method);
 

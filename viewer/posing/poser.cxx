@@ -32,8 +32,13 @@ Status Poser::solve(ExecutionContext& context, const Pose& pose, const PoseOptio
   Status status = check_pose(this->source().handles, pose);
   if (status.ok())
   {
-    status = this->pose(context, effective_pose(pose, this->source().handles, options), options,
-      most_iterations, posed);
+    const Pose effective = effective_pose(pose, this->source().handles, options);
+    status = this->pose(context, effective, options, most_iterations, posed);
+    const std::string unused = unused_stretch(effective, stretch_use(options.method));
+    if (status.usable() && !unused.empty())
+    {
+      status.warnings.push_back(unused);
+    }
   }
   return status;
 }

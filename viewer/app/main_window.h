@@ -141,6 +141,7 @@ private:
   void update_panel();
   void show_column(int column);
   bool open_file(const QString& path, const OpenedFile* read);
+  bool show_file(const OpenedFile& file, const QString& path);
   bool open_picture(vtkImageData* picture, const QString& name, const Source& source, bool whole);
   bool say(const QString& name, const bindpose::Status& status);
   void update_hint();
@@ -171,6 +172,7 @@ private:
   ElidedLabel* hint_ = nullptr;
   QLabel* empty_ = nullptr; // in the middle of the picture as long as nothing is open
   vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport has
+  QString read_notice_; // what the opened file lost
   QString hint_text_; // in the status line, unless the hand does something
 };
 

@@ -500,6 +500,12 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
       handle.name = (bone ? "b" : "p") + std::to_string(number);
     }
     handle.region_id = static_cast<Index>(cell_value(data, "RegionId", cell, 0));
+    const double ownership = cell_value(data, "Ownership", cell, 0);
+    if (ownership != 0.0 && ownership != 1.0 && ownership != 2.0)
+    {
+      return Status::invalid_input(where + " has an unknown Ownership; expected 0, 1 or 2");
+    }
+    handle.ownership = static_cast<Ownership>(static_cast<int>(ownership));
     parents.push_back(static_cast<Index>(cell_value(data, "Parent", cell, -1)));
     handle_of_cell[cell] = static_cast<Index>(handles.size());
     handles.push_back(handle);
@@ -540,6 +546,8 @@ vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles)
   kinds->SetName("HandleKind");
   parents->SetName("Parent");
   regions->SetName("RegionId");
+  vtkNew<vtkIntArray> ownerships;
+  ownerships->SetName("Ownership");
   // A polydata numbers its vertices before its lines: bones take the cells behind all others.
   std::vector<Index> order;
   for (const bool bones : { false, true })
@@ -576,6 +584,7 @@ vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles)
     kinds->InsertNextValue(static_cast<int>(handle.kind));
     parents->InsertNextValue(handle.parent < 0 ? -1 : cell_of[handle.parent]);
     regions->InsertNextValue(handle.region_id);
+    ownerships->InsertNextValue(static_cast<int>(handle.ownership));
   }
   // Edges of cages come behind the bones, faces behind all lines.
   vtkNew<vtkCellArray> faces;
@@ -596,6 +605,7 @@ vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles)
         kinds->InsertNextValue(static_cast<int>(HandleKind::cage_element));
         parents->InsertNextValue(-1);
         regions->InsertNextValue(0);
+        ownerships->InsertNextValue(0);
       }
     }
   }
@@ -607,6 +617,11 @@ vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles)
   result->GetCellData()->AddArray(kinds);
   result->GetCellData()->AddArray(parents);
   result->GetCellData()->AddArray(regions);
+  if (std::any_of(handles.begin(), handles.end(),
+        [](const Handle& handle) { return handle.ownership != Ownership::required; }))
+  {
+    result->GetCellData()->AddArray(ownerships);
+  }
   set_pose(result, {}, {});
   return result;
 }
@@ -720,7 +735,7 @@ std::vector<vtkObject*> bind_objects(vtkPolyData* handles)
 {
   std::vector<vtkObject*> objects{ handles->GetPoints() ? handles->GetPoints()->GetData() : nullptr,
     handles->GetVerts(), handles->GetLines(), handles->GetPolys() };
-  for (const char* name : { "HandleName", "HandleKind", "Parent", "RegionId" })
+  for (const char* name : { "HandleName", "HandleKind", "Parent", "RegionId", "Ownership" })
   {
     objects.push_back(handles->GetCellData()->GetAbstractArray(name));
   }

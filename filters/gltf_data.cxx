@@ -95,6 +95,7 @@ public:
       }
     }
     this->extent_ = box.diagonal() > 0.0 ? box.diagonal() : 1.0;
+    this->largest_ = skin.weights.colwise().maxCoeff();
   }
 
   double extent() const { return this->extent_; }
@@ -108,6 +109,7 @@ public:
       Handle handle = this->handle_of(j);
       handle.name = this->skin_.joints[j].name;
       handle.parent = this->skin_.joints[j].parent;
+      handle.ownership = this->moves_nothing(j) ? Ownership::none : Ownership::optional;
       for (int k = 1; this->taken(handles, handle); ++k)
       {
         const Vec3 along = this->skin_.joints[j].rest.linear().col(1).stableNormalized();
@@ -121,6 +123,14 @@ public:
   }
 
 private:
+  /// Whether the joint has no weights, although others have some: a control bone. A skin that gives
+  /// all vertices to one joint is a placeholder for weights that are still to be made.
+  bool moves_nothing(std::size_t j) const
+  {
+    return (this->largest_.array() > 0.0).count() > 1 &&
+      !(this->largest_[static_cast<Index>(j)] > 0.0);
+  }
+
   Handle handle_of(std::size_t j) const
   {
     const GltfJoint& joint = this->skin_.joints[j];
@@ -175,6 +185,7 @@ private:
   const GltfSkin& skin_;
   std::vector<std::vector<Index>> children_;
   double extent_ = 1.0;
+  Eigen::RowVectorXd largest_; ///< weight of each joint
 };
 
 /// Handle datasets have bones behind all others. order[i]: the joint of handle i.

@@ -82,6 +82,19 @@ Report::Value values_of(const std::string& key, Array* array)
 }
 } // namespace
 
+bool measures_run(const std::string& key)
+{
+  const std::string name = key.substr(key.rfind('.') + 1);
+  const auto ends_in = [&name](const std::string& end)
+  {
+    return name.size() >= end.size() &&
+      name.compare(name.size() - end.size(), end.size(), end) == 0;
+  };
+  return key.compare(0, 8, "seconds.") == 0 || ends_in("seconds") ||
+    name == "microseconds_per_iteration" || name == "peak_memory_bytes" ||
+    name == "memory_estimate_bytes";
+}
+
 void attach_report(vtkDataObject* data, const Report& report)
 {
   vtkFieldData* field = data->GetFieldData();
@@ -101,9 +114,12 @@ void attach_report(vtkDataObject* data, const Report& report)
   }
   for (const auto& [key, value] : report.entries())
   {
-    vtkSmartPointer<vtkAbstractArray> array = make_array(value);
-    array->SetName((prefix + key).c_str());
-    field->AddArray(array);
+    if (!measures_run(key))
+    {
+      vtkSmartPointer<vtkAbstractArray> array = make_array(value);
+      array->SetName((prefix + key).c_str());
+      field->AddArray(array);
+    }
   }
 }
 

@@ -4,6 +4,8 @@
 #include "BindposeFiltersModule.h" // for export macro
 #include "base/status.h"
 
+#include <string>
+
 class vtkDataObject;
 
 namespace bindpose
@@ -11,8 +13,13 @@ namespace bindpose
 
 class ExecutionContext;
 
+/// Whether an entry of a report measures the run instead of its result: seconds, microseconds,
+/// bytes of memory. All other entries are the same for every run with the same input.
+BINDPOSEFILTERS_EXPORT bool measures_run(const std::string& key);
+
 /// Replaces all `Report.*` field data arrays of the data by the report's entries: integers as
-/// vtkIdTypeArray, numbers as vtkDoubleArray, texts as vtkStringArray, one tuple a value.
+/// vtkIdTypeArray, numbers as vtkDoubleArray, texts as vtkStringArray, one tuple per value. Entries
+/// that measure the run are left out, so that equal results are equal files.
 BINDPOSEFILTERS_EXPORT void attach_report(vtkDataObject* data, const Report& report);
 
 /// The report that a data object carries; empty when it carries none.

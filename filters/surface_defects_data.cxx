@@ -21,7 +21,7 @@ vtkSmartPointer<vtkPolyData> to_polydata(const std::vector<DefectPlace>& places,
 {
   vtkNew<vtkPoints> used;
   used->SetDataTypeToDouble();
-  vtkNew<vtkIdTypeArray> point_ids, cell_ids, crossed_ids, components;
+  vtkNew<vtkIdTypeArray> point_ids, cell_ids, crossed_ids, components, inward;
   vtkNew<vtkIntArray> defects;
   vtkNew<vtkStringArray> names;
   point_ids->SetName("OriginalPointIds");
@@ -30,6 +30,7 @@ vtkSmartPointer<vtkPolyData> to_polydata(const std::vector<DefectPlace>& places,
   cell_ids->SetName("OriginalCellIds");
   crossed_ids->SetName("CrossedCellIds");
   components->SetName("Component");
+  inward->SetName("InwardComponent");
   std::array<vtkNew<vtkCellArray>, 3> cells; // by number of vertices
   std::unordered_map<Index, vtkIdType> id_of;
   const auto cell_of = [&](Index triangle)
@@ -55,6 +56,7 @@ vtkSmartPointer<vtkPolyData> to_polydata(const std::vector<DefectPlace>& places,
     cell_ids->InsertNextValue(cell_of(place.triangle));
     crossed_ids->InsertNextValue(cell_of(place.crossed));
     components->InsertNextValue(place.component);
+    inward->InsertNextValue(place.inward);
   }
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->SetPoints(used);
@@ -63,9 +65,9 @@ vtkSmartPointer<vtkPolyData> to_polydata(const std::vector<DefectPlace>& places,
   result->SetPolys(cells[2]);
   result->GetPointData()->AddArray(point_ids);
   result->GetCellData()->SetScalars(defects);
-  for (vtkAbstractArray* array :
-    { static_cast<vtkAbstractArray*>(names), static_cast<vtkAbstractArray*>(cell_ids),
-      static_cast<vtkAbstractArray*>(crossed_ids), static_cast<vtkAbstractArray*>(components) })
+  for (vtkAbstractArray* array : { static_cast<vtkAbstractArray*>(names),
+         static_cast<vtkAbstractArray*>(cell_ids), static_cast<vtkAbstractArray*>(crossed_ids),
+         static_cast<vtkAbstractArray*>(components), static_cast<vtkAbstractArray*>(inward) })
   {
     result->GetCellData()->AddArray(array);
   }

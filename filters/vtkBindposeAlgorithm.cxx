@@ -56,6 +56,11 @@ std::string vtkBindposeAlgorithm::GetReportJSON()
   return bindpose::to_json(this->LastStatus->report);
 }
 
+const bindpose::Report& vtkBindposeAlgorithm::GetReport()
+{
+  return this->LastStatus->report;
+}
+
 std::string vtkBindposeAlgorithm::GetReportJSONOf(vtkDataObject* data)
 {
   return bindpose::to_json(bindpose::read_report(data));

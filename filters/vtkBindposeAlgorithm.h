@@ -5,8 +5,9 @@
  * A subclass implements Execute(): validate, convert, call the kernel, attach arrays, and return
  * the kernel's status. This class does the rest, so that every filter keeps the same contract:
  *
- * - **Report.** Every output carries field data arrays `Report.KEY` (status, message, warnings,
- *   counts, residuals, seconds per phase …); GetReportJSON() gives the same as a JSON object.
+ * - **Report.** GetReportJSON() returns what was measured (status, message, warnings, counts,
+ *   residuals, seconds per phase, memory …) as a JSON object. Every output carries it as field data
+ *   arrays `Report.KEY`, without seconds and memory: equal results are equal files.
  * - **Failure.** A status that is neither ok nor not_converged calls vtkErrorMacro, sets the error
  *   code and leaves all outputs empty but for the report. The pipeline goes on (RequestData
  *   returns 1), so that downstream filters do not keep stale output: each of ours repeats the
@@ -67,7 +68,11 @@ public:
   /// Report of the last execution as a JSON object; "{}" before the first.
   std::string GetReportJSON();
 
-  /// The same of the report that a data object carries, whoever made it; "{}" when it has none.
+  /// The same for C++.
+  VTK_WRAPEXCLUDE const bindpose::Report& GetReport();
+
+  /// The report that a data object carries, whoever made it, as a JSON object; "{}" when it has
+  /// none. It has no seconds.
   static std::string GetReportJSONOf(vtkDataObject* data);
 
   ///@{

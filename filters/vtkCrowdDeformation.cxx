@@ -171,6 +171,11 @@ Status vtkCrowdDeformation::Execute(
 
   Crowd& crowd = this->Internal->crowd;
   Status status;
+  std::string unused;
+  for (std::size_t i = 0; i < instances.poses.size() && unused.empty(); ++i)
+  {
+    unused = unused_stretch(instances.poses[i], StretchUse::ends);
+  }
   {
     Phase phase(context, "solve", 0.8, 0.9);
     ReducedSolveOptions options;
@@ -256,6 +261,10 @@ Status vtkCrowdDeformation::Execute(
     }
   }
   status.warnings.insert(status.warnings.begin(), told.warnings.begin(), told.warnings.end());
+  if (!unused.empty())
+  {
+    status.warnings.push_back(unused);
+  }
   return this->WithBindReport(status);
 }
 

@@ -11,27 +11,31 @@
  * texture coordinates (`TCoords`) and vertex colours (`Colors`) where the file has them.
  * **Output 1**: the handles (see filters/README.md). A joint that vtkGLTFSkinWriter made of a
  * handle becomes that handle again, unless it was bound anew at another place; of others those with
- * children become bones to the middle of these, those without points. Their rest places are those
+ * children become bones to the middle of these, those without points. Their
+ * `Ownership` is 1, so that a bind skips helper joints that share all vertices with others, and 2
+ * for joints without weights in the file (control bones). Their rest places are those
  * of the inverse bind matrices, their `Transform` is how the nodes stand (Frame: how the animation
  * has them): posing the mesh by linear blend skinning gives what a glTF viewer shows.
  *
  * **Animation**: the first that moves a joint, a frame a key where keys are evenly spaced, else 24
  * a second; as GetPoseJSON(), which vtkPoseHandles takes, or frame by frame with Frame. A pose file
- * has no word for uneven scales and shears: a warning names handles that have some.
+ * has no word for uneven scales and shears: one warning counts the handles that have some. Scales
+ * that differ by roundoff of the file (1e-5 of the matrix) are even.
  *
  * **Time.** With an animation and Frame -1 the reader is a source of time: it offers the times of
  * the frames, and who asks for a time gets the handles of the frame that is on then. The mesh is
  * the same at all times, so filters behind it keep their bind. The file is read anew when it has
  * changed.
  *
- * Not read: morph targets (a warning counts them), pictures, materials, cameras. Compressed meshes
- * are an error.
+ * Not read: other animations, materials, textures, morph targets, cameras, lights. One warning
+ * lists what the file has of these. Compressed meshes are an error.
  *
  * A missing, truncated or broken file gives INVALID_INPUT with one sentence that names it; never a
  * crash, never half a mesh.
  *
  * Report: counts.vertices, counts.triangles, counts.joints, counts.skins, counts.frames,
- * counts.unweighted_vertices, counts.skipped_primitives, counts.morph_targets, sets,
+ * counts.animations, counts.materials, counts.unweighted_vertices, counts.skipped_primitives,
+ * counts.morph_targets, not_kept[] (what the warning lists), sets,
  * frames_per_second, handles[].name, handles[].kind.
  *
  * @sa vtkGLTFSkinWriter vtkMeshFileReader vtkHandleFileReader

@@ -234,16 +234,23 @@ Status take_poses(const std::string& path, const Handles& handles, const Pose& b
     return status;
   }
   std::vector<std::string> made_warnings; // the same of every frame, mostly
+  std::string unused;
   for (const PoseEdits& edits : sequence.frames)
   {
     std::vector<Affine> transforms;
-    const Status made = skinning_transforms(handles, apply_edits(edits, handles, base), transforms);
+    const Pose pose = apply_edits(edits, handles, base);
+    const Status made = skinning_transforms(handles, pose, transforms);
     made_warnings = made.warnings;
+    unused = unused.empty() ? unused_stretch(pose, StretchUse::tails) : unused;
     GltfFrame frame;
     frame.posed = posed_joints(handles, transforms);
     skin.frames.push_back(std::move(frame));
   }
   status.warnings.insert(status.warnings.end(), made_warnings.begin(), made_warnings.end());
+  if (!unused.empty())
+  {
+    status.warnings.push_back(unused);
+  }
   skin.frames_per_second = sequence.frames_per_second;
   return status;
 }
@@ -338,6 +345,10 @@ Status vtkGLTFSkinWriter::Execute(
       : this->Animation == MORPH
       ? Status::invalid_input("an animation of morph targets needs frames, not a pose file")
       : take_poses(this->PoseFileName, handles, pose, skin);
+  }
+  else if (const std::string unused = unused_stretch(pose, StretchUse::tails); !unused.empty())
+  {
+    status.warnings.push_back(unused);
   }
   if (!status.usable())
   {

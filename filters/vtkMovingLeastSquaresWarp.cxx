@@ -31,6 +31,11 @@ Status vtkMovingLeastSquaresWarp::Bind(const PoseInput& input, ExecutionContext&
   return this->Internal->warp.bind(context, options, input.points, input.handles);
 }
 
+StretchUse vtkMovingLeastSquaresWarp::GetStretchUse()
+{
+  return StretchUse::tails;
+}
+
 Status vtkMovingLeastSquaresWarp::Deform(
   const PoseInput& input, ExecutionContext& context, PosedPoints& posed)
 {

@@ -48,6 +48,7 @@ protected:
 
   bool NeedsWeights() const override { return false; }
   bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) override;
+  bindpose::StretchUse GetStretchUse() override;
   bindpose::Status Deform(
     const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) override;
 

@@ -121,10 +121,20 @@ Status vtkPoseAlgorithm::Execute(
     }
   }
 
+  const std::string unused = unused_stretch(pose_input.pose, this->GetStretchUse());
+  if (!unused.empty())
+  {
+    deformed.warnings.push_back(unused);
+  }
   deformed.report.merge(stretch.report);
   deformed.warnings.insert(
     deformed.warnings.end(), stretch.warnings.begin(), stretch.warnings.end());
   return this->WithBindReport(deformed);
+}
+
+StretchUse vtkPoseAlgorithm::GetStretchUse()
+{
+  return StretchUse::ends;
 }
 
 Status vtkPoseAlgorithm::DeformNormals(

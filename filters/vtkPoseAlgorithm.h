@@ -13,6 +13,9 @@
  * counts.inverted_elements (turned inside out; of triangles only in flat shapes, z = const),
  * counts.stretched_elements (beyond StretchLimit), largest_stretch and smallest_stretch (singular
  * values of the deformation gradient, 1 at rest). Inverted elements are a warning.
+ *
+ * The `Stretch` and `Twist` of bones are used by stretchable bones (vtkSkinningDeformation) only. A
+ * warning says so if a pose has some and the method ignores them.
  */
 
 #ifndef vtkPoseAlgorithm_h
@@ -21,6 +24,11 @@
 #include "BindposeFiltersModule.h" // for export macro
 #include "vtkBindAlgorithm.h"
 #include <memory> // for std::unique_ptr
+
+namespace bindpose
+{
+enum class StretchUse : int;
+} // namespace bindpose
 
 class BINDPOSEFILTERS_EXPORT vtkPoseAlgorithm : public vtkBindAlgorithm
 {
@@ -63,6 +71,10 @@ protected:
   /// normals of the posed polygons.
   virtual bindpose::Status DeformNormals(const PoseInput& input,
     bindpose::ExecutionContext& context, const PosedPoints& posed, PosedPoints& normals);
+
+  /// What the method does with `Stretch` and `Twist` of the bones; a warning tells when a pose has
+  /// some that it ignores. Here: what methods that find transforms do.
+  virtual bindpose::StretchUse GetStretchUse();
 
   bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
     bindpose::ExecutionContext& context) override;

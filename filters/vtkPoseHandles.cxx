@@ -237,6 +237,7 @@ Status vtkPoseHandles::TakeGLTF(const Handles& handles, const double* time, Pose
   {
     return status;
   }
+  const std::vector<std::string> warnings = status.warnings;
   const GltfData& data = this->Internal->gltf.data();
   std::vector<Pose> standing; // of the nodes, without an animation
   if (data.poses.empty())
@@ -281,8 +282,17 @@ Status vtkPoseHandles::TakeGLTF(const Handles& handles, const double* time, Pose
     pose[h].transform = frames[frame][joint - data.handle_list.begin()].transform;
     known += 1;
   }
-  return known > 0 ? Status()
-                   : Status::invalid_input(path + ": none of its joints has the name of a handle");
+  if (known == 0)
+  {
+    return Status::invalid_input(path + ": none of its joints has the name of a handle");
+  }
+  Status taken;
+  if (this->Internal->warned_of != path)
+  {
+    taken.warnings = warnings;
+    this->Internal->warned_of = path;
+  }
+  return taken;
 }
 
 void vtkPoseHandles::PrintSelf(ostream& os, vtkIndent indent)

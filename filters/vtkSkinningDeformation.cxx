@@ -186,6 +186,11 @@ Status vtkSkinningDeformation::FindTransforms(const PoseInput& input, ExecutionC
   return status;
 }
 
+StretchUse vtkSkinningDeformation::GetStretchUse()
+{
+  return this->Method == STRETCHABLE_BONES ? StretchUse::all : StretchUse::tails;
+}
+
 Status vtkSkinningDeformation::Deform(
   const PoseInput& input, ExecutionContext& context, PosedPoints& posed)
 {

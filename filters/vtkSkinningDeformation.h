@@ -126,6 +126,7 @@ protected:
 
   std::vector<std::string> BindArrays() override;
   bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) override;
+  bindpose::StretchUse GetStretchUse() override;
   bindpose::Status Deform(
     const PoseInput& input, bindpose::ExecutionContext& context, PosedPoints& posed) override;
   bindpose::Status DeformNormals(const PoseInput& input, bindpose::ExecutionContext& context,

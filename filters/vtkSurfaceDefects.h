@@ -19,13 +19,15 @@
  * | 8 | inward component | of a closed component that is inside out |
  *
  * `OriginalCellIds` and `CrossedCellIds` (the input's cell, and the lowest one that it crosses; -1:
- * none), `Component` (number of the connected component, -1: of none); point array
- * `OriginalPointIds`. Edges, components and crossings are those of the surface with equal points
- * welded, so that files that repeat the corners of every triangle are not all boundary.
+ * none), `Component` (number of the connected component, -1: of none), `InwardComponent` (number of
+ * the component that is inside out, -1: none); point array `OriginalPointIds`. Edges, components
+ * and crossings are those of the surface with equal points welded, so that files that repeat the
+ * corners of every triangle are not all boundary.
  *
  * Report: counts.{vertices, triangles, duplicate_vertices, unreferenced_vertices,
  * degenerate_triangles, duplicate_triangles, boundary_edges, nonmanifold_edges, misoriented_edges,
- * components, inward_components, self_intersections, triangulated_cells, ignored_cells}, closed
+ * components, inward_components, self_intersections (pairs), crossing_triangles,
+ * triangulated_cells, ignored_cells}, closed
  * ("yes" when every edge's directions cancel), seconds.*.
  *
  * INVALID_INPUT for a dataset without 2D cells, ids out of range, coordinates that are not finite.

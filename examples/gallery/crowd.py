@@ -126,7 +126,7 @@ def make(options):
     for frame in range(1, 6 if options.small else 21):
         tell(instances, names, dragged, size, frame)
         crowd.Update()  # not all need converge within ten iterations: they go on in the next frame
-        reports.append(bindpose.report(crowd.GetOutput()))
+        reports.append(bindpose.report(crowd))
     solve, skin = (1e3 * float(min(report["seconds"][part] for report in reports)) for part in ("solve", "skin"))
     assert crowd.GetNumberOfBinds() == 1
     draw(options, crowd.GetOutput(), [

@@ -1,5 +1,6 @@
 """Between numpy arrays and VTK datasets."""
 
+import contextlib
 from typing import NamedTuple
 
 import numpy as np
@@ -193,7 +194,19 @@ def shallow_copy(data):
     """A dataset of the same kind that shares the arrays and may get more of its own."""
     copy = data.NewInstance()
     copy.ShallowCopy(data)
+    remember_run(copy, run_of(data))
     return copy
+
+
+def remember_run(data, report):
+    """Keep a filter's whole report with its output: the dataset's own arrays have no seconds."""
+    with contextlib.suppress(AttributeError):  # classes of others may refuse attributes
+        data._bindpose_run = report  # pylint: disable=protected-access
+
+
+def run_of(data):
+    """What `remember_run` kept; empty for data from files and copies by others."""
+    return getattr(data, "_bindpose_run", {})
 
 
 def copy_report(source, target):
@@ -203,3 +216,4 @@ def copy_report(source, target):
         array = arrays.GetAbstractArray(i)
         if (array.GetName() or "").startswith("Report."):
             target.GetFieldData().AddArray(array)
+    remember_run(target, {**run_of(target), **run_of(source)})

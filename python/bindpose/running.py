@@ -7,6 +7,7 @@ import threading
 import warnings as python_warnings
 
 from .errors import BindposeError, BindposeWarning, Cancelled, InvalidInput, NotConvergedWarning, Unavailable
+from .meshes import remember_run, run_of
 
 _ERRORS = {error.status: error for error in (InvalidInput, Cancelled, Unavailable, BindposeError)}
 
@@ -84,6 +85,8 @@ def run(algorithm, progress=None):
         raise failed[0]
     status = algorithm.GetStatusAsString()
     result = json.loads(algorithm.GetReportJSON())
+    for port in range(algorithm.GetNumberOfOutputPorts()):
+        remember_run(algorithm.GetOutputDataObject(port), result)
     if status not in ("ok", "not_converged"):
         raise _ERRORS[status](algorithm.GetStatusMessage(), result)
     for sentence in result.get("warnings", []):
@@ -98,17 +101,31 @@ def report(result):
 
     Parameters
     ----------
-    result : vtkDataObject, Array or Tets
-        What a function or filter of this package returned, or a file read back.
+    result : vtkDataObject, vtkBindposeAlgorithm, Array or Tets
+        What a function of this package returned, a filter, its output, or a file read back.
 
     Returns
     -------
     dict
         Nested by the dots of the keys (``report(w)["seconds"]["solve"]``); empty for data that
-        carries none.
+        carries none. Files and outputs of filters that you updated yourself have no seconds and no
+        memory, so that equal results are equal files; the filter has them.
     """
     if hasattr(result, "report"):
         return result.report
+    if hasattr(result, "GetReportJSON"):
+        return json.loads(result.GetReportJSON())
     from .BindposeFilters import vtkBindposeAlgorithm  # after VTK, when somebody asks
 
-    return json.loads(vtkBindposeAlgorithm.GetReportJSONOf(result))
+    own = json.loads(vtkBindposeAlgorithm.GetReportJSONOf(result))
+    whole = run_of(result)
+    return whole if own and _is_part(own, whole) else own
+
+
+def _is_part(own, whole):
+    """Whether the data still is what the filter made: it may have been updated again since."""
+    if isinstance(own, dict):
+        return isinstance(whole, dict) and all(key in whole and _is_part(own[key], whole[key]) for key in own)
+    if isinstance(own, list):
+        return isinstance(whole, list) and len(own) == len(whole) and all(map(_is_part, own, whole))
+    return own == whole

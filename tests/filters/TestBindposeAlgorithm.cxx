@@ -59,13 +59,20 @@ TEST(BindposeAlgorithm, ReportsOnTheOutput)
   EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::OK);
   EXPECT_EQ(filter->GetStatusAsString(), "ok");
   EXPECT_EQ(filter->GetStatusMessage(), "");
-  const Report report = read_report(filter->GetOutput());
+  const Report& report = filter->GetReport();
   EXPECT_EQ(report.text("status"), "ok");
   EXPECT_EQ(report.number("iterations", 0), 7);
   EXPECT_GE(report.number("seconds.solve", -1), 0.0);
   EXPECT_GE(report.number("seconds.total", -1), report.number("seconds.solve", 0));
   EXPECT_GT(report.number("peak_memory_bytes", 0), 1e6);
   EXPECT_THAT(filter->GetReportJSON(), HasSubstr("\"iterations\""));
+  EXPECT_THAT(filter->GetReportJSON(), HasSubstr("\"peak_memory_bytes\""));
+  const Report in_data = read_report(filter->GetOutput());
+  EXPECT_EQ(in_data.number("iterations", 0), 7);
+  for (const auto& entry : in_data.entries())
+  {
+    EXPECT_FALSE(measures_run(entry.first)) << entry.first << ": equal results are equal files";
+  }
   ASSERT_EQ(listener->warnings.size(), 1u);
   EXPECT_THAT(listener->warnings[0], HasSubstr("the input is old"));
   EXPECT_TRUE(listener->errors.empty());

@@ -127,9 +127,15 @@ TEST(Conversion, ReportsSurviveFieldData)
   report.set("message", "the surface is empty");
   report.set("counts.vertices", 8);
   report.set("handles[].name", Report::Value(std::vector<std::string>{ "only" }));
-  report.set("seconds.solve", Report::Value(0.25));
+  report.set("largest_stretch", Report::Value(0.25));
+  Report of_run = report;
+  for (const char* key : { "seconds.solve", "rungs[].seconds", "microseconds_per_iteration",
+         "peak_memory_bytes", "memory_estimate_bytes" })
+  {
+    of_run.set(key, Report::Value(0.125));
+  }
   vtkNew<vtkPolyData> data;
-  attach_report(data, report);
+  attach_report(data, of_run);
   const Report back = read_report(data);
   EXPECT_EQ(back.entries(), report.entries());
   const Status status = upstream_failure(data);

@@ -112,10 +112,7 @@ protected:
     auto* data = all ? vtkPointSet::SafeDownCast(all->GetPartition(i, 0)) : nullptr;
     return data ? Points(to_points(data).view()) : Points();
   }
-  double report(const char* key)
-  {
-    return read_report(this->filter->GetOutput()).number(key, -1.0);
-  }
+  double report(const char* key) { return this->filter->GetReport().number(key, -1.0); }
 
   test::Rig rig;
   vtkSmartPointer<vtkUnstructuredGrid> tets;

@@ -81,7 +81,7 @@ TEST_F(FullARAPFilter, HandlesHaveTheirTransformsOnTetsAndSurfaces)
     this->filter->Update();
     ASSERT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::OK)
       << this->filter->GetStatusMessage();
-    const Report report = read_report(this->filter->GetOutput());
+    const Report& report = this->filter->GetReport();
     EXPECT_EQ(report.text("method"), volume ? "tetrahedra" : "spokes_and_rims");
     EXPECT_GT(report.number("energy", 0), 0.0);
     EXPECT_GE(report.number("iterations", 0), 1);

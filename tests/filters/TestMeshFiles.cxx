@@ -185,7 +185,7 @@ TEST_F(MeshFiles, ReportsSurviveFiles)
   report.set("message", "");
   report.set("counts.handles", 2);
   report.set("handles[].name", Report::Value(std::vector<std::string>{ "left hand", "" }));
-  report.set("seconds.solve", Report::Value(0.125));
+  report.set("relative_gap", Report::Value(0.125));
   attach_report(surface, report);
   vtkNew<vtkStringArray> names;
   names->SetName("Names");

@@ -70,8 +70,7 @@ protected:
   Points output() { return to_points(this->filter->GetOutput()).view(); }
   double report(const char* key)
   {
-    return read_report(this->filter->GetOutput())
-      .number(key, std::numeric_limits<double>::quiet_NaN());
+    return this->filter->GetReport().number(key, std::numeric_limits<double>::quiet_NaN());
   }
   void fails_with(const std::string& words)
   {

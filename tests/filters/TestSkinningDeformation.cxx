@@ -369,15 +369,15 @@ TEST_F(SkinningDeformation, CentersAreMadeOnceAndCanBeCancelled)
 {
   this->pose->SetPoseJSON(turn_upper(90.0, "[0, 0, 1]"));
   this->filter->Update();
-  EXPECT_EQ(read_report(this->filter->GetOutput()).find("seconds.centers"), nullptr);
+  EXPECT_EQ(this->filter->GetReport().find("seconds.centers"), nullptr);
   this->filter->SetMethodToCentersOfRotation();
   this->filter->Update();
-  Report report = read_report(this->filter->GetOutput());
+  Report report = this->filter->GetReport();
   EXPECT_NE(report.find("seconds.centers"), nullptr);
   EXPECT_GT(report.number("counts.centers", 0), 0);
   this->pose->SetPoseJSON(turn_upper(120.0, "[0, 0, 1]"));
   this->filter->Update();
-  report = read_report(this->filter->GetOutput());
+  report = this->filter->GetReport();
   EXPECT_EQ(report.find("seconds.centers"), nullptr) << "kept";
   EXPECT_GT(report.number("counts.centers", 0), 0);
   EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);

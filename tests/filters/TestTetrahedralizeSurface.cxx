@@ -90,7 +90,7 @@ TEST(TetrahedralizeSurface, ArraysAndReport)
   EXPECT_NEAR(report.number("volume", -1), volume_of(grid), 1e-12);
   EXPECT_GT(report.number("winding_volume", -1), 0.0);
   EXPECT_GT(report.number("min_dihedral_angle", -1), 0.0);
-  EXPECT_GE(report.number("seconds.tetrahedralize", -1), 0.0);
+  EXPECT_GE(filter->GetReport().number("seconds.tetrahedralize", -1), 0.0);
   EXPECT_NE(report.find("rungs[].name"), nullptr);
 }
 

@@ -73,7 +73,7 @@ public:
   {
     return vtkDoubleArray::SafeDownCast(this->output()->GetPointData()->GetArray("Weights"));
   }
-  Report report() { return read_report(this->filter->GetOutput()); }
+  Report report() { return this->filter->GetReport(); }
 
   vtkNew<Filter> filter;
   vtkNew<Listener> listener;

@@ -1,6 +1,9 @@
 """Files: round trips, and errors as exceptions."""
 
+import warnings
+
 import bindpose
+import foreign_rig
 import numpy as np
 import pytest
 import shapes
@@ -47,6 +50,23 @@ def test_rigs(tmp_path):
         bindpose.write_rig(mesh, tmp_path / "h.tgf", tmp_path / "rig.glb")
     with pytest.raises(bindpose.InvalidInput, match="animation"):
         bindpose.write_rig(mesh, tmp_path / "h.tgf", tmp_path / "rig.glb", animation="shapes")
+
+
+def test_what_a_character_loses_is_a_warning(tmp_path):
+    path = tmp_path / "c.gltf"
+    foreign_rig.write_foreign_rig(path, animations=3)
+    for read in (bindpose.read, bindpose.read_rig):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            read(path)
+        texts = [str(each.message) for each in caught if issubclass(each.category, bindpose.BindposeWarning)]
+        assert len(texts) == 1 and "does not keep 2 of 3 animations" in texts[0] and "2 materials" in texts[0]
+    with pytest.warns(bindpose.BindposeWarning):
+        rig = bindpose.read_rig(path)
+    ownership = rig.handles.GetCellData().GetArray("Ownership")
+    names = rig.handles.GetCellData().GetAbstractArray("HandleName")
+    idle = [names.GetValue(k) for k in range(names.GetNumberOfValues()) if ownership.GetTuple1(k) == 2]
+    assert sorted(idle) == sorted(foreign_rig.WITHOUT_WEIGHTS)
 
 
 def test_existing_files_are_kept(tmp_path):

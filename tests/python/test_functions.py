@@ -3,6 +3,7 @@
 import json
 import os
 import subprocess
+import warnings
 
 import bindpose
 import numpy as np
@@ -217,6 +218,18 @@ def test_deform_is_the_programs(tmp_path, method):
     posed = bindpose.deform(mesh, handles, tmp_path / "p.json", method=method)
     assert isinstance(posed, vtkPolyData) and np.array_equal(points_of(posed), ours)
     assert np.array_equal(points_of(mesh), np.array(BAR[0]))  # the caller's stays as it is
+
+
+def test_an_ignored_twist_is_a_warning():
+    handles = bindpose.handles(bones=BONES)
+    x = np.array(BAR[0])[:, 0] / 6
+    w = np.stack([1 - x, x], axis=1)
+    pose = {"handles": {"b2": {"twist": [0, 30]}}}
+    with pytest.warns(bindpose.BindposeWarning, match="stretches or twists bones"):
+        bindpose.deform(BAR, handles, pose, weights=w)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        bindpose.deform(BAR, handles, pose, method="stbs", weights=w)
 
 
 def test_rotations_are_arrays_of_datasets():

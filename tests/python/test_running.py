@@ -29,6 +29,26 @@ def test_progress_has_phases_and_grows():
     assert fractions == sorted(fractions) and fractions[-1] <= 1
 
 
+def test_seconds_are_in_the_report_and_not_in_the_data(tmp_path):
+    filter_ = field(8)
+    report = bindpose.run(filter_)
+    data = filter_.GetOutput()
+    names = [data.GetFieldData().GetArrayName(k) for k in range(data.GetFieldData().GetNumberOfArrays())]
+    assert "Report.winding_volume" in names and not any("seconds" in name or "memory" in name for name in names)
+    assert report["seconds"]["total"] > 0 and report["peak_memory_bytes"] > 0
+    assert bindpose.report(filter_) == bindpose.report(data) == report
+    bindpose.write(data, tmp_path / "w.vti")
+    assert b"econds" not in (tmp_path / "w.vti").read_bytes()
+    # What a function returns remembers its run, in copies of the package as well.
+    grid = bindpose.winding_number(shapes.cube(), 8)
+    assert bindpose.report(grid)["seconds"]["evaluate"] > 0
+    # Data that changed since then tells of itself alone.
+    filter_.SetSamplesAlongLongestSide(12)
+    filter_.Update()
+    again = bindpose.report(filter_.GetOutput())
+    assert again["counts"]["queries"] > report["counts"]["queries"] and "seconds" not in again
+
+
 def test_progress_cancels():
     filter_ = field(600)
     with pytest.raises(bindpose.Cancelled) as caught:

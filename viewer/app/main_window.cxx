@@ -558,8 +558,10 @@ void MainWindow::update_title()
 
 void MainWindow::offer_defects(const QString& counts)
 {
+  const QString unclean =
+    tr("The surface is not clean (%1). It can be bound and bent all the same.").arg(counts);
   this->note_bar_->offer(
-    tr("The surface is not clean (%1). It can be bound and bent all the same.").arg(counts),
+    this->read_notice_.isEmpty() ? unclean : this->read_notice_ + '\n' + unclean,
     { { tr("Show where"),
       [this]
       {
@@ -622,6 +624,23 @@ bool MainWindow::open_file(const QString& path, const OpenedFile* read)
     return false;
   }
   const OpenedFile& file = read ? *read : here;
+  this->read_notice_.clear();
+  for (const std::string& warning : file.warnings)
+  {
+    const QString sentence = QString::fromStdString(warning).replace(path, name) + '.';
+    this->read_notice_ += (this->read_notice_.isEmpty() ? "" : "\n") + sentence;
+  }
+  const bool done = this->show_file(file, path);
+  if (done && !this->read_notice_.isEmpty())
+  {
+    this->show_notice(this->read_notice_);
+  }
+  return done;
+}
+
+bool MainWindow::show_file(const OpenedFile& file, const QString& path)
+{
+  const QString name = short_name(path);
   const Source source{ QFileInfo(path).absoluteFilePath(), file.checksum.get() };
   switch (file.kind)
   {

@@ -151,6 +151,7 @@ private:
   void show_column(int column);
   void show_selected_column();
   bool open_file(const QString& path, const OpenedFile* read);
+  bool show_file(const OpenedFile& file, const QString& path);
   bool open_picture(vtkImageData* picture, const QString& name, const Source& source, bool whole);
   bool say(const QString& name, const bindpose::Status& status);
   void update_hint();
@@ -187,6 +188,7 @@ private:
   vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport has
   bool timeline_ = false;
   bool has_keys_ = false;
+  QString read_notice_; // what the opened file lost
   QString hint_text_; // in the status line, unless the hand does something
 };
 

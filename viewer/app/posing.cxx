@@ -444,6 +444,10 @@ QString Posing::reading() const
   const Report& report = status.report;
   QStringList parts;
   parts << (moves ? tr("Motion") : method_name(this->main_->options().method));
+  if (!status.warnings.empty()) // before the numbers: a narrow window cuts the end off
+  {
+    parts << QString::fromStdString(status.warnings.front());
+  }
   const double solve = report.number("seconds.solve", 0.0);
   const auto iterations = static_cast<int>(report.number("iterations", 0.0));
   if (iterations > 0 && solve > 0.0)
@@ -476,10 +480,6 @@ QString Posing::reading() const
     parts << (status.code == StatusCode::not_converged
         ? (moves || this->main_->is_settled() ? tr("NOT converged") : tr("still converging"))
         : tr("converged"));
-  }
-  if (!status.warnings.empty())
-  {
-    parts << QString::fromStdString(status.warnings.front());
   }
   return parts.join(QStringLiteral("  ·  "));
 }

@@ -244,11 +244,6 @@ QString WeightInspection::certificate(int column) const
   {
     text += tr("%1 iterations").arg(iterations, 0, 'f', 0);
   }
-  const double seconds = read_report(this->surface_).number("seconds.weights", -1.0);
-  if (seconds >= 0.0)
-  {
-    text += tr(", all handles %1 s").arg(seconds, 0, 'f', 2);
-  }
   return text;
 }
 

@@ -168,7 +168,7 @@ Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& st
   {
     return status;
   }
-  status.report = read_report(algorithm->GetOutputDataObject(0));
+  status.report = algorithm->GetReport();
   const Report::Value* entry = status.report.find("warnings[]");
   if (const auto* warnings = entry ? std::get_if<std::vector<std::string>>(entry) : nullptr)
   {

@@ -99,8 +99,9 @@ Status tell_surface(vtkDataSet* data, Facts& facts)
   facts.table.add("non-manifold edges", found.nonmanifold_edges);
   facts.table.add("misoriented edges", found.misoriented_edges);
   facts.table.add("inward components", found.inward_components);
-  facts.table.add(
-    "self-intersections", std::to_string(found.self_intersections) + " pairs of triangles");
+  facts.table.add("self-intersections",
+    std::to_string(found.self_intersections) + " pairs of " +
+      std::to_string(found.crossing_triangles) + " crossing triangles");
   facts.table.add("duplicates",
     std::to_string(found.duplicate_vertices) + " vertices, " +
       std::to_string(found.duplicate_triangles) + " triangles");

@@ -61,6 +61,9 @@ Status read_with(Reader* reader, const std::string& path, const RunReader& run, 
   if (status.ok())
   {
     file.data = vtkDataSet::SafeDownCast(reader->GetOutput());
+    const Report::Value* warnings = reader->GetReport().find("warnings[]");
+    file.warnings =
+      warnings ? std::get<std::vector<std::string>>(*warnings) : std::vector<std::string>();
   }
   return status;
 }

@@ -37,6 +37,7 @@ struct OpenedFile
   vtkSmartPointer<vtkDataSet> data;
   vtkSmartPointer<vtkPolyData> handles; ///< of a mesh: those of its skin, in glTF files
   bindpose::Weights weights;
+  std::vector<std::string> warnings; ///< of the reader: what the file loses, mostly
   std::shared_future<QByteArray> checksum; ///< SHA-256 of the file in hex; empty: it went away
 };
 /// Brings a reader up to date; not ok: why it could not.

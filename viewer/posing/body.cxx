@@ -154,11 +154,16 @@ Status Body::step(
   Status status;
   {
     Phase phase(context, "solve", 0.0, 0.5);
-    status = this->body_.step(context, with_found_rotations(this->source_->handles, pose),
-      kernel_options(options, this->diagonal_));
+    const Pose resolved = with_found_rotations(this->source_->handles, pose);
+    status = this->body_.step(context, resolved, kernel_options(options, this->diagonal_));
     if (!status.usable())
     {
       return status;
+    }
+    const std::string unused = unused_stretch(effective, stretch_use(this->bound_->method));
+    if (!unused.empty())
+    {
+      status.warnings.push_back(unused);
     }
     status.report.set("seconds.solve", phase.seconds());
   }

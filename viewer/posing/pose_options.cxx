@@ -38,6 +38,13 @@ bool finds_rotations(PoseMethod method)
   return method == PoseMethod::reduced_arap || method == PoseMethod::full_arap;
 }
 
+StretchUse stretch_use(PoseMethod method)
+{
+  return method == PoseMethod::stretchable_bones ? StretchUse::all
+    : is_skinning(method)                        ? StretchUse::tails
+                                                 : StretchUse::ends;
+}
+
 bool is_slow(PoseMethod method)
 {
   return method == PoseMethod::full_arap || method == PoseMethod::variational;

@@ -4,6 +4,7 @@
 #include "pose/arap_energy.h"
 #include "pose/endpoint_weights.h"
 #include "pose/polyharmonic.h"
+#include "pose/pose.h"
 #include "pose/reduced_space.h"
 
 namespace bindpose
@@ -31,6 +32,8 @@ bool needs_weights(PoseMethod method);
 bool is_skinning(PoseMethod method);
 /// Whether it is as rigid as possible: it finds rotations that the pose leaves free.
 bool finds_rotations(PoseMethod method);
+/// What it does with the stretch and the twist of bones.
+StretchUse stretch_use(PoseMethod method);
 /// Whether a solve takes as long as the mesh is large: it then runs beside the window.
 bool is_slow(PoseMethod method);
 

@@ -33,9 +33,14 @@ Status Poser::solve(ExecutionContext& context, const Pose& pose, const PoseOptio
   Status status = check_pose(this->source().handles, pose);
   if (status.ok())
   {
-    status = this->pose(context,
-      finds_rotations(options.method) ? with_found_rotations(this->source().handles, pose) : pose,
-      options, most_iterations, posed);
+    const Pose resolved =
+      finds_rotations(options.method) ? with_found_rotations(this->source().handles, pose) : pose;
+    status = this->pose(context, resolved, options, most_iterations, posed);
+    const std::string unused = unused_stretch(resolved, stretch_use(options.method));
+    if (status.usable() && !unused.empty())
+    {
+      status.warnings.push_back(unused);
+    }
   }
   return status;
 }

@@ -15,6 +15,7 @@
 #include "vtkStringArray.h"
 
 #include <algorithm>
+#include <set>
 
 namespace bindpose
 {
@@ -148,6 +149,23 @@ bool is_defect_data(vtkDataSet* data)
 void count_defects(vtkPolyData* defects, std::vector<Category>& categories)
 {
   count_values(defects->GetCellData()->GetArray("Defect"), categories);
+  vtkDataArray* inward = defects->GetCellData()->GetArray("InwardComponent");
+  std::set<double> components;
+  for (vtkIdType cell = 0; inward && cell < inward->GetNumberOfTuples(); ++cell)
+  {
+    if (inward->GetComponent(cell, 0) >= 0.0)
+    {
+      components.insert(inward->GetComponent(cell, 0));
+    }
+  }
+  constexpr int inward_kind = static_cast<int>(Defect::inward_component);
+  for (Category& category : categories)
+  {
+    if (inward && category.value == inward_kind)
+    {
+      category.count = static_cast<Index>(components.size());
+    }
+  }
 }
 
 namespace

@@ -50,7 +50,8 @@ Status count_rung(vtkDataSet* tets, std::vector<Category>& categories);
 
 /// Whether a dataset shows defects, as vtkSurfaceDefects gives them.
 bool is_defect_data(vtkDataSet* data);
-/// How many cells there are of each kind.
+/// How many there are of each kind, as `bindpose info` counts them: cells, and of inward components
+/// the components.
 void count_defects(vtkPolyData* defects, std::vector<Category>& categories);
 
 /// A legend and table of the categories that occur, from below in their order: the i-th of them has

@@ -638,6 +638,8 @@ struct Parts
   Index sets = 0;
   Index skipped = 0;
   Index morph_targets = 0;
+  Index meshes = 0;
+  bool more_attributes = false; ///< further sets of texture coordinates or colors
   Index unweighted = 0;
   /// Where the vertices of these accessors begin: materials share them.
   std::map<std::map<std::string, int>, Index> shared;
@@ -757,6 +759,8 @@ void read_primitive(const tinygltf::Model& model, const Accessors& accessors,
     return;
   }
   parts.morph_targets = std::max(parts.morph_targets, static_cast<Index>(primitive.targets.size()));
+  parts.more_attributes = parts.more_attributes || primitive.attributes.count("TEXCOORD_1") > 0 ||
+    primitive.attributes.count("COLOR_1") > 0;
   Numbers points = read_attribute(accessors, primitive, "POSITION", TINYGLTF_TYPE_VEC3, -1);
   if (points.rows() == 0)
   {
@@ -1020,8 +1024,9 @@ std::vector<double> frame_times(const std::vector<Track>& tracks, double& rate)
   return times;
 }
 
-void read_animation(const tinygltf::Model& model, const Accessors& accessors, Nodes nodes,
-  const SkinNodes& skin_nodes, GltfSkin& skin, Status& status)
+/// Return the name of the animation that was read; none if no animation moves a joint.
+std::optional<std::string> read_animation(const tinygltf::Model& model, const Accessors& accessors,
+  Nodes nodes, const SkinNodes& skin_nodes, GltfSkin& skin)
 {
   std::vector<char> moves_a_joint(model.nodes.size(), 0);
   for (int id : skin_nodes.nodes)
@@ -1032,7 +1037,7 @@ void read_animation(const tinygltf::Model& model, const Accessors& accessors, No
     }
   }
   std::vector<Track> tracks;
-  Index animations = 0;
+  std::string name;
   for (const tinygltf::Animation& animation : model.animations)
   {
     std::vector<Track> found;
@@ -1044,17 +1049,15 @@ void read_animation(const tinygltf::Model& model, const Accessors& accessors, No
         found.push_back(*track);
       }
     }
-    animations += !found.empty();
-    tracks = tracks.empty() ? found : tracks;
-  }
-  if (animations > 1)
-  {
-    status.warnings.push_back(
-      "of " + std::to_string(animations) + " animations the first one was read");
+    if (tracks.empty() && !found.empty())
+    {
+      tracks = std::move(found);
+      name = one_line(animation.name);
+    }
   }
   if (tracks.empty())
   {
-    return;
+    return {};
   }
   const std::vector<double> times = frame_times(tracks, skin.frames_per_second);
   if (static_cast<double>(times.size() * skin.joints.size() * sizeof(Eigen::Affine3d)) >
@@ -1094,6 +1097,79 @@ void read_animation(const tinygltf::Model& model, const Accessors& accessors, No
     }
     skin.frames.push_back(std::move(frame));
   }
+  return name;
+}
+
+// ---- What is not read --------------------------------------------------------------------------
+
+std::string counted(std::size_t count, const char* one, const char* many)
+{
+  return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+/// The parts of the file that `skin` does not hold, one phrase per kind.
+std::vector<std::string> find_losses(const tinygltf::Model& model, const Parts& parts,
+  const GltfSkin& skin, const std::optional<std::string>& animation, Index other_meshes)
+{
+  std::vector<std::string> losses;
+  const auto add = [&losses](std::size_t count, const char* one, const char* many)
+  {
+    if (count > 0)
+    {
+      losses.push_back(counted(count, one, many));
+    }
+  };
+  const std::size_t animations = model.animations.size();
+  if (animation && animations > 1)
+  {
+    losses.push_back(std::to_string(animations - 1) + " of " + std::to_string(animations) +
+      " animations (" + (animation->empty() ? "the first" : "'" + *animation + "'") + " is kept)");
+  }
+  else if (!animation)
+  {
+    add(animations, "animation", "animations");
+  }
+  add(model.materials.size(), "material", "materials");
+  add(std::max(model.textures.size(), model.images.size()), "texture", "textures");
+  add(static_cast<std::size_t>(parts.morph_targets), "morph target", "morph targets");
+  add(model.cameras.size(), "camera", "cameras");
+  add(model.lights.size(), "light", "lights");
+  add(static_cast<std::size_t>(other_meshes), "mesh without the first skin",
+    "meshes without the first skin");
+  add(static_cast<std::size_t>(parts.skipped), "primitive of points or lines",
+    "primitives of points or lines");
+  if (parts.meshes > 1)
+  {
+    losses.push_back("the division into " + std::to_string(parts.meshes) + " meshes");
+  }
+  const auto some = [&losses](const std::vector<Numbers>& rows, Index kept, const char* what)
+  {
+    const bool any =
+      std::any_of(rows.begin(), rows.end(), [](const Numbers& part) { return part.rows() > 0; });
+    if (any && kept == 0)
+    {
+      losses.push_back(std::string(what) + ", which only some meshes have");
+    }
+  };
+  some(parts.normals, skin.normals.rows(), "normals");
+  some(parts.textures, skin.texture.rows(), "texture coordinates");
+  some(parts.colors, skin.colors.rows(), "vertex colors");
+  if (parts.more_attributes)
+  {
+    losses.emplace_back("further sets of texture coordinates or vertex colors");
+  }
+  return losses;
+}
+
+/// "a, b and c"
+std::string listed(const std::vector<std::string>& phrases)
+{
+  std::string text;
+  for (std::size_t k = 0; k < phrases.size(); ++k)
+  {
+    text += (k == 0 ? "" : k + 1 == phrases.size() ? " and " : ", ") + phrases[k];
+  }
+  return text;
 }
 
 // ---- All ---------------------------------------------------------------------------------------
@@ -1111,7 +1187,8 @@ int first_skin(const tinygltf::Model& model)
   return -1;
 }
 
-void read_model(const tinygltf::Model& model, std::size_t file_size, GltfSkin& skin, Status& status)
+void read_model(const std::string& path, const tinygltf::Model& model, std::size_t file_size,
+  GltfSkin& skin, Status& status)
 {
   const Accessors accessors(model, file_size);
   const Nodes nodes = read_nodes(model);
@@ -1156,6 +1233,7 @@ void read_model(const tinygltf::Model& model, std::size_t file_size, GltfSkin& s
       read_primitive(model, accessors, primitive, place, skin.joints.size(), parts);
     }
     skin.name = mesh.name.empty() ? skin.name : one_line(mesh.name);
+    parts.meshes += 1;
   }
   if (parts.triangles.empty())
   {
@@ -1178,27 +1256,26 @@ void read_model(const tinygltf::Model& model, std::size_t file_size, GltfSkin& s
   {
     skin.triangles.row(t) << parts.triangles[t][0], parts.triangles[t][1], parts.triangles[t][2];
   }
+  std::optional<std::string> animation;
   if (which >= 0)
   {
     set_weights(parts, skin_nodes, skin);
-    read_animation(model, accessors, nodes, skin_nodes, skin, status);
+    animation = read_animation(model, accessors, nodes, skin_nodes, skin);
   }
-  const auto warn = [&status](Index count, const char* sentence)
+  const std::vector<std::string> losses = find_losses(model, parts, skin, animation, left_out);
+  if (!losses.empty())
   {
-    if (count > 0)
-    {
-      status.warnings.push_back(std::to_string(count) + sentence);
-    }
-  };
-  warn(left_out, " meshes without the first skin were left out");
-  warn(parts.skipped, " primitives that are points or lines were left out");
-  warn(parts.morph_targets, " morph targets were not read");
+    status.warnings.push_back(path + ": Bindpose does not keep " + listed(losses));
+    status.report.set("not_kept[]", losses);
+  }
   Report& report = status.report;
   report.set("counts.vertices", skin.points.rows());
   report.set("counts.triangles", skin.triangles.rows());
   report.set("counts.joints", skin.joints.size());
   report.set("counts.skins", model.skins.size());
   report.set("counts.frames", skin.frames.size());
+  report.set("counts.animations", model.animations.size());
+  report.set("counts.materials", model.materials.size());
   report.set("counts.skipped_primitives", parts.skipped);
   report.set("counts.morph_targets", parts.morph_targets);
   if (which >= 0)
@@ -1221,7 +1298,7 @@ Status read_gltf_skin(const std::string& path, GltfSkin& skin)
   try
   {
     const tinygltf::Model model = parse(path, content);
-    read_model(model, content.size(), skin, status);
+    read_model(path, model, content.size(), skin, status);
   }
   catch (const Broken& broken)
   {

@@ -107,8 +107,10 @@ Status write_gltf_skin(const std::string& path, const GltfSkin& skin, const Gltf
 /// not read.
 ///
 /// Report: counts.vertices, counts.triangles, counts.joints, counts.frames, counts.skins,
-/// counts.unweighted_vertices, counts.skipped_primitives (points and lines), counts.morph_targets
-/// (which are not read), sets. Warnings tell what is left out.
+/// counts.animations, counts.materials, counts.unweighted_vertices, counts.skipped_primitives
+/// (points and lines), counts.morph_targets, sets, not_kept[] (one phrase per kind of content that
+/// is not read: other animations, materials, textures, morph targets, cameras, lights, other meshes
+/// …). One warning lists not_kept.
 ///
 /// invalid_input with one sentence that names the file for all that is broken: no JSON, another
 /// version, buffers and accessors that do not fit, coordinates and matrices that are not finite,

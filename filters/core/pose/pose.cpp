@@ -78,6 +78,26 @@ Status check_bendable(PointsView points, TetsView tets, const Handles& handles)
   return check_elements(points, tets, handles);
 }
 
+std::string unused_stretch(const Pose& pose, StretchUse use)
+{
+  constexpr double same_length = 1e-6;
+  constexpr double same_angle = 1e-4; // degrees
+  const bool unused = std::any_of(pose.begin(), pose.end(),
+    [use](const HandlePose& posed)
+    {
+      const bool ends = posed.mode == HandleMode::ends;
+      const bool stretches = std::abs(posed.stretch - 1.0) > same_length &&
+        (posed.mode == HandleMode::full || (ends && use != StretchUse::ends));
+      const bool twists = posed.twist.cwiseAbs().maxCoeff() > same_angle &&
+        (posed.mode == HandleMode::full || holds_tail(posed.mode));
+      return stretches || twists;
+    });
+  return unused && use != StretchUse::all ? "the pose stretches or twists bones, which this method "
+                                            "ignores; only stretchable bones (stbs) "
+                                            "use it"
+                                          : "";
+}
+
 std::vector<HandleMode> modes_of(const Pose& pose)
 {
   std::vector<HandleMode> modes;

@@ -74,6 +74,20 @@ Status check_pose(const Handles& handles, const Pose& pose);
 Status check_bendable(PointsView points, TrianglesView triangles, const Handles& handles);
 Status check_bendable(PointsView points, TetsView tets, const Handles& handles);
 
+/// What a method does with the stretch and the twist of a bone. Every method uses the stretch of a
+/// bone in mode tail.
+enum class StretchUse : int
+{
+  tails, ///< nothing else: skinning with one transform per bone
+  ends, ///< the stretch in mode ends: methods that find transforms
+  all ///< stretch and twist: stretchable bones
+};
+
+/// Return a sentence if the pose has a stretch or a twist that the method does not use; else empty.
+/// A stretch within 1e-6 of 1 and a twist of at most 1e-4 degrees are roundoff of posed ends. The
+/// sentence has no names, so that the frames of a sequence repeat one sentence.
+std::string unused_stretch(const Pose& pose, StretchUse use);
+
 std::vector<HandleMode> modes_of(const Pose& pose);
 /// Whether these are the modes of the pose.
 bool same_modes(const std::vector<HandleMode>& modes, const Pose& pose);

@@ -627,6 +627,10 @@ struct TransformNumbers
   bool exact = true; ///< false: a shear, a non-uniform scale or a reflection is left out
 };
 
+/// Transforms from glTF files are products of single-precision matrices: their misfit is some 1e-6.
+/// At this limit a vertex that is one diagonal away from the pivot is off by 1e-5 diagonals.
+constexpr double pose_file_misfit = 1e-5;
+
 TransformNumbers numbers_of(const Affine& transform, const Vec3& pivot)
 {
   TransformNumbers numbers;
@@ -634,13 +638,13 @@ TransformNumbers numbers_of(const Affine& transform, const Vec3& pivot)
   const double scale = numbers.parts.scale.trace() / 3.0;
   const Eigen::Matrix3d linear = transform.leftCols<3>();
   const double misfit = (linear - scale * numbers.parts.rotation).norm();
-  numbers.exact = misfit <= 1e-9 * linear.norm() && scale > 0.0;
+  numbers.exact = misfit <= pose_file_misfit * linear.norm() && scale > 0.0;
   numbers.scale = scale > 0.0 ? scale : 1.0;
   return numbers;
 }
 
-Json format_handle(
-  const Pose& pose, const Handles& handles, std::size_t h, std::vector<std::string>& warnings)
+/// @param exact set to false if the nearest rotation and scale were written.
+Json format_handle(const Pose& pose, const Handles& handles, std::size_t h, bool& exact)
 {
   const HandlePose& posed = pose[h];
   const Handle& rest = handles[h];
@@ -665,12 +669,7 @@ Json format_handle(
       entry["space"] = "world";
     }
   }
-  if (!numbers.exact)
-  {
-    warnings.push_back("the transform of handle '" + rest.name +
-      "' has a shear, an uneven scale or a reflection that a pose file cannot hold; its nearest "
-      "rotation and scale were written");
-  }
+  exact = numbers.exact;
   entry["translate"] = list(numbers.parts.translation);
   const Eigen::AngleAxisd turn(numbers.parts.rotation);
   if (turn.angle() != 0.0)
@@ -692,15 +691,46 @@ Json format_handle(
   }
   return entry;
 }
+
+/// One warning for all handles and poses.
+void warn_of_inexact(const Handles& handles, const std::vector<char>& is_exact, Index inexact_poses,
+  std::size_t pose_count, Status& status)
+{
+  std::vector<Index> inexact;
+  for (std::size_t h = 0; h < handles.size(); ++h)
+  {
+    if (!is_exact[h])
+    {
+      inexact.push_back(static_cast<Index>(h));
+    }
+  }
+  if (inexact.empty())
+  {
+    return;
+  }
+  const bool one = inexact.size() == 1;
+  const std::string who = one ? "the transform of handle " : "the transforms of ";
+  const std::string count = one ? "" : std::to_string(inexact.size()) + " handles (";
+  const std::string when = pose_count == 1
+    ? ""
+    : " in " + std::to_string(inexact_poses) + " of " + std::to_string(pose_count) + " poses";
+  status.warnings.push_back(who + count + first_names(handles, inexact) + (one ? "" : ")") +
+    (one ? " has" : " have") +
+    " a shear, an uneven scale or a reflection that a pose file cannot hold" + when +
+    "; the nearest rotation and scale were written");
+}
 } // namespace
 
 Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second,
   const Handles& handles, std::string& text)
 {
   Status status;
+  std::vector<char> is_exact(handles.size(), 1);
+  Index inexact_poses = 0;
   Json frames = Json::array();
   for (const Pose& pose : poses)
   {
+    bool whole = true;
     if (pose.size() != handles.size())
     {
       return Status::invalid_input("a pose has " + std::to_string(pose.size()) +
@@ -718,14 +748,19 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
         return Status::invalid_input(
           "the pose of handle '" + handles[h].name + "' has a number that is not finite");
       }
-      frame["handles"][handles[h].name] = format_handle(pose, handles, h, status.warnings);
+      bool exact = true;
+      frame["handles"][handles[h].name] = format_handle(pose, handles, h, exact);
+      is_exact[h] = is_exact[h] && exact;
+      whole = whole && exact;
     }
+    inexact_poses += whole ? 0 : 1;
     frames.push_back(std::move(frame));
   }
   if (frames.empty())
   {
     return Status::invalid_input("there is no pose to write");
   }
+  warn_of_inexact(handles, is_exact, inexact_poses, poses.size(), status);
   Json root;
   root["version"] = newest_version;
   if (frames.size() == 1)

@@ -110,8 +110,10 @@ Pose apply_edits(const PoseEdits& edits, const Handles& handles, const Pose& bas
 /// relative to the parents, so that children follow if a number is edited; "space": "world" is
 /// written for a handle whose relative transform is not a rotation and a uniform scale. A shear, a
 /// non-uniform scale or a reflection cannot be written: the nearest rotation and scale are written
-/// instead, and a warning names the handle. invalid_input: a number that is not finite, a name that
-/// is not UTF-8.
+/// instead. One warning counts such handles and poses and has the first names. It leaves out
+/// transforms whose difference from the nearest rotation and scale is at most 1e-5 of the matrix
+/// (Frobenius norms): that is the roundoff of single-precision files. invalid_input: a number that
+/// is not finite, a name that is not UTF-8.
 Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second,
   const Handles& handles, std::string& text);
 

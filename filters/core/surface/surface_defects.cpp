@@ -32,9 +32,10 @@ public:
     this->degenerate();
     this->duplicates();
     this->crossings();
-    for (const Index t : this->repaired_.inward_triangles)
+    for (const auto& [t, inward] : this->repaired_.inward_triangles)
     {
       this->add(Defect::inward_component, this->repaired_.original_triangles[t]);
+      this->places_.back().inward = inward;
     }
     return std::move(this->places_);
   }
@@ -79,7 +80,7 @@ private:
       {
         if (defect == Defect::duplicate_vertex ? this->repaired_.lowest_equal[v] != v : !used[v])
         {
-          this->places_.push_back({ defect, { v }, -1, -1, this->component_of(v) });
+          this->places_.push_back({ defect, { v }, -1, -1, this->component_of(v), -1 });
         }
       }
     }
@@ -109,7 +110,7 @@ private:
           this->places_.push_back({ defect,
             { this->repaired_.original_vertices[edge.a],
               this->repaired_.original_vertices[edge.b] },
-            -1, -1, this->components_.of_vertex[edge.a] });
+            -1, -1, this->components_.of_vertex[edge.a], -1 });
         }
       }
     }

@@ -35,6 +35,7 @@ struct DefectPlace
   Index triangle = -1; ///< of the input, where it is one
   Index crossed = -1; ///< self_intersection: the triangle of lowest id that it meets
   Index component = -1; ///< from 0; -1 for what belongs to none
+  Index inward = -1; ///< inward_component: the number of that component, from 0
 };
 
 /// Every place that `repaired.found` counts, sorted by defect, then by id. Edges run between the

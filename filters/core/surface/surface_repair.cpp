@@ -565,6 +565,7 @@ void add_to_report(const SurfaceDiagnosis& d, Report& report)
   set("counts.components", d.components);
   set("counts.inward_components", d.inward_components);
   set("counts.self_intersections", d.self_intersections);
+  set("counts.crossing_triangles", d.crossing_triangles);
 }
 
 Status repair_surface(PointsView points, TrianglesView triangles, const RepairOptions& options,
@@ -604,10 +605,12 @@ Status repair_surface(PointsView points, TrianglesView triangles, const RepairOp
   }
   found.components = components.count;
   found.inward_components = static_cast<Index>(inward.roots.size());
-  for (const Index s : inward.roots)
+  for (std::size_t k = 0; k < inward.roots.size(); ++k)
   {
-    repaired.inward_triangles.insert(
-      repaired.inward_triangles.end(), shells[s].triangles.begin(), shells[s].triangles.end());
+    for (const Index t : shells[inward.roots[k]].triangles)
+    {
+      repaired.inward_triangles.emplace_back(t, static_cast<Index>(k));
+    }
   }
   std::sort(repaired.inward_triangles.begin(), repaired.inward_triangles.end());
   if (options.orient)
@@ -630,6 +633,12 @@ Status repair_surface(PointsView points, TrianglesView triangles, const RepairOp
       return Status::cancelled();
     }
     found.self_intersections = static_cast<Index>(repaired.crossings.size());
+    std::vector<char> crosses(static_cast<std::size_t>(repaired.triangles.rows()), 0);
+    for (const auto& [s, t] : repaired.crossings)
+    {
+      crosses[s] = crosses[t] = 1;
+    }
+    found.crossing_triangles = std::count(crosses.begin(), crosses.end(), 1);
   }
   return context.cancelled() ? Status::cancelled() : Status();
 }

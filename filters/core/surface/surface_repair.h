@@ -27,6 +27,7 @@ struct SurfaceDiagnosis
   Index components = 0; ///< connected by vertices
   Index inward_components = 0; ///< closed, not inside another one, of negative volume
   Index self_intersections = 0; ///< pairs of triangles that meet beyond what they share
+  Index crossing_triangles = 0; ///< triangles of these pairs
   bool closed = false; ///< at every edge the directions cancel: winding numbers are integers
   bool flat = false; ///< all points lie in one plane, exactly
 };
@@ -55,7 +56,9 @@ struct RepairedSurface
   std::vector<Index> original_vertices; ///< #V: the lowest input id among the welded ones
   std::vector<Index> original_triangles; ///< #F: input ids
   std::vector<Index> lowest_equal; ///< #input V: the lowest input id welded with it, itself mostly
-  std::vector<Index> inward_triangles; ///< of closed components that are inside out, ascending
+  /// Triangles of closed components that are inside out, ascending, and the number of that
+  /// component, from 0 to found.inward_components - 1.
+  std::vector<std::pair<Index, Index>> inward_triangles;
   SurfaceDiagnosis found; ///< in the input, before any triangle was turned
   Index turned_triangles = 0; ///< turned to agree with their neighbours
   Index turned_components = 0; ///< closed components turned right side out

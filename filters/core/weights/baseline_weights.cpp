@@ -19,6 +19,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 
 namespace bindpose
@@ -65,6 +66,14 @@ public:
       }
       this->regions_[j] = std::make_unique<SimplexLocator>(points, triangles);
     }
+  }
+
+  /// The distance of handle j from p; infinite for a handle without vertices. Thread-safe.
+  double from(Index j, const Vec3& p) const
+  {
+    return this->problem_.constraints.counts[j] == 0
+      ? std::numeric_limits<double>::infinity()
+      : (this->nearest(static_cast<std::size_t>(j), p) - p).norm();
   }
 
   /// The point of handle j that is nearest to p. Thread-safe.
@@ -119,7 +128,7 @@ Status inverse_distances(
         const Vec3 p = problem.mesh.domain.points.row(v);
         for (Index j = 0; j < m; ++j)
         {
-          d[j] = (distances.nearest(static_cast<std::size_t>(j), p) - p).norm();
+          d[j] = distances.from(j, p);
         }
         // Relative to the nearest: no power overflows.
         const double least = d.minCoeff();
@@ -245,7 +254,7 @@ Status heat_sources(const WeightsProblem& problem, double heat, ExecutionContext
         const Vec3 at = problem.mesh.domain.points.row(v);
         for (Index j = 0; j < m; ++j)
         {
-          d[j] = (distances.nearest(static_cast<std::size_t>(j), at) - at).norm();
+          d[j] = distances.from(j, at);
         }
         constexpr double equally_near = 1.0001;
         const double least = std::max(d.minCoeff(), 1e-6 * problem.diagonal);

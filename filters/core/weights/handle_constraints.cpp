@@ -123,6 +123,10 @@ void tether_components(const Domain& domain, const Handles& handles,
     for (std::size_t i = 0; i < handles.size(); ++i)
     {
       double distance = 1e300;
+      if (result.counts[i] == 0)
+      {
+        continue; // it moves nothing
+      }
       if (handles[i].kind == HandleKind::region)
       {
         for (const Index u : of_handle[i])
@@ -142,11 +146,13 @@ void tether_components(const Domain& domain, const Handles& handles,
     }
   }
   // A part of a lattice that no point of the surface lies in moves nothing.
+  const auto first =
+    std::find_if(result.counts.begin(), result.counts.end(), [](Index owned) { return owned > 0; });
   for (Index c = 0; c < count; ++c)
   {
     if (result.tether[c] < 0 && !has_handle[c])
     {
-      result.tether[c] = 0;
+      result.tether[c] = first - result.counts.begin();
     }
   }
   std::map<Index, Index> parts; // handle -> how many parts follow it
@@ -157,50 +163,140 @@ void tether_components(const Domain& domain, const Handles& handles,
       parts[handle] += 1;
     }
   }
+  if (parts.empty())
+  {
+    return;
+  }
+  Index all = 0;
+  std::vector<Index> followed;
   for (const auto& [handle, number] : parts)
   {
-    result.warnings.push_back(std::to_string(number) +
-      (number == 1 ? " connected part without a handle follows"
-                   : " connected parts without a handle follow") +
-      " the nearest handle '" + handles[handle].name + "'");
+    all += number;
+    followed.push_back(handle);
   }
+  result.warnings.push_back(std::to_string(all) +
+    (all == 1 ? " connected part without a handle follows the nearest handle "
+              : " connected parts without a handle follow the nearest ") +
+    (all == 1               ? ""
+        : parts.size() == 1 ? "handle "
+                            : "handles ") +
+    first_names(handles, followed));
 }
 
 /// A handle that shares all of its vertices (a point on a bone) would have a weight of one nowhere:
-/// it gets the first of them for itself whose other owners have vertices of their own.
-Status give_every_handle_a_vertex(const Handles& handles,
-  const std::map<Index, std::vector<Index>>& owners, HandleConstraints& result)
+/// it gets the first of them for itself whose other owners have vertices of their own. A handle
+/// that cannot have one and needs none leaves its vertices to their other owners.
+Status give_every_handle_a_vertex(
+  const Handles& handles, std::map<Index, std::vector<Index>>& owners, HandleConstraints& result)
 {
   std::vector<Index> own(handles.size(), 0);
   for (const auto& [v, list] : owners)
   {
     own[list[0]] += list.size() == 1;
   }
+  const auto set_row = [&](Index vertex, const std::vector<Index>& list)
+  {
+    const auto row = std::lower_bound(result.vertices.begin(), result.vertices.end(), vertex) -
+      result.vertices.begin();
+    result.values.row(row).setZero();
+    for (const Index owner : list)
+    {
+      result.values(row, owner) = 1.0 / static_cast<double>(list.size());
+    }
+  };
+  std::vector<Index> idle;
   for (std::size_t j = 0; j < handles.size(); ++j)
   {
+    const auto at = static_cast<Index>(j);
     for (auto vertex = owners.begin(); vertex != owners.end() && own[j] == 0; ++vertex)
     {
-      const auto& list = vertex->second;
-      const auto row =
-        std::lower_bound(result.vertices.begin(), result.vertices.end(), vertex->first) -
-        result.vertices.begin();
-      const auto at = static_cast<Index>(j);
+      auto& list = vertex->second;
       if (std::find(list.begin(), list.end(), at) != list.end() &&
         std::all_of(list.begin(), list.end(), [&](Index i) { return i == at || own[i] > 0; }))
       {
-        result.values.row(row).setZero();
-        result.values(row, at) = 1.0;
+        list = { at };
+        set_row(vertex->first, list);
         own[j] = 1;
       }
     }
-    if (own[j] == 0)
+    if (own[j] > 0)
+    {
+      continue;
+    }
+    if (handles[j].ownership == Ownership::required)
     {
       return Status::invalid_input("handle '" + handles[j].name +
         "' shares all of its vertices with other handles, so nothing is its own; move it or "
         "refine the mesh there");
     }
+    idle.push_back(at);
+    result.counts[j] = 0;
+    for (auto& [v, list] : owners)
+    {
+      const auto its = std::find(list.begin(), list.end(), at);
+      if (its != list.end())
+      {
+        list.erase(its);
+        own[list[0]] += list.size() == 1;
+        set_row(v, list);
+      }
+    }
+  }
+  if (idle.size() == handles.size())
+  {
+    return Status::invalid_input(
+      "no handle constrains a vertex; they lie on elements without area");
+  }
+  if (!idle.empty())
+  {
+    result.warnings.push_back(idle.size() == 1 ? "joint " + first_names(handles, idle) +
+          " has no vertex of its own and was skipped: its weights are zero"
+                                               : std::to_string(idle.size()) +
+          " joints have no vertex of their own and were skipped; their weights are zero: " +
+          first_names(handles, idle));
   }
   return {};
+}
+
+/// One warning for all handles that share vertices although they do not touch.
+void warn_of_shared_vertices(const Handles& handles,
+  const std::map<std::pair<Index, Index>, Index>& shared, double tolerance,
+  HandleConstraints& result)
+{
+  constexpr Index most = 3; // pairs that are named
+  std::string first;
+  std::string list;
+  Index pairs = 0;
+  for (const auto& [pair, count] : shared)
+  {
+    const Handle& a = handles[pair.first];
+    const Handle& b = handles[pair.second];
+    const bool idle = result.counts[pair.first] == 0 || result.counts[pair.second] == 0;
+    if (idle ||
+      (a.kind != HandleKind::region && b.kind != HandleKind::region && touch(a, b, tolerance)))
+    {
+      continue;
+    }
+    const std::string names = "'" + a.name + "' and '" + b.name + "'";
+    if (pairs == 0)
+    {
+      first = "handles " + names + " share " + std::to_string(count) +
+        (count == 1 ? " vertex" : " vertices");
+    }
+    if (pairs < most)
+    {
+      list += (pairs > 0 ? "; " : "") + names;
+    }
+    pairs += 1;
+  }
+  if (pairs > 0)
+  {
+    result.warnings.push_back(
+      (pairs == 1 ? first
+                  : std::to_string(pairs) + " pairs of handles that do not touch share vertices (" +
+            list + (pairs > most ? "; …)" : ")")) +
+      "; their weights are split evenly there");
+  }
 }
 } // namespace
 
@@ -250,7 +346,7 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
         result.counts[i] += 1;
       }
     }
-    if (result.counts[i] == 0)
+    if (result.counts[i] == 0 && handle.ownership == Ownership::required)
     {
       return Status::invalid_input(
         "handle '" + handle.name + "' constrains no vertex: it lies on elements without area");
@@ -317,23 +413,13 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
       }
     }
   }
-  const double tolerance = 1e-9 * bounding_box(domain.points).diagonal();
-  for (const auto& [pair, count] : shared)
-  {
-    const Handle& a = handles[pair.first];
-    const Handle& b = handles[pair.second];
-    if (a.kind == HandleKind::region || b.kind == HandleKind::region || !touch(a, b, tolerance))
-    {
-      result.warnings.push_back("handles '" + a.name + "' and '" + b.name + "' share " +
-        std::to_string(count) + (count == 1 ? " vertex" : " vertices") +
-        "; their weights are split evenly there");
-    }
-  }
   const Status owned = give_every_handle_a_vertex(handles, handles_of_vertex, result);
   if (!owned.ok())
   {
     return owned;
   }
+  const double tolerance = 1e-9 * bounding_box(domain.points).diagonal();
+  warn_of_shared_vertices(handles, shared, tolerance, result);
   tether_components(domain, handles, of_handle, result);
   return {};
 }

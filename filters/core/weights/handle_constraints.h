@@ -36,7 +36,9 @@ struct HandleConstraints
 /// happens although the handles do not touch, a warning names them. A handle that shares all of its
 /// vertices gets one for itself, so that every column has a one. A connected part without any
 /// handle follows the handle nearest to it, with a warning. invalid_input for check_regions()'s
-/// reasons and, naming the handle, when one constrains no vertex or can have none of its own.
+/// reasons and, naming the handle, when one constrains no vertex or can have none of its own. A
+/// handle that needs no vertex (see Ownership) is skipped instead: its column is zero, and one
+/// warning names such handles.
 ///
 /// @param region_ids label of every original vertex, or empty when there are no regions.
 /// @param joined label of every vertex, or empty: parts with a label > 0 in common count as one.

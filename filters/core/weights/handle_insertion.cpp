@@ -482,12 +482,14 @@ void Inserter::finish()
   {
     out = std::copy_n(this->elements_[e].ids.begin(), this->corners_, out);
   }
+  constexpr Index most = 4; // handles that are named
+  Index count_outside = 0;
   std::string outside;
   for (std::size_t i = 0; i < this->handles_.size(); ++i)
   {
     HandlePlacement& placement = this->result_.handles[i];
     sort_unique(placement.vertices);
-    if (placement.outside > 1e-6 * this->diagonal_)
+    if (placement.outside > 1e-6 * this->diagonal_ && ++count_outside <= most)
     {
       char distance[32];
       std::snprintf(distance, sizeof(distance), "%.3g", placement.outside);
@@ -499,6 +501,10 @@ void Inserter::finish()
     this->result_.warnings.push_back("the cage lies outside of the mesh in " +
       std::to_string(this->cage_samples_outside_) +
       " of its samples, which were left out; a cage around a shape needs domain cage");
+  }
+  if (count_outside > most)
+  {
+    outside += " and " + std::to_string(count_outside - most) + " more";
   }
   if (!outside.empty())
   {
@@ -519,6 +525,10 @@ Status Inserter::run(ExecutionContext& context)
   {
     const Handle& handle = this->handles_[i];
     const auto at = static_cast<Index>(i);
+    if (handle.ownership == Ownership::none)
+    {
+      continue;
+    }
     if (handle.kind == HandleKind::point || handle.kind == HandleKind::cage_vertex)
     {
       samples.push_back({ handle.head, at, -1 });

@@ -80,6 +80,17 @@ std::string quoted_names(const Handles& handles, const std::vector<Index>& list)
   return names;
 }
 
+std::string first_names(const Handles& handles, const std::vector<Index>& list)
+{
+  constexpr std::size_t most = 3;
+  if (list.size() <= most + 1)
+  {
+    return quoted_names(handles, list);
+  }
+  return quoted_names(handles, { list.begin(), list.begin() + most }) + " and " +
+    std::to_string(list.size() - most) + " more";
+}
+
 Status check_handles(const Handles& handles)
 {
   if (handles.empty())

@@ -20,6 +20,15 @@ enum class HandleKind : int
   region = 3
 };
 
+/// Whether a bind gives the handle vertices of its own. A handle without vertices has zero weights,
+/// and its children follow it. The integers are those of the cell array Ownership.
+enum class Ownership : int
+{
+  required = 0, ///< a bind is refused if all vertices on the handle belong to other handles
+  optional = 1, ///< skipped then, with a warning: joints of a file's rig
+  none = 2 ///< always skipped: joints of a file's rig that move nothing there (control bones)
+};
+
 /// A cage's edge (the third is -1) or face: the handles at its corners.
 using CageElement = std::array<Index, 3>;
 
@@ -39,6 +48,7 @@ struct Handle
   Index region_id = 0;
   /// Cage vertex: the cage's elements that begin at it. Weights are linear along them.
   std::vector<CageElement> cage;
+  Ownership ownership = Ownership::required;
 };
 
 using Handles = std::vector<Handle>;
@@ -48,6 +58,8 @@ const char* to_string(HandleKind kind);
 
 /// 'a', 'b': the names of some, for a sentence.
 std::string quoted_names(const Handles& handles, const std::vector<Index>& list);
+/// 'a', 'b', 'c' and 12 more: the first names of many.
+std::string first_names(const Handles& handles, const std::vector<Index>& list);
 
 /// invalid_input, naming the handle, for: no handle at all, an empty or doubled name, a coordinate
 /// that is not finite, a bone of length zero, two handles at the same place (closer than 1e-9 of

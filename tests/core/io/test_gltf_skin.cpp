@@ -17,6 +17,7 @@
 using namespace bindpose;
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 namespace
 {
@@ -377,12 +378,61 @@ TEST(GltfSkin, AnAnimationOfShapes)
   GltfSkin back;
   const Status read = read_gltf_skin(folder / "rig.glb", back);
   ASSERT_TRUE(read.ok());
-  ASSERT_EQ(read.warnings.size(), 1u); // morph targets are not read
+  ASSERT_EQ(read.warnings.size(), 1u);
+  EXPECT_THAT(read.warnings[0], HasSubstr("does not keep 1 animation and 3 morph targets"));
   EXPECT_TRUE(back.frames.empty());
   // A mesh without joints may have one as well.
   skin.joints.clear();
   skin.weights.resize(0, 0);
   EXPECT_TRUE(write_gltf_skin(folder / "mesh.glb", skin, options).ok());
+}
+
+TEST(GltfSkin, OneWarningListsWhatIsNotKept)
+{
+  const test::Folder folder;
+  GltfSkin skin = example(3);
+  skin.frames.resize(2);
+  for (GltfFrame& frame : skin.frames)
+  {
+    for (const GltfJoint& joint : skin.joints)
+    {
+      frame.posed.push_back(joint.rest);
+    }
+  }
+  GltfOptions options;
+  options.binary = false;
+  ASSERT_TRUE(write_gltf_skin(folder / "own.gltf", skin, options).ok());
+  GltfSkin back;
+  EXPECT_TRUE(read_gltf_skin(folder / "own.gltf", back).warnings.empty()) << "it is kept whole";
+
+  json file = json::parse(folder.read("own.gltf"));
+  file["animations"][0]["name"] = "Walk";
+  for (int copy = 1; copy < 40; ++copy)
+  {
+    file["animations"].push_back(file["animations"][0]);
+  }
+  file["materials"] = json::parse(R"([{"name": "cloth"}, {"name": "skin"}])");
+  file["images"] = json::parse(R"([{"uri": "cloth.png"}])");
+  file["textures"] = json::parse(R"([{"source": 0}])");
+  file["cameras"] = json::parse(R"([{"type": "perspective",
+    "perspective": {"yfov": 0.8, "znear": 0.1}}])");
+  file["meshes"].push_back(file["meshes"][0]);
+  file["meshes"][1]["primitives"][0]["attributes"].erase("NORMAL");
+  file["nodes"].push_back({ { "mesh", 1 }, { "skin", 0 } });
+  const Status status = read_gltf_skin(folder.write("character.gltf", file.dump()), back);
+  ASSERT_TRUE(status.ok()) << status.message;
+  EXPECT_EQ(back.frames.size(), 2u);
+  ASSERT_EQ(status.warnings.size(), 1u);
+  for (const char* lost :
+    { "character.gltf", "39 of 40 animations ('Walk' is kept)", "2 materials", "1 texture,",
+      "1 camera", "division into 2 meshes", "normals, which only some meshes have" })
+  {
+    EXPECT_THAT(status.warnings[0], HasSubstr(lost));
+  }
+  EXPECT_THAT(status.warnings[0], Not(HasSubstr("morph")));
+  const Report::Value* listed = status.report.find("not_kept[]");
+  ASSERT_NE(listed, nullptr);
+  EXPECT_EQ(std::get<std::vector<std::string>>(*listed).size(), 6u);
 }
 
 TEST(GltfSkin, AFileOfAnotherProgram)

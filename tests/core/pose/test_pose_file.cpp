@@ -491,6 +491,28 @@ TEST(PoseFile, WhatIsWrittenCanBeRead)
     1e-200);
 }
 
+TEST(PoseFile, ScalesUnevenByRoundoffAreEven)
+{
+  // What single precision leaves of a rotation and an even scale, of matrices of any size.
+  for (const double scale : { 0.01, 1.0, 100.0 })
+  {
+    Pose pose(3);
+    const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    const Vec3 uneven(scale, scale * (1.0 + 2e-6), scale * (1.0 - 1.8e-6));
+    pose[0].transform.leftCols<3>() = turn * uneven.asDiagonal();
+    std::string text;
+    Status status = format_pose_file({ pose }, 24.0, rig(), text);
+    ASSERT_TRUE(status.ok());
+    EXPECT_TRUE(status.warnings.empty()) << status.warnings[0];
+    EXPECT_LT((read(text)[0].transform - pose[0].transform).cwiseAbs().maxCoeff(), 1e-5 * scale);
+    // An animator's squash is not.
+    pose[0].transform.leftCols<3>() = turn * Vec3(scale, scale, 1.001 * scale).asDiagonal();
+    status = format_pose_file({ pose }, 24.0, rig(), text);
+    EXPECT_EQ(status.warnings.size(), 1u);
+  }
+}
+
 TEST(PoseFile, WhatAFileCannotHoldIsSaid)
 {
   Pose pose(3);
@@ -501,6 +523,14 @@ TEST(PoseFile, WhatAFileCannotHoldIsSaid)
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("'p'"));
   EXPECT_FALSE(read(text).empty());
+
+  // One warning for all handles and poses.
+  Pose sheared = pose;
+  sheared[1].transform(1, 1) = 1.5;
+  Status grouped = format_pose_file({ pose, Pose(3), sheared, sheared }, 24.0, rig(), text);
+  ASSERT_EQ(grouped.warnings.size(), 1u);
+  EXPECT_THAT(grouped.warnings[0], HasSubstr("2 handles ('p', '"));
+  EXPECT_THAT(grouped.warnings[0], HasSubstr("in 3 of 4 poses"));
   EXPECT_EQ(format_pose_file({}, 24.0, rig(), text).code, StatusCode::invalid_input);
   EXPECT_EQ(format_pose_file({ Pose(2) }, 24.0, rig(), text).code, StatusCode::invalid_input);
 }

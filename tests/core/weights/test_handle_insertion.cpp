@@ -212,6 +212,23 @@ TEST(HandleInsertion, KeepMeshTakesTheCorners)
   EXPECT_EQ(same.code, StatusCode::invalid_input) << "all corners shared: nothing is p1's own";
   EXPECT_NE(same.message.find("'p1'"), std::string::npos);
 
+  // Joints of a rig: the first is skipped, the second takes the corners.
+  Handles joints = handles;
+  joints.push_back(test::point_handle("p3", Vec3(0.6, 0.2, 0.1)));
+  for (Handle& joint : joints)
+  {
+    joint.ownership = Ownership::optional;
+  }
+  const HandleInsertion rig = inserted(box, joints, options);
+  const Status skipped = constrain_handles(rig, joints, {}, constraints);
+  ASSERT_TRUE(skipped.ok()) << skipped.message;
+  EXPECT_EQ(constraints.counts[0], 0);
+  EXPECT_EQ(constraints.values.colwise().maxCoeff(), Eigen::RowVector3d(0, 1, 1));
+  EXPECT_LT((constraints.values.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-12);
+  ASSERT_EQ(constraints.warnings.size(), 2u);
+  EXPECT_NE(constraints.warnings[0].find("joint 'p1' has no vertex"), std::string::npos);
+  EXPECT_NE(constraints.warnings[1].find("'p2' and 'p3' share"), std::string::npos);
+
   const Handles apart = test::point_handles({ Vec3(0.3, 0.2, 0.1), Vec3(0.6, 0.2, 0.1) });
   const HandleInsertion two = inserted(box, apart, options);
   ASSERT_TRUE(constrain_handles(two, apart, {}, constraints).ok());
@@ -286,6 +303,45 @@ TEST(HandleConstraints, PartsWithoutHandlesFollowTheNearest)
   ASSERT_EQ(constraints.warnings.size(), 1u);
   EXPECT_NE(constraints.warnings[0].find("'p2'"), std::string::npos);
   EXPECT_EQ(constraints.roles[domain.points.rows() - 1], VertexRole::tethered);
+}
+
+TEST(HandleConstraints, OneWarningPerKind)
+{
+  // Five parts, of which two have handles; the others follow two different ones.
+  TriangleMesh mesh = test::grid(3, 3);
+  for (const double x : { 3.0, 6.0, 9.0, 12.0 })
+  {
+    mesh = test::join(mesh, test::translated(test::grid(2, 2), Vec3(x, 0, 0)));
+  }
+  const Domain domain = test::to_domain(mesh);
+  const Handles handles = test::point_handles({ Vec3(0, 0, 0), Vec3(13, 1, 0) });
+  const HandleInsertion on_parts = inserted(domain, handles);
+  HandleConstraints constraints;
+  ASSERT_TRUE(constrain_handles(on_parts, handles, {}, constraints).ok());
+  ASSERT_EQ(constraints.warnings.size(), 1u);
+  EXPECT_EQ(constraints.warnings[0],
+    "3 connected parts without a handle follow the nearest handles 'p1', 'p2'");
+
+  // Six handles in one tet share its corners in fifteen pairs.
+  const Domain box = test::to_domain(test::tet_box(1, 1, 1));
+  HandleInsertionOptions options;
+  options.keep_mesh = true;
+  Handles crowd;
+  for (int k = 0; k < 6; ++k)
+  {
+    crowd.push_back(test::point_handle("h" + std::to_string(k), Vec3(0.3 + 0.02 * k, 0.2, 0.1)));
+    crowd.back().ownership = Ownership::optional;
+  }
+  const HandleInsertion shared = inserted(box, crowd, options);
+  ASSERT_TRUE(constrain_handles(shared, crowd, {}, constraints).ok());
+  Index skips = 0;
+  for (const std::string& warning : constraints.warnings)
+  {
+    skips += warning.find("no vertex of their own") != std::string::npos;
+    EXPECT_LT(warning.size(), 160u) << warning;
+  }
+  EXPECT_EQ(skips, 1);
+  EXPECT_LE(constraints.warnings.size(), 2u);
 }
 
 TEST(HandleConstraints, FlatTrianglesFollowTheirNeighbours)

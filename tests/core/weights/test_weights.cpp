@@ -517,6 +517,40 @@ TEST(Weights, BudgetCancelAndBadOptions)
   }
 }
 
+TEST(Weights, AHelperJointWithoutAVertexHasNoWeights)
+{
+  // Two joints at one place in a rig: the first, the helper, is skipped.
+  Handles joints{ test::point_handle("helper", Vec3(0.2, 0.5, 0.5)),
+    test::point_handle("hip", Vec3(0.2, 0.5, 0.5)),
+    test::bone_handle("spine", Vec3(0.5, 0.5, 0.1), Vec3(0.5, 0.5, 0.8)) };
+  for (Handle& joint : joints)
+  {
+    joint.ownership = Ownership::optional;
+  }
+  const Handles without{ joints[1], joints[2] };
+  const Domain box = test::to_domain(test::tet_box(4, 4, 4));
+  const WeightsProblem problem = problem_of(box, joints);
+  const WeightsProblem plain = problem_of(box, without);
+  for (const bool is_monotone : { false, true })
+  {
+    const WeightsResult result = is_monotone ? monotone(problem) : bounded(problem);
+    const WeightsResult expected = is_monotone ? monotone(plain) : bounded(plain);
+    EXPECT_EQ(result.weights.col(0).cwiseAbs().maxCoeff(), 0.0);
+    EXPECT_LT((result.weights.rightCols(2) - expected.weights).cwiseAbs().maxCoeff(), 1e-5);
+  }
+  const WeightsResult harmonic = unconstrained(problem, 1);
+  EXPECT_EQ(harmonic.weights.col(0).cwiseAbs().maxCoeff(), 0.0);
+
+  // A control bone is skipped even where it has vertices, and adds none to the mesh.
+  joints[0].head = joints[0].tail = Vec3(0.9, 0.1, 0.3);
+  joints[0].ownership = Ownership::none;
+  const WeightsProblem controlled = problem_of(box, joints);
+  EXPECT_EQ(controlled.vertex_count(), plain.vertex_count());
+  EXPECT_LT(
+    (bounded(controlled).weights.rightCols(2) - bounded(plain).weights).cwiseAbs().maxCoeff(),
+    1e-5);
+}
+
 TEST(Weights, TheReportTellsWhatWasDone)
 {
   const WeightsProblem problem = problem_of(test::to_domain(test::tet_box(4, 4, 4)),

@@ -548,6 +548,24 @@ TEST_F(PosingWindow, TheReadingSaysWhenASolveFallsShort)
   EXPECT_TRUE(this->posing()->reading().contains("upload"));
 }
 
+TEST_F(PosingWindow, AStretchThatTheMethodIgnoresIsSaid)
+{
+  this->open();
+  Pose pose(4);
+  pose[3].stretch = 1.4;
+  pose[2].twist[1] = 60.0;
+  this->choose(PoseMethod::stretchable_bones);
+  this->put(pose);
+  ASSERT_TRUE(this->settle());
+  EXPECT_FALSE(this->posing()->reading().contains("stretches or twists bones"));
+  this->choose(PoseMethod::linear_blend);
+  ASSERT_TRUE(this->settle());
+  EXPECT_TRUE(this->posing()->reading().contains("stretches or twists bones"))
+    << this->posing()->reading().toStdString();
+  this->put(Pose(4));
+  EXPECT_FALSE(this->posing()->reading().contains("stretches or twists bones"));
+}
+
 TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
 {
   this->open();

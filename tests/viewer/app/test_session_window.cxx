@@ -577,6 +577,33 @@ TEST_F(SessionWindow, AnUncleanSurfaceIsToldAboutAndShown)
   EXPECT_TRUE(this->window.inspection()->defect_view().is_shown());
 }
 
+TEST_F(SessionWindow, WhatAFileLosesIsToldAbout)
+{
+  const TriangleMesh mesh = test::open_cube();
+  vtkNew<vtkGLTFSkinWriter> writer;
+  writer->SetInputData(0, to_polydata(mesh.points, mesh.triangles));
+  const std::string path = this->folder / "character.gltf";
+  writer->SetFileName(path.c_str());
+  ASSERT_EQ(writer->Write(), 1) << writer->GetStatusMessage();
+  std::string file = this->folder.read("character.gltf");
+  file.insert(file.find('{') + 1, R"("materials": [{"name": "skin"}, {"name": "cloth"}],)");
+  this->folder.write("character.gltf", file);
+  ASSERT_TRUE(this->window.open(text(path))) << this->window.error().toStdString();
+  const QString lost = "character.gltf: Bindpose does not keep 2 materials.";
+  EXPECT_TRUE(this->window.note_bar()->sentence().startsWith(lost))
+    << this->window.note_bar()->sentence().toStdString();
+  // The search for defects ends later and does not take the sentence away.
+  ASSERT_TRUE(
+    test::wait_for([this] { return this->window.note_bar()->sentence().contains("not clean"); }));
+  EXPECT_TRUE(this->window.note_bar()->sentence().startsWith(lost));
+  // Another mesh has lost nothing.
+  const TriangleMesh other = test::open_cube();
+  test::write_with<vtkXMLPolyDataWriter>(
+    to_polydata(other.points, other.triangles), this->folder / "other.vtp");
+  ASSERT_TRUE(this->window.open(text(this->folder / "other.vtp")));
+  EXPECT_FALSE(this->window.note_bar()->sentence().contains("does not keep"));
+}
+
 TEST_F(SessionWindow, WeightsWithoutAMeshAreOneSentence)
 {
   ASSERT_TRUE(write_dmat(this->folder / "w.dmat", Weights(Weights::Constant(3, 2, 0.5))).ok());

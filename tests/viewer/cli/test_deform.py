@@ -96,6 +96,20 @@ def test_report(bar):
 
 
 @pytest.mark.parametrize("method", METHODS)
+def test_an_ignored_stretch_is_said_once(bar, method):
+    frames = [{"handles": {"b1": {"twist": [0, 20 * k]}, "b2": {"stretch": 1 + 0.1 * k}}} for k in range(4)]
+    run = deform(bar, {"version": 2, "frames": frames}, method=method).is_good()
+    said = [line for line in run.err.splitlines() if "stretches or twists bones" in line]
+    assert len(said) == (0 if method == "stbs" else 1), run.err
+    if method == "lbs":
+        run = deform(bar, {"version": 2, **frames[3]}, output="posed.glb").is_good()
+        assert run.err.count("stretches or twists bones") == 1  # glTF joints have neither
+    # Posed ends that keep the length up to roundoff stretch nothing.
+    ends = {"handles": {"b2": {"head": [3, 0.5, 0.5], "tail": [3, 3, 0.5]}}}
+    assert "stretches" not in deform(bar, {"version": 2, **ends}, "--overwrite", method=method).is_good().err
+
+
+@pytest.mark.parametrize("method", METHODS)
 def test_sequences(bar, method):
     frames = [{"handles": {"b2": {"rotate": {"axis": [0, 0, 1], "degrees": 10 * k}}}} for k in range(3)]
     run = deform(bar, {"frames": frames, "fps": 4}, "--report", "r.json", method=method).is_good()

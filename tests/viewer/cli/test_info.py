@@ -40,6 +40,32 @@ def test_where_a_surface_is_unclean(folder):
     folder.run("info", "m.off", "--defects", "d.off").is_refused()
 
 
+def test_numbers_are_those_of_the_legend(folder):
+    """Components, not their triangles; pairs and the triangles of these."""
+    vertices, faces = [], []
+    for k in range(3):
+        cube = shapes.flipped(shapes.cube(3.0 * k, 3.0 * k + 1))
+        faces += [[v + len(vertices) for v in face] for face in cube[1]]
+        vertices += cube[0]
+    for corner in ([-2, -2, -2], [-3, -2.2, -2.1]):
+        cube = shapes.cube(0, 1.5)
+        faces += [[v + len(vertices) for v in face] for face in cube[1]]
+        vertices += [[a + b for a, b in zip(v, corner)] for v in cube[0]]
+    folder.off("m.off", (vertices, faces))
+    run = folder.run("info", "m.off", "--defects", "d.vtp").is_good()
+    counts = folder.run("info", "m.off", "--report", "-").is_good().report["counts"]
+    assert counts["components"] == 5 and counts["inward_components"] == 3
+    assert f"{counts['self_intersections']} pairs of {counts['crossing_triangles']} crossing triangles" in run.out
+    cells = bindpose.read(folder / "d.vtp").GetCellData()
+    kinds = [cells.GetAbstractArray("DefectName").GetValue(k) for k in range(cells.GetNumberOfTuples())]
+    inward = {int(cells.GetArray("InwardComponent").GetTuple1(k)) for k, kind in enumerate(kinds) if kind == "inward component"}
+    assert inward == {0, 1, 2} and kinds.count("inward component") == 36
+    assert kinds.count("crossing triangle") == counts["crossing_triangles"] > 0
+    report = folder.run("render", "m.off", "--defects", "-o", "d.png", "--size", "200x200", "--report", "-").is_good().report
+    legend = {entry["name"]: entry["count"] for entry in report["picture"]["defects"]}
+    assert legend["inward component"] == 3 and legend["crossing triangle"] == counts["crossing_triangles"]
+
+
 def test_unclean_surfaces(folder):
     def counts(mesh):
         folder.off("m.off", mesh)

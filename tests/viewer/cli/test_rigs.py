@@ -3,10 +3,11 @@
 import json
 
 import bindpose
+import foreign_rig
 import numpy as np
 import pytest
 import shapes
-from bindpose.meshes import add_point_array, points_of, to_dataset
+from bindpose.meshes import add_point_array, point_array, points_of, to_dataset
 
 FRAMES = {"fps": 8, "frames": [{"handles": {"b2": {"rotate": {"axis": [0, 0, 1], "degrees": 20 * k}}}}
                                for k in range(3)]}
@@ -77,6 +78,59 @@ def test_one_pose_is_how_the_joints_stand(bar):
     bar.write("rest.json", '{"handles": {}}')
     deform(bar, mesh="out.glb", handles="out.glb", pose="rest.json", output="b.vtp").is_good()
     assert points_of(bindpose.read(bar / "b.vtp")) == pytest.approx(points_of(bindpose.read(bar / "a.vtp")), abs=2e-6)
+
+
+def warnings_of(run):
+    return [line.split(": warning: ", 1)[1] for line in run.err.splitlines() if ": warning: " in line]
+
+
+LOST = ("75 of 76 animations ('Motion 0' is kept)", "2 materials", "1 texture,", "1 camera", "division into 15 meshes")
+
+
+def test_what_a_character_loses_is_one_warning(folder):
+    foreign_rig.write_foreign_rig(folder / "c.gltf")
+    run = folder.run("info", "c.gltf", "--report", "r.json").is_good()
+    said = warnings_of(run)
+    assert len(said) == 1, said  # scales that are uneven by 2e-6 are no shear
+    assert said[0].startswith("c.gltf: ") and all(words in said[0] for words in LOST)
+    assert len(json.loads((folder / "r.json").read_text())["not_kept"]) == 5
+    # Mesh, handles and pose of one file: still one warning.
+    folder.write("rest.json", '{"handles": {}}')
+    deform = ("deform", "c.gltf", "--handles", "c.gltf", "-o")
+    assert warnings_of(folder.run(*deform, "posed.vtp", "--pose", "rest.json").is_good()) == said
+    assert warnings_of(folder.run(*deform, "moving.vtp", "--pose", "c.gltf").is_good()) == said
+
+
+def test_a_character_is_bound_again_to_its_own_rig(folder):
+    foreign_rig.write_foreign_rig(folder / "c.gltf", animations=1)
+    run = folder.run("weights", "c.gltf", "--handles", "c.gltf", "-o", "w.vtp").is_good()
+    skips = [line for line in warnings_of(run) if "skipped" in line]
+    assert len(skips) == 1 and f"{len(foreign_rig.WITHOUT_WEIGHTS)} joints" in skips[0]
+    mesh = bindpose.read(folder / "w.vtp")
+    weights = point_array(mesh, "Weights")
+    array = mesh.GetPointData().GetArray("Weights")
+    names = [array.GetComponentName(k) for k in range(array.GetNumberOfComponents())]
+    assert sorted(names) == sorted(name for name, _, _ in foreign_rig.JOINTS)  # the rig stays whole
+    idle = [name for k, name in enumerate(names) if not weights[:, k].any()]
+    assert sorted(idle) == sorted(foreign_rig.WITHOUT_WEIGHTS)
+    assert weights.sum(axis=1) == pytest.approx(np.ones(len(weights)))
+    # The animation of the file poses the new weights.
+    folder.run("deform", "w.vtp", "--handles", "c.gltf", "--pose", "c.gltf", "-o", "moving.glb").is_good()
+
+
+def test_helper_joints_that_share_vertices_are_skipped(folder):
+    # The skin is a placeholder, so that every joint is bound: the target and the pole of a foot have one vertex.
+    foreign_rig.write_foreign_rig(folder / "c.gltf", animations=1, placeholder=True)
+    run = folder.run("weights", "c.gltf", "--handles", "c.gltf", "-o", "w.vtp").is_good()
+    skips = [line for line in warnings_of(run) if "skipped" in line]
+    assert len(skips) == 1 and "'target.L'" in skips[0]
+    weights = point_array(bindpose.read(folder / "w.vtp"), "Weights")
+    assert weights.sum(axis=1) == pytest.approx(np.ones(len(weights)))
+    # The same handles from a file without that mark are refused as before.
+    handles = bindpose.read_handles(folder / "c.gltf")
+    handles.GetCellData().RemoveArray("Ownership")
+    bindpose.write(handles, folder / "h.vtp")
+    folder.run("weights", "c.gltf", "--handles", "h.vtp", "-o", "x.vtp").is_refused("'target.L'", "move it")
 
 
 def test_broken_files_are_named(bar):

@@ -12,6 +12,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 using namespace bindpose;
 using test::beam;
 using test::Rig;
@@ -56,6 +58,45 @@ PoseOptions with(PoseMethod method)
   return options;
 }
 } // namespace
+
+TEST(Poser, AnIgnoredStretchIsSaid)
+{
+  const Rig rig = beam();
+  const auto warnings = [&](PoseMethod method, const Pose& pose)
+  {
+    ExecutionContext context;
+    const auto poser = make_poser(method, rig.source());
+    const PoseOptions options = with(method);
+    Status status = poser->bind(context, options);
+    EXPECT_TRUE(status.usable()) << status.message;
+    Points posed;
+    status = poser->solve(context, pose, options, 0, posed);
+    EXPECT_TRUE(status.usable()) << status.message;
+    return std::count_if(status.warnings.begin(), status.warnings.end(),
+      [](const std::string& text)
+      { return text.find("stretches or twists bones") != std::string::npos; });
+  };
+  Pose rest(rig.list.size());
+  Pose twisted = rest;
+  twisted[2].twist[1] = 30.0;
+  Pose stretched = rest;
+  stretched[3].stretch = 1.5;
+  Pose rounded = rest;
+  rounded[3].stretch = 1.0 + 1e-9;
+  for (int k = 0; k < pose_method_count; ++k)
+  {
+    const auto method = static_cast<PoseMethod>(k);
+    const int expected = method == PoseMethod::stretchable_bones ? 0 : 1;
+    EXPECT_EQ(warnings(method, twisted), expected) << to_string(method);
+    EXPECT_EQ(warnings(method, stretched), expected) << to_string(method);
+    EXPECT_EQ(warnings(method, rest), 0) << to_string(method);
+    EXPECT_EQ(warnings(method, rounded), 0) << to_string(method);
+  }
+  // As-rigid-as-possible deformation puts both ends of a bone where its stretch takes them.
+  stretched[3].mode = HandleMode::ends;
+  EXPECT_EQ(warnings(PoseMethod::full_arap, stretched), 0);
+  EXPECT_EQ(warnings(PoseMethod::linear_blend, stretched), 1);
+}
 
 TEST(Poser, EverySkinningMethodGivesWhatTheFilterGives)
 {

@@ -27,6 +27,7 @@
 #include "volume_view.h"
 #include "weight_inspection.h"
 #include "wheel_guard.h"
+#include "weight_panel.h"
 #include "window_menus.h"
 #include "window_sessions.h"
 
@@ -57,6 +58,8 @@
 using namespace bindpose;
 
 namespace
+#include <algorithm>
+
 {
 /// A file's name for a title or a sentence: exporters write names that no line holds.
 QString short_name(const QString& path)
@@ -67,13 +70,29 @@ QString short_name(const QString& path)
     ? name
     : name.left(longest / 2) + QStringLiteral("…") + name.right(longest / 2);
 }
-/// How exact the weights are, where that is known; the panel of weights says it column by column.
-QString certificate_note(vtkPolyData* surface)
+QString method_words(BindMethod method)
+{
+  const std::vector<ComparedMethod>& methods = compared_methods();
+  const auto found = std::find_if(methods.begin(), methods.end(),
+    [method](const ComparedMethod& each) { return each.method == method; });
+  return QCoreApplication::translate("WeightPanel", found->name).toLower();
+}
+/// Which weights are bound and how exact they are, where that is known; the panel of weights says
+/// it column by column. `chosen`: the method of the next bind, which the certificate is not about.
+QString certificate_note(vtkPolyData* surface, BindMethod chosen)
 {
   vtkDataArray* gaps = surface->GetFieldData()->GetArray("WeightsRelativeGap");
-  return gaps && gaps->GetNumberOfTuples() > 0
-    ? MainWindow::tr("Bound, certified to %1.").arg(gaps->GetRange()[1], 0, 'e', 1)
-    : MainWindow::tr("Bound with the mesh's weights.");
+  const int bound = method_of_weights(surface);
+  const QString name = bound < 0 ? MainWindow::tr("the mesh's weights")
+                                 : method_words(compared_methods()[bound].method);
+  QString note = gaps && gaps->GetNumberOfTuples() > 0
+    ? MainWindow::tr("Bound: %1, certified to %2.").arg(name).arg(gaps->GetRange()[1], 0, 'e', 1)
+    : MainWindow::tr("Bound: %1.").arg(name);
+  if (bound >= 0 && compared_methods()[bound].method != chosen)
+  {
+    note += ' ' + MainWindow::tr("Bind again for %1.").arg(method_words(chosen));
+  }
+  return note;
 }
 } // namespace
 
@@ -254,6 +273,14 @@ void MainWindow::connect_volume()
   VolumePanel* panel = this->panels_->volume();
   VolumeView* view = this->volume_view_;
   QObject::connect(panel, &VolumePanel::slice_wanted, view, &VolumeView::show_slice);
+  QObject::connect(this->panel_, &SidePanel::bind_method_changed, this,
+    [this]
+    {
+      if (this->is_bound() && !this->binding_->is_running())
+      {
+        this->panel_->set_note(this->bound_note());
+      }
+    });
   QObject::connect(
     panel, &VolumePanel::orientation_chosen, view->plane(), &PlaneHandle::set_orientation);
   QObject::connect(panel, &VolumePanel::position_chosen, view->plane(), &PlaneHandle::set_position);
@@ -788,7 +815,7 @@ void MainWindow::update_panel()
   this->panel_->show_column(bound && column < columns ? column : -1);
   this->show_column(this->panel_->shown_column());
   this->panel_->set_note(binding ? tr("Starting …")
-      : bound                    ? certificate_note(this->document_->surface())
+      : bound                    ? this->bound_note()
       : ready                    ? tr("Not bound yet.")
       : !surface && !handles     ? tr("Needs a mesh and handles.")
       : surface                  ? tr("Needs handles.")
@@ -861,6 +888,12 @@ void MainWindow::export_as(const QString& what)
     this->show_error(QString::fromStdString(status.message));
   }
   else if (!status.warnings.empty()) // what such a file cannot hold
+QString MainWindow::bound_note() const
+{
+  return certificate_note(this->document_->surface(),
+    this->panel_->monotone() ? BindMethod::monotone : BindMethod::bounded);
+}
+
   {
     this->show_notice(QString::fromStdString(status.warnings.front()) + '.');
   }

@@ -141,6 +141,9 @@ private:
   void update_panel();
   void show_column(int column);
   bool open_file(const QString& path, const OpenedFile* read);
+  QString bound_note() const;
+  void show_state();
+  void face_planes();
   bool open_picture(vtkImageData* picture, const QString& name, const Source& source, bool whole);
   bool say(const QString& name, const bindpose::Status& status);
   void update_hint();

@@ -53,6 +53,8 @@ SidePanel::SidePanel(QWidget* parent) : QFrame(parent)
   this->kind_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   this->kind_->setToolTip(tr("Bounded: smooth functions between 0 and 1.\n"
                              "Monotone: besides, no hill or hollow away from the handles."));
+  QObject::connect(this->kind_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+    &SidePanel::bind_method_changed);
   column->addWidget(this->kind_);
   auto* buttons = new QHBoxLayout;
   this->bind_ = button(tr("Bind"), this);

@@ -1,6 +1,7 @@
 #include "main_window.h"
 
 #include "binding.h"
+#include "distance_view.h"
 #include "document/document.h"
 #include "document/opened_file.h"
 #include "document/recent_files.h"
@@ -26,8 +27,8 @@
 #include "volume_panel.h"
 #include "volume_view.h"
 #include "weight_inspection.h"
-#include "wheel_guard.h"
 #include "weight_panel.h"
+#include "wheel_guard.h"
 #include "window_menus.h"
 #include "window_sessions.h"
 
@@ -37,10 +38,12 @@
 #include "scene/picture.h"
 #include "scene/volume.h"
 
+#include "vtkCamera.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkMeshFileReader.h"
+#include "vtkRenderer.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <QApplication>
@@ -55,11 +58,11 @@
 #include <QUndoStack>
 #include <QVBoxLayout>
 
+#include <algorithm>
+
 using namespace bindpose;
 
 namespace
-#include <algorithm>
-
 {
 /// A file's name for a title or a sentence: exporters write names that no line holds.
 QString short_name(const QString& path)
@@ -205,8 +208,13 @@ void MainWindow::make_inspections()
 {
   this->volume_view_ = new VolumeView(this->viewport_);
   this->inspection_ = new Inspection(this->viewport_, this->panels_->tet());
-  QObject::connect(
-    this->inspection_, &Inspection::surface_look_changed, this, &MainWindow::update_surface_look);
+  QObject::connect(this->inspection_, &Inspection::surface_look_changed, this,
+    [this]
+    {
+      this->update_surface_look();
+      this->draw_pose(); // tets and defects lie in the shape at rest
+    });
+  QObject::connect(this->inspection_, &Inspection::tets_made, this, &MainWindow::face_planes);
   QObject::connect(this->inspection_, &Inspection::failed, this, &MainWindow::show_error);
   QObject::connect(this->inspection_, &Inspection::noticed, this, &MainWindow::show_notice);
   QObject::connect(this->inspection_, &Inspection::defects_found, this, &MainWindow::offer_defects);
@@ -221,10 +229,11 @@ void MainWindow::make_inspections()
   QObject::connect(this->weights_, &WeightInspection::failed, this, &MainWindow::show_error);
   this->rotations_ =
     std::make_unique<RotationView>(this->viewport_, this->panels_->side()->pose(), this->posing_);
+  this->distances_ = std::make_unique<DistanceView>(this->viewport_, this->posing_);
   this->probe_ = new Probe(
     { this->viewport_, this->volume_view_, this->inspection_->tet_view(), this->weights_->view(),
       &this->inspection_->defect_view(), this->posing_, this->rotations_.get(),
-      [this] { return this->document_->surface() ? this->seen() : nullptr; } });
+      [this] { return this->document_->surface() ? this->posing_->seen() : nullptr; } });
   QObject::connect(this->panels_, &PanelColumn::panel_shown, this->inspection_,
     [this](int panel)
     {
@@ -232,12 +241,15 @@ void MainWindow::make_inspections()
       const bool poses = panel == PanelColumn::bind_and_pose;
       if (!poses)
       {
+        this->distances_->set_active(false);
         this->rotations_->set_active(false);
       }
       this->inspection_->set_active(panel == PanelColumn::tets);
       this->weights_->set_active(panel == PanelColumn::weights);
+      this->volume_view_->set_active(panel == PanelColumn::volume_slice);
       if (poses)
       {
+        this->distances_->set_active(true);
         this->rotations_->set_active(true);
       }
     });
@@ -261,6 +273,14 @@ void MainWindow::connect_panel()
   QObject::connect(this->binding_, &Binding::noticed, this, &MainWindow::show_notice);
   QObject::connect(
     this->binding_, &Binding::bound, this->sessions_->autosave(), &Autosave::begin_save);
+  QObject::connect(this->panel_, &SidePanel::bind_method_changed, this,
+    [this]
+    {
+      if (this->is_bound() && !this->binding_->is_running())
+      {
+        this->panel_->set_note(this->bound_note());
+      }
+    });
   QObject::connect(this->panel_, &SidePanel::method_chosen, this, &MainWindow::set_method);
   QObject::connect(this->panel_, &SidePanel::mode_chosen, this,
     [this](int mode) { this->editing_->commands()->fix(static_cast<HandleMode>(mode)); });
@@ -273,14 +293,6 @@ void MainWindow::connect_volume()
   VolumePanel* panel = this->panels_->volume();
   VolumeView* view = this->volume_view_;
   QObject::connect(panel, &VolumePanel::slice_wanted, view, &VolumeView::show_slice);
-  QObject::connect(this->panel_, &SidePanel::bind_method_changed, this,
-    [this]
-    {
-      if (this->is_bound() && !this->binding_->is_running())
-      {
-        this->panel_->set_note(this->bound_note());
-      }
-    });
   QObject::connect(
     panel, &VolumePanel::orientation_chosen, view->plane(), &PlaneHandle::set_orientation);
   QObject::connect(panel, &VolumePanel::position_chosen, view->plane(), &PlaneHandle::set_position);
@@ -298,6 +310,12 @@ void MainWindow::connect_volume()
   QObject::connect(view, &VolumeView::slice_moved, panel, show_position);
   QObject::connect(view, &VolumeView::volume_changed, panel, show_position);
   QObject::connect(view, &VolumeView::area_changed, panel, &VolumePanel::set_area);
+  QObject::connect(view, &VolumeView::shown_changed, this,
+    [this]
+    {
+      this->update_surface_look();
+      this->draw_pose(); // winding numbers are those of the shape at rest
+    });
 }
 
 void MainWindow::connect_handles()
@@ -621,6 +639,10 @@ bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name, const Source& s
 {
   this->error_bar_->hide();
   const bool done = this->say(name, this->document_->set_mesh(mesh, name, source));
+  if (done)
+  {
+    this->face_planes();
+  }
   if (done && this->inspection_->tet_view()->tets() && !this->document_->handle_data())
   {
     this->panels_->show_panel(PanelColumn::tets);
@@ -642,6 +664,7 @@ bool MainWindow::set_volume(vtkImageData* volume, const QString& name, const Sou
   if (done)
   {
     this->document_->set_volume(volume, name, source);
+    this->face_planes();
   }
   return done;
 }
@@ -720,12 +743,6 @@ bool MainWindow::is_bound() const
   return this->posing_->has_weights();
 }
 
-/// As it is drawn: slices of weights lie in the shape at rest.
-vtkPolyData* MainWindow::seen() const
-{
-  return this->weights_->wants_rest() ? this->document_->surface() : this->shown();
-}
-
 vtkPolyData* MainWindow::shown() const
 {
   return this->posing_->shape();
@@ -766,31 +783,74 @@ void MainWindow::draw_pose()
 {
   vtkPolyData* rest = this->document_->surface();
   const bool handles = this->document_->handle_data();
-  const bool volume_only = this->volume_view_->volume() && !(rest && handles);
-  QString reading = volume_only    ? tr("Drag the slice to move it, elsewhere to turn the view.")
+  this->show_state();
+  const bool cuts = this->inspection_->tet_view()->is_shown();
+  const bool slices = this->volume_view_->is_slice_shown() || this->weights_->wants_rest();
+  QString reading = cuts           ? tr("Drag the cut to move it, elsewhere to turn the view.")
+    : slices                       ? tr("Drag the slice to move it, elsewhere to turn the view.")
     : !rest                        ? tr("Open a mesh (Ctrl+O) or drop one here.")
     : !handles                     ? tr("Add handles (?: all keys), or open some (.tgf or .vtp).")
     : this->binding_->is_running() ? tr("Binding; the view can be turned meanwhile.")
                                    : tr("Bind (Ctrl+B), then drag the handles.");
-  if (this->posing_->can_pose())
+  if (this->posing_->can_pose() && !cuts && !slices)
   {
     reading = this->posing_->reading();
   }
-  if (rest && this->weights_->wants_rest())
-  {
-    this->viewport_->move_surface(rest);
-    this->weights_->move_surface(rest);
-  }
-  else if (rest)
+  if (rest && this->posing_->surface() == this->drawn_) // else another mesh is being opened
   {
     this->posing_->draw();
-    this->weights_->move_surface(this->shown());
+    this->weights_->move_surface(this->posing_->seen());
   }
+  this->distances_->update();
   this->rotations_->update();
   this->probe_->clear();
   this->hint_text_ = reading;
   this->update_hint();
   this->viewport_->refresh();
+}
+
+/// One picture has one state: what belongs to the shape at rest (tets, defects, slices, winding
+/// numbers) is shown with surface and handles at rest, and a label says so.
+void MainWindow::show_state()
+{
+  const QString inspected = this->inspection_->tet_view()->is_shown() ? tr("the tets belong to it")
+    : this->inspection_->defect_view().is_shown()                     ? tr("its defects are marked")
+    : this->weights_->wants_rest()   ? tr("the slice of the weights belongs to it")
+    : this->volume_view_->is_shown() ? tr("the winding numbers belong to it")
+                                     : QString();
+  const bool looks = this->posing_->looks_at_rest();
+  this->posing_->inspect_at_rest(!inspected.isEmpty());
+  this->editing_->show_rest(!inspected.isEmpty() || looks);
+  const bool edits = this->posing_->edits_at_rest() && this->posing_->is_posed();
+  const QString why = !inspected.isEmpty() ? inspected
+    : looks                                ? tr("T shows the pose")
+    : edits                                ? tr("handles are edited in it")
+                                           : QString();
+  this->viewport_->name_state(
+    this->document_->handle_data() && !why.isEmpty() ? tr("Rest shape: %1").arg(why) : QString());
+}
+
+/// Planes across the axis that the view looks along most, so that a cut shows the inside: as long
+/// as nobody has chosen another orientation.
+void MainWindow::face_planes()
+{
+  const Vec3 sight(this->viewport_->renderer()->GetActiveCamera()->GetDirectionOfProjection());
+  int axis = 0;
+  sight.cwiseAbs().maxCoeff(&axis);
+  for (const QString name : { "volume", "tets", "weights" })
+  {
+    const QString key = name + ".orientation";
+    int& faced = this->faced_.try_emplace(name, find_option(key)->initial.toInt()).first->second;
+    if (this->document_->number(key) == faced)
+    {
+      faced = axis;
+      this->links_->note(key, axis);
+      if (name == "tets")
+      {
+        this->links_->note("tets.other_side", sight[axis] > 0.0);
+      }
+    }
+  }
 }
 
 /// What the hand does comes before what the pose took.
@@ -828,6 +888,12 @@ void MainWindow::update_panel()
   this->menus_->update();
 }
 
+QString MainWindow::bound_note() const
+{
+  return certificate_note(this->document_->surface(),
+    this->panel_->monotone() ? BindMethod::monotone : BindMethod::bounded);
+}
+
 void MainWindow::show_outlines(bool shown)
 {
   this->viewport_->show_outlines(shown);
@@ -841,7 +907,7 @@ void MainWindow::update_surface_look()
 {
   int look = this->inspection_->surface_look();
   look = look == Viewport::solid ? this->weights_->surface_look() : look;
-  this->viewport_->set_surface_look(look == Viewport::solid && this->volume_view_->volume()
+  this->viewport_->set_surface_look(look == Viewport::solid && this->volume_view_->is_active()
       ? this->panels_->volume()->surface_look()
       : look);
 }
@@ -888,12 +954,6 @@ void MainWindow::export_as(const QString& what)
     this->show_error(QString::fromStdString(status.message));
   }
   else if (!status.warnings.empty()) // what such a file cannot hold
-QString MainWindow::bound_note() const
-{
-  return certificate_note(this->document_->surface(),
-    this->panel_->monotone() ? BindMethod::monotone : BindMethod::bounded);
-}
-
   {
     this->show_notice(QString::fromStdString(status.warnings.front()) + '.');
   }

@@ -8,11 +8,13 @@
 
 #include <QMainWindow>
 
+#include <map>
 #include <optional>
 
 class QLabel;
 class QUndoStack;
 class Binding;
+class DistanceView;
 class Document;
 class ElidedLabel;
 class ErrorBar;
@@ -132,7 +134,6 @@ private:
   void show_volume();
   void connect_weights();
   void update_plane();
-  vtkPolyData* seen() const;
   void update_surface_look();
   void offer_defects(const QString& counts);
   void connect_posing();
@@ -140,10 +141,10 @@ private:
   void draw_pose();
   void update_panel();
   void show_column(int column);
-  bool open_file(const QString& path, const OpenedFile* read);
   QString bound_note() const;
   void show_state();
   void face_planes();
+  bool open_file(const QString& path, const OpenedFile* read);
   bool open_picture(vtkImageData* picture, const QString& name, const Source& source, bool whole);
   bool say(const QString& name, const bindpose::Status& status);
   void update_hint();
@@ -156,6 +157,8 @@ private:
   Probe* probe_ = nullptr;
   std::optional<bindpose::Vec3> plane_; // its normal, of the shape at rest
   bool flat_wanted_ = true;
+  /// Of each plane, by its options' name, the orientation that the program itself has chosen last.
+  std::map<QString, int> faced_;
   Posing* posing_ = nullptr;
   HandleEditing* editing_ = nullptr;
   Binding* binding_ = nullptr;
@@ -163,6 +166,7 @@ private:
   KeyStrip* strip_ = nullptr; // below the picture
   PanelColumn* panels_ = nullptr;
   std::unique_ptr<RotationView> rotations_;
+  std::unique_ptr<DistanceView> distances_;
   SidePanel* panel_ = nullptr; // one of them
   OptionLinks* links_ = nullptr;
   WindowMenus* menus_ = nullptr;

@@ -61,7 +61,7 @@ void vtkHandleSetRepresentation::BuildRepresentation()
     return;
   }
   const bindpose::ScreenView view(this->Renderer);
-  const std::vector<HandlePlace> places = self.Data.places(this->EditMode != POSE);
+  const std::vector<HandlePlace> places = self.Data.places(this->DrawsRest());
   const bool fine = places.size() <= 60;
   bindpose::HandleShapes solid(fine);
   bindpose::HandleShapes outline(fine);
@@ -163,7 +163,7 @@ void vtkHandleSetRepresentation::BuildRepresentation()
 double* vtkHandleSetRepresentation::GetBounds()
 {
   Eigen::AlignedBox3d box;
-  for (const HandlePlace& place : this->Internal->Data.places(this->EditMode != POSE))
+  for (const HandlePlace& place : this->Internal->Data.places(this->DrawsRest()))
   {
     box.extend(place.head).extend(place.tail);
   }

@@ -557,7 +557,7 @@ TEST_F(Window, ChoosingPanelsKeepsTheSize)
   }
 }
 
-TEST_F(Window, HandlesAreDraggedWithAVolumeOpen)
+TEST_F(Window, HandlesAreDraggedBesideAnOpenVolumeInThePanelPose)
 {
   this->open_bound();
   vtkNew<vtkImageData> volume;
@@ -576,6 +576,12 @@ TEST_F(Window, HandlesAreDraggedWithAVolumeOpen)
   this->render();
   const double slice = this->window.volume_view()->position();
   const Vec3 rest = top_of(this->window.shown());
+  // At rest around the slice they stay, and so does the slice behind them.
+  this->drag(1, { 80, 0 });
+  EXPECT_EQ(top_of(this->window.shown()), rest);
+  EXPECT_EQ(this->window.volume_view()->position(), slice);
+  this->window.panels()->show_panel(PanelColumn::bind_and_pose);
+  this->render();
   this->drag(1, { 80, 0 });
   EXPECT_GT((top_of(this->window.shown()) - rest).norm(), 0.1);
   EXPECT_EQ(this->window.volume_view()->position(), slice);

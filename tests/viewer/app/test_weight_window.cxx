@@ -552,8 +552,13 @@ TEST_F(WeightWindow, IsolinesAndSlicesKnowThePose)
   this->find<QCheckBox>("Slice through the volume")->setChecked(true);
   auto* handles = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
   EXPECT_NEAR(reach(this->window.viewport()->drawn()), 1.0, 1e-5);
+  EXPECT_NEAR(handles->GetBounds()[5], 0.9, 1e-5);
+  EXPECT_EQ(
+    this->window.viewport()->state_name(), "Rest shape: the slice of the weights belongs to it");
   this->find<QCheckBox>("Slice through the volume")->setChecked(false);
   EXPECT_NEAR(reach(this->window.viewport()->drawn()), 2.0, 1e-5);
+  EXPECT_NEAR(handles->GetBounds()[5], 1.9, 1e-5);
+  EXPECT_EQ(this->window.viewport()->state_name(), QString());
 }
 
 TEST_F(WeightWindow, WhatCannotBeChosenSaysWhy)

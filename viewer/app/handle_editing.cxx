@@ -240,6 +240,16 @@ void HandleEditing::set_mode(int mode)
   this->viewport_->refresh();
 }
 
+void HandleEditing::show_rest(bool shown)
+{
+  if (shown != (this->drawn()->GetShowRest() != 0))
+  {
+    this->stop();
+    this->drawn()->SetShowRest(shown);
+    this->viewport_->refresh();
+  }
+}
+
 void HandleEditing::step_back()
 {
   if (this->widget()->IsDragging() || this->painting_->is_painting())
@@ -632,6 +642,8 @@ QString HandleEditing::refusal() const
     case Drawn::IS_LOCKED:
       return tr("%1 is locked; %2 unlocks it when it is selected.")
         .arg(name, QString::fromStdString(keys_of("lock")));
+    case Drawn::IS_AT_REST:
+      return tr("%1 is shown at rest; drag it where the picture shows the pose.").arg(name);
     default:
       return {};
   }
@@ -682,7 +694,7 @@ bool HandleEditing::takes_key(const QKeyEvent* event) const
   {
     return this->mode_ != pose;
   }
-  return this->mode_ == pose && this->widget()->GetEnabled() &&
+  return this->mode_ == pose && this->widget()->GetEnabled() && !this->drawn()->GetShowRest() &&
     this->drawn()->GetNumberOfSelectedHandles() > 0 &&
     (event->key() == Qt::Key_G || event->key() == Qt::Key_R || event->key() == Qt::Key_S);
 }

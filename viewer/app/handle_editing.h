@@ -64,6 +64,8 @@ public:
 
   int mode() const { return this->mode_; }
   void set_mode(int mode);
+  /// In the mode pose: handles are drawn at rest, where they can be selected but not dragged.
+  void show_rest(bool shown);
   /// Back by one: a drag or stroke, a cage's last vertex, the mode.
   void step_back();
 

@@ -191,7 +191,12 @@ void Inspection::tets_finished()
     Q_EMIT this->failed(tr("Cannot make tets: %1.").arg(QString::fromStdString(status.message)));
     return;
   }
+  const bool first = !this->tets_->tets();
   this->tets_->set_tets(*this->made_tets_);
+  if (first)
+  {
+    Q_EMIT this->tets_made();
+  }
   this->choose_colours(this->colours_);
   this->update_panel();
   this->show_position();

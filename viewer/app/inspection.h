@@ -42,6 +42,8 @@ public:
 
 Q_SIGNALS:
   void surface_look_changed();
+  /// The first tets of the surface are there, before they are shown.
+  void tets_made();
   /// How many of which kind, for a sentence.
   void defects_found(const QString& counts);
   /// One sentence; what was shown stays.

@@ -2,6 +2,7 @@
 
 #include "bar_stack.h"
 #include "binding.h"
+#include "distance_view.h"
 #include "document/document.h"
 #include "empty_state.h"
 #include "document/opened_file.h"
@@ -38,10 +39,12 @@
 #include "scene/camera.h"
 #include "scene/volume.h"
 
+#include "vtkCamera.h"
 #include "vtkDataArray.h"
 #include "vtkFieldData.h"
 #include "vtkImageData.h"
 #include "vtkMeshFileReader.h"
+#include "vtkRenderer.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <QApplication>
@@ -73,13 +76,31 @@ QString short_name(const QString& path)
     ? name
     : name.left(longest / 2) + QStringLiteral("…") + name.right(longest / 2);
 }
-/// How exact the weights are, where that is known; the panel of weights says it column by column.
-QString certificate_note(vtkPolyData* surface)
+QString method_words(BindMethod method)
+{
+  const std::vector<ComparedMethod>& methods = compared_methods();
+  const auto found = std::find_if(methods.begin(), methods.end(),
+    [method](const ComparedMethod& each) { return each.method == method; });
+  return QCoreApplication::translate("WeightPanel", found->name).toLower();
+}
+/// Which weights are bound and how exact they are, where that is known; the panel of weights says
+/// it column by column. `chosen`: the method of the next bind, which the certificate is not about.
+QString certificate_note(vtkPolyData* surface, BindMethod chosen)
 {
   vtkDataArray* gaps = surface->GetFieldData()->GetArray("WeightsRelativeGap");
-  return gaps && gaps->GetNumberOfTuples() > 0
-    ? MainWindow::tr("Bound. Optimal to within %1.").arg(gaps->GetRange()[1], 0, 'e', 1)
-    : MainWindow::tr("Bound with the mesh's weights.");
+  const int bound = method_of_weights(surface);
+  const QString name = bound < 0 ? MainWindow::tr("the mesh's weights")
+                                 : method_words(compared_methods()[bound].method);
+  QString note = gaps && gaps->GetNumberOfTuples() > 0
+    ? MainWindow::tr("Bound: %1. Optimal to within %2.")
+        .arg(name)
+        .arg(gaps->GetRange()[1], 0, 'e', 1)
+    : MainWindow::tr("Bound: %1.").arg(name);
+  if (bound >= 0 && compared_methods()[bound].method != chosen)
+  {
+    note += ' ' + MainWindow::tr("Bind again for %1.").arg(method_words(chosen));
+  }
+  return note;
 }
 } // namespace
 
@@ -199,8 +220,13 @@ void MainWindow::make_inspections()
 {
   this->volume_view_ = new VolumeView(this->viewport_);
   this->inspection_ = new Inspection(this->viewport_, this->panels_->tet());
-  QObject::connect(
-    this->inspection_, &Inspection::surface_look_changed, this, &MainWindow::update_surface_look);
+  QObject::connect(this->inspection_, &Inspection::surface_look_changed, this,
+    [this]
+    {
+      this->update_surface_look();
+      this->draw_pose(); // tets and defects lie in the shape at rest
+    });
+  QObject::connect(this->inspection_, &Inspection::tets_made, this, &MainWindow::face_planes);
   QObject::connect(this->inspection_, &Inspection::noticed, this, &MainWindow::show_notice);
   QObject::connect(this->inspection_, &Inspection::defects_found, this, &MainWindow::offer_defects);
   this->weights_ = new WeightInspection(this->viewport_, this->panels_->weight(),
@@ -213,10 +239,11 @@ void MainWindow::make_inspections()
     });
   this->rotations_ =
     std::make_unique<RotationView>(this->viewport_, this->panels_->side()->pose(), this->posing_);
+  this->distances_ = std::make_unique<DistanceView>(this->viewport_, this->posing_);
   this->probe_ = new Probe(
     { this->viewport_, this->volume_view_, this->inspection_->tet_view(), this->weights_->view(),
       &this->inspection_->defect_view(), this->posing_, this->rotations_.get(),
-      [this] { return this->document_->surface() ? this->seen() : nullptr; } });
+      [this] { return this->document_->surface() ? this->posing_->seen() : nullptr; } });
   QObject::connect(this->panels_, &PanelColumn::panel_shown, this->inspection_,
     [this](int panel)
     {
@@ -224,12 +251,15 @@ void MainWindow::make_inspections()
       const bool poses = panel == PanelColumn::bind_and_pose;
       if (!poses)
       {
+        this->distances_->set_active(false);
         this->rotations_->set_active(false);
       }
       this->inspection_->set_active(panel == PanelColumn::tets);
       this->weights_->set_active(panel == PanelColumn::weights);
+      this->volume_view_->set_active(panel == PanelColumn::volume_slice);
       if (poses)
       {
+        this->distances_->set_active(true);
         this->rotations_->set_active(true);
       }
       if (panel == PanelColumn::weights)
@@ -269,6 +299,14 @@ void MainWindow::connect_panel()
   QObject::connect(this->binding_, &Binding::noticed, this, &MainWindow::show_notice);
   QObject::connect(
     this->binding_, &Binding::bound, this->sessions_->autosave(), &Autosave::begin_save);
+  QObject::connect(this->panel_, &SidePanel::bind_method_changed, this,
+    [this]
+    {
+      if (this->is_bound() && !this->binding_->is_running())
+      {
+        this->panel_->set_note(this->bound_note());
+      }
+    });
   QObject::connect(this->panel_, &SidePanel::method_chosen, this, &MainWindow::set_method);
   QObject::connect(this->panel_, &SidePanel::mode_chosen, this,
     [this](int mode) { this->editing_->commands()->fix(static_cast<HandleMode>(mode)); });
@@ -298,6 +336,12 @@ void MainWindow::connect_volume()
   QObject::connect(view, &VolumeView::slice_moved, panel, show_position);
   QObject::connect(view, &VolumeView::volume_changed, panel, show_position);
   QObject::connect(view, &VolumeView::area_changed, panel, &VolumePanel::set_area);
+  QObject::connect(view, &VolumeView::shown_changed, this,
+    [this]
+    {
+      this->update_surface_look();
+      this->draw_pose(); // winding numbers are those of the shape at rest
+    });
 }
 
 void MainWindow::connect_handles()
@@ -690,6 +734,10 @@ bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name, const Source& s
 {
   this->error_bar_->hide();
   const bool done = this->say(name, this->document_->set_mesh(mesh, name, source));
+  if (done)
+  {
+    this->face_planes();
+  }
   if (done && this->inspection_->tet_view()->tets() && !this->document_->handle_data())
   {
     this->panels_->show_panel(PanelColumn::tets);
@@ -711,6 +759,7 @@ bool MainWindow::set_volume(vtkImageData* volume, const QString& name, const Sou
   if (done)
   {
     this->document_->set_volume(volume, name, source);
+    this->face_planes();
   }
   return done;
 }
@@ -789,12 +838,6 @@ bool MainWindow::is_bound() const
   return this->posing_->has_weights();
 }
 
-/// As it is drawn: slices of weights lie in the shape at rest.
-vtkPolyData* MainWindow::seen() const
-{
-  return this->weights_->wants_rest() ? this->document_->surface() : this->shown();
-}
-
 vtkPolyData* MainWindow::shown() const
 {
   return this->posing_->shape();
@@ -834,31 +877,74 @@ void MainWindow::draw_pose()
 {
   vtkPolyData* rest = this->document_->surface();
   const bool handles = this->document_->handle_data();
-  const bool volume_only = this->volume_view_->volume() && !(rest && handles);
-  QString reading = volume_only    ? tr("Drag the slice to move it, elsewhere to turn the view.")
+  this->show_state();
+  const bool cuts = this->inspection_->tet_view()->is_shown();
+  const bool slices = this->volume_view_->is_slice_shown() || this->weights_->wants_rest();
+  QString reading = cuts           ? tr("Drag the cut to move it, elsewhere to turn the view.")
+    : slices                       ? tr("Drag the slice to move it, elsewhere to turn the view.")
     : !rest                        ? tr("Open a mesh (Ctrl+O) or drop one here.")
     : !handles                     ? tr("Add handles (?: all keys), or open some (.tgf or .vtp).")
     : this->binding_->is_running() ? tr("Binding; the view can be turned meanwhile.")
                                    : tr("Bind (Ctrl+B), then drag the handles.");
-  if (this->posing_->can_pose())
+  if (this->posing_->can_pose() && !cuts && !slices)
   {
     reading = this->posing_->reading();
   }
-  if (rest && this->weights_->wants_rest())
-  {
-    this->viewport_->move_surface(rest);
-    this->weights_->move_surface(rest);
-  }
-  else if (rest)
+  if (rest && this->posing_->surface() == this->drawn_) // else another mesh is being opened
   {
     this->posing_->draw();
-    this->weights_->move_surface(this->shown());
+    this->weights_->move_surface(this->posing_->seen());
   }
+  this->distances_->update();
   this->rotations_->update();
   this->probe_->clear();
   this->hint_text_ = reading;
   this->update_hint();
   this->viewport_->refresh();
+}
+
+/// One picture has one state: what belongs to the shape at rest (tets, defects, slices, winding
+/// numbers) is shown with surface and handles at rest, and a label says so.
+void MainWindow::show_state()
+{
+  const QString inspected = this->inspection_->tet_view()->is_shown() ? tr("the tets belong to it")
+    : this->inspection_->defect_view().is_shown()                     ? tr("its defects are marked")
+    : this->weights_->wants_rest()   ? tr("the slice of the weights belongs to it")
+    : this->volume_view_->is_shown() ? tr("the winding numbers belong to it")
+                                     : QString();
+  const bool looks = this->posing_->looks_at_rest();
+  this->posing_->inspect_at_rest(!inspected.isEmpty());
+  this->editing_->show_rest(!inspected.isEmpty() || looks);
+  const bool edits = this->posing_->edits_at_rest() && this->posing_->is_posed();
+  const QString why = !inspected.isEmpty() ? inspected
+    : looks                                ? tr("T shows the pose")
+    : edits                                ? tr("handles are edited in it")
+                                           : QString();
+  this->viewport_->name_state(
+    this->document_->handle_data() && !why.isEmpty() ? tr("Rest shape: %1").arg(why) : QString());
+}
+
+/// Planes across the axis that the view looks along most, so that a cut shows the inside: as long
+/// as nobody has chosen another orientation.
+void MainWindow::face_planes()
+{
+  const Vec3 sight(this->viewport_->renderer()->GetActiveCamera()->GetDirectionOfProjection());
+  int axis = 0;
+  sight.cwiseAbs().maxCoeff(&axis);
+  for (const QString name : { "volume", "tets", "weights" })
+  {
+    const QString key = name + ".orientation";
+    int& faced = this->faced_.try_emplace(name, find_option(key)->initial.toInt()).first->second;
+    if (this->document_->number(key) == faced)
+    {
+      faced = axis;
+      this->links_->note(key, axis);
+      if (name == "tets")
+      {
+        this->links_->note("tets.other_side", sight[axis] > 0.0);
+      }
+    }
+  }
 }
 
 /// What the hand does comes before what the pose took.
@@ -883,7 +969,7 @@ void MainWindow::update_panel()
   this->panel_->show_column(bound && column < columns ? column : -1);
   this->show_column(this->panel_->shown_column());
   this->panel_->set_note(binding ? tr("Starting …")
-      : bound                    ? certificate_note(this->document_->surface())
+      : bound                    ? this->bound_note()
       : ready                    ? tr("Not bound yet.")
       : !surface && !handles     ? tr("Needs a mesh and handles.")
       : surface                  ? tr("Needs handles.")
@@ -894,6 +980,12 @@ void MainWindow::update_panel()
   this->empty_->setVisible(this->is_empty());
   this->strip_->setVisible(surface && this->timeline_);
   this->menus_->update();
+}
+
+QString MainWindow::bound_note() const
+{
+  return certificate_note(this->document_->surface(),
+    this->panel_->monotone() ? BindMethod::monotone : BindMethod::bounded);
 }
 
 void MainWindow::show_outlines(bool shown)
@@ -909,7 +1001,7 @@ void MainWindow::update_surface_look()
 {
   int look = this->inspection_->surface_look();
   look = look == Viewport::solid ? this->weights_->surface_look() : look;
-  this->viewport_->set_surface_look(look == Viewport::solid && this->volume_view_->volume()
+  this->viewport_->set_surface_look(look == Viewport::solid && this->volume_view_->is_active()
       ? this->panels_->volume()->surface_look()
       : look);
 }

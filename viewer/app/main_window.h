@@ -9,12 +9,14 @@
 
 #include <QMainWindow>
 
+#include <map>
 #include <optional>
 
 class QLabel;
 class QUndoStack;
 class BarStack;
 class Binding;
+class DistanceView;
 class Document;
 class ElidedLabel;
 class Exports;
@@ -141,7 +143,6 @@ private:
   void connect_errors();
   void keys_changed();
   void update_plane();
-  vtkPolyData* seen() const;
   void update_surface_look();
   void offer_defects(const QString& counts);
   void connect_posing();
@@ -150,6 +151,9 @@ private:
   void update_panel();
   void show_column(int column);
   void show_selected_column();
+  QString bound_note() const;
+  void show_state();
+  void face_planes();
   bool open_file(const QString& path, const OpenedFile* read);
   bool show_file(const OpenedFile& file, const QString& path);
   bool open_picture(vtkImageData* picture, const QString& name, const Source& source, bool whole);
@@ -164,6 +168,8 @@ private:
   Probe* probe_ = nullptr;
   std::optional<bindpose::Vec3> plane_; // its normal, of the shape at rest
   bool flat_wanted_ = true;
+  /// Of each plane, by its options' name, the orientation that the program itself has chosen last.
+  std::map<QString, int> faced_;
   Posing* posing_ = nullptr;
   HandleEditing* editing_ = nullptr;
   Binding* binding_ = nullptr;
@@ -171,6 +177,7 @@ private:
   KeyStrip* strip_ = nullptr; // below the picture
   PanelColumn* panels_ = nullptr;
   std::unique_ptr<RotationView> rotations_;
+  std::unique_ptr<DistanceView> distances_;
   SidePanel* panel_ = nullptr; // one of them
   OptionLinks* links_ = nullptr;
   WindowMenus* menus_ = nullptr;

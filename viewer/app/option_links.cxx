@@ -108,6 +108,12 @@ void OptionLinks::chosen(const QString& key)
   this->document_->set_options(values, key);
 }
 
+void OptionLinks::note(const QString& key, const QVariant& value)
+{
+  this->document_->note_option(key, value);
+  this->option_changed(key, value);
+}
+
 void OptionLinks::option_changed(const QString& key, const QVariant& value)
 {
   const auto link = this->links_.find(key);

@@ -31,6 +31,9 @@ public:
   /// A person has chosen the option: a step that is named like it.
   void chosen(const QString& key);
 
+  /// The program itself chooses the option: the widget shows it and a session keeps it, but it is
+  /// no step.
+  void note(const QString& key, const QVariant& value);
   /// Takes over what the program itself has set, for a session to hold it.
   void note_all() { this->note_all_but({}); }
 

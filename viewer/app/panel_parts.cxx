@@ -2,9 +2,11 @@
 
 #include <QBoxLayout>
 #include <QButtonGroup>
+#include <QComboBox>
 #include <QCoreApplication>
 #include <QLabel>
 #include <QPushButton>
+#include <QStandardItemModel>
 #include <QStringList>
 #include <QVariant>
 
@@ -57,6 +59,16 @@ QButtonGroup* add_orientations(QBoxLayout* column, QWidget* parent)
   group->button(1)->setProperty("place", "second"); // of four
   group->button(2)->setChecked(true);
   return group;
+}
+
+void enable_all_but(QComboBox* list, int item, const QString& reason)
+{
+  auto* items = qobject_cast<QStandardItemModel*>(list->model());
+  for (int k = 0; k < list->count(); ++k)
+  {
+    items->item(k)->setEnabled(k != item);
+    items->item(k)->setToolTip(k == item ? reason : QString());
+  }
 }
 
 QString capital(const QString& text)

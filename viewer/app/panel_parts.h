@@ -6,6 +6,7 @@
 
 class QBoxLayout;
 class QButtonGroup;
+class QComboBox;
 class QLabel;
 class QPushButton;
 class QWidget;
@@ -20,6 +21,8 @@ QButtonGroup* add_segments(
   QBoxLayout* column, QWidget* parent, const QStringList& names, const QStringList& tips);
 /// A row of buttons X, Y, Z and Free, whose ids are PlaneHandle's orientations; Z is pressed.
 QButtonGroup* add_orientations(QBoxLayout* column, QWidget* parent);
+/// Disable one item of a list (-1: none), enable all others, and say why at the disabled one.
+void enable_all_but(QComboBox* list, int item, const QString& reason);
 /// With a capital letter, as a sentence or a heading begins.
 QString capital(const QString& text);
 /// What a phase of the kernels does, in words.

@@ -11,6 +11,7 @@
 #include "vtkActor.h"
 #include "vtkBoundingBox.h"
 #include "vtkCommand.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
@@ -18,11 +19,37 @@
 #include "vtkRenderer.h"
 #include "vtkTexture.h"
 
+namespace
+{
+constexpr bindpose::Rgb ghost_color{ 0.20, 0.50, 0.76 };
+constexpr double ghost_opacity = 0.38;
+/// From this distance on, in bounding-box diagonals, the ghost has its whole opacity.
+constexpr double whole_from = 0.02;
+constexpr const char* distance_name = "bindpose.Distance";
+} // namespace
+
 PoseGhost::PoseGhost(Viewport* viewport) : viewport_(viewport)
 {
   this->actor_->SetMapper(this->mapper_);
   this->actor_->PickableOff();
   this->mapper_->ScalarVisibilityOff();
+  this->mapper_->SetScalarModeToUsePointFieldData();
+  this->mapper_->SetColorModeToMapScalars();
+  this->mapper_->SelectColorArray(distance_name);
+  this->mapper_->UseLookupTableScalarRangeOn();
+  constexpr int steps = 64;
+  this->fading_->SetNumberOfTableValues(steps);
+  this->fading_->SetTableRange(0.0, whole_from);
+  for (int k = 0; k < steps; ++k)
+  {
+    this->fading_->SetTableValue(
+      k, ghost_color[0], ghost_color[1], ghost_color[2], k / (steps - 1.0));
+  }
+  this->mapper_->SetLookupTable(this->fading_);
+  // Points may slide along a surface that stays where it is: there the first shape is in front.
+  vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
+  this->mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
+  this->distances_->SetName(distance_name);
   bindpose::use_surface_material(this->actor_);
   bindpose::add_lights(this->renderer_);
   vtkRenderer* first = viewport->renderer();
@@ -58,7 +85,7 @@ void PoseGhost::set_surface(vtkPolyData* surface)
 /// Only what is seen costs time.
 void PoseGhost::make_shape()
 {
-  if (this->surface_ && !this->shaded_ && this->place_ != hidden)
+  if (this->surface_ && !this->shaded_ && this->is_drawn())
   {
     this->shaded_ = std::make_unique<bindpose::ShadedSurface>(this->surface_);
     this->mapper_->SetInputData(this->shaded_->polydata());
@@ -66,24 +93,48 @@ void PoseGhost::make_shape()
   }
 }
 
-void PoseGhost::set_place(Place place, bindpose::PointsView points)
+void PoseGhost::set_place(Place place, bindpose::PointsView points, bindpose::PointsView first)
 {
   this->place_ = place;
   this->make_shape();
-  this->move(points); // before the view is fitted to it
+  this->move(points, first); // before the view is fitted to it
   this->update();
 }
 
-void PoseGhost::move(bindpose::PointsView points)
+void PoseGhost::move(bindpose::PointsView points, bindpose::PointsView first)
 {
-  if (this->shaded_ && this->place_ != hidden && points.rows() > 0)
+  if (this->shaded_ && this->is_drawn() && points.rows() > 0)
   {
     if (this->place_ == beside)
     {
       this->look_as_beside();
     }
+    else
+    {
+      this->fade(points, first);
+    }
     this->viewport_->move_shape(*this->shaded_, points);
   }
+}
+
+/// Where two surfaces coincide, which of them is drawn depends on round-off, pixel by pixel: there
+/// the ghost is clear.
+void PoseGhost::fade(bindpose::PointsView points, bindpose::PointsView first)
+{
+  if (points.rows() != first.rows())
+  {
+    return;
+  }
+  const double scale = 1.0 / this->surface_->GetLength();
+  const std::vector<bindpose::Index>& drawn = this->shaded_->input_points();
+  this->distances_->SetNumberOfValues(static_cast<vtkIdType>(drawn.size()));
+  double* distance = this->distances_->GetPointer(0);
+  for (const bindpose::Index point : drawn)
+  {
+    *distance++ = scale * (points.row(point) - first.row(point)).norm();
+  }
+  this->distances_->Modified();
+  this->shaded_->polydata()->GetPointData()->AddArray(this->distances_);
 }
 
 /// Beside the shape it looks like that: with its outlines, or its picture if it has one.
@@ -102,15 +153,16 @@ void PoseGhost::look_as_beside()
 
 void PoseGhost::update()
 {
-  const Place place = this->shaded_ ? this->place_ : hidden;
+  const Place place = this->shaded_ && this->is_drawn() ? this->place_ : hidden;
   vtkRenderWindow* window = this->viewport_->renderWindow();
   this->viewport_->renderer()->RemoveActor(this->actor_);
   this->renderer_->RemoveActor(this->actor_);
+  this->mapper_->SetScalarVisibility(place == over);
   vtkProperty* property = this->actor_->GetProperty();
   if (place == over)
   {
-    property->SetColor(0.20, 0.50, 0.76);
-    property->SetOpacity(0.38);
+    property->SetColor(ghost_color[0], ghost_color[1], ghost_color[2]);
+    property->SetOpacity(ghost_opacity);
     property->LightingOn();
     this->actor_->SetTexture(nullptr);
     this->actor_->ForceOpaqueOff();

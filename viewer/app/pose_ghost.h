@@ -3,6 +3,8 @@
 
 #include "base/mesh.h"
 
+#include "vtkDoubleArray.h"
+#include "vtkLookupTable.h"
 #include "vtkNew.h"
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"
@@ -19,8 +21,8 @@ class vtkActor;
 class vtkPolyDataMapper;
 class vtkRenderer;
 
-/// Another shape of the viewport's surface: see-through over it, or beside it in a half of its own
-/// that is seen from the same place.
+/// Another shape of the viewport's surface: see-through over it, as far as it is elsewhere, or
+/// beside it in a half of its own that is seen from the same place.
 class PoseGhost
 {
 public:
@@ -28,7 +30,8 @@ public:
   {
     hidden,
     over,
-    beside
+    beside,
+    in_colors ///< not drawn: the surface has the colors of the distance (DistanceView)
   };
 
   explicit PoseGhost(Viewport* viewport);
@@ -36,16 +39,18 @@ public:
 
   /// The surface that has another shape; null: none.
   void set_surface(vtkPolyData* surface);
-  /// With the shape that is to be seen there; no points: the last one.
-  void set_place(Place place, bindpose::PointsView points);
+  /// With the shape that is to be seen there, and the one in the viewport; no points: the last one.
+  void set_place(Place place, bindpose::PointsView points, bindpose::PointsView first);
   Place place() const { return this->place_; }
-  void move(bindpose::PointsView points);
+  void move(bindpose::PointsView points, bindpose::PointsView first);
   vtkRenderer* renderer() const { return this->renderer_; }
   /// As drawn; null before it was seen.
   const bindpose::ShadedSurface* shaded() const { return this->shaded_.get(); }
 
 private:
+  bool is_drawn() const { return this->place_ == over || this->place_ == beside; }
   void make_shape();
+  void fade(bindpose::PointsView points, bindpose::PointsView first);
   void update();
   void look_as_beside();
   void clipped();
@@ -54,6 +59,8 @@ private:
   Place place_ = hidden;
   vtkNew<vtkPolyDataMapper> mapper_;
   vtkNew<vtkActor> actor_;
+  vtkNew<vtkLookupTable> fading_; // over the surface: clear where both shapes coincide
+  vtkNew<vtkDoubleArray> distances_; // of each drawn point, in diagonals
   vtkNew<vtkRenderer> renderer_; // of the half beside
   vtkSmartPointer<vtkPolyData> surface_;
   std::unique_ptr<bindpose::ShadedSurface> shaded_;

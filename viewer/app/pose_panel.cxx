@@ -326,9 +326,13 @@ void PosePanel::add_comparison(QVBoxLayout* column)
   this->place_row_ = new QWidget(this);
   auto* places = new QVBoxLayout(this->place_row_);
   places->setContentsMargins(0, 0, 0, 0);
-  this->place_ = add_segments(places, this->place_row_, { tr("Over it"), tr("Beside it") },
-    { tr("See-through, in blue, over the shape"),
-      tr("In a half of its own, seen from the same place") });
+  this->place_ =
+    add_segments(places, this->place_row_, { tr("Over it"), tr("Beside it"), tr("Distance") },
+      { tr("See-through, in blue, over the shape, where the two differ"),
+        tr("In a half of its own, seen from the same place"),
+        tr("The shape in the colors of its distance from the other one,\n"
+           "in percent of the bounding-box diagonal of the shape at rest") });
+  this->place_->button(2)->setChecked(true); // says how much
   this->place_->setObjectName("pose.ghost");
   this->difference_ = new QLabel(this->place_row_);
   this->difference_->setObjectName("note");
@@ -440,6 +444,8 @@ PoseMethod PosePanel::method() const
 void PosePanel::show_options()
 {
   this->note_->setText(method_purpose(this->method()));
+  enable_all_but(
+    this->compared_, 1 + static_cast<int>(this->method()), tr("The shape is by this method"));
   for (const Option& option : this->options_)
   {
     option.row->setVisible(std::find(option.methods.begin(), option.methods.end(),
@@ -483,11 +489,17 @@ int PosePanel::compared_method() const
   return this->compared_->currentIndex() - 1;
 }
 
+bool PosePanel::compares_itself() const
+{
+  return this->compared_method() == static_cast<int>(this->method());
+}
+
 PoseGhost::Place PosePanel::ghost_place() const
 {
-  return this->compared_method() < 0 ? PoseGhost::hidden
-    : this->place_->checkedId() == 1 ? PoseGhost::beside
-                                     : PoseGhost::over;
+  constexpr PoseGhost::Place places[] = { PoseGhost::over, PoseGhost::beside,
+    PoseGhost::in_colors };
+  return this->compared_method() < 0 || this->compares_itself() ? PoseGhost::hidden
+                                                                : places[this->place_->checkedId()];
 }
 
 bool PosePanel::moves() const

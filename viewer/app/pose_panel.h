@@ -36,6 +36,8 @@ public:
   void set_method(int method);
   /// The method to compare with; -1: none.
   int compared_method() const;
+  /// That is the method at work: there is nothing to compare.
+  bool compares_itself() const;
   PoseGhost::Place ghost_place() const;
   bool moves() const;
   /// What is seen of the method's rotations, in colours.

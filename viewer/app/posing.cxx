@@ -210,7 +210,7 @@ void Posing::options_changed()
 {
   this->main_->set_options(this->panels_.pose->options());
   this->main_->bind(); // after a cancel
-  this->compared_->set_options(this->compared_options());
+  this->show_comparison();
   this->motion_->options_changed();
   this->show_what_is_held();
   this->handles_moved();
@@ -248,8 +248,9 @@ void Posing::comparison_changed()
 void Posing::show_comparison()
 {
   const PoseGhost::Place wanted = this->panels_.pose->ghost_place();
+  this->chosen_ = wanted;
   this->compared_->set_options(this->compared_options());
-  const bool can = this->compared_->can_pose();
+  const bool can = this->compared_->can_pose() && !this->inspected_;
   if (can && wanted != PoseGhost::hidden)
   {
     this->compared_->bind();
@@ -258,7 +259,7 @@ void Posing::show_comparison()
   const Points& other = this->compared_->points();
   const Points none(0, 3);
   const bool fits = this->surface_ && other.rows() == this->surface_->GetNumberOfPoints();
-  this->ghost_->set_place(can ? wanted : PoseGhost::hidden, fits ? other : none);
+  this->ghost_->set_place(can ? wanted : PoseGhost::hidden, fits ? other : none, this->points());
   this->show_difference();
 }
 
@@ -284,7 +285,11 @@ void Posing::handles_moved()
       Q_EMIT this->succeeded();
     }
   }
-  if (this->ghost_->place() != PoseGhost::hidden)
+  if (this->panels_.pose->ghost_place() != this->chosen_)
+  {
+    this->show_comparison(); // the method is another one
+  }
+  else if (this->ghost_->place() != PoseGhost::hidden)
   {
     this->compared_->set_pose(pose);
   }
@@ -297,7 +302,9 @@ void Posing::show_difference()
     method_name(this->main_->options().method), method_name(this->compared_->options().method));
   if (this->ghost_->place() == PoseGhost::hidden)
   {
-    this->panels_.pose->set_difference(tr("Bind first: it blends by weights."));
+    this->panels_.pose->set_difference(this->panels_.pose->compares_itself()
+        ? tr("The shape is by this method: choose another one to compare with.")
+        : tr("Bind first: it blends by weights."));
     return;
   }
   if (this->compared_->is_binding())
@@ -315,6 +322,12 @@ void Posing::show_difference()
   const double diagonal = bounding_box(this->source_->points).diagonal();
   const double largest = std::sqrt(squares.maxCoeff());
   const double mean = std::sqrt(squares.mean());
+  constexpr double round_off = 1e-10; // in diagonals
+  if (largest <= round_off * diagonal)
+  {
+    this->panels_.pose->set_difference(tr("Both methods give the same shape."));
+    return;
+  }
   this->panels_.pose->set_difference(
     tr("Apart by at most %1 % of the diagonal,\nrms %2 %%3")
       .arg(100.0 * largest / diagonal, 0, 'g', 3)
@@ -399,11 +412,38 @@ void Posing::draw()
     return;
   }
   const auto start = std::chrono::steady_clock::now();
-  vtkPolyData* shape = this->shape();
-  this->viewport_->move_surface(shape);
+  this->viewport_->move_surface(this->seen());
   this->drawing_microseconds_ =
     std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
-  this->ghost_->move(this->compared_->points());
+  if (!this->shows_rest())
+  {
+    this->ghost_->move(this->compared_->points(), this->points());
+  }
+  else if (this->source_)
+  {
+    this->ghost_->move(this->source_->points, this->source_->points);
+  }
+}
+
+void Posing::inspect_at_rest(bool inspects)
+{
+  if (this->inspected_ != inspects)
+  {
+    this->inspected_ = inspects;
+    this->show_comparison();
+  }
+}
+
+bool Posing::is_posed() const
+{
+  const Pose pose = this->pose();
+  return (this->panels_.pose->moves() && this->motion_->has_started()) ||
+    std::any_of(pose.begin(), pose.end(),
+      [](const HandlePose& each)
+      {
+        return each.transform != identity_affine() || each.stretch != 1.0 || each.twist[0] != 0.0 ||
+          each.twist[1] != 0.0;
+      });
 }
 
 void Posing::look_at_rest(bool rest)
@@ -411,7 +451,6 @@ void Posing::look_at_rest(bool rest)
   if (this->at_rest_ != rest)
   {
     this->at_rest_ = rest;
-    this->viewport_->handle_widget()->SetEnabled(!rest && (this->handles_ || this->surface_));
     Q_EMIT this->moved();
   }
 }

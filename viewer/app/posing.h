@@ -2,6 +2,7 @@
 #define posing_h
 
 #include "deformation.h"
+#include "pose_ghost.h"
 #include "pose_keeper.h"
 
 #include "vtkPolyData.h"
@@ -16,7 +17,6 @@
 class BodyMotion;
 class HandleFields;
 class KeyStrip;
-class PoseGhost;
 class PoseList;
 class PosePanel;
 class SequenceExport;
@@ -62,13 +62,25 @@ public:
   /// A drag begins; what plays stops.
   void drag_began();
 
+  /// The surface at rest, of set_data().
+  vtkPolyData* surface() const { return this->surface_; }
   /// As it is seen: posed, or at rest. The same object as long as the surface is.
   vtkPolyData* shape();
-  /// Brings the viewport's surface and its ghost to the shape.
+  /// What draw() draws: the shape, or the one at rest while something of that is inspected.
+  vtkPolyData* seen() { return this->inspected_ ? this->surface_.Get() : this->shape(); }
+  /// Bring the viewport's surface and its ghost to what is seen.
   void draw();
+  /// Something that belongs to the shape at rest (tets, slices) is shown in the picture: draw()
+  /// draws the shape at rest, without a comparison. The pose goes on.
+  void inspect_at_rest(bool inspects);
+  /// What is seen is the shape at rest, whatever the pose.
+  bool shows_rest() const { return this->inspected_ || this->at_rest_ || this->edits_at_rest_; }
+  /// The pose moves some handle, or a body moves.
+  bool is_posed() const;
   /// The shape at rest, whatever the pose, until the next drag.
   void look_at_rest(bool rest);
   bool looks_at_rest() const { return this->at_rest_; }
+  bool edits_at_rest() const { return this->edits_at_rest_; }
   /// The same while rest handles are edited: they can be taken hold of.
   void edit_at_rest(bool edits);
   /// What the last pose took and came to, in a line.
@@ -146,6 +158,8 @@ private:
   std::optional<bindpose::Vec3> plane_;
   bool at_rest_ = false;
   bool edits_at_rest_ = false;
+  bool inspected_ = false; ///< at rest
+  PoseGhost::Place chosen_ = PoseGhost::hidden; ///< of the panel, when it was looked at last
   double drawing_microseconds_ = 0.0; ///< of draw(): points and normals
 };
 

@@ -371,7 +371,7 @@ QString Probe::difference(const SightHit& hit) const
   const Points& a = posing->points();
   const Points& b = posing->compared()->points();
   if (posing->ghost()->place() == PoseGhost::hidden || !shaded || a.rows() != b.rows() ||
-    a.rows() == 0 || posing->looks_at_rest() || posing->compared()->is_binding())
+    a.rows() == 0 || posing->shows_rest() || posing->compared()->is_binding())
   {
     return {};
   }

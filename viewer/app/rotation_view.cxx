@@ -31,8 +31,10 @@ void RotationView::set_active(bool active)
 
 void RotationView::update()
 {
+  // Distances from another method's shape come first (DistanceView).
+  const bool free = this->active_ && this->posing_->ghost()->place() != PoseGhost::in_colors;
   const PosePanel::Rotations wanted =
-    this->active_ ? this->panel_->shown_rotations() : PosePanel::no_rotations;
+    free ? this->panel_->shown_rotations() : PosePanel::no_rotations;
   const PoseRotations* found = wanted ? this->posing_->rotations() : nullptr;
   if (!found || !this->viewport_->drawn() ||
     static_cast<Index>(found->of_point->size()) != this->posing_->points().rows())
@@ -48,7 +50,7 @@ void RotationView::update()
   for (const Eigen::Matrix3d& rotation : found->rotations)
   {
     this->turns_.push_back(
-      this->posing_->looks_at_rest() ? Vec3::Zero().eval() : rotation_vector(rotation));
+      this->posing_->shows_rest() ? Vec3::Zero().eval() : rotation_vector(rotation));
   }
   if (!this->viewport_->shows(this->values_) || this->of_point_ != found->of_point)
   {

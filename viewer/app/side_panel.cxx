@@ -65,6 +65,8 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   this->kind_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   this->kind_->setToolTip(tr("Bounded: smooth functions between 0 and 1.\n"
                              "Monotone: besides, no hill or hollow away from the handles."));
+  QObject::connect(this->kind_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+    &SidePanel::bind_method_changed);
   column->addWidget(this->kind_);
   auto* domain_row = new QHBoxLayout;
   domain_row->addWidget(new QLabel(tr("Domain"), this));

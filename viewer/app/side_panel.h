@@ -62,6 +62,8 @@ public:
   void show_column(int column);
 
 Q_SIGNALS:
+  /// The method of the next bind is another one.
+  void bind_method_changed();
   void bind_wanted();
   void cancel_wanted();
   void column_chosen(int column);

@@ -85,6 +85,7 @@ void add_work(Json& values, MainWindow* window)
   values["rebind"] = window->rebind_bar()->sentence().toStdString();
   values["dialog"] = QApplication::activeModalWidget() != nullptr;
   values["reading"] = window->reading().toStdString();
+  values["state"] = window->viewport()->state_name().toStdString();
   values["title"] = window->windowTitle().toStdString();
 }
 

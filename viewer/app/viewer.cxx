@@ -37,15 +37,28 @@ private:
   char* argv_[2] = { name_, nullptr };
   QApplication application_{ argc_, argv_ };
 };
+} // namespace
 
-void open_all(MainWindow& window, const std::vector<FirstFile>& files)
+void open_first_files(MainWindow& window, const std::vector<FirstFile>& files)
 {
+  QStringList errors; // each file that opens hides the error of the one before
   for (const FirstFile& file : files)
   {
-    window.open(QString::fromLocal8Bit(file.path.c_str()), file.data ? &*file.data : nullptr);
+    if (!file.error.empty())
+    {
+      errors << QString::fromStdString(file.error);
+    }
+    else if (!window.open(
+               QString::fromLocal8Bit(file.path.c_str()), file.data ? &*file.data : nullptr))
+    {
+      errors << window.error();
+    }
+  }
+  if (!errors.isEmpty())
+  {
+    window.show_error(errors.join('\n'));
   }
 }
-} // namespace
 
 int run_viewer(const std::vector<FirstFile>& files)
 {
@@ -53,7 +66,7 @@ int run_viewer(const std::vector<FirstFile>& files)
   MainWindow window;
   window.show();
   window.sessions()->offer_recovery();
-  open_all(window, files);
+  open_first_files(window, files);
   return QApplication::exec();
 }
 
@@ -77,7 +90,7 @@ bindpose::Status play_tour(const std::vector<FirstFile>& files, const TourReques
   TourPlayer player(
     &window, tour, QFileInfo(QString::fromStdString(request.path)).path().toStdString());
   window.show();
-  open_all(window, files);
+  open_first_files(window, files);
   if (!files.empty() && !window.error().isEmpty())
   {
     return bindpose::Status::invalid_input(window.error().toStdString());

@@ -9,16 +9,22 @@
 #include <string>
 #include <vector>
 
-/// What the window begins with. A file that is not read yet the window reads.
+class MainWindow;
+
+/// What the window begins with. A file without data and error is read by the window.
 struct FirstFile
 {
   std::string path;
   std::optional<OpenedFile> data;
+  std::string error; ///< why it could not be read: one sentence, or empty
 };
 
 /// `bindpose view`: opens the window with these files (meshes, meshes with weights, handles).
 /// Returns the program's exit code. Needs a display.
 int run_viewer(const std::vector<FirstFile>& files);
+
+/// Opens all files that can be opened; the error bar lists the errors of all others.
+void open_first_files(MainWindow& window, const std::vector<FirstFile>& files);
 
 /// The same with a tour in place of a person. Recent files and recovered work of whoever runs it
 /// are neither looked at nor changed.

@@ -290,6 +290,12 @@ void Viewport::show_legend(LegendPlace place, const QString& name, const bindpos
   this->refresh();
 }
 
+QString Viewport::legend(LegendPlace place) const
+{
+  const auto found = this->legends_.find(place);
+  return found == this->legends_.end() ? QString() : found->second.first;
+}
+
 void Viewport::set_also_shown(const bindpose::Box& box)
 {
   this->also_shown_ = box;
@@ -359,6 +365,16 @@ void Viewport::name_halves(const QString& left, const QString& right)
   {
     this->left_name_ = left;
     this->right_name_ = right;
+    this->draw_legend();
+    this->refresh();
+  }
+}
+
+void Viewport::name_state(const QString& state)
+{
+  if (state != this->state_name_)
+  {
+    this->state_name_ = state;
     this->draw_legend();
     this->refresh();
   }
@@ -555,13 +571,18 @@ void Viewport::draw_legend()
   }
   if (this->beside_)
   {
-    this->name_half(0.25, this->left_name_);
-    this->name_half(0.75, this->right_name_);
+    // Below what they have, where they are in nobody's way.
+    this->add_name(0.25, 14.0, this->left_name_);
+    this->add_name(0.75, 14.0, this->right_name_);
+  }
+  if (!this->state_name_.isEmpty())
+  {
+    this->add_name(0.5, this->height() - 30.0, this->state_name_);
   }
 }
 
-/// Below what it has, where it is in nobody's way.
-void Viewport::name_half(double middle, const QString& name)
+/// Centered at a fraction of the width, so many of Qt's pixels above the lower edge.
+void Viewport::add_name(double middle, double above, const QString& name)
 {
   const double scale = this->pixel_scale();
   vtkNew<vtkTextActor> text;
@@ -571,7 +592,7 @@ void Viewport::name_half(double middle, const QString& name)
   font->SetJustificationToCentered();
   const bindpose::Rgb& colour = is_dark() ? bindpose::palette::dark_text : bindpose::palette::text;
   font->SetColor(colour[0], colour[1], colour[2]);
-  text->SetPosition(std::round(middle * scale * this->width()), std::round(14 * scale));
+  text->SetPosition(std::round(middle * scale * this->width()), std::round(above * scale));
   this->legend_->AddViewProp(text);
 }
 

@@ -72,6 +72,9 @@ public:
   /// is kept in view, too. Null, null: the whole. What was seen whole is so in the half.
   void set_split(vtkRenderer* beside, vtkPolyData* shape);
   bool is_split() const { return this->beside_ != nullptr; }
+  /// What shape the picture shows, when it is not the posed one: at the top; empty: nothing.
+  void name_state(const QString& state);
+  QString state_name() const { return this->state_name_; }
   /// What is said below the halves.
   void name_halves(const QString& left, const QString& right);
   /// Of the last drawn change of points: what it took to bring them to the graphics card.
@@ -125,6 +128,8 @@ public:
     defect_legend
   };
   void show_legend(LegendPlace place, const QString& name, const bindpose::ColourMap& map = {});
+  /// The name that is shown there; empty: none.
+  QString legend(LegendPlace place) const;
   /// A box that reset_view() shows besides surface and curves; empty: none.
   void set_also_shown(const bindpose::Box& box);
   /// Looks at everything from the side that shows most of it.
@@ -159,7 +164,7 @@ protected:
 private:
   void use_appearance();
   void draw_legend();
-  void name_half(double middle, const QString& name);
+  void add_name(double middle, double above, const QString& name);
   double aspect_of(const QSize& size) const;
   std::vector<bindpose::Vec3> places_to_see() const;
   void keep_in_view(double aspect_before);
@@ -201,7 +206,7 @@ private:
   bool ghosted_ = false;
   vtkRenderer* beside_ = nullptr; // in the right half; null: the view is whole
   vtkSmartPointer<vtkPolyData> shape_beside_;
-  QString left_name_, right_name_;
+  QString left_name_, right_name_, state_name_;
   QElapsedTimer since_start_;
   double last_drawn_ = -1e9, frame_seconds_ = 0.0; // smoothed
   double picture_scale_ = 1.0; // pixels of a picture that is being taken, for each of the window

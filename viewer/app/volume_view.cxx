@@ -83,8 +83,6 @@ void VolumeView::set_volume(vtkImageData* image, double lowest, double highest)
     this->viewport_->renderer()->RemoveVolume(this->cloud_);
     this->cloud_ = nullptr;
   }
-  this->viewport_->show_legend(
-    Viewport::volume_legend, image ? tr("Winding number w") : QString(), bindpose::winding_map());
   if (image)
   {
     double bounds[6];
@@ -99,10 +97,28 @@ void VolumeView::set_volume(vtkImageData* image, double lowest, double highest)
   {
     this->viewport_->set_also_shown(bindpose::Box());
   }
-  this->show_slice(this->slice_shown_);
-  this->update_isosurface();
-  this->show_cloud(this->cloud_shown_);
+  this->update();
   Q_EMIT this->volume_changed();
+}
+
+void VolumeView::set_active(bool active)
+{
+  if (active != this->active_)
+  {
+    this->active_ = active;
+    this->update();
+  }
+}
+
+void VolumeView::update()
+{
+  this->viewport_->show_legend(Viewport::volume_legend,
+    this->is_active() ? tr("Winding number w") : QString(), bindpose::winding_map());
+  this->plane_->show(this->is_slice_shown());
+  this->update_slice();
+  this->update_isosurface();
+  this->update_cloud();
+  Q_EMIT this->shown_changed();
 }
 
 // ---- Slice -------------------------------------------------------------------------------------
@@ -110,13 +126,12 @@ void VolumeView::set_volume(vtkImageData* image, double lowest, double highest)
 void VolumeView::show_slice(bool shown)
 {
   this->slice_shown_ = shown;
-  this->plane_->show(this->image_ && shown);
-  this->update_slice();
+  this->update();
 }
 
 void VolumeView::update_slice()
 {
-  const bool shown = this->image_ && this->slice_shown_;
+  const bool shown = this->is_slice_shown();
   this->slice_actor_->SetVisibility(shown);
   this->contour_actor_->SetVisibility(shown);
   if (shown)
@@ -147,7 +162,7 @@ void VolumeView::update_slice()
 void VolumeView::show_isosurface(bool shown)
 {
   this->isosurface_shown_ = shown;
-  this->update_isosurface();
+  this->update();
 }
 
 void VolumeView::set_level(double level)
@@ -158,7 +173,7 @@ void VolumeView::set_level(double level)
 
 void VolumeView::update_isosurface()
 {
-  const bool shown = this->image_ && this->isosurface_shown_;
+  const bool shown = this->is_active() && this->isosurface_shown_;
   this->isosurface_->Initialize();
   if (shown)
   {
@@ -174,7 +189,12 @@ void VolumeView::update_isosurface()
 void VolumeView::show_cloud(bool shown)
 {
   this->cloud_shown_ = shown;
-  if (shown && this->image_ && !this->cloud_)
+  this->update();
+}
+
+void VolumeView::update_cloud()
+{
+  if (this->is_cloud_shown() && !this->cloud_)
   {
     this->cloud_ = bindpose::make_winding_volume(this->image_, array_name, 0.0);
     this->cloud_->PickableOff();
@@ -182,7 +202,7 @@ void VolumeView::show_cloud(bool shown)
   }
   if (this->cloud_)
   {
-    this->cloud_->SetVisibility(shown);
+    this->cloud_->SetVisibility(this->is_cloud_shown());
   }
   this->viewport_->refresh();
 }

@@ -16,8 +16,8 @@ class vtkActor;
 class vtkPolyDataMapper;
 class vtkVolume;
 
-/// A volume of winding numbers in the picture: a slice that the mouse drags, an isosurface, a
-/// cloud. Each can be shown or not; all in the colours of the legend.
+/// A volume of winding numbers in the picture while its panel is there: a slice that the mouse
+/// drags, an isosurface, a cloud. Each can be shown or not; all in the colours of the legend.
 class VolumeView : public QObject
 {
   Q_OBJECT
@@ -29,10 +29,19 @@ public:
   /// none. The slice keeps its share of the way through.
   void set_volume(vtkImageData* image, double lowest, double highest);
   vtkImageData* volume() const { return this->image_; }
+  /// Whether the panel is there; else nothing of the volume is drawn.
+  void set_active(bool active);
+  bool is_active() const { return this->image_ && this->active_; }
+  /// Something of the volume is drawn.
+  bool is_shown() const
+  {
+    return this->is_active() &&
+      (this->slice_shown_ || this->isosurface_shown_ || this->cloud_shown_);
+  }
 
   void show_slice(bool shown);
   PlaneHandle* plane() const { return this->plane_; }
-  bool is_slice_shown() const { return this->slice_shown_; }
+  bool is_slice_shown() const { return this->is_active() && this->slice_shown_; }
   double position() const { return this->plane_->position(); }
   /// Smallest and largest position at which the slice meets the volume.
   std::pair<double, double> positions() const { return this->plane_->positions(); }
@@ -46,7 +55,7 @@ public:
   vtkPolyData* isosurface() const { return this->isosurface_; }
 
   void show_cloud(bool shown);
-  bool is_cloud_shown() const { return this->cloud_shown_; }
+  bool is_cloud_shown() const { return this->is_active() && this->cloud_shown_; }
 
 Q_SIGNALS:
   void volume_changed();
@@ -54,15 +63,20 @@ Q_SIGNALS:
   void slice_moved();
   /// Of the isosurface that is shown; 0 when the level is not reached.
   void area_changed(double area);
+  /// Something else of the volume is drawn, or nothing.
+  void shown_changed();
 
 private:
+  void update();
   void update_slice();
   void update_isosurface();
+  void update_cloud();
 
   Viewport* viewport_;
   vtkSmartPointer<vtkImageData> image_;
   double lowest_ = 0.0;
   double highest_ = 1.0;
+  bool active_ = false;
 
   PlaneHandle* plane_;
   vtkNew<vtkPolyDataMapper> slice_mapper_;

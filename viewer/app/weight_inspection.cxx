@@ -41,6 +41,12 @@ bool has_numbers(vtkDataSet* data, const char* name)
   return data && data->GetPointData()->HasArray(name) != 0;
 }
 
+/// Of a method, in the language of the window.
+QString name_of(const char* method)
+{
+  return QCoreApplication::translate("WeightPanel", method);
+}
+
 QStringList names_of(vtkDataArray* weights)
 {
   QStringList names;
@@ -148,6 +154,7 @@ void WeightInspection::update_facts()
   facts.has_picture = this->viewport_->has_picture();
   facts.comparing = this->job_.is_running();
   facts.compared = this->compared_ != nullptr;
+  facts.method = method_of_weights(this->surface_);
   this->panel_->set_facts(facts);
 }
 
@@ -200,7 +207,7 @@ void WeightInspection::update()
   if (this->view_->is_shown() && what == WeightPanel::difference)
   {
     const Report& numbers = this->view_->numbers();
-    this->panel_->set_comparison(tr("%1 (%2 s): largest %3, rms %4")
+    this->panel_->set_comparison(tr("Against %1 (%2 s): largest %3, rms %4")
                                    .arg(this->compared_method_)
                                    .arg(this->compared_seconds_, 0, 'f', 1)
                                    .arg(number(numbers.number("picture.difference.largest", 0.0)))
@@ -237,8 +244,11 @@ QString WeightInspection::certificate(int column) const
     return has_numbers(this->surface_, "Weights") ? tr("These weights have no certificate.")
                                                   : tr("There are no weights yet.");
   }
-  QString text = (column < 0 ? tr("Worst gap %1, residual %2\n") : tr("Gap %1, residual %2\n"))
-                   .arg(number(gap), number(residual));
+  const int method = method_of_weights(this->surface_);
+  QString text = method < 0 ? tr("Weights of the mesh:\n")
+                            : tr("%1 weights:\n").arg(name_of(compared_methods()[method].name));
+  text += (column < 0 ? tr("Worst gap %1, residual %2\n") : tr("Gap %1, residual %2\n"))
+            .arg(number(gap), number(residual));
   const double iterations = value("WeightsIterations");
   if (iterations >= 0.0)
   {
@@ -257,7 +267,7 @@ void WeightInspection::compare(int method)
     return;
   }
   const ComparedMethod& other = compared_methods()[method];
-  this->method_ = QCoreApplication::translate("WeightPanel", other.brief);
+  this->method_ = name_of(other.brief);
   input.method = other.method;
   input.preview = false;
   // The same mesh, as far as it is known.

@@ -3,6 +3,10 @@
 #include "panel_parts.h"
 #include "value_row.h"
 
+#include "report_field_data.h"
+
+#include "vtkDataSet.h"
+
 #include <QButtonGroup>
 #include <QCheckBox>
 #include <QComboBox>
@@ -12,6 +16,9 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
+
+#include <algorithm>
+#include <string>
 
 namespace
 {
@@ -30,28 +37,42 @@ void enable_or_say(QWidget* widget, const QString& reason)
 const std::vector<ComparedMethod>& compared_methods()
 {
   static const std::vector<ComparedMethod> methods = {
-    { BindMethod::bounded, QT_TRANSLATE_NOOP("WeightPanel", "Bounded biharmonic"),
+    { BindMethod::bounded, "bounded-biharmonic",
+      QT_TRANSLATE_NOOP("WeightPanel", "Bounded biharmonic"),
       QT_TRANSLATE_NOOP("WeightPanel", "Bounded") },
-    { BindMethod::monotone, QT_TRANSLATE_NOOP("WeightPanel", "Monotone"),
+    { BindMethod::monotone, "monotone", QT_TRANSLATE_NOOP("WeightPanel", "Monotone"),
       QT_TRANSLATE_NOOP("WeightPanel", "Monotone") },
-    { BindMethod::harmonic, QT_TRANSLATE_NOOP("WeightPanel", "Harmonic"),
+    { BindMethod::harmonic, "harmonic", QT_TRANSLATE_NOOP("WeightPanel", "Harmonic"),
       QT_TRANSLATE_NOOP("WeightPanel", "Harmonic") },
-    { BindMethod::biharmonic, QT_TRANSLATE_NOOP("WeightPanel", "Biharmonic"),
+    { BindMethod::biharmonic, "biharmonic", QT_TRANSLATE_NOOP("WeightPanel", "Biharmonic"),
       QT_TRANSLATE_NOOP("WeightPanel", "Biharmonic") },
-    { BindMethod::triharmonic, QT_TRANSLATE_NOOP("WeightPanel", "Triharmonic"),
+    { BindMethod::triharmonic, "triharmonic", QT_TRANSLATE_NOOP("WeightPanel", "Triharmonic"),
       QT_TRANSLATE_NOOP("WeightPanel", "Triharmonic") },
-    { BindMethod::graph_biharmonic, QT_TRANSLATE_NOOP("WeightPanel", "Graph biharmonic"),
+    { BindMethod::graph_biharmonic, "graph-biharmonic",
+      QT_TRANSLATE_NOOP("WeightPanel", "Graph biharmonic"),
       QT_TRANSLATE_NOOP("WeightPanel", "Graph") },
-    { BindMethod::linear_subspace, QT_TRANSLATE_NOOP("WeightPanel", "Linear subspace"),
+    { BindMethod::linear_subspace, "linear-subspace",
+      QT_TRANSLATE_NOOP("WeightPanel", "Linear subspace"),
       QT_TRANSLATE_NOOP("WeightPanel", "Linear subspace") },
-    { BindMethod::inverse_distance, QT_TRANSLATE_NOOP("WeightPanel", "Inverse distance"),
+    { BindMethod::inverse_distance, "inverse-distance",
+      QT_TRANSLATE_NOOP("WeightPanel", "Inverse distance"),
       QT_TRANSLATE_NOOP("WeightPanel", "Distance") },
-    { BindMethod::smoothed_harmonic, QT_TRANSLATE_NOOP("WeightPanel", "Smoothed harmonic"),
+    { BindMethod::smoothed_harmonic, "smoothed-harmonic",
+      QT_TRANSLATE_NOOP("WeightPanel", "Smoothed harmonic"),
       QT_TRANSLATE_NOOP("WeightPanel", "Smoothed") },
-    { BindMethod::bone_heat, QT_TRANSLATE_NOOP("WeightPanel", "Bone heat"),
+    { BindMethod::bone_heat, "bone-heat", QT_TRANSLATE_NOOP("WeightPanel", "Bone heat"),
       QT_TRANSLATE_NOOP("WeightPanel", "Bone heat") },
   };
   return methods;
+}
+
+int method_of_weights(vtkDataSet* surface)
+{
+  const std::vector<ComparedMethod>& methods = compared_methods();
+  const std::string word = surface ? bindpose::read_report(surface).text("method") : std::string();
+  const auto found = std::find_if(methods.begin(), methods.end(),
+    [&word](const ComparedMethod& method) { return word == method.word; });
+  return found == methods.end() ? -1 : static_cast<int>(found - methods.begin());
 }
 
 WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
@@ -101,7 +122,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
       tr("As solved for, before that: what the certificate is about") });
   this->what_->setObjectName("weights.what");
   this->raw_->setObjectName("weights.raw");
-  this->certificate_ = note(2);
+  this->certificate_ = note(3);
   this->certificate_->setToolTip(
     tr("How well the column is solved for. Gap: its energy is at most this share above the least "
        "possible. Residual: how far it is from meeting the conditions of the least."));
@@ -146,6 +167,8 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   }
   this->method_->setCurrentIndex(1);
   this->method_->setToolTip(tr("Weights to compare with; the shape keeps its own"));
+  QObject::connect(
+    this->method_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &WeightPanel::enable);
   column->addWidget(this->method_);
   auto* buttons = new QHBoxLayout;
   this->compare_ = button(tr("Compare"), this);
@@ -306,7 +329,10 @@ void WeightPanel::enable()
     ? QString()
     : tr("Open the handles that these weights belong to: another method needs them");
   enable_or_say(this->method_, first(no_comparison));
-  enable_or_say(this->compare_, first(no_comparison));
+  const QString same = tr("The weights are by this method already: choose another one");
+  const bool is_same = this->method_->currentIndex() == this->facts_.method;
+  enable_or_say(this->compare_, first(no_comparison.isEmpty() && is_same ? same : no_comparison));
+  enable_all_but(this->method_, this->facts_.method, same);
   const QString no_slice = differs
     ? tr("The other method was solved in tets of its own; only on the surface is there a "
          "difference")

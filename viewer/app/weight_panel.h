@@ -15,15 +15,20 @@ class QLabel;
 class QProgressBar;
 class QPushButton;
 class ValueRow;
+class vtkDataSet;
 
 /// A method that weights can be compared with. Names are in English, of the context WeightPanel.
 struct ComparedMethod
 {
   BindMethod method;
+  const char* word; ///< in reports and on the command line
   const char* name;
   const char* brief; ///< for a narrow line
 };
 const std::vector<ComparedMethod>& compared_methods();
+/// Index in compared_methods() of the method that solved for a surface's weights, by their report;
+/// -1: unknown.
+int method_of_weights(vtkDataSet* surface);
 
 /// The panel right of the picture to inspect weights: which, how, what another method does
 /// otherwise, and a slice through their volume. Like SidePanel it only tells what the user wants.
@@ -54,9 +59,10 @@ public:
     bool has_picture = false; ///< that the colours lie over
     bool comparing = false;
     bool compared = false;
+    int method = -1; ///< in compared_methods(), that solved for the weights; -1: unknown
   };
   void set_facts(const Facts& facts);
-  /// Two lines: the column's proof.
+  /// Three lines: the method and the column's proof.
   void set_certificate(const QString& text);
   void set_extrema(const QString& text);
   void set_progress(double fraction, const QString& phase);

@@ -35,12 +35,15 @@ bool tour_request(Session& session, TourRequest& request)
     session.invalid("--screenshot-dir is where --play puts its pictures: name a tour by --play");
 }
 
-/// What is wrong with a file is said here, in the words of all verbs, before a window opens.
+/// Read the files before the window opens, with progress on a terminal. Started from a desktop, the
+/// program has no terminal that anybody sees: the window shows what is wrong with a file, and the
+/// standard error gets the same sentence. Only a tour, which nobody watches, ends with it.
 bool read_files(Session& session, std::vector<FirstFile>& files)
 {
+  const bool ends = session.arguments().has("play");
   for (const std::string& path : session.arguments().list("FILE"))
   {
-    files.push_back({ path, std::nullopt });
+    files.push_back({ path, std::nullopt, {} });
     // What only the window reads it speaks about itself.
     if (is_picture_file(path) || is_listed(file_extension(path), "dmat bindpose"))
     {
@@ -49,10 +52,17 @@ bool read_files(Session& session, std::vector<FirstFile>& files)
     const Status status = read_file(path, files.back().data.emplace(),
       [&session](vtkBindposeAlgorithm* reader)
       { return session.try_run(reader, "read", 0.0, 0.0, Merge::nothing); });
-    if (!status.ok())
+    if (status.ok())
+    {
+      continue;
+    }
+    if (ends || session.failed()) // or it was interrupted
     {
       return session.fail(status);
     }
+    files.back().data.reset();
+    files.back().error = status.message;
+    session.warn(status.message);
   }
   return true;
 }

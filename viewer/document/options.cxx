@@ -53,7 +53,7 @@ const std::vector<OptionInfo>& option_table()
     { "pose.order", QT_TRANSLATE_NOOP("Document", "order of the surface"), 1, 0, 2 },
     { "pose.boundary", QT_TRANSLATE_NOOP("Document", "edge of the surface"), 0, 0, 2 },
     { "pose.compared", QT_TRANSLATE_NOOP("Document", "comparison"), 0, 0, 31 },
-    { "pose.ghost", QT_TRANSLATE_NOOP("Document", "place of the comparison"), 0, 0, 1 },
+    { "pose.ghost", QT_TRANSLATE_NOOP("Document", "place of the comparison"), 2, 0, 2 },
     { "pose.moves", QT_TRANSLATE_NOOP("Document", "motion"), false },
     { "motion.gravity", QT_TRANSLATE_NOOP("Document", "gravity"), 0.5, 0.0, 5.0 },
     { "motion.down", QT_TRANSLATE_NOOP("Document", "direction of gravity"), 1, 0, 2 },

@@ -160,7 +160,7 @@ Status Body::step(
     {
       return status;
     }
-    const std::string unused = unused_stretch(effective, stretch_use(this->bound_->method));
+    const std::string unused = unused_stretch(resolved, stretch_use(this->bound_->method));
     if (!unused.empty())
     {
       status.warnings.push_back(unused);

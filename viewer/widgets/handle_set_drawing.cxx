@@ -61,7 +61,7 @@ void vtkHandleSetRepresentation::BuildRepresentation()
     return;
   }
   const bindpose::ScreenView view(this->Renderer);
-  std::vector<HandlePlace> places = self.Data.places(this->EditMode != POSE);
+  std::vector<HandlePlace> places = self.Data.places(this->DrawsRest());
   bindpose::HandleData::resolve_modes(places, this->FindsRotations != 0);
   const bool fine = places.size() <= 60;
   bindpose::HandleShapes solid(fine);
@@ -167,7 +167,7 @@ void vtkHandleSetRepresentation::BuildRepresentation()
 double* vtkHandleSetRepresentation::GetBounds()
 {
   Eigen::AlignedBox3d box;
-  for (const HandlePlace& place : this->Internal->Data.places(this->EditMode != POSE))
+  for (const HandlePlace& place : this->Internal->Data.places(this->DrawsRest()))
   {
     box.extend(place.head).extend(place.tail);
   }

@@ -208,8 +208,12 @@ int vtkHandleSetRepresentation::GetDragRefusal(vtkIdType handle)
     return IS_NO_HANDLE;
   }
   // At rest a handle has a place of its own, whatever its mode.
-  const bool free = place.is_free() && this->EditMode == POSE && !this->DragFree;
-  return place.locked ? IS_LOCKED : free ? IS_FREE : DRAGGABLE;
+  const bool poses = this->EditMode == POSE;
+  const bool free = place.is_free() && poses && !this->DragFree;
+  return place.locked         ? IS_LOCKED
+    : poses && this->ShowRest ? IS_AT_REST
+    : free                    ? IS_FREE
+                              : DRAGGABLE;
 }
 
 // ---- Picking -----------------------------------------------------------------------------------
@@ -271,7 +275,7 @@ int vtkHandleSetRepresentation::ComputeInteractionState(int x, int y, int vtkNot
       sizes.ball = this->PixelScale * this->PointSize;
       sizes.bone_width = this->BoneWidth;
       sizes.tolerance = tolerance;
-      pick = bindpose::pick_handle(view, self.Data.places(this->EditMode != POSE), mouse, sizes);
+      pick = bindpose::pick_handle(view, self.Data.places(this->DrawsRest()), mouse, sizes);
     }
   }
   this->InteractionState = part != bindpose::no_part ? part : static_cast<int>(pick.part);
@@ -520,6 +524,17 @@ void vtkHandleSetRepresentation::SetEditMode(int mode)
   }
 }
 
+void vtkHandleSetRepresentation::SetShowRest(vtkTypeBool show)
+{
+  if (show != this->ShowRest)
+  {
+    this->CancelWidgetInteraction();
+    this->LeaveHandles();
+    this->ShowRest = show;
+    this->Modified();
+  }
+}
+
 void vtkHandleSetRepresentation::SetSurface(vtkPolyData* surface)
 {
   if (surface != this->GetSurface())
@@ -627,6 +642,7 @@ void vtkHandleSetRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   this->Superclass::PrintSelf(os, indent);
   os << indent << "Handles: " << this->Internal->Data.get() << "\n";
   os << indent << "EditMode: " << this->EditMode << "\n";
+  os << indent << "ShowRest: " << this->ShowRest << "\n";
   os << indent << "Surface: " << this->GetSurface() << "\n";
   os << indent << "PlaceInside: " << this->PlaceInside << "\n";
   os << indent << "Edited: " << this->Edited << "\n";

@@ -161,7 +161,8 @@ public:
     DRAGGABLE = 0,
     IS_FREE = 1, ///< its Mode is free
     IS_LOCKED = 2,
-    IS_NO_HANDLE = 3 ///< no such cell, or a cage element
+    IS_NO_HANDLE = 3, ///< no such cell, or a cage element
+    IS_AT_REST = 4 ///< ShowRest is on
   };
 
   ///@{
@@ -174,6 +175,13 @@ public:
   /// See EditModeType and the class's text. Default POSE. Changing it ends what was begun.
   void SetEditMode(int mode);
   vtkGetMacro(EditMode, int);
+  ///@}
+  ///@{
+  /// In POSE: draw handles at rest, whatever their pose. They can be selected, not dragged. Default
+  /// off. Changing it ends what was begun.
+  void SetShowRest(vtkTypeBool show);
+  vtkGetMacro(ShowRest, vtkTypeBool);
+  vtkBooleanMacro(ShowRest, vtkTypeBool);
   ///@}
   ///@{
   /// The surface at rest that handles are placed on. Default none: they are placed at the depth of
@@ -459,7 +467,10 @@ private:
   void UpdateDrag();
   bool WriteHandle(vtkIdType handle, const bindpose::HandlePlace& posed);
 
+  bool DrawsRest() const { return this->ShowRest || this->EditMode != POSE; }
+
   int EditMode = POSE;
+  vtkTypeBool ShowRest = 0;
   vtkTypeBool PlaceInside = 1;
   bool Edited = false;
   int Gizmo = GIZMO_NONE;

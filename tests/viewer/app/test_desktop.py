@@ -247,3 +247,21 @@ def test_a_killed_window_leaves_its_work_to_the_next(desktop, tmp_path):
     desktop.wait_for(lambda: "figure" in after.title(), "the work of the one before")
     restored = translations(after.save_as(tmp_path / "restored.bindpose"))
     assert all(move == pytest.approx([0.5, 0, 0]) for move in restored), restored
+
+
+@pytest.mark.parametrize("content, words", [("once upon a time\n", "line 1"), (None, "No such file")])
+def test_a_bad_file_from_an_icon_opens_a_window(desktop, tmp_path, content, words):
+    """A desktop starts the program without a terminal. The window stays, empty, until it is closed; what its error bar
+    says is tested by bindpose_app_tests."""
+    path = tmp_path / "bad.off"
+    if content:
+        path.write_text(content)
+    process = desktop.start_program("view", str(path))
+    window = desktop.wait_for_window("^Bindpose$")
+    said = (tmp_path / "said.txt").read_text()
+    assert "bindpose view: warning: " in said and words in said, said
+    desktop.activate(window)
+    desktop.keys("alt+F4")
+    wait_for(lambda: process.poll() is not None, "the program's end")
+    desktop.running.remove(process)
+    assert process.returncode == 0

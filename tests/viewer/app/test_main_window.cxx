@@ -8,6 +8,7 @@
 #include "panel_column.h"
 #include "side_panel.h"
 #include "style.h"
+#include "viewer.h"
 #include "viewport.h"
 #include "volume_view.h"
 
@@ -183,6 +184,32 @@ TEST_F(Window, ADragMovesVerticesAndUndoTakesItBack)
   EXPECT_EQ(top_of(this->window.shown()), rest);
   this->window.history()->redo();
   EXPECT_EQ(top_of(this->window.shown()), moved);
+}
+
+/// As from an icon of a desktop, where nobody sees the terminal.
+TEST_F(Window, FilesThatCannotBeReadAreNamedInTheErrorBar)
+{
+  const test::Folder folder;
+  const std::string noise = folder.write("noise.png", "no picture");
+  const std::string session = folder.write("old.bindpose", "{");
+  const TriangleMesh mesh = column();
+  const auto surface = to_polydata(mesh.points, mesh.triangles);
+  ASSERT_TRUE(write_shape(surface, folder / "good.vtp").ok());
+  std::vector<FirstFile> files(4);
+  files[0] = { folder / "gone.off", {}, "cannot open gone.off: No such file or directory" };
+  files[1] = { noise, {}, {} };
+  files[2] = { session, {}, {} };
+  files[3] = { folder / "good.vtp", {}, {} };
+  open_first_files(this->window, files);
+  const QStringList said = this->window.error().split('\n');
+  ASSERT_EQ(said.size(), 3) << this->window.error().toStdString();
+  EXPECT_EQ(said[0], "cannot open gone.off: No such file or directory");
+  EXPECT_TRUE(said[1].contains("noise.png")) << said[1].toStdString();
+  EXPECT_TRUE(said[2].contains("old.bindpose")) << said[2].toStdString();
+  ASSERT_NE(this->window.shown(), nullptr) << "what can be opened is open";
+  // Another file that opens is not about them.
+  ASSERT_TRUE(this->window.set_mesh(surface, "again"));
+  EXPECT_EQ(this->window.error(), QString());
 }
 
 TEST_F(Window, ARigIsReadyToBePosed)
@@ -541,7 +568,7 @@ TEST_F(Window, ChoosingPanelsKeepsTheSize)
   }
 }
 
-TEST_F(Window, HandlesAreDraggedWithAVolumeOpen)
+TEST_F(Window, HandlesAreDraggedBesideAnOpenVolumeInThePanelPose)
 {
   this->open_bound();
   vtkNew<vtkImageData> volume;
@@ -560,6 +587,12 @@ TEST_F(Window, HandlesAreDraggedWithAVolumeOpen)
   this->render();
   const double slice = this->window.volume_view()->position();
   const Vec3 rest = top_of(this->window.shown());
+  // At rest around the slice they stay, and so does the slice behind them.
+  this->drag(1, { 80, 0 });
+  EXPECT_EQ(top_of(this->window.shown()), rest);
+  EXPECT_EQ(this->window.volume_view()->position(), slice);
+  this->window.panels()->show_panel(PanelColumn::bind_and_pose);
+  this->render();
   this->drag(1, { 80, 0 });
   EXPECT_GT((top_of(this->window.shown()) - rest).norm(), 0.1);
   EXPECT_EQ(this->window.volume_view()->position(), slice);

@@ -3,6 +3,7 @@
 #include "unclipped.h"
 #include "window_test.h"
 
+#include "distance_view.h"
 #include "document/document.h"
 #include "handle_fields.h"
 #include "key_strip.h"
@@ -29,18 +30,22 @@
 #include "vtkCamera.h"
 #include "vtkCellData.h"
 #include "vtkCommand.h"
+#include "vtkActor.h"
 #include "vtkDoubleArray.h"
 #include "vtkGLTFSkinReader.h"
 #include "vtkHandleSetRepresentation.h"
 #include "vtkHandleSetWidget.h"
+#include "vtkMapper.h"
 #include "vtkMeshFileReader.h"
 #include "vtkPointData.h"
+#include "vtkScalarsToColors.h"
 #include "vtkPoseHandles.h"
 #include "vtkReducedARAP.h"
 #include "vtkRenderWindowInteractor.h"
 #include "vtkSkinningDeformation.h"
 #include "vtkUnstructuredGrid.h"
 
+#include <QButtonGroup>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -575,6 +580,8 @@ TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
   const QImage alone = this->picture();
   auto* with = this->option<QComboBox>("pose.compared");
   with->setCurrentIndex(1 + static_cast<int>(PoseMethod::dual_quaternion));
+  EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::in_colors);
+  this->option<QButtonGroup>("pose.ghost")->button(0)->click();
   EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::over);
   auto source = std::make_shared<PoseSource>();
   ASSERT_TRUE(to_pose_source(this->surface, nullptr, this->handles, *source).ok());
@@ -618,6 +625,117 @@ TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
     }
   }
   EXPECT_LT(apart, 20);
+}
+
+TEST_F(PosingWindow, ADistanceIsSeenInTheColorsOfItsScale)
+{
+  this->open();
+  this->put(this->bent());
+  Viewport* viewport = this->window.viewport();
+  this->option<QComboBox>("pose.compared")
+    ->setCurrentIndex(1 + static_cast<int>(PoseMethod::dual_quaternion));
+  const auto colors = [&]() -> vtkDataArray*
+  { return viewport->drawn()->GetPointData()->GetArray(colour_array_name); };
+  const auto expect_distances = [&](const char* when)
+  {
+    const Points& other = this->posing()->compared()->points();
+    ASSERT_NE(colors(), nullptr) << when;
+    EXPECT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(colors()))) << when;
+    const Points shape = this->points();
+    const double diagonal = this->surface->GetLength();
+    double largest = 0.0;
+    for (std::size_t v = 0; v < viewport->drawn_points().size(); ++v)
+    {
+      const Index point = viewport->drawn_points()[v];
+      const double percent = 100.0 * (shape.row(point) - other.row(point)).norm() / diagonal;
+      largest = std::max(largest, percent);
+      EXPECT_NEAR(colors()->GetComponent(static_cast<vtkIdType>(v), 0), percent, 1e-9) << when;
+    }
+    const double* range = viewport->surface_actor()->GetMapper()->GetLookupTable()->GetRange();
+    EXPECT_EQ(range[0], 0.0) << when;
+    EXPECT_GE(range[1], largest) << when;
+    EXPECT_LE(range[1], std::max(2.5 * largest, 0.01)) << when;
+  };
+  expect_distances("bent");
+  EXPECT_GT(colors()->GetRange()[1], 0.5);
+  EXPECT_EQ(viewport->legend(Viewport::weight_legend), "Distance (% of diagonal)");
+  this->put(this->bent(0.5));
+  expect_distances("less bent");
+  // Shapes that coincide have one color, which is the lowest of the scale.
+  this->put(Pose(4));
+  expect_distances("at rest");
+  EXPECT_LT(colors()->GetRange()[1], 1e-6);
+  // Rotations and other panels come after it, and are back when it is gone.
+  this->put(this->bent());
+  this->window.panels()->show_panel(PanelColumn::weights);
+  EXPECT_NE(viewport->legend(Viewport::weight_legend), "Distance (% of diagonal)");
+  this->window.panels()->show_panel(PanelColumn::bind_and_pose);
+  expect_distances("back");
+  this->option<QComboBox>("pose.compared")->setCurrentIndex(0);
+  EXPECT_EQ(viewport->legend(Viewport::weight_legend), QString());
+  EXPECT_FALSE(viewport->surface_actor()->GetMapper()->GetScalarVisibility());
+}
+
+TEST(DistanceScale, EndsAtARoundNumberThatHoldsTheLargest)
+{
+  for (const auto& [largest, end] : { std::pair(0.0, 0.01), std::pair(0.01, 0.01),
+         std::pair(0.011, 0.02), std::pair(0.3, 0.5), std::pair(2.0, 2.0), std::pair(7.0, 10.0) })
+  {
+    EXPECT_DOUBLE_EQ(distance_scale(largest), end) << largest;
+  }
+}
+
+/// Two methods that give one shape: which of the two surfaces would be in front at a pixel is a
+/// matter of round-off, so that both colors made speckles.
+TEST_F(PosingWindow, WhereTwoShapesCoincideThereAreNoSpeckles)
+{
+  this->open(4);
+  this->window.show_outlines(false);
+  const auto blue = [this]
+  { return count(this->picture(), [](const QColor& c) { return c.blue() > c.red() + 20; }); };
+  const int alone = blue();
+  this->option<QButtonGroup>("pose.ghost")->button(0)->click();
+  this->option<QComboBox>("pose.compared")
+    ->setCurrentIndex(1 + static_cast<int>(PoseMethod::dual_quaternion));
+  ASSERT_EQ(this->posing()->ghost()->place(), PoseGhost::over);
+  EXPECT_LE(blue(), alone + 20) << "at rest";
+  // By half a turn about its axis the pole is itself, with all points elsewhere.
+  const Points points = this->points();
+  Points turned = points;
+  turned.leftCols<2>() *= -1.0;
+  this->posing()->ghost()->move(turned, points);
+  EXPECT_LE(blue(), alone + 20) << "turned";
+  this->put(this->bent());
+  EXPECT_GT(blue(), alone + 500) << "where they differ the other one is seen";
+}
+
+TEST_F(PosingWindow, NoMethodIsComparedWithItself)
+{
+  this->open();
+  this->put(this->bent());
+  auto* with = this->option<QComboBox>("pose.compared");
+  const auto is_enabled = [with](PoseMethod method)
+  {
+    const QModelIndex item = with->model()->index(1 + static_cast<int>(method), 0);
+    return bool(with->model()->flags(item) & Qt::ItemIsEnabled);
+  };
+  EXPECT_FALSE(is_enabled(PoseMethod::linear_blend));
+  EXPECT_TRUE(is_enabled(PoseMethod::dual_quaternion));
+  WindowHand hand(&this->window);
+  EXPECT_NE(hand.choose("pose.compared", 1), QString());
+  ASSERT_EQ(hand.choose("pose.compared", 2), QString());
+  EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::in_colors);
+  // The shape becomes that of the compared method: there is nothing to compare, and that is said.
+  hand.press_key("2");
+  ASSERT_EQ(this->window.document()->number("pose.method"), 1);
+  EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::hidden);
+  EXPECT_FALSE(is_enabled(PoseMethod::dual_quaternion));
+  EXPECT_TRUE(is_enabled(PoseMethod::linear_blend));
+  const auto labels = this->panel()->findChildren<QLabel*>();
+  EXPECT_TRUE(std::any_of(labels.begin(), labels.end(),
+    [](const QLabel* label) { return label->text().contains("choose another one"); }));
+  hand.trigger("edit.undo");
+  EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::in_colors);
 }
 
 TEST_F(PosingWindow, TheBodyMovesPausesAndReplaysBitByBit)
@@ -1139,6 +1257,8 @@ TEST_F(PosingWindow, EveryStateHasAPictureOfItsOwn)
   this->option<QComboBox>("pose.compared")
     ->setCurrentIndex(1 + static_cast<int>(PoseMethod::full_arap));
   wait_for([this] { return this->posing()->compared()->is_settled(); });
+  save("compare_distance");
+  this->find<QPushButton>("Over it")->click();
   save("compare_over");
   this->find<QPushButton>("Beside it")->click();
   save("compare_beside");

@@ -3,7 +3,9 @@
 #include "unclipped.h"
 #include "window_test.h"
 
+#include "document/document.h"
 #include "inspection.h"
+#include "posing.h"
 #include "side_panel.h"
 #include "tet_panel.h"
 #include "value_row.h"
@@ -15,8 +17,13 @@
 #include "support/meshes.h"
 
 #include "vtkActor.h"
+#include "vtkCamera.h"
 #include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkHandleSetRepresentation.h"
+#include "vtkHandleSetWidget.h"
 #include "vtkIntArray.h"
+#include "vtkPointData.h"
 #include "vtkPolyData.h"
 #include "vtkProperty.h"
 #include "vtkSurfaceDefects.h"
@@ -138,6 +145,99 @@ TEST_F(TetWindow, TetsAreOpenedCutOpen)
   EXPECT_GE(this->view()->shown_count() + behind, mesh.tets.rows());
   EXPECT_EQ(this->view()->shown_count(),
     count_behind(mesh, this->view()->plane()->origin(), -this->view()->plane()->normal()));
+}
+
+/// One that is looked at along x: the cut across z, which it began with whatever the view, turned
+/// its back on the eye.
+TEST_F(TetWindow, TheFirstCutShowsTheInside)
+{
+  for (const Vec3& size : { Vec3(0.5, 1, 1), Vec3(1, 1, 0.5), Vec3(0.3, 1, 0.6) })
+  {
+    const TetMesh mesh = test::tet_box(5, 5, 5, -size, size);
+    MainWindow other;
+    other.show();
+    ASSERT_TRUE(other.set_mesh(tets_of(mesh), "box"));
+    QApplication::processEvents();
+    other.viewport()->renderWindow()->Render();
+    const TetView* tets = other.inspection()->tet_view();
+    const Vec3 normal = tets->plane()->normal();
+    const Vec3 sight(other.viewport()->renderer()->GetActiveCamera()->GetDirectionOfProjection());
+    EXPECT_EQ(std::abs(normal.dot(sight)), sight.cwiseAbs().maxCoeff()) << size.transpose();
+    EXPECT_GT(count(other.viewport()->grabFramebuffer(), is_cut), 5000) << size.transpose();
+    // Through the middle: about half of them stay.
+    const double kept = static_cast<double>(tets->shown_count());
+    EXPECT_NEAR(kept / static_cast<double>(mesh.tets.rows()), 0.5, 0.15) << size.transpose();
+  }
+}
+
+/// What a person has chosen stays.
+TEST_F(TetWindow, AChosenCutStaysForOtherTets)
+{
+  this->open(tets_of(test::tet_box(3, 3, 3, Vec3(-1, -1, -0.5), Vec3(1, 1, 0.5))));
+  EXPECT_EQ(this->view()->plane()->orientation(), PlaneHandle::z_axis);
+  this->find<QPushButton>("Y")->click();
+  this->open(tets_of(test::tet_box(3, 3, 3, Vec3(-0.5, -1, -1), Vec3(0.5, 1, 1))));
+  EXPECT_EQ(this->view()->plane()->orientation(), PlaneHandle::y_axis);
+}
+
+/// Of posed tets with weights: tets and defects lie in the shape at rest, and everything with them.
+TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
+{
+  const auto grid = tets_of(box_of(4));
+  vtkNew<vtkDoubleArray> weights;
+  weights->SetName("Weights");
+  weights->SetNumberOfComponents(2);
+  for (vtkIdType v = 0; v < grid->GetNumberOfPoints(); ++v)
+  {
+    const double up = 0.5 * (1.0 + grid->GetPoint(v)[2]);
+    weights->InsertNextTuple2(1.0 - up, up);
+  }
+  weights->SetComponentName(0, "bottom");
+  weights->SetComponentName(1, "top");
+  grid->GetPointData()->AddArray(weights);
+  this->open(grid, PanelColumn::bind_and_pose);
+  ASSERT_TRUE(this->window.set_handles(test::two_points(), "points"));
+  ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
+  Pose pose(2);
+  pose[0].transform.col(3) = pose[1].transform.col(3) = Vec3(0, 1, 0);
+  this->window.document()->set_pose(pose, "up");
+  auto* handles = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
+  const auto heights = [&]
+  {
+    double shape[6];
+    this->window.viewport()->drawn()->GetBounds(shape);
+    return std::pair(shape[3], handles->GetBounds()[3]);
+  };
+  const auto expect = [&](bool rest, const char* when)
+  {
+    EXPECT_NEAR(heights().first, rest ? 1.0 : 2.0, 1e-9) << when;
+    EXPECT_NEAR(heights().second, rest ? 0.0 : 1.0, 1e-9) << when;
+    EXPECT_EQ(this->window.viewport()->state_name().startsWith("Rest shape: "), rest) << when;
+    EXPECT_NEAR(this->window.document()->pose()[1].transform(1, 3), 1.0, 1e-12) << when;
+  };
+  expect(false, "posed");
+  this->window.panels()->show_panel(PanelColumn::tets);
+  ASSERT_GT(this->view()->shown_count(), 0);
+  expect(true, "tets");
+  // Handles at rest are not dragged; a click selects.
+  this->drag(this->pixel(Vec3(0, 0, 0.9)), this->pixel(Vec3(0.5, 0, 0.9)));
+  expect(true, "a drag");
+  this->find<QCheckBox>("Show the tets")->setChecked(false);
+  expect(false, "no tets");
+  this->find<QCheckBox>("Show its defects")->setChecked(true);
+  this->wait();
+  expect(true, "defects");
+  this->window.panels()->show_panel(PanelColumn::bind_and_pose);
+  expect(false, "the panel Pose");
+  this->window.posing()->look_at_rest(true);
+  expect(true, "T");
+  this->window.posing()->look_at_rest(false);
+  expect(false, "T again");
+  // What is exported and what the history has is the pose, whatever is inspected.
+  this->window.panels()->show_panel(PanelColumn::tets);
+  double bounds[6];
+  this->window.shown()->GetBounds(bounds);
+  EXPECT_NEAR(bounds[3], 2.0, 1e-9);
 }
 
 TEST_F(TetWindow, TheMouseDragsThePlane)

@@ -3,6 +3,7 @@
 #include "unclipped.h"
 #include "window_test.h"
 
+#include "document/document.h"
 #include "main_window.h"
 #include "panel_column.h"
 #include "side_panel.h"
@@ -21,6 +22,8 @@
 #include "vtkCellArray.h"
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
+#include "vtkHandleSetRepresentation.h"
+#include "vtkHandleSetWidget.h"
 #include "vtkImageData.h"
 #include "vtkIntArray.h"
 #include "vtkPointData.h"
@@ -297,6 +300,55 @@ TEST_F(VolumeWindow, ASurfaceAlongWithAVolumeIsSeeThrough)
   EXPECT_EQ(
     this->window.viewport()->surface_actor()->GetProperty()->GetRepresentation(), VTK_SURFACE);
   EXPECT_EQ(this->reading_at(Vec3(0.3, 0.1, 0)).left(8), "Triangle");
+}
+
+/// Winding numbers are those of the shape at rest: it is never posed around them.
+TEST_F(VolumeWindow, NoSliceLiesInAPosedShape)
+{
+  const TriangleMesh ball = test::sphere(3, 1.2);
+  const auto mesh = to_polydata(ball.points, ball.triangles);
+  vtkNew<vtkDoubleArray> weights;
+  weights->SetName("Weights");
+  weights->SetNumberOfComponents(2);
+  for (vtkIdType v = 0; v < mesh->GetNumberOfPoints(); ++v)
+  {
+    weights->InsertNextTuple2(0.5, 0.5);
+  }
+  mesh->GetPointData()->AddArray(weights);
+  ASSERT_TRUE(this->window.set_mesh(mesh, "ball"));
+  ASSERT_TRUE(this->window.set_handles(test::two_points(), "points"));
+  ASSERT_TRUE(this->window.is_bound());
+  Pose pose(2);
+  pose[0].transform.col(3) = pose[1].transform.col(3) = Vec3(0, 1, 0);
+  this->window.document()->set_pose(pose, "up");
+  const auto top = [this]
+  {
+    double bounds[6];
+    this->window.viewport()->drawn()->GetBounds(bounds);
+    return bounds[3];
+  };
+  auto* handles = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
+  EXPECT_NEAR(top(), 2.2, 1e-3);
+  this->open();
+  EXPECT_TRUE(this->view()->is_slice_shown());
+  EXPECT_NEAR(top(), 1.2, 1e-3);
+  EXPECT_NEAR(handles->GetBounds()[3], 0.0, 1e-9);
+  EXPECT_EQ(this->window.viewport()->state_name(), "Rest shape: the winding numbers belong to it");
+  // Without anything of the volume in the picture the pose is back; so it is in the other panel,
+  // where the slice and its legend are not.
+  this->find<QCheckBox>("Show the slice")->setChecked(false);
+  EXPECT_NEAR(top(), 2.2, 1e-3);
+  this->find<QCheckBox>("Show the slice")->setChecked(true);
+  EXPECT_NEAR(top(), 1.2, 1e-3);
+  this->find<QPushButton>("Pose")->click();
+  EXPECT_NEAR(top(), 2.2, 1e-3);
+  EXPECT_NEAR(handles->GetBounds()[3], 1.0, 1e-9);
+  EXPECT_EQ(this->window.viewport()->state_name(), QString());
+  EXPECT_FALSE(this->view()->is_slice_shown());
+  EXPECT_EQ(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
+  this->find<QPushButton>("Volume")->click();
+  EXPECT_TRUE(this->view()->is_slice_shown());
+  EXPECT_NEAR(top(), 1.2, 1e-3);
 }
 
 TEST_F(VolumeWindow, BoundaryCurvesAreDrawnAndAreNoBones)

@@ -4,12 +4,14 @@
 #include "unclipped.h"
 #include "window_test.h"
 
+#include "side_panel.h"
 #include "value_row.h"
 #include "weight_inspection.h"
 #include "weight_panel.h"
 #include "document/opened_file.h"
 
 #include "conversion.h"
+#include "report_field_data.h"
 #include "scene/categories.h"
 #include "scene/colours.h"
 #include "weights/unconstrained_weights.h"
@@ -21,6 +23,7 @@
 #include "vtkCellData.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
+#include "vtkHandleSetRepresentation.h"
 #include "vtkHandleSetWidget.h"
 #include "vtkLookupTable.h"
 #include "vtkPointData.h"
@@ -430,6 +433,53 @@ TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
   EXPECT_FALSE(this->button("Difference")->isEnabled());
 }
 
+/// A certificate stands below the name of the method that it is about, and no method is compared
+/// with itself.
+TEST_F(WeightWindow, CertificatesNameTheirMethod)
+{
+  const auto mesh = ball();
+  vtkNew<vtkDoubleArray> proof;
+  proof->SetName("WeightsRelativeGap");
+  proof->InsertNextValue(1e-8);
+  proof->InsertNextValue(2e-8);
+  mesh->GetFieldData()->AddArray(proof);
+  vtkNew<vtkDoubleArray> residual;
+  residual->DeepCopy(proof);
+  residual->SetName("WeightsKKTResidual");
+  mesh->GetFieldData()->AddArray(residual);
+  Report report;
+  report.set("method", "bounded-biharmonic");
+  attach_report(mesh, report);
+  this->open(mesh);
+  ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
+  ASSERT_TRUE(this->window.is_bound());
+  EXPECT_TRUE(this->says("Bounded biharmonic weights:"));
+  // In the panel Pose, where the next method is chosen.
+  const auto note = [this](const QString& words)
+  {
+    const auto labels = this->window.panel()->findChildren<QLabel*>();
+    return std::any_of(
+      labels.begin(), labels.end(), [&](const QLabel* label) { return label->text() == words; });
+  };
+  auto* chosen = this->window.panel()->findChild<QComboBox*>("bind.method");
+  EXPECT_TRUE(note("Bound: bounded biharmonic, certified to 2.0e-08."));
+  chosen->setCurrentIndex(1);
+  EXPECT_TRUE(note("Bound: bounded biharmonic, certified to 2.0e-08. Bind again for monotone."));
+  chosen->setCurrentIndex(0);
+  EXPECT_TRUE(note("Bound: bounded biharmonic, certified to 2.0e-08."));
+  // The other method is another one.
+  auto* other = this->panel()->findChild<QComboBox*>("weights.compare_with");
+  EXPECT_TRUE(this->button("Compare")->isEnabled());
+  other->setCurrentIndex(0);
+  EXPECT_FALSE(this->button("Compare")->isEnabled());
+  EXPECT_TRUE(this->button("Compare")->toolTip().contains("by this method already"));
+  EXPECT_FALSE(other->model()->flags(other->model()->index(0, 0)) & Qt::ItemIsEnabled);
+  EXPECT_TRUE(other->model()->flags(other->model()->index(1, 0)) & Qt::ItemIsEnabled);
+  // Weights without a report may be by any method.
+  this->open(ball());
+  EXPECT_TRUE(other->model()->flags(other->model()->index(0, 0)) & Qt::ItemIsEnabled);
+}
+
 TEST_F(WeightWindow, ABindGivesVolumeRawColumnsAndCertificates)
 {
   const TriangleMesh mesh = test::sphere(3);
@@ -500,9 +550,15 @@ TEST_F(WeightWindow, IsolinesAndSlicesKnowThePose)
   EXPECT_NEAR(reach(this->window.viewport()->drawn()), 2.0, 1e-5);
   // Around a slice it is at rest.
   this->find<QCheckBox>("Slice through the volume")->setChecked(true);
+  auto* handles = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
   EXPECT_NEAR(reach(this->window.viewport()->drawn()), 1.0, 1e-5);
+  EXPECT_NEAR(handles->GetBounds()[5], 0.9, 1e-5);
+  EXPECT_EQ(
+    this->window.viewport()->state_name(), "Rest shape: the slice of the weights belongs to it");
   this->find<QCheckBox>("Slice through the volume")->setChecked(false);
   EXPECT_NEAR(reach(this->window.viewport()->drawn()), 2.0, 1e-5);
+  EXPECT_NEAR(handles->GetBounds()[5], 1.9, 1e-5);
+  EXPECT_EQ(this->window.viewport()->state_name(), QString());
 }
 
 TEST_F(WeightWindow, WhatCannotBeChosenSaysWhy)
@@ -549,8 +605,10 @@ TEST_F(WeightWindow, NoTextOfTheWeightPanelIsClipped)
     0, "a handle whose name somebody has made much too long for any list");
   this->open(grid);
   this->find<QCheckBox>("Extrema away from handles")->setChecked(true);
-  this->panel()->set_comparison("Linear subspace (12.3 s): largest 0.00012, rms 1.2e-05");
-  this->panel()->set_certificate("Worst gap 1.2e-07, residual 1.2e-07\n123 iterations");
+  this->panel()->set_comparison("Against Linear subspace (12.3 s): largest 0.00012, rms 1.2e-05");
+  this->panel()->set_certificate(
+    "Bounded biharmonic weights:\nWorst gap 1.2e-07, residual 1.2e-07\n123 iterations, all handles "
+    "12.34 s");
   for (const QSize& size : { QSize(900, 680), QSize(1280, 800), QSize(1920, 1080) })
   {
     this->resize(size);

@@ -68,6 +68,13 @@ def test_without_a_display_or_xvfb_it_names_the_package(folder):
     folder.run("render", "sphere.off", "-o", "s.png", environment=broken).is_refused("xvfb")
 
 
+def test_a_tour_with_a_bad_file_ends_with_its_sentence(folder):
+    folder.write("t.json", '{"tour": {"schema": 1}, "steps": []}')
+    folder.write("bad.off", "once upon a time\n")
+    folder.run("view", "bad.off", "--play", "t.json").is_refused("bad.off, line 1")
+    folder.run("view", "gone.off", "--play", "t.json").is_refused("gone.off", "No such file")
+
+
 def test_view_without_a_display(folder):
     folder.off("sphere.off", shapes.sphere(8, 4))
     folder.run("view", "sphere.off", environment=NO_DISPLAY).is_refused()

@@ -207,6 +207,29 @@ TEST(HandleSetWidget, AFreeHandleIsSelectedButNotDragged)
   EXPECT_EQ(Vec3(stage.renderer->GetActiveCamera()->GetPosition()), camera);
 }
 
+TEST(HandleSetWidget, HandlesShownAtRestAreSelectedThereButNotDragged)
+{
+  Stage stage({ point("a", Vec3(-1, 0, 0)), point("b", Vec3(1, 0, 0)) });
+  stage.drag(Vec3(1, 0, 0), Vec3(1, 0.8, 0));
+  const Affine pose = stage.transform(1);
+  ASSERT_GT((stage.head(1) - Vec3(1, 0, 0)).norm(), 0.5);
+  stage.representation()->ShowRestOn();
+  EXPECT_NEAR(stage.representation()->GetBounds()[3], 0.0, 1e-12) << "drawn at rest";
+  stage.move(Vec3(1, 0.8, 0));
+  EXPECT_EQ(stage.representation()->GetHoveredHandle(), -1) << "nothing where it is posed";
+  stage.representation()->SetSelectedHandle(0);
+  const int drags = stage.events[vtkCommand::StartInteractionEvent];
+  stage.drag(Vec3(1, 0, 0), Vec3(1, -0.8, 0));
+  EXPECT_EQ(stage.representation()->GetSelectedHandle(), 1);
+  EXPECT_EQ(stage.representation()->GetDragRefusal(1), Widget::IS_AT_REST);
+  EXPECT_FALSE(stage.widget->StartDrag(Widget::GIZMO_MOVE));
+  EXPECT_EQ(stage.events[vtkCommand::StartInteractionEvent], drags);
+  EXPECT_EQ(stage.transform(1), pose);
+  stage.representation()->ShowRestOff();
+  stage.drag(Vec3(1, 0.8, 0), Vec3(1, 0.2, 0));
+  EXPECT_NEAR(stage.head(1)[1], 0.2, 0.05);
+}
+
 TEST(HandleSetWidget, TheCameraMovesOnlyAwayFromHandles)
 {
   Stage stage({ point("a", Vec3(0, 0, 0)) });

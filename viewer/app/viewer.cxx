@@ -1,6 +1,7 @@
 #include "viewer.h"
 
 #include "main_window.h"
+#include "shape_handles.h"
 #include "style.h"
 #include "window_sessions.h"
 
@@ -60,17 +61,22 @@ void open_first_files(MainWindow& window, const std::vector<FirstFile>& files)
   }
 }
 
-int run_viewer(const std::vector<FirstFile>& files)
+int run_viewer(const std::vector<FirstFile>& files, bool auto_rig)
 {
   const Application application;
   MainWindow window;
   window.show();
   window.sessions()->offer_recovery();
   open_first_files(window, files);
+  if (auto_rig)
+  {
+    window.shape_handles()->auto_rig();
+  }
   return QApplication::exec();
 }
 
-bindpose::Status play_tour(const std::vector<FirstFile>& files, const TourRequest& request)
+bindpose::Status play_tour(
+  const std::vector<FirstFile>& files, bool auto_rig, const TourRequest& request)
 {
   bindpose::Tour tour;
   const bindpose::Status status = read_tour(request.path, tour);
@@ -94,6 +100,10 @@ bindpose::Status play_tour(const std::vector<FirstFile>& files, const TourReques
   if (!files.empty() && !window.error().isEmpty())
   {
     return bindpose::Status::invalid_input(window.error().toStdString());
+  }
+  if (auto_rig)
+  {
+    window.shape_handles()->auto_rig();
   }
   return player.play(request);
 }

@@ -21,13 +21,15 @@ struct FirstFile
 
 /// `bindpose view`: opens the window with these files (meshes, meshes with weights, handles).
 /// Returns the program's exit code. Needs a display.
-int run_viewer(const std::vector<FirstFile>& files);
+/// @param auto_rig  makes bones along the mesh and binds it
+int run_viewer(const std::vector<FirstFile>& files, bool auto_rig);
 
 /// Opens all files that can be opened; the error bar lists the errors of all others.
 void open_first_files(MainWindow& window, const std::vector<FirstFile>& files);
 
 /// The same with a tour in place of a person. Recent files and recovered work of whoever runs it
 /// are neither looked at nor changed.
-bindpose::Status play_tour(const std::vector<FirstFile>& files, const TourRequest& request);
+bindpose::Status play_tour(
+  const std::vector<FirstFile>& files, bool auto_rig, const TourRequest& request);
 
 #endif

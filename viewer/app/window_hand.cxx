@@ -12,6 +12,7 @@
 #include "pose_ghost.h"
 #include "pose_panel.h"
 #include "posing.h"
+#include "shape_handles.h"
 #include "sequence_export.h"
 #include "side_panel.h"
 #include "value_row.h"
@@ -433,8 +434,9 @@ bool is_idle(const MainWindow* window)
   const bool compares = posing->ghost()->place() != PoseGhost::hidden;
   return !window->binding()->is_running() && !window->inspection()->is_busy() &&
     !window->weights()->is_busy() && !window->winding_volume()->is_running() &&
-    !posing->keeper()->is_playing() && !posing->motion()->is_playing() &&
-    !posing->sequence_export()->is_running() && (moves || !is_busy(posing->deformation())) &&
+    !window->shape_handles()->is_running() && !posing->keeper()->is_playing() &&
+    !posing->motion()->is_playing() && !posing->sequence_export()->is_running() &&
+    (moves || !is_busy(posing->deformation())) &&
     (!moves || !posing->motion()->body() || posing->motion()->has_started()) &&
     (!compares || !is_busy(posing->compared()));
 }

@@ -420,6 +420,8 @@ const std::vector<Verb>& verbs()
     { "view", "window to look at datasets and volumes and to drag handles",
       { { "FILE", "", Kind::text, "", "",
           "meshes, handles, weights, pictures, volumes, curves, sessions", false, true },
+        { "--auto-rig", "", Kind::flag, "", "",
+          "make bones along the mesh, or points where it has none, and bind it, ready to drag" },
         { "--play", "TOUR", Kind::text, "", "",
           "do the steps of this tour (.json) in place of a person, check what it says, and end; "
           "the "

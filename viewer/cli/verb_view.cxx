@@ -93,12 +93,13 @@ void run_view(Session& session)
   {
     return;
   }
+  const bool auto_rig = session.arguments().has("auto-rig");
   release_interrupts();
   if (!request.path.empty())
   {
-    session.fail(play_tour(files, request));
+    session.fail(play_tour(files, auto_rig, request));
   }
-  else if (run_viewer(files) != 0)
+  else if (run_viewer(files, auto_rig) != 0)
   {
     session.fail(Status::failure(StatusCode::internal_error, "the window ended with an error"));
   }

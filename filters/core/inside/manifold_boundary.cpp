@@ -4,9 +4,10 @@
 // vertex.
 #include "inside/manifold_boundary.h"
 
+#include "base/disjoint_sets.h"
+
 #include <algorithm>
 #include <array>
-#include <numeric>
 #include <vector>
 
 namespace bindpose
@@ -84,34 +85,6 @@ private:
   std::vector<Index> other_;
 };
 
-/// Sets of corners that are one vertex.
-class Union
-{
-public:
-  explicit Union(std::size_t count) : parent_(count)
-  {
-    std::iota(this->parent_.begin(), this->parent_.end(), Index(0));
-  }
-  Index find(Index i)
-  {
-    while (this->parent_[i] != i)
-    {
-      this->parent_[i] = this->parent_[this->parent_[i]];
-      i = this->parent_[i];
-    }
-    return i;
-  }
-  void join(Index i, Index j)
-  {
-    const Index a = this->find(i);
-    const Index b = this->find(j);
-    this->parent_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<Index> parent_;
-};
-
 /// The triangles of the boundary with their neighbors across edges. Side 3 f + k leads from corner
 /// k of triangle f to the next one.
 struct Skin
@@ -181,11 +154,11 @@ TriangleMesh manifold_boundary(const TetMesh& tets)
 {
   const Skin skin = skin_of(tets.tets);
   const auto count = static_cast<Index>(skin.opposite.size());
-  Union corners(skin.opposite.size());
+  DisjointSets<Index> corners(skin.opposite.size());
   for (Index side = 0; side < count; ++side)
   {
-    corners.join(side, next_side(skin.opposite[side]));
-    corners.join(next_side(side), skin.opposite[side]);
+    corners.unite(side, next_side(skin.opposite[side]));
+    corners.unite(next_side(side), skin.opposite[side]);
   }
   std::vector<Vec3> points;
   std::vector<Index> vertex(skin.opposite.size(), -1); // of each triangle's corners

@@ -2,6 +2,7 @@
 
 #include "base/disjoint_sets.h"
 #include "base/laplacian.h"
+#include "base/number_text.h"
 #include "base/simplex_locator.h"
 #include "base/sort_unique.h"
 
@@ -183,11 +184,24 @@ void tether_components(const Domain& domain, const Handles& handles,
     first_names(handles, followed));
 }
 
+/// What to do about a handle without a vertex of its own.
+std::string advice_about(const Handle& handle, const Box& box)
+{
+  const auto distance = [&](const Vec3& p)
+  { return (p - p.cwiseMax(box.lower).cwiseMin(box.upper)).norm() / box.diagonal(); };
+  const double away = std::min(distance(handle.head), distance(handle.tail));
+  constexpr double near = 0.05;
+  return away > near ? "it is " + short_number(away) +
+      " bounding-box diagonals outside of the mesh, so check the units and the position of the "
+      "handles"
+                     : "move it, or refine the mesh there";
+}
+
 /// A handle that shares all of its vertices (a point on a bone) would have a weight of one nowhere:
 /// it gets the first of them for itself whose other owners have vertices of their own. A handle
 /// that cannot have one and needs none leaves its vertices to their other owners.
-Status give_every_handle_a_vertex(
-  const Handles& handles, std::map<Index, std::vector<Index>>& owners, HandleConstraints& result)
+Status give_every_handle_a_vertex(const Handles& handles, const Box& box,
+  std::map<Index, std::vector<Index>>& owners, HandleConstraints& result)
 {
   std::vector<Index> own(handles.size(), 0);
   for (const auto& [v, list] : owners)
@@ -226,8 +240,8 @@ Status give_every_handle_a_vertex(
     if (handles[j].ownership == Ownership::required)
     {
       return Status::invalid_input("handle '" + handles[j].name +
-        "' shares all of its vertices with other handles, so nothing is its own; move it or "
-        "refine the mesh there");
+        "' has no vertex of its own: other handles hold the same vertices; " +
+        advice_about(handles[j], box));
     }
     idle.push_back(at);
     result.counts[j] = 0;
@@ -413,7 +427,8 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
       }
     }
   }
-  const Status owned = give_every_handle_a_vertex(handles, handles_of_vertex, result);
+  const Status owned =
+    give_every_handle_a_vertex(handles, bounding_box(domain.points), handles_of_vertex, result);
   if (!owned.ok())
   {
     return owned;

@@ -283,6 +283,40 @@ TEST_F(HandleWindow, HandlesComeFromTheShape)
   }
 }
 
+TEST_F(HandleWindow, AutoRigMakesBonesAndBindsThem)
+{
+  this->open_mesh();
+  ShapeHandles* makes = this->window.shape_handles();
+  const auto wait = [&]
+  {
+    return wait_for(
+      [&] { return !makes->is_running() && !this->window.binding()->is_running(); });
+  };
+  makes->auto_rig_action()->trigger();
+  EXPECT_TRUE(makes->is_running());
+  EXPECT_FALSE(makes->auto_rig_action()->isEnabled());
+  ASSERT_TRUE(wait());
+  EXPECT_EQ(this->window.error(), QString());
+  ASSERT_FALSE(this->document()->handles().empty());
+  EXPECT_EQ(this->document()->handles().front().kind, HandleKind::bone);
+  EXPECT_TRUE(this->window.is_bound());
+  EXPECT_EQ(this->history()->undoText(), "bind");
+  this->history()->undo();
+  this->history()->undo();
+  EXPECT_TRUE(this->document()->handles().empty());
+  EXPECT_FALSE(this->window.is_bound());
+
+  // A ball has no bones: it gets points.
+  const TriangleMesh ball = test::sphere(3);
+  ASSERT_TRUE(this->window.set_mesh(to_polydata(ball.points, ball.triangles), "ball"));
+  makes->auto_rig_action()->trigger();
+  ASSERT_TRUE(wait());
+  EXPECT_EQ(this->window.error(), QString());
+  EXPECT_EQ(this->names().size(), 8);
+  EXPECT_EQ(this->document()->handles().front().kind, HandleKind::point);
+  EXPECT_TRUE(this->window.is_bound());
+}
+
 TEST_F(HandleWindow, PointsAreAddedToAMeshWithoutHandlesAndBound)
 {
   this->open_mesh();

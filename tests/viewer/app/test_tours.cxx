@@ -190,7 +190,8 @@ INSTANTIATE_TEST_SUITE_P(Examples, Tours,
     TourCase{ "rotations", { "clusters", "angles", "angles_again" } }, TourCase{ "refused", {} },
     TourCase{ "picture", { "flat", "bent", "over_picture" } }, TourCase{ "planar", { "posed" } },
     TourCase{ "undo", { "start", "one", "three" } }, TourCase{ "idle", {} },
-    TourCase{ "panels", {} }, TourCase{ "tutorial", {}, "elephant-with-holes.off" }),
+    TourCase{ "panels", {} }, TourCase{ "auto_rig", { "rigged", "bent" } },
+    TourCase{ "tutorial", {}, "elephant-with-holes.off" }),
   [](const testing::TestParamInfo<TourCase>& tour) { return std::string(tour.param.name); });
 
 /// What the tutorial tells is what its tour says and does, and its pictures are there.

@@ -11,6 +11,7 @@
 #include "side_panel.h"
 #include "viewport.h"
 #include "weight_inspection.h"
+#include "winding_volume.h"
 
 #include <QAbstractButton>
 #include <QAction>
@@ -336,6 +337,7 @@ void Monkey::rest()
   this->window_->binding()->cancel();
   this->window_->inspection()->cancel();
   this->window_->weights()->cancel();
+  this->window_->winding_volume()->cancel();
   this->window_->posing()->keeper()->play(false);
   this->window_->posing()->motion()->play(false);
   this->window_->posing()->sequence_export()->cancel();

@@ -215,6 +215,16 @@ TEST(Poser, FullArapGivesWhatTheFilterGives)
   const Points all = by_filter(in_tets, rig, pose, rig.tets);
   const Points surface = by_poser(rig, pose, options);
   EXPECT_EQ(surface, all.topRows(surface.rows()));
+  // Each tet has a rotation; points have none of their own.
+  ExecutionContext context;
+  const auto poser = make_poser(options.method, rig.source());
+  Points posed;
+  ASSERT_TRUE(poser->bind(context, options).usable());
+  ASSERT_TRUE(poser->solve(context, pose, options, 0, posed).usable());
+  const PoseRotations* rotations = poser->rotations();
+  ASSERT_NE(rotations, nullptr);
+  EXPECT_EQ(static_cast<Index>(rotations->rotations.size()), rig.tets->GetNumberOfCells());
+  EXPECT_TRUE(rotations->of_point->empty());
 }
 
 TEST(Poser, ASolveInSlicesIsTheFilterRunInSlices)

@@ -53,6 +53,20 @@ Status find_defects(
   }
   return status;
 }
+
+/// The sum of what the legend counts.
+qlonglong count_all(vtkPolyData* defects)
+{
+  std::vector<Category> categories = defect_categories();
+  count_defects(defects, categories);
+  Index sum = 0;
+  for (const Category& category : categories)
+  {
+    sum += category.count;
+  }
+  return sum;
+}
+
 /// "boundary 12, fold 3"; empty without any.
 QString counts_of(vtkPolyData* defects)
 {
@@ -259,7 +273,7 @@ void Inspection::update_defects()
   vtkPolyData* found = this->defects_.defects();
   this->panel_->set_defects_note(!wanted ? QString()
       : !found                           ? tr("Looking at the surface …")
-               : tr("%L1 places").arg(qlonglong(found->GetNumberOfCells())));
+                                         : tr("%L1 places").arg(count_all(found)));
   Q_EMIT this->surface_look_changed();
 }
 

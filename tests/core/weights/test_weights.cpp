@@ -519,9 +519,9 @@ TEST(Weights, BudgetCancelAndBadOptions)
 
 TEST(Weights, AHelperJointWithoutAVertexHasNoWeights)
 {
-  // Two joints at one place in a rig: the first, the helper, is skipped.
-  Handles joints{ test::point_handle("helper", Vec3(0.2, 0.5, 0.5)),
-    test::point_handle("hip", Vec3(0.2, 0.5, 0.5)),
+  // Two joints of a rig with the same nearest vertex: the first, the helper, is skipped.
+  Handles joints{ test::point_handle("helper", Vec3(-0.2, -0.2, -0.2)),
+    test::point_handle("hip", Vec3(-0.1, -0.1, -0.1)),
     test::bone_handle("spine", Vec3(0.5, 0.5, 0.1), Vec3(0.5, 0.5, 0.8)) };
   for (Handle& joint : joints)
   {

@@ -87,9 +87,9 @@ std::string unused_stretch(const Pose& pose, StretchUse use)
     {
       const bool ends = posed.mode == HandleMode::ends;
       const bool stretches = std::abs(posed.stretch - 1.0) > same_length &&
-        (posed.mode == HandleMode::full || (ends && use != StretchUse::ends));
+        (holds_transform(posed.mode) || (ends && use != StretchUse::ends));
       const bool twists = posed.twist.cwiseAbs().maxCoeff() > same_angle &&
-        (posed.mode == HandleMode::full || holds_tail(posed.mode));
+        (holds_transform(posed.mode) || holds_tail(posed.mode));
       return stretches || twists;
     });
   return unused && use != StretchUse::all ? "the pose stretches or twists bones, which this method "

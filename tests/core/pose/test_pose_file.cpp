@@ -429,7 +429,7 @@ TEST(PoseFile, WhatIsWrittenIsReadBack)
       pose[h].mode = modes[random.below(4)];
       const bool moves = random.below(4) == 0;
       pose[h].transform = affine_about(rig()[h].head,
-        moves ? Eigen::Matrix3d::Identity() : random.uniform(0.1, 3) * r,
+        moves ? Eigen::Matrix3d::Identity().eval() : Eigen::Matrix3d(random.uniform(0.1, 3) * r),
         random.in_box(-Vec3::Ones(), Vec3::Ones()));
       if (!moves && rig()[h].kind == HandleKind::bone)
       {

@@ -73,7 +73,7 @@ void on_progress(vtkObject* caller, unsigned long, void* stage_data, void*)
 // Expected fractions of the seconds of a run.
 constexpr double reading = 0.02;
 constexpr double choosing_points = 0.01;
-constexpr double finding_bones = 0.3;
+constexpr double finding_bones = 0.2;
 constexpr double main_end = 0.97; ///< then the results are written
 constexpr double latest_main_begin = 0.5; ///< however many files are read
 

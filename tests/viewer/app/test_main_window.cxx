@@ -4,6 +4,7 @@
 #include "unclipped.h"
 #include "window_test.h"
 
+#include "document/document.h"
 #include "main_window.h"
 #include "panel_column.h"
 #include "side_panel.h"

@@ -59,7 +59,7 @@ def test_outputs_that_cannot_be_written(folder, verb):
     os.mkdir(folder / f"dir{ending}")
     folder.run(verb, "x.off", *words, f"dir{ending}").is_refused("directory")
     folder.run(verb, "x.off", *words, "out.doc").is_refused("out.doc", "unknown file name extension")
-    folder.run(verb, "x.off", *words, "out").is_refused("no ending")
+    folder.run(verb, "x.off", *words, "out").is_refused("no file name extension")
     folder.write(f"there{ending}", "precious")
     folder.run(verb, "x.off", *words, f"there{ending}").is_refused("the file exists")
     assert (folder / f"there{ending}").read_text() == "precious"

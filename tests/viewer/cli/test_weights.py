@@ -145,7 +145,8 @@ def test_automatic_handles(bar):
     bar.run("weights", "bar.off", "--handles", "auto", "-o", "w.vtp").is_good()
     assert weights_of(bar / "w.vtp").shape[1] == 8
     for wrong in ("auto:0", "auto:x", "auto:"):
-        bar.run("weights", "bar.off", "--handles", wrong, "-o", "w2.vtp").is_refused(wrong)
+        bar.run("weights", "bar.off", "--handles", wrong, "-o", "w2.vtp").is_refused(
+            "--handles auto:N needs an integer N between 1 and 100000", f"(got '{wrong[5:]}')")
     bar.run("weights", "bar.off", "--handles", "auto:5000", "-o", "w2.vtp").is_refused("different vertices")
 
 
@@ -178,7 +179,7 @@ def test_bad_handles(bar):
     refused("1 1 0.5 nan\n", "h.tgf, line 1")
     refused("#\n", "no node")
     bar.run("weights", "bar.off", "--handles", "none.tgf", "-o", "out.vtp").is_refused("none.tgf")
-    bar.run("weights", "bar.off", "--handles", "bar.off", "-o", "out.vtp").is_refused("bar.off", "ending")
+    bar.run("weights", "bar.off", "--handles", "bar.off", "-o", "out.vtp").is_refused("bar.off", "unknown file name extension")
 
 
 def test_a_handle_outside_is_told(bar):

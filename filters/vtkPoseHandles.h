@@ -17,10 +17,10 @@
  * of a bone that stretches or twists moves with the cross-section of the bone to which it is
  * attached. `head` and `tail` are world positions. The transform replaces that of the input.
  *
- * **Modes.** A handle without "mode" keeps its mode of the input, automatic (5) if there is no array
- * Mode. If that is automatic and the pose gives more than a translation, the mode becomes full. So
- * as-rigid-as-possible methods find the rotations of handles that are only translated or not
- * mentioned, and skinning uses their transforms as they are.
+ * **Modes.** A handle without "mode" keeps its mode of the input, automatic (5) if there is no
+ * array Mode. If that is automatic and the pose gives more than a translation, the mode becomes
+ * full. So as-rigid-as-possible methods find the rotations of handles that are only translated or
+ * not mentioned, and skinning uses their transforms as they are.
  *
  * A text without "version" has version 1: the default space is "world", and handles that are not
  * mentioned keep their transform. A warning is issued once if version 2 would give another pose.

@@ -450,7 +450,7 @@ TEST_F(GLTFSkin, Errors)
   this->Writer->SetFileName(nullptr);
   this->Refuses("no file name");
   this->Writer->SetFileName((this->Folder / "rig.obj").c_str());
-  this->Refuses("ending");
+  this->Refuses("file name extension");
   this->Writer->SetFileName((this->Folder / "rig.glb").c_str());
   this->Writer->SetArrayName("Other");
   this->Refuses("Other");

@@ -287,10 +287,8 @@ TEST_F(HandleWindow, AutoRigMakesBonesAndBindsThem)
 {
   this->open_mesh();
   ShapeHandles* makes = this->window.shape_handles();
-  const auto wait = [&]
-  {
-    return wait_for(
-      [&] { return !makes->is_running() && !this->window.binding()->is_running(); });
+  const auto wait = [&] {
+    return wait_for([&] { return !makes->is_running() && !this->window.binding()->is_running(); });
   };
   makes->auto_rig_action()->trigger();
   EXPECT_TRUE(makes->is_running());

@@ -98,7 +98,7 @@ def test_points_of_a_volume(folder):
     image, _ = winding(folder, shapes.open_cube())
     folder.run("winding", "mesh.off", "--points", "field.vti", "-o", "again.vdb").is_good()
     assert (folder / "again.vdb").read_bytes() == (folder / "field.vdb").read_bytes()
-    folder.run("winding", "mesh.off", "--points", "mesh.off", "-o", "no.vdb").is_refused("no.vdb", "ending")
+    folder.run("winding", "mesh.off", "--points", "mesh.off", "-o", "no.vdb").is_refused("no.vdb", "file name extension")
 
 
 def test_refusals(folder):

@@ -114,8 +114,8 @@ def test_options_that_make_no_sense(folder):
 
 def test_endings_fit_what_is_written(folder):
     folder.off("cube.off", shapes.cube())
-    folder.run("winding", "cube.off", "-o", "w.vtp").is_refused("w.vtp", "ending")
-    folder.run("winding", "cube.off", "--points", "cube.off", "-o", "w.vti").is_refused("w.vti", "ending")
+    folder.run("winding", "cube.off", "-o", "w.vtp").is_refused("w.vtp", "file name extension")
+    folder.run("winding", "cube.off", "--points", "cube.off", "-o", "w.vti").is_refused("w.vti", "file name extension")
 
 
 def test_curves_and_oriented_points(folder):

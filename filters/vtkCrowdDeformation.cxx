@@ -7,6 +7,7 @@
 #include "instance_poses.h"
 #include "output_type.h"
 #include "pose/crowd.h"
+#include "pose/found_rotations.h"
 #include "pose_input.h"
 #include "vtkReducedARAP.h"
 
@@ -167,6 +168,11 @@ Status vtkCrowdDeformation::Execute(
   if (!told.ok())
   {
     return told;
+  }
+
+  for (Pose& pose : instances.poses)
+  {
+    pose = with_found_rotations(bound.handles, pose);
   }
 
   Crowd& crowd = this->Internal->crowd;

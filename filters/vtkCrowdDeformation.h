@@ -134,7 +134,6 @@ protected:
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   bindpose::Status Bind(const PoseInput& input, bindpose::ExecutionContext& context) override;
-  bool FindsRotations() override { return true; }
   bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
     bindpose::ExecutionContext& context) override;
 

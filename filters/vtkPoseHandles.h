@@ -19,8 +19,8 @@
  *
  * **Modes.** A handle without "mode" keeps its mode of the input, automatic (5) if there is no
  * array Mode. If that is automatic and the pose gives more than a translation, the mode becomes
- * full. So as-rigid-as-possible methods find the rotations of handles that are only translated or
- * not mentioned, and skinning uses their transforms as they are.
+ * full. So as-rigid-as-possible methods find the rotations of points and of translated bones (see
+ * vtkReducedARAP), and skinning uses transforms as they are.
  *
  * A text without "version" has version 1: the default space is "world", and handles that are not
  * mentioned keep their transform. A warning is issued once if version 2 would give another pose.

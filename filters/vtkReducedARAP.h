@@ -10,8 +10,9 @@
  * - a bone in mode `tail` (3) has its tail where Transform and Stretch take it, in mode `ends` (4)
  *   both ends, and finds the rest (how it turns about itself, or about the end);
  * - a handle in mode `free` (2) finds itself;
- * - a handle in mode `automatic` (5, also without an array Mode) has mode position if it is only
- *   translated, in the world or relative to its parent, else mode full; a region has mode full.
+ * - a handle in mode `automatic` (5, also without an array Mode) has mode position if it is a point
+ *   or a cage vertex that is at most translated, in the world or relative to its parent, or a bone
+ *   that is translated; else it has mode full.
  *
  * With every handle full the result is linear blend skinning. The energy is the sum over clusters
  * of vertices with similar weights of |e' - R e|^2 over their edges e; a solve alternates best

@@ -18,7 +18,8 @@
 namespace
 {
 constexpr int margin = 8;
-constexpr int gap = 14; // between groups
+constexpr int gap = 6; // between groups
+constexpr int between = 2; // buttons
 
 /// The slider is logarithmic: from a five hundredth of the shape's diagonal to half of it.
 constexpr double least_radius = 0.002;
@@ -39,7 +40,7 @@ EditTools::EditTools(const QList<QList<QAction*>>& groups, QWidget* parent) : QF
   this->setObjectName("tools");
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(margin, 5, margin, 5);
-  row->setSpacing(2);
+  row->setSpacing(between);
   for (const QList<QAction*>& group : groups)
   {
     if (!this->buttons_.empty())
@@ -85,7 +86,7 @@ int EditTools::width_with_words(int groups) const
     {
       // Padding of the style sheet and the icon; the text, and what is between.
       const int text = button->fontMetrics().horizontalAdvance(button->text()) + 8;
-      width += 20 + 14 + 4 + (group < groups ? text : 0);
+      width += between + 20 + 14 + 4 + (group < groups ? text : 0);
     }
   }
   return width;

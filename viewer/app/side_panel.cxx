@@ -159,7 +159,7 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   this->mode_->setToolTip(
     tr("What the selected handle holds; as-rigid-as-possible (ARAP) methods find the rest.\n"
        "Automatic: its position if it was only moved; rotation and scale as well\n"
-       "if it was rotated, scaled, stretched or twisted."));
+       "if it was rotated, scaled, stretched or twisted, or is a bone at rest."));
   mode_row->addWidget(this->mode_, 1);
   list->addLayout(mode_row);
   this->fields_ = new HandleFields(handles);

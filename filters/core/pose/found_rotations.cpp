@@ -7,11 +7,18 @@ namespace bindpose
 
 namespace
 {
+// Above the rounding of a relative transform, far below any motion that a user gives.
+constexpr double tolerance = 1e-12;
+
 bool is_translation(const Affine& transform)
 {
-  // Above the rounding of a relative transform, far below any rotation that a user gives.
-  constexpr double tolerance = 1e-12;
   return (transform.leftCols<3>() - Eigen::Matrix3d::Identity()).norm() < tolerance;
+}
+
+/// @param size  of the lengths in the scene
+bool is_identity(const Affine& transform, double size)
+{
+  return is_translation(transform) && transform.col(3).norm() <= tolerance * size;
 }
 } // namespace
 
@@ -25,10 +32,16 @@ Pose with_found_rotations(const Handles& handles, const Pose& pose)
     {
       continue;
     }
-    const bool moves = handles[h].kind != HandleKind::region && pose[h].stretch == 1.0 &&
-      pose[h].twist == Eigen::Vector2d::Zero() &&
-      (is_translation(pose[h].transform) || is_translation(relative[h].transform));
-    result[h].mode = moves ? HandleMode::position : HandleMode::full;
+    const HandleKind kind = handles[h].kind;
+    const Affine& in_world = pose[h].transform;
+    const Affine& to_parent = relative[h].transform;
+    const double size = handles[h].tail.norm() + in_world.col(3).norm();
+    const bool moves = (is_translation(in_world) || is_translation(to_parent)) &&
+      pose[h].stretch == 1.0 && pose[h].twist == Eigen::Vector2d::Zero();
+    const bool rests = is_identity(in_world, size) || is_identity(to_parent, size);
+    const bool holds_all =
+      !moves || kind == HandleKind::region || (kind == HandleKind::bone && rests);
+    result[h].mode = holds_all ? HandleMode::full : HandleMode::position;
   }
   return result;
 }

@@ -121,7 +121,7 @@ TEST_F(AutomaticHandles, ATorusIsCutOnce)
   EXPECT_EQ(number(status, "counts.cut_cycles"), 1.0);
   EXPECT_EQ(number(status, "counts.joints"), static_cast<double>(handles.size()) + 1.0);
   EXPECT_EQ(number(status, "counts.joints_outside"), 0.0);
-  EXPECT_THAT(status.warnings, testing::Contains(HasSubstr("1 cycle")));
+  EXPECT_THAT(status.warnings, testing::Contains(HasSubstr("1 loop")));
 }
 
 TEST_F(AutomaticHandles, DoNotDependOnOrderOrThreads)

@@ -8,10 +8,13 @@ using namespace bindpose;
 
 namespace
 {
-/// A chain of two bones and a region.
+/// A chain of two bones, a region and a point on the forearm.
 Handles arm()
 {
-  Handles handles(3);
+  Handles handles(4);
+  handles[3].name = "p";
+  handles[3].head = handles[3].tail = Vec3(1.5, 0.2, 0.0);
+  handles[3].parent = 1;
   handles[0].kind = handles[1].kind = HandleKind::bone;
   handles[0].name = "upper";
   handles[0].tail = Vec3(1.0, 0.0, 0.0);
@@ -38,49 +41,66 @@ std::vector<HandleMode> modes(const Pose& pose)
 }
 } // namespace
 
-TEST(FoundRotations, HandlesAtRestAndTranslatedOnesHoldTheirPositions)
+TEST(FoundRotations, PointsAndTranslatedBonesHoldTheirPositions)
 {
-  Pose pose(3);
-  pose[1].transform.col(3) = Vec3(0.0, 1.0, 0.0);
+  Pose pose(4);
   EXPECT_EQ(modes(pose),
-    (std::vector<HandleMode>{ HandleMode::position, HandleMode::position, HandleMode::full }))
-    << "a region holds its vertices";
+    (std::vector<HandleMode>{
+      HandleMode::full, HandleMode::full, HandleMode::full, HandleMode::position }))
+    << "bones at rest and a region hold everything";
+  pose[1].transform.col(3) = Vec3(0.0, 1.0, 0.0);
+  pose[3].transform.col(3) = Vec3(0.0, 0.0, 1.0);
+  EXPECT_EQ(modes(pose)[1], HandleMode::position);
+  EXPECT_EQ(modes(pose)[3], HandleMode::position);
 }
 
 TEST(FoundRotations, RotatedScaledStretchedAndTwistedHandlesHoldEverything)
 {
-  Pose pose(3);
-  pose[0].transform = turned(0.1);
-  EXPECT_EQ(modes(pose)[0], HandleMode::full);
-  pose[0] = HandlePose();
-  pose[0].transform.leftCols<3>() *= 1.1;
-  EXPECT_EQ(modes(pose)[0], HandleMode::full);
-  pose[0] = HandlePose();
+  for (const std::size_t h : { 0, 3 })
+  {
+    Pose pose(4);
+    pose[h].transform = turned(0.1);
+    EXPECT_EQ(modes(pose)[h], HandleMode::full);
+    pose[h].transform = identity_affine();
+    pose[h].transform.leftCols<3>() *= 1.1;
+    EXPECT_EQ(modes(pose)[h], HandleMode::full);
+  }
+  Pose pose(4);
+  pose[0].transform.col(3) = Vec3(0.0, 1.0, 0.0);
   pose[0].stretch = 1.1;
   EXPECT_EQ(modes(pose)[0], HandleMode::full);
-  pose[0] = HandlePose();
+  pose[0].stretch = 1.0;
   pose[0].twist[1] = 5.0;
   EXPECT_EQ(modes(pose)[0], HandleMode::full);
 }
 
-TEST(FoundRotations, AChildThatOnlyFollowsItsParentFindsItsRotation)
+TEST(FoundRotations, ChildrenAreTakenRelativeToTheirParents)
 {
-  Pose pose(3);
+  Pose pose(4);
   pose[0].transform = turned(0.7);
-  follow_parent(arm(), Pose(3), 1, pose);
+  follow_parent(arm(), Pose(4), 1, pose);
+  follow_parent(arm(), Pose(4), 3, pose);
   EXPECT_EQ(modes(pose)[0], HandleMode::full);
-  EXPECT_EQ(modes(pose)[1], HandleMode::position);
-  pose[1].transform = identity_affine(); // stays in the world
-  EXPECT_EQ(modes(pose)[1], HandleMode::position);
+  EXPECT_EQ(modes(pose)[1], HandleMode::full) << "the parent carries the bone";
+  EXPECT_EQ(modes(pose)[3], HandleMode::position);
+  Affine further = identity_affine();
+  further.col(3) = Vec3(0.3, 0.0, 0.0);
+  pose[1].transform = composed(pose[0].transform, further);
+  EXPECT_EQ(modes(pose)[1], HandleMode::position) << "translated relative to its parent";
+  pose[1].transform = identity_affine();
+  EXPECT_EQ(modes(pose)[1], HandleMode::full) << "the bone stays in the world";
+  pose[1].transform = further;
+  EXPECT_EQ(modes(pose)[1], HandleMode::position) << "translated in the world";
   pose[1].transform = turned(0.3);
   EXPECT_EQ(modes(pose)[1], HandleMode::full);
 }
 
 TEST(FoundRotations, ChosenModesStay)
 {
-  Pose pose(3);
+  Pose pose(4);
   pose[0].mode = HandleMode::full;
   pose[1].mode = HandleMode::ends;
   pose[2].mode = HandleMode::free;
+  pose[3].mode = HandleMode::position;
   EXPECT_EQ(modes(pose), modes_of(pose));
 }

@@ -67,9 +67,9 @@ def test_translated_handles_turn_freely(bar, method):
     up = {"translate": [-0.5, 2, 0]}
     found = posed({"version": 2, "handles": {"b2": {**up, "space": "world"}}})
     position = {"mode": "position"}
-    assert found == pytest.approx(posed({"version": 2, "handles": {"b1": position, "b2": {**position, **up, "space": "world"}}}),
-                                  abs=1e-12)
     full = {"mode": "full"}
+    assert found == pytest.approx(posed({"version": 2, "handles": {"b1": full, "b2": {**position, **up, "space": "world"}}}),
+                                  abs=1e-12)
     sheared = posed({"version": 2, "handles": {"b1": full, "b2": {**full, **up, "space": "world"}}})
     assert abs(found - sheared).max() > 0.1
     # Lengths along the bar change less than in the blend of translations.
@@ -105,7 +105,7 @@ def test_an_ignored_stretch_is_said_once(bar, method):
         run = deform(bar, {"version": 2, **frames[3]}, output="posed.glb").is_good()
         assert run.err.count("stretches or twists bones") == 1  # glTF joints have neither
     # Posed ends that keep the length up to roundoff stretch nothing.
-    ends = {"handles": {"b2": {"head": [3, 0.5, 0.5], "tail": [3, 3, 0.5]}}}
+    ends = {"handles": {"b1": {"mode": "full"}, "b2": {"head": [3, 0.5, 0.5], "tail": [3, 3, 0.5]}}}
     assert "stretches" not in deform(bar, {"version": 2, **ends}, "--overwrite", method=method).is_good().err
 
 
@@ -120,7 +120,7 @@ def test_sequences(bar, method):
     # The same as each pose alone; solves that begin elsewhere stop at their tolerance.
     deform(bar, frames[2], method=method, output="single.vtp").is_good()
     assert points_of(bindpose.read(bar / "single.vtp")) == pytest.approx(
-        points_of(bindpose.read(bar / "out_0002.vtp")), abs={"reduced-arap": 1e-4, "full-arap": 1e-3}.get(method, 1e-12))
+        points_of(bindpose.read(bar / "out_0002.vtp")), abs={"reduced-arap": 5e-4, "full-arap": 1e-3}.get(method, 1e-12))
 
 
 def test_a_variational_surface_needs_no_weights(folder):

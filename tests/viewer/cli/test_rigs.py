@@ -130,7 +130,7 @@ def test_helper_joints_that_share_vertices_are_skipped(folder):
     handles = bindpose.read_handles(folder / "c.gltf")
     handles.GetCellData().RemoveArray("Ownership")
     bindpose.write(handles, folder / "h.vtp")
-    folder.run("weights", "c.gltf", "--handles", "h.vtp", "-o", "x.vtp").is_refused("'target.L'", "move it")
+    folder.run("weights", "c.gltf", "--handles", "h.vtp", "-o", "x.vtp").is_refused("'target.L'", "no vertex of its own")
 
 
 def test_broken_files_are_named(bar):

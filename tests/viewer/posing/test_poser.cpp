@@ -320,7 +320,8 @@ TEST(Poser, RigidMethodsFindRotationsOfHandlesThatOnlyMove)
   Pose full = automatic;
   for (std::size_t k = 0; k < rig.list.size(); ++k)
   {
-    moved[k].mode = HandleMode::position;
+    const bool point = rig.list[k].kind == HandleKind::point;
+    moved[k].mode = point || k == 1 ? HandleMode::position : HandleMode::full;
     full[k].mode = HandleMode::full;
   }
   for (const PoseMethod method : { PoseMethod::reduced_arap, PoseMethod::full_arap })

@@ -378,7 +378,7 @@ TEST(SkeletonBones, ARingIsCutOnceOppositeItsRoot)
   SkeletonBones told;
   const Status status = skeleton_bones(drawing.skeleton(), 1.0, SkeletonBonesOptions(), told);
   ASSERT_EQ(status.warnings.size(), 1u);
-  EXPECT_THAT(status.warnings[0], HasSubstr("1 cycle"));
+  EXPECT_THAT(status.warnings[0], HasSubstr("1 loop"));
 }
 
 TEST(SkeletonBones, ARingWithATailIsRootedAtItsJunction)

@@ -63,6 +63,7 @@ protected:
   Pose pose(int i) const
   {
     Pose result(3);
+    result[0].mode = HandleMode::full;
     result[1].mode = HandleMode::free;
     result[2].mode = HandleMode::position;
     result[2].transform.col(3) << 0.0, 0.1 * i, 0.05 * i;

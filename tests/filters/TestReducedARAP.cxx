@@ -61,6 +61,15 @@ protected:
     this->surface = to_polydata(this->rig.mesh.points, boundary_triangles(this->rig.mesh.tets));
     this->surface->GetPointData()->AddArray(weights_array(this->rig.weights, this->rig.handles));
     this->handles = to_polydata(this->rig.handles);
+    std::vector<Index> cells;
+    Handles list;
+    EXPECT_TRUE(to_handles(this->handles, list, &cells).ok());
+    Pose rest(list.size());
+    for (HandlePose& handle : rest)
+    {
+      handle.mode = HandleMode::full;
+    }
+    set_pose(this->handles, cells, rest);
     this->pose->SetInputData(this->handles);
     this->filter->SetInputData(0, this->tets);
     this->filter->SetInputConnection(1, this->pose->GetOutputPort());

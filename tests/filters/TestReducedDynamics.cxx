@@ -51,6 +51,15 @@ protected:
     }
     this->tets->GetPointData()->AddArray(weights);
     this->handles = to_polydata(this->rig.handles);
+    std::vector<Index> cells;
+    Handles list;
+    EXPECT_TRUE(to_handles(this->handles, list, &cells).ok());
+    Pose rest(list.size());
+    for (HandlePose& handle : rest)
+    {
+      handle.mode = HandleMode::full;
+    }
+    set_pose(this->handles, cells, rest);
     this->pose->SetInputData(this->handles);
     this->pose->SetPoseJSON(drawn_and_let_go);
     this->connect(this->filter);

@@ -17,7 +17,7 @@
 
 namespace
 {
-constexpr int margin = 8;
+constexpr int margin = 5;
 constexpr int gap = 6; // between groups
 constexpr int between = 2; // buttons
 

@@ -115,10 +115,11 @@ protected:
     }
     return nullptr;
   }
+  int entry_of(HandleMode mode) { return this->modes()->findData(static_cast<int>(mode)); }
   bool offers(HandleMode mode)
   {
     const QAbstractItemModel* model = this->modes()->model();
-    return model->flags(model->index(static_cast<int>(mode), 0)) & Qt::ItemIsEnabled;
+    return model->flags(model->index(this->entry_of(mode), 0)) & Qt::ItemIsEnabled;
   }
   HandleMode mode(int handle)
   {
@@ -195,17 +196,17 @@ TEST_F(HandleList, AModeIsForAllThatAreSelectedAndOneStep)
   this->click(0);
   this->click(2, Qt::ControlModifier);
   EXPECT_EQ(this->window.history()->index(), before) << "to select is no step";
-  this->modes()->setCurrentIndex(static_cast<int>(HandleMode::position));
+  this->modes()->setCurrentIndex(this->entry_of(HandleMode::position));
   EXPECT_EQ(this->window.history()->index(), before + 1);
   EXPECT_EQ(this->window.history()->undoText(), "mode of 2 handles");
   EXPECT_EQ(this->mode(0), HandleMode::position);
-  EXPECT_EQ(this->mode(1), HandleMode::full);
+  EXPECT_EQ(this->mode(1), HandleMode::automatic);
   EXPECT_EQ(this->mode(2), HandleMode::position);
   EXPECT_EQ(this->selected(), Numbers({ 0, 2 }));
   this->hand.trigger("edit.undo");
-  EXPECT_EQ(this->mode(0), HandleMode::full);
-  EXPECT_EQ(this->mode(2), HandleMode::full);
-  EXPECT_EQ(this->modes()->currentIndex(), static_cast<int>(HandleMode::full));
+  EXPECT_EQ(this->mode(0), HandleMode::automatic);
+  EXPECT_EQ(this->mode(2), HandleMode::automatic);
+  EXPECT_EQ(this->modes()->currentIndex(), this->entry_of(HandleMode::automatic));
   // A tail is held of bones only.
   EXPECT_FALSE(this->offers(HandleMode::tail));
   this->click(3);

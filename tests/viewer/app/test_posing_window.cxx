@@ -152,6 +152,11 @@ protected:
     pose[3].transform.leftCols<3>() = turn;
     pose[3].transform.col(3) = this->list[3].head - turn * this->list[3].head;
     pose[0].transform.col(3) = Vec3(-0.1 * amount, 0, 0.1 * amount);
+    // All is held: points alone, on one line, leave the spin about it open.
+    for (HandlePose& handle : pose)
+    {
+      handle.mode = HandleMode::full;
+    }
     return pose;
   }
   Points points() { return to_points(this->window.shown()).view(); }

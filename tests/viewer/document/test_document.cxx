@@ -194,7 +194,7 @@ TEST_F(Editing, WhatChangesNothingIsNoStep)
   this->document.set_option("pose.method", 0);
   this->document.commit_pose("move nothing");
   this->document.back_to_rest();
-  this->document.set_mode(0, 0);
+  this->document.set_mode(0, static_cast<int>(HandleMode::automatic));
   EXPECT_EQ(this->document.history()->count(), steps);
 }
 

@@ -17,6 +17,7 @@ protected:
   {
     this->start = Pose(4);
     this->start[1].mode = this->start[2].mode = this->start[3].mode = HandleMode::free;
+    this->start[0].mode = HandleMode::full;
     EXPECT_TRUE(this->body.bind(this->context, this->reduced).usable());
     EXPECT_TRUE(this->body.restart(this->context, this->start, this->posed).usable());
   }

@@ -207,7 +207,7 @@ TEST(HandleEditing, PosesColoursAndSelectionFollowTheirHandles)
   EXPECT_EQ(stage.representation()->GetHandleStretch(1), 1.25);
   EXPECT_EQ(stage.representation()->GetHandleStretch(0), 1.0);
   EXPECT_EQ(stage.representation()->GetHandleMode(1), 1);
-  EXPECT_EQ(stage.representation()->GetHandleMode(0), 0);
+  EXPECT_EQ(stage.representation()->GetHandleMode(0), static_cast<int>(HandleMode::automatic));
   EXPECT_EQ(stage.handles->GetCellData()->GetArray("Weight of my own")->GetComponent(1, 0), 42.0);
   EXPECT_EQ(stage.representation()->GetSelectedHandle(), 0) << "the new one";
 }

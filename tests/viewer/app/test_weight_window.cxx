@@ -462,11 +462,12 @@ TEST_F(WeightWindow, CertificatesNameTheirMethod)
       labels.begin(), labels.end(), [&](const QLabel* label) { return label->text() == words; });
   };
   auto* chosen = this->window.panel()->findChild<QComboBox*>("bind.method");
-  EXPECT_TRUE(note("Bound: bounded biharmonic, certified to 2.0e-08."));
+  EXPECT_TRUE(note("Bound: bounded biharmonic. Optimal to within 2.0e-08."));
   chosen->setCurrentIndex(1);
-  EXPECT_TRUE(note("Bound: bounded biharmonic, certified to 2.0e-08. Bind again for monotone."));
+  EXPECT_TRUE(
+    note("Bound: bounded biharmonic. Optimal to within 2.0e-08. Bind again for monotone."));
   chosen->setCurrentIndex(0);
-  EXPECT_TRUE(note("Bound: bounded biharmonic, certified to 2.0e-08."));
+  EXPECT_TRUE(note("Bound: bounded biharmonic. Optimal to within 2.0e-08."));
   // The other method is another one.
   auto* other = this->panel()->findChild<QComboBox*>("weights.compare_with");
   EXPECT_TRUE(this->button("Compare")->isEnabled());

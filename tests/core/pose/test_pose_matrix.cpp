@@ -42,7 +42,7 @@ TEST(PoseMatrix, TransformsAreTransposedOneBelowTheOther)
     const Vec3 p(0.3, -0.8, 0.5);
     for (Index h = 0; h < 4; ++h)
     {
-      EXPECT_EQ(pose[h].mode, HandleMode::full);
+      EXPECT_EQ(pose[h].mode, HandleMode::automatic);
       Eigen::RowVectorXd row(d + 1);
       row << p.head(d).transpose(), 1.0;
       const Eigen::RowVectorXd expected = row * matrix.middleRows(h * (d + 1), d + 1);

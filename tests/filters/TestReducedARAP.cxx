@@ -3,6 +3,7 @@
 
 #include "TestFilter.h"
 #include "conversion.h"
+#include "held_handles.h"
 #include "pose/reduced_arap.h"
 #include "report_field_data.h"
 #include "vtkPoseHandles.h"
@@ -60,16 +61,7 @@ protected:
     this->tets->GetPointData()->AddArray(weights_array(this->rig.weights, this->rig.handles));
     this->surface = to_polydata(this->rig.mesh.points, boundary_triangles(this->rig.mesh.tets));
     this->surface->GetPointData()->AddArray(weights_array(this->rig.weights, this->rig.handles));
-    this->handles = to_polydata(this->rig.handles);
-    std::vector<Index> cells;
-    Handles list;
-    EXPECT_TRUE(to_handles(this->handles, list, &cells).ok());
-    Pose rest(list.size());
-    for (HandlePose& handle : rest)
-    {
-      handle.mode = HandleMode::full;
-    }
-    set_pose(this->handles, cells, rest);
+    this->handles = test::to_held_polydata(this->rig.handles);
     this->pose->SetInputData(this->handles);
     this->filter->SetInputData(0, this->tets);
     this->filter->SetInputConnection(1, this->pose->GetOutputPort());

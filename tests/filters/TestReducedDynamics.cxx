@@ -3,6 +3,7 @@
 
 #include "TestFilter.h"
 #include "conversion.h"
+#include "held_handles.h"
 #include "report_field_data.h"
 #include "vtkPoseHandles.h"
 #include "vtkReducedARAP.h"
@@ -50,16 +51,7 @@ protected:
       weights->SetComponentName(h, this->rig.handles[h].name.c_str());
     }
     this->tets->GetPointData()->AddArray(weights);
-    this->handles = to_polydata(this->rig.handles);
-    std::vector<Index> cells;
-    Handles list;
-    EXPECT_TRUE(to_handles(this->handles, list, &cells).ok());
-    Pose rest(list.size());
-    for (HandlePose& handle : rest)
-    {
-      handle.mode = HandleMode::full;
-    }
-    set_pose(this->handles, cells, rest);
+    this->handles = test::to_held_polydata(this->rig.handles);
     this->pose->SetInputData(this->handles);
     this->pose->SetPoseJSON(drawn_and_let_go);
     this->connect(this->filter);

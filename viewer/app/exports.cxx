@@ -38,10 +38,7 @@ namespace
 QString short_path(const QString& path)
 {
   constexpr int longest = 70;
-  const QString native = QDir::toNativeSeparators(path);
-  return native.size() <= longest
-    ? native
-    : native.left(longest / 2) + QStringLiteral("…") + native.right(longest / 2);
+  return shortened(QDir::toNativeSeparators(path), longest);
 }
 
 Status write_rig(vtkPolyData* surface, vtkPolyData* handles, const QString& path)

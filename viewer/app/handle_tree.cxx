@@ -28,7 +28,7 @@ constexpr int indentation = 14; // pixels
 constexpr int icon_size = 14;
 constexpr int name_width = 150; // of the deepest row; then the tree is scrolled sideways
 
-/// What kind a handle is, in the ink of a note.
+/// Return an icon for a kind of handle, in the color of notes.
 QIcon kind_icon(HandleKind kind)
 {
   QIcon icon;
@@ -265,7 +265,7 @@ void HandleTree::select(const std::vector<int>& handles)
   Q_EMIT this->chosen();
 }
 
-/// The tree tells which are selected, not in which order.
+/// The tree reports which items are selected, but not in which order they were.
 void HandleTree::take_selection()
 {
   const auto is_gone = [this](int k) { return !this->item(k)->isSelected(); };

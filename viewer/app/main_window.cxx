@@ -17,6 +17,7 @@
 #include "notice_bar.h"
 #include "option_links.h"
 #include "panel_column.h"
+#include "panel_parts.h"
 #include "plane_options.h"
 #include "posing.h"
 #include "probe.h"
@@ -70,11 +71,8 @@ namespace
 /// A file's name for a title or a sentence: exporters write names that no line holds.
 QString short_name(const QString& path)
 {
-  const QString name = QFileInfo(path).fileName();
   constexpr int longest = 60;
-  return name.size() <= longest
-    ? name
-    : name.left(longest / 2) + QStringLiteral("…") + name.right(longest / 2);
+  return shortened(QFileInfo(path).fileName(), longest);
 }
 QString method_words(BindMethod method)
 {

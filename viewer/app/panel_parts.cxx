@@ -76,6 +76,20 @@ QString capital(const QString& text)
   return text.left(1).toUpper() + text.mid(1);
 }
 
+QString shortened(const QString& text, int longest)
+{
+  return text.size() <= longest
+    ? text
+    : text.left(longest / 2) + QStringLiteral("…") + text.right(longest / 2);
+}
+
+QString progress_note(double fraction, const QString& phase)
+{
+  return QCoreApplication::translate("Panel", "%1, %2 %")
+    .arg(sentence_of(phase))
+    .arg(static_cast<int>(100.0 * fraction));
+}
+
 QString sentence_of(const QString& phase)
 {
   static const struct

@@ -25,6 +25,10 @@ QButtonGroup* add_orientations(QBoxLayout* column, QWidget* parent);
 void enable_all_but(QComboBox* list, int item, const QString& reason);
 /// With a capital letter, as a sentence or a heading begins.
 QString capital(const QString& text);
+/// Return a text for one line: a longer one without its middle.
+QString shortened(const QString& text, int longest);
+/// Return a line about a running job: its phase in words, and percent.
+QString progress_note(double fraction, const QString& phase);
 /// What a phase of the kernels does, in words.
 QString sentence_of(const QString& phase);
 

@@ -73,7 +73,7 @@ public:
   /// Something that belongs to the shape at rest (tets, slices) is shown in the picture: draw()
   /// draws the shape at rest, without a comparison. The pose goes on.
   void inspect_at_rest(bool inspects);
-  /// What is seen is the shape at rest, whatever the pose.
+  /// Whether the picture shows the shape at rest, whatever the pose.
   bool shows_rest() const { return this->inspected_ || this->at_rest_ || this->edits_at_rest_; }
   /// The pose moves some handle, or a body moves.
   bool is_posed() const;
@@ -100,7 +100,8 @@ public:
   SequenceExport* sequence_export() const { return this->export_; }
   /// There are key frames, or a motion.
   bool has_animation() const;
-  /// Writes those; sequence_export() tells how far it is and what came of it. Nothing without any.
+  /// Write the key frames, or the motion, if there are some; sequence_export() reports progress and
+  /// result.
   void export_to(const QString& path);
 
   const bindpose::PoseShelf& shelf() const { return this->keeper_->shelf(); }

@@ -317,7 +317,7 @@ void SidePanel::set_progress(double fraction, const QString& phase)
   this->bar_->setValue(static_cast<int>(1000.0 * fraction));
   if (!this->stopping_)
   {
-    this->set_note(tr("%1, %2 %").arg(sentence_of(phase)).arg(static_cast<int>(100.0 * fraction)));
+    this->set_note(progress_note(fraction, phase));
   }
 }
 

@@ -210,7 +210,7 @@ void VolumePanel::set_progress(double fraction, const QString& phase)
   this->bar_->setValue(static_cast<int>(1000.0 * fraction));
   if (this->note_->text() != tr("Stopping …"))
   {
-    this->set_note(tr("%1, %2 %").arg(sentence_of(phase)).arg(static_cast<int>(100.0 * fraction)));
+    this->set_note(progress_note(fraction, phase));
   }
 }
 

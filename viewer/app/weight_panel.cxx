@@ -365,8 +365,7 @@ void WeightPanel::set_progress(double fraction, const QString& phase)
   this->bar_->setValue(static_cast<int>(1000.0 * fraction));
   if (this->comparison_->text() != tr("Stopping …"))
   {
-    this->set_comparison(
-      tr("%1, %2 %").arg(sentence_of(phase)).arg(static_cast<int>(100.0 * fraction)));
+    this->set_comparison(progress_note(fraction, phase));
   }
 }
 

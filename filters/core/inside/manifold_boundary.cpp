@@ -5,6 +5,7 @@
 #include "inside/manifold_boundary.h"
 
 #include "base/disjoint_sets.h"
+#include "base/tet_facets.h"
 
 #include <algorithm>
 #include <array>
@@ -15,30 +16,21 @@ namespace bindpose
 
 namespace
 {
-// Facet k is opposite to corner k, counter-clockwise seen from outside of a positive tet.
-constexpr int facet_corners[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
-
 class Facets
 {
 public:
   explicit Facets(TetsView tets)
     : tets_(tets), other_(static_cast<std::size_t>(4 * tets.rows()), -1)
   {
-    std::vector<std::pair<std::array<Index, 3>, Index>> keys;
-    keys.reserve(this->other_.size());
-    for (Index facet = 0; facet < 4 * tets.rows(); ++facet)
+    const std::vector<TetFacet> facets = tet_facets(tets);
+    for (std::size_t i = 1; i < facets.size(); ++i)
     {
-      std::array<Index, 3> key = this->corners(facet);
-      std::sort(key.begin(), key.end());
-      keys.emplace_back(key, facet);
-    }
-    std::sort(keys.begin(), keys.end());
-    for (std::size_t i = 1; i < keys.size(); ++i)
-    {
-      if (keys[i].first == keys[i - 1].first)
+      if (facets[i].vertices == facets[i - 1].vertices)
       {
-        this->other_[keys[i].second] = keys[i - 1].second;
-        this->other_[keys[i - 1].second] = keys[i].second;
+        const Index first = number_of(facets[i - 1]);
+        const Index second = number_of(facets[i]);
+        this->other_[first] = second;
+        this->other_[second] = first;
       }
     }
   }
@@ -81,6 +73,8 @@ public:
   }
 
 private:
+  static Index number_of(const TetFacet& facet) { return 4 * facet.tet + facet.side; }
+
   TetsView tets_;
   std::vector<Index> other_;
 };

@@ -29,7 +29,7 @@ namespace bindpose
 
 namespace
 {
-/// Where the triangulation of the surface ends, as a fraction of all that method cdt does.
+/// End of the surface triangulation, as a fraction of the work of method cdt.
 constexpr double cdt_built = 0.45;
 
 /// Neither cdt nor remesh: what is left to do is said, whatever the reason.

@@ -96,8 +96,9 @@ bool read_pose_times(const std::string& text, PoseTimes& times);
 /// parent in the base pose; so does a handle that the frame does not mention.
 ///
 /// A handle without "mode" keeps its mode of the base pose. If that is automatic and the frame
-/// gives more than a translation (rotate, scale, head, tail, stretch, twist), it gets mode full. So
-/// methods that find rotations find those of handles that are only translated or not mentioned.
+/// gives more than a translation (rotate, scale, head, tail, stretch, twist), it gets mode full.
+/// For handles that stay automatic, methods that find rotations choose what is held
+/// (with_found_rotations()).
 ///
 /// Version 1: the default space is "world". With "parent", `head` and `tail` are applied at rest,
 /// before the parent's transform. A handle that is not mentioned keeps its base transform.

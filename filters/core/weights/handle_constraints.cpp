@@ -184,7 +184,7 @@ void tether_components(const Domain& domain, const Handles& handles,
     first_names(handles, followed));
 }
 
-/// What to do about a handle without a vertex of its own.
+/// Return what a user can do about a handle that has no vertex of its own.
 std::string advice_about(const Handle& handle, const Box& box)
 {
   const auto distance = [&](const Vec3& p)
@@ -427,14 +427,13 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
       }
     }
   }
-  const Status owned =
-    give_every_handle_a_vertex(handles, bounding_box(domain.points), handles_of_vertex, result);
+  const Box box = bounding_box(domain.points);
+  const Status owned = give_every_handle_a_vertex(handles, box, handles_of_vertex, result);
   if (!owned.ok())
   {
     return owned;
   }
-  const double tolerance = 1e-9 * bounding_box(domain.points).diagonal();
-  warn_of_shared_vertices(handles, shared, tolerance, result);
+  warn_of_shared_vertices(handles, shared, 1e-9 * box.diagonal(), result);
   tether_components(domain, handles, of_handle, result);
   return {};
 }

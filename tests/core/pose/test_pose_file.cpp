@@ -493,7 +493,7 @@ TEST(PoseFile, WhatIsWrittenCanBeRead)
 
 TEST(PoseFile, ScalesUnevenByRoundoffAreEven)
 {
-  // What single precision leaves of a rotation and an even scale, of matrices of any size.
+  // A rotation and an even scale after rounding to single precision, for matrices of any size.
   for (const double scale : { 0.01, 1.0, 100.0 })
   {
     Pose pose(3);

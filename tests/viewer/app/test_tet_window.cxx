@@ -170,7 +170,7 @@ TEST_F(TetWindow, TheFirstCutShowsTheInside)
   }
 }
 
-/// What a person has chosen stays.
+/// An orientation that a person has chosen stays.
 TEST_F(TetWindow, AChosenCutStaysForOtherTets)
 {
   this->open(tets_of(test::tet_box(3, 3, 3, Vec3(-1, -1, -0.5), Vec3(1, 1, 0.5))));

@@ -131,7 +131,7 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
     bar->hide();
     expect_still("a notice left");
   }
-  // What the hand does is in the line at the bottom.
+  // The status line says what the hand does.
   this->hover(seen);
   expect_still("a hint came");
   // Where the bars were the mouse is the picture's again.

@@ -1,0 +1,33 @@
+#ifndef bindpose_tests_held_handles_h
+#define bindpose_tests_held_handles_h
+
+#include "conversion.h"
+#include "pose/pose.h"
+
+#include "vtkPolyData.h"
+#include "vtkSmartPointer.h"
+
+#include <gtest/gtest.h>
+
+namespace bindpose::test
+{
+
+/// Handles at rest in mode full: methods that find rotations hold all of each.
+inline vtkSmartPointer<vtkPolyData> to_held_polydata(const Handles& handles)
+{
+  const vtkSmartPointer<vtkPolyData> data = to_polydata(handles);
+  Handles list;
+  std::vector<Index> cells;
+  EXPECT_TRUE(to_handles(data, list, &cells).ok());
+  Pose rest(list.size());
+  for (HandlePose& handle : rest)
+  {
+    handle.mode = HandleMode::full;
+  }
+  set_pose(data, cells, rest);
+  return data;
+}
+
+} // namespace bindpose::test
+
+#endif

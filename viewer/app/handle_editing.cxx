@@ -30,6 +30,7 @@
 #include <QLabel>
 #include <QMenu>
 #include <QShortcut>
+#include <QToolButton>
 #include <QTreeWidget>
 
 using namespace bindpose;
@@ -704,9 +705,9 @@ bool HandleEditing::eventFilter(QObject* watched, QEvent* event)
   switch (event->type())
   {
     case QEvent::PaletteChange: // light or dark
-      for (QAction* action :
-        this->modes_->actions() + this->gizmos_->actions() + QList<QAction*>{ this->local_ })
+      for (const QToolButton* button : this->tools_->findChildren<QToolButton*>())
       {
+        QAction* action = button->defaultAction();
         action->setIcon(tool_icon(action->objectName().toLatin1()));
       }
       break;

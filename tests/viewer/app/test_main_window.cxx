@@ -5,6 +5,7 @@
 #include "window_test.h"
 
 #include "document/document.h"
+#include "edit_tools.h"
 #include "main_window.h"
 #include "panel_column.h"
 #include "side_panel.h"
@@ -37,6 +38,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSurfaceFormat>
+#include <QToolButton>
 #include <QTreeWidget>
 #include <QUndoStack>
 
@@ -620,11 +622,22 @@ TEST_F(Window, TurnsDarkAndLightAgain)
   this->window.panel()->show_column(1);
   this->render();
   const QImage light = this->window.grab().toImage();
+  const auto tools = this->window.findChild<EditTools*>()->findChildren<QToolButton*>();
+  std::vector<QImage> light_icons;
+  for (const QToolButton* tool : tools)
+  {
+    light_icons.push_back(tool->icon().pixmap(20).toImage());
+  }
   choose_appearance(*qApp, Appearance::dark);
   EXPECT_EQ(chosen_appearance(), Appearance::dark);
   EXPECT_TRUE(is_dark());
   this->render();
   const QImage dark = this->window.grab().toImage();
+  for (int k = 0; k < tools.size(); ++k)
+  {
+    EXPECT_NE(tools[k]->icon().pixmap(20).toImage(), light_icons[static_cast<std::size_t>(k)])
+      << tools[k]->text().toStdString();
+  }
   if (const char* folder = std::getenv("BINDPOSE_PICTURES"))
   {
     EXPECT_TRUE(dark.save(QString(folder) + "/dark.png"));

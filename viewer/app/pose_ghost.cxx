@@ -5,6 +5,7 @@
 
 #include "scene/colours.h"
 #include "scene/outline.h"
+#include "scene/moved_surface_mapper.h"
 #include "scene/shaded_surface.h"
 #include "scene/tile_actors.h"
 
@@ -13,7 +14,6 @@
 #include "vtkCommand.h"
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
-#include "vtkPolyDataMapper.h"
 #include "vtkProperty.h"
 #include "vtkRenderWindow.h"
 #include "vtkRenderer.h"

@@ -14,11 +14,11 @@
 namespace bindpose
 {
 class Outline;
+class MovedSurfaceMapper;
 class ShadedSurface;
 } // namespace bindpose
 class Viewport;
 class vtkActor;
-class vtkPolyDataMapper;
 class vtkRenderer;
 
 /// Another shape of the viewport's surface: see-through over it, as far as it is elsewhere, or
@@ -57,7 +57,7 @@ private:
 
   Viewport* viewport_;
   Place place_ = hidden;
-  vtkNew<vtkPolyDataMapper> mapper_;
+  vtkNew<bindpose::MovedSurfaceMapper> mapper_;
   vtkNew<vtkActor> actor_;
   vtkNew<vtkLookupTable> fading_; // over the surface: clear where both shapes coincide
   vtkNew<vtkDoubleArray> distances_; // of each drawn point, in diagonals

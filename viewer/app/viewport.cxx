@@ -1,7 +1,6 @@
 #include "viewport.h"
 
 #include "style.h"
-#include "timed_mapper.h"
 
 #include "scene/camera.h"
 #include "scene/categories.h"
@@ -10,6 +9,7 @@
 #include "scene/curves.h"
 #include "scene/legend.h"
 #include "scene/outline.h"
+#include "scene/moved_surface_mapper.h"
 #include "scene/shaded_surface.h"
 #include "scene/tile_actors.h"
 #include "scene/window_picture.h"

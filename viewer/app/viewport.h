@@ -21,6 +21,7 @@
 namespace bindpose
 {
 class Outline;
+class MovedSurfaceMapper;
 class ShadedSurface;
 } // namespace bindpose
 class vtkActor;
@@ -31,7 +32,6 @@ class vtkHandleSetWidget;
 class vtkImageData;
 class vtkPolyData;
 class vtkRegionBrushWidget;
-class TimedMapper;
 class vtkRenderer;
 
 /// The picture: one surface, shaded or coloured by a column of its weights, the handles on top,
@@ -178,7 +178,7 @@ private:
 
   vtkNew<vtkGenericOpenGLRenderWindow> window_;
   vtkNew<vtkRenderer> renderer_;
-  vtkNew<TimedMapper> mapper_;
+  vtkNew<bindpose::MovedSurfaceMapper> mapper_;
   vtkNew<vtkActor> actor_;
   vtkNew<vtkRenderer> legend_; // in front, to the left: the colour scale
   vtkNew<vtkCamera> whole_camera_, split_camera_; // when the view was halved: before, and after

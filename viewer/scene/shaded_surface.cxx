@@ -80,7 +80,7 @@ void gather(vtkDataSetAttributes* from, const std::vector<Index>& ids, vtkDataSe
 } // namespace
 
 ShadedSurface::ShadedSurface(vtkPolyData* surface, double feature_angle)
-  : input_(vtkSmartPointer<vtkPolyData>::New()), display_(vtkSmartPointer<vtkPolyData>::New())
+  : input_(vtkSmartPointer<vtkPolyData>::New())
 {
   this->input_->CopyStructure(surface);
   vtkNew<vtkPolyData> input;
@@ -103,26 +103,22 @@ ShadedSurface::ShadedSurface(vtkPolyData* surface, double feature_angle)
   normals->Update();
 
   vtkPolyData* parted = normals->GetOutput();
-  const vtkIdType count = parted->GetNumberOfPoints();
-  this->display_->CopyStructure(parted);
-  this->input_points_ = carried_ids(parted->GetPointData(), count);
   this->input_cells_ = carried_ids(parted->GetCellData(), parted->GetNumberOfCells());
-  this->triangles_.resize(this->display_->GetNumberOfPolys(), 3);
+  this->triangles_.resize(parted->GetNumberOfPolys(), 3);
   vtkNew<vtkIdList> corners;
   for (Index t = 0; t < this->triangles_.rows(); ++t)
   {
-    this->display_->GetPolys()->GetCellAtId(t, corners);
+    parted->GetPolys()->GetCellAtId(t, corners);
     for (int k = 0; k < 3; ++k)
     {
       this->triangles_(t, k) = corners->GetId(k);
     }
   }
+  this->input_points_ = carried_ids(parted->GetPointData(), parted->GetNumberOfPoints());
+  this->drop_unused_points();
+  const auto count = static_cast<vtkIdType>(this->input_points_.size());
   this->find_triangles_of_points();
-  // Own points and normals: they are about to be written to.
-  vtkNew<vtkPoints> points;
-  points->SetDataTypeToDouble();
-  points->SetNumberOfPoints(count);
-  this->display_->SetPoints(points);
+  this->display_ = to_polydata(Points(count, 3), this->triangles_);
   this->normals_->SetName("Normals");
   this->normals_->SetNumberOfComponents(3);
   this->normals_->SetNumberOfTuples(count);
@@ -170,9 +166,33 @@ void ShadedSurface::move(PointsView points)
   this->display_->Modified();
 }
 
+/// So that bounds are those of what is drawn.
+void ShadedSurface::drop_unused_points()
+{
+  std::vector<Index> kept(this->input_points_.size(), -1);
+  for (const Index v : this->triangles_.reshaped())
+  {
+    kept[static_cast<std::size_t>(v)] = 0;
+  }
+  std::vector<Index> input_points;
+  for (std::size_t v = 0; v < kept.size(); ++v)
+  {
+    if (kept[v] == 0)
+    {
+      kept[v] = static_cast<Index>(input_points.size());
+      input_points.push_back(this->input_points_[v]);
+    }
+  }
+  for (Index& v : this->triangles_.reshaped())
+  {
+    v = kept[static_cast<std::size_t>(v)];
+  }
+  this->input_points_ = std::move(input_points);
+}
+
 void ShadedSurface::find_triangles_of_points()
 {
-  const Index count = this->display_->GetNumberOfPoints();
+  const auto count = static_cast<Index>(this->input_points_.size());
   this->first_triangle_.assign(static_cast<std::size_t>(count) + 1, 0);
   for (Index k = 0; k < this->triangles_.size(); ++k)
   {

@@ -35,7 +35,8 @@ public:
   /// carried until now. It must be of it.
   void take(vtkPolyData* surface);
 
-  /// What to draw: points, normals, and the input's point and cell arrays carried along.
+  /// What to draw: the points that triangles use, normals, and the input's point and cell arrays
+  /// carried along.
   vtkPolyData* polydata() const { return this->display_; }
   /// For each point of polydata() the point of the input.
   const std::vector<Index>& input_points() const { return this->input_points_; }
@@ -47,6 +48,7 @@ public:
   void move(PointsView points);
 
 private:
+  void drop_unused_points();
   void find_triangles_of_points();
   void update_normals();
 

@@ -947,10 +947,10 @@ TEST_F(PosingWindow, BonesMayBeHeldByAnEnd)
   const auto texts = [this]
   {
     QStringList all;
-    const HandleTree* handles = this->window.panel()->handle_list();
-    for (int k = 0; k < static_cast<int>(handles->rows().size()); ++k)
+    const HandleTree* tree = this->window.panel()->handle_list();
+    for (int k = 0; k < static_cast<int>(tree->rows().size()); ++k)
     {
-      all << handles->item(k)->text(0);
+      all << tree->item(k)->text(0);
     }
     return all;
   };
@@ -1377,4 +1377,4 @@ TEST_P(DragFrame, TakesMilliseconds)
   EXPECT_LT(this->drag(mesh, ", angles shown"), busy);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of12kAnd86kTriangles, DragFrame, testing::Values(60, 430));
+INSTANTIATE_TEST_SUITE_P(Of12kTo500kTriangles, DragFrame, testing::Values(60, 430, 2500));

@@ -1,0 +1,163 @@
+// Whatever has changed since the last picture, the next one is that of a mapper that draws for the
+// first time; and the short way is taken where only points have moved.
+#include "scene/moved_surface_mapper.h"
+#include "scene/shaded_surface.h"
+
+#include "conversion.h"
+#include "support/meshes.h"
+
+#include "vtkActor.h"
+#include "vtkCamera.h"
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkRenderWindow.h"
+#include "vtkRenderer.h"
+#include "vtkUnsignedCharArray.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+using namespace bindpose;
+
+namespace
+{
+/// A window with one surface in it.
+template <class Mapper>
+class Scene
+{
+public:
+  explicit Scene(vtkPolyData* surface)
+  {
+    this->mapper->SetInputData(surface);
+    this->actor->SetMapper(this->mapper);
+    this->renderer->AddActor(this->actor);
+    vtkCamera* camera = this->renderer->GetActiveCamera();
+    camera->SetPosition(0.5, 1.0, 8.0);
+    camera->SetFocalPoint(0.0, 0.0, 0.0);
+    this->window->SetOffScreenRendering(true);
+    this->window->SetMultiSamples(0);
+    this->window->SetSize(120, 120);
+    this->window->AddRenderer(this->renderer);
+  }
+  std::vector<unsigned char> picture()
+  {
+    this->renderer->ResetCameraClippingRange();
+    this->window->Render();
+    vtkNew<vtkUnsignedCharArray> pixels;
+    this->window->GetPixelData(0, 0, 119, 119, false, pixels);
+    return { pixels->GetPointer(0), pixels->GetPointer(0) + pixels->GetNumberOfValues() };
+  }
+
+  vtkNew<Mapper> mapper;
+  vtkNew<vtkActor> actor;
+  vtkNew<vtkRenderer> renderer;
+  vtkNew<vtkRenderWindow> window;
+};
+
+class MovedSurface : public testing::Test
+{
+protected:
+  MovedSurface() { this->scene.picture(); }
+
+  /// Compares with a mapper of VTK that draws the surface for the first time.
+  void expect_right_picture()
+  {
+    Scene<vtkOpenGLPolyDataMapper> fresh(this->shaded.polydata());
+    fresh.mapper->SetScalarVisibility(this->scene.mapper->GetScalarVisibility());
+    fresh.actor->SetProperty(this->scene.actor->GetProperty());
+    EXPECT_EQ(this->scene.picture(), fresh.picture());
+  }
+
+  TriangleMesh mesh = test::join(test::cube(), test::sphere(2, 1.0, Vec3(2, 0, 0)));
+  ShadedSurface shaded{ to_polydata(mesh.points, mesh.triangles) };
+  Scene<MovedSurfaceMapper> scene{ shaded.polydata() };
+};
+
+TEST_F(MovedSurface, TakesTheShortWay)
+{
+  const std::vector<unsigned char> at_rest = this->scene.picture();
+  ASSERT_EQ(this->scene.mapper->moves(), 0);
+  for (int frame = 1; frame <= 3; ++frame)
+  {
+    Points moved = this->mesh.points;
+    moved.col(0) *= 1.0 + 0.2 * frame;
+    this->shaded.move(moved);
+    EXPECT_NE(this->scene.picture(), at_rest);
+    EXPECT_EQ(this->scene.mapper->moves(), frame);
+    this->expect_right_picture();
+  }
+}
+
+TEST_F(MovedSurface, SeesNewColorsTrianglesAndMaterials)
+{
+  vtkNew<vtkDoubleArray> heights;
+  heights->SetName("Height");
+  for (vtkIdType v = 0; v < this->shaded.polydata()->GetNumberOfPoints(); ++v)
+  {
+    heights->InsertNextValue(this->shaded.polydata()->GetPoint(v)[1]);
+  }
+  this->shaded.polydata()->GetPointData()->SetScalars(heights);
+  this->expect_right_picture();
+  this->shaded.move(Points(-this->mesh.points));
+  heights->SetValue(0, -1.0);
+  heights->Modified();
+  this->expect_right_picture();
+  this->scene.mapper->ScalarVisibilityOff();
+  this->shaded.move(this->mesh.points);
+  this->expect_right_picture();
+  this->scene.actor->GetProperty()->SetInterpolationToFlat();
+  this->shaded.move(Points(-this->mesh.points));
+  this->expect_right_picture();
+  this->scene.actor->GetProperty()->SetColor(1.0, 0.0, 0.0);
+  this->expect_right_picture();
+  EXPECT_EQ(this->scene.mapper->moves(), 0);
+}
+
+TEST(MovedSurfaceMapper, ShapesFarFromTheOriginKeepTheirPlaces)
+{
+  // Floats are a tenth apart there.
+  const TriangleMesh mesh = test::sphere(3);
+  Points far = mesh.points;
+  far.rowwise() += Eigen::RowVector3d(1e6, 0, 0);
+  ShadedSurface shaded(to_polydata(far, mesh.triangles));
+  Scene<MovedSurfaceMapper> scene(shaded.polydata());
+  const auto look = [](vtkCamera* camera)
+  {
+    camera->SetPosition(1e6, 0.0, 5.0);
+    camera->SetFocalPoint(1e6, 0.0, 0.0);
+  };
+  look(scene.renderer->GetActiveCamera());
+  scene.picture();
+  far.col(1) *= 0.5;
+  shaded.move(far);
+  Scene<vtkOpenGLPolyDataMapper> fresh(shaded.polydata());
+  look(fresh.renderer->GetActiveCamera());
+  EXPECT_EQ(scene.picture(), fresh.picture());
+}
+
+TEST(MovedSurfaceMapper, BoundsAreThoseOfWhatIsDrawn)
+{
+  TriangleMesh mesh = test::sphere(5, 2.0); // more points than a block of threads
+  const Index count = mesh.points.rows();
+  mesh.points.conservativeResize(count + 1, 3);
+  mesh.points.row(count) << 100.0, 100.0, 100.0; // of no triangle
+  ShadedSurface shaded(to_polydata(mesh.points, mesh.triangles));
+  EXPECT_EQ(shaded.polydata()->GetNumberOfPoints(), count);
+  vtkNew<MovedSurfaceMapper> mapper;
+  mapper->SetInputData(shaded.polydata());
+  Points moved = mesh.points;
+  moved.col(2) *= 3.0;
+  shaded.move(moved);
+  double bounds[6];
+  mapper->GetBounds(bounds);
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    EXPECT_EQ(bounds[2 * axis], moved.topRows(count).col(axis).minCoeff());
+    EXPECT_EQ(bounds[2 * axis + 1], moved.topRows(count).col(axis).maxCoeff());
+  }
+}
+} // namespace

@@ -1,0 +1,171 @@
+// vtkOpenGLPolyDataMapper rebuilds its index buffers whenever the data set is newer, and a data
+// set is as new as its points.
+#include "scene/moved_surface_mapper.h"
+
+#include "base/parallel.h"
+
+#include "vtkActor.h"
+#include "vtkBoundingBox.h"
+#include "vtkCellArray.h"
+#include "vtkCellData.h"
+#include "vtkDoubleArray.h"
+#include "vtkObjectFactory.h"
+#include "vtkOpenGLVertexBufferObject.h"
+#include "vtkOpenGLVertexBufferObjectGroup.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkProperty.h"
+#include "vtkTexture.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+namespace bindpose
+{
+
+vtkStandardNewMacro(MovedSurfaceMapper);
+
+namespace
+{
+/// Addresses and times of all that is drawn of a surface, but the times of points and normals.
+std::vector<vtkMTimeType> state_of(MovedSurfaceMapper& mapper, vtkActor* actor)
+{
+  std::vector<vtkMTimeType> state;
+  const auto add = [&state](vtkObjectBase* object, vtkMTimeType time)
+  {
+    state.push_back(reinterpret_cast<vtkMTimeType>(object));
+    state.push_back(time);
+  };
+  const auto add_object = [&add](vtkObject* object)
+  { add(object, object ? object->GetMTime() : 0); };
+  vtkPolyData* surface = mapper.GetInput();
+  add(surface, 0);
+  add_object(&mapper); // as new as its lookup table
+  add_object(actor->GetProperty());
+  add_object(actor->GetTexture());
+  for (vtkCellArray* cells :
+    { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+  {
+    add_object(cells);
+  }
+  add(surface->GetPoints(), static_cast<vtkMTimeType>(surface->GetNumberOfPoints()));
+  vtkDataArray* normals = surface->GetPointData()->GetNormals();
+  for (vtkDataSetAttributes* data : { static_cast<vtkDataSetAttributes*>(surface->GetPointData()),
+         static_cast<vtkDataSetAttributes*>(surface->GetCellData()) })
+  {
+    add(data->GetScalars(), 0);
+    add(data->GetNormals(), 0);
+    add(data->GetTCoords(), 0);
+    for (int k = 0; k < data->GetNumberOfArrays(); ++k)
+    {
+      vtkAbstractArray* array = data->GetAbstractArray(k);
+      add(array, array == normals ? 0 : array->GetMTime());
+    }
+  }
+  return state;
+}
+
+/// The same numbers as floats, converted on all cores.
+void copy_as_floats(vtkDoubleArray* from, vtkFloatArray* to)
+{
+  to->SetNumberOfComponents(from->GetNumberOfComponents());
+  to->SetNumberOfTuples(from->GetNumberOfTuples());
+  const double* source = from->GetPointer(0);
+  float* target = to->GetPointer(0);
+  ExecutionContext context;
+  parallel_for(context, from->GetNumberOfValues(), 16384,
+    [&](Index begin, Index end)
+    {
+      std::transform(source + begin, source + end, target + begin,
+        [](double each) { return static_cast<float>(each); });
+    });
+  to->Modified();
+}
+} // namespace
+
+void MovedSurfaceMapper::BuildBufferObjects(vtkRenderer* renderer, vtkActor* actor)
+{
+  const auto start = std::chrono::steady_clock::now();
+  if (this->CurrentInput && this->drawn_ == state_of(*this, actor) && this->upload_moved())
+  {
+    ++this->moves_;
+    this->VBOBuildTime.Modified();
+  }
+  else
+  {
+    this->Superclass::BuildBufferObjects(renderer, actor);
+    this->drawn_.clear();
+    if (this->CurrentInput)
+    {
+      this->drawn_ = state_of(*this, actor); // afterwards: a first upload makes a lookup table
+    }
+  }
+  this->microseconds_ =
+    std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
+}
+
+void MovedSurfaceMapper::ComputeBounds()
+{
+  vtkPolyData* surface = this->GetInput();
+  auto* places = surface && surface->GetNumberOfPoints() > 0
+    ? vtkDoubleArray::SafeDownCast(surface->GetPoints()->GetData())
+    : nullptr;
+  if (!places)
+  {
+    this->Superclass::ComputeBounds();
+    return;
+  }
+  const double* at = places->GetPointer(0);
+  constexpr Index block = 16384;
+  const auto count = static_cast<Index>(places->GetNumberOfTuples());
+  std::vector<vtkBoundingBox> boxes(static_cast<std::size_t>((count + block - 1) / block));
+  ExecutionContext context;
+  parallel_for(context, count, block,
+    [&](Index begin, Index end)
+    {
+      Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
+      for (Index v = begin; v < end; ++v)
+      {
+        const Eigen::Map<const Vec3> place(at + 3 * v);
+        lower = lower.cwiseMin(place);
+        upper = upper.cwiseMax(place);
+      }
+      vtkBoundingBox& box = boxes[static_cast<std::size_t>(begin / block)];
+      box.SetMinPoint(lower.data());
+      box.SetMaxPoint(upper.data());
+    });
+  vtkBoundingBox all;
+  for (const vtkBoundingBox& box : boxes)
+  {
+    all.AddBox(box);
+  }
+  all.GetBounds(this->Bounds);
+}
+
+/// @return false: the buffers are not as they must be for that, and nothing was changed.
+bool MovedSurfaceMapper::upload_moved()
+{
+  auto* places = vtkDoubleArray::SafeDownCast(this->CurrentInput->GetPoints()->GetData());
+  auto* normals = vtkFloatArray::SafeDownCast(this->CurrentInput->GetPointData()->GetNormals());
+  vtkOpenGLVertexBufferObject* place_buffer = this->VBOs->GetVBO("vertexMC");
+  vtkOpenGLVertexBufferObject* normal_buffer = this->VBOs->GetVBO("normalMC");
+  // Points far from the origin are shifted and scaled by VTK before they become floats.
+  if (!places || !normals || !place_buffer || !normal_buffer ||
+    place_buffer->GetCoordShiftAndScaleEnabled())
+  {
+    return false;
+  }
+  if (place_buffer->GetUploadTime() < places->GetMTime())
+  {
+    copy_as_floats(places, this->places_);
+    place_buffer->UploadDataArray(this->places_);
+  }
+  if (normal_buffer->GetUploadTime() < normals->GetMTime())
+  {
+    normal_buffer->UploadDataArray(normals);
+  }
+  return true;
+}
+
+} // namespace bindpose

@@ -2,6 +2,7 @@
 // edge, each is compared with the next.
 #include "scene/silhouette.h"
 
+#include "base/parallel.h"
 #include "base/triangle_sides.h"
 #include "surface/vertex_order.h"
 
@@ -28,10 +29,11 @@ Silhouette::Silhouette(PointsView points, TrianglesView triangles) : triangles_(
     for (std::size_t k = begin; k + 1 < end || k == begin; ++k)
     {
       const TriangleSide& side = sides[k];
-      const Edge ends{ triangles(side.triangle, side.corner),
-        triangles(side.triangle, (side.corner + 1) % 3) };
+      const std::array<int, 2> ends{ static_cast<int>(triangles(side.triangle, side.corner)),
+        static_cast<int>(triangles(side.triangle, (side.corner + 1) % 3)) };
       const bool alone = k + 1 == end;
-      this->sides_.push_back({ ends, side.triangle, alone ? -1 : sides[k + 1].triangle,
+      this->sides_.push_back({ ends, static_cast<int>(side.triangle),
+        alone ? -1 : static_cast<int>(sides[k + 1].triangle),
         !alone && side.forward == sides[k + 1].forward });
     }
   }
@@ -42,24 +44,43 @@ void Silhouette::find(PointsView points, const Eye& eye, std::vector<Edge>& edge
 {
   const double* place = points.data();
   const auto at = [place](Index v) { return Eigen::Map<const Vec3>(place + 3 * v); };
-  for (Index t = 0; t < this->triangles_.rows(); ++t)
-  {
-    const auto a = at(this->triangles_(t, 0));
-    const Vec3 normal = (at(this->triangles_(t, 1)) - a).cross(at(this->triangles_(t, 2)) - a);
-    const double towards = eye.parallel ? -normal.dot(eye.direction) : normal.dot(eye.place - a);
-    this->facing_[static_cast<std::size_t>(t)] = towards >= 0.0 ? 1 : -1;
-  }
-  edges.clear();
-  for (const Side& side : this->sides_)
-  {
-    const int one = this->facing_[static_cast<std::size_t>(side.triangle)];
-    const int other = side.other < 0 ? -one
-      : side.same_way                ? -this->facing_[static_cast<std::size_t>(side.other)]
-                                     : this->facing_[static_cast<std::size_t>(side.other)];
-    if (one != other)
+  ExecutionContext context;
+  parallel_for(context, this->triangles_.rows(), 8192,
+    [&](Index begin, Index end)
     {
-      edges.push_back(side.points);
-    }
+      for (Index t = begin; t < end; ++t)
+      {
+        const auto a = at(this->triangles_(t, 0));
+        const Vec3 normal = (at(this->triangles_(t, 1)) - a).cross(at(this->triangles_(t, 2)) - a);
+        const double towards =
+          eye.parallel ? -normal.dot(eye.direction) : normal.dot(eye.place - a);
+        this->facing_[static_cast<std::size_t>(t)] = towards >= 0.0 ? 1 : -1;
+      }
+    });
+  constexpr Index block = 8192;
+  const auto count = static_cast<Index>(this->sides_.size());
+  std::vector<std::vector<Edge>> found(static_cast<std::size_t>((count + block - 1) / block));
+  parallel_for(context, count, block,
+    [&](Index begin, Index end)
+    {
+      std::vector<Edge>& mine = found[static_cast<std::size_t>(begin / block)];
+      for (Index k = begin; k < end; ++k)
+      {
+        const Side& side = this->sides_[static_cast<std::size_t>(k)];
+        const int one = this->facing_[static_cast<std::size_t>(side.triangle)];
+        const int other = side.other < 0 ? -one
+          : side.same_way                ? -this->facing_[static_cast<std::size_t>(side.other)]
+                                         : this->facing_[static_cast<std::size_t>(side.other)];
+        if (one != other)
+        {
+          mine.push_back({ side.points[0], side.points[1] });
+        }
+      }
+    });
+  edges.clear();
+  for (const std::vector<Edge>& mine : found)
+  {
+    edges.insert(edges.end(), mine.begin(), mine.end());
   }
 }
 

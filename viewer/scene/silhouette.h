@@ -30,15 +30,15 @@ public:
   Silhouette(PointsView points, TrianglesView triangles);
 
   using Edge = std::array<Index, 2>; ///< points
-  /// Cost: one pass over triangles, one over edges; a millisecond for 100,000 triangles.
+  /// Cost: one pass over triangles, one over edges, on all cores.
   void find(PointsView points, const Eye& eye, std::vector<Edge>& edges);
 
 private:
-  struct Side
+  struct Side // small: all of them are read for every frame
   {
-    Edge points;
-    Index triangle;
-    Index other; ///< -1: none
+    std::array<int, 2> points;
+    int triangle;
+    int other; ///< -1: none
     bool same_way; ///< both run along it in the same direction: one of them is turned over
   };
   TrianglesView triangles_;

@@ -18,7 +18,23 @@ namespace bindpose
 
 namespace
 {
-constexpr std::string_view blanks = " \t\r\f\v";
+constexpr bool is_blank(char c)
+{
+  return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n');
+}
+
+/// Where the first blank of a text is, or the first other sign; its size: nowhere. Several times as
+/// fast as find_first_of() with a list of blanks.
+template <bool blank>
+std::size_t find_first(std::string_view text)
+{
+  std::size_t at = 0;
+  while (at < text.size() && is_blank(text[at]) != blank)
+  {
+    ++at;
+  }
+  return at;
+}
 
 std::string system_reason()
 {
@@ -176,7 +192,7 @@ bool TextScanner::next_line()
     {
       this->line_ = this->line_.substr(0, this->line_.find(this->comment_));
     }
-    if (this->line_.find_first_not_of(blanks) != std::string_view::npos)
+    if (find_first<false>(this->line_) < this->line_.size())
     {
       return true;
     }
@@ -187,13 +203,12 @@ bool TextScanner::next_line()
 
 bool TextScanner::next_word(std::string_view& word)
 {
-  const std::size_t begin = this->line_.find_first_not_of(blanks);
-  if (begin == std::string_view::npos)
+  this->line_.remove_prefix(find_first<false>(this->line_));
+  if (this->line_.empty())
   {
     return false;
   }
-  this->line_.remove_prefix(begin);
-  const std::size_t end = std::min(this->line_.find_first_of(blanks), this->line_.size());
+  const std::size_t end = find_first<true>(this->line_);
   word = this->line_.substr(0, end);
   this->line_.remove_prefix(end);
   return true;
@@ -215,12 +230,12 @@ std::string_view TextScanner::rest_of_line()
 {
   std::string_view rest = this->line_;
   this->line_ = {};
-  const std::size_t begin = rest.find_first_not_of(blanks);
-  if (begin == std::string_view::npos)
+  rest.remove_prefix(find_first<false>(rest));
+  while (!rest.empty() && is_blank(rest.back()))
   {
-    return {};
+    rest.remove_suffix(1);
   }
-  return rest.substr(begin, rest.find_last_not_of(blanks) + 1 - begin);
+  return rest;
 }
 
 Status TextScanner::read_index(const char* what, Index limit, Index& value)

@@ -29,20 +29,35 @@ bool same_place(const PointsView& points, Index a, Index b)
 
 std::vector<Index> order_by_place(const PointsView& points, const std::vector<char>& used)
 {
-  std::vector<Index> order;
+  struct Entry
+  {
+    double x; // beside the id, since most comparisons need no more
+    Index vertex;
+  };
+  std::vector<Entry> entries;
   for (Index v = 0; v < points.rows(); ++v)
   {
     if (used[static_cast<std::size_t>(v)])
     {
-      order.push_back(v);
+      entries.push_back({ points(v, 0), v });
     }
   }
-  std::sort(order.begin(), order.end(),
-    [&points](Index a, Index b)
+  std::sort(entries.begin(), entries.end(),
+    [&points](const Entry& a, const Entry& b)
     {
-      const int by_place = compare(points, a, b);
-      return by_place != 0 ? by_place < 0 : a < b;
+      if (a.x != b.x)
+      {
+        return a.x < b.x;
+      }
+      const int by_place = compare(points, a.vertex, b.vertex);
+      return by_place != 0 ? by_place < 0 : a.vertex < b.vertex;
     });
+  std::vector<Index> order;
+  order.reserve(entries.size());
+  for (const Entry& entry : entries)
+  {
+    order.push_back(entry.vertex);
+  }
   return order;
 }
 

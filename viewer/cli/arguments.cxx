@@ -152,6 +152,20 @@ std::string unknown_option(const Verb& verb, const std::vector<std::string>& wor
   return {};
 }
 
+/// @param rest  what no option and no file of the verb took, not empty
+std::string unexpected_argument(const Verb& verb, const std::vector<std::string>& rest)
+{
+  std::string files;
+  for (const Option& option : verb.options)
+  {
+    if (option.name[0] != '-')
+    {
+      files += (files.empty() ? "" : " and ") + std::string(option.name);
+    }
+  }
+  return "'" + rest.front() + "' is not expected: all but " + files + " is given by an option";
+}
+
 void fill_defaults(const std::vector<Option>& options, Arguments& arguments)
 {
   for (const Option& option : options)
@@ -241,9 +255,15 @@ int parse_arguments(int argc, char** argv, Arguments& arguments)
     std::string sentence = error.what();
     for (const Verb& verb : verbs())
     {
-      const std::string unknown =
-        argv[1] == std::string(verb.name) ? unknown_option(verb, arguments.words) : std::string();
-      sentence = unknown.empty() ? sentence : unknown;
+      if (argv[1] == std::string(verb.name))
+      {
+        std::string better = unknown_option(verb, arguments.words);
+        if (better.empty() && dynamic_cast<const CLI::ExtrasError*>(&error))
+        {
+          better = unexpected_argument(verb, app.remaining(true));
+        }
+        sentence = better.empty() ? sentence : better;
+      }
     }
     std::replace(sentence.begin(), sentence.end(), '\n', ' ');
     std::cerr << who << ": " << sentence << " (see " << who << " --help)\n";

@@ -87,15 +87,6 @@ using bindpose::Vec3;
 using bindpose::WindingField;
 using SDDP = vtkStreamingDemandDrivenPipeline;
 
-/// The build's expected share of the seconds. Measured on clean figures and on soups of leaves.
-double build_share(Index triangles, Index queries)
-{
-  constexpr double per_triangle = 1e-5;
-  constexpr double per_query = 1e-7;
-  const double build = per_triangle * static_cast<double>(triangles);
-  return build / (build + per_query * static_cast<double>(queries) + 1e-9);
-}
-
 /// Samples of a block on the way to floats: 32 MiB of values.
 constexpr Index block_samples = Index(1) << 22;
 
@@ -541,7 +532,7 @@ bindpose::Status vtkWindingNumberField::Execute(
   const Index queries = !points ? whole.count()
     : this->SampleCellCenters   ? points->GetNumberOfCells()
                                 : points->GetNumberOfPoints();
-  const double built = build_share(surface->GetNumberOfCells(), queries);
+  const double built = bindpose::winding_build_share(surface->GetNumberOfCells(), queries);
   Status status;
   {
     const bindpose::Phase phase(context, "build", 0.0, built);

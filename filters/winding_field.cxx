@@ -31,6 +31,14 @@
 namespace bindpose
 {
 
+double winding_build_share(Index triangles, Index queries)
+{
+  constexpr double per_triangle = 1e-5;
+  constexpr double per_query = 1e-7;
+  const double build = per_triangle * static_cast<double>(triangles);
+  return build / (build + per_query * static_cast<double>(queries) + 1e-9);
+}
+
 // ---- Samples -----------------------------------------------------------------------------------
 
 Samples::Samples(vtkDataSet* data, bool cell_centers)

@@ -5,6 +5,7 @@
 
 #include "conversion.h"
 #include "grid_request.h"
+#include "winding_field.h"
 #include "winding/winding_number.h"
 
 #include "vtkDoubleArray.h"
@@ -24,9 +25,10 @@ Status compute(const TriangleMesh& mesh, int samples, vtkSmartPointer<vtkImageDa
   SampleGrid grid;
   Status status = make_grid(request, bounding_box(mesh.points), grid);
   WindingNumber field;
+  const double built = winding_build_share(mesh.triangles.rows(), grid.count());
   if (status.ok())
   {
-    const Phase phase(context, "build", 0.0, 0.2);
+    const Phase phase(context, "build", 0.0, built);
     WindingNumber::Options options;
     options.expected_queries = grid.count();
     status = field.build(mesh.points, mesh.triangles, context, options);
@@ -35,7 +37,7 @@ Status compute(const TriangleMesh& mesh, int samples, vtkSmartPointer<vtkImageDa
   {
     return status;
   }
-  const Phase phase(context, "evaluate", 0.2, 1.0);
+  const Phase phase(context, "evaluate", built, 1.0);
   vtkNew<vtkDoubleArray> values;
   values->SetName("WindingNumber");
   values->SetNumberOfTuples(grid.count());
@@ -114,13 +116,15 @@ void WindingVolume::finish()
     volume->GetScalarRange(range);
     constexpr double noise = 1e-6;
     this->document_->set_volume(volume, tr("winding numbers"), {}, tr("compute winding numbers"));
+    const double seconds = status.report.number("seconds.total", 0.0);
     this->panel_->set_note(range[1] - range[0] < noise
         ? tr("0 everywhere: triangles cancel out.") // each has its back as another
-        : tr("%1 × %2 × %3 samples in %4 s.")
+        : tr("%1 × %2 × %3 samples in %4.")
             .arg(size[0])
             .arg(size[1])
             .arg(size[2])
-            .arg(status.report.number("seconds.total", 0.0), 0, 'f', 1));
+            .arg(seconds < 1.0 ? tr("%1 ms").arg(1e3 * seconds, 0, 'f', 0)
+                               : tr("%1 s").arg(seconds, 0, 'f', 1)));
     Q_EMIT this->succeeded();
   }
 }

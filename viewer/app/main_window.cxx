@@ -10,6 +10,7 @@
 #include "edit_tools.h"
 #include "elided_label.h"
 #include "exports.h"
+#include "field_guard.h"
 #include "handle_commands.h"
 #include "handle_editing.h"
 #include "inspection.h"
@@ -30,7 +31,6 @@
 #include "volume_view.h"
 #include "weight_inspection.h"
 #include "weight_panel.h"
-#include "wheel_guard.h"
 #include "winding_volume.h"
 #include "window_menus.h"
 #include "window_sessions.h"
@@ -105,7 +105,7 @@ QString certificate_note(vtkPolyData* surface, BindMethod chosen)
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Document(this))
 {
   this->setAcceptDrops(true);
-  new WheelGuard(this);
+  new FieldGuard(this, [this] { this->viewport_->setFocus(Qt::OtherFocusReason); });
   // The whole window is on a small screen, with the title that the desktop gives it.
   constexpr int title = 40; // pixels
   const QSize room = QGuiApplication::primaryScreen()->availableGeometry().size();

@@ -1,0 +1,33 @@
+#ifndef field_guard_h
+#define field_guard_h
+
+#include <QObject>
+
+#include <functional>
+
+class QAbstractSpinBox;
+class QWidget;
+
+/// Keeps fields from taking what is meant for the window.
+/// - Number fields, combo boxes and sliders ignore the mouse wheel unless they have the keyboard
+///   focus, and the wheel does not give them the focus. The wheel then scrolls the enclosing area.
+/// - Undo and redo in a number field are those of the field only while a number is being typed.
+/// - Enter in a number field ends the typing, so that the keys of the picture work again.
+class FieldGuard : public QObject
+{
+public:
+  /// Filters the events of all widgets of the application during the lifetime of the parent.
+  /// @param entered  called after Enter in a number field of the parent, not of a dialog
+  FieldGuard(QWidget* parent, std::function<void()> entered);
+
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+private:
+  void polish(QWidget* widget) const;
+  bool keep_from_wheel(QWidget* widget, QEvent* event) const;
+  bool keep_from_undo(QAbstractSpinBox* box, QEvent* event) const;
+
+  std::function<void()> entered_;
+};
+
+#endif

@@ -23,7 +23,7 @@ struct WindowKey
   const char* text; ///< what it does
 };
 
-constexpr std::array<WindowKey, 45> window_keys{ {
+constexpr std::array<WindowKey, 46> window_keys{ {
   { "open", "anywhere", "Ctrl+O", "Open files" },
   { "save", "anywhere", "Ctrl+S", "Save the session" },
   { "save_as", "anywhere", "Ctrl+Shift+S", "Save the session under another name" },
@@ -62,6 +62,7 @@ constexpr std::array<WindowKey, 45> window_keys{ {
   { "inside", "tools", "I", "Place points and bones inside the shape, or on its surface" },
 
   { "", "handles", "Right button on a handle", "What can be done with it" },
+  { "find", "handles", "Ctrl+F", "Find a handle by its name" },
   { "select_all", "handles", "Ctrl+A", "Select all handles" },
   { "rename", "handles", "F2", "Rename" },
   { "colour", "handles", "Ctrl+K", "Recolour" },

@@ -4,9 +4,11 @@
 #include "document/document.h"
 #include "exports.h"
 #include "handle_editing.h"
+#include "handle_tree.h"
 #include "help_boxes.h"
 #include "key_strip.h"
 #include "main_window.h"
+#include "panel_column.h"
 #include "pose_panel.h"
 #include "posing.h"
 #include "shape_handles.h"
@@ -21,6 +23,7 @@
 #include <QActionGroup>
 #include <QApplication>
 #include <QKeySequence>
+#include <QLineEdit>
 #include <QMenu>
 #include <QMenuBar>
 #include <QRegularExpression>
@@ -133,6 +136,13 @@ void WindowMenus::add_edit_menu()
   this->bind_ = this->add(edit, tr("&Bind"), "bind", [window] { window->binding()->start(); });
   this->rest_pose_ = this->add(
     edit, tr("Back to &rest"), "rest_pose", [window] { window->document()->back_to_rest(); });
+  edit->addSeparator();
+  this->find_ = this->add(edit, tr("&Find a handle"), "find",
+    [window]
+    {
+      window->panels()->show_panel(PanelColumn::bind_and_pose);
+      window->panels()->handles()->search()->setFocus(Qt::ShortcutFocusReason);
+    });
 }
 
 void WindowMenus::add_view_menu()
@@ -214,6 +224,7 @@ void WindowMenus::update()
   this->export_shape_->setEnabled(document->surface());
   this->export_rig_->setEnabled(this->window_->is_bound());
   this->export_pose_->setEnabled(document->handle_data());
+  this->find_->setEnabled(document->handle_data());
   this->export_film_->setEnabled(ready);
   this->bind_->setEnabled(ready && !this->window_->binding()->is_running());
   this->rest_pose_->setEnabled(document->is_bound());

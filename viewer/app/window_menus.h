@@ -37,6 +37,7 @@ private:
   QAction* flat_view_ = nullptr;
   QAction* outlines_ = nullptr;
   QAction* timeline_ = nullptr;
+  QAction* find_ = nullptr;
   QAction* bind_ = nullptr;
   QAction* rest_pose_ = nullptr;
   QActionGroup* methods_ = nullptr;

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Makes a picture of every panel of the window: light and dark, 1280 x 800, 2560 x 1600, and 1280 x 800 at twice the
-pixels, to be looked at after a change of the looks.
+"""Makes a picture of every panel of the window: light and dark, 1280 x 800, 1920 x 1080, 2560 x 1600, and 1280 x 800 at
+twice the pixels, to be looked at after a change of the looks.
 
 usage: make_screens.py PROGRAM FOLDER    (the program bindpose; pictures go to FOLDER/LOOK_SIZE/NAME.png)
 """
@@ -15,7 +15,12 @@ import tempfile
 
 TOURS = pathlib.Path(__file__).resolve().parent
 # Name, size of the window, scale of Qt.
-SIZES = [("1280x800", [1280, 800], 1), ("2560x1600", [2560, 1600], 1), ("1280x800_2x", [1280, 800], 2)]
+SIZES = [
+    ("1280x800", [1280, 800], 1),
+    ("1920x1080", [1920, 1080], 1),
+    ("2560x1600", [2560, 1600], 1),
+    ("1280x800_2x", [1280, 800], 2),
+]
 
 
 def main():

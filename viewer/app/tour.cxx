@@ -42,11 +42,12 @@ struct VerbInfo
 };
 const VerbInfo verb_table[] = {
   { TourVerb::open, "open", About::text, "" },
-  { TourVerb::action, "action", About::text, "" },
-  { TourVerb::push, "push", About::text, "" },
+  { TourVerb::action, "action", About::text, "answer" },
+  { TourVerb::push, "push", About::text, "answer" },
   { TourVerb::option, "option", About::text, "value" },
   { TourVerb::panel, "panel", About::text, "" },
   { TourVerb::select, "select", About::text, "" },
+  { TourVerb::type, "type", About::text, "into" },
   { TourVerb::mode, "mode", About::text, "" },
   { TourVerb::click, "click", About::place, "button held" },
   { TourVerb::double_click, "double_click", About::place, "button held" },
@@ -249,6 +250,8 @@ Status read_about(const Json& value, About about, const std::string& who, TourSt
   }
 }
 
+constexpr const char* plain_names = " is up to 60 letters, digits, '_', '-' and '.'";
+
 /// Names of files that are written.
 bool is_plain_name(const std::string& name)
 {
@@ -298,6 +301,8 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
   }
   JsonFields fields(json, who);
   fields.read("say", step.say);
+  fields.read("into", step.field);
+  fields.read("answer", step.answer);
   fields.read("button", step.button, buttons);
   fields.read("moves", step.moves, 1, 1000);
   fields.read("turns", step.turns, -100.0, 100.0);
@@ -329,8 +334,14 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
       }
     }
   }
+  if (json.contains("answer") && !is_plain_name(step.answer))
+  {
+    return Status::invalid_input(who + ": the answer" + plain_names);
+  }
   switch (step.verb)
   {
+    case TourVerb::type:
+      return step.field.empty() ? Status::invalid_input(who + ": \"into\" is missing") : Status();
     case TourVerb::drag:
       return json.contains("to") ? read_place(json["to"], who, step.to)
                                  : Status::invalid_input(who + ": \"to\" is missing");
@@ -344,9 +355,8 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
       return read_check(json, who, step);
     case TourVerb::screenshot:
     case TourVerb::film:
-      return is_plain_name(step.text)
-        ? Status()
-        : Status::invalid_input(who + ": a name is up to 60 letters, digits, '_', '-' and '.'");
+      return is_plain_name(step.text) ? Status()
+                                      : Status::invalid_input(who + ": a name" + plain_names);
     default:
       return {};
   }

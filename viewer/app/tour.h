@@ -32,6 +32,7 @@ enum class TourVerb
   option, ///< by its key (document/options.h)
   panel, ///< right of the picture: pose, weights, tets or volume
   select, ///< a handle, in the list
+  type, ///< a text into a field, as with the keyboard
   mode, ///< of the selected handle: full, position, free, tail or ends
   click,
   double_click,
@@ -78,6 +79,10 @@ struct TourStep
 {
   TourVerb verb = TourVerb::wait;
   std::string text; ///< file, name, key, sentence: whatever the verb is about
+  std::string field; ///< to type into, by its accessible name
+  /// What opens a dialog answers it: the name of a file in the folder of the screenshots. Empty:
+  /// no dialog may open.
+  std::string answer;
   std::string say; ///< what a tutorial says about it
 
   TourPlace place; ///< of the mouse

@@ -16,7 +16,9 @@
 #include <QDialog>
 #include <QDir>
 #include <QEventLoop>
+#include <QFileDialog>
 #include <QFileInfo>
+#include <QLineEdit>
 #include <QTimer>
 
 #include <algorithm>
@@ -170,7 +172,7 @@ Status TourPlayer::play(const TourRequest& request)
     const TourStep& step = this->tour_.steps[k];
     const double begin = 1e-9 * static_cast<double>(this->clock_.nsecsElapsed());
     const double cpu_begin = cpu_seconds();
-    QString sentence = this->answer_dialogs([&] { return this->perform(step); });
+    QString sentence = this->answer_dialogs([&] { return this->perform(step); }, step.answer);
     this->let_draw();
     if (sentence.isEmpty())
     {
@@ -240,15 +242,35 @@ void TourPlayer::let_draw()
   }
 }
 
-/// A dialog waits for a person, and there is none: it is closed and told.
-QString TourPlayer::answer_dialogs(const std::function<QString()>& what)
+/// A dialog waits for a person, and there is none: it gets the step's answer, or it is closed and
+/// the step fails.
+QString TourPlayer::answer_dialogs(const std::function<QString()>& what, const std::string& answer)
 {
+  const QString file =
+    QDir(QString::fromStdString(this->folder_)).absoluteFilePath(QString::fromStdString(answer));
+  if (!answer.empty() && this->folder_.empty())
+  {
+    return QString("the answer is a file and needs --screenshot-dir");
+  }
   QString title;
+  bool answered = false;
   QTimer watch; // runs in a dialog's own event loop, too
   QObject::connect(&watch, &QTimer::timeout, &watch,
-    [&title]
+    [&]
     {
-      if (QWidget* dialog = QApplication::activeModalWidget())
+      QWidget* dialog = QApplication::activeModalWidget();
+      if (auto* form = qobject_cast<QDialog*>(dialog); form && !answer.empty())
+      {
+        if (auto* files = qobject_cast<QFileDialog*>(form))
+        {
+          files->setOption(QFileDialog::DontConfirmOverwrite, this->overwrite_);
+          auto* name = files->findChild<QLineEdit*>();
+          name->setText(file); // selectFile() leaves a field with the keyboard as it is
+          answered = true;
+        }
+        form->accept();
+      }
+      else if (dialog)
       {
         title = dialog->windowTitle();
         title = title.isEmpty() ? QString("without a title") : QString("'%1'").arg(title);
@@ -257,6 +279,10 @@ QString TourPlayer::answer_dialogs(const std::function<QString()>& what)
     });
   watch.start(50);
   const QString sentence = what();
+  if (!answer.empty() && !answered && sentence.isEmpty())
+  {
+    return QString("nothing asked for a file");
+  }
   return title.isEmpty() ? sentence : QString("it opened the dialog %1, which waits").arg(title);
 }
 
@@ -280,6 +306,8 @@ QString TourPlayer::perform(const TourStep& step)
     case TourVerb::scrub:
       this->hand_.scrub(step.seconds);
       return {};
+    case TourVerb::type:
+      return this->hand_.type(word, QString::fromStdString(step.field));
     case TourVerb::mode:
       return this->hand_.set_mode(word);
     case TourVerb::key:
@@ -314,12 +342,9 @@ QString TourPlayer::open(const std::string& file)
   const QString name = QString::fromStdString(file);
   const QString beside = QDir(QString::fromStdString(this->tour_folder_)).filePath(name);
   const QString before = this->window_->error();
-  if (!this->window_->open(QFileInfo::exists(beside) ? beside : name))
-  {
-    const QString error = this->window_->error();
-    return error.isEmpty() || error == before ? QString("it cannot be opened") : error;
-  }
-  return {};
+  const QString sentence = this->hand_.drop(QFileInfo::exists(beside) ? beside : name);
+  const QString error = this->window_->error();
+  return !sentence.isEmpty() || error == before ? sentence : error;
 }
 
 QString TourPlayer::choose(const TourStep& step)

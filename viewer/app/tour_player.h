@@ -45,7 +45,7 @@ public:
 
 private:
   QString perform(const bindpose::TourStep& step);
-  QString answer_dialogs(const std::function<QString()>& what);
+  QString answer_dialogs(const std::function<QString()>& what, const std::string& answer);
   QString find(const bindpose::TourPlace& place, QPoint& at) const;
   QString use_mouse(const bindpose::TourStep& step);
   QString open(const std::string& file);

@@ -25,25 +25,48 @@
 #include "vtkRenderer.h"
 
 #include <QAbstractButton>
+#include <QAbstractSpinBox>
 #include <QAction>
 #include <QApplication>
 #include <QButtonGroup>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDragEnterEvent>
+#include <QDropEvent>
 #include <QElapsedTimer>
 #include <QEventLoop>
+#include <QFileInfo>
 #include <QKeyEvent>
 #include <QKeySequence>
+#include <QLineEdit>
 #include <QMenuBar>
+#include <QMimeData>
 #include <QMouseEvent>
 #include <QScrollArea>
 #include <QTimer>
+#include <QUrl>
 #include <QWheelEvent>
 
 #include <algorithm>
 #include <cmath>
 
 using namespace bindpose;
+
+namespace
+{
+/// Who uses something has scrolled to it, and sees a little of what comes after it.
+void scroll_to(QWidget* widget)
+{
+  for (QWidget* each = widget; each; each = each->parentWidget())
+  {
+    if (auto* area = qobject_cast<QScrollArea*>(each))
+    {
+      constexpr int after = 150; // pixels
+      area->ensureWidgetVisible(widget, 0, after);
+    }
+  }
+}
+} // namespace
 
 // ---- The mouse ---------------------------------------------------------------------------------
 
@@ -171,7 +194,53 @@ void WindowHand::scrub(double seconds)
   }
 }
 
-// ---- Keys and menus ----------------------------------------------------------------------------
+// ---- Files, keys and menus
+// ----------------------------------------------------------------------------
+
+QString WindowHand::drop(const QString& file)
+{
+  this->leave();
+  QMimeData data;
+  data.setUrls({ QUrl::fromLocalFile(QFileInfo(file).absoluteFilePath()) });
+  const QPoint at = this->window_->rect().center();
+  QDragEnterEvent enter(at, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  enter.ignore();
+  QApplication::sendEvent(this->window_, &enter);
+  if (!enter.isAccepted())
+  {
+    return QObject::tr("the window takes no files");
+  }
+  QDropEvent drop(at, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(this->window_, &drop);
+  return {};
+}
+
+QString WindowHand::type(const QString& text, const QString& field)
+{
+  this->leave();
+  for (QWidget* each : this->window_->findChildren<QWidget*>())
+  {
+    const bool takes_text = qobject_cast<QLineEdit*>(each) || qobject_cast<QAbstractSpinBox*>(each);
+    if (!takes_text || each->accessibleName() != field || !each->isVisible())
+    {
+      continue;
+    }
+    if (!each->isEnabled())
+    {
+      return QObject::tr("the field '%1' is disabled").arg(field);
+    }
+    scroll_to(each);
+    each->setFocus(Qt::MouseFocusReason);
+    this->press_key("Ctrl+A");
+    for (const QChar letter : text)
+    {
+      QKeyEvent press(QEvent::KeyPress, letter.toUpper().unicode(), Qt::NoModifier, letter);
+      QApplication::sendEvent(QApplication::focusWidget(), &press);
+    }
+    return {};
+  }
+  return QObject::tr("no field '%1' is seen").arg(field);
+}
 
 QString WindowHand::press_key(const QString& keys)
 {
@@ -243,22 +312,6 @@ QString WindowHand::trigger(const QString& name)
   found->trigger();
   return {};
 }
-
-namespace
-{
-/// Who uses something has scrolled to it, and sees a little of what comes after it.
-void scroll_to(QWidget* widget)
-{
-  for (QWidget* each = widget; each; each = each->parentWidget())
-  {
-    if (auto* area = qobject_cast<QScrollArea*>(each))
-    {
-      constexpr int after = 150; // pixels
-      area->ensureWidgetVisible(widget, 0, after);
-    }
-  }
-}
-} // namespace
 
 // ---- Panels ------------------------------------------------------------------------------------
 

@@ -133,6 +133,10 @@ TEST(Tour, AMistakeIsOneSentenceThatNamesTheStep)
   EXPECT_EQ(refusal(R"({"drag": [0, 0], "to": [1, 1], "moves": 0})"),
     "step 1 (drag): \"moves\" must be a number from 1 to 1000");
   EXPECT_EQ(refusal(R"({"wheel": [0, 0]})"), "step 1 (wheel): \"turns\" is missing");
+  EXPECT_EQ(refusal(R"({"type": "5"})"), "step 1 (type): \"into\" is missing");
+  EXPECT_EQ(refusal(R"({"push": "Open", "answer": "../a.ply"})"),
+    "step 1 (push): the answer is up to 60 letters, digits, '_', '-' and '.'");
+  EXPECT_EQ(refusal(R"({"key": "K", "answer": "a.ply"})"), "step 1 (key): the verb has no \"answer\"");
   EXPECT_EQ(refusal(R"({"option": "a"})"), "step 1 (option): \"value\" is missing");
   EXPECT_EQ(refusal(R"({"check": "a"})"),
     "step 1 (check): a check has one of is, at_least, at_most, as_at");

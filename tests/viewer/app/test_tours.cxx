@@ -130,6 +130,7 @@ struct TourCase
   const char* name;
   std::vector<const char*> pictures; ///< that are compared
   const char* needs = nullptr; ///< a mesh of libcgal-demo
+  std::vector<const char*> files = {}; ///< that are written besides
 };
 
 std::ostream& operator<<(std::ostream& out, const TourCase& tour)
@@ -173,6 +174,12 @@ TEST_P(Tours, Play)
     }
     EXPECT_EQ(shot["values"].value("shape.finite", true), true) << name;
   }
+  for (const char* file : tour.files)
+  {
+    std::error_code none;
+    EXPECT_GT(std::filesystem::file_size(pictures + "/" + file, none), 100u) << file;
+    EXPECT_FALSE(none) << file;
+  }
   for (const char* name : tour.pictures)
   {
     expect_reference(QImage(QString::fromStdString(pictures + "/" + name + ".png")),
@@ -190,7 +197,9 @@ INSTANTIATE_TEST_SUITE_P(Examples, Tours,
     TourCase{ "rotations", { "clusters", "angles", "angles_again" } }, TourCase{ "refused", {} },
     TourCase{ "picture", { "flat", "bent", "over_picture" } }, TourCase{ "planar", { "posed" } },
     TourCase{ "undo", { "start", "one", "three" } }, TourCase{ "idle", {} },
-    TourCase{ "panels", {} }, TourCase{ "auto_rig", {} },
+    TourCase{ "panels", {} }, TourCase{ "auto_rig", {} }, TourCase{ "typed", {} },
+    TourCase{ "domain", {} },
+    TourCase{ "export", {}, nullptr, { "bent.ply", "rig.glb", "pose.json", "picture.png" } },
     TourCase{ "tutorial", {}, "elephant-with-holes.off" }),
   [](const testing::TestParamInfo<TourCase>& tour) { return std::string(tour.param.name); });
 

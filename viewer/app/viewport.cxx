@@ -577,7 +577,8 @@ void Viewport::draw_legend()
   }
   if (!this->state_name_.isEmpty())
   {
-    this->add_name(0.5, this->height() - 30.0, this->state_name_);
+    constexpr double below_a_bar = 64.0; // pixels from the top
+    this->add_name(0.5, this->height() - below_a_bar, this->state_name_);
   }
 }
 

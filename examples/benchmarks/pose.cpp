@@ -3,9 +3,6 @@
 // skinning of 100k vertices; stretch; a crowd. Weights are made up (inverse distances), so that no
 // solver is waited for; those of the crowd, and of skinning where it says so, are bounded
 // biharmonic. pose_table.py makes the tables of README.md from it.
-#ifdef BINDPOSE_HAS_LIBIGL
-#include "libigl_arap.h"
-#endif
 #include "surfaces.h"
 
 #include "base/memory.h"
@@ -25,7 +22,6 @@
 #include <cmath>
 #include <ctime>
 #include <fstream>
-#include <functional>
 #include <limits>
 #include <map>
 #include <string>
@@ -322,116 +318,6 @@ BENCHMARK(reduced_arap_to_energy)
   ->ArgsProduct({ { 20 }, { 80 }, { 0, 5, 10 }, { 3, 10, 20 } })
   ->ArgsProduct({ { 50 }, { 150 }, { 0, 5, 10 }, { 3, 10, 20 } })
   ->Unit(benchmark::kMicrosecond);
-
-#ifdef BINDPOSE_HAS_LIBIGL
-/// Arguments: handles, clusters. An iteration, and cold solves to within 1e-4 (coarse) and 1e-8
-/// (fine) of the least energy,
-/// in turns with libigl's arap_dof on the same mesh with the same weights: spokes, so small a mesh
-/// that libigl can bind it. libigl alternates as we do without acceleration, and is given as many
-/// iterations as we need for the energy then. Google's own time is that of our solve.
-void reduced_arap_beside_libigl(benchmark::State& state)
-{
-  const Rig rig = make_rig(5000, state.range(0));
-  const auto handles = static_cast<Index>(rig.handles.size());
-  ExecutionContext context;
-  context.set_threads(1);
-  ReducedArap arap;
-  ReducedArapOptions options;
-  options.clusters = state.range(1);
-  options.energy = ArapEnergy::spokes;
-  arap.bind(context, rig.mesh.points, rig.mesh.triangles, rig.weights, rig.handles, options);
-  const Pose pose = dragged(rig.handles, 0.3);
-
-  std::vector<int> held;
-  std::vector<double> targets;
-  for (Index h = 0; h < handles; h += 2)
-  {
-    const auto at = static_cast<std::size_t>(h);
-    Index vertex = 0;
-    (rig.mesh.points.rowwise() - rig.handles[at].head.transpose())
-      .rowwise()
-      .squaredNorm()
-      .minCoeff(&vertex);
-    held.push_back(static_cast<int>(vertex));
-    const Vec3 target = rig.handles[at].head + pose[at].transform.col(3);
-    targets.insert(targets.end(), target.data(), target.data() + 3);
-  }
-  const Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor> corners =
-    rig.mesh.triangles.cast<int>();
-  const Eigen::MatrixXd columns = rig.weights;
-  const LibiglMesh mesh{ static_cast<int>(rig.mesh.points.rows()),
-    static_cast<int>(rig.mesh.triangles.rows()), static_cast<int>(handles), rig.mesh.points.data(),
-    corners.data(), columns.data() };
-  libigl_arap_bind(&mesh, static_cast<int>(state.range(1)), static_cast<int>(held.size()),
-    held.data(), targets.data());
-
-  double least = std::numeric_limits<double>::infinity();
-  for (const Index window : { 0, 5, 10 })
-  {
-    arap.solve(context, pose, { 0.0, 5000, ReducedArap::Start::rest, window });
-    least = std::min(least, arap.energies().back());
-  }
-  const auto iterations_to = [&](double share, Index window)
-  {
-    arap.solve(context, pose, { 0.0, 5000, ReducedArap::Start::rest, window });
-    return iterations_until(arap.energies(), (1.0 + share) * least);
-  };
-  const Index coarse[2] = { iterations_to(1e-4, 0), iterations_to(1e-4, 5) };
-  const Index fine[2] = { iterations_to(1e-8, 0), iterations_to(1e-8, 5) };
-
-  const int calls = 15, solves = handles >= 300 ? 3 : handles >= 100 ? 10 : 100;
-  const auto ours = [&](Index iterations, Index window)
-  {
-    const std::clock_t start = std::clock();
-    for (int i = 0; i < solves; ++i)
-    {
-      arap.solve(context, pose, { 0.0, iterations, ReducedArap::Start::rest, window });
-    }
-    return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  };
-  const auto libigl = [&](Index iterations)
-  { return libigl_arap_seconds(solves, static_cast<int>(iterations)); };
-  const std::pair<const char*, std::function<double()>> measured[] = {
-    { "plain_us", [&]() { return (ours(9, 0) - ours(2, 0)) / 7.0; } },
-    { "us", [&]() { return (ours(9, 5) - ours(2, 5)) / 7.0; } },
-    { "libigl_us", [&]() { return (libigl(9) - libigl(2)) / 7.0; } },
-    { "coarse_us", [&]() { return ours(coarse[1], 5); } },
-    { "libigl_coarse_us", [&]() { return libigl(coarse[0]); } },
-    { "fine_us", [&]() { return ours(fine[1], 5); } },
-    { "libigl_fine_us", [&]() { return libigl(fine[0]); } },
-  };
-  std::map<std::string, std::vector<double>> seconds;
-  for (auto _ : state)
-  {
-    for (int i = 0; i < calls; ++i)
-    {
-      for (const auto& [name, call] : measured)
-      {
-        seconds[name].push_back(call());
-      }
-    }
-  }
-  for (auto& [name, of_calls] : seconds)
-  {
-    std::nth_element(of_calls.begin(), of_calls.begin() + calls / 2, of_calls.end());
-    state.counters[name] = 1e6 * of_calls[calls / 2] / solves;
-  }
-  state.counters["coarse_plain"] = static_cast<double>(coarse[0]);
-  state.counters["coarse"] = static_cast<double>(coarse[1]);
-  state.counters["fine_plain"] = static_cast<double>(fine[0]);
-  state.counters["fine"] = static_cast<double>(fine[1]);
-}
-BENCHMARK(reduced_arap_beside_libigl)
-  ->ArgNames({ "handles", "clusters" })
-  ->Args({ 5, 20 })
-  ->Args({ 20, 80 })
-  ->Args({ 20, 400 })
-  ->Args({ 50, 150 })
-  ->Args({ 100, 300 })
-  ->Args({ 300, 600 })
-  ->Iterations(1)
-  ->Unit(benchmark::kMillisecond);
-#endif
 
 /// Arguments: triangles, iterates that acceleration looks back on.
 void full_arap_iteration(benchmark::State& state)

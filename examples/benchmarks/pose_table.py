@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
 """Runs the benchmarks of pose time and prints them as the tables of README.md.
 
-With --readme the tables replace what stands in README.md beside this file between `<!-- pose -->`, or `<!-- libigl -->`,
-and `<!-- end -->`. The table beside libigl needs a build that knows it, see README.md.
+With --readme the tables replace the text between `<!-- pose -->` and `<!-- end -->` in the README.md beside this file.
 """
 
 import argparse
@@ -13,7 +12,7 @@ import subprocess
 import sys
 
 FOLDER = pathlib.Path(__file__).resolve().parent
-FILTER = "^(reduced_arap/|reduced_arap_of_tets|reduced_arap_beside_libigl|skinning|crowd|stretch)"
+FILTER = "^(reduced_arap/|reduced_arap_of_tets|skinning|crowd|stretch)"
 METHODS = ("linear blend", "dual quaternions", "stretchable bones")
 
 
@@ -52,23 +51,6 @@ def reduced(rows):
     return table(head, lines)
 
 
-def beside_libigl(rows):
-    lines = []
-    for row in rows:
-        name, given = arguments(row)
-        if name == "reduced_arap_beside_libigl":
-            line = [f"{given['handles']}, {given['clusters']}", number(row["plain_us"]), number(row["us"]),
-                    number(row["libigl_us"]), number(row["libigl_us"] / row["plain_us"])]
-            for share in ("coarse", "fine"):
-                line += [f"{int(row[share])} for {int(row[share + '_plain'])}", number(row[f"{share}_us"]),
-                         number(row[f"libigl_{share}_us"]), number(row[f"libigl_{share}_us"] / row[f"{share}_us"])]
-            lines.append(line)
-    head = ["handles, clusters", "µs an iteration", "accelerated", "libigl", "times as fast"]
-    for share in ("1e-4", "1e-8"):
-        head += [f"iterations to {share}", "µs", "libigl", "times as fast"]
-    return table(head, lines)
-
-
 def skinning(rows):
     found = {}
     for row in rows:
@@ -97,11 +79,11 @@ def others(rows):
     return table(["what", ""], lines)
 
 
-def write(readme, mark, text):
-    whole, found = re.subn(rf"(<!-- {mark} -->\n).*?(<!-- end -->)", lambda m: m[1] + text + "\n" + m[2],
+def write(readme, text):
+    whole, found = re.subn(r"(<!-- pose -->\n).*?(<!-- end -->)", lambda m: m[1] + text + "\n" + m[2],
                            readme.read_text(), flags=re.S)
     if found != 1:
-        sys.exit(f"pose_table.py: {readme} has no place <!-- {mark} -->")
+        sys.exit(f"pose_table.py: {readme} has no line <!-- pose -->")
     readme.write_text(whole)
 
 
@@ -114,11 +96,10 @@ def main():
     done = subprocess.run([options.program, f"--benchmark_filter={options.filter}", "--benchmark_format=json"],
                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True)
     rows = [row for row in json.loads(done.stdout)["benchmarks"] if not row.get("error_occurred")]
-    tables = {"pose": "\n\n".join(filter(None, [reduced(rows), skinning(rows), others(rows)])), "libigl": beside_libigl(rows)}
-    print("\n\n".join(text for text in tables.values() if text))
-    for mark, text in tables.items():
-        if options.readme and text:
-            write(FOLDER / "README.md", mark, text)
+    text = "\n\n".join(filter(None, [reduced(rows), skinning(rows), others(rows)]))
+    print(text)
+    if options.readme:
+        write(FOLDER / "README.md", text)
 
 
 if __name__ == "__main__":

@@ -87,7 +87,9 @@ install_packages()
     >"$log_dir/apt.log" 2>&1 || { tail -5 "$log_dir/apt.log" >&2; die "apt-get install failed; the log is $log_dir/apt.log"; }
 }
 
-# build [CMAKE OPTIONS…]: configures once and when options are given, builds what has changed.
+# build [CMAKE OPTIONS…]: configures once and when options are given, builds what has changed: all of it, or the targets
+# in $build_targets.
+build_targets=""
 build()
 {
   local jobs
@@ -103,7 +105,8 @@ build()
       { tail -20 "$log_dir/configure.log" >&2; die "configuring failed; the log is $log_dir/configure.log" 5; }
     sed -n '/-- Bindpose /,/Licence of bindpose-mesher/p' "$log_dir/configure.log"
   fi
-  NINJA_STATUS="[%f/%t] " ninja -C "$build_dir" -j "$jobs" || die "the build failed" 5
+  # shellcheck disable=SC2086
+  NINJA_STATUS="[%f/%t] " ninja -C "$build_dir" -j "$jobs" $build_targets || die "the build failed" 5
 }
 
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -14,6 +14,7 @@ options:
   --help         this text
 
 Everything after -- goes to ctest, for example: tests/run.sh -- -R weights
+In a tree that has been built before, only the test programs that these options choose are built.
 A skipped test counts as a failure.
 TEXT
 }
@@ -33,6 +34,21 @@ done
 
 . "$(dirname "${BASH_SOURCE[0]}")/../examples/setup.sh"
 install_packages "$build_packages $test_packages"
+
+# targets_of CTEST OPTIONS…: the programs of the tests that ctest knows by these options. Nothing if
+# there are no such tests yet, or if they are scripts, which need the whole build.
+targets_of()
+{
+  ctest --test-dir "$build_dir" --show-only=json-v1 "$@" 2>/dev/null | python3 -c '
+import json, pathlib, sys
+programs = {pathlib.Path(test.get("command", ["none"])[0]) for test in json.load(sys.stdin)["tests"]}
+if all(program.parent == pathlib.Path(sys.argv[1], "bin") for program in programs):
+    print(*sorted(program.name for program in programs))
+' "$build_dir" || true
+}
+if [ $# -gt 0 ] && [ -f "$build_dir/CTestTestfile.cmake" ]; then
+  build_targets=$(targets_of "$@")
+fi
 build -DBINDPOSE_BUILD_TESTS=ON
 
 # -noreset: the server would refuse who comes while it starts anew, after the last client has left.

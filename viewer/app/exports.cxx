@@ -28,8 +28,6 @@
 #include <QFileInfo>
 #include <QUrl>
 
-#include <algorithm>
-
 using namespace bindpose;
 
 namespace
@@ -53,16 +51,6 @@ Status write_rig(vtkPolyData* surface, vtkPolyData* handles, const QString& path
   writer->SetFileName(path.toStdString().c_str());
   writer->OverwriteOn();
   return writer->Write() == 1 ? Status() : Status::invalid_input(writer->GetStatusMessage());
-}
-
-bool is_rest(const Pose& pose)
-{
-  return std::all_of(pose.begin(), pose.end(),
-    [](const HandlePose& each)
-    {
-      return each.transform == identity_affine() && each.stretch == 1.0 &&
-        each.twist == Eigen::Vector2d::Zero();
-    });
 }
 } // namespace
 
@@ -161,7 +149,7 @@ bool Exports::save_rig(const QString& path)
   const Status status = write_rig(document->surface(), document->handle_data(), path);
   QApplication::restoreOverrideCursor();
   const auto method = static_cast<PoseMethod>(document->number("pose.method"));
-  const bool other = method != PoseMethod::linear_blend && !is_rest(document->pose());
+  const bool other = method != PoseMethod::linear_blend && this->window_->posing()->is_posed();
   return this->finish(path, status,
     other
       ? tr("Other programs pose it by linear blend skinning, not by %1.").arg(method_name(method))

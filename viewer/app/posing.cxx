@@ -413,6 +413,7 @@ void Posing::draw()
   }
   const auto start = std::chrono::steady_clock::now();
   this->viewport_->move_surface(this->seen());
+  this->viewport_->show_curves(this->shows_rest() || !this->is_posed());
   this->drawing_microseconds_ =
     std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
   if (!this->shows_rest())

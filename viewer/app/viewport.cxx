@@ -279,6 +279,14 @@ void Viewport::set_curves(vtkPolyData* curves)
   this->refresh();
 }
 
+void Viewport::show_curves(bool shown)
+{
+  for (const auto& actor : this->curves_)
+  {
+    actor->SetVisibility(shown);
+  }
+}
+
 void Viewport::show_legend(LegendPlace place, const QString& name, const bindpose::ColourMap& map)
 {
   this->legends_.erase(place);

@@ -118,6 +118,8 @@ public:
   bool is_flat() const { return this->plane_.has_value(); }
   /// Lines, drawn as tubes; null: none.
   void set_curves(vtkPolyData* curves);
+  /// Curves belong to the shape at rest.
+  void show_curves(bool shown);
   /// Legends beside the column's, each in its place; with an empty name none.
   enum LegendPlace
   {

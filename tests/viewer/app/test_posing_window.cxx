@@ -22,6 +22,7 @@
 #include "file_kind.h"
 #include "pose/transform_parts.h"
 #include "scene/colouring.h"
+#include "scene/colours.h"
 #include "scene/sequence_file.h"
 #include "scene/shaded_surface.h"
 #include "scene/video_file.h"
@@ -31,6 +32,10 @@
 #include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkActor.h"
+#include "vtkActorCollection.h"
+#include "vtkCellArray.h"
+#include "vtkProperty.h"
+#include "vtkRenderer.h"
 #include "vtkDoubleArray.h"
 #include "vtkGLTFSkinReader.h"
 #include "vtkHandleSetRepresentation.h"
@@ -938,6 +943,50 @@ TEST_F(PosingWindow, UndoTakesTheFirstKeptPoseBack)
   EXPECT_EQ(names->count(), 0);
   this->window.history()->redo();
   EXPECT_EQ(names->count(), 1);
+}
+
+TEST_F(PosingWindow, CurvesOfTheRestShapeAreSeenWithItAlone)
+{
+  this->open();
+  vtkNew<vtkPolyData> circle; // a boundary, say
+  vtkNew<vtkPoints> places;
+  vtkNew<vtkCellArray> lines;
+  const vtkIdType ids[] = { 0, 1, 2 };
+  for (const vtkIdType k : ids)
+  {
+    places->InsertNextPoint(0.4 * std::cos(k), 0.4 * std::sin(k), 0.0);
+  }
+  lines->InsertNextCell(3, ids);
+  circle->SetPoints(places);
+  circle->SetLines(lines);
+  ASSERT_TRUE(this->window.set_curves(circle));
+  const auto are_seen = [this]
+  {
+    this->render();
+    vtkActorCollection* actors = this->window.viewport()->renderer()->GetActors();
+    for (int k = 0; k < actors->GetNumberOfItems(); ++k)
+    {
+      auto* actor = vtkActor::SafeDownCast(actors->GetItemAsObject(k));
+      const Eigen::Map<const Vec3> color(actor->GetProperty()->GetColor());
+      if (color == Vec3(palette::curve[0], palette::curve[1], palette::curve[2]))
+      {
+        return actor->GetVisibility() != 0;
+      }
+    }
+    ADD_FAILURE() << "there are no curves";
+    return false;
+  };
+  EXPECT_TRUE(are_seen());
+  Pose pose(4);
+  pose[3].transform.col(3) = Vec3(0.3, 0, 0);
+  this->put(pose);
+  EXPECT_FALSE(are_seen());
+  this->posing()->look_at_rest(true);
+  EXPECT_TRUE(are_seen());
+  this->posing()->look_at_rest(false);
+  EXPECT_FALSE(are_seen());
+  this->window.back_to_rest();
+  EXPECT_TRUE(are_seen());
 }
 
 TEST_F(PosingWindow, BonesMayBeHeldByAnEnd)

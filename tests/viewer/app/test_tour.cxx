@@ -136,7 +136,8 @@ TEST(Tour, AMistakeIsOneSentenceThatNamesTheStep)
   EXPECT_EQ(refusal(R"({"type": "5"})"), "step 1 (type): \"into\" is missing");
   EXPECT_EQ(refusal(R"({"push": "Open", "answer": "../a.ply"})"),
     "step 1 (push): the answer is up to 60 letters, digits, '_', '-' and '.'");
-  EXPECT_EQ(refusal(R"({"key": "K", "answer": "a.ply"})"), "step 1 (key): the verb has no \"answer\"");
+  EXPECT_EQ(
+    refusal(R"({"key": "K", "answer": "a.ply"})"), "step 1 (key): the verb has no \"answer\"");
   EXPECT_EQ(refusal(R"({"option": "a"})"), "step 1 (option): \"value\" is missing");
   EXPECT_EQ(refusal(R"({"check": "a"})"),
     "step 1 (check): a check has one of is, at_least, at_most, as_at");

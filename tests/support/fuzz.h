@@ -127,7 +127,7 @@ public:
   explicit MemoryLimit(Index mebibytes)
   {
     getrlimit(RLIMIT_AS, &this->before_);
-#if !defined(__SANITIZE_ADDRESS__)
+#if !defined(BINDPOSE_SANITIZED)
     long pages = 0;
     if (std::FILE* file = std::fopen("/proc/self/statm", "r"))
     {

@@ -5,7 +5,7 @@ namespace bindpose::test
 {
 
 /// True in a build with sanitizers, where everything takes several times longer.
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(BINDPOSE_SANITIZED)
 constexpr bool sanitized = true;
 #else
 constexpr bool sanitized = false;

@@ -66,7 +66,7 @@ TEST(LargeWindingNumberField, ABillionSamplesInTheMemoryOfOneBlock)
   const double along = side / spacing;
   EXPECT_NEAR(std::cbrt(inside), along, 1.0);
   EXPECT_EQ(other, 0.0);
-#if !defined(BINDPOSE_SANITIZED) // which keeps what was freed for a while
+#if !defined(__SANITIZE_ADDRESS__) // which keeps what was freed for a while
   const double block = (8.0 + 1.0) * samples * samples * layers; // with the flags OnSurface
   EXPECT_LT(peak_memory() - before, block + 8e6);
 #endif

@@ -127,7 +127,7 @@ public:
   explicit MemoryLimit(Index mebibytes)
   {
     getrlimit(RLIMIT_AS, &this->before_);
-#if !defined(BINDPOSE_SANITIZED)
+#if !defined(__SANITIZE_ADDRESS__)
     long pages = 0;
     if (std::FILE* file = std::fopen("/proc/self/statm", "r"))
     {

@@ -5,7 +5,7 @@ namespace bindpose::test
 {
 
 /// True in a build with sanitizers, where everything takes several times longer.
-#if defined(BINDPOSE_SANITIZED)
+#if defined(__SANITIZE_ADDRESS__)
 constexpr bool sanitized = true;
 #else
 constexpr bool sanitized = false;

@@ -11,7 +11,7 @@
 /// define(version, bytes, Scalar), a macro for a function that begins with `version` and works on
 /// packs of so many bytes, once for each instruction set.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) && \
-  !defined(BINDPOSE_SANITIZED)
+  !defined(__SANITIZE_ADDRESS__)
 #define BINDPOSE_SIMD_CLONES \
   __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #define BINDPOSE_SIMD_WIDTHS(define, Scalar)                      \

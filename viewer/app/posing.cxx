@@ -412,8 +412,9 @@ void Posing::draw()
     return;
   }
   const auto start = std::chrono::steady_clock::now();
-  this->viewport_->move_surface(this->seen());
-  this->viewport_->show_curves(this->shows_rest() || !this->is_posed());
+  vtkPolyData* seen = this->seen();
+  this->viewport_->move_surface(seen);
+  this->viewport_->show_curves(seen == this->surface_ || !this->is_posed());
   this->drawing_microseconds_ =
     std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
   if (!this->shows_rest())

@@ -28,7 +28,8 @@ vtkStandardNewMacro(MovedSurfaceMapper);
 
 namespace
 {
-/// Addresses and times of all that is drawn of a surface, but the times of points and normals.
+/// Return the addresses and modification times of all inputs of the buffers, except the times of
+/// points and normals.
 std::vector<vtkMTimeType> state_of(MovedSurfaceMapper& mapper, vtkActor* actor)
 {
   std::vector<vtkMTimeType> state;
@@ -49,7 +50,9 @@ std::vector<vtkMTimeType> state_of(MovedSurfaceMapper& mapper, vtkActor* actor)
   {
     add_object(cells);
   }
-  add(surface->GetPoints(), static_cast<vtkMTimeType>(surface->GetNumberOfPoints()));
+  vtkPoints* points = surface->GetPoints();
+  add(
+    points ? points->GetData() : nullptr, static_cast<vtkMTimeType>(surface->GetNumberOfPoints()));
   vtkDataArray* normals = surface->GetPointData()->GetNormals();
   for (vtkDataSetAttributes* data : { static_cast<vtkDataSetAttributes*>(surface->GetPointData()),
          static_cast<vtkDataSetAttributes*>(surface->GetCellData()) })
@@ -87,6 +90,7 @@ void copy_as_floats(vtkDoubleArray* from, vtkFloatArray* to)
 void MovedSurfaceMapper::BuildBufferObjects(vtkRenderer* renderer, vtkActor* actor)
 {
   const auto start = std::chrono::steady_clock::now();
+  this->choose_shift();
   if (this->CurrentInput && this->drawn_ == state_of(*this, actor) && this->upload_moved())
   {
     ++this->moves_;
@@ -116,6 +120,12 @@ void MovedSurfaceMapper::ComputeBounds()
     this->Superclass::ComputeBounds();
     return;
   }
+  const vtkMTimeType time = std::max(surface->GetMTime(), this->MTime.GetMTime());
+  if (time == this->bounds_time_)
+  {
+    return;
+  }
+  this->bounds_time_ = time;
   const double* at = places->GetPointer(0);
   constexpr Index block = 16384;
   const auto count = static_cast<Index>(places->GetNumberOfTuples());
@@ -143,22 +153,49 @@ void MovedSurfaceMapper::ComputeBounds()
   all.GetBounds(this->Bounds);
 }
 
-/// @return false: the buffers are not as they must be for that, and nothing was changed.
+/// Disable VTK's shift and scale where single precision is accurate without them.
+void MovedSurfaceMapper::choose_shift()
+{
+  double bounds[6];
+  this->GetBounds(bounds);
+  const vtkBoundingBox box(bounds);
+  constexpr double far = 1000.0; // diagonals: VTK's own limit
+  double center[3] = { 0.0, 0.0, 0.0 };
+  if (box.IsValid())
+  {
+    box.GetCenter(center);
+  }
+  const bool shifts = Eigen::Map<const Vec3>(center).norm() > far * box.GetDiagonalLength();
+  using Buffer = vtkOpenGLVertexBufferObject;
+  // Once disabled, VTK keeps the last shift: first it must find that none is needed.
+  Buffer* buffer = this->VBOs->GetVBO("vertexMC");
+  const bool shifted = buffer && buffer->GetCoordShiftAndScaleEnabled();
+  const int method = shifts || shifted ? Buffer::AUTO_SHIFT_SCALE : Buffer::DISABLE_SHIFT_SCALE;
+  if (method != this->GetVBOShiftScaleMethod())
+  {
+    this->SetVBOShiftScaleMethod(method);
+    this->drawn_.clear();
+  }
+}
+
+/// @return false if the buffers cannot be updated in place
 bool MovedSurfaceMapper::upload_moved()
 {
   auto* places = vtkDoubleArray::SafeDownCast(this->CurrentInput->GetPoints()->GetData());
   auto* normals = vtkFloatArray::SafeDownCast(this->CurrentInput->GetPointData()->GetNormals());
   vtkOpenGLVertexBufferObject* place_buffer = this->VBOs->GetVBO("vertexMC");
   vtkOpenGLVertexBufferObject* normal_buffer = this->VBOs->GetVBO("normalMC");
-  // Points far from the origin are shifted and scaled by VTK before they become floats.
   if (!places || !normals || !place_buffer || !normal_buffer ||
-    place_buffer->GetCoordShiftAndScaleEnabled())
+    place_buffer->GetCoordShiftAndScaleEnabled() ||
+    this->GetVBOShiftScaleMethod() != vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE)
   {
     return false;
   }
   if (place_buffer->GetUploadTime() < places->GetMTime())
   {
     copy_as_floats(places, this->places_);
+    // Another mapper of these points shares the buffer and may have chosen a shift.
+    place_buffer->SetCoordShiftAndScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
     place_buffer->UploadDataArray(this->places_);
   }
   if (normal_buffer->GetUploadTime() < normals->GetMTime())

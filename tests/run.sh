@@ -35,18 +35,24 @@ done
 . "$(dirname "${BASH_SOURCE[0]}")/../examples/setup.sh"
 install_packages "$build_packages $test_packages"
 
-# targets_of CTEST OPTIONS…: the programs of the tests that ctest knows by these options. Nothing if
-# there are no such tests yet, or if they are scripts, which need the whole build.
+# targets_of CTEST OPTIONS…: print the test programs that the options select. Print nothing if the
+# whole build is needed: a test is a script, or some test program was never built.
 targets_of()
 {
-  ctest --test-dir "$build_dir" --show-only=json-v1 "$@" 2>/dev/null | python3 -c '
-import json, pathlib, sys
-programs = {pathlib.Path(test.get("command", ["none"])[0]) for test in json.load(sys.stdin)["tests"]}
-if all(program.parent == pathlib.Path(sys.argv[1], "bin") for program in programs):
+  /usr/bin/python3 - "$build_dir" "$@" <<'PYTHON' 2>/dev/null || true
+import json, pathlib, subprocess, sys
+
+def tests(*options):
+    words = ["ctest", "--test-dir", sys.argv[1], "--show-only=json-v1", *options]
+    return json.loads(subprocess.run(words, capture_output=True, check=True).stdout)["tests"]
+
+programs = {pathlib.Path(test.get("command", ["none"])[0]) for test in tests(*sys.argv[2:])}
+all_built = not any("_NOT_BUILT" in test["name"] for test in tests())
+if all_built and all(program.parent == pathlib.Path(sys.argv[1], "bin") for program in programs):
     print(*sorted(program.name for program in programs))
-' "$build_dir" || true
+PYTHON
 }
-if [ $# -gt 0 ] && [ -f "$build_dir/CTestTestfile.cmake" ]; then
+if [ $# -gt 0 ] && [ -z "$bless" ] && [ -f "$build_dir/CTestTestfile.cmake" ]; then
   build_targets=$(targets_of "$@")
 fi
 build -DBINDPOSE_BUILD_TESTS=ON

@@ -802,10 +802,12 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event)
 
 void MainWindow::dropEvent(QDropEvent* event)
 {
+  bool opened = true;
   for (const QUrl& url : event->mimeData()->urls())
   {
-    this->open(url.toLocalFile());
+    opened = this->open(url.toLocalFile()) && opened;
   }
+  event->setAccepted(opened);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event)

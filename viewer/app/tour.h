@@ -80,8 +80,8 @@ struct TourStep
   TourVerb verb = TourVerb::wait;
   std::string text; ///< file, name, key, sentence: whatever the verb is about
   std::string field; ///< to type into, by its accessible name
-  /// What opens a dialog answers it: the name of a file in the folder of the screenshots. Empty:
-  /// no dialog may open.
+  /// Name of a file in the folder of screenshots, for the file dialog that the step opens. Empty:
+  /// a dialog is an error.
   std::string answer;
   std::string say; ///< what a tutorial says about it
 

@@ -19,6 +19,8 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QLineEdit>
+#include <QMessageBox>
+#include <QPointer>
 #include <QTimer>
 
 #include <algorithm>
@@ -154,9 +156,10 @@ Status TourPlayer::play(const TourRequest& request)
     for (const TourStep& step : this->tour_.steps)
     {
       AtomicFile file; // asked before the work, not after
-      const bool names_file = step.verb == TourVerb::screenshot;
-      status = file.open(
-        this->folder_ + "/" + (names_file ? step.text + ".png" : "tour.json"), this->overwrite_);
+      const std::string name = step.verb == TourVerb::screenshot ? step.text + ".png"
+        : step.answer.empty()                                    ? "tour.json"
+                                                                 : step.answer;
+      status = file.open(this->folder_ + "/" + name, this->overwrite_);
       if (!status.ok())
       {
         return status;
@@ -242,8 +245,8 @@ void TourPlayer::let_draw()
   }
 }
 
-/// A dialog waits for a person, and there is none: it gets the step's answer, or it is closed and
-/// the step fails.
+/// Run a part of a step. Every form that it opens is accepted once, and a file dialog gets the
+/// step's answer as its file. Close any other dialog and return a sentence.
 QString TourPlayer::answer_dialogs(const std::function<QString()>& what, const std::string& answer)
 {
   const QString file =
@@ -254,21 +257,25 @@ QString TourPlayer::answer_dialogs(const std::function<QString()>& what, const s
   }
   QString title;
   bool answered = false;
+  QPointer<QDialog> accepted;
   QTimer watch; // runs in a dialog's own event loop, too
   QObject::connect(&watch, &QTimer::timeout, &watch,
     [&]
     {
       QWidget* dialog = QApplication::activeModalWidget();
-      if (auto* form = qobject_cast<QDialog*>(dialog); form && !answer.empty())
+      auto* form = qobject_cast<QDialog*>(dialog);
+      if (form && form != accepted && !answer.empty() && !qobject_cast<QMessageBox*>(form))
       {
         if (auto* files = qobject_cast<QFileDialog*>(form))
         {
-          files->setOption(QFileDialog::DontConfirmOverwrite, this->overwrite_);
+          files->setOption(QFileDialog::DontConfirmOverwrite); // play() has looked for the file
           auto* name = files->findChild<QLineEdit*>();
           name->setText(file); // selectFile() leaves a field with the keyboard as it is
           answered = true;
         }
-        form->accept();
+        accepted = form;
+        // Queued, so that this timer also runs for a dialog that the answer opens.
+        QMetaObject::invokeMethod(form, "accept", Qt::QueuedConnection);
       }
       else if (dialog)
       {
@@ -281,7 +288,7 @@ QString TourPlayer::answer_dialogs(const std::function<QString()>& what, const s
   const QString sentence = what();
   if (!answer.empty() && !answered && sentence.isEmpty())
   {
-    return QString("nothing asked for a file");
+    return QString("expected a file dialog, but none was opened");
   }
   return title.isEmpty() ? sentence : QString("it opened the dialog %1, which waits").arg(title);
 }
@@ -344,7 +351,7 @@ QString TourPlayer::open(const std::string& file)
   const QString before = this->window_->error();
   const QString sentence = this->hand_.drop(QFileInfo::exists(beside) ? beside : name);
   const QString error = this->window_->error();
-  return !sentence.isEmpty() || error == before ? sentence : error;
+  return sentence.isEmpty() || error.isEmpty() || error == before ? sentence : error;
 }
 
 QString TourPlayer::choose(const TourStep& step)

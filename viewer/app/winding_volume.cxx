@@ -25,7 +25,7 @@ Status compute(const TriangleMesh& mesh, int samples, vtkSmartPointer<vtkImageDa
   SampleGrid grid;
   Status status = make_grid(request, bounding_box(mesh.points), grid);
   WindingNumber field;
-  const double built = winding_build_share(mesh.triangles.rows(), grid.count());
+  const double built = winding_build_fraction(mesh.triangles.rows(), grid.count());
   if (status.ok())
   {
     const Phase phase(context, "build", 0.0, built);

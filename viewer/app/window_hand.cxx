@@ -54,7 +54,7 @@ using namespace bindpose;
 
 namespace
 {
-/// Who uses something has scrolled to it, and sees a little of what comes after it.
+/// Scroll the enclosing areas until the widget and a little below it are visible.
 void scroll_to(QWidget* widget)
 {
   for (QWidget* each = widget; each; each = each->parentWidget())
@@ -212,7 +212,7 @@ QString WindowHand::drop(const QString& file)
   }
   QDropEvent drop(at, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QApplication::sendEvent(this->window_, &drop);
-  return {};
+  return drop.isAccepted() ? QString() : QObject::tr("it cannot be opened");
 }
 
 QString WindowHand::type(const QString& text, const QString& field)
@@ -231,11 +231,17 @@ QString WindowHand::type(const QString& text, const QString& field)
     }
     scroll_to(each);
     each->setFocus(Qt::MouseFocusReason);
-    this->press_key("Ctrl+A");
+    if (QApplication::focusWidget() != each)
+    {
+      return QObject::tr("the field '%1' does not take the keyboard").arg(field);
+    }
+    auto* line = qobject_cast<QLineEdit*>(each);
+    line = line ? line : each->findChild<QLineEdit*>();
+    line->selectAll();
     for (const QChar letter : text)
     {
       QKeyEvent press(QEvent::KeyPress, letter.toUpper().unicode(), Qt::NoModifier, letter);
-      QApplication::sendEvent(QApplication::focusWidget(), &press);
+      QApplication::sendEvent(each, &press);
     }
     return {};
   }

@@ -40,9 +40,9 @@ public:
   Qt::MouseButtons buttons() const { return this->buttons_; }
 
   // ---- Everything else; a sentence, or empty ----
-  /// A file from the desktop, on the window.
+  /// Drop a file on the window.
   QString drop(const QString& file);
-  /// In place of what is in a field that is seen, by its accessible name.
+  /// Replace the text of the visible field that has this accessible name.
   QString type(const QString& text, const QString& field);
   /// What has the keyboard gets the key, or the entry of the menus whose shortcut it is.
   QString press_key(const QString& keys);

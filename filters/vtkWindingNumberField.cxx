@@ -532,7 +532,7 @@ bindpose::Status vtkWindingNumberField::Execute(
   const Index queries = !points ? whole.count()
     : this->SampleCellCenters   ? points->GetNumberOfCells()
                                 : points->GetNumberOfPoints();
-  const double built = bindpose::winding_build_share(surface->GetNumberOfCells(), queries);
+  const double built = bindpose::winding_build_fraction(surface->GetNumberOfCells(), queries);
   Status status;
   {
     const bindpose::Phase phase(context, "build", 0.0, built);

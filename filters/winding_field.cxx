@@ -31,7 +31,7 @@
 namespace bindpose
 {
 
-double winding_build_share(Index triangles, Index queries)
+double winding_build_fraction(Index triangles, Index queries)
 {
   constexpr double per_triangle = 1e-5;
   constexpr double per_query = 1e-7;

@@ -17,9 +17,9 @@ namespace bindpose
 {
 class ExecutionContext;
 
-/// The share of the seconds of a build and its queries that the build is expected to take. Measured
-/// on clean figures and on soups of leaves.
-double winding_build_share(Index triangles, Index queries);
+/// Return the expected fraction of the total time that the build takes, in [0, 1). Measured on
+/// clean figures and on soups of leaves.
+double winding_build_fraction(Index triangles, Index queries);
 
 /// Where to evaluate: a grid, or points. Both can be had in parts of whole layers (a z of the grid,
 /// a point).

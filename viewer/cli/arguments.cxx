@@ -163,7 +163,8 @@ std::string unexpected_argument(const Verb& verb, const std::vector<std::string>
       files += (files.empty() ? "" : " and ") + std::string(option.name);
     }
   }
-  return "'" + rest.front() + "' is not expected: all but " + files + " is given by an option";
+  return "unexpected argument '" + rest.front() + "': only " + files +
+    " is given without an option";
 }
 
 void fill_defaults(const std::vector<Option>& options, Arguments& arguments)

@@ -23,8 +23,8 @@ constexpr bool is_blank(char c)
   return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n');
 }
 
-/// Where the first blank of a text is, or the first other sign; its size: nowhere. Several times as
-/// fast as find_first_of() with a list of blanks.
+/// Return the index of the first blank (or of the first other character); text.size() if there is
+/// none. Several times as fast as find_first_of() with a list of blanks.
 template <bool blank>
 std::size_t find_first(std::string_view text)
 {

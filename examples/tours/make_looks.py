@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Makes the pictures of viewer/README.md that hold VTK's default look against the window's, light and dark: the same
+"""Makes the pictures of viewer/window.md that hold VTK's default look against the window's, light and dark: the same
 mesh from the same place.
 
 usage: make_looks.py PROGRAM    (the program bindpose; needs VTK's Python and a display, for instance xvfb-run)

@@ -47,7 +47,7 @@ const std::vector<Verb>& verbs();
 /// What every verb takes.
 const std::vector<Option>& common_options();
 
-/// The table as Markdown, as it stands in viewer/README.md.
+/// The table as Markdown, as it stands in viewer/command_line.md.
 std::string option_table_markdown();
 
 } // namespace bindpose::cli

@@ -41,7 +41,7 @@ struct Session
   QStringList notes; ///< sentences about what is missing or has changed
 };
 
-/// **Session files** (`NAME.bindpose`) are JSON; viewer/README.md documents the schema. Inputs are
+/// **Session files** (`NAME.bindpose`) are JSON; viewer/sessions_and_tours.md documents the schema. Inputs are
 /// named by paths relative to the session file and by their SHA-256; what no input holds, surfaces,
 /// weights and volumes that were made here, is in companions beside it, `NAME.surface-HASH.vtp`,
 /// `NAME.tets-HASH.vtu` and `NAME.volume-HASH.vti`, named after their contents.

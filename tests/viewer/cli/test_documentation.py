@@ -1,4 +1,4 @@
-"""The tables of options and keys in viewer/README.md are the program's own, and no page links to what is not there."""
+"""The tables of options and keys in the viewer's pages are the program's own, and no page has a dead link."""
 
 import pathlib
 import re
@@ -8,18 +8,18 @@ import pytest
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
 
-@pytest.mark.parametrize("verb, end", [
-    ("option-table", "<!-- end of the table -->\n"),
-    ("key-table", "<!-- end of the keys -->\n"),
+@pytest.mark.parametrize("verb, page, end", [
+    ("option-table", "command_line.md", "<!-- end of the table -->\n"),
+    ("key-table", "window.md", "<!-- end of the keys -->\n"),
 ])
-def test_readme_is_in_step(folder, verb, end):
+def test_page_is_in_step(folder, verb, page, end):
     table = folder.run(verb).is_good().out
-    text = (ROOT / "viewer" / "README.md").read_text()
+    text = (ROOT / "viewer" / page).read_text()
     begin = f"<!-- bindpose {verb} -->\n"
     assert begin in text and end in text
     documented = text.split(begin)[1].split(end)[0]
     assert documented.strip() == table.strip(), (
-        f"viewer/README.md is out of step; put the output of 'bindpose {verb}' between its marks")
+        f"viewer/{page} is out of step; put the output of 'bindpose {verb}' between its marks")
 
 
 def pages():

@@ -118,8 +118,8 @@ struct Tour
 };
 
 /// Reads a tour: JSON, {"tour": {"schema": 1, …}, "steps": [{"open": "a.off"}, …]}; the format is
-/// told in viewer/sessions_and_tours.md. invalid_input, one sentence that names the step, for whatever is not
-/// of it, unknown fields included.
+/// told in viewer/sessions_and_tours.md. invalid_input, one sentence that names the step, for
+/// whatever is not of it, unknown fields included.
 Status parse_tour(const std::string& text, Tour& tour);
 /// The same of a file, whose name the sentence begins with.
 Status read_tour(const std::string& path, Tour& tour);

@@ -9,7 +9,8 @@ namespace bindpose
 {
 
 /// What the window shows, in numbers and words by name: what a tour checks and writes beside its
-/// pictures. Names and meanings are told in viewer/sessions_and_tours.md; what does not apply is absent.
+/// pictures. Names and meanings are told in viewer/sessions_and_tours.md; what does not apply is
+/// absent.
 nlohmann::ordered_json tour_values(MainWindow* window);
 
 /// The distance between two values: the largest of any component; of words 0 or infinite; infinite,

@@ -41,10 +41,11 @@ struct Session
   QStringList notes; ///< sentences about what is missing or has changed
 };
 
-/// **Session files** (`NAME.bindpose`) are JSON; viewer/sessions_and_tours.md documents the schema. Inputs are
-/// named by paths relative to the session file and by their SHA-256; what no input holds, surfaces,
-/// weights and volumes that were made here, is in companions beside it, `NAME.surface-HASH.vtp`,
-/// `NAME.tets-HASH.vtu` and `NAME.volume-HASH.vti`, named after their contents.
+/// **Session files** (`NAME.bindpose`) are JSON; viewer/sessions_and_tours.md documents the schema.
+/// Inputs are named by paths relative to the session file and by their SHA-256; what no input
+/// holds, surfaces, weights and volumes that were made here, is in companions beside it,
+/// `NAME.surface-HASH.vtp`, `NAME.tets-HASH.vtu` and `NAME.volume-HASH.vti`, named after their
+/// contents.
 ///
 /// Nothing is ever half-written: companions are on the disk before the session that names them
 /// takes the place of the last one, in one step, and only then those that nobody names any more

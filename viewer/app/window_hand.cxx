@@ -194,8 +194,7 @@ void WindowHand::scrub(double seconds)
   }
 }
 
-// ---- Files, keys and menus
-// ----------------------------------------------------------------------------
+// ---- Files, keys and menus ---------------------------------------------------------------------
 
 QString WindowHand::drop(const QString& file)
 {

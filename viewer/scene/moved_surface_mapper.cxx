@@ -3,6 +3,7 @@
 #include "scene/moved_surface_mapper.h"
 
 #include "base/parallel.h"
+#include "conversion.h"
 
 #include "vtkActor.h"
 #include "vtkBoundingBox.h"
@@ -19,7 +20,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <limits>
 
 namespace bindpose
 {
@@ -112,10 +112,7 @@ void MovedSurfaceMapper::BuildBufferObjects(vtkRenderer* renderer, vtkActor* act
 void MovedSurfaceMapper::ComputeBounds()
 {
   vtkPolyData* surface = this->GetInput();
-  auto* places = surface && surface->GetNumberOfPoints() > 0
-    ? vtkDoubleArray::SafeDownCast(surface->GetPoints()->GetData())
-    : nullptr;
-  if (!places)
+  if (!surface || surface->GetNumberOfPoints() == 0)
   {
     this->Superclass::ComputeBounds();
     return;
@@ -126,31 +123,9 @@ void MovedSurfaceMapper::ComputeBounds()
     return;
   }
   this->bounds_time_ = time;
-  const double* at = places->GetPointer(0);
-  constexpr Index block = 16384;
-  const auto count = static_cast<Index>(places->GetNumberOfTuples());
-  std::vector<vtkBoundingBox> boxes(static_cast<std::size_t>((count + block - 1) / block));
-  ExecutionContext context;
-  parallel_for(context, count, block,
-    [&](Index begin, Index end)
-    {
-      Vec3 lower = Vec3::Constant(std::numeric_limits<double>::infinity()), upper = -lower;
-      for (Index v = begin; v < end; ++v)
-      {
-        const Eigen::Map<const Vec3> place(at + 3 * v);
-        lower = lower.cwiseMin(place);
-        upper = upper.cwiseMax(place);
-      }
-      vtkBoundingBox& box = boxes[static_cast<std::size_t>(begin / block)];
-      box.SetMinPoint(lower.data());
-      box.SetMaxPoint(upper.data());
-    });
-  vtkBoundingBox all;
-  for (const vtkBoundingBox& box : boxes)
-  {
-    all.AddBox(box);
-  }
-  all.GetBounds(this->Bounds);
+  const Box box = bounding_box(to_points(surface).view());
+  vtkBoundingBox(box.lower[0], box.upper[0], box.lower[1], box.upper[1], box.lower[2], box.upper[2])
+    .GetBounds(this->Bounds);
 }
 
 /// Disable VTK's shift and scale where single precision is accurate without them.

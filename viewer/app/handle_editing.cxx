@@ -55,7 +55,7 @@ HandleEditing::HandleEditing(
   if (auto* over = qobject_cast<QBoxLayout*>(viewport->layout()))
   {
     over->insertWidget(0, this->bar_, 0, Qt::AlignLeft | Qt::AlignTop);
-    over->addWidget(this->nothing_, 0, Qt::AlignHCenter | Qt::AlignBottom);
+    over->addWidget(this->nothing_, 0, Qt::AlignRight | Qt::AlignBottom); // legends are on the left
   }
   QObject::connect(this->bar_, &ModeBar::done_wanted, this, [this] { this->set_mode(pose); });
   QObject::connect(this->bar_, &ModeBar::end_cage_wanted, this,

@@ -20,8 +20,7 @@ StartCard::StartCard(QAction* auto_rig, QWidget* parent) : QFrame(parent)
   QObject::connect(
     auto_rig, &QAction::changed, rig, [auto_rig, rig] { rig->setEnabled(auto_rig->isEnabled()); });
   row->addWidget(rig);
-  row->addWidget(
-    new QLabel(tr("makes bones along the shape and binds it, ready to drag.<br>"
-                  "<b>By hand:</b> A adds points, B bones, C a cage, P regions; or open handles."),
-      this));
+  row->addWidget(new QLabel(tr("makes bones along the shape and binds it.<br>"
+                               "<b>By hand:</b> A points, B bones, C cage, P regions"),
+    this));
 }

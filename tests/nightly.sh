@@ -2,8 +2,8 @@
 # What is too long for tests/run.sh: sanitizers, the build without GPL and AGPL parts and OpenVDB, naming on all
 # files, the quickstart, every surface of libcgal-demo and every made horror through the mesher, weights of twenty
 # surfaces with their certificates, every night 300 other random unclean surfaces and 800,000 other poses, every verb on
-# a million triangles to its end and interrupted, weights and tets of hostile models and of 820 real furniture models,
-# the plugin in ParaView, a monkey in the window under sanitizers. Ends with a summary.
+# a million triangles to its end and interrupted, weights and tets of hostile models and of a third of 820 real furniture
+# models (every night another third), the plugin in ParaView, a monkey in the window under sanitizers. Ends with a summary.
 # usage: tests/nightly.sh [PART…]   (default: all)
 # parts: asan permissive tidy quickstart surfaces weights fuzz drags scale hostile real paraview monkey
 set -uo pipefail
@@ -99,7 +99,9 @@ hostile()
 
 real()
 { # on as many models at once as there are cores: tests/real_meshes.md comes from a run with one at a time
+  local slice=${BINDPOSE_REAL_SLICE:-$((BINDPOSE_FUZZ_NIGHT % 3 + 1))/3} # 1/1: all models
   /usr/bin/python3 "$root/tests/real_meshes.py" --build "$build_dir" --jobs "$(nproc)" --threads 1 --accuracy 12 \
+    --slice "$slice" \
     --csv "$build_dir/nightly-real.csv" --markdown "$build_dir/nightly-real.md" \
     --check 'accuracy_rms_median<=0.015' 'weights_leak_max<=0.01'
 }

@@ -14,6 +14,7 @@ volumes; a refusal must be true. One row per model goes to a .csv file, a summar
 
     real_meshes.py --build build                              everything: hours
     real_meshes.py --build build --sample 40                  40 models, the same ones every time, of all sizes
+    real_meshes.py --build build --slice 2/3                  the second, fifth, eighth… model by name
     real_meshes.py --build build --only scopia/cup scopia/keys --verb weights
     real_meshes.py --build build --set made --check           a minute: furniture of our own making
     real_meshes.py --build build --verb none --accuracy 10    weights of ten models beside those on well-shaped tets
@@ -128,7 +129,9 @@ def sample(models, count):
 
 def named_models(options, folder):
     models = real_models() if options.set == "furniture" else made_models(folder, options.set)
-    return [model for model in models if not options.only or any(word in model.name for word in options.only)]
+    first, step = options.slice
+    return [model for model in models[first - 1::step]
+            if not options.only or any(word in model.name for word in options.only)]
 
 
 # ---- Processes -------------------------------------------------------------------------------------
@@ -538,12 +541,21 @@ def check_goal_names(parser, options):
 # ---- Options ---------------------------------------------------------------------------------------
 
 
+def slice_of_models(text):
+    first, _, step = text.partition("/")
+    if not (first.isdigit() and step.isdigit() and 1 <= int(first) <= int(step)):
+        raise argparse.ArgumentTypeError(f"'{text}' is not valid: expected K/N with integers 1 <= K <= N")
+    return int(first), int(step)
+
+
 def parse_options():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--build", type=pathlib.Path, required=True, help="build folder with bin/bindpose")
     parser.add_argument("--set", choices=["furniture", "made", "hostile"], default="furniture",
                         help="models of the package, or made ones (default: furniture)")
     parser.add_argument("--sample", type=int, default=0, metavar="N", help="only N models, the same ones every time")
+    parser.add_argument("--slice", type=slice_of_models, default=(1, 1), metavar="K/N",
+                        help="only every N-th model by name, from the K-th on (default: 1/1)")
     parser.add_argument("--only", nargs="+", metavar="NAME", help="only models whose names contain one of these")
     parser.add_argument("--verb", choices=["weights", "tetrahedralize", "both", "none"], default="both")
     parser.add_argument("--accuracy", type=int, nargs="?", const=40, default=0, metavar="N",

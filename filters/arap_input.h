@@ -30,7 +30,7 @@ Status bind_reduced(Filter& filter, Kernel& kernel, const Input& input, Executio
 {
   options.clusters = filter.GetNumberOfClusters();
   options.extra_weights = filter.GetNumberOfExtraWeights();
-  options.extra_kind = static_cast<ExtraWeights>(filter.GetExtraWeights());
+  options.extra_kind = static_cast<ExtraWeights>(filter.GetExtraWeightsKind());
   ArapElements elements;
   const Status status = to_arap(input.mesh, filter.GetEnergy(), elements, options.energy);
   if (!status.ok())

@@ -42,7 +42,7 @@ bindpose::Status vtkAutomaticHandles::Execute(
   options.skeleton.memory_limit = this->MemoryLimit;
   options.bones.tolerance = this->BoneTolerance;
   options.bones.longest_bone = this->LongestBone;
-  options.bones.most_bones = this->MostBones;
+  options.bones.maximum_bones = this->MaximumBones;
   options.bones.prune = this->Prune;
   options.points.count = this->NumberOfPoints;
   options.points.distance = static_cast<bindpose::PointDistance>(this->Distance);
@@ -67,7 +67,7 @@ void vtkAutomaticHandles::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Distance: " << to_string(static_cast<bindpose::PointDistance>(this->Distance))
      << "\n";
   os << indent << "PlaceInside: " << (this->PlaceInside ? "on" : "off") << "\n";
-  os << indent << "MostBones: " << this->MostBones << "\n";
+  os << indent << "MaximumBones: " << this->MaximumBones << "\n";
   os << indent << "BoneTolerance: " << this->BoneTolerance << "\n";
   os << indent << "LongestBone: " << this->LongestBone << "\n";
   os << indent << "Prune: " << this->Prune << "\n";

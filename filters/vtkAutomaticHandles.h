@@ -104,8 +104,8 @@ public:
 
   ///@{
   /// SKELETON: bones at most; 0 (default): any number. A component keeps one.
-  vtkSetClampMacro(MostBones, int, 0, VTK_INT_MAX);
-  vtkGetMacro(MostBones, int);
+  vtkSetClampMacro(MaximumBones, int, 0, VTK_INT_MAX);
+  vtkGetMacro(MaximumBones, int);
   ///@}
 
   ///@{
@@ -170,7 +170,7 @@ private:
   int NumberOfPoints = 8;
   int Distance = ALONG_EDGES;
   bool PlaceInside = true;
-  int MostBones = 0;
+  int MaximumBones = 0;
   double BoneTolerance = 0.03;
   double LongestBone = 0.0;
   double Prune = 1.0;

@@ -134,10 +134,10 @@ void vtkCrowdDeformation::SetNumberOfExtraWeights(int extra)
   this->SetBindParameter(this->NumberOfExtraWeights, extra);
 }
 
-void vtkCrowdDeformation::SetExtraWeights(int kind)
+void vtkCrowdDeformation::SetExtraWeightsKind(int kind)
 {
   kind = std::clamp<int>(kind, vtkReducedARAP::BUMPS, vtkReducedARAP::EIGENMODES);
-  this->SetBindParameter(this->ExtraWeights, kind);
+  this->SetBindParameter(this->ExtraWeightsKind, kind);
 }
 
 void vtkCrowdDeformation::SetSmallestWeight(double smallest)
@@ -280,8 +280,8 @@ void vtkCrowdDeformation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Energy: " << arap_energy_name(this->Energy) << "\n";
   os << indent << "NumberOfClusters: " << this->NumberOfClusters << "\n";
   os << indent << "NumberOfExtraWeights: " << this->NumberOfExtraWeights << "\n";
-  os << indent << "ExtraWeights: "
-     << (this->ExtraWeights == vtkReducedARAP::EIGENMODES ? "eigenmodes" : "bumps") << "\n";
+  os << indent << "ExtraWeightsKind: "
+     << (this->ExtraWeightsKind == vtkReducedARAP::EIGENMODES ? "eigenmodes" : "bumps") << "\n";
   os << indent << "SmallestWeight: " << this->SmallestWeight << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";

@@ -65,8 +65,8 @@ public:
   vtkGetMacro(NumberOfClusters, int);
   void SetNumberOfExtraWeights(int extra);
   vtkGetMacro(NumberOfExtraWeights, int);
-  void SetExtraWeights(int kind);
-  vtkGetMacro(ExtraWeights, int);
+  void SetExtraWeightsKind(int kind);
+  vtkGetMacro(ExtraWeightsKind, int);
   ///@}
 
   ///@{
@@ -144,7 +144,7 @@ private:
   int Energy = 0;
   int NumberOfClusters = 0;
   int NumberOfExtraWeights = 0;
-  int ExtraWeights = 0;
+  int ExtraWeightsKind = 0;
   double SmallestWeight = 0.0;
   int MaximumIterations = 100;
   double Tolerance = 1e-6;

@@ -44,10 +44,10 @@ void vtkReducedARAP::SetNumberOfExtraWeights(int extra)
   this->SetBindParameter(this->NumberOfExtraWeights, extra);
 }
 
-void vtkReducedARAP::SetExtraWeights(int kind)
+void vtkReducedARAP::SetExtraWeightsKind(int kind)
 {
   kind = std::clamp<int>(kind, BUMPS, EIGENMODES);
-  this->SetBindParameter(this->ExtraWeights, kind);
+  this->SetBindParameter(this->ExtraWeightsKind, kind);
 }
 
 Status vtkReducedARAP::Bind(const PoseInput& input, ExecutionContext& context)
@@ -100,7 +100,7 @@ void vtkReducedARAP::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Energy: " << arap_energy_name(this->Energy) << "\n";
   os << indent << "NumberOfClusters: " << this->NumberOfClusters << "\n";
   os << indent << "NumberOfExtraWeights: " << this->NumberOfExtraWeights << "\n";
-  os << indent << "ExtraWeights: " << (this->ExtraWeights == EIGENMODES ? "eigenmodes" : "bumps")
+  os << indent << "ExtraWeightsKind: " << (this->ExtraWeightsKind == EIGENMODES ? "eigenmodes" : "bumps")
      << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";

@@ -95,8 +95,8 @@ public:
    * (Benchekroun et al. 2023), the smoothest weights that vanish at the handles. Default BUMPS. A
    * bind parameter.
    */
-  void SetExtraWeights(int kind);
-  vtkGetMacro(ExtraWeights, int);
+  void SetExtraWeightsKind(int kind);
+  vtkGetMacro(ExtraWeightsKind, int);
   ///@}
 
   ///@{
@@ -182,7 +182,7 @@ private:
   int Energy = AUTO;
   int NumberOfClusters = 0;
   int NumberOfExtraWeights = 0;
-  int ExtraWeights = BUMPS;
+  int ExtraWeightsKind = BUMPS;
   int MaximumIterations = 100;
   double Tolerance = 1e-6;
   double TimeBudget = 0.0;

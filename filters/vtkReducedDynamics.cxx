@@ -62,10 +62,10 @@ void vtkReducedDynamics::SetNumberOfExtraWeights(int extra)
   this->SetBindParameter(this->NumberOfExtraWeights, extra);
 }
 
-void vtkReducedDynamics::SetExtraWeights(int kind)
+void vtkReducedDynamics::SetExtraWeightsKind(int kind)
 {
   kind = std::clamp<int>(kind, vtkReducedARAP::BUMPS, vtkReducedARAP::EIGENMODES);
-  this->SetBindParameter(this->ExtraWeights, kind);
+  this->SetBindParameter(this->ExtraWeightsKind, kind);
 }
 
 void vtkReducedDynamics::SetTimeStep(double seconds)
@@ -278,8 +278,8 @@ void vtkReducedDynamics::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Energy: " << arap_energy_name(this->Energy) << "\n";
   os << indent << "NumberOfClusters: " << this->NumberOfClusters << "\n";
   os << indent << "NumberOfExtraWeights: " << this->NumberOfExtraWeights << "\n";
-  os << indent << "ExtraWeights: "
-     << (this->ExtraWeights == vtkReducedARAP::EIGENMODES ? "eigenmodes" : "bumps") << "\n";
+  os << indent << "ExtraWeightsKind: "
+     << (this->ExtraWeightsKind == vtkReducedARAP::EIGENMODES ? "eigenmodes" : "bumps") << "\n";
   os << indent << "TimeStep: " << this->TimeStep << "\n";
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
   os << indent << "Step: " << this->Step << "\n";

@@ -48,8 +48,8 @@ public:
   vtkGetMacro(NumberOfClusters, int);
   void SetNumberOfExtraWeights(int extra);
   vtkGetMacro(NumberOfExtraWeights, int);
-  void SetExtraWeights(int kind);
-  vtkGetMacro(ExtraWeights, int);
+  void SetExtraWeightsKind(int kind);
+  vtkGetMacro(ExtraWeightsKind, int);
   ///@}
 
   ///@{
@@ -175,7 +175,7 @@ private:
   int Energy = 0;
   int NumberOfClusters = 0;
   int NumberOfExtraWeights = 0;
-  int ExtraWeights = 0;
+  int ExtraWeightsKind = 0;
   double TimeStep = 1.0 / 24.0;
   int NumberOfSteps = 100;
   int Step = 0;

@@ -398,7 +398,7 @@ void vtkWeightsAlgorithm::SetMaximumInfluences(int influences)
 
 void vtkWeightsAlgorithm::SetPartitionOfUnity(int mode)
 {
-  mode = std::clamp(mode, int(NORMALISE), int(COUPLED));
+  mode = std::clamp(mode, int(NORMALIZE), int(COUPLED));
   this->SetBindParameter(this->PartitionOfUnity, mode);
 }
 

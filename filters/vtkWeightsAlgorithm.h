@@ -262,13 +262,13 @@ public:
 
   enum PartitionOfUnityMode
   {
-    NORMALISE = 0,
+    NORMALIZE = 0,
     COUPLED = 1
   };
 
   ///@{
   /**
-   * How rows come to sum to one. NORMALISE (default): every column is solved for alone, rows are
+   * How rows come to sum to one. NORMALIZE (default): every column is solved for alone, rows are
    * divided by their sums. COUPLED (bounded weights alone): all columns are solved for together
    * with the sums as constraints: the original definition, several times as slow and many times the
    * memory.
@@ -330,7 +330,7 @@ private:
   double MirrorNormal[3] = { 0.0, 0.0, 0.0 };
   double MirrorOrigin[3] = { 0.0, 0.0, 0.0 };
   int MaximumInfluences = 0;
-  int PartitionOfUnity = NORMALISE;
+  int PartitionOfUnity = NORMALIZE;
   std::unique_ptr<bindpose::TermArrayNames> TermNames;
   int NumberOfBinds = 0;
   vtkTimeStamp BindTime;

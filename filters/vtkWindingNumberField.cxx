@@ -453,7 +453,7 @@ bindpose::Status vtkWindingNumberField::Grid(vtkPointSet* input, bindpose::Sampl
   std::copy_n(this->Spacing, 3, request.spacing);
   std::copy_n(this->Bounds, 6, request.bounds);
   request.count = this->TargetNumberOfSamples;
-  request.samples_along_longest_side = this->SamplesAlongLongestSide;
+  request.samples_along_longest_side = this->Resolution;
   request.padding = this->Padding;
   request.flat = flat;
   return bindpose::make_grid(request, box, grid);
@@ -584,7 +584,7 @@ bindpose::Status vtkWindingNumberField::Execute(
   if (arrays.empty())
   {
     Outputs outputs(samples.count(), single, this->ComputeGradient, this->ComputeInside);
-    outputs.threshold = this->Threshold;
+    outputs.threshold = this->WindingThreshold;
     evaluated = evaluate(this->Built->field, samples, context, outputs, sum);
     if (!evaluated.ok())
     {
@@ -637,7 +637,7 @@ void vtkWindingNumberField::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Spacing: " << this->Spacing[0] << " " << this->Spacing[1] << " "
      << this->Spacing[2] << "\n";
   os << indent << "TargetNumberOfSamples: " << this->TargetNumberOfSamples << "\n";
-  os << indent << "SamplesAlongLongestSide: " << this->SamplesAlongLongestSide << "\n";
+  os << indent << "Resolution: " << this->Resolution << "\n";
   os << indent << "Bounds:";
   for (const double bound : this->Bounds)
   {
@@ -647,7 +647,7 @@ void vtkWindingNumberField::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "SampleCellCenters: " << this->SampleCellCenters << "\n";
   os << indent << "ComputeGradient: " << this->ComputeGradient << "\n";
   os << indent << "ComputeInside: " << this->ComputeInside << "\n";
-  os << indent << "Threshold: " << this->Threshold << "\n";
+  os << indent << "WindingThreshold: " << this->WindingThreshold << "\n";
   os << indent
      << "OutputPrecision: " << (this->OutputPrecision == SINGLE_PRECISION ? "SINGLE" : "DOUBLE")
      << "\n";

@@ -19,7 +19,7 @@
  * - `WindingNumber`, the active scalars, double or float (OutputPrecision). On the surface the
  *   principal value: 1/2 on a smooth face. NaN, and a warning, where coordinates are not finite.
  * - `OnSurface`, unsigned char: 1 where a triangle touches the point, else 0.
- * - `Inside` with ComputeInside, unsigned char: 1 where the winding number is at least Threshold.
+ * - `Inside` with ComputeInside, unsigned char: 1 where the winding number is at least WindingThreshold.
  * - `WindingNumberGradient` with ComputeGradient, three components: that of the smooth part, the
  *   jump across the surface left out; 0 everywhere for a closed surface. That of oriented points
  *   has no jump: it is large where they are near.
@@ -34,7 +34,7 @@
  *
  * The grid covers the surface's bounds (of the points that its 2D cells use), padded by Padding
  * times their diagonal, or Bounds. How fine it is: Dimensions, else Spacing, else
- * TargetNumberOfSamples, else SamplesAlongLongestSide. Voxels are cubes unless Spacing, or both
+ * TargetNumberOfSamples, else Resolution. Voxels are cubes unless Spacing, or both
  * Bounds and Dimensions, say otherwise. Its place depends on the surface, so asking for information
  * updates the input. Sub-extents are honoured, with the same bits as in the whole, so that a grid
  * of any size can be had in parts (vtkImageDataStreamer, pieces).
@@ -162,8 +162,8 @@ public:
 
   ///@{
   /// Samples along the grid's longest side, at least 2; default 64.
-  vtkSetClampMacro(SamplesAlongLongestSide, int, 2, VTK_INT_MAX);
-  vtkGetMacro(SamplesAlongLongestSide, int);
+  vtkSetClampMacro(Resolution, int, 2, VTK_INT_MAX);
+  vtkGetMacro(Resolution, int);
   ///@}
 
   ///@{
@@ -211,8 +211,8 @@ public:
 
   ///@{
   /// Inside is where the winding number is at least this; default 0.5.
-  vtkSetMacro(Threshold, double);
-  vtkGetMacro(Threshold, double);
+  vtkSetMacro(WindingThreshold, double);
+  vtkGetMacro(WindingThreshold, double);
   ///@}
 
   ///@{
@@ -261,13 +261,13 @@ private:
   int Dimensions[3] = { 0, 0, 0 };
   double Spacing[3] = { 0.0, 0.0, 0.0 };
   vtkIdType TargetNumberOfSamples = 0;
-  int SamplesAlongLongestSide = 64;
+  int Resolution = 64;
   double Bounds[6] = { 0.0, -1.0, 0.0, -1.0, 0.0, -1.0 };
   double Padding = 0.1;
   bool SampleCellCenters = false;
   bool ComputeGradient = false;
   bool ComputeInside = false;
-  double Threshold = 0.5;
+  double WindingThreshold = 0.5;
   int OutputPrecision = DOUBLE_PRECISION;
   int NumberOfBuilds = 0;
   vtkTimeStamp CompositeTime; // when a composite input was last seen

@@ -48,7 +48,7 @@ def bend(mesh, handles, pose, count, kind):
     poser.SetPoseJSON(json.dumps({"handles": pose}))
     bender = bindpose.vtkReducedARAP()
     bender.SetNumberOfExtraWeights(count)
-    bender.SetExtraWeights(bender.EIGENMODES if kind == "eigenmodes" else bender.BUMPS)
+    bender.SetExtraWeightsKind(bender.EIGENMODES if kind == "eigenmodes" else bender.BUMPS)
     bender.SetNumberOfClusters(60)
     bender.SetMaximumIterations(5000)
     bender.SetInputData(0, mesh)

@@ -8,8 +8,9 @@ from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 
 from . import BindposeFilters as filters
 from .errors import InvalidInput
-from .functions import _ENERGIES, _choice, _make_poser, _posed_handles
+from .functions import _make_poser, _posed_handles
 from .meshes import Array, copy_report, is_dataset, points_of, shallow_copy
+from .options import with_options
 from .running import run
 
 
@@ -23,9 +24,8 @@ def _placement(place):
     raise InvalidInput(f"a placement is a translation, a 3x4 or a 4x4 matrix, not an array of shape {place.shape}")
 
 
-def crowd(mesh, handles, poses, *, placements=None, weights=None, energy="auto", clusters=0, iterations=0,
-          tolerance=1e-6, mixed_precision=True, extra_weights=0, extra_kind="bumps", appended=False, threads=0,
-          progress=None):
+@with_options("arap", "reduced_arap_bind")
+def crowd(mesh, handles, poses, *, placements=None, weights=None, appended=False, options, threads=0, progress=None):
     """Bend many instances of a mesh, each to a pose of its own, by reduced as-rigid-as-possible.
 
     The mesh is bound once; an instance costs its iterations and its points, in single precision.
@@ -38,12 +38,9 @@ def crowd(mesh, handles, poses, *, placements=None, weights=None, energy="auto",
         Dicts or files, see `deform`: an instance a pose, or a frame of ``{"frames": [...]}``.
     placements : sequence, optional
         Where each instance stands: translations, 3x4 or 4x4 matrices, applied to the posed mesh.
-    energy, iterations, tolerance, mixed_precision, extra_weights, extra_kind
-        See `deform`, of reduced-arap.
-    clusters : int
-        Rotations fitted in an iteration; 0: four a handle.
     appended : bool
         For a dataset: all instances in one, with the point array ``Instance``.
+    {options}
     threads, progress
         See `winding_number`.
 
@@ -61,8 +58,6 @@ def crowd(mesh, handles, poses, *, placements=None, weights=None, energy="auto",
     -----
     A crowd that moves keeps a ``vtkCrowdDeformation``: it is bound once, and each instance starts from its last pose.
     """
-    _choice(energy, _ENERGIES, "energy")
-    _choice(extra_kind, ("bumps", "eigenmodes"), "extra_kind")
     data, posed = _posed_handles(mesh, handles, {"handles": {}}, weights)
     rest = posed.GetInputDataObject(0, 0)
     instances = vtkMultiBlockDataSet()
@@ -82,14 +77,7 @@ def crowd(mesh, handles, poses, *, placements=None, weights=None, energy="auto",
             array.SetName("Placement")
             instances.GetBlock(k).GetFieldData().AddArray(array)
     bender = filters.vtkCrowdDeformation()
-    bender.SetEnergy(getattr(filters.vtkReducedARAP, energy.upper().replace("-", "_")))
-    bender.SetNumberOfClusters(int(clusters))
-    bender.SetNumberOfExtraWeights(int(extra_weights))
-    bender.SetExtraWeights(getattr(filters.vtkReducedARAP, extra_kind.upper()))
-    bender.SetTolerance(tolerance)
-    bender.SetMixedPrecision(bool(mixed_precision))
-    if iterations:
-        bender.SetMaximumIterations(int(iterations))
+    options.apply(bender, "arap", "reduced_arap_bind")
     bender.SetOutputType(bender.APPENDED if appended and is_dataset(mesh) else bender.COLLECTION)
     bender.SetNumberOfThreads(threads)
     bender.SetInputData(0, data)

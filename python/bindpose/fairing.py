@@ -5,28 +5,11 @@ import numpy as np
 from . import BindposeFilters as filters
 from .errors import InvalidInput
 from .meshes import Array, add_point_array, is_dataset, points_of, shallow_copy, to_dataset
+from .options import with_options
 from .running import run
 
-_BOUNDARIES = ("region", "curve", "tangent")
-_SOURCES = ("surroundings", "given", "clamped")
-
-
-def make_variational(order, boundary, tangents):
-    """The filter with its parameters checked."""
-    if order not in (1, 2, 3):
-        raise InvalidInput(f"order is 1, 2 or 3, not {order!r}")
-    for value, words, name in ((boundary, _BOUNDARIES, "boundary"), (tangents, _SOURCES, "tangents")):
-        if value not in words:
-            raise InvalidInput(f"{name} is one of {', '.join(words)}, not {value!r}")
-    surface = filters.vtkVariationalSurface()
-    surface.SetOrder(order)
-    surface.SetBoundary(_BOUNDARIES.index(boundary))
-    surface.SetTangentSource(_SOURCES.index(tangents))
-    return surface
-
-
-def fair(mesh, fixed=None, *, order=2, boundary="region", tangents="surroundings", parameters=None, load=None,
-         threads=0, progress=None):
+@with_options("variational")
+def fair(mesh, fixed=None, *, tangents=None, parameters=None, load=None, options, threads=0, progress=None):
     """Make the free points of a surface anew, smoothly between the fixed ones: for holes and blends.
 
     Each coordinate solves Laplace's equation of an order (mixed finite elements, Jacobson et al. 2010).
@@ -38,18 +21,14 @@ def fair(mesh, fixed=None, *, order=2, boundary="region", tangents="surroundings
         areas are taken from them.
     fixed : (#V,) array of bool or ids, optional
         The vertices that stay; default: the dataset's point array ``Fixed``.
-    order : {1, 2, 3}
-        1 a membrane, 2 a thin plate, 3 smoother still.
-    boundary : {"region", "curve", "tangent"}
-        What holds at the edge: a band of `order` layers of fixed vertices, continued smoothly; the edge's place
-        alone; or place and tangents.
-    tangents : {"surroundings", "given", "clamped"} or (#V, 3) array
-        Of boundary "tangent": those of the triangles beyond the edge; the point array ``Tangents``, or this one:
-        derivatives of the place outwards, per unit of the parameter domain; or zero.
+    tangents : (#V, 3) array, optional
+        Derivatives of the position outward, per unit of the parameter domain: sets `tangent_source` to "given". Default:
+        the point array ``Tangents``.
     parameters : (#V, 2) or (#V, 3) array, optional
         Places in the parameter domain; default: the point array ``Parameterization``, or the mesh itself.
     load : (#V, 3) array, optional
         What (-Laplacian)^order is to be instead of zero.
+    {options}
     threads, progress
         See `winding_number`.
 
@@ -88,10 +67,11 @@ def fair(mesh, fixed=None, *, order=2, boundary="region", tangents="surroundings
         add("Parameterization", parameters, [(2,), (3,)])
     if load is not None:
         add("Load", load, [(3,)])
-    if not isinstance(tangents, str):
+    surface = filters.vtkVariationalSurface()
+    options.apply(surface, "variational")
+    if tangents is not None:
         add("Tangents", tangents, [(3,)])
-        tangents = "given"
-    surface = make_variational(order, boundary, tangents)
+        surface.SetTangentSource(surface.GIVEN)
     surface.FairOn()
     surface.SetInputData(data)
     surface.SetNumberOfThreads(threads)

@@ -11,6 +11,7 @@ from .BindposeFilters import vtkAutomaticHandles, vtkFarthestPointHandles
 from .errors import InvalidInput
 from .files import read_handles
 from .meshes import is_dataset, shallow_copy, to_dataset, to_vtk_points
+from .options import with_options
 from .running import run
 
 
@@ -115,42 +116,17 @@ def farthest_point_handles(surface, count=8):
     return spread.GetOutput()
 
 
-_DISTANCES = {"along-edges": "ALONG_EDGES", "straight": "STRAIGHT"}
 
 
-def automatic_handles(mesh, *, points=0, distance="along-edges", place_inside=True, most_bones=0, bone_tolerance=0.03,
-                      longest_bone=0.0, prune=1.0, skeleton_triangles=10000, winding_threshold=0.5, time_limit=120.0,
-                      memory_limit=0, threads=0, progress=None):
+@with_options("automatic_handles")
+def automatic_handles(mesh, *, options, threads=0, progress=None):
     """Make handles without a hand: bones along the shape's curve skeleton, or points spread over it.
 
     Parameters
     ----------
     mesh : vtkDataSet or (vertices, triangles)
         A surface, however unclean, or tets, whose boundary counts.
-    points : int
-        So many points p1, p2, …, each the farthest from all before it, instead of bones; every component that is no
-        crumb gets its share. 0 for bones b1, b2, …, with parents, away from the joint nearest to the centroid of
-        mass; a component like a ball gets a point.
-    distance : {"along-edges", "straight"}
-        Of points: along the surface's edges, or through space.
-    place_inside : bool
-        Of points: move them from the surface into the middle of the shape, where it has an inside.
-    most_bones : int
-        Bones at most; 0 for any number.
-    bone_tolerance : float
-        How far the curve skeleton may be from its bones, as a fraction of the diagonal, 0.001 to 1.
-    longest_bone : float
-        Longer bones are split, as a fraction of the diagonal, at least 0.01; 0: straight ones stay whole.
-    prune : float
-        Branches shorter than this times half of the thickness where they begin are no limbs.
-    skeleton_triangles : int
-        About as many even triangles are contracted to the curve skeleton, 100 to 1000000.
-    winding_threshold : float
-        Inside is where the winding number is at least this.
-    time_limit : float
-        Seconds for the helper process that contracts.
-    memory_limit : int
-        MiB for the helper process; 0 for none.
+    {options}
     threads, progress
         See `winding_number`.
 
@@ -166,23 +142,9 @@ def automatic_handles(mesh, *, points=0, distance="along-edges", place_inside=Tr
     Unavailable
         The helper program is not there, or an unclean surface is too thin to be filled.
     """
-    if distance not in _DISTANCES:
-        raise InvalidInput(f"distance {distance!r} is none of {', '.join(_DISTANCES)}")
     maker = vtkAutomaticHandles()
     maker.SetInputData(to_dataset(mesh))
-    if points:
-        maker.SetMethodToPoints()
-        maker.SetNumberOfPoints(int(points))
-    maker.SetDistance(getattr(maker, _DISTANCES[distance]))
-    maker.SetPlaceInside(bool(place_inside))
-    maker.SetMostBones(int(most_bones))
-    maker.SetBoneTolerance(bone_tolerance)
-    maker.SetLongestBone(longest_bone)
-    maker.SetPrune(prune)
-    maker.SetSkeletonTriangles(int(skeleton_triangles))
-    maker.SetWindingThreshold(winding_threshold)
-    maker.SetTimeLimit(time_limit)
-    maker.SetMemoryLimit(int(memory_limit))
+    options.apply(maker, "automatic_handles")
     maker.SetNumberOfThreads(threads)
     run(maker, progress)
     return maker.GetOutput()
@@ -197,7 +159,7 @@ def to_handles(value, surface):
         if colon and (not count.isdigit() or int(count) < 1):
             raise InvalidInput(f"handles {value!r}: behind {word}: stands how many, at least 1")
         if word == "skeleton":
-            return automatic_handles(surface, most_bones=int(count or 0))
+            return automatic_handles(surface, maximum_bones=int(count or 0))
         return farthest_point_handles(surface, int(count or 8))
     if isinstance(value, (str, os.PathLike)):
         return read_handles(value)

@@ -6,6 +6,7 @@ from vtkmodules.vtkCommonDataModel import vtkDataObject
 from . import BindposeFilters as filters
 from .errors import InvalidInput
 from .meshes import Array, add_point_array, is_dataset, point_array, shallow_copy, to_dataset
+from .options import with_options
 from .running import run
 
 _DATA = "Data"
@@ -30,9 +31,8 @@ def _to_list(maxima, minima, count):
     return result
 
 
-def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, extrema=None, persistence=0.05, count=0,
-                       data_weight=1e6, keep_values=False, order=2, guide="unconstrained", rebuilds=1, epsilon=0.0,
-                       tolerance=1e-6, maximum_iterations=100, memory_limit=0, threads=0, progress=None):
+@with_options("monotone_smoothing")
+def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, options, threads=0, progress=None):
     """Smooth data on a mesh and leave the extrema that are asked for, no other (topological simplification).
 
     The result is the smooth function nearest to the data among all whose only local extrema are those listed;
@@ -46,33 +46,7 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, extrema=Non
         Values at the vertices, or the name of a point array of the dataset; default: its active scalars.
     maxima, minima : sequence of int, optional
         Vertices that may be extrema. Every connected part needs both, or none: it becomes constant then.
-    extrema : (#V,) array or str, optional
-        The same list as an array: above 0 a maximum, below 0 a minimum, 0 neither; or the name of a point array.
-    persistence : float
-        Without a list: extrema of the data that are more persistent than this share of its range stay.
-    count : int
-        Without a list: so many of the most persistent ones stay; 0 for `persistence`.
-    data_weight : float
-        How faithful to be: detail finer than about six times ``data_weight ** (-1 / (2 * order))`` of the mesh's
-        size is smoothed away. 0: only the values at the extrema count, which are kept.
-    keep_values : bool
-        Extrema keep the data's values.
-    order : int
-        2 for the least bending, 3 (triharmonic) for smoother still.
-    guide : str
-        ``"unconstrained"``: the result rises as the smooth function without any order does, freed from other
-        extrema. ``"harmonic"``: as the harmonic function between the extrema does.
-    rebuilds : int
-        How often that order is taken anew from the result and solved for again; the energy never rises.
-    epsilon : float
-        Share of the data's range that each vertex is at least above a lower and below a higher neighbour.
-    tolerance : float
-        Largest relative gap and residual of the certificate.
-    maximum_iterations : int
-        At most for a solve.
-    memory_limit : int
-        MiB that the whole process may hold; 0: as much as the machine has available. What would take more
-        is refused before it is begun.
+    {options}
     threads, progress
         See `winding_number`.
 
@@ -88,10 +62,6 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, extrema=Non
     InvalidInput
         Data that are missing, not finite, or not one number a vertex; a list that lacks a maximum or a minimum.
     """
-    if order not in (2, 3):
-        raise InvalidInput(f"order is 2 or 3, not {order!r}")
-    if guide not in ("unconstrained", "harmonic"):
-        raise InvalidInput(f"guide is 'unconstrained' or 'harmonic', not {guide!r}")
     dataset = shallow_copy(to_dataset(mesh))
     vertices = dataset.GetNumberOfPoints()
     smoother = filters.vtkMonotoneSmoothing()
@@ -106,6 +76,7 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, extrema=Non
         smoother.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, name)
     elif not is_dataset(mesh):
         raise InvalidInput("a mesh of arrays needs data, one number a vertex")
+    extrema = options.extrema
     given = maxima is not None or minima is not None
     if given and extrema is not None:
         raise InvalidInput("the extrema are given twice: as maxima and minima, and as an array")
@@ -122,17 +93,7 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, extrema=Non
     else:
         smoother.SetExtremaArrayName("")
     smoother.SetInputData(dataset)
-    smoother.SetPersistence(float(persistence))
-    smoother.SetNumberOfExtrema(int(count))
-    smoother.SetDataWeight(float(data_weight))
-    smoother.SetKeepValues(bool(keep_values))
-    smoother.SetOrder(order)
-    smoother.SetGuide(smoother.HARMONIC if guide == "harmonic" else smoother.UNCONSTRAINED)
-    smoother.SetRebuilds(int(rebuilds))
-    smoother.SetEpsilon(float(epsilon))
-    smoother.SetTolerance(float(tolerance))
-    smoother.SetMaximumIterations(int(maximum_iterations))
-    smoother.SetMemoryLimit(int(memory_limit))
+    options.apply(smoother, "monotone_smoothing")
     smoother.SetNumberOfThreads(threads)
     report = run(smoother, progress)
     result = smoother.GetOutput()

@@ -6,6 +6,7 @@ from . import BindposeFilters as filters
 from .errors import InvalidInput
 from .handle_sets import to_handles, with_cell_values
 from .meshes import Array, add_point_array, is_dataset, point_array, shallow_copy, to_dataset
+from .options import with_options
 from .running import run
 
 
@@ -17,8 +18,8 @@ def _inputs(mesh, handles, weights, array_name):
     return data, to_handles(handles, data)
 
 
-def weighted_colors(mesh, handles, colors=None, *, weights=None, array_name="Weights", linear_light=True, clamp=True,
-                    threads=0, progress=None):
+@with_options("weighted_colors")
+def weighted_colors(mesh, handles, colors=None, *, weights=None, array_name="Weights", options, threads=0, progress=None):
     """Spread a colour of each handle over a mesh by its weights.
 
     Parameters
@@ -34,10 +35,7 @@ def weighted_colors(mesh, handles, colors=None, *, weights=None, array_name="Wei
         For a mesh of arrays.
     array_name : str
         Point array of weights; ``RawWeights`` is one, too.
-    linear_light : bool
-        Blend amounts of light instead of sRGB numbers: strong colours do not darken where they meet.
-    clamp : bool
-        Cut the result to 0 to 1.
+    {options}
     threads, progress
         See `winding_number`.
 
@@ -60,15 +58,15 @@ def weighted_colors(mesh, handles, colors=None, *, weights=None, array_name="Wei
     painter.SetInputData(0, data)
     painter.SetInputData(1, handle_data)
     painter.SetArrayName(array_name)
-    painter.SetLinearLight(bool(linear_light))
-    painter.SetClamp(bool(clamp))
+    options.apply(painter, "weighted_colors")
     painter.SetNumberOfThreads(threads)
     report = run(painter, progress)
     result = painter.GetOutput()
     return result if is_dataset(mesh) else Array(point_array(result, "ColorValues"), report)
 
 
-def endpoint_weights(mesh, handles, *, method="joints", domain="auto", threads=0, progress=None):
+@with_options("endpoint_weights")
+def endpoint_weights(mesh, handles, *, options, threads=0, progress=None):
     """How far along each bone every point is, 0 at its head to 1 at its tail: for bones that stretch and twist.
 
     Parameters
@@ -77,11 +75,7 @@ def endpoint_weights(mesh, handles, *, method="joints", domain="auto", threads=0
         A surface or tets.
     handles : vtkPolyData, str or path-like
         Handles with bones among them.
-    method : {"projection", "joints", "bounded"}
-        Projected to the bone; the ratio of bounded weights of its ends, which follows the shape; or a
-        bounded problem for each bone in which the weight is linear along it.
-    domain : {"auto", "volume", "embedding", "surface"}
-        See `weights`.
+    {options}
     threads, progress
         See `winding_number`.
 
@@ -96,17 +90,12 @@ def endpoint_weights(mesh, handles, *, method="joints", domain="auto", threads=0
     InvalidInput
         No bone; what `weights` refuses.
     """
-    if method not in ("projection", "joints", "bounded"):
-        raise InvalidInput(f"method is one of 'projection', 'joints', 'bounded', not {method!r}")
-    if domain not in ("auto", "volume", "embedding", "surface"):
-        raise InvalidInput(f"domain is one of 'auto', 'volume', 'embedding', 'surface', not {domain!r}")
     data = to_dataset(mesh)
     handle_data = to_handles(handles, data)
     solver = filters.vtkBoneEndpointWeights()
     solver.SetInputData(0, data)
     solver.SetInputData(1, handle_data)
-    solver.SetMethod(getattr(solver, method.upper()))
-    solver.SetDomain(getattr(filters.vtkWeightsAlgorithm, domain.upper()))
+    options.apply(solver, "endpoint_weights")
     solver.SetNumberOfThreads(threads)
     report = run(solver, progress)
     result = solver.GetOutput()
@@ -117,8 +106,8 @@ def endpoint_weights(mesh, handles, *, method="joints", domain="auto", threads=0
     return Array(point_array(result, "EndpointWeights"), report, names)
 
 
-def depth_order(mesh, handles, layers=None, *, weights=None, array_name="Weights", displace=True, scale=0.0, tie=1e-3,
-                threads=0, progress=None):
+@with_options("depth_order")
+def depth_order(mesh, handles, layers=None, *, weights=None, array_name="Weights", options, threads=0, progress=None):
     """Depth of a planar shape by its handles' layers: what is in front where a pose makes it overlap.
 
     Parameters
@@ -132,12 +121,7 @@ def depth_order(mesh, handles, layers=None, *, weights=None, array_name="Weights
         handles' cell array ``Layer``, else all 0.
     weights, array_name
         See `weighted_colors`.
-    displace : bool
-        Of a dataset: move points along z by their depth, for a depth buffer.
-    scale : float
-        Length of one layer along z; 0 for a thousandth of the mesh's diagonal.
-    tie : float
-        How much of a layer the last handle is before the first where layers are equal (along z only).
+    {options}
     threads, progress
         See `winding_number`.
 
@@ -154,15 +138,11 @@ def depth_order(mesh, handles, layers=None, *, weights=None, array_name="Weights
     data, handle_data = _inputs(mesh, handles, weights, array_name)
     if layers is not None:
         handle_data = with_cell_values(handle_data, "Layer", layers, 1)
-    if not scale >= 0 or not tie >= 0:
-        raise InvalidInput(f"scale and tie are at least 0, not {scale} and {tie}")
     order = filters.vtkDepthOrder()
     order.SetInputData(0, data)
     order.SetInputData(1, handle_data)
     order.SetArrayName(array_name)
-    order.SetDisplace(bool(displace))
-    order.SetScale(scale)
-    order.SetTie(tie)
+    options.apply(order, "depth_order")
     order.SetNumberOfThreads(threads)
     report = run(order, progress)
     result = order.GetOutput()

@@ -209,7 +209,7 @@ TEST(AutomaticHandlesFilter, PrintsItself)
   filter->Print(text);
   EXPECT_THAT(text.str(), HasSubstr("Method: skeleton"));
   EXPECT_THAT(text.str(), HasSubstr("Distance: along-edges"));
-  EXPECT_THAT(text.str(), HasSubstr("MostBones: 0"));
+  EXPECT_THAT(text.str(), HasSubstr("MaximumBones: 0"));
 }
 
 TEST(HandlesAsTgf, RefusesWhatItCannotHold)

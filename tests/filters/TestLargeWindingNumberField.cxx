@@ -32,7 +32,7 @@ TEST(LargeWindingNumberField, ABillionSamplesInTheMemoryOfOneBlock)
   constexpr int layers = 16;
   vtkNew<vtkWindingNumberField> field;
   field->SetInputData(to_polydata(cube.points, cube.triangles));
-  field->SetSamplesAlongLongestSide(samples);
+  field->SetResolution(samples);
   field->UpdateInformation();
   const int* whole =
     field->GetOutputInformation(0)->Get(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT());
@@ -87,7 +87,7 @@ TEST(LargeWindingNumberField, StopsWithinAFifthOfASecond)
     for (int attempt = 0; attempt < 3 && shortest > 0.2; ++attempt)
     {
       field->SetInputData(to_polydata(sphere.points, sphere.triangles)); // builds anew
-      field->SetSamplesAlongLongestSide(512);
+      field->SetResolution(512);
       Clock::time_point asked{};
       listener->on_progress = [&](vtkAlgorithm* algorithm)
       {

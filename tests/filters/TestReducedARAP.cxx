@@ -478,7 +478,7 @@ TEST_F(ReducedARAPFilter, EigenmodesAreABindParameterAndLowerTheEnergy)
   this->filter->Update();
   const double plain = this->report("energy");
   this->filter->SetNumberOfExtraWeights(15);
-  this->filter->SetExtraWeights(vtkReducedARAP::EIGENMODES);
+  this->filter->SetExtraWeightsKind(vtkReducedARAP::EIGENMODES);
   this->filter->Update();
   EXPECT_EQ(this->filter->GetNumberOfBinds(), 2);
   EXPECT_EQ(this->report("counts.extra_weights"), 15.0);

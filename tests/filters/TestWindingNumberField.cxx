@@ -65,7 +65,7 @@ TEST(WindingNumberField, GridCoversThePaddedBounds)
   mesh.points.conservativeResize(9, 3);
   mesh.points.row(8) << 100, 100, 100; // nobody uses it
   field->SetInputData(data_of(mesh));
-  field->SetSamplesAlongLongestSide(41);
+  field->SetResolution(41);
   field->Update();
   vtkImageData* image = image_of(field);
   ASSERT_NE(image, nullptr);
@@ -160,7 +160,7 @@ TEST(WindingNumberField, SubExtentsHaveTheSameBits)
   sphere->SetEndTheta(300.0); // open
   vtkNew<vtkWindingNumberField> field;
   field->SetInputConnection(sphere->GetOutputPort());
-  field->SetSamplesAlongLongestSide(20);
+  field->SetResolution(20);
   field->UpdateInformation();
   vtkInformation* info = field->GetOutputInformation(0);
   int whole[6];
@@ -176,7 +176,7 @@ TEST(WindingNumberField, SubExtentsHaveTheSameBits)
 
   vtkNew<vtkWindingNumberField> other;
   other->SetInputConnection(sphere->GetOutputPort());
-  other->SetSamplesAlongLongestSide(20);
+  other->SetResolution(20);
   for (const std::array<int, 6>& part :
     { std::array<int, 6>{ 0, 5, 0, 19, 3, 4 }, std::array<int, 6>{ 7, 7, 2, 11, 0, whole[5] } })
   {
@@ -224,7 +224,7 @@ TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
   sphere->SetEndTheta(300.0); // open
   vtkNew<vtkWindingNumberField> field;
   field->SetInputConnection(sphere->GetOutputPort());
-  field->SetSamplesAlongLongestSide(12);
+  field->SetResolution(12);
   field->Update();
   vtkNew<vtkImageData> whole;
   whole->DeepCopy(image_of(field));
@@ -234,7 +234,7 @@ TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
   // A renderer, say, has asked for its part of the sphere, which has other bounds.
   vtkNew<vtkWindingNumberField> again;
   again->SetInputConnection(sphere->GetOutputPort());
-  again->SetSamplesAlongLongestSide(12);
+  again->SetResolution(12);
   for (int piece = 0; piece < 2; ++piece)
   {
     sphere->UpdatePiece(1, 2, 0);
@@ -274,7 +274,7 @@ TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
     EXPECT_EQ(array_of(image_of(again)), array_of(kept));
     EXPECT_EQ(read_report(image_of(again)).number("counts.queries", 0), kept->GetNumberOfPoints());
     vtkDataArray* const before = array_of(kept);
-    again->SetThreshold(0.6 + piece); // a parameter of the field
+    again->SetWindingThreshold(0.6 + piece); // a parameter of the field
     again->UpdatePiece(piece, 2, 0);
     EXPECT_NE(array_of(image_of(again)), before);
   }
@@ -331,7 +331,7 @@ TEST(WindingNumberField, PointsOfAnyDataset)
 
   // And back to a grid.
   field->SetInputConnection(1, nullptr);
-  field->SetSamplesAlongLongestSide(8);
+  field->SetResolution(8);
   field->Update();
   ASSERT_NE(image_of(field), nullptr);
   EXPECT_EQ(image_of(field)->GetDimensions()[0], 8);
@@ -397,7 +397,7 @@ TEST(WindingNumberField, ExecutesOnlyWhenSomethingChanged)
   upstream->listen(sphere);
   listener->listen(field);
   field->SetInputConnection(sphere->GetOutputPort());
-  field->SetSamplesAlongLongestSide(8);
+  field->SetResolution(8);
   field->Update();
   EXPECT_EQ(listener->starts, 1);
   EXPECT_EQ(upstream->starts, 1) << "asking for its bounds must not execute it twice";
@@ -405,7 +405,7 @@ TEST(WindingNumberField, ExecutesOnlyWhenSomethingChanged)
   field->UpdateInformation();
   field->Update();
   EXPECT_EQ(listener->starts, 1);
-  field->SetSamplesAlongLongestSide(8); // the same
+  field->SetResolution(8); // the same
   field->SetNumberOfThreads(1);
   field->Update();
   EXPECT_EQ(listener->starts, 1);
@@ -436,7 +436,7 @@ TEST(WindingNumberField, FastKeepsItsToleranceAndSaysSo)
   mesh.triangles.conservativeResize(kept, 3);
   vtkNew<vtkWindingNumberField> field;
   field->SetInputData(data_of(mesh));
-  field->SetSamplesAlongLongestSide(14);
+  field->SetResolution(14);
   EXPECT_EQ(field->GetMethod(), vtkWindingNumberField::AUTO);
   EXPECT_EQ(field->GetTolerance(), 1e-3);
   for (const double tolerance : { 1e-2, 1e-5 })
@@ -471,10 +471,10 @@ TEST(WindingNumberField, ASurfaceIsBuiltOnce)
   vtkNew<vtkSphereSource> sphere;
   vtkNew<vtkWindingNumberField> field;
   field->SetInputConnection(sphere->GetOutputPort());
-  field->SetSamplesAlongLongestSide(8);
+  field->SetResolution(8);
   field->Update();
   EXPECT_EQ(field->GetNumberOfBuilds(), 1);
-  field->SetSamplesAlongLongestSide(12);
+  field->SetResolution(12);
   field->Update();
   field->ComputeGradientOn();
   field->SetPointsData(data_of(test::cube()));
@@ -510,7 +510,7 @@ TEST(WindingNumberField, FloatsAreTheRoundedDoubles)
 {
   vtkNew<vtkWindingNumberField> field;
   field->SetInputData(data_of(test::open_cube()));
-  field->SetSamplesAlongLongestSide(17);
+  field->SetResolution(17);
   field->ComputeGradientOn();
   field->ComputeInsideOn();
   field->Update();
@@ -553,7 +553,7 @@ TEST(WindingNumberField, GradientInsideAndOnSurfaceAsKnown)
   field->SetPointsData(where);
   field->ComputeGradientOn();
   field->ComputeInsideOn();
-  field->SetThreshold(0.6);
+  field->SetWindingThreshold(0.6);
   field->Update();
   vtkPointData* data = field->GetOutput()->GetPointData();
   EXPECT_EQ(data->GetArray("OnSurface")->GetTuple1(0), 0);
@@ -800,7 +800,7 @@ TEST(WindingNumberField, LinesAreACurveInTheirPlane)
     square->SetLines(lines);
     vtkNew<vtkWindingNumberField> field;
     field->SetInputData(square);
-    field->SetSamplesAlongLongestSide(12);
+    field->SetResolution(12);
     field->Update();
     ASSERT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK) << field->GetStatusMessage();
     vtkImageData* image = image_of(field);
@@ -894,7 +894,7 @@ TEST(WindingNumberField, PointsWithNormalsAreSamplesOfASurface)
   cloud->GetPointData()->AddArray(areas);
   vtkNew<vtkWindingNumberField> field;
   field->SetInputData(cloud);
-  field->SetSamplesAlongLongestSide(15);
+  field->SetResolution(15);
   for (const bool given : { true, false })
   {
     field->SetAreaArrayName(given ? "Area" : "nothing of that name");
@@ -942,7 +942,7 @@ TEST(WindingNumberField, AbortFromAnObserverThenAgain)
   vtkNew<Listener> listener;
   listener->listen(field);
   field->SetInputData(data_of(test::open_cube()));
-  field->SetSamplesAlongLongestSide(200);
+  field->SetResolution(200);
   field->SetNumberOfThreads(1);
   using Clock = std::chrono::steady_clock;
   Clock::time_point asked{};
@@ -968,7 +968,7 @@ TEST(WindingNumberField, AbortFromAnObserverThenAgain)
 
   listener->on_progress = nullptr;
   const int starts = listener->starts;
-  field->SetSamplesAlongLongestSide(20);
+  field->SetResolution(20);
   field->Update();
   EXPECT_EQ(listener->starts, starts + 1);
   EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK);
@@ -1005,7 +1005,7 @@ TEST(WindingNumberField, BadSurfacesFailCleanlyForTheWholeChain)
       vtkNew<Listener> downstream;
       listener->listen(field);
       downstream->listen(next);
-      field->SetSamplesAlongLongestSide(12);
+      field->SetResolution(12);
       next->SetInputConnection(field->GetOutputPort());
       contour->SetInputConnection(field->GetOutputPort());
       contour->SetValue(0, 0.5);
@@ -1068,7 +1068,7 @@ TEST(WindingNumberField, FlatAndTinySurfacesHaveAGrid)
   vtkNew<vtkPlaneSource> plane;
   vtkNew<vtkWindingNumberField> field;
   field->SetInputConnection(plane->GetOutputPort());
-  field->SetSamplesAlongLongestSide(9);
+  field->SetResolution(9);
   field->Update();
   EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::OK);
   EXPECT_GT(image_of(field)->GetDimensions()[2], 1);
@@ -1095,7 +1095,7 @@ TEST(WindingNumberField, BlocksOfACompositeInput)
     }
     vtkNew<vtkWindingNumberField> field;
     field->SetInputDataObject(0, blocks);
-    field->SetSamplesAlongLongestSide(10 + static_cast<int>(count));
+    field->SetResolution(10 + static_cast<int>(count));
     for (int round = 0; round < 2; ++round)
     {
       field->Modified();
@@ -1131,10 +1131,10 @@ TEST(WindingNumberField, PrintsAllItsParameters)
   field->SetDimensions(1, 2, 3);
   std::ostringstream text;
   field->Print(text);
-  for (const char* word : { "Method: EXACT", "Dimensions: 1 2 3", "SamplesAlongLongestSide: 64",
+  for (const char* word : { "Method: EXACT", "Dimensions: 1 2 3", "Resolution: 64",
          "Bounds: 0 -1 0 -1 0 -1", "Padding: 0.1", "Tolerance: 0.001", "OrientPatches: 0",
          "AreaArrayName: Area", "Spacing: 0 0 0", "TargetNumberOfSamples: 0",
-         "SampleCellCenters: 0", "ComputeGradient: 0", "ComputeInside: 0", "Threshold: 0.5",
+         "SampleCellCenters: 0", "ComputeGradient: 0", "ComputeInside: 0", "WindingThreshold: 0.5",
          "OutputPrecision: DOUBLE", "NumberOfBuilds: 0", "Status: ok" })
   {
     EXPECT_THAT(text.str(), HasSubstr(word));

@@ -76,7 +76,7 @@ def spheres():
 def fields(mesh, folder):
     both = spheres()
     both.UpdatePipeline()  # every rank has its piece of it now, not all
-    field = WindingNumberField(Input=both, SamplesAlongLongestSide=40)
+    field = WindingNumberField(Input=both, Resolution=40)
     write_parts("spheres", field, folder)
     surface = fetch(field, 1)
     assert surface.GetNumberOfCells() == 16 - 1 + 16 - 1, surface.GetNumberOfCells()  # its two meridians
@@ -86,8 +86,8 @@ def fields(mesh, folder):
 
     reader = BindposeMeshReader(FileName=str(mesh))
     reader.UpdatePipeline()
-    write_parts("mesh", WindingNumberField(Input=reader, SamplesAlongLongestSide=48), folder)
-    write_parts("exact", WindingNumberField(Input=reader, SamplesAlongLongestSide=24, Method="Exact"), folder)
+    write_parts("mesh", WindingNumberField(Input=reader, Resolution=48), folder)
+    write_parts("exact", WindingNumberField(Input=reader, Resolution=24, Method="Exact"), folder)
 
     # At points of another dataset, of which each rank has its part.
     wavelet = Wavelet(WholeExtent=[-6, 6, -6, 6, -6, 6])
@@ -103,7 +103,7 @@ def fields(mesh, folder):
     assert image.GetPointData().GetArray("RTData")
     # Without them the grid is back.
     inside.Points = None
-    inside.SamplesAlongLongestSide = 10
+    inside.Resolution = 10
     inside.UpdatePipeline()
     assert max(inside.GetDataInformation().DataInformation.GetExtent()) == 9
 
@@ -179,7 +179,7 @@ def files(folder, bound):
     SaveData(str(folder / "weights.dmat"), proxy=bound, ArrayName="Weights")
     rows = len(points_of(data))
     assert (folder / "weights.dmat").read_text().split()[:2] == ["5", str(rows)]
-    field = WindingNumberField(Input=Sphere(), SamplesAlongLongestSide=16)
+    field = WindingNumberField(Input=Sphere(), Resolution=16)
     SaveData(str(folder / "field.vdb"), proxy=field, Band="Narrow")
     assert (folder / "field.vdb").read_bytes()[:4] == b" BDV"
     (folder / "handles.tgf").write_text("1 0 0 0\n2 1 0 0\n3 0 2 0 tip\n#\n1 2 1\n")

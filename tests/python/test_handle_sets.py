@@ -65,7 +65,7 @@ def test_automatic_points():
 def test_automatic_bones():
     points, triangles = shapes.bar()
     try:
-        data = bindpose.automatic_handles((points, triangles), most_bones=3, longest_bone=0.1)
+        data = bindpose.automatic_handles((points, triangles), maximum_bones=3, longest_bone=0.1)
     except bindpose.Unavailable:
         pytest.skip("built without bindpose-mesher")
     assert sorted(name for name, _parent in names_and_parents(data)) == ["b1", "b2", "b3"]

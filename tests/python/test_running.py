@@ -16,7 +16,7 @@ from bindpose.meshes import to_dataset
 def field(samples):
     filter_ = bindpose.vtkWindingNumberField()
     filter_.SetInputData(0, to_dataset(shapes.sphere(60, 30)))
-    filter_.SetSamplesAlongLongestSide(samples)
+    filter_.SetResolution(samples)
     return filter_
 
 
@@ -43,7 +43,7 @@ def test_seconds_are_in_the_report_and_not_in_the_data(tmp_path):
     grid = bindpose.winding_number(shapes.cube(), 8)
     assert bindpose.report(grid)["seconds"]["evaluate"] > 0
     # Data that changed since then tells of itself alone.
-    filter_.SetSamplesAlongLongestSide(12)
+    filter_.SetResolution(12)
     filter_.Update()
     again = bindpose.report(filter_.GetOutput())
     assert again["counts"]["queries"] > report["counts"]["queries"] and "seconds" not in again
@@ -54,7 +54,7 @@ def test_progress_cancels():
     with pytest.raises(bindpose.Cancelled) as caught:
         bindpose.run(filter_, lambda fraction, phase: False)
     assert caught.value.status == "cancelled"
-    filter_.SetSamplesAlongLongestSide(8)
+    filter_.SetResolution(8)
     assert bindpose.run(filter_)["status"] == "ok"  # and again
 
 

@@ -92,7 +92,7 @@ void ShapeHandles::start(AutomaticMethod method, Index count)
     this->rigging_ = false;
     AutomaticHandlesOptions options;
     options.method = method;
-    options.bones.most_bones = count;
+    options.bones.maximum_bones = count;
     options.points.count = count;
     this->make(options);
   }

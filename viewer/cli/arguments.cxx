@@ -27,6 +27,50 @@ std::vector<std::string> split(const std::string& text, char separator)
   return words;
 }
 
+/// @return the integers or numbers of "1,2,3"; empty if a word is not one
+std::vector<double> parse_numbers(const std::string& text, bool integers)
+{
+  std::vector<double> numbers;
+  for (const std::string& word : split(text, ','))
+  {
+    double value = 0;
+    Index integer = 0;
+    const bool good =
+      integers ? parse_index(word, integer) && std::abs(integer) <= std::numeric_limits<int>::max()
+               : parse_number(word, value) && std::isfinite(value);
+    if (!good)
+    {
+      return {};
+    }
+    numbers.push_back(integers ? static_cast<double>(integer) : value);
+  }
+  return numbers;
+}
+
+/// What a numeric option allows: "an integer, at least 2", "3 numbers with commas between".
+std::string expected_numbers(const Option& option)
+{
+  const bool integers = option.kind == OptionKind::integer || option.kind == OptionKind::integers;
+  std::string text = option.length == 1 ? (integers ? "an integer" : "a finite number")
+    : std::to_string(option.length) + (integers ? " integers" : " numbers") +
+      " with commas between";
+  return text + (option.values[0] ? std::string(" (") + option.values + ")" : "");
+}
+
+/// @return the error sentence for a word that the option does not allow; empty if it is valid
+std::string number_error(const Option& option, const std::string& word)
+{
+  const bool integers = option.kind == OptionKind::integer || option.kind == OptionKind::integers;
+  const std::vector<double> numbers = parse_numbers(word, integers);
+  bool good = static_cast<int>(numbers.size()) == option.length;
+  for (const double number : numbers)
+  {
+    good = good && option.range.contains(number);
+  }
+  return good ? std::string()
+              : "'" + word + "' is not valid: expected " + expected_numbers(option);
+}
+
 void add_check(CLI::Option* parsed, const Option& option)
 {
   if (option.kind == OptionKind::choice)
@@ -40,28 +84,9 @@ void add_check(CLI::Option* parsed, const Option& option)
           : "'" + word + "' is not valid: expected " + option.choices + suggestion(word, choices);
       });
   }
-  else if (option.kind == OptionKind::integer)
+  else if (option.kind != OptionKind::flag && option.kind != OptionKind::text)
   {
-    parsed->check(
-      [&option](const std::string& word)
-      {
-        Index value = 0;
-        const bool good = parse_index(word, value) && value >= option.minimum &&
-          value <= std::numeric_limits<int>::max();
-        return good
-          ? std::string()
-          : "'" + word + "' is not valid: expected an integer >= " + std::to_string(option.minimum);
-      });
-  }
-  else if (option.kind == OptionKind::number)
-  {
-    parsed->check(
-      [](const std::string& word)
-      {
-        double value = 0;
-        const bool good = parse_number(word, value) && std::isfinite(value);
-        return good ? std::string() : "'" + word + "' is not valid: expected a finite number";
-      });
+    parsed->check([&option](const std::string& word) { return number_error(option, word); });
   }
 }
 
@@ -78,6 +103,10 @@ void add_option(CLI::App& app, const Option& option, Arguments& arguments)
   if (option.kind == OptionKind::choice)
   {
     help += std::string(" {") + option.choices + "}";
+  }
+  if (option.values[0])
+  {
+    help += std::string(" [") + option.values + "]";
   }
   if (option.fallback[0])
   {
@@ -167,10 +196,37 @@ std::string unexpected_argument(const Verb& verb, const std::vector<std::string>
     " is given without an option";
 }
 
+/// @return the error sentence for the first option that was typed although the method does not use
+/// it; empty if there is none
+std::string unused_option(const Verb& verb, const Arguments& arguments)
+{
+  // A body with mass uses options of as-rigid-as-possible, whatever the method is.
+  if (!arguments.has("method") || arguments.has("dynamics"))
+  {
+    return {};
+  }
+  const std::string method = arguments.text("method");
+  for (const Option& option : verb.options)
+  {
+    const std::vector<std::string> users = split(option.methods, '|');
+    if (arguments.typed(option.key()) && !users.empty() &&
+      std::find(users.begin(), users.end(), method) == users.end())
+    {
+      return std::string(option.name) + " is not used by --method " + method + ": expected " +
+        option.methods;
+    }
+  }
+  return {};
+}
+
 void fill_defaults(const std::vector<Option>& options, Arguments& arguments)
 {
   for (const Option& option : options)
   {
+    if (arguments.has(option.key()))
+    {
+      arguments.typed_keys.insert(option.key());
+    }
     if (option.fallback[0] && !arguments.has(option.key()))
     {
       arguments.values[option.key()] = { option.fallback };
@@ -190,6 +246,11 @@ const std::vector<std::string>& Arguments::list(const std::string& key) const
   static const std::vector<std::string> none;
   const auto entry = this->values.find(key);
   return entry == this->values.end() ? none : entry->second;
+}
+
+std::vector<double> Arguments::numbers(const std::string& key) const
+{
+  return parse_numbers(this->text(key), false);
 }
 
 int parse_arguments(int argc, char** argv, Arguments& arguments)
@@ -282,6 +343,12 @@ int parse_arguments(int argc, char** argv, Arguments& arguments)
         return 1;
       }
       fill_defaults(verb.options, arguments);
+      const std::string unused = unused_option(verb, arguments);
+      if (!unused.empty())
+      {
+        std::cerr << "bindpose " << verb.name << ": " << unused << '\n';
+        return 1;
+      }
     }
   }
   fill_defaults(common_options(), arguments);

@@ -2,13 +2,14 @@
 #define bindpose_cli_arguments_h
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 namespace bindpose::cli
 {
 
-/// What was typed, by the keys of the option table, defaults filled in.
+/// The words of the command line by the keys of the option table, with defaults filled in.
 class Arguments
 {
 public:
@@ -16,23 +17,29 @@ public:
   /// The command line as it was typed, without the program's name.
   std::vector<std::string> words;
   std::map<std::string, std::vector<std::string>> values;
+  /// Keys of the options that were typed.
+  std::set<std::string> typed_keys;
 
+  /// Report whether the option was typed or has a default.
   bool has(const std::string& key) const { return this->values.count(key) > 0; }
-  /// Empty when neither typed nor with a default.
+  bool typed(const std::string& key) const { return this->typed_keys.count(key) > 0; }
+  /// Return the value; empty if the option was not typed and has no default.
   std::string text(const std::string& key) const;
   const std::vector<std::string>& list(const std::string& key) const;
   int integer(const std::string& key) const { return std::stoi(this->text(key)); }
   double number(const std::string& key) const { return std::stod(this->text(key)); }
-  /// What --certificate asks of relative gap and residual.
-  double certificate_tolerance() const
+  /// Return the numbers of "X,Y,Z".
+  std::vector<double> numbers(const std::string& key) const;
+  /// Return the number of the word that was typed; the parser has checked that it is one of `words`.
+  int choice(const std::string& key, const std::map<std::string, int>& words) const
   {
-    return this->text("certificate") == "tight" ? 1e-9 : 1e-6;
+    return words.at(this->text(key));
   }
 };
 
-/// Parses the command line by the option table.
+/// Parse the command line by the option table.
 /// @return -1 to go on with the arguments, else the exit code: 0 after --help or --version, 1 after
-/// a usage error, which is told in one line on the standard error.
+/// a usage error, which is printed as one line on the standard error.
 int parse_arguments(int argc, char** argv, Arguments& arguments);
 
 } // namespace bindpose::cli

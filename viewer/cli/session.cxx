@@ -284,7 +284,7 @@ vtkSmartPointer<vtkPolyData> Session::read_handles(const std::string& value, vtk
   {
     vtkNew<vtkAutomaticHandles> bones;
     bones->SetInputData(surface);
-    bones->SetMostBones(static_cast<int>(count));
+    bones->SetMaximumBones(static_cast<int>(count));
     return this->run_before(bones, "handles", finding_bones)
       ? vtkPolyData::SafeDownCast(bones->GetOutput())
       : nullptr;

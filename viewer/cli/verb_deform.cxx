@@ -2,6 +2,7 @@
 // sequence, expressions in time or a body that moves numbered files and a .pvd that ParaView plays,
 // or one animated glTF file.
 #include "cli/session.h"
+#include "cli/set_options.h"
 #include "cli/verbs.h"
 
 #include "file_kind.h"
@@ -22,8 +23,6 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
-#include <cmath>
-#include <cstdio>
 #include <functional>
 
 namespace bindpose::cli
@@ -31,81 +30,37 @@ namespace bindpose::cli
 
 namespace
 {
-int energy_of(const std::string& word)
-{
-  return word == "spokes-and-rims" ? vtkReducedARAP::SPOKES_AND_RIMS
-    : word == "spokes"             ? vtkReducedARAP::SPOKES
-    : word == "tetrahedra"         ? vtkReducedARAP::TETRAHEDRA
-    : word == "triangles"          ? vtkReducedARAP::TRIANGLES
-                                   : vtkReducedARAP::AUTO;
-}
-
-/// What full and reduced as-rigid-as-possible have in common.
+/// Make a filter of as-rigid-as-possible deformation.
 template <typename Filter>
 vtkSmartPointer<Filter> make_arap(const Arguments& arguments)
 {
   auto arap = vtkSmartPointer<Filter>::New();
-  arap->SetEnergy(energy_of(arguments.text("energy")));
-  arap->SetTolerance(arguments.number("tolerance"));
-  arap->SetRotationArrays(arguments.has("rotation-arrays"));
-  if (arguments.integer("iterations") > 0)
-  {
-    arap->SetMaximumIterations(arguments.integer("iterations"));
-  }
+  set_arap_options(arguments, arap.Get());
+  set_rotation_arrays_options(arguments, arap.Get());
   return arap;
 }
 
 vtkSmartPointer<vtkPoseAlgorithm> make_variational(const Arguments& arguments)
 {
   auto surface = vtkSmartPointer<vtkVariationalSurface>::New();
-  const std::string boundary = arguments.text("boundary"), tangents = arguments.text("tangents");
-  surface->SetOrder(arguments.integer("order"));
-  surface->SetBoundary(boundary == "tangent" ? vtkVariationalSurface::TANGENT
-      : boundary == "curve"                  ? vtkVariationalSurface::CURVE
-                                             : vtkVariationalSurface::REGION);
-  surface->SetTangentSource(tangents == "given" ? vtkVariationalSurface::GIVEN
-      : tangents == "clamped"                   ? vtkVariationalSurface::CLAMPED
-                                                : vtkVariationalSurface::SURROUNDINGS);
-  surface->SetFair(arguments.has("fair"));
+  set_variational_options(arguments, surface.Get());
   return surface;
-}
-
-/// What reduced as-rigid-as-possible and its dynamics have in common.
-template <typename Filter>
-vtkSmartPointer<Filter> make_reduced(const Arguments& arguments)
-{
-  auto arap = make_arap<Filter>(arguments);
-  arap->SetNumberOfExtraWeights(arguments.integer("extra-weights"));
-  arap->SetExtraWeights(arguments.text("extra-kind") == "eigenmodes" ? vtkReducedARAP::EIGENMODES
-                                                                     : vtkReducedARAP::BUMPS);
-  return arap;
 }
 
 vtkSmartPointer<vtkPoseAlgorithm> make_reduced_arap(const Arguments& arguments)
 {
-  const auto arap = make_reduced<vtkReducedARAP>(arguments);
-  arap->SetTimeBudget(arguments.number("budget-us"));
+  const auto arap = make_arap<vtkReducedARAP>(arguments);
+  set_reduced_arap_bind_options(arguments, arap.Get());
+  set_time_budget_options(arguments, arap.Get());
   return arap;
 }
 
 vtkSmartPointer<vtkReducedDynamics> make_dynamics(const Arguments& arguments)
 {
-  const auto dynamics = make_reduced<vtkReducedDynamics>(arguments);
-  dynamics->SetTimeStep(arguments.number("time-step"));
-  dynamics->SetDensity(arguments.number("density"));
-  dynamics->SetStiffness(arguments.number("stiffness"));
-  dynamics->SetDamping(arguments.number("damping"));
+  const auto dynamics = make_arap<vtkReducedDynamics>(arguments);
+  set_reduced_arap_bind_options(arguments, dynamics.Get());
+  set_dynamics_options(arguments, dynamics.Get());
   return dynamics;
-}
-
-/// "X,Y,Z"; false for anything else.
-bool to_vector(const std::string& text, double (&vector)[3])
-{
-  int end = 0;
-  return std::sscanf(text.c_str(), "%lf,%lf,%lf%n", &vector[0], &vector[1], &vector[2], &end) ==
-    3 &&
-    end == static_cast<int>(text.size()) && std::isfinite(vector[0]) && std::isfinite(vector[1]) &&
-    std::isfinite(vector[2]);
 }
 
 vtkSmartPointer<vtkPoseAlgorithm> make_deformation(const Arguments& arguments)
@@ -114,7 +69,7 @@ vtkSmartPointer<vtkPoseAlgorithm> make_deformation(const Arguments& arguments)
   if (method == "mls")
   {
     auto warp = vtkSmartPointer<vtkMovingLeastSquaresWarp>::New();
-    warp->SetExponent(arguments.number("exponent"));
+    set_moving_least_squares_options(arguments, warp.Get());
     return warp;
   }
   if (method == "reduced-arap")
@@ -130,18 +85,12 @@ vtkSmartPointer<vtkPoseAlgorithm> make_deformation(const Arguments& arguments)
     return make_variational(arguments);
   }
   auto skinning = vtkSmartPointer<vtkSkinningDeformation>::New();
-  skinning->SetMethod(method == "dqs" ? vtkSkinningDeformation::DUAL_QUATERNION
-      : method == "stbs"              ? vtkSkinningDeformation::STRETCHABLE_BONES
-      : method == "cor"               ? vtkSkinningDeformation::CENTERS_OF_ROTATION
-                                      : vtkSkinningDeformation::LINEAR_BLEND);
-  skinning->SetSinglePrecision(arguments.has("single-precision"));
-  skinning->SetMaximumInfluences(arguments.integer("influences"));
-  skinning->SetSmallestWeight(arguments.number("smallest-weight"));
-  const std::string edges = arguments.text("pseudo-edges");
-  skinning->SetPseudoEdges(edges == "none" ? vtkSkinningDeformation::NO_PSEUDO_EDGES
-      : edges == "auto"                    ? vtkSkinningDeformation::AUTOMATIC_PSEUDO_EDGES
-                                           : vtkSkinningDeformation::GIVEN_PSEUDO_EDGES);
-  skinning->SetPseudoEdgeStretch(arguments.has("pseudo-edge-stretch"));
+  skinning->SetMethod(arguments.choice("method",
+    { { "lbs", vtkSkinningDeformation::LINEAR_BLEND },
+      { "dqs", vtkSkinningDeformation::DUAL_QUATERNION },
+      { "stbs", vtkSkinningDeformation::STRETCHABLE_BONES },
+      { "cor", vtkSkinningDeformation::CENTERS_OF_ROTATION } }));
+  set_skinning_options(arguments, skinning.Get());
   return skinning;
 }
 
@@ -212,8 +161,7 @@ void run_fairing(Session& session, const std::string& output, const std::string&
     return;
   }
   const vtkSmartPointer<vtkPoseAlgorithm> surface = make_variational(arguments);
-  surface->SetStretchLimit(arguments.number("stretch-limit"));
-  surface->SetStretchArray(arguments.has("stretch-array"));
+  set_pose_options(arguments, surface.Get());
   surface->SetInputData(0, mesh);
   if (session.run(surface, "fair", 0.0, 1.0, Merge::all))
   {
@@ -271,11 +219,6 @@ void run_deform(Session& session)
     return;
   }
   const double time_step = arguments.number("time-step");
-  if (moves && !(std::isfinite(time_step) && time_step > 0.0))
-  {
-    session.invalid("--time-step must be a number above 0");
-    return;
-  }
   Frames frames;
   frames.count = asked > 0 ? asked : given;
   frames.per_second = moves ? 1.0 / time_step : pose->GetFramesPerSecond();
@@ -305,20 +248,11 @@ void run_deform(Session& session)
   vtkSmartPointer<vtkReducedDynamics> body;
   if (dynamic)
   {
-    double gravity[3];
-    if (!to_vector(arguments.text("gravity"), gravity))
-    {
-      session.invalid("--gravity '" + arguments.text("gravity") +
-        "' must be three numbers with commas between, as in 0,-9.81,0");
-      return;
-    }
     body = make_dynamics(arguments);
-    body->SetGravity(gravity);
   }
   const vtkSmartPointer<vtkPoseAlgorithm> deformation =
     dynamic ? vtkSmartPointer<vtkPoseAlgorithm>(body) : make_deformation(arguments);
-  deformation->SetStretchLimit(arguments.number("stretch-limit"));
-  deformation->SetStretchArray(arguments.has("stretch-array"));
+  set_pose_options(arguments, deformation.Get());
   // What goes wrong with a pose on the way, the filter behind it says as well.
   vtkNew<vtkCallbackCommand> quiet;
   quiet->SetCallback([](vtkObject*, unsigned long, void*, void*) {});

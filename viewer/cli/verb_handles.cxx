@@ -1,5 +1,6 @@
 // bindpose handles MESH: handles without a hand, bones along the curve skeleton or points.
 #include "cli/session.h"
+#include "cli/set_options.h"
 #include "cli/verbs.h"
 #include "conversion.h"
 #include "file_kind.h"
@@ -54,22 +55,7 @@ void run_handles(Session& session)
   }
   vtkNew<vtkAutomaticHandles> handles;
   handles->SetInputData(0, mesh);
-  if (arguments.has("points"))
-  {
-    handles->SetMethodToPoints();
-    handles->SetNumberOfPoints(arguments.integer("points"));
-  }
-  handles->SetDistance(arguments.text("distance") == "straight" ? vtkAutomaticHandles::STRAIGHT
-                                                                : vtkAutomaticHandles::ALONG_EDGES);
-  handles->SetPlaceInside(!arguments.has("on-surface"));
-  handles->SetMostBones(arguments.integer("bones"));
-  handles->SetBoneTolerance(arguments.number("bone-tolerance"));
-  handles->SetLongestBone(arguments.number("longest-bone"));
-  handles->SetPrune(arguments.number("prune"));
-  handles->SetSkeletonTriangles(arguments.integer("skeleton-triangles"));
-  handles->SetWindingThreshold(arguments.number("winding-threshold"));
-  handles->SetTimeLimit(arguments.number("time-limit"));
-  handles->SetMemoryLimit(arguments.integer("memory-limit"));
+  set_automatic_handles_options(arguments, handles.Get());
   if (!session.run(handles, "handles", 0.0, 1.0, Merge::all))
   {
     return;

@@ -1,5 +1,6 @@
 // bindpose outline IMAGE_OR_CURVES: what an image shows, or curves enclose, as triangles.
 #include "cli/session.h"
+#include "cli/set_options.h"
 #include "cli/verbs.h"
 #include "scene/picture_file.h"
 
@@ -58,11 +59,7 @@ void run_outline(Session& session)
     }
     shape->SetInputData(1, handles);
   }
-  shape->SetRectangle(arguments.has("rectangle"));
-  shape->SetSimplify(arguments.number("simplify"));
-  shape->SetWindingThreshold(arguments.number("winding-threshold"));
-  shape->SetMinAngle(arguments.number("min-angle"));
-  shape->SetEdge(arguments.number("edge"));
+  set_planar_shape_options(arguments, shape.Get());
   if (session.run(shape, "outline", 0.0, 1.0, Merge::all))
   {
     session.write(shape->GetOutput(), output);

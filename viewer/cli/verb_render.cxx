@@ -258,7 +258,9 @@ bool list_files(Session& session, bool moving, std::vector<std::string>& files,
   {
     rate = arguments.number("fps");
   }
-  return (rate > 0.0 && rate <= 1000.0) || session.invalid("--fps lies above 0 and up to 1000");
+  return (rate > 0.0 && rate <= 1000.0) ||
+    session.invalid("the sequence has " + std::to_string(rate) +
+      " frames per second: expected a number above 0 and at most 1000");
 }
 
 /// A picture a tile, all in one view and one range of colours, then ffmpeg. What is made on the way

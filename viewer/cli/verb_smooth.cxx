@@ -1,5 +1,6 @@
 // bindpose smooth MESH --array NAME: data on a mesh without the extrema that nobody asked for.
 #include "cli/session.h"
+#include "cli/set_options.h"
 #include "cli/verbs.h"
 
 #include "file_kind.h"
@@ -50,34 +51,16 @@ void run_smooth(Session& session)
       0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, array.c_str());
   }
   const std::string list = arguments.text("extrema");
-  if (!list.empty())
+  if (arguments.typed("extrema") && !mesh->GetPointData()->GetArray(list.c_str()))
   {
-    if (!mesh->GetPointData()->GetArray(list.c_str()))
-    {
-      session.invalid("--extrema: the mesh has no point array '" + list + "'");
-      return;
-    }
-    smoothing->SetExtremaArrayName(list);
+    session.invalid("--extrema: the mesh has no point array '" + list + "'");
+    return;
   }
-  else if (arguments.integer("count") > 0 || arguments.has("persistence"))
+  if (arguments.typed("number-of-extrema") || arguments.typed("persistence"))
   {
-    smoothing->SetExtremaArrayName("");
+    smoothing->SetExtremaArrayName(""); // selected from the data, unless --extrema lists them
   }
-  if (arguments.has("persistence"))
-  {
-    smoothing->SetPersistence(arguments.number("persistence"));
-  }
-  smoothing->SetNumberOfExtrema(arguments.integer("count"));
-  smoothing->SetDataWeight(arguments.number("data-weight"));
-  smoothing->SetOrder(arguments.integer("order"));
-  smoothing->SetKeepValues(arguments.has("keep-values"));
-  smoothing->SetGuide(arguments.text("guide") == "harmonic" ? vtkMonotoneSmoothing::HARMONIC
-                                                            : vtkMonotoneSmoothing::UNCONSTRAINED);
-  smoothing->SetRebuilds(arguments.integer("rebuilds"));
-  smoothing->SetEpsilon(arguments.number("epsilon"));
-  smoothing->SetTolerance(arguments.certificate_tolerance());
-  smoothing->SetMaximumIterations(arguments.integer("iterations"));
-  smoothing->SetMemoryLimit(arguments.integer("memory-limit"));
+  set_monotone_smoothing_options(arguments, smoothing.Get());
   if (session.run(smoothing, "smooth", 0.0, 1.0, Merge::all) &&
     session.write(smoothing->GetOutput(), output) && !extrema.empty())
   {

@@ -1,5 +1,6 @@
 // bindpose tetrahedralize SURFACE: the inside as tets.
 #include "cli/session.h"
+#include "cli/set_options.h"
 #include "cli/verbs.h"
 
 #include "vtkDataSet.h"
@@ -9,19 +10,6 @@
 
 namespace bindpose::cli
 {
-
-namespace
-{
-int method_of(const std::string& word)
-{
-  return word == "cdt"   ? vtkTetrahedralizeSurface::CDT
-    : word == "remesh"   ? vtkTetrahedralizeSurface::REMESH
-    : word == "embed"    ? vtkTetrahedralizeSurface::EMBED
-    : word == "wrap"     ? vtkTetrahedralizeSurface::WRAP
-    : word == "ftetwild" ? vtkTetrahedralizeSurface::FTETWILD
-                         : vtkTetrahedralizeSurface::AUTO;
-}
-} // namespace
 
 void run_tetrahedralize(Session& session)
 {
@@ -47,23 +35,7 @@ void run_tetrahedralize(Session& session)
     }
     tets->SetInputData(1, handles);
   }
-  tets->SetMethod(method_of(arguments.text("method")));
-  tets->SetWindingThreshold(arguments.number("winding-threshold"));
-  tets->SetSegmentation(arguments.text("segmentation") == "threshold"
-      ? vtkTetrahedralizeSurface::THRESHOLD
-      : vtkTetrahedralizeSurface::GRAPH_CUT);
-  tets->SetCutSmoothness(arguments.number("cut-smoothness"));
-  tets->SetCutSigma(arguments.number("cut-sigma"));
-  tets->SetQuality(arguments.number("quality"));
-  tets->SetBare(arguments.has("bare"));
-  tets->SetInteriorEdge(arguments.number("interior-edge"));
-  tets->SetKeepOutside(arguments.has("keep-outside"));
-  tets->SetResolution(arguments.integer("resolution"));
-  tets->SetWrapAlpha(arguments.number("wrap-alpha"));
-  tets->SetWrapOffset(arguments.number("wrap-offset"));
-  tets->SetFtetwildEpsilon(arguments.number("ftetwild-epsilon"));
-  tets->SetTimeLimit(arguments.number("time-limit"));
-  tets->SetMemoryLimit(arguments.integer("memory-limit"));
+  set_tetrahedralize_options(arguments, tets.Get());
   if (session.run(tets, "tetrahedralize", 0.0, 1.0, Merge::all))
   {
     session.write(tets->GetOutput(), output);

@@ -1,6 +1,7 @@
 // bindpose weights MESH --handles H: the filter knows where to solve for a surface; tets, and
 // surfaces with --domain surface, are solved on directly and carried back to their own points.
 #include "cli/session.h"
+#include "cli/set_options.h"
 #include "cli/verbs.h"
 
 #include "conversion.h"
@@ -18,7 +19,6 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
-#include <cstdio>
 #include <map>
 
 namespace bindpose::cli
@@ -26,18 +26,19 @@ namespace bindpose::cli
 
 namespace
 {
-vtkSmartPointer<vtkWeightsAlgorithm> make_method(const std::string& method, int order)
+vtkSmartPointer<vtkWeightsAlgorithm> make_method(const Arguments& arguments)
 {
+  const std::string method = arguments.text("method");
   if (method == "bounded-biharmonic")
   {
     const auto weights = vtkSmartPointer<vtkBoundedBiharmonicWeights>::New();
-    weights->SetOrder(order);
+    set_bounded_weights_options(arguments, weights.Get());
     return weights;
   }
   if (method == "monotone")
   {
     const auto weights = vtkSmartPointer<vtkMonotoneWeights>::New();
-    weights->SetOrder(order);
+    set_bounded_weights_options(arguments, weights.Get());
     return weights;
   }
   static const std::map<std::string, int> methods = {
@@ -55,75 +56,20 @@ vtkSmartPointer<vtkWeightsAlgorithm> make_method(const std::string& method, int 
   return weights;
 }
 
-int domain_of(const Arguments& arguments)
-{
-  static const std::map<std::string, int> domains = {
-    { "auto", vtkWeightsAlgorithm::AUTO },
-    { "volume", vtkWeightsAlgorithm::VOLUME },
-    { "embedding", vtkWeightsAlgorithm::EMBEDDING },
-    { "cage", vtkWeightsAlgorithm::CAGE },
-    { "surface", vtkWeightsAlgorithm::SURFACE },
-  };
-  return domains.at(arguments.text("domain"));
-}
-
-vtkSmartPointer<vtkWeightsAlgorithm> make_weights(const Arguments& arguments)
-{
-  const auto weights = make_method(arguments.text("method"), arguments.integer("order"));
-  weights->SetTolerance(arguments.certificate_tolerance());
-  weights->SetMaximumIterations(arguments.integer("iterations"));
-  weights->SetMemoryLimit(arguments.integer("memory-limit"));
-  weights->SetKeepRaw(arguments.has("raw"));
-  weights->SetKeepMesh(arguments.has("keep-mesh"));
-  weights->SetDomain(domain_of(arguments));
-  weights->SetEmbeddingResolution(arguments.integer("resolution"));
-  weights->SetStage(arguments.text("stage") == "preview" ? vtkWeightsAlgorithm::PREVIEW
-                                                         : vtkWeightsAlgorithm::CERTIFIED);
-  return weights;
-}
-
-/// What is asked of weights besides smoothness; `mesh` is what was given, before tets.
+/// Set what the weights must satisfy besides smoothness.
+/// @param mesh  the input, before it is filled with tets
 bool set_terms(Session& session, vtkDataSet* mesh, vtkWeightsAlgorithm* weights)
 {
   const Arguments& arguments = session.arguments();
-  using Setter = void (vtkWeightsAlgorithm::*)(const std::string&);
-  const std::pair<const char*, Setter> arrays[] = {
-    { "rigidity", &vtkWeightsAlgorithm::SetRigidityArrayName },
-    { "rigid-sets", &vtkWeightsAlgorithm::SetRigidSetArrayName },
-    { "pins", &vtkWeightsAlgorithm::SetPinnedArrayName },
-  };
-  for (const auto& [option, set] : arrays)
+  for (const char* option : { "rigidity", "rigid-set", "lower", "upper", "pinned" })
   {
-    const std::string name = arguments.text(option);
-    if (name.empty())
+    if (arguments.typed(option) &&
+      !mesh->GetPointData()->GetArray(arguments.text(option).c_str()))
     {
-      continue;
+      return session.invalid("--" + std::string(option) + ": the mesh has no point array '" +
+        arguments.text(option) + "'");
     }
-    if (!mesh->GetPointData()->GetArray(name.c_str()))
-    {
-      return session.invalid(
-        "--" + std::string(option) + ": the mesh has no point array '" + name + "'");
-    }
-    (weights->*set)(name);
   }
-  const std::string bounds = arguments.text("bounds");
-  const std::string method = arguments.text("method");
-  if (method != "bounded-biharmonic" && method != "monotone" &&
-    (!arguments.text("rigidity").empty() || !arguments.text("rigid-sets").empty() ||
-      !arguments.text("pins").empty() || bounds != "0,1" || arguments.text("mirror") != "none" ||
-      arguments.integer("influences") != 0 || arguments.text("partition") != "normalise"))
-  {
-    return session.invalid("--rigidity, --rigid-sets, --pins, --bounds, --mirror, --influences and "
-                           "--partition are of bounded-biharmonic and monotone weights");
-  }
-  double least = 0.0;
-  double largest = 0.0;
-  char rest = 0;
-  if (std::sscanf(bounds.c_str(), "%lf,%lf%c", &least, &largest, &rest) != 2)
-  {
-    return session.invalid("--bounds takes two numbers, as 0,1, not " + bounds);
-  }
-  weights->SetBounds(least, largest);
   const std::string axis = arguments.text("mirror");
   if (axis != "none")
   {
@@ -133,10 +79,7 @@ bool set_terms(Session& session, vtkDataSet* mesh, vtkWeightsAlgorithm* weights)
     weights->SetMirrorOrigin(
       0.5 * (box[0] + box[1]), 0.5 * (box[2] + box[3]), 0.5 * (box[4] + box[5]));
   }
-  weights->SetMaximumInfluences(arguments.integer("influences"));
-  weights->SetPartitionOfUnity(arguments.text("partition") == "coupled"
-      ? vtkWeightsAlgorithm::COUPLED
-      : vtkWeightsAlgorithm::NORMALISE);
+  set_weight_terms_options(arguments, weights);
   return true;
 }
 
@@ -236,8 +179,11 @@ void write_with_endpoints(
   endpoints->SetInputData(0, mesh);
   endpoints->SetInputData(1, handles);
   endpoints->SetMethod(method->second);
-  const int domain = domain_of(arguments);
-  endpoints->SetDomain(domain == vtkWeightsAlgorithm::CAGE ? vtkWeightsAlgorithm::AUTO : domain);
+  const int domain = arguments.choice("domain",
+    { { "auto", vtkWeightsAlgorithm::AUTO }, { "volume", vtkWeightsAlgorithm::VOLUME },
+      { "embedding", vtkWeightsAlgorithm::EMBEDDING }, { "cage", vtkWeightsAlgorithm::AUTO },
+      { "surface", vtkWeightsAlgorithm::SURFACE } });
+  endpoints->SetDomain(domain);
   if (session.run(endpoints, "endpoints", 0.98, 1.0, Merge::nothing))
   {
     session.report().set("endpoints.method", method->first);
@@ -283,7 +229,8 @@ void run_weights(Session& session)
   {
     return;
   }
-  const auto weights = make_weights(arguments);
+  const auto weights = make_method(arguments);
+  set_weights_options(arguments, weights.Get());
   if (!set_terms(session, mesh, weights))
   {
     return;
@@ -328,7 +275,7 @@ void run_weights(Session& session)
   session.report().merge(of_weights); // the transfer's own keys stay beside
   auto result = own_copy(transfer->GetOutput());
   vtkNew<vtkTransferWeights> raw;
-  if (arguments.has("raw"))
+  if (arguments.has("keep-raw"))
   {
     raw->SetArrayName("RawWeights");
     raw->SetInputData(0, result);

@@ -1,6 +1,7 @@
 // bindpose winding SURFACE: the winding number on a grid (.vti, .vdb) or at the points of a
 // dataset.
 #include "cli/session.h"
+#include "cli/set_options.h"
 #include "cli/verbs.h"
 #include "file_kind.h"
 #include "io/vdb.h"
@@ -63,12 +64,6 @@ void run_winding(Session& session)
   {
     return;
   }
-  const double tolerance = arguments.number("tolerance");
-  if (!(tolerance >= 1e-8 && tolerance <= 0.1))
-  {
-    session.invalid("--tolerance must lie between 1e-8 and 0.1");
-    return;
-  }
   if (const Status status = check_vdb_available(); file_extension(output) == "vdb" && !status.ok())
   {
     session.fail(status); // now, not after the work
@@ -81,19 +76,7 @@ void run_winding(Session& session)
     return;
   }
   field->SetInputData(0, surface);
-  const std::string method = arguments.text("method");
-  field->SetMethod(method == "exact" ? vtkWindingNumberField::EXACT
-      : method == "fast"             ? vtkWindingNumberField::FAST
-                                     : vtkWindingNumberField::AUTO);
-  field->SetTolerance(tolerance);
-  field->SetOrientPatches(arguments.has("orient-patches"));
-  field->SetComputeGradient(arguments.has("gradient"));
-  field->SetComputeInside(arguments.has("inside"));
-  field->SetThreshold(arguments.number("winding-threshold"));
-  field->SetSampleCellCenters(arguments.has("cell-centers"));
-  field->SetOutputPrecision(
-    arguments.has("float") ? vtkAlgorithm::SINGLE_PRECISION : vtkAlgorithm::DOUBLE_PRECISION);
-  field->SetSamplesAlongLongestSide(arguments.integer("grid"));
+  set_winding_number_options(arguments, field.Get());
   if (arguments.has("points"))
   {
     const auto points = session.read(arguments.text("points"));

@@ -391,8 +391,8 @@ void simplify(Graph& graph, const SkeletonBonesOptions& options, SkeletonBones& 
         ++result.pruned_branches;
       }
     }
-    else if (options.most_bones > 0 && least_limb &&
-      static_cast<Index>(branches.size()) > options.most_bones)
+    else if (options.maximum_bones > 0 && least_limb &&
+      static_cast<Index>(branches.size()) > options.maximum_bones)
     {
       graph.prune(*least_limb);
       ++result.pruned_branches;
@@ -698,9 +698,9 @@ Status check_options(const SkeletonBonesOptions& options)
   {
     return bad("longest_bone", "0 or at least 0.01", options.longest_bone);
   }
-  if (options.most_bones < 0)
+  if (options.maximum_bones < 0)
   {
-    return bad("most_bones", "at least 0", static_cast<double>(options.most_bones));
+    return bad("maximum_bones", "at least 0", static_cast<double>(options.maximum_bones));
   }
   if (!(options.prune >= 0.0 && options.prune <= most_prune))
   {
@@ -742,7 +742,7 @@ Status skeleton_bones(const CurveSkeleton& skeleton, double diagonal,
     graph.trim(branch);
   }
   const std::vector<Piece> pieces =
-    split(graph, options.tolerance * diagonal, options.longest_bone * diagonal, options.most_bones);
+    split(graph, options.tolerance * diagonal, options.longest_bone * diagonal, options.maximum_bones);
   Orientation(graph, pieces, bones).run(parts);
   if (bones.cut_cycles > 0)
   {
@@ -750,10 +750,10 @@ Status skeleton_bones(const CurveSkeleton& skeleton, double diagonal,
       (bones.cut_cycles == 1 ? " loop, which was" : " loops, which were") +
       " opened at the joint farthest from the root, because a bone has only one parent");
   }
-  if (options.most_bones > 0 && static_cast<Index>(pieces.size()) > options.most_bones)
+  if (options.maximum_bones > 0 && static_cast<Index>(pieces.size()) > options.maximum_bones)
   {
     status.warnings.push_back("there are " + std::to_string(pieces.size()) + " bones, more than " +
-      std::to_string(options.most_bones) + ": no component goes without");
+      std::to_string(options.maximum_bones) + ": no component goes without");
   }
   return status;
 }

@@ -16,7 +16,7 @@ struct SkeletonBonesOptions
   /// Longer bones are split, as a fraction of the diagonal, 0.01 … ; 0: straight ones stay whole.
   double longest_bone = 0.0;
   /// At most, >= 0; 0: any number. A component keeps at least one.
-  Index most_bones = 0;
+  Index maximum_bones = 0;
   /// Branches that are shorter than this times half of the thickness where they begin are no limbs,
   /// 0 … 10; junctions that are nearer to each other are one.
   double prune = 1.0;
@@ -43,10 +43,10 @@ struct SkeletonBones
 ///    at any point as near), and each cycle is cut at the point farthest from there along the
 ///    curve: bones have one parent.
 /// 2. The branch that is shortest beside the thickness is pruned, or, between two junctions,
-///    contracted to one point, until none is short. With too many branches for most_bones, pruning
+///    contracted to one point, until none is short. With too many branches for maximum_bones, pruning
 ///    goes on with the limbs that reach least far out.
 /// 3. The piece that is farthest from its bone, or longest, is split, until tolerance and
-///    longest_bone are kept or there are most_bones (Douglas and Peucker, 1973, in the order of
+///    longest_bone are kept or there are maximum_bones (Douglas and Peucker, 1973, in the order of
 ///    need). What lies in the ball of a junction is no bend. A bone that leaves the shape is split,
 ///    too, where that can help; all are split at points within the shape only.
 /// 4. The root of a component without cycles is its joint nearest to the centroid. Bones lead away
@@ -57,7 +57,7 @@ struct SkeletonBones
 ///    children, except for points, which come first.
 ///
 /// @param diagonal  of the shape's box, the unit of the options
-/// invalid_input: an option out of range. Warns where cycles are cut and where most_bones cannot
+/// invalid_input: an option out of range. Warns where cycles are cut and where maximum_bones cannot
 /// be kept. Cost: O(#P x branches).
 Status skeleton_bones(const CurveSkeleton& skeleton, double diagonal,
   const SkeletonBonesOptions& options, SkeletonBones& bones);

@@ -229,7 +229,7 @@ TEST(SkeletonBones, StayWithinTheShape)
   const SkeletonBones bones = run(drawing, options);
   ASSERT_EQ(bones.handles.size(), 2u);
   EXPECT_EQ(bones.handles[0].tail, Vec3(1.0, 0.1, 0.0));
-  options.most_bones = 1;
+  options.maximum_bones = 1;
   EXPECT_EQ(run(drawing, options).handles.size(), 1u);
 }
 
@@ -258,13 +258,13 @@ TEST(SkeletonBones, AreAtMostAsManyAsAskedFor)
   options.tolerance = 0.001;
   for (const Index most : { 1, 2, 3, 7 })
   {
-    options.most_bones = most;
+    options.maximum_bones = most;
     EXPECT_EQ(run(half_circle(), options).handles.size(), static_cast<std::size_t>(most));
   }
   // The shortest limbs go first.
   const Drawing drawing =
     arms({ { 1, 0, 0 }, { 0, 0.9, 0 }, { -0.8, 0, 0 }, { 0, -0.3, 0 }, { 0, 0, 0.2 } });
-  options.most_bones = 3;
+  options.maximum_bones = 3;
   const SkeletonBones bones = run(drawing, options);
   ASSERT_EQ(bones.handles.size(), 3u);
   EXPECT_EQ(bones.pruned_branches, 2);
@@ -412,7 +412,7 @@ TEST(SkeletonBones, BallsArePointsAndComponentsHaveRootsOfTheirOwn)
   drawing.centroids.emplace_back(0.0, 3.0, 0.0);
   drawing.line(drawing.point(Vec3(0.0, 3.0, 0.0)), Vec3(1.0, 3.0, 0.0));
   SkeletonBonesOptions options;
-  options.most_bones = 1;
+  options.maximum_bones = 1;
   SkeletonBones bones;
   const Status status = skeleton_bones(drawing.skeleton(), 1.0, options, bones);
   ASSERT_TRUE(status.ok());
@@ -450,8 +450,8 @@ TEST(SkeletonBones, OptionsOutOfRangeAreNamed)
   options.longest_bone = std::nan("");
   EXPECT_THAT(message(options), HasSubstr("longest_bone"));
   options = {};
-  options.most_bones = -1;
-  EXPECT_THAT(message(options), HasSubstr("most_bones"));
+  options.maximum_bones = -1;
+  EXPECT_THAT(message(options), HasSubstr("maximum_bones"));
   options = {};
   options.prune = 11.0;
   EXPECT_THAT(message(options), HasSubstr("prune"));

@@ -1,0 +1,236 @@
+"""Read the descriptions of options: filters/core/*/*.options.json and viewer/cli/verbs.json.
+
+A set describes options of one filter, or of several filters that share them. README.md beside this file lists the
+fields. Everything that shows or parses options is generated from these descriptions.
+"""
+
+import json
+import pathlib
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+LAYERS = ("vtk", "paraview", "python", "cli")
+STAGE_TYPES = {"flag", "integer", "id", "number", "integers", "numbers", "choice", "point_array", "cell_array"}
+VERB_TYPES = STAGE_TYPES | {"text", "path"}
+SET_FIELDS = {"filter", "also", "methods_of", "methods", "options"}
+OPTION_FIELDS = {"name", "type", "default", "help", "choices", "labels", "minimum", "above", "maximum", "below", "unit",
+                 "length", "advanced", "layers", "methods", "layer_defaults", "why", "defaults", "minimums", "columns",
+                 "integers"}
+VERB_OPTION_FIELDS = OPTION_FIELDS | {"short", "value", "required", "repeated", "optional", "unless", "set"}
+UNITS = {"diagonals": "bounding-box diagonals"}
+
+
+class DescriptionError(Exception):
+    """A description is not valid; the text names the file and the option."""
+
+
+def plain(number):
+    """The shortest text of a number: 100, 0.02, 1e-06."""
+    return f"{number:.15g}"
+
+
+class Option:
+    """One option of a set or of a verb."""
+
+    def __init__(self, fields, where, owner=None):
+        self.where = f"{where}: option '{fields.get('name', '?')}'"
+        self.owner = owner
+        self.fields = fields
+        self.name = fields["name"]
+        self.type = fields["type"]
+        self.help = fields["help"]
+        self.default = fields.get("default")
+        self.choices = fields.get("choices", {})
+        self.length = fields.get("length", 1)
+        self.advanced = fields.get("advanced", False)
+        self.layers = fields.get("layers", LAYERS)
+        self.defaults = fields.get("defaults", {})
+
+    def label(self, word):
+        """The text of a choice in ParaView and in the window."""
+        return self.fields.get("labels", {}).get(word, word.replace("-", " ").capitalize())
+
+    def methods(self):
+        """Words of the methods that use the option; empty if all do."""
+        return self.fields.get("methods") or (self.owner.methods if self.owner else [])
+
+    def default_of(self, layer):
+        return self.fields.get("layer_defaults", {}).get(layer, self.default)
+
+    def default_text(self, layer):
+        """The default as it is typed on the command line; empty if there is none."""
+        default = self.default_of(layer)
+        if default is None or isinstance(default, bool):
+            return ""
+        if isinstance(default, list):
+            return ",".join(plain(number) for number in default)
+        return default if isinstance(default, str) else plain(default)
+
+    def range_text(self):
+        """The allowed values in words: "0 to 20", "above 0", "at least 2"; empty if there is no limit."""
+        low, above = self.fields.get("minimum"), self.fields.get("above")
+        high, below = self.fields.get("maximum"), self.fields.get("below")
+        end = f"below {plain(below)}" if below is not None else f"at most {plain(high)}" if high is not None else ""
+        if above is not None:
+            return f"above {plain(above)}" + (f" and {end}" if end else "")
+        if low is not None:
+            if high is not None:
+                return f"{plain(low)} to {plain(high)}"
+            return f"at least {plain(low)}" + (f" and {end}" if end else "")
+        return end
+
+    def values_text(self):
+        """Unit and range: "degrees, 0 to 20"."""
+        unit = self.fields.get("unit", "")
+        return ", ".join(text for text in (UNITS.get(unit, unit), self.range_text()) if text)
+
+
+class Set:
+    """Options of one filter, or of several filters that share them."""
+
+    def __init__(self, name, fields, where):
+        self.name = name
+        self.where = where
+        self.filter = fields.get("filter", "")
+        self.filters = [self.filter, *fields.get("also", [])] if self.filter else []
+        self.methods_of = fields.get("methods_of", "")
+        self.methods = fields.get("methods", [])
+        self.options = [Option(option, f"{where}: set '{name}'", self) for option in fields["options"]]
+
+    def of_layer(self, layer):
+        return [option for option in self.options if layer in option.layers]
+
+
+def vtk_name(option):
+    """The name of the VTK property: winding_threshold -> WindingThreshold, rigidity -> RigidityArrayName."""
+    name = "".join(word.capitalize() for word in option.name.split("_"))
+    return name + "ArrayName" if option.type.endswith("_array") else name
+
+
+def cli_name(option):
+    """winding_threshold -> winding-threshold; a flag that is on by default -> no-place-inside."""
+    name = option.name.replace("_", "-")
+    return f"no-{name}" if option.type == "flag" and option.default else name
+
+
+def require(condition, where, sentence):
+    if not condition:
+        raise DescriptionError(f"{where}: {sentence}")
+
+
+def check_default(option, default):
+    """A default has the option's type and lies in its range."""
+    where = option.where
+    if option.type == "choice":
+        require(default in option.choices, where, f"default {default!r} is not one of {', '.join(option.choices)}")
+        return
+    if option.type == "flag":
+        require(isinstance(default, bool), where, f"default {default!r} must be true or false")
+        return
+    if option.type in ("text", "path", "point_array", "cell_array"):
+        require(isinstance(default, str), where, f"default {default!r} must be a text")
+        return
+    numbers = default if isinstance(default, list) else [default]
+    require(len(numbers) == option.length, where, f"default needs {option.length} numbers")
+    fields = option.fields
+    for number in numbers:
+        require(isinstance(number, (int, float)) and not isinstance(number, bool), where, f"{number!r} is not a number")
+        require(not ("minimum" in fields and number < fields["minimum"]) and
+                not ("maximum" in fields and number > fields["maximum"]) and
+                not ("above" in fields and number <= fields["above"]) and
+                not ("below" in fields and number >= fields["below"]), where, f"default {number} is out of range")
+
+
+def check_option(option, allowed_fields, types):
+    where, fields = option.where, option.fields
+    unknown = sorted(set(fields) - allowed_fields)
+    require(not unknown, where, f"unknown field '{unknown[0] if unknown else ''}'")
+    require(option.type in types, where, f"unknown type '{option.type}'")
+    require(option.help.endswith(".") and option.help[0].isalnum(), where, "help must be one or more sentences")
+    require((option.type == "choice") == bool(option.choices), where, "choices belong to the type choice, and to no other")
+    require(set(fields.get("labels", {})) <= set(option.choices), where, "a label belongs to no choice")
+    require(set(option.layers) <= set(LAYERS), where, f"layers must be of {', '.join(LAYERS)}")
+    require("layer_defaults" not in fields or fields.get("why"), where, "layer_defaults need a reason, 'why'")
+    require("minimum" not in fields or "above" not in fields, where, "minimum and above exclude each other")
+    require("maximum" not in fields or "below" not in fields, where, "maximum and below exclude each other")
+    for default in [option.default, *fields.get("layer_defaults", {}).values(), *option.defaults.values()]:
+        if default is not None:
+            check_default(option, default)
+
+
+def check_methods(sets):
+    """Methods of options and sets are choices of the method option that they refer to."""
+    known = {}
+    for group in sets.values():
+        for option in group.options:
+            if option.name == "method":
+                known[group.methods_of or group.name] = set(option.choices)
+    for group in sets.values():
+        words = known.get(group.methods_of or group.name, set())
+        for option in group.options:
+            strange = [word for word in option.methods() if word not in words]
+            require(not strange, option.where, f"unknown method '{strange[0] if strange else ''}'")
+
+
+def read_json(path):
+    try:
+        return json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise DescriptionError(f"{path}: {error}") from None
+
+
+def option_files(source=SOURCE):
+    return sorted((source / "filters" / "core").glob("*/*.options.json"))
+
+
+def read_sets(source=SOURCE):
+    """All sets by name."""
+    sets = {}
+    for path in option_files(source):
+        where = path.relative_to(source)
+        for name, fields in read_json(path).items():
+            unknown = sorted(set(fields) - SET_FIELDS)
+            require(not unknown, f"{where}: set '{name}'", f"unknown field '{unknown[0] if unknown else ''}'")
+            require(name not in sets, where, f"set '{name}' is described twice")
+            sets[name] = Set(name, fields, where)
+            names = [option.name for option in sets[name].options]
+            require(len(set(names)) == len(names), where, f"set '{name}' describes an option twice")
+            for option in sets[name].options:
+                require(option.default is not None, option.where, "a default is missing")
+                check_option(option, OPTION_FIELDS, STAGE_TYPES)
+    check_methods(sets)
+    return sets
+
+
+class Verb:
+    """A verb of the command line: its own options and those of sets, in the order of --help."""
+
+    def __init__(self, fields, sets, where):
+        self.name = fields["name"]
+        self.help = fields["help"]
+        self.options = []
+        self.sets = []
+        for entry in fields["options"]:
+            if "set" in entry:
+                require(entry["set"] in sets, f"{where}: verb '{self.name}'", f"unknown set '{entry['set']}'")
+                self.sets.append(sets[entry["set"]])
+                self.options += self.sets[-1].of_layer("cli")
+            else:
+                self.options.append(verb_option(entry, f"{where}: verb '{self.name}'"))
+        names = [cli_name(option) for option in self.options]
+        twice = [name for name in names if names.count(name) > 1]
+        require(not twice, f"{where}: verb '{self.name}'", f"option '{twice[0] if twice else ''}' is there twice")
+
+
+def verb_option(fields, where):
+    option = Option(fields, where)
+    check_option(option, VERB_OPTION_FIELDS, VERB_TYPES)
+    return option
+
+
+def read_verbs(sets, source=SOURCE):
+    """The verbs, and the options that all verbs have."""
+    path = source / "viewer" / "cli" / "verbs.json"
+    where = path.relative_to(source)
+    table = read_json(path)
+    return ([Verb(fields, sets, where) for fields in table["verbs"]],
+            [verb_option(fields, f"{where}: common") for fields in table["common"]])

@@ -1,0 +1,58 @@
+#!/usr/bin/env python3
+"""Write what is made from the descriptions of options.
+
+usage: generate.py check                              read and check all descriptions
+       generate.py option-table OUT.cxx               the table of the command line
+       generate.py set-options OUT.h                  functions that pass typed options to filters
+       generate.py paraview TEMPLATE.xml OUT.xml      proxies with their properties
+       generate.py python-table OUT.py                the table of the Python package
+       generate.py python-stub MODULE.py OUT.pyi      the stub of a module
+"""
+
+import pathlib
+import sys
+
+import command_line
+import paraview
+import python_package
+from descriptions import DescriptionError, read_sets, read_verbs
+
+
+def read(path):
+    return pathlib.Path(path).read_text(encoding="utf-8")
+
+
+def generated(kind, inputs):
+    sets = read_sets()
+    if kind == "paraview":
+        return paraview.fill(read(inputs[0]), sets)
+    if kind == "python-table":
+        return python_package.table(sets)
+    if kind == "python-stub":
+        return python_package.stub(read(inputs[0]), sets)
+    verbs, common = read_verbs(sets)
+    if kind == "option-table":
+        return command_line.table(verbs, common)
+    if kind == "set-options":
+        return command_line.setters(sets, verbs)
+    return ""
+
+
+def main():
+    inputs = {"check": 0, "option-table": 0, "set-options": 0, "paraview": 1, "python-table": 0, "python-stub": 1}
+    arguments = sys.argv[1:]
+    kind = arguments[0] if arguments else ""
+    if kind not in inputs or len(arguments) != (1 if kind == "check" else 2 + inputs[kind]):
+        sys.exit(__doc__)
+    try:
+        text = generated(kind, arguments[1:])
+    except DescriptionError as error:
+        sys.exit(f"generate.py: {error}")
+    if kind != "check":
+        out = pathlib.Path(arguments[-1])
+        out.parent.mkdir(parents=True, exist_ok=True)
+        out.write_text(text, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

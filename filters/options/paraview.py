@@ -1,0 +1,81 @@
+"""Write the properties of ParaView's proxies: <Options set="NAME"/> in a template becomes the properties of a set."""
+
+import re
+from xml.sax.saxutils import escape, quoteattr
+
+from descriptions import plain, vtk_name
+
+MARK = re.compile(r"^( *)<Options set=\"(\w+)\"(?: filter=\"(\w+)\")?/>\n", re.MULTILINE)
+ELEMENTS = {"flag": "IntVectorProperty", "choice": "IntVectorProperty", "integer": "IntVectorProperty",
+            "integers": "IntVectorProperty", "id": "IdTypeVectorProperty", "number": "DoubleVectorProperty",
+            "numbers": "DoubleVectorProperty", "point_array": "StringVectorProperty", "cell_array": "StringVectorProperty"}
+
+
+def camel_case(text):
+    """Names of options in a sentence become those of properties: interior_edge -> Interior Edge."""
+    return re.sub(r"\b[a-z]+(?:_[a-z]+)+\b", lambda found: found[0].replace("_", " ").title(), text)
+
+
+def default_text(option, filter_name):
+    default = option.defaults.get(filter_name, option.default_of("paraview"))
+    if option.type == "choice":
+        return str(option.choices[default])
+    if isinstance(default, bool):
+        return str(int(default))
+    if isinstance(default, list):
+        return " ".join(plain(number) for number in default)
+    return default if isinstance(default, str) else plain(default)
+
+
+def domain(option, filter_name):
+    if option.type == "flag":
+        return ['<BooleanDomain name="bool"/>']
+    if option.type == "choice":
+        entries = [f"  <Entry value=\"{value}\" text={quoteattr(option.label(word))}/>"
+                   for word, value in option.choices.items()]
+        return ['<EnumerationDomain name="enum">', *entries, "</EnumerationDomain>"]
+    if option.type.endswith("_array"):
+        return []
+    fields = option.fields
+    low = fields.get("minimums", {}).get(filter_name, fields.get("minimum", fields.get("above")))
+    high = fields.get("maximum", fields.get("below"))
+    limits = [f'{side}="{" ".join([plain(value)] * option.length)}"'
+              for side, value in (("min", low), ("max", high)) if value is not None]
+    kind = "DoubleRangeDomain" if option.type in ("number", "numbers") else "IntRangeDomain"
+    return [f'<{kind} name="range" {" ".join(limits)}/>'] if limits else []
+
+
+def hints(option):
+    """An option that only some methods use is shown for these methods; a set's methods are those of its filter."""
+    words = option.fields.get("methods", [])
+    method = next((other for other in option.owner.options if other.name == "method"), None)
+    if not words or not method:
+        return []
+    values = " ".join(str(method.choices[word]) for word in words)
+    return ["<Hints>", f'  <PropertyWidgetDecorator type="GenericDecorator" mode="visibility" property="Method" values="{values}"/>',
+            "</Hints>"]
+
+
+def sentence(option):
+    values = option.values_text()
+    return camel_case(option.help) + (f" {values[0].upper()}{values[1:]}." if values else "")
+
+
+def property_lines(option, filter_name):
+    name = vtk_name(option)
+    element = ELEMENTS[option.type]
+    advanced = ' panel_visibility="advanced"' if option.advanced else ""
+    lines = [f'<{element} name="{name}" command="Set{name}" number_of_elements="{option.length}"',
+             f"    default_values={quoteattr(default_text(option, filter_name))}{advanced}>"]
+    inside = [*domain(option, filter_name), f"<Documentation>{escape(sentence(option))}</Documentation>", *hints(option)]
+    return [*lines, *("  " + line for line in inside), f"</{element}>"]
+
+
+def fill(template, sets):
+    """The template with its marks replaced. A mark may name the filter whose defaults count."""
+    def properties(found):
+        group = sets[found[2]]
+        filter_name = found[3] or group.filter
+        return "".join(f"{found[1]}{line}\n" for option in group.of_layer("paraview")
+                       for line in property_lines(option, filter_name))
+    return MARK.sub(properties, template)

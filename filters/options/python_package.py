@@ -1,0 +1,90 @@
+"""Write the Python package's table of options and the stubs of its modules."""
+
+import ast
+import pprint
+
+from descriptions import vtk_name
+
+NOTE = "# Generated from the descriptions of options; see filters/options/README.md. Do not edit.\n"
+TYPES = {"flag": "bool", "integer": "int", "id": "int", "number": "float", "integers": "Sequence[int]",
+         "numbers": "Sequence[float]", "point_array": "str | ArrayLike | None"}
+
+
+def python_word(word):
+    """The Python value of a choice: the order of an energy is a number."""
+    return int(word) if word.isdigit() else word
+
+
+def entry(option):
+    """What the package needs of an option at run time."""
+    fields = option.fields
+    default = option.default_of("python")
+    if option.type == "choice":
+        default = python_word(default)
+    if option.defaults or option.type == "point_array":
+        default = None  # the filter's own
+    return {"name": option.name, "setter": f"Set{vtk_name(option)}", "type": option.type,
+            "default": tuple(default) if isinstance(default, list) else default,
+            "choices": {python_word(word): value for word, value in option.choices.items()}, "length": option.length, "help": option.help, "values": option.values_text(),
+            "methods": list(option.methods()), "defaults": dict(option.defaults), "array": option.default,
+            "integers": fields.get("integers", False),
+            **{key: fields[key] for key in ("minimum", "above", "maximum", "below") if key in fields}}
+
+
+def table(sets):
+    entries = {name: [entry(option) for option in group.of_layer("python")] for name, group in sets.items()}
+    described = {name: options for name, options in entries.items() if options}
+    return NOTE + '"""The options of the stages, by set."""\n\nSETS = ' + pprint.pformat(described, width=120, sort_dicts=False) + "\n"
+
+
+# ---- Stubs -----------------------------------------------------------------------------------------
+
+
+def option_type(option):
+    if option.type == "choice":
+        return f"Literal[{', '.join(repr(python_word(word)) for word in option.choices)}]"
+    return TYPES[option.type] + (" | None" if option.defaults else "")
+
+
+def described_options(function, sets):
+    """The options that @with_options("NAME", …, only=…, without=…) gives to a function; None without it."""
+    for decorator in function.decorator_list:
+        if isinstance(decorator, ast.Call) and getattr(decorator.func, "id", "") == "with_options":
+            names = [argument.value for argument in decorator.args]
+            words = {keyword.arg: ast.literal_eval(keyword.value) for keyword in decorator.keywords}
+            return [option for name in names for option in sets[name].of_layer("python")
+                    if option.name in words.get("only", [option.name]) and option.name not in words.get("without", ())]
+    return None
+
+
+def replace_argument(function, options):
+    """Replace the argument `options` by the described options."""
+    arguments = function.args
+    at = [argument.arg for argument in arguments.kwonlyargs].index("options")
+    defaults = [entry(option)["default"] for option in options]
+    arguments.kwonlyargs[at:at + 1] = [
+        ast.arg(option.name, ast.parse(option_type(option), mode="eval").body) for option in options]
+    arguments.kw_defaults[at:at + 1] = [ast.parse(repr(default), mode="eval").body for default in defaults]
+
+
+def stub(source, sets):
+    """A stub of a module: its public functions and classes with the options of their sets."""
+    tree = ast.parse(source)
+    body = [ast.parse(line).body[0] for line in
+            ("from collections.abc import Sequence", "from typing import Literal", "from numpy.typing import ArrayLike")]
+    for node in tree.body:
+        if isinstance(node, (ast.Import, ast.ImportFrom)):
+            body.append(node)
+        elif isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
+            options = described_options(node, sets)
+            if options is not None:
+                replace_argument(node, options)
+            node.decorator_list = []
+            node.body = [ast.Expr(ast.Constant(...))]
+            body.append(node)
+        elif isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+            for child in node.body:
+                if isinstance(child, ast.FunctionDef):
+                    child.body = [ast.Expr(ast.Constant(...))]
+            body.append(node)
+    return NOTE + ast.unparse(ast.fix_missing_locations(ast.Module(body, []))) + "\n"

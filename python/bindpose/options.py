@@ -1,0 +1,162 @@
+"""Options of the stages: signatures, documentation and checks of a function, made from the descriptions of options."""
+
+import functools
+import inspect
+import operator
+import textwrap
+
+import numpy as np
+
+from .errors import InvalidInput
+from .option_table import SETS
+
+_ARRAYS = ("point_array", "cell_array")
+_TYPE_NAMES = {"flag": "bool", "integer": "int", "id": "int", "number": "float", "point_array": "str or array_like, optional"}
+
+
+def _type_text(option):
+    """The type in a numpydoc entry."""
+    if option["type"] == "choice":
+        text = "{" + ", ".join(repr(word) for word in option["choices"]) + "}"
+    elif option["length"] > 1:
+        text = f"{option['length']} {'integers' if option['type'] == 'integers' else 'numbers'}"
+    else:
+        text = _TYPE_NAMES[option["type"]]
+    if option["type"] in _ARRAYS:
+        return text
+    return f"{text}, optional" if option["default"] is None else f"{text}, default {option['default']!r}"
+
+
+def _listed(words):
+    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+
+
+def _entry(option):
+    """A numpydoc entry: name, type and default; help, unit and range, methods that use the option."""
+    text = option["help"]
+    if option["values"]:
+        text += f" {option['values'][0].upper()}{option['values'][1:]}."
+    if option["defaults"]:
+        text += " Default: that of the method."
+    if option["type"] in _ARRAYS:
+        text += f" Default: the array ``{option['array']}``, if it exists."
+    if option["methods"]:
+        text += f" Used by {_listed(option['methods'])}."
+    body = textwrap.fill(text, 112, initial_indent=" " * 8, subsequent_indent=" " * 8, break_long_words=False)
+    return f"    {option['name']} : {_type_text(option)}\n{body}\n"
+
+
+def _number(option, value):
+    """The value as a number of the option's type, or None if it is not one."""
+    try:
+        number = operator.index(value) if option["type"] in ("integer", "integers", "id") else float(value)
+    except (TypeError, ValueError):
+        return None
+    above, below = option.get("above"), option.get("below")
+    inside = (number >= option.get("minimum", number) and number <= option.get("maximum", number) and
+              (above is None or number > above) and (below is None or number < below))
+    return number if inside and np.isfinite(number) else None
+
+
+def _checked(option, value):
+    """The value if the option allows it."""
+    name = option["name"]
+    if option["type"] in _ARRAYS or value is option["default"]:
+        return value
+    if option["type"] == "flag":
+        return bool(value)
+    if option["type"] == "choice":
+        word = value.item() if isinstance(value, np.generic) else value
+        if not isinstance(word, (str, int)) or word not in option["choices"]:
+            raise InvalidInput(f"{name} must be one of {', '.join(map(str, option['choices']))} (got {value!r})")
+        return word
+    limits = f" ({option['values']})" if option["values"] else ""
+    if option["length"] == 1:
+        number = _number(option, value)
+        if number is None:
+            raise InvalidInput(f"{name} must be {_TYPE_NAMES[option['type']]}{limits}, got {value!r}")
+        return number
+    values = np.ravel(value) if np.ndim(value) == 1 else ()
+    numbers = tuple(_number(option, each) for each in values)
+    if len(numbers) != option["length"] or None in numbers:
+        raise InvalidInput(f"{name} must be {option['length']} numbers{limits}, got {value!r}")
+    return numbers
+
+
+class Options:
+    """The checked options of a call, as attributes.
+
+    Parameters
+    ----------
+    described : dict of name to description
+    given : dict of name to value
+        What the caller passed; all other options have their defaults.
+    """
+
+    def __init__(self, described, given):
+        self._described = described
+        for name, option in described.items():
+            setattr(self, name, _checked(option, given[name]) if name in given else option["default"])
+        method = getattr(self, "method", None)
+        for name in given:
+            users = described[name]["methods"]
+            if method and users and method not in users and getattr(self, name) != described[name]["default"]:
+                raise InvalidInput(f"{name} is not used by method {method!r} (used by {_listed(users)})")
+
+    def apply(self, algorithm, *sets):
+        """Pass the options of the sets to a filter; an option that is None keeps the filter's default."""
+        for option in (option for name in sets for option in SETS[name]):
+            value = getattr(self, option["name"], None)
+            if value is None or option["type"] in _ARRAYS:
+                continue
+            if option["type"] == "choice":
+                value = option["choices"][value]
+            arguments = value if isinstance(value, tuple) else (value,)
+            getattr(algorithm, option["setter"])(*arguments)
+
+    def arrays(self):
+        """Descriptions and values of the options that name or contain arrays, if they are given."""
+        for name, option in self._described.items():
+            value = getattr(self, name)
+            if option["type"] in _ARRAYS and value is not None:
+                yield option, value
+
+
+def with_options(*sets, only=None, without=()):
+    """Give a function the options of some sets.
+
+    The function has a keyword-only parameter ``options``, and a line ``{options}`` in the parameters of its docstring.
+    Both are replaced by the described options; the function gets them as an `Options`.
+
+    Parameters
+    ----------
+    sets : str
+        Names of sets of descriptions.
+    only : sequence of str, optional
+        Options to take. Default: all.
+    without : sequence of str
+        Options to leave out.
+    """
+    described = {option["name"]: option for name in sets for option in SETS[name]
+                 if (only is None or option["name"] in only) and option["name"] not in without}
+
+    def decorate(function):
+        @functools.wraps(function)
+        def wrapper(*arguments, **keywords):
+            given = {name: keywords.pop(name) for name in described if name in keywords}
+            return function(*arguments, options=Options(described, given), **keywords)
+
+        signature = inspect.signature(function)
+        parameters = []
+        for parameter in signature.parameters.values():
+            if parameter.name == "options":
+                parameters += [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=option["default"])
+                               for name, option in described.items()]
+            else:
+                parameters.append(parameter)
+        wrapper.__signature__ = signature.replace(parameters=parameters)
+        entries = "".join(_entry(option) for option in described.values())
+        wrapper.__doc__ = function.__doc__.replace("    {options}\n", entries)
+        return wrapper
+
+    return decorate
